@@ -149,11 +149,12 @@ pub(crate) fn branch<'py>(
     orbit: Option<u32>,
     follow: u32,
     points: u32,
+    progress: Option<Py<PyAny>>,
 ) -> Result<Found<'py>, Trouble> {
     let also = also.map(|(name, to)| Ok::<_, Trouble>(Target { parameter: parameter(&name)?, to })).transpose()?;
     let task = BranchPlan { label, vary: parameter(vary)?, to, also, orbit, follow, points };
     let plan = Plan::new(osc.plan, Task::Branch(task.clone()));
-    let watch = Watch::alone("following a branch");
+    let watch = Watch::one("following a branch", 1, progress);
     let found = door::result(py, watch, &plan, |of| if let Results::Branch(found) = of { Some(found) } else { None })?;
     let cut = task.cut(&osc.plan)?;
     Ok(Found {

@@ -46,11 +46,12 @@ pub(crate) fn curve<'py>(
     and_: (String, f64, f64),
     orbit: Option<u32>,
     event: Option<u32>,
+    progress: Option<Py<PyAny>>,
 ) -> Result<Fields<'py>, Trouble> {
     let kind = self::kind(kind)?;
     let task = CurvePlan { label, kind, vary: stretch(vary)?, and: stretch(and_)?, orbit, event };
     let plan = Plan::new(osc.plan, Task::Curve(task));
-    let watch = Watch::alone("following a curve");
+    let watch = Watch::one("following a curve", 1, progress);
     let found = door::result(py, watch, &plan, |of| if let Results::Curve(found) = of { Some(found) } else { None })?;
     let points = || found.points.iter();
     Ok(Fields {

@@ -29,7 +29,12 @@ pub(crate) struct Watch {
 impl Watch {
     /// For work without progress reports.
     pub(crate) const fn alone(what: &'static str) -> Self {
-        Self { what, total: 1, progress: None, threads: 1 }
+        Self::one(what, 1, None)
+    }
+
+    /// For work on one thread; `total` is 1 if its size is not known.
+    pub(crate) const fn one(what: &'static str, total: u64, progress: Option<Py<PyAny>>) -> Self {
+        Self { what, total, progress, threads: 1 }
     }
 }
 
@@ -78,6 +83,11 @@ pub(crate) fn result<T: Send + 'static>(
     run(py, watch, move |control| take(vibroimpact_study::run(&plan, control)?).ok_or(Trouble::Defect(what)))
 }
 
+/// Runs the command, which handles Ctrl-C itself, on this thread.
+pub(crate) fn command(py: Python<'_>, run: impl FnOnce() -> u8 + Send) -> u8 {
+    py.detach(run)
+}
+
 /// Runs work on borrowed arrays. The work must read the stop flag, because this function waits for its end.
 pub(crate) fn run_borrowing<T: Send>(
     py: Python<'_>,
@@ -122,7 +132,7 @@ fn look(watch: &Watch, done: u64) -> Result<(), Trouble> {
     Python::attach(|py| {
         py.check_signals()?;
         let Some(progress) = &watch.progress else { return Ok(()) };
-        let answer = progress.bind(py).call1((done, watch.total))?;
+        let answer = progress.bind(py).call1((done.min(watch.total), watch.total))?;
         let stop = done < watch.total && answer.is_instance_of::<pyo3::types::PyBool>() && !answer.is_truthy()?;
         if stop { Err(Stopped { done, total: watch.total }.into()) } else { Ok(()) }
     })

@@ -65,6 +65,24 @@ impl From<Trouble> for PyErr {
     }
 }
 
+/// Hints of the command, and what they are in Python.
+const HINTS: [(&str, &str); 4] = [
+    ("`vibro attractors --machine` lists the stable ones", "machine.attractors() finds the stable ones"),
+    ("--axis PATH=A:B:N, once for each", "a mapping of paths to ranges, {\"stop.wall.gap\": \"0:1:11\"}"),
+    ("a map over one parameter with --fields has one", "a map over one parameter with fields=[...] has one"),
+    ("`vibro attractors` answers for one point", "`attractors` answers for one point"),
+];
+
+/// A message in the words of Python: hints name arguments and functions, not flags.
+fn in_python(text: &str) -> String {
+    let said = HINTS.iter().fold(text.to_owned(), |text, (command, python)| text.replace(command, python));
+    // the name of the number that is set stands in the flag
+    match said.split_once("; --set ") {
+        Some((before, after)) if after.ends_with("=VALUE changes it") => format!("{before}; machine.set changes it"),
+        _ => said,
+    }
+}
+
 impl From<PlanError> for Trouble {
     fn from(error: PlanError) -> Self {
         // messages of the library name parameters only; a hint adds the argument of this package where it helps
@@ -73,7 +91,7 @@ impl From<PlanError> for Trouble {
             PlanError::NoEvent { .. } => "\nhint: `branch` lists the events",
             _ => "",
         };
-        Self::Question(format!("{error}{hint}"))
+        Self::Question(in_python(&format!("{error}{hint}")))
     }
 }
 

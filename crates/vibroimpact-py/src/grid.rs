@@ -47,9 +47,13 @@ fn flags(field: &Field, values: &Column) -> Vec<(i32, String)> {
 }
 
 fn variables(py: Python<'_>, sheet: Sheet) -> PyResult<Variables<'_>> {
-    let grid: Vec<(String, usize)> =
-        sheet.study.grid().dimensions.iter().map(|along| (along.name.clone(), along.count)).collect();
-    let coordinates = sheet.study.coordinates().into_iter().map(|along| Variable {
+    let along = coordinates(py, &sheet.study);
+    Ok((along, arrays(py, sheet)?))
+}
+
+/// The coordinates of a study.
+fn coordinates<'py>(py: Python<'py>, study: &Study) -> Vec<Variable<'py>> {
+    let of = study.coordinates().into_iter().map(|along| Variable {
         dimensions: vec![(along.dimension, along.values.len())],
         name: along.name,
         values: along.values.into_pyarray(py).into_any(),
@@ -59,6 +63,13 @@ fn variables(py: Python<'_>, sheet: Sheet) -> PyResult<Variables<'_>> {
         comment: "",
         flags: Vec::new(),
     });
+    of.collect()
+}
+
+/// The fields and tables of a study that has been computed.
+pub(crate) fn arrays(py: Python<'_>, sheet: Sheet) -> PyResult<Vec<Variable<'_>>> {
+    let grid: Vec<(String, usize)> =
+        sheet.study.grid().dimensions.iter().map(|along| (along.name.clone(), along.count)).collect();
     let fields = sheet.fields.into_iter().zip(sheet.columns).map(|(field, values)| Variable {
         name: field.name.clone().into_owned(),
         dimensions: grid
@@ -77,7 +88,7 @@ fn variables(py: Python<'_>, sheet: Sheet) -> PyResult<Variables<'_>> {
     for table in sheet.tables {
         all.push(of_table(py, table)?);
     }
-    Ok((coordinates.collect(), all))
+    Ok(all)
 }
 
 fn of_table(py: Python<'_>, table: StudyTable) -> PyResult<Variable<'_>> {

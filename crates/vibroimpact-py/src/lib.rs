@@ -8,6 +8,7 @@ mod attractors;
 mod axis;
 mod branch;
 mod columns;
+mod command;
 mod curve;
 mod door;
 mod error;
@@ -20,10 +21,12 @@ mod motion;
 mod orbits;
 mod oscillator;
 mod plan;
+mod points;
 mod region;
 mod response;
 mod settle;
 mod simulate;
+mod simulate_many;
 mod store;
 
 /// The module `vibroimpact._core`.
@@ -33,6 +36,8 @@ mod _core {
     use crate::attractors::attractors;
     #[pymodule_export]
     use crate::branch::branch;
+    #[pymodule_export]
+    use crate::command::vibro;
     #[pymodule_export]
     use crate::curve::curve;
     #[pymodule_export]
@@ -52,7 +57,12 @@ mod _core {
     #[pymodule_export]
     use crate::oscillator::{Oscillator, Units};
     #[pymodule_export]
-    use crate::plan::{checked_plan, fixed_coordinates, machine_parameters, scales_over, system_fields};
+    use crate::plan::{
+        checked_plan, coordinate_words, fixed_coordinates, machine_parameters, point_coordinates, scales_of_points,
+        scales_over, system_fields,
+    };
+    #[pymodule_export]
+    use crate::points::{drawn_points, settle_points};
     #[pymodule_export]
     use crate::region::{contains, region};
     #[pymodule_export]
@@ -61,6 +71,10 @@ mod _core {
     use crate::settle::{settle, settle_many};
     #[pymodule_export]
     use crate::simulate::{simulate, waveform};
+    #[pymodule_export]
+    use crate::simulate_many::{
+        crossings_of_points, end_reasons, simulate_points, states_of_points, strobes_of_points,
+    };
     #[pymodule_export]
     use crate::store::Store;
 

@@ -79,10 +79,12 @@ pub(crate) fn lyapunov(
     impacts: u64,
     transient: u64,
     points: Option<u64>,
+    progress: Option<Py<PyAny>>,
 ) -> Result<Fields<'_>, Trouble> {
     let task = LyapunovPlan { start: start_plan(start), impacts, transient, points, ..LyapunovPlan::default() };
+    let total = transient + impacts + points.map_or(0, |points| transient + points);
     let plan = Plan::new(osc.plan, Task::Lyapunov(task));
-    let (found, points) = door::result(py, Watch::alone("measuring"), &plan, |of| {
+    let (found, points) = door::result(py, Watch::one("measuring", total, progress), &plan, |of| {
         if let Results::Lyapunov(_, found, points) = of { Some((found, points.unwrap_or_default())) } else { None }
     })?;
     let osc = osc.osc;

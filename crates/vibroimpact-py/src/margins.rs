@@ -121,6 +121,7 @@ impl Found {
 /// Finds the nearest events of a motion. `vary` has the names of the parameters, each with its scale if it has one;
 /// empty for all parameters.
 #[pyfunction]
+#[allow(clippy::too_many_arguments)] // keywords
 pub(crate) fn margins(
     py: Python<'_>,
     osc: Oscillator,
@@ -129,6 +130,7 @@ pub(crate) fn margins(
     vary: Vec<(String, Option<f64>)>,
     within: f64,
     lines: u32,
+    progress: Option<Py<PyAny>>,
 ) -> Result<Fields<'_>, Trouble> {
     let scaled = |(name, scale): (String, Option<f64>)| {
         Ok::<_, Trouble>(ScaledParameter { parameter: parameter(&name)?, scale })
@@ -136,7 +138,7 @@ pub(crate) fn margins(
     let vary = vary.into_iter().map(scaled).collect::<Result<_, _>>()?;
     let task = MarginsPlan { start: start_plan(start), label, vary, within, lines };
     let plan = Plan::new(osc.plan, Task::Margins(task));
-    let watch = Watch::alone("looking for margins");
+    let watch = Watch::one("looking for margins", 1, progress);
     let found = door::result(py, watch, &plan, |of| if let Results::Margins(found) = of { Some(found) } else { None })?;
     Ok(Fields {
         motion: Motion::new(py, &found.motion, &osc.osc),

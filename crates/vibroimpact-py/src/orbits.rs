@@ -19,10 +19,11 @@ pub(crate) fn orbits<'py>(
     py: Python<'py>,
     osc: Oscillator,
     label: &str,
+    progress: Option<Py<PyAny>>,
 ) -> Result<Vec<(Fields<'py>, bool, Option<Earlier>)>, Trouble> {
     let plan = Plan::new(osc.plan, Task::Orbit { label: label.to_owned() });
     let osc = osc.osc;
-    let watch = Watch::alone("looking for orbits");
+    let watch = Watch::one("looking for orbits", 1, progress);
     let found = door::result(py, watch, &plan, |of| if let Results::Orbit(found) = of { Some(found) } else { None })?;
     Ok(found
         .into_iter()

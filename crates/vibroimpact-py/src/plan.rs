@@ -2,10 +2,13 @@
 
 use crate::error::Trouble;
 use crate::oscillator::Oscillator;
+use crate::simulate::{StartArgument, start_plan};
 use pyo3::prelude::*;
 use std::collections::HashMap;
 use vibroimpact::PhysicalParameter;
-use vibroimpact_study::{Axis, Coordinate, Parameter, Plan, PlanError, StartPlan, StudyPlan, Task, is_machine_plan};
+use vibroimpact_study::{
+    Axis, Coordinate, Parameter, Plan, PlanError, StartPlan, StudyPlan, SystemPlan, Task, is_machine_plan,
+};
 
 /// The plan of a text.
 pub(crate) fn read(text: &str) -> Result<Plan, Trouble> {
@@ -85,6 +88,28 @@ pub(crate) fn scales_over(text: &str, names: Vec<String>, values: Vec<Vec<f64>>)
     Ok(found)
 }
 
+/// The units of length, time and mass of a machine, the system of a plan as JSON, at points: columns of values of some of
+/// its parameters. Points that are no machine have not-a-number.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)] // arguments from Python
+pub(crate) fn scales_of_points(
+    system: &str,
+    names: Vec<String>,
+    values: Vec<Vec<f64>>,
+) -> Result<[Vec<f64>; 3], Trouble> {
+    let system: SystemPlan = serde_json::from_str(system)
+        .map_err(|error| Trouble::question(format!("the system of the Dataset does not read: {error}")))?;
+    let parameters = names.iter().map(|name| crate::axis::parameter(name)).collect::<Result<Vec<_>, _>>()?;
+    let mut found = [(); 3].map(|()| Vec::new());
+    for k in 0..values.first().map_or(0, Vec::len) {
+        let there = system.with_all(parameters.iter().copied().zip(values.iter().map(|column| column[k])));
+        let of = (there.ok().and_then(|there| there.scales()))
+            .map_or([f64::NAN; 3], |scales| [scales.length_m, scales.time_s, scales.mass_kg]);
+        found.iter_mut().zip(of).for_each(|(column, value)| column.push(value));
+    }
+    Ok(found)
+}
+
 /// The parameters that are numbers of a machine, by name: their descriptions with units, for the axes of figures.
 #[pyfunction]
 pub(crate) fn machine_parameters() -> HashMap<&'static str, String> {
@@ -95,8 +120,45 @@ pub(crate) fn machine_parameters() -> HashMap<&'static str, String> {
     PhysicalParameter::ALL.into_iter().map(|parameter| (parameter.name(), text(parameter))).collect()
 }
 
+/// The names of all parameters, those of a machine last.
+pub(crate) fn parameter_names() -> Vec<&'static str> {
+    let machine = PhysicalParameter::ALL.map(PhysicalParameter::name);
+    Parameter::ALL.map(Parameter::name).into_iter().chain(machine).collect()
+}
+
 /// Name, value, long name, unit and scale of a coordinate.
 type Fixed = (&'static str, f64, &'static str, &'static str, &'static str);
+
+/// A coordinate with its value, its long name and its unit.
+fn described((of, value): (Coordinate, f64)) -> Fixed {
+    let unit = of.unit();
+    (of.name(), value, of.long_name(), unit.name, unit.scale)
+}
+
+/// The parameters of a system, and the coordinates of a start.
+fn all_coordinates(system: &SystemPlan, start: Option<StartPlan>) -> Vec<(Coordinate, f64)> {
+    let parameters = Parameter::ALL
+        .into_iter()
+        .map(|parameter| (Coordinate::Parameter(parameter), system.value(parameter).unwrap_or(f64::NAN)));
+    let of_start = |StartPlan { x, v, phase }| {
+        [(Coordinate::X, x.unwrap_or(f64::NAN)), (Coordinate::V, v), (Coordinate::Phase, phase)]
+    };
+    parameters.chain(start.map(of_start).into_iter().flatten()).collect()
+}
+
+/// The parameters of a system and the coordinates of a start, described.
+#[pyfunction]
+pub(crate) fn point_coordinates(osc: Oscillator, start: StartArgument) -> Vec<Fixed> {
+    all_coordinates(&osc.plan, Some(start_plan(start))).into_iter().map(described).collect()
+}
+
+/// The long name, the unit and the scale of a parameter or a coordinate of a start.
+#[pyfunction]
+pub(crate) fn coordinate_words(name: &str) -> Result<(&'static str, &'static str, &'static str), Trouble> {
+    let of = Coordinate::named(name).ok_or_else(|| Trouble::question(format!("`{name}` is no parameter")))?;
+    let (_, _, long_name, unit, scale) = described((of, 0.0));
+    Ok((long_name, unit, scale))
+}
 
 /// The parameters, and the coordinates of a start, that do not vary in a plan. The names are always the same, so that
 /// Datasets of several plans can be joined. The parameters of an absent second stop, and the position of a start at
@@ -107,23 +169,16 @@ pub(crate) fn fixed_coordinates(text: &str) -> Result<Vec<Fixed>, Trouble> {
     let on = |axes: &[Axis]| axes.iter().map(|axis| axis.vary).collect::<Vec<_>>();
     let (varied, start) = match &plan.task {
         Task::Map(map) => (on(&map.axes), None),
-        Task::Basin(basin) => (on(&basin.axes), Some(basin.start)),
+        Task::Basin(basin) => {
+            let points = basin.points.iter().flat_map(vibroimpact_study::PointsPlan::varied);
+            (points.chain(on(&basin.axes)).collect(), Some(basin.start))
+        }
         Task::Lyapunov(lyapunov) => (on(&lyapunov.axes), Some(lyapunov.start)),
         Task::Diagram(diagram) => (diagram.cut().parameters().map(Coordinate::Parameter).collect(), None),
         _ => (Vec::new(), None),
     };
     let is_frequency = |of: &Coordinate| matches!(of, Coordinate::Parameter(parameter) if parameter.is_frequency());
     let varies = |of: Coordinate| varied.contains(&of) || (is_frequency(&of) && varied.iter().any(is_frequency));
-    let parameters = Parameter::ALL
-        .into_iter()
-        .map(|parameter| (Coordinate::Parameter(parameter), plan.system.value(parameter).unwrap_or(f64::NAN)));
-    let of_start = |StartPlan { x, v, phase }| {
-        [(Coordinate::X, x.unwrap_or(f64::NAN)), (Coordinate::V, v), (Coordinate::Phase, phase)]
-    };
-    let all = parameters.chain(start.map(of_start).into_iter().flatten());
-    let described = |(of, value): (Coordinate, f64)| {
-        let unit = of.unit();
-        (of.name(), value, of.long_name(), unit.name, unit.scale)
-    };
+    let all = all_coordinates(&plan.system, start).into_iter();
     Ok(all.filter(|(of, _)| !varies(*of)).map(described).collect())
 }

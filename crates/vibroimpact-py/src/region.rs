@@ -39,11 +39,12 @@ pub(crate) fn region<'py>(
     up: (String, f64, f64),
     grid: u32,
     threads: usize,
+    progress: Option<Py<PyAny>>,
 ) -> Result<(Part<'py>, Part<'py>, bool, String), Trouble> {
     let task = RegionPlan { label, across: stretch(across)?, up: stretch(up)?, grid };
     let plan = Plan::new(osc.plan, Task::Region(task.clone()));
     let neutral = task.neutral(&osc.plan);
-    let watch = Watch { what: "looking for regions", total: 2, progress: None, threads };
+    let watch = Watch { what: "looking for regions", total: 2, progress, threads };
     let found = door::result(py, watch, &plan, |of| if let Results::Region(found) = of { Some(found) } else { None })?;
     Ok((part(py, &found.existence)?, part(py, &found.stability)?, neutral, text(&plan)?))
 }

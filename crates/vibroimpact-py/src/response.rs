@@ -83,11 +83,13 @@ pub(crate) fn response<'py>(
     over: &str,
     quantity: &str,
     impacts: Option<u32>,
+    progress: Option<Py<PyAny>>,
 ) -> Result<Found<'py>, Trouble> {
     let quantity = Quantity::from_name(quantity).ok_or_else(|| Trouble::question(unknown_quantity(quantity)))?;
     let task = ResponsePlan { quantity, impacts, ..ResponsePlan::new(parameter(vary)?, over.parse()?) };
     let plan = Plan::new(osc.plan, Task::Response(task));
-    let watch = Watch::alone("computing a response");
+    let total = plan.work().map_or(1, |(motions, _)| motions);
+    let watch = Watch::one("computing a response", total, progress);
     let found =
         door::result(py, watch, &plan, |of| if let Results::Response(found) = of { Some(found) } else { None })?;
     // over a number of a machine the nondimensional units may change from value to value

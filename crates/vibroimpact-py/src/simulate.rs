@@ -51,9 +51,11 @@ pub(crate) fn simulate<'py>(
     start: StartArgument,
     impacts: Option<u64>,
     periods: Option<f64>,
+    progress: Option<Py<PyAny>>,
 ) -> Result<Fields<'py>, Trouble> {
     let plan = Plan::new(osc.plan, Task::Simulate { start: start_plan(start), impacts, periods }).complete()?;
-    let watch = Watch::alone("following a motion");
+    let total = if let Task::Simulate { impacts: Some(impacts), .. } = plan.task { impacts } else { 1 };
+    let watch = Watch::one("following a motion", total, progress);
     let found =
         door::result(py, watch, &plan, |of| if let Results::Simulate(_, found) = of { Some(found) } else { None })?;
     let osc = osc.osc;

@@ -70,7 +70,7 @@ def test_a_line_through_two_parameters(s: vi.Oscillator) -> None:
 
 
 def test_a_logarithmic_span_has_a_logarithmic_axis(s: vi.Oscillator) -> None:
-    ds = vi.orbit_diagram(s, "damping", (0.001, 0.1, 5, "log"))
+    ds = vi.orbit_diagram(s, "damping", vi.span(0.001, 0.1, 5, log=True))
     assert ds.vibro.plot().get_xscale() == "log"
 
 

@@ -72,7 +72,7 @@ def test_oscillators_in_the_words_of_the_command(
         (lambda osc: vi.lyapunov(osc, impacts=10), "impacts = 10 lies outside"),
         (lambda osc: vi.lyapunov(osc, impacts=1000).plot(), "there are no points of the sections"),
         (lambda osc: vi.orbit_diagram(osc, "gap", "0:1"), "range `0:1` is not A:B:N"),
-        (lambda osc: vi.orbit_diagram(osc, "gap", (0.1, 1, 2.5, "log")), "the number is not whole"),
+        (lambda osc: vi.orbit_diagram(osc, "gap", (0.1, 1, 3, "log")), "is a tuple, which may be a list or a range"),
         (lambda osc: vi.orbit_diagram(osc, "gap", np.array([0, 1, 3])), "not evenly spaced"),
         (lambda osc: vi.orbit_diagram(osc, "gap", np.zeros((2, 2))), "an axis of shape"),
         (lambda osc: vi.orbit_diagram(osc, "gap", "0:1:3", direction="left"), "direction = `left` is none of up, down, both, scatter"),

@@ -48,7 +48,7 @@ def test_each_point_of_a_map_has_its_attractors() -> None:
 
 def test_axes_may_be_ranges_logarithms_and_lists() -> None:
     osc = vi.Oscillator(inverse_beta=1, gap=1, restitution=0.5)
-    plan = vi.Plan.map(osc, {"damping": (0.001, 0.1, 3, "log"), "gap": np.array([0.0, 0.5, 3.0])})
+    plan = vi.Plan.map(osc, {"damping": vi.span(0.001, 0.1, 3, log=True), "gap": np.array([0.0, 0.5, 3.0])})
     over = [axis["over"] for axis in plan.to_dict()["task"]["map"]["axes"]]
     assert over == ["0.001:0.1:3:log", [0.0, 0.5, 3.0]]
     even = vi.Plan.map(osc, {"gap": np.linspace(0, 3, 4)})

@@ -58,5 +58,9 @@ def test_diagrams_of_machines(tmp_path: Path) -> None:
     assert ds.vibro.plot().get_ylabel() == "speed of closing"
     strobe = orbit_diagram(HAMMER, "frequency", "1:1.2:5", show="q.head", store=tmp_path / "d.zarr")
     assert strobe.vibro.plot().get_ylabel() == "q.head at phase 0"
+    power = orbit_diagram(HAMMER, "frequency", "1:1.2:5", show="stop.anvil.impact_loss_per_period", direction="up")
+    assert power["stop.anvil.impact_loss_per_period"].attrs["long_name"].endswith("of the motion")
+    assert power.vibro.plot().get_ylabel() == "stop.anvil.impact_loss_per_period"
+    assert list(table(power).columns) == ["frequency", "sweep", "kind", "stop.anvil.impact_loss_per_period"]
     with pytest.raises(QuestionError, match="nothing that a diagram of a machine shows"):
         orbit_diagram(HAMMER, "frequency", "1:1.2:5", show="velocity")

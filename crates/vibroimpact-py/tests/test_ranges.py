@@ -38,7 +38,7 @@ def test_f07_one_formula(over: tuple[float, float, int], vibro: Callable[..., An
 
 
 def test_f07b_equal_ratios() -> None:
-    ds = vi.region_map(OSC, {"beta": (0.01, 100, 5, "log")}, starts=1, impacts=10)
+    ds = vi.region_map(OSC, {"beta": vi.span(0.01, 100, 5, log=True)}, starts=1, impacts=10)
     assert ds["beta"].values.tolist() == [0.01, 0.1, 1.0, 10.0, 100.0]
 
 

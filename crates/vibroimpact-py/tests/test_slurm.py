@@ -212,7 +212,7 @@ def test_workers_of_dask_jobqueue(slurm: Slurm, s: vi.Oscillator, tmp_path: Path
     vi.run(plan, tmp_path / "here.zarr")
     with jobqueue.SLURMCluster(
         cores=1, processes=1, memory="500MB", walltime="00:10:00", python=sys.executable, interface="lo",
-        local_directory=str(tmp_path), log_directory=str(slurm.home), scheduler_options={"dashboard_address": None},
+        local_directory=str(tmp_path), log_directory=str(slurm.home), scheduler_options={"dashboard_address": ":0"},
     ) as cluster:
         cluster.scale(jobs=2)
         with distributed.Client(cluster) as client:

@@ -17,9 +17,10 @@ Lengths are in units of the static deflection F/k, times in units of 1/omega_n, 
 
 | result | function |
 |---|---|
-| every impact of a motion | `simulate` |
-| the motion after its transient, from one start or from many | `settle`, `settle_many` |
+| every impact of a motion, of many motions | `simulate`, `simulate_many` |
+| the motion after its transient, from one start or from many, of one system or of many | `settle`, `settle_many` |
 | the attractors, and their shares of the starts | `attractors` |
+| points drawn from a box of parameters and starts | `sample` |
 | periodic orbits, stable or not | `orbits` |
 | a branch of periodic orbits in one parameter, through its events | `branch` |
 | a curve of folds, flips or grazing impacts in two parameters | `curve` |
@@ -32,11 +33,15 @@ Lengths are in units of the static deflection F/k, times in units of 1/omega_n, 
 | a machine of several coordinates, and its motions | `Machine` |
 | a study of any size: a plan in a store | `Plan`, `run`, `resume`, `status`, `verify`, `open`, `vibroimpact.dask` |
 
-Results contain arrays. `plot()` draws a figure, and `to_dict()` returns the fields of the JSON of the command.
+Results contain arrays. `plot()` draws a figure, `to_dict()` returns the fields of the JSON of the command, and
+`to_dataframe()` returns a table of pandas. Results are equal if all their values are.
 """
+
+from typing import TYPE_CHECKING
 
 from vibroimpact import dask
 from vibroimpact._attractors import Attractor, Attractors, attractors
+from vibroimpact._axis import Span, span
 from vibroimpact._branch import Branch, BranchEvent, Origin, branch
 from vibroimpact._core import Oscillator, QuestionError, StoppedError, StoreError, Units, __version__
 from vibroimpact._curve import Curve, CurveEvent, curve
@@ -61,10 +66,28 @@ from vibroimpact._motion import Motion
 from vibroimpact._orbits import EarlierContact, Orbit, orbits
 from vibroimpact._plan import Plan
 from vibroimpact._region import Part, Polygon, Region, region
+from vibroimpact._register import register as _register
 from vibroimpact._response import Response, ResponseCurve, response
+from vibroimpact._sample import Sample, sample
 from vibroimpact._settle import Settlement, settle, settle_many
 from vibroimpact._simulate import Simulation, simulate
+from vibroimpact._simulate_many import simulate_many
 from vibroimpact._store import Ran, Status, Verified, open, resume, run, status, verify
+
+if TYPE_CHECKING:
+    from vibroimpact._accessor import VibroAccessor
+
+_register()
+
+
+def __getattr__(name: str) -> object:
+    # its module imports xarray
+    if name == "VibroAccessor":
+        from vibroimpact._accessor import VibroAccessor
+
+        return VibroAccessor
+    raise AttributeError(f"module `vibroimpact` has no attribute `{name}`")
+
 
 __all__ = [
     "Attractor",
@@ -107,13 +130,16 @@ __all__ = [
     "Region",
     "Response",
     "ResponseCurve",
+    "Sample",
     "Settlement",
     "Simulation",
+    "Span",
     "Status",
     "StoppedError",
     "StoreError",
     "Units",
     "Verified",
+    "VibroAccessor",
     "__version__",
     "attractors",
     "basin",
@@ -130,9 +156,12 @@ __all__ = [
     "response",
     "resume",
     "run",
+    "sample",
     "settle",
     "settle_many",
     "simulate",
+    "simulate_many",
+    "span",
     "status",
     "verify",
 ]

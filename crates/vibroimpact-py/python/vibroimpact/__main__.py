@@ -1,6 +1,11 @@
-"""`python -m vibroimpact export STORE --format netcdf|parquet|csv FILE`: the formats that `vibro export` writes with Python."""
+"""`python -m vibroimpact export STORE --format netcdf|parquet|csv FILE`: the formats that `vibro export` writes with Python.
+
+The function `vibro` is the command `vibro` of this package.
+"""
 
 import argparse
+import os
+import shutil
 import sys
 
 from vibroimpact import _core
@@ -23,6 +28,15 @@ def main(words: list[str] | None = None) -> int:
         print(f"error: {error}", file=sys.stderr)
         return 1
     return 0
+
+
+def vibro() -> int:
+    """Run the command `vibro` with the words of this process. Returns the exit code."""
+    name, *words = sys.argv
+    if words[:1] == ["export"] and not any(word.startswith("--python") for word in words):
+        # it asks the Python of this package for the formats that Python writes
+        words += ["--python", sys.executable]
+    return _core.vibro(["vibro", *words], os.path.abspath(shutil.which(name) or name))
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ import xarray as xr
 
 from vibroimpact import _core
 from vibroimpact._core import QuestionError, Units
+from vibroimpact._names import here, restored
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,10 +32,13 @@ class VibroAccessor:
             Name of the variable; by default "label", or "kind" for an orbit diagram. Motions have their labels m/n,
             other codes their meanings. Where there is no motion the text is empty.
         """
-        name = name or ("label" if "label" in self._ds else "kind")
-        if name not in self._ds:
+        name = name or ("label" if here(self._ds, "label") in self._ds else "kind")
+        now = here(self._ds, name)
+        if now not in self._ds:
             raise QuestionError(f"this Dataset has no variable `{name}`")
-        array = self._ds[name]
+        array = self._ds[now]
+        if now == here(self._ds, "label"):
+            name = "label"
         if name != "label" and "flag_meanings" not in array.attrs:
             raise QuestionError(f"`{name}` has no codes: it lacks the attribute flag_meanings")
         values = array.values
@@ -77,13 +81,14 @@ class VibroAccessor:
         >>> of["box_side"], 0 < of["entropy"] < of["boundary_entropy"] < 0.7
         (5, True)
         """
-        label = self._ds.get("label")
+        ds = restored(self._ds)
+        label = ds.get("label")
         if label is None or label.ndim != 2:
             raise QuestionError("measures are those of a basin over two axes, with the variable `label`")
         codes = np.unique(label.values, return_inverse=True)[1].reshape(-1)
-        if "cycle" in self._ds:
+        if "cycle" in ds:
             # two cycles may have one label
-            pairs = np.stack([codes, self._ds["cycle"].values.reshape(-1)])
+            pairs = np.stack([codes, ds["cycle"].values.reshape(-1)])
             codes = np.unique(pairs, axis=1, return_inverse=True)[1].reshape(-1)
         return dict(_core.basin_measures(codes.astype(np.int64), label.shape[1]))
 
@@ -108,12 +113,12 @@ class VibroAccessor:
         """
         from vibroimpact import _si
 
-        return _si.converted(self._ds, units)
+        return _si.converted(restored(self._ds), units)
 
     def plot(
         self, ax: "Axes | None" = None, *, which: str | None = None, colour: str | None = None, of: str = "largest"
     ) -> "Axes":
-        """Draw the Dataset: the motions over two axes, their shares over one, or the points of an orbit diagram.
+        """Draw the Dataset: the motions over two axes or at points, their shares over one axis, or the points of an orbit diagram.
 
         With `colour`, the values of a quantity of the motions are drawn: over two axes in colours with a colour bar, over
         one axis as dots in the colours of the labels. Cells without a value (not defined, infinite, undecided, not
@@ -146,20 +151,23 @@ class VibroAccessor:
         >>> ax.figure.axes[1].get_ylabel()
         'largest impact speed ($\\\\omega_n F/k$)'
         """
-        from vibroimpact import _cells, _clouds, _coloured
+        from vibroimpact import _cells, _clouds, _coloured, _scatter
 
-        if _clouds.is_diagram(self._ds):
-            if self._ds.attrs.get("units") == "si":
+        ds = restored(self._ds)
+        if _clouds.is_diagram(ds):
+            if ds.attrs.get("units") == "si":
                 raise QuestionError(
                     "a diagram in metres and seconds is not drawn\nhint: plot it before si() converts it"
                 )
             if colour is not None:
                 raise QuestionError("only basins and maps have colours by a quantity\nhint: which=... is the ordinate")
-            return _clouds.plot(self._ds, ax, which)
-        if "label" in self._ds:
+            return _clouds.plot(ds, ax, which)
+        if "label" in ds:
+            if colour is None and _scatter.sides(ds):
+                return _scatter.plot(ds, ax)
             if colour is not None:
-                return _coloured.plot(self._ds, ax, colour, of)
-            return _cells.plot(self._ds, ax)
+                return _coloured.plot(ds, ax, colour, of)
+            return _cells.plot(ds, ax)
         raise QuestionError(
             "this Dataset is none that vibroimpact draws\nhint: those of basin, region_map and orbit_diagram have a figure"
         )

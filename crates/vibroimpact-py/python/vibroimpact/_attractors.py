@@ -8,6 +8,7 @@ from vibroimpact import _core
 from vibroimpact._core import Oscillator
 from vibroimpact._motion import Motion, fields_of
 from vibroimpact._progress import Progress, watched
+from vibroimpact._result import Result
 from vibroimpact._whole import BUDGET, SEED, STARTS, THREADS, maybe, whole
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ class Attractor(Motion):
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class Attractors:
+class Attractors(Result):
     """A sequence of `Attractor`, the most frequent first.
 
     Attributes
@@ -66,11 +67,21 @@ class Attractors:
     def __getitem__(self, k: int) -> Attractor:
         return self.motions[k]
 
+    def to_dict(self) -> dict[str, Any]:
+        """The fields of the JSON of the command; numbers that are not finite are None."""
+        box = {name: list(ends) for name, ends in self.box.items()}
+        return {"starts": self.starts, "seed": self.seed, "box": box, "motions": [motion.to_dict() for motion in self]}
+
+    def _table(self) -> dict[str, Any]:
+        """One row for each motion."""
+        names = ("label", "kind", "stable", "impacts", "periods", "share", "count")
+        return {name: [getattr(motion, name) for motion in self] for name in names}
+
     def plot(self, ax: "Axes | None" = None) -> "Axes":
         """Draw the shares as bars."""
         from vibroimpact import _figure
 
-        return _figure.shares(self.osc, [(m.label, m.share) for m in self], ax)
+        return _figure.shares(_figure.title(self.osc), [(m.label, m.share) for m in self], ax)
 
 
 def attractors(

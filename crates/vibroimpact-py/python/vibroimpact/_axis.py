@@ -7,9 +7,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact import _core
+from vibroimpact._whole import SPAN, whole
 
-#: `"A:B:N"`, `"A:B:N:log"`, `(a, b, n, "log")`, or an array of values.
-Axis: TypeAlias = str | tuple[float, float, int, str] | Sequence[float] | NDArray[np.float64]
+#: A range, `"A:B:N"`, `"A:B:N:log"` or `span(a, b, n)`, or a list or an array of values.
+Axis: TypeAlias = str | list[float] | Sequence[float] | NDArray[np.float64]
 #: `"A:B"` or `(a, b)`.
 Interval: TypeAlias = str | tuple[float, float]
 
@@ -17,6 +18,40 @@ _T = TypeVar("_T")
 
 #: Allowed deviation from even spacing, relative to the values: the rounding of `numpy.linspace` and `numpy.arange`.
 _EVEN = 1e-14
+
+
+class Span(str):
+    """A range of values as text, "A:B:N" or "A:B:N:log"; `span` makes one of numbers."""
+
+    __slots__ = ()
+
+    def values(self) -> NDArray[np.float64]:
+        """Its values, exactly the numbers that are used in the computation."""
+        return _core.span_values(self)
+
+
+def span(first: float, last: float, count: int, *, log: bool = False) -> Span:
+    """A range for an axis: `count` values from `first` to `last`, both included.
+
+    Parameters
+    ----------
+    first, last : float
+        Its ends.
+    count : int
+        Number of values.
+    log : bool
+        Whether the values are in equal ratios, and not at equal distances.
+
+    Examples
+    --------
+    >>> from vibroimpact import span
+    >>> span(0, 3, 601), span(0.1, 10, 3, log=True).values().round(9).tolist()
+    ('0.0:3.0:601', [0.1, 1.0, 10.0])
+    """
+    text = _text(float(first), float(last), whole("count", count, SPAN)) + (":log" if log else "")
+    # refused here, and not later where it is used
+    _core.span_values(text)
+    return Span(text)
 
 
 def numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
@@ -27,14 +62,14 @@ def numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
     return np.asarray(array, dtype=np.float64, order="C")
 
 
-def span(over: Axis) -> str:
+def even(over: Axis) -> str:
     """A range as the text in a plan; an array must be evenly spaced."""
     given = values(over)
     if isinstance(given, str):
         return given
     text = _text(given[0], given[-1], len(given))
-    even = _core.span_values(text)
-    if not np.allclose(given, even, rtol=0, atol=_EVEN * float(np.max(np.abs(given)))):
+    spread = _core.span_values(text)
+    if not np.allclose(given, spread, rtol=0, atol=_EVEN * float(np.max(np.abs(given)))):
         raise _core.QuestionError(
             f"the values from {given[0]} to {given[-1]} are not evenly spaced\nhint: numpy.linspace(a, b, n)"
         )
@@ -44,16 +79,9 @@ def span(over: Axis) -> str:
 def values(over: Axis) -> str | list[float]:
     """Values of an axis in the form of a plan: a range as text, or a list."""
     if isinstance(over, str):
-        return over
-    if isinstance(over, tuple) and len(over) == 3:
-        a, b, c = over
-        raise _core.QuestionError(
-            f"({a}, {b}, {c}) may be three values or {c} values from {a} to {b}\n"
-            f'hint: [{a}, {b}, {c}] is a list; "{a}:{b}:{c}" or numpy.linspace({a}, {b}, {c}) is a range'
-        )
-    if isinstance(over, tuple) and len(over) == 4 and over[3] == "log":
-        first, last, count, _ = over
-        return _text(float(first), float(last), _whole(count)) + ":log"
+        return str(over)
+    if isinstance(over, tuple):
+        raise _core.QuestionError(_neither(over))
     array = numbers("values", over)
     if array.ndim != 1 or array.size == 0:
         raise _core.QuestionError(
@@ -79,10 +107,20 @@ def axes(over: Mapping[str, Axis]) -> list[dict[str, object]]:
     return [{"vary": name, "over": values(of)} for name, of in over.items()]
 
 
-def _whole(count: float) -> int:
-    if not float(count).is_integer():
-        raise _core.QuestionError(f"{count} values: the number is not whole\nhint: (a, b, n, \"log\") is n values from a to b")
-    return int(count)
+def _neither(over: tuple[object, ...]) -> str:
+    """The message about a tuple, which may be meant as a list or as a range."""
+    listed = ", ".join(map(str, over))
+    if len(over) == 3:
+        a, b, c = over
+        return (
+            f"({listed}) may be three values or {c} values from {a} to {b}\n"
+            f'hint: [{listed}] is a list; "{a}:{b}:{c}" or vibroimpact.span({listed}) is a range'
+        )
+    hint = f"[{listed}] is a list"
+    if len(over) == 4 and over[3] == "log":
+        a, b, n, _ = over
+        hint = f'"{a}:{b}:{n}:log" or vibroimpact.span({a}, {b}, {n}, log=True) is a range'
+    return f"({listed}) is a tuple, which may be a list or a range\nhint: {hint}"
 
 
 def interval(given: Interval) -> tuple[float, float]:

@@ -12,6 +12,8 @@ from vibroimpact import _core
 from vibroimpact._axis import beside
 from vibroimpact._core import Oscillator
 from vibroimpact._cycle import Cycles, pairs
+from vibroimpact._progress import Progress, watched
+from vibroimpact._result import Result
 from vibroimpact._whole import BRANCH, FOLLOW, NUMBER, maybe, whole
 
 if TYPE_CHECKING:
@@ -67,7 +69,7 @@ class Origin(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class Branch:
+class Branch(Result):
     """A branch of periodic orbits; each point is one step along it.
 
     Attributes
@@ -163,6 +165,18 @@ class Branch:
 
         return _tracks.plot(self, ax, diagram, virtual, si)
 
+    def _draw(self, ax: Any) -> None:
+        self.plot(ax, diagram=False)
+
+    def _table(self) -> dict[str, Any]:
+        """One row for each point."""
+        second = {} if self.also is None or self.second is None else {self.also[0]: self.second}
+        modulus = np.abs(self.multipliers).max(axis=1) if len(self) else np.empty(0)
+        return {
+            self.vary: self.parameter, **second, "label": self.label, "stable": self.stable, "physical": self.physical,
+            "speed": self.speed, "multiplier": modulus,
+        }
+
     def _points(self) -> list[dict[str, Any]]:
         rests = self.rests
         return [
@@ -207,6 +221,7 @@ def branch(
     orbit: int | None = None,
     follow: int = 0,
     points: int = 5000,
+    progress: Progress = None,
 ) -> Branch:
     """Follow a periodic orbit, stable or not, in one parameter and through its events.
 
@@ -232,6 +247,8 @@ def branch(
         Maximum number of branches, 0 to 100, to follow from flips and branch points.
     points : int
         Maximum number of points of each branch, 2 to 100000.
+    progress : bool or callable
+        True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
 
     Examples
     --------
@@ -244,7 +261,8 @@ def branch(
     """
     orbit = maybe("orbit", orbit, NUMBER)
     follow, points = whole("follow", follow, FOLLOW), whole("points", points, BRANCH)
-    found = _core.branch(osc, label, vary, to, beside(also), orbit, follow, points)
+    with watched(progress, "branches") as tell:
+        found = _core.branch(osc, label, vary, to, beside(also), orbit, follow, points, tell)
 
     def of(fields: dict[str, Any], followed: list[Branch]) -> Branch:
         return Branch(

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vibroimpact._core import QuestionError
 from vibroimpact._figure import legend, new_axes
-from vibroimpact._palette import CLASSES, LEGEND, legend_group
+from vibroimpact._palette import CLASSES, legend_group, legend_text
 from vibroimpact._stated import along, named, title
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ def plot(ds: "xr.Dataset", ax: "Axes | None") -> "Axes":
     up, across = dims
     for name in dims:
         ds = in_order(ds, name)
-    classes, cells = _classes(ds, ds["label"].transpose(up, across, ...))
+    classes, cells = classes_of(ds, ds["label"].transpose(up, across, ...))
     ax = new_axes(ax, (7.4, 5.0))
     xs, ys = edges(ds[across].values), edges(ds[up].values)
     cells, xs = _divided(cells, xs)
@@ -64,9 +64,9 @@ def axes_of(ds: "xr.Dataset", allowed: tuple[int, ...]) -> list[str]:
 def _shares(ds: "xr.Dataset", ax: "Axes | None", dim: str) -> "Axes":
     """Stacked bars over one axis: the shares of starts that lead to the motions of each group."""
     words = ds["label"].transpose(dim, "motion")
-    groups = ds.assign(label=words).vibro.labels().values
-    known = {word: legend_group(word) if word else "" for word in np.unique(groups)}
-    groups = np.array([known[word] for word in groups.ravel()], dtype=np.str_).reshape(groups.shape)
+    names = ds.assign(label=words).vibro.labels().values
+    known = {word: legend_group(word) if word else "" for word in np.unique(names)}
+    groups = np.array([known[word] for word in names.ravel()], dtype=np.str_).reshape(names.shape)
     shares = np.nan_to_num(ds["share"].transpose(dim, "motion").values)
     ax = new_axes(ax, (7.4, 4.2))
     xs = edges(ds[dim].values)
@@ -76,8 +76,9 @@ def _shares(ds: "xr.Dataset", ax: "Axes | None", dim: str) -> "Axes":
         if height.any():
             # undecided starts are hatched, because white bars would look like none
             hatch = "xxxx" if group == "undecided" else None
+            there = _common(names[(groups == group) & (shares > 0)])
             ax.bar(xs[:-1], height, np.diff(xs), bottom, align="edge", facecolor=colour, edgecolor="#d02020", hatch=hatch,
-                   linewidth=0, label=LEGEND[group])
+                   linewidth=0, label=legend_text(group, there))
             bottom += height
     ax.set_xlim(min(xs[0], xs[-1]), max(xs[0], xs[-1]))
     ax.set_ylim(0, 1)
@@ -101,7 +102,7 @@ def in_order(ds: "xr.Dataset", name: str) -> "xr.Dataset":
     return ds
 
 
-def _classes(ds: "xr.Dataset", label: "xr.DataArray") -> tuple[list[tuple[str, Any]], NDArray[np.int64]]:
+def classes_of(ds: "xr.Dataset", label: "xr.DataArray") -> tuple[list[tuple[str, Any]], NDArray[np.int64]]:
     """Names and colours of the classes of motions, and the class of each cell (and motion); -1 for no motion."""
     names = ds.assign(label=label).vibro.labels().values
     if "motion" not in label.dims:
@@ -119,11 +120,27 @@ def _classes(ds: "xr.Dataset", label: "xr.DataArray") -> tuple[list[tuple[str, A
         kinds = np.unique(numbers[here])
         for k, number in enumerate(kinds):
             cells[here & (numbers == number)] = len(classes)
-            word = LEGEND[key] if k == 0 else f"{LEGEND[key]}, no. {k + 1}"
-            classes.append((word, _variant(CLASSES[key], k)))
+            classes.append((legend_text(key, _common(names[here & (numbers == number)])), _variant(CLASSES[key], k)))
     if not classes:
         classes = [("not computed", "#ffffff")]
-    return classes, cells
+    return _told_apart(classes), cells
+
+
+def _common(names: NDArray[np.str_]) -> list[str]:
+    """The distinct names, the most common first."""
+    distinct, counts = np.unique(names, return_counts=True)
+    found: list[str] = distinct[np.argsort(-counts, kind="stable")].tolist()
+    return found
+
+
+def _told_apart(classes: list[tuple[str, Any]]) -> list[tuple[str, Any]]:
+    """Classes with different names: two cycles with one label are numbered."""
+    seen: dict[str, int] = {}
+    told = []
+    for name, colour in classes:
+        seen[name] = seen.get(name, 0) + 1
+        told.append((name if seen[name] == 1 else f"{name}, no. {seen[name]}", colour))
+    return told
 
 
 def _numbered(ds: "xr.Dataset", label: "xr.DataArray") -> bool:

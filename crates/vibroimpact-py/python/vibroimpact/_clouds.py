@@ -12,6 +12,7 @@ import numpy as np
 from vibroimpact._core import QuestionError
 from vibroimpact._figure import ARRIVAL, SYMBOLS, legend, new_axes, span
 from vibroimpact._palette import SERIES
+from vibroimpact._points import shown_path
 from vibroimpact._stated import along, symbol, title
 
 if TYPE_CHECKING:
@@ -30,10 +31,14 @@ _ORDINATES = {
 
 def _ordinates(ds: "xr.Dataset") -> dict[str, str]:
     """The variables of a diagram that can be drawn, and their names; coordinates of machines by their paths."""
-    paths = (str(name) for name in ds.data_vars if str(name).startswith(("q.", "qdot.")))
-    return {name: text for name, text in _ORDINATES.items() if name in ds.data_vars} | {
-        path: f"{path} at phase 0" for path in paths
-    }
+    known = {name: text for name, text in _ORDINATES.items() if name in ds.data_vars}
+    path = shown_path(ds)
+    if not path:
+        return known
+    head, _, name = path.partition(".")
+    # the path of a quantity of a coordinate has one more name
+    state = head in ("q", "qdot") and "." not in name
+    return known | {path: f"{path} at phase 0" if state else path}
 
 
 def plot(ds: "xr.Dataset", ax: "Axes | None", which: str | None) -> "Axes":

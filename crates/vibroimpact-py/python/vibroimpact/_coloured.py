@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vibroimpact._cells import axes_of, edges, in_order
 from vibroimpact._core import QuestionError
 from vibroimpact._figure import legend, new_axes
-from vibroimpact._palette import CLASSES, LEGEND, legend_group
+from vibroimpact._palette import CLASSES, legend_group, legend_text
 from vibroimpact._stated import named, title
 from vibroimpact._unit_names import unit_of
 
@@ -48,10 +48,10 @@ def plot(ds: "xr.Dataset", ax: "Axes | None", colour: str, of: str) -> "Axes":
     dims = axes_of(ds, (1, 2))
     for dim in dims:
         ds = in_order(ds, dim)
-    values, missing, groups = _values(ds, name, dims)
+    values, missing, words = _values(ds, name, dims)
     if len(dims) == 1:
-        return _dots(ds, new_axes(ax, (7.4, 4.6)), name, dims[0], (values, missing, groups))
-    several = bool(((groups != "").sum(axis=-1) > 1).any())
+        return _dots(ds, new_axes(ax, (7.4, 4.6)), name, dims[0], (values, missing, words))
+    several = bool(((words != "").sum(axis=-1) > 1).any())
     return _plane(ds, new_axes(ax, (7.0, 5.4)), name, dims, (*_chosen(values, missing, of), _SENTENCES[of] if several else None))
 
 
@@ -72,7 +72,7 @@ def _variable(ds: "xr.Dataset", colour: str) -> str:
 def _values(
     ds: "xr.Dataset", name: str, dims: list[str]
 ) -> tuple[NDArray[np.float64], NDArray[np.str_], NDArray[np.str_]]:
-    """The values of all motions, the reason why a value is missing ("" if it is not) and the groups ("" for no motion)."""
+    """The values of all motions, the reason why a value is missing ("" if it is not) and the labels ("" for no motion)."""
     label = ds["label"].transpose(*dims, ...)
     words = ds.assign(label=label).vibro.labels().values
     codes = label.values
@@ -93,9 +93,7 @@ def _values(
     invalid = ~there.any(axis=-1) & np.isfinite(codes[..., 0]) & (codes[..., 0] != _NOT_COMPUTED)
     missing[invalid, 0] = "not defined"
     values = np.where(missing == "", values, np.nan)
-    known = {word: legend_group(word) if word else "" for word in np.unique(words)}
-    groups = np.array([known[word] for word in words.ravel()], dtype=np.str_).reshape(words.shape)
-    return values, missing, groups
+    return values, missing, words
 
 
 def _chosen(
@@ -177,14 +175,16 @@ def _dots(
     of: tuple[NDArray[np.float64], NDArray[np.str_], NDArray[np.str_]],
 ) -> "Axes":
     """The values of all motions over one axis, in the colours of their labels; marks for values that are missing."""
-    values, missing, groups = of
+    values, missing, words = of
+    known = {word: legend_group(word) if word else "" for word in np.unique(words)}
+    groups = np.array([known[word] for word in words.ravel()], dtype=np.str_).reshape(words.shape)
     xs = np.broadcast_to(ds[dim].values[:, None], values.shape)
     size = 3.5 if len(xs) > 120 else 6.0
     for group, colour in CLASSES.items():
         here = (groups == group) & (missing == "")
         if here.any():
             ax.plot(xs[here], values[here], "o", color=colour, markersize=size, markeredgecolor="0.38",
-                    markeredgewidth=0.7, label=LEGEND[group])
+                    markeredgewidth=0.7, label=legend_text(group, sorted(set(words[here].tolist()))))
     finite = values[np.isfinite(values)]
     low, high = (finite.min(), finite.max()) if len(finite) else (0.0, 1.0)
     away = _AWAY * ((high - low) or abs(low) or 1.0)

@@ -13,6 +13,8 @@ from vibroimpact._core import Oscillator
 from vibroimpact._cycle import Cycles, pairs
 from vibroimpact._figure import named, new_axes
 from vibroimpact._plane import broken, frame
+from vibroimpact._progress import Progress, watched
+from vibroimpact._result import Result
 from vibroimpact._tables import CURVE_MARKS, EVENT_COLOURS
 from vibroimpact._whole import NUMBER, maybe
 
@@ -32,7 +34,7 @@ class CurveEvent(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class Curve:
+class Curve(Result):
     """A curve of events, from one end to the other.
 
     Attributes
@@ -93,6 +95,11 @@ class Curve:
         """Draw the curve in its plane, dotted where the orbit is inadmissible, and its points of codimension two."""
         return _draw(self, ax)
 
+    def _table(self) -> dict[str, Any]:
+        """One row for each point."""
+        p, q = self.parameters
+        return {p: self.values[:, 0], q: self.values[:, 1], "physical": self.physical}
+
     def to_dict(self) -> dict[str, Any]:
         """The fields of the JSON of the command; numbers that are not finite are None."""
         points = zip(self.values.tolist(), self.physical.tolist(), self.cycles, self.multipliers)
@@ -140,6 +147,7 @@ def curve(
     *,
     orbit: int | None = None,
     event: int | None = None,
+    progress: Progress = None,
 ) -> Curve:
     """Follow a fold, flip or grazing impact of an orbit in a plane of two parameters.
 
@@ -161,6 +169,8 @@ def curve(
         Number of the orbit, as for `branch`.
     event : int
         Number of the event, counted from 1 in order of rising values. Default: the event nearest to `osc`.
+    progress : bool or callable
+        True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
 
     Examples
     --------
@@ -172,7 +182,8 @@ def curve(
     """
     first, second = plane(over)
     orbit, event = maybe("orbit", orbit, NUMBER), maybe("event", event, NUMBER)
-    found = _core.curve(osc, label, kind, first, second, orbit, event)
+    with watched(progress, "curves") as tell:
+        found = _core.curve(osc, label, kind, first, second, orbit, event, tell)
     values = found["values"]
     return Curve(
         osc=osc,

@@ -7,12 +7,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vibroimpact._result import Result
+
 #: Names of the two stops by their sign.
 SIDES = {1: "upper", -1: "lower"}
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Cycle:
+class Cycle(Result):
     """The impacts of a cycle in order of time. The first is the fastest one or, after sticking, the first one after the release.
 
     Attributes
@@ -35,13 +37,6 @@ class Cycle:
     def __len__(self) -> int:
         return len(self.phase)
 
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Cycle):
-            return NotImplemented
-        return self.to_list() == other.to_list()
-
-    __hash__ = None  # type: ignore[assignment]
-
     def to_list(self) -> list[dict[str, Any]]:
         """One dict for each impact, as in the JSON of the command."""
         rows = zip(self.phase.tolist(), self.velocity_before.tolist(), self.interval.tolist(), self.side.tolist())
@@ -50,9 +45,14 @@ class Cycle:
             for phase, velocity, interval, side in rows
         ]
 
+    def _table(self) -> dict[str, Any]:
+        """One row for each impact."""
+        names = ("phase", "velocity_before", "interval", "side")
+        return {name: getattr(self, name) for name in names}
+
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Cycles:
+class Cycles(Result):
     """Several cycles in one set of columns. Cycle `k` has the impacts `offsets[k]` to `offsets[k + 1]`."""
 
     offsets: NDArray[np.int64]
@@ -77,6 +77,10 @@ class Cycles:
 
     def __iter__(self) -> Iterator[Cycle]:
         return (self[k] for k in range(len(self)))
+
+    def _table(self) -> dict[str, Any]:
+        """One row for each impact of each cycle."""
+        return {"cycle": np.repeat(np.arange(len(self)), np.diff(self.offsets)), **self.impacts._table()}
 
     def fastest(self) -> NDArray[np.float64]:
         """The largest speed before an impact of each cycle; 0 without impacts."""

@@ -85,6 +85,10 @@ def table(ds: "xr.Dataset") -> "pd.DataFrame":
         # scattered starts are numbered; their positions are fields
         values = ds[name].values if name in ds.coords else np.arange(1, shape[k] + 1)
         columns[name] = np.repeat(values[places[k]], width)
+    for key, of in ds.coords.items():
+        # points have several coordinates along one dimension
+        if of.ndim == 1 and key not in along and str(of.dims[0]) in along:
+            columns[str(key)] = np.repeat(of.values[places[along.index(str(of.dims[0]))]], width)
     if extra == "direction":
         columns[extra] = np.tile(np.arange(1, width + 1), points)
     keep = np.zeros((points, width), dtype=bool)

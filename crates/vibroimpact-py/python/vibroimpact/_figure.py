@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from vibroimpact import _core
 from vibroimpact._core import Oscillator, QuestionError
-from vibroimpact._palette import CLASSES, SERIES, legend_group
+from vibroimpact._palette import SERIES, class_colour
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -170,14 +170,14 @@ def waveform(
     return ax
 
 
-def shares(osc: Oscillator, found: list[tuple[str, float]], ax: "Axes | None") -> "Axes":
-    """Draw the shares of starts as bars, with the largest on top."""
+def shares(heading: str, found: list[tuple[str, float]], ax: "Axes | None") -> "Axes":
+    """Draw the shares of starts as bars, with the first on top, under a title."""
     ax = new_axes(ax, (6.4, 0.9 + 0.42 * len(found)))
     places = np.arange(len(found))
     ax.barh(
         places,
         [100 * share for _, share in found],
-        color=[CLASSES[legend_group(label)] for label, _ in found],
+        color=[class_colour(label) for label, _ in found],
         edgecolor="black",
         linewidth=0.7,
     )
@@ -185,5 +185,5 @@ def shares(osc: Oscillator, found: list[tuple[str, float]], ax: "Axes | None") -
     ax.invert_yaxis()
     ax.set_xlim(0, 100)
     ax.set_xlabel("share of starts (%)")
-    ax.set_title(title(osc))
+    ax.set_title(heading)
     return ax

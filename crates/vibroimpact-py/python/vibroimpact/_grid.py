@@ -57,19 +57,13 @@ def _dataset(
 
     from vibroimpact import _accessor, _si  # the import of _accessor registers ds.vibro
     from vibroimpact._stated import with_fixed
-    from vibroimpact._unit_names import described
+    from vibroimpact._unit_names import attributes_of
 
     def variable(of: dict[str, Any]) -> tuple[list[str], Any, dict[str, Any]]:
-        attributes = described(of["long_name"], of["units"], of["scale"])
-        if of["comment"]:
-            attributes["comment"] = of["comment"]
-        if of["flags"]:
-            attributes["flag_values"] = [value for value, _ in of["flags"]]
-            attributes["flag_meanings"] = " ".join(meaning for _, meaning in of["flags"])
         shape = [length for _, length in of["dimensions"]]
         values = of["values"]
         array = np.array(values, dtype=object) if isinstance(values, list) else values.reshape(shape)
-        return [name for name, _ in of["dimensions"]], array, attributes
+        return [name for name, _ in of["dimensions"]], array, attributes_of(of)
 
     ds = xr.Dataset(
         {of["name"]: variable(of) for of in variables},

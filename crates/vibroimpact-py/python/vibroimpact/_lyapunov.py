@@ -10,6 +10,8 @@ from vibroimpact import _core
 from vibroimpact._core import Oscillator
 from vibroimpact._cycle import finite
 from vibroimpact._motion import Motion, fields_of, horizon_object
+from vibroimpact._progress import Progress, watched
+from vibroimpact._result import Result
 from vibroimpact._sections import Impacts, Strobes, sections
 from vibroimpact._whole import MEASURED, SECTION, TRANSIENT, maybe, whole
 
@@ -32,7 +34,7 @@ class Measured(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class Lyapunov:
+class Lyapunov(Result):
     """Both Lyapunov exponents of a motion with error bars, and sections of its attractor.
 
     Attributes
@@ -61,6 +63,8 @@ class Lyapunov:
         The plan as JSON.
     """
 
+    _pictured = False
+
     osc: Oscillator
     motion: Motion
     exponents: tuple[Measured, Measured]
@@ -78,6 +82,18 @@ class Lyapunov:
     def __repr__(self) -> str:
         one, two = self.exponents
         return f"<Lyapunov {one.value:.5g} +- {one.error:.1g}, {two.value:.5g} +- {two.error:.1g}, {self.motion.label}>"
+
+    def _table(self) -> dict[str, Any]:
+        """One row for each measured number."""
+        measured = {
+            "exponent 1": self.exponents[0], "exponent 2": self.exponents[1], "sum": self.sum,
+            "impacts per period": self.impacts_per_period, "dimension": self.dimension,
+            "dimension of the flow": self.flow_dimension,
+        }
+        known = {name: of for name, of in measured.items() if of is not None}
+        return {
+            "name": list(known), "value": [of.value for of in known.values()], "error": [of.error for of in known.values()],
+        }
 
     def plot(self, axes: "tuple[Axes, Axes] | None" = None) -> "tuple[Axes, Axes]":
         """Draw both sections of the attractor: phase and speed of its impacts, and its states at phase 0."""
@@ -117,6 +133,7 @@ def lyapunov(
     impacts: int = 100_000,
     transient: int = 1000,
     points: int | None = None,
+    progress: Progress = None,
 ) -> Lyapunov:
     """Measure both Lyapunov exponents of a motion, with error bars, and the dimension of its attractor.
 
@@ -132,6 +149,8 @@ def lyapunov(
         Number of impacts before the measurement, and of forcing periods before the stroboscopic section.
     points : int
         Number of points of each section of the attractor, 1 to 100000; by default no sections.
+    progress : bool or callable
+        True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
 
     Examples
     --------
@@ -143,7 +162,9 @@ def lyapunov(
     True
     """
     impacts, transient = whole("impacts", impacts, MEASURED), whole("transient", transient, TRANSIENT)
-    fields = _core.lyapunov(osc, (x, v, phase), impacts, transient, maybe("points", points, SECTION))
+    section = maybe("points", points, SECTION)
+    with watched(progress, "impacts") as tell:
+        fields = _core.lyapunov(osc, (x, v, phase), impacts, transient, section, tell)
 
     def measured(name: str) -> Measured | None:
         return None if fields[name] is None else Measured(*fields[name])

@@ -25,6 +25,7 @@ from vibroimpact._machine_answers import (
     MachineSettled,
 )
 from vibroimpact._progress import Progress
+from vibroimpact._result import Result
 from vibroimpact._whole import BRANCH, BUDGET, NUMBER, POINT_STARTS, SEED, SIMULATED, STARTS, TRANSIENT, maybe, whole
 
 if TYPE_CHECKING:
@@ -318,7 +319,7 @@ class Machine:
         (<MachineMotion 1/1, stable>, {'anvil': 1}, 4)
         """
         task = {"settle": {"impacts": maybe("impacts", impacts, BUDGET)}}
-        return _machine_answers.settled(_machine_answers.ask(self._file, self.start_of(q, qdot, phase), task)[0])
+        return _machine_answers.settled(_machine_answers.ask(self._file, self.start_of(q, qdot, phase), task)[0], self)
 
     def attractors(
         self, starts: int = 200, *, seed: int = 1, impacts: int | None = None, threads: int = 0,
@@ -349,7 +350,7 @@ class Machine:
         budget = maybe("impacts", impacts, BUDGET)
         task = {"attractors": {"starts": starts, "seed": whole("seed", seed, SEED), "impacts": budget}}
         found, _ = _machine_answers.ask(self._file, self.start_of(), task, starts, threads, progress)
-        return _machine_answers.attractors(found)
+        return _machine_answers.attractors(found, self)
 
     def lyapunov(
         self, *, q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None,
@@ -376,7 +377,7 @@ class Machine:
         task = {"lyapunov": {
             "impacts": maybe("impacts", impacts, SIMULATED), "transient": maybe("transient", transient, TRANSIENT),
         }}
-        return _machine_answers.lyapunov(_machine_answers.ask(self._file, self.start_of(q, qdot, phase), task)[0])
+        return _machine_answers.lyapunov(_machine_answers.ask(self._file, self.start_of(q, qdot, phase), task)[0], self)
 
     def orbit(self, label: str) -> MachineOrbits:
         """The orbits with a label m/n, stable or not, from many guesses; m counts closings of all stops.
@@ -385,7 +386,8 @@ class Machine:
         >>> vi.Machine.named("two-mass-hammer").orbit("1/1")[-1].stable
         True
         """
-        return _machine_answers.orbits(_machine_answers.ask(self._file, self.start_of(), {"orbit": {"label": label}})[0])
+        found, _ = _machine_answers.ask(self._file, self.start_of(), {"orbit": {"label": label}})
+        return _machine_answers.orbits(found, self)
 
     def branch(
         self, vary: str, to: float, *, label: str | None = None, points: int = 5000,
@@ -495,7 +497,7 @@ class Machine:
         over = _machine_answers.spans(axes)
         task = {"basin": {"axes": over, "impacts": maybe("impacts", impacts, BUDGET)}}
         start, total = self.start_of(q, qdot, phase), _machine_answers.size(over)
-        return _machine_answers.basin(_machine_answers.ask(self._file, start, task, total, threads, progress)[0])
+        return _machine_answers.basin(_machine_answers.ask(self._file, start, task, total, threads, progress)[0], self)
 
     def map(
         self, axes: MachineAxes, starts: int, *, seed: int = 1, impacts: int | None = None, threads: int = 0,
@@ -534,7 +536,7 @@ class Machine:
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class MachineSimulation:
+class MachineSimulation(Result):
     """The events of a motion of a machine as columns, and the reason why the list ends.
 
     Attributes
@@ -625,9 +627,17 @@ class MachineSimulation:
             events.append(event)
         return {"events": events, "end": {"reason": self.end, "time": self.end_time}}
 
+    def _table(self) -> dict[str, Any]:
+        """One row for each event; coordinates and velocities by their paths."""
+        columns = {name: getattr(self, name) for name in ("kind", "stop", "time", "phase", "speed")}
+        return {**columns, **_by_name(self.machine, self.q, self.qdot)}
+
+    def _draw(self, ax: Any) -> None:
+        self.plot([ax])
+
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class MachineWaveform:
+class MachineWaveform(Result):
     """A motion of a machine at equal steps of time.
 
     Attributes
@@ -661,3 +671,16 @@ class MachineWaveform:
 
     def __len__(self) -> int:
         return len(self.time)
+
+    def _table(self) -> dict[str, Any]:
+        """One row for each point; coordinates, velocities, gaps and forces by their paths."""
+        columns = {"time": self.time, "phase": self.phase, **_by_name(self.machine, self.q, self.qdot)}
+        stops, contacts = self.machine.stops, self.machine.stops + self.machine.joints
+        columns |= {f"gap.{name}": self.gap[:, k] for k, name in enumerate(stops)}
+        return columns | {f"force.{name}": self.force[:, k] for k, name in enumerate(contacts)}
+
+
+def _by_name(machine: Machine, q: _Floats, qdot: _Floats) -> dict[str, _Floats]:
+    """Coordinates and velocities by their paths."""
+    names = machine.coordinates
+    return {f"q.{name}": q[:, k] for k, name in enumerate(names)} | {f"qdot.{name}": qdot[:, k] for k, name in enumerate(names)}

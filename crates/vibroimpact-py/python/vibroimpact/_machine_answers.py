@@ -12,10 +12,12 @@ from numpy.typing import NDArray
 from vibroimpact import _core
 from vibroimpact._lyapunov import Measured
 from vibroimpact._progress import Progress, watched
+from vibroimpact._result import Result
 from vibroimpact._whole import THREADS, whole
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.axes import Axes
 
 _Floats = NDArray[np.float64]
 _Start: TypeAlias = tuple[list[float], list[float], float]
@@ -57,7 +59,7 @@ def _complex(pairs: Sequence[Sequence[float | None]]) -> NDArray[np.complex128]:
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class MachineCycle:
+class MachineCycle(Result):
     """The events of a cycle of a machine as columns, beginning with the fastest closing.
 
     Attributes
@@ -84,6 +86,13 @@ class MachineCycle:
     def __len__(self) -> int:
         return len(self.time)
 
+    def _table(self) -> dict[str, Any]:
+        """One row for each event; coordinates and velocities by their numbers."""
+        columns = {name: getattr(self, name) for name in ("kind", "stop", "time", "phase", "speed")}
+        for name in ("q", "qdot"):
+            columns |= {f"{name}.{k + 1}": of for k, of in enumerate(getattr(self, name).T)}
+        return columns
+
 
 def _cycle(events: Sequence[Mapping[str, Any]], width: int) -> MachineCycle:
     def floats(name: str) -> _Floats:
@@ -97,7 +106,7 @@ def _cycle(events: Sequence[Mapping[str, Any]], width: int) -> MachineCycle:
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class MachineMotion:
+class MachineMotion(Result):
     """A steady motion of a machine.
 
     Attributes
@@ -146,6 +155,7 @@ class MachineMotion:
     quantities: dict[str, float] | None
     quantities_error: dict[str, float] | None
     _object: dict[str, Any]
+    _machine: Any
 
     def __repr__(self) -> str:
         stability = "" if self.stable is None else ", stable" if self.stable else ", unstable"
@@ -154,6 +164,19 @@ class MachineMotion:
     def to_dict(self) -> dict[str, Any]:
         """The object of the motion in the JSON of the command."""
         return dict(self._object)
+
+    def _table(self) -> dict[str, Any]:
+        """One row for each event of the cycle."""
+        return self.cycle._table()
+
+    def plot(self, axes: "Axes | Sequence[Axes] | None" = None) -> "NDArray[Any]":
+        """Draw the coordinates over some periods of the motion, and below them the contact forces, if there are any.
+
+        `axes` are one or two axes to draw into. Returns the axes.
+        """
+        from vibroimpact import _machine_plots
+
+        return _machine_plots.motion(self, axes)
 
 
 #: What the paths of the parts of a machine begin with.
@@ -171,7 +194,7 @@ def _by_path(given: Mapping[str, Any] | None) -> dict[str, float] | None:
     return {path: math.nan if value is None else value for path, value in found.items()}
 
 
-def _motion(given: dict[str, Any], width: int) -> MachineMotion:
+def _motion(given: dict[str, Any], width: int, machine: Any) -> MachineMotion:
     state = given.get("state")
     return MachineMotion(
         **{name: given[name] for name in ("label", "kind", "stable", "impacts", "periods", "sticks")},
@@ -184,11 +207,12 @@ def _motion(given: dict[str, Any], width: int) -> MachineMotion:
         quantities=_by_path(given["quantities"]),
         quantities_error=_by_path(given.get("quantities_error")),
         _object=given,
+        _machine=machine,
     )
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class MachineSettled:
+class MachineSettled(Result):
     """What a motion of a machine settles into.
 
     Attributes
@@ -212,17 +236,30 @@ class MachineSettled:
     def __repr__(self) -> str:
         return f"<MachineSettled {self.motion!r} after {self.events} events>"
 
+    def to_dict(self) -> dict[str, Any]:
+        """The motion, and how far it was followed."""
+        return {"motion": self.motion.to_dict(), "events": self.events, "time": self.time}
 
-def settled(found: Mapping[str, Any]) -> MachineSettled:
+    def _table(self) -> dict[str, Any]:
+        """One row for each event of the cycle."""
+        return self.motion._table()
+
+    def plot(self, axes: "Axes | Sequence[Axes] | None" = None) -> "NDArray[Any]":
+        """Draw the motion, as `MachineMotion.plot` does."""
+        return self.motion.plot(axes)
+
+
+def settled(found: Mapping[str, Any], machine: Any) -> MachineSettled:
     """Of the JSON object."""
+    plan = json.dumps(found["plan"])
     return MachineSettled(
-        _motion(found["motion"], len(found["coordinates"])), found["events"], found["time"],
-        _all_measured(found.get("chaotic_transient")), json.dumps(found["plan"]),
+        _motion(found["motion"], len(found["coordinates"]), machine), found["events"], found["time"],
+        _all_measured(found.get("chaotic_transient")), plan,
     )
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class MachineAttractors:
+class MachineAttractors(Result):
     """The steady motions to which scattered starts lead, the most frequent first. It is a sequence of them.
 
     Attributes
@@ -256,21 +293,38 @@ class MachineAttractors:
     def __getitem__(self, k: int) -> MachineMotion:
         return self.motions[k]
 
+    def to_dict(self) -> dict[str, Any]:
+        """The motions as in the JSON of the command, with their shares."""
+        rows = zip(self.motions, self.share.tolist(), self.count.tolist())
+        return {"starts": self.starts, "motions": [{**of.to_dict(), "share": share, "count": n} for of, share, n in rows]}
 
-def _shared(found: Mapping[str, Any]) -> tuple[tuple[MachineMotion, ...], _Floats, NDArray[np.int64]]:
+    def _table(self) -> dict[str, Any]:
+        """One row for each motion."""
+        names = ("label", "kind", "stable", "impacts", "periods")
+        return {**{name: [getattr(of, name) for of in self] for name in names}, "share": self.share, "count": self.count}
+
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
+        """Draw the shares as bars."""
+        from vibroimpact import _figure, _machine_plots
+
+        rows = [(motion.label, float(share)) for motion, share in zip(self.motions, self.share)]
+        return _figure.shares(_machine_plots.title(self.plan), rows, ax)
+
+
+def _shared(found: Mapping[str, Any], machine: Any) -> tuple[tuple[MachineMotion, ...], _Floats, NDArray[np.int64]]:
     width, motions = len(found["coordinates"]), found["motions"]
     share = np.array([motion.pop("share") for motion in motions], dtype=np.float64)
     count = np.array([motion.pop("count") for motion in motions], dtype=np.int64)
-    return tuple(_motion(motion, width) for motion in motions), share, count
+    return tuple(_motion(motion, width, machine) for motion in motions), share, count
 
 
-def attractors(found: Mapping[str, Any]) -> MachineAttractors:
+def attractors(found: Mapping[str, Any], machine: Any) -> MachineAttractors:
     """Of the JSON object."""
-    return MachineAttractors(*_shared(found), found["starts"], json.dumps(found["plan"]))
+    return MachineAttractors(*_shared(found, machine), found["starts"], json.dumps(found["plan"]))
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class MachineLyapunov:
+class MachineLyapunov(Result):
     """The Lyapunov exponents of a motion of a machine, two for each coordinate, the largest first.
 
     Attributes
@@ -297,18 +351,39 @@ class MachineLyapunov:
         first = f"{self.exponents[0].value:.5g} +- {self.exponents[0].error:.1g}" if self.exponents else "unknown"
         return f"<MachineLyapunov, largest {first}, {self.motion.label}>"
 
+    def to_dict(self) -> dict[str, Any]:
+        """The exponents as in the JSON of the command, and the motion."""
+        rate = self.impacts_per_period
+        return {
+            "exponents": None if self.exponents is None else [of.to_dict() for of in self.exponents],
+            "impacts_per_period": None if rate is None else rate.to_dict(),
+            "exact": self.exact,
+            "motion": self.motion.to_dict(),
+        }
 
-def lyapunov(found: Mapping[str, Any]) -> MachineLyapunov:
+    def _table(self) -> dict[str, Any]:
+        """One row for each exponent."""
+        of = self.exponents or ()
+        return {"value": [one.value for one in of], "error": [one.error for one in of]}
+
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
+        """Draw the exponents with their error bars."""
+        from vibroimpact import _machine_plots
+
+        return _machine_plots.exponents(self, ax)
+
+
+def lyapunov(found: Mapping[str, Any], machine: Any) -> MachineLyapunov:
     """Of the JSON object."""
-    rate = found["impacts_per_period"]
+    rate, plan = found["impacts_per_period"], json.dumps(found["plan"])
     return MachineLyapunov(
         _all_measured(found["exponents"]), rate and _measured(rate), found["exact"],
-        _motion(found["motion"], len(found["coordinates"])), json.dumps(found["plan"]),
+        _motion(found["motion"], len(found["coordinates"]), machine), plan,
     )
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class MachineOrbits:
+class MachineOrbits(Result):
     """The orbits of a machine with a label, stable or not, the fastest last. It is a sequence of them.
 
     Attributes
@@ -334,15 +409,32 @@ class MachineOrbits:
     def __getitem__(self, k: int) -> MachineMotion:
         return self.orbits[k]
 
+    def to_dict(self) -> dict[str, Any]:
+        """The orbits as in the JSON of the command."""
+        return {"orbits": [orbit.to_dict() for orbit in self]}
 
-def orbits(found: Mapping[str, Any]) -> MachineOrbits:
+    def _table(self) -> dict[str, Any]:
+        """One row for each event of each orbit."""
+        tables = [of.cycle._table() for of in self]
+        names = tables[0] if tables else {}
+        number = np.repeat(np.arange(1, len(self) + 1), [len(of.cycle) for of in self])
+        return {"orbit": number, **{name: np.concatenate([table[name] for table in tables]) for name in names}}
+
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
+        """Draw the speed and the phase of each closing of a stop, for all orbits."""
+        from vibroimpact import _machine_plots
+
+        return _machine_plots.orbits(self, ax)
+
+
+def orbits(found: Mapping[str, Any], machine: Any) -> MachineOrbits:
     """Of the JSON object."""
-    width = len(found["coordinates"])
-    return MachineOrbits(tuple(_motion(orbit, width) for orbit in found["orbits"]), json.dumps(found["plan"]))
+    width, plan = len(found["coordinates"]), json.dumps(found["plan"])
+    return MachineOrbits(tuple(_motion(orbit, width, machine) for orbit in found["orbits"]), plan)
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class MachineBranch:
+class MachineBranch(Result):
     """A branch of orbits of a machine over one number; each point is one step along it.
 
     Attributes
@@ -390,6 +482,28 @@ class MachineBranch:
     def __len__(self) -> int:
         return len(self.parameter)
 
+    def to_dict(self) -> dict[str, Any]:
+        """The points and the events as lists of objects."""
+        events = ("kind", "parameter", "point", "label", "stop")
+        columns = zip(*(getattr(self, f"event_{name}").tolist() for name in events))
+        table = {name: of.tolist() for name, of in self._table().items()}
+        return {
+            "vary": self.vary,
+            "points": [dict(zip(table, row)) for row in zip(*table.values())],
+            "events": [dict(zip(events, row)) for row in columns],
+        }
+
+    def _table(self) -> dict[str, Any]:
+        """One row for each point."""
+        modulus = np.abs(self.multipliers).max(axis=1) if len(self) else np.empty(0)
+        return {self.vary: self.parameter, "label": self.label, "stable": self.stable, "speed": self.speed, "multiplier": modulus}
+
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
+        """Draw the largest speed of a closing: solid if stable, dashed if unstable, with the events."""
+        from vibroimpact import _machine_plots
+
+        return _machine_plots.branch(self, ax)
+
 
 def branch(found: Mapping[str, Any]) -> MachineBranch:
     """Of the JSON object."""
@@ -420,7 +534,7 @@ def branch(found: Mapping[str, Any]) -> MachineBranch:
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class MachineCurve:
+class MachineCurve(Result):
     """A curve of an event of an orbit of a machine in a plane of two numbers, from one end to the other.
 
     Attributes
@@ -474,6 +588,29 @@ class MachineCurve:
 
     def __len__(self) -> int:
         return len(self.values)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The points and the events as lists."""
+        events = zip(self.event_kind.tolist(), self.event_stop.tolist(), self.event_point.tolist())
+        return {
+            "kind": self.kind,
+            "label": self.label,
+            "of": list(self.of),
+            "parameters": list(self.parameters),
+            "values": self.values.tolist(),
+            "events": [{"kind": kind, "stop": stop, "point": point} for kind, stop, point in events],
+        }
+
+    def _table(self) -> dict[str, Any]:
+        """One row for each point."""
+        p, q = self.parameters
+        return {p: self.values[:, 0], q: self.values[:, 1], "residual": self.residual}
+
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
+        """Draw the curve in its plane, with its points of codimension two."""
+        from vibroimpact import _machine_plots
+
+        return _machine_plots.curve(self, ax)
 
 
 def curve(found: Mapping[str, Any]) -> MachineCurve:
@@ -533,7 +670,7 @@ def _in_axes(values: NDArray[Any], axes: Mapping[str, _Floats]) -> NDArray[Any]:
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class MachineBasin:
+class MachineBasin(Result):
     """The motion to which each start of a grid leads.
 
     Attributes
@@ -570,10 +707,26 @@ class MachineBasin:
 
         return xr.DataArray(self.labels, coords=self.axes, dims=list(self.axes), name="label", attrs={"plan": self.plan})
 
+    def to_dict(self) -> dict[str, Any]:
+        """The motions as in the JSON of the command, and the number of the motion of each start."""
+        axes = {path: of.tolist() for path, of in self.axes.items()}
+        return {"axes": axes, "motions": [of.to_dict() for of in self.motions], "cells": self.cells.tolist()}
 
-def basin(found: Mapping[str, Any]) -> MachineBasin:
+    def _table(self) -> dict[str, Any]:
+        """One row for each start."""
+        places = np.meshgrid(*self.axes.values(), indexing="ij")
+        return {**{path: of.ravel() for path, of in zip(self.axes, places)}, "label": self.labels.ravel()}
+
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
+        """Draw the motions over two axes, in colours."""
+        from vibroimpact import _machine_plots
+
+        return _machine_plots.cells(self.axes, self.labels, self.plan, ax, motion_of=self.cells)
+
+
+def basin(found: Mapping[str, Any], machine: Any) -> MachineBasin:
     """Of the JSON object."""
-    axes, (motions, share, count) = _coordinates(found), _shared(found)
+    axes, (motions, share, count) = _coordinates(found), _shared(found, machine)
     flat = np.array([-1 if cell is None else cell for cell in found["cells"]], dtype=np.int64)
     cells = _in_axes(flat, axes)
     labels = np.array([*(motion.label for motion in motions), "refused"], dtype=np.str_)[cells]
@@ -581,7 +734,7 @@ def basin(found: Mapping[str, Any]) -> MachineBasin:
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class MachineMap:
+class MachineMap(Result):
     """The motions at each point of a grid of numbers of a machine.
 
     Attributes
@@ -612,6 +765,25 @@ class MachineMap:
         dims = [*self.axes, "motion"]
         variables = {"label": (dims, self.labels), "share": (dims, self.share)}
         return xr.Dataset(variables, coords=self.axes, attrs={"plan": self.plan})
+
+    def to_dict(self) -> dict[str, Any]:
+        """The labels and shares at each point."""
+        axes = {path: of.tolist() for path, of in self.axes.items()}
+        return {"axes": axes, "labels": self.labels.tolist(), "share": self.share.tolist()}
+
+    def _table(self) -> dict[str, Any]:
+        """One row for each motion at each point."""
+        count = np.arange(self.labels.shape[-1])
+        places = np.meshgrid(*self.axes.values(), count, indexing="ij")
+        there = self.labels.ravel() != ""
+        columns = {path: of.ravel()[there] for path, of in zip(self.axes, places)}
+        return {**columns, "label": self.labels.ravel()[there], "share": self.share.ravel()[there]}
+
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
+        """Draw the motions over two numbers, in colours, or their shares over one."""
+        from vibroimpact import _machine_plots
+
+        return _machine_plots.cells(self.axes, self.labels, self.plan, ax, share=self.share)
 
 
 def mapped(found: Mapping[str, Any], cells: list[list[tuple[str, float]]]) -> MachineMap:

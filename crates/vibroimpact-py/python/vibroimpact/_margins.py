@@ -7,6 +7,8 @@ from typing import Any, NamedTuple
 from vibroimpact import _core
 from vibroimpact._core import Oscillator
 from vibroimpact._motion import Motion, fields_of
+from vibroimpact._progress import Progress, watched
+from vibroimpact._result import Result
 from vibroimpact._whole import LINES, whole
 
 
@@ -89,7 +91,7 @@ class MotionBox:
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class Margins:
+class Margins(Result):
     """The distances of a motion from the events that end or change it, and a box of parameters in which it was found.
 
     Attributes
@@ -122,6 +124,17 @@ class Margins:
         end = getattr(self.parameters[name], direction)
         return f"<Margins of {self.motion.label}, nearest {end.event['kind']} at {name} {end.at:.6g}>"
 
+    def _table(self) -> dict[str, Any]:
+        """One row for each direction of each parameter."""
+        ends = [(of, name, getattr(of, name)) for of in self.parameters.values() for name in ("down", "up")]
+        return {
+            "parameter": [of.parameter for of, _, _ in ends],
+            "value": [of.value for of, _, _ in ends],
+            "direction": [name for _, name, _ in ends],
+            **{name: [getattr(end, name) for _, _, end in ends] for name in ("limit", "at", "distance", "relative")},
+            "event": [None if end.event is None else end.event["kind"] for _, _, end in ends],
+        }
+
     def to_dict(self) -> dict[str, Any]:
         """The fields of the JSON of the command; numbers that are not finite are None."""
         return {
@@ -143,6 +156,7 @@ def margins(
     scale: Mapping[str, float] | None = None,
     within: float = 2.0,
     lines: int = 200,
+    progress: Progress = None,
 ) -> Margins:
     """Find how far a periodic motion is from the events that end or change it.
 
@@ -167,6 +181,8 @@ def margins(
         a restitution from 0 to 1.
     lines : int
         Number of lines to scattered points of the surface of the box, besides those to the centres of its faces and to its corners.
+    progress : bool or callable
+        True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
 
     Examples
     --------
@@ -185,7 +201,9 @@ def margins(
     if unknown:
         raise _core.QuestionError(f"the scale of {unknown[0]} has no effect: it does not vary\nhint: vary has its name")
     varied = [(name, scales.get(name)) for name in names]
-    found = _core.margins(osc, (x, v, phase), label, varied, within, whole("lines", lines, LINES))
+    lines = whole("lines", lines, LINES)
+    with watched(progress, "margins") as tell:
+        found = _core.margins(osc, (x, v, phase), label, varied, within, lines, tell)
     return Margins(
         osc=osc,
         motion=Motion(**fields_of(osc, found["motion"])),

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from vibroimpact import _core
 from vibroimpact._core import Oscillator
 from vibroimpact._cycle import Cycle, finite, pairs
+from vibroimpact._result import Result
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -19,7 +20,7 @@ _SHOWN = 6
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class Motion:
+class Motion(Result):
     """The result of settling a motion.
 
     Attributes
@@ -109,13 +110,6 @@ class Motion:
     def _remark(self) -> str:
         return ""
 
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Motion):
-            return NotImplemented
-        return self.osc == other.osc and self.to_dict() == other.to_dict()
-
-    __hash__ = None  # type: ignore[assignment]
-
     def to_dict(self) -> dict[str, Any]:
         """The fields of the JSON of the command; numbers that are not finite are None."""
         fields: dict[str, Any] = {
@@ -157,6 +151,10 @@ class Motion:
         if self.quantities_error is not None:
             fields["quantities_error"] = dict(self.quantities_error)
         return fields
+
+    def _table(self) -> dict[str, Any]:
+        """One row for each impact of the cycle."""
+        return self.cycle._table()
 
     def start(self) -> tuple[float, float, float]:
         """A start on the motion: position, velocity and phase just after the first impact of its cycle."""

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from vibroimpact import _core
 from vibroimpact._core import Oscillator
 from vibroimpact._motion import Motion, fields_of
+from vibroimpact._progress import Progress, watched
 
 
 
@@ -49,7 +50,7 @@ class Orbit(Motion):
         return {**Motion.to_dict(self), "physical": self.physical, "earlier_contact": earlier}
 
 
-def orbits(osc: Oscillator, label: str) -> list[Orbit]:
+def orbits(osc: Oscillator, label: str, *, progress: Progress = None) -> list[Orbit]:
     """Find the periodic orbits with m impacts in n forcing periods, stable or not. The fastest one comes last.
 
     Orbits are searched by Newton's method from many seeds; orbits 1/n are also computed in closed form. An orbit to which
@@ -62,6 +63,8 @@ def orbits(osc: Oscillator, label: str) -> list[Orbit]:
         The system.
     label : str
         "m/n", "inf/n", or "0" for the motion without impacts.
+    progress : bool or callable
+        True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
 
     Examples
     --------
@@ -72,7 +75,8 @@ def orbits(osc: Oscillator, label: str) -> list[Orbit]:
     >>> [orbit for orbit in orbits(osc, "1/2") if orbit.physical and orbit.stable]
     [<Orbit 1/2, stable>]
     """
-    found = _core.orbits(osc, label)
+    with watched(progress, "searches") as tell:
+        found = _core.orbits(osc, label, tell)
     return [
         Orbit(
             **fields_of(osc, fields),

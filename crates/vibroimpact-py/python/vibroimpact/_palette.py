@@ -2,11 +2,18 @@
 
 The series are the set of M. Okabe and K. Ito, "Color Universal Design" (2002, 2008), https://jfly.uni-koeln.de/color/.
 Motions of one group have similar colours: m/1 light to dark blue, 1/n yellow to red-brown, other periodic motions green, chatter pink.
+The labels of a group with several labels have its colour and its shades in turn.
 """
 
-from vibroimpact._tables import CLASSES, GROUP_RULES, LEGEND, SERIES
+from collections.abc import Iterable
 
-__all__ = ["CLASSES", "LEGEND", "SERIES", "class_colour", "legend_group"]
+from vibroimpact._tables import CLASSES, GROUP_RULES, LEGEND, SERIES, SHADES
+
+#: Groups that hold several labels, and the largest number of them that a legend names.
+_SEVERAL = ("m/1", "1/n", "k/k", "m/n", "inf/n", "other")
+_NAMED = 4
+
+__all__ = ["CLASSES", "LEGEND", "SERIES", "class_colour", "legend_group", "legend_text"]
 
 
 def legend_group(label: str) -> str:
@@ -25,6 +32,24 @@ def legend_group(label: str) -> str:
     return "other"
 
 
+def legend_text(group: str, labels: Iterable[str]) -> str:
+    """The words of a legend for the motions of a group. A group of several labels names those that are there, the most common
+    first as given; with very many it names some."""
+    there = [label.replace("inf", "∞") for label in dict.fromkeys(labels)]
+    if group not in _SEVERAL or not there:
+        return LEGEND[group]
+    if len(there) <= _NAMED:
+        return ", ".join(there)
+    return f"{', '.join(there[:_NAMED])} and {len(there) - _NAMED} more"
+
+
 def class_colour(label: str) -> str:
     """The colour of the label of a motion, the same in every figure."""
-    return CLASSES[legend_group(label)]
+    if label in CLASSES:
+        return CLASSES[label]
+    group = legend_group(label)
+    if group not in SHADES:
+        return CLASSES[group]
+    impacts, _, periods = label.partition("/")
+    number = ((0 if impacts == "inf" else int(impacts)) + 2 * int(periods)) % 5
+    return (CLASSES[group], *SHADES[group])[number]

@@ -10,9 +10,11 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from vibroimpact import _core
-from vibroimpact._axis import Axis, Interval, axes, beside, interval, span
+from vibroimpact._axis import Axis, Interval, axes, beside, even, interval
 from vibroimpact._core import Oscillator
 from vibroimpact._machine import Machine
+from vibroimpact._over import Points, points
+from vibroimpact._sample import Sample
 from vibroimpact._whole import BUDGET, KEEP, MEASURED, POINT_STARTS, REFINE, SEED, STARTS, TILE, TRANSIENT, maybe, whole
 
 #: Version of the fields of a plan.
@@ -24,7 +26,7 @@ class Plan:
     """A checked plan: a system and a task. It can be run on any machine, stored, and run again from its results.
 
     The command, a TOML file and Python build the same plans. The plans of this class fill a grid. They are made by `map`,
-    `basin`, `diagram`, `lyapunov` and `attractors`, or read from a file by `read`.
+    `basin`, `samples`, `diagram`, `lyapunov` and `attractors`, or read from a file by `read`.
 
     Attributes
     ----------
@@ -94,7 +96,7 @@ class Plan:
             "seed": whole("seed", seed, SEED),
             "refine": maybe("refine", refine, REFINE),
             "impacts": maybe("impacts", impacts, BUDGET),
-            "fields": _names(fields),
+            "fields": names(fields),
         }
         return cls._of(osc, "map", task, tile)
 
@@ -122,13 +124,53 @@ class Plan:
             "axes": axes(over),
             "refine": maybe("refine", refine, REFINE),
             "impacts": maybe("impacts", impacts, BUDGET),
-            "fields": _names(fields),
+            "fields": names(fields),
         }
         if isinstance(osc, Machine):
             _absent("a machine has q and qdot", x=x, v=v)
             return cls._of(osc, "basin", task, tile, osc.start_of(q, qdot, phase))
         _absent("an oscillator has x and v", q=q, qdot=qdot)
         return cls._of(osc, "basin", {**task, "start": _start(x, v or 0.0, phase or 0.0)}, tile)
+
+    @classmethod
+    def samples(
+        cls,
+        systems: "Oscillator | Points",
+        *,
+        over: "Points | None" = None,
+        starts: "Points | None" = None,
+        fields: Sequence[str] = (),
+        transient: bool = False,
+        impacts: int | None = None,
+        tile: int | None = None,
+    ) -> "Plan":
+        """A plan for the motions at points of systems and starts; the arguments are those of `settle_many`.
+
+        The plan of a `Sample` keeps how its points are drawn; that of arrays keeps them.
+        """
+        given = {"systems": systems, "over": over, "starts": starts}
+        drawn = {name: of for name, of in given.items() if isinstance(of, Sample)}
+        if len(drawn) > 1:
+            raise _core.QuestionError(f"{' and '.join(drawn)} are two samples\nhint: one sample of all that varies")
+        asked = {name: of.low() if isinstance(of, Sample) else of for name, of in given.items()}
+        all_ = points(asked["systems"], asked["over"], asked["starts"])
+        if drawn:
+            if all_.sizes:
+                raise _core.QuestionError("a sample and arrays are two sets of points\nhint: the arrays of the sample, dict(sample)")
+            of_points: dict[str, Any] = {"drawn": next(iter(drawn.values())).to_dict()}
+            varied = set(next(iter(drawn.values())))
+        else:
+            of_points = {"listed": [{"vary": name, "values": of.tolist()} for name, of in all_.columns]}
+            varied = {name for name, _ in all_.columns}
+        start = {name: of for name, of in zip(("x", "v", "phase"), all_.start) if name not in varied}
+        task = {
+            "points": of_points,
+            "start": {name: of for name, of in start.items() if of is not None},
+            "impacts": maybe("impacts", impacts, BUDGET),
+            "fields": names(fields),
+            "transient": True if transient else None,
+        }
+        return cls._of(all_.osc, "basin", task, tile)
 
     @classmethod
     def diagram(
@@ -164,7 +206,7 @@ class Plan:
         line = {} if second is None else {"also": dict(zip(("parameter", "from", "to"), (second[0], *interval(second[1]))))}
         task = {
             "vary": vary,
-            "over": span(over),
+            "over": even(over),
             **line,
             "show": show,
             "direction": way,
@@ -242,7 +284,8 @@ def _known(what: str, given: str, known: tuple[str, ...]) -> None:
         raise _core.QuestionError(f"{what} = `{given}` is none of {', '.join(known)}")
 
 
-def _names(fields: Sequence[str]) -> list[str] | None:
+def names(fields: Sequence[str]) -> list[str] | None:
+    """A list of names of quantities, or None if it is empty."""
     if isinstance(fields, str):
         raise _core.QuestionError(f"fields = `{fields}` is one text\nhint: a list of names, fields=[\"{fields}\"]")
     return [str(name) for name in fields] or None

@@ -37,9 +37,16 @@ def _line(ds: "xr.Dataset") -> list[str]:
 
 def _numbers(ds: "xr.Dataset") -> dict[str, str]:
     known = [numbers for name, numbers in _NUMBERS.items() if name in ds]
-    # a coordinate or velocity of a machine, by its path
-    paths = (str(name) for name in ds.data_vars if str(name).startswith(("q.", "qdot.")))
-    return known[0] if known else {path: path for path in paths}
+    # what is shown of a machine, by its path
+    path = shown_path(ds)
+    return known[0] if known else {path: path}
+
+
+def shown_path(ds: "xr.Dataset") -> str:
+    """The path of the coordinate, velocity or quantity that a diagram of a machine shows; empty if it shows none."""
+    task = json.loads(ds.attrs.get("plan", "{}")).get("task", {})
+    shown = str(task.get("diagram", {}).get("show", ""))
+    return shown if shown in ds.data_vars and shown != "speed" else ""
 
 
 def _stops(ds: "xr.Dataset") -> "np.ndarray[Any, Any]":

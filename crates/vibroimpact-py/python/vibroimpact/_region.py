@@ -13,6 +13,8 @@ from vibroimpact._core import Oscillator
 from vibroimpact._figure import named, new_axes
 from vibroimpact._palette import class_colour
 from vibroimpact._plane import broken, frame
+from vibroimpact._progress import Progress, watched
+from vibroimpact._result import Result
 from vibroimpact._tables import BOUND_STYLES
 from vibroimpact._whole import GRID, THREADS, whole
 
@@ -21,7 +23,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class Polygon:
+class Polygon(Result):
     """A closed polygon; the last vertex is joined to the first.
 
     Attributes
@@ -41,6 +43,10 @@ class Polygon:
     hole: bool
     sheet: str
 
+    def _table(self) -> dict[str, Any]:
+        """One row for each vertex, with the boundary that begins there."""
+        return {"first": self.vertices[:, 0], "second": self.vertices[:, 1], "bound": self.bounds}
+
     def __repr__(self) -> str:
         return f"<Polygon of {len(self.vertices)} vertices{', a hole' if self.hole else ''}>"
 
@@ -50,7 +56,7 @@ class Polygon:
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class Part:
+class Part(Result):
     """The region where a motion exists, or where it is stable.
 
     Attributes
@@ -67,6 +73,10 @@ class Part:
     def __repr__(self) -> str:
         return f"<Part of {len(self.polygons)} polygons>"
 
+    def _table(self) -> dict[str, Any]:
+        """One row for each vertex of each polygon."""
+        return _vertices([("", self)], ("first", "second"))
+
     def contains(self, first: ArrayLike, second: ArrayLike) -> NDArray[np.bool_]:
         """Whether points lie in the region. The arguments are the values of the two parameters; the result has their shape."""
         p, q = np.broadcast_arrays(numbers("values", first), numbers("values", second))
@@ -80,7 +90,7 @@ class Part:
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class Region:
+class Region(Result):
     """The regions of existence and stability of a motion in a plane.
 
     Attributes
@@ -114,6 +124,10 @@ class Region:
         parts = f"existence {len(self.existence.polygons)}, stability {len(self.stability.polygons)} polygons"
         return f"<Region of {self.label} over {self.parameters[0]} and {self.parameters[1]}: {parts}>"
 
+    def _table(self) -> dict[str, Any]:
+        """One row for each vertex of the polygons of both regions."""
+        return _vertices([("existence", self.existence), ("stability", self.stability)], self.parameters)
+
     def plot(self, ax: "Axes | None" = None) -> "Axes":
         """Draw both regions. The colour of an edge shows the kind of boundary."""
         return _draw(self, ax)
@@ -127,6 +141,17 @@ class Region:
             "existence": self.existence.to_dict(),
             "stability": self.stability.to_dict(),
         }
+
+
+def _vertices(parts: "list[tuple[str, Part]]", names: tuple[str, str]) -> dict[str, Any]:
+    """The vertices of all polygons as columns."""
+    table: dict[str, list[Any]] = {name: [] for name in ("region", "polygon", "hole", *names, "bound")}
+    for region_, part in parts:
+        for k, polygon in enumerate(part.polygons):
+            for (p, q), bound in zip(polygon.vertices.tolist(), polygon.bounds):
+                for name, value in zip(table, (region_, k, polygon.hole, p, q, bound)):
+                    table[name].append(value)
+    return table
 
 
 def _draw(of: Region, ax: "Axes | None") -> "Axes":
@@ -175,7 +200,13 @@ def _fill(ax: "Axes", part: Part, colour: str) -> None:
 
 
 def region(
-    osc: Oscillator, label: str, over: Mapping[str, Interval], *, grid: int = 24, threads: int = 0
+    osc: Oscillator,
+    label: str,
+    over: Mapping[str, Interval],
+    *,
+    grid: int = 24,
+    threads: int = 0,
+    progress: Progress = None,
 ) -> Region:
     """Find the regions of a plane of two parameters in which the motion m/n exists and is stable, as closed polygons.
 
@@ -194,6 +225,8 @@ def region(
         Number of points of the grid in each direction, 2 to 400. Parts of the region between its points may be missed.
     threads : int
         Number of threads; 0 for one per core.
+    progress : bool or callable
+        True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
 
     Examples
     --------
@@ -205,7 +238,8 @@ def region(
     """
     first, second = plane(over)
     grid, threads = whole("grid", grid, GRID), whole("threads", threads, THREADS)
-    existence, stability, neutral, plan = _core.region(osc, label, first, second, grid, threads)
+    with watched(progress, "regions") as tell:
+        existence, stability, neutral, plan = _core.region(osc, label, first, second, grid, threads, tell)
     parts = [
         Part([Polygon(v, b, hole, "below" if below else "above") for v, b, hole, below in polygons], unresolved)
         for polygons, unresolved in (existence, stability)

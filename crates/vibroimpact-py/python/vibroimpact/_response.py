@@ -8,11 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact import _core
-from vibroimpact._axis import Axis, span
+from vibroimpact._axis import Axis, even
 from vibroimpact._core import Oscillator
 from vibroimpact._cycle import finite
 from vibroimpact._figure import Scale, legend, named, new_axes, title
 from vibroimpact._palette import SERIES
+from vibroimpact._progress import Progress, watched
+from vibroimpact._result import Result
 from vibroimpact._whole import BUDGET, maybe
 
 if TYPE_CHECKING:
@@ -23,7 +25,7 @@ _USABLE = 6
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class ResponseCurve:
+class ResponseCurve(Result):
     """The motions of a sweep, or the points of a branch from one end to the other.
 
     Attributes
@@ -47,12 +49,17 @@ class ResponseCurve:
     def __len__(self) -> int:
         return len(self.parameter)
 
+    def _table(self) -> dict[str, Any]:
+        """One row for each motion."""
+        names = ("parameter", "label", "stable", "physical")
+        return {**{name: getattr(self, name) for name in names}, **self.quantities}
+
     def __repr__(self) -> str:
         return f"<ResponseCurve with {len(self)} points: {', '.join(dict.fromkeys(self.label.tolist()))}>"
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class Response:
+class Response(Result):
     """A quantity of all motions over one parameter.
 
     Attributes
@@ -83,6 +90,14 @@ class Response:
     def __repr__(self) -> str:
         count = len(self.branches)
         return f"<Response of {self.quantity} over {self.vary}: {len(self.up)} values, {count} branch{'' if count == 1 else 'es'}>"
+
+    def _table(self) -> dict[str, Any]:
+        """One row for each motion of the sweeps and each point of the branches."""
+        curves = [("up", self.up), ("down", self.down), *((f"branch {k + 1}", of) for k, of in enumerate(self.branches))]
+        tables = [(name, of._table()) for name, of in curves]
+        joined = {name: np.concatenate([table[name] for _, table in tables]) for name in tables[0][1]}
+        of = np.repeat([name for name, _ in tables], [len(curve) for _, curve in curves])
+        return {"curve": of, self.vary: joined.pop("parameter"), **joined}
 
     def to_dict(self) -> dict[str, Any]:
         """The fields of the JSON of the command; numbers that are not finite are None."""
@@ -163,6 +178,7 @@ def response(
     *,
     quantity: str = "displacement_amplitude",
     impacts: int | None = None,
+    progress: Progress = None,
 ) -> Response:
     """Compute the response over a parameter, such as the frequency.
 
@@ -184,6 +200,8 @@ def response(
         The quantity that is drawn; all are computed. `Motion.quantities` has the names.
     impacts : int
         Budget of impacts for the motion at each value. Motions that have not settled by then are undecided.
+    progress : bool or callable
+        True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
 
     Examples
     --------
@@ -194,7 +212,8 @@ def response(
     ('1/1', '2/1', 1)
     """
     budget = maybe("impacts", impacts, BUDGET)
-    found = _core.response(osc, vary, span(over), quantity.replace("-", "_"), budget)
+    with watched(progress, "motions") as tell:
+        found = _core.response(osc, vary, even(over), quantity.replace("-", "_"), budget, tell)
 
     def curve(fields: dict[str, Any]) -> ResponseCurve:
         values = fields["values"]

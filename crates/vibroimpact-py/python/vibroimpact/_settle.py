@@ -1,6 +1,9 @@
 """Settling of motions, from one start or from arrays of starts."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from os import PathLike
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -10,8 +13,15 @@ from vibroimpact._attractors import Attractor
 from vibroimpact._axis import numbers
 from vibroimpact._core import Oscillator
 from vibroimpact._motion import Motion, fields_of
+from vibroimpact._over import Points
 from vibroimpact._progress import Progress, watched
+from vibroimpact._result import Result
 from vibroimpact._whole import BUDGET, THREADS, maybe, whole
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from distributed import Client
+    from matplotlib.axes import Axes
 
 
 def settle(
@@ -42,7 +52,7 @@ def settle(
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class Settlement:
+class Settlement(Result):
     """The motions to which many starts lead.
 
     Attributes
@@ -62,6 +72,21 @@ class Settlement:
     def __repr__(self) -> str:
         return f"<Settlement of {self.cells.size} starts: {', '.join(m.label for m in self.motions)}>"
 
+    def _table(self) -> dict[str, Any]:
+        """One row for each motion."""
+        names = ("label", "kind", "stable", "impacts", "periods", "share", "count")
+        return {name: [getattr(motion, name) for motion in self.motions] for name in names}
+
+    def to_dict(self) -> dict[str, Any]:
+        """The motions as in the JSON of the command, and the number of the motion of each start."""
+        return {"motions": [motion.to_dict() for motion in self.motions], "cells": self.cells.tolist()}
+
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
+        """Draw the shares as bars."""
+        from vibroimpact import _figure
+
+        return _figure.shares(_figure.title(self.osc), [(motion.label, motion.share) for motion in self.motions], ax)
+
     @property
     def labels(self) -> NDArray[np.str_]:
         """The label of the motion of each start, in the shape of the starts."""
@@ -69,40 +94,161 @@ class Settlement:
         return names[self.cells]
 
 
+@overload
 def settle_many(
-    osc: Oscillator,
+    systems: Oscillator,
     x: ArrayLike,
     v: ArrayLike = 0.0,
     phase: ArrayLike = 0.0,
     *,
     threads: int = 0,
     progress: Progress = None,
-) -> Settlement:
-    """Follow the motions from many starts until they have settled.
+) -> Settlement: ...
 
-    Arrays of doubles are not copied; other arrays are converted. The result does not depend on the number of threads.
+
+@overload
+def settle_many(
+    systems: "Oscillator | Points",
+    *,
+    over: "Points | None" = None,
+    starts: "Points | None" = None,
+    fields: Sequence[str] = (),
+    transient: bool = False,
+    impacts: int | None = None,
+    store: str | PathLike[str] | None = None,
+    client: "Client | None" = None,
+    tile: int | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> "xr.Dataset": ...
+
+
+def settle_many(
+    systems: "Oscillator | Points",
+    x: ArrayLike | None = None,
+    v: ArrayLike = 0.0,
+    phase: ArrayLike = 0.0,
+    *,
+    over: "Points | None" = None,
+    starts: "Points | None" = None,
+    fields: Sequence[str] = (),
+    transient: bool = False,
+    impacts: int | None = None,
+    store: str | PathLike[str] | None = None,
+    client: "Client | None" = None,
+    tile: int | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> "Settlement | xr.Dataset":
+    """Follow many motions until they have settled: from many starts, of many systems.
+
+    Systems and starts are names with arrays that broadcast against each other, tables of pandas or Datasets of xarray,
+    whose dimensions are kept. The result does not depend on the number of threads. Starts of one system are followed side
+    by side. Positions `x` as the second argument give a `Settlement` with the motions of one system, and no Dataset.
 
     Parameters
     ----------
-    osc : Oscillator
-        The system.
+    systems : Oscillator, mapping, DataFrame or Dataset
+        The system, or values of "inverse_beta" or "beta", "gap", "restitution", "damping", "second_gap",
+        "second_restitution"; of "x", "v" and "phase" too.
     x, v, phase : array_like
         Positions, velocities and phases, broadcast to one shape.
+    over : mapping, DataFrame or Dataset
+        Values of parameters instead of those of an oscillator; of a machine in physical units also "force_n" and others.
+    starts : mapping, DataFrame or Dataset
+        Values of "x", "v" and "phase". Default: at rest, or on the stop, at phase 0.
+    fields : sequence of str
+        Quantities of each motion as further variables, as for `basin`.
+    transient : bool
+        Whether to count the impacts until each motion was decided. Many starts of one system take longer then.
+    impacts : int
+        Budget of impacts for each start. Motions that have not settled by then are undecided.
+    store, client, tile
+        As for `basin`. In a store the points are one dimension, `sample`, whatever shape the arrays have.
     threads : int
         Number of threads; 0 for one per core.
     progress : bool or callable
         True for a progress bar, or a function called with the amounts done and in total.
+
+    Returns
+    -------
+    xarray.Dataset
+        `label` (codes, which `ds.vibro.labels()` converts to text), `impacts` m and `periods` n of the motion m/n, the
+        `reason` of the verdict, and what `fields` and `transient` ask for. For several systems the Floquet multipliers of
+        each motion, `multiplier_1_re`, `multiplier_1_im` and `multiplier_2_...`, the larger first; for one system `cycle`,
+        and the cycles in the tables `cycle_...`, as of `basin`.
 
     Examples
     --------
     >>> import numpy as np
     >>> from vibroimpact import Oscillator, settle_many
     >>> osc = Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5)
+    >>> ds = settle_many({"inverse_beta": [1.3, 1.8], "gap": [0.75, 0.25], "restitution": 0.5}, starts={"v": 0.5})
+    >>> ds.vibro.labels().values.tolist(), ds["impacts"].values.tolist()
+    (['2/1', '4/1'], [2.0, 4.0])
     >>> found = settle_many(osc, np.linspace(-4, 0.75, 5), 0.0)
     >>> found.labels.tolist()
     ['1/1', '1/1', '1/1', '1/1', '2/1']
     """
-    columns = [numbers(name, of) for name, of in (("x", x), ("v", v), ("phase", phase))]
+    threads = whole("threads", threads, THREADS)
+    if x is None:
+        if any(np.ndim(of) > 0 or of != 0.0 for of in (v, phase)):
+            raise TypeError('velocities and phases without positions are written starts={"v": ..., "phase": ...}')
+        if store is None and client is None and tile is None:
+            budget = maybe("impacts", impacts, BUDGET)
+            return _of_points((systems, over, starts), (budget, fields, transient), threads, progress)
+        from vibroimpact import _grid, _many
+        from vibroimpact._plan import Plan
+
+        plan = Plan.samples(
+            systems, over=over, starts=starts, fields=fields, transient=transient, impacts=impacts, tile=tile
+        )
+        units = systems.units if isinstance(systems, Oscillator) else None
+        return _many.with_whole_numbers(_grid.computed(plan, units, store, client, threads, progress))
+    if over is not None or starts is not None or len(fields) or transient or impacts is not None or store is not None:
+        raise TypeError("x as the second argument has no over, starts, fields, transient, impacts and store: write starts={\"x\": ...}")
+    if not isinstance(systems, Oscillator):
+        raise TypeError("x as the second argument is for one Oscillator: write starts={\"x\": ...}")
+    return _of_starts(systems, (x, v, phase), threads, progress)
+
+
+def _of_points(
+    asked: "tuple[Oscillator | Points, Points | None, Points | None]",
+    options: tuple[int | None, Sequence[str], bool],
+    threads: int,
+    progress: Progress,
+) -> "xr.Dataset":
+    """The motions at points of systems and starts."""
+    from vibroimpact import _many, _over
+    from vibroimpact._plan import names
+    from vibroimpact._unit_names import attributes_of
+
+    over = _over.points(*asked)
+    impacts, fields, transient = options
+    with watched(progress, "starts") as tell:
+        found = _core.settle_points(
+            over.osc, over.columns, over.start, (impacts, names(fields) or [], bool(transient)), threads, tell
+        )
+    variables = {}
+    for of in found:
+        (first, _), *further = of["dimensions"] or [("", 0)]
+        if first == _over.POINT:
+            dims, values = _many.over_points(over, of["values"], further)
+        else:
+            dims, values = [name for name, _ in of["dimensions"]], of["values"]
+            values = np.array(values, dtype=object) if isinstance(values, list) else values
+            values = values.reshape([size for _, size in of["dimensions"]])
+        variables[of["name"]] = (dims, values, attributes_of(of))
+        if of["name"] == "label":
+            variables |= _many.whole_numbers(dims, values)
+    return _many.dataset(over, "motions an impact oscillator settles into", variables)
+
+
+def _of_starts(
+    osc: Oscillator, given: tuple[ArrayLike, ArrayLike, ArrayLike], threads: int, progress: Progress
+) -> Settlement:
+    """The motions of one system from arrays of starts. Arrays of doubles are not copied."""
+    columns = [numbers(name, of) for name, of in zip(("x", "v", "phase"), given)]
     shape = np.broadcast_shapes(*(column.shape for column in columns))
     size = int(np.prod(shape))
     # the compiled module accepts one number or a full column; only partly broadcast arrays must be expanded
@@ -114,7 +260,6 @@ def settle_many(
     ]
     if size > 0 and all(column.size == 1 for column in flat):
         flat[0] = np.ascontiguousarray(np.broadcast_to(flat[0], (size,)))
-    threads = whole("threads", threads, THREADS)
     with watched(progress, "starts") as tell:
         found, cells = _core.settle_many(osc, flat[0], flat[1], flat[2], threads, tell)
     motions = [

@@ -85,6 +85,13 @@ def _scales(ds: "xr.Dataset", units: Units) -> tuple[Any, Any, Any]:
     import xarray as xr
 
     names = [str(name) for name in ds.coords if name in _core.machine_parameters()]
+    if "system" in ds.attrs and any(ds[name].ndim for name in names):
+        # points: the numbers of the machine vary together
+        columns = xr.broadcast(*(ds[name] for name in names))
+        flat = [of.values.astype(np.float64).reshape(-1).tolist() for of in columns]
+        scales = _core.scales_of_points(ds.attrs["system"], names, flat)
+        together = [xr.DataArray(np.reshape(of, columns[0].shape), dims=columns[0].dims) for of in scales]
+        return together[0], together[1], together[2]
     if not names or "plan" not in ds.attrs:
         return units.length_m, units.time_s, units.mass_kg
     values = [np.atleast_1d(np.asarray(ds[name].values, dtype=np.float64)) for name in names]

@@ -10,6 +10,8 @@ from vibroimpact import _core
 from vibroimpact._core import Oscillator
 from vibroimpact._cycle import SIDES, finite
 from vibroimpact._motion import horizon_object
+from vibroimpact._progress import Progress, watched
+from vibroimpact._result import Result
 from vibroimpact._whole import SIMULATED, maybe
 
 if TYPE_CHECKING:
@@ -20,7 +22,7 @@ _KINDS = np.array(["impact", "graze", "stick", "release"])
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class Simulation:
+class Simulation(Result):
     """The events of a motion as columns, and the reason why the list ends.
 
     Attributes
@@ -102,6 +104,11 @@ class Simulation:
             end["horizon"] = horizon_object(self.horizon)
         return {"events": self._events(), "end": end}
 
+    def _table(self) -> dict[str, Any]:
+        """One row for each event."""
+        names = ("time", "phase", "side", "velocity_before", "velocity_after", "depth", "chatter", "error")
+        return {"kind": self.kind, **{name: getattr(self, name) for name in names}}
+
     def _events(self) -> list[dict[str, Any]]:
         """One dict for each event. Each column is converted once, because access to single elements is slow."""
         names = ("time", "phase", "velocity_before", "velocity_after", "depth", "chatter", "error", "side")
@@ -129,6 +136,7 @@ def simulate(
     phase: float = 0.0,
     impacts: int | None = None,
     periods: float | None = None,
+    progress: Progress = None,
 ) -> Simulation:
     """Follow a motion event by event: impacts, grazing contacts, sticking and release.
 
@@ -146,6 +154,8 @@ def simulate(
         Stop after this number of impacts, 1 to 1e7. Default: 100, or 1e6 with `periods`.
     periods : float
         Stop after this number of forcing periods, up to 1e9.
+    progress : bool or callable
+        True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
 
     Examples
     --------
@@ -158,5 +168,7 @@ def simulate(
     True
     """
     start = (x, v, phase)
-    fields = _core.simulate(osc, start, maybe("impacts", impacts, SIMULATED), periods)
+    limit = maybe("impacts", impacts, SIMULATED)
+    with watched(progress, "impacts") as tell:
+        fields = _core.simulate(osc, start, limit, periods, tell)
     return Simulation(osc=osc, start=start, end=fields.pop("reason"), **fields)

@@ -78,10 +78,11 @@ def along(ds: "xr.Dataset", name: str) -> NDArray[np.float64]:
 
 def title(ds: "xr.Dataset", axes: tuple[str, ...]) -> str:
     """The title: the parameters from the coordinates, except those on the axes of the figure."""
-    plan = json.loads(ds.attrs["plan"]) if "plan" in ds.attrs else {}
+    plan = _question(ds)
     if "machine" in plan:
-        # a long title up to its first colon
-        return str(plan.get("title", "")).split(": ")[0]
+        # a long title up to its first colon, then what does not vary in the figure any more
+        first = str(plan.get("title", "")).split(": ")[0]
+        return ", ".join([first, *_of_machine(ds, axes, varied(plan))] if first else _of_machine(ds, axes, varied(plan)))
     lost = {name for name in varied(plan) if name not in ds.coords and name not in axes}
     given = "beta" if "beta" in plan.get("system", {}) else "inverse_beta"
     drawn = set(axes) | ({*_FREQUENCIES} if {*_FREQUENCIES} & set(axes) else set())
@@ -104,6 +105,32 @@ def title(ds: "xr.Dataset", axes: tuple[str, ...]) -> str:
                 one += f" {unit}" if unit else ""
                 said.append(one if len(known) == len(values) else f"{one} or none")
     return ", ".join(said)
+
+
+def _question(ds: "xr.Dataset") -> dict[str, Any]:
+    """The plan of a Dataset; of points, which have no plan, their system."""
+    if "plan" in ds.attrs:
+        plan: dict[str, Any] = json.loads(ds.attrs["plan"])
+        return plan
+    return {"system": json.loads(ds.attrs["system"])} if "system" in ds.attrs else {}
+
+
+def _of_machine(ds: "xr.Dataset", axes: tuple[str, ...], names: list[str]) -> list[str]:
+    """The numbers of a machine, or of a start, that vary in the plan and not in the figure."""
+    said = []
+    for name in names:
+        if name in axes:
+            continue
+        if name not in ds.coords:
+            said.append(f"{name} not known")
+            continue
+        values = np.unique(ds[name].values.astype(np.float64))
+        known = values[np.isfinite(values)]
+        if len(known) == 1:
+            said.append(f"{name} = {known[0]:.6g}")
+        elif len(known):
+            said.append(span(name, known[0], known[-1]))
+    return said
 
 
 def varied(plan: dict[str, Any]) -> list[str]:

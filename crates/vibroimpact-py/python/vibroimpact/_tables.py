@@ -17,7 +17,7 @@ SERIES = (
 )
 
 CLASSES = {
-    "0": "#e9e9e9",
+    "0": "#f2eecb",
     "1/1": "#9ad6ee",
     "2/1": "#3fa0d0",
     "3/1": "#1a6fb0",
@@ -29,11 +29,20 @@ CLASSES = {
     "k/k": "#d3e27a",
     "3/2": "#0b8f62",
     "m/n": "#7fd0a0",
-    "inf/n": "#f29bc1",
+    "inf/n": "#ee94bb",
     "chaotic": "#101010",
     "stuck": "#5e4636",
-    "undecided": "#ffffff",
-    "other": "#9a9a9a",
+    "undecided": "#e8eaee",
+    "other": "#8a8a80",
+}
+
+#: Further colours of groups: m/n has number (m + 2n) mod 5, where 0 is the colour of the group and infinitely many impacts count as 0.
+SHADES = {
+    "m/1": ("#bbacff", "#738dfb", "#5e4674", "#1c5ac0"),
+    "1/n": ("#bf5c40", "#ab544e", "#b5531d", "#650b00"),
+    "k/k": ("#bbca86", "#8ea035", "#bfcd55", "#ada95c"),
+    "m/n": ("#54f1d8", "#789c5d", "#4df7b5", "#59b281"),
+    "inf/n": ("#de75d3", "#9e668e", "#62394d", "#8a576b"),
 }
 
 #: The words of a legend.

@@ -13,6 +13,17 @@ def described(long_name: str, units: str, scale: str) -> dict[str, Any]:
     return {name: text for name, text in given.items() if text}
 
 
+def attributes_of(of: Mapping[str, Any]) -> dict[str, Any]:
+    """The attributes of a variable that the compiled module describes."""
+    attributes = described(of["long_name"], of["units"], of["scale"])
+    if of["comment"]:
+        attributes["comment"] = of["comment"]
+    if of["flags"]:
+        attributes["flag_values"] = [value for value, _ in of["flags"]]
+        attributes["flag_meanings"] = " ".join(meaning for _, meaning in of["flags"])
+    return attributes
+
+
 def unit_of(attributes: Mapping[Any, Any]) -> str:
     """The unit or the scale of a variable, as figures show it; empty for pure numbers and angles."""
     if scale := str(attributes.get("scale", "")):

@@ -40,6 +40,10 @@ NUMBER = Range(1)
 COUNT = Range(0, _UNSIGNED)
 #: Lines to scattered points of the surface of a box.
 LINES = Range(0, 100_000)
+#: Points of a sample.
+SAMPLES = Range(1, 1_000_000_000)
+#: Values of a range.
+SPAN = Range(1)
 
 #: The largest number of 32 bits, the size of most counts in a plan.
 _SMALL = 2**32 - 1

@@ -8,7 +8,7 @@ the scheduler. If a worker dies, its tiles are computed by others, and the store
 >>> from distributed import Client
 >>> from vibroimpact import dask
 >>> plan = vi.Plan.basin(vi.Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5), {"x": "-4:0.75:60"}, v=0.5, tile=20)
->>> with tempfile.TemporaryDirectory() as folder, Client(processes=False, dashboard_address=None) as client:
+>>> with tempfile.TemporaryDirectory() as folder, Client(processes=False, dashboard_address=":0") as client:
 ...     ran = dask.run(plan, folder + "/basin.zarr", client)
 >>> ran.computed, ran.left
 (3, 0)

@@ -1,0 +1,189 @@
+"""Figures of the answers about machines, with the looks of those of the oscillator."""
+
+import json
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact._core import QuestionError
+from vibroimpact._figure import legend, named, new_axes
+from vibroimpact._palette import SERIES
+from vibroimpact._tables import BRANCH_MARKS, CURVE_MARKS, EVENT_COLOURS
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+
+#: Minimum number of forcing periods, and number of cycles without forcing, in a figure of a motion.
+_PERIODS, _CYCLES = 6, 3
+#: Number of colours of lines; the others of the series are too light, or black.
+_USABLE = 6
+
+
+def title(plan: str) -> str:
+    """The title of the machine of a plan, up to its first colon."""
+    return str(json.loads(plan).get("title") or "machine").split(": ")[0]
+
+
+def motion(of: Any, axes: Any) -> "NDArray[Any]":
+    """Draw a motion over several periods, from a state on it."""
+    from vibroimpact import _machine_figure
+
+    if of.state is None:
+        raise QuestionError(f"the motion {of.label} has no cycle to draw\nhint: machine.simulate(...).plot() draws it from its start")
+    machine, (q, qdot, phase) = of._machine, of.state
+    if machine.period is None:
+        limits: dict[str, Any] = {"impacts": max(_CYCLES * len(of.cycle), 1)}
+    else:
+        turns = of.periods or 1
+        limits = {"periods": turns * max(2, -(-_PERIODS // turns))}
+    drawn = _machine_figure.draw(machine.simulate(q=q, qdot=qdot, phase=phase, **limits), axes)
+    heading = (machine.title or "machine").split(": ")[0]
+    drawn[0].set_title(f"{heading}: {named(of.label)}")
+    return drawn
+
+
+def exponents(of: Any, ax: "Axes | None") -> "Axes":
+    """Draw the exponents with their error bars."""
+    if not of.exponents:
+        raise QuestionError("there are no exponents: the motion ended before they could be measured")
+    ax = new_axes(ax, (6.4, 3.6))
+    places = np.arange(1, len(of.exponents) + 1)
+    values = np.array([one.value for one in of.exponents])
+    known = np.isfinite(values)
+    errors = np.nan_to_num([one.error for one in of.exponents])
+    ax.axhline(0, color="0.6", linewidth=0.8)
+    ax.errorbar(places[known], values[known], errors[known], fmt="o", color=SERIES[0], capsize=4,
+                label="exact" if of.exact else "three standard errors")
+    ax.set_xticks(places)
+    ax.set_xlabel("number of the exponent")
+    ax.set_ylabel("exponent per unit of time")
+    ax.set_title(f"{title(of.plan)}: {named(of.motion.label)}")
+    legend(ax)
+    return ax
+
+
+def _of_closings(of: Any) -> NDArray[np.bool_]:
+    closing: NDArray[np.bool_] = np.isin(of.cycle.kind, ("impact", "close"))
+    return closing
+
+
+def orbits(of: Any, ax: "Axes | None") -> "Axes":
+    """Draw the closings of each orbit: their speeds over the phase of the forcing."""
+    if not len(of):
+        raise QuestionError("there are no orbits to draw")
+    ax = new_axes(ax, (6.4, 4.2))
+    for k, one in enumerate(of):
+        at, words = _of_closings(one), "stable" if one.stable else "unstable"
+        colour = SERIES[k % _USABLE]
+        ax.plot(one.cycle.phase[at], one.cycle.speed[at], "o" if one.stable else "s", color=colour, markersize=7,
+                markerfacecolor=colour if one.stable else "white", label=f"{named(one.label)}, no. {k + 1}, {words}")
+    ax.set_xlim(0, 2 * np.pi)
+    ax.set_xlabel("phase of the forcing")
+    ax.set_ylabel("speed of closing")
+    ax.set_title(title(of.plan))
+    legend(ax)
+    return ax
+
+
+def branch(of: Any, ax: "Axes | None") -> "Axes":
+    """Draw the largest speed of a closing: solid if stable, dashed if unstable, with the events."""
+    ax = new_axes(ax, (7.6, 4.8))
+    colours: dict[str, str] = {}
+    looks = set()
+    for begin, end in _pieces(of):
+        label, stable = str(of.label[begin]), bool(of.stable[begin])
+        if label not in colours:
+            colours[label] = SERIES[len(colours) % _USABLE]
+            ax.plot([], [], color=colours[label], linewidth=1.8, label=named(label))
+        looks.add(stable)
+        # the curve goes on to the first point of the next piece
+        at = slice(begin, min(end + 1, len(of)))
+        ax.plot(of.parameter[at], of.speed[at], "-" if stable else "--", color=colours[label], linewidth=1.8)
+    for stable, dash, words in ((True, "-", "stable"), (False, "--", "unstable")):
+        if stable in looks:
+            ax.plot([], [], dash, color="black", label=words)
+    for kind in sorted(set(of.event_kind.tolist()) & {*BRANCH_MARKS, "torus"}):
+        here = of.event_kind == kind
+        mark = BRANCH_MARKS[kind][0] if kind in BRANCH_MARKS else "h"
+        ax.plot(of.event_parameter[here], of.speed[of.event_point[here]], mark, color="white", markeredgecolor="black",
+                markersize=6, label=kind, zorder=4, clip_on=False)
+    ax.set_xlabel(of.vary)
+    ax.set_ylabel("largest speed of closing")
+    ax.set_title(title(of.plan))
+    legend(ax)
+    return ax
+
+
+def _pieces(of: Any) -> list[tuple[int, int]]:
+    """Ranges of points with one label and one stability."""
+    if not len(of):
+        return []
+    changes = (of.label[1:] != of.label[:-1]) | (of.stable[1:] != of.stable[:-1])
+    edges = [0, *(np.flatnonzero(changes) + 1).tolist(), len(of)]
+    return list(zip(edges[:-1], edges[1:]))
+
+
+def curve(of: Any, ax: "Axes | None") -> "Axes":
+    """Draw the curve in its plane, with its points of codimension two."""
+    ax = new_axes(ax, (7.2, 4.8))
+    ax.plot(of.values[:, 0], of.values[:, 1], color=EVENT_COLOURS.get(of.kind, SERIES[3]), linewidth=1.8,
+            label=f"{of.kind} of {named(of.label)}")
+    for k, kind in enumerate(kind for kind in dict.fromkeys(of.event_kind.tolist()) if not kind.startswith("end")):
+        points = of.event_point[of.event_kind == kind]
+        ax.plot(of.values[points, 0], of.values[points, 1], CURVE_MARKS.get(kind, "osD^v"[k % 5]), color="white",
+                markeredgecolor="black", markersize=8, label=kind, zorder=4, clip_on=False)
+    ax.set_xlabel(of.parameters[0])
+    ax.set_ylabel(of.parameters[1])
+    ax.set_title(title(of.plan))
+    legend(ax)
+    return ax
+
+
+def cells(
+    axes: Mapping[str, NDArray[np.float64]],
+    labels: NDArray[np.str_],
+    plan: str,
+    ax: "Axes | None",
+    *,
+    motion_of: NDArray[np.int64] | None = None,
+    share: NDArray[np.float64] | None = None,
+) -> "Axes":
+    """Draw a basin or a map of labels with the figure of its Dataset."""
+    from vibroimpact import _cells
+
+    return _cells.plot(dataset(axes, labels, plan, motion_of, share), ax)
+
+
+def _code(label: str) -> int:
+    """The code of a label in a Dataset; that of no motion for other texts."""
+    m, slash, n = label.partition("/")
+    if slash:
+        return 1_000_000_000 + int(n) if m == "inf" else 10_000 * int(m) + int(n)
+    return {"0": 0, "chaotic": -2, "stuck": -3, "undecided": -4}.get(label, -1)
+
+
+def dataset(
+    axes: Mapping[str, NDArray[np.float64]],
+    labels: NDArray[np.str_],
+    plan: str,
+    motion_of: NDArray[np.int64] | None,
+    share: NDArray[np.float64] | None,
+) -> "xr.Dataset":
+    """Labels, and the motions or shares of a grid, as the Dataset of which figures are drawn; the last axis comes first."""
+    import xarray as xr
+
+    dims = [*axes]
+    distinct, places = np.unique(labels, return_inverse=True)
+    codes = np.array([_code(label) for label in distinct.tolist()], dtype=np.int32)[places].reshape(labels.shape)
+    further = ["motion"] if share is not None else []
+    variables: dict[str, Any] = {"label": ([*dims, *further], codes)}
+    if share is not None:
+        variables["share"] = ([*dims, "motion"], share)
+    if motion_of is not None:
+        variables["cycle"] = (dims, motion_of)
+        variables["cycle_label"] = ("cycles", np.arange(motion_of.max(initial=-1) + 1))
+    ds: xr.Dataset = xr.Dataset(variables, coords=dict(axes), attrs={"plan": plan}).transpose(*reversed(dims), ...)
+    return ds

@@ -1,0 +1,77 @@
+"""Datasets of many motions: their attributes, coordinates and dimensions."""
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact import _core
+from vibroimpact._over import Over
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def dataset(over: Over, title: str, variables: Mapping[str, Any]) -> "xr.Dataset":
+    """The Dataset of results at points, with parameters and starts as coordinates."""
+    import xarray as xr
+
+    from vibroimpact import _accessor, _si  # the import of _accessor registers ds.vibro
+
+    ds = xr.Dataset(
+        dict(variables),
+        coords=_coordinates(over),
+        attrs={
+            "Conventions": "CF-1.11",
+            "title": title,
+            "source": f"vibroimpact {_core.__version__}",
+            # what varies is in the coordinates
+            "system": _core.system_fields(over.osc),
+            **_si.attributes(over.osc.units),
+        },
+    )
+    return ds
+
+
+def _coordinates(over: Over) -> dict[str, Any]:
+    """The coordinates: what varies over its dimensions, and all other parameters and coordinates of starts as scalars."""
+    from vibroimpact._unit_names import described
+
+    varied = [name for name, _ in over.columns if name in over.coords]
+    known = {name: (value, described(*words)) for name, value, *words in _core.point_coordinates(over.osc, over.start)}
+    frequency = {"beta", "inverse_beta"}
+    found: dict[str, Any] = {}
+    for name, (value, attributes) in known.items():
+        if name in over.coords:
+            dims, values = over.coords[name]
+            found[name] = (dims, values, attributes)
+        elif name not in frequency or not frequency & set(varied):
+            found[name] = ((), value, attributes)
+    for name, of in over.coords.items():
+        if name not in found:
+            found[name] = (*of, described(*_core.coordinate_words(name))) if isinstance(of, tuple) else of
+    return found
+
+
+def over_points(over: Over, values: NDArray[Any], further: Sequence[tuple[str, int]] = ()) -> tuple[list[str], NDArray[Any]]:
+    """The dimensions of a variable, and its flat values in their shape."""
+    names = [*over.sizes, *(name for name, _ in further)]
+    return names, values.reshape([*over.sizes.values(), *(size for _, size in further)])
+
+
+def whole_numbers(dims: Sequence[str], codes: NDArray[Any]) -> dict[str, Any]:
+    """Impacts m and periods n of the codes of labels: nan for what is not m/n, infinite impacts for a complete chatter."""
+    cycle, chatter = codes > 0, codes >= 1_000_000_000
+    impacts = np.where(chatter, np.inf, codes // 10_000)
+    periods = np.where(chatter, codes - 1_000_000_000, codes % 10_000).astype(np.float64)
+    impacts[~cycle] = periods[~cycle] = np.nan
+    words = {"impacts": "impacts m in a period of the motion m/n", "periods": "forcing periods n in a period of the motion m/n"}
+    values = {"impacts": impacts, "periods": periods}
+    return {name: (list(dims), of, {"long_name": words[name], "units": "1"}) for name, of in values.items()}
+
+
+def with_whole_numbers(ds: "xr.Dataset") -> "xr.Dataset":
+    """The Dataset with the variables `impacts` and `periods` of its labels."""
+    whole: xr.Dataset = ds.assign(whole_numbers([str(name) for name in ds["label"].dims], ds["label"].values))
+    return whole

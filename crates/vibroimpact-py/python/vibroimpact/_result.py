@@ -1,0 +1,103 @@
+"""What all results have in common: equality of their values, a table, and a small picture in a notebook."""
+
+import base64
+import html
+import io
+import json
+from dataclasses import fields, is_dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+#: Size of the picture in inches, and its dots per inch.
+_SIZE, _DOTS = (5.6, 2.6), 80
+
+
+def equal(a: object, b: object) -> bool:
+    """Whether two values are equal; arrays and numbers are compared by value, and not-a-number equals itself."""
+    if isinstance(a, np.ndarray) or isinstance(b, np.ndarray):
+        one, other = np.asarray(a), np.asarray(b)
+        if one.shape != other.shape or one.dtype.kind != other.dtype.kind:
+            return False
+        return bool(np.array_equal(one, other, equal_nan=one.dtype.kind in "fc"))
+    if isinstance(a, float) and isinstance(b, float):
+        return a == b or (a != a and b != b)
+    if type(a) is not type(b):
+        return a == b
+    if is_dataclass(a) and not isinstance(a, type):
+        return all(equal(getattr(a, of.name), getattr(b, of.name)) for of in fields(a))
+    if isinstance(a, dict) and isinstance(b, dict):
+        return a.keys() == b.keys() and all(equal(value, b[key]) for key, value in a.items())
+    if isinstance(a, (list, tuple)) and isinstance(b, (list, tuple)):
+        return len(a) == len(b) and all(map(equal, a, b))
+    return a == b
+
+
+class Result:
+    """The base of all results."""
+
+    __slots__ = ()
+    #: Whether `plot` draws into one axes; other figures are not shown in notebooks.
+    _pictured: ClassVar[bool] = True
+
+    def __eq__(self, other: object) -> bool:
+        return equal(self, other) if type(self) is type(other) else NotImplemented
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def _table(self) -> dict[str, Any]:
+        """The columns of the table of the result."""
+        raise NotImplementedError
+
+    def to_dataframe(self) -> "pd.DataFrame":
+        """The result as a table of pandas: one row for each event, motion, point or value."""
+        import pandas as pd
+
+        return pd.DataFrame(self._table())
+
+    def _repr_html_(self) -> str:
+        text = f"<pre>{html.escape(repr(self))}</pre>"
+        picture = self._picture() if self._pictured and hasattr(self, "plot") else None
+        return text if picture is None else f'{text}<img alt="{html.escape(repr(self))}" src="data:image/png;base64,{picture}">'
+
+    def _picture(self) -> str | None:
+        """The figure as a small PNG in base64; None for a result that has no figure."""
+        from matplotlib.figure import Figure
+
+        from vibroimpact._core import QuestionError
+
+        figure = Figure(figsize=_SIZE, dpi=_DOTS, layout="constrained")
+        try:
+            self._draw(figure.subplots())
+        except QuestionError:
+            return None
+        file = io.BytesIO()
+        figure.savefig(file, format="png")
+        return base64.b64encode(file.getvalue()).decode("ascii")
+
+    def _draw(self, ax: Any) -> None:
+        """Draw the picture; a quick one, where the figure takes long."""
+        self.plot(ax)  # type: ignore[attr-defined]
+
+
+def flat(of: dict[str, Any]) -> dict[str, Any]:
+    """The fields of an object as one row: objects in it by path, lists as JSON."""
+    row: dict[str, Any] = {}
+    for name, value in of.items():
+        if isinstance(value, dict):
+            row |= {f"{name}.{key}": entry for key, entry in flat(value).items()}
+        elif isinstance(value, (list, tuple)):
+            row[name] = json.dumps(value)
+        else:
+            row[name] = value
+    return row
+
+
+def rows(of: "list[dict[str, Any]]") -> dict[str, Any]:
+    """Objects as columns: one row each, None where an object lacks a field."""
+    all_ = [flat(one) for one in of]
+    names = dict.fromkeys(name for one in all_ for name in one)
+    return {name: [one.get(name) for one in all_] for name in names}

@@ -1,0 +1,197 @@
+"""Simulation of many motions: their events, and their states at given times, at one phase and at one position."""
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from vibroimpact import _core, _over
+from vibroimpact._axis import numbers
+from vibroimpact._core import Oscillator, QuestionError
+from vibroimpact._over import Over, Points
+from vibroimpact._progress import Progress, watched
+from vibroimpact._whole import SIMULATED, THREADS, maybe, whole
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Kinds of events by their code.
+_KINDS = {"impact": 0, "graze": 1, "stick": 2, "release": 3}
+
+
+def simulate_many(
+    systems: "Oscillator | Points",
+    *,
+    over: "Points | None" = None,
+    starts: "Points | None" = None,
+    impacts: int | None = None,
+    periods: float | None = None,
+    at: ArrayLike | None = None,
+    phase: float | None = None,
+    position: float | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> "xr.Dataset":
+    """Follow many motions: their events, or their states where `at`, `phase` or `position` asks for them.
+
+    Systems and starts are given as for `settle_many`. Rows of different lengths are filled up with nan. The result does not
+    depend on the number of threads.
+
+    Parameters
+    ----------
+    systems : Oscillator, mapping, DataFrame or Dataset
+        The system, or values of its parameters.
+    over : mapping, DataFrame or Dataset
+        Values of parameters instead of those of an oscillator.
+    starts : mapping, DataFrame or Dataset
+        Values of "x", "v" and "phase". Default: at rest, or on the stop, at phase 0.
+    impacts : int
+        Stop after this number of impacts, 1 to 1e7. Default: 100, or 1e6 with `periods`.
+    periods : float
+        Stop after this number of forcing periods, up to 1e9. Default for `phase` and `position`: 100.
+    at : array_like
+        Times, 0 or more and rising: the states at these times, from the closed form of the flights. At the time of an event
+        the state is that after it; while the last impacts of a chatter are summed, that of rest.
+    phase : float
+        A phase of the force, radians: the states at this phase, once in every period.
+    position : float
+        A position between the stops: the states where the motion crosses it, upwards where `v` is positive.
+    threads : int
+        Number of threads; 0 for one per core.
+    progress : bool or callable
+        True for a progress bar, or a function called with the amounts done and in total.
+
+    Returns
+    -------
+    xarray.Dataset
+        Of events: `time`, `kind` (codes, which `ds.vibro.labels("kind")` converts to text), `event_phase`, `side`,
+        `velocity_before` and `velocity_after`, with the dimension `event`; `count`, `end` and `end_time` of each motion.
+        Of states: `time`, `position`, `velocity` and `force_phase`, with the dimension `time` for `at`, and `state`
+        otherwise.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vibroimpact import Oscillator, simulate_many
+    >>> osc = Oscillator(inverse_beta=1.8, gap=0.25, restitution=0.5)
+    >>> ds = simulate_many(osc, starts={"x": [-1.0, 0.0], "v": 0.0}, impacts=20)
+    >>> dict(ds.sizes), ds["time"].isel(sample=1, event=slice(3)).values.round(4).tolist()
+    ({'sample': 2, 'event': 22}, [1.4598, 2.2409, 2.6025])
+    >>> states = simulate_many(osc, starts={"x": [-1.0, 0.0]}, at=[0.0, 1.0])
+    >>> states["position"].values[:, 0].tolist()
+    [-1.0, 0.0]
+    """
+    given = [name for name, of in (("at", at), ("phase", phase), ("position", position)) if of is not None]
+    if len(given) > 1:
+        raise QuestionError(f"{given[0]} and {given[1]} are two questions\nhint: a call for each")
+    if periods is not None and not 0 < periods <= 1e9:
+        raise QuestionError(f"periods = {periods} lies outside 0 < periods <= 1000000000")
+    if given and impacts is not None:
+        raise QuestionError(f"impacts has no meaning with {given[0]}\nhint: periods limits the time")
+    limit, threads = maybe("impacts", impacts, SIMULATED), whole("threads", threads, THREADS)
+    if limit == 0:
+        raise QuestionError(f"impacts = 0 lies outside {SIMULATED.least} <= impacts <= {SIMULATED.most}")
+    points = _over.points(systems, over, starts)
+    with watched(progress, "motions") as tell:
+        common = (points.osc, points.columns, points.start)
+        if at is not None:
+            if periods is not None:
+                raise QuestionError("periods has no meaning with at\nhint: the last time limits the time")
+            times = _times(at)
+            return _at_times(points, times, _core.states_of_points(*common, times.tolist(), threads, tell))
+        turns = 100.0 if periods is None else float(periods)
+        if phase is not None:
+            wanted, count = _finite("phase", phase), math.floor(turns)
+            if count < 1:
+                raise QuestionError(f"periods = {periods} is less than one period, so there may be no state at the phase")
+            return _states(points, _core.strobes_of_points(*common, wanted, count, threads, tell))
+        if position is not None:
+            return _states(points, _core.crossings_of_points(*common, _finite("position", position), turns, threads, tell))
+        return _events(points, _core.simulate_points(*common, (limit, periods), threads, tell))
+
+
+def _finite(name: str, value: float) -> float:
+    number = float(value)
+    if not math.isfinite(number):
+        raise QuestionError(f"{name} = {number} is not a finite number")
+    return number
+
+
+def _times(at: ArrayLike) -> NDArray[np.float64]:
+    times = np.atleast_1d(numbers("at", at))
+    if times.ndim != 1 or times.size == 0:
+        raise QuestionError(f"at of shape {times.shape} is no list of times")
+    wrong = times[~(np.isfinite(times) & (times >= 0))]
+    if len(wrong):
+        raise QuestionError(f"at = {wrong[0]} is no time: times are finite and 0 or more")
+    falls = np.flatnonzero(np.diff(times) < 0)
+    if len(falls):
+        k = falls[0]
+        raise QuestionError(f"at falls from {times[k]} to {times[k + 1]}\nhint: numpy.sort")
+    return times
+
+
+def _variable(
+    points: Over, values: NDArray[Any], further: tuple[str, int] | None, long_name: str, scale: str, unit: str = "1", **more: Any
+) -> tuple[list[str], NDArray[Any], dict[str, Any]]:
+    from vibroimpact import _many
+    from vibroimpact._unit_names import described
+
+    dims, of = _many.over_points(points, values, () if further is None else (further,))
+    return dims, of, {**described(long_name, unit, scale), **more}
+
+
+_TIME, _LENGTH, _VELOCITY = "1/omega_n", "F/k", "omega_n F/k"
+
+
+def _flags(codes: dict[str, int]) -> dict[str, Any]:
+    return {"flag_values": list(codes.values()), "flag_meanings": " ".join(codes)}
+
+
+def _events(points: Over, found: dict[str, Any]) -> "xr.Dataset":
+    """The Dataset of the events of motions."""
+    from vibroimpact import _many
+
+    event = ("event", found["width"])
+    ends = {name: code for code, name in enumerate(_core.end_reasons())}
+    variables = {
+        "time": _variable(points, found["time"], event, "time of the event", _TIME),
+        "kind": _variable(points, found["kind"], event, "kind of the event", "", **_flags(_KINDS)),
+        "event_phase": _variable(points, found["phase"], event, "phase of the force at the event", "", "rad"),
+        "side": _variable(points, found["side"], event, "1 for the first stop, -1 for the second", ""),
+        "velocity_before": _variable(points, found["velocity_before"], event, "velocity before the impact", _VELOCITY),
+        "velocity_after": _variable(points, found["velocity_after"], event, "velocity after the impact", _VELOCITY),
+        "count": _variable(points, found["count"], None, "number of events", ""),
+        "end": _variable(points, found["end"], None, "why the list ends", "", **_flags(ends)),
+        "end_time": _variable(points, found["end_time"], None, "time at which the list ends", _TIME),
+    }
+    return _many.dataset(points, "events of motions of an impact oscillator", variables)
+
+
+def _state_variables(points: Over, found: dict[str, Any], further: tuple[str, int]) -> dict[str, Any]:
+    return {
+        "position": _variable(points, found["x"], further, "position", _LENGTH),
+        "velocity": _variable(points, found["v"], further, "velocity", _VELOCITY),
+        "force_phase": _variable(points, found["phase"], further, "phase of the force", "", "rad"),
+    }
+
+
+def _at_times(points: Over, times: NDArray[np.float64], found: dict[str, Any]) -> "xr.Dataset":
+    """The Dataset of the states at given times."""
+    from vibroimpact import _many
+    from vibroimpact._unit_names import described
+
+    variables = _state_variables(points, found, ("time", len(times)))
+    ds = _many.dataset(points, "states of motions of an impact oscillator", variables)
+    whole: xr.Dataset = ds.assign_coords(time=("time", times, described("time since the start", "1", _TIME)))
+    return whole
+
+
+def _states(points: Over, found: dict[str, Any]) -> "xr.Dataset":
+    """The Dataset of the states of a section."""
+    from vibroimpact import _many
+
+    state = ("state", found["width"])
+    time = {"time": _variable(points, found["time"], state, "time since the start", _TIME)}
+    return _many.dataset(points, "sections of motions of an impact oscillator", {**time, **_state_variables(points, found, state)})

@@ -1,0 +1,66 @@
+//! Motions from points of parameters and starts, given as columns.
+
+use crate::door::{self, Watch};
+use crate::error::Trouble;
+use crate::grid::{Variable, arrays};
+use crate::oscillator::Oscillator;
+use crate::simulate::{StartArgument, start_plan};
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use pyo3::prelude::*;
+use vibroimpact_study::study::in_memory;
+use vibroimpact_study::{
+    BasinPlan, Coordinate, DrawnPoints, ListedColumn, Plan, PointsPlan, Quantity, Study, StudyPlan, Task,
+    unknown_quantity,
+};
+
+/// The column with this name.
+pub(crate) fn column(name: &str, values: Vec<f64>) -> Result<ListedColumn, Trouble> {
+    let vary = Coordinate::named(name).ok_or_else(|| {
+        let parameters = crate::plan::parameter_names().join(", ");
+        Trouble::question(format!(
+            "`{name}` is no parameter and no coordinate of a start; there are {parameters}, x, v and phase"
+        ))
+    })?;
+    Ok(ListedColumn { vary, values })
+}
+
+/// Settles the motion at each point. `over` are the columns that vary; other numbers are those of `osc` and `start`.
+#[pyfunction]
+#[allow(clippy::too_many_arguments, clippy::needless_pass_by_value)] // called from Python
+pub(crate) fn settle_points<'py>(
+    py: Python<'py>,
+    osc: Oscillator,
+    over: Vec<(String, PyReadonlyArray1<'py, f64>)>,
+    start: StartArgument,
+    options: (Option<u32>, Vec<String>, bool),
+    threads: usize,
+    progress: Option<Py<PyAny>>,
+) -> Result<Vec<Variable<'py>>, Trouble> {
+    let (impacts, fields, transient) = options;
+    let columns = over.iter().map(|(name, values)| column(name, values.as_array().to_vec()));
+    let points = PointsPlan::Listed(columns.collect::<Result<_, _>>()?);
+    let quantity = |name: &String| Quantity::from_name(name).ok_or_else(|| Trouble::question(unknown_quantity(name)));
+    let fields = fields.iter().map(quantity).collect::<Result<_, _>>()?;
+    let total = points.count();
+    let task = BasinPlan { impacts, fields, transient, ..BasinPlan::of_points(points, start_plan(start)) };
+    let plan = StudyPlan::Oscillator(Box::new(Plan::new(osc.plan, Task::Basin(task))));
+    let watch = Watch { what: "settling motions", total, progress, threads };
+    let sheet = door::run(py, watch, move |control| Ok(in_memory(Study::new(plan)?, control)?))?;
+    Ok(arrays(py, sheet)?)
+}
+
+/// The columns of points that are drawn from a box, which are written as in a plan.
+#[pyfunction]
+pub(crate) fn drawn_points<'py>(py: Python<'py>, drawn: &str) -> Result<Vec<Bound<'py, PyArray1<f64>>>, Trouble> {
+    let drawn: DrawnPoints = serde_json::from_str(drawn).map_err(|error| {
+        // JSON is written by this package, so a position in it does not help the user
+        let said = error.to_string();
+        Trouble::question(said.rsplit_once(" at line ").map_or(said.as_str(), |(said, _)| said).to_owned())
+    })?;
+    drawn.check()?;
+    let points = PointsPlan::Drawn(drawn);
+    let count = usize::try_from(points.count()).unwrap_or(usize::MAX);
+    Ok((0..points.width())
+        .map(|column| (0..count).map(|k| points.at(column, k)).collect::<Vec<_>>().into_pyarray(py))
+        .collect())
+}

@@ -1,0 +1,235 @@
+//! Many motions event by event, and their states at given times, at one phase of the force and at one position.
+
+use crate::columns::sign;
+use crate::door::{self, Watch};
+use crate::error::Trouble;
+use crate::oscillator::Oscillator;
+use crate::points::column;
+use crate::simulate::{StartArgument, start_plan};
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use pyo3::prelude::*;
+use vibroimpact::motion::{EventKind, Level, Strobes, states_at};
+use vibroimpact_study::{Control, PlanError, PointsPlan, Simulated, StartPlan, SystemPlan, simulate};
+
+/// The columns that vary, and the numbers of all other parameters and coordinates of starts.
+type Over<'py> = Vec<(String, PyReadonlyArray1<'py, f64>)>;
+
+/// The points, the system and the start of a question.
+struct Asked {
+    points: PointsPlan,
+    system: SystemPlan,
+    start: StartPlan,
+}
+
+impl Asked {
+    fn new(osc: Oscillator, over: &Over<'_>, start: StartArgument) -> Result<Self, Trouble> {
+        let columns = over.iter().map(|(name, values)| column(name, values.as_array().to_vec()));
+        let points = PointsPlan::Listed(columns.collect::<Result<_, _>>()?);
+        Ok(Self { points, system: osc.plan, start: start_plan(start) })
+    }
+
+    /// The results of `work` at all points.
+    fn each<T: Send + 'static>(
+        self,
+        py: Python<'_>,
+        (threads, progress): (usize, Option<Py<PyAny>>),
+        work: impl Fn(&vibroimpact::Oscillator, vibroimpact::Start, &Control<'_>) -> Result<T, PlanError>
+        + Send
+        + Sync
+        + 'static,
+    ) -> Result<Vec<T>, Trouble> {
+        let watch = Watch { what: "following motions", total: self.points.count(), progress, threads };
+        door::run(py, watch, move |control| {
+            let all = self.points.each((&self.system, &self.start), control, |osc, start| work(osc, start, control))?;
+            Ok(all.into_iter().collect::<Result<Vec<T>, PlanError>>()?)
+        })
+    }
+}
+
+/// Rows of different lengths as one array, filled up with `nothing`.
+fn padded<'py, T: numpy::Element + Copy>(
+    py: Python<'py>,
+    rows: usize,
+    width: usize,
+    nothing: T,
+    row: impl Fn(usize, &mut dyn FnMut(T)),
+) -> Bound<'py, PyArray1<T>> {
+    let mut all = Vec::with_capacity(rows * width);
+    for k in 0..rows {
+        row(k, &mut |value| all.push(value));
+        all.resize((k + 1) * width, nothing);
+    }
+    all.into_pyarray(py)
+}
+
+/// The events of many motions: rows of `width` events each.
+#[derive(IntoPyObject)]
+pub(crate) struct ManyFields<'py> {
+    width: usize,
+    /// 0 impact, 1 graze, 2 stick, 3 release; -1 after the last event.
+    kind: Bound<'py, PyArray1<i8>>,
+    side: Bound<'py, PyArray1<i8>>,
+    time: Bound<'py, PyArray1<f64>>,
+    phase: Bound<'py, PyArray1<f64>>,
+    velocity_before: Bound<'py, PyArray1<f64>>,
+    velocity_after: Bound<'py, PyArray1<f64>>,
+    /// Number of events, place of the reason in `REASONS`, and time of the end of each motion.
+    count: Bound<'py, PyArray1<i32>>,
+    end: Bound<'py, PyArray1<i8>>,
+    end_time: Bound<'py, PyArray1<f64>>,
+}
+
+/// Why lists of events end, by code.
+const REASONS: [&str; 5] = ["impact_limit", "time_limit", "no_more_impacts", "stuck", "search_limit"];
+
+/// The reasons for which lists of events end, in the order of their codes.
+#[pyfunction]
+pub(crate) const fn end_reasons() -> [&'static str; 5] {
+    REASONS
+}
+
+/// Follows the motion at each point event by event.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)] // called from Python
+pub(crate) fn simulate_points<'py>(
+    py: Python<'py>,
+    osc: Oscillator,
+    over: Over<'py>,
+    start: StartArgument,
+    limits: (Option<u64>, Option<f64>),
+    threads: usize,
+    progress: Option<Py<PyAny>>,
+) -> Result<ManyFields<'py>, Trouble> {
+    let asked = Asked::new(osc, &over, start)?;
+    let found: Vec<Option<Simulated>> = asked
+        .each(py, (threads, progress), move |osc, start, control| Ok(simulate(osc, start, limits, control).ok()))?;
+    // one that was stopped has stopped all
+    let found: Vec<Simulated> = found.into_iter().flatten().collect();
+    let (rows, width) = (found.len(), found.iter().map(|one| one.events.len()).max().unwrap_or(0));
+    let real = |of: fn(&vibroimpact::motion::Event) -> f64| {
+        padded(py, rows, width, f64::NAN, |k, put| found[k].events.iter().for_each(|event| put(of(event))))
+    };
+    let small = |of: fn(&vibroimpact::motion::Event) -> i8, nothing| {
+        padded(py, rows, width, nothing, |k, put| found[k].events.iter().for_each(|event| put(of(event))))
+    };
+    Ok(ManyFields {
+        width,
+        kind: small(
+            |event| match event.kind {
+                EventKind::Impact { .. } => 0,
+                EventKind::Graze { .. } => 1,
+                EventKind::Stick { .. } => 2,
+                EventKind::Release => 3,
+            },
+            -1,
+        ),
+        side: small(|event| sign(event.side), 0),
+        time: real(|event| event.time),
+        phase: real(|event| event.phase),
+        velocity_before: real(|event| {
+            if let EventKind::Impact { velocity_before, .. } = event.kind { velocity_before } else { f64::NAN }
+        }),
+        velocity_after: real(|event| {
+            if let EventKind::Impact { velocity_after, .. } = event.kind { velocity_after } else { f64::NAN }
+        }),
+        count: found
+            .iter()
+            .map(|one| i32::try_from(one.events.len()).unwrap_or(i32::MAX))
+            .collect::<Vec<_>>()
+            .into_pyarray(py),
+        end: found
+            .iter()
+            .map(|one| {
+                REASONS.iter().position(|reason| *reason == one.reason).and_then(|k| i8::try_from(k).ok()).unwrap_or(-1)
+            })
+            .collect::<Vec<_>>()
+            .into_pyarray(py),
+        end_time: found.iter().map(|one| one.time).collect::<Vec<_>>().into_pyarray(py),
+    })
+}
+
+/// Times, positions, velocities and phases: rows of `width` states each.
+#[derive(IntoPyObject)]
+pub(crate) struct StateFields<'py> {
+    width: usize,
+    time: Bound<'py, PyArray1<f64>>,
+    x: Bound<'py, PyArray1<f64>>,
+    v: Bound<'py, PyArray1<f64>>,
+    phase: Bound<'py, PyArray1<f64>>,
+}
+
+/// A state: time, position, velocity and phase.
+type State = [f64; 4];
+
+impl<'py> StateFields<'py> {
+    fn new(py: Python<'py>, rows: &[Vec<State>]) -> Self {
+        let width = rows.iter().map(Vec::len).max().unwrap_or(0);
+        let part = |k: usize| {
+            padded(py, rows.len(), width, f64::NAN, |row, put| rows[row].iter().for_each(|state| put(state[k])))
+        };
+        Self { width, time: part(0), x: part(1), v: part(2), phase: part(3) }
+    }
+}
+
+/// The states of the motion at each point at these times, which rise.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)] // called from Python
+pub(crate) fn states_of_points<'py>(
+    py: Python<'py>,
+    osc: Oscillator,
+    over: Over<'py>,
+    start: StartArgument,
+    times: Vec<f64>,
+    threads: usize,
+    progress: Option<Py<PyAny>>,
+) -> Result<StateFields<'py>, Trouble> {
+    let rows = Asked::new(osc, &over, start)?.each(py, (threads, progress), move |osc, start, _| {
+        let none = [f64::NAN; 4];
+        let states = states_at(osc, start, &times).into_iter().zip(&times);
+        Ok(states.map(|(state, time)| state.map_or(none, |of| [*time, of.x, of.v, of.phase])).collect())
+    })?;
+    Ok(StateFields::new(py, &rows))
+}
+
+/// The first states of the motion at each point at one phase of the force.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)] // called from Python
+pub(crate) fn strobes_of_points<'py>(
+    py: Python<'py>,
+    osc: Oscillator,
+    over: Over<'py>,
+    start: StartArgument,
+    phase: f64,
+    count: usize,
+    threads: usize,
+    progress: Option<Py<PyAny>>,
+) -> Result<StateFields<'py>, Trouble> {
+    let rows = Asked::new(osc, &over, start)?.each(py, (threads, progress), move |osc, start, _| {
+        let first = vibroimpact::system::phase::wrap(phase - start.phase) / osc.beta();
+        #[allow(clippy::cast_precision_loss)] // counts below 2^53
+        let state = |(k, of): (usize, vibroimpact::Start)| [first + k as f64 * osc.period(), of.x, of.v, of.phase];
+        Ok(Strobes::new(osc, start, phase).take(count).enumerate().map(state).collect())
+    })?;
+    Ok(StateFields::new(py, &rows))
+}
+
+/// The crossings of a position by the motion at each point, up to a number of forcing periods.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)] // called from Python
+pub(crate) fn crossings_of_points<'py>(
+    py: Python<'py>,
+    osc: Oscillator,
+    over: Over<'py>,
+    start: StartArgument,
+    position: f64,
+    periods: f64,
+    threads: usize,
+    progress: Option<Py<PyAny>>,
+) -> Result<StateFields<'py>, Trouble> {
+    let rows = Asked::new(osc, &over, start)?.each(py, (threads, progress), move |osc, start, _| {
+        let level = Level::new(osc, position)?;
+        let state = |of: vibroimpact::motion::Crossing| [of.time, position, of.velocity, of.phase];
+        Ok(level.crossings(start, periods * osc.period()).map(state).collect())
+    })?;
+    Ok(StateFields::new(py, &rows))
+}

@@ -1,0 +1,72 @@
+"""Figures of the answers about machines: the data are in the artists, and what has no figure says so."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+
+HAMMER = vi.Machine.named("two-mass-hammer")
+TITLE = HAMMER.title.split(": ")[0] if HAMMER.title else "machine"
+
+
+def words(ax: plt.Axes) -> list[str]:
+    legend = ax.get_legend()
+    return [] if legend is None else [text.get_text() for text in legend.get_texts()]
+
+
+def test_a_settled_motion_is_drawn_over_whole_periods() -> None:
+    found = HAMMER.settle()
+    for of in (found, found.motion):
+        axes = of.plot()
+        assert axes[0].get_title() == f"{TITLE}: {found.motion.label}"
+        low, high = axes[0].get_xlim()
+        assert HAMMER.period is not None and low == 0 and round((high / HAMMER.period), 6) == 6
+    (ax,) = plt.subplots(1, 1, squeeze=False)[1].ravel()
+    assert found.plot(ax)[0] is ax
+    far = HAMMER.set({"b": 50.0}).settle()
+    if far.motion.state is None:
+        with pytest.raises(vi.QuestionError, match="has no cycle to draw"):
+            far.plot()
+
+
+def test_shares_and_exponents() -> None:
+    found = HAMMER.attractors(6)
+    ax = found.plot()
+    assert [bar.get_width() for bar in ax.patches] == (100 * found.share).tolist() and ax.get_title() == TITLE
+    measured = HAMMER.lyapunov(impacts=300)
+    ax = plt.subplots()[1]
+    assert measured.plot(ax) is ax and measured.exponents is not None
+    line = ax.get_lines()[1]
+    np.testing.assert_array_equal(line.get_ydata(), [one.value for one in measured.exponents])
+
+
+def test_orbits_branches_and_curves() -> None:
+    found = HAMMER.orbit("1/1")
+    ax = found.plot()
+    assert len(words(ax)) == len(found) and words(ax)[-1].startswith("1/1, no.")
+    np.testing.assert_array_equal(ax.get_lines()[-1].get_ydata(), found[-1].cycle.speed[np.isin(found[-1].cycle.kind, ("impact", "close"))])
+    branch = HAMMER.branch("frequency", 1.05)
+    ax = branch.plot()
+    assert ax.get_xlabel() == "frequency" and {"grazing", "fold", "1/1", "stable"} <= set(words(ax))
+    drawn = np.concatenate([line.get_xdata() for line in ax.get_lines() if len(line.get_xdata()) > 1 and line.get_marker() == "None"])
+    assert set(branch.parameter.tolist()) == set(drawn.tolist())
+    curve = HAMMER.curve("grazing", {"frequency": (0.9, 1.3), "b": (0.4, 0.6)})
+    ax = curve.plot()
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("frequency", "b") and words(ax)[0] == f"grazing of {curve.label}"
+    np.testing.assert_array_equal(ax.get_lines()[0].get_xdata(), curve.values[:, 0])
+
+
+def test_basins_and_maps() -> None:
+    basin = HAMMER.basin({"q.head": (-1, 1, 5), "qdot.head": (-1, 1, 3)})
+    ax = basin.plot()
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("q.head", "qdot.head") and "1/1" in words(ax)
+    mesh = ax.collections[0].get_array()
+    # the last column lies beyond the anvil
+    assert mesh.shape == (3, 5) and np.ma.getmaskarray(mesh).tolist() == [[False] * 4 + [True]] * 3
+    over = HAMMER.map({"frequency": (0.8, 1.2, 3)}, starts=2)
+    ax = over.plot()
+    assert set(words(ax)) == {label for label in over.labels.ravel().tolist() if label}
+    plane = HAMMER.map({"frequency": (0.8, 1.2, 3), "b": (0.4, 0.6, 2)}, starts=1)
+    ax = plane.plot()
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("frequency", "b")

@@ -1,0 +1,178 @@
+"""What all results have: equality of values, dicts, tables, pictures in notebooks; and the accessor of Datasets."""
+
+import base64
+import copy
+import json
+import pickle
+import subprocess
+import sys
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+
+OSC = vi.Oscillator(inverse_beta=1.11, gap=1.5, restitution=0.5)
+HAMMER = vi.Machine.named("two-mass-hammer")
+RESULTS: dict[str, Callable[[], Any]] = {
+    "simulation": lambda: vi.simulate(OSC, impacts=12),
+    "motion": lambda: vi.settle(OSC),
+    "cycle": lambda: vi.settle(OSC).cycle,
+    "attractors": lambda: vi.attractors(OSC, starts=12),
+    "settlement": lambda: vi.settle_many(OSC, [0.0, 1.0]),
+    "orbit": lambda: vi.orbits(OSC, "1/1")[0],
+    "branch": lambda: vi.branch(OSC, "1/1", "gap", 2.0),
+    "curve": lambda: vi.curve(OSC, "1/1", "flip", {"gap": (1, 3), "inverse_beta": (1.05, 1.2)}),
+    "region": lambda: vi.region(OSC, "1/1", {"inverse_beta": (0.6, 0.9), "gap": (1, 3)}, grid=4),
+    "response": lambda: vi.response(OSC, "gap", "1:2:3"),
+    "lyapunov": lambda: vi.lyapunov(OSC, impacts=1000, points=20),
+    "margins": lambda: vi.margins(OSC, vary=["gap"], lines=4),
+    "machine simulation": lambda: HAMMER.simulate(impacts=6),
+    "machine settled": lambda: HAMMER.settle(),
+    "machine motion": lambda: HAMMER.settle().motion,
+    "machine attractors": lambda: HAMMER.attractors(4),
+    "machine lyapunov": lambda: HAMMER.lyapunov(impacts=200),
+    "machine orbits": lambda: HAMMER.orbit("1/1"),
+    "machine branch": lambda: HAMMER.branch("frequency", 1.05),
+    "machine curve": lambda: HAMMER.curve("grazing", {"frequency": (0.9, 1.3), "b": (0.4, 0.6)}),
+    "machine basin": lambda: HAMMER.basin({"q.head": (-1, 1, 5), "qdot.head": (-1, 1, 3)}),
+    "machine map": lambda: HAMMER.map({"frequency": (0.8, 1.2, 3)}, starts=2),
+}
+#: Results without a figure of one axes.
+NO_PICTURE = {"cycle", "lyapunov", "margins"}
+
+
+@pytest.mark.parametrize("name", RESULTS)
+def test_results_are_values(name: str) -> None:
+    pd = pytest.importorskip("pandas")
+    one, same = RESULTS[name](), RESULTS[name]()
+    assert one is not same and one == same and not one != same
+    assert pickle.loads(pickle.dumps(one)) == one and copy.deepcopy(one) == one
+    assert one != "another thing" and one != vi.simulate(OSC, impacts=3)
+    with pytest.raises(TypeError, match="unhashable"):
+        hash(one)
+    table = one.to_dataframe()
+    assert isinstance(table, pd.DataFrame) and len(table) > 0 and len(set(table.columns)) == len(table.columns)
+    if name != "cycle":
+        assert json.loads(json.dumps(one.to_dict()))
+    html = one._repr_html_()
+    assert html.startswith("<pre>&lt;" if "cycle" != name else "<pre>") and ("<img" in html) is (name not in NO_PICTURE)
+    if "<img" in html:
+        picture = base64.b64decode(html.split("base64,")[1].split('"')[0])
+        assert picture.startswith(b"\x89PNG") and len(picture) < 100_000
+    import matplotlib.pyplot as plt
+
+    assert not plt.get_fignums()
+
+
+def test_other_values_are_other_results() -> None:
+    assert vi.simulate(OSC, impacts=5) != vi.simulate(OSC, impacts=6)
+    assert vi.branch(OSC, "1/1", "gap", 2.0) != vi.branch(OSC, "1/1", "gap", 2.1)
+    assert HAMMER.settle() != HAMMER.set({"frequency": 1.05}).settle()
+    # not-a-number equals itself: a release has no velocity
+    pressed = vi.simulate(vi.Oscillator(beta=0.9, gap=-0.5, restitution=0.5), impacts=20)
+    assert np.isnan(pressed.velocity_before).any() and pressed == vi.simulate(pressed.osc, impacts=20)
+
+
+def test_results_that_have_no_figure_show_their_text() -> None:
+    silent = vi.settle(vi.Oscillator(beta=0.5, gap=9, restitution=0.5))
+    assert silent._repr_html_() == "<pre>&lt;Motion 0&gt;</pre>"
+
+
+def test_the_accessor_is_there_whoever_is_imported_first() -> None:
+    for program in ("import vibroimpact, xarray", "import xarray, vibroimpact", "import xarray as xr, vibroimpact, numpy"):
+        code = f"{program}\nimport xarray, sys\nprint(hasattr(xarray.Dataset, 'vibro'), isinstance(xarray.Dataset().vibro, vibroimpact.VibroAccessor))"
+        run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+        assert run.stdout.strip() == "True True", run.stderr
+    with pytest.raises(AttributeError, match="no attribute `nothing`"):
+        vi.nothing  # noqa: B018
+
+
+def test_the_accessor_after_what_xarray_does(s: vi.Oscillator) -> None:
+    xr = pytest.importorskip("xarray")
+    ds = vi.region_map(s, {"inverse_beta": "1:1.5:5", "gap": [0.5, 0.75, 1.0]}, starts=4)
+    words = ds.vibro.labels()
+    some = ds.where(ds["gap"] > 0.6)
+    assert (some.vibro.labels().sel(gap=0.5) == "").all() and (some.vibro.labels().sel(gap=1.0) == words.sel(gap=1.0)).all()
+    ax = some.vibro.plot()
+    assert ax.get_xlabel() == r"$1/\beta$" and r"\varepsilon = 0.5" in ax.get_title()
+    renamed = ds.rename(gap="clearance", label="motion_label")
+    assert (renamed.vibro.labels().values == words.values).all()
+    ax = renamed.vibro.plot()
+    assert ax.get_ylabel() == r"$\delta$" and "not known" not in ax.get_title()
+    slices = [renamed.isel(clearance=k) for k in (1, 2)]
+    assert [r"\delta = 0.75" in one.vibro.plot().get_title() for one in slices] == [True, False]
+    joined = xr.concat([ds.isel(gap=[0]), ds.isel(gap=[1, 2])], "gap")
+    assert (joined.vibro.labels() == words).all() and joined.vibro.plot().get_title() == ds.vibro.plot().get_title()
+
+
+def test_a_slice_shows_its_own_parameters(s: vi.Oscillator) -> None:
+    ds = vi.region_map(s, {"inverse_beta": "1:1.5:5", "gap": [0.5, 0.75, 1.0]}, starts=4)
+    for k, gap in enumerate((0.5, 0.75, 1.0)):
+        assert rf"\delta = {gap:g}$" in ds.isel(gap=k).vibro.plot().get_title()
+    basins = vi.basin(HAMMER, {"q.head": [-1.0, 0.0], "qdot.head": [-1.0, 0.0, 1.0], "phase": [0.0, 1.5]})
+    for k, phase in enumerate((0.0, 1.5)):
+        title = basins.isel(phase=k).vibro.plot().get_title()
+        assert title.endswith(f", phase = {phase:g}") and title.startswith(HAMMER.title.split(": ")[0])
+    assert basins.isel(phase=1, drop=True).vibro.plot().get_title().endswith("phase not known")
+
+
+def test_legends_name_what_they_hide() -> None:
+    from vibroimpact._palette import LEGEND, legend_text
+
+    assert legend_text("m/n", ["5/3"]) == "5/3" and legend_text("m/n", ["4/3", "5/3", "4/3"]) == "4/3, 5/3"
+    assert legend_text("inf/n", ["inf/1"]) == "∞/1" and legend_text("2/1", ["2/1"]) == "2/1"
+    assert legend_text("1/n", [f"1/{n}" for n in range(4, 12)]) == "1/4, 1/5, 1/6, 1/7 and 4 more"
+    assert legend_text("chaotic", ["chaotic"]) == LEGEND["chaotic"]
+    ds = vi.region_map(vi.Oscillator(beta=1, gap=0, restitution=0.5), {"inverse_beta": "0.9:1.2:13", "gap": "0:3:13"}, starts=4)
+    there = set(ds.vibro.labels().values.ravel().tolist()) - {""}
+    legend = ds.vibro.plot().get_legend()
+    texts = [text.get_text() for text in legend.get_texts()]
+    assert len(set(texts)) == len(texts) and not any("other" in text for text in texts)
+    named = {word for text in texts for word in text.replace("∞", "inf").split(", ")}
+    several = {label for label in there if "/" in label}
+    assert several <= named or any("more" in text for text in texts)
+
+
+def test_ranges_are_texts_and_lists_are_values(s: vi.Oscillator) -> None:
+    over = vi.span(0.5, 1.5, 5)
+    assert over == "0.5:1.5:5" and isinstance(over, str) and over.values().tolist() == [0.5, 0.75, 1.0, 1.25, 1.5]
+    assert vi.region_map(s, {"gap": over}, starts=1)["gap"].values.tolist() == over.values().tolist()
+    assert vi.span(1, 100, 3, log=True).values().round(9).tolist() == [1.0, 10.0, 100.0]
+    for wrong, sentence in (
+        ((0.1, 1, 3), r"may be three values or 3 values from 0.1 to 1\nhint: \[0.1, 1, 3\] is a list"),
+        ((0.1, 1, 3, "log"), r"is a tuple.*\nhint: \"0.1:1:3:log\" or vibroimpact.span\(0.1, 1, 3, log=True\)"),
+        ((0.5, 1.0), r"\(0.5, 1.0\) is a tuple, which may be a list or a range\nhint: \[0.5, 1.0\] is a list"),
+    ):
+        with pytest.raises(vi.QuestionError, match=sentence):
+            vi.region_map(s, {"gap": wrong}, starts=1)  # type: ignore[dict-item]
+    with pytest.raises(vi.QuestionError, match="asks for 0 values"):
+        vi.span(0, 1, 0)
+    with pytest.raises(vi.QuestionError, match="count = -1 lies outside 1 <= count"):
+        vi.span(0, 1, -1)
+    with pytest.raises(TypeError, match="count = 2.5 is not a whole number"):
+        vi.span(0, 1, 2.5)  # type: ignore[arg-type]
+
+
+LONG: list[Callable[..., Any]] = [
+    lambda **of: vi.simulate(OSC, impacts=20_000, **of),
+    lambda **of: vi.lyapunov(OSC, impacts=20_000, **of),
+    lambda **of: vi.response(OSC, "gap", "1:2:5", **of),
+    lambda **of: vi.region(OSC, "1/1", {"inverse_beta": (0.6, 0.9), "gap": (1, 3)}, grid=4, **of),
+    lambda **of: vi.branch(OSC, "1/1", "gap", 2.0, **of),
+    lambda **of: vi.curve(OSC, "1/1", "flip", {"gap": (1, 3), "inverse_beta": (1.05, 1.2)}, **of),
+    lambda **of: vi.orbits(OSC, "2/2", **of),
+    lambda **of: vi.margins(OSC, vary=["gap"], lines=4, **of),
+    lambda **of: vi.region_map(OSC, {"gap": "1:2:9", "inverse_beta": "1:1.2:9"}, starts=2, refine=4, **of),
+    lambda **of: vi.simulate_many(OSC, starts={"v": [0.0, 0.5]}, **of),
+]
+
+
+@pytest.mark.parametrize("ask", LONG, ids=range(len(LONG)))
+def test_long_work_reports_progress(ask: Callable[..., Any]) -> None:
+    seen: list[tuple[int, int]] = []
+    ask(progress=lambda done, total: seen.append((done, total)))
+    assert seen and seen[-1][0] == seen[-1][1] >= 1
+    assert all(0 <= done <= total for done, total in seen)
