@@ -6,6 +6,7 @@
 
 use std::path::Path;
 use std::process::ExitCode;
+use std::thread::JoinHandle;
 use std::time::Instant;
 
 use crate::totals::{self, Totals};
@@ -47,6 +48,7 @@ const DOC_TESTS: &str = "doc tests";
 /// The step that needs the packages of Python, which are downloaded before.
 const PYTHON_PACKAGE: &str = "Python package";
 
+#[derive(Clone, Copy)]
 enum Work {
     /// A command that succeeds or fails.
     Command,
@@ -56,29 +58,46 @@ enum Work {
     Check(fn(&Path) -> Result<String, String>),
 }
 
+#[derive(Clone, Copy)]
 struct Step {
     name: &'static str,
     /// The command that runs this step alone.
     alone: &'static str,
     work: Work,
     fast: bool,
+    /// Whether it is a part of the long run only: it takes long for what it finds.
+    long: bool,
+    /// Whether the steps after it do not wait for it, because it waits much itself.
+    beside: bool,
 }
 
 impl Step {
+    const fn new(name: &'static str, alone: &'static str, work: Work) -> Self {
+        Self { name, alone, work, fast: false, long: false, beside: false }
+    }
+
     const fn command(name: &'static str, alone: &'static str) -> Self {
-        Self { name, alone, work: Work::Command, fast: false }
+        Self::new(name, alone, Work::Command)
     }
 
     const fn tests(name: &'static str, alone: &'static str) -> Self {
-        Self { name, alone, work: Work::Tests, fast: false }
+        Self::new(name, alone, Work::Tests)
     }
 
     const fn check(name: &'static str, alone: &'static str, run: fn(&Path) -> Result<String, String>) -> Self {
-        Self { name, alone, work: Work::Check(run), fast: false }
+        Self::new(name, alone, Work::Check(run))
     }
 
     const fn fast(self) -> Self {
         Self { fast: true, ..self }
+    }
+
+    const fn long(self) -> Self {
+        Self { long: true, ..self }
+    }
+
+    const fn beside(self) -> Self {
+        Self { beside: true, ..self }
     }
 }
 
@@ -105,11 +124,11 @@ fn steps(nextest: bool, python: bool) -> Vec<Step> {
         Step::check("examples", "cargo xtask examples", examples::run),
         // the same cases in every run, so that a failure is caused by a change of the code
         Step::tests("fuzz", "cargo xtask fuzz --seconds 20 --seed 1"),
-        Step::tests("explorer", "cargo xtask explorer"),
+        Step::tests("explorer", "cargo xtask explorer").beside(),
         Step::check("documentation", "cargo xtask docs", docs::build),
-        Step::check("WebAssembly", "cargo xtask wasm", wasm::check),
+        Step::check("WebAssembly", "cargo xtask wasm", wasm::check).long(),
         Step::check(PYTHON_PACKAGE, "cargo xtask python", python::install),
-        Step::tests("buckets", "cargo xtask s3"),
+        Step::tests("buckets", "cargo xtask s3").long(),
     ];
     if !nextest {
         steps.retain(|step| step.name != DOC_TESTS);
@@ -123,11 +142,11 @@ fn steps(nextest: bool, python: bool) -> Vec<Step> {
 /// Runs the steps, and prints their results and the totals.
 pub(crate) fn run(root: &Path, options: Options) -> ExitCode {
     let mut steps = steps(tools::has_nextest(root), python::found(root).is_some());
-    steps.retain(|step| step.fast || !options.fast);
-    let mut totals = Totals::default();
-    let mut failed = Vec::new();
+    steps.retain(|step| (step.fast || !options.fast) && (options.long || !step.long));
+    let mut ran = Ran::default();
     let begin = Instant::now();
     let mut packages = steps.iter().any(|step| step.name == PYTHON_PACKAGE).then(|| python::begin(root));
+    let mut beside: Vec<(Step, JoinHandle<Taken>)> = Vec::new();
     for (index, step) in steps.iter().enumerate() {
         if step.name == PYTHON_PACKAGE
             && let Some(packages) = packages.take()
@@ -136,25 +155,63 @@ pub(crate) fn run(root: &Path, options: Options) -> ExitCode {
             let _ = packages.join();
         }
         println!("\n== {}/{} {}: {}", index + 1, steps.len(), step.name, typed(step, options));
-        let begin = Instant::now();
-        let (of_step, outcome) = take(step, root, options);
-        totals += of_step;
-        let seconds = begin.elapsed().as_secs_f64();
+        let (of_thread, root) = (*step, root.to_owned());
+        if step.beside {
+            println!("   beside the next steps");
+            beside.push((*step, std::thread::spawn(move || take(&of_thread, &root, options))));
+        } else {
+            ran.record(step, take(step, &root, options));
+        }
+    }
+    ran.join(&mut beside);
+    println!("\n{} steps in {:.0} s", steps.len(), begin.elapsed().as_secs_f64());
+    for step in &ran.failed {
+        println!("{} failed; to run it alone: {}", step.name, typed(step, options));
+    }
+    println!("{} passed, {} failed", ran.totals.passed, ran.totals.failed);
+    if ran.failed.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+/// What the steps gave so far.
+#[derive(Default)]
+struct Ran {
+    totals: Totals,
+    failed: Vec<Step>,
+}
+
+impl Ran {
+    /// Prints and adds the result of a step.
+    fn record(&mut self, step: &Step, Taken { totals, outcome, seconds }: Taken) {
+        self.totals += totals;
+        let name = if step.beside { format!("{}: ", step.name) } else { String::new() };
         match outcome {
-            Ok(sentence) if sentence.is_empty() => println!("   ok in {seconds:.1} s"),
-            Ok(sentence) => println!("   ok in {seconds:.1} s: {sentence}"),
+            Ok(sentence) if sentence.is_empty() => println!("   {name}ok in {seconds:.1} s"),
+            Ok(sentence) => println!("   {name}ok in {seconds:.1} s: {sentence}"),
             Err(sentence) => {
-                println!("{sentence}\n   FAILED in {seconds:.1} s");
-                failed.push(step);
+                println!("{sentence}\n   {name}FAILED in {seconds:.1} s");
+                self.failed.push(*step);
             }
         }
     }
-    println!("\n{} steps in {:.0} s", steps.len(), begin.elapsed().as_secs_f64());
-    for step in &failed {
-        println!("{} failed; to run it alone: {}", step.name, typed(step, options));
+
+    /// Waits for the steps that run beside the others.
+    fn join(&mut self, beside: &mut Vec<(Step, JoinHandle<Taken>)>) {
+        for (step, thread) in beside.drain(..) {
+            let taken = thread.join().unwrap_or_else(|_| Taken {
+                totals: Totals { passed: 0, failed: 1 },
+                outcome: Err(format!("{} panicked", step.name)),
+                seconds: 0.0,
+            });
+            self.record(&step, taken);
+        }
     }
-    println!("{} passed, {} failed", totals.passed, totals.failed);
-    if failed.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+/// The result of a step: the numbers of its tests, a remark or the reason of its failure, and its duration.
+struct Taken {
+    totals: Totals,
+    outcome: Result<String, String>,
+    seconds: f64,
 }
 
 /// The command that runs the step alone in the same way.
@@ -165,8 +222,9 @@ fn typed(step: &Step, options: Options) -> String {
     }
 }
 
-/// Runs one step. Returns the numbers of its tests, and a remark or the reason of its failure.
-fn take(step: &Step, root: &Path, options: Options) -> (Totals, Result<String, String>) {
+/// Runs one step.
+fn take(step: &Step, root: &Path, options: Options) -> Taken {
+    let begin = Instant::now();
     let mut counted = None;
     let outcome = match step.work {
         Work::Check(run) => run(root),
@@ -184,7 +242,8 @@ fn take(step: &Step, root: &Path, options: Options) -> (Totals, Result<String, S
             .map(|()| String::new())
         }
     };
-    settle(&step.work, counted, outcome)
+    let (totals, outcome) = settle(&step.work, counted, outcome);
+    Taken { totals, outcome, seconds: begin.elapsed().as_secs_f64() }
 }
 
 /// Makes totals and result consistent: a failed step counts at least one failure, and a test step without totals is a

@@ -39,7 +39,7 @@ const CRATES: [&str; 10] = [
     "crates/vibroimpact-plot/src/lib.rs",
     "crates/vibroimpact-report/src/lib.rs",
     "crates/vibroimpact-web/src/lib.rs",
-    "crates/vibroimpact-cli/src/main.rs",
+    "crates/vibroimpact-cli/src/lib.rs",
     "crates/vibroimpact-py/src/lib.rs",
     "crates/vibroimpact-fuzz/src/lib.rs",
     "crates/xtask/src/main.rs",
