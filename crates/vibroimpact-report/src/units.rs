@@ -72,6 +72,12 @@ impl Units {
         })
     }
 
+    /// The units at a point of a plane of two parameters.
+    #[must_use]
+    pub fn at_both(&self, (p, q): (Parameter, Parameter), (x, y): (f64, f64)) -> Self {
+        self.at(p, x).at(q, y)
+    }
+
     /// The units at a point of the axes; `value(k)` is the value of axis `k`.
     #[must_use]
     pub fn over(&self, axes: &[Axis], value: impl Fn(usize) -> f64) -> Self {

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use vibroimpact::continuation::{
     Branch, BranchEvent, BranchOptions, Curve, CurveEvent, CurveOptions, CurvePoint, Direction, SolutionPoint,
 };
-use vibroimpact::{Label, Oscillator};
+use vibroimpact::{Label, Oscillator, ParameterPath};
 
 /// What holds along a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -108,7 +108,12 @@ pub(crate) fn curve(system: &SystemPlan, plan: &CurvePlan, control: &Control<'_>
     let chosen = choose(&osc, label, plan.orbit, || !control.stopping())?.ok_or(Stopped { done: 0, total: 2 })?;
     let going = || !control.stopping();
     let stopped = |done| if going() { Ok(()) } else { Err(Stopped { done, total: 2 }) };
-    let events = events(&osc, &chosen, plan, label, going)?;
+    let frame = plan.vary.frame(&plan.and, system)?;
+    let line = match system.machine.filter(|_| frame.plane.is_of_machines()) {
+        Some(machine) => ParameterPath::of_machine(machine, plan.vary.parameter),
+        None => plan.vary.parameter.into(),
+    };
+    let events = events(&osc, &chosen, plan, (line, label), going)?;
     stopped(0)?;
     let own = system.value(plan.vary.parameter)?;
     let nearest = || {
@@ -128,10 +133,9 @@ pub(crate) fn curve(system: &SystemPlan, plan: &CurvePlan, control: &Control<'_>
         count: events.len(),
         asked: plan.event,
     })?;
-    let frame = plan.vary.frame(&plan.and);
     let options = CurveOptions::default();
     let [forth, back] =
-        Curve::through(&osc, &events[through], plan.vary.parameter, &frame, options).map_err(PlanError::from)?;
+        Curve::through(&osc, &events[through], line, &frame, options).map_err(PlanError::from)?;
     let forth: Vec<CurvePoint> = forth.take_while(|_| going()).collect();
     let closed = forth.last().is_some_and(|point| point.event == Some(CurveEvent::Closed));
     // the event itself is the first point of both directions, so one copy is skipped
@@ -149,19 +153,19 @@ fn events(
     osc: &Oscillator,
     chosen: &Chosen,
     plan: &CurvePlan,
-    label: Label,
+    (line, label): (ParameterPath, Label),
     going: impl Fn() -> bool,
 ) -> Result<Vec<SolutionPoint>, PlanError> {
-    let own = plan.vary.parameter.get(osc).ok_or(PlanError::NoSecondStop(plan.vary.parameter.name()))?;
+    let own = line.get(osc)?;
     let mut events: Vec<SolutionPoint> = Vec::new();
     for (direction, end) in [(Direction::Up, plan.vary.to), (Direction::Down, plan.vary.from)] {
         if (direction == Direction::Up && own >= end) || (direction == Direction::Down && own <= end) {
             continue;
         }
-        let (cycle, parameter) = (&chosen.orbit.cycle, plan.vary.parameter);
+        let cycle = &chosen.orbit.cycle;
         // the inverse of a value at an end of the range may be rounded to a value outside
         let range = plan.vary.from.min(own)..=plan.vary.to.max(own);
-        let branch = Branch::new(osc, cycle, parameter, range, direction, BranchOptions::default())?;
+        let branch = Branch::new(osc, cycle, line, range, direction, BranchOptions::default())?;
         for point in branch.take_while(|point| point.cycle.label == label && going()) {
             let known = |other: &SolutionPoint| (other.value - point.value).abs() <= 1e-9 * (1.0 + point.value.abs());
             if point.event.is_some_and(|event| plan.kind.is(event)) && !events.iter().any(known) {
@@ -176,7 +180,7 @@ fn events(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Parameter, Plan, Task};
+    use crate::{Parameter, PhysicalPlan, Plan, Task};
 
     fn plan() -> (SystemPlan, CurvePlan) {
         let system = SystemPlan { inverse_beta: Some(1.11), gap: 1.5, restitution: 0.5, ..SystemPlan::default() };
@@ -197,6 +201,48 @@ mod tests {
             assert!(one.iter().any(|m| (m.re + 1.0).abs() < 1e-6), "{one:?}");
         }
         assert!(found.points[0].event.is_some() && found.points.last().unwrap().event.is_some());
+    }
+
+    /// With the frequency held, the gap of the flip in units of the static deflection is one number: in the plane of gap and
+    /// force the curve is a straight line through the origin. Over mass and stiffness it is that of one frequency ratio.
+    #[test]
+    fn numbers_of_a_machine() {
+        let physical = |number| Parameter::Physical(number);
+        let machine = PhysicalPlan {
+            mass_kg: Some(0.8),
+            stiffness_n_per_m: Some(12e3),
+            force_n: Some(30.0),
+            damping_ns_per_m: Some(4.0),
+            omega_rad_per_s: Some((12e3_f64 / 0.8).sqrt() / 1.11),
+            gap_m: Some(3.75e-3),
+            restitution: Some(0.5),
+            ..PhysicalPlan::default()
+        };
+        let system = SystemPlan::of_machine(machine.driven().unwrap()).unwrap();
+        let over = |number, from, to| Stretch { parameter: physical(number), from, to };
+        let flip = |vary, and| {
+            let plan = CurvePlan { label: "1/1".into(), kind: FollowedEvent::Flip, vary, and, orbit: None, event: None };
+            curve(&system, &plan, &Control::default()).unwrap()
+        };
+        use vibroimpact::PhysicalParameter::{Force, Gap, Mass, Stiffness};
+        let line = flip(over(Gap, 0.0, 9e-3), over(Force, 15.0, 60.0));
+        assert!(line.points.len() > 10);
+        let slope = line.events[line.through].value / 30.0;
+        for CurvePoint { values: (gap, force), .. } in &line.points {
+            assert!((gap / force / slope - 1.0).abs() < 1e-9, "{gap} {force}");
+        }
+        let (one, other) = (line.points[0].values.1, line.points.last().unwrap().values.1);
+        assert!((one - other).abs() > 39.0, "{one} {other} {:?}", line.points.last().unwrap().event);
+
+        // each point of the curve is a flip of the machine with that mass and stiffness
+        let curved = flip(over(Mass, 0.7, 0.9), over(Stiffness, 11e3, 13e3));
+        assert!(curved.points.len() > 5);
+        for CurvePoint { values: (mass, stiffness), cycle, .. } in &curved.points {
+            let there = PhysicalPlan { mass_kg: Some(*mass), stiffness_n_per_m: Some(*stiffness), ..machine };
+            let osc = SystemPlan::of_machine(there.driven().unwrap()).unwrap().oscillator().unwrap();
+            let again = vibroimpact::orbit::refine(&osc, cycle).expect("an orbit").cycle;
+            assert!(again.multipliers.iter().any(|m| (m.re + 1.0).abs() + m.im.abs() < 1e-7), "{mass} {stiffness}: {:?}", again.multipliers);
+        }
     }
 
     #[test]

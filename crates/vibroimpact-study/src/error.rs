@@ -145,9 +145,14 @@ pub enum PlanError {
     },
     /// A number of a machine as the side of a plane of parameters.
     #[error(
-        "{0} cannot vary in a curve or region: their planes have parameters of the oscillator, such as beta and gap"
+        "{0} and {1} do not span a plane: {0} is measured in units that change with the numbers of the machine\nhint: take frequency_hz, gap_m or second_gap_m instead of {0}"
     )]
-    PhysicalPlane(&'static str),
+    MixedPlane(&'static str, &'static str),
+    /// The motion without impacts over numbers of a machine.
+    #[error(
+        "the region of 0/1 is computed over parameters of the oscillator, such as beta and gap, not over {0}\nhint: its edge is the curve of grazing, `vibro curve 0/1 --kind grazing`"
+    )]
+    FreePlane(&'static str),
     /// A text that cannot be read as a plan.
     #[error("the plan does not read: {0}")]
     Text(String),

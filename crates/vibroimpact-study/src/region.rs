@@ -5,7 +5,7 @@ use crate::stretch::check_plane;
 use crate::{Control, Parameter, PlanError, RunError, Stretch, SystemPlan, tiles};
 use serde::{Deserialize, Serialize};
 use vibroimpact::continuation::{Frame, Region, RegionKind, RegionOptions, region_while};
-use vibroimpact::{Label, Oscillator};
+use vibroimpact::{Label, Oscillator, PhysicalParameter};
 
 /// Default number of grid points, in each direction, at which orbits are searched.
 pub const DEFAULT_GRID: u32 = 24;
@@ -41,7 +41,8 @@ impl RegionPlan {
         if !(2..=MOST_GRID).contains(&self.grid) {
             return Err(PlanError::Grid { given: self.grid, most: MOST_GRID });
         }
-        check_plane(system, &self.across, &self.up)
+        check_plane(system, &self.across, &self.up)?;
+        no_free_region([&self.label], &self.across, &self.up)
     }
 
     /// Whether the motion loses no energy anywhere in the plane. It is then neutrally stable and has no region of
@@ -49,8 +50,11 @@ impl RegionPlan {
     #[must_use]
     pub fn neutral(&self, system: &SystemPlan) -> bool {
         let varied = |parameter| [self.across.parameter, self.up.parameter].contains(&parameter);
-        let undamped = system.damping == 0.0 && !varied(Parameter::Damping);
-        let elastic = |parameter, restitution: f64| restitution == 1.0 && !varied(parameter);
+        use PhysicalParameter::{DampingCoefficient, DampingRatio, Restitutions};
+        let any = |parameters: &[PhysicalParameter]| parameters.iter().any(|one| varied(Parameter::Physical(*one)));
+        let damps = varied(Parameter::Damping) || any(&[DampingCoefficient, DampingRatio]);
+        let undamped = system.damping == 0.0 && !damps;
+        let elastic = |parameter, restitution: f64| restitution == 1.0 && !varied(parameter) && !any(&[Restitutions]);
         let lossless = elastic(Parameter::Restitution, system.restitution)
             && system.second_stop.is_none_or(|stop| elastic(Parameter::SecondRestitution, stop.restitution));
         undamped && (self.clears() || lossless)
@@ -81,9 +85,10 @@ struct Plane {
 
 impl Plane {
     fn new(system: &SystemPlan, across: &Stretch, up: &Stretch, grid: u32) -> Result<Self, PlanError> {
-        let osc = system.with(across.parameter, across.from)?.with(up.parameter, up.from)?.oscillator()?;
+        let corner = system.with_all([(across.parameter, across.from), (up.parameter, up.from)])?;
+        let osc = corner.oscillator()?;
         let options = RegionOptions { grid: (grid, grid), ..RegionOptions::default() };
-        Ok(Self { osc, frame: across.frame(up), options })
+        Ok(Self { osc, frame: across.frame(up, system)?, options })
     }
 
     /// Computes several regions, each on a thread of its own.
@@ -117,9 +122,24 @@ pub fn stability_regions(
     control: &Control<'_>,
 ) -> Result<Vec<Region>, RunError> {
     check_plane(system, across, up)?;
+    no_free_region(labels, across, up)?;
     let wanted = labels.iter().map(|label| Ok((followable(label)?, RegionKind::Stability)));
     let wanted = wanted.collect::<Result<Vec<_>, PlanError>>()?;
     Plane::new(system, across, up, grid)?.regions(&wanted, control)
+}
+
+/// Refuses the region of the motion without impacts over numbers of a machine.
+fn no_free_region<'a>(
+    labels: impl IntoIterator<Item = &'a String>,
+    across: &Stretch,
+    up: &Stretch,
+) -> Result<(), PlanError> {
+    let number = across.physical().or_else(|| up.physical());
+    let free = labels.into_iter().any(|label| label.parse() == Ok(Label::new(0, 1)));
+    match number {
+        Some(number) if free => Err(PlanError::FreePlane(number.name())),
+        _ => Ok(()),
+    }
 }
 
 /// Computes both regions.
@@ -184,6 +204,62 @@ mod tests {
         assert!(undamped.stability.polygons.is_empty() && zero.neutral(&system) && !plan.neutral(&system));
         let elastic = SystemPlan { restitution: 1.0, ..system };
         assert!(plan.neutral(&elastic) && !plan.neutral(&SystemPlan { damping: 0.1, ..elastic }));
+    }
+
+    /// A region over numbers of a machine contains the points at which its oscillator lies in the region over parameters of
+    /// the oscillator.
+    #[test]
+    fn numbers_of_a_machine() {
+        use vibroimpact::PhysicalParameter::{Force, Mass};
+        let machine = crate::PhysicalPlan {
+            mass_kg: Some(1.0),
+            stiffness_n_per_m: Some(1e4),
+            force_n: Some(20.0),
+            omega_rad_per_s: Some(100.0),
+            gap_m: Some(3e-3),
+            restitution: Some(0.5),
+            ..crate::PhysicalPlan::default()
+        };
+        let system = SystemPlan::of_machine(machine.driven().unwrap()).unwrap();
+        let over = |parameter, from, to| Stretch { parameter, from, to };
+        let (mass, force) = (Parameter::Physical(Mass), Parameter::Physical(Force));
+        let plan = RegionPlan {
+            label: "1/1".into(),
+            across: over(mass, 0.7, 0.95),
+            up: over(force, 10.0, 60.0),
+            grid: 12,
+        };
+        assert_eq!(Plan::new(system, Task::Region(plan.clone())).check(), Ok(()));
+        let found = regions(&system, &plan, &Control::default()).unwrap();
+        let plain = SystemPlan { machine: None, ..system };
+        let known = RegionPlan {
+            across: over(Parameter::InverseBeta, 1.0, 1.25),
+            up: over(Parameter::Gap, 0.4, 4.0),
+            grid: 24,
+            ..plan.clone()
+        };
+        let known = regions(&plain, &known, &Control::default()).unwrap();
+        let (mut inside, mut points) = (0, 0);
+        for i in 0..25 {
+            for j in 0..25 {
+                let (m, f) = (0.7052 + 0.01 * f64::from(i), 10.3 + 2.0 * f64::from(j));
+                if m > 0.95 || f > 60.0 {
+                    continue;
+                }
+                let osc = system.with_all([(mass, m), (force, f)]).unwrap().oscillator().unwrap();
+                let at = (1.0 / osc.beta(), osc.gap());
+                for (own, other) in [(&found.existence, &known.existence), (&found.stability, &known.stability)] {
+                    assert_eq!(own.contains((m, f)), other.contains(at), "{m} kg, {f} N: {at:?}");
+                    inside += u32::from(own.contains((m, f)));
+                    points += 1;
+                }
+            }
+        }
+        assert!(inside > points / 20 && inside < points * 19 / 20, "{inside} of {points}");
+        let free = RegionPlan { label: "0".into(), ..plan.clone() };
+        assert!(matches!(free.check(&system), Err(PlanError::FreePlane("mass_kg"))));
+        let mixed = RegionPlan { up: over(Parameter::Gap, 0.4, 2.0), ..plan };
+        assert!(matches!(mixed.check(&system), Err(PlanError::MixedPlane("gap", "mass_kg"))));
     }
 
     #[test]

@@ -4,6 +4,7 @@ use crate::{Parameter, PlanError, SystemPlan};
 use core::ops::RangeInclusive;
 use serde::{Deserialize, Serialize};
 use vibroimpact::continuation::Frame;
+use vibroimpact::{ParameterPlane, PhysicalParameter, SystemError};
 
 /// A parameter from one value to another; as the side of a plane, to a larger one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -26,10 +27,28 @@ impl Stretch {
         self.from..=self.to
     }
 
-    /// The plane of this parameter and another one.
-    #[must_use]
-    pub const fn frame(&self, other: &Self) -> Frame {
-        Frame { parameters: (self.parameter, other.parameter), ranges: (self.range(), other.range()) }
+    /// The plane of this parameter and another one: of a machine if one of them is a number of a machine.
+    ///
+    /// # Errors
+    /// [`SystemError::NotPhysical`] for a number of a machine if the system is none.
+    pub(crate) fn frame(&self, other: &Self, system: &SystemPlan) -> Result<Frame, PlanError> {
+        let parameters = (self.parameter, other.parameter);
+        let plane = match self.physical().or_else(|| other.physical()) {
+            Some(number) => {
+                let machine = system.machine.ok_or(SystemError::NotPhysical(number.name()))?;
+                ParameterPlane::of_machine(machine, parameters)
+            }
+            None => parameters.into(),
+        };
+        Ok(Frame { plane, ranges: (self.range(), other.range()) })
+    }
+
+    /// The number of a machine that varies, if it is one.
+    pub(crate) const fn physical(&self) -> Option<PhysicalParameter> {
+        match self.parameter {
+            Parameter::Physical(number) => Some(number),
+            _ => None,
+        }
     }
 }
 
@@ -45,9 +64,6 @@ const NARROWEST: f64 = 1e-100;
 /// [`PlanError`] for ends out of order or too close, for equal parameters, and for an invalid system at a corner.
 pub(crate) fn check_plane(system: &SystemPlan, one: &Stretch, two: &Stretch) -> Result<(), PlanError> {
     for stretch in [one, two] {
-        if let Parameter::Physical(parameter) = stretch.parameter {
-            return Err(PlanError::PhysicalPlane(parameter.name()));
-        }
         if !(stretch.from.is_finite() && stretch.to.is_finite() && stretch.from < stretch.to) {
             let name = stretch.parameter.name();
             return Err(PlanError::Stretch { name, from: stretch.from, to: stretch.to });
@@ -63,9 +79,15 @@ pub(crate) fn check_plane(system: &SystemPlan, one: &Stretch, two: &Stretch) -> 
     if p.same_number(q) {
         return Err(PlanError::SameParameter(p.name(), q.name()));
     }
+    for (own, other) in [(p, two), (q, one)] {
+        let scaled = matches!(own, Parameter::Beta | Parameter::InverseBeta | Parameter::Gap | Parameter::SecondGap);
+        if let (true, Some(number)) = (scaled, other.physical()) {
+            return Err(PlanError::MixedPlane(own.name(), number.name()));
+        }
+    }
     for x in [one.from, one.to] {
         for y in [two.from, two.to] {
-            system.with(p, x)?.with(q, y)?.oscillator()?;
+            system.with_all([(p, x), (q, y)])?.oscillator()?;
         }
     }
     Ok(())

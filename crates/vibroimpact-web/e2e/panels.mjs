@@ -21,9 +21,10 @@ export async function panels_enlarge_zoom_and_return({ open, folder }) {
     assert.equal(await page.locator("#point > .panel:not([hidden])").count(), names.length - 1, "the others stay");
     if (name === "motion") await page.screenshot({ path: `${folder}/enlarged.png` });
     await page.keyboard.press("Escape");
-    assert.ok(await page.locator("#large").isHidden());
-    assert.deepEqual(await page.$$eval("#point > .panel:not([hidden])", (panels) => panels.map((panel) => panel.dataset.name)), names);
-    assert.match(await page.evaluate(() => document.activeElement.getAttribute("aria-label")), /^Enlarge/, "the focus is back");
+    await until("the panel is small again", async () => page.locator("#large").isHidden());
+    await until(`${name} is in its place`, async () => (await shown()).join() === names.join());
+    const focused = () => page.evaluate(() => document.activeElement.getAttribute("aria-label") ?? "");
+    await until("the focus is back", async () => /^Enlarge/.test(await focused()));
   }
   // the figures of the server are drawn in the new size
   await enlarge(page, "multipliers");

@@ -85,7 +85,7 @@ pub mod verdict;
 pub use orbit::Label;
 pub use system::{
     Amplitude, Damping, DrivenOscillator, EquivalentOscillator, Excitation, Frequency, Oscillator, Parameter,
-    ParameterPath, PhysicalOscillator, PhysicalParameter, PhysicalStop, QuantityKind, Reduced, Scales, Shaking, Side,
+    ParameterPath, ParameterPlane, PhysicalOscillator, PhysicalParameter, PhysicalStop, QuantityKind, Reduced, Scales, Shaking, Side,
     Start, Stop, SystemError,
 };
 

@@ -62,7 +62,7 @@ pub(crate) fn regions(run: &Run<'_>, window: Window, labels: &[Label], both: usi
     // 1/beta and the gap vary, so their values here are ignored
     let osc = Oscillator::from_inverse_beta(window.x.0, 0.0, EPS)?;
     let frame = Frame {
-        parameters: (Parameter::InverseBeta, Parameter::Gap),
+        plane: (Parameter::InverseBeta, Parameter::Gap).into(),
         ranges: (window.x.0..=window.x.1, window.gap.0..=window.gap.1),
     };
     let parts = tiles(jobs.len() as u64, 1, run.control, |range, tick| {

@@ -5,7 +5,7 @@ use super::parameter_flag::{ParameterFlag, flag};
 use super::physical::alone;
 use crate::failure::Failure;
 use vibroimpact::PhysicalParameter;
-use vibroimpact_report::{Asked, Units};
+use vibroimpact_report::Asked;
 use vibroimpact_study::Parameter;
 
 impl SystemArgs {
@@ -71,21 +71,17 @@ impl SystemArgs {
     }
 }
 
-/// The parameters of a curve or a region, which are parameters of the oscillator, and their units.
-pub(crate) fn of_oscillator(asked: &mut Asked, varied: &[ParameterFlag]) -> Result<Vec<Parameter>, Failure> {
-    let Units { machine, .. } = asked.units;
-    let parameter = |named: &ParameterFlag| {
-        match (named.parameter, machine) {
-        (Parameter::Physical(parameter), Some(machine)) => alone(parameter, &machine).ok_or_else(|| {
-            Failure::bad(format!(
-                "{} changes several parameters of the oscillator, and a plane has two\nhint: `vibro map`, `vibro branch` and `vibro response` take it",
-                named.flag()
-            ))
-        }),
-        (parameter, _) => Ok(parameter),
-    }
+/// The parameters of a curve or a region. They are parameters of the oscillator where each number of a machine that varies
+/// changes one of these alone, as its frequency does; their units change too then. Otherwise they are numbers of the machine.
+pub(crate) fn of_oscillator(asked: &mut Asked, varied: &[ParameterFlag]) -> Vec<Parameter> {
+    let machine = asked.units.machine;
+    let own = |named: &ParameterFlag| match (named.parameter, machine) {
+        (Parameter::Physical(parameter), Some(machine)) => alone(parameter, &machine),
+        (parameter, _) => Some(parameter),
     };
-    let parameters = varied.iter().map(parameter).collect::<Result<Vec<_>, Failure>>()?;
+    let Some(parameters) = varied.iter().map(own).collect::<Option<Vec<_>>>() else {
+        return varied.iter().map(|named| named.parameter).collect();
+    };
     asked.units.hertz = varied.iter().any(|named| named.machine() == Some(PhysicalParameter::Frequency));
-    Ok(parameters)
+    parameters
 }

@@ -163,7 +163,7 @@ pub(super) fn run(args: &Curve, session: &Session) -> Result<(), Failure> {
     let over = (args.vary.over()?, args.and.over()?);
     let varied = [over.0.0, over.1.0];
     let mut asked = args.system.over(&varied)?;
-    let parameters = of_oscillator(&mut asked, &varied)?;
+    let parameters = of_oscillator(&mut asked, &varied);
     let plan = Plan::new(asked.system, Task::Curve(args.plan((&over.0, &over.1), &asked.units, &parameters)?));
     plan.check()?;
     let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;

@@ -118,7 +118,7 @@ impl Region {
         let units = if physical.is_empty() { self.units } else { Convention::Si };
         let mut asked = SystemArgs::of(&self.places().map(own), self.machine.clone(), units).first(&[])?;
         let flags: Vec<ParameterFlag> = physical.iter().map(|(named, _)| *named).collect();
-        let parameters = of_oscillator(&mut asked, &flags)?;
+        let parameters = of_oscillator(&mut asked, &flags);
         let ranges = parameters.into_iter().zip(physical).map(|(parameter, (_, ends))| (parameter, ends));
         let plain = self.places().into_iter().filter_map(|(parameter, place)| {
             let Stretch { from, to, .. } = place?.over(parameter)?;
@@ -129,7 +129,12 @@ impl Region {
             Stretch { parameter, from: from / unit, to: to / unit }
         };
         let over: Vec<Stretch> = plain.chain(ranges).map(stretch).collect();
-        if machine {
+        let of_machines = over.iter().any(|stretch| matches!(stretch.parameter, Parameter::Physical(_)));
+        if of_machines {
+            let first = over.iter().map(|stretch| (stretch.parameter, stretch.from));
+            asked.system = asked.system.with_all(first)?;
+            asked = asked.refreshed();
+        } else if machine {
             // the plane has parameters of the oscillator, in the units of the machine
             asked.system.machine = None;
             for stretch in &over {

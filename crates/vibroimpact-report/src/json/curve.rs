@@ -84,7 +84,10 @@ impl CurveFields {
                 .map(|point| PointObject {
                     values: values(point, plan, units),
                     physical: point.physical,
-                    cycle: impacts(&point.cycle, units),
+                    cycle: impacts(
+                        &point.cycle,
+                        &units.at_both((plan.vary.parameter, plan.and.parameter), point.values),
+                    ),
                     multipliers: pairs(point.cycle.multipliers),
                 })
                 .collect(),

@@ -27,6 +27,7 @@ fn rows<'a>(found: &'a EventCurve, plan: &'a CurvePlan, units: &'a Units) -> imp
         let [p, q] = values(point, plan, units);
         let event = point.event.map_or("", |event| event.name());
         let head = format!("{},{},{},{event}", Number(p), Number(q), point.physical);
-        format!("{head},{}", cells(&point.cycle, units))
+        let units = units.at_both((plan.vary.parameter, plan.and.parameter), point.values);
+        format!("{head},{}", cells(&point.cycle, &units))
     })
 }

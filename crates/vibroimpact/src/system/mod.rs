@@ -6,7 +6,7 @@
 //! | its response in closed form, free and forced | [`Response`], `free` |
 //! | frequency ratios that are fractions | [`Oscillator::fraction`] |
 //! | its parameters by name, read and changed | [`Parameter`] |
-//! | a line through two parameters | [`ParameterPath`] |
+//! | a line through two parameters, a plane of two | [`ParameterPath`], [`ParameterPlane`] |
 //! | a start within the stops | [`Start`] |
 //! | conversion from physical units to nondimensional numbers and back | [`PhysicalOscillator`] |
 //! | a machine with all that drives it, and its numbers by name | [`DrivenOscillator`], [`PhysicalParameter`] |
@@ -21,6 +21,7 @@ mod free;
 mod oscillator;
 mod parameter;
 mod parameter_path;
+mod parameter_plane;
 pub mod phase;
 mod physical;
 mod physical_change;
@@ -36,6 +37,7 @@ pub(crate) use free::{FreeResponse, HEAVY, decay, versine};
 pub use oscillator::{Oscillator, Side, Stop};
 pub use parameter::Parameter;
 pub use parameter_path::ParameterPath;
+pub use parameter_plane::ParameterPlane;
 pub use physical::{DrivenOscillator, PhysicalParameter, Reduced};
 pub use quantity_kind::QuantityKind;
 pub use response::{Propagator, Response};

@@ -88,7 +88,7 @@ impl ParameterPath {
             Some(machine) => {
                 let along = |value| self.machine_at(machine, value)?.reduced().map(|reduced| reduced.oscillator);
                 let rates = rates(along, value, machine.value(self.parameter).map_or(0.0, f64::abs))?;
-                (None, NUMBERS.into_iter().zip(rates).filter(|(_, rate)| *rate != 0.0).collect())
+                (None, named(rates))
             }
             None => (Some((self.parameter, 1.0)), Vec::new()),
         };
@@ -138,6 +138,11 @@ const NUMBERS: [Parameter; 6] = [
     Parameter::SecondGap,
     Parameter::SecondRestitution,
 ];
+
+/// The parameters that change, with their [`rates`].
+pub(super) fn named(rates: [f64; 6]) -> Vec<(Parameter, f64)> {
+    NUMBERS.into_iter().zip(rates).filter(|(_, rate)| *rate != 0.0).collect()
+}
 
 #[cfg(test)]
 mod tests {

@@ -31,7 +31,7 @@ fn at(points: &[CurvePoint], event: CurveEvent) -> Vec<&CurvePoint> {
 #[test]
 fn double_grazing_is_where_two_grazing_curves_cross() {
     let osc = Oscillator::new(0.7, 1.0, 0.7).unwrap().with_damping(0.1).unwrap().with_second_stop(0.8, 0.6).unwrap();
-    let frame = Frame { parameters: (Parameter::Beta, Parameter::Gap), ranges: (0.5..=0.65, 0.05..=3.0) };
+    let frame = Frame { plane: (Parameter::Beta, Parameter::Gap).into(), ranges: (0.5..=0.65, 0.05..=3.0) };
     let osc = Parameter::Beta.set(&osc, 0.6).unwrap();
     let mut found = Vec::new();
     for direction in [DOWN, UP] {
@@ -52,7 +52,7 @@ fn double_grazing_is_where_two_grazing_curves_cross() {
 #[test]
 fn one_to_two_where_nothing_is_lost() {
     let osc = Oscillator::from_inverse_beta(1.11, 1.0, 0.5).unwrap();
-    let frame = Frame { parameters: (Parameter::Gap, Parameter::Restitution), ranges: (-5.0..=8.0, 0.2..=1.0) };
+    let frame = Frame { plane: (Parameter::Gap, Parameter::Restitution).into(), ranges: (-5.0..=8.0, 0.2..=1.0) };
     let points = curve(&osc, Label::new(1, 1), UP, "flip", &frame);
     let found = at(&points, CurveEvent::OneToTwo);
     let [point] = found[..] else { panic!("{} of them", found.len()) };
@@ -65,7 +65,7 @@ fn one_to_two_where_nothing_is_lost() {
         assert!((multiplier.re + 1.0).abs() < 1e-5 && multiplier.im.abs() < 1e-5, "{multiplier:?}");
     }
     // with a loss there is none
-    let frame = Frame { parameters: (Parameter::Gap, Parameter::Restitution), ranges: (-5.0..=8.0, 0.2..=0.9) };
+    let frame = Frame { plane: (Parameter::Gap, Parameter::Restitution).into(), ranges: (-5.0..=8.0, 0.2..=0.9) };
     assert!(at(&curve(&osc, Label::new(1, 1), UP, "flip", &frame), CurveEvent::OneToTwo).is_empty());
 }
 
@@ -73,7 +73,7 @@ fn one_to_two_where_nothing_is_lost() {
 fn curves_end_for_a_reason() {
     // 1/3 without damping: four natural periods in three of the force
     let osc = Oscillator::from_inverse_beta(1.11, 4.0, 0.5).unwrap();
-    let frame = Frame { parameters: (Parameter::Beta, Parameter::Gap), ranges: (0.7..=1.1, 0.5..=8.0) };
+    let frame = Frame { plane: (Parameter::Beta, Parameter::Gap).into(), ranges: (0.7..=1.1, 0.5..=8.0) };
     let points = curve(&osc, Label::new(1, 3), UP, "loss of contact", &frame);
     let whole = at(&points, CurveEvent::WholePeriods);
     let [end] = whole[..] else { panic!("{:?}", points.last()) };
@@ -83,7 +83,7 @@ fn curves_end_for_a_reason() {
     assert!(at(&points, CurveEvent::DoubleGrazing).is_empty());
     // damped: the folds of 2/2 end on the flips of 1/1
     let osc = Oscillator::from_inverse_beta(1.11, 1.0, 0.5).unwrap().with_damping(0.03).unwrap();
-    let frame = Frame { parameters: (Parameter::Beta, Parameter::Gap), ranges: (0.72..=1.125, -0.9..=6.0) };
+    let frame = Frame { plane: (Parameter::Beta, Parameter::Gap).into(), ranges: (0.72..=1.125, -0.9..=6.0) };
     let up = find(&osc, Label::new(1, 1), FindOptions::default());
     let begin = &up.iter().find(|o| o.physical).unwrap().cycle;
     let options = BranchOptions::default();
@@ -124,7 +124,7 @@ fn a_limit_of_motions_is_one() {
     let options = BranchOptions::default();
     let mut branch = Branch::new(&osc, &start, Parameter::Gap, -3.0..=6.0, UP, options).unwrap();
     let fold = branch.find(|p| p.event == Some(BranchEvent::Fold)).unwrap();
-    let frame = Frame { parameters: (Parameter::Gap, Parameter::Restitution), ranges: (-3.0..=6.0, 0.0..=1.0) };
+    let frame = Frame { plane: (Parameter::Gap, Parameter::Restitution).into(), ranges: (-3.0..=6.0, 0.0..=1.0) };
     let ways = Curve::through(&osc, &fold, Parameter::Gap, &frame, CurveOptions::default()).unwrap();
     let mut found = 0;
     for way in ways {
@@ -139,7 +139,7 @@ fn a_limit_of_motions_is_one() {
     assert_eq!(found, 1);
     // over the frequency, with restitution 0.5, all three impacts end as one touch: 1/beta = 1/2, delta = -1/3 = f, and no motions
     let osc = Oscillator::from_inverse_beta(0.5, -0.53, 0.5).unwrap();
-    let frame = Frame { parameters: (Parameter::InverseBeta, Parameter::Gap), ranges: (0.4..=2.0, -3.0..=6.0) };
+    let frame = Frame { plane: (Parameter::InverseBeta, Parameter::Gap).into(), ranges: (0.4..=2.0, -3.0..=6.0) };
     let points = curve(&osc, Label::new(3, 1), DOWN, "fold", &frame);
     let lost = at(&points, CurveEvent::LossOfContact);
     let [end] = lost[..] else { panic!("{:?}", points.iter().filter_map(|p| p.event).collect::<Vec<_>>()) };
@@ -150,7 +150,7 @@ fn a_limit_of_motions_is_one() {
 /// Towards restitution 1 the folds of 3/1 run to 1/beta = 3/2: three equal flights of half a natural period each, at any speed.
 #[test]
 fn speeds_without_bound() {
-    let frame = Frame { parameters: (Parameter::InverseBeta, Parameter::Restitution), ranges: (0.4..=2.6, 0.0..=1.0) };
+    let frame = Frame { plane: (Parameter::InverseBeta, Parameter::Restitution).into(), ranges: (0.4..=2.6, 0.0..=1.0) };
     for (inverse, gap, eps) in [(1.6, 0.25, 0.5), (1.9, 0.6, 0.8)] {
         let osc = Oscillator::from_inverse_beta(inverse, gap, eps).unwrap();
         let points = [UP, DOWN].into_iter().find_map(|direction| {

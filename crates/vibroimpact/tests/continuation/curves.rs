@@ -14,7 +14,7 @@ fn at(inverse: f64, gap: f64, eps: f64, zeta: f64) -> Oscillator {
 }
 
 fn frame(p: std::ops::RangeInclusive<f64>, q: std::ops::RangeInclusive<f64>) -> Frame {
-    Frame { parameters: (Parameter::InverseBeta, Parameter::Gap), ranges: (p, q) }
+    Frame { plane: (Parameter::InverseBeta, Parameter::Gap).into(), ranges: (p, q) }
 }
 
 /// The first event of that name on the branch of 1/n in the gap, inadmissible solutions included.
@@ -159,7 +159,7 @@ fn f10_a_grazing_curve_along_which_one_parameter_does_not_change() {
         ((Parameter::Gap, Parameter::Restitution), (-0.8..=3.0, 0.3..=0.7)),
         ((Parameter::Restitution, Parameter::Gap), (0.3..=0.7, -0.8..=3.0)),
     ] {
-        let frame = Frame { parameters, ranges };
+        let frame = Frame { plane: parameters.into(), ranges };
         let branch = |direction| {
             let options = BranchOptions::default();
             Branch::new(&osc, &orbit.cycle, Parameter::Gap, -0.8..=3.0, direction, options).unwrap()

@@ -38,7 +38,7 @@ fn ranges(numbers: &mut Random) -> [(Parameter, core::ops::RangeInclusive<f64>);
 #[test]
 fn f06_the_motion_without_impacts_has_a_region() {
     let osc = Oscillator::new(1.5, 0.5, 0.5).unwrap().with_damping(0.05).unwrap();
-    let frame = Frame { parameters: (Parameter::Beta, Parameter::Gap), ranges: (1.5..=3.0, 0.5..=2.0) };
+    let frame = Frame { plane: (Parameter::Beta, Parameter::Gap).into(), ranges: (1.5..=3.0, 0.5..=2.0) };
     for kind in [RegionKind::Existence, RegionKind::Stability] {
         let found = found(&osc, &frame, kind);
         assert_eq!((found.polygons.len(), found.unresolved.len()), (1, 0));
@@ -75,7 +75,7 @@ fn f06b_every_plane_against_the_amplitude() {
         if p == q || (p.is_frequency() && q.is_frequency()) || (!two && (lower(p) || lower(q))) {
             continue;
         }
-        let frame = Frame { parameters: (p, q), ranges: (over_p.clone(), over_q.clone()) };
+        let frame = Frame { plane: (p, q).into(), ranges: (over_p.clone(), over_q.clone()) };
         let exists = found(&osc, &frame, RegionKind::Existence);
         let stable = found(&osc, &frame, RegionKind::Stability);
         assert!(exists.polygons.iter().all(|polygon| polygon.vertices.len() > 2 && !polygon.hole));
@@ -111,7 +111,7 @@ fn f06b_every_plane_against_the_amplitude() {
 #[test]
 fn f06c_a_narrow_resonance_divides_the_region() {
     let osc = Oscillator::new(0.5, 1.0, 0.5).unwrap().with_damping(1e-9).unwrap();
-    let frame = Frame { parameters: (Parameter::Gap, Parameter::Beta), ranges: (9e6..=1e7, 0.5..=1.5) };
+    let frame = Frame { plane: (Parameter::Gap, Parameter::Beta).into(), ranges: (9e6..=1e7, 0.5..=1.5) };
     let found = found(&osc, &frame, RegionKind::Existence);
     assert_eq!(found.polygons.len(), 2);
     assert!(!found.contains((1e7 - 1.0, 1.0)) && found.contains((9.5e6, 1.0 + 1e-7)) && found.contains((9.5e6, 0.9)));

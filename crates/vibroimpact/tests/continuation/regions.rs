@@ -101,7 +101,7 @@ impl Case {
 /// The plane of the 1971 paper's figure 4.
 fn paper(label: Label) -> Case {
     let osc = Oscillator::from_inverse_beta(1.11, 1.0, 0.5).unwrap();
-    let frame = Frame { parameters: (Parameter::InverseBeta, Parameter::Gap), ranges: (0.4..=2.0, -1.0..=5.0) };
+    let frame = Frame { plane: (Parameter::InverseBeta, Parameter::Gap).into(), ranges: (0.4..=2.0, -1.0..=5.0) };
     Case { osc, label, frame }
 }
 
@@ -120,7 +120,7 @@ fn two_impacts_a_period_in_the_papers_plane() {
 #[test]
 fn one_impact_in_two_periods() {
     let osc = Oscillator::from_inverse_beta(1.11, 1.0, 0.5).unwrap();
-    let frame = Frame { parameters: (Parameter::InverseBeta, Parameter::Gap), ranges: (0.9..=1.3, 1.0..=5.0) };
+    let frame = Frame { plane: (Parameter::InverseBeta, Parameter::Gap).into(), ranges: (0.9..=1.3, 1.0..=5.0) };
     Case { osc, label: Label::new(1, 2), frame: frame.clone() }.check(RegionKind::Existence, 60);
     Case { osc, label: Label::new(1, 2), frame }.check(RegionKind::Stability, 60);
 }
@@ -128,10 +128,10 @@ fn one_impact_in_two_periods() {
 #[test]
 fn two_impacts_with_damping_and_on_two_stops() {
     let osc = Oscillator::from_inverse_beta(1.3, 0.3, 0.6).unwrap().with_damping(0.04).unwrap();
-    let frame = Frame { parameters: (Parameter::InverseBeta, Parameter::Gap), ranges: (0.8..=1.6, -0.5..=0.8) };
+    let frame = Frame { plane: (Parameter::InverseBeta, Parameter::Gap).into(), ranges: (0.8..=1.6, -0.5..=0.8) };
     Case { osc, label: Label::new(2, 1), frame }.check(RegionKind::Existence, 60);
     let two = Oscillator::new(0.7, 0.6, 0.7).unwrap().with_damping(0.1).unwrap().with_second_stop(0.8, 0.6).unwrap();
-    let frame = Frame { parameters: (Parameter::Beta, Parameter::Gap), ranges: (0.5..=1.2, 0.1..=2.0) };
+    let frame = Frame { plane: (Parameter::Beta, Parameter::Gap).into(), ranges: (0.5..=1.2, 0.1..=2.0) };
     Case { osc: two, label: Label::new(2, 1), frame }.check(RegionKind::Existence, 60);
 }
 
@@ -139,11 +139,11 @@ fn two_impacts_with_damping_and_on_two_stops() {
 fn with_damping_and_in_other_planes() {
     let osc = Oscillator::from_inverse_beta(1.3, 0.75, 0.5).unwrap().with_damping(0.03).unwrap();
     let label = Label::new(1, 1);
-    let frame = Frame { parameters: (Parameter::InverseBeta, Parameter::Gap), ranges: (0.4..=2.0, -1.0..=5.0) };
+    let frame = Frame { plane: (Parameter::InverseBeta, Parameter::Gap).into(), ranges: (0.4..=2.0, -1.0..=5.0) };
     Case { osc, label, frame }.check(RegionKind::Stability, 60);
-    let frame = Frame { parameters: (Parameter::InverseBeta, Parameter::Damping), ranges: (0.4..=2.0, 0.0..=0.3) };
+    let frame = Frame { plane: (Parameter::InverseBeta, Parameter::Damping).into(), ranges: (0.4..=2.0, 0.0..=0.3) };
     Case { osc, label, frame }.check(RegionKind::Existence, 60);
-    let frame = Frame { parameters: (Parameter::Gap, Parameter::Restitution), ranges: (-0.8..=3.0, 0.05..=0.95) };
+    let frame = Frame { plane: (Parameter::Gap, Parameter::Restitution).into(), ranges: (-0.8..=3.0, 0.05..=0.95) };
     Case { osc, label: Label::new(2, 1), frame }.check(RegionKind::Stability, 60);
 }
 
@@ -167,11 +167,11 @@ fn nearly_elastic() {
 #[test]
 fn orbits_that_merge_with_others() {
     let osc = Oscillator::from_inverse_beta(1.11, 1.0, 0.5).unwrap();
-    let frame = Frame { parameters: (Parameter::InverseBeta, Parameter::Gap), ranges: (0.9..=1.3, 1.0..=4.0) };
+    let frame = Frame { plane: (Parameter::InverseBeta, Parameter::Gap).into(), ranges: (0.9..=1.3, 1.0..=4.0) };
     Case { osc, label: Label::new(2, 2), frame: frame.clone() }.check(RegionKind::Existence, 60);
     Case { osc, label: Label::new(2, 2), frame }.check(RegionKind::Stability, 60);
     let two = Oscillator::new(1.3, 0.4, 0.8).unwrap().with_damping(0.05).unwrap().with_second_stop(0.4, 0.8).unwrap();
-    let frame = Frame { parameters: (Parameter::Beta, Parameter::Gap), ranges: (0.5..=2.0, 0.1..=2.0) };
+    let frame = Frame { plane: (Parameter::Beta, Parameter::Gap).into(), ranges: (0.5..=2.0, 0.1..=2.0) };
     Case { osc: two, label: Label::new(2, 1), frame }.check(RegionKind::Existence, 60);
 }
 
@@ -180,7 +180,7 @@ fn orbits_that_merge_with_others() {
 #[test]
 fn across_a_frequency_of_whole_natural_periods() {
     let osc = Oscillator::from_inverse_beta(1.11, 1.0, 0.5).unwrap();
-    let over = |p, q| Frame { parameters: (Parameter::InverseBeta, Parameter::Gap), ranges: (p, q) };
+    let over = |p, q| Frame { plane: (Parameter::InverseBeta, Parameter::Gap).into(), ranges: (p, q) };
     let label = Label::new(2, 1);
     Case { osc, label, frame: over(0.4..=2.4, -1.0..=5.0) }.check(RegionKind::Stability, 60);
     for kind in [RegionKind::Existence, RegionKind::Stability] {
@@ -241,7 +241,7 @@ fn both_sheets_at_a_fold() {
 #[test]
 fn f12_a_frame_smaller_than_what_counts_as_zero() {
     let osc = Oscillator::from_inverse_beta(0.836_654_282_595_934_9, 1e-9, 0.0).unwrap();
-    let frame = Frame { parameters: (Parameter::Gap, Parameter::Restitution), ranges: (1e-9..=1.0, 0.0..=1e-12) };
+    let frame = Frame { plane: (Parameter::Gap, Parameter::Restitution).into(), ranges: (1e-9..=1.0, 0.0..=1e-12) };
     let case = Case { osc, label: Label::new(1, 1), frame };
     for kind in [RegionKind::Existence, RegionKind::Stability] {
         let options = RegionOptions { grid: (8, 8), ..RegionOptions::default() };
@@ -261,7 +261,7 @@ fn f12_a_frame_smaller_than_what_counts_as_zero() {
 #[test]
 fn f06d_orbits_that_rest_are_not_passed_over() {
     let osc = Oscillator::from_inverse_beta(1.3, 0.0, 0.0).unwrap();
-    let frame = Frame { parameters: (Parameter::InverseBeta, Parameter::Gap), ranges: (1.1..=1.5, -0.6..=0.6) };
+    let frame = Frame { plane: (Parameter::InverseBeta, Parameter::Gap).into(), ranges: (1.1..=1.5, -0.6..=0.6) };
     for kind in [RegionKind::Existence, RegionKind::Stability] {
         let options = RegionOptions { grid: (6, 6), ..RegionOptions::default() };
         let found = region(&osc, Label::new(1, 1), kind, &frame, options);

@@ -329,7 +329,7 @@ fn what_cannot_be_followed() {
     let branch =
         Branch::new(&two, &cycle, Parameter::SecondGap, 0.0..=2.0, Direction::Down, BranchOptions::default()).unwrap();
     let graze = branch.into_iter().find(|p| matches!(p.event, Some(BranchEvent::Grazing { .. }))).unwrap();
-    let frame = Frame { parameters: (Parameter::SecondGap, Parameter::Damping), ranges: (0.0..=2.0, 0.0..=1.0) };
+    let frame = Frame { plane: (Parameter::SecondGap, Parameter::Damping).into(), ranges: (0.0..=2.0, 0.0..=1.0) };
     let curve = Curve::through(&two, &graze, Parameter::SecondGap, &frame, CurveOptions::default());
     assert_eq!(curve.map(|_| ()), Err(BranchError::Rests));
     assert!(matches!(settle(&two, Start::at_rest(&two), &SettleOptions::default()).verdict, Verdict::Periodic(_)));

@@ -104,7 +104,7 @@ fn the_curves_of_the_oscillator() {
         };
         let found = cycle(&machine, &MachineStart::default());
         let ranges = (0.1..=4.0, betas.0..=betas.1);
-        let frame = Frame { parameters: (Parameter::Gap, Parameter::Beta), ranges: ranges.clone() };
+        let frame = Frame { plane: (Parameter::Gap, Parameter::Beta).into(), ranges: ranges.clone() };
         let plane = MachinePlane::of_paths(&machine, ("stop.stop.gap", "frequency"), ranges).unwrap();
         for direction in [Direction::Up, Direction::Down] {
             let (family, value) = MachineFamily::of_path(&machine, "stop.stop.gap").unwrap();

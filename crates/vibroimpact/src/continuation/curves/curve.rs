@@ -10,7 +10,7 @@ use crate::continuation::trace::equations::{Equations, correct, tangent};
 use crate::continuation::trace::root;
 use crate::math::{Multiplier, hypot};
 use crate::orbit::{Floquet, Orbit, Ring, ring_cycle};
-use crate::system::{Oscillator, Parameter, Side};
+use crate::system::{Oscillator, ParameterPath, Side, SystemError};
 use std::collections::VecDeque;
 
 /// A curve of folds, flips or grazing impacts: an iterator over its points in one direction from the point at which it
@@ -31,7 +31,8 @@ pub struct Curve {
 
 impl Curve {
     /// The two directions along the curve through an event of a branch of `osc` in `parameter`: a fold, a flip, a
-    /// grazing event or a loss of contact. `parameter` need not be one of those of `frame`.
+    /// grazing event or a loss of contact. `parameter` need not be one of those of `frame`. In a plane of machines it is
+    /// the line of that machine along which the branch was followed.
     ///
     /// # Errors
     /// [`BranchError::NotThere`] for another event, [`BranchError::OutOfRange`] if the point lies outside the frame,
@@ -39,11 +40,14 @@ impl Curve {
     pub fn through(
         osc: &Oscillator,
         point: &SolutionPoint,
-        parameter: Parameter,
+        parameter: impl Into<ParameterPath>,
         frame: &Frame,
         options: CurveOptions,
     ) -> Result<[Self; 2], BranchError> {
-        let osc = parameter.set(osc, point.value).map_err(|_| BranchError::NoCycle)?;
+        let (osc, (p, q)) = frame.plane.on_line(osc, parameter.into(), point.value).map_err(|error| match error {
+            SystemError::NoSecondStop(name) => BranchError::NoSuchParameter(name),
+            _ => BranchError::NoCycle,
+        })?;
         let mut ring = Ring::of(&osc, &point.cycle).ok_or(BranchError::Rests)?;
         let (kind, grazing) = match point.event {
             Some(BranchEvent::Fold) => (CurveKind::Fold, None),
@@ -65,10 +69,6 @@ impl Curve {
             }
             _ => return Err(BranchError::NotThere),
         };
-        let values = (frame.parameters.0.get(&osc), frame.parameters.1.get(&osc));
-        let (Some(p), Some(q)) = values else {
-            return Err(BranchError::NoSuchParameter(frame.parameters.1.name()));
-        };
         if !frame.sensible() || !frame.holds((p, q)) {
             let (low, high) = (*frame.ranges.0.start(), *frame.ranges.0.end());
             return Err(BranchError::OutOfRange { value: p, low, high });
@@ -78,7 +78,7 @@ impl Curve {
             (CurveKind::Flip, _) => Condition::MinusOne,
             (CurveKind::Grazing, k) => Condition::Speed(k.unwrap_or(0)),
         };
-        let plane = Plane::new(&osc, frame.parameters, frame.scales(), &ring, condition);
+        let plane = Plane::new(&osc, frame.plane, frame.scales(), &ring, condition);
         let mut watched: Vec<Condition> = frame.edges().to_vec();
         for k in 0..ring.len() {
             if grazing != Some(k) {

@@ -118,9 +118,13 @@ pub(crate) fn reason(tracer: &PlaneTracer, kind: CurveKind, trail: &Trail) -> Op
     let whole = turns.round();
     if m == 1 && osc.damping() == 0.0 && (turns - whole).abs() < NEAR {
         let n = f64::from(ring.periods);
+        if plane.over.is_of_machines() {
+            return Some((solution(at_frequency(plane, here, n / whole)?), CurveEvent::WholePeriods));
+        }
         let mut w = here.w.clone();
         let (p, q) = (w.len() - 2, w.len() - 1);
-        for (at, parameter) in [(p, plane.parameters.0), (q, plane.parameters.1)] {
+        let (first, second) = plane.over.parameters();
+        for (at, parameter) in [(p, first), (q, second)] {
             let exact = match parameter {
                 Parameter::Beta => n / whole,
                 Parameter::InverseBeta => whole / n,
@@ -137,13 +141,30 @@ pub(crate) fn reason(tracer: &PlaneTracer, kind: CurveKind, trail: &Trail) -> Op
     None
 }
 
+/// The unknowns on the tangent at a point where the frequency ratio is `beta`, by the secant method; `None` if that is far.
+fn at_frequency(plane: &Plane, here: &PlaneSolution, beta: f64) -> Option<Vec<f64>> {
+    let at = |step: f64| here.w.iter().zip(&here.tangent).map(|(w, t)| w + step * t).collect::<Vec<f64>>();
+    let off = |step: f64| plane.oscillator(Plane::values(&at(step))).map(|osc| osc.beta() - beta);
+    let (mut step, mut value) = (0.0, off(0.0)?);
+    let (mut next, mut there) = (NEAR, off(NEAR)?);
+    for _ in 0..8 {
+        if there == value {
+            break;
+        }
+        let better = next - there * (next - step) / (there - value);
+        (step, value, next) = (next, there, better);
+        there = off(next).filter(|_| next.abs() < 1e3 * NEAR)?;
+    }
+    Some(at(next))
+}
+
 /// The values of the parameters at which the speeds along a curve have no bound, as extrapolated; `None` where the
 /// speeds are bounded. Restitution must be one of the parameters, and it is 1 there. The difference of the other
 /// parameter from its limit is proportional to the inverse of the speeds.
 fn unbounded(tracer: &PlaneTracer, ring: &Ring) -> Option<Vec<f64>> {
     let (w, along) = (&tracer.here.w, &tracer.here.tangent);
     let (p, q) = (w.len() - 2, w.len() - 1);
-    let (eps, other) = match tracer.problem.plane.parameters {
+    let (eps, other) = match tracer.problem.plane.over.parameters() {
         (Parameter::Restitution, _) => (p, q),
         (_, Parameter::Restitution) => (q, p),
         _ => return None,

@@ -1,14 +1,14 @@
 //! A plane of two parameters, and a frame in it.
 
 use crate::continuation::equations::plane_equations::Condition;
-use crate::system::Parameter;
+use crate::system::ParameterPlane;
 use core::ops::RangeInclusive;
 
 /// A rectangular frame in a plane of two parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
-    /// The two parameters.
-    pub parameters: (Parameter, Parameter),
+    /// The two parameters that vary.
+    pub plane: ParameterPlane,
     /// Their ranges.
     pub ranges: (RangeInclusive<f64>, RangeInclusive<f64>),
 }
@@ -47,7 +47,15 @@ impl Frame {
             let by = share * (r.end() - r.start());
             r.start() + by..=r.end() - by
         };
-        Self { parameters: self.parameters, ranges: (shrink(&self.ranges.0), shrink(&self.ranges.1)) }
+        Self { plane: self.plane, ranges: (shrink(&self.ranges.0), shrink(&self.ranges.1)) }
+    }
+
+    /// The point `(i, j)` of a grid over the frame; no point lies on its edge.
+    pub(crate) fn node(&self, (i, j): (u32, u32), (columns, rows): (u32, u32)) -> (f64, f64) {
+        let at = |range: &RangeInclusive<f64>, k: u32, count: u32| {
+            range.start() + (range.end() - range.start()) * (f64::from(k) + 0.5) / f64::from(count)
+        };
+        (at(&self.ranges.0, i, columns), at(&self.ranges.1, j, rows))
     }
 
     /// Whether the frame contains a point.

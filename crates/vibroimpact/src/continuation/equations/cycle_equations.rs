@@ -2,7 +2,7 @@
 
 use crate::continuation::trace::equations::Equations;
 use crate::orbit::{Block, Ring, blocks, by_parameter, fill};
-use crate::system::{Oscillator, ParameterPath, Side};
+use crate::system::{Oscillator, Parameter, ParameterPath, Side};
 
 /// The equations of the cycles with a given signature: the stop of each impact, and the number of forcing periods. The
 /// unknowns are the phases and speeds of the impacts and, last, one parameter.
@@ -87,27 +87,28 @@ impl Equations for CycleEquations {
 
     fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
         let (osc, ring, flights) = self.flights(w)?;
-        let rows = slopes(&osc, &ring, &flights, &[(self.varying, *w.last()?)])?;
+        let rates: Vec<_> = self.varying.rates(*w.last()?).ok()?.collect();
+        let rows = slopes(&osc, &ring, &flights, &[rates])?;
         Some((flights.iter().flat_map(|b| b.miss).collect(), rows))
     }
 }
 
 /// The derivatives of the residuals of the flights, as a square matrix by rows: with respect to the phases and speeds
-/// of the impacts, then along the given lines through the parameters, each at its value. As many rows as there are lines
-/// are left zero at the end, for further equations.
+/// of the impacts, then to the unknowns with which parameters change at these rates. As many rows as there are such
+/// unknowns are left zero at the end, for further equations.
 pub(crate) fn slopes(
     osc: &Oscillator,
     ring: &Ring,
     flights: &[Block],
-    lines: &[(ParameterPath, f64)],
+    rates: &[Vec<(Parameter, f64)>],
 ) -> Option<Vec<f64>> {
     let impacts = 2 * ring.len();
-    let width = impacts + lines.len();
+    let width = impacts + rates.len();
     let mut rows = vec![0.0; width * width];
     fill(&mut rows, width, flights);
-    for (k, (line, value)) in lines.iter().enumerate() {
-        for (parameter, rate) in line.rates(*value).ok()? {
-            for (row, slope) in by_parameter(osc, ring, parameter)?.into_iter().enumerate() {
+    for (k, rates) in rates.iter().enumerate() {
+        for (parameter, rate) in rates {
+            for (row, slope) in by_parameter(osc, ring, *parameter)?.into_iter().enumerate() {
                 rows[row * width + impacts + k] += rate * slope;
             }
         }

@@ -5,7 +5,7 @@ use super::cycle_equations::slopes;
 use crate::continuation::trace::equations::Equations;
 use crate::math::sin_cos;
 use crate::orbit::{Block, Floquet, Ring, blocks, closest};
-use crate::system::{Oscillator, Parameter, Side};
+use crate::system::{Oscillator, ParameterPlane, Side};
 
 /// The condition that holds along a curve: the zero of a function of the cycle and the parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,13 +28,15 @@ pub(crate) enum Condition {
     Trace,
     /// A straight line in the plane: `a p + b q = c`.
     Line(f64, f64, f64),
+    /// The frequency ratio exceeds this value, on the side of the sign, by more than the second number.
+    Frequency { side: f64, beta: f64, by: f64 },
 }
 
 /// The equations of the cycles of one signature over a plane of two parameters, with one condition.
 #[derive(Clone, Debug)]
 pub(crate) struct Plane {
     osc: Oscillator,
-    pub(crate) parameters: (Parameter, Parameter),
+    pub(crate) over: ParameterPlane,
     sides: Vec<Side>,
     periods: u32,
     scales: (f64, f64),
@@ -50,7 +52,7 @@ impl Plane {
     /// change of all phases by one radian.
     pub(crate) fn new(
         osc: &Oscillator,
-        parameters: (Parameter, Parameter),
+        over: ParameterPlane,
         scales: (f64, f64),
         ring: &Ring,
         condition: Condition,
@@ -59,7 +61,7 @@ impl Plane {
         let mut weights = vec![1.0 / m as f64; 2 * m];
         weights.extend([1.0 / (scales.0 * scales.0), 1.0 / (scales.1 * scales.1)]);
         let (sides, periods) = (ring.sides.clone(), ring.periods);
-        Self { osc: *osc, parameters, sides, periods, scales, weights, relative: false, condition }
+        Self { osc: *osc, over, sides, periods, scales, weights, relative: false, condition }
     }
 
     /// If [`relative`](Self::relative) is set, adapts the weights of the speeds to the solution `w`.
@@ -104,8 +106,8 @@ impl Plane {
     }
 
     /// The oscillator at a point of the plane; `None` for invalid values.
-    pub(crate) fn oscillator(&self, (p, q): (f64, f64)) -> Option<Oscillator> {
-        self.parameters.1.set(&self.parameters.0.set(&self.osc, p).ok()?, q).ok()
+    pub(crate) fn oscillator(&self, at: (f64, f64)) -> Option<Oscillator> {
+        self.over.set(&self.osc, at).ok()
     }
 
     /// The oscillator and the ring that belong to these unknowns; `None` for invalid values of the parameters.
@@ -127,6 +129,7 @@ impl Plane {
         let (p, q) = Self::values(w);
         Some(match condition {
             Condition::Line(a, b, c) => a * p + b * q - c,
+            Condition::Frequency { side, beta, by } => side * (self.oscillator((p, q))?.beta() - beta) - by,
             Condition::Speed(k) => w[2 * k + 1],
             Condition::Unlike(k, l, by) => w[2 * k + 1] - w[2 * l + 1] - by,
             Condition::Clear(k, side) => {
@@ -204,9 +207,8 @@ impl Equations for Plane {
     fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
         let (osc, ring, flights) = self.flights(w)?;
         let width = w.len();
-        let (p, q) = Self::values(w);
-        let lines = [(self.parameters.0.into(), p), (self.parameters.1.into(), q)];
-        let mut rows = slopes(&osc, &ring, &flights, &lines)?;
+        let rates = self.over.rates(Self::values(w)).ok()?;
+        let mut rows = slopes(&osc, &ring, &flights, &rates)?;
         let mut miss: Vec<f64> = flights.iter().flat_map(|b| b.miss).collect();
         let last = (width - 2) * width;
         rows[last..last + width].copy_from_slice(&self.gradient(self.condition, w)?);

@@ -14,6 +14,9 @@
 //! $`\beta^2 = 1 - 2\zeta^2 \pm \sqrt{1/g^2 - 4\zeta^2(1-\zeta^2)}`$, or for the damping ratio. So the polygons need no
 //! search, and no part of the region is missed, however narrow the resonance is.
 //!
+//! Over numbers of a machine the limit has no such form: the points of the grid inside the region are told as
+//! unresolved.
+//!
 //! With damping the motion is stable wherever it exists. Without damping it is one of a continuum of motions without
 //! impacts, each neutrally stable, so it has a region of existence and no region of stability.
 
@@ -26,7 +29,20 @@ use crate::system::{Oscillator, Parameter, Side};
 /// The region of the motion without impacts of `osc` in a frame of two parameters.
 pub(crate) fn free_region(osc: &Oscillator, kind: RegionKind, frame: &Frame, options: RegionOptions) -> Region {
     let mut region = Region { polygons: Vec::new(), unresolved: Vec::new() };
-    let (first, second) = frame.parameters;
+    let (first, second) = frame.plane.parameters();
+    if frame.plane.is_of_machines() && frame.sensible() {
+        // over numbers of a machine there is no closed form of the edge; the points of the grid inside are told
+        let (columns, rows) = options.grid;
+        let nodes = (0..rows).flat_map(|j| (0..columns).map(move |i| (i, j)));
+        let inside = |at: &(f64, f64)| {
+            let there = frame.plane.set(osc, *at).ok();
+            there.is_some_and(|osc| {
+                (kind == RegionKind::Existence || osc.damping() > 0.0) && osc.free_amplitude() <= nearest(&osc)
+            })
+        };
+        region.unresolved = nodes.map(|node| frame.node(node, options.grid)).filter(inside).collect();
+        return region;
+    }
     let damped = osc.damping() > 0.0 || [first, second].contains(&Parameter::Damping);
     if !frame.sensible() || (kind == RegionKind::Stability && !damped) {
         return region;
@@ -111,7 +127,7 @@ impl Limit {
                     let amplitude = Parameter::Damping.set(&self.osc, zeta).map(|osc| osc.free_amplitude());
                     breaks.extend(amplitude.ok().into_iter().chain(levels.iter().copied()));
                 }
-                // a region is asked over parameters of the oscillator only
+                // the region of this motion has no closed form over numbers of a machine
                 Parameter::Restitution | Parameter::SecondRestitution | Parameter::Physical(_) => {}
             }
         }

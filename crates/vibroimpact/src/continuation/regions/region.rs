@@ -33,7 +33,7 @@ use crate::verdict::{Count, Label};
 /// use vibroimpact::{Label, Oscillator, Parameter};
 /// use vibroimpact::continuation::{Frame, RegionKind, RegionOptions, region};
 /// let osc = Oscillator::new(2.0, 1.0, 0.5)?.with_damping(0.05)?;
-/// let frame = Frame { parameters: (Parameter::Beta, Parameter::Gap), ranges: (1.5..=3.0, 0.5..=2.0) };
+/// let frame = Frame { plane: (Parameter::Beta, Parameter::Gap).into(), ranges: (1.5..=3.0, 0.5..=2.0) };
 /// let found = region(&osc, Label::new(0, 1), RegionKind::Stability, &frame, RegionOptions::default());
 /// // at beta = 1.5 the amplitude is 0.794
 /// assert!(found.contains((1.501, 0.8)) && !found.contains((1.501, 0.78)));

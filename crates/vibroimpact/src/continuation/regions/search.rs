@@ -62,16 +62,11 @@ impl<'a> Search<'a> {
 
     /// The point `(i, j)` of the grid; no point lies on the edge of the frame.
     fn node(&self, i: u32, j: u32) -> (f64, f64) {
-        let at = |range: &core::ops::RangeInclusive<f64>, k: u32, count: u32| {
-            range.start() + (range.end() - range.start()) * (f64::from(k) + 0.5) / f64::from(count)
-        };
-        let (p, q) = &self.frame.ranges;
-        (at(p, i, self.options.grid.0), at(q, j, self.options.grid.1))
+        self.frame.node((i, j), self.options.grid)
     }
 
-    fn oscillator(&self, (p, q): (f64, f64)) -> Option<Oscillator> {
-        let (first, second) = self.frame.parameters;
-        second.set(&first.set(self.osc, p).ok()?, q).ok()
+    fn oscillator(&self, at: (f64, f64)) -> Option<Oscillator> {
+        self.frame.plane.set(self.osc, at).ok()
     }
 
     /// Finds the polygons of the region of a label, and compares them with the orbits on the grid.
