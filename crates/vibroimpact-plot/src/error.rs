@@ -22,6 +22,13 @@ pub enum PlotError {
         /// Height in pixels.
         height: f64,
     },
+    /// A page of this size cannot be written.
+    PageSize {
+        /// Width in millimetres.
+        width: f64,
+        /// Height in millimetres.
+        height: f64,
+    },
     /// A figure of this size has no room for its panels.
     NoRoom {
         /// Width in millimetres.
@@ -33,6 +40,8 @@ pub enum PlotError {
     Svg(String),
     /// The PNG encoder failed: a defect of this crate.
     Png(String),
+    /// The writer of PDF failed: a defect of this crate.
+    Pdf(String),
 }
 
 /// The longest side of a PNG, in pixels: 170 mm at 2400 dpi.
@@ -57,6 +66,8 @@ impl fmt::Display for PlotError {
                  hint: the usual figure of one column is 85 mm wide and 60 mm high"
             ),
             Self::Svg(why) => write!(f, "the renderer refused the figure's SVG text: {why}"),
+            Self::PageSize { width, height } => write!(f, "a page of {width} x {height} mm cannot be written"),
+            Self::Pdf(why) => write!(f, "the figure could not be written as PDF: {why}"),
             Self::Png(why) => write!(f, "the figure could not be encoded as PNG: {why}"),
         }
     }

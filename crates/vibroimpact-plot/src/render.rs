@@ -1,7 +1,11 @@
-//! Rendering of SVG text to PNG bytes by `resvg`, with `DejaVu` Sans and no other font of the machine.
+//! Rendering of SVG text to PNG bytes by `resvg` and to PDF bytes by `krilla`, with `DejaVu` Sans and no other font of the machine.
 
 use std::sync::{Arc, OnceLock};
 
+use krilla::Document;
+use krilla::geom::Size;
+use krilla::page::PageSettings;
+use krilla_svg::{SurfaceExt, SvgSettings};
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb};
 
@@ -23,10 +27,32 @@ fn fonts() -> Arc<fontdb::Database> {
     Arc::clone(FONTS.get_or_init(load))
 }
 
+/// Reads SVG text.
+fn tree(svg: &str) -> Result<Tree, PlotError> {
+    let options = Options { fontdb: fonts(), font_family: "DejaVu Sans".into(), ..Options::default() };
+    Tree::from_str(svg, &options).map_err(|e| PlotError::Svg(e.to_string()))
+}
+
+/// Draws SVG text on a page of this size in millimetres. Text stays text, with the letters that it needs in the file.
+pub(crate) fn pdf(svg: &str, (width, height): (f64, f64)) -> Result<Vec<u8>, PlotError> {
+    let tree = tree(svg)?;
+    #[expect(clippy::cast_possible_truncation, reason = "the writer works in f32")]
+    let points = |millimetres: f64| (millimetres * 72.0 / 25.4) as f32;
+    let refuse = || PlotError::PageSize { width, height };
+    let size = Size::from_wh(points(width), points(height)).ok_or_else(refuse)?;
+    let mut document = Document::new();
+    let mut page = document.start_page_with(PageSettings::new(size));
+    let mut surface = page.surface();
+    let drawn = surface.draw_svg(&tree, size, SvgSettings::default());
+    surface.finish();
+    page.finish();
+    drawn.ok_or_else(refuse)?;
+    document.finish().map_err(|e| PlotError::Pdf(format!("{e:?}")))
+}
+
 /// Draws SVG text with `scale` pixels per unit.
 pub(crate) fn png(svg: &str, scale: f64) -> Result<Vec<u8>, PlotError> {
-    let options = Options { fontdb: fonts(), font_family: "DejaVu Sans".into(), ..Options::default() };
-    let tree = Tree::from_str(svg, &options).map_err(|e| PlotError::Svg(e.to_string()))?;
+    let tree = tree(svg)?;
     let side = |v: f32| (f64::from(v) * scale).round();
     let (width, height) = (side(tree.size().width()), side(tree.size().height()));
     let refuse = || PlotError::ImageSize { width, height };
@@ -57,6 +83,19 @@ mod tests {
             let picture = Pixmap::decode_png(&png(&svg, 1.0)?).map_err(|e| PlotError::Png(e.to_string()))?;
             assert!(picture.pixels().iter().any(|p| p.alpha() > 200), "{style}");
         }
+        Ok(())
+    }
+
+    #[test]
+    fn a_page_has_its_size_and_its_letters() -> Result<(), PlotError> {
+        let svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"80\" height=\"40\">\
+                   <text x=\"5\" y=\"30\" font-size=\"30\" font-family=\"DejaVu Sans\">ξ</text></svg>";
+        let page = pdf(svg, (85.0, 42.5))?;
+        assert!(page.starts_with(b"%PDF-") && page == pdf(svg, (85.0, 42.5))?);
+        let text = String::from_utf8_lossy(&page);
+        assert!(text.contains("/MediaBox[0 0 240.9"), "85 mm are 240.94 points");
+        assert!(text.contains("DejaVuSans"), "the font is in the file");
+        assert!(matches!(pdf(svg, (0.0, 1.0)), Err(PlotError::PageSize { .. })));
         Ok(())
     }
 

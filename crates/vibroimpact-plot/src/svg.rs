@@ -76,6 +76,16 @@ impl Figure {
         render::png(&pixels.to_svg(), scale)
     }
 
+    /// The figure as a PDF page of its size on paper, with text as text and curves as curves.
+    ///
+    /// # Errors
+    /// [`PlotError::PageSize`] for a size that no page can have.
+    pub fn to_pdf(&self) -> Result<Vec<u8>, PlotError> {
+        let units = Self { millimetres: false, ..self.clone() };
+        let (width, height) = self.outer_size();
+        render::pdf(&units.to_svg(), (width / UNITS_PER_MM, height / UNITS_PER_MM))
+    }
+
     /// The figure as a PNG image for paper, with its resolution in pixels in an inch written into the file, so that programs
     /// place it at its size.
     ///
@@ -120,6 +130,7 @@ mod tests {
         let make = || Figure::new(every_mark(&[0.0, 1.0, 0.5], &[0.0, 0.3, 1.0])).title("T");
         assert_eq!(make().to_svg(), make().to_svg());
         assert_eq!(make().to_png(0.5)?, make().to_png(0.5)?);
+        assert_eq!(make().to_pdf()?, make().to_pdf()?);
         Ok(())
     }
 

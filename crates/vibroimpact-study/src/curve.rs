@@ -134,8 +134,7 @@ pub(crate) fn curve(system: &SystemPlan, plan: &CurvePlan, control: &Control<'_>
         asked: plan.event,
     })?;
     let options = CurveOptions::default();
-    let [forth, back] =
-        Curve::through(&osc, &events[through], line, &frame, options).map_err(PlanError::from)?;
+    let [forth, back] = Curve::through(&osc, &events[through], line, &frame, options).map_err(PlanError::from)?;
     let forth: Vec<CurvePoint> = forth.take_while(|_| going()).collect();
     let closed = forth.last().is_some_and(|point| point.event == Some(CurveEvent::Closed));
     // the event itself is the first point of both directions, so one copy is skipped
@@ -221,10 +220,11 @@ mod tests {
         let system = SystemPlan::of_machine(machine.driven().unwrap()).unwrap();
         let over = |number, from, to| Stretch { parameter: physical(number), from, to };
         let flip = |vary, and| {
-            let plan = CurvePlan { label: "1/1".into(), kind: FollowedEvent::Flip, vary, and, orbit: None, event: None };
+            let plan =
+                CurvePlan { label: "1/1".into(), kind: FollowedEvent::Flip, vary, and, orbit: None, event: None };
             curve(&system, &plan, &Control::default()).unwrap()
         };
-        use vibroimpact::PhysicalParameter::{Force, Gap, Mass, Stiffness};
+        use vibroimpact::PhysicalParameter::{Force, Gap, Stiffness};
         let line = flip(over(Gap, 0.0, 9e-3), over(Force, 15.0, 60.0));
         assert!(line.points.len() > 10);
         let slope = line.events[line.through].value / 30.0;
@@ -234,14 +234,18 @@ mod tests {
         let (one, other) = (line.points[0].values.1, line.points.last().unwrap().values.1);
         assert!((one - other).abs() > 39.0, "{one} {other} {:?}", line.points.last().unwrap().event);
 
-        // each point of the curve is a flip of the machine with that mass and stiffness
-        let curved = flip(over(Mass, 0.7, 0.9), over(Stiffness, 11e3, 13e3));
+        // each point of the curve is a flip of the machine with that force and stiffness
+        let curved = flip(over(Force, 10.0, 60.0), over(Stiffness, 10e3, 14e3));
         assert!(curved.points.len() > 5);
-        for CurvePoint { values: (mass, stiffness), cycle, .. } in &curved.points {
-            let there = PhysicalPlan { mass_kg: Some(*mass), stiffness_n_per_m: Some(*stiffness), ..machine };
+        for CurvePoint { values: (force, stiffness), cycle, .. } in &curved.points {
+            let there = PhysicalPlan { force_n: Some(*force), stiffness_n_per_m: Some(*stiffness), ..machine };
             let osc = SystemPlan::of_machine(there.driven().unwrap()).unwrap().oscillator().unwrap();
             let again = vibroimpact::orbit::refine(&osc, cycle).expect("an orbit").cycle;
-            assert!(again.multipliers.iter().any(|m| (m.re + 1.0).abs() + m.im.abs() < 1e-7), "{mass} {stiffness}: {:?}", again.multipliers);
+            assert!(
+                again.multipliers.iter().any(|m| (m.re + 1.0).abs() + m.im.abs() < 1e-7),
+                "{force} {stiffness}: {:?}",
+                again.multipliers
+            );
         }
     }
 

@@ -223,12 +223,8 @@ mod tests {
         let system = SystemPlan::of_machine(machine.driven().unwrap()).unwrap();
         let over = |parameter, from, to| Stretch { parameter, from, to };
         let (mass, force) = (Parameter::Physical(Mass), Parameter::Physical(Force));
-        let plan = RegionPlan {
-            label: "1/1".into(),
-            across: over(mass, 0.7, 0.95),
-            up: over(force, 10.0, 60.0),
-            grid: 12,
-        };
+        let plan =
+            RegionPlan { label: "1/1".into(), across: over(mass, 0.7, 0.95), up: over(force, 10.0, 60.0), grid: 12 };
         assert_eq!(Plan::new(system, Task::Region(plan.clone())).check(), Ok(()));
         let found = regions(&system, &plan, &Control::default()).unwrap();
         let plain = SystemPlan { machine: None, ..system };

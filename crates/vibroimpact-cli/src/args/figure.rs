@@ -6,6 +6,14 @@ use clap::Args;
 use core::str::FromStr;
 use vibroimpact_plot::{Figure, FigureAxis, Scale, plain};
 
+/// The format of a figure, by the ending of its file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Format {
+    Svg,
+    Png,
+    Pdf,
+}
+
 /// The look of a figure.
 #[derive(Clone, Debug, Default, Args)]
 #[command(next_help_heading = "Figure")]
@@ -50,7 +58,7 @@ impl FigureArgs {
     }
 
     /// Checks what can be checked before the figure exists.
-    pub(crate) fn check(&self, png: bool) -> Result<(), Failure> {
+    pub(crate) fn check(&self, format: Format) -> Result<(), Failure> {
         for (name, limits) in [("x", self.x_limits), ("y", self.y_limits)] {
             if let Some(Ends(a, _)) = limits.filter(|Ends(a, b)| a == b) {
                 return Err(Failure::bad(format!("--{name}-limits {a}:{a} is no range: the two limits are equal")));
@@ -61,9 +69,9 @@ impl FigureArgs {
                 let (least, most) = (RESOLUTIONS.start(), RESOLUTIONS.end());
                 Err(Failure::bad(format!("dpi = {dpi} lies outside {least} <= dpi <= {most}")))
             }
-            Some(_) if !png => {
-                Err(Failure::bad("--dpi is for a figure with pixels\nhint: a file that ends in .png; .svg has none"))
-            }
+            Some(_) if format != Format::Png => Err(Failure::bad(
+                "--dpi is for a figure with pixels\nhint: a file that ends in .png; .svg and .pdf have none",
+            )),
             _ => Ok(()),
         }
     }

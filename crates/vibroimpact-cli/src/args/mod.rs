@@ -23,7 +23,7 @@ pub(crate) use axes::AxesArgs;
 pub(crate) use changed::SetArgs;
 pub(crate) use colour::ColourArgs;
 pub(crate) use fields::{FieldName, FieldsArgs, quantity};
-pub(crate) use figure::FigureArgs;
+pub(crate) use figure::{FigureArgs, Format};
 pub(crate) use numbers::{number, whole, within};
 pub(crate) use of_machine::{MachineArgs, MachineAxesArgs, StartOfMachineArgs};
 pub(crate) use output::Globals;

@@ -75,7 +75,7 @@ pub(crate) struct Basin {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 
-    /// Draw the basin into this file, .svg or .png
+    /// Draw the basin into this file, .svg, .png or .pdf
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
 

@@ -82,7 +82,7 @@ pub(crate) struct Branch {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 
-    /// Draw the bifurcation diagram into this file, .svg or .png: stable solid, unstable dashed, behind it in grey what
+    /// Draw the bifurcation diagram into this file, .svg, .png or .pdf: stable solid, unstable dashed, behind it in grey what
     /// simulation finds
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,

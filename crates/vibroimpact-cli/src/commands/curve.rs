@@ -84,7 +84,7 @@ pub(crate) struct Curve {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 
-    /// Draw the curve into this file, .svg or .png
+    /// Draw the curve into this file, .svg, .png or .pdf
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
 

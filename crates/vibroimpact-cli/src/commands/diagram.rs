@@ -103,7 +103,7 @@ pub(crate) struct Diagram {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 
-    /// Draw the diagram into this file, .svg or .png
+    /// Draw the diagram into this file, .svg, .png or .pdf
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
 

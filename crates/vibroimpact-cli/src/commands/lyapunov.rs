@@ -55,7 +55,7 @@ pub(crate) struct Lyapunov {
     #[arg(long, visible_alias = "csv", value_name = "FILE", help_heading = "Output")]
     section: Option<PathBuf>,
 
-    /// Draw both sections into this file, .svg or .png
+    /// Draw both sections into this file, .svg, .png or .pdf
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
 

@@ -61,7 +61,7 @@ struct Show {
     #[arg(long, help_heading = "Output")]
     json: bool,
 
-    /// Draw the schematic of the machine into this file, .svg or .png
+    /// Draw the schematic of the machine into this file, .svg, .png or .pdf
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     figure: Option<PathBuf>,
 

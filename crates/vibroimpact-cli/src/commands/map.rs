@@ -65,7 +65,7 @@ pub(crate) struct Map {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 
-    /// Draw the map into this file, .svg or .png: the labels over two parameters, their shares over one
+    /// Draw the map into this file, .svg, .png or .pdf: the labels over two parameters, their shares over one
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
 

@@ -16,7 +16,7 @@ pub(crate) struct Plot {
     #[arg(value_name = "STORE")]
     store: String,
 
-    /// The file, .svg or .png
+    /// The file, .svg, .png or .pdf
     #[arg(value_name = "FILE")]
     file: PathBuf,
 

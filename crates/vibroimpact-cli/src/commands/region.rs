@@ -79,7 +79,7 @@ pub(crate) struct Region {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 
-    /// Draw both regions into this file, .svg or .png; edges of the sheet "above" are thin
+    /// Draw both regions into this file, .svg, .png or .pdf; edges of the sheet "above" are thin
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
 

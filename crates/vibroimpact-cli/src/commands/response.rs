@@ -41,7 +41,7 @@ pub(crate) struct Response {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 
-    /// Draw the response into this file, .svg or .png: stable branches solid, unstable dashed, the sweeps as dots
+    /// Draw the response into this file, .svg, .png or .pdf: stable branches solid, unstable dashed, the sweeps as dots
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
 

@@ -39,7 +39,7 @@ pub(crate) struct Run {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 
-    /// When all tiles are there: draw the figure into this file, .svg or .png
+    /// When all tiles are there: draw the figure into this file, .svg, .png or .pdf
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
 

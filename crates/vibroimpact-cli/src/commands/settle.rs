@@ -66,7 +66,7 @@ pub(crate) struct Settle {
     #[arg(long, help_heading = "Output")]
     json: bool,
 
-    /// Draw the steady motion into this file, .svg or .png
+    /// Draw the steady motion into this file, .svg, .png or .pdf
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
 

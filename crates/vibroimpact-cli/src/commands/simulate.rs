@@ -56,7 +56,7 @@ pub(crate) struct Simulate {
     #[arg(long, value_parser = number, value_name = "T", requires = "csv", allow_hyphen_values = true, help_heading = "Output")]
     step: Option<f64>,
 
-    /// Draw the waveform into this file, .svg or .png
+    /// Draw the waveform into this file, .svg, .png or .pdf
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
 

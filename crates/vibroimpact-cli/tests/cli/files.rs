@@ -133,6 +133,7 @@ fn pictures() {
         ("alone", format!("{BRANCH} --no-diagram --virtual --plot alone.svg")),
         ("curve", format!("{CURVE} --plot curve.svg")),
         ("region", format!("{REGION} --plot region.svg")),
+        ("paper", format!("{CURVE} --plot paper.pdf --size 85x60mm")),
         ("nothing", "diagram --beta 2 --restitution 0.5 --vary gap --over 5:6:3 --plot nothing.svg".into()),
     ] {
         let output = vibro(&line).current_dir(&folder).output().unwrap();
@@ -140,6 +141,9 @@ fn pictures() {
         let svg = folder.path().join(format!("{name}.svg"));
         if svg.exists() {
             assert!(fs::read_to_string(svg).unwrap().starts_with("<svg"));
+        } else if name == "paper" {
+            let pdf = fs::read(folder.path().join("paper.pdf")).unwrap();
+            assert!(pdf.starts_with(b"%PDF-") && pdf.len() < 100_000, "{} bytes", pdf.len());
         } else {
             let png = fs::read(folder.path().join(format!("{name}.png"))).unwrap();
             assert!(png.starts_with(b"\x89PNG"));

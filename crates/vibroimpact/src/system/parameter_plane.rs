@@ -101,10 +101,8 @@ impl ParameterPlane {
             Ok(machine.with(self.parameters.0, p)?.with(self.parameters.1, q)?.reduced()?.oscillator)
         };
         let size = |parameter| machine.value(parameter).map_or(0.0, f64::abs);
-        let along = [
-            rates(|p| at(p, q), p, size(self.parameters.0))?,
-            rates(|q| at(p, q), q, size(self.parameters.1))?,
-        ];
+        let along =
+            [rates(|p| at(p, q), p, size(self.parameters.0))?, rates(|q| at(p, q), q, size(self.parameters.1))?];
         Ok(along.map(super::parameter_path::named))
     }
 }

@@ -16,7 +16,7 @@ fn curve(osc: &Oscillator, label: Label, direction: Direction, name: &str, frame
     let orbits = find(osc, label, FindOptions::default());
     let begin = &orbits.iter().find(|o| o.physical).unwrap().cycle;
     let range = frame.ranges.1.clone();
-    let range = if frame.parameters.1 == Parameter::Gap { range } else { -5.0..=8.0 };
+    let range = if frame.plane.parameters().1 == Parameter::Gap { range } else { -5.0..=8.0 };
     let mut branch = Branch::new(osc, begin, Parameter::Gap, range, direction, BranchOptions::default()).unwrap();
     let point = branch.find(|p| p.event.is_some_and(|e| e.name() == name)).unwrap();
     let ways = Curve::through(osc, &point, Parameter::Gap, frame, CurveOptions::default()).unwrap();
@@ -150,7 +150,8 @@ fn a_limit_of_motions_is_one() {
 /// Towards restitution 1 the folds of 3/1 run to 1/beta = 3/2: three equal flights of half a natural period each, at any speed.
 #[test]
 fn speeds_without_bound() {
-    let frame = Frame { plane: (Parameter::InverseBeta, Parameter::Restitution).into(), ranges: (0.4..=2.6, 0.0..=1.0) };
+    let frame =
+        Frame { plane: (Parameter::InverseBeta, Parameter::Restitution).into(), ranges: (0.4..=2.6, 0.0..=1.0) };
     for (inverse, gap, eps) in [(1.6, 0.25, 0.5), (1.9, 0.6, 0.8)] {
         let osc = Oscillator::from_inverse_beta(inverse, gap, eps).unwrap();
         let points = [UP, DOWN].into_iter().find_map(|direction| {
