@@ -150,7 +150,7 @@ pub enum PlanError {
     MixedPlane(&'static str, &'static str),
     /// The motion without impacts over numbers of a machine.
     #[error(
-        "the region of 0/1 is computed over parameters of the oscillator, such as beta and gap, not over {0}\nhint: its edge is the curve of grazing, `vibro curve 0/1 --kind grazing`"
+        "the region of the motion without impacts is computed over parameters of the oscillator, such as beta and gap, and not over {0}\nhint: its edge is a curve: `vibro curve --label 0 --kind grazing`"
     )]
     FreePlane(&'static str),
     /// A text that cannot be read as a plan.

@@ -164,7 +164,9 @@ def curve(
         "fold", "flip" or "grazing".
     over : mapping
         Two parameters and their ranges; the orbit is followed in the first one:
-        {"gap": (0, 5), "inverse_beta": (0.45, 0.9)}.
+        {"gap": (0, 5), "inverse_beta": (0.45, 0.9)}. Of a machine in physical units also two of its numbers:
+        {"gap_m": (0.001, 0.01), "force_n": (20, 60)}. The velocities of the impacts are in the units of the machine at each
+        point, which depend on its mass, its stiffness and what drives it.
     orbit : int
         Number of the orbit, as for `branch`.
     event : int

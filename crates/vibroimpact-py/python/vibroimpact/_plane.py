@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact._core import Oscillator
-from vibroimpact._figure import SYMBOLS, legend, title
+from vibroimpact._figure import Scale, legend, title
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -19,8 +19,9 @@ def frame(ax: "Axes", osc: Oscillator, parameters: tuple[str, str], ranges: tupl
     (p, q), (across, up) = parameters, ranges
     ax.set_xlim(*across)
     ax.set_ylim(*up)
-    ax.set_xlabel(f"${SYMBOLS[p]}$")
-    ax.set_ylabel(f"${SYMBOLS[q]}$")
+    scale = Scale(osc, False)
+    ax.set_xlabel(scale.axis(p))
+    ax.set_ylabel(scale.axis(q))
     ax.set_title(title(osc, (p, q)))
     legend(ax)
 

@@ -220,7 +220,8 @@ def region(
     label : str
         The label "m/n" of the motion.
     over : mapping
-        Two parameters and their ranges, the abscissa first: {"inverse_beta": (0.4, 2), "gap": (-1, 5)}.
+        Two parameters and their ranges, the abscissa first: {"inverse_beta": (0.4, 2), "gap": (-1, 5)}. Of a machine
+        in physical units also two of its numbers: {"mass_kg": (0.7, 0.95), "force_n": (10, 60)}.
     grid : int
         Number of points of the grid in each direction, 2 to 400. Parts of the region between its points may be missed.
     threads : int
