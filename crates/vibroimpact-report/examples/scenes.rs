@@ -57,7 +57,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let plan: DiagramPlan = serde_json::from_str(task)?;
         let mut labels = scene::labels(&asked, &plan, 40, &control)?;
         labels.truncate(few);
-        save(&format!("bifurcation-{name}"), &scene::bifurcation(&asked, &plan, &labels, &control)?.figure)?;
+        save(&format!("bifurcation-{name}"), &scene::bifurcation(&asked, &plan, Some(&labels), &control)?.figure()?)?;
     }
     Ok(())
 }

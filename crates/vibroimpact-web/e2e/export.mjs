@@ -76,6 +76,86 @@ async function tableOf(command, folder) {
   return readFile(file, "utf8");
 }
 
+/** The command of a view for its table: the first one, of a line the one with the branches. */
+const commandOf = (view, text) => (view === "line" ? text.split("\n").at(-1) : text.split("\n")[0]);
+
+/** Runs an exported command of the shell that draws, and returns its figure. */
+async function figureOf(command, folder) {
+  const program = await readlink(`/proc/${process.env.VIBRO_PID}/exe`);
+  const file = `${folder}/figure.svg`;
+  const line = command.replace(/^vibro/, `'${program}'`).replace(/--plot \S+/, `--plot '${file}' --force`);
+  await promisify(execFile)("sh", ["-c", line], { cwd: folder });
+  return readFile(file, "utf8");
+}
+
+/** The last figure that the page asked for, in the size of the command. */
+async function figureInSizeOfCommand(page, address, act) {
+  const asked = page.waitForRequest((request) => request.url().includes("/api/figure"));
+  await act();
+  const request = await asked;
+  const query = new URL(request.url()).searchParams;
+  query.delete("width");
+  const response = await fetch(`${address}api/figure?${query}`, {
+    method: "POST", headers: { "content-type": "application/json" }, body: request.postData(),
+  });
+  assert.ok(response.ok, await response.clone().text());
+  return response.text();
+}
+
+/** Figures and tables in the colours of a quantity, refined, and of a machine are those of their commands. */
+export async function figures_of_quantities_and_machines_are_those_of_their_commands({ open, address }) {
+  if (!process.env.VIBRO_PID) return;
+  const folder = await mkdtemp(`${tmpdir()}/vibro-e2e-`);
+  const window = "view=1,1.3,0.5,1.1&impacts=200&layers=stripes";
+  try {
+    for (const [hash, points, wanted] of [
+      [`#${window}&colour=power`, 100, /--colour power --colour-range \S+ --plot/],
+      [`#${window}&colour=power&range=0,0.5&starts=2&of=smallest`, 100, /--colour power --of smallest --colour-range 0:0\.5 --plot/],
+      [`#${window}&starts=3`, 400, /--refine 4 --plot/],
+      [`#${window}&machine=0.8,12000,30&colour=power`, 100, /--mass-kg 0\.8 .*--frequency-hz \S+:100 .*--colour power/],
+    ]) {
+      const { page } = await open(hash, { acceptDownloads: true });
+      await until("the first picture", async () => (await page.locator("#plane[data-sharp]").count()) === 1);
+      if (hash.includes("colour")) await page.waitForSelector("#legend .bar-colours[data-range]");
+      await page.locator("#export-button").click();
+      await page.locator("#export-points").selectOption(String(points));
+      const text = page.locator("#export pre").first();
+      await until(`the command ${wanted}`, async () => wanted.test(await text.textContent()));
+      const [table, figure] = (await text.textContent()).split("\n");
+      const svg = await figureInSizeOfCommand(page, address, () => saved(page, "svg"));
+      // the store of a refined map is made anew
+      await rm(`${folder}/map.zarr`, { recursive: true, force: true });
+      assert.equal(await figureOf(figure, folder), svg, hash);
+      if (points === 100) assert.equal(await tableOf(table, folder), (await saved(page, "csv")).toString(), hash);
+    }
+  } finally {
+    await rm(folder, { recursive: true, force: true });
+  }
+}
+
+/** The views of a point and of a line of a machine are in its units, as the tables of their commands. */
+export async function tables_of_a_machine_are_those_of_their_commands({ open }) {
+  if (!process.env.VIBRO_PID) return;
+  const folder = await mkdtemp(`${tmpdir()}/vibro-e2e-`);
+  try {
+    const { page } = await open("#machine=0.8,12000,30&x=beta&point=1&beta=0.77&gap=0.75&damping=0.02&start=0.1,0.2,0.3&view=0.7,1,0.4,2.2&line=0.7,1,0.8,1.2&impacts=200", { acceptDownloads: true });
+    await drawn(page);
+    await page.waitForSelector("#point .note:not(:empty)");
+    await page.locator("#export-button").click();
+    await page.locator("#export-points").selectOption("100");
+    for (const view of ["plane", "basin", "waveform", "steady", "attractors", "line"]) {
+      await page.locator("#export-view").selectOption(view);
+      const command = page.locator("#export pre").first();
+      await until(`the command of ${view}`, async () => /^vibro .*--mass-kg 0\.8/.test(await command.textContent()));
+      const saidByPage = (await saved(page, "csv")).toString();
+      assert.match(saidByPage.split("\n")[0], /_(hz|m|s|m_per_s)\b/, view);
+      assert.equal(await tableOf(commandOf(view, await command.textContent()), folder), saidByPage, view);
+    }
+  } finally {
+    await rm(folder, { recursive: true, force: true });
+  }
+}
+
 export async function the_exported_command_writes_the_exported_table({ open }) {
   if (!process.env.VIBRO_PID) {
     console.log("        skipped: VIBRO_PID does not say which program the server is");
@@ -93,7 +173,7 @@ export async function the_exported_command_writes_the_exported_table({ open }) {
       await until(`the command of ${view}`, async () => (await command.textContent()).startsWith("vibro "));
       const saidByPage = (await saved(page, "csv")).toString();
       assert.ok(saidByPage.split("\n").length > 5, view);
-      assert.equal(await tableOf(await command.textContent(), folder), saidByPage, view);
+      assert.equal(await tableOf(commandOf(view, await command.textContent()), folder), saidByPage, view);
     }
   } finally {
     await rm(folder, { recursive: true, force: true });

@@ -176,7 +176,7 @@ export async function results_are_in_si_units_of_a_machine({ open }) {
   const axes = () => page.$$eval("[data-name=motion] .plot .name, [data-name=portrait] .plot .name", (names) => names.map((name) => name.textContent));
   assert.deepEqual(await axes(), ["time τ", "ξ", "ξ", "velocity ξ′"]);
   await page.locator("#machine").click();
-  await until("axes in seconds and metres", async () => (await axes()).join() === "time t (s),ξ (m),ξ (m),velocity ξ′ (m/s)");
+  await until("axes in seconds and millimetres", async () => (await axes()).join() === "time t (s),ξ (mm),ξ (mm),velocity ξ′ (m/s)");
   assert.match(await page.locator("#point > .note").textContent(), /^Force at 15\.5 Hz, gap 1\.5 mm, natural frequency 19\.49 Hz, F\/k 2\.5 mm\.$/);
   // in one step, because the list is written again while it is read
   const quantity = (name) => page.evaluate((wanted) => [...document.querySelectorAll(".quantities dt")]

@@ -17,6 +17,8 @@ import * as point from "./point.mjs";
 import * as quiet from "./quiet.mjs";
 import * as settings from "./settings.mjs";
 import * as tour from "./tour.mjs";
+import * as units from "./units.mjs";
+import * as values from "./values.mjs";
 import * as wrong from "./wrong.mjs";
 
 const [address, folder = "screenshots", part = ""] = process.argv.slice(2);
@@ -51,7 +53,7 @@ async function open(hash = "", options = {}) {
 }
 
 const chosen = part.split(",");
-for (const module of [plane, map, settings, line, point, motion, panels, exporting, tour, wrong, looks, quiet]) {
+for (const module of [plane, map, settings, line, point, motion, panels, exporting, values, units, tour, wrong, looks, quiet]) {
   for (const [name, test] of Object.entries(module)) {
     if (!chosen.some((one) => name.includes(one))) continue;
     const opened = [];

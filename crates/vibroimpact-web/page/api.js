@@ -154,12 +154,15 @@ export const bifurcationFigure = (plan, query, signal) => drawn("/api/bifurcatio
 const drawn = (path, plan, query, signal) =>
   counted(path, async () => whole((await ask(withQuery(path, query), { body: plan, signal })).blob()));
 
+/** The table of the orbit diagram with its branches. */
+export const bifurcationTable = (plan, signal) => drawn("/api/bifurcation", plan, { table: true }, signal);
+
 /** @param {string} [kind] the view of a settled motion whose table is requested */
 export const table = (plan, kind, signal) =>
   counted("/api/table", async () => whole((await ask(withQuery("/api/table", { kind }), { body: plan, signal })).blob()));
 
 /**
- * @param {string} [kind] the view of a settled motion that the command draws
- * @returns {Promise<{vibro: string, python: string}>}
+ * @param {{kind?: string, colour?: string, of?: string, range?: string, refine?: number}} query what the figure of the command shows
+ * @returns {Promise<{vibro: string, python: string, figure: string | null}>}
  */
-export const command = async (plan, kind, signal) => whole((await ask(withQuery("/api/command", { kind }), { body: plan, signal })).json());
+export const command = async (plan, query, signal) => whole((await ask(withQuery("/api/command", query), { body: plan, signal })).json());

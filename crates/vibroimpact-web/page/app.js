@@ -2,6 +2,7 @@
 
 import { about } from "./api.js";
 import { BoxZoom } from "./box.js";
+import { quantitiesKnown } from "./colourchoice.js";
 import { learn } from "./colours.js";
 import { controls } from "./controls.js";
 import { byId } from "./dom.js";
@@ -29,6 +30,7 @@ import { theme } from "./theme.js";
 import { Cache } from "./tiles.js";
 import { tour } from "./tour.js";
 import { units } from "./units.js";
+import { learnValues, quantities } from "./values.js";
 
 const store = new Store(location, history);
 const queue = new Queue(3);
@@ -51,7 +53,7 @@ const parts = { cache: new Cache(400), queue, failed };
 const plane = new Plane(byId("plane"), store, parts);
 controls(store);
 plane.start();
-const legend = new Legend(byId("legend"), plane.view);
+const legend = new Legend(byId("legend"), plane.view, store, true);
 const exporting = new Export(store, { plane, basin: () => point.basin });
 const exported = (view) => exporting.open(view);
 const point = new Point(store, plane, parts, say, exported);
@@ -69,7 +71,11 @@ sharpening(queue, () => [plane.view, point.basin.view], () => messages.gone);
 sketches(store);
 preview(plane, store);
 enlarging();
-units(store, failed, () => point.retry());
+units(store, failed, () => {
+  plane.refresh(new Set());
+  point.retry();
+  line.refresh();
+});
 theme(byId("theme-button"), store, () => {
   for (const view of [plane.view, point.basin.view]) {
     view.frame.measure();
@@ -87,8 +93,17 @@ greet().finally(() => point.refresh(null));
 /** Gets the points of the paper and the colours of motions from the server. */
 async function greet() {
   try {
-    const { points, version, groups } = await about();
+    const told = await about();
+    const { points, version, groups } = told;
     learn(groups ?? []);
+    learnValues(told);
+    quantitiesKnown();
+    plane.refresh(new Set());
+    const { colour } = store.state;
+    if (colour && !quantities().some(({ name }) => name === colour)) {
+      messages.put(`There is no quantity ${colour}. The colours are those of motions.`);
+      store.set({ colour: null }, "replace");
+    }
     plane.named(points);
     byId("version").textContent = version;
   } catch (error) {

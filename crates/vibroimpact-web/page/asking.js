@@ -10,9 +10,6 @@ const COARSE_PIXELS = 8;
 /** Time in which a coarse picture should be there, in milliseconds, so that it follows a slider. */
 const COARSE_TIME = 100;
 
-/** Step of the refinement of a tile: every point with this distance is computed first. */
-const REFINE = 8;
-
 /** The cells with legal centres, among `count` cells that begin at `first` and have the size `h`. */
 function cut(first, h, count, [least, most], open) {
   const centre = (k) => (first + k + 0.5) * h;
@@ -22,7 +19,14 @@ function cut(first, h, count, [least, most], open) {
   return { first: first + begin, count: end - begin, values: over(centre(begin), centre(end - 1), end - begin) };
 }
 
-/** A budget of impacts and the key of the tiles that are computed with it. @typedef {{key: string, impacts: number}} Stage */
+/**
+ * A step of the computation of a place.
+ * @typedef {object} Stage
+ * @property {string} key of its tiles
+ * @property {number} impacts the budget
+ * @property {number} [refine] distance of the points that are computed first, if those between are computed only where these differ
+ * @property {boolean} [whole] whether it computes points that an earlier stage with the same budget did not
+ */
 
 /**
  * Requests the tile of a level with the given column and row.
@@ -39,7 +43,7 @@ export function askTile(view, key, stage, level, [column, row], signal) {
   const [hx, hy] = [v.stepX * 2 ** -level, v.stepY * 2 ** -(level + shape)];
   const across = cut(column * SIDE, hx, SIDE, source.legal.x, source.x.open);
   const up = cut(row * SIDE, hy, SIDE, source.legal.y, source.y.open);
-  return { key, stage, tile: filled({ source, stage, key, level, shape, hx, hy, across, up }, source.refine?.(stage.impacts) ?? REFINE, signal) };
+  return { key, stage, tile: filled({ source, stage, key, level, shape, hx, hy, across, up }, stage.refine, signal) };
 }
 
 /** Number of points of the next coarse picture: fewer if the last one took long. */

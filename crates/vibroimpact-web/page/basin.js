@@ -2,17 +2,14 @@
 
 import { START } from "./parameters.js";
 import { basinPlan, room, startOf, systemOf } from "./plans.js";
-import { shorter } from "./state.js";
-import { digits } from "./ticks.js";
+import { budgets } from "./state.js";
 import { TileView } from "./tileview.js";
 import { Viewport } from "./viewport.js";
-import { legendText } from "./words.js";
+import { quantityOf, shownAs } from "./units.js";
+import { legendText, placeText, valueText } from "./words.js";
 
-/**
- * Step of the points that are computed first: for small budgets, and for larger ones, which take longer. Basins have thin
- * arms. With the step of the map, an arm is found in one tile and missed in the next one, and ends at the edge of the tile.
- */
-const refine = (impacts) => (impacts <= 1000 ? 2 : 4);
+/** Step of the points of the first picture. Basins have thin arms, so afterwards every point is computed. */
+const FIRST = 2;
 
 /** Numbers of cycles begin here, above all codes of labels. */
 const CYCLES = 2_000_000_000;
@@ -94,16 +91,20 @@ export class Basin {
   source() {
     const state = structuredClone(this.store.state);
     const of = JSON.stringify([systemOf(state), startOf(state).phase]);
-    const key = (impacts) => `basin|${of}|${impacts}`;
+    const key = (impacts, step = 1) => `basin|${of}|${impacts}|${step}|${state.colour}`;
+    const [first] = budgets(state.impacts);
     if (!this.cycles.has(of)) this.cycles.set(of, new Cycles());
     const cycles = this.cycles.get(of);
     return {
       key: key(state.impacts),
-      shallower: shorter(state.impacts).map(key),
+      stages: [
+        { key: key(first, FIRST), impacts: first, refine: FIRST },
+        ...budgets(state.impacts).map((impacts) => ({ key: key(impacts), impacts, whole: true })),
+      ],
       impacts: state.impacts,
-      refine,
-      x: START.x,
-      y: START.v,
+      quantity: quantityOf(state),
+      x: shownAs(state, "x"),
+      y: shownAs(state, "v"),
       legal: { x: room(state), y: [-Infinity, Infinity] },
       plan: (overX, overY, step) => basinPlan(state, overX, overY, step),
       look: (id) => (id >= CYCLES ? cycles.look(id) : this.labels.get(id)) ?? { name: "undecided", colour: "#ffffff" },
@@ -114,7 +115,7 @@ export class Basin {
           const cycle = fields.cycle.values[at];
           return cycle >= 0 ? numbers[cycle] : label;
         });
-        return { classes, shares: null, per: 1 };
+        return { classes, shares: null, per: 1, values: fields[state.colour]?.values, own: fields.computed?.values };
       },
     };
   }
@@ -183,8 +184,11 @@ export class Basin {
     const { viewport: v } = this.view;
     const { x, y, found } = this.view.at(...px);
     const [lowest, highest] = room(this.store.state);
-    const motion = found.length ? legendText(found[0].name, found[0].impacts)
+    const { quantity } = this.view.source;
+    const value = found.length && quantity ? `   ${valueText(found, quantity)}` : "";
+    const motion = found.length ? legendText(found[0].name, found[0].impacts) + value
       : x > highest || x < lowest ? "beyond the stop" : "not computed yet";
-    return { place: `ξ₀ ${digits(x, v.hx)}   u₀ ${digits(y, v.hy)}`, motions: motion, colour: found[0]?.colour ?? null };
+    const { x: across, y: up } = this.view.source;
+    return { place: `${placeText(across, x, v.hx)}   ${placeText(up, y, v.hy)}`, motions: motion, colour: found[0]?.colour ?? null };
   }
 }

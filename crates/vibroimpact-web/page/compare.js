@@ -9,7 +9,7 @@ import { settlePlan, simulatePlan, startOf } from "./plans.js";
 import { Portrait } from "./portrait.js";
 import { short } from "./ticks.js";
 import { track } from "./track.js";
-import { inUnits } from "./units.js";
+import { inUnits, shownAs } from "./units.js";
 import { verdict } from "./verdict.js";
 import { Waveform } from "./waveform.js";
 
@@ -50,8 +50,14 @@ class Side {
   show(state, other) {
     const start = startOf(state);
     const from = JSON.stringify(start) === JSON.stringify(startOf(other)) ? ""
-      : `, start ${short(start.x)}, ${short(start.v)}, φ ${short(start.phase)}`;
-    this.values.textContent = names(state, other).map((name) => `${PARAMETERS[name].symbol} ${short(valueOf(state, name))}`).join(", ") + from;
+      : `, start ${["x", "v"].map((name) => {
+        const { unit, factor } = shownAs(state, name);
+        return short(start[name] * factor) + (unit && ` ${unit}`);
+      }).join(", ")}, φ ${short(start.phase)}`;
+    this.values.textContent = names(state, other).map((name) => {
+      const { symbol, unit, factor } = shownAs(state, name);
+      return `${symbol} ${short(valueOf(state, name) * factor)}${unit && ` ${unit}`}`;
+    }).join(", ") + from;
     const key = JSON.stringify([inUnits(settlePlan(state), state), state.wave, state.portrait, state.periods]);
     if (key === this.shown) return;
     this.shown = key;

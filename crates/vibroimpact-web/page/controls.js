@@ -5,6 +5,7 @@ import { numberField } from "./field.js";
 import { PARAMETERS, isFrequency, ofSecondStop, patchOf, reasonAgainst, valueOf } from "./parameters.js";
 import { BUDGETS, MOST_STARTS } from "./state.js";
 import { grouped } from "./ticks.js";
+import { givenValue, shownAs, shownValue } from "./units.js";
 
 
 /** @param {import("./state.js").Store} store */
@@ -33,7 +34,7 @@ export function controls(store) {
     impacts.value = String(state.impacts);
     for (const row of rows) row.show();
   };
-  store.on(["x", "y", ...Object.keys(PARAMETERS), "second", "starts", "impacts"], show);
+  store.on(["x", "y", ...Object.keys(PARAMETERS), "second", "starts", "impacts", "machine"], show);
   show();
 }
 
@@ -69,12 +70,13 @@ function startsPerPoint(store) {
 /** The slider and field of a parameter; shown only if it is on no axis. */
 function parameter(store, name) {
   const { symbol, words, slider: [from, to, step] } = PARAMETERS[name];
+  const own = () => shownAs(store.state, name);
   const live = throttled((value) => store.set(patchOf(name, value), "quiet"), 40);
   const commit = (value) => store.set(patchOf(name, value));
   const range = element("input", {
     type: "range", min: from, max: to, step, "aria-label": `${words} ${symbol}`,
     oninput: (event) => {
-      field.input.value = event.target.value;
+      field.input.value = String(shownValue(own(), Number(event.target.value)));
       live(Number(event.target.value));
     },
     onchange: (event) => {
@@ -84,20 +86,25 @@ function parameter(store, name) {
     },
   });
   const field = numberField({
-    id: `field-${name}`, label: `${words} ${symbol}`, check: (value) => reasonAgainst(PARAMETERS[name], value), set: commit,
+    id: `field-${name}`, label: `${words} ${symbol}`, 
+    check: (value) => reasonAgainst(own(), givenValue(own(), value)), set: (value) => commit(givenValue(own(), value)),
   });
+  const title = element("label", { for: `field-${name}`, title: words });
   const box = element("div", { class: "parameter" },
-    element("label", { for: `field-${name}`, title: words }, element("i", { class: "math", text: symbol }), ` ${words}`),
+    title,
     range, field.input, field.said);
-  return { box, show: () => showParameter(store.state, name, { box, range, field }) };
+  return { box, show: () => showParameter(store.state, name, { box, range, field, title }) };
 }
 
-function showParameter(state, name, { box, range, field }) {
+function showParameter(state, name, { box, range, field, title }) {
   const onAxis = [state.x, state.y].includes(name) || (isFrequency(name) && [state.x, state.y].some(isFrequency));
-  box.hidden = onAxis || name === "beta" || (ofSecondStop(name) && !state.second);
+  const own = shownAs(state, name);
+  title.replaceChildren(element("i", { class: "math", text: own.symbol }), ` ${own.words}${own.unit && `, ${own.unit}`}`);
+  // a machine has a frequency, and not its inverse
+  box.hidden = onAxis || name === (state.machine ? "inverse_beta" : "beta") || (ofSecondStop(name) && !state.second);
   const value = valueOf(state, name);
   if (document.activeElement !== range) range.value = String(value);
-  field.show(value);
+  field.show(shownValue(own, value));
 }
 
 /** The controls that choose the parameter of each axis. */
@@ -111,10 +118,14 @@ function axes(store) {
     const { state } = store;
     selects.forEach((select, k) => {
       select.value = state[["x", "y"][k]];
-      for (const option of select.options) option.disabled = ofSecondStop(option.value) && !state.second;
+      for (const option of select.options) {
+        option.disabled = (ofSecondStop(option.value) && !state.second) || (option.value === "inverse_beta" && state.machine !== null);
+        const { symbol, words, unit } = shownAs(state, option.value);
+        option.text = `${symbol} ${words}${unit && `, ${unit}`}`;
+      }
     });
   };
-  store.on(["x", "y", "second"], show);
+  store.on(["x", "y", "second", "machine"], show);
   show();
 }
 

@@ -7,9 +7,13 @@ import { valueOf } from "./parameters.js";
 import {
   attractorsPlan, basinPlan, diagramPlan, lyapunovPlan, mapPlan, over, settlePlan, simulatePlan, within,
 } from "./plans.js";
+import { asShown } from "./units.js";
 
 /** Width of figures for print, in the units of the server. */
 const WIDTH = 1000;
+
+/** Number of points along each axis of a map up to which all points of its figure are computed. */
+const WHOLE = 200;
 
 /** Numbers of points along each axis of a view. */
 const POINTS = [100, 200, 400, 800];
@@ -64,12 +68,21 @@ export class Export {
       const cut = (range, coordinate, low, high) => over(...within(range, coordinate, low, high), n);
       return make(state, cut(legal.x, x, l, r), cut(legal.y, y, b, t));
     };
-    const views = { plane: { name: "map", plan: () => span(this.views.plane.view, mapPlan), points: true, over: () => this.over() } };
+    const views = {
+      plane: {
+        name: "map", plan: () => span(this.views.plane.view, mapPlan), points: true,
+        // a finer picture is computed as the map is: points between others that agree are not
+        drawn: () => ({ ...this.over(), ...this.colours(this.views.plane.view), refine: n > WHOLE && !state.colour ? n / 100 : null }),
+      },
+    };
     if (state.point) {
       const settle = () => settlePlan(state);
       Object.assign(views, {
         waveform: { name: "waveform", plan: () => simulatePlan(state), kind: "waveform" },
-        basin: { name: "basin: which start leads where", plan: () => span(this.views.basin().view, basinPlan), points: true, needs: () => this.views.basin().view.source },
+        basin: {
+          name: "basin: which start leads where", plan: () => span(this.views.basin().view, basinPlan), points: true,
+          drawn: () => this.colours(this.views.basin().view), needs: () => this.views.basin().view.source,
+        },
         attractors: { name: "motions that coexist", plan: () => attractorsPlan(state), tableOnly: true },
         steady: { name: "steady motion", plan: settle, kind: "waveform" },
         phase: { name: "phase portrait", plan: settle, kind: "phase" },
@@ -81,10 +94,17 @@ export class Export {
     if (state.line) {
       views.line = {
         name: "bifurcation diagram", plan: () => diagramPlan(state, 2 * n), points: true,
-        note: "SVG and PNG have the branches too; CSV and the commands have the points from simulation.",
+        note: "With the branches; without --branches the command has the points from simulation only.",
       };
     }
     return Object.fromEntries(Object.entries(views).filter(([, view]) => !view.needs || view.needs()));
+  }
+
+  /** The quantity whose values are the colours of a view, and their range. */
+  colours({ source, range }) {
+    if (!source?.quantity) return {};
+    const { name, of } = source.quantity;
+    return { colour: name, of, range: range?.join() };
   }
 
   /** What lies over the map: layers, the chosen point, the line. */
@@ -108,7 +128,7 @@ export class Export {
 
   refresh() {
     this.view = this.list()[this.choice.value];
-    this.plan = this.view.plan();
+    this.plan = asShown(this.view.plan(), this.store.state);
     this.pointsRow.hidden = !this.view.points;
     // a diagram has twice as many values along its line
     const along = this.choice.value === "line";
@@ -117,13 +137,15 @@ export class Export {
       button.hidden = Boolean(this.view.tableOnly) && button.dataset.format !== "csv";
     }
     this.said.textContent = this.view.note ?? "";
-    this.asked.ask({ plan: this.plan, kind: this.view.kind }, true);
+    this.asked.ask({ plan: this.plan, query: { kind: this.view.kind, ...this.view.drawn?.() } }, true);
   }
 
-  async tell({ plan, kind }, signal) {
+  async tell({ plan, query }, signal) {
     for (const { code } of Object.values(this.commands)) code.textContent = "";
-    const told = await api.command(plan, kind, signal);
-    this.commands.vibro.code.textContent = told.vibro;
+    const { layers, chosen, line, ...asked } = query;
+    const told = await api.command(plan, asked, signal);
+    // the figure and the table of a view may need commands of their own
+    this.commands.vibro.code.textContent = [told.vibro, told.figure].filter((text) => text).join("\n");
     this.commands.python.code.textContent = told.python;
   }
 
@@ -140,9 +162,9 @@ export class Export {
   }
 
   async blob(format, plan) {
-    if (format === "csv") return api.table(plan, this.view.kind);
+    if (format === "csv") return this.choice.value === "line" ? api.bifurcationTable(plan) : api.table(plan, this.view.kind);
     if (this.choice.value === "line") return api.bifurcationFigure(plan, { format, width: WIDTH, height: 0.7 * WIDTH });
-    return api.figure(plan, { format, width: WIDTH, kind: this.view.kind, ...this.view.over?.() });
+    return api.figure(plan, { format, width: WIDTH, kind: this.view.kind, ...this.view.drawn?.() });
   }
 
   download(blob, name) {

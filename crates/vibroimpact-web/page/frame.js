@@ -1,6 +1,7 @@
 /** Draws a tile view: the picture, the shading outside the legal range, axes, crosshair. */
 
 import { ticks } from "./ticks.js";
+import { titled } from "./units.js";
 
 const SERIF = '"STIX Two Text", "Cambria", "Georgia", "DejaVu Serif", serif';
 const SANS = 'system-ui, -apple-system, "Segoe UI", "Helvetica Neue", "Noto Sans", sans-serif';
@@ -69,8 +70,8 @@ export class Frame {
     if (x1 <= 0 || y1 <= 0 || x0 >= view.picture.width || y0 >= view.picture.height) return;
     // no stripes and lines in coarse cells, because they would look like regions of motions
     const coarse = tile.level === -Infinity;
-    const { only, density } = view;
-    const look = { only, density, stripes: view.stripes && !coarse, boundaries: view.boundaries && !coarse };
+    const { only, density, scale } = view;
+    const look = { only, density, scale, stripes: view.stripes && !coarse, boundaries: view.boundaries && !coarse };
     context.imageSmoothingEnabled = x1 - x0 < tile.columns;
     context.imageSmoothingQuality = "high";
     context.drawImage(tile.picture(look, open), x0, y0, x1 - x0, y1 - y0);
@@ -153,13 +154,14 @@ export class Frame {
     context.lineWidth = 1;
     context.strokeRect(-0.5, -0.5, v.width + 1, v.height + 1);
     context.font = `${0.88 * em}px ${SANS}`;
-    const across = ticks(left, right, v.width / (6 * em));
-    const up = ticks(bottom, top, v.height / (4 * em));
+    const [fx, fy] = [source.x.factor, source.y.factor];
+    const across = ticks(left * fx, right * fx, v.width / (6 * em));
+    const up = ticks(bottom * fy, top * fy, v.height / (4 * em));
     context.textAlign = "center";
     context.textBaseline = "top";
     context.beginPath();
     for (const { value, text } of across.ticks) {
-      const px = Math.round(v.toPixel(value, v.cy)[0]) + 0.5;
+      const px = Math.round(v.toPixel(value / fx, v.cy)[0]) + 0.5;
       context.moveTo(px, v.height + 1);
       context.lineTo(px, v.height + 6);
       const half = context.measureText(text).width / 2;
@@ -169,7 +171,7 @@ export class Frame {
     context.textAlign = "right";
     context.textBaseline = "middle";
     for (const { value, text } of up.ticks) {
-      const py = Math.round(v.toPixel(v.cx, value)[1]) + 0.5;
+      const py = Math.round(v.toPixel(v.cx, value / fy)[1]) + 0.5;
       context.moveTo(-1, py);
       context.lineTo(-6, py);
       context.fillText(text, -9, py);
@@ -184,11 +186,11 @@ export class Frame {
     context.font = `italic ${1.15 * em}px ${SERIF}`;
     context.textAlign = "center";
     context.textBaseline = "alphabetic";
-    context.fillText(source.x.symbol, v.width / 2, v.height + this.bottom - 0.45 * em);
+    context.fillText(titled(source.x), v.width / 2, v.height + this.bottom - 0.45 * em);
     context.save();
     context.translate(-this.left + 1.05 * em, v.height / 2);
-    context.rotate(source.y.symbol.length > 2 ? -Math.PI / 2 : 0);
-    context.fillText(source.y.symbol, 0, 0.3 * em);
+    context.rotate(titled(source.y).length > 2 ? -Math.PI / 2 : 0);
+    context.fillText(titled(source.y), 0, 0.3 * em);
     context.restore();
     context.font = `${0.8 * em}px ${SANS}`;
     context.fillStyle = this.colours.soft;

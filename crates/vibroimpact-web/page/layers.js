@@ -34,7 +34,7 @@ export class Layers {
     this.settle = debounced(() => this.refresh(), 500);
     plane.view.addEventListener("view", this.settle);
     store.on(["x", "y", ...Object.keys(PARAMETERS), "second", "view"], this.settle);
-    store.on(["layers", "x", "y"], () => this.refresh());
+    store.on(["layers", "x", "y", "colour"], () => this.refresh());
     this.refresh();
   }
 
@@ -52,15 +52,16 @@ export class Layers {
 
   /** The reason why a layer cannot be shown; empty if it can. */
   hindered(name) {
-    const { x, y } = this.store.state;
+    const { x, y, colour } = this.store.state;
+    if (colour && (name === "stripes" || name === "boundaries")) return "shows motions, not quantities";
     if (name === "amplitude" && x !== "gap" && y !== "gap") return "needs the gap on an axis";
     return "";
   }
 
   refresh() {
     const { state } = this.store;
-    this.plane.view.stripes = state.layers.includes("stripes");
-    this.plane.view.boundaries = state.layers.includes("boundaries");
+    this.plane.view.stripes = state.layers.includes("stripes") && !state.colour;
+    this.plane.view.boundaries = state.layers.includes("boundaries") && !state.colour;
     for (const [name, { input, progress }] of Object.entries(this.boxes)) {
       const why = this.hindered(name);
       input.checked = state.layers.includes(name);

@@ -1,9 +1,12 @@
 /** The legend: what each colour and pattern in view means, with shares. Pointing at a row or clicking it isolates its motions. */
 
+import { ColourBar } from "./colourbar.js";
+import { colourChoice } from "./colourchoice.js";
 import { groupOf, groupText } from "./colours.js";
 import { element, paint, swatch } from "./dom.js";
-import { shares } from "./shares.js";
+import { extremes, shares } from "./shares.js";
 import { percent } from "./ticks.js";
+import { rangeFor } from "./values.js";
 import { labelText, legendText } from "./words.js";
 
 /** Maximum number of motions listed separately; if there are more, those of groups with several labels are listed together. */
@@ -27,17 +30,22 @@ export class Legend {
   /**
    * @param {HTMLElement} host
    * @param {import("./tileview.js").TileView} view
+   * @param {import("./state.js").Store} store
+   * @param {boolean} [main] whether it chooses what the colours are, for all views
    */
-  constructor(host, view) {
-    Object.assign(this, { host, view, pinned: null, all: false });
+  constructor(host, view, store, main = false) {
+    Object.assign(this, { host, view, store, pinned: null, all: false });
+    this.bar = new ColourBar(view, store, main);
     this.list = element("ul", { class: "legend-list" });
     this.others = element("ul", { class: "legend-list legend-other" });
     this.more = element("button", { type: "button", class: "quiet", hidden: true, onclick: () => this.toggleAll() });
     this.note = element("p", { class: "note" });
-    host.append(this.list, this.others, this.more, this.note);
+    if (main) colourChoice(host, store);
+    host.append(this.bar.box, this.list, this.others, this.more, this.note);
     this.items = new Map();
     view.addEventListener("tiles", () => this.soon());
     view.addEventListener("view", () => this.soon());
+    store.on(["range", "colour", "of"], () => this.soon());
   }
 
   soon() {
@@ -56,6 +64,13 @@ export class Legend {
   refresh() {
     const { view } = this;
     if (!view.source || !view.sized || !view.progress) return;
+    if (view.source.quantity) {
+      this.refreshValues();
+      return;
+    }
+    this.bar.refresh();
+    this.title("Motions in view");
+    this.list.hidden = false;
     const { counts, coarse } = shares(view);
     const total = [...counts.values()].reduce((sum, n) => sum + n, 0);
     this.fillOthers();
@@ -75,6 +90,36 @@ export class Legend {
     this.more.hidden = !many;
     this.more.textContent = this.all ? "fewer rows" : `all ${motions.length} motions`;
     this.note.textContent = coarse ? "Shares so far; not all of it is computed." : "";
+  }
+
+  title(text) {
+    const heading = this.host.querySelector("h2");
+    if (heading && heading.textContent !== text) heading.textContent = text;
+  }
+
+  /** Shows the colours of a quantity: their range for the values in view, and what has no value. */
+  refreshValues() {
+    const { view } = this;
+    const { quantity } = view.source;
+    this.title("Values in view");
+    const { low, high, missing, coarse } = extremes(view);
+    const key = `${quantity.name} ${quantity.factor}`;
+    // a range of another quantity, or in other units, says nothing about this one
+    const before = this.rangeOf === key ? this.fitted : null;
+    // until the view is there, the range does not become smaller
+    const [least, most] = coarse && before ? [Math.min(before[0], low * quantity.factor), Math.max(before[1], high * quantity.factor)] : [low * quantity.factor, high * quantity.factor];
+    this.fitted = rangeFor(before, least, most);
+    this.rangeOf = key;
+    const range = this.store.state.range ?? this.fitted;
+    if (JSON.stringify(range) !== JSON.stringify(view.range)) {
+      view.range = range;
+      view.draw();
+    }
+    this.list.hidden = true;
+    this.more.hidden = true;
+    this.fillOthers();
+    this.note.textContent = coarse ? "Values so far; not all of it is computed." : "";
+    this.bar.refresh([...missing].sort());
   }
 
   /** @returns {Row} */

@@ -9,6 +9,7 @@ import { LinkedDiagram } from "./linked.js";
 import { PARAMETERS, reasonAgainst, valueOf } from "./parameters.js";
 import { alongLine, diagramPlan } from "./plans.js";
 import { digits } from "./ticks.js";
+import { asShown, givenValue, perUnit, shownAs, shownValue } from "./units.js";
 import { Viewport } from "./viewport.js";
 import { labelText } from "./words.js";
 
@@ -46,7 +47,7 @@ export class LineTool {
     this.asked = new Latest((state, signal) => this.fetch(state, signal), (error) => this.refused(error, failed));
     plane.view.grab = (px, xy) => (this.active ? this.hold(px, xy) : null);
     plane.view.painters.push((context, viewport) => this.paint(context, viewport));
-    store.on(["line", "show", "panel", "x", "y", ...Object.keys(PARAMETERS), "second"], () => this.refresh());
+    store.on(["line", "show", "panel", "x", "y", ...Object.keys(PARAMETERS), "second", "machine"], () => this.refresh());
   }
 
   /** Buttons for a line through the chosen point, or through the centre of the map, along either axis. */
@@ -68,28 +69,31 @@ export class LineTool {
   }
 
   /** Lists the events on the branches, in the order of their values; a click chooses the place. */
-  list(events) {
-    const [{ parameter, from, to }] = alongLine(this.store.state);
-    const { symbol } = PARAMETERS[parameter];
+  list(listed) {
+    const [{ parameter, from: first, to: last }] = alongLine(this.store.state);
+    const { symbol, unit, factor } = shownAs(this.store.state, parameter);
+    const [from, to] = [first * factor, last * factor];
     const pixel = Math.abs(to - from) / 1e5;
+    const events = listed.map(({ value, ...event }) => ({ ...event, value: value * perUnit(this.store.state, parameter) }));
     this.events.hidden = !events.length;
     this.events.replaceChildren(element("h3", { text: "Events on the branches" }), element("ul", {}, ...events.map(({ label, kind, value }) =>
       element("li", {}, element("button", {
-        type: "button", class: "quiet", title: `Choose this place. ${symbol} = ${value}`, onclick: () => this.linked.choose((value - from) / (to - from)),
-        text: `${labelText(label)}: ${kind} at ${symbol} = ${digits(value, pixel)}`,
+        type: "button", class: "quiet", title: `Choose this place. ${symbol} = ${value}${unit && ` ${unit}`}`, onclick: () => this.linked.choose((value - from) / (to - from)),
+        text: `${labelText(label)}: ${kind} at ${symbol} = ${digits(value, pixel)}${unit && ` ${unit}`}`,
       })))));
   }
 
   /** Fields for the coordinates of both ends. */
   endFields() {
     const { store } = this;
+    const own = (k) => shownAs(store.state, k % 2 ? store.state.y : store.state.x);
     const names = ["beginning, to the right", "beginning, upwards", "end, to the right", "end, upwards"];
     const fields = names.map((name, k) => numberField({
       label: `line: ${name}`,
-      check: (value) => reasonAgainst(PARAMETERS[k % 2 ? store.state.y : store.state.x], value),
+      check: (value) => reasonAgainst(own(k), givenValue(own(k), value)),
       set: (value) => {
         const line = [...store.state.line];
-        line[k] = value;
+        line[k] = givenValue(own(k), value);
         if (line[0] !== line[2] || line[1] !== line[3]) store.set({ line });
       },
     }));
@@ -163,10 +167,10 @@ export class LineTool {
     this.show.value = state.show;
     this.ends.box.hidden = !state.line;
     for (const button of this.through) {
-      const { symbol } = PARAMETERS[state[button.dataset.through]];
+      const { symbol } = shownAs(state, state[button.dataset.through]);
       button.textContent = `Along ${symbol} through ${state.point ? "the chosen point" : "the middle"}`;
     }
-    state.line?.forEach((value, k) => this.ends.fields[k].show(value));
+    state.line?.forEach((value, k) => this.ends.fields[k].show(shownValue(shownAs(state, k % 2 ? state.y : state.x), value)));
     if (state.panel !== "line" || !state.line) {
       this.asked.stop();
       this.told.textContent = "Press Line above the map, then drag along the map, in any direction. Or begin with one of these lines:";
@@ -178,12 +182,14 @@ export class LineTool {
       return;
     }
     const parts = alongLine(state).map(({ parameter, from, to }) => {
-      const pixel = Math.abs(to - from) / 1000;
-      const { symbol } = PARAMETERS[parameter];
-      return pixel ? `${symbol} from ${digits(from, pixel)} to ${digits(to, pixel)}` : `${symbol} = ${from}`;
+      const own = shownAs(state, parameter);
+      const [a, b] = [from * own.factor, to * own.factor];
+      const pixel = Math.abs(b - a) / 1000;
+      const words = pixel ? `from ${digits(a, pixel)} to ${digits(b, pixel)}` : `= ${shownValue(own, from)}`;
+      return `${own.symbol} ${words}${own.unit && ` ${own.unit}`}`;
     });
     this.told.textContent = parts.join(", ");
-    const plan = diagramPlan(state);
+    const plan = asShown(diagramPlan(state), state);
     if (JSON.stringify(plan) === this.key) return;
     this.key = JSON.stringify(plan);
     this.asked.ask(plan, true);

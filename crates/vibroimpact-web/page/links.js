@@ -1,16 +1,24 @@
 /** What belongs to the address of the page: its title, the button that copies the link, undo and redo. */
 
 import { byId } from "./dom.js";
-import { PARAMETERS } from "./parameters.js";
+import { valueOf } from "./parameters.js";
 import { short } from "./ticks.js";
+import { shownAs } from "./units.js";
 
 /** The state of the page as a title, so that tabs, bookmarks and the history tell views apart. */
 function titleOf(state, [left, right, bottom, top]) {
-  const [x, y] = [PARAMETERS[state.x].symbol, PARAMETERS[state.y].symbol];
-  const parts = [`${x} ${short(left)} to ${short(right)}`, `${y} ${short(bottom)} to ${short(top)}`];
+  const span = (name, low, high) => {
+    const { symbol, unit, factor } = shownAs(state, name);
+    return `${symbol} ${short(low * factor)} to ${short(high * factor)}${unit && ` ${unit}`}`;
+  };
+  const parts = [span(state.x, left, right), span(state.y, bottom, top)];
   if (state.x !== "restitution" && state.y !== "restitution") parts.push(`ε ${short(state.restitution)}`);
   if (state.line && state.panel === "line") parts.push("bifurcation diagram");
-  else if (state.point) parts.push(`point 1/β ${short(state.inverse_beta)}, δ ${short(state.gap)}`);
+  else if (state.point) {
+    const of = ["beta", "gap"].map((name) => shownAs(state, state.machine || name !== "beta" ? name : "inverse_beta"));
+    parts.push(`point ${of.map(({ name, symbol, unit, factor }) => `${symbol} ${short(valueOf(state, name) * factor)}${unit && ` ${unit}`}`).join(", ")}`);
+  }
+  if (state.colour) parts.unshift(state.colour.replaceAll("_", " "));
   return `${parts.join(", ")} · vibro explore`;
 }
 

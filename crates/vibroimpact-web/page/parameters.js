@@ -10,6 +10,8 @@
  * @property {number} most largest legal value
  * @property {boolean} [open] whether `least` itself is excluded
  * @property {[number, number, number]} [slider] ends and step of its slider
+ * @property {string} [unit] in which it is shown
+ * @property {number} [factor] one nondimensional unit in it
  */
 
 /** @type {Record<string, Coordinate>} Parameters of the oscillator. */
@@ -46,7 +48,7 @@ export const PARAMETERS = {
 /** @type {Record<string, Coordinate>} Coordinates of a start. */
 export const START = {
   x: { symbol: "ξ₀", words: "initial position", window: [-8, 1], step: 2 ** -6, least: -Infinity, most: Infinity },
-  v: { symbol: "u₀", words: "initial velocity", window: [-8, 8], step: 2 ** -6, least: -Infinity, most: Infinity },
+  v: { symbol: "ξ₀′", words: "initial velocity", window: [-8, 8], step: 2 ** -6, least: -Infinity, most: Infinity },
 };
 
 /** @param {string} name of a parameter @returns {boolean} whether it belongs to the second stop */
@@ -68,9 +70,10 @@ export function legal(coordinate, value) {
 /** @returns {string} the reason why a coordinate cannot have a value; empty if it can */
 export function reasonAgainst(coordinate, value) {
   if (legal(coordinate, value)) return "";
-  const { symbol, least, most, open } = coordinate;
-  const range = `${Number.isFinite(least) ? `${least} ${open ? "<" : "≤"} ` : ""}${symbol}${Number.isFinite(most) ? ` ≤ ${most}` : ""}`;
-  return `${symbol} = ${value} is not possible: ${range}.`;
+  const { symbol, least, most, open, factor = 1, unit = "" } = coordinate;
+  const shown = (number) => `${Number((number * factor).toPrecision(12))}${unit && ` ${unit}`}`;
+  const range = `${Number.isFinite(least) ? `${shown(least)} ${open ? "<" : "≤"} ` : ""}${symbol}${Number.isFinite(most) ? ` ≤ ${shown(most)}` : ""}`;
+  return `${symbol} = ${shown(value)} is not possible: ${range}.`;
 }
 
 /** @param {object} state @param {string} name @returns {number} the value of a parameter at the chosen point */

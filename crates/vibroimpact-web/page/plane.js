@@ -2,17 +2,22 @@
 
 import { PARAMETERS, isFrequency, legal, ofSecondStop, patchOf, valueOf } from "./parameters.js";
 import { legalRange, mapPlan, room, systemOf } from "./plans.js";
-import { shorter } from "./state.js";
+import { budgets } from "./state.js";
 import { TileView } from "./tileview.js";
-import { digits } from "./ticks.js";
 import { Viewport } from "./viewport.js";
-import { motionsText } from "./words.js";
+import { quantityOf, shownAs } from "./units.js";
+import { motionsText, placeText, valueText } from "./words.js";
 
 /** Parts of the state on which the tiles depend. */
-const DEPENDS = ["x", "y", ...Object.keys(PARAMETERS), "second", "starts", "impacts"];
+const DEPENDS = ["x", "y", ...Object.keys(PARAMETERS), "second", "starts", "impacts", "colour", "of", "machine"];
 
 /** Gestures with less than this number of milliseconds between them are one step of undo. */
 const TOGETHER = 1500;
+
+/** Distance of the points of a tile that are computed first; those between are computed where these differ. */
+const REFINE = 8;
+/** Budgets up to this one are small: with them every point of a quantity is computed. */
+const BRIEF = 1000;
 
 /** Maximum distance, in pixels, of a click that selects a point of the paper. */
 const NEAR = 9;
@@ -60,7 +65,9 @@ export class Plane {
     const { state } = this.store;
     const axes = changed.has("x") || changed.has("y");
     const source = this.source();
-    if (source.key === this.view.source.key) return;
+    const before = this.view.source;
+    const same = source.key === before.key && source.x === before.x && source.y === before.y;
+    if (same && JSON.stringify(source.quantity) === JSON.stringify(before.quantity)) return;
     this.view.show(source, axes ? state.view ?? wholeWindow(state) : null);
   }
 
@@ -77,20 +84,24 @@ export class Plane {
   source() {
     const state = structuredClone(this.store.state);
     const free = { [state.x]: 0, [state.y]: 0 };
-    const key = (impacts) => JSON.stringify([state.x, state.y, systemOf(state, free), state.starts, impacts]);
+    const key = (impacts) => JSON.stringify([state.x, state.y, systemOf(state, free), state.starts, impacts, state.colour]);
+    // between points that agree a quantity is not the same; with the largest budget values between are those of a smaller one
+    const refine = (impacts) => (state.colour && impacts <= BRIEF ? undefined : REFINE);
     return {
       key: key(state.impacts),
-      shallower: shorter(state.impacts).map(key),
+      stages: budgets(state.impacts).map((impacts) => ({ key: key(impacts), impacts, refine: refine(impacts) })),
       impacts: state.impacts,
+      quantity: quantityOf(state),
       beyond: "no such oscillator",
-      x: PARAMETERS[state.x],
-      y: PARAMETERS[state.y],
+      x: shownAs(state, state.x),
+      y: shownAs(state, state.y),
       legal: { x: legalRange(state, state.x), y: legalRange(state, state.y) },
       plan: (overX, overY, refine) => mapPlan(state, overX, overY, refine),
       look: (id) => this.looks.get(id) ?? { name: "undecided", colour: "#e8eaee" },
       read: ({ header, fields }) => {
         for (const [code, look] of Object.entries(header.labels)) this.looks.set(Number(code), look);
-        return { classes: fields.label.values, shares: fields.share.values, per: fields.label.per };
+        const { label, share, computed } = fields;
+        return { classes: label.values, shares: share.values, per: label.per, values: fields[state.colour]?.values, own: computed?.values };
       },
     };
   }
@@ -166,10 +177,11 @@ export class Plane {
   tell(px) {
     const { source, viewport: v } = this.view;
     const { x, y, found } = this.view.at(...px);
-    const place = `${source.x.symbol} ${digits(x, v.hx)}   ${source.y.symbol} ${digits(y, v.hy)}`;
+    const place = `${placeText(source.x, x, v.hx)}   ${placeText(source.y, y, v.hy)}`;
     const { state } = this.store;
     const outside = !legal(PARAMETERS[state.x], x) || !legal(PARAMETERS[state.y], y);
-    const motions = found.length ? motionsText(found, source.impacts) : outside ? source.beyond : "not computed yet";
+    const value = found.length && source.quantity ? `   ${valueText(found, source.quantity)}` : "";
+    const motions = found.length ? motionsText(found, source.impacts) + value : outside ? source.beyond : "not computed yet";
     const pattern = found[0]?.name === "undecided" ? "undecided" : found.length ? "" : outside ? "impossible" : "blank";
     return { place, motions, colours: found.map(({ colour }) => colour), pattern };
   }

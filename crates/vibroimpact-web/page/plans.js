@@ -31,6 +31,9 @@ export const over = (first, last, count) => (count === 1 ? [first] : `${first}:$
 
 const firstOf = (values) => (Array.isArray(values) ? values[0] : Number(values.split(":")[0]));
 
+/** The quantity whose values are the colours, as a part of a plan. */
+const fieldsOf = ({ colour }) => (colour ? { fields: [colour] } : {});
+
 /**
  * A map of the plane over these values.
  * @param {State} state
@@ -40,14 +43,14 @@ const firstOf = (values) => (Array.isArray(values) ? values[0] : Number(values.s
  */
 export function mapPlan(state, overX, overY, refine) {
   const system = systemOf(state, { [state.x]: firstOf(overX), [state.y]: firstOf(overY) });
-  const map = { axes: [{ vary: state.x, over: overX }, { vary: state.y, over: overY }], starts: state.starts, seed: 1, impacts: state.impacts };
+  const map = { axes: [{ vary: state.x, over: overX }, { vary: state.y, over: overY }], starts: state.starts, seed: 1, impacts: state.impacts, ...fieldsOf(state) };
   if (refine) map.refine = refine;
   return plan(system, { map });
 }
 
 /** The basin of the chosen point over these starts. */
 export function basinPlan(state, overX, overY, refine) {
-  const basin = { axes: [{ vary: "x", over: overX }, { vary: "v", over: overY }], start: { phase: startOf(state).phase }, impacts: state.impacts };
+  const basin = { axes: [{ vary: "x", over: overX }, { vary: "v", over: overY }], start: { phase: startOf(state).phase }, impacts: state.impacts, ...fieldsOf(state) };
   if (refine) basin.refine = refine;
   return plan(systemOf(state), { basin });
 }

@@ -6,12 +6,17 @@ import { ticks } from "./ticks.js";
 /** Largest zoom. */
 const MOST = 2000;
 
+/** Ticks of an axis in its unit, at the numbers of the graph. */
+const axisTicks = ({ factor = 1 }, low, high, most) =>
+  ticks(low * factor, high * factor, most).ticks.map(({ value, text }) => ({ value: value / factor, text }));
+
 let plots = 0;
 
 /**
  * @typedef {object} Axis
  * @property {string} symbol
  * @property {string} unit of physical quantities; empty for others
+ * @property {number} [factor] one unit of the numbers of the graph in that unit
  */
 
 export class Plot extends EventTarget {
@@ -136,7 +141,7 @@ export class Plot extends EventTarget {
     this.size = [width, height];
     this.top = 0.6 * em;
     this.high = Math.max(10, height - this.top - 2.9 * em);
-    this.up = ticks(this.window[2], this.window[3], this.high / (2.4 * em)).ticks;
+    this.up = axisTicks(this.y, this.window[2], this.window[3], this.high / (2.4 * em));
     // room for the longest number
     const longest = Math.max(4, ...this.up.map(({ text }) => text.length));
     this.left = (1.5 + 0.48 * longest + this.column) * em;
@@ -158,8 +163,7 @@ export class Plot extends EventTarget {
     const [bottom, parts] = [top + high, []];
     const line = (xa, ya, xb, yb) => drawn("path", { class: "tick", d: `M${xa} ${ya}L${xb} ${yb}` });
     const text = (x, y, said, anchor, kind) => drawn("text", { x, y, "text-anchor": anchor, class: kind, text: said });
-    const across = ticks(x0, x1, wide / (4.2 * em));
-    for (const { value, text: said } of across.ticks) {
+    for (const { value, text: said } of axisTicks(this.x, x0, x1, wide / (4.2 * em))) {
       const at = this.toX(value);
       parts.push(line(at, bottom, at, bottom + 5), text(Math.min(at, left + wide - 0.6 * em), bottom + 1.2 * em, said, "middle", "number"));
     }

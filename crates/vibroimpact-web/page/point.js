@@ -15,12 +15,12 @@ import { PortraitPanel } from "./portrait.js";
 import { Quantities } from "./quantities.js";
 import { Starts } from "./starts.js";
 import { percent, short } from "./ticks.js";
-import { inUnits, machineText } from "./units.js";
+import { givenValue, inUnits, machineText, shownAs, shownValue, titled } from "./units.js";
 import { verdict } from "./verdict.js";
 import { labelText, meaning, stability } from "./words.js";
 
 const SYSTEM = [...Object.keys(PARAMETERS), "second"];
-const SHOWN = ["wave", "portrait", "periods", "pin"];
+const SHOWN = ["wave", "portrait", "periods", "pin", "colour", "of", "machine"];
 
 export class Point {
   /**
@@ -67,21 +67,22 @@ export class Point {
   /** Fields for the values of both axes. */
   planeFields() {
     const { state } = this.store;
-    const key = `${state.x} ${state.y}`;
+    const own = (name) => shownAs(this.store.state, name);
+    const key = [state.x, state.y].map((name) => `${name} ${titled(own(name))}`).join();
     if (this.fieldsFor !== key) {
       this.fieldsFor = key;
       this.planeInputs = [state.x, state.y].map((name) => {
         const field = numberField({
-          label: PARAMETERS[name].words, check: (value) => reasonAgainst(PARAMETERS[name], value),
-          set: (value) => this.plane.choose(patchOf(name, value)),
+          label: own(name).words, check: (value) => reasonAgainst(own(name), givenValue(own(name), value)),
+          set: (value) => this.plane.choose(patchOf(name, givenValue(own(name), value))),
         });
         return { name, field };
       });
       this.fields.replaceChildren(...this.planeInputs.map(({ name, field }) =>
-        element("label", {}, element("i", { class: "math", text: PARAMETERS[name].symbol }), field.input)),
+        element("label", {}, element("i", { class: "math", text: titled(own(name)) }), field.input)),
       ...this.planeInputs.map(({ field }) => field.said));
     }
-    for (const { name, field } of this.planeInputs) field.show(valueOf(state, name));
+    for (const { name, field } of this.planeInputs) field.show(shownValue(own(name), valueOf(state, name)));
   }
 
   /** @param {Set<string> | null} changed null for everything */

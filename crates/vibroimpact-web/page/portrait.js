@@ -23,7 +23,8 @@ export class Portrait {
   show(shown) {
     this.track = shown;
     const si = shown.units === "si";
-    this.plot.x.unit = si ? "m" : "";
+    this.plot.x.unit = si ? "mm" : "";
+    this.plot.x.factor = si ? 1000 : 1;
     this.plot.y.unit = si ? "m/s" : "";
     const [left, right] = shown.extent();
     const [low, high] = range(shown.velocity);

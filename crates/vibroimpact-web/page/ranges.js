@@ -2,25 +2,32 @@
 
 import { byId, element } from "./dom.js";
 import { numberField } from "./field.js";
-import { PARAMETERS } from "./parameters.js";
+import { givenValue, shownAs, titled } from "./units.js";
 
 /** Names of the ends of the axes, in the order of a window. */
 const ENDS = ["left end", "right end", "lower end", "upper end"];
 
+/** The end of an axis in the units that are shown, with as many digits as a pixel needs. */
+function shownEnd({ factor }, value, pixel) {
+  if (factor === 1) return value;
+  return Number((value * factor).toFixed(Math.min(20, Math.max(0, Math.ceil(-Math.log10(pixel * factor)) + 2))));
+}
+
 /** @param {import("./state.js").Store} store @param {import("./plane.js").Plane} plane */
 export function ranges(store, plane) {
   const { view } = plane;
+  const axisOf = (k) => shownAs(store.state, store.state["xy"[k >> 1]]);
+  const shown = (window) => window.map((value, k) => shownEnd(axisOf(k), value, k < 2 ? view.viewport.hx : view.viewport.hy));
   const fields = ENDS.map((end, k) => numberField({
     id: `range-${k}`, label: `${end} of the axis`,
     check: (value) => {
-      const window = view.viewport.window();
-      const other = window[k ^ 1];
+      const other = shown(view.viewport.window())[k ^ 1];
       if (k % 2 === 0 ? value < other : value > other) return "";
       return k % 2 === 0 ? `The ${end} must be below ${other}.` : `The ${end} must be above ${other}.`;
     },
     set: (value) => {
       const window = view.viewport.window();
-      window[k] = value;
+      window[k] = givenValue(axisOf(k), value);
       store.set({ view: window });
     },
   }));
@@ -30,12 +37,12 @@ export function ranges(store, plane) {
   const show = () => {
     if (!view.sized || !view.source) return;
     symbols.forEach((symbol, k) => {
-      symbol.textContent = PARAMETERS[store.state["xy"[k]]].symbol;
+      symbol.textContent = titled(axisOf(2 * k));
     });
-    view.viewport.window().forEach((value, k) => fields[k].show(value));
+    shown(view.viewport.window()).forEach((value, k) => fields[k].show(value));
   };
   view.addEventListener("tiles", show);
   view.addEventListener("view", show);
-  store.on(["x", "y", "view"], show);
+  store.on(["x", "y", "view", "machine"], show);
   show();
 }

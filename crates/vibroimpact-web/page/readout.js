@@ -3,6 +3,7 @@
 import { byId, debounced, element, swatch } from "./dom.js";
 import { copy } from "./links.js";
 import { PARAMETERS, valueOf } from "./parameters.js";
+import { shownAs, shownValue } from "./units.js";
 
 export class Readout {
   /**
@@ -23,7 +24,7 @@ export class Readout {
     view.addEventListener("crosshair", ({ detail }) => spoken(detail));
     // what is under a pointer that rests changes when the view does
     view.addEventListener("drawn", () => this.refresh());
-    store.on(["point", "x", "y", "beta", "second", ...Object.keys(PARAMETERS)], () => this.refresh());
+    store.on(["point", "x", "y", "machine", "beta", "second", ...Object.keys(PARAMETERS)], () => this.refresh());
     this.refresh();
   }
 
@@ -57,7 +58,10 @@ export class Readout {
     const { state } = this.store;
     const { viewport: v } = this.plane.view;
     const values = at ? v.toPlane(...at) : [valueOf(state, state.x), valueOf(state, state.y)];
-    return [state.x, state.y].map((name, k) => `${PARAMETERS[name].symbol} = ${values[k]}`).join(", ");
+    return [state.x, state.y].map((name, k) => {
+      const own = shownAs(state, name);
+      return `${own.symbol} = ${shownValue(own, values[k])}${own.unit && ` ${own.unit}`}`;
+    }).join(", ");
   }
 
   /** Copies the coordinates at the pointer or of the chosen point. */

@@ -27,6 +27,26 @@ export function shares(view) {
   return { counts, coarse: false };
 }
 
+/**
+ * The smallest and the largest value of the quantity in a view, and the words for values that are no finite number.
+ * @param {import("./tileview.js").TileView} view
+ * @returns {{low: number, high: number, missing: Set<string>, coarse: boolean}}
+ */
+export function extremes(view) {
+  const level = view.level();
+  const found = { low: Infinity, high: -Infinity, missing: new Set(), coarse: !view.supply.covered(level) };
+  const tiles = found.coarse ? view.supply.known() : [...view.places(level)].map(([a, b]) => view.supply.best(level, a, b).tile);
+  const { left, right, bottom, top } = ends(view.viewport);
+  const cut = (low, high, begin, h, count) => [
+    Math.min(count, Math.max(0, Math.round((low - begin) / h))), Math.max(0, Math.min(count, Math.round((high - begin) / h))),
+  ];
+  for (const tile of tiles) {
+    if (!tile.values) continue;
+    tile.extremes(found, cut(left, right, tile.x0, tile.hx, tile.columns), cut(bottom, top, tile.y0, tile.hy, tile.rows), view.source.quantity.of);
+  }
+  return found;
+}
+
 function ends(viewport) {
   const [left, top] = viewport.toPlane(0, 0);
   const [right, bottom] = viewport.toPlane(viewport.width, viewport.height);

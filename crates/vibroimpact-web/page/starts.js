@@ -6,10 +6,13 @@ import { numberField } from "./field.js";
 import { Legend } from "./legend.js";
 import { panel } from "./panel.js";
 import { startOf } from "./plans.js";
+import { givenValue, shownAs, shownValue, titled } from "./units.js";
 
 const TURN = 2 * Math.PI;
 /** Steps of the slider of the phase. */
 const STEPS = 240;
+
+const PHASE = { symbol: "φ", unit: "", factor: 1 };
 
 const HINT = "Drag the dot to move the start.";
 
@@ -70,18 +73,24 @@ export class Starts {
 
   /** Fields for the start: position, velocity, phase. */
   startFields() {
-    const inputs = [["ξ₀", "initial position"], ["u₀", "initial velocity"], ["φ", "phase of the force"]].map(([symbol, words], k) => {
+    this.symbols = [];
+    const inputs = [["x", "initial position"], ["v", "initial velocity"], [null, "phase of the force"]].map(([name, words], k) => {
+      const own = () => (name ? shownAs(this.store.state, name) : PHASE);
+      const symbol = element("i", { class: "math" });
+      this.symbols.push(() => {
+        symbol.textContent = titled(own());
+      });
       const field = numberField({
         label: words, check: () => "",
         set: (value) => {
           const { x, v, phase } = startOf(this.store.state);
           const next = [x, v, phase];
-          next[k] = value;
+          next[k] = givenValue(own(), value);
           this.store.set({ start: next });
         },
       });
-      this.fields.append(element("label", {}, element("i", { class: "math", text: symbol }), field.input), field.said);
-      return field;
+      this.fields.append(element("label", {}, symbol, field.input), field.said);
+      return { ...field, show: (value) => field.show(shownValue(own(), value)) };
     });
     this.fields.append(element("button", {
       type: "button", class: "quiet", text: "Reset start", title: "Velocity 0 and phase 0, where the spring is free or at the stop",
@@ -93,6 +102,7 @@ export class Starts {
   /** Shows the start of the state in the fields. */
   refresh() {
     const { x, v, phase } = startOf(this.store.state);
+    for (const name of this.symbols) name();
     [x, v, phase].forEach((value, k) => {
       this.inputs[k].show(value);
     });

@@ -15,6 +15,9 @@
  * @property {number} second_restitution
  * @property {number} starts per point
  * @property {number} impacts largest budget for each start, at which the picture is complete
+ * @property {string | null} colour name of the quantity whose values are the colours; null for a colour of each motion
+ * @property {"largest" | "smallest" | "likeliest"} of which of several motions at a point has the colour
+ * @property {number[] | null} range values at the ends of the colours, in the units that are shown; null to fit the view
  * @property {boolean} point whether a point is chosen
  * @property {number[] | null} start position, velocity, phase; null for rest
  * @property {number[] | null} basin window of the basin
@@ -33,6 +36,7 @@
  * @property {string | null} theme `light` or `dark` if chosen
  */
 
+import { frequencyAxes } from "./machineplans.js";
 import { PARAMETERS, isFrequency, legal, ofSecondStop, reasonAgainst } from "./parameters.js";
 
 /** Maximum number of starts per point. */
@@ -41,8 +45,8 @@ export const MOST_STARTS = 16;
 /** Budgets of impacts for each start; the last one is the full budget of a verdict. */
 export const BUDGETS = [200, 1000, 20000];
 
-/** @returns {number[]} the smaller budgets */
-export const shorter = (impacts) => BUDGETS.filter((less) => less < impacts);
+/** @returns {number[]} the budgets up to the largest one */
+export const budgets = (impacts) => [...BUDGETS.filter((less) => less < impacts), impacts];
 
 export const LAYERS = ["regions", "amplitude", "paper", "stripes", "boundaries"];
 
@@ -51,7 +55,7 @@ export const DEFAULTS = {
   x: "inverse_beta", y: "gap", view: null,
   inverse_beta: 1.3, beta: null, gap: 0.75, restitution: 0.5, damping: 0,
   second: false, second_gap: 2, second_restitution: 0.5,
-  starts: 1, impacts: 20000, point: false, start: null, basin: null,
+  starts: 1, impacts: 20000, colour: null, of: "largest", range: null, point: false, start: null, basin: null,
   layers: ["paper", "stripes"], panel: "point", line: null, show: "velocity",
   wave: "start", portrait: "settled", periods: 10, pin: null, machine: null, present: false, subject: "motion", tour: 0, theme: null,
 };
@@ -82,6 +86,12 @@ const READ = {
   second: flag,
   starts: count(1, MOST_STARTS),
   impacts: (text) => BUDGETS.find((impacts) => impacts === Number(text)),
+  colour: (text) => (/^[a-z_]+$/.test(text) ? text : undefined),
+  of: oneOf("largest", "smallest", "likeliest"),
+  range: (text) => {
+    const ends = numbers(text, 2);
+    return ends && ends[0] < ends[1] ? ends : undefined;
+  },
   point: flag,
   start: (text) => numbers(text, 3),
   basin: (text) => interval(numbers(text, 4)),
@@ -126,6 +136,7 @@ export function read(hash, refused = []) {
   if (state.x === state.y || (isFrequency(state.x) && isFrequency(state.y))) {
     Object.assign(state, { x: DEFAULTS.x, y: DEFAULTS.y, view: null });
   }
+  Object.assign(state, frequencyAxes(state));
   if (ofSecondStop(state.x) || ofSecondStop(state.y)) state.second = true;
   return state;
 }

@@ -5,7 +5,6 @@
  */
 
 import { askCoarse, askTile } from "./asking.js";
-import { BUDGETS } from "./state.js";
 
 /** Number of coarse pictures in the cache. */
 const COARSE_KEPT = 6;
@@ -44,7 +43,7 @@ export class Supply {
     if (source.key === before?.key) return;
     this.turned = before ? performance.now() : -Infinity;
     if (moved) this.earlier = [];
-    else if (before && !source.shallower.includes(before.key)) this.under(before);
+    else if (before && !source.stages.some(({ key }) => key === before.key)) this.under(before);
     this.refused.clear();
   }
 
@@ -54,10 +53,9 @@ export class Supply {
     this.earlier = [...this.earlier.filter(({ key }) => key !== source.key), source].slice(-EARLIER);
   }
 
-  /** @returns {import("./asking.js").Stage[]} the budgets with which points are computed, one after the other */
-  stages({ key, shallower, impacts } = this.view.source) {
-    const keys = [...shallower, key];
-    return keys.map((of, k) => ({ key: of, impacts: k === keys.length - 1 ? impacts : BUDGETS[k] }));
+  /** @returns {import("./asking.js").Stage[]} the steps in which points are computed, one after the other */
+  stages({ stages } = this.view.source) {
+    return stages;
   }
 
   tileKey(stage, level, i, j) {
@@ -100,8 +98,12 @@ export class Supply {
   /** The best tile of a place, and the stage that should follow; none if the tile is final. */
   nextOf(level, a, b) {
     const { tile, stage } = this.best(level, a, b);
-    const next = tile?.decided ? null : this.stages()[stage + 1];
-    return { tile, stage, next: next && !this.refused.has(this.tileKey(next, level, a, b)) ? next : null };
+    const stages = this.stages();
+    const following = stages.slice(stage + 1);
+    // where all motions are decided, a larger budget changes nothing, but points may be left that were not computed
+    const more = tile?.decided ? undefined : following.find(({ impacts }) => !tile || impacts > tile.impacts);
+    const next = more ?? following.find(({ impacts, whole }) => whole && impacts === tile?.impacts);
+    return { tile, stage: next ? stages.indexOf(next) - 1 : stage, next: next && !this.refused.has(this.tileKey(next, level, a, b)) ? next : null };
   }
 
   tileJob(stage, number, level, [a, b], before) {
@@ -169,8 +171,10 @@ export class Supply {
         while (this.coarse.length > COARSE_KEPT) this.coarse.shift();
         if (current()) this.earlier = [];
         // a slider has moved on meanwhile: this picture is newer than the one that is shown
-        else if (this.view.source.x === source.x && this.view.source.y === source.y) this.under(source);
+        else if (this.view.source.x.name === source.x.name && this.view.source.y.name === source.y.name) this.under(source);
       } else {
+        const older = before && this.cache.get(before);
+        if (older) tile.adopt(older);
         this.cache.set(key, tile);
         if (before) this.cache.delete(before);
       }

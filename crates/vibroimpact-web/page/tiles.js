@@ -1,5 +1,7 @@
 /** Tiles of a plane, and the cache of tiles. */
 
+import { missingLook, pixelAt, pixelOf, shownOf } from "./values.js";
+
 /** Points of a tile along each axis. */
 export const SIDE = 128;
 
@@ -17,12 +19,6 @@ const HATCH = 7;
 const HATCH_LINE = "#d02020";
 /** Pixels of a point of the coarse picture along each axis, about as many as on the screen. */
 const COARSE_FOLD = 8;
-
-/** @param {string} hex `#rrggbb` @returns {number} the value of a canvas pixel */
-const pixelOf = (hex) => {
-  const rgb = parseInt(hex.slice(1), 16);
-  return (0xff000000 | ((rgb & 0xff) << 16) | (rgb & 0xff00) | (rgb >> 16)) >>> 0;
-};
 
 /** A colour on the way to grey, for motions other than those that are isolated. */
 const faded = (pixel) => {
@@ -44,6 +40,7 @@ const edged = (pixel) => {
  * @property {Set<number> | null} only the motions that keep their colours; null for all
  * @property {boolean} stripes whether coexisting motions are drawn as stripes
  * @property {boolean} boundaries whether boundaries between motions are drawn
+ * @property {import("./values.js").Scale | null} scale of a quantity; null where motions have their colours
  * @property {number} density device pixels a pixel
  */
 
@@ -51,7 +48,8 @@ const edged = (pixel) => {
  * Points on a grid with their motions.
  *
  * `x0`, `y0` are the lower left corner of the first cell, `hx`, `hy` the size of a cell. `classes` has `per` numbers of
- * motions for each point (-1 for none), in rows from the bottom; `shares` has as many shares, or is null. `look` returns
+ * motions for each point (-1 for none), in rows from the bottom; `shares` has as many shares, or is null; `values` those of a
+ * quantity, if one is asked for, and `own` says of each point whether it was computed itself. `look` returns
  * the name and colour of a motion; `impacts` is the budget of the computation. `phase` and `slant` are the place of the
  * first cell in patterns along both diagonals.
  */
@@ -61,14 +59,78 @@ export class Tile {
     Object.assign(this, { classes: null, shares: null, per: 1, pictures: new Map(), undecided: new Set() });
   }
 
-  fill({ classes, shares, per }) {
-    Object.assign(this, { classes, shares, per });
-    for (const id of new Set(classes)) if (id !== -1 && this.look(id).name === "undecided") this.undecided.add(id);
+  fill({ classes, shares, per, values = null, own = null }) {
+    Object.assign(this, { classes, shares, per, values, own });
+    this.findUndecided();
   }
 
   /** Whether a larger budget would change nothing: every motion is decided. */
   get decided() {
     return this.undecided.size === 0;
+  }
+
+  /** Whether a point was computed itself, and not given the motions of its neighbours. */
+  isOwn(point) {
+    return this.own === null || this.own[point] === 1;
+  }
+
+  /** Takes points that were not computed with this budget from the tile of a smaller one, if they were computed and decided with that. */
+  adopt(older) {
+    const { own, per, classes, shares, values } = this;
+    if (!own || older.classes?.length !== classes.length) return;
+    for (let point = 0; point < own.length; point++) {
+      const begin = point * per;
+      const taken = older.classes.subarray(begin, begin + per);
+      if (own[point] === 1 || !older.isOwn(point) || taken.some((id) => older.undecided.has(id))) continue;
+      classes.set(taken, begin);
+      shares?.set(older.shares.subarray(begin, begin + per), begin);
+      values?.set(older.values.subarray(begin, begin + per), begin);
+      own[point] = 1;
+    }
+    this.findUndecided();
+  }
+
+  findUndecided() {
+    this.undecided = new Set([...new Set(this.classes)].filter((id) => id !== -1 && this.look(id).name === "undecided"));
+  }
+
+  /** The motions of a point with the values of the quantity, as for `shownOf`. */
+  motionsAt(begin) {
+    const motions = [];
+    for (let k = begin; k < begin + this.per && this.classes[k] !== -1; k++) {
+      motions.push({ value: this.values[k], name: this.look(this.classes[k]).name });
+    }
+    return motions;
+  }
+
+  /** The index of the motion of a point whose value is shown. */
+  shownAt(begin, of) {
+    return this.per === 1 ? begin : begin + shownOf(this.motionsAt(begin), of);
+  }
+
+  /** The word for a value that is no finite number. */
+  missingAt(k) {
+    if (this.values[k] === Infinity) return "infinite";
+    const { name } = this.look(this.classes[k]);
+    if (name === "undecided") return name;
+    return this.isOwn(Math.floor(k / this.per)) || name === "chaotic" ? "not defined" : "not computed";
+  }
+
+  /** Adds the values of the points of some rows and columns to `found`. @param {{low: number, high: number, missing: Set<string>}} found */
+  extremes(found, [c0, c1], [r0, r1], of) {
+    for (let row = r0; row < r1; row++) {
+      for (let column = c0; column < c1; column++) {
+        const begin = (row * this.columns + column) * this.per;
+        if (this.classes[begin] === -1) continue;
+        const k = this.shownAt(begin, of);
+        const value = this.values[k];
+        if (!Number.isFinite(value)) found.missing.add(this.missingAt(k));
+        else {
+          if (value < found.low) found.low = value;
+          if (value > found.high) found.high = value;
+        }
+      }
+    }
   }
 
   contains(x, y) {
@@ -82,7 +144,7 @@ export class Tile {
     const begin = (row * this.columns + column) * this.per;
     const found = [];
     for (let k = begin; k < begin + this.per && this.classes[k] !== -1; k++) {
-      found.push({ id: this.classes[k], share: this.shares ? this.shares[k] : 1, impacts: this.impacts });
+      found.push({ id: this.classes[k], share: this.shares ? this.shares[k] : 1, impacts: this.impacts, value: this.values?.[k], missing: this.values && !Number.isFinite(this.values[k]) ? this.missingAt(k) : "" });
     }
     return found;
   }
@@ -106,7 +168,7 @@ export class Tile {
    * @returns {HTMLCanvasElement}
    */
   picture(look, open = false) {
-    const how = [look.only ? [...look.only].join() : "", look.stripes, look.boundaries, look.density].join("|");
+    const how = JSON.stringify([look.only ? [...look.only] : null, look.stripes, look.boundaries, look.density, look.scale]);
     let picture = this.pictures.get(open);
     if (picture?.how !== how) {
       const { columns, rows, fold } = this;
@@ -123,7 +185,7 @@ export class Tile {
     return this.level === -Infinity ? COARSE_FOLD : 1;
   }
 
-  paint(context, { only, stripes, boundaries, density }, open) {
+  paint(context, { only, stripes, boundaries, density, scale }, open) {
     const { fold } = this;
     const wide = fold * this.columns;
     const high = fold * this.rows;
@@ -146,6 +208,10 @@ export class Tile {
       for (let x = 0; x < wide; x++) {
         const column = Math.floor(x / fold);
         const at = (row * this.columns + column) * this.per;
+        if (scale && this.values) {
+          pixels[line + x] = this.valuePixel(at, scale, open, { hatched: hatched(x, y), rising: (x + y + this.phase) % period < thick, lines });
+          continue;
+        }
         const id = this.classes[stripes && this.per > 1 ? this.striped(at, column + row) : at];
         if (id === -1) continue;
         const undecided = this.undecided.has(id);
@@ -157,6 +223,20 @@ export class Tile {
       }
     }
     context.putImageData(image, 0, 0);
+  }
+
+  /** The pixel of a point in the colours of a quantity. */
+  valuePixel(at, scale, open, { hatched, rising, lines }) {
+    if (this.classes[at] === -1) return 0;
+    const k = this.shownAt(at, scale.of);
+    const value = this.values[k];
+    if (Number.isFinite(value)) return pixelAt(scale, value);
+    const missing = this.missingAt(k);
+    // what is below is seen, or the dots of places that are not computed
+    if (missing === "not computed" || (missing === "undecided" && open)) return 0;
+    if (missing === "undecided") return hatched ? lines : pixelOf(this.look(this.classes[k]).colour);
+    const { colour, hatch } = missingLook(missing);
+    return pixelOf(hatch && rising ? hatch : colour);
   }
 
   /** Whether the neighbour to the right or above has another motion. */

@@ -7,7 +7,7 @@
  * @property {string} key identifies everything on which the points depend
  * @property {string[]} shallower keys of the same points with smaller budgets, in rising order; correct where decided
  * @property {number} impacts the budget
- * @property {(impacts: number) => number} [refine] step of the points that are computed first, for a budget
+ * @property {{name: string, description: string, unit: string, factor: number, of: string} | null} [quantity] whose values are the colours
  * @property {import("./parameters.js").Coordinate} x
  * @property {import("./parameters.js").Coordinate} y
  * @property {{x: [number, number], y: [number, number]}} legal
@@ -48,6 +48,8 @@ export class TileView extends EventTarget {
     this.only = null;
     this.stripes = true;
     this.boundaries = false;
+    /** Values at the ends of the colours of a quantity, in its units. @type {[number, number] | null} */
+    this.range = null;
     this.painters = [];
     /** @type {((px: number[], xy: number[], touch: boolean, shift: boolean) => object | null) | null} returns what to drag instead of panning, or null */
     this.grab = null;
@@ -66,7 +68,7 @@ export class TileView extends EventTarget {
 
   /** @param {Source} source @param {number[] | null} window the window to show; null for no change */
   show(source, window) {
-    const moved = this.source && (this.source.x !== source.x || this.source.y !== source.y);
+    const moved = this.source && (this.source.x.name !== source.x.name || this.source.y.name !== source.y.name);
     this.supply.turn(source, moved);
     if (!this.source || moved) {
       const { width, height } = this.viewport;
@@ -144,6 +146,13 @@ export class TileView extends EventTarget {
     for (let b = j[0]; b < j[1]; b++) {
       for (let a = i[0]; a < i[1]; a++) yield [a, b];
     }
+  }
+
+  /** How a quantity is shown; null where motions have their colours, or before the first values are there. */
+  get scale() {
+    const { source, range } = this;
+    if (!source?.quantity || !range) return null;
+    return { low: range[0], high: range[1], factor: source.quantity.factor, of: source.quantity.of };
   }
 
   get progress() {

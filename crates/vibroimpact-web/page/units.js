@@ -4,8 +4,10 @@ import { units as askUnits } from "./api.js";
 import { byId, element } from "./dom.js";
 import { numberField } from "./field.js";
 import { Latest } from "./latest.js";
-import { valueOf } from "./parameters.js";
+import { frequencyAxes, inMachine, unitOf } from "./machineplans.js";
+import { PARAMETERS, START, valueOf } from "./parameters.js";
 import { short } from "./ticks.js";
+import { quantities } from "./values.js";
 
 const NUMBERS = [["mass", "kg"], ["stiffness", "N/m"], ["force", "N"]];
 /** The machine of docs/machines-in-si.md. */
@@ -22,6 +24,64 @@ export function inUnits(plan, state) {
   const found = unitsOf(state);
   return found ? { ...plan, units: found.units } : plan;
 }
+
+/** A plan in the numbers of the machine of the state, if it has one. */
+export const asShown = (plan, state) => inMachine(plan, state.machine, unitsOf(state));
+
+/** One unit of a parameter in the plan of a diagram, in the units that are shown: a plan has metres, the page millimetres. */
+export function perUnit(state, name) {
+  const found = unitsOf(state);
+  return found && name !== "inverse_beta" ? shownAs(state, name).factor / unitOf(name, found) : 1;
+}
+
+/** Coordinates in the units of a machine: symbol, name and unit, and one nondimensional unit in them. */
+const IN_UNITS = {
+  beta: { symbol: "f", words: "frequency of the force", unit: "Hz", factor: ({ natural_hz: natural }) => natural },
+  gap: { unit: "mm", factor: ({ units }) => 1000 * units.length_m },
+  second_gap: { unit: "mm", factor: ({ units }) => 1000 * units.length_m },
+  x: { unit: "mm", factor: ({ units }) => 1000 * units.length_m },
+  v: { unit: "m/s", factor: ({ velocity_m_per_s: velocity }) => velocity },
+};
+
+const coordinates = new Map();
+
+/**
+ * A coordinate as it is shown: with the units of the machine, if there is one.
+ * @param {import("./state.js").State} state
+ * @param {string} name of a parameter, or `x` or `v` of a start
+ * @returns {import("./parameters.js").Coordinate & {unit: string, factor: number}} the same object for the same units
+ */
+export function shownAs(state, name) {
+  const found = unitsOf(state);
+  const key = `${name} ${found ? keyOf(state) : ""}`;
+  if (!coordinates.has(key)) {
+    const plain = { ...(PARAMETERS[name] ?? START[name]), name, unit: "", factor: 1 };
+    const { factor, ...other } = (found && IN_UNITS[name]) || {};
+    coordinates.set(key, factor ? { ...plain, ...other, factor: factor(found) } : plain);
+  }
+  return coordinates.get(key);
+}
+
+/** A value with its digits in the units that are shown, without those of the conversion. */
+export const shownValue = ({ factor }, value) => (factor === 1 ? value : Number((value * factor).toPrecision(12)));
+
+/** The value that has this number in the units that are shown. */
+export const givenValue = ({ factor }, shown) => shown / factor;
+
+/** A symbol with its unit, if it has one. */
+export const titled = ({ symbol, unit }) => (unit ? `${symbol} (${unit})` : symbol);
+
+/** The quantity whose values are the colours, with its unit and one nondimensional unit in it; null for none. */
+export function quantityOf(state) {
+  const found = unitsOf(state);
+  const named = quantities().find(({ name }) => name === state.colour);
+  if (!named) return null;
+  const { name, description, unit } = named;
+  return { name, description, unit: found ? unit : "", factor: found?.quantities[name] ?? 1, of: state.of };
+}
+
+/** The units of a machine, for plans in them; null without a machine or before they are there. */
+export const machineUnits = (state) => unitsOf(state);
 
 /** The chosen point as a machine: frequency of the force, gaps, natural frequency. */
 export function machineText(state) {
@@ -49,14 +109,16 @@ export function units(store, failed, changed) {
   const box = element("div", {}, ...NUMBERS.map(([name, unit], k) => element("div", { class: "parameter" },
     element("label", { for: `machine-${name}`, text: `${name} in ${unit}` }), fields[k].input, fields[k].said)), said);
   const on = element("input", {
-    type: "checkbox", id: "machine", onchange: () => store.set({ machine: on.checked ? EXAMPLE : null }),
+    type: "checkbox", id: "machine",
+    // the frequency is an axis of a machine, its inverse is none; numbers that are typed for the colours are in other units
+    onchange: () => store.set({ ...(on.checked ? frequencyAxes({ ...store.state, machine: EXAMPLE }) : {}), machine: on.checked ? EXAMPLE : null, range: null }),
   });
-  byId("machine-units").append(element("label", { class: "check" }, on, element("span", { text: "results in m, s, N, J, W" })), box);
+  byId("machine-units").append(element("label", { class: "check" }, on, element("span", { text: "a machine, in mm, Hz, m/s, N, J, W" })), box);
   const asked = new Latest(async (state, signal) => {
     const [mass_kg, stiffness_n_per_m, force_n] = state.machine;
     known.set(keyOf(state), await askUnits({ mass_kg, stiffness_n_per_m, force_n }, signal));
-    said.textContent = machineText(store.state);
-    changed();
+    // everything that is shown in units
+    store.tell(new Set(["machine"]));
   }, failed);
   const show = (_, what) => {
     const { state } = store;

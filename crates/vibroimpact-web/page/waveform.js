@@ -20,7 +20,8 @@ export class Waveform {
     this.track = shown;
     const si = shown.units === "si";
     this.plot.x.unit = si ? "s" : "";
-    this.plot.y.unit = si ? "m" : "";
+    this.plot.y.unit = si ? "mm" : "";
+    this.plot.y.factor = si ? 1000 : 1;
     this.plot.x.symbol = si ? "time t" : "time τ";
     const [low, high] = shown.extent();
     const air = high > low ? 0.08 * (high - low) : 0.5;

@@ -1,6 +1,7 @@
 /** Verdicts as text. */
 
-import { grouped, percent, short } from "./ticks.js";
+import { digits, grouped, percent, short } from "./ticks.js";
+import { shownOf } from "./values.js";
 
 const NUMBERS = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"];
 
@@ -24,6 +25,15 @@ export function legendText(label, impacts) {
   if (label.startsWith("inf/")) return `${labelText(label)} chatter`;
   return label;
 }
+
+/**
+ * A coordinate of a place as text, in the units that are shown.
+ * @param {{symbol: string, unit: string, factor: number}} coordinate
+ * @param {number} value
+ * @param {number} pixel the difference that must be visible
+ */
+export const placeText = ({ symbol, unit, factor }, value, pixel) =>
+  `${symbol} ${digits(value * factor, pixel * factor)}${unit ? ` ${unit}` : ""}`;
 
 /** @param {object} motion of an answer @returns {string} its meaning, as a sentence */
 export function meaning(motion) {
@@ -66,6 +76,16 @@ export function stability(motion) {
     : list.map(complex).join(", ");
   const word = motion.stable === true ? "Stable" : motion.stable === false ? "Unstable" : "Neutral";
   return `${word}; multipliers ${told}.`;
+}
+
+/**
+ * The value of a quantity at a point as text.
+ * @param {{value: number, name: string, missing: string}[]} found the motions, the most frequent first
+ * @param {{description: string, unit: string, factor: number, of: string}} quantity
+ */
+export function valueText(found, { description, unit, factor, of }) {
+  const { value, missing } = found[shownOf(found, of)];
+  return `${description} ${missing || `${short(value * factor)}${unit ? ` ${unit}` : ""}`}`;
 }
 
 /**

@@ -8,9 +8,9 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use vibroimpact_plot::class_style;
 use vibroimpact_study::study::{Cells, NOT_COMPUTED, Sheet, StudyTable, label_of};
-use vibroimpact_study::{Column, Field};
+use vibroimpact_study::{Column, Field, Quantity};
 
-/// The fields that the page draws. Other fields of a study are only for tables.
+/// The fields that the page draws, besides the quantities that the plan asks for. Other fields of a study are only for tables.
 const DRAWN: [&str; 4] = ["label", "share", "cycle", "computed"];
 
 #[derive(Serialize)]
@@ -69,7 +69,7 @@ pub(crate) fn pack(sheet: &Sheet) -> Vec<u8> {
         computed: 1.0,
     };
     for (field, column) in sheet.fields.iter().zip(&sheet.columns) {
-        if !DRAWN.contains(&field.name.as_ref()) {
+        if !DRAWN.contains(&field.name.as_ref()) && Quantity::from_name(&field.name).is_none() {
             continue;
         }
         header.fields.push(place(field, column, &mut body));
@@ -186,6 +186,24 @@ mod tests {
                 .all(|(code, k)| { header["labels"][code.to_string()]["name"] == label(usize::try_from(*k).unwrap()) })
         );
         assert!(header["computed"].as_f64().unwrap() <= 1.0);
+    }
+
+    /// The values of a quantity are those of the motions; chaotic and undecided motions have none.
+    #[test]
+    fn a_quantity() {
+        let axes = r#"[{"vary":"inverse_beta","over":"0.5:2:7"},{"vary":"gap","over":"0:2:5"}]"#;
+        let task = format!(r#""map":{{"axes":{axes},"starts":2,"impacts":200,"fields":["impact_speed_max"]}}"#);
+        let (header, body) = packed(&task);
+        let fields = header["fields"].as_array().unwrap();
+        let names: Vec<_> = fields.iter().map(|field| field["name"].clone()).collect();
+        assert_eq!(names, ["label", "share", "impact_speed_max"]);
+        let labels = whole(&body, &fields[0]);
+        let begin = usize::try_from(fields[2]["offset"].as_u64().unwrap()).unwrap();
+        let value = |k: usize| f64::from_le_bytes(body[begin + 8 * k..begin + 8 * k + 8].try_into().unwrap());
+        let one = labels.iter().position(|code| *code == 10_001).unwrap();
+        assert!(value(one) > 0.0, "{}", value(one));
+        let none = labels.iter().position(|code| *code == vibroimpact_study::study::NO_MOTION).unwrap();
+        assert!(value(none).is_nan());
     }
 
     #[test]

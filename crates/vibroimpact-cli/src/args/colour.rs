@@ -1,6 +1,6 @@
 //! COLOUR: the quantity whose values are the colours of a map or basin.
 
-use super::{FieldName, FieldsArgs};
+use super::{Ends, FieldName, FieldsArgs};
 use crate::failure::Failure;
 use clap::{Args, ValueEnum};
 use vibroimpact_report::figure::coloured::{Coloured, Of};
@@ -18,6 +18,11 @@ pub(crate) struct ColourArgs {
     /// Which of several motions at a point has the colour [default: largest]
     #[arg(long, value_enum, value_name = "WHICH")]
     of: Option<Which>,
+
+    /// The values at the ends of the colours [default: the smallest and the largest value in the figure]. Values beyond them
+    /// have the colours of the ends
+    #[arg(long, value_name = "LOW:HIGH", allow_hyphen_values = true)]
+    colour_range: Option<Ends>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -41,11 +46,20 @@ impl ColourArgs {
             Which::Likeliest => Of::Likeliest,
         });
         match &self.colour {
+            None if self.colour_range.is_some() => {
+                Err(Failure::bad("--colour-range says which values the colours have\nhint: --colour impact-speed-max"))
+            }
             None if self.of.is_some() => {
                 Err(Failure::bad("--of says which motion has the colour\nhint: --colour impact-speed-max"))
             }
             Some(_) if !drawn => Err(Failure::bad("--colour says what the figure shows\nhint: --plot FILE")),
-            colour => Ok(colour.as_ref().map(|field| Coloured { field: field.path(), of })),
+            colour => {
+                let range = self.colour_range.map(|Ends(low, high)| (low, high));
+                if let Some((low, high)) = range.filter(|(low, high)| !(low < high)) {
+                    return Err(Failure::bad(format!("--colour-range {low}:{high} is not LOW:HIGH with LOW < HIGH")));
+                }
+                Ok(colour.as_ref().map(|field| Coloured { field: field.path(), of, range }))
+            }
         }
     }
 

@@ -10,7 +10,9 @@ use crate::failure::Failure;
 use crate::session::Session;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
-use vibroimpact_report::Shown;
+use vibroimpact_report::number::short;
+use vibroimpact_report::scene::bifurcation;
+use vibroimpact_report::{Asked, Shown};
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
 use vibroimpact_study::{DiagramPlan, MachineDiagramPlan, MachineTask, Plan, PlanError, Span, Stretch, Task};
 
@@ -94,6 +96,11 @@ pub(crate) struct Diagram {
     /// Impacts or states to show at each value at most, 1 to 100000
     #[arg(long, value_parser = whole::<u64>, value_name = "K", default_value_t = DEFAULT_KEEP, allow_hyphen_values = true, help_heading = "Sweep")]
     keep: u64,
+
+    /// Follow the periodic motions on the line through their folds, flips and grazing impacts too: their branches are drawn over
+    /// the diagram, and in the table. Labels, separated by commas [default: those found on the line]
+    #[arg(long, value_name = "LABELS", num_args = 0..=1, value_delimiter = ',', default_missing_value = "", conflicts_with_all = ["store", "json", "machine"], help_heading = "Sweep")]
+    branches: Option<Vec<String>>,
 
     #[command(flatten)]
     store: StoreArgs,
@@ -194,5 +201,38 @@ pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
     }
     let plan = args.store.tiled(Plan::new(asked.system, Task::Diagram(task)))?;
     let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
+    if let Some(labels) = &args.branches {
+        return with_branches((&Asked { units, ..asked }, &task), labels, outputs, session);
+    }
     respond::run(&plan, units, (outputs, Shown::default()), Some(&args.store), session)
+}
+
+/// The diagram with the branches of these labels; without labels of those found on the line.
+fn with_branches(
+    (asked, task): (&Asked, &DiagramPlan),
+    labels: &[String],
+    outputs: Outputs,
+    session: &Session,
+) -> Result<(), Failure> {
+    if matches!(task.show, Show::Quantity(_)) {
+        return Err(Failure::bad("--branches has speeds or positions\nhint: --show velocity or --show strobe"));
+    }
+    task.check(&asked.system)?;
+    let given: Vec<String> = labels.iter().filter(|label| !label.is_empty()).cloned().collect();
+    let named = (!given.is_empty()).then_some(given.as_slice());
+    let found = session.watched(None, |control| bifurcation(asked, task, named, control));
+    let found = found.map_err(|error| respond::stopped(error, None))?;
+    let silent = outputs.any();
+    outputs.write(session, || Ok(found.table()?), || Ok(found.figure()?))?;
+    if silent {
+        return Ok(());
+    }
+    let rows: Vec<String> = (found.events().iter())
+        .map(|event| {
+            let value = short(event.value * asked.units.of(task.vary));
+            format!("{} of {} at {} = {value}\n", event.kind, event.label, asked.units.column_of(task.vary))
+        })
+        .collect();
+    session.print(&rows.concat())?;
+    Ok(())
 }

@@ -102,6 +102,53 @@ fn of_every_task() {
     }
 }
 
+/// The command of a machine has the numbers of the machine, and starts in metres.
+#[test]
+fn of_a_machine_in_its_units() {
+    let machine = json!({ "mass_kg": 0.8, "stiffness_n_per_m": 12000, "force_n": 30, "frequency_hz": 15.5, "gap_m": 0.0015,
+                          "restitution": 0.65, "damping_ratio": 0.02, "second_gap_m": 0.004, "second_restitution": 0.5 });
+    let length = 30.0 / 12000.0;
+    for (task, part) in [
+        (json!({ "settle": { "start": { "x": 0.0005 / length } } }), "--x 0.0005"),
+        (json!({ "simulate": { "start": {}, "periods": 3.0 } }), "--frequency-hz 15.5"),
+        (
+            json!({ "map": { "axes": [{ "vary": "frequency_hz", "over": "10:20:3" }, { "vary": "gap_m", "over": "0.001:0.002:2" }], "starts": 1 } }),
+            "--frequency-hz 10:20:3",
+        ),
+        (
+            json!({ "map": { "axes": [{ "vary": "gap_m", "over": "0.001:0.002:2" }, { "vary": "frequency_hz", "over": "10:20:3" }], "starts": 1 } }),
+            "--axes gap-m,frequency-hz",
+        ),
+        (
+            json!({ "map": { "axes": [{ "vary": "damping_ratio", "over": "0:0.1:2" }, { "vary": "restitution", "over": "0.5:0.6:2" }], "starts": 1 } }),
+            "--damping-ratio 0:0.1:2",
+        ),
+        (
+            json!({ "diagram": { "vary": "gap_m", "over": "0.001:0.002:3", "keep": 3,
+                                 "also": { "parameter": "frequency_hz", "from": 15.0, "to": 15.5 } } }),
+            "--also frequency-hz=15:15.5",
+        ),
+        (
+            json!({ "basin": { "axes": [{ "vary": "x", "over": format!("{}:{}:3", -0.002 / length, 0.001 / length) },
+                                        { "vary": "v", "over": "0:1:2" }] } }),
+            "--x -0.002:0.001:3",
+        ),
+    ] {
+        let plan: Plan =
+            serde_json::from_value(json!({ "version": 1, "system": { "machine": machine }, "task": task })).unwrap();
+        plan.check().unwrap();
+        let words = command(&plan).unwrap().join(" ");
+        assert!(words.contains(part) && words.contains("--mass-kg 0.8"), "{words}");
+        let (asked, complete) = (asked(&plan), plan.complete().unwrap());
+        assert_eq!((asked.system, asked.task), (complete.system, complete.task), "{words}");
+    }
+    // a parameter of the oscillator has no flag beside a machine
+    let plan: Plan = serde_json::from_value(json!({ "version": 1, "system": { "machine": machine },
+        "task": { "map": { "axes": [{ "vary": "gap", "over": "1:2:2" }], "starts": 1 } } }))
+    .unwrap();
+    assert_eq!(command(&plan), None);
+}
+
 /// The command line for a panel of the page draws exactly the figure of that panel.
 #[test]
 fn f10_the_command_of_a_view_draws_that_view() {

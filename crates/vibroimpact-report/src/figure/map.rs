@@ -12,33 +12,41 @@ use vibroimpact_plot::{
 };
 use vibroimpact_study::{MachineMap, MachineShare, MapPoint, RegionMap};
 
-/// With more points than this, coexisting motions would be too small to be visible, and only the most frequent one is
-/// drawn.
+/// With more points than this, the parts of a cell would be too small to be visible; coexisting motions are stripes across
+/// several cells.
 const SPLIT: usize = 40_000;
+
+/// Period of the stripes of coexisting motions, in cells.
+const STRIPE: usize = 12;
+
+/// Distance of the lines that hatch undecided cells, in cells.
+const HATCH: usize = 7;
 
 /// Maximum number of labels with an entry of their own in the legend; if there are more, their groups are named.
 const NAMED: usize = 14;
 
-/// The distinct labels at the points of a map, and which of them each point has, the most frequent first.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+/// The distinct labels at the points of a map, and which of them each point has with which share, the most frequent first.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct LabelledCells {
     labels: Vec<String>,
     numbers: BTreeMap<String, usize>,
-    cells: Vec<Vec<usize>>,
+    cells: Vec<Vec<(usize, f64)>>,
 }
 
 impl LabelledCells {
-    /// Adds a point with the labels of its motions.
-    pub fn push<'a>(&mut self, labels: impl Iterator<Item = Cow<'a, str>>) {
-        let mut cell = Vec::new();
-        for label in labels {
+    /// Adds a point with the labels and shares of its motions.
+    pub fn push<'a>(&mut self, labels: impl Iterator<Item = (Cow<'a, str>, f64)>) {
+        let mut cell: Vec<(usize, f64)> = Vec::new();
+        for (label, share) in labels {
             let class = self.numbers.get(&*label).copied().unwrap_or_else(|| {
                 self.numbers.insert(label.clone().into_owned(), self.labels.len());
                 self.labels.push(label.into_owned());
                 self.labels.len() - 1
             });
-            if !cell.contains(&class) {
-                cell.push(class);
+            // motions may have the same label
+            match cell.iter_mut().find(|(other, _)| *other == class) {
+                Some((_, whole)) => *whole += share,
+                None => cell.push((class, share)),
             }
         }
         self.cells.push(cell);
@@ -48,15 +56,44 @@ impl LabelledCells {
     fn first_only(self) -> Self {
         let mut firsts = Self::default();
         for cell in &self.cells {
-            firsts.push(cell.iter().take(1).map(|class| Cow::Borrowed(self.labels[*class].as_str())));
+            firsts.push(cell.iter().take(1).map(|(class, _)| (Cow::Borrowed(self.labels[*class].as_str()), 1.0)));
         }
         firsts
+    }
+
+    /// The class of each cell of a raster: where motions coexist, stripes from the lower right to the upper left whose
+    /// widths are the shares; undecided cells are crossed by lines of the class after all others.
+    fn striped(&self, columns: usize) -> Vec<u16> {
+        let undecided = self.labels.iter().position(|label| label == "undecided");
+        let class = |(k, cell): (usize, &Vec<(usize, f64)>)| {
+            let (column, row) = (k % columns, k / columns);
+            #[allow(clippy::cast_precision_loss)] // below the period
+            let mut rest = (((column + row) % STRIPE) as f64 + 0.5) / STRIPE as f64;
+            let mut shown = None;
+            for (class, share) in cell {
+                shown = Some(*class);
+                rest -= share;
+                if rest < 0.0 {
+                    break;
+                }
+            }
+            let lines = (column + row) % HATCH == 0 || (column + HATCH - row % HATCH) % HATCH == 0;
+            let shown = if shown.is_some() && shown == undecided && lines { Some(self.labels.len()) } else { shown };
+            shown.and_then(|class| u16::try_from(class).ok()).unwrap_or(u16::MAX)
+        };
+        self.cells.iter().enumerate().map(class).collect()
+    }
+
+    /// The colours of the classes of [`Self::striped`].
+    fn palette(&self) -> Vec<Colour> {
+        let line = class_style("undecided").hatch.map_or(Colour::BLACK, |hatch| hatch.colour);
+        self.labels.iter().map(|label| class_style(label).colour).chain([line]).collect()
     }
 
     /// Lines between neighbouring cells with different first motions.
     fn boundaries(&self, plane: &Plane) -> Line {
         let columns = plane.x.count();
-        let first = |k: usize| self.cells.get(k).and_then(|cell| cell.first());
+        let first = |k: usize| self.cells.get(k).and_then(|cell| cell.first()).map(|(class, _)| *class);
         let (mut xs, mut ys) = (Vec::new(), Vec::new());
         let mut segment = |x: (f64, f64), y: (f64, f64)| {
             xs.extend([x.0, x.1, f64::NAN]);
@@ -126,12 +163,25 @@ pub fn figure_with(
     }
     let mut cells = LabelledCells::default();
     for MapPoint { motions, .. } in &found.points {
-        cells.push(motions.iter().map(|motion| motion.verdict.label()));
+        cells.push(motions.iter().map(|motion| (motion.verdict.label(), motion.share)));
     }
     let plane = Plane::of(axes, &asked.units)?;
+    draw_with(&plane, cells, title_without(asked, &varied(axes)), (stripes, boundaries))
+}
+
+/// Draws a map, and says as [`figure_with`] what is drawn.
+///
+/// # Errors
+/// As [`draw`].
+pub fn draw_with(
+    plane: &Plane,
+    cells: LabelledCells,
+    title: String,
+    (stripes, boundaries): (bool, bool),
+) -> Result<Figure, ReportError> {
     let cells = if stripes { cells } else { cells.first_only() };
-    let lines = boundaries.then(|| cells.boundaries(&plane));
-    let mut figure = draw(&plane, cells, title_without(asked, &varied(axes)))?;
+    let lines = boundaries.then(|| cells.boundaries(plane));
+    let mut figure = draw(plane, cells, title)?;
     if let (Some(lines), Some(panel)) = (lines, figure.panels.first_mut()) {
         panel.add(lines);
     }
@@ -157,7 +207,7 @@ pub fn of_machine(found: &MachineMap, title: String) -> Result<Figure, ReportErr
         Sides::Plane(plane) => {
             let mut cells = LabelledCells::default();
             for motions in &found.cells {
-                cells.push(motions.iter().map(|motion| motion.label().into()));
+                cells.push(motions.iter().map(|motion| (motion.label().into(), motion.share)));
             }
             draw(&plane, cells, title)
         }
@@ -170,29 +220,24 @@ pub fn of_machine(found: &MachineMap, title: String) -> Result<Figure, ReportErr
 /// [`ReportError::Plot`] if the number of cells is not the number of points of the plane.
 pub fn draw(plane: &Plane, cells: LabelledCells, title: String) -> Result<Figure, ReportError> {
     let split = cells.cells.len() <= SPLIT;
-    let shown = if split { cells } else { cells.first_only() };
     let panel = Panel::new(plane.x.axis(), plane.y.axis());
     let columns = plane.x.count();
     let panel = match (plane.x.even(), plane.y.even()) {
         (Some(x), Some(y)) if !split => {
-            let class =
-                |cell: &Vec<usize>| cell.first().and_then(|class| u16::try_from(*class).ok()).unwrap_or(u16::MAX);
-            let palette: Vec<Colour> = shown.labels.iter().map(|label| class_style(label).colour).collect();
-            let first: Vec<u16> = shown.cells.iter().map(class).collect();
-            panel.with(Raster::centred(x, y, (columns, plane.y.count()), first, palette)?)
+            let shape = (columns, plane.y.count());
+            panel.with(Raster::centred(x, y, shape, cells.striped(columns), cells.palette())?)
         }
         _ => {
-            let styles: Vec<ClassStyle> = shown.labels.iter().map(|label| class_style(label)).collect();
+            let styles: Vec<ClassStyle> = cells.labels.iter().map(|label| class_style(label)).collect();
             let mut rects = Rects::new(styles);
-            for (k, cell) in shown.cells.iter().enumerate().filter(|(_, cell)| !cell.is_empty()) {
-                rects.cell(plane.x.cell(k % columns), plane.y.cell(k / columns), cell);
+            for (k, cell) in cells.cells.iter().enumerate().filter(|(_, cell)| !cell.is_empty()) {
+                let classes: Vec<usize> = cell.iter().map(|(class, _)| *class).collect();
+                rects.cell(plane.x.cell(k % columns), plane.y.cell(k / columns), &classes);
             }
             panel.with(rects)
         }
     };
-    // a raster has no room for hatches
-    let style = |label: &str| if split { class_style(label) } else { ClassStyle::plain(class_style(label).colour) };
-    Ok(Figure::new(panel).size(680.0, 620.0).title(title).legend(shown.legend(style)))
+    Ok(Figure::new(panel).size(680.0, 620.0).title(title).legend(cells.legend(class_style)))
 }
 
 #[cfg(test)]
@@ -210,7 +255,9 @@ mod tests {
 
     fn cells(of: &[&[&str]]) -> LabelledCells {
         let mut cells = LabelledCells::default();
-        of.iter().for_each(|labels| cells.push(labels.iter().map(|label| Cow::Borrowed(*label))));
+        of.iter().for_each(|labels| {
+            cells.push(labels.iter().map(|label| (Cow::Borrowed(*label), 1.0 / labels.len() as f64)));
+        });
         cells
     }
 
@@ -238,11 +285,36 @@ mod tests {
         assert_eq!([ends(0), ends(3)], [[(0.5, 0.5), (1.5, 0.5)], [(0.5, 0.5), (0.5, 1.5)]]);
     }
 
+    /// With many cells coexisting motions are stripes with the widths of their shares, and undecided cells are hatched.
+    #[test]
+    fn a_raster_has_stripes_and_hatches() {
+        let (columns, rows) = (240, 240);
+        let mut many = LabelledCells::default();
+        for k in 0..columns * rows {
+            match k % columns {
+                0..120 => many.push([(Cow::Borrowed("1/1"), 0.75), (Cow::Borrowed("0"), 0.25)].into_iter()),
+                _ => many.push(core::iter::once((Cow::Borrowed("undecided"), 1.0))),
+            }
+        }
+        let classes = many.striped(columns);
+        let (mut counts, mut line) = ([0_u32; 4], 0_usize);
+        for (k, class) in classes.iter().enumerate() {
+            counts[usize::from(*class)] += 1;
+            line += usize::from(k % columns < 120 && *class == 1);
+        }
+        assert_eq!((counts[0], line), (120 * 240 * 3 / 4, 120 * rows / 4));
+        let part = f64::from(counts[3]) / f64::from(counts[2] + counts[3]);
+        assert!((part - 13.0 / 49.0).abs() < 0.01, "{part}");
+        let side = |n: usize| u32::try_from(n).unwrap();
+        let figure = draw(&plane(side(columns), side(rows)), many, String::new()).unwrap();
+        assert!(matches!(figure.panels[0].marks[0], Mark::Raster(_)));
+    }
+
     #[test]
     fn groups_are_named_where_there_are_many_labels() {
         let labels: Vec<String> = (5..25).map(|m| format!("{m}/1")).collect();
         let mut many = LabelledCells::default();
-        labels.iter().for_each(|label| many.push(core::iter::once(Cow::Borrowed(label.as_str()))));
+        labels.iter().for_each(|label| many.push(core::iter::once((Cow::Borrowed(label.as_str()), 1.0))));
         let figure = draw(&plane(10, 2), many, String::new()).unwrap();
         assert_eq!(figure.legend.as_ref().unwrap().entries.len(), 1);
         let Mark::Rects(rects) = &figure.panels[0].marks[0] else { panic!("cells") };

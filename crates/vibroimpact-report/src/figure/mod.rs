@@ -17,7 +17,7 @@ pub mod settle;
 pub mod shares;
 pub mod stored;
 pub mod styles;
-mod tracks;
+pub(crate) mod tracks;
 pub mod waveform;
 
 use crate::number::short;

@@ -46,7 +46,7 @@ pub fn figure(found: &Section, osc: &Oscillator, asked: &Asked) -> Figure {
     let states = found.strobes.iter();
     let (xs, ys): (Vec<f64>, Vec<f64>) = states.map(|at| (at.x * units.length(), at.v * units.velocity())).unzip();
     let across = fitted(units.named("*ξ*", "m"), &xs, units.length());
-    let below = Panel::new(across, fitted(units.named("velocity *u*", "m/s"), &ys, units.velocity()))
+    let below = Panel::new(across, fitted(units.named("velocity *ξ*′", "m/s"), &ys, units.velocity()))
         .caption("states at phase 0")
         .with(dots(xs, ys, Colour::BLACK));
     // the legend names the second stop; a title with all parameters would be too long for a column

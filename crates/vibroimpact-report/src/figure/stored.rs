@@ -23,6 +23,18 @@ pub fn figure<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     store: &A,
     colour: Option<&Coloured>,
 ) -> Result<Figure, E> {
+    figure_with(store, colour, (true, false))
+}
+
+/// As [`figure`], and whether coexisting motions and the boundaries between motions of a map are drawn.
+///
+/// # Errors
+/// As [`figure`].
+pub fn figure_with<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
+    store: &A,
+    colour: Option<&Coloured>,
+    drawn: (bool, bool),
+) -> Result<Figure, E> {
     let whole = match store.plan() {
         StudyPlan::Oscillator(plan) => plan.as_ref(),
         StudyPlan::Machine(plan) => return of_machine(store, plan, colour),
@@ -41,7 +53,7 @@ pub fn figure<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
             let title = title_without(&asked, &varied(&plan.axes));
             match Sides::of(&plan.axes, &asked.units)? {
                 Sides::Line(side) => Ok(shares::draw(&side, &points::<A, E>(store, None)?, title)),
-                Sides::Plane(plane) => of_map(store, &plane, title),
+                Sides::Plane(plane) => of_map(store, &plane, title, drawn),
             }
         }
         (task, None) => of_task(store, task, &asked),
@@ -90,7 +102,7 @@ fn of_machine<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     match &plan.task {
         MachineTask::Map(map) => match Sides::of_machine(&map.axes)? {
             Sides::Line(side) => Ok(shares::draw(&side, &points::<A, E>(store, None)?, title)),
-            Sides::Plane(plane) => of_map(store, &plane, title),
+            Sides::Plane(plane) => of_map(store, &plane, title, (true, false)),
         },
         MachineTask::Basin(basin) => of_basin(store, &Sides::of_machine(&basin.axes)?, title),
         MachineTask::Diagram(diagram) => {
@@ -153,20 +165,23 @@ fn of_map<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     store: &A,
     plane: &Plane,
     title: String,
+    drawn: (bool, bool),
 ) -> Result<Figure, E> {
     let Some(label) = store.field_number("label") else { return Err(ReportError::NoLabels.into()) };
     let width = store.study().fields()[label].width();
     let column = store.array(label)?;
+    let shares = store.field_number("share").map(|share| store.array(share)).transpose()?;
     let mut known: BTreeMap<i32, Option<String>> = BTreeMap::new();
     for code in column.whole() {
         known.entry(*code).or_insert_with(|| label_of(*code));
     }
     let mut cells = map::LabelledCells::default();
-    for codes in column.whole().chunks(width) {
-        let labels = codes.iter().filter_map(|code| known.get(code)?.as_deref());
-        cells.push(labels.map(std::borrow::Cow::Borrowed));
+    for (point, codes) in column.whole().chunks(width).enumerate() {
+        let share = |k: usize| shares.as_ref().map_or(1.0, |shares| shares.real()[point * width + k]);
+        let label = |(k, code): (usize, &i32)| Some((known.get(code)?.as_deref()?.into(), share(k)));
+        cells.push(codes.iter().enumerate().filter_map(label));
     }
-    Ok(map::draw(plane, cells, title)?)
+    Ok(map::draw_with(plane, cells, title, drawn)?)
 }
 
 #[allow(clippy::cast_precision_loss)] // counts below 2^53

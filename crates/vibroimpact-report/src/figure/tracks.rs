@@ -186,7 +186,7 @@ pub(crate) enum Followed<'a> {
 
 impl Followed<'_> {
     /// Two numbers that identify each impact or state at a point.
-    fn list(self, point: &SolutionPoint) -> Vec<(f64, f64)> {
+    pub(crate) fn list(self, point: &SolutionPoint) -> Vec<(f64, f64)> {
         let cycle = &point.cycle;
         let oscillator = match self {
             Self::Velocity => return cycle.points.iter().map(|p| (p.state.phase, p.state.velocity)).collect(),

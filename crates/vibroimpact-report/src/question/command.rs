@@ -1,40 +1,49 @@
 //! A plan as the words of a `vibro` command.
 
 use super::number;
+use crate::Units;
+use crate::units::{given, shown_span};
+use vibroimpact::{DrivenOscillator, PhysicalParameter, Shaking};
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
 use vibroimpact_study::{
     Axis, BasinPlan, BranchPlan, Coordinate, CurvePlan, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan, LyapunovPlan,
-    MapPlan, MarginsPlan, Parameter, Plan, Quantity, RegionPlan, StartPlan, Stretch, SystemPlan, Target, Task, Values,
+    MapPlan, MarginsPlan, Parameter, PhysicalPlan, Plan, Quantity, RegionPlan, StartPlan, Stretch, SystemPlan, Target,
+    Task, Values,
 };
 
-/// The words of the `vibro` command for a plan, beginning with `vibro`. Its flags give exactly this plan, in
-/// nondimensional units.
+/// The words of the `vibro` command for a plan, beginning with `vibro`. Its flags give exactly this plan: in nondimensional
+/// units, or those of its machine.
 ///
 /// Refinement and the size of tiles need a store, so a plan with these has the flag for a store, such as `map.zarr`.
 /// Points of the sections of an attractor need a figure, so a plan with these has the flag for `attractor.svg`. Returns
 /// `None` for plans that no flags can express: a basin over anything but position and velocity or over a list of
-/// values, exponents over axes, and a map over a list of one value.
+/// values, exponents over axes, a map over a list of one value, units without a machine, and parameters of the oscillator that
+/// vary in a machine.
 #[must_use]
 pub fn command(plan: &Plan) -> Option<Vec<String>> {
     let plan = plan.complete().ok()?;
     let system = &plan.system;
+    let units = &Units::of_plan(&plan);
+    if units.si != system.machine.is_some() || (units.si && !varied(&plan.task).all(of_machine)) {
+        return None;
+    }
     let mut line = match &plan.task {
         Task::Simulate { start, impacts, periods } => {
-            let line = Line::new("simulate").system(system, &[]).start(start);
+            let line = Line::new("simulate").system(system, &[]).start(start, units);
             line.given("impacts", *impacts).given("periods", periods.map(number))
         }
         Task::Settle { start, impacts } => {
-            Line::new("settle").system(system, &[]).start(start).given("impacts", *impacts)
+            Line::new("settle").system(system, &[]).start(start, units).given("impacts", *impacts)
         }
         Task::Attractors { starts, seed, impacts } => {
             let line = Line::new("attractors").system(system, &[]).flag("starts", starts);
             line.unless("seed", *seed, 1).given("impacts", *impacts)
         }
         Task::Orbit { label } => Line::new("orbit").system(system, &[]).flag("label", label),
-        Task::Basin(task) => basin(system, task)?,
+        Task::Basin(task) => basin(system, task, units)?,
         Task::Map(task) => map(system, task)?,
         Task::Diagram(task) => diagram(system, task),
-        Task::Lyapunov(task) => lyapunov(system, task)?,
+        Task::Lyapunov(task) => lyapunov(system, task, units)?,
         Task::Branch(task) => branch(system, task),
         Task::Curve(task) => curve(system, task),
         Task::Region(task) => region(system, task),
@@ -42,7 +51,7 @@ pub fn command(plan: &Plan) -> Option<Vec<String>> {
             let line = Line::new("response").system(system, &[(task.vary, Some(task.over.to_string()))]);
             line.unless_amplitude(task.quantity).given("impacts", task.impacts)
         }
-        Task::Margins(task) => margins(system, task),
+        Task::Margins(task) => margins(system, task, units),
     };
     let (refine, name) = match &plan.task {
         Task::Map(task) => (task.refine, "map.zarr"),
@@ -56,6 +65,58 @@ pub fn command(plan: &Plan) -> Option<Vec<String>> {
         line = line.flag("store", name).given("tile", plan.tile).given("refine", refine);
     }
     Some(line.words)
+}
+
+/// The parameters that vary.
+fn varied(task: &Task) -> impl Iterator<Item = Parameter> {
+    let list: Vec<Parameter> = match task {
+        Task::Map(map) => map.axes.iter().filter_map(|axis| parameter(axis.vary)).collect(),
+        Task::Diagram(diagram) => diagram.cut().parameters().collect(),
+        Task::Branch(branch) => core::iter::once(branch.vary).chain(branch.also.map(|also| also.parameter)).collect(),
+        Task::Curve(curve) => vec![curve.vary.parameter, curve.and.parameter],
+        Task::Region(region) => vec![region.across.parameter, region.up.parameter],
+        Task::Response(response) => vec![response.vary],
+        Task::Margins(margins) => margins.vary.iter().map(|one| one.parameter).collect(),
+        _ => Vec::new(),
+    };
+    list.into_iter()
+}
+
+const fn parameter(vary: Coordinate) -> Option<Parameter> {
+    if let Coordinate::Parameter(parameter) = vary { Some(parameter) } else { None }
+}
+
+/// Whether a parameter has a flag for a machine.
+const fn of_machine(parameter: Parameter) -> bool {
+    matches!(parameter, Parameter::Physical(_) | Parameter::Restitution | Parameter::SecondRestitution)
+}
+
+/// The numbers of a machine with the names of their flags.
+fn numbers_of(machine: &DrivenOscillator) -> Vec<(&'static str, Option<f64>)> {
+    let plan = PhysicalPlan::from(machine);
+    let nonzero = |value: f64| Some(value).filter(|value| value.to_bits() != 0);
+    vec![
+        ("mass_kg", plan.mass_kg),
+        ("stiffness_n_per_m", plan.stiffness_n_per_m),
+        ("damping_ns_per_m", plan.damping_ns_per_m.and_then(nonzero)),
+        ("damping_ratio", plan.damping_ratio.and_then(nonzero)),
+        ("log_decrement", plan.log_decrement),
+        ("force_n", plan.force_n),
+        ("frequency_hz", plan.frequency_hz),
+        ("omega_rad_per_s", plan.omega_rad_per_s),
+        ("gap_m", plan.gap_m),
+        ("second_gap_m", plan.second_gap_m),
+        ("base_displacement_m", plan.base_displacement_m),
+        ("base_velocity_m_per_s", plan.base_velocity_m_per_s),
+        ("base_acceleration_m_per_s2", plan.base_acceleration_m_per_s2),
+        ("base_phase", nonzero(plan.base_phase)),
+        ("stop_displacement_m", plan.stop_displacement_m),
+        ("stop_phase", nonzero(plan.stop_phase)),
+        ("unbalance_kg_m", plan.unbalance_kg_m),
+        ("constant_force_n", plan.constant_force_n),
+        ("restitution", plan.restitution),
+        ("second_restitution", plan.second_restitution),
+    ]
 }
 
 /// A command line under construction.
@@ -94,6 +155,9 @@ impl Line {
 
     /// Adds the parameters of a system. Those that vary are replaced by the given texts, or left out.
     fn system(mut self, system: &SystemPlan, varied: &[(Parameter, Option<String>)]) -> Self {
+        if let Some(machine) = &system.machine {
+            return self.machine(machine, varied);
+        }
         let second = system.second_stop;
         let values = [
             (Parameter::Beta, system.beta),
@@ -113,6 +177,29 @@ impl Line {
         self
     }
 
+    /// Adds the numbers of a machine; those that vary as by [`Self::system`]. A number that varies replaces another form
+    /// of it.
+    fn machine(mut self, machine: &DrivenOscillator, varied: &[(Parameter, Option<String>)]) -> Self {
+        let varies = |name: &str| varied.iter().find(|(parameter, _)| parameter.name() == name);
+        let mut left: Vec<&(Parameter, Option<String>)> = varied.iter().collect();
+        for (name, value) in numbers_of(machine) {
+            self = match varies(name) {
+                Some(one) => {
+                    left.retain(|other| *other != one);
+                    self.given(name, one.1.clone())
+                }
+                None => self.given(name, value.map(number)),
+            };
+        }
+        // a number that has no flag of its own in the machine, such as both gaps together
+        self = left.into_iter().fold(self, |line, (parameter, words)| line.given(parameter.name(), words.clone()));
+        if machine.excitation.base != Shaking::default() && machine.excitation.stop != machine.excitation.base {
+            self.words.push("--stop-in-space".to_owned());
+        }
+        // maps and responses of a machine are always in its units
+        if ["map", "response"].contains(&self.words[1].as_str()) { self } else { self.flag("units", "si") }
+    }
+
     /// Adds the quantities of a plan.
     fn fields(self, fields: &[Quantity]) -> Self {
         let names: Vec<String> = fields.iter().map(|field| field.name().replace('_', "-")).collect();
@@ -125,12 +212,13 @@ impl Line {
         self.given("quantity", named)
     }
 
-    fn start(self, start: &StartPlan) -> Self {
-        self.given("x", start.x.map(number)).zero("v", start.v).zero("phase", start.phase)
+    fn start(self, start: &StartPlan, units: &Units) -> Self {
+        let x = start.x.map(|x| number(given(x, units.length())));
+        self.given("x", x).zero("v", given(start.v, units.velocity())).zero("phase", start.phase)
     }
 }
 
-fn basin(system: &SystemPlan, task: &BasinPlan) -> Option<Line> {
+fn basin(system: &SystemPlan, task: &BasinPlan, units: &Units) -> Option<Line> {
     if task.points.is_some() || task.transient {
         return None;
     }
@@ -141,13 +229,14 @@ fn basin(system: &SystemPlan, task: &BasinPlan) -> Option<Line> {
     if !plane || task.start.x.is_some() || task.start.v.to_bits() != 0 {
         return None;
     }
+    let (x, v) = (shown_span(x, units.length()).ok()?, shown_span(v, units.velocity()).ok()?);
     let line = Line::new("basin").system(system, &[]).flag("x", x).flag("v", v).zero("phase", task.start.phase);
     Some(line.given("impacts", task.impacts).fields(&task.fields))
 }
 
 fn map(system: &SystemPlan, task: &MapPlan) -> Option<Line> {
     let words = |axis: &Axis| {
-        let Coordinate::Parameter(parameter) = axis.vary else { return None };
+        let parameter = parameter(axis.vary)?;
         let over = match &axis.over {
             Values::Span(span) => span.to_string(),
             Values::Listed(list) if list.len() > 1 => list.iter().map(|x| number(*x)).collect::<Vec<_>>().join(","),
@@ -168,7 +257,9 @@ fn flag(parameter: Parameter) -> String {
 
 /// The order of the axes, if it differs from the order of the flags.
 fn order<T>(varied: &[(Parameter, T)]) -> Option<String> {
-    let place = |(parameter, _): &(Parameter, T)| Parameter::ALL.into_iter().position(|other| other == *parameter);
+    // flags of a machine come first
+    let all = || PhysicalParameter::ALL.into_iter().map(Parameter::Physical).chain(Parameter::ALL);
+    let place = |(parameter, _): &(Parameter, T)| all().position(|other| other == *parameter);
     let names = || varied.iter().map(|(parameter, _)| flag(*parameter)).collect::<Vec<_>>();
     (!varied.is_sorted_by_key(place)).then(|| names().join(","))
 }
@@ -194,12 +285,12 @@ fn diagram(system: &SystemPlan, task: &DiagramPlan) -> Line {
     line.unless("transient", task.transient, DEFAULT_TRANSIENT).unless("keep", task.keep, DEFAULT_KEEP)
 }
 
-fn lyapunov(system: &SystemPlan, task: &LyapunovPlan) -> Option<Line> {
+fn lyapunov(system: &SystemPlan, task: &LyapunovPlan, units: &Units) -> Option<Line> {
     if !task.axes.is_empty() {
         return None;
     }
     let usual = LyapunovPlan::default();
-    let line = Line::new("lyapunov").system(system, &[]).start(&task.start);
+    let line = Line::new("lyapunov").system(system, &[]).start(&task.start, units);
     let line = line.unless("impacts", task.impacts, usual.impacts).unless("transient", task.transient, usual.transient);
     Some(match task.points {
         Some(points) => line.flag("points", points).flag("plot", "attractor.svg"),
@@ -207,9 +298,9 @@ fn lyapunov(system: &SystemPlan, task: &LyapunovPlan) -> Option<Line> {
     })
 }
 
-fn margins(system: &SystemPlan, task: &MarginsPlan) -> Line {
+fn margins(system: &SystemPlan, task: &MarginsPlan, units: &Units) -> Line {
     let usual = MarginsPlan::default();
-    let line = Line::new("margins").system(system, &[]).given("label", task.label.as_ref()).start(&task.start);
+    let line = Line::new("margins").system(system, &[]).given("label", task.label.as_ref()).start(&task.start, units);
     let names: Vec<String> = task.vary.iter().map(|one| flag(one.parameter)).collect();
     let line = line.given("vary", (!names.is_empty()).then(|| names.join(",")));
     let scales = task.vary.iter().filter_map(|one| Some((one.parameter, one.scale?)));

@@ -2,13 +2,14 @@
 
 use super::number;
 use crate::scene::{SECTION_POINTS, View};
+use vibroimpact::DrivenOscillator;
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
 use vibroimpact_study::{
-    Axis, BasinPlan, Coordinate, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan, LyapunovPlan, MarginsPlan, Plan,
-    Quantity, StartPlan, Stretch, SystemPlan, Target, Task, Values,
+    Axis, BasinPlan, Coordinate, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan, LyapunovPlan, MarginsPlan,
+    PhysicalPlan, Plan, Quantity, StartPlan, Stretch, SystemPlan, Target, Task, Values,
 };
 
-/// A few lines of Python for a plan, in nondimensional units; `None` for an invalid plan, and for a study of points.
+/// A few lines of Python for a plan, whose numbers are nondimensional unless their names end in a unit; `None` for an invalid plan, and for a study of points.
 ///
 /// Grids are computed in memory, with refinement if the plan has it. The size of tiles is left out, because no result
 /// depends on it. Exponents over axes are a study in the store `lyapunov.zarr`.
@@ -141,7 +142,41 @@ impl Call {
     }
 }
 
+/// A machine in SI units.
+fn machine(machine: &DrivenOscillator) -> String {
+    let plan = PhysicalPlan::from(machine);
+    let nonzero = |value: f64| Some(value).filter(|value| value.to_bits() != 0);
+    let parts = [
+        ("mass", plan.mass_kg),
+        ("stiffness", plan.stiffness_n_per_m),
+        ("damping", plan.damping_ns_per_m.and_then(nonzero)),
+        ("damping_ratio", plan.damping_ratio.and_then(nonzero)),
+        ("log_decrement", plan.log_decrement),
+        ("force", plan.force_n),
+        ("frequency", plan.frequency_hz),
+        ("omega", plan.omega_rad_per_s),
+        ("gap", plan.gap_m),
+        ("restitution", plan.restitution),
+        ("second_gap", plan.second_gap_m),
+        ("second_restitution", plan.second_restitution),
+        ("base_displacement", plan.base_displacement_m),
+        ("base_velocity", plan.base_velocity_m_per_s),
+        ("base_acceleration", plan.base_acceleration_m_per_s2),
+        ("base_phase", nonzero(plan.base_phase)),
+        ("stop_displacement", plan.stop_displacement_m),
+        ("stop_phase", nonzero(plan.stop_phase)),
+        ("unbalance", plan.unbalance_kg_m),
+        ("constant_force", plan.constant_force_n),
+    ];
+    let given = parts.into_iter().filter_map(|(name, value)| Some(format!("{name}={}", number(value?))));
+    let space = plan.stop_in_space.then(|| "stop_in_space=True".to_owned());
+    format!("vi.Oscillator.from_units({})", given.chain(space).collect::<Vec<_>>().join(", "))
+}
+
 fn oscillator(system: &SystemPlan) -> String {
+    if let Some(of) = &system.machine {
+        return machine(of);
+    }
     let second = system.second_stop;
     let parts = [
         ("beta", system.beta),
@@ -206,7 +241,7 @@ fn basin(task: &BasinPlan) -> Call {
     let call = call.given("x", start.x.filter(|_| !varies(Coordinate::X)).map(number));
     let call = if varies(Coordinate::V) { call } else { call.zero("v", start.v) };
     let call = if varies(Coordinate::Phase) { call } else { call.zero("phase", start.phase) };
-    call.given("refine", task.refine).given("impacts", task.impacts)
+    call.given("refine", task.refine).given("impacts", task.impacts).given("fields", names(&task.fields))
 }
 
 fn diagram(task: &DiagramPlan) -> Call {

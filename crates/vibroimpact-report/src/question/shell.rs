@@ -1,6 +1,7 @@
 //! A command line as typed in a shell.
 
-use super::command;
+use super::{command, number};
+use crate::figure::coloured::{Coloured, Of};
 use crate::scene::View;
 use vibroimpact_study::{Plan, Study, Task};
 
@@ -36,6 +37,23 @@ pub fn shell_line_showing(plan: &Plan, view: View) -> Option<String> {
     let name = view.name();
     let show = if view == View::default() { String::new() } else { format!(" --show {name}") };
     Some(format!("{line}{show} --plot {name}.svg"))
+}
+
+/// The same, with a figure in the colours of a quantity if one is given. `None` for a plan that no flags can express.
+#[must_use]
+pub fn shell_line_coloured(plan: &Plan, coloured: Option<&Coloured>) -> Option<String> {
+    let mut words = command(plan)?;
+    if let Some(Coloured { field, of, range }) = coloured {
+        words.extend(["--colour".to_owned(), field.replace('_', "-")]);
+        if *of != Of::default() {
+            words.extend(["--of".to_owned(), of.name().to_owned()]);
+        }
+        if let Some((low, high)) = range {
+            words.extend(["--colour-range".to_owned(), format!("{}:{}", number(*low), number(*high))]);
+        }
+    }
+    words.extend(["--plot".to_owned(), format!("{}.svg", words[1])]);
+    Some(words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" "))
 }
 
 #[cfg(test)]

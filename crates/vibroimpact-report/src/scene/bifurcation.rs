@@ -2,16 +2,22 @@
 //! diagram from simulation.
 
 use crate::figure::branch::figure;
-use crate::{AnswerError, Asked};
+use crate::table::{Table, bifurcation as bifurcation_table};
+use crate::{AnswerError, Asked, ReportError};
 use std::collections::BTreeMap;
 use vibroimpact::Label;
 use vibroimpact::continuation::BranchEvent as E;
 use vibroimpact::verdict::{Count, SettleOptions, Verdict, attractors};
 use vibroimpact_plot::Figure;
+use vibroimpact_study::diagram::Diagram;
 use vibroimpact_study::{
     BranchPlan, Control, DiagramPlan, Followed, Plan, Results, RunError, Span, Stopped, Target, Task, run, tiles,
 };
 
+/// Number of values along the line at which motions are searched, if no labels are given.
+const SAMPLES: u32 = 24;
+/// Number of motions whose branches are followed then: those of most starts.
+const MOST_LABELS: usize = 6;
 /// Number of values at which orbits of a label are searched.
 const LOOKS: u32 = 25;
 /// Maximum number of further branches from each orbit.
@@ -39,14 +45,39 @@ pub struct BifurcationEvent {
 /// The bifurcation diagram along a line.
 #[derive(Clone, Debug)]
 pub struct BifurcationDiagram {
-    /// Its figure.
-    pub figure: Figure,
-    /// The events on the branches of the figure, in the order of their values.
-    pub events: Vec<BifurcationEvent>,
+    /// The orbit diagram behind the branches.
+    pub behind: Diagram,
+    /// The branches.
+    pub followed: Vec<Followed>,
+    asked: Asked,
+}
+
+impl BifurcationDiagram {
+    /// Its figure: stable orbits are solid and unstable ones dashed.
+    ///
+    /// # Errors
+    /// [`AnswerError`] if a value of the parameter overflows in the units of the results.
+    pub fn figure(&self) -> Result<Figure, AnswerError> {
+        Ok(figure(&self.followed, &self.behind.plan.cut(), Some(&self.behind), false, &self.asked)?)
+    }
+
+    /// Its table: the points from simulation, then those of the branches.
+    ///
+    /// # Errors
+    /// As [`Self::figure`].
+    pub fn table(&self) -> Result<Table<'static>, AnswerError> {
+        Ok(bifurcation_table::table(&self.behind, &self.followed, &self.asked).map_err(ReportError::from)?)
+    }
+
+    /// The events on the branches, in the order of their values.
+    #[must_use]
+    pub fn events(&self) -> Vec<BifurcationEvent> {
+        events(&self.followed, self.behind.plan.over.ends())
+    }
 }
 
 /// The branches of some labels over the orbit diagram of a plan, which also determines whether impact velocities or
-/// positions at phase 0 are shown. Stable orbits are solid and unstable ones dashed. Each orbit found on a grid of
+/// positions at phase 0 are shown. Without labels they are those of the motions on the line with most starts. Each orbit found on a grid of
 /// values is followed in both directions to the ends of the range, through its events. Of the branches that begin at
 /// flips and branch points, those that reach one of the labels are drawn too.
 ///
@@ -57,19 +88,28 @@ pub struct BifurcationDiagram {
 pub fn bifurcation(
     asked: &Asked,
     plan: &DiagramPlan,
-    labels: &[String],
+    named: Option<&[String]>,
     control: &Control<'_>,
 ) -> Result<BifurcationDiagram, AnswerError> {
-    let results = run(&Plan::new(asked.system, Task::Diagram(*plan)), control)?;
-    let behind = if let Results::Diagram(behind) = results { Some(behind) } else { None };
+    let found;
+    let labels = match named {
+        Some(labels) => labels,
+        None => {
+            found = labels(asked, plan, SAMPLES, control)?;
+            &found[..found.len().min(MOST_LABELS)]
+        }
+    };
+    let Results::Diagram(behind) = run(&Plan::new(asked.system, Task::Diagram(*plan)), control)? else {
+        // the task of this plan has no other result
+        return Err(ReportError::NoLabels.into());
+    };
     let mut followed = Vec::new();
     for label in labels {
         follow(asked, plan, label, &mut followed, control)?;
     }
     let known = |branch: &Followed| branch.points.iter().any(|point| labels.contains(&point.cycle.label.to_string()));
     followed.retain(known);
-    let figure = figure(&followed, &plan.cut(), behind.as_ref(), false, asked)?;
-    Ok(BifurcationDiagram { figure, events: events(&followed, plan.over.ends()) })
+    Ok(BifurcationDiagram { behind, followed, asked: *asked })
 }
 
 /// The events on branches, each once.
@@ -199,14 +239,24 @@ mod tests {
         assert_eq!(plan.vary, Parameter::Gap);
         let found = labels(&asked, &plan, 8, &control).unwrap();
         assert!(found.iter().any(|label| label == "1/1"), "{found:?}");
-        let diagram = bifurcation(&asked, &plan, &["1/1".into(), "2/2".into()], &control).unwrap();
-        let svg = diagram.figure.to_svg();
+        let diagram = bifurcation(&asked, &plan, Some(&["1/1".into(), "2/2".into()]), &control).unwrap();
+        let svg = diagram.figure().unwrap().to_svg();
         // the closed form of the flip: docs/orbits.md
-        let flips: Vec<f64> = (diagram.events.iter().filter(|event| event.kind == "flip" && event.label == "1/1"))
+        let flips: Vec<f64> = (diagram.events().iter().filter(|event| event.kind == "flip" && event.label == "1/1"))
             .map(|event| event.value)
             .collect();
         assert!(flips.len() == 1 && (flips[0] - 1.829).abs() < 1e-3, "{flips:?}");
-        assert!(diagram.events.is_sorted_by(|a, b| a.value <= b.value));
+        assert!(diagram.events().is_sorted_by(|a, b| a.value <= b.value));
+        // the table has the simulated points and the branches, with the flip in a row of its own
+        let mut table = Vec::new();
+        diagram.table().unwrap().write(&mut table).unwrap();
+        let table = String::from_utf8(table).unwrap();
+        assert!(table.starts_with("gap,sweep,kind,side,phase,velocity,label,event\n"), "{}", &table[..80]);
+        let simulated = table.lines().filter(|row| row.ends_with(",,")).count();
+        let stable = table.lines().filter(|row| row.contains(",stable,upper,") && row.ends_with(",1/1,")).count();
+        let flip = table.lines().find(|row| row.ends_with(",1/1,flip")).unwrap();
+        assert!(simulated >= 15 && stable > 3, "{simulated} {stable}");
+        assert!((flip.split(',').next().unwrap().parse::<f64>().unwrap() - flips[0]).abs() < 1e-12, "{flip}");
         // 1/1 is stable up to its flip at 1.829, where 2/2 begins, which ends as 1/2
         for word in ["1/1", "2/2", "1/2", ">stable<", ">unstable<", ">flip<", ">simulation<"] {
             assert!(svg.contains(word), "{word}");
@@ -216,13 +266,13 @@ mod tests {
         let line = DiagramPlan { also: Some(also), ..plan };
         let found = labels(&asked, &line, 8, &control).unwrap();
         assert!(found.iter().any(|label| label == "1/1"), "{found:?}");
-        let svg = bifurcation(&asked, &line, &found, &control).unwrap().figure.to_svg();
+        let svg = bifurcation(&asked, &line, Some(&found), &control).unwrap().figure().unwrap().to_svg();
         for word in [">flip<", "with", "1.05 to 1.12"] {
             assert!(svg.contains(word), "{word}");
         }
         // positions once in a period, if requested: 1/1 has one, which lies between the stop and the lowest position
         let strobes = DiagramPlan { show: Show::Strobe, ..plan };
-        let figure = bifurcation(&asked, &strobes, &["1/1".into()], &control).unwrap().figure;
+        let figure = bifurcation(&asked, &strobes, Some(&["1/1".into()]), &control).unwrap().figure().unwrap();
         let svg = figure.to_svg();
         assert!(svg.contains("at phase 0") && !svg.contains("arrival velocity"), "{svg}");
         // the ordinates of the stable part, which simulation finds too
@@ -247,7 +297,7 @@ mod tests {
         let drawn = ordinates(&figure);
         let near = |x: &f64| positions.iter().any(|y| (x - y).abs() < 0.2);
         assert!(drawn.len() > 3 && drawn.iter().all(near), "{drawn:?}");
-        let bad = bifurcation(&asked, &plan, &["1/0".into()], &control);
+        let bad = bifurcation(&asked, &plan, Some(&["1/0".into()]), &control);
         assert!(matches!(bad, Err(AnswerError::Plan(_))), "{bad:?}");
     }
 }

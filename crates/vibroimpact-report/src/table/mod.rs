@@ -3,6 +3,7 @@
 
 pub mod attractors;
 pub mod basin;
+pub mod bifurcation;
 pub mod branch;
 pub mod curve;
 pub mod diagram;

@@ -7,7 +7,8 @@ use axum::Json;
 use serde::Serialize;
 use vibroimpact::quantities::Quantity;
 use vibroimpact::scenario::{PAPER, Scenario};
-use vibroimpact_plot::GROUPS;
+use vibroimpact_plot::{Colour, ColourBar, GROUPS};
+use vibroimpact_report::figure::coloured::Value;
 
 #[derive(Serialize)]
 pub(super) struct About {
@@ -20,6 +21,18 @@ pub(super) struct About {
     groups: Vec<Named>,
     /// Every quantity of a motion, with its SI unit.
     quantities: Vec<QuantityName>,
+    /// The colours of the values of a quantity, from the smallest to the largest.
+    colours: Vec<String>,
+    /// The looks of values that are no finite number.
+    missing: Vec<Missing>,
+}
+
+#[derive(Serialize)]
+struct Missing {
+    name: &'static str,
+    colour: String,
+    /// The colour of the lines over it.
+    hatch: Option<String>,
 }
 
 #[derive(Serialize)]
@@ -58,6 +71,10 @@ pub(super) async fn about() -> Json<About> {
         description: quantity.description(),
         unit: quantity.kind().unit(),
     };
+    let missing = |value: Value| {
+        let (style, name) = value.look();
+        Missing { name, colour: style.colour.to_hex(), hatch: style.hatch.map(|hatch| hatch.colour.to_hex()) }
+    };
     Json(About {
         version: env!("CARGO_PKG_VERSION"),
         threads: processors(),
@@ -65,5 +82,7 @@ pub(super) async fn about() -> Json<About> {
         points: PAPER.iter().map(point).collect(),
         groups: GROUPS.into_iter().map(Named::new).collect(),
         quantities: Quantity::ALL.into_iter().map(quantity).collect(),
+        colours: ColourBar::palette().into_iter().map(Colour::to_hex).collect(),
+        missing: Value::MISSING.map(missing).into(),
     })
 }

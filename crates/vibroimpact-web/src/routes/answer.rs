@@ -15,10 +15,11 @@ use core::sync::atomic::Ordering;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use vibroimpact_plot::Figure;
-use vibroimpact_report::question::{python, python_showing, shell_line, shell_line_showing};
+use vibroimpact_report::figure::coloured::{Coloured, Of};
+use vibroimpact_report::question::{python, python_showing, shell_line, shell_line_coloured, shell_line_showing};
 use vibroimpact_report::scene::View;
-use vibroimpact_report::{AnswerError, Shown, Units, answer as ask};
-use vibroimpact_study::Control;
+use vibroimpact_report::{AnswerError, Shown, Table, Units, answer as ask, refined_figure};
+use vibroimpact_study::{Control, MapPlan, Plan, Task};
 
 /// The object that `--json` prints, with progress events if the page requests them.
 pub(super) async fn answer(
@@ -52,25 +53,37 @@ pub(super) async fn table(
     let plan = asked.plan;
     let work = move |control: &Control<'_>| {
         let answer = ask(&plan, Units::default(), control)?;
-        let table = answer.table(&wanted.shown())?;
-        let table = table.ok_or_else(|| nothing("table"))?;
-        let mut text = Vec::new();
-        table.write(&mut text).map_err(|_| Refusal::fault("a table that cannot be written"))?;
-        Ok(Bytes::from(text))
+        let table = answer.table(&wanted.shown()?)?;
+        csv(table.ok_or_else(|| nothing("table"))?)
     };
-    let body = explorer.workshop.run(Bench::Answers, 0, |_| {}, work).await?;
-    Ok(bytes("text/csv; charset=utf-8", body))
+    let (kind, body) = explorer.workshop.run(Bench::Answers, 0, |_| {}, work).await?;
+    Ok(bytes(kind, body))
+}
+
+/// A table as a body, and its type.
+pub(super) fn csv(table: Table<'_>) -> Result<(&'static str, Bytes), Refusal> {
+    let mut text = Vec::new();
+    table.write(&mut text).map_err(|_| Refusal::fault("a table that cannot be written"))?;
+    Ok(("text/csv; charset=utf-8", Bytes::from(text)))
 }
 
 /// The command line and the call in Python for the same result; and for the figure of one view of a settled motion, if
-/// one is named. `null` if there is none.
-pub(super) async fn command(Query(wanted): Query<Wanted>, asked: PlanRequest) -> Json<Value> {
+/// one is named. Of a map, a basin and a diagram `figure` is the command line for its figure. `null` if there is none.
+pub(super) async fn command(Query(wanted): Query<Wanted>, asked: PlanRequest) -> Result<Json<Value>, Refusal> {
     let plan = &asked.plan;
+    let figure = match &plan.task {
+        Task::Map(_) | Task::Basin(_) => {
+            let refined = wanted.refined(plan);
+            shell_line_coloured(refined.as_ref().unwrap_or(plan), wanted.coloured()?.as_ref())
+        }
+        Task::Diagram(_) => shell_line(plan).map(|line| format!("{line} --branches")),
+        _ => None,
+    };
     let (vibro, python) = match wanted.kind {
         Some(view) => (shell_line_showing(plan, view), python_showing(plan, view)),
         None => (shell_line(plan), python(plan)),
     };
-    Json(json!({ "vibro": vibro, "python": python }))
+    Ok(Json(json!({ "vibro": vibro, "python": python, "figure": figure })))
 }
 
 /// The options of a figure. Sizes are in units in which text is 20 high.
@@ -88,6 +101,14 @@ pub(super) struct Wanted {
     chosen: Option<String>,
     /// A line in a map: the coordinates of its ends, separated by commas.
     line: Option<String>,
+    /// The quantity in whose colours a map or basin is drawn.
+    colour: Option<String>,
+    /// Which of several motions at a point has the colour: `largest`, `smallest` or `likeliest`.
+    of: Option<String>,
+    /// The values at the ends of the colours, separated by a comma.
+    range: Option<String>,
+    /// Distance of the points of a map that are computed first, if those between are computed only where these differ.
+    refine: Option<u32>,
 }
 
 #[derive(Clone, Copy, Default, Deserialize, PartialEq, Eq)]
@@ -104,11 +125,34 @@ const SIZES: core::ops::RangeInclusive<f64> = 200.0..=4000.0;
 const SHARPNESS: f64 = 2.0;
 
 impl Wanted {
-    fn shown(&self) -> Shown {
+    fn shown(&self) -> Result<Shown, Refusal> {
+        let shown = Shown { view: self.kind, colour: self.coloured()?, ..Shown::default() };
         // a figure without a list of layers is that of the command
-        let Some(layers) = &self.layers else { return Shown { view: self.kind, ..Shown::default() } };
+        let Some(layers) = &self.layers else { return Ok(shown) };
         let has = |name: &str| listed(layers).iter().any(|layer| layer == name);
-        Shown { view: self.kind, stripes: has("stripes"), boundaries: has("boundaries"), ..Shown::default() }
+        Ok(Shown { stripes: has("stripes"), boundaries: has("boundaries"), ..shown })
+    }
+
+    /// The colours of a quantity, if one is named.
+    fn coloured(&self) -> Result<Option<Coloured>, Refusal> {
+        let Some(field) = self.colour.clone() else { return Ok(None) };
+        let of = match self.of.as_deref() {
+            None => Of::default(),
+            Some(name) => Of::from_name(name)
+                .ok_or_else(|| Refusal::bad(format!("of = {name} is none of largest, smallest, likeliest")))?,
+        };
+        let range = numbers("range", self.range.as_deref())?.map(|[low, high]: [f64; 2]| (low, high));
+        match range.filter(|(low, high)| low >= high) {
+            Some((low, high)) => Err(Refusal::bad(format!("range = {low},{high} is not a low and a high value"))),
+            None => Ok(Some(Coloured { field, of, range })),
+        }
+    }
+
+    /// The plan of the figure: with refinement, if it is asked for.
+    fn refined(&self, plan: &Plan) -> Option<Plan> {
+        let Task::Map(map) = &plan.task else { return None };
+        let task = Task::Map(MapPlan { refine: Some(self.refine?), ..map.clone() });
+        Some(Plan { task, ..plan.clone() })
     }
 
     fn overlay(&self) -> Result<Overlay, Refusal> {
@@ -163,8 +207,14 @@ pub(super) async fn figure(
     wanted.check()?;
     let plan = asked.plan;
     let work = move |control: &Control<'_>| {
-        let answer = ask(&plan, Units::default(), control)?;
-        let mut figure = answer.figure(&wanted.shown(), control)?.ok_or_else(|| nothing("figure"))?;
+        let shown = wanted.shown()?;
+        let mut figure = match wanted.refined(&plan) {
+            Some(refined) => refined_figure(&refined, &shown, control)?,
+            None => {
+                let answer = ask(&plan, Units::default(), control)?;
+                answer.figure(&shown, control)?.ok_or_else(|| nothing("figure"))?
+            }
+        };
         wanted.overlay()?.add(&mut figure, &plan, control)?;
         wanted.draw(figure)
     };

@@ -1,6 +1,6 @@
-//! The bifurcation diagram along a line: the orbit diagram, with the branches of its motions.
+//! The bifurcation diagram along a line: the orbit diagram, with the branches of its motions, as a figure or a table.
 
-use super::answer::Wanted;
+use super::answer::{Wanted, csv};
 use super::asked::{PlanRequest, Query, bytes, listed, wants_events};
 use crate::Explorer;
 use crate::events::{Done, stream};
@@ -13,18 +13,16 @@ use core::sync::atomic::Ordering;
 use serde::Deserialize;
 use serde_json::json;
 use vibroimpact_report::Units;
-use vibroimpact_report::scene::{BifurcationDiagram, BifurcationEvent, bifurcation, labels};
+use vibroimpact_report::scene::{BifurcationEvent, bifurcation};
 use vibroimpact_study::Task;
-
-/// Number of values along the line at which motions are searched.
-const LOOKS: u32 = 24;
-/// Default number of motions whose branches are followed: those of most starts.
-const MOST_LABELS: usize = 6;
 
 /// Labels of motions separated by commas. Default: those found on the line.
 #[derive(Deserialize)]
 pub(super) struct Which {
     labels: Option<String>,
+    /// Whether the table is asked for, and not the figure.
+    #[serde(default)]
+    table: bool,
 }
 
 pub(super) async fn diagram(
@@ -40,20 +38,18 @@ pub(super) async fn diagram(
     };
     let (done, points) = (Done::default(), asked.points);
     // parameters that vary have their first value
-    let system = asked.plan.canonical()?.system;
-    let asked = vibroimpact_report::Asked { system, units: Units::default() };
+    let canonical = asked.plan.canonical()?;
+    let asked = vibroimpact_report::Asked { system: canonical.system, units: Units::of_plan(&canonical) };
     let told = done.clone();
     let work = async move {
         let tell = move |now| told.store(now, Ordering::Relaxed);
         explorer
             .workshop
             .run(Bench::Answers, 0, tell, move |control| {
-                let named = match which.labels {
-                    Some(list) => listed(&list),
-                    None => labels(&asked, &diagram, LOOKS, control)?.into_iter().take(MOST_LABELS).collect(),
-                };
-                let BifurcationDiagram { figure, events } = bifurcation(&asked, &diagram, &named, control)?;
-                Ok((wanted.draw(figure)?, events))
+                let named = which.labels.as_deref().map(listed);
+                let found = bifurcation(&asked, &diagram, named.as_deref(), control)?;
+                let body = if which.table { csv(found.table()?)? } else { wanted.draw(found.figure()?)? };
+                Ok((body, found.events()))
             })
             .await
     };

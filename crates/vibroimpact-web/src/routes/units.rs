@@ -4,8 +4,10 @@ use super::asked::Query;
 use crate::refusal::Refusal;
 use axum::Json;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use vibroimpact::{Damping, Frequency, PhysicalOscillator};
-use vibroimpact_study::{UnitsPlan, natural_hertz};
+use vibroimpact_report::Units;
+use vibroimpact_study::{Quantity, UnitsPlan, natural_hertz};
 
 /// The numbers that fix the units.
 #[derive(Deserialize)]
@@ -24,6 +26,8 @@ pub(super) struct MachineUnits {
     velocity_m_per_s: f64,
     /// The natural frequency in Hz, one unit of the frequency ratio.
     natural_hz: f64,
+    /// One unit of each quantity of a motion in its SI unit.
+    quantities: BTreeMap<&'static str, f64>,
 }
 
 pub(super) async fn units(Query(machine): Query<MachineNumbers>) -> Result<Json<MachineUnits>, Refusal> {
@@ -40,8 +44,11 @@ pub(super) async fn units(Query(machine): Query<MachineNumbers>) -> Result<Json<
         second_stop: None,
     };
     let (_, scales) = machine.nondimensional().map_err(|error| Refusal::bad(error.to_string()))?;
+    let plan = UnitsPlan::new(&scales, true, None);
+    let units = Units::from(&plan);
     Ok(Json(MachineUnits {
-        units: UnitsPlan::new(&scales, true, None),
+        units: plan,
+        quantities: Quantity::ALL.into_iter().map(|of| (of.name(), units.of_quantity(of))).collect(),
         velocity_m_per_s: scales.velocity_m_per_s(),
         natural_hz: natural_hertz(&scales),
     }))

@@ -61,7 +61,8 @@ pub fn of_points(
     let several = points.iter().any(|motions| motions.len() > 1);
     let cell = |motions: &Vec<PointMotion>| coloured.of.among(motions.iter().map(|motion| motion.value));
     let cells: Vec<Value> = points.iter().map(cell).collect();
-    let figure = draw_plane(plane, &cells, name, several.then(|| coloured.of.sentence()))?;
+    let names = (name, several.then(|| coloured.of.sentence()));
+    let figure = draw_plane(plane, &cells, names, coloured.range)?;
     Ok(figure.title(title))
 }
 
@@ -80,7 +81,7 @@ pub fn of_basin(found: &Basin, coloured: &Coloured, osc: &Oscillator, asked: &As
     let motions: Vec<PointMotion> = found.motions.iter().map(motion).collect();
     let points = found.cells.iter().map(|cell| motions.get(usize::from(*cell)).copied());
     let sides = Sides::of(&found.plan.axes, &asked.units)?;
-    of_starts(&sides, points, (quantity_name(quantity, &asked.units), title(asked)))
+    of_starts(&sides, points, coloured, (quantity_name(quantity, &asked.units), title(asked)))
 }
 
 /// The figure of `vibro basin --machine --colour`.
@@ -93,7 +94,7 @@ pub fn of_machine_basin(found: &MachineBasin, coloured: &Coloured, title: String
     let motions: Vec<PointMotion> =
         found.motions.iter().zip(values).map(|(verdict, value)| motion_of(&verdict.label(), value)).collect();
     let points = found.cells.iter().map(|cell| cell.and_then(|cell| motions.get(cell).copied()));
-    of_starts(&Sides::of_machine(&found.axes)?, points, (plain(&coloured.field), title))
+    of_starts(&Sides::of_machine(&found.axes)?, points, coloured, (plain(&coloured.field), title))
 }
 
 /// The one motion to which a start leads.
@@ -105,10 +106,11 @@ fn motion_of(label: &str, number: Option<f64>) -> PointMotion {
 fn of_starts(
     sides: &Sides,
     motions: impl Iterator<Item = Option<PointMotion>>,
+    coloured: &Coloured,
     names: (String, String),
 ) -> Result<Figure, ReportError> {
     let points: Vec<Vec<PointMotion>> = motions.map(|motion| motion.into_iter().collect()).collect();
-    of_points(sides, &points, &Coloured { field: String::new(), of: Of::Largest }, names)
+    of_points(sides, &points, coloured, names)
 }
 
 /// The quantity of an oscillator with this name, if a plan asks for it.

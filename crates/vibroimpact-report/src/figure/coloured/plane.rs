@@ -6,13 +6,19 @@ use crate::figure::plane::Plane;
 use vibroimpact_plot::{ClassStyle, ColourBar, Figure, FigureAxis, Legend, Panel, Raster, Rects};
 
 /// Draws cells in the colours of their values, with a colour bar; `name` is that of the quantity. Values that are no finite number have looks of their own,
-/// which the legend explains, below the `sentence`.
+/// which the legend explains, below the `sentence`. The ends of the colours are those of `ends`, or else the smallest and the largest value.
 ///
 /// # Errors
 /// [`ReportError::Plot`] if the number of cells is not the number of points of the plane.
-pub fn draw(plane: &Plane, cells: &[Value], name: String, sentence: Option<&str>) -> Result<Figure, ReportError> {
+pub fn draw(
+    plane: &Plane,
+    cells: &[Value],
+    (name, sentence): (String, Option<&str>),
+    ends: Option<(f64, f64)>,
+) -> Result<Figure, ReportError> {
     let numbers = || cells.iter().filter_map(|cell| cell.finite());
-    let range = (numbers().fold(f64::INFINITY, f64::min), numbers().fold(f64::NEG_INFINITY, f64::max));
+    let found = || (numbers().fold(f64::INFINITY, f64::min), numbers().fold(f64::NEG_INFINITY, f64::max));
+    let range = ends.unwrap_or_else(found);
     let bar = ColourBar::new(FigureAxis::new(name).range(range.0, range.1));
     let colours = ColourBar::palette();
     let class = |value: &Value| value.finite().map(|number| bar.step(number));
@@ -71,6 +77,17 @@ mod tests {
         Plane { x: side(x), y: side(y) }
     }
 
+    /// Values beyond a given range have the colours of its ends.
+    #[test]
+    fn the_range_can_be_given() {
+        let cells = [0.0, 1.0, 2.0, 5.0].map(Value::Finite);
+        let of = |ends| draw(&plane("1:2:2", "0:1:2"), &cells, ("speed".to_owned(), None), ends).unwrap();
+        let Some(bar) = of(Some((1.0, 2.0))).colour_bar else { panic!("a bar") };
+        assert_eq!(bar.axis.range, Some((1.0, 2.0)));
+        assert_eq!(cells.map(|cell| bar.step(cell.finite().unwrap())), [0, 0, 255, 255]);
+        assert_eq!(of(None).colour_bar.unwrap().axis.range, Some((0.0, 5.0)));
+    }
+
     /// A plane of two by two cells over a logarithmic axis: the smallest value has the dark end, the largest the light
     /// one, and values that are missing have a row in the legend.
     #[test]
@@ -78,7 +95,7 @@ mod tests {
         let cells = [Value::Finite(1.0), Value::Finite(3.0), Value::Undecided, Value::Infinite];
         for (x, raster) in [("1:100:2:log", false), ("1:100:2", true)] {
             let name = "largest impact speed".to_owned();
-            let svg = draw(&plane(x, "0:1:2"), &cells, name, Some("a sentence")).unwrap().to_svg();
+            let svg = draw(&plane(x, "0:1:2"), &cells, (name, Some("a sentence")), None).unwrap().to_svg();
             for text in ["largest impact speed<", "undecided<", "infinite<", "a sentence<", "<linearGradient"] {
                 assert!(svg.contains(text), "{text}: {svg}");
             }
@@ -94,7 +111,8 @@ mod tests {
 
     #[test]
     fn without_any_value_there_is_no_bar() {
-        let svg = draw(&plane("1:2:2", "0:1:2"), &[Value::NotComputed; 4], "name".to_owned(), None).unwrap().to_svg();
+        let svg =
+            draw(&plane("1:2:2", "0:1:2"), &[Value::NotComputed; 4], ("name".to_owned(), None), None).unwrap().to_svg();
         assert!(!svg.contains("<linearGradient") && svg.contains("not computed<"));
     }
 

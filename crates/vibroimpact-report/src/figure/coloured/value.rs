@@ -3,12 +3,14 @@
 use vibroimpact_plot::{ClassStyle, Colour, Hatch, Pattern, class_style};
 
 /// A quantity in colours.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Coloured {
     /// The name of the quantity, as in the fields of a plan; of a machine its path.
     pub field: String,
     /// Which of several motions at a point has the colour.
     pub of: Of,
+    /// The values at the ends of the colours; by default the smallest and the largest value of the figure.
+    pub range: Option<(f64, f64)>,
 }
 
 /// Which of several motions at a point has the colour.
@@ -57,10 +59,11 @@ impl Value {
     }
 
     /// All values that are no finite number, in the order of a legend.
-    pub(super) const MISSING: [Self; 4] = [Self::Infinite, Self::Undefined, Self::Undecided, Self::NotComputed];
+    pub const MISSING: [Self; 4] = [Self::Infinite, Self::Undefined, Self::Undecided, Self::NotComputed];
 
     /// The look of a value that is no finite number, and its text in the legend.
-    pub(super) fn look(self) -> (ClassStyle, &'static str) {
+    #[must_use]
+    pub fn look(self) -> (ClassStyle, &'static str) {
         let grey = ClassStyle {
             colour: Colour::hex(0xb8_b8b8),
             hatch: Some(Hatch::new(Pattern::Rising, Colour::hex(0x60_6060))),
@@ -75,6 +78,22 @@ impl Value {
 }
 
 impl Of {
+    /// The word of `--of`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Largest => "largest",
+            Self::Smallest => "smallest",
+            Self::Likeliest => "likeliest",
+        }
+    }
+
+    /// That with this name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        [Self::Largest, Self::Smallest, Self::Likeliest].into_iter().find(|of| of.name() == name)
+    }
+
     /// The value that is shown of the motions at a point, the most frequent one first. Motions without a value are passed
     /// over if another motion has one, except by [`Of::Likeliest`].
     #[must_use]
