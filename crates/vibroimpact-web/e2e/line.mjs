@@ -37,7 +37,7 @@ export async function events_on_the_line_are_listed_and_chosen({ open }) {
   await drawn(page);
   await page.locator("[data-through=y]").click();
   assert.equal((await hash(page)).get("line"), "1.11,1,1.11,2.5");
-  const flip = page.locator(".events button", { hasText: /^1\/1: flip at δ = 1\.829/ });
+  const flip = page.locator(".events button", { hasText: /^1\/1: flip \(period doubling\) at δ = 1\.829/ });
   await flip.waitFor({ timeout: 60000 });
   assert.equal(await flip.count(), 1);
   await flip.click();

@@ -252,10 +252,10 @@ export async function lines_between_motions_are_drawn_when_asked({ open }) {
 export async function starts_of_each_point_are_said_and_shares_offered({ open }) {
   const { page } = await open("#impacts=200&view=1.25,1.35,0.7,0.8");
   await sharp(page);
-  assert.match(await page.locator("#starts-note").textContent(), /^Each point of the map shows one start/);
+  assert.match(await page.locator("#starts-note").textContent(), /^One start at each point/);
   await page.locator("#more-starts").click();
   assert.equal((await hash(page)).get("starts"), "8");
-  assert.match(await page.locator("#starts-note").textContent(), /^Each point of the map shows 8 starts/);
+  assert.match(await page.locator("#starts-note").textContent(), /^8 starts at each point/);
   await page.mouse.move(...await place(page, 1.3, 0.75, [1.25, 1.35, 0.7, 0.8]));
   await until("two motions with their shares", async () => /1\/1 \d+\.\d %, 2\/1 \d+\.\d %|2\/1 \d+\.\d %, 1\/1 \d+\.\d %/.test(await page.locator("#readout").textContent()));
 }

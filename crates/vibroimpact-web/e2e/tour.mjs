@@ -73,7 +73,7 @@ export async function the_tour_keeps_its_subject_on_the_screen({ open, folder })
   const wide = await open("", { viewport: SIZES[0] });
   const narrow = await open("", { viewport: SIZES[2], hasTouch: true, isMobile: true });
   const looks = (page, where, shown) => until(`${where}: subject and title are on the screen`, async () =>
-    (await onScreen(page, shown)) && onScreen(page, "#tour-title"), 20);
+    (await onScreen(page, shown)) && onScreen(page, "#tour-title"));
   for (const { page } of [wide, narrow]) await page.locator("#tour-button").click();
   for (const [k, [title, , subject]] of STEPS.entries()) {
     for (const { page } of [wide, narrow]) {
@@ -83,6 +83,7 @@ export async function the_tour_keeps_its_subject_on_the_screen({ open, folder })
     for (const size of SIZES.slice(0, 2)) {
       await wide.page.setViewportSize(size);
       await looks(wide.page, `${title} at ${size.height} lines`, SUBJECT[subject]);
+      if (subject === "compare") await looks(wide.page, `the portraits at ${size.height} lines`, ".side:last-child .graph:last-child");
     }
     await wide.page.setViewportSize(SIZES[0]);
     await wide.page.keyboard.press("f");

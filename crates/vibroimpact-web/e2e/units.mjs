@@ -67,7 +67,7 @@ export async function a_line_of_a_machine_is_in_its_units({ open }) {
   await until("the line in Hz and mm", async () => /δ from 4\.00\d* to 5\.50\d* mm, f = 17\.5\d+ Hz/.test(await text()));
   const events = () => page.locator("#line .events").textContent();
   // 1.829 nondimensional
-  await until("the flip of 1/1 in mm", async () => /1\/1: flip at δ = 4\.57\d+ mm/.test(await events()));
+  await until("the flip of 1/1 in mm", async () => /1\/1: flip \(period doubling\) at δ = 4\.57\d+ mm/.test(await events()));
   const [left, right] = [Number(await page.locator("#line .line-ends input").nth(1).inputValue()), Number(await page.locator("#line .line-ends input").nth(3).inputValue())];
   assert.deepEqual([left, right], [4, 5.5]);
   await page.locator("#line .events button", { hasText: "1/1: flip" }).first().click();

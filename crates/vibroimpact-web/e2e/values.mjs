@@ -91,7 +91,7 @@ export async function basins_show_a_quantity_too({ open }) {
   complaints.length = 0;
 }
 
-/** The last picture of the basins has every point, so it agrees with the command everywhere. */
+/** After the first picture of the basins every point is computed, so that no thin arm is missing. */
 export async function the_last_picture_of_the_basins_computes_every_point({ open, address }) {
   const { page } = await open("about:blank");
   const tiles = [];
@@ -109,4 +109,14 @@ export async function the_last_picture_of_the_basins_computes_every_point({ open
     const [first, last] = [fine().filter((tile) => tile.refine === 2), fine().filter((tile) => tile.refine === undefined)];
     return first.length > 0 && first.every((tile) => last.some((other) => key(other) === key(tile)));
   });
+  // and what is drawn is the result of every point: no point of the picture differs from the answer of the command
+  const [{ axes, start }] = fine().filter((tile) => tile.refine === undefined);
+  const told = await fetch(`${address}api/table`, {
+    method: "POST", headers: { "content-type": "application/json" },
+    body: JSON.stringify({ version: 1, system: { inverse_beta: 1.3, gap: 0.75, restitution: 0.5 }, task: { basin: { axes, start, impacts: 200 } } }),
+  });
+  const labels = (await told.text()).trim().split("\n").slice(1).map((row) => row.split(",").at(-1));
+  const sources = () => page.locator("#basin").getAttribute("data-picture");
+  await until("the last tile that is drawn has every point", async () => /\|200\|1\|/.test(await sources()));
+  assert.equal(new Set(labels).size, 2);
 }

@@ -8,8 +8,12 @@ import { Viewport } from "./viewport.js";
 import { quantityOf, shownAs } from "./units.js";
 import { legendText, placeText, valueText } from "./words.js";
 
-/** Step of the points of the first picture. Basins have thin arms, so afterwards every point is computed. */
-const FIRST = 2;
+/**
+ * Step of the points of the first picture, and of those that are still undecided with the largest budget, which take seconds
+ * where the motion is chaotic. Basins have thin arms, so with budgets up to `BRIEF` every point is computed.
+ */
+const STEP = 2;
+const BRIEF = 1000;
 
 /** Numbers of cycles begin here, above all codes of labels. */
 const CYCLES = 2_000_000_000;
@@ -98,8 +102,8 @@ export class Basin {
     return {
       key: key(state.impacts),
       stages: [
-        { key: key(first, FIRST), impacts: first, refine: FIRST },
-        ...budgets(state.impacts).map((impacts) => ({ key: key(impacts), impacts, whole: true })),
+        { key: key(first, STEP), impacts: first, refine: STEP },
+        ...budgets(state.impacts).map((impacts) => (impacts <= BRIEF ? { key: key(impacts), impacts, whole: true } : { key: key(impacts), impacts, refine: STEP })),
       ],
       impacts: state.impacts,
       quantity: quantityOf(state),

@@ -21,6 +21,7 @@ export function colourChoice(host, store) {
   const show = () => {
     const { colour, of, starts } = store.state;
     if (colour && ![...what.options].some(({ value }) => value === colour)) what.append(element("option", { value: colour, text: colour.replaceAll("_", " ") }));
+    document.body.toggleAttribute("data-values", colour !== null);
     what.value = colour ?? "";
     which.value = of;
     row.hidden = !colour || starts === 1;

@@ -94,7 +94,7 @@ export class Export {
     if (state.line) {
       views.line = {
         name: "bifurcation diagram", plan: () => diagramPlan(state, 2 * n), points: true,
-        note: "With the branches; without --branches the command has the points from simulation only.",
+        note: "With the branches. The call in Python has the points from simulation only.",
       };
     }
     return Object.fromEntries(Object.entries(views).filter(([, view]) => !view.needs || view.needs()));
@@ -145,7 +145,7 @@ export class Export {
     const { layers, chosen, line, ...asked } = query;
     const told = await api.command(plan, asked, signal);
     // the figure and the table of a view may need commands of their own
-    this.commands.vibro.code.textContent = [told.vibro, told.figure].filter((text) => text).join("\n");
+    this.commands.vibro.code.textContent = [this.choice.value === "line" ? null : told.vibro, told.figure].filter((text) => text).join("\n");
     this.commands.python.code.textContent = told.python;
   }
 

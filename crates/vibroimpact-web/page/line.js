@@ -13,6 +13,9 @@ import { asShown, givenValue, perUnit, shownAs, shownValue } from "./units.js";
 import { Viewport } from "./viewport.js";
 import { labelText } from "./words.js";
 
+/** Names of events that explain themselves less than others. */
+const EVENTS = { flip: "flip (period doubling)" };
+
 /** A line shorter than this number of pixels is ignored. */
 const SHORTEST = 12;
 /** A line with a smaller slope than this, relative to an axis, is made parallel to that axis. */
@@ -79,7 +82,7 @@ export class LineTool {
     this.events.replaceChildren(element("h3", { text: "Events on the branches" }), element("ul", {}, ...events.map(({ label, kind, value }) =>
       element("li", {}, element("button", {
         type: "button", class: "quiet", title: `Choose this place. ${symbol} = ${value}${unit && ` ${unit}`}`, onclick: () => this.linked.choose((value - from) / (to - from)),
-        text: `${labelText(label)}: ${kind} at ${symbol} = ${digits(value, pixel)}${unit && ` ${unit}`}`,
+        text: `${labelText(label)}: ${EVENTS[kind] ?? kind} at ${symbol} = ${digits(value, pixel)}${unit && ` ${unit}`}`,
       })))));
   }
 

@@ -12,13 +12,14 @@ export function mapStarts(store) {
     type: "button", class: "quiet", id: "more-starts",
     onclick: () => store.set({ starts: store.state.starts > 1 ? 1 : OFFERED }),
   });
-  byId("legend").append(element("p", { id: "starts-note", class: "soft" }, text, " ", button));
+  // above the list, which may be longer than its place
+  byId("legend").querySelector(".legend-list").before(element("p", { id: "starts-note", class: "soft" }, text, " ", button));
   const show = () => {
-    const { starts } = store.state;
-    text.textContent = starts === 1 ? "Each point of the map shows one start: at rest at the origin, phase 0."
-      : `Each point of the map shows ${starts} starts; stripes and the line below the map have their shares.`;
+    const { starts, colour } = store.state;
+    text.textContent = starts === 1 ? "One start at each point: at rest at the origin, phase 0."
+      : `${starts} starts at each point: ${colour ? "" : "stripes and "}the line below the map ${colour ? "has" : "have"} their shares.`;
     button.textContent = starts === 1 ? `Shares of ${OFFERED} starts` : "One start";
   };
-  store.on(["starts"], show);
+  store.on(["starts", "colour"], show);
   show();
 }

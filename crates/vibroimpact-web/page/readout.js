@@ -40,11 +40,11 @@ export class Readout {
       const text = `${place} ${motions}`;
       if (text === this.shown) return;
       this.shown = text;
-      this.host.replaceChildren(element("span", { class: "place", text: place }), colours.length ? swatch(colours, pattern) : "", motions);
+      this.host.replaceChildren(element("span", { class: "place", text: place }), colours.length && !this.plane.view.source.quantity ? swatch(colours, pattern) : "", motions);
       return;
     }
     const { state } = this.store;
-    const text = state.point ? this.coordinates(null).replaceAll(", ", "   ") : "Click the map to choose a point.";
+    const text = state.point ? this.coordinates(null).replaceAll(", ", "   ") : "Click to choose a point.";
     if (text === this.shown) return;
     this.shown = text;
     const copying = element("button", {

@@ -125,6 +125,6 @@ export class Starts {
       return;
     }
     const { place, motions, colour } = this.basin.tell(px);
-    this.said.replaceChildren(element("span", { class: "place", text: place }), colour ? swatch(colour) : "", motions);
+    this.said.replaceChildren(element("span", { class: "place", text: place }), colour && !this.basin.view.source.quantity ? swatch(colour) : "", motions);
   }
 }

@@ -55,7 +55,7 @@ impl ColourArgs {
             Some(_) if !drawn => Err(Failure::bad("--colour says what the figure shows\nhint: --plot FILE")),
             colour => {
                 let range = self.colour_range.map(|Ends(low, high)| (low, high));
-                if let Some((low, high)) = range.filter(|(low, high)| !(low < high)) {
+                if let Some((low, high)) = range.filter(|(low, high)| low >= high) {
                     return Err(Failure::bad(format!("--colour-range {low}:{high} is not LOW:HIGH with LOW < HIGH")));
                 }
                 Ok(colour.as_ref().map(|field| Coloured { field: field.path(), of, range }))

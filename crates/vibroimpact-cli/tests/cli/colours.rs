@@ -28,7 +28,7 @@ fn a_store_has_the_same_figure() {
         format!("{MAP} --colour impact-speed-max"),
         format!("{MAP} --fields power,impact-speed-max --colour impact_speed_max --of smallest"),
         format!("{LINE} --colour impact-power"),
-        format!("{BASIN} --colour impact-speed-max"),
+        format!("{BASIN} --colour impact-speed-max --colour-range 0:2"),
         format!("map {MACHINE} --frequency-hz 2.5:3:3 --starts 4 --color impulse-max --of worst"),
         format!("map {MACHINE} --frequency-hz 2.7 --starts 4 --colour impact-loss-per-period"),
         "map --machine two-mass-hammer --axis frequency=0.9:1.3:4 --axis stop.anvil.gap=0.5:1:3 --starts 2 --colour stop.anvil.impact-speed-max".to_owned(),
@@ -61,6 +61,9 @@ fn the_bar_says_what_is_shown_in_which_unit() {
     for text in ["largest impact speed<", "<linearGradient", "where motions coexist: the largest value<"] {
         assert!(svg.contains(text), "{text}: {svg}");
     }
+    let given = of(&format!("{MAP} --colour impact-speed-max --colour-range -3:7"));
+    // the ends of the bar are ticks
+    assert!(given.contains(">6<") && !svg.contains(">6<"), "{given}");
     let smallest = of(&format!("{MAP} --colour impact-speed-max --of least"));
     assert!(smallest.contains("the smallest value<") && smallest != svg);
     let likeliest = of(&format!("{MAP} --colour impact-speed-max --of likeliest"));
@@ -93,6 +96,11 @@ fn what_is_refused() {
     for (line, sentence) in [
         (format!("{MAP} --colour speed --plot a.svg"), "`speed` is no quantity; there are impact-speed-max"),
         (format!("{MAP} --colour power"), "--colour says what the figure shows\nhint: --plot FILE"),
+        (format!("{MAP} --colour-range 0:1 --plot a.svg"), "--colour-range says which values the colours have"),
+        (
+            format!("{MAP} --colour power --colour-range 2:1 --plot a.svg"),
+            "--colour-range 2:1 is not LOW:HIGH with LOW < HIGH",
+        ),
         (format!("{MAP} --of worst --plot a.svg"), "--of says which motion has the colour"),
         (format!("{LINE} --gap 1:2:2 --plot a.svg"), "cannot be used multiple times"),
         (

@@ -15,6 +15,36 @@ fn number(cell: &str) -> f64 {
 }
 
 /// Gaps around S of the 1971 paper: 2/1 in the sweep up, 1/1 in the sweep down, with the velocities of `orbit`.
+/// With --branches the table has the rows of the diagram, then those of the branches with their events.
+#[test]
+fn branches_are_in_the_table_and_the_figure() {
+    let line = "diagram --inverse-beta 1.11 --restitution 0.5 --vary gap --over 1.7:1.9:5 --transient 100 --keep 4";
+    let (plain, rows) = (table(line), table(&format!("{line} --branches 1/1,2/2")));
+    for (row, simulated) in rows.iter().zip(&plain) {
+        assert_eq!(row[..6], simulated[..], "{row:?}");
+        assert_eq!(row[6..], ["", ""]);
+    }
+    let branches = &rows[plain.len()..];
+    assert!(branches.iter().all(|row| row[1].starts_with("branch ") && ["stable", "unstable"].contains(&&*row[2])));
+    let flip = branches.iter().find(|row| row[6] == "1/1" && row[7] == "flip").expect("1/1 has a flip");
+    assert!((number(&flip[0]) - 1.829).abs() < 1e-3, "{flip:?}");
+    let before = branches.iter().filter(|row| row[6] == "1/1" && number(&row[0]) < 1.8);
+    assert!(before.clone().count() > 1 && before.clone().all(|row| row[2] == "stable"));
+    // without labels those found on the line are followed; the summary has the events
+    let output = vibro(&format!("{line} --branches")).output().expect("vibro runs");
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(said.contains("flip of 1/1 at gap = 1.829"), "{said}");
+    for (more, sentence) in [
+        ("--show power --branches", "--branches has speeds or positions"),
+        ("--branches --json", "cannot be used with"),
+        ("--branches 1/0", "1/0"),
+    ] {
+        let output = vibro(&format!("{line} {more}")).output().expect("vibro runs");
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.code() == Some(2) && said.contains(sentence), "{more}: {said}");
+    }
+}
+
 #[test]
 fn hysteresis_at_s_with_the_velocities_of_the_orbits() {
     let rows = table("diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 0:2:81");

@@ -81,6 +81,7 @@ fn colour() -> Words {
     all(vec![
         flag("colour", 0.1, word(&["power", "impact-speed-max", "impact-speed-mean", "impacts-per-period", "speed"])),
         flag("of", 0.05, word(&["largest", "smallest", "likeliest", "worst", "all"])),
+        flag("colour-range", 0.05, word(&["0:1", "-1:2", "1:1", "2:1", "a:b", ""])),
     ])
 }
 
@@ -127,6 +128,7 @@ fn diagram() -> Words {
             flag("direction", 0.5, word(&["up", "down", "both", "scatter", "left"])),
             flag("starts", 0.1, few()),
             flag("show", 0.4, word(&["velocity", "strobe", "power", "impact-speed-max", "all"])),
+            flag("branches", 0.05, word(&["1/1", "1/1,2/1", "3/0", "inf/1", ""])),
             flag("transient", 0.9, word(&["0", "10", "100", "-1", "1000001"])),
             flag("keep", 0.7, word(&["1", "5", "64", "0", "100001"])),
             store(),

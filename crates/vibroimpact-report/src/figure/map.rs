@@ -77,7 +77,7 @@ impl LabelledCells {
                     break;
                 }
             }
-            let lines = (column + row) % HATCH == 0 || (column + HATCH - row % HATCH) % HATCH == 0;
+            let lines = (column + row).is_multiple_of(HATCH) || column % HATCH == row % HATCH;
             let shown = if shown.is_some() && shown == undecided && lines { Some(self.labels.len()) } else { shown };
             shown.and_then(|class| u16::try_from(class).ok()).unwrap_or(u16::MAX)
         };
@@ -181,7 +181,7 @@ pub fn draw_with(
 ) -> Result<Figure, ReportError> {
     let cells = if stripes { cells } else { cells.first_only() };
     let lines = boundaries.then(|| cells.boundaries(plane));
-    let mut figure = draw(plane, cells, title)?;
+    let mut figure = draw(plane, &cells, title)?;
     if let (Some(lines), Some(panel)) = (lines, figure.panels.first_mut()) {
         panel.add(lines);
     }
@@ -209,7 +209,7 @@ pub fn of_machine(found: &MachineMap, title: String) -> Result<Figure, ReportErr
             for motions in &found.cells {
                 cells.push(motions.iter().map(|motion| (motion.label().into(), motion.share)));
             }
-            draw(&plane, cells, title)
+            draw(&plane, &cells, title)
         }
     }
 }
@@ -218,7 +218,7 @@ pub fn of_machine(found: &MachineMap, title: String) -> Result<Figure, ReportErr
 ///
 /// # Errors
 /// [`ReportError::Plot`] if the number of cells is not the number of points of the plane.
-pub fn draw(plane: &Plane, cells: LabelledCells, title: String) -> Result<Figure, ReportError> {
+pub fn draw(plane: &Plane, cells: &LabelledCells, title: String) -> Result<Figure, ReportError> {
     let split = cells.cells.len() <= SPLIT;
     let panel = Panel::new(plane.x.axis(), plane.y.axis());
     let columns = plane.x.count();
@@ -263,7 +263,7 @@ mod tests {
 
     #[test]
     fn labels_of_one_group_have_colours_and_entries_of_their_own() {
-        let figure = draw(&plane(2, 2), cells(&[&["2/2"], &["3/3", "2/2"], &["0"], &["undecided"]]), String::new());
+        let figure = draw(&plane(2, 2), &cells(&[&["2/2"], &["3/3", "2/2"], &["0"], &["undecided"]]), String::new());
         let figure = figure.unwrap();
         let Mark::Rects(rects) = &figure.panels[0].marks[0] else { panic!("cells") };
         assert_eq!(rects.rects.iter().map(|rect| rect.class).collect::<Vec<_>>(), [0, 1, 0, 2, 3]);
@@ -306,7 +306,7 @@ mod tests {
         let part = f64::from(counts[3]) / f64::from(counts[2] + counts[3]);
         assert!((part - 13.0 / 49.0).abs() < 0.01, "{part}");
         let side = |n: usize| u32::try_from(n).unwrap();
-        let figure = draw(&plane(side(columns), side(rows)), many, String::new()).unwrap();
+        let figure = draw(&plane(side(columns), side(rows)), &many, String::new()).unwrap();
         assert!(matches!(figure.panels[0].marks[0], Mark::Raster(_)));
     }
 
@@ -315,7 +315,7 @@ mod tests {
         let labels: Vec<String> = (5..25).map(|m| format!("{m}/1")).collect();
         let mut many = LabelledCells::default();
         labels.iter().for_each(|label| many.push(core::iter::once((Cow::Borrowed(label.as_str()), 1.0))));
-        let figure = draw(&plane(10, 2), many, String::new()).unwrap();
+        let figure = draw(&plane(10, 2), &many, String::new()).unwrap();
         assert_eq!(figure.legend.as_ref().unwrap().entries.len(), 1);
         let Mark::Rects(rects) = &figure.panels[0].marks[0] else { panic!("cells") };
         assert_eq!(rects.styles[1], class_style("6/1"));
