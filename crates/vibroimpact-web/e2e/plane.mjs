@@ -296,8 +296,8 @@ export async function layers_are_drawn({ open, folder }) {
 export async function a_motion_of_the_legend_alone_keeps_its_colour({ open }) {
   const { page } = await open("", { viewport: { width: 800, height: 600 } });
   await sharp(page);
-  const at = await place(page, 1.3, 1.5);
-  const colour = async () => (await pixel(page, at)).join();
+  // the page is scrolled to the legend
+  const colour = async () => (await pixel(page, await place(page, 1.3, 1.5))).join();
   await page.mouse.move(5, 5);
   const before = await colour();
   await page.locator(".legend-item", { hasText: "2/1" }).first().hover();

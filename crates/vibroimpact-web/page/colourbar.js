@@ -64,7 +64,7 @@ export class ColourBar {
       this.bar.setAttribute("data-range", range.join());
     }
     const rows = missing.map((name) => {
-      if (name === "undecided") return element("li", { class: "legend-item" }, swatch([], name), element("span", { class: "legend-name", text: name }));
+      if (name === "undecided") return element("li", { class: "legend-item" }, swatch(missingLook(name).colour, name), element("span", { class: "legend-name", text: name }));
       const { colour, hatch } = missingLook(name);
       const patch = swatch(colour);
       if (hatch) patch.style.backgroundImage = `repeating-linear-gradient(-45deg, transparent 0 2.5px, ${hatch} 2.5px 3.5px)`;

@@ -13,7 +13,7 @@ export function mapStarts(store) {
     onclick: () => store.set({ starts: store.state.starts > 1 ? 1 : OFFERED }),
   });
   // above the list, which may be longer than its place
-  byId("legend").querySelector(".legend-list").before(element("p", { id: "starts-note", class: "soft" }, text, " ", button));
+  byId("legend").querySelector(":scope > .legend-list").before(element("p", { id: "starts-note", class: "soft" }, text, " ", button));
   const show = () => {
     const { starts, colour } = store.state;
     text.textContent = starts === 1 ? "One start at each point: at rest at the origin, phase 0."

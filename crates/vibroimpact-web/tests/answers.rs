@@ -159,6 +159,45 @@ async fn f10_a_view_has_its_own_table_and_command() {
     assert!(svg.contains(">stable<"));
 }
 
+/// The colours of quantities are those of figures; a figure in them has the range that is asked for, and its command says so.
+#[tokio::test]
+async fn quantities_as_colours() {
+    let (_, about) = get("/api/about").await;
+    let colours = about["colours"].as_array().unwrap();
+    assert_eq!((colours.len(), &colours[0], &colours[255]), (256, &"#440154".into(), &"#fde725".into()));
+    let names: Vec<_> = about["missing"].as_array().unwrap().iter().map(|look| look["name"].clone()).collect();
+    assert_eq!(names, ["infinite", "not defined", "undecided", "not computed"]);
+    let map = MAP.replace("\"seed\":1", "\"seed\":1,\"fields\":[\"power\"]");
+    let query = "?colour=power&of=smallest&range=-3,7";
+    let (status, _, body) = ask(&format!("/api/figure{query}"), &map).await;
+    let svg = String::from_utf8(body).unwrap();
+    assert!(status == 200 && svg.contains("power of the force<") && svg.contains(">6<"), "{svg}");
+    let told: Value = serde_json::from_slice(&ask(&format!("/api/command{query}"), &map).await.2).unwrap();
+    let figure = told["figure"].as_str().unwrap();
+    assert!(
+        figure.ends_with("--fields power --colour power --of smallest --colour-range -3:7 --plot map.svg"),
+        "{figure}"
+    );
+    let told: Value = serde_json::from_slice(&ask("/api/command?refine=4", MAP).await.2).unwrap();
+    assert!(told["figure"].as_str().unwrap().ends_with("--store map.zarr --refine 4 --plot map.svg"), "{told}");
+    for (query, sentence) in [
+        ("?colour=power&of=best", "of = best is none of"),
+        ("?colour=power&range=2,1", "range = 2,1"),
+        ("?colour=impact_rate", "no values of `impact-rate`"),
+    ] {
+        let (status, _, body) = ask(&format!("/api/figure{query}"), &map).await;
+        let said = String::from_utf8(body).unwrap();
+        assert!(status == 400 && said.contains(sentence), "{query}: {said}");
+    }
+    let (status, kind, table) = ask("/api/bifurcation?labels=1/1&table=true", DIAGRAM).await;
+    assert_eq!((status.as_u16(), kind.as_str()), (200, "text/csv; charset=utf-8"));
+    let table = String::from_utf8(table).unwrap();
+    assert!(
+        table.starts_with("gap,sweep,kind,side,phase,velocity,label,event\n") && table.contains(",1/1,"),
+        "{table}"
+    );
+}
+
 /// A motion for the page: from the start, and after its transient, in the requested number of periods.
 #[tokio::test]
 async fn a_motion_as_points_and_events() {
