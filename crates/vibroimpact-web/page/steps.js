@@ -5,6 +5,8 @@ const COMMON = {
   x: "inverse_beta", y: "gap", view: null, beta: null, restitution: 0.5, damping: 0, second: false, second_gap: 2, second_restitution: 0.5,
   start: null, basin: null, line: null, show: "velocity", layers: ["paper", "stripes"], panel: "point", point: true,
   wave: "start", portrait: "settled", periods: 10, pin: null, subject: "motion",
+  // the texts have nondimensional numbers and the colours of motions
+  machine: null, colour: null, range: null,
 };
 
 /** Windows of the paper's figures 7 to 9, with the gap as their right edge. */
