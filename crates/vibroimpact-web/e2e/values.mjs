@@ -24,7 +24,7 @@ const valueAt = async (address, x, y, name = QUANTITY) => (await answer(address,
   { inverse_beta: x, gap: y, restitution: 0.5 })).motion.quantities[name];
 
 export async function the_map_shows_a_quantity_as_colours({ open, address }) {
-  const { page } = await open(HASH);
+  const { page } = await open(HASH, { viewport: { width: 800, height: 600 } });
   await drawn(page);
   await page.locator("#colour").selectOption(QUANTITY);
   await until("the values are there", async () => (await range(page)) !== undefined);
