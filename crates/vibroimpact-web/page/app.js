@@ -2,6 +2,7 @@
 
 import { about } from "./api.js";
 import { BoxZoom } from "./box.js";
+import { Cache } from "./cache.js";
 import { quantitiesKnown } from "./colourchoice.js";
 import { learn } from "./colours.js";
 import { controls } from "./controls.js";
@@ -27,7 +28,6 @@ import { sketches } from "./sketch.js";
 import { Store } from "./state.js";
 import { subject } from "./subject.js";
 import { theme } from "./theme.js";
-import { Cache } from "./tiles.js";
 import { tour } from "./tour.js";
 import { units } from "./units.js";
 import { learnValues, quantities } from "./values.js";

@@ -20,7 +20,7 @@ const PLACES = 8;
 export class Supply {
   /**
    * @param {import("./tileview.js").TileView} view
-   * @param {{cache: import("./tiles.js").Cache, queue: import("./queue.js").Queue, failed: (error: Error) => void, rank?: number}} parts
+   * @param {{cache: import("./cache.js").Cache, queue: import("./queue.js").Queue, failed: (error: Error) => void, rank?: number}} parts
    *   rank: the rank of its nearest tile in the queue
    */
   constructor(view, { cache, queue, failed, rank = 10 }) {
