@@ -26,6 +26,8 @@ pub struct Progress {
     pub first: Option<SystemTime>,
     /// Time at which the last tile was completed.
     pub last: Option<SystemTime>,
+    /// Points per second at the rate of the last tiles; `None` if unknown.
+    pub rate: Option<f64>,
     /// Estimated time for the remaining tiles at the rate of the last ones; `None` if unknown.
     pub left: Option<Duration>,
     /// Numbers of the tiles that are not complete, at most a thousand.
@@ -78,34 +80,56 @@ impl Store {
             if let Some(at) = find(&tile) {
                 done += 1;
                 points_done += grid.tile(tile).points() as u64;
-                times.push(items[at].modified);
+                times.push((items[at].modified, grid.tile(tile).points() as u64));
             } else if missing.len() < NAMED {
                 missing.push(tile);
             }
         }
         times.sort_unstable();
         let recent = &times[times.len().saturating_sub(RECENT)..];
-        let left = match recent {
-            [first, .., last] if done < grid.tiles() => last.duration_since(*first).ok().map(|time| {
-                #[allow(clippy::cast_precision_loss)] // numbers of tiles
-                let share = (grid.tiles() - done) as f64 / (recent.len() - 1) as f64;
-                time.mul_f64(share)
-            }),
+        #[allow(clippy::cast_precision_loss)] // numbers of points below 2^53
+        let rate = match recent {
+            [(first, _), rest @ .., (last, points)] => {
+                last.duration_since(*first).ok().filter(|time| !time.is_zero()).map(|time| {
+                    (rest.iter().map(|(_, points)| points).sum::<u64>() + points) as f64 / time.as_secs_f64()
+                })
+            }
             _ => None,
         };
+        #[allow(clippy::cast_precision_loss)] // numbers of points below 2^53
+        let left = rate
+            .filter(|_| done < grid.tiles())
+            .and_then(|rate| Duration::try_from_secs_f64((grid.points() - points_done) as f64 / rate).ok());
         Ok(Progress {
             tiles: grid.tiles(),
             done,
             points: grid.points(),
             points_done,
             complete: done == grid.tiles() && self.concluded()?,
-            first: times.first().copied(),
-            last: times.last().copied(),
+            first: times.first().map(|(time, _)| *time),
+            last: times.last().map(|(time, _)| *time),
+            rate,
             left,
             missing_left_out: grid.tiles() - done - missing.len() as u64,
             missing,
             bytes: items.iter().map(|item| item.size).sum(),
         })
+    }
+
+    /// Number of complete tiles with a missing or damaged chunk. All checksums are verified.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the place cannot be read.
+    pub fn damaged(&self, control: &Control<'_>) -> Result<u64, StoreError> {
+        let grid = self.study.grid();
+        let meter = Meter::new(control, 0, grid.points());
+        let damaged = |tile: u64| {
+            if control.stopping() {
+                return Err(StoreError::Stopped(meter.stopped()));
+            }
+            Ok(u64::from(self.state(tile)? == State::Damaged))
+        };
+        control.pool()?.install(|| (0..grid.tiles()).into_par_iter().map(damaged).sum())
     }
 
     /// Whether the root states that the store was concluded.

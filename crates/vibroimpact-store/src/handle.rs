@@ -1,5 +1,6 @@
 //! An open store.
 
+use crate::costs::Costs;
 use crate::layout::Layout;
 use crate::shelf::Shelf;
 use std::sync::Arc;
@@ -18,4 +19,6 @@ pub struct Store {
     pub(crate) layout: Layout,
     /// The version that began it.
     pub(crate) begun_by: String,
+    /// The costs of its tiles, if they are recorded.
+    pub(crate) costs: Option<Costs>,
 }

@@ -30,8 +30,11 @@
 //! | an array: its metadata, its chunks as bytes | `chunk.rs` |
 //! | the arrays of a study | `layout.rs` |
 //! | the metadata of the store | `root.rs` |
-//! | filling tiles by several threads until all are complete | `run.rs` |
+//! | filling tiles by several threads until all are complete, or the time is spent | `run.rs` |
+//! | which tiles come first | `order.rs` |
+//! | the processor time of each tile, beside the store | `costs.rs`, `clock.rs` |
 //! | the final tables | `conclude.rs` |
+//! | what a study will cost | `estimate.rs` |
 //! | progress and verification | `check.rs` |
 //! | verification of the metadata | `described.rs` |
 
@@ -39,11 +42,15 @@
 mod bucket;
 mod check;
 mod chunk;
+mod clock;
 mod conclude;
+mod costs;
 mod described;
 mod error;
+mod estimate;
 mod handle;
 mod layout;
+mod order;
 mod read;
 mod root;
 mod run;
@@ -52,7 +59,9 @@ mod shelf;
 #[cfg(feature = "s3")]
 pub use bucket::Bucket;
 pub use check::{Damage, Progress, Verified};
+pub use costs::{RegionCost, TileCosts};
 pub use error::StoreError;
+pub use estimate::{Estimate, Sampling, estimate};
 pub use handle::{FORMAT, Store};
 pub use run::{Part, Ran};
 pub use shelf::{Folder, Item, Shelf};
@@ -95,6 +104,14 @@ pub fn shelf(place: &str) -> Result<Arc<dyn Shelf>, StoreError> {
             why: "a store lies in a folder or at s3://BUCKET/PREFIX".to_owned(),
         }),
     }
+}
+
+/// The shelf for the costs of the tiles of the store at a place: beside it, under its name with `.costs`.
+///
+/// # Errors
+/// As for [`shelf`].
+pub fn costs_beside(place: &str) -> Result<Arc<dyn Shelf>, StoreError> {
+    shelf(&format!("{}.costs", place.trim_end_matches(['/', '\\'])))
 }
 
 impl Store {
@@ -169,7 +186,7 @@ impl Store {
     fn over(shelf: Arc<dyn Shelf>, plan: &StudyPlan, begun_by: String) -> Result<Self, StoreError> {
         let study = Study::new(plan)?;
         let layout = Layout::new(&study).map_err(|why| StoreError::Unreachable { place: shelf.name(), why })?;
-        Ok(Self { shelf, plan: plan.clone(), study, layout, begun_by })
+        Ok(Self { shelf, plan: plan.clone(), study, layout, begun_by, costs: None })
     }
 
     /// The plan of the study.

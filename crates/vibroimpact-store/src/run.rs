@@ -1,9 +1,11 @@
 //! Computation of missing tiles by several threads.
 
-use crate::{Store, StoreError};
-use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use crate::clock::thread_time;
+use crate::{Store, StoreError, order};
+use core::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
 use vibroimpact_study::{Control, Grid, Meter};
 
 /// Part `index` of `of` of the tiles, counted from 1. It has every `of`-th tile, so that slow and fast tiles are
@@ -46,8 +48,10 @@ pub struct Ran {
     pub found: u64,
     /// Complete tiles that were damaged and have been computed again.
     pub mended: u64,
-    /// Tiles of other parts that are not complete yet.
+    /// Tiles that are not complete yet: those of other parts, and those for which there was no time.
     pub left: u64,
+    /// Whether the time was spent before all tiles of this part were complete.
+    pub spent: bool,
 }
 
 impl Store {
@@ -58,11 +62,24 @@ impl Store {
     /// # Errors
     /// [`StoreError`] when stopped, or if an object cannot be read or written. Complete tiles are kept.
     pub fn run(&self, part: Part, control: &Control<'_>) -> Result<Ran, StoreError> {
+        self.run_until(part, None, control)
+    }
+
+    /// The same, but no tile is begun after `until`, except the first one, so that every run gets on. Tiles that are being
+    /// computed then are finished.
+    ///
+    /// # Errors
+    /// As for [`Store::run`].
+    pub fn run_until(&self, part: Part, until: Option<Instant>, control: &Control<'_>) -> Result<Ran, StoreError> {
         self.mend_descriptions()?;
         let tiles = self.study.grid().tiles();
         let mine: Vec<u64> = (0..tiles).filter(|tile| part.has(*tile)).collect();
-        let ran = self.run_tiles(&mine, control)?;
-        let left = if part == Part::ALL { 0 } else { tiles - self.count_done()? };
+        let ran = self.compute(&mine, until, control);
+        if let Some(costs) = &self.costs {
+            costs.flush();
+        }
+        let ran = ran?;
+        let left = if part == Part::ALL && !ran.spent { 0 } else { tiles - self.count_done()? };
         if left == 0 {
             self.conclude()?;
         }
@@ -87,6 +104,11 @@ impl Store {
     /// # Errors
     /// As for [`Store::run`].
     pub fn run_tiles(&self, mine: &[u64], control: &Control<'_>) -> Result<Ran, StoreError> {
+        self.compute(mine, None, control)
+    }
+
+    /// Computes those of the given tiles (in rising order) that are missing or damaged, until the time is spent.
+    fn compute(&self, mine: &[u64], until: Option<Instant>, control: &Control<'_>) -> Result<Ran, StoreError> {
         let grid = self.study.grid();
         let points = |tile: u64| grid.tile(tile).points() as u64;
         let total: u64 = mine.iter().map(|tile| points(*tile)).sum();
@@ -97,13 +119,10 @@ impl Store {
         })?;
         let mut open: Vec<u64> =
             mine.iter().zip(&states).filter(|(_, state)| **state != State::Whole).map(|(tile, _)| *tile).collect();
-        let mended = states.iter().filter(|state| **state == State::Damaged).count() as u64;
         let damaged = |tile: u64| mine.binary_search(&tile).is_ok_and(|at| states[at] == State::Damaged);
         if !open.is_empty() {
             self.same_version()?;
-            // processes that start at the same time begin at different tiles
-            let turn = std::process::id() as usize * 7919 % open.len();
-            open.rotate_left(turn);
+            open = order::tiles(grid, &open, std::process::id() as usize * 7919);
         }
         let before = total - open.iter().map(|tile| points(*tile)).sum::<u64>();
         let meter = Meter::new(control, before, total);
@@ -111,7 +130,8 @@ impl Store {
 
         let failure: Mutex<Option<StoreError>> = Mutex::new(None);
         let failed = AtomicBool::new(false);
-        let (computed, elsewhere) = (AtomicU64::new(0), AtomicU64::new(0));
+        let [computed, mended, elsewhere] = [const { AtomicU64::new(0) }; 3];
+        let begun = AtomicUsize::new(0);
         let one = |tile: u64| -> Result<(), StoreError> {
             let part = meter.tile(points(tile));
             if !damaged(tile) && self.done(tile)? {
@@ -119,34 +139,41 @@ impl Store {
                 part.finish();
                 return Ok(());
             }
+            let before = thread_time();
             if self.fill(tile, &|| part.tick() || failed.load(Ordering::Relaxed))? {
+                if let Some(costs) = &self.costs {
+                    costs.add(tile, thread_time().saturating_sub(before));
+                }
                 computed.fetch_add(1, Ordering::Relaxed);
+                mended.fetch_add(u64::from(damaged(tile)), Ordering::Relaxed);
                 part.finish();
             }
             Ok(())
         };
-        pool.install(|| {
-            // one at a time and in order, so that a stopped run leaves gaps of at most one tile for each thread
-            open.par_iter().with_max_len(1).for_each(|tile| {
-                if control.stopping() || failed.load(Ordering::Relaxed) {
-                    return;
-                }
+        // one at a time and in order, so that a stopped run leaves gaps of at most one tile for each thread
+        pool.broadcast(|_| {
+            while !control.stopping() && !failed.load(Ordering::Relaxed) {
+                let at = begun.fetch_add(1, Ordering::Relaxed);
+                let late = at > 0 && until.is_some_and(|until| Instant::now() >= until);
+                let Some(tile) = open.get(at).filter(|_| !late) else { return };
                 if let Err(error) = one(*tile) {
                     failed.store(true, Ordering::Relaxed);
                     failure.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
                 }
-            });
+            }
         });
         if let Some(error) = failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
             return Err(error);
         }
-        let (computed, elsewhere) = (computed.into_inner(), elsewhere.into_inner());
-        if computed + elsewhere < open.len() as u64 {
+        let [computed, mended, elsewhere] = [computed, mended, elsewhere].map(AtomicU64::into_inner);
+        let rest = open.len() as u64 - computed - elsewhere;
+        if rest > 0 && control.stopping() {
             return Err(StoreError::Stopped(meter.kept()));
         }
-        (control.progress)(total);
+        (control.progress)(if rest > 0 { meter.kept().done } else { total });
         let found = mine.len() as u64 - open.len() as u64 + elsewhere;
-        Ok(Ran { computed, found, mended, left: grid.tiles() - mine.len() as u64 })
+        let left = grid.tiles() - mine.len() as u64 + rest;
+        Ok(Ran { computed, found, mended, left, spent: rest > 0 })
     }
 
     /// Whether a tile exists and is undamaged.

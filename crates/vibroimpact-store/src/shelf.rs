@@ -177,7 +177,7 @@ impl Shelf for Folder {
 }
 
 /// A name that differs between machines that share a file system.
-fn host() -> String {
+pub(crate) fn host() -> String {
     let name = fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
     let plain: String = name.trim().chars().filter(char::is_ascii_alphanumeric).take(20).collect();
     if plain.is_empty() { plain } else { plain + "." }

@@ -131,6 +131,101 @@ fn stopped_it_can_be_resumed() {
     assert_eq!(answer["tiles"], 900);
 }
 
+/// A run whose budget is spent says what is done and how to go on; what it leaves is completed to the same bytes.
+#[test]
+fn a_budget_stops_a_run_and_the_status_says_how_far_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    plan(folder.path(), &PLAN.replace(":28\"", ":16\""));
+    done(folder.path(), "run study.toml --store whole.zarr --threads 1");
+    let want = files(&folder.path().join("whole.zarr"));
+    let (code, note) = said(folder.path(), "run study.toml --store s.zarr --budget 0.000001s --threads 1");
+    assert!(code == Some(130), "{note}");
+    assert!(note.contains("1 of 16 tiles computed; 15 left\n"), "{note}");
+    assert!(
+        note.contains("stopped: the budget is spent, 1 of 16 tiles are there; `vibro resume s.zarr` goes on"),
+        "{note}"
+    );
+    let place = folder.path().join("s.zarr");
+    let status = || json(&format!("status {}", place.display()));
+    let first = status();
+    assert_eq!((first["tiles_done"].as_u64(), first["tiles_left"].as_u64()), (Some(1), Some(15)), "{first}");
+    assert_eq!((&first["progress"], &first["tiles_damaged"]), (&(16.0 / 256.0).into(), &0.into()));
+    assert_eq!(first["tile"].to_string(), r#"{"gap":4,"inverse_beta":4}"#);
+    assert_eq!(first["cost"]["tiles"], 1);
+    let watch = begin(folder.path(), "status s.zarr --watch --every 0.01s --json");
+    let output = vibro("resume s.zarr --budget 0.000001s --json").current_dir(folder.path()).output().unwrap();
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(130), 0));
+    let map = "map --inverse-beta 0.6:1.9:16 --gap 0:3:16 --restitution 0.5 --starts 4 --tile 4 --store s.zarr";
+    assert_eq!(said(folder.path(), &format!("{map} --budget 0.000001s --plot a.png")).0, Some(130));
+    assert!(!folder.path().join("a.png").exists());
+    done(folder.path(), "resume s.zarr --budget 1h");
+    assert!(files(&place) == want);
+    // the watch ends when the store is complete
+    assert!(watch.wait_with_output().unwrap().status.success());
+    let last = status();
+    assert_eq!((&last["progress"], &last["complete"], &last["cost"]["tiles"]), (&1.0.into(), &true.into(), &16.into()));
+    let regions = last["cost"]["regions"].as_array().unwrap();
+    let points: u64 = regions.iter().map(|region| region["points"].as_u64().unwrap()).sum();
+    assert_eq!((regions.len(), points), (16, 256));
+    let output = vibro("status s.zarr --watch").current_dir(folder.path()).output().unwrap();
+    let line = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(line, "100.0 %  16 of 16 tiles, 256 of 256 points, complete\n");
+    for (line, hint) in [
+        ("run study.toml --budget 8", "hint: 8h, 8m or 8s"),
+        ("run study.toml --budget -1h", "outside 0 < time <= 36500d"),
+        ("resume s.zarr --budget 04:00:00", "hint: write 4h"),
+        ("status s.zarr --watch --every 0s", "outside 0 < time <= 36500d"),
+        ("map --inverse-beta 0.6:1.9:16 --gap 0:3:16 --restitution 0.5 --starts 4 --budget 1h", "--store"),
+    ] {
+        let (code, note) = said(folder.path(), line);
+        assert!(code == Some(2) && note.contains(hint), "{line}: {note}");
+    }
+}
+
+/// The estimate holds for the run: points, files to the last one, and times and bytes in their order of magnitude.
+#[test]
+fn an_estimate_before_anything_starts() {
+    let folder = tempfile::tempdir().unwrap();
+    plan(folder.path(), &PLAN.replace(":28\"", ":16\""));
+    let estimate = |flags: &str| {
+        let output = vibro(&format!("estimate study.toml --json {flags}")).current_dir(folder.path()).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        serde_json::from_slice::<serde_json::Value>(&output.stdout).unwrap()
+    };
+    let found = estimate("--threads 2");
+    assert!(fs::read_dir(folder.path()).unwrap().count() == 1, "nothing is written");
+    done(folder.path(), "run study.toml --threads 2");
+    let status = json(&format!("status {}", folder.path().join("study.zarr").display()));
+    assert_eq!((&found["points"], &found["tiles"], &found["threads"]), (&256.into(), &16.into(), &2.into()));
+    assert_eq!((&found["points_sampled"], &found["plan_hash"]), (&64.into(), &status["plan_hash"]));
+    assert_eq!(found["files"].as_u64(), Some(files(&folder.path().join("study.zarr")).len() as u64));
+    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+    let seconds = number(&found["processor_seconds"]);
+    let interval = [0, 1].map(|k| number(&found["processor_seconds_interval"][k]));
+    assert!(interval[0] <= seconds && seconds <= interval[1] && interval[0] > 0.0, "{found}");
+    // the machine may be busy, and the sample is a quarter of the points
+    let used = number(&status["cost"]["seconds"]);
+    assert!((0.1..10.0).contains(&(seconds / used)), "{seconds} {used}");
+    let bytes = number(&status["bytes"]);
+    assert!((0.2..5.0).contains(&(number(&found["bytes"]) / bytes)), "{found} {bytes}");
+    // a sample of all points has no interval
+    let all = estimate("--sample 1000");
+    assert_eq!(
+        (&all["points_sampled"], &all["processor_seconds_interval"][0]),
+        (&256.into(), &all["processor_seconds"])
+    );
+    let output = vibro("estimate study.toml --sample 4 --threads 1").current_dir(folder.path()).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(
+        text.contains("256 points in 16 tiles\nprocessor time: about ") && text.contains("from 4 points"),
+        "{text}"
+    );
+    assert!(text.contains("time with 1 thread: about ") && text.contains("\nstore: "), "{text}");
+    fs::write(folder.path().join("no.toml"), PLAN.replace("map", "settle")).unwrap();
+    assert_eq!(said(folder.path(), "estimate no.toml").0, Some(2));
+    assert_eq!(said(folder.path(), "estimate study.toml --sample 0").0, Some(2));
+}
+
 #[test]
 fn two_at_once_parts_in_any_order_and_flags_make_the_same_store() {
     let folder = tempfile::tempdir().unwrap();

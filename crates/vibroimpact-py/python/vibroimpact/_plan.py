@@ -11,14 +11,39 @@ from numpy.typing import ArrayLike
 
 from vibroimpact import _core
 from vibroimpact._axis import Axis, Interval, axes, beside, even, interval
+from vibroimpact._budget import Budget, seconds
 from vibroimpact._core import Oscillator
 from vibroimpact._machine import Machine
 from vibroimpact._over import Points, points
 from vibroimpact._sample import Sample
-from vibroimpact._whole import BUDGET, KEEP, MEASURED, POINT_STARTS, REFINE, SEED, STARTS, TILE, TRANSIENT, maybe, whole
+from vibroimpact._whole import BLOCKS, BUDGET, KEEP, MEASURED, POINT_STARTS, REFINE, SEED, STARTS, THREADS, TILE, TRANSIENT, maybe, whole
 
 #: Version of the fields of a plan.
 _VERSION = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Estimate:
+    """What a study will cost."""
+
+    #: Total numbers of points and tiles.
+    points: int
+    tiles: int
+    #: Number of points that were computed for the estimate.
+    points_sampled: int
+    #: Expected processor time, and its interval of 90 % from resampling.
+    processor_seconds: float
+    processor_seconds_interval: tuple[float, float]
+    #: Number of threads, and the expected time of a run with them.
+    threads: int
+    seconds: float
+    #: Number of files or objects of the store, without the tables of a basin.
+    files: int
+    #: Expected size of the store, and the size of all numbers without compression.
+    bytes: int
+    bytes_raw: int
+    #: Approximate memory of a run.
+    memory_bytes: int
 
 
 @dataclass(frozen=True, repr=False, slots=True)
@@ -66,6 +91,31 @@ class Plan:
         """The fields of the plan."""
         fields: dict[str, Any] = json.loads(self.json)
         return fields
+
+    def estimate(self, *, sample: int = 64, budget: Budget = "30s", threads: int = 0) -> "Estimate":
+        """What the study will cost: processor time, time, files, bytes and memory. Nothing is written.
+
+        Parameters
+        ----------
+        sample : int
+            Number of blocks of points that are computed and timed: single points, tiles of a refined study, 256 starts of a
+            basin of one system. They are spread evenly over the grid and always the same.
+        budget : float or str
+            Time after which the sample ends.
+        threads : int
+            Number of threads of the sample and of the run; 0 for one per core.
+
+        Examples
+        --------
+        >>> from vibroimpact import Oscillator, Plan
+        >>> osc = Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5)
+        >>> cost = Plan.basin(osc, {"x": "-4:0.75:200", "v": "-4:4:100"}).estimate(sample=8, threads=2)
+        >>> low, high = cost.processor_seconds_interval
+        >>> cost.points, cost.threads, 0 < low <= cost.processor_seconds <= high
+        (20000, 2, True)
+        """
+        blocks, threads = whole("sample", sample, BLOCKS), whole("threads", threads, THREADS)
+        return Estimate(**_core.estimate_plan(self.json, blocks, seconds("budget", budget), threads))
 
     @classmethod
     def read(cls, path: str | PathLike[str]) -> "Plan":

@@ -40,6 +40,8 @@ NUMBER = Range(1)
 COUNT = Range(0, _UNSIGNED)
 #: Lines to scattered points of the surface of a box.
 LINES = Range(0, 100_000)
+#: Blocks of points of an estimate.
+BLOCKS = Range(1, 100_000)
 #: Points of a sample.
 SAMPLES = Range(1, 1_000_000_000)
 #: Values of a range.
