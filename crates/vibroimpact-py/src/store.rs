@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use vibroimpact_store::{Part, Ran, Sampling, Shelf, costs_beside, estimate, shelf};
+use vibroimpact_study::Dimension;
 use vibroimpact_study::typed::duration;
 
 /// Whether this build supports buckets.
@@ -47,6 +48,8 @@ pub(crate) struct Status {
     seconds_left: Option<f64>,
     /// The points of a tile along each dimension, the slowest first.
     tile: Vec<(String, usize)>,
+    /// The points of a shard along each dimension.
+    shard: Option<Vec<(String, usize)>>,
     /// The processor time of each tile for which it was recorded.
     seconds_of_tiles: BTreeMap<u64, f64>,
     missing: Vec<u64>,
@@ -101,7 +104,7 @@ impl Store {
     ) -> Result<Counts, Trouble> {
         let (store, part) = (Arc::clone(&self.0), Part::new(part.0, part.1)?);
         let until = budget.and_then(|budget| Instant::now().checked_add(Duration::try_from_secs_f64(budget).ok()?));
-        let watch = Watch { what: "filling a store", total: part.points(store.study().grid()), progress, threads };
+        let watch = Watch { what: "filling a store", total: store.points_of(part), progress, threads };
         door::run(py, watch, move |control| Ok(counts(store.run_until(part, until, control)?)))
     }
 
@@ -115,6 +118,15 @@ impl Store {
         }
         let watch = Watch { what: "filling tiles", total: 0, progress: None, threads };
         door::run(py, watch, move |control| Ok(counts(store.run_tiles(&tiles, control)?)))
+    }
+
+    /// The tiles that are missing or damaged, from coarse to fine, with their points; and how many are damaged.
+    fn to_do(&self, py: Python<'_>) -> Result<(Vec<(u64, usize)>, u64), Trouble> {
+        let store = Arc::clone(&self.0);
+        let watch = Watch { what: "looking at a store", total: 1, progress: None, threads: 0 };
+        let (tiles, damaged) = door::run(py, watch, move |control| Ok(store.to_do(control)?))?;
+        let grid = self.0.study().grid();
+        Ok((tiles.into_iter().map(|tile| (tile, grid.tile(tile).points())).collect(), damaged))
     }
 
     /// Concludes the store if all tiles are complete. Returns whether they are.
@@ -138,6 +150,10 @@ impl Store {
             points_per_second: found.rate,
             seconds_left: found.left.map(|time| time.as_secs_f64()),
             tile: dimensions.iter().map(|dimension| (dimension.name.clone(), dimension.tile)).collect(),
+            shard: self.0.shard().map(|shard| {
+                let side = |(dimension, tiles): (&Dimension, &usize)| (dimension.name.clone(), tiles * dimension.tile);
+                dimensions.iter().zip(shard).map(side).collect()
+            }),
             seconds_of_tiles,
             missing: found.missing,
             missing_left_out: found.missing_left_out,

@@ -189,6 +189,29 @@ impl Shelf for Bucket {
         written.map(drop).ok_or_else(|| io::Error::other(format!("the server {} says it is not found", self.server)))
     }
 
+    fn tail(&self, key: &str, count: usize) -> io::Result<Option<(Vec<u8>, u64)>> {
+        let path = self.path(key);
+        let options = || GetOptions { range: Some(GetRange::Suffix(count as u64)), ..GetOptions::default() };
+        self.ask(async |client| {
+            let found = client.get_opts(&path, options()).await?;
+            let length = found.meta.size;
+            Ok((found.bytes().await?.to_vec(), length))
+        })
+    }
+
+    fn range(&self, key: &str, from: u64, count: u64) -> io::Result<Option<Vec<u8>>> {
+        if count == 0 {
+            return Ok(Some(Vec::new()));
+        }
+        let path = self.path(key);
+        self.ask(async |client| Ok(client.get_range(&path, from..from.saturating_add(count)).await?.to_vec()))
+    }
+
+    fn remove(&self, key: &str) -> io::Result<()> {
+        let path = self.path(key);
+        self.ask(async |client| client.delete(&path).await).map(drop)
+    }
+
     fn list(&self, prefix: &str) -> io::Result<Vec<Item>> {
         // the server lists objects below a name that ends at a slash
         let below = prefix.rfind('/').map_or(self.prefix.clone(), |end| self.path(&prefix[..end]));

@@ -6,6 +6,7 @@
 
 use crate::clock::thread_time;
 use crate::layout::Layout;
+use crate::shards::Shards;
 use crate::{Store, StoreError};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -82,7 +83,8 @@ pub fn estimate(plan: impl Into<StudyPlan>, sampling: Sampling, control: &Contro
     let plan = plan.into().canonical()?;
     let study = Study::new(&plan)?;
     let unreachable = |why| StoreError::Unreachable { place: "the study".into(), why };
-    let layout = Layout::new(&study).map_err(unreachable)?;
+    let shards = Shards::of(study.grid(), plan.shard());
+    let layout = Layout::new(&study, shards).map_err(unreachable)?;
     let grid = study.grid();
     let probes = sample(&study, sampling, control)?;
     let pool = control.pool()?;
@@ -250,7 +252,8 @@ impl Layout {
     /// Number of objects of a complete store, without final tables.
     fn files(&self, grid: &Grid) -> u64 {
         let each = self.fields.len() as u64 + 1;
-        grid.tiles().saturating_mul(each).saturating_add(each + 2 * self.coordinates.len() as u64 + 1)
+        let shards = self.shards.as_ref().map_or_else(|| grid.tiles(), Shards::count);
+        shards.saturating_mul(each).saturating_add(each + 2 * self.coordinates.len() as u64 + 1)
     }
 }
 

@@ -6,8 +6,11 @@ use crate::shelf::Shelf;
 use std::sync::Arc;
 use vibroimpact_study::study::{Study, StudyPlan};
 
-/// The version of the format of stores. A store with a later format is refused.
-pub const FORMAT: u64 = 1;
+/// The latest format of stores that this program knows: 1 without shards, 2 with shards. A store with a later format is
+/// refused.
+pub const FORMAT: u64 = 2;
+/// The format of stores whose tiles are files of their own.
+pub(crate) const PLAIN: u64 = 1;
 /// The version of this program.
 pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
 

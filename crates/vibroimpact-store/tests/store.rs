@@ -313,6 +313,9 @@ impl Shelf for ReadOnly {
     fn list(&self, prefix: &str) -> io::Result<Vec<Item>> {
         self.0.list(prefix)
     }
+    fn remove(&self, _: &str) -> io::Result<()> {
+        Err(io::ErrorKind::ReadOnlyFilesystem.into())
+    }
     fn sweep(&self) -> io::Result<()> {
         Ok(())
     }
@@ -369,6 +372,9 @@ impl Shelf for Contested {
     fn list(&self, prefix: &str) -> io::Result<Vec<Item>> {
         self.0.list(prefix)
     }
+    fn remove(&self, key: &str) -> io::Result<()> {
+        self.0.remove(key)
+    }
     fn sweep(&self) -> io::Result<()> {
         self.0.sweep()
     }
@@ -416,9 +422,9 @@ fn refusals() {
     // a later format, and another version
     let root = folder.path().join("zarr.json");
     let text = fs::read_to_string(&root).unwrap();
-    fs::write(&root, text.replace("\"vibroimpact_format\": 1", "\"vibroimpact_format\": 2")).unwrap();
+    fs::write(&root, text.replace("\"vibroimpact_format\": 1", "\"vibroimpact_format\": 3")).unwrap();
     let newer = Store::open(Arc::new(Folder::new(folder.path()))).err().unwrap().to_string();
-    assert!(newer.contains("has format 2; this program knows format 1"), "{newer}");
+    assert!(newer.contains("has format 3; this program knows format 2"), "{newer}");
     let version = format!("\"vibroimpact_version\": \"{}\"", env!("CARGO_PKG_VERSION"));
     fs::write(&root, text.replace(&version, "\"vibroimpact_version\": \"0.0.9\"")).unwrap();
     let store = Store::open(Arc::new(Folder::new(folder.path()))).unwrap();

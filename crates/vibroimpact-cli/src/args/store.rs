@@ -20,6 +20,10 @@ pub(crate) struct StoreArgs {
     #[arg(long, value_parser = whole::<u32>, value_name = "N", requires = "store")]
     pub(crate) tile: Option<u32>,
 
+    /// Tiles of a shard along each axis, 1 to 1024; 1 for none [default: shards for more than 4096 tiles]
+    #[arg(long, value_parser = whole::<u32>, value_name = "N", requires = "store")]
+    pub(crate) shard: Option<u32>,
+
     /// Begin no tile after this time, as 90s, 30m, 8h or 2d; tiles that were begun are finished, and `vibro resume` goes on
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, requires = "store")]
     budget: Option<Budget>,
@@ -78,9 +82,9 @@ impl StoreArgs {
         Some(Filling { place, part: Part::ALL, budget: self.budget })
     }
 
-    /// The plan with the requested size of tiles.
+    /// The plan with the requested sizes of tiles and shards.
     pub(crate) fn tiled(&self, plan: Plan) -> Result<Plan, Failure> {
-        let plan = Plan { tile: self.tile, ..plan };
+        let plan = Plan { tile: self.tile, shard: self.shard, ..plan };
         plan.check()?;
         Ok(plan)
     }

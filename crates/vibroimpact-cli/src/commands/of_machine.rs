@@ -27,8 +27,8 @@ pub(super) fn asked(
 ) -> Option<Result<(), Failure>> {
     let name = machine.machine.as_deref()?;
     let answer = || {
-        let tile = store.and_then(|store| store.tile);
-        let plan = MachinePlan { tile, ..MachinePlan::new(machine.source(start)?, task()?) };
+        let (tile, shard) = store.map_or((None, None), |store| (store.tile, store.shard));
+        let plan = MachinePlan { tile, shard, ..MachinePlan::new(machine.source(start)?, task()?) };
         plan.check()?;
         let outputs = Outputs::reserve(csv, plot, json, session)?;
         let colour = colour.map(|colour| colour.coloured(outputs.drawn())).transpose()?.flatten();

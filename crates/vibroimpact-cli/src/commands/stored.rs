@@ -43,7 +43,7 @@ fn begin(plan: &StudyPlan, place: &str) -> Result<Store, Failure> {
 pub(super) fn fill(store: &Store, filling: &Filling<'_>, session: &Session) -> Result<Filled, Failure> {
     let (grid, part) = (store.study().grid(), filling.part);
     let until = filling.budget.and_then(Budget::from_now);
-    let total = if part == Part::ALL { grid.points() } else { part.points(grid) };
+    let total = store.points_of(part);
     let ran: Result<Ran, StoreError> =
         session.tiled(total, "points", |control, _| store.run_until(part, until, control));
     let Ran { computed, found, mended, left, spent } = ran?;

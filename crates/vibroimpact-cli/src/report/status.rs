@@ -42,6 +42,10 @@ struct StatusFields<'a> {
     seconds_since: Option<f64>,
     /// Points of a tile along each dimension.
     tile: Sides<'a>,
+    /// Points of a shard along each dimension; null for a store without shards.
+    shard: Option<Sides<'a>>,
+    /// Number of files of the complete store, without final tables.
+    files: u64,
     /// Recorded processor time; null if none was recorded.
     cost: Option<CostFields<'a>>,
     /// Numbers of the missing tiles, at most a thousand.
@@ -86,13 +90,14 @@ struct RegionFields<'a> {
 }
 
 /// An object with a value for each dimension.
-struct Sides<'a>(&'a Grid);
+struct Sides<'a>(&'a Grid, Option<&'a [usize]>);
 
 impl Serialize for Sides<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
-        for dimension in &self.0.dimensions {
-            map.serialize_entry(&dimension.name, &dimension.tile)?;
+        for (k, dimension) in self.0.dimensions.iter().enumerate() {
+            let tiles = self.1.map_or(1, |shard| shard[k]);
+            map.serialize_entry(&dimension.name, &(tiles * dimension.tile))?;
         }
         map.end()
     }
@@ -177,7 +182,9 @@ impl<'a> Status<'a> {
             points_per_second: found.rate,
             seconds_left: found.left.map(|left| left.as_secs_f64()),
             seconds_since: self.since().map(|since| since.as_secs_f64()),
-            tile: Sides(store.study().grid()),
+            tile: Sides(store.study().grid(), None),
+            shard: store.shard().map(|shard| Sides(store.study().grid(), Some(shard))),
+            files: store.files(),
             cost: self.cost(),
             missing: &found.missing,
             missing_left_out: found.missing_left_out,
@@ -221,7 +228,10 @@ impl<'a> Status<'a> {
             100.0 * self.progress(),
             size(found.bytes)
         );
-        text.push_str(&format!("tiles: {}\n", sides(store.study().grid())));
+        text.push_str(&format!("tiles: {}", sides(store.study().grid(), None)));
+        let shard = store.shard().map(|shard| sides(store.study().grid(), Some(shard)));
+        text.push_str(&shard.map_or_else(String::new, |shard| format!("; shards: {shard}")));
+        text.push_str(&format!("; {} files when complete\n", store.files()));
         text.push_str(&open(found.points - found.points_done, self.undecided));
         if let Some(damaged) = self.damaged.filter(|count| *count > 0) {
             text.push_str(&format!("{} damaged: `vibro resume` computes them anew\n", counted(damaged, "tile")));
@@ -272,10 +282,12 @@ fn short(seconds: f64) -> String {
     if seconds < 10.0 { format!("{seconds:.2} s") } else { clock(Duration::from_secs_f64(seconds)) }
 }
 
-/// The points of a tile along each axis, the abscissa first.
-fn sides(grid: &Grid) -> String {
-    let side = |d: &vibroimpact_study::Dimension| format!("{} {}", d.tile, d.name);
-    grid.dimensions.iter().rev().map(side).collect::<Vec<_>>().join(" by ")
+/// The points of a tile, or of a shard with these tiles, along each axis, the abscissa first.
+fn sides(grid: &Grid, shard: Option<&[usize]>) -> String {
+    let side = |(k, d): (usize, &vibroimpact_study::Dimension)| {
+        format!("{} {}", d.tile * shard.map_or(1, |shard| shard[k]), d.name)
+    };
+    grid.dimensions.iter().enumerate().rev().map(side).collect::<Vec<_>>().join(" by ")
 }
 
 /// The points that are not computed, and those with a motion that is undecided.

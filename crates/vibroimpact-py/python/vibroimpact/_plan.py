@@ -16,7 +16,7 @@ from vibroimpact._core import Oscillator
 from vibroimpact._machine import Machine
 from vibroimpact._over import Points, points
 from vibroimpact._sample import Sample
-from vibroimpact._whole import BLOCKS, BUDGET, KEEP, MEASURED, POINT_STARTS, REFINE, SEED, STARTS, THREADS, TILE, TRANSIENT, maybe, whole
+from vibroimpact._whole import BLOCKS, BUDGET, KEEP, MEASURED, POINT_STARTS, REFINE, SEED, SHARD, STARTS, THREADS, TILE, TRANSIENT, maybe, whole
 
 #: Version of the fields of a plan.
 _VERSION = 1
@@ -91,6 +91,28 @@ class Plan:
         """The fields of the plan."""
         fields: dict[str, Any] = json.loads(self.json)
         return fields
+
+    def with_tiles(self, tile: int | None = None, shard: int | None = None) -> "Plan":
+        """The same plan with other sizes of its store.
+
+        Parameters
+        ----------
+        tile : int
+            Points of a tile along each axis; None for the default of the task.
+        shard : int
+            Tiles of a shard, which is one file for each field, along each axis; 1 for no shards. By default, stores of more than
+            4096 tiles have shards.
+
+        Examples
+        --------
+        >>> from vibroimpact import Oscillator, Plan
+        >>> plan = Plan.map(Oscillator(beta=0.8, gap=1, restitution=0.5), {"gap": "0:2:300", "beta": "0.5:2:300"})
+        >>> plan.with_tiles(tile=10, shard=5).to_dict()["shard"]
+        5
+        """
+        sizes = {"tile": maybe("tile", tile, TILE), "shard": maybe("shard", shard, SHARD)}
+        kept = {name: of for name, of in self.to_dict().items() if name not in sizes}
+        return Plan(json.dumps(kept | {name: size for name, size in sizes.items() if size is not None}))
 
     def estimate(self, *, sample: int = 64, budget: Budget = "30s", threads: int = 0) -> "Estimate":
         """What the study will cost: processor time, time, files, bytes and memory. Nothing is written.

@@ -48,6 +48,8 @@ class Status:
     seconds_left: float | None
     #: Points of a tile along each dimension.
     tile: dict[str, int]
+    #: Points of a shard along each dimension, or None for a store without shards.
+    shard: dict[str, int] | None
     #: Processor time of each tile, as far as it was recorded beside the store, under its name with ".costs".
     seconds_of_tiles: dict[int, float]
     #: Numbers of the tiles that are not complete, at most a thousand.
@@ -166,7 +168,8 @@ def status(store: str | PathLike[str]) -> Status:
     (1, 3, [1, 2], False)
     """
     far = _core.Store(fspath(store)).status()
-    return Status(**{**far, "tile": dict(far["tile"])})
+    shard = far["shard"]
+    return Status(**{**far, "tile": dict(far["tile"]), "shard": None if shard is None else dict(shard)})
 
 
 def verify(
