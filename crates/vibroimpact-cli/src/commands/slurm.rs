@@ -143,11 +143,8 @@ pub(super) fn run(args: &Slurm, session: &Session) -> Result<(), Failure> {
     // a job that is put into the queue again has to end before its time limit
     let (part, least, most) = MARGIN;
     let budget = limit.saturating_sub((limit / part).clamp(least, most)).max(1);
-    let (exec, budget, again) = if args.requeue {
-        ("", format!(" --budget {budget}s"), AGAIN)
-    } else {
-        ("exec ", String::new(), "")
-    };
+    let (exec, budget, again) =
+        if args.requeue { ("", format!(" --budget {budget}s"), AGAIN) } else { ("exec ", String::new(), "") };
     session.print(&format!(
         "#!/bin/bash\n\
          #SBATCH --job-name=vibro-{hash}\n\
@@ -158,8 +155,8 @@ pub(super) fn run(args: &Slurm, session: &Session) -> Result<(), Failure> {
          {more}\
          #SBATCH --output=vibro-%A_%a.log\n\
          # {title}: {tiles} in {jobs_in_words}. What is done is not done again.\n\
-         set -eu\n\
          {setup}\
+         set -eu\n\
          {exec}{program} run {plan} --store {place} \\\n  \
          --tiles \"$SLURM_ARRAY_TASK_ID/{jobs}\" --threads \"${{SLURM_CPUS_PER_TASK:-{cpus}}}\" --quiet{budget}{again}\n",
         hash = plan.canonical()?.hash(),
@@ -202,7 +199,8 @@ mod tests {
         ] {
             assert_eq!(seconds(text), Some(wanted), "{text}");
         }
-        for text in ["", "soon", "1;rm", "0", "1:2:3:4", "-1", "1-2-3", "99999999999999999999", "18446744073709551615"] {
+        for text in ["", "soon", "1;rm", "0", "1:2:3:4", "-1", "1-2-3", "99999999999999999999", "18446744073709551615"]
+        {
             assert_eq!(seconds(text), None, "{text}");
         }
         assert!(["8G", "2000", "1500M"].iter().all(|text| memory(text).is_ok()));

@@ -8,7 +8,7 @@ use crate::session::Session;
 use serde::Serialize;
 use vibroimpact_report::figure::coloured::Coloured;
 use vibroimpact_report::figure::stored::figure;
-use vibroimpact_store::{Part, Ran, Store, StoreError, costs_beside, shelf};
+use vibroimpact_store::{Ran, Store, StoreError, costs_beside, shelf};
 use vibroimpact_study::{StudyPlan, counted};
 
 /// The fields about the store in a JSON object.

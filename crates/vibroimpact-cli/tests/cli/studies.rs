@@ -65,19 +65,26 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     found
 }
 
-/// A study that is killed at twenty moments and resumed is equal to that of a run without interruption, byte for byte.
+/// A study that is killed at twenty moments and resumed is equal to that of a run without interruption, byte for byte; with
+/// and without shards.
 #[test]
 #[cfg(unix)]
 fn killed_at_twenty_moments() {
+    killed_at_ten_moments(PLAN);
+    killed_at_ten_moments(&PLAN.replace("tile = 4", "tile = 2\nshard = 5"));
+}
+
+#[cfg(unix)]
+fn killed_at_ten_moments(text: &str) {
     let folder = tempfile::tempdir().unwrap();
-    plan(folder.path(), PLAN);
+    plan(folder.path(), text);
     let begun = Instant::now();
     done(folder.path(), "run study.toml --store whole.zarr --threads 2");
     let time = begun.elapsed();
     let want = files(&folder.path().join("whole.zarr"));
     let (mut killed, mut moment) = (0, 0_u64);
     let mut store = 0;
-    while killed < 20 {
+    while killed < 10 {
         // a fixed pseudorandom sequence of moments, spread over a third of the duration of the whole run
         moment = moment.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         let share = (moment >> 33) as f64 / (1_u64 << 31) as f64;
@@ -158,8 +165,24 @@ fn a_budget_stops_a_run_and_the_status_says_how_far_it_is() {
     let map = "map --inverse-beta 0.6:1.9:16 --gap 0:3:16 --restitution 0.5 --starts 4 --tile 4 --store s.zarr";
     assert_eq!(said(folder.path(), &format!("{map} --budget 0.000001s --plot a.png")).0, Some(130));
     assert!(!folder.path().join("a.png").exists());
+    // what is there is drawn
+    done(folder.path(), "plot s.zarr some.svg");
     done(folder.path(), "resume s.zarr --budget 1h");
     assert!(files(&place) == want);
+    // with shards
+    let map = map.replace("--store s.zarr", "--shard 3 --store shards.zarr");
+    assert_eq!(said(folder.path(), &format!("{map} --budget 0.000001s")).0, Some(130));
+    done(folder.path(), "plot shards.zarr some-shards.svg");
+    done(folder.path(), &format!("{map} --threads 2"));
+    let sharded = json(&format!("status {}", folder.path().join("shards.zarr").display()));
+    assert_eq!(sharded["shard"].to_string(), r#"{"gap":12,"inverse_beta":12}"#);
+    assert_eq!(sharded["files"].as_u64(), Some(files(&folder.path().join("shards.zarr")).len() as u64));
+    done(folder.path(), "verify shards.zarr --sample 16");
+    for store in ["s", "shards"] {
+        done(folder.path(), &format!("export {store}.zarr --csv {store}.csv"));
+    }
+    let table = |store: &str| fs::read(folder.path().join(format!("{store}.csv"))).unwrap();
+    assert!(table("s") == table("shards"));
     // the watch ends when the store is complete
     assert!(watch.wait_with_output().unwrap().status.success());
     let last = status();
@@ -374,6 +397,72 @@ fn refusals_are_one_sentence_and_lose_nothing() {
     assert!(files(&at.join("s.zarr")) == want);
     assert_eq!(fs::read(at.join("thesis/text.tex")).unwrap(), b"years");
     assert!(!at.join("study.zarr").exists());
+}
+
+/// The script of a job that puts itself into the queue again until its part is complete; here `scontrol` starts it again.
+#[test]
+#[cfg(unix)]
+fn a_job_that_is_put_into_the_queue_again() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    plan(folder.path(), &PLAN.replace(":28\"", ":12\""));
+    let flags = [
+        "--memory",
+        "2G",
+        "--account",
+        "vi-17",
+        "--throttle",
+        "4",
+        "--setup",
+        "export SETUP=\"a b\"",
+        "--setup",
+        "echo $SETUP",
+    ];
+    let output = vibro("slurm study.toml --jobs 9 --cpus 2 --time 1-00:00:00 --requeue --partition long")
+        .args(flags)
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    let script = String::from_utf8(output.stdout).unwrap();
+    for line in [
+        "#SBATCH --array=1-9%4",
+        "#SBATCH --partition=long",
+        "#SBATCH --account=vi-17",
+        "#SBATCH --mem=2G",
+        "#SBATCH --requeue",
+        "#SBATCH --open-mode=append",
+        "export SETUP=\"a b\"",
+        "echo $SETUP",
+    ] {
+        assert!(script.lines().any(|of| of == line), "{line}\n{script}");
+    }
+    // a day less half an hour
+    assert!(script.contains("--budget 84600s"), "{script}");
+    let script = script.replace("--budget 84600s", "--budget 0.000001s").replace("ID/9", "ID/1");
+    fs::write(folder.path().join("job.sh"), script).unwrap();
+    let program = folder.path().join("scontrol");
+    fs::write(&program, "#!/bin/sh\necho \"$@\" >> queue\nexec bash job.sh\n").unwrap();
+    fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).unwrap();
+    let path = format!("{}:{}", folder.path().display(), std::env::var("PATH").unwrap());
+    let job = Command::new("bash")
+        .arg("job.sh")
+        .envs([
+            ("SLURM_ARRAY_JOB_ID", "71"),
+            ("SLURM_ARRAY_TASK_ID", "1"),
+            ("SLURM_CPUS_PER_TASK", "1"),
+            ("PATH", &path),
+        ])
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    assert!(job.status.success(), "{}", String::from_utf8_lossy(&job.stderr));
+    assert!(String::from_utf8_lossy(&job.stdout).starts_with("a b\n"));
+    assert_eq!(fs::read_to_string(folder.path().join("queue")).unwrap(), "requeue 71_1\n".repeat(8));
+    assert_eq!(json(&format!("status {}", folder.path().join("study.zarr").display()))["complete"], true);
+    for (flag, word) in [("--memory 8g", "hint: 8G"), ("--account a;b", "letters, digits"), ("--throttle 0", "1")] {
+        let (code, complaint) = said(folder.path(), &format!("slurm study.toml {flag}"));
+        assert!(code == Some(2) && complaint.contains(word), "{flag}: {complaint}");
+    }
 }
 
 /// A complete store is not written again, whether its folder is writable or not.
