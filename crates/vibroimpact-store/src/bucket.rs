@@ -8,7 +8,7 @@ use crate::shelf::{Item, Shelf};
 use futures_util::TryStreamExt;
 use object_store::aws::{AmazonS3, AmazonS3Builder, AmazonS3ConfigKey};
 use object_store::path::Path;
-use object_store::{BackoffConfig, ClientConfigKey, ObjectStore, ObjectStoreExt, RetryConfig};
+use object_store::{BackoffConfig, ClientConfigKey, GetOptions, GetRange, ObjectStore, ObjectStoreExt, RetryConfig};
 use std::error::Error;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -191,9 +191,9 @@ impl Shelf for Bucket {
 
     fn tail(&self, key: &str, count: usize) -> io::Result<Option<(Vec<u8>, u64)>> {
         let path = self.path(key);
-        let options = || GetOptions { range: Some(GetRange::Suffix(count as u64)), ..GetOptions::default() };
+        let end = GetOptions::new().with_range(Some(GetRange::Suffix(count as u64)));
         self.ask(async |client| {
-            let found = client.get_opts(&path, options()).await?;
+            let found = client.get_opts(&path, end).await?;
             let length = found.meta.size;
             Ok((found.bytes().await?.to_vec(), length))
         })

@@ -2,7 +2,7 @@
 
 use crate::check::Damage;
 use crate::run::State;
-use crate::shards::{self, LOOSE, Shards};
+use crate::shards::{self, Chunks, LOOSE, Shards};
 use crate::shelf::Item;
 use crate::{Store, StoreError};
 use rayon::prelude::*;
@@ -37,12 +37,7 @@ impl Store {
     }
 
     /// The chunks of a field in a shard, and whether its bytes are exactly those of its chunks.
-    fn shard_chunks(
-        &self,
-        shards: &Shards,
-        shard: u64,
-        field: usize,
-    ) -> Result<(Vec<Option<Vec<u8>>>, bool), StoreError> {
+    fn shard_chunks(&self, shards: &Shards, shard: u64, field: usize) -> Result<(Chunks, bool), StoreError> {
         let none = (vec![None; shards.chunks()], false);
         let Some(tile) = shards.tiles(shard).into_iter().flatten().next() else { return Ok(none) };
         let Some(bytes) = self.get(&self.layout.key(tile, field))? else { return Ok(none) };

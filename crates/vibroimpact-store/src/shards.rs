@@ -141,6 +141,9 @@ fn number(along: &[usize], place: impl Iterator<Item = usize>) -> u64 {
     along.iter().zip(place).fold(0, |number, (count, at)| number * *count as u64 + at as u64)
 }
 
+/// The chunks of a shard, in the order of its tiles; `None` for a tile beyond the edge of the grid, or a missing chunk.
+pub(crate) type Chunks = Vec<Option<Vec<u8>>>;
+
 /// The bytes of a shard from its chunks.
 pub(crate) fn assemble(chunks: &[Option<Vec<u8>>]) -> Vec<u8> {
     let (mut bytes, mut index) = (Vec::new(), Vec::with_capacity(chunks.len() * ENTRY + CHECK));
@@ -178,7 +181,7 @@ pub(crate) fn index(bytes: &[u8], length: u64) -> Option<Vec<Option<(u64, u64)>>
 }
 
 /// The chunks of a shard; `None` if its index is damaged.
-pub(crate) fn chunks(bytes: &[u8], index_length: usize) -> Option<Vec<Option<Vec<u8>>>> {
+pub(crate) fn chunks(bytes: &[u8], index_length: usize) -> Option<Chunks> {
     let tail = bytes.get(bytes.len().checked_sub(index_length)?..)?;
     let chunk = |entry: Option<(u64, u64)>| -> Option<Option<Vec<u8>>> {
         let Some((offset, length)) = entry else { return Some(None) };

@@ -6,7 +6,7 @@ from typing import TypeAlias
 from vibroimpact import _core
 
 #: Seconds, or a text such as "90s", "30m", "8h", "2d" or "1h30m".
-Budget: TypeAlias = "float | str"
+Budget: TypeAlias = float | str
 
 
 def seconds(name: str, given: Budget) -> float:

@@ -137,6 +137,8 @@ class Plan:
         (20000, 2, True)
         """
         blocks, threads = whole("sample", sample, BLOCKS), whole("threads", threads, THREADS)
+        if not 1 <= blocks <= (BLOCKS.most or blocks):
+            raise _core.QuestionError(f"sample = {blocks} lies outside 1 <= sample <= {BLOCKS.most}")
         return Estimate(**_core.estimate_plan(self.json, blocks, seconds("budget", budget), threads))
 
     @classmethod

@@ -84,6 +84,8 @@ def run(
     from distributed import as_completed
 
     retries, in_flight = whole("retries", retries, COUNT), whole("in_flight", in_flight, AHEAD)
+    if in_flight < 1:
+        raise _core.QuestionError("in_flight = 0 lies outside 1 <= in_flight\nhint: more than the cluster has threads")
     end = None if budget is None else time.monotonic() + seconds("budget", budget)
     place = fspath(store)
     here = _core.Store(place, plan.json)
@@ -103,13 +105,13 @@ def run(
                 new = {}
                 for tile, points in islice(queue, count):
                     key = f"vibroimpact-tile-{plan.hash}-{turn}-{tile}"
-                    new[key] = client.submit(_tile, tile, points, place, plan.json, key=key, **how)  # type: ignore[no-untyped-call]
+                    new[key] = client.submit(_tile, tile, points, place, plan.json, key=key, **how)
                 running.update(new)
                 return list(new.values())
 
             tasks = as_completed(submit(in_flight), with_results=True)  # type: ignore[no-untyped-call]
             try:
-                for batch in tasks.batches():
+                for batch in tasks.batches():  # type: ignore[no-untyped-call]
                     for task, (points, new, was_damaged) in batch:
                         running.pop(task.key, None)
                         computed, mended, done = computed + new, mended + was_damaged, done + points
@@ -118,7 +120,7 @@ def run(
                     spent = end is not None and time.monotonic() >= end
                     if spent:
                         break
-                    tasks.update(submit(in_flight - len(running)))
+                    tasks.update(submit(in_flight - len(running)))  # type: ignore[no-untyped-call]
             finally:
                 client.cancel(list(running.values()))  # type: ignore[no-untyped-call]
             if not spent:
