@@ -54,7 +54,7 @@ impl Budget {
     }
 
     /// The moment at which it is spent, if it begins now.
-    pub(crate) fn from_now(self) -> Option<Instant> {
+    pub(crate) fn end(self) -> Option<Instant> {
         Instant::now().checked_add(self.0)
     }
 }

@@ -64,7 +64,7 @@ fn watch(args: &Status, session: &Session) -> Result<(), Failure> {
         if report.complete() {
             return Ok(());
         }
-        let next = args.every.from_now();
+        let next = args.every.end();
         while next.is_none_or(|next| Instant::now() < next) {
             if signal::flag().load(Ordering::Relaxed) {
                 return Err(Failure::Stopped("the study itself goes on if it is running".to_owned()));

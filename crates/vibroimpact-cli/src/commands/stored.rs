@@ -42,7 +42,7 @@ fn begin(plan: &StudyPlan, place: &str) -> Result<Store, Failure> {
 /// Computes the missing tiles of a part, and prints their numbers.
 pub(super) fn fill(store: &Store, filling: &Filling<'_>, session: &Session) -> Result<Filled, Failure> {
     let (grid, part) = (store.study().grid(), filling.part);
-    let until = filling.budget.and_then(Budget::from_now);
+    let until = filling.budget.and_then(Budget::end);
     let total = store.points_of(part);
     let ran: Result<Ran, StoreError> =
         session.tiled(total, "points", |control, _| store.run_until(part, until, control));
