@@ -98,7 +98,7 @@ mod tests {
         ] {
             assert!(duration(text).is_err_and(|why| why.ends_with(&format!("\nhint: {hint}"))), "{text}");
         }
-        for text in ["0s", "-1h", "1e9d", "1h-60m"] {
+        for text in ["0s", "-1h", "1000000d", "1h-60m"] {
             assert!(duration(text).is_err_and(|why| why.contains("outside 0 < time <= 36500d")), "{text}");
         }
     }
