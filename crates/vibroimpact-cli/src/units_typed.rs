@@ -29,10 +29,15 @@ pub(crate) fn refusal(error: &clap::Error) -> Option<String> {
     }
     let (flag, value) = (text(ContextKind::InvalidArg)?, text(ContextKind::InvalidValue)?);
     let name = flag.split([' ', '=']).next().unwrap_or(flag);
+    if WITH_UNITS.contains(&name) {
+        return None;
+    }
     let hint = hint(name, value)?;
     Some(format!("error: invalid value '{value}' for '{flag}': a number without unit is needed\nhint: {hint}"))
 }
 
+/// The flags that take a time or a size of memory with its unit; their own messages explain it.
+const WITH_UNITS: [&str; 3] = ["--budget", "--every", "--memory"];
 /// Ends of the flags that take a number in an SI unit; the unit of another quantity is explained by their own message.
 const SUFFIXES: [&str; 8] = ["-m", "-kg", "-n", "-hz", "-n-per-m", "-ns-per-m", "-per-s", "-per-s2"];
 

@@ -76,7 +76,7 @@ mod _core {
         crossings_of_points, end_reasons, simulate_points, states_of_points, strobes_of_points,
     };
     #[pymodule_export]
-    use crate::store::Store;
+    use crate::store::{Store, estimate_plan, seconds_of};
 
     /// Whether this build supports buckets.
     #[pymodule_export]

@@ -5,8 +5,12 @@ use crate::error::Trouble;
 use crate::plan::read_any;
 use crate::simulate::text;
 use pyo3::prelude::*;
+use std::collections::BTreeMap;
 use std::sync::Arc;
-use vibroimpact_store::{Part, Ran, Shelf, shelf};
+use std::time::{Duration, Instant};
+use vibroimpact_store::{Part, Ran, Sampling, Shelf, costs_beside, estimate, shelf};
+use vibroimpact_study::Dimension;
+use vibroimpact_study::typed::duration;
 
 /// Whether this build supports buckets.
 pub(crate) const BUCKETS: bool = cfg!(feature = "s3");
@@ -40,7 +44,14 @@ pub(crate) struct Status {
     points: u64,
     points_done: u64,
     complete: bool,
+    points_per_second: Option<f64>,
     seconds_left: Option<f64>,
+    /// The points of a tile along each dimension, the slowest first.
+    tile: Vec<(String, usize)>,
+    /// The points of a shard along each dimension.
+    shard: Option<Vec<(String, usize)>>,
+    /// The processor time of each tile for which it was recorded.
+    seconds_of_tiles: BTreeMap<u64, f64>,
     missing: Vec<u64>,
     missing_left_out: u64,
     bytes: u64,
@@ -65,10 +76,11 @@ impl Store {
         let plan = plan.map(read_any).transpose()?;
         let store = door::run(py, Watch::alone("opening a store"), move |_| {
             let shelf = place_of(&place)?;
-            Ok(match plan {
+            let store = match plan {
                 Some(plan) => vibroimpact_store::Store::create(shelf, &plan)?,
                 None => vibroimpact_store::Store::open(shelf)?,
-            })
+            };
+            Ok(store.with_costs(costs_beside(&place)?))
         })?;
         Ok(Self(Arc::new(store)))
     }
@@ -79,17 +91,21 @@ impl Store {
         text(self.0.plan())
     }
 
-    /// Computes the missing tiles of part (i, n), and concludes the store when all tiles are complete.
+    /// Computes the missing tiles of part (i, n), and concludes the store when all tiles are complete. After a budget of
+    /// seconds no tile is begun.
+    #[pyo3(signature = (part, threads, progress, budget=None))]
     fn run(
         &self,
         py: Python<'_>,
         part: (u64, u64),
         threads: usize,
         progress: Option<Py<PyAny>>,
+        budget: Option<f64>,
     ) -> Result<Counts, Trouble> {
         let (store, part) = (Arc::clone(&self.0), Part::new(part.0, part.1)?);
-        let watch = Watch { what: "filling a store", total: part.points(store.study().grid()), progress, threads };
-        door::run(py, watch, move |control| Ok(counts(store.run(part, control)?)))
+        let until = budget.and_then(|budget| Instant::now().checked_add(Duration::try_from_secs_f64(budget).ok()?));
+        let watch = Watch { what: "filling a store", total: store.points_of(part), progress, threads };
+        door::run(py, watch, move |control| Ok(counts(store.run_until(part, until, control)?)))
     }
 
     /// Computes those of the given tiles that are not complete; does not conclude the store.
@@ -104,6 +120,15 @@ impl Store {
         door::run(py, watch, move |control| Ok(counts(store.run_tiles(&tiles, control)?)))
     }
 
+    /// The tiles that are missing or damaged, from coarse to fine, with their points; and how many are damaged.
+    fn to_do(&self, py: Python<'_>) -> Result<(Vec<(u64, usize)>, u64), Trouble> {
+        let store = Arc::clone(&self.0);
+        let watch = Watch { what: "looking at a store", total: 1, progress: None, threads: 0 };
+        let (tiles, damaged) = door::run(py, watch, move |control| Ok(store.to_do(control)?))?;
+        let grid = self.0.study().grid();
+        Ok((tiles.into_iter().map(|tile| (tile, grid.tile(tile).points())).collect(), damaged))
+    }
+
     /// Concludes the store if all tiles are complete. Returns whether they are.
     fn conclude(&self, py: Python<'_>) -> Result<bool, Trouble> {
         let store = Arc::clone(&self.0);
@@ -113,14 +138,23 @@ impl Store {
     /// The progress of the store.
     fn status(&self, py: Python<'_>) -> Result<Status, Trouble> {
         let store = Arc::clone(&self.0);
-        let found = door::run(py, Watch::alone("looking at a store"), move |_| Ok(store.progress()?))?;
+        let watch = Watch::alone("looking at a store");
+        let (found, seconds_of_tiles) = door::run(py, watch, move |_| Ok((store.progress()?, store.costs()?.tiles)))?;
+        let dimensions = &self.0.study().grid().dimensions;
         Ok(Status {
             tiles: found.tiles,
             done: found.done,
             points: found.points,
             points_done: found.points_done,
             complete: found.complete,
+            points_per_second: found.rate,
             seconds_left: found.left.map(|time| time.as_secs_f64()),
+            tile: dimensions.iter().map(|dimension| (dimension.name.clone(), dimension.tile)).collect(),
+            shard: self.0.shard().map(|shard| {
+                let side = |(dimension, tiles): (&Dimension, &usize)| (dimension.name.clone(), tiles * dimension.tile);
+                dimensions.iter().zip(shard).map(side).collect()
+            }),
+            seconds_of_tiles,
             missing: found.missing,
             missing_left_out: found.missing_left_out,
             bytes: found.bytes,
@@ -146,4 +180,57 @@ impl Store {
             damage: found.damage.into_iter().map(|damage| (damage.tile, damage.what)).collect(),
         })
     }
+}
+
+/// The seconds of a time with units, such as `8h`.
+#[pyfunction]
+pub(crate) fn seconds_of(text: &str) -> Result<f64, Trouble> {
+    Ok(duration(text).map_err(Trouble::question)?.as_secs_f64())
+}
+
+/// The fields of `Estimate`.
+#[derive(IntoPyObject)]
+pub(crate) struct Estimated {
+    points: u64,
+    tiles: u64,
+    points_sampled: u64,
+    processor_seconds: f64,
+    processor_seconds_interval: (f64, f64),
+    threads: usize,
+    seconds: f64,
+    files: u64,
+    bytes: u64,
+    bytes_raw: u64,
+    memory_bytes: u64,
+}
+
+/// What a study will cost, from a sample of blocks that is ended after `budget` seconds.
+#[pyfunction]
+pub(crate) fn estimate_plan(
+    py: Python<'_>,
+    text: &str,
+    sample: u32,
+    budget: f64,
+    threads: usize,
+) -> Result<Estimated, Trouble> {
+    let plan = read_any(text)?;
+    let sampling = Sampling { blocks: sample, time: Duration::try_from_secs_f64(budget).unwrap_or(Duration::MAX) };
+    let watch = Watch { what: "estimating a study", total: 1, progress: None, threads };
+    let found = door::run(py, watch, move |control| Ok(estimate(&plan, sampling, control)?))?;
+    if found.sampled == 0 {
+        return Err(Trouble::question("no point of the sample was finished\nhint: a longer budget"));
+    }
+    Ok(Estimated {
+        points: found.points,
+        tiles: found.tiles,
+        points_sampled: found.sampled,
+        processor_seconds: found.seconds,
+        processor_seconds_interval: found.interval,
+        threads: found.threads,
+        seconds: found.time,
+        files: found.files,
+        bytes: found.bytes,
+        bytes_raw: found.bytes_raw,
+        memory_bytes: found.memory,
+    })
 }

@@ -134,6 +134,35 @@ def busy(cluster: "distributed.LocalCluster", gone: set[str]) -> list[tuple[str,
     return [(nanny.worker_address, nanny.pid) for nanny in nannies if nanny.pid]
 
 
+def test_tasks_are_submitted_as_others_end(
+    cluster: "distributed.LocalCluster", client: "distributed.Client", s: vi.Oscillator, tmp_path: Path
+) -> None:
+    plan = vi.Plan.basin(s, {"x": "-4:0.75:60", "v": "-4:4:50"}).with_tiles(tile=10, shard=2)
+    vi.run(plan, tmp_path / "one.zarr")
+    most = 0
+
+    def look(done: int, total: int) -> None:
+        nonlocal most
+        most = max(most, sum(key.startswith("vibroimpact-tile") for key in list(cluster.scheduler.tasks)))
+
+    ran = vi.dask.run(plan, tmp_path / "two.zarr", client, in_flight=4, progress=look, priority=1)
+    assert ran == vi.Ran(30, 0, 0, 0) and 0 < most <= 8
+    assert contents(tmp_path / "two.zarr") == contents(tmp_path / "one.zarr")
+    # a budget that is spent, and the rest
+    assert vi.dask.run(plan, tmp_path / "three.zarr", client, in_flight=2, budget=1e-6).left > 0
+    # damaged tiles are computed again
+    for name in ("label/c/0/0", "cycle/c/1/1"):
+        shard = tmp_path / "two.zarr" / name
+        shard.write_bytes(shard.read_bytes()[:-5])
+    ran = vi.dask.run(plan, tmp_path / "two.zarr", client)
+    assert ran.mended == ran.computed == 8 and contents(tmp_path / "two.zarr") == contents(tmp_path / "one.zarr")
+    # workers without the resource compute nothing
+    nobody = vi.dask.run(plan, tmp_path / "two.zarr", client, resources={"GPU": 1})
+    assert nobody.computed == 0 and vi.dask.run(plan, tmp_path / "three.zarr", client).left == 0
+    with pytest.raises(vi.QuestionError, match="in_flight"):
+        vi.dask.run(plan, tmp_path / "two.zarr", client, in_flight=0)
+
+
 def test_stopped_by_its_callback(client: "distributed.Client", u: vi.Oscillator, tmp_path: Path) -> None:
     plan = vi.Plan.basin(u, {"x": "-4:3:80", "v": "-4:4:80"}, tile=8)
     with pytest.raises(vi.StoppedError, match="stopped after"):

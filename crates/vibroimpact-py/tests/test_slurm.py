@@ -26,7 +26,7 @@ ClusterName=vibro
 SlurmctldHost={host}(127.0.0.1)
 SlurmUser=root
 AuthType=auth/munge
-AuthInfo=socket={home}/munge.socket
+AuthInfo=socket={home}/munge.socket,cred_expire=5
 SlurmctldPort={controller}
 SlurmdPort={node}
 StateSaveLocation={home}/state
@@ -174,6 +174,23 @@ def test_the_script_runs_as_it_stands(slurm: Slurm, vibro: Callable[..., Any], s
     # each task has its own log; that of the task that concluded the store has its summary
     said = [file.read_text() for file in slurm.home.glob(f"vibro-{job}_*.log")]
     assert len(said) == 3 and sum("99 points: 11 inverse_beta by 9 gap" in text for text in said) >= 1, said
+
+
+def test_a_task_puts_itself_into_the_queue_again(
+    slurm: Slurm, vibro: Callable[..., Any], s: vi.Oscillator, tmp_path: Path
+) -> None:
+    plan = vi.Plan.attractors(s, 300, tile=150)
+    (tmp_path / "study.toml").write_text(plan.json)
+    place = tmp_path / "there.zarr"
+    done = vibro("slurm", tmp_path / "study.toml", "--store", place, "--jobs", 1, "--cpus", 1, "--time", "00:10:00",
+                 "--memory", "200M", "--throttle", 1, "--setup", "echo begun", "--requeue")
+    assert "--budget 540s" in done.stdout, done.stderr
+    # each run computes one of the two tiles
+    job = slurm.submit(done.stdout.replace("--budget 540s", "--budget 0.000001s"))
+    assert slurm.wait_for(job, 1) == {1: "COMPLETED"}, logs(slurm, job)
+    assert vi.status(place).complete and logs(slurm, job).count("begun\n") == 2
+    vi.run(plan, tmp_path / "here.zarr")
+    assert contents(place) == contents(tmp_path / "here.zarr")
 
 
 @pytest.mark.parametrize("how", [[], ["--signal=KILL", "--full"]], ids=["cancelled", "killed"])

@@ -49,6 +49,59 @@ def test_parts_in_any_order(plan: vi.Plan, tmp_path: Path, threads: int) -> None
         vi.run(plan, tmp_path / "parts.zarr", part=(4, 3))
 
 
+def test_a_budget_and_the_progress(plan: vi.Plan, tmp_path: Path) -> None:
+    vi.run(plan, tmp_path / "one.zarr")
+    ran = vi.run(plan, tmp_path / "two.zarr", budget=1e-6, threads=1)
+    assert (ran.computed, ran.left) == (1, 41)
+    ran = vi.resume(tmp_path / "two.zarr", budget="0.000001s", threads=1)
+    assert (ran.computed, ran.found, ran.left) == (1, 1, 40)
+    far = vi.status(tmp_path / "two.zarr")
+    assert far.tile == {"v": 16, "x": 16} and far.shard is None and far.progress == far.points_done / 9000
+    assert len(far.seconds_of_tiles) == 2 and set(far.seconds_of_tiles).isdisjoint(far.missing)
+    assert vi.resume(tmp_path / "two.zarr", budget="1h").left == 0
+    assert contents(tmp_path / "two.zarr") == contents(tmp_path / "one.zarr")
+    assert len(vi.status(tmp_path / "two.zarr").seconds_of_tiles) == 42
+    for bad, why in (("8", "hint: 8h, 8m or 8s"), (0, "lies outside 0 < budget"), (-1.0, "lies outside"), ("soon", "is no time")):
+        with pytest.raises(vi.QuestionError, match=why):
+            vi.run(plan, tmp_path / "no.zarr", budget=bad)
+    with pytest.raises(TypeError, match="budget"):
+        vi.run(plan, tmp_path / "no.zarr", budget=[1])  # type: ignore[arg-type]
+    assert not (tmp_path / "no.zarr").exists()
+
+
+def test_an_estimate_before_the_run(plan: vi.Plan, tmp_path: Path) -> None:
+    cost = plan.estimate(threads=2)
+    assert (cost.points, cost.tiles, cost.threads) == (9000, 42, 2) and 0 < cost.points_sampled <= 9000
+    low, high = cost.processor_seconds_interval
+    assert 0 < low <= cost.processor_seconds <= high and cost.seconds <= cost.processor_seconds
+    vi.run(plan, tmp_path / "one.zarr")
+    files = contents(tmp_path / "one.zarr")
+    tables = {name.partition("/")[0] for name in files if name.startswith("cycle_")}
+    assert cost.files == len(files) - 2 * len(tables)
+    assert cost.bytes_raw == 8 * 9000 and cost.memory_bytes > cost.bytes_raw
+    with pytest.raises(vi.QuestionError, match="sample"):
+        plan.estimate(sample=0)
+
+
+def test_shards_are_opened_by_zarr(plan: vi.Plan, tmp_path: Path) -> None:
+    import zarr
+
+    vi.run(plan, tmp_path / "tiles.zarr")
+    sharded = plan.with_tiles(tile=16, shard=3)
+    assert sharded.points == plan.points and sharded.hash != plan.hash
+    vi.run(sharded, tmp_path / "some.zarr", budget=1e-6)
+    # tiles that wait for their shard are not seen yet
+    assert (xr.open_zarr(tmp_path / "some.zarr")["label"].values == -9).all()
+    ran = vi.run(sharded, tmp_path / "shards.zarr")
+    assert ran.computed == 42 and vi.verify(tmp_path / "shards.zarr").whole
+    assert vi.status(tmp_path / "shards.zarr").shard == {"v": 48, "x": 48}
+    one, other = (xr.open_zarr(tmp_path / f"{name}.zarr").load() for name in ("tiles", "shards"))
+    xr.testing.assert_equal(one.drop_vars("status"), other.drop_vars("status"))
+    label = zarr.open_group(tmp_path / "shards.zarr", mode="r")["label"]
+    assert isinstance(label, zarr.Array) and label.shards == (48, 48) and label.chunks == (16, 16)
+    assert len(contents(tmp_path / "shards.zarr")) < len(contents(tmp_path / "tiles.zarr"))
+
+
 def test_stopped_and_resumed(plan: vi.Plan, tmp_path: Path) -> None:
     vi.run(plan, tmp_path / "one.zarr")
     vi.run(plan, tmp_path / "two.zarr", part=(1, 2))

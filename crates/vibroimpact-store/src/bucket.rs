@@ -8,7 +8,7 @@ use crate::shelf::{Item, Shelf};
 use futures_util::TryStreamExt;
 use object_store::aws::{AmazonS3, AmazonS3Builder, AmazonS3ConfigKey};
 use object_store::path::Path;
-use object_store::{BackoffConfig, ClientConfigKey, ObjectStore, ObjectStoreExt, RetryConfig};
+use object_store::{BackoffConfig, ClientConfigKey, GetOptions, GetRange, ObjectStore, ObjectStoreExt, RetryConfig};
 use std::error::Error;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -187,6 +187,29 @@ impl Shelf for Bucket {
         let (path, bytes) = (self.path(key), bytes.to_vec());
         let written = self.ask(async |client| client.put(&path, bytes.into()).await)?;
         written.map(drop).ok_or_else(|| io::Error::other(format!("the server {} says it is not found", self.server)))
+    }
+
+    fn tail(&self, key: &str, count: usize) -> io::Result<Option<(Vec<u8>, u64)>> {
+        let path = self.path(key);
+        let end = GetOptions::new().with_range(Some(GetRange::Suffix(count as u64)));
+        self.ask(async |client| {
+            let found = client.get_opts(&path, end).await?;
+            let length = found.meta.size;
+            Ok((found.bytes().await?.to_vec(), length))
+        })
+    }
+
+    fn range(&self, key: &str, from: u64, count: u64) -> io::Result<Option<Vec<u8>>> {
+        if count == 0 {
+            return Ok(Some(Vec::new()));
+        }
+        let path = self.path(key);
+        self.ask(async |client| Ok(client.get_range(&path, from..from.saturating_add(count)).await?.to_vec()))
+    }
+
+    fn remove(&self, key: &str) -> io::Result<()> {
+        let path = self.path(key);
+        self.ask(async |client| client.delete(&path).await).map(drop)
     }
 
     fn list(&self, prefix: &str) -> io::Result<Vec<Item>> {

@@ -2,7 +2,7 @@
 
 use crate::run::State;
 use crate::shelf::Memory;
-use crate::{Store, StoreError};
+use crate::{Store, StoreError, order};
 use rayon::prelude::*;
 use std::sync::Arc;
 use std::time::{Duration, SystemTime};
@@ -26,6 +26,8 @@ pub struct Progress {
     pub first: Option<SystemTime>,
     /// Time at which the last tile was completed.
     pub last: Option<SystemTime>,
+    /// Points per second at the rate of the last tiles; `None` if unknown.
+    pub rate: Option<f64>,
     /// Estimated time for the remaining tiles at the rate of the last ones; `None` if unknown.
     pub left: Option<Duration>,
     /// Numbers of the tiles that are not complete, at most a thousand.
@@ -71,41 +73,74 @@ impl Store {
     pub fn progress(&self) -> Result<Progress, StoreError> {
         let items = self.shelf.list("").map_err(|error| self.unread("", error))?;
         let grid = self.study.grid();
-        let key = |tile: u64| self.layout.status.key(&self.layout.status_place(tile));
-        let find = |tile: &u64| items.binary_search_by(|item| item.key.cmp(&key(*tile))).ok();
+        let status = |tile: u64| self.layout.status.key(&self.layout.status_place(tile));
+        let at = |key: &str| items.binary_search_by(|item| item.key.as_str().cmp(key)).ok();
+        let waiting = |tile: u64| at(&self.layout.shards.as_ref()?.loose_key(tile));
+        let find = |tile: &u64| at(&status(*tile)).or_else(|| waiting(*tile));
         let (mut done, mut points_done, mut missing, mut times) = (0, 0, Vec::new(), Vec::new());
         for tile in 0..grid.tiles() {
             if let Some(at) = find(&tile) {
                 done += 1;
                 points_done += grid.tile(tile).points() as u64;
-                times.push(items[at].modified);
+                times.push((items[at].modified, grid.tile(tile).points() as u64));
             } else if missing.len() < NAMED {
                 missing.push(tile);
             }
         }
         times.sort_unstable();
         let recent = &times[times.len().saturating_sub(RECENT)..];
-        let left = match recent {
-            [first, .., last] if done < grid.tiles() => last.duration_since(*first).ok().map(|time| {
-                #[allow(clippy::cast_precision_loss)] // numbers of tiles
-                let share = (grid.tiles() - done) as f64 / (recent.len() - 1) as f64;
-                time.mul_f64(share)
-            }),
+        #[allow(clippy::cast_precision_loss)] // numbers of points below 2^53
+        let rate = match recent {
+            [(first, _), rest @ .., (last, points)] => {
+                last.duration_since(*first).ok().filter(|time| !time.is_zero()).map(|time| {
+                    (rest.iter().map(|(_, points)| points).sum::<u64>() + points) as f64 / time.as_secs_f64()
+                })
+            }
             _ => None,
         };
+        #[allow(clippy::cast_precision_loss)] // numbers of points below 2^53
+        let left = rate
+            .filter(|_| done < grid.tiles())
+            .and_then(|rate| Duration::try_from_secs_f64((grid.points() - points_done) as f64 / rate).ok());
         Ok(Progress {
             tiles: grid.tiles(),
             done,
             points: grid.points(),
             points_done,
             complete: done == grid.tiles() && self.concluded()?,
-            first: times.first().copied(),
-            last: times.last().copied(),
+            first: times.first().map(|(time, _)| *time),
+            last: times.last().map(|(time, _)| *time),
+            rate,
             left,
             missing_left_out: grid.tiles() - done - missing.len() as u64,
             missing,
             bytes: items.iter().map(|item| item.size).sum(),
         })
+    }
+
+    /// Number of complete tiles with a missing or damaged chunk. All checksums are verified.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the place cannot be read.
+    pub fn damaged(&self, control: &Control<'_>) -> Result<u64, StoreError> {
+        Ok(self.to_do(control)?.1)
+    }
+
+    /// The tiles that are missing or damaged, in the order in which they are computed, and the number of damaged ones. All
+    /// checksums are verified.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the place cannot be read, or when stopped.
+    pub fn to_do(&self, control: &Control<'_>) -> Result<(Vec<u64>, u64), StoreError> {
+        let grid = self.study.grid();
+        let all: Vec<u64> = (0..grid.tiles()).collect();
+        let states = control.pool()?.install(|| self.states(&all, &|| control.stopping()))?;
+        let stopped = || StoreError::Stopped(Meter::new(control, 0, grid.points()).stopped());
+        let states = states.ok_or_else(stopped)?;
+        let damaged = states.iter().filter(|state| **state == State::Damaged).count() as u64;
+        let open: Vec<u64> =
+            all.into_iter().zip(states).filter(|(_, state)| *state != State::Whole).map(|(tile, _)| tile).collect();
+        Ok((order::tiles(grid, self.layout.shards.as_ref(), &open, 0), damaged))
     }
 
     /// Whether the root states that the store was concluded.
@@ -123,10 +158,7 @@ impl Store {
         let tiles: Vec<u64> = (0..grid.tiles()).collect();
         let pool = control.pool()?;
         let stopping = || StoreError::Stopped(Meter::new(control, 0, grid.points()).kept());
-        let states = pool.install(|| {
-            let state = |tile: &u64| if control.stopping() { Err(stopping()) } else { self.state(*tile) };
-            tiles.par_iter().map(state).collect::<Result<Vec<State>, StoreError>>()
-        })?;
+        let states = pool.install(|| self.states(&tiles, &|| control.stopping()))?.ok_or_else(stopping)?;
         let mut damage = self.description_damage(states.iter().all(|state| *state == State::Whole))?;
         let torn = |tile: u64| Damage {
             tile: Some(tile),
@@ -135,11 +167,12 @@ impl Store {
         let with =
             |wanted| (tiles.iter().zip(&states)).filter(move |(_, state)| **state == wanted).map(|(tile, _)| *tile);
         damage.extend(with(State::Damaged).map(torn));
+        damage.extend(self.shard_damage(&states)?);
         let whole: Vec<u64> = with(State::Whole).collect();
         let chosen = choose(&whole, sample, seed);
         let points = |tile: u64| grid.tile(tile).points() as u64;
         let meter = Meter::new(control, 0, chosen.iter().map(|tile| points(*tile)).sum());
-        let twin = Self::over(Arc::new(Memory::default()), &self.plan, self.begun_by.clone())?;
+        let twin = Self::over(Arc::new(Memory::default()), &self.plan, self.begun_by.clone(), self.format())?;
         let concluded = self.concluded()?;
         let compared = pool.install(|| {
             let compare = |tile: &u64| -> Result<Option<Damage>, StoreError> {
@@ -190,29 +223,26 @@ impl Store {
 
     /// Describes how a tile of this store differs from the same tile of `twin`, if it does.
     fn differs(&self, twin: &Self, tile: u64, concluded: bool) -> Result<Option<String>, StoreError> {
-        for (field, array) in self.layout.arrays.iter().enumerate() {
-            let key = array.key(&self.layout.place(tile, field));
-            if self.get(&key)? == twin.get(&key)? {
+        for field in 0..self.layout.fields.len() {
+            let (here, there) = (self.sound(tile, field)?, twin.sound(tile, field)?);
+            if here == there {
                 continue;
             }
             // preliminary numbers of cycles become final ones when the store is concluded
-            let (here, there) = (self.read(tile, field)?, twin.read(tile, field)?);
             let renumbered = match (&here, &there) {
-                (Some(Column::I32(here)), Some(Column::I32(there))) => {
+                (Some((_, Column::I32(here))), Some((_, Column::I32(there)))) => {
                     here.len() == there.len()
                         && here.iter().zip(there).all(|(a, b)| a == b || (concluded && *b < -1 && *a >= 0))
                 }
                 _ => false,
             };
             // with the final numbers, the bytes of the chunk must be equal, also beyond the edge of the grid
-            let same = if let (true, Some(here)) = (renumbered, &here) {
-                twin.write(tile, field, here)?;
-                self.get(&key)? == twin.get(&key)?
-            } else {
-                false
+            let same = match (renumbered, &here) {
+                (true, Some((chunk, column))) => self.encoded(tile, field, column)? == *chunk,
+                _ => false,
             };
             if !same {
-                return Ok(Some(format!("`{key}` is not what the plan gives")));
+                return Ok(Some(format!("`{}` is not what the plan gives", self.layout.key(tile, field))));
             }
         }
         Ok(None)

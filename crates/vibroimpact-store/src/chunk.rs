@@ -3,7 +3,7 @@
 //! A chunk contains little-endian numbers compressed by Zstandard and ends with a CRC-32C, so that a truncated chunk or
 //! a flipped bit is detected. Not-a-number always has the same bit pattern.
 
-use serde_json::{Map, Value};
+use serde_json::{Map, Value, json};
 use std::sync::Arc;
 use vibroimpact_study::study::Cells;
 use vibroimpact_study::{Column, NumberType};
@@ -31,6 +31,8 @@ pub(crate) struct Chunked {
     pub(crate) name: String,
     array: Array<MemoryStore>,
     kind: Holds,
+    /// The lengths of a shard along each dimension, if chunks are in shards.
+    shard: Option<Vec<usize>>,
 }
 
 /// The description of an internal error that should not occur.
@@ -44,12 +46,14 @@ pub(crate) struct Description<'a> {
     pub(crate) fill: i32,
     /// Name, length and chunk length of each dimension.
     pub(crate) dimensions: Vec<(String, usize, usize)>,
+    /// The lengths of a shard along each dimension, if chunks are in shards.
+    pub(crate) shard: Option<Vec<usize>>,
     pub(crate) attributes: Map<String, Value>,
 }
 
 impl Chunked {
     pub(crate) fn new(description: Description<'_>) -> Result<Self, Defect> {
-        let Description { name, kind, fill, dimensions, attributes } = description;
+        let Description { name, kind, fill, dimensions, shard, attributes } = description;
         let (data, fill) = match kind {
             Holds::Numbers(NumberType::I8) => {
                 (data_type::int8(), FillValue::from(i8::try_from(fill).unwrap_or(i8::MIN)))
@@ -68,7 +72,7 @@ impl Chunked {
         let array = builder
             .build(Arc::new(MemoryStore::new()), &format!("/{name}"))
             .map_err(|error| format!("array {name}: {error}"))?;
-        Ok(Self { name: name.to_owned(), array, kind })
+        Ok(Self { name: name.to_owned(), array, kind, shard })
     }
 
     /// The key of its metadata.
@@ -79,7 +83,11 @@ impl Chunked {
     /// Its metadata, the content of its `zarr.json`.
     pub(crate) fn description(&self) -> Result<Value, Defect> {
         let text = serde_json::to_value(self.array.metadata()).map_err(|error| error.to_string())?;
-        Ok(plain(text))
+        let mut description = plain(text);
+        if let Some(shard) = &self.shard {
+            sharded(&mut description, shard);
+        }
+        Ok(description)
     }
 
     /// The key of a chunk.
@@ -165,6 +173,22 @@ pub(crate) fn reads(name: &str, description: &Value, bytes: Vec<u8>) -> bool {
     let Ok(shape) = array.chunk_shape(&vec![0; array.dimensionality()]) else { return false };
     let options = Chunked::options();
     array.codecs().decode(bytes.into(), &shape, array.data_type(), array.fill_value(), &options).is_ok()
+}
+
+/// Changes the metadata of an array of chunks to those of the same chunks in shards.
+fn sharded(description: &mut Value, shard: &[usize]) {
+    let side = core::mem::replace(&mut description["chunk_grid"]["configuration"]["chunk_shape"], json!(shard));
+    let codecs = description["codecs"].take();
+    let little = json!({ "name": "bytes", "configuration": { "endian": "little" } });
+    description["codecs"] = json!([{
+        "name": "sharding_indexed",
+        "configuration": {
+            "chunk_shape": side,
+            "codecs": codecs,
+            "index_codecs": [little, { "name": "crc32c" }],
+            "index_location": "end",
+        },
+    }]);
 }
 
 /// Removes the name of the library that wrote the metadata, and writes every codec as an object, because some readers

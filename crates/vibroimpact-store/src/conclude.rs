@@ -3,7 +3,7 @@
 use crate::layout::{array_of, array_of_table};
 use crate::root::Conclusion;
 use crate::{Store, StoreError};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use vibroimpact_study::Column;
 use vibroimpact_study::study::{StudyTable, Tiles, label_of};
 
@@ -11,12 +11,36 @@ impl Tiles for &Store {
     type Error = StoreError;
 
     fn read(&mut self, tile: u64, field: usize) -> Result<Column, StoreError> {
-        let key = || self.layout.arrays[field].key(&self.layout.place(tile, field));
+        let key = || self.layout.key(tile, field);
         Store::read(self, tile, field)?.ok_or_else(|| self.defect(&key(), "its check sum is wrong".into()))
     }
 
     fn write(&mut self, tile: u64, field: usize, column: &Column) -> Result<(), StoreError> {
-        Store::write(self, tile, field, column)
+        let chunk = self.encoded(tile, field, column)?;
+        self.put(&self.layout.key(tile, field), &chunk)
+    }
+}
+
+/// Access to the tiles of a store with shards. The chunks of a shard are replaced all at once, so a shard has either its
+/// preliminary or its final form, whatever other processes do.
+struct InShards<'a> {
+    store: &'a Store,
+    /// The new chunks of each shard and field.
+    new: BTreeMap<(u64, usize), BTreeMap<u64, Vec<u8>>>,
+}
+
+impl Tiles for InShards<'_> {
+    type Error = StoreError;
+
+    fn read(&mut self, tile: u64, field: usize) -> Result<Column, StoreError> {
+        Tiles::read(&mut &*self.store, tile, field)
+    }
+
+    fn write(&mut self, tile: u64, field: usize, column: &Column) -> Result<(), StoreError> {
+        let Some(shards) = &self.store.layout.shards else { return Ok(()) };
+        let chunk = self.store.encoded(tile, field, column)?;
+        self.new.entry((shards.of_tile(tile), field)).or_default().insert(tile, chunk);
+        Ok(())
     }
 }
 
@@ -28,9 +52,20 @@ impl Store {
             // another version may use other texts
             return Ok(());
         }
-        let mut tiles = self;
-        let conclusion = self.conclusion(&mut tiles)?;
+        self.complete_shards()?;
+        let conclusion = if self.layout.shards.is_some() {
+            let mut tiles = InShards { store: self, new: BTreeMap::new() };
+            let conclusion = self.conclusion(&mut tiles)?;
+            for ((shard, field), new) in tiles.new {
+                self.replace_chunks(shard, field, new)?;
+            }
+            conclusion
+        } else {
+            let mut tiles = self;
+            self.conclusion(&mut tiles)?
+        };
         self.settle_all(&self.descriptions(Some(&conclusion))?)?;
+        self.sweep_waiting()?;
         self.shelf.sweep().map_err(|error| self.unread("", error))
     }
 
@@ -41,7 +76,7 @@ impl Store {
         let tables = self.study.conclude(tiles)?;
         let mut labelled = Vec::new();
         for (number, field) in self.layout.fields.iter().enumerate().filter(|(_, field)| field.name == "label") {
-            let array = array_of(field, &self.layout.grid, &self.labels(number)?);
+            let array = array_of(field, (&self.layout.grid, self.layout.shards.as_ref()), &self.labels(number)?);
             labelled.push((number, array.map_err(|why| self.defect(&field.name, why))?));
         }
         let array = |table: StudyTable| match array_of_table(&table) {

@@ -1,12 +1,16 @@
 //! An open store.
 
+use crate::costs::Costs;
 use crate::layout::Layout;
 use crate::shelf::Shelf;
 use std::sync::Arc;
 use vibroimpact_study::study::{Study, StudyPlan};
 
-/// The version of the format of stores. A store with a later format is refused.
-pub const FORMAT: u64 = 1;
+/// The latest format of stores that this program knows: 1 without shards, 2 with shards. A store with a later format is
+/// refused.
+pub const FORMAT: u64 = 2;
+/// The format of stores whose tiles are files of their own.
+pub(crate) const PLAIN: u64 = 1;
 /// The version of this program.
 pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
 
@@ -18,4 +22,6 @@ pub struct Store {
     pub(crate) layout: Layout,
     /// The version that began it.
     pub(crate) begun_by: String,
+    /// The costs of its tiles, if they are recorded.
+    pub(crate) costs: Option<Costs>,
 }

@@ -1,6 +1,7 @@
 //! The arrays of a study in a store: one for each field, its coordinates, and the status of its tiles.
 
 use crate::chunk::{Chunked, Defect, Description, Holds};
+use crate::shards::Shards;
 use serde_json::{Map, Value, json};
 use vibroimpact_study::Grid;
 use vibroimpact_study::study::{Cells, Study, StudyTable};
@@ -14,6 +15,8 @@ pub(crate) const DONE: i8 = 1;
 /// The arrays of a study.
 pub(crate) struct Layout {
     pub(crate) grid: Grid,
+    /// The shards, if the chunks of tiles are in shards.
+    pub(crate) shards: Option<Shards>,
     pub(crate) fields: Vec<Field>,
     /// The arrays of the fields, in their order.
     pub(crate) arrays: Vec<Chunked>,
@@ -48,9 +51,17 @@ fn attributes(long_name: &str, unit: Unit, comment: &str, flags: &[(i32, String)
 }
 
 /// The array of a field; `more` are additional flags.
-pub(crate) fn array_of(field: &Field, grid: &Grid, more: &[(i32, String)]) -> Result<Chunked, Defect> {
+pub(crate) fn array_of(
+    field: &Field,
+    (grid, shards): (&Grid, Option<&Shards>),
+    more: &[(i32, String)],
+) -> Result<Chunked, Defect> {
     let mut dimensions: Vec<_> = grid.dimensions.iter().map(|d| (d.name.clone(), d.count, d.tile)).collect();
     dimensions.extend(field.extra.iter().map(|extra| (extra.name.to_owned(), extra.count, extra.count)));
+    let shard = shards.map(|shards| {
+        let sides = shards.side.iter().zip(&grid.dimensions).map(|(side, d)| side * d.tile);
+        sides.chain(field.extra.iter().map(|extra| extra.count)).collect()
+    });
     let own = field.flags.iter().map(|(value, meaning)| (*value, (*meaning).to_owned()));
     let flags: Vec<(i32, String)> = own.chain(more.iter().cloned()).collect();
     Chunked::new(Description {
@@ -58,6 +69,7 @@ pub(crate) fn array_of(field: &Field, grid: &Grid, more: &[(i32, String)]) -> Re
         kind: Holds::Numbers(field.kind),
         fill: field.fill,
         dimensions,
+        shard,
         attributes: attributes(&field.long_name, field.unit, field.comment, &flags),
     })
 }
@@ -75,21 +87,26 @@ pub(crate) fn array_of_table(table: &StudyTable) -> Result<Chunked, Defect> {
         kind,
         fill: i32::MIN,
         dimensions: table.dimensions.iter().map(|(name, count)| ((*name).to_owned(), *count, *count)).collect(),
+        shard: None,
         attributes: attributes(table.long_name, table.unit, "", &[]),
     })
 }
 
 impl Layout {
-    pub(crate) fn new(study: &Study) -> Result<Self, Defect> {
+    pub(crate) fn new(study: &Study, shards: Option<Shards>) -> Result<Self, Defect> {
         let (grid, fields) = (study.grid().clone(), study.fields());
-        let arrays = fields.iter().map(|field| array_of(field, &grid, &[])).collect::<Result<_, _>>()?;
+        let array = |field| array_of(field, (&grid, shards.as_ref()), &[]);
+        let arrays = fields.iter().map(array).collect::<Result<_, _>>()?;
+        // the status of all tiles of a shard is one chunk
+        let side = shards.as_ref().map_or_else(|| vec![1; grid.dimensions.len()], |shards| shards.side.clone());
         let tiles = grid.dimensions.iter().zip(grid.tiles_along());
         let flags = [(0, "not_computed".to_owned()), (i32::from(DONE), "done".to_owned())];
         let status = Chunked::new(Description {
             name: STATUS,
             kind: Holds::Numbers(NumberType::I8),
             fill: 0,
-            dimensions: tiles.map(|(d, count)| (format!("tile_{}", d.name), count, 1)).collect(),
+            dimensions: tiles.zip(side).map(|((d, count), side)| (format!("tile_{}", d.name), count, side)).collect(),
+            shard: None,
             attributes: attributes("whether the tile is computed", Unit::NUMBER, "", &flags),
         })?;
         let coordinate = |along: vibroimpact_study::study::Along| {
@@ -99,12 +116,13 @@ impl Layout {
                 kind: Holds::Numbers(NumberType::F64),
                 fill: 0,
                 dimensions: vec![(along.dimension.clone(), count, count)],
+                shard: None,
                 attributes: attributes(&along.long_name, along.unit, "", &[]),
             })?;
             Ok((array, Cells::Numbers(Column::F64(along.values))))
         };
         let coordinates = study.coordinates().into_iter().map(coordinate).collect::<Result<_, Defect>>()?;
-        Ok(Self { grid, fields, arrays, status, coordinates })
+        Ok(Self { grid, shards, fields, arrays, status, coordinates })
     }
 
     /// The indices of the chunk of a tile in the array of a field.
@@ -115,7 +133,39 @@ impl Layout {
 
     /// The indices of the chunk of a tile in the array of the status.
     pub(crate) fn status_place(&self, tile: u64) -> Vec<u64> {
-        self.grid.place(tile).into_iter().map(|i| i as u64).collect()
+        match &self.shards {
+            None => self.grid.place(tile).into_iter().map(|i| i as u64).collect(),
+            Some(shards) => Self::shard_place(shards, shards.of_tile(tile)),
+        }
+    }
+
+    /// The indices of a shard in all arrays without further dimensions.
+    pub(crate) fn shard_place(shards: &Shards, shard: u64) -> Vec<u64> {
+        shards.place(shard).into_iter().map(|i| i as u64).collect()
+    }
+
+    /// The key of the file that holds the chunk of a tile in the array of a field: its own, or that of its shard.
+    pub(crate) fn key(&self, tile: u64, field: usize) -> String {
+        let extra = self.fields[field].extra.iter().map(|_| 0);
+        match &self.shards {
+            None => self.arrays[field].key(&self.place(tile, field)),
+            Some(shards) => {
+                let place = Self::shard_place(shards, shards.of_tile(tile));
+                self.arrays[field].key(&place.into_iter().chain(extra).collect::<Vec<_>>())
+            }
+        }
+    }
+
+    /// The status in the chunk of a tile: that all tiles there are complete.
+    pub(crate) fn all_done(&self, tile: u64) -> Cells {
+        let status = match &self.shards {
+            None => vec![DONE],
+            Some(shards) => {
+                let of = |tile: Option<u64>| if tile.is_some() { DONE } else { 0 };
+                shards.tiles(shards.of_tile(tile)).into_iter().map(of).collect()
+            }
+        };
+        Cells::Numbers(Column::I8(status))
     }
 
     /// The chunk of a tile: its column, padded to the size of a chunk.

@@ -30,8 +30,13 @@
 //! | an array: its metadata, its chunks as bytes | `chunk.rs` |
 //! | the arrays of a study | `layout.rs` |
 //! | the metadata of the store | `root.rs` |
-//! | filling tiles by several threads until all are complete | `run.rs` |
+//! | which tiles are in which shard, the bytes of a shard | `shards.rs` |
+//! | tiles that wait for their shard, and its completion | `sharded.rs` |
+//! | filling tiles by several threads until all are complete, or the time is spent | `run.rs` |
+//! | which tiles come first | `order.rs` |
+//! | the processor time of each tile, beside the store | `costs.rs`, `clock.rs` |
 //! | the final tables | `conclude.rs` |
+//! | what a study will cost | `estimate.rs` |
 //! | progress and verification | `check.rs` |
 //! | verification of the metadata | `described.rs` |
 
@@ -39,28 +44,37 @@
 mod bucket;
 mod check;
 mod chunk;
+mod clock;
 mod conclude;
+mod costs;
 mod described;
 mod error;
+mod estimate;
 mod handle;
 mod layout;
+mod order;
 mod read;
 mod root;
 mod run;
+mod sharded;
+mod shards;
 mod shelf;
 
 #[cfg(feature = "s3")]
 pub use bucket::Bucket;
 pub use check::{Damage, Progress, Verified};
+pub use costs::{RegionCost, TileCosts};
 pub use error::StoreError;
+pub use estimate::{Estimate, Sampling, estimate};
 pub use handle::{FORMAT, Store};
 pub use run::{Part, Ran};
 pub use shelf::{Folder, Item, Shelf};
 
-use handle::VERSION;
-use layout::{DONE, Layout};
+use handle::{PLAIN, VERSION};
+use layout::Layout;
 use root::{Found, ROOT, read_root};
 use serde_json::Value;
+use shards::{LOOSE, Shards};
 use std::io;
 use std::path::Path;
 use std::sync::Arc;
@@ -97,6 +111,14 @@ pub fn shelf(place: &str) -> Result<Arc<dyn Shelf>, StoreError> {
     }
 }
 
+/// The shelf for the costs of the tiles of the store at a place: beside it, under its name with `.costs`.
+///
+/// # Errors
+/// As for [`shelf`].
+pub fn costs_beside(place: &str) -> Result<Arc<dyn Shelf>, StoreError> {
+    shelf(&format!("{}.costs", place.trim_end_matches(['/', '\\'])))
+}
+
 impl Store {
     /// Opens the store of a plan, and creates it if it does not exist.
     ///
@@ -105,7 +127,7 @@ impl Store {
     /// plan.
     pub fn create(shelf: Arc<dyn Shelf>, plan: impl Into<StudyPlan>) -> Result<Self, StoreError> {
         let plan = &plan.into().canonical()?;
-        let store = Self::over(shelf, plan, VERSION.to_owned())?;
+        let store = Self::over(shelf, plan, VERSION.to_owned(), FORMAT)?;
         let mut fresh = false;
         match store.root() {
             Ok(root) => return store.joined(&root),
@@ -117,7 +139,10 @@ impl Store {
                     return store.joined(&root);
                 }
                 // a store that another process is creating at this moment contains only arrays
-                let known = |key: &str| store.described().any(|array| key.starts_with(&format!("{}/", array.name)));
+                let known = |key: &str| {
+                    key.starts_with(LOOSE)
+                        || store.described().any(|array| key.starts_with(&format!("{}/", array.name)))
+                };
                 if there.iter().any(|item| !known(&item.key)) {
                     return Err(StoreError::Foreign(store.place()));
                 }
@@ -140,6 +165,10 @@ impl Store {
         if found.hash != self.plan.hash() {
             return Err(StoreError::OtherPlan { place: self.place(), theirs: found.hash, ours: self.plan.hash() });
         }
+        // a store that was begun without shards has none
+        if found.format == PLAIN && self.layout.shards.is_some() {
+            return Self::over(self.shelf, &self.plan, found.version, found.format);
+        }
         Ok(Self { begun_by: found.version, ..self })
     }
 
@@ -156,7 +185,7 @@ impl Store {
             key: ROOT.into(),
             why: format!("its plan does not read: {error}"),
         })?;
-        let store = Self::over(shelf, &plan, found.version)?;
+        let store = Self::over(shelf, &plan, found.version, found.format)?;
         // another version may write the same plan as another text
         if store.is_ours() && store.plan.hash() != found.hash {
             let why =
@@ -166,10 +195,22 @@ impl Store {
         Ok(store)
     }
 
-    fn over(shelf: Arc<dyn Shelf>, plan: &StudyPlan, begun_by: String) -> Result<Self, StoreError> {
+    fn over(shelf: Arc<dyn Shelf>, plan: &StudyPlan, begun_by: String, format: u64) -> Result<Self, StoreError> {
         let study = Study::new(plan)?;
-        let layout = Layout::new(&study).map_err(|why| StoreError::Unreachable { place: shelf.name(), why })?;
-        Ok(Self { shelf, plan: plan.clone(), study, layout, begun_by })
+        let shards = if format == PLAIN { None } else { Shards::of(study.grid(), plan.shard()) };
+        let layout = Layout::new(&study, shards).map_err(|why| StoreError::Unreachable { place: shelf.name(), why })?;
+        Ok(Self { shelf, plan: plan.clone(), study, layout, begun_by, costs: None })
+    }
+
+    /// Number of tiles of a shard along each dimension; `None` for a store without shards.
+    #[must_use]
+    pub fn shard(&self) -> Option<&[usize]> {
+        self.layout.shards.as_ref().map(|shards| shards.side.as_slice())
+    }
+
+    /// The format of this store.
+    const fn format(&self) -> u64 {
+        if self.layout.shards.is_some() { FORMAT } else { PLAIN }
     }
 
     /// The plan of the study.
@@ -218,11 +259,16 @@ impl Store {
         StoreError::Damaged { place: self.place(), key: key.to_owned(), why }
     }
 
-    /// Whether a tile is complete, that is, its status exists and is undamaged.
-    fn done(&self, tile: u64) -> Result<bool, StoreError> {
+    /// Whether the status of a tile, or of its shard, exists and is undamaged.
+    fn stated(&self, tile: u64) -> Result<bool, StoreError> {
         let (array, place) = (&self.layout.status, self.layout.status_place(tile));
         let Some(bytes) = self.get(&array.key(&place))? else { return Ok(false) };
-        Ok(array.decode(&place, bytes) == Ok(Cells::Numbers(Column::I8(vec![DONE]))))
+        Ok(array.decode(&place, bytes).as_ref() == Ok(&self.layout.all_done(tile)))
+    }
+
+    /// Whether a tile is complete, that is, its status exists and is undamaged, or it waits for its shard.
+    fn done(&self, tile: u64) -> Result<bool, StoreError> {
+        Ok(self.stated(tile)? || self.waiting(tile)?.is_some())
     }
 
     /// Computes a tile and writes it, with its status last. Writes nothing if stopped.
@@ -232,35 +278,60 @@ impl Store {
         Ok(true)
     }
 
-    /// Writes the columns of a tile, as returned by [`Study::tile`], and then its status.
+    /// Writes the columns of a tile, as returned by [`Study::tile`], and then its status. In a store with shards the tile is
+    /// one object that waits for the others of its shard.
     ///
     /// # Errors
     /// [`StoreError`] if the place cannot be written.
     pub fn write_tile(&self, tile: u64, columns: &[Column]) -> Result<(), StoreError> {
-        for (field, column) in columns.iter().enumerate() {
-            self.write(tile, field, column)?;
+        let chunks = columns.iter().enumerate().map(|(field, column)| self.encoded(tile, field, column));
+        if let Some(shards) = &self.layout.shards {
+            return self.put(&shards.loose_key(tile), &shards::bundle(&chunks.collect::<Result<Vec<_>, _>>()?));
         }
-        let (array, place) = (&self.layout.status, self.layout.status_place(tile));
-        let done = Cells::Numbers(Column::I8(vec![DONE]));
-        let bytes = array.encode(&place, &done).map_err(|why| self.defect(&array.name, why))?;
-        self.put(&array.key(&place), &bytes)
+        for (field, chunk) in chunks.enumerate() {
+            self.put(&self.layout.key(tile, field), &chunk?)?;
+        }
+        let (key, bytes) = self.status_object(tile)?;
+        self.put(&key, &bytes)
     }
 
-    fn write(&self, tile: u64, field: usize, column: &Column) -> Result<(), StoreError> {
-        let (array, place) = (&self.layout.arrays[field], self.layout.place(tile, field));
+    /// The status that says that a tile, or all tiles of its shard, are complete.
+    fn status_object(&self, tile: u64) -> Result<(String, Vec<u8>), StoreError> {
+        let (array, place) = (&self.layout.status, self.layout.status_place(tile));
+        let bytes = array.encode(&place, &self.layout.all_done(tile)).map_err(|why| self.defect(&array.name, why))?;
+        Ok((array.key(&place), bytes))
+    }
+
+    /// The chunk of a tile in the array of a field.
+    fn encoded(&self, tile: u64, field: usize, column: &Column) -> Result<Vec<u8>, StoreError> {
+        let array = &self.layout.arrays[field];
         let chunk = Cells::Numbers(self.layout.padded(tile, field, column));
-        let bytes = array.encode(&place, &chunk).map_err(|why| self.defect(&array.name, why))?;
-        self.put(&array.key(&place), &bytes)
+        array.encode(&self.layout.place(tile, field), &chunk).map_err(|why| self.defect(&array.name, why))
+    }
+
+    /// The column of a field in a tile from its chunk, unless it is damaged.
+    fn decoded(&self, tile: u64, field: usize, chunk: Vec<u8>) -> Option<Column> {
+        match self.layout.arrays[field].decode(&self.layout.place(tile, field), chunk) {
+            Ok(Cells::Numbers(chunk)) => Some(self.layout.unpadded(tile, field, &chunk)),
+            _ => None,
+        }
+    }
+
+    /// The chunk of a field in a tile, and its column, if it exists and is undamaged.
+    fn sound(&self, tile: u64, field: usize) -> Result<Option<(Vec<u8>, Column)>, StoreError> {
+        let both = |chunk: Vec<u8>| Some((chunk.clone(), self.decoded(tile, field, chunk)?));
+        let Some(shards) = &self.layout.shards else {
+            return Ok(self.get(&self.layout.key(tile, field))?.and_then(both));
+        };
+        if let Some(found) = self.in_shard(shards, tile, field)?.and_then(both) {
+            return Ok(Some(found));
+        }
+        Ok(self.waiting(tile)?.and_then(|chunks| chunks.into_iter().nth(field)).and_then(both))
     }
 
     /// The column of a field in a tile, if it exists and is undamaged.
     fn read(&self, tile: u64, field: usize) -> Result<Option<Column>, StoreError> {
-        let (array, place) = (&self.layout.arrays[field], self.layout.place(tile, field));
-        let Some(bytes) = self.get(&array.key(&place))? else { return Ok(None) };
-        Ok(match array.decode(&place, bytes) {
-            Ok(Cells::Numbers(chunk)) => Some(self.layout.unpadded(tile, field, &chunk)),
-            _ => None,
-        })
+        Ok(self.sound(tile, field)?.map(|(_, column)| column))
     }
 
     /// Whether this version created the store.

@@ -56,15 +56,26 @@ impl Store {
         Ok(whole)
     }
 
+    /// Whether a tile is said to be complete, by its status or by its object, even if they are damaged.
+    pub(crate) fn claimed(&self, tile: u64) -> Result<bool, StoreError> {
+        let status = self.layout.status.key(&self.layout.status_place(tile));
+        if self.get(&status)?.is_some() {
+            return Ok(true);
+        }
+        match &self.layout.shards {
+            Some(shards) => Ok(self.get(&shards.loose_key(tile))?.is_some()),
+            None => Ok(false),
+        }
+    }
+
     /// The column of a field in a tile; `None` if the tile is not complete.
     fn kept(&self, tile: u64, field: usize) -> Result<Option<Column>, StoreError> {
         let found = self.read(tile, field)?;
-        let status = self.layout.status.key(&self.layout.status_place(tile));
-        if found.is_some() || self.get(&status)?.is_none() {
+        if found.is_some() || !self.claimed(tile)? {
             return Ok(found);
         }
         // a damaged chunk of a complete tile is an error; fill values would be taken for results
-        let key = self.layout.arrays[field].key(&self.layout.place(tile, field));
+        let key = self.layout.key(tile, field);
         Err(StoreError::DamagedTile { place: self.place(), tile, key })
     }
 }

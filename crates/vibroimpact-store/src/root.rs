@@ -67,7 +67,7 @@ impl Store {
                 "title": self.plan.title(),
                 "source": format!("vibroimpact {}", self.begun_by),
                 "references": references(&self.plan),
-                "vibroimpact_format": FORMAT,
+                "vibroimpact_format": self.format(),
                 "vibroimpact_version": self.begun_by,
                 "plan": plan,
                 "plan_hash": self.plan.hash(),
@@ -157,6 +157,7 @@ pub(crate) struct Found {
     pub(crate) plan: String,
     pub(crate) hash: String,
     pub(crate) version: String,
+    pub(crate) format: u64,
 }
 
 impl Found {
@@ -171,7 +172,7 @@ impl Found {
             return Err(StoreError::Newer { place: place.to_owned(), found: format, known: FORMAT, program });
         }
         match (word("plan"), word("plan_hash"), word("vibroimpact_version")) {
-            (Some(plan), Some(hash), Some(version)) => Ok(Self { plan, hash, version }),
+            (Some(plan), Some(hash), Some(version)) => Ok(Self { plan, hash, version, format }),
             _ => Err(StoreError::Damaged {
                 place: place.to_owned(),
                 key: ROOT.into(),

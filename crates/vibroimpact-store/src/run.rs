@@ -1,10 +1,13 @@
 //! Computation of missing tiles by several threads.
 
-use crate::{Store, StoreError};
-use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use crate::clock::thread_time;
+use crate::shards::LOOSE;
+use crate::{Store, StoreError, order};
+use core::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
-use vibroimpact_study::{Control, Grid, Meter};
+use std::time::Instant;
+use vibroimpact_study::{Control, Meter};
 
 /// Part `index` of `of` of the tiles, counted from 1. It has every `of`-th tile, so that slow and fast tiles are
 /// distributed over the parts.
@@ -26,16 +29,13 @@ impl Part {
         if index >= 1 && index <= of { Ok(Self { index, of }) } else { Err(StoreError::Part { index, of }) }
     }
 
-    const fn has(self, tile: u64) -> bool {
-        tile % self.of == self.index - 1
-    }
-
-    /// Number of points of this part of a grid.
-    #[must_use]
-    pub fn points(self, grid: &Grid) -> u64 {
-        (0..grid.tiles()).filter(|tile| self.has(*tile)).map(|tile| grid.tile(tile).points() as u64).sum()
+    const fn has(self, number: u64) -> bool {
+        number % self.of == self.index - 1
     }
 }
+
+/// A part has whole shards if there are at least so many for each part; otherwise tiles.
+const SHARDS_OF_A_PART: u64 = 4;
 
 /// The result of a run, as numbers of tiles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,8 +46,10 @@ pub struct Ran {
     pub found: u64,
     /// Complete tiles that were damaged and have been computed again.
     pub mended: u64,
-    /// Tiles of other parts that are not complete yet.
+    /// Tiles that are not complete yet: those of other parts, and those for which there was no time.
     pub left: u64,
+    /// Whether the time was spent before all tiles of this part were complete.
+    pub spent: bool,
 }
 
 impl Store {
@@ -58,15 +60,42 @@ impl Store {
     /// # Errors
     /// [`StoreError`] when stopped, or if an object cannot be read or written. Complete tiles are kept.
     pub fn run(&self, part: Part, control: &Control<'_>) -> Result<Ran, StoreError> {
+        self.run_until(part, None, control)
+    }
+
+    /// The same, but no tile is begun after `until`, except the first one, so that every run gets on. Tiles that are being
+    /// computed then are finished.
+    ///
+    /// # Errors
+    /// As for [`Store::run`].
+    pub fn run_until(&self, part: Part, until: Option<Instant>, control: &Control<'_>) -> Result<Ran, StoreError> {
         self.mend_descriptions()?;
-        let tiles = self.study.grid().tiles();
-        let mine: Vec<u64> = (0..tiles).filter(|tile| part.has(*tile)).collect();
-        let ran = self.run_tiles(&mine, control)?;
-        let left = if part == Part::ALL { 0 } else { tiles - self.count_done()? };
+        let (tiles, mine) = (self.study.grid().tiles(), self.tiles_of(part));
+        let ran = self.compute(&mine, until, control);
+        if let Some(costs) = &self.costs {
+            costs.flush();
+        }
+        let ran = ran?;
+        let left = if part == Part::ALL && !ran.spent { 0 } else { tiles - self.count_done()? };
         if left == 0 {
             self.conclude()?;
         }
         Ok(Ran { left, ..ran })
+    }
+
+    /// The tiles of a part.
+    fn tiles_of(&self, part: Part) -> Vec<u64> {
+        let shards = self.layout.shards.as_ref();
+        let shards = shards.filter(|shards| shards.count() >= part.of.saturating_mul(SHARDS_OF_A_PART));
+        let mine = |tile: &u64| part.has(shards.map_or(*tile, |shards| shards.of_tile(*tile)));
+        (0..self.study.grid().tiles()).filter(mine).collect()
+    }
+
+    /// Number of points of a part.
+    #[must_use]
+    pub fn points_of(&self, part: Part) -> u64 {
+        let grid = self.study.grid();
+        self.tiles_of(part).into_iter().map(|tile| grid.tile(tile).points() as u64).sum()
     }
 
     /// Concludes the store if all tiles are complete. Returns whether they are. For callers that distribute tiles
@@ -87,74 +116,100 @@ impl Store {
     /// # Errors
     /// As for [`Store::run`].
     pub fn run_tiles(&self, mine: &[u64], control: &Control<'_>) -> Result<Ran, StoreError> {
+        self.compute(mine, None, control)
+    }
+
+    /// Computes those of the given tiles (in rising order) that are missing or damaged, until the time is spent.
+    fn compute(&self, mine: &[u64], until: Option<Instant>, control: &Control<'_>) -> Result<Ran, StoreError> {
         let grid = self.study.grid();
         let points = |tile: u64| grid.tile(tile).points() as u64;
         let total: u64 = mine.iter().map(|tile| points(*tile)).sum();
         let pool = control.pool()?;
-        let states = pool.install(|| {
-            let state = |tile: &u64| if control.stopping() { Ok(State::Open) } else { self.state(*tile) };
-            mine.par_iter().map(state).collect::<Result<Vec<State>, StoreError>>()
-        })?;
+        let states = pool.install(|| self.states(mine, &|| control.stopping()))?;
+        let states = states.unwrap_or_else(|| vec![State::Open; mine.len()]);
         let mut open: Vec<u64> =
             mine.iter().zip(&states).filter(|(_, state)| **state != State::Whole).map(|(tile, _)| *tile).collect();
-        let mended = states.iter().filter(|state| **state == State::Damaged).count() as u64;
         let damaged = |tile: u64| mine.binary_search(&tile).is_ok_and(|at| states[at] == State::Damaged);
         if !open.is_empty() {
             self.same_version()?;
-            // processes that start at the same time begin at different tiles
-            let turn = std::process::id() as usize * 7919 % open.len();
-            open.rotate_left(turn);
+            open = order::tiles(grid, self.layout.shards.as_ref(), &open, std::process::id() as usize * 7919);
         }
         let before = total - open.iter().map(|tile| points(*tile)).sum::<u64>();
         let meter = Meter::new(control, before, total);
         (control.progress)(before);
 
+        // a process that was killed may have left complete shards that were not written
+        let unfinished = self.unfinished_shards(mine, &open);
+        if !control.stopping() {
+            unfinished.closed.iter().try_for_each(|shard| self.complete_shard(*shard).map(drop))?;
+        }
         let failure: Mutex<Option<StoreError>> = Mutex::new(None);
         let failed = AtomicBool::new(false);
-        let (computed, elsewhere) = (AtomicU64::new(0), AtomicU64::new(0));
+        let [computed, mended, elsewhere] = [const { AtomicU64::new(0) }; 3];
+        let begun = AtomicUsize::new(0);
         let one = |tile: u64| -> Result<(), StoreError> {
             let part = meter.tile(points(tile));
             if !damaged(tile) && self.done(tile)? {
                 elsewhere.fetch_add(1, Ordering::Relaxed);
                 part.finish();
-                return Ok(());
+                return self.complete_if_last(&unfinished, tile);
             }
+            let before = thread_time();
             if self.fill(tile, &|| part.tick() || failed.load(Ordering::Relaxed))? {
+                if let Some(costs) = &self.costs {
+                    costs.add(tile, thread_time().saturating_sub(before));
+                }
                 computed.fetch_add(1, Ordering::Relaxed);
+                mended.fetch_add(u64::from(damaged(tile)), Ordering::Relaxed);
                 part.finish();
+                self.complete_if_last(&unfinished, tile)?;
             }
             Ok(())
         };
-        pool.install(|| {
-            // one at a time and in order, so that a stopped run leaves gaps of at most one tile for each thread
-            open.par_iter().with_max_len(1).for_each(|tile| {
-                if control.stopping() || failed.load(Ordering::Relaxed) {
-                    return;
-                }
+        // one at a time and in order, so that a stopped run leaves gaps of at most one tile for each thread
+        pool.broadcast(|_| {
+            while !control.stopping() && !failed.load(Ordering::Relaxed) {
+                let at = begun.fetch_add(1, Ordering::Relaxed);
+                let late = at > 0 && until.is_some_and(|until| Instant::now() >= until);
+                let Some(tile) = open.get(at).filter(|_| !late) else { return };
                 if let Err(error) = one(*tile) {
                     failed.store(true, Ordering::Relaxed);
                     failure.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
                 }
-            });
+            }
         });
         if let Some(error) = failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
             return Err(error);
         }
-        let (computed, elsewhere) = (computed.into_inner(), elsewhere.into_inner());
-        if computed + elsewhere < open.len() as u64 {
+        let [computed, mended, elsewhere] = [computed, mended, elsewhere].map(AtomicU64::into_inner);
+        let rest = open.len() as u64 - computed - elsewhere;
+        if rest > 0 && control.stopping() {
             return Err(StoreError::Stopped(meter.kept()));
         }
-        (control.progress)(total);
+        (control.progress)(if rest > 0 { meter.kept().done } else { total });
         let found = mine.len() as u64 - open.len() as u64 + elsewhere;
-        Ok(Ran { computed, found, mended, left: grid.tiles() - mine.len() as u64 })
+        let left = grid.tiles() - mine.len() as u64 + rest;
+        Ok(Ran { computed, found, mended, left, spent: rest > 0 })
+    }
+
+    /// The states of the given tiles; `None` if stopped.
+    pub(crate) fn states(
+        &self,
+        tiles: &[u64],
+        stop: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Vec<State>>, StoreError> {
+        if let Some(shards) = &self.layout.shards {
+            return self.states_in_shards(shards, tiles, stop);
+        }
+        let state = |tile: &u64| if stop() { Ok(None) } else { self.state(*tile).map(Some) };
+        tiles.par_iter().map(state).collect()
     }
 
     /// Whether a tile exists and is undamaged.
-    pub(crate) fn state(&self, tile: u64) -> Result<State, StoreError> {
-        if !self.done(tile)? {
+    fn state(&self, tile: u64) -> Result<State, StoreError> {
+        if !self.stated(tile)? {
             // an existing but damaged status is damage too
-            let there = self.get(&self.layout.status.key(&self.layout.status_place(tile)))?.is_some();
-            return Ok(if there { State::Damaged } else { State::Open });
+            return Ok(if self.claimed(tile)? { State::Damaged } else { State::Open });
         }
         for field in 0..self.layout.fields.len() {
             if self.read(tile, field)?.is_none() {
@@ -166,9 +221,12 @@ impl Store {
 
     /// Number of complete tiles.
     pub(crate) fn count_done(&self) -> Result<u64, StoreError> {
-        let prefix = self.layout.status.chunk_prefix();
-        let items = self.shelf.list(&prefix).map_err(|error| self.unread(&prefix, error))?;
-        Ok(items.len() as u64)
+        let list = |prefix: &str| self.shelf.list(prefix).map_err(|error| self.unread(prefix, error));
+        let stated = list(&self.layout.status.chunk_prefix())?;
+        match &self.layout.shards {
+            None => Ok(stated.len() as u64),
+            Some(shards) => Ok(self.count_in_shards(shards, &stated, &list(LOOSE)?)),
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The place of the objects of a store. An object has a name and bytes, and is written completely or not at all.
 
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::SystemTime;
@@ -25,6 +25,31 @@ pub trait Shelf: Send + Sync {
     /// # Errors
     /// If the place cannot be read.
     fn get(&self, key: &str) -> io::Result<Option<Vec<u8>>>;
+
+    /// The last `count` bytes of an object, and its length, if there is one.
+    ///
+    /// # Errors
+    /// If the place cannot be read.
+    fn tail(&self, key: &str, count: usize) -> io::Result<Option<(Vec<u8>, u64)>> {
+        let end = |bytes: Vec<u8>| (bytes[bytes.len().saturating_sub(count)..].to_vec(), bytes.len() as u64);
+        Ok(self.get(key)?.map(end))
+    }
+
+    /// `count` bytes of an object from `from`, or fewer where it ends, if there is one.
+    ///
+    /// # Errors
+    /// If the place cannot be read.
+    fn range(&self, key: &str, from: u64, count: u64) -> io::Result<Option<Vec<u8>>> {
+        let place = |at: u64, bytes: &[u8]| usize::try_from(at).unwrap_or(usize::MAX).min(bytes.len());
+        let part = |bytes: Vec<u8>| bytes[place(from, &bytes)..place(from.saturating_add(count), &bytes)].to_vec();
+        Ok(self.get(key)?.map(part))
+    }
+
+    /// Removes an object. That there is none is no error.
+    ///
+    /// # Errors
+    /// If the place cannot be written.
+    fn remove(&self, key: &str) -> io::Result<()>;
 
     /// Writes an object. Replaces the object with the same name, if there is one.
     ///
@@ -76,6 +101,15 @@ impl Folder {
         &self.path
     }
 
+    /// An object for reading, if there is one.
+    fn open(&self, key: &str) -> io::Result<Option<File>> {
+        match File::open(self.path.join(key)) {
+            Ok(file) => Ok(Some(file)),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(error),
+        }
+    }
+
     fn unfinished(name: &str) -> bool {
         name.starts_with('.') && name.ends_with(UNFINISHED)
     }
@@ -115,6 +149,38 @@ impl Shelf for Folder {
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
             Err(error) => Err(error),
         }
+    }
+
+    fn tail(&self, key: &str, count: usize) -> io::Result<Option<(Vec<u8>, u64)>> {
+        let Some(mut file) = self.open(key)? else { return Ok(None) };
+        let length = file.metadata()?.len();
+        file.seek(SeekFrom::Start(length.saturating_sub(count as u64)))?;
+        let mut bytes = Vec::with_capacity(count);
+        file.read_to_end(&mut bytes)?;
+        Ok(Some((bytes, length)))
+    }
+
+    fn range(&self, key: &str, from: u64, count: u64) -> io::Result<Option<Vec<u8>>> {
+        let Some(mut file) = self.open(key)? else { return Ok(None) };
+        file.seek(SeekFrom::Start(from))?;
+        let mut bytes = Vec::new();
+        file.take(count).read_to_end(&mut bytes)?;
+        Ok(Some(bytes))
+    }
+
+    fn remove(&self, key: &str) -> io::Result<()> {
+        let path = self.path.join(key);
+        match fs::remove_file(&path) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+            _ => {}
+        }
+        // folders that have become empty; one that another process is filling is not removed, or made again by it
+        for folder in path.ancestors().skip(1).take_while(|folder| *folder != self.path) {
+            if fs::remove_dir(folder).is_err() {
+                break;
+            }
+        }
+        Ok(())
     }
 
     fn put(&self, key: &str, bytes: &[u8]) -> io::Result<()> {
@@ -177,7 +243,7 @@ impl Shelf for Folder {
 }
 
 /// A name that differs between machines that share a file system.
-fn host() -> String {
+pub(crate) fn host() -> String {
     let name = fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
     let plain: String = name.trim().chars().filter(char::is_ascii_alphanumeric).take(20).collect();
     if plain.is_empty() { plain } else { plain + "." }
@@ -212,6 +278,11 @@ impl Shelf for Memory {
         Ok(self.objects().iter().filter(|(key, _)| key.starts_with(prefix)).map(item).collect())
     }
 
+    fn remove(&self, key: &str) -> io::Result<()> {
+        self.objects().remove(key);
+        Ok(())
+    }
+
     fn sweep(&self) -> io::Result<()> {
         Ok(())
     }
@@ -242,6 +313,16 @@ mod tests {
         assert_eq!(keys(""), ["a/c/1/0", "a/zarr.json", "ab"]);
         assert_eq!(keys("a/"), ["a/c/1/0", "a/zarr.json"]);
         assert_eq!(keys("a/c/"), ["a/c/1/0"]);
+        shelf.put("a/parts", b"0123456789").unwrap();
+        assert_eq!(shelf.tail("a/parts", 3).unwrap(), Some((b"789".to_vec(), 10)));
+        assert_eq!(shelf.tail("a/parts", 30).unwrap(), Some((b"0123456789".to_vec(), 10)));
+        assert_eq!(shelf.range("a/parts", 8, 9).unwrap().as_deref(), Some(b"89".as_slice()));
+        assert_eq!((shelf.tail("a/none", 3).unwrap(), shelf.range("a/none", 0, 9).unwrap()), (None, None));
+        shelf.put(".tiles/3/7", b"tile").unwrap();
+        for key in ["a/parts", ".tiles/3/7", ".tiles/3/7"] {
+            shelf.remove(key).unwrap();
+        }
+        assert!(!place.join(".tiles").exists() && place.join("a").exists());
         shelf.sweep().unwrap();
         assert!(!place.join("a/c/1/.0.123.7.tmp").exists() && place.join("a/c/1/0").exists());
     }

@@ -9,8 +9,9 @@ use common::{S, basin, control, files, map, open, whole};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::{Duration, Instant};
 use std::{fs, io};
-use vibroimpact_store::{Folder, Item, Part, Shelf, Store, StoreError};
+use vibroimpact_store::{Folder, Item, Part, Shelf, Store, StoreError, costs_beside};
 use vibroimpact_study::{
     Axis, Control, DiagramPlan, LyapunovPlan, MapPlan, Parameter, Plan, StartPlan, SystemPlan, Task,
 };
@@ -121,6 +122,76 @@ fn f10_points_are_counted_with_refinement() {
     }
 }
 
+/// A run whose time is spent begins no further tile, gets on by at least one tile, and changes no byte of the result.
+#[test]
+fn a_budget_ends_at_the_border_of_a_tile() {
+    for plan in [basin(), map()] {
+        let (_kept, want) = whole(&plan);
+        let folder = tempfile::tempdir().unwrap();
+        let tiles = open(folder.path(), &plan).study().grid().tiles();
+        for done in 1..=tiles {
+            let store = open(folder.path(), &plan);
+            let ran = store.run_until(Part::ALL, Some(Instant::now()), &control(2)).unwrap();
+            assert_eq!((ran.computed, ran.found, ran.left), (1, done - 1, tiles - done));
+            assert_eq!(ran.spent, done < tiles);
+            assert_eq!(store.progress().unwrap().done, done);
+        }
+        assert!(files(folder.path()) == want);
+        let ran = open(folder.path(), &plan).run_until(Part::ALL, Some(Instant::now()), &control(2)).unwrap();
+        assert_eq!((ran.computed, ran.found, ran.spent), (0, tiles, false));
+        // a budget that is long enough changes nothing
+        let other = tempfile::tempdir().unwrap();
+        let until = Instant::now().checked_add(Duration::from_secs(3600));
+        let part = Part::new(2, 3).unwrap();
+        let ran = open(other.path(), &plan).run_until(part, until, &control(2)).unwrap();
+        assert!(!ran.spent && ran.left == tiles - ran.computed);
+    }
+}
+
+/// The tiles that are done first are spread over the grid.
+#[test]
+fn tiles_are_computed_from_coarse_to_fine() {
+    let plan = Plan { tile: Some(5), ..basin() };
+    let folder = tempfile::tempdir().unwrap();
+    let store = open(folder.path(), &plan);
+    let grid = store.study().grid().clone();
+    for _ in 0..16 {
+        store.run_until(Part::ALL, Some(Instant::now()), &control(1)).unwrap();
+    }
+    let missing = store.progress().unwrap().missing;
+    for tile in 0..grid.tiles() {
+        // 8 by 9 tiles: the first 4 by 4 are those whose places are even (by 8) or divisible by 4 (by 9, which counts as 16)
+        let place = grid.place(tile);
+        let wanted = place.iter().all(|at| at.is_multiple_of(4));
+        assert!(!wanted || !missing.contains(&tile), "{place:?}");
+    }
+}
+
+/// The processor time of tiles is recorded beside the store, whose bytes do not change.
+#[test]
+fn costs_are_beside_the_store() {
+    let plan = map();
+    let (_kept, want) = whole(&plan);
+    let folder = tempfile::tempdir().unwrap();
+    let place = folder.path().join("map.zarr").display().to_string();
+    let with_costs = || open(Path::new(&place), &plan).with_costs(costs_beside(&place).unwrap());
+    with_costs().run(Part::new(1, 2).unwrap(), &control(2)).unwrap();
+    assert_eq!(with_costs().costs().unwrap().tiles.len(), 6);
+    with_costs().run(Part::ALL, &control(1)).unwrap();
+    let costs = with_costs().costs().unwrap();
+    assert_eq!(costs.tiles.len(), 12);
+    assert!(costs.seconds() > 0.0 && costs.tiles.values().all(|seconds| *seconds >= 0.0));
+    let grid = with_costs().study().grid().clone();
+    assert_eq!(costs.regions(&grid).iter().map(|region| region.points).sum::<u64>(), grid.points());
+    assert!(files(Path::new(&place)) == want);
+    // costs of another plan, and objects without costs in them, are skipped
+    fs::write(folder.path().join("map.zarr.costs/other.json"), r#"{"tiles":[99],"seconds":[1]}"#).unwrap();
+    fs::write(folder.path().join(format!("map.zarr.costs/{}-torn.json", plan.hash())), "{").unwrap();
+    assert_eq!(with_costs().costs().unwrap(), costs);
+    // without a shelf there are none
+    assert_eq!(open(Path::new(&place), &plan).costs().unwrap().tiles.len(), 0);
+}
+
 #[test]
 fn damage_is_found_and_mended() {
     for plan in [basin(), map()] {
@@ -141,6 +212,8 @@ fn damage_is_found_and_mended() {
             let found = open_again().verify(0, 0, &control(1)).unwrap();
             // a tile without a status counts as a tile that was never computed
             assert!(!found.damage.is_empty() || (found.open == 1 && key.starts_with("status")), "{key}");
+            let of_tile = found.damage.iter().any(|damage| damage.tile.is_some());
+            assert_eq!(open_again().damaged(&control(1)).unwrap(), u64::from(of_tile), "{key}");
             open_again().run(Part::ALL, &control(2)).unwrap();
             assert!(files(folder.path()) == want, "{key}");
         }
@@ -240,6 +313,9 @@ impl Shelf for ReadOnly {
     fn list(&self, prefix: &str) -> io::Result<Vec<Item>> {
         self.0.list(prefix)
     }
+    fn remove(&self, _: &str) -> io::Result<()> {
+        Err(io::ErrorKind::ReadOnlyFilesystem.into())
+    }
     fn sweep(&self) -> io::Result<()> {
         Ok(())
     }
@@ -296,6 +372,9 @@ impl Shelf for Contested {
     fn list(&self, prefix: &str) -> io::Result<Vec<Item>> {
         self.0.list(prefix)
     }
+    fn remove(&self, key: &str) -> io::Result<()> {
+        self.0.remove(key)
+    }
     fn sweep(&self) -> io::Result<()> {
         self.0.sweep()
     }
@@ -343,9 +422,9 @@ fn refusals() {
     // a later format, and another version
     let root = folder.path().join("zarr.json");
     let text = fs::read_to_string(&root).unwrap();
-    fs::write(&root, text.replace("\"vibroimpact_format\": 1", "\"vibroimpact_format\": 2")).unwrap();
+    fs::write(&root, text.replace("\"vibroimpact_format\": 1", "\"vibroimpact_format\": 3")).unwrap();
     let newer = Store::open(Arc::new(Folder::new(folder.path()))).err().unwrap().to_string();
-    assert!(newer.contains("has format 2; this program knows format 1"), "{newer}");
+    assert!(newer.contains("has format 3; this program knows format 2"), "{newer}");
     let version = format!("\"vibroimpact_version\": \"{}\"", env!("CARGO_PKG_VERSION"));
     fs::write(&root, text.replace(&version, "\"vibroimpact_version\": \"0.0.9\"")).unwrap();
     let store = Store::open(Arc::new(Folder::new(folder.path()))).unwrap();

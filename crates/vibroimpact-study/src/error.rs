@@ -311,6 +311,14 @@ pub enum PlanError {
         /// The largest allowed value.
         most: u32,
     },
+    /// The size of a shard is outside its allowed range.
+    #[error("shard = {given} lies outside 1 <= shard <= {most}")]
+    Shard {
+        /// The given value.
+        given: u32,
+        /// The largest allowed value.
+        most: u32,
+    },
     /// The step of the coarse grid is invalid.
     #[error(
         "refine = {given} lies outside 2 <= refine <= {most}: the distance, in points, of the coarse grid to begin with"

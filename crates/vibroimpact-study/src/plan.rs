@@ -27,6 +27,10 @@ pub struct Plan {
     /// Points of a tile along each axis, where results are stored; each task has a size of its own when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tile: Option<u32>,
+    /// Tiles of a shard along each axis, where results are stored; 1 for no shards. When absent, a store has shards if it
+    /// has more than 4096 tiles.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shard: Option<u32>,
     /// The physical units in which results are reported; nondimensional when absent. Numbers of the plan are
     /// nondimensional, in these units, unless their names end in a unit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -52,11 +56,22 @@ pub(crate) fn check_tile(tile: Option<u32>) -> Result<(), PlanError> {
     }
 }
 
+/// Maximum number of tiles of a shard along one axis.
+const MOST_SHARD: u32 = 1024;
+
+/// Checks the number of tiles of a shard along one axis.
+pub(crate) fn check_shard(shard: Option<u32>) -> Result<(), PlanError> {
+    match shard.filter(|shard| !(1..=MOST_SHARD).contains(shard)) {
+        Some(given) => Err(PlanError::Shard { given, most: MOST_SHARD }),
+        None => Ok(()),
+    }
+}
+
 impl Plan {
     /// A plan of the current version.
     #[must_use]
     pub const fn new(system: SystemPlan, task: Task) -> Self {
-        Self { version: PLAN_VERSION, system, task, tile: None, units: None }
+        Self { version: PLAN_VERSION, system, task, tile: None, shard: None, units: None }
     }
 
     /// An identifier of the content: the first 16 digits of the SHA-256 of the plan as JSON.
@@ -130,6 +145,7 @@ impl Plan {
         }
         let osc = self.system.oscillator()?;
         check_tile(self.tile)?;
+        check_shard(self.shard)?;
         if let Some(units) = &self.units {
             units.check(&self.system)?;
         }

@@ -23,6 +23,11 @@ pub(crate) struct PlanText {
     #[serde(default)]
     #[schemars(range(min = 1, max = 4096))]
     tile: Option<u32>,
+    /// Tiles of a shard along each axis, where results are stored; 1 for no shards. When absent, a store has shards if it
+    /// has more than 4096 tiles.
+    #[serde(default)]
+    #[schemars(range(min = 1, max = 1024))]
+    shard: Option<u32>,
     /// The physical units in which results are reported; those of the machine when absent, nondimensional without a
     /// machine. Numbers of the plan are nondimensional, in these units, unless their names end in a unit.
     #[serde(default)]
@@ -219,8 +224,8 @@ impl TryFrom<PlanText> for Plan {
             // the units are those of the machine at the first values of what varies
             let hertz = written.units.is_none_or(|units| units.hertz);
             let units = UnitsPlan::of_system(&system).map(|units| UnitsPlan { hertz, ..units });
-            return Self { version: written.version, system, task: written.task, tile: written.tile, units }
-                .canonical();
+            let (version, tile, shard) = (written.version, written.tile, written.shard);
+            return Self { version, system, task: written.task, tile, shard, units }.canonical();
         }
         let needed = [(Parameter::Gap, asked.gap), (Parameter::Restitution, asked.restitution)];
         let mut missing: Vec<&str> = (needed.iter())
@@ -244,8 +249,8 @@ impl TryFrom<PlanText> for Plan {
             second_stop: asked.second_stop,
             machine: None,
         };
-        Self { version: written.version, system, task: written.task, tile: written.tile, units: written.units }
-            .canonical()
+        let (version, tile, shard, units) = (written.version, written.tile, written.shard, written.units);
+        Self { version, system, task: written.task, tile, shard, units }.canonical()
     }
 }
 

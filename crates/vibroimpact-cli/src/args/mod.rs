@@ -33,6 +33,6 @@ pub(crate) use plane::{Ends, Named, Over, Place, Value, VariedOver};
 pub(crate) use ranged::Ranged;
 pub(crate) use ranged_system::RangedSystemArgs;
 pub(crate) use start::StartArgs;
-pub(crate) use store::{StoreArgs, Tiles};
+pub(crate) use store::{Budget, BudgetArgs, Filling, StoreArgs, Tiles};
 pub(crate) use system::{Convention, SystemArgs};
 pub(crate) use vary::of_oscillator;

@@ -4,8 +4,10 @@ use super::whole;
 use crate::failure::Failure;
 use clap::Args;
 use core::str::FromStr;
+use std::time::{Duration, Instant};
 use vibroimpact_store::Part;
 use vibroimpact_study::Plan;
+use vibroimpact_study::typed::duration;
 
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Store")]
@@ -17,12 +19,72 @@ pub(crate) struct StoreArgs {
     /// Points of a tile along each axis, 1 to 4096 [default: by task]
     #[arg(long, value_parser = whole::<u32>, value_name = "N", requires = "store")]
     pub(crate) tile: Option<u32>,
+
+    /// Tiles of a shard along each axis, 1 to 1024; 1 for none [default: shards for more than 4096 tiles]
+    #[arg(long, value_parser = whole::<u32>, value_name = "N", requires = "store")]
+    pub(crate) shard: Option<u32>,
+
+    /// Begin no tile after this time, as 90s, 30m, 8h or 2d; tiles that were begun are finished, and `vibro resume` goes on
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, requires = "store")]
+    budget: Option<Budget>,
+}
+
+/// The time that a command may use to fill a store.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct BudgetArgs {
+    /// Begin no tile after this time, as 90s, 30m, 8h or 2d; tiles that were begun are finished, and `vibro resume` goes on
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, help_heading = "Store")]
+    budget: Option<Budget>,
+}
+
+impl BudgetArgs {
+    pub(crate) const fn get(&self) -> Option<Budget> {
+        self.budget
+    }
+}
+
+/// A positive time.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Budget(Duration);
+
+impl Budget {
+    /// The time.
+    pub(crate) const fn time(self) -> Duration {
+        self.0
+    }
+
+    /// The moment at which it is spent, if it begins now.
+    pub(crate) fn end(self) -> Option<Instant> {
+        Instant::now().checked_add(self.0)
+    }
+}
+
+impl FromStr for Budget {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        duration(text).map(Self)
+    }
+}
+
+/// What fills a store: the place, which part of the tiles, and for how long.
+#[derive(Clone, Debug)]
+pub(crate) struct Filling<'a> {
+    pub(crate) place: &'a str,
+    pub(crate) part: Part,
+    pub(crate) budget: Option<Budget>,
 }
 
 impl StoreArgs {
-    /// The plan with the requested size of tiles.
+    /// The filling of the store, if one is named.
+    pub(crate) fn filling(&self) -> Option<Filling<'_>> {
+        let place = self.store.as_deref()?;
+        Some(Filling { place, part: Part::ALL, budget: self.budget })
+    }
+
+    /// The plan with the requested sizes of tiles and shards.
     pub(crate) fn tiled(&self, plan: Plan) -> Result<Plan, Failure> {
-        let plan = Plan { tile: self.tile, ..plan };
+        let plan = Plan { tile: self.tile, shard: self.shard, ..plan };
         plan.check()?;
         Ok(plan)
     }

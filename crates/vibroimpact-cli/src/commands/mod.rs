@@ -7,6 +7,7 @@ mod branch;
 mod completions;
 mod curve;
 mod diagram;
+mod estimate;
 mod explore;
 mod export;
 mod lyapunov;
@@ -52,7 +53,7 @@ use clap::{CommandFactory, Parser, Subcommand};
         vibro settle --inverse-beta 1.8 --gap 0.25 --restitution 0.5\n  \
         vibro attractors --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --starts 500\n  \
         vibro basin --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --x -4:0.75:300 --v -4:4:300 --plot basin.png\n\n\
-        Exit codes: 0 done, 1 failed, 2 the question makes no sense, 130 stopped by Ctrl-C.\n\
+        Exit codes: 0 done, 1 failed, 2 the question makes no sense, 130 stopped by Ctrl-C or a spent budget.\n\
         Data goes to stdout, everything else to stderr. `vibro COMMAND --help` explains each command."
 )]
 pub(crate) struct CommandLine {
@@ -79,6 +80,7 @@ enum Command {
     Diagram(diagram::Diagram),
     Lyapunov(lyapunov::Lyapunov),
     Explore(explore::Explore),
+    Estimate(estimate::Estimate),
     Run(run::Run),
     Resume(resume::Resume),
     Status(status::Status),
@@ -111,6 +113,7 @@ pub(crate) fn run(line: &CommandLine, session: &Session) -> Result<(), Failure> 
         Command::Diagram(args) => diagram::run(args, session),
         Command::Lyapunov(args) => lyapunov::run(args, session),
         Command::Explore(args) => explore::run(args, session),
+        Command::Estimate(args) => estimate::run(args, session),
         Command::Run(args) => run::run(args, session),
         Command::Resume(args) => resume::run(args, session),
         Command::Status(args) => status::run(args, session),

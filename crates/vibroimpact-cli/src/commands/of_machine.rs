@@ -10,7 +10,6 @@ use std::path::Path;
 use vibroimpact_report::figure::coloured::Coloured;
 use vibroimpact_report::figure::plane::Sides;
 use vibroimpact_report::machine_answer;
-use vibroimpact_store::Part;
 use vibroimpact_study::{MachineBasinPlan, MachineMapPlan, MachinePlan, MachineResults, MachineTask, StudyPlan};
 
 /// The files of a command: its table, its figure, and whether it prints JSON.
@@ -28,16 +27,16 @@ pub(super) fn asked(
 ) -> Option<Result<(), Failure>> {
     let name = machine.machine.as_deref()?;
     let answer = || {
-        let tile = store.and_then(|store| store.tile);
-        let plan = MachinePlan { tile, ..MachinePlan::new(machine.source(start)?, task()?) };
+        let (tile, shard) = store.map_or((None, None), |store| (store.tile, store.shard));
+        let plan = MachinePlan { tile, shard, ..MachinePlan::new(machine.source(start)?, task()?) };
         plan.check()?;
         let outputs = Outputs::reserve(csv, plot, json, session)?;
         let colour = colour.map(|colour| colour.coloured(outputs.drawn())).transpose()?.flatten();
-        let Some(place) = store.and_then(|store| store.store.as_ref()) else {
+        let Some(filling) = store.and_then(StoreArgs::filling) else {
             return run(name, &plan, (outputs, None, colour), session);
         };
         drawable(&plan, &outputs)?;
-        stored::run(&StudyPlan::from(&plan), place, Part::ALL, (outputs, colour), session)
+        stored::run(&StudyPlan::from(&plan), &filling, (outputs, colour), session)
     };
     Some(answer())
 }

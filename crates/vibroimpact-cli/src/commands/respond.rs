@@ -7,7 +7,6 @@ use crate::failure::Failure;
 use crate::report;
 use crate::session::Session;
 use vibroimpact_report::{Answer, AnswerError, Shown, Units, answer};
-use vibroimpact_store::Part;
 use vibroimpact_study::{Control, Plan, Results, Stopped, StudyPlan};
 
 /// Computes the answer of a plan and reports it. With --store, the plan fills the store instead.
@@ -18,14 +17,8 @@ pub(super) fn run(
     store: Option<&StoreArgs>,
     session: &Session,
 ) -> Result<(), Failure> {
-    if let Some(place) = store.and_then(|store| store.store.as_ref()) {
-        return stored::run(
-            &StudyPlan::from(&in_units(plan, &units)),
-            place,
-            Part::ALL,
-            (outputs, shown.colour),
-            session,
-        );
+    if let Some(filling) = store.and_then(StoreArgs::filling) {
+        return stored::run(&StudyPlan::from(&in_units(plan, &units)), &filling, (outputs, shown.colour), session);
     }
     let answer = compute(plan, units, session)?;
     tell(&answer, (outputs, shown), session)

@@ -1,7 +1,7 @@
 //! `vibro resume`: computes the missing tiles of a store.
 
 use super::stored;
-use crate::args::Tiles;
+use crate::args::{BudgetArgs, Filling, Tiles};
 use crate::failure::Failure;
 use crate::report::stored as report;
 use crate::session::Session;
@@ -22,6 +22,9 @@ pub(crate) struct Resume {
     #[arg(long, value_name = "I/N")]
     tiles: Option<Tiles>,
 
+    #[command(flatten)]
+    budget: BudgetArgs,
+
     /// Print one JSON object with what was done
     #[arg(long, help_heading = "Output")]
     json: bool,
@@ -29,7 +32,10 @@ pub(crate) struct Resume {
 
 pub(super) fn run(args: &Resume, session: &Session) -> Result<(), Failure> {
     let store = stored::open(&args.store)?;
-    let filled = stored::fill(&store, args.tiles.map_or(Part::ALL, |tiles| tiles.0), session)?;
+    let part = args.tiles.map_or(Part::ALL, |tiles| tiles.0);
+    let filling = Filling { place: &args.store, part, budget: args.budget.get() };
+    let filled = stored::fill(&store, &filling, session)?;
+    filled.end()?;
     if args.json {
         return session.print_json(&report::StoredFields::new(&store, Some(filled))?);
     }

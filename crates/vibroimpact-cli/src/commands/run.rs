@@ -2,7 +2,7 @@
 
 use super::of_machine as of_machine_plan;
 use super::stored;
-use crate::args::{ColourArgs, FigureArgs, Tiles};
+use crate::args::{BudgetArgs, ColourArgs, FigureArgs, Filling, Tiles};
 use crate::commands::outputs::Outputs;
 use crate::failure::Failure;
 use crate::hints;
@@ -34,6 +34,9 @@ pub(crate) struct Run {
     /// Only part I of N of the tiles, for an array of jobs
     #[arg(long, value_name = "I/N", help_heading = "Store")]
     tiles: Option<Tiles>,
+
+    #[command(flatten)]
+    budget: BudgetArgs,
 
     /// When all tiles are there: write the short table to this file; - for stdout
     #[arg(long, value_name = "FILE", help_heading = "Output")]
@@ -80,7 +83,7 @@ fn named(path: &Path, error: &PlanError) -> Failure {
 
 /// The plan of a machine that fills no grid: its result is printed.
 fn run_machine(args: &Run, plan: &MachinePlan, session: &Session) -> Result<(), Failure> {
-    if args.store.is_some() || args.tiles.is_some() {
+    if args.store.is_some() || args.tiles.is_some() || args.budget.get().is_some() {
         return Err(Study::new(plan).err().map_or_else(|| Failure::bad("the plan fills no store"), Failure::from));
     }
     args.colour.coloured(false)?;
@@ -105,5 +108,7 @@ pub(super) fn run(args: &Run, session: &Session) -> Result<(), Failure> {
     let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
     let place = args.store.clone().unwrap_or_else(|| default_store(&args.plan));
     let colour = args.colour.coloured(outputs.drawn())?;
-    stored::run(&plan, &place, args.tiles.map_or(Part::ALL, |tiles| tiles.0), (outputs, colour), session)
+    let part = args.tiles.map_or(Part::ALL, |tiles| tiles.0);
+    let filling = Filling { place: &place, part, budget: args.budget.get() };
+    stored::run(&plan, &filling, (outputs, colour), session)
 }

@@ -1,5 +1,6 @@
 //! Common part of the commands that fill a store: run, report the numbers of tiles, and write tables and figures.
 
+use crate::args::{Budget, Filling};
 use crate::commands::outputs::Outputs;
 use crate::failure::Failure;
 use crate::report::stored as report;
@@ -7,7 +8,7 @@ use crate::session::Session;
 use serde::Serialize;
 use vibroimpact_report::figure::coloured::Coloured;
 use vibroimpact_report::figure::stored::figure;
-use vibroimpact_store::{Part, Ran, Store, StoreError, shelf};
+use vibroimpact_store::{Ran, Store, StoreError, costs_beside, shelf};
 use vibroimpact_study::{StudyPlan, counted};
 
 /// The fields about the store in a JSON object.
@@ -21,27 +22,32 @@ pub(super) struct Filled {
     found: u64,
     /// Among the computed tiles, those that were damaged before.
     mended: u64,
-    /// Missing tiles of other parts.
+    /// Missing tiles: those of other parts, and those for which there was no time.
     left: u64,
+    /// Whether the time was spent before all tiles of this part were complete. The command then ends without an object.
+    #[serde(skip)]
+    spent: bool,
 }
 
 /// Opens the store at a place.
 pub(super) fn open(place: &str) -> Result<Store, Failure> {
-    Ok(Store::open(shelf(place)?)?)
+    Ok(Store::open(shelf(place)?)?.with_costs(costs_beside(place)?))
 }
 
 /// Opens the store of a plan, and creates it if absent.
 fn begin(plan: &StudyPlan, place: &str) -> Result<Store, Failure> {
-    Ok(Store::create(shelf(place)?, plan)?)
+    Ok(Store::create(shelf(place)?, plan)?.with_costs(costs_beside(place)?))
 }
 
 /// Computes the missing tiles of a part, and prints their numbers.
-pub(super) fn fill(store: &Store, part: Part, session: &Session) -> Result<Filled, Failure> {
-    let grid = store.study().grid();
-    let total = if part == Part::ALL { grid.points() } else { part.points(grid) };
-    let ran: Result<Ran, StoreError> = session.tiled(total, "points", |control, _| store.run(part, control));
-    let Ran { computed, found, mended, left } = ran?;
-    let filled = Filled { store: store.place(), tiles: grid.tiles(), computed, found, mended, left };
+pub(super) fn fill(store: &Store, filling: &Filling<'_>, session: &Session) -> Result<Filled, Failure> {
+    let (grid, part) = (store.study().grid(), filling.part);
+    let until = filling.budget.and_then(Budget::end);
+    let total = store.points_of(part);
+    let ran: Result<Ran, StoreError> =
+        session.tiled(total, "points", |control, _| store.run_until(part, until, control));
+    let Ran { computed, found, mended, left, spent } = ran?;
+    let filled = Filled { store: store.place(), tiles: grid.tiles(), computed, found, mended, left, spent };
     session.note(&filled.sentence());
     Ok(filled)
 }
@@ -57,22 +63,36 @@ impl Filled {
         }
         text.push_str(&match self.left {
             0 => "; complete".to_owned(),
+            left if self.spent => format!("; {left} left"),
             left => format!("; {left} left to other parts"),
         });
         text
+    }
+
+    /// The end of the command: a run whose time was spent is stopped.
+    pub(super) fn end(&self) -> Result<(), Failure> {
+        if !self.spent {
+            return Ok(());
+        }
+        let done = self.tiles - self.left;
+        Err(Failure::Stopped(format!(
+            "the budget is spent, {done} of {} are there; `vibro resume {}` goes on",
+            counted(self.tiles, "tile"),
+            self.store
+        )))
     }
 }
 
 /// Fills a store according to the flags of a command, then writes the requested outputs from it.
 pub(super) fn run(
     plan: &StudyPlan,
-    place: &str,
-    part: Part,
+    filling: &Filling<'_>,
     (outputs, colour): (Outputs, Option<Coloured>),
     session: &Session,
 ) -> Result<(), Failure> {
-    let store = begin(plan, place)?;
-    let filled = fill(&store, part, session)?;
+    let store = begin(plan, filling.place)?;
+    let filled = fill(&store, filling, session)?;
+    filled.end()?;
     if filled.left > 0 && outputs.any_file() {
         session.note("hint: tables and figures are written when all tiles are there: `vibro export`, `vibro plot`");
         return Ok(());

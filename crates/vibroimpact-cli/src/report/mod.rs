@@ -18,6 +18,7 @@ mod region;
 mod response;
 mod settle;
 mod simulate;
+pub(crate) mod status;
 pub(crate) mod stored;
 pub(crate) mod tallies;
 mod undecided;

@@ -1,6 +1,7 @@
 //! Numbers of points of a store that were not computed themselves, or whose motion is undecided.
 
 use crate::failure::Failure;
+use crate::session::Session;
 use vibroimpact_store::Store;
 use vibroimpact_study::Column;
 use vibroimpact_study::study::UNDECIDED;
@@ -8,6 +9,14 @@ use vibroimpact_study::study::UNDECIDED;
 /// Number of points of a store up to which its labels are read for its status; each tile of a larger one takes time, above all in a
 /// bucket.
 const MOST_READ: u64 = 1_000_000;
+
+/// Number of damaged tiles; `None` if the store has so many points that reading them would take long.
+pub(crate) fn damaged(store: &Store, session: &Session) -> Result<Option<u64>, Failure> {
+    if store.study().grid().points() > MOST_READ {
+        return Ok(None);
+    }
+    Ok(Some(session.watched(None, |control| store.damaged(control))?))
+}
 
 /// Number of points of a refined store that were computed themselves; `None` for other stores.
 pub(crate) fn computed(store: &Store) -> Result<Option<u64>, Failure> {

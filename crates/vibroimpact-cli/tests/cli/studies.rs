@@ -65,19 +65,26 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     found
 }
 
-/// A study that is killed at twenty moments and resumed is equal to that of a run without interruption, byte for byte.
+/// A study that is killed at twenty moments and resumed is equal to that of a run without interruption, byte for byte; with
+/// and without shards.
 #[test]
 #[cfg(unix)]
 fn killed_at_twenty_moments() {
+    killed_at_ten_moments(PLAN);
+    killed_at_ten_moments(&PLAN.replace("tile = 4", "tile = 2\nshard = 5"));
+}
+
+#[cfg(unix)]
+fn killed_at_ten_moments(text: &str) {
     let folder = tempfile::tempdir().unwrap();
-    plan(folder.path(), PLAN);
+    plan(folder.path(), text);
     let begun = Instant::now();
     done(folder.path(), "run study.toml --store whole.zarr --threads 2");
     let time = begun.elapsed();
     let want = files(&folder.path().join("whole.zarr"));
     let (mut killed, mut moment) = (0, 0_u64);
     let mut store = 0;
-    while killed < 20 {
+    while killed < 10 {
         // a fixed pseudorandom sequence of moments, spread over a third of the duration of the whole run
         moment = moment.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         let share = (moment >> 33) as f64 / (1_u64 << 31) as f64;
@@ -129,6 +136,117 @@ fn stopped_it_can_be_resumed() {
     let answer = json(&format!("status {}", folder.path().join("s.zarr").display()));
     assert!(answer["tiles_done"].as_u64().unwrap() > 0 && answer["complete"] == false, "{answer}");
     assert_eq!(answer["tiles"], 900);
+}
+
+/// A run whose budget is spent says what is done and how to go on; what it leaves is completed to the same bytes.
+#[test]
+fn a_budget_stops_a_run_and_the_status_says_how_far_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    plan(folder.path(), &PLAN.replace(":28\"", ":16\""));
+    done(folder.path(), "run study.toml --store whole.zarr --threads 1");
+    let want = files(&folder.path().join("whole.zarr"));
+    let (code, note) = said(folder.path(), "run study.toml --store s.zarr --budget 0.000001s --threads 1");
+    assert!(code == Some(130), "{note}");
+    assert!(note.contains("1 of 16 tiles computed; 15 left\n"), "{note}");
+    assert!(
+        note.contains("stopped: the budget is spent, 1 of 16 tiles are there; `vibro resume s.zarr` goes on"),
+        "{note}"
+    );
+    let place = folder.path().join("s.zarr");
+    let status = || json(&format!("status {}", place.display()));
+    let first = status();
+    assert_eq!((first["tiles_done"].as_u64(), first["tiles_left"].as_u64()), (Some(1), Some(15)), "{first}");
+    assert_eq!((&first["progress"], &first["tiles_damaged"]), (&(16.0 / 256.0).into(), &0.into()));
+    assert_eq!(first["tile"].to_string(), r#"{"gap":4,"inverse_beta":4}"#);
+    assert_eq!(first["cost"]["tiles"], 1);
+    let watch = begin(folder.path(), "status s.zarr --watch --every 0.01s --json");
+    let output = vibro("resume s.zarr --budget 0.000001s --json").current_dir(folder.path()).output().unwrap();
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(130), 0));
+    let map = "map --inverse-beta 0.6:1.9:16 --gap 0:3:16 --restitution 0.5 --starts 4 --tile 4 --store s.zarr";
+    assert_eq!(said(folder.path(), &format!("{map} --budget 0.000001s --plot a.png")).0, Some(130));
+    assert!(!folder.path().join("a.png").exists());
+    // what is there is drawn
+    done(folder.path(), "plot s.zarr some.svg");
+    done(folder.path(), "resume s.zarr --budget 1h");
+    assert!(files(&place) == want);
+    // with shards
+    let map = map.replace("--store s.zarr", "--shard 3 --store shards.zarr");
+    assert_eq!(said(folder.path(), &format!("{map} --budget 0.000001s")).0, Some(130));
+    done(folder.path(), "plot shards.zarr some-shards.svg");
+    done(folder.path(), &format!("{map} --threads 2"));
+    let sharded = json(&format!("status {}", folder.path().join("shards.zarr").display()));
+    assert_eq!(sharded["shard"].to_string(), r#"{"gap":12,"inverse_beta":12}"#);
+    assert_eq!(sharded["files"].as_u64(), Some(files(&folder.path().join("shards.zarr")).len() as u64));
+    done(folder.path(), "verify shards.zarr --sample 16");
+    for store in ["s", "shards"] {
+        done(folder.path(), &format!("export {store}.zarr --csv {store}.csv"));
+    }
+    let table = |store: &str| fs::read(folder.path().join(format!("{store}.csv"))).unwrap();
+    assert!(table("s") == table("shards"));
+    // the watch ends when the store is complete
+    assert!(watch.wait_with_output().unwrap().status.success());
+    let last = status();
+    assert_eq!((&last["progress"], &last["complete"], &last["cost"]["tiles"]), (&1.0.into(), &true.into(), &16.into()));
+    let regions = last["cost"]["regions"].as_array().unwrap();
+    let points: u64 = regions.iter().map(|region| region["points"].as_u64().unwrap()).sum();
+    assert_eq!((regions.len(), points), (16, 256));
+    let output = vibro("status s.zarr --watch").current_dir(folder.path()).output().unwrap();
+    let line = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(line, "100.0 %  16 of 16 tiles, 256 of 256 points, complete\n");
+    for (line, hint) in [
+        ("run study.toml --budget 8", "hint: 8h, 8m or 8s"),
+        ("run study.toml --budget -1h", "outside 0 < time <= 36500d"),
+        ("resume s.zarr --budget 04:00:00", "hint: write 4h"),
+        ("status s.zarr --watch --every 0s", "outside 0 < time <= 36500d"),
+        ("map --inverse-beta 0.6:1.9:16 --gap 0:3:16 --restitution 0.5 --starts 4 --budget 1h", "--store"),
+    ] {
+        let (code, note) = said(folder.path(), line);
+        assert!(code == Some(2) && note.contains(hint), "{line}: {note}");
+    }
+}
+
+/// The estimate holds for the run: points, files to the last one, and times and bytes in their order of magnitude.
+#[test]
+fn an_estimate_before_anything_starts() {
+    let folder = tempfile::tempdir().unwrap();
+    plan(folder.path(), &PLAN.replace(":28\"", ":16\""));
+    let estimate = |flags: &str| {
+        let output = vibro(&format!("estimate study.toml --json {flags}")).current_dir(folder.path()).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        serde_json::from_slice::<serde_json::Value>(&output.stdout).unwrap()
+    };
+    let found = estimate("--threads 2");
+    assert!(fs::read_dir(folder.path()).unwrap().count() == 1, "nothing is written");
+    done(folder.path(), "run study.toml --threads 2");
+    let status = json(&format!("status {}", folder.path().join("study.zarr").display()));
+    assert_eq!((&found["points"], &found["tiles"], &found["threads"]), (&256.into(), &16.into(), &2.into()));
+    assert_eq!((&found["points_sampled"], &found["plan_hash"]), (&64.into(), &status["plan_hash"]));
+    assert_eq!(found["files"].as_u64(), Some(files(&folder.path().join("study.zarr")).len() as u64));
+    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+    let seconds = number(&found["processor_seconds"]);
+    let interval = [0, 1].map(|k| number(&found["processor_seconds_interval"][k]));
+    assert!(interval[0] <= seconds && seconds <= interval[1] && interval[0] > 0.0, "{found}");
+    // the machine may be busy, and the sample is a quarter of the points
+    let used = number(&status["cost"]["seconds"]);
+    assert!((0.1..10.0).contains(&(seconds / used)), "{seconds} {used}");
+    let bytes = number(&status["bytes"]);
+    assert!((0.2..5.0).contains(&(number(&found["bytes"]) / bytes)), "{found} {bytes}");
+    // a sample of all points has no interval
+    let all = estimate("--sample 1000");
+    assert_eq!(
+        (&all["points_sampled"], &all["processor_seconds_interval"][0]),
+        (&256.into(), &all["processor_seconds"])
+    );
+    let output = vibro("estimate study.toml --sample 4 --threads 1").current_dir(folder.path()).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(
+        text.contains("256 points in 16 tiles\nprocessor time: about ") && text.contains("from 4 points"),
+        "{text}"
+    );
+    assert!(text.contains("time with 1 thread: about ") && text.contains("\nstore: "), "{text}");
+    fs::write(folder.path().join("no.toml"), PLAN.replace("map", "settle")).unwrap();
+    assert_eq!(said(folder.path(), "estimate no.toml").0, Some(2));
+    assert_eq!(said(folder.path(), "estimate study.toml --sample 0").0, Some(2));
 }
 
 #[test]
@@ -279,6 +397,72 @@ fn refusals_are_one_sentence_and_lose_nothing() {
     assert!(files(&at.join("s.zarr")) == want);
     assert_eq!(fs::read(at.join("thesis/text.tex")).unwrap(), b"years");
     assert!(!at.join("study.zarr").exists());
+}
+
+/// The script of a job that puts itself into the queue again until its part is complete; here `scontrol` starts it again.
+#[test]
+#[cfg(unix)]
+fn a_job_that_is_put_into_the_queue_again() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    plan(folder.path(), &PLAN.replace(":28\"", ":12\""));
+    let flags = [
+        "--memory",
+        "2G",
+        "--account",
+        "vi-17",
+        "--throttle",
+        "4",
+        "--setup",
+        "export SETUP=\"a b\"",
+        "--setup",
+        "echo $SETUP",
+    ];
+    let output = vibro("slurm study.toml --jobs 9 --cpus 2 --time 1-00:00:00 --requeue --partition long")
+        .args(flags)
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    let script = String::from_utf8(output.stdout).unwrap();
+    for line in [
+        "#SBATCH --array=1-9%4",
+        "#SBATCH --partition=long",
+        "#SBATCH --account=vi-17",
+        "#SBATCH --mem=2G",
+        "#SBATCH --requeue",
+        "#SBATCH --open-mode=append",
+        "export SETUP=\"a b\"",
+        "echo $SETUP",
+    ] {
+        assert!(script.lines().any(|of| of == line), "{line}\n{script}");
+    }
+    // a day less half an hour
+    assert!(script.contains("--budget 84600s"), "{script}");
+    let script = script.replace("--budget 84600s", "--budget 0.000001s").replace("ID/9", "ID/1");
+    fs::write(folder.path().join("job.sh"), script).unwrap();
+    let program = folder.path().join("scontrol");
+    fs::write(&program, "#!/bin/sh\necho \"$@\" >> queue\nexec bash job.sh\n").unwrap();
+    fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).unwrap();
+    let path = format!("{}:{}", folder.path().display(), std::env::var("PATH").unwrap());
+    let job = Command::new("bash")
+        .arg("job.sh")
+        .envs([
+            ("SLURM_ARRAY_JOB_ID", "71"),
+            ("SLURM_ARRAY_TASK_ID", "1"),
+            ("SLURM_CPUS_PER_TASK", "1"),
+            ("PATH", &path),
+        ])
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    assert!(job.status.success(), "{}", String::from_utf8_lossy(&job.stderr));
+    assert!(String::from_utf8_lossy(&job.stdout).starts_with("a b\n"));
+    assert_eq!(fs::read_to_string(folder.path().join("queue")).unwrap(), "requeue 71_1\n".repeat(8));
+    assert_eq!(json(&format!("status {}", folder.path().join("study.zarr").display()))["complete"], true);
+    for (flag, word) in [("--memory 8g", "hint: 8G"), ("--account a;b", "letters, digits"), ("--throttle 0", "1")] {
+        let (code, complaint) = said(folder.path(), &format!("slurm study.toml {flag}"));
+        assert!(code == Some(2) && complaint.contains(word), "{flag}: {complaint}");
+    }
 }
 
 /// A complete store is not written again, whether its folder is writable or not.

@@ -29,14 +29,17 @@ pub(super) fn lines() -> Words {
     const PLANS: &[&str] = &["plan.toml", "plan.toml", "bad.toml", "none.toml", "", ".", "thesis.zarr"];
     let place = || words(PLACES);
     let parts = || flag("tiles", 0.2, word(&["1/1", "1/2", "2/1", "0/1", "1/0", "1", "/", "1/99999999999999999999"]));
+    let spent = || flag("budget", 0.3, word(&["1ms", "0.01s", "5s", "1h", "0s", "-1h", "8", "h", ""]));
     prop_oneof![
-        2 => line("run", vec![words(PLANS), flag("store", 0.6, word(&["s.zarr", "thesis.zarr", "plan.toml", ""])), parts(), switch("json", 0.5),
+        2 => line("run", vec![words(PLANS), flag("store", 0.6, word(&["s.zarr", "thesis.zarr", "plan.toml", ""])), parts(), spent(), switch("json", 0.5),
             flag("csv", 0.3, word(&["-", "t.csv", ""])), flag("plot", 0.2, word(&["f.svg", "f.png", "f"]))]),
+        1 => line("estimate", vec![words(PLANS), flag("sample", 0.7, word(&["1", "4", "0", "-1"])), spent(), switch("json", 0.5)]),
         1 => line("slurm", vec![words(PLANS), flag("store", 0.3, odd()), flag("jobs", 0.4, count()), flag("cpus", 0.3, count()),
-            flag("time", 0.3, word(&["04:00:00", "2-12:00:00", "", "soon", "1;rm"])), flag("partition", 0.3, odd())]),
+            flag("time", 0.3, word(&["04:00:00", "2-12:00:00", "", "soon", "1;rm"])), flag("partition", 0.3, odd()),
+            flag("memory", 0.2, word(&["2G", "", "8 GB"])), flag("setup", 0.2, odd()), flag("throttle", 0.2, count()), switch("requeue", 0.3)]),
         1 => line("status", vec![place(), switch("json", 0.5)]),
         1 => line("verify", vec![place(), flag("sample", 0.3, count()), switch("json", 0.5)]),
-        1 => line("resume", vec![place(), parts(), switch("json", 0.5)]),
+        1 => line("resume", vec![place(), parts(), spent(), switch("json", 0.5)]),
         1 => line("export", vec![place(), flag("csv", 0.6, word(&["-", "t.csv", ""])), flag("parquet", 0.1, word(&["t.parquet"])),
             flag("python", 0.5, word(&["no-such-program", "", "false"]))]),
         1 => line("plot", vec![place(), words(&["f.svg", "f.png", "f", "", "none/f.svg"])]),

@@ -24,6 +24,8 @@ fn store() -> Words {
         flag("store", 1.0, word(&["s.zarr", "s.zarr", "ünï.zarr", "none/s.zarr", "", "."])),
         flag("tile", 0.5, word(&["1", "2", "4096", "4097", "0", "-1"])),
         flag("refine", 0.2, word(&["2", "3", "64", "65", "0"])),
+        flag("shard", 0.3, word(&["1", "2", "1024", "1025", "0"])),
+        flag("budget", 0.2, word(&["0.001s", "1h", "0s", "8"])),
     ]);
     prop_oneof![4 => Just(Vec::new()), 1 => asked].boxed()
 }

@@ -64,7 +64,7 @@ from vibroimpact._machine_answers import (
 from vibroimpact._margins import MarginEnd, Margins, MotionBox, Nearest, ParameterMargin, margins
 from vibroimpact._motion import Motion
 from vibroimpact._orbits import EarlierContact, Orbit, orbits
-from vibroimpact._plan import Plan
+from vibroimpact._plan import Estimate, Plan
 from vibroimpact._region import Part, Polygon, Region, region
 from vibroimpact._register import register as _register
 from vibroimpact._response import Response, ResponseCurve, response
@@ -98,6 +98,7 @@ __all__ = [
     "CurveEvent",
     "Cycle",
     "EarlierContact",
+    "Estimate",
     "Lyapunov",
     "Machine",
     "MachineAttractors",

@@ -11,14 +11,39 @@ from numpy.typing import ArrayLike
 
 from vibroimpact import _core
 from vibroimpact._axis import Axis, Interval, axes, beside, even, interval
+from vibroimpact._budget import Budget, seconds
 from vibroimpact._core import Oscillator
 from vibroimpact._machine import Machine
 from vibroimpact._over import Points, points
 from vibroimpact._sample import Sample
-from vibroimpact._whole import BUDGET, KEEP, MEASURED, POINT_STARTS, REFINE, SEED, STARTS, TILE, TRANSIENT, maybe, whole
+from vibroimpact._whole import BLOCKS, BUDGET, KEEP, MEASURED, POINT_STARTS, REFINE, SEED, SHARD, STARTS, THREADS, TILE, TRANSIENT, maybe, whole
 
 #: Version of the fields of a plan.
 _VERSION = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Estimate:
+    """What a study will cost."""
+
+    #: Total numbers of points and tiles.
+    points: int
+    tiles: int
+    #: Number of points that were computed for the estimate.
+    points_sampled: int
+    #: Expected processor time, and its interval of 90 % from resampling.
+    processor_seconds: float
+    processor_seconds_interval: tuple[float, float]
+    #: Number of threads, and the expected time of a run with them.
+    threads: int
+    seconds: float
+    #: Number of files or objects of the store, without the tables of a basin.
+    files: int
+    #: Expected size of the store, and the size of all numbers without compression.
+    bytes: int
+    bytes_raw: int
+    #: Approximate memory of a run.
+    memory_bytes: int
 
 
 @dataclass(frozen=True, repr=False, slots=True)
@@ -66,6 +91,55 @@ class Plan:
         """The fields of the plan."""
         fields: dict[str, Any] = json.loads(self.json)
         return fields
+
+    def with_tiles(self, tile: int | None = None, shard: int | None = None) -> "Plan":
+        """The same plan with other sizes of its store.
+
+        Parameters
+        ----------
+        tile : int
+            Points of a tile along each axis; None for the default of the task.
+        shard : int
+            Tiles of a shard, which is one file for each field, along each axis; 1 for no shards. By default, stores of more than
+            4096 tiles have shards.
+
+        Examples
+        --------
+        >>> from vibroimpact import Oscillator, Plan
+        >>> plan = Plan.map(Oscillator(beta=0.8, gap=1, restitution=0.5), {"gap": "0:2:300", "beta": "0.5:2:300"})
+        >>> plan.with_tiles(tile=10, shard=5).to_dict()["shard"]
+        5
+        """
+        sizes = {"tile": maybe("tile", tile, TILE), "shard": maybe("shard", shard, SHARD)}
+        kept = {name: of for name, of in self.to_dict().items() if name not in sizes}
+        return Plan(json.dumps(kept | {name: size for name, size in sizes.items() if size is not None}))
+
+    def estimate(self, *, sample: int = 64, budget: Budget = "30s", threads: int = 0) -> "Estimate":
+        """What the study will cost: processor time, time, files, bytes and memory. Nothing is written.
+
+        Parameters
+        ----------
+        sample : int
+            Number of blocks of points that are computed and timed: single points, tiles of a refined study, 256 starts of a
+            basin of one system. They are spread evenly over the grid and always the same.
+        budget : float or str
+            Time after which the sample ends.
+        threads : int
+            Number of threads of the sample and of the run; 0 for one per core.
+
+        Examples
+        --------
+        >>> from vibroimpact import Oscillator, Plan
+        >>> osc = Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5)
+        >>> cost = Plan.basin(osc, {"x": "-4:0.75:200", "v": "-4:4:100"}).estimate(sample=8, threads=2)
+        >>> low, high = cost.processor_seconds_interval
+        >>> cost.points, cost.threads, 0 < low <= cost.processor_seconds <= high
+        (20000, 2, True)
+        """
+        blocks, threads = whole("sample", sample, BLOCKS), whole("threads", threads, THREADS)
+        if not 1 <= blocks <= (BLOCKS.most or blocks):
+            raise _core.QuestionError(f"sample = {blocks} lies outside 1 <= sample <= {BLOCKS.most}")
+        return Estimate(**_core.estimate_plan(self.json, blocks, seconds("budget", budget), threads))
 
     @classmethod
     def read(cls, path: str | PathLike[str]) -> "Plan":

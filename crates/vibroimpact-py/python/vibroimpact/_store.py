@@ -8,6 +8,7 @@ from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vibroimpact import _core, _whole
+from vibroimpact._budget import Budget, seconds
 from vibroimpact._plan import Plan
 from vibroimpact._progress import Progress, watched
 from vibroimpact._whole import COUNT, SEED, THREADS, whole
@@ -25,7 +26,7 @@ class Ran(NamedTuple):
     found: int
     #: Complete tiles that were damaged and have been computed again.
     mended: int
-    #: Tiles of the whole study that are not complete yet.
+    #: Tiles of the whole study that are not complete yet: those of other parts, and those for which there was no time.
     left: int
 
 
@@ -41,14 +42,27 @@ class Status:
     points_done: int
     #: Whether the store is complete, including its final tables.
     complete: bool
+    #: Points per second at the rate of the last tiles, or None.
+    points_per_second: float | None
     #: Estimated time for the remaining tiles, at the rate of the last ones, or None.
     seconds_left: float | None
+    #: Points of a tile along each dimension.
+    tile: dict[str, int]
+    #: Points of a shard along each dimension, or None for a store without shards.
+    shard: dict[str, int] | None
+    #: Processor time of each tile, as far as it was recorded beside the store, under its name with ".costs".
+    seconds_of_tiles: dict[int, float]
     #: Numbers of the tiles that are not complete, at most a thousand.
     missing: list[int]
     #: Number of further tiles that are not complete.
     missing_left_out: int
     #: Size of the store in bytes.
     bytes: int
+
+    @property
+    def progress(self) -> float:
+        """Points done over points, 0 to 1."""
+        return self.points_done / self.points if self.points else 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,6 +91,7 @@ def run(
     part: tuple[int, int] = (1, 1),
     threads: int = 0,
     progress: Progress = None,
+    budget: Budget | None = None,
 ) -> Ran:
     """Fill the store of a plan. Tiles that it already contains are not computed again.
 
@@ -95,6 +110,9 @@ def run(
         Number of threads; 0 for one per core.
     progress : bool or callable
         True for a progress bar, or a function called with the amounts done and in total.
+    budget : float or str
+        Seconds, or a text such as "30m", "8h" or "2d", after which no tile is begun. Tiles that were begun are finished, so the
+        run gets on by at least one. `left` says how many tiles are missing; the same call goes on.
 
     Examples
     --------
@@ -110,12 +128,15 @@ def run(
     (9, True, ['1/1', '2/1'])
     """
     part, threads = _whole.part(part), whole("threads", threads, THREADS)
+    time = None if budget is None else seconds("budget", budget)
     with watched(progress, "points") as tell:
-        return Ran(*_core.Store(fspath(store), plan.json).run(part, threads, tell))
+        return Ran(*_core.Store(fspath(store), plan.json).run(part, threads, tell, time))
 
 
-def resume(store: str | PathLike[str], *, threads: int = 0, progress: Progress = None) -> Ran:
-    """Compute the missing and damaged tiles of a store.
+def resume(
+    store: str | PathLike[str], *, threads: int = 0, progress: Progress = None, budget: Budget | None = None
+) -> Ran:
+    """Compute the missing and damaged tiles of a store; `budget` is that of `run`.
 
     Examples
     --------
@@ -127,8 +148,9 @@ def resume(store: str | PathLike[str], *, threads: int = 0, progress: Progress =
     hint: `run(plan, store)` begins one
     """
     threads = whole("threads", threads, THREADS)
+    time = None if budget is None else seconds("budget", budget)
     with watched(progress, "points") as tell:
-        return Ran(*_core.Store(fspath(store)).run((1, 1), threads, tell))
+        return Ran(*_core.Store(fspath(store)).run((1, 1), threads, tell, time))
 
 
 def status(store: str | PathLike[str]) -> Status:
@@ -145,7 +167,9 @@ def status(store: str | PathLike[str]) -> Status:
     >>> far.done, far.tiles, far.missing, far.complete
     (1, 3, [1, 2], False)
     """
-    return Status(**_core.Store(fspath(store)).status())
+    far = _core.Store(fspath(store)).status()
+    shard = far["shard"]
+    return Status(**{**far, "tile": dict(far["tile"]), "shard": None if shard is None else dict(shard)})
 
 
 def verify(

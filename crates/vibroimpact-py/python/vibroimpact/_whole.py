@@ -22,6 +22,7 @@ SEED = Range(0, _UNSIGNED)
 #: As for the command.
 THREADS = Range(0, 65_535)
 TILE = Range(1, 4096)
+SHARD = Range(1, 1024)
 REFINE = Range(2, 64)
 KEEP = Range(1, 100_000)
 TRANSIENT = Range(0, 1_000_000)
@@ -40,6 +41,10 @@ NUMBER = Range(1)
 COUNT = Range(0, _UNSIGNED)
 #: Lines to scattered points of the surface of a box.
 LINES = Range(0, 100_000)
+#: Tasks that a scheduler has at the same time.
+AHEAD = Range(1, 1_000_000)
+#: Blocks of points of an estimate.
+BLOCKS = Range(1, 100_000)
 #: Points of a sample.
 SAMPLES = Range(1, 1_000_000_000)
 #: Values of a range.

@@ -14,16 +14,20 @@ the scheduler. If a worker dies, its tiles are computed by others, and the store
 (3, 0)
 """
 
+import time
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
+from itertools import islice
 from os import PathLike, fspath
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 from uuid import uuid4
 
 from vibroimpact import _core
+from vibroimpact._budget import Budget, seconds
 from vibroimpact._plan import Plan
 from vibroimpact._progress import Progress, watched
 from vibroimpact._store import Ran
-from vibroimpact._whole import COUNT, whole
+from vibroimpact._whole import AHEAD, COUNT, whole
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -35,10 +39,10 @@ def _opened(place: str, plan: str) -> _core.Store:
     return _core.Store(place, plan)
 
 
-def _tile(tile: int, place: str, plan: str) -> tuple[int, bool]:
-    """Compute a tile on a worker. Returns its number and whether it had to be computed."""
-    computed, _, _, _ = _opened(place, plan).run_tiles([tile], 1)
-    return tile, computed == 1
+def _tile(tile: int, points: int, place: str, plan: str) -> tuple[int, int, int]:
+    """Compute a tile on a worker. Returns its points, and whether it had to be computed and was damaged."""
+    computed, _, mended, _ = _opened(place, plan).run_tiles([tile], 1)
+    return points, computed, mended
 
 
 def run(
@@ -48,8 +52,15 @@ def run(
     *,
     retries: int = 3,
     progress: Progress = None,
+    budget: Budget | None = None,
+    in_flight: int = 1000,
+    resources: Mapping[str, float] | None = None,
+    workers: Sequence[str] | None = None,
+    priority: int = 0,
 ) -> Ran:
-    """Fill the store of a plan by the workers of a client. Tiles that it already contains are not computed again.
+    """Fill the store of a plan by the workers of a client. Tiles that it already contains are not computed again; damaged ones are.
+
+    Tasks are submitted one after another as others end, from coarse to fine, so the scheduler never has more than `in_flight` of them.
 
     Parameters
     ----------
@@ -63,38 +74,64 @@ def run(
         Number of times that a failed tile is tried again.
     progress : bool or callable
         True for a progress bar, or a function called with the numbers of points done and in total; it stops the run by returning False.
+    budget : float or str
+        Seconds, or a text such as "8h", after which no further tiles are computed; `left` says how many are missing.
+    in_flight : int
+        Largest number of tiles that wait or are computed at the same time; more than the cluster has threads.
+    resources, workers, priority
+        Which workers may compute the tiles, and before what else: as for `client.submit`.
     """
     from distributed import as_completed
 
-    retries = whole("retries", retries, COUNT)
+    retries, in_flight = whole("retries", retries, COUNT), whole("in_flight", in_flight, AHEAD)
+    if in_flight < 1:
+        raise _core.QuestionError("in_flight = 0 lies outside 1 <= in_flight\nhint: more than the cluster has threads")
+    end = None if budget is None else time.monotonic() + seconds("budget", budget)
     place = fspath(store)
     here = _core.Store(place, plan.json)
-    computed = 0
     begun = here.status()
+    computed = mended = 0
+    how: dict[str, Any] = {"retries": retries, "priority": priority}
+    how |= {name: given for name, given in (("resources", resources), ("workers", workers)) if given is not None}
     with watched(progress, "points") as tell:
-        far, done = begun, begun["points_done"]
-        each = begun["points"] / max(begun["tiles"], 1)
-        # `missing` lists at most a thousand tiles, so the scheduler never holds all tiles of a large study
-        while far["missing"]:
-            turn = uuid4().hex[:8]
-            keys = [f"vibroimpact-tile-{plan.hash}-{turn}-{tile}" for tile in far["missing"]]
-            tasks = client.map(_tile, far["missing"], place=place, plan=plan.json, retries=retries, key=keys)
+        todo, _ = here.to_do()
+        spent = False
+        while todo and not spent:
+            done = begun["points"] - sum(points for _, points in todo)
+            turn, queue, before = uuid4().hex[:8], iter(todo), len(todo)
+            running: dict[str, Any] = {}
+
+            def submit(count: int) -> list[Any]:
+                new = {}
+                for tile, points in islice(queue, count):
+                    key = f"vibroimpact-tile-{plan.hash}-{turn}-{tile}"
+                    new[key] = client.submit(_tile, tile, points, place, plan.json, key=key, **how)
+                running.update(new)
+                return list(new.values())
+
+            tasks = as_completed(submit(in_flight), with_results=True)  # type: ignore[no-untyped-call]
             try:
-                for _, (_, new) in as_completed(tasks, with_results=True):  # type: ignore[no-untyped-call]
-                    computed += new
-                    done = min(done + each, begun["points"] - 1)
-                    if tell is not None and tell(int(done), begun["points"]) is False:
-                        raise _core.StoppedError(f"stopped after {int(done)} of {begun['points']} points")
+                for batch in tasks.batches():  # type: ignore[no-untyped-call]
+                    for task, (points, new, was_damaged) in batch:
+                        running.pop(task.key, None)
+                        computed, mended, done = computed + new, mended + was_damaged, done + points
+                    if tell is not None and tell(min(done, begun["points"] - 1), begun["points"]) is False:
+                        raise _core.StoppedError(f"stopped after {done} of {begun['points']} points")
+                    spent = end is not None and time.monotonic() >= end
+                    if spent:
+                        break
+                    tasks.update(submit(in_flight - len(running)))  # type: ignore[no-untyped-call]
             finally:
-                client.cancel(tasks)  # type: ignore[no-untyped-call]
-            before, far = far, here.status()
-            if far["missing"] == before["missing"]:
-                raise _core.StoreError(
-                    f"the workers say that they filled tiles of {place}, and none of them is there\n"
-                    "hint: workers and this process have to reach the store by the same name"
-                )
-        if tell is not None:
+                client.cancel(list(running.values()))  # type: ignore[no-untyped-call]
+            if not spent:
+                todo, _ = here.to_do()
+                if len(todo) == before:
+                    raise _core.StoreError(
+                        f"the workers say that they filled tiles of {place}, and none of them is there\n"
+                        "hint: workers and this process have to reach the store by the same name"
+                    )
+        if tell is not None and not spent:
             tell(begun["points"], begun["points"])
     here.conclude()
     far = here.status()
-    return Ran(computed, far["done"] - computed, 0, far["tiles"] - far["done"])
+    return Ran(computed, max(far["done"] - computed, 0), mended, far["tiles"] - far["done"])

@@ -8,7 +8,7 @@ use super::simulate::check;
 use super::{orbits, verdicts};
 use crate::machine::{MachineSource, NumberText, StartNumbers, StartText, VectorText};
 use crate::map::check_impacts;
-use crate::plan::{check_tile, hash_of};
+use crate::plan::{check_shard, check_tile, hash_of};
 use crate::{DEFAULT_BRANCH_POINTS, PLAN_VERSION, PlanError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -46,6 +46,9 @@ pub struct MachinePlan {
     pub task: MachineTask,
     /// Points of a tile along each axis, where results are stored; each task has a size of its own when absent.
     pub tile: Option<u32>,
+    /// Tiles of a shard along each axis, where results are stored; 1 for no shards. When absent, a store has shards if it
+    /// has more than 4096 tiles.
+    pub shard: Option<u32>,
 }
 
 /// What is computed for a machine.
@@ -135,7 +138,7 @@ impl MachinePlan {
     /// A plan of the current version.
     #[must_use]
     pub const fn new(machine: MachineSource, task: MachineTask) -> Self {
-        Self { version: PLAN_VERSION, machine, task, tile: None }
+        Self { version: PLAN_VERSION, machine, task, tile: None, shard: None }
     }
 
     /// The same plan with another start. Vectors that are empty are 0.
@@ -245,6 +248,7 @@ impl MachinePlan {
             return Err(PlanError::Version(self.version));
         }
         check_tile(self.tile)?;
+        check_shard(self.shard)?;
         let (machine, _) = match &self.task {
             MachineTask::Map(_) | MachineTask::Diagram(_) => self.described()?,
             _ => self.problem()?,

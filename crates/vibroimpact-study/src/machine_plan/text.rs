@@ -16,6 +16,11 @@ pub(super) struct MachinePlanText {
     /// Points of a tile along each axis, where results are stored; each task has a size of its own when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     tile: Option<u32>,
+    /// Tiles of a shard along each axis, where results are stored; 1 for no shards. When absent, a store has shards if it
+    /// has more than 4096 tiles.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1, max = 1024))]
+    shard: Option<u32>,
     /// A title in a few words.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     title: Option<String>,
@@ -42,15 +47,22 @@ pub(super) struct MachinePlanText {
 
 impl From<MachinePlanText> for MachinePlan {
     fn from(text: MachinePlanText) -> Self {
-        let MachinePlanText { version, title, source, summary, parameters, set, start, machine, task, tile } = text;
-        Self { version, machine: MachineSource { title, source, summary, parameters, set, start, machine }, task, tile }
+        let MachinePlanText { version, title, source, summary, parameters, set, start, machine, task, tile, shard } =
+            text;
+        Self {
+            version,
+            machine: MachineSource { title, source, summary, parameters, set, start, machine },
+            task,
+            tile,
+            shard,
+        }
     }
 }
 
 impl From<MachinePlan> for MachinePlanText {
-    fn from(MachinePlan { version, machine, task, tile }: MachinePlan) -> Self {
+    fn from(MachinePlan { version, machine, task, tile, shard }: MachinePlan) -> Self {
         let MachineSource { title, source, summary, parameters, set, start, machine } = machine;
-        Self { version, title, source, summary, parameters, set, start, machine, task, tile }
+        Self { version, title, source, summary, parameters, set, start, machine, task, tile, shard }
     }
 }
 

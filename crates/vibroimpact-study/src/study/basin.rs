@@ -2,7 +2,7 @@
 
 use super::code;
 use super::cycles::{self, Numbered, Numbering};
-use super::fill::{Along, Fill, spread};
+use super::fill::{self, Along, Fill, spread};
 use super::map::{computed, computed_column};
 use super::reason;
 use super::refine::{self, Cell};
@@ -80,6 +80,9 @@ const NOTHING: Ending = Ending { reason: Reason::SearchLimit, impacts: 0 };
 
 /// The result of a start as it is stored: the code of its label and the number of its cycle.
 type Leads = (i32, i32);
+
+/// Number of starts of one system that share lanes about as well as those of a whole tile.
+const ABREAST: u64 = 256;
 
 /// A basin with fewer starts than this has no survey.
 const WORTH_A_SURVEY: u64 = 500;
@@ -350,6 +353,10 @@ fn whole(number: usize) -> u32 {
 
 impl Fill for BasinFill {
     type Tile = BasinTile;
+
+    fn together(&self) -> u64 {
+        fill::with_refinement(self.refine, ABREAST)
+    }
 
     fn grid(&self) -> &Grid {
         &self.grid

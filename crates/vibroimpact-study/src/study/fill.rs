@@ -44,6 +44,12 @@ pub(crate) trait Fill: Send + Sync {
     fn numbered(&self) -> Option<cycles::Numbered<'_>> {
         None
     }
+
+    /// Number of points of a block that is computed at the cost of the same points in a whole tile; `u64::MAX` if only a
+    /// whole tile is.
+    fn together(&self) -> u64 {
+        1
+    }
 }
 
 /// A [`Fill`] whose tiles are available only as columns, so that a study can contain any task.
@@ -53,6 +59,7 @@ pub(super) trait Columns: Send + Sync {
     fn fields(&self) -> Vec<Field>;
     fn fill(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>>;
     fn numbered(&self) -> Option<cycles::Numbered<'_>>;
+    fn together(&self) -> u64;
 }
 
 impl<F: Fill> Columns for F {
@@ -75,6 +82,15 @@ impl<F: Fill> Columns for F {
     fn numbered(&self) -> Option<cycles::Numbered<'_>> {
         Fill::numbered(self)
     }
+
+    fn together(&self) -> u64 {
+        Fill::together(self)
+    }
+}
+
+/// The points of a block that is computed at the cost of a whole tile: with refinement the whole tile.
+pub(super) const fn with_refinement(refine: Option<u32>, points: u64) -> u64 {
+    if refine.is_some() { u64::MAX } else { points }
 }
 
 /// Minimum number of tiles along an axis, so that all processors have work and little is lost when a run is

@@ -2,7 +2,7 @@
 
 use super::code;
 use super::cycles::{self, Numbered, Numbering};
-use super::fill::{Along, Fill, along_machine, machine_fields, machine_grid, on_axis, spread};
+use super::fill::{self, Along, Fill, along_machine, machine_fields, machine_grid, on_axis, spread};
 use super::map::{computed, computed_column, side};
 use super::refine::{self, Cell};
 use super::stored_motion::StoredMotion;
@@ -109,6 +109,10 @@ impl MachineBasinFill {
 
 impl Fill for MachineBasinFill {
     type Tile = MachineBasinTile;
+
+    fn together(&self) -> u64 {
+        fill::with_refinement(self.plan.refine, 1)
+    }
 
     fn grid(&self) -> &Grid {
         &self.grid

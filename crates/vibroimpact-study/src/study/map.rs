@@ -2,7 +2,7 @@
 //! (`machine_map.rs`).
 
 use super::code;
-use super::fill::{Along, Fill, along, grid_of, on_axis};
+use super::fill::{self, Along, Fill, along, grid_of, on_axis};
 use super::refine::{self, Cell};
 use crate::field::{Column, Extra, Field, NumberType};
 use crate::map::motions;
@@ -147,6 +147,10 @@ fn multiplier(verdict: &Verdict, osc: &Oscillator) -> f64 {
 
 impl<M: Mapped> Fill for MapFill<M> {
     type Tile = Vec<Cell<Motions<M>>>;
+
+    fn together(&self) -> u64 {
+        fill::with_refinement(self.refine, 1)
+    }
 
     fn grid(&self) -> &Grid {
         &self.grid

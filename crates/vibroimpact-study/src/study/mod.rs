@@ -41,7 +41,7 @@ pub(crate) use {basin::BasinFill, machine_basin::MachineBasinFill, map::MapFill}
 
 use crate::diagram::Show;
 use crate::map::options;
-use crate::{Column, DiagramPlan, Field, Grid, MachinePlan, MachineTask, Plan, PlanError, Task};
+use crate::{Block, Column, DiagramPlan, Field, Grid, MachinePlan, MachineTask, Plan, PlanError, Task};
 
 /// A plan that fills a grid.
 pub struct Study {
@@ -128,6 +128,20 @@ impl Study {
     #[must_use]
     pub fn tile(&self, k: u64, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
         self.fill.fill(&self.grid().tile(k), tick)
+    }
+
+    /// Number of points of a block that is computed at the cost of the same points in a whole tile; `u64::MAX` if only a
+    /// whole tile is.
+    #[must_use]
+    pub fn together(&self) -> u64 {
+        self.fill.together()
+    }
+
+    /// The columns of a block within one tile; `None` if stopped. A block with fewer points than [`Study::together`] may
+    /// cost more than its part of a tile.
+    #[must_use]
+    pub fn block(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
+        self.fill.fill(block, tick)
     }
 
     /// The tables of the whole study, when all tiles are complete. Cycles with preliminary numbers are numbered, and

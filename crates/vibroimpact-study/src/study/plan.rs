@@ -91,6 +91,15 @@ impl StudyPlan {
         }
     }
 
+    /// Tiles of a shard along each axis, if the plan says so.
+    #[must_use]
+    pub fn shard(&self) -> Option<u32> {
+        match self {
+            Self::Oscillator(plan) => plan.shard,
+            Self::Machine(plan) => plan.shard,
+        }
+    }
+
     /// A title in words.
     #[must_use]
     pub fn title(&self) -> String {

@@ -63,6 +63,14 @@ impl<S: Swept> Fill for SweepFill<S> {
     /// The motions of the rows, one row after another, each in the order of its sweep.
     type Tile = Vec<Result<S::Step, PlanError>>;
 
+    fn together(&self) -> u64 {
+        match self.swept.sweep().2 {
+            SweepDirection::Scatter { .. } => 1,
+            // each value starts from the last state at the value before
+            _ => u64::MAX,
+        }
+    }
+
     fn grid(&self) -> &Grid {
         &self.grid
     }

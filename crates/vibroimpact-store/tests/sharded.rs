@@ -1,0 +1,200 @@
+//! Tests of stores with shards: the same numbers as without, equal bytes after a death at any write, detection and repair of
+//! damage.
+
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use common::{basin, control, files, map, open, whole};
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Instant;
+use std::{fs, io};
+use vibroimpact_store::{Folder, Item, Part, Shelf, Store, StoreError};
+use vibroimpact_study::Plan;
+
+/// The plans of 20 and 12 tiles, with shards of 2 by 2 and 3 by 3 tiles.
+fn plans() -> [Plan; 2] {
+    [Plan { shard: Some(2), ..basin() }, Plan { shard: Some(3), ..map() }]
+}
+
+fn again(folder: &Path) -> Store {
+    Store::open(Arc::new(Folder::new(folder))).unwrap()
+}
+
+#[test]
+fn shards_have_the_same_numbers_in_fewer_files() {
+    for (plan, plain, shards) in plans().into_iter().zip([basin(), map()]).zip([6, 2]).map(|((a, b), c)| (a, b, c)) {
+        let (folder, files) = whole(&plan);
+        let (other, more) = whole(&plain);
+        let (store, without) = (again(folder.path()), again(other.path()));
+        for field in 0..store.study().fields().len() {
+            assert!(store.column(field).unwrap() == without.column(field).unwrap());
+        }
+        for tile in 0..store.study().grid().tiles() {
+            assert!(store.tile(tile).unwrap() == without.tile(tile).unwrap());
+        }
+        let chunks = |files: &std::collections::BTreeMap<String, Vec<u8>>| {
+            files.keys().filter(|key| key.starts_with("label/c/")).count() as u64
+        };
+        assert_eq!((chunks(&files), chunks(&more)), (shards, store.study().grid().tiles()));
+        assert!(!folder.path().join(".tiles").exists());
+        let label = String::from_utf8(files["label/zarr.json"].clone()).unwrap();
+        assert!(label.contains("sharding_indexed") && label.contains("index_location"), "{label}");
+        let tables = files.keys().filter(|key| key.starts_with("cycle_")).count();
+        assert_eq!(store.files(), (files.len() - tables) as u64);
+        let found = store.verify(1000, 0, &control(2)).unwrap();
+        assert_eq!((found.damage, found.open, found.recomputed), (vec![], 0, store.study().grid().tiles()));
+        assert!(store.progress().unwrap().complete && store.shard().is_some() && without.shard().is_none());
+    }
+}
+
+#[test]
+fn parts_threads_and_budgets_give_the_same_bytes() {
+    for plan in plans() {
+        let (_kept, want) = whole(&plan);
+        let folder = tempfile::tempdir().unwrap();
+        for index in [3, 1, 2] {
+            open(folder.path(), &plan).run(Part::new(index, 3).unwrap(), &control(2)).unwrap();
+        }
+        assert!(files(folder.path()) == want, "parts");
+        let folder = tempfile::tempdir().unwrap();
+        loop {
+            let store = open(folder.path(), &plan);
+            let ran = store.run_until(Part::ALL, Some(Instant::now()), &control(2)).unwrap();
+            let found = store.progress().unwrap();
+            assert_eq!((ran.computed, found.done), (1, found.tiles - ran.left));
+            // what is there can be read, and the rest has no values
+            assert!(store.column(0).is_ok() && store.verify(1, 0, &control(1)).unwrap().damage.is_empty());
+            if !ran.spent {
+                break;
+            }
+        }
+        assert!(files(folder.path()) == want, "budgets");
+        for _ in 0..3 {
+            let folder = tempfile::tempdir().unwrap();
+            std::thread::scope(|scope| {
+                for _ in 0..3 {
+                    scope.spawn(|| open(folder.path(), &plan).run(Part::ALL, &control(2)).unwrap());
+                }
+            });
+            assert!(files(folder.path()) == want, "three at once");
+        }
+    }
+}
+
+/// A folder that fails from a given change on, as for a process that is killed then.
+struct Dying(Folder, AtomicU64);
+
+impl Dying {
+    fn change(&self) -> io::Result<()> {
+        let left = self.1.load(Ordering::Relaxed);
+        self.1.store(left.saturating_sub(1), Ordering::Relaxed);
+        if left == 0 { Err(io::Error::other("killed")) } else { Ok(()) }
+    }
+}
+
+impl Shelf for Dying {
+    fn get(&self, key: &str) -> io::Result<Option<Vec<u8>>> {
+        self.0.get(key)
+    }
+    fn put(&self, key: &str, bytes: &[u8]) -> io::Result<()> {
+        self.change().and_then(|()| self.0.put(key, bytes))
+    }
+    fn remove(&self, key: &str) -> io::Result<()> {
+        self.change().and_then(|()| self.0.remove(key))
+    }
+    fn list(&self, prefix: &str) -> io::Result<Vec<Item>> {
+        self.0.list(prefix)
+    }
+    fn sweep(&self) -> io::Result<()> {
+        self.0.sweep()
+    }
+    fn name(&self) -> String {
+        self.0.name()
+    }
+}
+
+/// A run that dies at any of its changes is completed to the same bytes, and what it left is not damaged.
+#[test]
+fn killed_at_every_change() {
+    let plan = Plan { shard: Some(2), tile: Some(20), ..basin() };
+    let (_kept, want) = whole(&plan);
+    let mut changes = 0;
+    loop {
+        let folder = tempfile::tempdir().unwrap();
+        let dying = Arc::new(Dying(Folder::new(folder.path()), AtomicU64::new(changes)));
+        let died = Store::create(dying, &plan).and_then(|store| store.run(Part::ALL, &control(1)));
+        if let Ok(store) = Store::open(Arc::new(Folder::new(folder.path()))) {
+            let found = store.verify(0, 0, &control(1)).unwrap();
+            let of_tile: Vec<_> = found.damage.iter().filter(|damage| damage.tile.is_some()).collect();
+            assert!(of_tile.is_empty(), "{changes}: {of_tile:?}");
+        }
+        open(folder.path(), &plan).run(Part::ALL, &control(1)).unwrap();
+        assert!(files(folder.path()) == want, "{changes}");
+        match died {
+            Ok(_) => break,
+            Err(StoreError::Write { .. } | StoreError::Begin { .. }) => changes += 1,
+            Err(other) => panic!("{other}"),
+        }
+    }
+    assert!(changes > 30, "{changes}");
+}
+
+#[test]
+fn damage_of_shards_is_found_and_mended() {
+    for plan in plans() {
+        let (folder, want) = whole(&plan);
+        let chunks: Vec<&String> = want.keys().filter(|key| key.contains("/c/")).collect();
+        let shards = |key: &str| {
+            !key.starts_with("cycle_") && !["x/", "v/", "gap/", "inverse_beta/"].iter().any(|of| key.starts_with(of))
+        };
+        for (k, key) in chunks.iter().copied().filter(|key| shards(key)).enumerate() {
+            let (path, bytes) = (folder.path().join(key), &want[key]);
+            // in the chunks, in the index, cut short, with more behind, and away
+            let mut flipped = bytes.clone();
+            let at = if k % 5 == 0 { bytes.len() / 3 } else { bytes.len() - 9 };
+            flipped[at] ^= 1 << (k % 8);
+            match k % 5 {
+                0 | 1 => fs::write(&path, flipped).unwrap(),
+                2 => fs::write(&path, &bytes[..bytes.len() / 2]).unwrap(),
+                3 => fs::write(&path, [&bytes[..bytes.len() / 2], bytes].concat()).unwrap(),
+                _ => fs::remove_file(&path).unwrap(),
+            }
+            let found = again(folder.path()).verify(0, 0, &control(1)).unwrap();
+            assert!(!found.damage.is_empty(), "{key} {k}");
+            again(folder.path()).run(Part::ALL, &control(2)).unwrap();
+            assert!(files(folder.path()) == want, "{key} {k}");
+        }
+        // a tile with right checksums and wrong numbers
+        let label: Vec<&String> = chunks.iter().copied().filter(|key| key.starts_with("label/c/")).collect();
+        fs::write(folder.path().join(label[0]), &want[label[1]]).unwrap();
+        let found = again(folder.path()).verify(u64::MAX, 0, &control(2)).unwrap();
+        assert!(!found.damage.is_empty());
+    }
+}
+
+/// Stores of many tiles have shards; those that were begun without have none.
+#[test]
+fn many_tiles_are_in_shards_by_default() {
+    let plan = Plan { tile: Some(1), ..basin() };
+    let folder = tempfile::tempdir().unwrap();
+    assert!(open(folder.path(), &plan).shard().is_none());
+    let many = Plan {
+        task: serde_json::from_str(
+            r#"{"basin":{"axes":[{"vary":"x","over":"-4:0.75:65"},{"vary":"v","over":"-4:4:64"}]}}"#,
+        )
+        .unwrap(),
+        ..plan
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let store = open(folder.path(), &many);
+    assert_eq!((store.shard(), store.study().grid().tiles()), (Some([4, 4].as_slice()), 4160));
+    let root = folder.path().join("zarr.json");
+    let text = fs::read_to_string(&root).unwrap();
+    assert!(text.contains("\"vibroimpact_format\": 2"), "{text}");
+    fs::write(&root, text.replace("\"vibroimpact_format\": 2", "\"vibroimpact_format\": 1")).unwrap();
+    assert!(again(folder.path()).shard().is_none());
+    assert!(open(folder.path(), &many).shard().is_none());
+}
