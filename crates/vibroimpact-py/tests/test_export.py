@@ -152,7 +152,7 @@ def test_refusals(s: vi.Oscillator, tmp_path: Path, monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(_export, "find_spec", lambda name: None)
     assert "error: writing Parquet needs pyarrow" in said(place, "--format", "parquet", tmp_path / "x.parquet")
     assert "needs netCDF4, h5netcdf or scipy, and none of them is installed" in said(place, "--format", "netcdf", tmp_path / "x.nc")
-    assert sorted(of.name for of in tmp_path.iterdir()) == ["one.zarr"]
+    assert sorted(of.name for of in tmp_path.iterdir()) == ["one.zarr", "one.zarr.costs"]
     with pytest.raises(vi.QuestionError, match="format = `xls` is none of netcdf, parquet, csv"):
         _export.export(place, tmp_path / "x", "xls")
 

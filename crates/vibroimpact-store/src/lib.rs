@@ -34,7 +34,7 @@
 //! | tiles that wait for their shard, and its completion | `sharded.rs` |
 //! | filling tiles by several threads until all are complete, or the time is spent | `run.rs` |
 //! | which tiles come first | `order.rs` |
-//! | the processor time of each tile, beside the store | `costs.rs`, `clock.rs` |
+//! | the processor time of each tile, beside the store | `costs.rs`, `clock.rs`, `tile_costs.rs` |
 //! | the final tables | `conclude.rs` |
 //! | what a study will cost | `estimate.rs` |
 //! | progress and verification | `check.rs` |
@@ -59,16 +59,17 @@ mod run;
 mod sharded;
 mod shards;
 mod shelf;
+mod tile_costs;
 
 #[cfg(feature = "s3")]
 pub use bucket::Bucket;
 pub use check::{Damage, Progress, Verified};
-pub use costs::{RegionCost, TileCosts};
 pub use error::StoreError;
 pub use estimate::{Estimate, Sampling, estimate};
 pub use handle::{FORMAT, Store};
 pub use run::{Part, Ran};
 pub use shelf::{Folder, Item, Shelf};
+pub use tile_costs::{RegionCost, TileCosts};
 
 use handle::{PLAIN, VERSION};
 use layout::Layout;

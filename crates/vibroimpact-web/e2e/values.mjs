@@ -109,7 +109,7 @@ export async function the_last_picture_of_the_basins_computes_every_point({ open
     const [first, last] = [fine().filter((tile) => tile.refine === 2), fine().filter((tile) => tile.refine === undefined)];
     return first.length > 0 && first.every((tile) => last.some((other) => key(other) === key(tile)));
   });
-  // and what is drawn is the result of every point: no point of the picture differs from the answer of the command
+  // both motions are in such a tile, and the tile that is drawn last is one of them
   const [{ axes, start }] = fine().filter((tile) => tile.refine === undefined);
   const told = await fetch(`${address}api/table`, {
     method: "POST", headers: { "content-type": "application/json" },

@@ -48,9 +48,10 @@ const BEAT: Duration = Duration::from_millis(100);
 
 /// Reports until the store is complete: on a terminal in one place, elsewhere a line each time.
 fn watch(args: &Status, session: &Session) -> Result<(), Failure> {
-    let store = stored::open(&args.store)?;
     let in_place = !args.json && std::io::stdout().is_terminal();
     loop {
+        // opened each time: a store that was deleted has no progress
+        let store = stored::open(&args.store)?;
         let report = Report::brief(&store)?;
         if args.json {
             session.print_json(&report.fields())?;

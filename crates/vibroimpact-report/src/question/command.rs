@@ -1,5 +1,6 @@
 //! A plan as the words of a `vibro` command.
 
+use super::machine::numbers_of;
 use super::number;
 use crate::Units;
 use crate::units::{given, shown_span};
@@ -7,8 +8,7 @@ use vibroimpact::{DrivenOscillator, PhysicalParameter, Shaking};
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
 use vibroimpact_study::{
     Axis, BasinPlan, BranchPlan, Coordinate, CurvePlan, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan, LyapunovPlan,
-    MapPlan, MarginsPlan, Parameter, PhysicalPlan, Plan, Quantity, RegionPlan, StartPlan, Stretch, SystemPlan, Target,
-    Task, Values,
+    MapPlan, MarginsPlan, Parameter, Plan, Quantity, RegionPlan, StartPlan, Stretch, SystemPlan, Target, Task, Values,
 };
 
 /// The words of the `vibro` command for a plan, beginning with `vibro`. Its flags give exactly this plan: in nondimensional
@@ -89,34 +89,6 @@ const fn parameter(vary: Coordinate) -> Option<Parameter> {
 /// Whether a parameter has a flag for a machine.
 const fn of_machine(parameter: Parameter) -> bool {
     matches!(parameter, Parameter::Physical(_) | Parameter::Restitution | Parameter::SecondRestitution)
-}
-
-/// The numbers of a machine with the names of their flags.
-fn numbers_of(machine: &DrivenOscillator) -> Vec<(&'static str, Option<f64>)> {
-    let plan = PhysicalPlan::from(machine);
-    let nonzero = |value: f64| Some(value).filter(|value| value.to_bits() != 0);
-    vec![
-        ("mass_kg", plan.mass_kg),
-        ("stiffness_n_per_m", plan.stiffness_n_per_m),
-        ("damping_ns_per_m", plan.damping_ns_per_m.and_then(nonzero)),
-        ("damping_ratio", plan.damping_ratio.and_then(nonzero)),
-        ("log_decrement", plan.log_decrement),
-        ("force_n", plan.force_n),
-        ("frequency_hz", plan.frequency_hz),
-        ("omega_rad_per_s", plan.omega_rad_per_s),
-        ("gap_m", plan.gap_m),
-        ("second_gap_m", plan.second_gap_m),
-        ("base_displacement_m", plan.base_displacement_m),
-        ("base_velocity_m_per_s", plan.base_velocity_m_per_s),
-        ("base_acceleration_m_per_s2", plan.base_acceleration_m_per_s2),
-        ("base_phase", nonzero(plan.base_phase)),
-        ("stop_displacement_m", plan.stop_displacement_m),
-        ("stop_phase", nonzero(plan.stop_phase)),
-        ("unbalance_kg_m", plan.unbalance_kg_m),
-        ("constant_force_n", plan.constant_force_n),
-        ("restitution", plan.restitution),
-        ("second_restitution", plan.second_restitution),
-    ]
 }
 
 /// A command line under construction.

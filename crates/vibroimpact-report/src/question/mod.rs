@@ -1,6 +1,7 @@
 //! The same question in two other forms: as a command line, and as a call in Python.
 
 mod command;
+mod machine;
 mod python;
 mod shell;
 

@@ -1,5 +1,6 @@
 //! A plan as a call of the Python package.
 
+use super::machine::{numbers_of, without_unit};
 use super::number;
 use crate::scene::{SECTION_POINTS, View};
 use vibroimpact::DrivenOscillator;
@@ -144,32 +145,10 @@ impl Call {
 
 /// A machine in SI units.
 fn machine(machine: &DrivenOscillator) -> String {
-    let plan = PhysicalPlan::from(machine);
-    let nonzero = |value: f64| Some(value).filter(|value| value.to_bits() != 0);
-    let parts = [
-        ("mass", plan.mass_kg),
-        ("stiffness", plan.stiffness_n_per_m),
-        ("damping", plan.damping_ns_per_m.and_then(nonzero)),
-        ("damping_ratio", plan.damping_ratio.and_then(nonzero)),
-        ("log_decrement", plan.log_decrement),
-        ("force", plan.force_n),
-        ("frequency", plan.frequency_hz),
-        ("omega", plan.omega_rad_per_s),
-        ("gap", plan.gap_m),
-        ("restitution", plan.restitution),
-        ("second_gap", plan.second_gap_m),
-        ("second_restitution", plan.second_restitution),
-        ("base_displacement", plan.base_displacement_m),
-        ("base_velocity", plan.base_velocity_m_per_s),
-        ("base_acceleration", plan.base_acceleration_m_per_s2),
-        ("base_phase", nonzero(plan.base_phase)),
-        ("stop_displacement", plan.stop_displacement_m),
-        ("stop_phase", nonzero(plan.stop_phase)),
-        ("unbalance", plan.unbalance_kg_m),
-        ("constant_force", plan.constant_force_n),
-    ];
-    let given = parts.into_iter().filter_map(|(name, value)| Some(format!("{name}={}", number(value?))));
-    let space = plan.stop_in_space.then(|| "stop_in_space=True".to_owned());
+    let given = numbers_of(machine)
+        .into_iter()
+        .filter_map(|(name, value)| Some(format!("{}={}", without_unit(name), number(value?))));
+    let space = PhysicalPlan::from(machine).stop_in_space.then(|| "stop_in_space=True".to_owned());
     format!("vi.Oscillator.from_units({})", given.chain(space).collect::<Vec<_>>().join(", "))
 }
 
