@@ -15,6 +15,14 @@ import vibroimpact as vi  # noqa: E402
 ROOT = Path(__file__).resolve().parents[3]
 
 
+#: Tests that wait for other programs come first, so that the others run beside them.
+WAITING = ("test_slurm.py", "test_dask.py")
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    items.sort(key=lambda item: item.path.name not in WAITING)
+
+
 @pytest.fixture(scope="session")
 def root() -> Path:
     """The repository."""

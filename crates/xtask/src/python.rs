@@ -17,7 +17,7 @@ const OLDEST: (u32, u32) = (3, 11);
 pub(crate) const SKIPPED: &str = "skipped: there is no Python 3.11 or later here with venv";
 
 /// The command that runs the tests. It needs the environment that [`install`] creates.
-pub(crate) const TESTS: &str = "target/python/bin/python -m pytest -q -n 2 --dist loadfile";
+pub(crate) const TESTS: &str = "target/python/bin/python -m pytest -q -n 2 --dist loadfile --no-loadscope-reorder";
 
 /// The name of a Python that can create environments.
 pub(crate) fn found(root: &Path) -> Option<&'static str> {
