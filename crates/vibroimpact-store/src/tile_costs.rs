@@ -1,9 +1,11 @@
 //! The recorded costs of the tiles of a store, and their sums over regions.
 
 use crate::costs::Costs;
+use crate::shelf::Shelf;
 use crate::{Store, StoreError};
 use serde_json::Value;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use vibroimpact_study::Grid;
 
 /// Maximum number of regions in which costs are reported.
