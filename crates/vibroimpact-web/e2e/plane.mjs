@@ -49,6 +49,22 @@ export async function zooms_ten_levels({ open }) {
   await until("1/2 fills the view", async () => (await legend(page)).get("1/2") > 99);
 }
 
+/** A change of the layout in the middle of a gesture showed the first view again. */
+export async function a_change_of_the_size_does_not_undo_a_gesture({ open }) {
+  const { page } = await open();
+  await drawn(page);
+  const [x, y] = await place(page, 1.11, 2.4);
+  await page.evaluate(([clientX, clientY]) => {
+    const surface = document.querySelector("#plane canvas:last-of-type");
+    surface.dispatchEvent(new WheelEvent("wheel", { deltaY: -500, clientX, clientY, bubbles: true, cancelable: true }));
+    dispatchEvent(new Event("resize"));
+  }, [x, y]);
+  await until("the view is 4 times smaller", async () => {
+    const [left, right] = ((await hash(page)).get("view") ?? "0,1").split(",").map(Number);
+    return Math.abs(1.65 / (right - left) / 4 - 1) < 0.01;
+  });
+}
+
 export async function one_axis_is_zoomed_alone({ open, folder }) {
   const { page } = await open("", { viewport: { width: 640, height: 500 } });
   await sharp(page);

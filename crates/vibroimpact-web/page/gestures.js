@@ -15,9 +15,6 @@ export function gestures(view) {
     const box = surface.getBoundingClientRect();
     return [event.clientX - box.left - view.frame.left, event.clientY - box.top - view.frame.top];
   };
-  view.addEventListener("view", () => {
-    view.unmoved = false;
-  });
   const hover = (px) => {
     view.pointer = px;
     view.dispatchEvent(new CustomEvent("hover", { detail: px }));
@@ -65,6 +62,7 @@ export function gestures(view) {
     if (Math.hypot(px[0] - press.px[0], px[1] - press.px[1]) > STILL) press.moved = true;
     if (held) held.move(px, view.viewport.toPlane(...px));
     else if (press.moved) {
+      view.unmoved = false;
       view.viewport.pan(px[0] - press.last[0], px[1] - press.last[1]);
       surface.classList.add("pans");
       view.changed();
@@ -133,6 +131,7 @@ function pick(view, px) {
 
 /** Zooms, and reports if the numeric limit is reached. Tiles are requested only at the end of the gesture. */
 function zoom(view, levels, px, along = null) {
+  view.unmoved = false;
   const limited = view.viewport.zoom(levels, px[0], px[1], view.density, along);
   view.dispatchEvent(new CustomEvent("limit", { detail: limited }));
   view.draw();
@@ -171,6 +170,7 @@ function keyed(view, event) {
   const arrow = ARROWS[event.key];
   if (arrow) {
     const far = event.shiftKey ? 4 : 40;
+    view.unmoved = false;
     v.pan(arrow[0] * far, arrow[1] * far);
     view.changed();
     hoverCentre(view, centre);

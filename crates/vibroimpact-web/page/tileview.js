@@ -80,6 +80,7 @@ export class TileView extends EventTarget {
     this.changed();
   }
 
+  /** Shows a window, and shows it again when the size changes, until a gesture moves the view. */
   fit(window) {
     this.home = window;
     this.unmoved = true;
