@@ -188,49 +188,17 @@ pub(crate) fn seconds_of(text: &str) -> Result<f64, Trouble> {
     Ok(duration(text).map_err(Trouble::question)?.as_secs_f64())
 }
 
-/// The fields of `Estimate`.
-#[derive(IntoPyObject)]
-pub(crate) struct Estimated {
-    points: u64,
-    tiles: u64,
-    points_sampled: u64,
-    processor_seconds: f64,
-    processor_seconds_interval: (f64, f64),
-    threads: usize,
-    seconds: f64,
-    files: u64,
-    bytes: u64,
-    bytes_raw: u64,
-    memory_bytes: u64,
-}
-
-/// What a study will cost, from a sample of blocks that is ended after `budget` seconds.
+/// What a study will cost as JSON, from a sample of blocks that is ended after `budget` seconds.
 #[pyfunction]
 pub(crate) fn estimate_plan(
     py: Python<'_>,
-    text: &str,
+    plan: &str,
     sample: u32,
     budget: f64,
     threads: usize,
-) -> Result<Estimated, Trouble> {
-    let plan = read_any(text)?;
+) -> Result<String, Trouble> {
+    let plan = read_any(plan)?;
     let sampling = Sampling { blocks: sample, time: Duration::try_from_secs_f64(budget).unwrap_or(Duration::MAX) };
     let watch = Watch { what: "estimating a study", total: 1, progress: None, threads };
-    let found = door::run(py, watch, move |control| Ok(estimate(&plan, sampling, control)?))?;
-    if found.sampled == 0 {
-        return Err(Trouble::question("no point of the sample was finished\nhint: a longer budget"));
-    }
-    Ok(Estimated {
-        points: found.points,
-        tiles: found.tiles,
-        points_sampled: found.sampled,
-        processor_seconds: found.seconds,
-        processor_seconds_interval: found.interval,
-        threads: found.threads,
-        seconds: found.time,
-        files: found.files,
-        bytes: found.bytes,
-        bytes_raw: found.bytes_raw,
-        memory_bytes: found.memory,
-    })
+    text(&door::run(py, watch, move |control| Ok(estimate(&plan, sampling, control)?))?)
 }

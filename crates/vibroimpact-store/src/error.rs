@@ -14,6 +14,9 @@ pub enum StoreError {
     /// The run was stopped by its caller; complete tiles are kept.
     #[error("stopped after {} of {} points", .0.done, .0.total)]
     Stopped(Stopped),
+    /// The sample of an estimate ended before any of its points was finished.
+    #[error("no point of the sample was finished\nhint: a longer budget")]
+    NotSampled,
     /// An object cannot be read.
     #[error("cannot read `{key}` of the store {place}: {error}")]
     Read {

@@ -9,6 +9,7 @@ use crate::layout::Layout;
 use crate::shards::Shards;
 use crate::{Store, StoreError};
 use rayon::prelude::*;
+use serde::Serialize;
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
@@ -31,25 +32,25 @@ impl Default for Sampling {
     }
 }
 
-/// What a study will cost.
-#[derive(Clone, Debug, PartialEq)]
+/// What a study will cost, with the names that JSON has.
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Estimate {
-    /// Total number of points, and of tiles.
+    /// Total number of points.
     pub points: u64,
     /// Total number of tiles.
     pub tiles: u64,
     /// Number of points that were computed for the estimate.
-    pub sampled: u64,
+    pub points_sampled: u64,
     /// Processor time that they took, in seconds.
-    pub sampled_seconds: f64,
+    pub seconds_sampled: f64,
     /// Expected processor time of the study in seconds.
-    pub seconds: f64,
+    pub processor_seconds: f64,
     /// Interval of 90 % of the expected processor time, from resampling.
-    pub interval: (f64, f64),
+    pub processor_seconds_interval: [f64; 2],
     /// Number of threads of a run on this machine.
     pub threads: usize,
     /// Expected time of a run with these threads, in seconds.
-    pub time: f64,
+    pub seconds: f64,
     /// Number of files or objects, without the tables of a basin.
     pub files: u64,
     /// Expected size of the store in bytes. Numbers of the sample are compressed, which compresses neighbours worse than a
@@ -58,7 +59,7 @@ pub struct Estimate {
     /// Size of all numbers without compression.
     pub bytes_raw: u64,
     /// Approximate memory of a run in bytes.
-    pub memory: u64,
+    pub memory_bytes: u64,
 }
 
 /// Memory of a process without tiles.
@@ -78,7 +79,7 @@ struct Probe {
 /// Estimates what a plan will cost, from a sample of its points.
 ///
 /// # Errors
-/// [`StoreError`] for a plan that is invalid or has no grid, or when stopped.
+/// [`StoreError`] for a plan that is invalid or has no grid, when stopped, or when no point was finished in time.
 pub fn estimate(plan: impl Into<StudyPlan>, sampling: Sampling, control: &Control<'_>) -> Result<Estimate, StoreError> {
     let plan = plan.into().canonical()?;
     let study = Study::new(&plan)?;
@@ -90,10 +91,13 @@ pub fn estimate(plan: impl Into<StudyPlan>, sampling: Sampling, control: &Contro
     let pool = control.pool()?;
     let threads = pool.current_num_threads();
     let (sampled, spent) = probes.iter().fold((0, 0.0), |(n, s), probe| (n + probe.points, s + probe.seconds));
+    if sampled == 0 {
+        return Err(StoreError::NotSampled);
+    }
     #[allow(clippy::cast_precision_loss)] // counts below 2^53
-    let of_all = |(points, seconds): (u64, f64)| seconds / points.max(1) as f64 * grid.points() as f64;
+    let of_all = |(points, seconds): (u64, f64)| seconds / points as f64 * grid.points() as f64;
     let seconds = of_all((sampled, spent));
-    let interval = if sampled >= grid.points() { (seconds, seconds) } else { interval(&probes, of_all) };
+    let interval = if sampled >= grid.points() { [seconds, seconds] } else { interval(&probes, of_all) };
     let width = |field: &Field| field.width() as u64 * size(field.kind);
     let row: u64 = layout.fields.iter().map(width).sum();
     let bytes_raw = row.saturating_mul(grid.points());
@@ -108,16 +112,16 @@ pub fn estimate(plan: impl Into<StudyPlan>, sampling: Sampling, control: &Contro
     Ok(Estimate {
         points: grid.points(),
         tiles: grid.tiles(),
-        sampled,
-        sampled_seconds: spent,
-        seconds,
-        interval,
+        points_sampled: sampled,
+        seconds_sampled: spent,
+        processor_seconds: seconds,
+        processor_seconds_interval: interval,
         threads,
-        time,
+        seconds: time,
         files,
         bytes: bytes.saturating_add(2 * along),
         bytes_raw,
-        memory: BARE + COPIES * row * tile * threads as u64 + 3 * along,
+        memory_bytes: BARE + COPIES * row * tile * threads as u64 + 3 * along,
     })
 }
 
@@ -203,10 +207,7 @@ fn chosen(grid: &Grid, together: u64, count: u32) -> Vec<Block> {
 }
 
 /// The 5th and 95th percentile of the estimate over resamplings of the blocks.
-fn interval(probes: &[Probe], of_all: impl Fn((u64, f64)) -> f64) -> (f64, f64) {
-    if probes.is_empty() {
-        return (f64::NAN, f64::NAN);
-    }
+fn interval(probes: &[Probe], of_all: impl Fn((u64, f64)) -> f64) -> [f64; 2] {
     let mut state = 1_u64;
     let mut next = || {
         // SplitMix64
@@ -222,7 +223,7 @@ fn interval(probes: &[Probe], of_all: impl Fn((u64, f64)) -> f64) -> (f64, f64) 
         })
         .collect();
     all.sort_by(f64::total_cmp);
-    (all[RESAMPLINGS / 20], all[RESAMPLINGS - 1 - RESAMPLINGS / 20])
+    [all[RESAMPLINGS / 20], all[RESAMPLINGS - 1 - RESAMPLINGS / 20]]
 }
 
 /// The share of its size to which the numbers of the sample are compressed.

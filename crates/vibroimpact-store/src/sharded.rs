@@ -2,7 +2,7 @@
 
 use crate::check::Damage;
 use crate::run::State;
-use crate::shards::{self, Chunks, LOOSE, Shards};
+use crate::shards::{self, Chunks, LOOSE, Shards, loose_prefix};
 use crate::shelf::Item;
 use crate::{Store, StoreError};
 use rayon::prelude::*;
@@ -133,7 +133,7 @@ impl Store {
         let Some(shards) = &self.layout.shards else { return Ok(true) };
         let tiles = shards.tiles(shard);
         let Some(first) = tiles.iter().flatten().next().copied() else { return Ok(true) };
-        let prefix = shards.loose_prefix(shard);
+        let prefix = loose_prefix(shard);
         let waiting = self.shelf.list(&prefix).map_err(|error| self.unread(&prefix, error))?;
         let there = self.get(&self.layout.key(first, 0))?.is_some();
         if waiting.len() < tiles.iter().flatten().count() && !there {
@@ -183,10 +183,10 @@ impl Store {
     pub(crate) fn complete_shards(&self) -> Result<(), StoreError> {
         let Some(shards) = &self.layout.shards else { return Ok(()) };
         let waiting = self.shelf.list(LOOSE).map_err(|error| self.unread(LOOSE, error))?;
+        let folders: BTreeSet<&str> = waiting.iter().filter_map(|item| Some(item.key.rsplit_once('/')?.0)).collect();
         for shard in 0..shards.count() {
             let Some(tile) = shards.tiles(shard).into_iter().flatten().next() else { continue };
-            let prefix = shards.loose_prefix(shard);
-            let waits = waiting.iter().any(|item| item.key.starts_with(&prefix));
+            let waits = folders.contains(loose_prefix(shard).trim_end_matches('/'));
             if (waits || !self.stated(tile)?) && !self.complete_shard(shard)? {
                 return Err(StoreError::DamagedTile { place: self.place(), tile, key: self.layout.key(tile, 0) });
             }

@@ -7,7 +7,7 @@
 //! a shard are there, its shards are written (one for each field), then its status, and the objects of its tiles are
 //! removed. The bytes of a shard depend only on its chunks, so any number of processes may do this at the same time.
 
-use vibroimpact_study::Grid;
+use vibroimpact_study::{Grid, number, place};
 
 /// The folder of the objects of tiles whose shards are not complete.
 pub(crate) const LOOSE: &str = ".tiles/";
@@ -104,13 +104,7 @@ impl Shards {
 
     /// The key of the object of a tile whose shard is not complete.
     pub(crate) fn loose_key(&self, tile: u64) -> String {
-        format!("{}{tile}", self.loose_prefix(self.of_tile(tile)))
-    }
-
-    /// The prefix of the keys of the objects of the tiles of a shard.
-    #[allow(clippy::unused_self)] // beside `loose_key`
-    pub(crate) fn loose_prefix(&self, shard: u64) -> String {
-        format!("{LOOSE}{shard}/")
+        format!("{}{tile}", loose_prefix(self.of_tile(tile)))
     }
 
     /// Number of bytes of the index at the end of a shard.
@@ -119,26 +113,9 @@ impl Shards {
     }
 }
 
-/// The position of number `k` in row-major order.
-#[allow(clippy::cast_possible_truncation)] // less than a count, a usize
-fn place(along: &[usize], k: u64) -> Vec<usize> {
-    let mut rest = k;
-    let mut place: Vec<usize> = along
-        .iter()
-        .rev()
-        .map(|n| {
-            let here = rest % *n as u64;
-            rest /= *n as u64;
-            here as usize
-        })
-        .collect();
-    place.reverse();
-    place
-}
-
-/// The number of a position in row-major order.
-fn number(along: &[usize], place: impl Iterator<Item = usize>) -> u64 {
-    along.iter().zip(place).fold(0, |number, (count, at)| number * *count as u64 + at as u64)
+/// The prefix of the keys of the objects of the tiles of a shard.
+pub(crate) fn loose_prefix(shard: u64) -> String {
+    format!("{LOOSE}{shard}/")
 }
 
 /// The chunks of a shard, in the order of its tiles; `None` for a tile beyond the edge of the grid, or a missing chunk.

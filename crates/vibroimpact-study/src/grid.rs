@@ -52,6 +52,29 @@ fn product(counts: impl IntoIterator<Item = usize>) -> u64 {
     counts.into_iter().fold(1, |product, count| u64::saturating_mul(product, count as u64))
 }
 
+/// The position of number `k` in row-major order, among `along` of each dimension.
+#[must_use]
+#[allow(clippy::cast_possible_truncation)] // less than the count along a dimension, a usize
+pub fn place(along: &[usize], k: u64) -> Vec<usize> {
+    let mut rest = k;
+    let mut place: Vec<usize> = along
+        .iter()
+        .rev()
+        .map(|n| {
+            let here = rest % *n as u64;
+            rest /= *n as u64;
+            here as usize
+        })
+        .collect();
+    place.reverse();
+    place
+}
+
+/// The number of a position in row-major order, the inverse of [`place`].
+pub fn number(along: &[usize], place: impl IntoIterator<Item = usize>) -> u64 {
+    along.iter().zip(place).fold(0, |number, (count, at)| number * *count as u64 + at as u64)
+}
+
 impl Grid {
     /// Total number of points.
     #[must_use]
@@ -73,21 +96,8 @@ impl Grid {
 
     /// The position of tile number `k` among the tiles, for each dimension. Tiles are numbered in row-major order.
     #[must_use]
-    #[allow(clippy::cast_possible_truncation)] // less than the tiles along a dimension, a usize
     pub fn place(&self, k: u64) -> Vec<usize> {
-        let mut rest = k;
-        let mut place: Vec<usize> = self
-            .tiles_along()
-            .iter()
-            .rev()
-            .map(|n| {
-                let here = rest % *n as u64;
-                rest /= *n as u64;
-                here as usize
-            })
-            .collect();
-        place.reverse();
-        place
+        place(&self.tiles_along(), k)
     }
 
     /// Tile number `k`.

@@ -85,7 +85,7 @@ pub use diagram::{Diagram, DiagramPlan};
 pub use error::{PlanError, RunError};
 pub use event_record::EventRecord;
 pub use field::{Column, Extra, Field, NumberType};
-pub use grid::{Block, Dimension, Grid};
+pub use grid::{Block, Dimension, Grid, number, place};
 pub use limits::PLAN_VERSION;
 pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
 pub use machine_plan::{

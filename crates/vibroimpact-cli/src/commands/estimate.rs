@@ -39,23 +39,8 @@ pub(crate) struct Estimate {
 
 #[derive(Serialize)]
 struct EstimateFields<'a> {
-    points: u64,
-    tiles: u64,
-    points_sampled: u64,
-    /// Processor time of the sample.
-    seconds_sampled: f64,
-    /// Expected processor time.
-    processor_seconds: f64,
-    /// Interval of 90 % of the expected processor time.
-    processor_seconds_interval: [f64; 2],
-    threads: usize,
-    /// Expected time with these threads.
-    seconds: f64,
-    files: u64,
-    bytes: u64,
-    /// Bytes of all numbers without compression.
-    bytes_raw: u64,
-    memory_bytes: u64,
+    #[serde(flatten)]
+    found: Found,
     plan: &'a StudyPlan,
     plan_hash: String,
 }
@@ -64,28 +49,11 @@ pub(super) fn run(args: &Estimate, session: &Session) -> Result<(), Failure> {
     let plan = read(&args.plan)?;
     let sampling = Sampling { blocks: args.sample, time: args.budget.time() };
     let found = session.watched(None, |control| estimate(&plan, sampling, control))?;
-    if found.sampled == 0 {
-        return Err(Failure::Failed("no point of the sample was finished\nhint: a longer --budget".to_owned()));
-    }
     if !args.json {
         return session.print(&text(&plan, &found));
     }
-    session.print_json(&EstimateFields {
-        points: found.points,
-        tiles: found.tiles,
-        points_sampled: found.sampled,
-        seconds_sampled: found.sampled_seconds,
-        processor_seconds: found.seconds,
-        processor_seconds_interval: [found.interval.0, found.interval.1],
-        threads: found.threads,
-        seconds: found.time,
-        files: found.files,
-        bytes: found.bytes,
-        bytes_raw: found.bytes_raw,
-        memory_bytes: found.memory,
-        plan: &plan,
-        plan_hash: plan.canonical()?.hash(),
-    })
+    let plan_hash = plan.canonical()?.hash();
+    session.print_json(&EstimateFields { found, plan: &plan, plan_hash })
 }
 
 fn text(plan: &StudyPlan, found: &Found) -> String {
@@ -99,16 +67,16 @@ fn text(plan: &StudyPlan, found: &Found) -> String {
         title(plan),
         counted(found.points, "point"),
         counted(found.tiles, "tile"),
-        time(found.seconds),
-        time(found.interval.0),
-        time(found.interval.1),
-        counted(found.sampled, "point"),
-        time(found.sampled_seconds),
+        time(found.processor_seconds),
+        time(found.processor_seconds_interval[0]),
+        time(found.processor_seconds_interval[1]),
+        counted(found.points_sampled, "point"),
+        time(found.seconds_sampled),
         counted(found.threads as u64, "thread"),
-        time(found.time),
+        time(found.seconds),
         found.files,
         size(found.bytes),
         size(found.bytes_raw),
-        size(found.memory)
+        size(found.memory_bytes)
     )
 }

@@ -29,8 +29,9 @@ class Estimate:
     #: Total numbers of points and tiles.
     points: int
     tiles: int
-    #: Number of points that were computed for the estimate.
+    #: Number of points that were computed for the estimate, and the processor time that they took.
     points_sampled: int
+    seconds_sampled: float
     #: Expected processor time, and its interval of 90 % from resampling.
     processor_seconds: float
     processor_seconds_interval: tuple[float, float]
@@ -139,7 +140,9 @@ class Plan:
         blocks, threads = whole("sample", sample, BLOCKS), whole("threads", threads, THREADS)
         if not 1 <= blocks <= (BLOCKS.most or blocks):
             raise _core.QuestionError(f"sample = {blocks} lies outside 1 <= sample <= {BLOCKS.most}")
-        return Estimate(**_core.estimate_plan(self.json, blocks, seconds("budget", budget), threads))
+        found = json.loads(_core.estimate_plan(self.json, blocks, seconds("budget", budget), threads))
+        low, high = found.pop("processor_seconds_interval")
+        return Estimate(**found, processor_seconds_interval=(low, high))
 
     @classmethod
     def read(cls, path: str | PathLike[str]) -> "Plan":

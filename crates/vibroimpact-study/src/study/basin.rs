@@ -1,17 +1,17 @@
 //! The tiles of a basin: for each start, the motion to which it leads.
 
+mod columns;
+
 use super::code;
 use super::cycles::{self, Numbered, Numbering};
 use super::fill::{self, Along, Fill, spread};
-use super::map::{computed, computed_column};
-use super::reason;
 use super::refine::{self, Cell};
 use super::starts::Starts;
-use crate::field::{Column, Field, NumberType};
+use crate::field::{Column, Field};
 use crate::grid::{Block, Grid};
 use crate::limits::MOST_STARTS;
-use crate::quantity::{self, Quantities, Quantity};
-use crate::{BasinPlan, PlanError, SystemPlan, Unit};
+use crate::quantity::{Quantities, Quantity};
+use crate::{BasinPlan, PlanError, SystemPlan};
 use core::cell::RefCell;
 use std::collections::HashMap;
 use std::sync::OnceLock;
@@ -271,61 +271,6 @@ impl BasinFill {
         self.starts.plan().is_some_and(|plan| plan.transient)
     }
 
-    /// The verdict on a motion as it is stored: of a cycle that the survey has found, that of the survey, so that it is the
-    /// same in all tiles.
-    fn stored<'a>(&'a self, one: &'a Surveyed, found: &'a Verdict) -> &'a Verdict {
-        self.cycles(one).iter().find(|known| cycles::same(*known, found)).unwrap_or(found)
-    }
-
-    /// The columns of reasons, where the starts are points, of multipliers, and of the lengths of the transients.
-    fn details(&self, tile: &BasinTile) -> Vec<Column> {
-        let mut columns = Vec::new();
-        if self.of_points() {
-            columns.push(reason::column(&tile.endings));
-        }
-        if self.of_systems() {
-            for part in MULTIPLIERS.map(|(_, _, part)| part) {
-                let known: Vec<f64> =
-                    tile.found.iter().map(|found| found.multipliers.as_ref().map_or(f64::NAN, part)).collect();
-                let number = |cell: &Cell<u32>| cell.result(&tile.cells).map_or(0, |(number, _)| *number as usize);
-                columns.push(Column::F64(tile.cells.iter().map(|cell| known[number(cell)]).collect()));
-            }
-        }
-        if self.transient() {
-            let own = |(cell, ending): (&Cell<u32>, &Ending)| match cell {
-                Cell::Computed(_) => i32::try_from(ending.impacts).unwrap_or(i32::MAX),
-                Cell::Like(_) => -1,
-            };
-            columns.push(Column::I32(tile.cells.iter().zip(&tile.endings).map(own).collect()));
-        }
-        columns
-    }
-
-    /// The columns of the quantities that the plan asks for. The quantities of a cycle that the survey has found are
-    /// those of the survey, so that they are the same in all tiles. Cells that took the motion of their neighbours have
-    /// its quantities if all starts belong to one system.
-    fn quantities(&self, tile: &BasinTile) -> Vec<Column> {
-        let asked = self.asked();
-        let mut columns = vec![Vec::with_capacity(tile.cells.len()); asked.len()];
-        if asked.is_empty() {
-            return Vec::new();
-        }
-        let known: Vec<Option<Quantities>> = match &self.one {
-            Some(one) => {
-                let of = |found: &CountedMotion| of_verdict_only(&one.osc, self.stored(one, &found.verdict), asked);
-                tile.met.motions().iter().map(of).collect()
-            }
-            None => tile.found.iter().map(|found| found.quantities).collect(),
-        };
-        for cell in &tile.cells {
-            let own = |(_, own): &(&u32, bool)| *own || self.one.is_some();
-            let number = cell.result(&tile.cells).filter(own);
-            let of = number.and_then(|(number, _)| known.get(*number as usize).copied().flatten());
-            columns.iter_mut().zip(quantity::values(asked, of)).for_each(|(column, value)| column.push(value));
-        }
-        columns.into_iter().map(Column::F64).collect()
-    }
-
     /// Whether two indices of a tile stand for the same motion, or for two motions with the same label that are no
     /// cycles.
     fn alike(&self, met: &Census, a: u32, b: u32) -> bool {
@@ -334,17 +279,6 @@ impl BasinFill {
         a == b || (plain(label(a)).is_some() && plain(label(a)) == plain(label(b)))
     }
 }
-
-/// The name, the description and the value of a part of the two multipliers of a motion.
-type PartOfMultipliers = (&'static str, &'static str, fn(&[Multiplier; 2]) -> f64);
-
-/// The multipliers as they are stored for points.
-const MULTIPLIERS: [PartOfMultipliers; 4] = [
-    ("multiplier_1_re", "real part of the larger Floquet multiplier", |of| of[0].re),
-    ("multiplier_1_im", "imaginary part of the larger Floquet multiplier", |of| of[0].im),
-    ("multiplier_2_re", "real part of the smaller Floquet multiplier", |of| of[1].re),
-    ("multiplier_2_im", "imaginary part of the smaller Floquet multiplier", |of| of[1].im),
-];
 
 /// An index of a motion.
 fn whole(number: usize) -> u32 {
@@ -367,50 +301,7 @@ impl Fill for BasinFill {
     }
 
     fn fields(&self) -> Vec<Field> {
-        let label = code::field("motion m/n that the start leads to", Vec::new());
-        let mut fields = vec![label.clone()];
-        if self.one.is_some() {
-            fields.push(cycles::field(label.clone()));
-        }
-        fields.extend(self.asked().iter().map(|quantity| quantity::field(*quantity, Vec::new())));
-        let number = |name: &'static str, long_name: &'static str| Field {
-            name: name.into(),
-            long_name: long_name.into(),
-            unit: Unit::NUMBER,
-            kind: NumberType::F64,
-            flags: Vec::new(),
-            comment: "",
-            ..label.clone()
-        };
-        if self.of_points() {
-            fields.push(reason::field());
-        }
-        if self.of_systems() {
-            fields.extend(MULTIPLIERS.map(|(name, long_name, _)| number(name, long_name)));
-        }
-        if self.transient() {
-            let long_name = "impacts until the motion was decided";
-            let flags = vec![(super::NOT_COMPUTED, "not_computed"), (-1, "taken_from_agreeing_neighbours")];
-            fields.push(Field { kind: NumberType::I32, flags, ..number("transient", long_name) });
-        }
-        if let Starts::Scattered { .. } = self.starts {
-            let coordinate = |name: &'static str, long_name: &'static str, unit| Field {
-                name: name.into(),
-                long_name: long_name.into(),
-                unit,
-                kind: NumberType::F64,
-                flags: Vec::new(),
-                comment: "",
-                ..label.clone()
-            };
-            fields.push(coordinate("x", "position of the start", Unit::LENGTH));
-            fields.push(coordinate("v", "velocity of the start", Unit::VELOCITY));
-            fields.push(coordinate("phase", "phase of the force at the start", Unit::ANGLE));
-        }
-        if self.refine.is_some() {
-            fields.push(computed());
-        }
-        fields
+        self.stored_fields()
     }
 
     fn compute(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<BasinTile> {
@@ -432,28 +323,7 @@ impl Fill for BasinFill {
     }
 
     fn columns(&self, block: &Block, tile: BasinTile) -> Vec<Column> {
-        let (leads, _) = self.leads(&tile);
-        let cells = &tile.cells;
-        let of = |cell: &Cell<u32>| {
-            cell.result(cells).map_or((super::UNDECIDED, cycles::NONE), |(number, _)| leads[*number as usize])
-        };
-        let mut columns = vec![Column::I32(cells.iter().map(|cell| of(cell).0).collect())];
-        if self.one.is_some() {
-            columns.push(Column::I32(cells.iter().map(|cell| of(cell).1).collect()));
-        }
-        columns.extend(self.quantities(&tile));
-        columns.extend(self.details(&tile));
-        if let (Starts::Scattered { .. }, Some(one)) = (&self.starts, &self.one) {
-            let starts: Vec<Start> =
-                (0..block.points()).map(|k| self.start(&one.osc, &self.system, &block.index(k))).collect();
-            for coordinate in [|s: &Start| s.x, |s: &Start| s.v, |s: &Start| s.phase] {
-                columns.push(Column::F64(starts.iter().map(coordinate).collect()));
-            }
-        }
-        if self.refine.is_some() {
-            columns.push(computed_column(cells));
-        }
-        columns
+        self.stored_columns(block, &tile)
     }
 
     fn numbered(&self) -> Option<Numbered<'_>> {

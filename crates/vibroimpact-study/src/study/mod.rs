@@ -1,4 +1,4 @@
-//! A plan that fills a grid tile by tile: the arrays that are stored, and how a tile is computed. ! A tile depends only
+//! A plan that fills a grid tile by tile: the arrays that are stored, and how a tile is computed. A tile depends only
 //! on the plan and its own place, so tiles may be computed in any order, more than once, and on any machine. Results
 //! that need the whole grid, such as the number of starts that lead to each motion, are computed [at the
 //! end](Study::conclude) from all tiles.
