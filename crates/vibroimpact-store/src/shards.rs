@@ -90,7 +90,7 @@ impl Shards {
             let inside = place(&self.side, chunk as u64);
             let at: Vec<usize> =
                 corner.iter().zip(&self.side).zip(&inside).map(|((corner, side), at)| corner * side + at).collect();
-            at.iter().zip(&self.along).all(|(at, count)| at < count).then(|| number(&self.along, at.into_iter()))
+            at.iter().zip(&self.along).all(|(at, count)| at < count).then(|| number(&self.along, at))
         };
         (0..self.chunks()).map(tile).collect()
     }
