@@ -178,7 +178,7 @@ impl Flight {
     /// The response, from which the bounds of a flight are computed.
     #[inline]
     #[must_use]
-    pub(super) const fn response(&self) -> &Response {
+    pub(crate) const fn response(&self) -> &Response {
         &self.response
     }
 

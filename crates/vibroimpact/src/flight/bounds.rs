@@ -63,6 +63,14 @@ impl Window {
     }
 }
 
+impl Flight {
+    /// Bounds of the third derivatives of position, velocity and acceleration where the energy radius is at most `r`.
+    pub(crate) fn third_derivatives(&self, r: f64) -> [f64; 3] {
+        let window = Window::new(self, r, r, 0.0);
+        [window.b3, window.b4(self), window.b5(self)]
+    }
+}
+
 /// The first positive zero of $`-g + p h + c h^2/2`$ for `g > 0`, or infinity if there is none.
 #[inline]
 pub(super) fn first_zero(g: f64, p: f64, c: f64) -> f64 {

@@ -76,6 +76,21 @@ const TARGETS: [Target; 6] = [
     Target { extreme: Extreme::Acceleration, sign: 1.0 },
 ];
 
+/// A level that a function would have to exceed to change an extreme; infinite if the extreme is not searched for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Ceiling {
+    /// Which derivative of the position the function is: 0, 1 or 2.
+    pub(crate) derivative: usize,
+    /// 1, or -1 for the function with the opposite sign.
+    pub(crate) sign: f64,
+    pub(crate) level: f64,
+}
+
+impl Ceiling {
+    /// None at all.
+    pub(crate) const NONE: Self = Self { derivative: 0, sign: 1.0, level: f64::INFINITY };
+}
+
 /// A function at a point: its value and derivatives, a bound of its third derivative around, and a difference in value
 /// that does not matter.
 #[derive(Clone, Copy)]
@@ -189,6 +204,18 @@ impl Extremes {
         self.rest(point.x);
         self.speed = self.speed.max(point.v.abs());
         self.acceleration = self.acceleration.max(point.a.abs());
+    }
+
+    /// The level of every target.
+    pub(crate) fn ceilings(&self) -> [Ceiling; TARGETS.len()] {
+        TARGETS.map(|target| {
+            let derivative = match target.extreme {
+                Extreme::Lowest | Extreme::Highest => 0,
+                Extreme::Speed => 1,
+                Extreme::Acceleration => 2,
+            };
+            Ceiling { derivative, sign: target.sign, level: self.best(target, 0.0) }
+        })
     }
 
     /// The largest value of a target so far; infinite if nothing larger is searched for or possible.

@@ -42,13 +42,28 @@ impl FlightIntegrals {
 /// Calls `sum` with the time, the weight and the point of the flight at each point of the quadrature over the first
 /// `duration`. `rate` is the rate of a factor that `sum` adds to the integrand, such as the frequency of a harmonic.
 pub fn integrate(flight: &Flight, duration: f64, rate: f64, mut sum: impl FnMut(f64, f64, &FlightPoint)) {
+    for (middle, half) in panels(flight, duration, rate) {
+        for (place, weight) in RULE {
+            for s in [middle - half * place, middle + half * place] {
+                sum(s, half * weight, &flight.at(s));
+            }
+        }
+    }
+}
+
+/// The middles and half lengths of the panels of the quadrature over the first `duration` of a flight, for an integrand
+/// with a factor of this rate.
+pub(crate) fn panels(flight: &Flight, duration: f64, rate: f64) -> impl Iterator<Item = (f64, f64)> {
+    let shortest = PANEL / flight.fastest;
+    let slow = PANEL / (flight.response().beta().max(1.0) + rate);
     let mut begin = 0.0;
-    while begin < duration {
+    core::iter::from_fn(move || {
+        if begin >= duration {
+            return None;
+        }
         // With heavy damping the fast part of the flight decays, and later panels can be longer. What is left of this
         // part there is far below the error of the rule.
-        let fast = PANEL / flight.fastest + 0.5 * begin;
-        let slow = PANEL / (flight.response().beta().max(1.0) + rate);
-        let length = fast.min(slow);
+        let length = (shortest + 0.5 * begin).min(slow);
         // the rest is divided into two equal panels, rather than into a long and a very short one
         let rest = duration - begin;
         let length = if rest <= length {
@@ -58,14 +73,10 @@ pub fn integrate(flight: &Flight, duration: f64, rate: f64, mut sum: impl FnMut(
         } else {
             length
         };
-        let (middle, half) = (begin + 0.5 * length, 0.5 * length);
-        for (place, weight) in RULE {
-            for s in [middle - half * place, middle + half * place] {
-                sum(s, half * weight, &flight.at(s));
-            }
-        }
+        let panel = (begin + 0.5 * length, 0.5 * length);
         begin = if rest <= length { duration } else { begin + length };
-    }
+        Some(panel)
+    })
 }
 
 #[cfg(test)]

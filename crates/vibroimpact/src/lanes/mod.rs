@@ -8,6 +8,7 @@
 //! | a contact that is found, refined and proven to be the first | `strike` |
 //! | one flight from launch to contact | [`first_contact`] |
 //! | the flights of a batch in memory, and the stages of a round | `slots` |
+//! | points of one flight side by side; integrals over it; whether it exceeds an extreme | `points`, `integrals`, `extremes` |
 //! | many motions that do not wait for each other | [`Batch`] |
 //! | the number of flights side by side, and the choice by processor | [`Width`] |
 //! | steps that are not proven clear, side by side; moving selected elements to the front | `uncertain`, `compaction` |
@@ -25,11 +26,14 @@ mod avx2;
 mod avx512;
 mod batch;
 mod compaction;
+mod extremes;
 mod flight;
 mod hull;
+mod integrals;
 mod pack;
 #[cfg(target_arch = "x86_64")]
 mod pair;
+mod points;
 #[cfg(target_arch = "x86_64")]
 mod single;
 mod slots;
@@ -40,7 +44,9 @@ mod uncertain;
 mod width;
 
 pub use batch::{ABREAST, Batch};
+pub(crate) use extremes::add_extremes;
 pub use flight::first_contact;
 pub(crate) use flight::found;
+pub(crate) use integrals::add_integrals;
 pub(crate) use stride::Stride;
 pub use width::Width;

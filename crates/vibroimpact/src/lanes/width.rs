@@ -4,6 +4,7 @@ use super::pack::Pack;
 use super::slots::{Lists, Slots};
 use super::stride::{Stride, Table};
 use super::uncertain::SEGMENT;
+use crate::math::Lane;
 
 #[cfg(target_arch = "x86_64")]
 use super::avx2::Four;
@@ -61,6 +62,21 @@ impl Width {
         [Self::Avx512, Self::Avx2].into_iter().find(|width| width.available()).unwrap_or(Self::Portable)
     }
 
+    /// Does a task in lanes of double precision.
+    pub(super) fn run<T: Task>(self, task: T) -> T::Output {
+        match self {
+            Self::Scalar => task.run::<f64>(),
+            #[cfg(target_arch = "x86_64")]
+            // available() has asked the processor
+            #[allow(unsafe_code)]
+            Self::Avx2 if self.available() => unsafe { run_avx2(task) },
+            #[cfg(target_arch = "x86_64")]
+            #[allow(unsafe_code)]
+            Self::Avx512 if self.available() => unsafe { run_avx512(task) },
+            _ => task.run::<Pack<f64, 4>>(),
+        }
+    }
+
     /// Takes one step of every flight, and processes the contacts that it leads to.
     pub(super) fn round(self, slots: &mut Slots, stride: &Stride, table: &Table, lists: &mut Lists) {
         for segment in 0..slots.count.div_ceil(SEGMENT) {
@@ -97,6 +113,26 @@ impl Width {
             }
         }
     }
+}
+
+/// Something that is computed in lanes of any type. Lane types have 1, 4 or 16 numbers.
+pub(super) trait Task {
+    /// The result.
+    type Output;
+    /// Computes it; must be inlined, so that it is compiled for the processor's instructions.
+    fn run<L: Lane>(self) -> Self::Output;
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,bmi1,bmi2,popcnt")]
+fn run_avx2<T: Task>(task: T) -> T::Output {
+    task.run::<Pair<Pair<Four>>>()
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,bmi1,bmi2,popcnt")]
+fn run_avx512<T: Task>(task: T) -> T::Output {
+    task.run::<Pair<Eight>>()
 }
 
 #[cfg(target_arch = "x86_64")]

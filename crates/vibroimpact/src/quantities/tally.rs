@@ -3,6 +3,7 @@
 use super::{Quantity, Segment};
 use crate::contact::mirrored;
 use crate::flight::{Extreme, Extremes, FlightIntegrals};
+use crate::lanes::{add_extremes, add_integrals};
 use crate::math::sin_cos;
 use crate::system::{Oscillator, Side, Start};
 use core::f64::consts::TAU;
@@ -105,9 +106,9 @@ impl<'a> Tally<'a> {
                 self.skipped |= self.flown > LONGEST + EACH_IMPACT * self.impacts;
                 if !self.skipped {
                     if let Some(integrals) = &mut self.integrals {
-                        integrals.add(&flight, duration);
+                        add_integrals(integrals, &flight, duration);
                     }
-                    self.extremes.add(&flight, duration);
+                    add_extremes(&mut self.extremes, &flight, duration);
                 }
             }
             Segment::Impact { side, speed } => self.impact(side, speed),

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | checked parameters of one oscillator | [`Oscillator`] |
 //! | its response in closed form, free and forced | [`Response`], `free` |
+//! | the same at several times side by side | `nearby` |
 //! | frequency ratios that are fractions | [`Oscillator::fraction`] |
 //! | its parameters by name, read and changed | [`Parameter`] |
 //! | a line through two parameters, a plane of two | [`ParameterPath`], [`ParameterPlane`] |
@@ -18,6 +19,7 @@ mod commensurable;
 mod error;
 mod excitation;
 mod free;
+mod nearby;
 mod oscillator;
 mod parameter;
 mod parameter_path;

@@ -68,12 +68,12 @@ pub struct Propagator {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Response {
     beta: f64,
-    free: FreeResponse,
-    regime: Regime,
+    pub(super) free: FreeResponse,
+    pub(super) regime: Regime,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Regime {
+pub(super) enum Regime {
     /// $`\zeta = 0`$ near resonance: `detuning` $`= \beta - 1`$, `over_sum` $`= 1/(\beta+1)`$.
     Undamped { detuning: f64, over_sum: f64 },
     /// $`0 < \zeta < 1/2`$ near resonance: `detuning` $`= \beta - w`$.
@@ -149,26 +149,20 @@ impl Response {
 
     /// The responses with light damping near resonance.
     fn light(&self, s: f64, detuning: f64) -> Propagator {
-        let (zeta, w) = (self.free.damping, self.free.root);
-        let (sw, cw) = self.free.swing_angle(s);
-        let (sh, ch) = sin_cos(0.5 * detuning * s);
-        let (sa, ca) = (sw * ch + cw * sh, cw * ch - sw * sh);
-        let (kept, loss) = decay(zeta * s);
-        let first = divide((loss * ch, (1.0 + kept) * sh), (zeta, detuning));
-        let second = divide((loss * ca, (1.0 + kept) * sa), (zeta, self.beta + w));
-        // e^{iA} first - e^{ih} second, then divided by 2iw
-        let re = (ca * first.0 - sa * first.1) - (ch * second.0 - sh * second.1);
-        let im = (sa * first.0 + ca * first.1) - (sh * second.0 + ch * second.1);
-        let free = self.free.swing(s, (sw, cw), (kept, loss));
+        let w = self.free.root;
+        let (swing, decay) = (self.free.swing_angle(s), decay(self.free.damping * s));
+        let near = NearForced::new(self, detuning, swing, sin_cos(0.5 * detuning * s), decay);
+        let (first, second) = (near.first, near.second);
+        let free = self.free.swing(s, swing, decay);
         Propagator {
             one_minus_c: free.one_minus_c,
             c: free.c,
             s: free.s,
             s_rate: free.s_rate,
-            kc: im / (2.0 * w),
-            ks: -re / (2.0 * w),
-            sin_turn: sa * ch + ca * sh,
-            cos_turn: ca * ch - sa * sh,
+            kc: near.kc,
+            ks: near.ks,
+            sin_turn: near.sin_turn,
+            cos_turn: near.cos_turn,
             free_size: free.size,
             free_angle: free.angle,
             forced_size: (first.0.abs() + first.1.abs() + second.0.abs() + second.1.abs()) / w
@@ -198,6 +192,39 @@ impl Response {
             forced_size: (versine(st, ct) + free.size + st.abs() + (beta * free.s).abs()) * 1.5 / over,
             forced_angle: beta * s / over,
         }
+    }
+}
+
+/// The forced response with light damping near resonance, and its two fractions.
+pub(super) struct NearForced<L> {
+    first: (L, L),
+    second: (L, L),
+    pub(super) kc: L,
+    pub(super) ks: L,
+    pub(super) sin_turn: L,
+    pub(super) cos_turn: L,
+}
+
+impl<L: Lane> NearForced<L> {
+    /// From sine and cosine of $`ws`$ and of $`h`$, and $`E`$ and $`1 - E`$.
+    #[inline(always)]
+    pub(super) fn new(
+        response: &Response,
+        detuning: f64,
+        (sw, cw): (L, L),
+        (sh, ch): (L, L),
+        (kept, loss): (L, L),
+    ) -> Self {
+        let (zeta, w) = (response.free.damping, response.free.root);
+        let (sa, ca) = (sw * ch + cw * sh, cw * ch - sw * sh);
+        let both = L::splat(1.0) + kept;
+        let first = divide((loss * ch, both * sh), (zeta, detuning));
+        let second = divide((loss * ca, both * sa), (zeta, response.beta + w));
+        // e^{iA} first - e^{ih} second, then divided by 2iw
+        let re = (ca * first.0 - sa * first.1) - (ch * second.0 - sh * second.1);
+        let im = (sa * first.0 + ca * first.1) - (sh * second.0 + ch * second.1);
+        let over = L::splat(2.0 * w);
+        Self { first, second, kc: im / over, ks: -re / over, sin_turn: sa * ch + ca * sh, cos_turn: ca * ch - sa * sh }
     }
 }
 
@@ -282,10 +309,10 @@ impl<L: Lane> Undamped<L> {
 }
 
 /// The quotient of two complex numbers.
-#[inline]
-fn divide(n: (f64, f64), d: (f64, f64)) -> (f64, f64) {
-    let norm = d.0 * d.0 + d.1 * d.1;
-    ((n.0 * d.0 + n.1 * d.1) / norm, (n.1 * d.0 - n.0 * d.1) / norm)
+#[inline(always)]
+pub(super) fn divide<L: Lane>(n: (L, L), d: (f64, f64)) -> (L, L) {
+    let (norm, re, im) = (L::splat(d.0 * d.0 + d.1 * d.1), L::splat(d.0), L::splat(d.1));
+    ((n.0 * re + n.1 * im) / norm, (n.1 * re - n.0 * im) / norm)
 }
 
 #[cfg(test)]

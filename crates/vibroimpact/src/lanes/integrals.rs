@@ -1,0 +1,140 @@
+//! Integrals over a flight, with the points of the quadrature side by side.
+//!
+//! The rule and the panels are those of [`FlightIntegrals::add`], which computes one point at a time and serves heavily
+//! damped flights, short ones and very long ones. Each point of the rule has sums of its own, which are added to each
+//! other last and in their order. So the results have the same bits for all widths.
+
+use super::points::{Points, suited};
+use super::width::{Task, Width};
+use crate::flight::{Flight, FlightIntegrals, panels};
+use crate::math::{Lane, POINTS, RULE};
+
+/// The places of the points on [-1, 1], and their weights.
+const PLACES: ([f64; POINTS], [f64; POINTS]) = {
+    let (mut places, mut weights) = ([0.0; POINTS], [0.0; POINTS]);
+    let mut k = 0;
+    while k < RULE.len() {
+        let (place, weight) = RULE[k];
+        (places[2 * k], places[2 * k + 1]) = (-place, place);
+        (weights[2 * k], weights[2 * k + 1]) = (weight, weight);
+        k += 1;
+    }
+    (places, weights)
+};
+
+/// Adds the integrals over the first `duration` of a flight.
+pub(crate) fn add_integrals(integrals: &mut FlightIntegrals, flight: &Flight, duration: f64) {
+    add_with(Width::best(), integrals, flight, duration);
+}
+
+fn add_with(width: Width, integrals: &mut FlightIntegrals, flight: &Flight, duration: f64) {
+    if !suited(flight, duration) {
+        return integrals.add(flight, duration);
+    }
+    let sums = width.run(Sums { flight, duration });
+    let [x, x_squared, v_squared, work] = sums.map(|points| points.into_iter().sum::<f64>());
+    integrals.x += x;
+    integrals.x_squared += x_squared;
+    integrals.v_squared += v_squared;
+    integrals.work += work;
+}
+
+/// The sums over all panels.
+struct Sums<'a> {
+    flight: &'a Flight,
+    duration: f64,
+}
+
+impl Task for Sums<'_> {
+    /// The integrals of [`FlightIntegrals`], in their order, for each point of the rule.
+    type Output = [[f64; POINTS]; 4];
+
+    #[inline(always)]
+    fn run<L: Lane>(self) -> Self::Output {
+        let (places, weights) = &PLACES;
+        let mut sums = Self::Output::default();
+        let mut k = 0;
+        while k < POINTS {
+            let (place, weight) = (L::load(&places[k..]), L::load(&weights[k..]));
+            let mut sum = [L::splat(0.0); 4];
+            for (middle, half) in panels(self.flight, self.duration, 0.0) {
+                let Points { x, v, force, .. } = Points::new(self.flight, middle, L::splat(half) * place);
+                let weight = L::splat(half) * weight;
+                let (of_x, of_v) = (weight * x, weight * v);
+                sum = [sum[0] + of_x, sum[1] + of_x * x, sum[2] + of_v * v, sum[3] + of_v * force];
+            }
+            let mut row = 0;
+            while row < sum.len() {
+                sum[row].store(&mut sums[row][k..]);
+                row += 1;
+            }
+            k += L::WIDTH;
+        }
+        sums
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::system::{Oscillator, Start};
+
+    fn bits(sums: &FlightIntegrals) -> [u64; 4] {
+        [sums.x, sums.x_squared, sums.v_squared, sums.work].map(f64::to_bits)
+    }
+
+    /// The widths agree to the bit, and with one point at a time to rounding, at and near resonance and far from it.
+    #[test]
+    fn all_widths_agree_with_each_other_and_with_one_point_at_a_time() {
+        for beta in [1e-3, 0.3, 0.5, 1.0, 1.0 + 1e-9, 2.0, 2.7, 40.0] {
+            for zeta in [0.0, 1e-6, 0.02, 0.4, 0.7] {
+                let osc = Oscillator::new(beta, 5.0, 0.5).unwrap().with_damping(zeta).unwrap();
+                for (x, v, phase) in [(0.4, -1.3, 2.0), (5.0, -1e-3, 0.0), (-3.0, 7.0, 6.1), (0.0, 0.0, 1.0)] {
+                    let flight = Flight::new(&osc, Start { x, v, phase });
+                    for duration in [1e-9, 0.2, 0.3, 1.0, 7.7, 60.0, 2e3] {
+                        let mut single = FlightIntegrals::default();
+                        single.add(&flight, duration);
+                        let mut scalar = FlightIntegrals::default();
+                        add_with(Width::Scalar, &mut scalar, &flight, duration);
+                        // the size of the motion, whose rounding errors the closed forms have
+                        let size = (1.0 + x.abs() + v.abs()).powi(2) + single.x_squared + single.v_squared;
+                        let close = 1e-15 * (1.0 + duration) * (1.0 + duration * beta.max(1.0)) * size;
+                        for (a, b) in [
+                            (single.x, scalar.x),
+                            (single.x_squared, scalar.x_squared),
+                            (single.v_squared, scalar.v_squared),
+                            (single.work, scalar.work),
+                        ] {
+                            assert!((a - b).abs() < close, "beta {beta} {x} {v} s {duration}: {a:e} {b:e} {:e}", a - b);
+                        }
+                        for width in Width::ALL.into_iter().filter(|width| width.available()) {
+                            let mut other = FlightIntegrals::default();
+                            add_with(width, &mut other, &flight, duration);
+                            assert_eq!(bits(&other), bits(&scalar), "{width:?} beta {beta} s {duration}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// The energy changes by the work of the force less the loss in the damper.
+    #[test]
+    fn work_and_loss_are_the_change_of_energy() {
+        for beta in [1e-3, 0.3, 1.0, 1.0 + 1e-9, 2.7, 40.0] {
+            for zeta in [0.0, 1e-6, 0.02, 0.4] {
+                let osc = Oscillator::new(beta, 5.0, 0.5).unwrap().with_damping(zeta).unwrap();
+                let flight = Flight::new(&osc, Start { x: 0.4, v: -1.3, phase: 2.0 });
+                for duration in [0.3, 1.0, 7.7, 60.0] {
+                    let mut sums = FlightIntegrals::default();
+                    add_integrals(&mut sums, &flight, duration);
+                    let energy = |(x, v): (f64, f64)| 0.5 * (x * x + v * v);
+                    let gained = energy(flight.state(duration)) - energy((flight.x, flight.v));
+                    let scale = 1.0 + energy(flight.state(duration));
+                    let balance = sums.work - 2.0 * zeta * sums.v_squared - gained;
+                    assert!(balance.abs() < 4e-14 * scale, "beta {beta} zeta {zeta} s {duration}: {balance:e}");
+                }
+            }
+        }
+    }
+}
