@@ -8,7 +8,7 @@ import { SIDE, Tile, wrapped } from "./tiles.js";
 const COARSE_POINTS = [800, 9000];
 const COARSE_PIXELS = 8;
 /** Time in which a coarse picture should be there, in milliseconds, so that it follows a slider. */
-const COARSE_TIME = 100;
+const COARSE_TIME = 65;
 
 /** The cells with legal centres, among `count` cells that begin at `first` and have the size `h`. */
 function cut(first, h, count, [least, most], open) {
