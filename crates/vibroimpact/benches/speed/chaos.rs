@@ -1,9 +1,11 @@
-//! A chaotic motion: its exponents measured along an orbit, and a start recognised as chaotic.
+//! A chaotic motion: its exponents measured along an orbit, a start recognised as chaotic, and quantities over the last
+//! impacts.
 
 use criterion::{Criterion, Throughput};
 use std::hint::black_box;
 use vibroimpact::chaos::{ExponentOptions, exponents, lyapunov};
 use vibroimpact::motion::ImpactState;
+use vibroimpact::quantities::{MEASURED_IMPACTS, Quantity, of_verdict_only};
 use vibroimpact::verdict::{SettleOptions, settle};
 use vibroimpact::{Side, Start, scenario};
 
@@ -22,5 +24,15 @@ pub(crate) fn bench(criterion: &mut Criterion) {
     group.bench_function("exponents from a start", |b| {
         b.iter(|| exponents(&osc, black_box(Start::at_rest(&osc)), &options));
     });
+    let verdict = settle(&osc, Start::at_rest(&osc), &SettleOptions::default()).verdict;
+    group.throughput(Throughput::Elements(MEASURED_IMPACTS));
+    for (name, asked) in [
+        ("impact speeds", Quantity::ImpactSpeedMax),
+        ("power", Quantity::Power),
+        ("largest displacement", Quantity::DisplacementMax),
+        ("largest acceleration", Quantity::AccelerationMax),
+    ] {
+        group.bench_function(name, |b| b.iter(|| of_verdict_only(&osc, black_box(&verdict), &[asked])));
+    }
     group.finish();
 }
