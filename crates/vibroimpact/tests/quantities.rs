@@ -5,7 +5,7 @@ use vibroimpact::chaos::{ExponentOptions, Spectrum, exponents};
 use vibroimpact::lanes::Width;
 use vibroimpact::motion::{EventKind, Motion};
 use vibroimpact::quantities::{
-    MEASURED_IMPACTS, Quantities, Quantity, cycle_segments, harmonics, of_cycle, of_transient, of_verdict,
+    MEASURED_IMPACTS, Quantities, Quantity, cycle_segments, harmonics, of_arrivals, of_cycle, of_transient, of_verdict,
     of_verdict_only,
 };
 use vibroimpact::verdict::{
@@ -189,6 +189,53 @@ fn the_tail_of_chaos_ends_with_its_last_impact() {
         }
     }
     assert!(count >= 6, "{count}");
+}
+
+/// The impacts that a settlement of few starts keeps give the quantities of the motion that is followed again, bit for
+/// bit; with many starts, which are followed in lanes, nothing is kept.
+#[test]
+fn kept_impacts_give_the_same_quantities() {
+    let (mut kept, mut chaotic) = (0, 0);
+    for (inverse, gap, restitution, damping, lower) in [
+        (1.11, 3.0, 0.5, 0.0, None),
+        (1.8, 1.3, 0.5, 0.02, None),
+        (1.87, 1.43, 0.5, 0.02, None),
+        (1.9, 0.4, 0.9, 0.01, Some(0.6)),
+        (1.3, 1.6, 0.8, 0.0, None),
+        (0.9, 2.2, 0.7, 0.6, None),
+    ] {
+        let mut osc = Oscillator::from_inverse_beta(inverse, gap, restitution).unwrap().with_damping(damping).unwrap();
+        if let Some(gap) = lower {
+            osc = osc.with_second_stop(gap, 0.8).unwrap();
+        }
+        let options = SettleOptions::default();
+        let start = |k: u64| scattered_starts(&osc, StartBox::natural(&osc), 1, k);
+        for count in [1, 12, 40] {
+            let none = KnownAttractors::default();
+            let many = settle_many(&osc, 0..count, start, &none, &options, Width::best(), &|| false);
+            assert_eq!(many.motions.len(), many.tails.len());
+            for (motion, tail) in many.motions.iter().zip(&many.tails) {
+                let asked =
+                    [&Quantity::ALL[..], &[Quantity::ImpactSpeedMax], &[Quantity::VelocityMax, Quantity::Power]];
+                for asked in asked {
+                    let whole = of_verdict_only(&osc, &motion.verdict, asked);
+                    let found = of_arrivals(&osc, &motion.verdict, tail, asked);
+                    assert_eq!(whole.is_some(), found.is_some());
+                    for (whole, found) in whole.into_iter().zip(found) {
+                        let bits = |of: Quantities| of.iter().map(|(_, value)| value.to_bits()).collect::<Vec<_>>();
+                        assert_eq!(bits(whole), bits(found), "{osc:?} {asked:?}");
+                    }
+                }
+                let Verdict::Chaotic(chaos) = &motion.verdict else {
+                    assert!(tail.is_empty());
+                    continue;
+                };
+                assert!(tail.is_empty() || tail.len() as u64 == chaos.spectrum.tail.impacts);
+                (chaotic, kept) = (chaotic + 1, kept + usize::from(!tail.is_empty()));
+            }
+        }
+    }
+    assert!(kept >= 6 && chaotic > kept, "{kept} of {chaotic}");
 }
 
 /// A quantity that is computed alone has the value that it has among all.

@@ -6,8 +6,9 @@ pub use plan::MapPlan;
 pub(crate) use plan::{check_impacts, check_refine, options};
 
 use vibroimpact::Oscillator;
+use vibroimpact::chaos::Arrivals;
 use vibroimpact::lanes::Width;
-use vibroimpact::quantities::{Quantities, of_verdict_only};
+use vibroimpact::quantities::{Quantities, of_arrivals};
 use vibroimpact::verdict::{
     CountedMotion, KnownAttractors, SettleOptions, StartBox, Verdict, scattered_starts, settle_many,
 };
@@ -45,15 +46,17 @@ pub struct RegionMap {
 pub(crate) fn motions(osc: &Oscillator, plan: &MapPlan, options: &SettleOptions) -> Vec<Share> {
     let area = StartBox::natural(osc);
     let start = |index: u64| scattered_starts(osc, area, plan.seed, index);
-    let mut found: Vec<CountedMotion> =
-        settle_many(osc, 0..plan.starts, start, &KnownAttractors::default(), options, Width::best(), &|| false).motions;
-    found.sort_by_key(|found| core::cmp::Reverse(found.count));
+    let settlement =
+        settle_many(osc, 0..plan.starts, start, &KnownAttractors::default(), options, Width::best(), &|| false);
+    let mut found: Vec<(CountedMotion, Arrivals)> = settlement.motions.into_iter().zip(settlement.tails).collect();
+    found.sort_by_key(|(found, _)| core::cmp::Reverse(found.count));
     #[allow(clippy::cast_precision_loss)] // counts below 2^53
     let share = |count: u64| count as f64 / plan.starts as f64;
-    let quantities =
-        |verdict: &Verdict| if plan.fields.is_empty() { None } else { of_verdict_only(osc, verdict, &plan.fields) };
-    let share = |found: CountedMotion| Share {
-        quantities: quantities(&found.verdict),
+    let quantities = |verdict: &Verdict, tail: &Arrivals| {
+        if plan.fields.is_empty() { None } else { of_arrivals(osc, verdict, tail, &plan.fields) }
+    };
+    let share = |(found, tail): (CountedMotion, Arrivals)| Share {
+        quantities: quantities(&found.verdict, &tail),
         share: share(found.count),
         verdict: found.verdict,
     };

@@ -35,7 +35,7 @@ mod of_machine;
 mod run;
 mod section;
 
-pub use crate::lyapunov::{MachineSpectrum, Measured, Spectrum, Tail, lyapunov, tangent};
+pub use crate::lyapunov::{Arrivals, MachineSpectrum, Measured, Spectrum, Tail, lyapunov, tangent};
 pub use exponents::{
     DEFAULT_IMPACTS, DEFAULT_TRANSIENT, ExponentOptions, Exponents, Grounds, exponents, exponents_while,
 };

@@ -71,6 +71,33 @@ impl Flight {
     }
 }
 
+impl Flight {
+    /// Bounds of $`|x|`$, $`|v|`$ and $`|a|`$ over the whole flight, however long: the amplitude of the forced
+    /// oscillation $`x_p = \operatorname{Im}(Pe^{i\theta})`$, $`P = 1/(1 - \beta^2 + 2i\zeta\beta)`$, and of the free
+    /// one, whose radius $`R = |(x_0 - x_p, v_0 - v_p)|`$ does not grow:
+    ///
+    /// $$`|x| \le R + |P|,\quad |v| \le R + \beta|P|,\quad |a| \le (1 + 2\zeta)R + \beta^2|P|.`$$
+    ///
+    /// They contain a margin for rounding errors. They are not finite at resonance without damping, and where the
+    /// amplitude underflows.
+    pub(crate) fn largest(&self) -> [f64; 3] {
+        let (beta, zeta2) = (self.response().beta(), 2.0 * self.response().damping());
+        let (detuning, cross) = ((1.0 - beta) * (1.0 + beta), zeta2 * beta);
+        let over = 1.0 / (detuning * detuning + cross * cross);
+        if over < f64::MIN_POSITIVE {
+            return [f64::INFINITY; 3];
+        }
+        let (real, imaginary) = (detuning * over, -cross * over);
+        let (x, v) = (real * self.sin + imaginary * self.cos, beta * (real * self.cos - imaginary * self.sin));
+        let forced = over.sqrt();
+        let free = (self.x - x) * (self.x - x) + (self.v - v) * (self.v - v);
+        let margin = 1.0 + 1e-9;
+        let free = free.sqrt() * margin;
+        let forced = forced * margin;
+        [free + forced, free + beta * forced, (1.0 + zeta2) * free + beta * beta * forced]
+    }
+}
+
 /// The first positive zero of $`-g + p h + c h^2/2`$ for `g > 0`, or infinity if there is none.
 #[inline]
 pub(super) fn first_zero(g: f64, p: f64, c: f64) -> f64 {
@@ -182,4 +209,41 @@ pub(super) fn radius(x: f64, v: f64) -> f64 {
     let square = x * x + v * v;
     // the square overflows only for valid but very large states
     if square < 1e300 { square.sqrt() } else { hypot(x, v) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::system::{Oscillator, Start};
+
+    /// No point of a long flight is outside, and long flights without damping come close. Near resonance, where the two
+    /// amplitudes are large and cancel, the bounds are wide.
+    #[test]
+    fn amplitudes_bound_the_flight() {
+        for (beta, zeta) in [(0.05, 0.0), (0.7, 0.02), (0.999, 0.0), (1.0, 0.0), (1.0, 0.3), (2.3, 0.0), (0.9, 1.6)] {
+            let osc = Oscillator::new(beta, 900.0, 0.5).unwrap().with_damping(zeta).unwrap();
+            for k in 0..20 {
+                let (a, b) = (f64::from(k * 37 % 20) / 20.0, f64::from(k * 3 % 20) / 20.0);
+                let flight = Flight::new(&osc, Start { x: 3.0 * a - 1.0, v: 4.0 * b - 2.0, phase: 6.0 * a * b });
+                let bounds = flight.largest();
+                let mut most = [0.0_f64; 3];
+                for step in 0..40_000 {
+                    let at = flight.at(0.01 * f64::from(step));
+                    for (most, value) in most.iter_mut().zip([at.x, at.v, at.a]) {
+                        *most = most.max(value.abs());
+                    }
+                }
+                for (most, bound) in most.into_iter().zip(bounds) {
+                    let resonance = beta == 1.0 && zeta == 0.0;
+                    assert!(if resonance { !bound.is_finite() } else { most <= bound }, "{beta} {zeta} {most} {bound}");
+                    assert!(zeta > 0.0 || (beta - 1.0).abs() < 0.01 || bound < 1.05 * most, "{beta} {most} {bound}");
+                }
+            }
+        }
+        // the amplitude of the force underflows
+        let osc = Oscillator::new(1e100, 9.0, 0.5);
+        assert!(
+            osc.is_err() || Flight::new(&osc.unwrap(), Start { x: 0.0, v: 0.0, phase: 0.0 }).largest()[0].is_infinite()
+        );
+    }
 }

@@ -173,9 +173,14 @@ impl Extremes {
         Self { room: (lowest, highest), ..self }
     }
 
+    /// Whether an extreme is searched for.
+    pub(crate) fn any(&self) -> bool {
+        self.sought != [false; 4]
+    }
+
     /// Includes the first `duration` of a flight.
     pub fn add(&mut self, flight: &Flight, duration: f64) {
-        if self.sought == [false; 4] {
+        if !self.any() {
             return;
         }
         // over longer windows the bounds are too wide to leave anything out

@@ -1,5 +1,5 @@
 //! Extremes over a flight. Most flights of a long motion exceed none of those so far, which is proven here at points
-//! side by side.
+//! side by side, unless the amplitudes of the flight show it already.
 //!
 //! Each panel of the quadrature is divided into equal intervals. Over an interval of half the length $`\rho`$, a function
 //! with $`|f'''| \le B`$ is at most $`\max_{|r| \le \rho}(f + f'r + f''r^2/2) + B\rho^3/6`$, with $`f`$ and its
@@ -31,12 +31,22 @@ pub(crate) fn add_extremes(extremes: &mut Extremes, flight: &Flight, duration: f
 
 fn add_with(width: Width, extremes: &mut Extremes, flight: &Flight, duration: f64) {
     let ceilings = extremes.ceilings();
-    let ceilings = &mut ceilings.into_iter().filter(|ceiling| ceiling.level < f64::INFINITY);
+    // most of them are out of reach however long the flight is; a bound that is not a number leaves none out
+    let largest = flight.largest();
+    let reachable = |ceiling: &Ceiling| {
+        let below = largest[ceiling.derivative] < ceiling.level;
+        ceiling.level < f64::INFINITY && !below
+    };
+    let ceilings = &mut ceilings.into_iter().filter(reachable);
     let mut low = [Ceiling::NONE; 6];
     let mut count = 0;
     for (place, ceiling) in low.iter_mut().zip(ceilings) {
         *place = ceiling;
         count += 1;
+    }
+    // nothing is asked for, or nothing can be exceeded
+    if count == 0 {
+        return;
     }
     // a first flight exceeds every extreme
     let known = low[..count].iter().all(|ceiling| ceiling.level > f64::NEG_INFINITY);

@@ -19,4 +19,4 @@ use measure::TRANSIENT;
 pub use measure::{Measured, Spectrum, lyapunov};
 pub(crate) use of_machine::MachineMeasure;
 pub use of_machine::MachineSpectrum;
-pub use tail::{MEASURED_IMPACTS, Tail};
+pub use tail::{Arrivals, MEASURED_IMPACTS, Tail};

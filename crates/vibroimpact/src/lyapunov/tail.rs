@@ -5,6 +5,9 @@ use crate::motion::ImpactState;
 /// The number of impacts over which the quantities of a chaotic motion are measured.
 pub const MEASURED_IMPACTS: u64 = 1000;
 
+/// The impacts of a tail in order, each with the time since the one before. Empty where they were not kept.
+pub type Arrivals = Vec<(ImpactState, f64)>;
+
 /// The last impacts of a run, over which the quantities of a chaotic motion are measured: at most
 /// [`MEASURED_IMPACTS`].
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -36,4 +36,4 @@ pub use of_machine::{
 pub use quantity::Quantity;
 pub use segment::Segment;
 pub use tally::{Quantities, Tally};
-pub use verdict::{of_transient, of_verdict, of_verdict_only};
+pub use verdict::{of_arrivals, of_transient, of_verdict, of_verdict_only};

@@ -97,6 +97,11 @@ impl<'a> Tally<'a> {
         Self { extremes: self.extremes.within(lowest, highest), ..self }
     }
 
+    /// Whether more than the duration of a flight is needed.
+    pub(super) fn flights(&self) -> bool {
+        self.integrals.is_some() || self.extremes.any()
+    }
+
     /// Adds a part of the motion.
     pub fn add(&mut self, segment: &Segment) {
         self.time += segment.duration();

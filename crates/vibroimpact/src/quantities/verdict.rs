@@ -3,9 +3,9 @@
 use super::cycle::{add_cycle, after_release};
 use super::segment::follow;
 use super::{Quantities, Quantity, Segment, Tally};
-use crate::flight::SearchLimits;
+use crate::flight::{Flight, SearchLimits};
 use crate::lyapunov::Tail;
-use crate::motion::{EventKind, Motion, Path};
+use crate::motion::{EventKind, ImpactState, Motion, Path};
 use crate::orbit;
 use crate::system::{Oscillator, Side, Start};
 use crate::verdict::{NoImpact, Verdict};
@@ -47,6 +47,33 @@ pub fn of_verdict_only(osc: &Oscillator, verdict: &Verdict, asked: &[Quantity]) 
         Verdict::Chaotic(chaos) => measured(tally, osc, &chaos.spectrum.tail),
         Verdict::Undecided(_) => None,
     }
+}
+
+/// The same for a motion of which a [`Settlement`](crate::verdict::Settlement) holds the impacts of the tail. They are
+/// not searched for again, which saves most of the time if it is chaotic. The result has the same bits.
+#[must_use]
+pub fn of_arrivals(
+    osc: &Oscillator,
+    verdict: &Verdict,
+    arrivals: &[(ImpactState, f64)],
+    asked: &[Quantity],
+) -> Option<Quantities> {
+    let Verdict::Chaotic(chaos) = verdict else { return of_verdict_only(osc, verdict, asked) };
+    if arrivals.is_empty() {
+        return of_verdict_only(osc, verdict, asked);
+    }
+    let mut tally = Tally::of_only(osc, asked).between_stops();
+    let mut from = chaos.spectrum.tail.from;
+    for (state, duration) in arrivals {
+        if tally.flights() {
+            tally.add(&Segment::Flight { flight: Flight::new(osc, from.rebound(osc)), duration: *duration });
+        } else {
+            tally.time += duration;
+        }
+        tally.add(&Segment::Impact { side: state.side, speed: state.velocity });
+        from = *state;
+    }
+    Some(tally.over_all())
 }
 
 /// What is known of all motions without impacts and without damping.

@@ -10,6 +10,7 @@ use super::outcome::{Chaos, NoImpact, Undecided, Verdict};
 use super::record::{LOOK, Record, Shown};
 use super::trapping_region::Depth;
 use crate::flight::SearchLimits;
+use crate::lyapunov::{Arrivals, MEASURED_IMPACTS};
 use crate::motion::{End, ImpactState, MAX_TOUCHES};
 use crate::orbit::{DEFAULT_EVENTS, from_release};
 use crate::system::{Oscillator, Side};
@@ -24,6 +25,8 @@ pub(crate) struct Follow {
     released: [Option<usize>; 2],
     fading: Fading,
     grazes: u32,
+    /// The number of impacts before the last grazing contact.
+    grazed: Option<usize>,
     /// The number of search steps.
     pub(crate) steps: u64,
     /// Chaos that has ended because the motion stuck.
@@ -64,6 +67,14 @@ impl Releases {
 const SHORT: u32 = 64;
 
 impl Follow {
+    /// A record that keeps the impacts of the tail of a chaotic motion.
+    #[allow(clippy::cast_possible_truncation)] // a thousand
+    pub(crate) fn keeping_tail() -> Self {
+        let mut follow = Self::default();
+        follow.record.latest = MEASURED_IMPACTS as usize;
+        follow
+    }
+
     /// Resets the record for another motion.
     pub(crate) fn reset(&mut self) {
         self.record.reset();
@@ -117,6 +128,22 @@ impl Follow {
         })
     }
 
+    /// The impacts of the tail of a chaotic motion, just after its verdict. Empty for any other motion, where the record
+    /// does [not keep](Self::keeping_tail) them, and where the
+    /// flights from impact to impact are not those of a new motion from the beginning of the tail: after grazing
+    /// contacts, and with other limits of the search than the default ones.
+    pub(crate) fn arrivals(&self, verdict: &Verdict, options: &SettleOptions) -> Arrivals {
+        let Verdict::Chaotic(chaos) = verdict else { return Arrivals::new() };
+        let impacts = usize::try_from(chaos.spectrum.tail.impacts).unwrap_or(usize::MAX);
+        let returns = &self.record.returns;
+        let kept = returns.len().checked_sub(impacts);
+        let grazed = self.grazed.is_some_and(|before| before + impacts >= self.count());
+        match kept {
+            Some(first) if !grazed && options.limits == SearchLimits::default() => returns[first..].to_vec(),
+            _ => Arrivals::new(),
+        }
+    }
+
     /// Chaos that was measured and has ended, if the motion has settled into something else.
     pub(crate) fn transient(&self, osc: &Oscillator) -> Option<Chaos> {
         let found = self.record.was_chaotic(osc);
@@ -127,6 +154,7 @@ impl Follow {
     pub(crate) fn graze(&mut self, osc: &Oscillator, side: Side, phase: f64, interval: f64) -> Option<Verdict> {
         self.since += interval;
         self.grazes += 1;
+        self.grazed = Some(self.count());
         if self.fading.strikes(osc, ImpactState { phase, velocity: 0.0, side }, interval) {
             return Some(Verdict::NoImpact(NoImpact::GrazeLimit { velocity: 0.0, phase }));
         }

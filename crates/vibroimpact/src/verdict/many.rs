@@ -17,6 +17,7 @@ use super::settle::{Drive, settle, settle_knowing};
 use super::trapping_region::TrappingRegion;
 use crate::flight::Contact;
 use crate::lanes::{ABREAST, Batch, Width};
+use crate::lyapunov::Arrivals;
 use crate::motion::{End, Motion};
 use crate::system::{Oscillator, Start};
 use core::ops::Range;
@@ -34,7 +35,7 @@ impl KnownAttractors {
     pub fn survey(osc: &Oscillator, starts: impl Iterator<Item = Start>, options: &SettleOptions) -> Self {
         let mut survey = Self::default();
         for start in starts {
-            let verdict = settle_knowing(osc, start, options, &mut survey.releases).verdict;
+            let verdict = settle_knowing(osc, start, options, &mut survey.releases).0.verdict;
             if let Verdict::Periodic(cycle) = &verdict
                 && !survey.known.iter().any(|(other, _)| other.same_as(&verdict, SAME))
                 && let Some(trap) = TrappingRegion::around(osc, cycle, options.limits.steps)
@@ -51,6 +52,10 @@ impl KnownAttractors {
 pub struct Settlement {
     /// The distinct motions, in the order of the first start that leads to each.
     pub motions: Vec<CountedMotion>,
+    /// For each motion, the impacts of its [tail](crate::chaos::Tail) if it is chaotic and its first start was followed
+    /// alone, as few starts are; otherwise nothing. [`of_arrivals`](crate::quantities::of_arrivals) computes its
+    /// quantities from them, or without them.
+    pub tails: Vec<Arrivals>,
     /// The index of its motion for each start; shorter than the range if stopped.
     pub cells: Vec<u32>,
     /// How each start was decided, one for each cell.
@@ -104,8 +109,8 @@ pub fn settle_many(
 struct Local {
     verdict: Verdict,
     first: u64,
-    /// The first start that was followed to its end, and its verdict.
-    followed: Option<(u64, Verdict)>,
+    /// The first start that was followed to its end, its verdict, and the impacts of the tail of a chaotic motion.
+    followed: Option<(u64, (Verdict, Arrivals))>,
 }
 
 /// The verdicts on a range of starts.
@@ -149,11 +154,11 @@ impl Part {
     }
 
     /// Records the motion to which a start leads, with the full verdict on this start.
-    fn followed(&mut self, place: usize, index: u64, verdict: Verdict, impacts: u64) {
+    fn followed(&mut self, place: usize, index: u64, (verdict, arrivals): (Verdict, Arrivals), impacts: u64) {
         self.caught(place, index, &verdict, impacts);
         let motion = &mut self.motions[self.cells[place] as usize];
         if motion.followed.as_ref().is_none_or(|(other, _)| index < *other) {
-            motion.followed = Some((index, verdict));
+            motion.followed = Some((index, (verdict, arrivals)));
         }
     }
 
@@ -167,23 +172,25 @@ impl Part {
         order.sort_by_key(|&k| self.motions[k].first);
         let mut renamed = vec![OPEN; self.motions.len()];
         let mut motions = Vec::with_capacity(order.len());
+        let mut tails = Vec::with_capacity(order.len());
         for (new, &old) in order.iter().enumerate() {
             let motion = &self.motions[old];
-            let verdict = match &motion.followed {
-                Some((index, verdict)) if *index == motion.first => verdict.clone(),
-                _ => full(motion.first),
+            let (verdict, arrivals) = match &motion.followed {
+                Some((index, followed)) if *index == motion.first => followed.clone(),
+                _ => (full(motion.first), Arrivals::new()),
             };
             if !verdict.same_as(&motion.verdict, SAME) {
                 return None;
             }
             renamed[old] = u32::try_from(new).unwrap_or(OPEN);
             motions.push(CountedMotion { verdict, count: 0 });
+            tails.push(arrivals);
         }
         for cell in &mut self.cells {
             *cell = renamed[*cell as usize];
             motions[*cell as usize].count += 1;
         }
-        Some(Settlement { motions, cells: self.cells, endings: self.endings })
+        Some(Settlement { motions, tails, cells: self.cells, endings: self.endings })
     }
 }
 
@@ -214,8 +221,8 @@ impl Question<'_> {
         let mut releases = survey.releases.clone();
         let Some(batch) = batch else {
             for (place, index) in range.enumerate() {
-                let settled = settle_knowing(self.osc, start(index), self.options, &mut releases);
-                part.followed(place, index, settled.verdict, settled.impacts);
+                let (settled, arrivals) = settle_knowing(self.osc, start(index), self.options, &mut releases);
+                part.followed(place, index, (settled.verdict, arrivals), settled.impacts);
                 if (self.tick)() {
                     break;
                 }
@@ -290,7 +297,8 @@ impl Pool<'_> {
         let track = &mut self.tracks[slot as usize];
         track.done = true;
         let impacts = track.follow.count() as u64;
-        self.part.followed(track.place, self.first + track.place as u64, verdict, impacts);
+        let index = self.first + track.place as u64;
+        self.part.followed(track.place, index, (verdict, Arrivals::new()), impacts);
     }
 
     /// Records the impact of a slot whose motion continues with a flight.
@@ -419,7 +427,9 @@ mod tests {
                         assert!(shorter.all(|(got, whole)| got.impacts <= whole.impacts), "{osc:?} {width:?}");
                     }
                     let endings = if *survey == none { got.endings.clone() } else { expected.endings.clone() };
-                    assert_eq!(Settlement { endings, ..got }, expected, "{osc:?} {width:?}");
+                    let tails = Vec::new(); // not kept for motions side by side
+                    assert!(got.tails.iter().all(Vec::is_empty) || Batch::new(&osc, 1, width).is_none(), "{osc:?}");
+                    assert_eq!(Settlement { endings, tails, ..got }, expected, "{osc:?} {width:?}");
                     // a small number is followed one by one
                     let few = settle_many(&osc, 0..20, start, survey, &options, width, &|| false);
                     assert_eq!(few.cells, expected.cells[..20], "{osc:?} {width:?}");

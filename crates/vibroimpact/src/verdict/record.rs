@@ -11,6 +11,8 @@ use super::recurring::{Diverging, Recurring};
 pub(crate) struct Record<R: Recurring> {
     /// The latest returns, and the time between each and the one before.
     pub(super) returns: Vec<(R::Return, f64)>,
+    /// The number of the latest returns that always remain; 0 if only those for the search for recurrences.
+    pub(super) latest: usize,
     /// The number of returns before those.
     earlier: usize,
     /// The number of returns before the motion last forgot its past.
@@ -29,6 +31,7 @@ impl<R: Recurring> Default for Record<R> {
     fn default() -> Self {
         Self {
             returns: Vec::new(),
+            latest: 0,
             earlier: 0,
             forgotten: 0,
             candidate: None,
@@ -94,9 +97,10 @@ impl<R: Recurring> Record<R> {
 
     /// Keeps a return `since` after the one before.
     pub(super) fn push(&mut self, options: &SettleOptions, state: R::Return, since: f64) {
-        if self.returns.len() >= KEPT.max(4 * options.longest as usize) {
+        if self.returns.len() >= KEPT.max(4 * options.longest as usize).max(2 * self.latest) {
             // recurrences are searched for among the remaining returns
-            let gone = self.returns.len() - 2 * options.longest as usize - 2;
+            let remaining = (2 * options.longest as usize + 2).max(self.latest);
+            let gone = self.returns.len() - remaining;
             self.returns.drain(..gone);
             self.earlier += gone;
         }

@@ -23,6 +23,7 @@
 use super::follow::{Follow, Releases, ended};
 use super::options::SettleOptions;
 use super::outcome::{Chaos, Verdict};
+use crate::lyapunov::Arrivals;
 use crate::motion::{EventKind, ImpactState, Motion};
 use crate::system::{Oscillator, Start};
 
@@ -52,7 +53,7 @@ pub struct Settled {
 /// ```
 #[must_use]
 pub fn settle(osc: &Oscillator, start: Start, options: &SettleOptions) -> Settled {
-    settle_knowing(osc, start, options, &mut Releases::default())
+    settle_knowing(osc, start, options, &mut Releases::default()).0
 }
 
 /// The same as [`settle`], but stopped when `go_on` returns false, and then `None`. `go_on` is called at every impact.
@@ -63,22 +64,21 @@ pub fn settle_while(
     options: &SettleOptions,
     go_on: impl Fn() -> bool,
 ) -> Option<Settled> {
-    drive(osc, start, options, &mut Releases::default(), go_on)
+    drive(osc, start, options, &mut Releases::default(), go_on).map(|(settled, _)| settled)
 }
 
-/// The same, with the verdicts on releases that other motions of the oscillator have given.
+/// The same, with the verdicts on releases that other motions of the oscillator have given. Returns also the impacts of
+/// the tail of a chaotic motion.
 pub(super) fn settle_knowing(
     osc: &Oscillator,
     start: Start,
     options: &SettleOptions,
     releases: &mut Releases,
-) -> Settled {
+) -> (Settled, Arrivals) {
     // only a verdict stops it
-    drive(osc, start, options, releases, || true).unwrap_or_else(|| Settled {
-        verdict: ended(osc, None, options.limits),
-        impacts: 0,
-        time: 0.0,
-        transient: None,
+    drive(osc, start, options, releases, || true).unwrap_or_else(|| {
+        let verdict = ended(osc, None, options.limits);
+        (Settled { verdict, impacts: 0, time: 0.0, transient: None }, Arrivals::new())
     })
 }
 
@@ -89,15 +89,16 @@ fn drive(
     options: &SettleOptions,
     releases: &mut Releases,
     go_on: impl Fn() -> bool,
-) -> Option<Settled> {
-    let mut follow = Follow::default();
+) -> Option<(Settled, Arrivals)> {
+    let mut follow = Follow::keeping_tail();
     let mut motion = Motion::with_limits(osc, start, options.limits);
     let mut drive = Drive { osc, options, follow: &mut follow, releases, time: 0.0 };
     let verdict = drive.on(&mut motion, |_| !go_on())?;
     let time = drive.time;
     let transient =
         if matches!(verdict, Verdict::Chaotic(_) | Verdict::Undecided(_)) { None } else { follow.transient(osc) };
-    Some(Settled { verdict, impacts: follow.count() as u64, time, transient })
+    let arrivals = follow.arrivals(&verdict, options);
+    Some((Settled { verdict, impacts: follow.count() as u64, time, transient }, arrivals))
 }
 
 /// Follows a motion event by event.
