@@ -7,6 +7,7 @@ use crate::oscillator::Oscillator;
 use crate::simulate::text;
 use pyo3::prelude::*;
 use vibroimpact::verdict::StartBox;
+use vibroimpact_study::basin;
 use vibroimpact_study::{Plan, Results, Task};
 
 /// The fields of `Attractors`.
@@ -18,6 +19,18 @@ pub(crate) struct Found<'py> {
     v: (f64, f64),
     phase: (f64, f64),
     plan: String,
+}
+
+/// The interval of a share at a confidence of 95 %.
+#[pyfunction]
+pub(crate) fn share_interval(count: u64, total: u64) -> (f64, f64) {
+    basin::share_interval(count, total)
+}
+
+/// The largest share that no start may have shown, at a confidence of 95 %.
+#[pyfunction]
+pub(crate) fn missed_share(total: u64) -> f64 {
+    basin::missed_share(total)
 }
 
 /// Settles scattered starts and counts the distinct motions.

@@ -33,7 +33,7 @@ mod store;
 #[pyo3::pymodule]
 mod _core {
     #[pymodule_export]
-    use crate::attractors::attractors;
+    use crate::attractors::{attractors, missed_share, share_interval};
     #[pymodule_export]
     use crate::branch::branch;
     #[pymodule_export]

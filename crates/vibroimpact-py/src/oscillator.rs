@@ -319,8 +319,10 @@ impl Oscillator {
     ///     Rotating unbalance in kg m, whose force grows as the square of the frequency.
     /// constant_force : float
     ///     Constant force in N towards the stop.
+    /// gravity : float
+    ///     Acceleration of gravity in m/s^2 towards the stop; negative away from it.
     ///
-    /// Positions are those relative to the motion of the stop, from the equilibrium under the constant force.
+    /// Positions are those relative to the motion of the stop, from the equilibrium under constant force and gravity.
     ///
     /// Examples
     /// --------
@@ -329,7 +331,7 @@ impl Oscillator {
     /// >>> osc.beta, osc.gap
     /// (1.25, 2.0)
     #[classmethod]
-    #[pyo3(signature = (*, mass, stiffness, gap, restitution, force=0.0, frequency=None, omega=None, damping=None, damping_ratio=None, log_decrement=None, second_gap=None, second_restitution=None, base_displacement=None, base_velocity=None, base_acceleration=None, base_phase=0.0, stop_in_space=false, stop_displacement=None, stop_phase=0.0, unbalance=None, constant_force=None))]
+    #[pyo3(signature = (*, mass, stiffness, gap, restitution, force=0.0, frequency=None, omega=None, damping=None, damping_ratio=None, log_decrement=None, second_gap=None, second_restitution=None, base_displacement=None, base_velocity=None, base_acceleration=None, base_phase=0.0, stop_in_space=false, stop_displacement=None, stop_phase=0.0, unbalance=None, constant_force=None, gravity=None))]
     #[allow(clippy::too_many_arguments)] // keywords
     fn from_units(
         _class: &Bound<'_, PyType>,
@@ -354,6 +356,7 @@ impl Oscillator {
         stop_phase: f64,
         unbalance: Option<f64>,
         constant_force: Option<f64>,
+        gravity: Option<f64>,
     ) -> Result<Self, Trouble> {
         if frequency.is_some() == omega.is_some() {
             let how = if frequency.is_some() { "twice" } else { "nowhere" };
@@ -386,6 +389,7 @@ impl Oscillator {
             stop_phase,
             unbalance_kg_m: unbalance,
             constant_force_n: constant_force,
+            gravity_m_per_s2: gravity,
         };
         let machine = machine.driven()?;
         let scales = machine.reduced()?.scales;

@@ -115,8 +115,11 @@ def drawn(kind: str, rng: np.random.Generator, number: int) -> tuple[Machine, tu
         m.unbalance = mass * size
         m.flags += ["--unbalance-kg-m", m.unbalance]
     if kind.startswith("weight") or everything:
-        m.constant = mass * GRAVITY * float(rng.uniform(-1, 1))
-        m.flags += ["--constant-force-n", m.constant]
+        slope = float(rng.uniform(-1, 1))
+        m.constant = mass * GRAVITY * slope
+        # a half of it is given as gravity, or all
+        m.flags += ["--gravity-m-per-s2", GRAVITY * slope * (0.5 if number % 2 else 1.0)]
+        m.flags += ["--constant-force-n", m.constant / 2] * (number % 2)
 
     # a gap within the amplitude of the motion without stops, which near resonance takes too long to build up
     impedance = complex(stiffness - mass * w * w, w * m.damping)

@@ -148,11 +148,6 @@ pub enum PlanError {
         "{0} and {1} do not span a plane: {0} is measured in units that change with the numbers of the machine\nhint: take frequency_hz, gap_m or second_gap_m instead of {0}"
     )]
     MixedPlane(&'static str, &'static str),
-    /// The motion without impacts over numbers of a machine.
-    #[error(
-        "the region of the motion without impacts is computed over parameters of the oscillator, such as beta and gap, and not over {0}\nhint: its edge is a curve: `vibro curve --label 0 --kind grazing`"
-    )]
-    FreePlane(&'static str),
     /// A text that cannot be read as a plan.
     #[error("the plan does not read: {0}")]
     Text(String),

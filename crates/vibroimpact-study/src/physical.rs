@@ -76,6 +76,9 @@ pub struct PhysicalPlan {
     /// Constant force in N towards the (first) stop.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub constant_force_n: Option<f64>,
+    /// Acceleration of gravity in m/s^2 towards the (first) stop; negative away from it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gravity_m_per_s2: Option<f64>,
 }
 
 #[allow(clippy::trivially_copy_pass_by_ref)] // as serde calls it
@@ -84,9 +87,9 @@ fn is_zero(value: &f64) -> bool {
 }
 
 impl PhysicalPlan {
-    /// Gives a number this value, in whichever form it was given before.
-    pub fn set(&mut self, parameter: PhysicalParameter, value: f64) {
-        let value = Some(value);
+    /// Gives a number this value, in whichever form it was given before; `None` removes it.
+    pub fn set(&mut self, parameter: PhysicalParameter, value: impl Into<Option<f64>>) {
+        let value = value.into();
         match parameter {
             PhysicalParameter::Mass => self.mass_kg = value,
             PhysicalParameter::Stiffness => self.stiffness_n_per_m = value,
@@ -110,6 +113,7 @@ impl PhysicalPlan {
             PhysicalParameter::StopDisplacement => self.stop_displacement_m = value,
             PhysicalParameter::Unbalance => self.unbalance_kg_m = value,
             PhysicalParameter::ConstantForce => self.constant_force_n = value,
+            PhysicalParameter::Gravity => self.gravity_m_per_s2 = value,
             // a parameter of a later version of the core cannot be written in a plan of this one
             _ => {}
         }
@@ -205,6 +209,7 @@ impl PhysicalPlan {
             stop,
             unbalance_kg_m: self.unbalance_kg_m.unwrap_or(0.0),
             constant_force_n: self.constant_force_n.unwrap_or(0.0),
+            gravity_m_per_s2: self.gravity_m_per_s2.unwrap_or(0.0),
         })
     }
 }
@@ -247,7 +252,7 @@ impl From<&DrivenOscillator> for PhysicalPlan {
             Frequency::RadPerS(omega) => plan.omega_rad_per_s = Some(omega),
         }
         let given = |value: f64| Some(value).filter(|value| *value != 0.0);
-        let Excitation { base, stop, unbalance_kg_m, constant_force_n } = *excitation;
+        let Excitation { base, stop, unbalance_kg_m, constant_force_n, gravity_m_per_s2 } = *excitation;
         if base != Shaking::default() {
             match base.amplitude {
                 Amplitude::DisplacementM(y) => plan.base_displacement_m = Some(y),
@@ -262,6 +267,7 @@ impl From<&DrivenOscillator> for PhysicalPlan {
         }
         plan.unbalance_kg_m = given(unbalance_kg_m);
         plan.constant_force_n = given(constant_force_n);
+        plan.gravity_m_per_s2 = given(gravity_m_per_s2);
         plan
     }
 }
@@ -299,7 +305,7 @@ mod tests {
             PhysicalPlan { damping_ratio: None, log_decrement: Some(0.1), second_gap_m: Some(0.002), ..plain },
             PhysicalPlan { frequency_hz: None, omega_rad_per_s: Some(90.0), unbalance_kg_m: Some(1e-3), ..plain },
             base,
-            PhysicalPlan { stop_in_space: true, constant_force_n: Some(-2.0), ..base },
+            PhysicalPlan { stop_in_space: true, constant_force_n: Some(-2.0), gravity_m_per_s2: Some(-9.81), ..base },
             PhysicalPlan { stop_displacement_m: Some(1e-4), stop_phase: 1.0, ..plain },
         ] {
             let driven = plan.driven().unwrap();

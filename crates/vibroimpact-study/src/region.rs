@@ -41,8 +41,7 @@ impl RegionPlan {
         if !(2..=MOST_GRID).contains(&self.grid) {
             return Err(PlanError::Grid { given: self.grid, most: MOST_GRID });
         }
-        check_plane(system, &self.across, &self.up)?;
-        no_free_region([&self.label], &self.across, &self.up)
+        check_plane(system, &self.across, &self.up)
     }
 
     /// Whether the motion loses no energy anywhere in the plane. It is then neutrally stable and has no region of
@@ -60,7 +59,7 @@ impl RegionPlan {
         undamped && (self.clears() || lossless)
     }
 
-    /// Whether it is the motion without impacts, whose region is known in closed form.
+    /// Whether it is the motion without impacts, whose region follows from its amplitude.
     #[must_use]
     pub fn clears(&self) -> bool {
         self.label.parse() == Ok(Label::new(0, 1))
@@ -113,7 +112,6 @@ impl Plane {
 /// # Errors
 /// [`RunError`] for an invalid label or plane, or when stopped. The stop flag is read at every point of the grid and at
 /// every step.
-/// step.
 pub fn stability_regions(
     system: &SystemPlan,
     labels: &[String],
@@ -122,24 +120,9 @@ pub fn stability_regions(
     control: &Control<'_>,
 ) -> Result<Vec<Region>, RunError> {
     check_plane(system, across, up)?;
-    no_free_region(labels, across, up)?;
     let wanted = labels.iter().map(|label| Ok((followable(label)?, RegionKind::Stability)));
     let wanted = wanted.collect::<Result<Vec<_>, PlanError>>()?;
     Plane::new(system, across, up, grid)?.regions(&wanted, control)
-}
-
-/// Refuses the region of the motion without impacts over numbers of a machine.
-fn no_free_region<'a>(
-    labels: impl IntoIterator<Item = &'a String>,
-    across: &Stretch,
-    up: &Stretch,
-) -> Result<(), PlanError> {
-    let number = across.physical().or_else(|| up.physical());
-    let free = labels.into_iter().any(|label| label.parse() == Ok(Label::new(0, 1)));
-    match number {
-        Some(number) if free => Err(PlanError::FreePlane(number.name())),
-        _ => Ok(()),
-    }
 }
 
 /// Computes both regions.
@@ -252,8 +235,15 @@ mod tests {
             }
         }
         assert!(inside > points / 20 && inside < points * 19 / 20, "{inside} of {points}");
+        // the motion without impacts, against its amplitude
         let free = RegionPlan { label: "0".into(), ..plan.clone() };
-        assert!(matches!(free.check(&system), Err(PlanError::FreePlane("mass_kg"))));
+        let found = regions(&system, &free, &Control::default()).unwrap();
+        assert!(found.existence.unresolved.is_empty() && found.stability == found.existence);
+        for (m, f) in (0..200).map(|k| (0.701 + 0.00123 * f64::from(k), 10.1 + 49.0 * (0.618 * f64::from(k)).fract())) {
+            let osc = system.with_all([(mass, m), (force, f)]).unwrap().oscillator().unwrap();
+            let room = osc.gap() - osc.free_amplitude();
+            assert!(found.existence.contains((m, f)) == (room > 0.0) || room.abs() < 1e-3, "{m} kg, {f} N: {room}");
+        }
         let mixed = RegionPlan { up: over(Parameter::Gap, 0.4, 2.0), ..plan };
         assert!(matches!(mixed.check(&system), Err(PlanError::MixedPlane("gap", "mass_kg"))));
     }

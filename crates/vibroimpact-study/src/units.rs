@@ -25,7 +25,7 @@ pub struct UnitsPlan {
 }
 
 /// The frame of positions and phases of a machine that is driven by more than a force: its positions are those relative
-/// to the motion of the stop, from the equilibrium under the constant force.
+/// to the motion of the stop, from the equilibrium under constant force and gravity.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FramePlan {

@@ -156,6 +156,7 @@ const fn machine_flag(parameter: PhysicalParameter) -> &'static str {
         PhysicalParameter::StopDisplacement => "stop-displacement-m",
         PhysicalParameter::Unbalance => "unbalance-kg-m",
         PhysicalParameter::ConstantForce => "constant-force-n",
+        PhysicalParameter::Gravity => "gravity-m-per-s2",
         other => other.name(),
     }
 }

@@ -91,9 +91,13 @@ pub(crate) struct PhysicalArgs {
     #[arg(long, value_parser = with_unit(UnitKind::Unbalance), value_name = "ME", help_heading = EXCITATION)]
     unbalance_kg_m: Option<Ranged>,
 
-    /// Constant force in N towards the stop, such as a part of the weight; negative away from it
+    /// Constant force in N towards the stop; negative away from it
     #[arg(long, value_parser = with_unit(UnitKind::Force), value_name = "F0", allow_hyphen_values = true, help_heading = EXCITATION)]
     constant_force_n: Option<Ranged>,
+
+    /// Acceleration of gravity in m/s^2 towards the stop, negative away from it, such as -1g; its force follows the mass
+    #[arg(long, visible_alias = "gravity", value_parser = with_unit(UnitKind::Acceleration), value_name = "G", allow_hyphen_values = true, help_heading = EXCITATION)]
+    gravity_m_per_s2: Option<Ranged>,
 }
 
 const EXCITATION: &str = "Excitation of a system in physical units, besides the force or instead of it";
@@ -122,6 +126,7 @@ impl PhysicalArgs {
             (P::StopDisplacement, &self.stop_displacement_m),
             (P::Unbalance, &self.unbalance_kg_m),
             (P::ConstantForce, &self.constant_force_n),
+            (P::Gravity, &self.gravity_m_per_s2),
         ];
         all.into_iter().filter_map(|(parameter, given)| Some((parameter, given.as_ref()?)))
     }
@@ -246,11 +251,12 @@ pub(crate) fn alone(parameter: PhysicalParameter, machine: &DrivenOscillator) ->
     let plain_force = excitation.unbalance_kg_m == 0.0
         && excitation.base.amplitude.displacement_m(1.0) == 0.0
         && excitation.stop.amplitude.displacement_m(1.0) == 0.0;
+    let plain_rest = excitation.constant_force_n == 0.0 && excitation.gravity_m_per_s2 == 0.0;
     match parameter {
         PhysicalParameter::Frequency => plain_force.then_some(Parameter::Beta),
         PhysicalParameter::DampingRatio => (!machine.stop_apart()).then_some(Parameter::Damping),
-        PhysicalParameter::Gap => (excitation.constant_force_n == 0.0).then_some(Parameter::Gap),
-        PhysicalParameter::SecondGap => (excitation.constant_force_n == 0.0).then_some(Parameter::SecondGap),
+        PhysicalParameter::Gap => plain_rest.then_some(Parameter::Gap),
+        PhysicalParameter::SecondGap => plain_rest.then_some(Parameter::SecondGap),
         _ => None,
     }
 }

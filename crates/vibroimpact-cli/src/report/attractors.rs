@@ -1,5 +1,6 @@
 //! The attractors of many starts as text.
 
+use crate::report::certainty::certainty;
 use crate::report::leading::leading;
 use crate::report::words::{by_stop, meaning, multipliers, table};
 use vibroimpact::Oscillator;
@@ -35,5 +36,5 @@ pub(crate) fn text(census: &Census, starts: u64, osc: &Oscillator, units: &Units
         short(v.0 * units.velocity()),
         short(v.1 * units.velocity())
     );
-    head + &table(&heads, &rows)
+    head + &table(&heads, &rows) + &certainty(census.by_share().iter().map(|found| found.count), census.total())
 }

@@ -1,5 +1,6 @@
 //! The motions of a basin as text.
 
+use crate::report::certainty::certainty;
 use crate::report::leading::leading;
 use crate::report::words::{by_stop, meaning, table};
 use vibroimpact::Oscillator;
@@ -20,7 +21,8 @@ pub(crate) fn text(found: &Basin, osc: &Oscillator) -> String {
     };
     let undecided = |m: &usize| matches!(found.motions[*m].verdict, Verdict::Undecided(_));
     let motions = leading(by_count(found), |m| found.share(*m), undecided);
-    let text = table(&heads, &motions.rows(row, "motion", (2, 0, heads.len())));
+    let text = table(&heads, &motions.rows(row, "motion", (2, 0, heads.len())))
+        + &certainty(found.motions.iter().map(|motion| motion.count), found.cells.len() as u64);
     text + &found.measures().map_or_else(String::new, |measures| sentences(&measures))
 }
 

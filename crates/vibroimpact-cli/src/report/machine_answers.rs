@@ -1,5 +1,6 @@
 //! Answers about machines as text.
 
+use crate::report::certainty::certainty;
 use crate::report::diagram;
 use crate::report::machine_curve;
 use core::fmt::Write;
@@ -35,6 +36,7 @@ pub(crate) fn text(answer: &MachineAnswer) -> String {
             for found in census.by_share() {
                 let _ = write!(text, "{:>6.1} %  {}", 100.0 * census.share(found), motion(machine, &found.verdict));
             }
+            text.push_str(&certainty(census.by_share().iter().map(|found| found.count), census.total()));
         }
         MachineResults::Orbit(found) => {
             if found.is_empty() {

@@ -3,6 +3,7 @@
 mod attractors;
 mod basin;
 mod branch;
+mod certainty;
 mod curve;
 mod diagram;
 mod leading;

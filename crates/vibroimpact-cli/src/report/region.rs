@@ -8,7 +8,7 @@ use vibroimpact_report::json::region::unit;
 use vibroimpact_report::number::short;
 use vibroimpact_report::table::region::both;
 use vibroimpact_report::{Asked, Units};
-use vibroimpact_study::{RegionPlan, Regions, Stretch};
+use vibroimpact_study::{Parameter, RegionPlan, Regions, Stretch};
 
 /// The text of the range of a parameter.
 fn over(stretch: &Stretch, units: &Units) -> String {
@@ -28,8 +28,8 @@ pub(crate) fn text(found: &Regions, plan: &RegionPlan, Asked { system, units }: 
             (true, "stability") if plan.neutral(system) => {
                 ": none, the motion is neutrally stable where it exists: without damping and losses at impacts nothing attracts"
             }
-            // this region is known in closed form
-            (true, _) if plan.clears() => {
+            // over parameters of the oscillator this region is known in closed form
+            (true, _) if plan.clears() && ![plan.across, plan.up].iter().any(of_machine) => {
                 ": none, the amplitude of the motion without impacts exceeds a gap everywhere"
             }
             (true, _) => ": none found",
@@ -57,6 +57,11 @@ pub(crate) fn text(found: &Regions, plan: &RegionPlan, Asked { system, units }: 
         }
     }
     text
+}
+
+/// Whether a number of a machine varies.
+const fn of_machine(stretch: &Stretch) -> bool {
+    matches!(stretch.parameter, Parameter::Physical(_))
 }
 
 fn row(k: usize, polygon: &Polygon, (x, y): (f64, f64)) -> Vec<String> {

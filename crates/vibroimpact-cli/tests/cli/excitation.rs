@@ -45,6 +45,9 @@ fn a_weight_moves_the_equilibrium() {
     let gap = |answer: &serde_json::Value| answer["system"]["second_stop"]["gap"].as_f64().unwrap();
     assert!((gap(&plain) - gap(&weight)).abs() < 1e-12);
     assert!((weight["system"]["scales"]["frame"]["offset_m"].as_f64().unwrap() - 0.001).abs() < 1e-15);
+    // 0.9 N as the weight of 0.7 kg, the same to rounding
+    let gravity = format!("settle {MACHINE} --force-n 3 --gravity {:?} --second-gap-m 0.006", 0.9 / 0.7);
+    assert!((gap(&json(&gravity)) - gap(&weight)).abs() < 1e-12);
     let text = String::from_utf8(
         vibro(&format!("settle {MACHINE} --force-n 3 --constant-force-n 0.9")).output().unwrap().stdout,
     );
@@ -92,6 +95,8 @@ fn each_value_of_a_sweep_is_a_machine() {
         ("base-acceleration-m-per-s2", [1.0, 2.0, 3.0], "--gap-m 0.004 --frequency-hz 4.5"),
         ("gap-m", [0.002, 0.004, 0.006], "--force-n 3 --constant-force-n -0.9 --frequency-hz 4.5"),
         ("constant-force-n", [-1.0, 0.5, 2.0], "--force-n 3 --gap-m 0.004 --frequency-hz 4.5"),
+        ("gravity-m-per-s2", [-9.81, -2.0, 1.5], "--force-n 3 --gap-m 0.004 --frequency-hz 4.5"),
+        ("mass-kg", [0.5, 0.75, 1.0], "--gap-m 0.004 --frequency-hz 4.5 --force-n 3 --gravity -1m/s^2"),
         ("gaps-m", [0.002, 0.004, 0.006], "--force-n 3 --frequency-hz 4.5"),
     ] {
         let system = [

@@ -59,7 +59,7 @@ fn machine_without_frequency() -> Words {
 
 /// A system in physical units of which one or two numbers vary over ranges.
 pub(super) fn machine_with_ranges() -> Words {
-    const NUMBERS: [&str; 9] = [
+    const NUMBERS: [&str; 10] = [
         "mass-kg",
         "stiffness-n-per-m",
         "force-n",
@@ -69,6 +69,7 @@ pub(super) fn machine_with_ranges() -> Words {
         "unbalance-kg-m",
         "base-acceleration-m-per-s2",
         "constant-force-n",
+        "gravity-m-per-s2",
     ];
     let over =
         prop_oneof![6 => range(0.1, 3.0), 1 => word(&["1 mm:2 mm:3", "1N:2N:2", "15Hz:25Hz:2", "0.5:2", "2 %:4 %:2"])];
@@ -92,6 +93,7 @@ fn excitation() -> Words {
         flag("stop-displacement-m", 0.1, positive()),
         flag("unbalance-kg-m", 0.2, positive()),
         flag("constant-force-n", 0.2, number()),
+        flag("gravity-m-per-s2", 0.2, number()),
     ]);
     prop_oneof![4 => Just(Vec::new()), 1 => all].boxed()
 }

@@ -268,6 +268,10 @@ class MachineAttractors(Result):
         The motions.
     share, count : ndarray
         Share of the starts, and number of them.
+    share_intervals : ndarray
+        Interval of each share at a confidence of 95 %, for random starts.
+    missed_below : float
+        Largest share of a motion that no start has shown, at a confidence of 95 %.
     starts : int
         Number of starts.
     plan : str
@@ -277,6 +281,8 @@ class MachineAttractors(Result):
     motions: tuple[MachineMotion, ...]
     share: _Floats
     count: NDArray[np.int64]
+    share_intervals: _Floats
+    missed_below: float
     starts: int
     plan: str
 
@@ -296,7 +302,12 @@ class MachineAttractors(Result):
     def to_dict(self) -> dict[str, Any]:
         """The motions as in the JSON of the command, with their shares."""
         rows = zip(self.motions, self.share.tolist(), self.count.tolist())
-        return {"starts": self.starts, "motions": [{**of.to_dict(), "share": share, "count": n} for of, share, n in rows]}
+        return {
+            "motions": [{**of.to_dict(), "share": share, "count": n} for of, share, n in rows],
+            "share_intervals": self.share_intervals.tolist(),
+            "missed_below": self.missed_below,
+            "starts": self.starts,
+        }
 
     def _table(self) -> dict[str, Any]:
         """One row for each motion."""
@@ -320,7 +331,9 @@ def _shared(found: Mapping[str, Any], machine: Any) -> tuple[tuple[MachineMotion
 
 def attractors(found: Mapping[str, Any], machine: Any) -> MachineAttractors:
     """Of the JSON object."""
-    return MachineAttractors(*_shared(found, machine), found["starts"], json.dumps(found["plan"]))
+    intervals = np.array(found["share_intervals"], dtype=np.float64).reshape(-1, 2)
+    shared = _shared(found, machine)
+    return MachineAttractors(*shared, intervals, found["missed_below"], found["starts"], json.dumps(found["plan"]))
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)

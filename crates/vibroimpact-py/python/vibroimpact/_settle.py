@@ -263,6 +263,12 @@ def _of_starts(
     with watched(progress, "starts") as tell:
         found, cells = _core.settle_many(osc, flat[0], flat[1], flat[2], threads, tell)
     motions = [
-        Attractor(**fields_of(osc, fields), share=count / max(size, 1), count=count) for fields, count in found
+        Attractor(
+            **fields_of(osc, fields),
+            share=count / max(size, 1),
+            count=count,
+            share_interval=_core.share_interval(count, size),
+        )
+        for fields, count in found
     ]
     return Settlement(osc, motions, cells.reshape(shape))

@@ -1,6 +1,7 @@
 //! The attractors to which scattered starts lead, and their shares.
 
 use super::Document;
+use super::certainty::Certainty;
 use super::motion::{MotionFields, SharedMotion};
 use crate::Asked;
 use serde::Serialize;
@@ -12,6 +13,8 @@ use vibroimpact_study::Plan;
 #[derive(Serialize)]
 struct AttractorsFields {
     motions: Vec<SharedMotion>,
+    #[serde(flatten)]
+    certainty: Certainty,
     starts: u64,
     seed: u64,
     #[serde(rename = "box")]
@@ -43,5 +46,6 @@ pub fn document<'a>(
         count: found.count,
     });
     let area = Area { x: scaled(area.x, units.length()), v: scaled(area.v, units.velocity()), phase: area.phase };
-    Document::new(asked, osc, plan, AttractorsFields { motions: shared.collect(), starts, seed, area })
+    let certainty = Certainty::of(census.by_share().into_iter().map(|found| found.count), census.total());
+    Document::new(asked, osc, plan, AttractorsFields { motions: shared.collect(), certainty, starts, seed, area })
 }

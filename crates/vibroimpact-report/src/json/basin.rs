@@ -1,11 +1,11 @@
 //! The motions of a basin and their shares of its starts.
 
+use super::certainty::Certainty;
 use super::motion::{MotionFields, SharedMotion};
 use super::{Document, Place};
 use crate::Asked;
 use serde::Serialize;
 use vibroimpact::{Oscillator, Start};
-use vibroimpact_study::basin::{missed_share, share_interval};
 use vibroimpact_study::{Basin, Coordinate, Plan};
 
 /// The fields of `vibro basin`: the axes of the starts, and the values of coordinates on no axis.
@@ -31,10 +31,8 @@ struct MeasureFields {
     /// The comparison of the boundaries of at least three basins.
     #[serde(skip_serializing_if = "Option::is_none")]
     merging: Option<MergingFields>,
-    /// Shares of the motions, in their order, at a confidence of 95 %.
-    share_intervals: Vec<(f64, f64)>,
-    /// Largest share of a motion that no start leads to, at a confidence of 95 %.
-    missed_below: f64,
+    #[serde(flatten)]
+    certainty: Certainty,
 }
 
 #[derive(Serialize)]
@@ -69,11 +67,7 @@ impl MeasureFields {
                 common: of.common,
                 wada: of.wada(),
             }),
-            share_intervals: by_count(found)
-                .into_iter()
-                .map(|m| share_interval(found.motions[m].count, total))
-                .collect(),
-            missed_below: missed_share(total),
+            certainty: Certainty::of(by_count(found).into_iter().map(|m| found.motions[m].count), total),
         })
     }
 }

@@ -1,5 +1,6 @@
 //! The object of a machine: its start, the events of its motion, and the reason why the list ends.
 
+use super::certainty::Certainty;
 use super::diagram::{Counts, machine_counts};
 use super::machine_curve::curved;
 use super::machine_event::{EventObject, event_object};
@@ -69,6 +70,8 @@ struct Shared<'a> {
 #[derive(Serialize)]
 struct Attractors<'a> {
     motions: Vec<Shared<'a>>,
+    #[serde(flatten)]
+    certainty: Certainty,
     starts: u64,
 }
 
@@ -189,7 +192,9 @@ impl Serialize for MachineAnswer {
                     share: census.share(found),
                     count: found.count,
                 });
-                self.document(Attractors { motions: motions.collect(), starts: census.total() }, to)
+                let counts = census.by_share().into_iter().map(|found| found.count);
+                let certainty = Certainty::of(counts, census.total());
+                self.document(Attractors { motions: motions.collect(), certainty, starts: census.total() }, to)
             }
             MachineResults::Orbit(found) => {
                 let orbits = found.iter().map(|found| OrbitObject { motion: cycle(machine, found), physical: true });

@@ -7,7 +7,7 @@ use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use vibroimpact_plot::{GROUPS, legend_group};
-use vibroimpact_study::{Axis, Coordinate, Parameter, Plan, RegionMap, SystemPlan, Values};
+use vibroimpact_study::{Axis, Coordinate, Parameter, PhysicalPlan, Plan, RegionMap, SystemPlan, Values};
 
 /// The fields of `vibro map`.
 #[derive(Serialize)]
@@ -67,26 +67,6 @@ fn objects(
     axes: &[Axis],
     units: &Units,
 ) -> (serde_json::Map<String, Value>, serde_json::Map<String, Value>) {
-    let mut fixed = serde_json::Map::new();
-    for parameter in Parameter::ALL {
-        let given = match parameter {
-            Parameter::Beta => system.beta,
-            Parameter::InverseBeta => system.inverse_beta,
-            Parameter::SecondGap | Parameter::SecondRestitution => None,
-            _ => system.value(parameter).ok(),
-        };
-        let varies = |axis: &Axis| match axis.vary {
-            // a number of a machine may determine several of these; the machine of the plan has all others
-            Coordinate::Parameter(Parameter::Physical(_)) => true,
-            vary => vary == Coordinate::Parameter(parameter),
-        };
-        if let Some(value) = given.filter(|_| !axes.iter().any(varies)) {
-            fixed.insert(parameter.name().to_owned(), value.into());
-        }
-    }
-    if let Some(stop) = system.second_stop {
-        fixed.insert("second_stop".into(), serde_json::json!({ "gap": stop.gap, "restitution": stop.restitution }));
-    }
     let range = |axis: &Axis| match &axis.over {
         Values::Span(span) => {
             serde_json::to_value(Range::new(span, units.of_coordinate(axis.vary))).unwrap_or_default()
@@ -99,7 +79,43 @@ fn objects(
         Coordinate::Parameter(parameter) => units.name_of(parameter),
         start => start.name(),
     };
-    (fixed, axes.iter().map(|axis| (name(axis.vary).to_owned(), range(axis))).collect())
+    let varying = axes.iter().map(|axis| (name(axis.vary).to_owned(), range(axis))).collect();
+    (fixed_machine(system, axes).unwrap_or_else(|| fixed_parameters(system, axes)), varying)
+}
+
+/// The parameters of the oscillator that do not vary.
+fn fixed_parameters(system: &SystemPlan, axes: &[Axis]) -> serde_json::Map<String, Value> {
+    let mut fixed = serde_json::Map::new();
+    for parameter in Parameter::ALL {
+        let given = match parameter {
+            Parameter::Beta => system.beta,
+            Parameter::InverseBeta => system.inverse_beta,
+            Parameter::SecondGap | Parameter::SecondRestitution => None,
+            _ => system.value(parameter).ok(),
+        };
+        if let Some(value) = given.filter(|_| !axes.iter().any(|axis| axis.vary == Coordinate::Parameter(parameter))) {
+            fixed.insert(parameter.name().to_owned(), value.into());
+        }
+    }
+    if let Some(stop) = system.second_stop {
+        fixed.insert("second_stop".into(), serde_json::json!({ "gap": stop.gap, "restitution": stop.restitution }));
+    }
+    fixed
+}
+
+/// The numbers of the machine that do not vary; `None` if none of its numbers varies. A number that varies may determine
+/// several parameters of the oscillator, so these are not listed then.
+fn fixed_machine(system: &SystemPlan, axes: &[Axis]) -> Option<serde_json::Map<String, Value>> {
+    let varied = |axis: &Axis| match axis.vary {
+        Coordinate::Parameter(Parameter::Physical(number)) => Some(number),
+        _ => None,
+    };
+    let mut machine = PhysicalPlan::from(system.machine.as_ref()?);
+    axes.iter().any(|axis| varied(axis).is_some()).then_some(())?;
+    axes.iter().filter_map(varied).for_each(|number| machine.set(number, None));
+    let Ok(Value::Object(mut numbers)) = serde_json::to_value(machine) else { return None };
+    numbers.retain(|name, _| axes.iter().all(|axis| axis.vary.name() != name));
+    Some(numbers)
 }
 
 /// Labels in the order of a legend, then by name.

@@ -5,6 +5,7 @@
 pub mod attractors;
 pub mod basin;
 pub mod branch;
+mod certainty;
 pub mod curve;
 pub mod diagram;
 pub mod lyapunov;

@@ -26,6 +26,7 @@ pub(super) fn numbers_of(machine: &DrivenOscillator) -> Vec<(&'static str, Optio
         ("stop_phase", nonzero(plan.stop_phase)),
         ("unbalance_kg_m", plan.unbalance_kg_m),
         ("constant_force_n", plan.constant_force_n),
+        ("gravity_m_per_s2", plan.gravity_m_per_s2),
         ("restitution", plan.restitution),
         ("second_restitution", plan.second_restitution),
     ]

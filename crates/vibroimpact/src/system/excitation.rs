@@ -1,15 +1,15 @@
-//! What drives a machine besides a force: a moving base, a rotating unbalance, a moving stop, a constant force.
+//! What drives a machine besides a force: a moving base, a rotating unbalance, a moving stop, a constant force, gravity.
 //!
 //! The mass is tied by the spring and the damper to a base that moves as $`y`$, and strikes a stop that moves as
 //! $`d + r`$:
 //!
-//! $$`m\ddot x + c(\dot x - \dot y) + k(x - y) = F\sin\omega t + m_u e\,\omega^2\sin\omega t + F_0, \qquad
+//! $$`m\ddot x + c(\dot x - \dot y) + k(x - y) = F\sin\omega t + m_u e\,\omega^2\sin\omega t + F_0 + mg, \qquad
 //!   x - r \le d.`$$
 //!
 //! With $`y = Y\sin(\omega t + \varphi_y)`$ and $`r = R\sin(\omega t + \varphi_r)`$, the distance from the moving stop
-//! obeys the equation of the plain machine. For $`z = x - r - F_0/k`$,
+//! obeys the equation of the plain machine. For $`z = x - r - x_0`$ with $`x_0 = (F_0 + mg)/k`$,
 //!
-//! $$`m\ddot z + c\dot z + kz = \operatorname{Im}\,\hat F e^{i\omega t}, \qquad z \le d - F_0/k,`$$
+//! $$`m\ddot z + c\dot z + kz = \operatorname{Im}\,\hat F e^{i\omega t}, \qquad z \le d - x_0,`$$
 //! $$`\hat F = F + m_u e\,\omega^2 + (k + i\omega c)\,Y e^{i\varphi_y} - (k - m\omega^2 + i\omega c)\,R e^{i\varphi_r}.`$$
 //!
 //! The conversion is exact. A stop on the base has $`r = y`$, and then $`\hat F = m\omega^2 Y e^{i\varphi_y}`$.
@@ -74,8 +74,11 @@ pub struct Excitation {
     pub stop: Shaking,
     /// Rotating unbalance $`m_u e`$ in kg m: its force is $`m_u e\,\omega^2\sin\omega t`$.
     pub unbalance_kg_m: f64,
-    /// Constant force $`F_0`$ in N, towards the (first) stop if positive, such as a component of the weight.
+    /// Constant force $`F_0`$ in N, towards the (first) stop if positive, such as a weight hung on the mass by a string.
     pub constant_force_n: f64,
+    /// Acceleration of gravity $`g`$ in m/s^2, or its component along the motion, towards the (first) stop if positive.
+    /// Its force $`mg`$ follows the mass.
+    pub gravity_m_per_s2: f64,
 }
 
 /// The machine with a force alone that has the same motions.
@@ -86,7 +89,7 @@ pub struct EquivalentOscillator {
     pub machine: PhysicalOscillator,
     /// Phase of its force relative to $`\sin\omega t`$: the phase of an event is $`\omega t`$ plus this.
     pub phase: f64,
-    /// The position of the equilibrium, $`F_0/k`$ in m: add it to a position, and then the motion of the stop.
+    /// The position of the equilibrium, $`(F_0 + mg)/k`$ in m: add it to a position, and then the motion of the stop.
     pub offset_m: f64,
 }
 
@@ -108,8 +111,8 @@ impl Excitation {
     /// ```
     ///
     /// # Errors
-    /// [`SystemError`] for an amplitude or unbalance that is negative or not finite, a constant force or phase that is
-    /// not finite, or if the sum of all excitations is 0.
+    /// [`SystemError`] for an amplitude or unbalance that is negative or not finite, a constant force, gravity or phase
+    /// that is not finite, or if the sum of all excitations is 0.
     pub fn equivalent(&self, machine: &PhysicalOscillator) -> Result<EquivalentOscillator, SystemError> {
         let (base, stop) = (self.base.amplitude.value(), self.stop.amplitude.value());
         for (name, value, unit) in [
@@ -125,6 +128,7 @@ impl Excitation {
         }
         for (name, value, unit) in [
             ("constant force", self.constant_force_n, "N"),
+            ("gravity", self.gravity_m_per_s2, "m/s^2"),
             ("phase of the base", self.base.phase, "rad"),
             ("phase of the stop", self.stop.phase, "rad"),
         ] {
@@ -149,7 +153,7 @@ impl Excitation {
             add((k, omega * c), &self.base);
             add((m * omega * omega - k, -omega * c), &self.stop);
         }
-        let offset_m = self.constant_force_n / k;
+        let offset_m = (self.constant_force_n + m * self.gravity_m_per_s2) / k;
         // the equilibrium moves towards the first stop and away from the second
         let second_stop = machine.second_stop.map(|stop| PhysicalStop { gap_m: stop.gap_m + offset_m, ..stop });
         let machine =
@@ -196,7 +200,8 @@ mod tests {
             ("base, stop in space", 0.0, Excitation { base: shake(0.003, 0.0), ..none }),
             ("moving stop", 3.0, Excitation { stop: shake(0.001, 1.1), ..none }),
             ("unbalance", 0.0, Excitation { unbalance_kg_m: 0.004, ..none }),
-            ("weight", 3.0, Excitation { constant_force_n: -1.3, ..none }),
+            ("constant force", 3.0, Excitation { constant_force_n: -1.3, ..none }),
+            ("weight", 3.0, Excitation { gravity_m_per_s2: -9.81 / 5.0, ..none }),
             (
                 "all",
                 1.0,
@@ -205,6 +210,7 @@ mod tests {
                     stop: shake(0.0005, 2.0),
                     unbalance_kg_m: 0.001,
                     constant_force_n: 0.8,
+                    gravity_m_per_s2: -0.5,
                 },
             ),
         ] {
@@ -240,7 +246,7 @@ mod tests {
         let rate = |t: f64, (x, v): (f64, f64)| {
             let (y, dy) = wave(&excitation.base, t);
             let force = (machine.force_n + excitation.unbalance_kg_m * w * w) * (w * t).sin();
-            (v, (force + excitation.constant_force_n - c * (v - dy) - k * (x - y)) / m)
+            (v, excitation.gravity_m_per_s2 + (force + excitation.constant_force_n - c * (v - dy) - k * (x - y)) / m)
         };
         let step = |t: f64, (x, v): (f64, f64), h: f64| {
             let a = rate(t, (x, v));

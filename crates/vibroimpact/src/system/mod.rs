@@ -11,7 +11,7 @@
 //! | a start within the stops | [`Start`] |
 //! | conversion from physical units to nondimensional numbers and back | [`PhysicalOscillator`] |
 //! | a machine with all that drives it, and its numbers by name | [`DrivenOscillator`], [`PhysicalParameter`] |
-//! | a moving base, an unbalance, a moving stop, a constant force: the equivalent machine | [`Excitation`] |
+//! | a moving base, an unbalance, a moving stop, a constant force, gravity: the equivalent machine | [`Excitation`] |
 //! | the kind of a quantity, and its unit | [`QuantityKind`] |
 //! | the phase of the force, kept in $`[0, 2\pi)`$ | [`phase`] |
 

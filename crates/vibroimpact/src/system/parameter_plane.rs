@@ -128,6 +128,7 @@ mod tests {
             stop: crate::system::Shaking { amplitude: crate::system::Amplitude::DisplacementM(0.0), phase: 0.0 },
             unbalance_kg_m: 0.0,
             constant_force_n: 0.0,
+            gravity_m_per_s2: 0.0,
         },
     };
 

@@ -6,7 +6,7 @@ use super::{
 };
 use core::f64::consts::TAU;
 
-/// A machine with all that drives it: its force, and a moving base or stop, an unbalance, a constant force.
+/// A machine with all that drives it: its force, and a moving base or stop, an unbalance, a constant force, gravity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DrivenOscillator {
     /// The machine.
@@ -77,6 +77,8 @@ pub enum PhysicalParameter {
     Unbalance,
     /// Constant force in N.
     ConstantForce,
+    /// Acceleration of gravity in m/s^2.
+    Gravity,
 }
 
 impl DrivenOscillator {
@@ -114,7 +116,7 @@ impl DrivenOscillator {
 
 impl PhysicalParameter {
     /// All of them.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
         Self::Mass,
         Self::Stiffness,
         Self::DampingCoefficient,
@@ -131,6 +133,7 @@ impl PhysicalParameter {
         Self::StopDisplacement,
         Self::Unbalance,
         Self::ConstantForce,
+        Self::Gravity,
     ];
 
     /// Its name in plans and tables, which ends in its unit.
@@ -153,6 +156,7 @@ impl PhysicalParameter {
             Self::StopDisplacement => "stop_displacement_m",
             Self::Unbalance => "unbalance_kg_m",
             Self::ConstantForce => "constant_force_n",
+            Self::Gravity => "gravity_m_per_s2",
         }
     }
 
@@ -182,6 +186,7 @@ impl PhysicalParameter {
             Self::StopDisplacement => "stop displacement",
             Self::Unbalance => "rotating unbalance",
             Self::ConstantForce => "constant force",
+            Self::Gravity => "gravity",
         }
     }
 
@@ -196,7 +201,7 @@ impl PhysicalParameter {
             Self::Frequency => "Hz",
             Self::Gap | Self::SecondGap | Self::Gaps | Self::BaseDisplacement | Self::StopDisplacement => "m",
             Self::BaseVelocity => "m/s",
-            Self::BaseAcceleration => "m/s²",
+            Self::BaseAcceleration | Self::Gravity => "m/s²",
             Self::Unbalance => "kg m",
             Self::DampingRatio | Self::Restitutions => "",
         }
@@ -213,7 +218,7 @@ impl PhysicalParameter {
             Self::Frequency => "Hz",
             Self::Gap | Self::SecondGap | Self::Gaps | Self::BaseDisplacement | Self::StopDisplacement => "m",
             Self::BaseVelocity => "m s-1",
-            Self::BaseAcceleration => "m s-2",
+            Self::BaseAcceleration | Self::Gravity => "m s-2",
             Self::Unbalance => "kg m",
             Self::DampingRatio | Self::Restitutions => "1",
         }
@@ -265,6 +270,7 @@ impl PhysicalParameter {
             Self::StopDisplacement => excitation.stop.amplitude.displacement_m(omega),
             Self::Unbalance => excitation.unbalance_kg_m,
             Self::ConstantForce => excitation.constant_force_n,
+            Self::Gravity => excitation.gravity_m_per_s2,
         })
     }
 
@@ -302,6 +308,7 @@ impl PhysicalParameter {
             Self::StopDisplacement => changed.excitation.stop.amplitude = Amplitude::DisplacementM(value),
             Self::Unbalance => changed.excitation.unbalance_kg_m = value,
             Self::ConstantForce => changed.excitation.constant_force_n = value,
+            Self::Gravity => changed.excitation.gravity_m_per_s2 = value,
         }
         Ok(changed)
     }
@@ -361,6 +368,7 @@ mod tests {
             stop: Shaking { amplitude: Amplitude::DisplacementM(0.0), phase: 0.0 },
             unbalance_kg_m: 0.002,
             constant_force_n: 0.5,
+            gravity_m_per_s2: -0.3,
         },
     };
 

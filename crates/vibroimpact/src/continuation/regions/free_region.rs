@@ -14,13 +14,14 @@
 //! $`\beta^2 = 1 - 2\zeta^2 \pm \sqrt{1/g^2 - 4\zeta^2(1-\zeta^2)}`$, or for the damping ratio. So the polygons need no
 //! search, and no part of the region is missed, however narrow the resonance is.
 //!
-//! Over numbers of a machine the limit has no such form: the points of the grid inside the region are told as
-//! unresolved.
+//! Over numbers of a machine, such as its mass and its force, the limit has no such form. There the region is outlined on a
+//! grid, and parts of it that are smaller than a cell can be missed.
 //!
 //! With damping the motion is stable wherever it exists. Without damping it is one of a continuum of motions without
 //! impacts, each neutrally stable, so it has a region of existence and no region of stability.
 
 use super::options::{RegionKind, RegionOptions};
+use super::outline::outline;
 use super::polygon::{Bound, Polygon, Region, Vertex};
 use crate::continuation::curves::Frame;
 use crate::math::hypot;
@@ -31,16 +32,16 @@ pub(crate) fn free_region(osc: &Oscillator, kind: RegionKind, frame: &Frame, opt
     let mut region = Region { polygons: Vec::new(), unresolved: Vec::new() };
     let (first, second) = frame.plane.parameters();
     if frame.plane.is_of_machines() && frame.sensible() {
-        // over numbers of a machine there is no closed form of the edge; the points of the grid inside are told
-        let (columns, rows) = options.grid;
-        let nodes = (0..rows).flat_map(|j| (0..columns).map(move |i| (i, j)));
-        let inside = |at: &(f64, f64)| {
-            let there = frame.plane.set(osc, *at).ok();
+        let holds = |at: (f64, f64)| {
+            let there = frame.plane.set(osc, at).ok();
             there.is_some_and(|osc| {
                 (kind == RegionKind::Existence || osc.damping() > 0.0) && osc.free_amplitude() <= nearest(&osc)
             })
         };
-        region.unresolved = nodes.map(|node| frame.node(node, options.grid)).filter(inside).collect();
+        region.polygons = outline(frame, options, &holds);
+        let (columns, rows) = options.grid;
+        let nodes = (0..rows).flat_map(|j| (0..columns).map(move |i| frame.node((i, j), options.grid)));
+        region.unresolved = nodes.filter(|at| holds(*at) != region.contains(*at)).collect();
         return region;
     }
     let damped = osc.damping() > 0.0 || [first, second].contains(&Parameter::Damping);

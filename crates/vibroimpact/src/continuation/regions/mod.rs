@@ -7,10 +7,12 @@
 //! | the edge of a sheet; from the edge to a point inside and across a fold | `sheet_walk`, `inside` |
 //! | where the equations of a sheet are singular | `singular` |
 //! | the region of the motion without impacts, in closed form | `free_region` |
+//! | the polygons around the points at which a condition holds | `outline` |
 
 mod free_region;
 mod inside;
 mod options;
+mod outline;
 mod polygon;
 mod region;
 mod search;

@@ -25,9 +25,10 @@ use crate::verdict::{Count, Label};
 /// Orbits that stick have no equations that can be traced. With restitution 0 they can have the label m/n, and the
 /// points of the grid with such an orbit are unresolved.
 ///
-/// The region of the motion without impacts, `0`, needs no search: it is where $`|f|`$ exceeds no gap, bounded by
+/// The region of the motion without impacts, `0`, is where $`|f|`$ exceeds no gap, bounded by
 /// [`Bound::Touch`](super::Bound::Touch). With damping the motion is stable wherever it exists. Without damping it is
-/// neutrally stable, and the region of stability is empty.
+/// neutrally stable, and the region of stability is empty. Over numbers of a machine its edge is found on a grid, and parts
+/// of it that are smaller than a cell can be missed.
 ///
 /// ```
 /// use vibroimpact::{Label, Oscillator, Parameter};

@@ -24,10 +24,10 @@ pub(crate) fn partner(frame: &Frame, seed: &Seed) -> Option<Partner> {
     let shifted = ring.periods.is_multiple_of(2) && (0..m).all(|k| ring.side(k) == ring.side(k + half));
     let unequal = |p| match p {
         Gap | Restitution | SecondGap | SecondRestitution => true,
-        // a constant force moves the rest position towards one stop
+        // a constant force or a weight moves the rest position towards one stop; the weight follows the mass
         Physical(p) => {
             use crate::system::PhysicalParameter as Of;
-            matches!(p, Of::Gap | Of::SecondGap | Of::ConstantForce)
+            matches!(p, Of::Gap | Of::SecondGap | Of::ConstantForce | Of::Gravity)
         }
         _ => false,
     };

@@ -1,6 +1,10 @@
 //! Metres and seconds: every command gives the same numbers converted, in JSON and in its table, or a refusal.
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
+mod axes;
+mod figures;
+mod tables;
+
 use crate::{json, vibro};
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -68,13 +72,18 @@ impl Machine {
         self.length() / self.time()
     }
 
-    fn in_si(&self) -> String {
-        let Self { mass, stiffness, force, omega, damping_ratio, gap, restitution, .. } = self;
-        let second = self.second_gap.map_or_else(String::new, |gap| format!(" --second-gap-m {gap:?}"));
-        format!(
-            "--mass-kg {mass:?} --stiffness-n-per-m {stiffness:?} --force-n {force:?} --omega-rad-per-s {omega:?} \
-             --damping-ratio {damping_ratio:?} --gap-m {gap:?}{second} --restitution {restitution:?} --units si"
-        )
+    fn in_si(&self, without: &[&str]) -> String {
+        let all = [
+            ("--mass-kg", Some(self.mass)),
+            ("--stiffness-n-per-m", Some(self.stiffness)),
+            ("--force-n", Some(self.force)),
+            ("--omega-rad-per-s", Some(self.omega)),
+            ("--damping-ratio", Some(self.damping_ratio)),
+            ("--gap-m", Some(self.gap)),
+            ("--second-gap-m", self.second_gap),
+            ("--restitution", Some(self.restitution)),
+        ];
+        given(&all, without)
     }
 
     fn by_hand(&self, without: &[&str]) -> String {
@@ -86,8 +95,7 @@ impl Machine {
             ("--second-gap", self.second_gap.map(|gap| gap / self.length())),
             ("--restitution", Some(self.restitution)),
         ];
-        let given = all.into_iter().filter(|(flag, _)| !without.contains(flag));
-        given.filter_map(|(flag, value)| Some(format!("{flag} {:?}", value?))).collect::<Vec<_>>().join(" ")
+        given(&all, without)
     }
 
     /// The command line in SI units, and by hand.
@@ -104,10 +112,16 @@ impl Machine {
             rest.split(' ').map(word).collect::<Vec<_>>().join(" ")
         };
         (
-            format!("{name} {} {}", self.in_si(), numbers(true)),
+            format!("{name} {} --units si {}", self.in_si(&[]), numbers(true)),
             format!("{name} {} {}", self.by_hand(without), numbers(false)),
         )
     }
+}
+
+/// The flags that have a value, without some of them.
+fn given(all: &[(&str, Option<f64>)], without: &[&str]) -> String {
+    let given = all.iter().filter(|(flag, _)| !without.contains(flag));
+    given.filter_map(|(flag, value)| Some(format!("{flag} {:?}", (*value)?))).collect::<Vec<_>>().join(" ")
 }
 
 /// A command with units.
@@ -260,147 +274,4 @@ fn random_machines_convert_their_json() {
         compared += COMMANDS.iter().filter(|command| same_json(&machine, command)).count();
     }
     assert!(compared > 70, "{compared} of 120");
-}
-
-fn rows(line: &str) -> Vec<Vec<String>> {
-    let output = vibro(line).output().unwrap();
-    assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
-    let text = String::from_utf8(output.stdout).unwrap();
-    text.lines().map(|row| row.split(',').map(str::to_owned).collect()).collect()
-}
-
-/// Compares two tables: names of columns without their units, and the numbers.
-fn same_table(machine: &Machine, name: &str, a: &[Vec<String>], b: &[Vec<String>]) {
-    assert!(a.len() == b.len() && a.len() > 1, "{name}");
-    assert_eq!(a[0], b[0].iter().map(|head| bare(head)).collect::<Vec<_>>(), "{name}");
-    let mut factors = BTreeSet::new();
-    for (left, right) in a.iter().zip(b).skip(1) {
-        for ((head, left), right) in a[0].iter().zip(left).zip(right) {
-            for (left, right) in left.split(' ').zip(right.split(' ')) {
-                match (left.parse::<f64>(), right.parse::<f64>()) {
-                    (Ok(left), Ok(right)) => {
-                        number(machine, &format!("{name} {head}"), head, (left, right), &mut factors);
-                    }
-                    _ => assert_eq!(left, right, "{name} {head}"),
-                }
-            }
-        }
-    }
-    assert!(factors.len() > 1 || name == "attractors", "{name}: nothing is converted");
-}
-
-#[test]
-fn f08_every_command_converts_its_table() {
-    for Command { name, flags, without, .. } in COMMANDS.iter().filter(|command| command.table) {
-        let (si, plain) = MACHINE.lines(name, flags, without);
-        let flag = if *name == "lyapunov" { " --points 20 --section -" } else { " --csv -" };
-        same_table(&MACHINE, name, &rows(&(plain + flag)), &rows(&(si + flag)));
-    }
-}
-
-/// A store keeps its units: the table exported from it is that of the command without a store.
-#[test]
-fn stores_keep_their_units() {
-    let machines: Vec<Machine> = core::iter::once(MACHINE).chain(Machine::random().take(3)).collect();
-    let stored: Vec<&Command> = COMMANDS.iter().filter(|command| command.store).collect();
-    assert_eq!(stored.len(), 3, "attractors, basin and diagram");
-    for (Command { name, flags, without, .. }, machine) in
-        stored.iter().flat_map(|c| machines.iter().map(move |m| (c, m)))
-    {
-        let (si, plain) = machine.lines(name, flags, without);
-        let tables = [("plain.zarr", plain), ("si.zarr", si)].map(|(place, line)| {
-            let folder = tempfile::tempdir().unwrap();
-            let filled = vibro(&format!("{line} --store {place} --quiet")).current_dir(&folder).output().unwrap();
-            assert!(filled.status.success(), "{name}: {}", String::from_utf8_lossy(&filled.stderr));
-            let again = vibro(&format!("{line} --store {place} --quiet --csv -")).current_dir(&folder).output();
-            let exported = String::from_utf8(again.unwrap().stdout).unwrap();
-            if *name != "attractors" {
-                let printed = vibro(&format!("{line} --csv -")).output().unwrap().stdout;
-                assert_eq!(exported, String::from_utf8(printed).unwrap(), "{name}");
-                // the figure of the store is that of the command
-                let draw = |line: &str, file: &str| {
-                    let drawn = vibro(line).current_dir(&folder).output().unwrap();
-                    assert!(drawn.status.success(), "{line}: {}", String::from_utf8_lossy(&drawn.stderr));
-                    std::fs::read_to_string(folder.path().join(file)).unwrap()
-                };
-                let stored = draw(&format!("plot {place} stored.svg"), "stored.svg");
-                assert_eq!(stored, draw(&format!("{line} --plot own.svg"), "own.svg"), "{name}");
-            }
-            exported.lines().map(|row| row.split(',').map(str::to_owned).collect::<Vec<_>>()).collect::<Vec<_>>()
-        });
-        if *name != "attractors" {
-            same_table(machine, name, &tables[0], &tables[1]);
-        }
-    }
-}
-
-/// A map in physical units, in memory and in a store: each number is the nondimensional one times its unit.
-#[test]
-fn a_map_in_hertz() {
-    let folder = tempfile::tempdir().unwrap();
-    let rows = |line: &str| {
-        let output = vibro(line).current_dir(&folder).output().unwrap();
-        assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
-        let text = String::from_utf8(output.stdout).unwrap();
-        text.lines().map(|row| row.split(',').map(str::to_owned).collect()).collect::<Vec<Vec<_>>>()
-    };
-    // omega_n = 8 rad/s
-    let hertz = 8.0 / std::f64::consts::TAU;
-    let tail = "--restitution 0.5 --starts 4 --fields impact-speed-max,power,displacement-rms,impulse-max";
-    let machine = "--mass-kg 1 --stiffness-n-per-m 64 --force-n 32 --damping-ratio 0.05";
-    let si = format!("map {machine} --frequency-hz 0.8:1.6:3 --gap-m 0.25:0.75:3 {tail}");
-    let (low, high) = (0.8 / hertz, 1.6 / hertz);
-    let plain = rows(&format!("map --beta {low:?}:{high:?}:3 --gap 0.5:1.5:3 --damping 0.05 {tail} --csv -"));
-    let found = rows(&format!("{si} --csv -"));
-    let head = "frequency_hz,gap_m,label,share,impact_speed_max_m_per_s,power_w,displacement_rms_m,impulse_max_n_s";
-    assert_eq!(found[0].join(","), head);
-    assert_eq!(found[1][0], "0.8");
-    assert_eq!(plain.len(), found.len());
-    let (length, time, velocity) = (MACHINE.length(), MACHINE.time(), MACHINE.velocity());
-    let factors = [hertz, length, 1.0, 1.0, velocity, velocity * velocity / time, length, velocity];
-    for (a, b) in plain.iter().zip(&found).skip(1) {
-        for ((a, b), factor) in a.iter().zip(b).zip(factors) {
-            match (a.parse::<f64>(), b.parse::<f64>()) {
-                (Ok(a), Ok(b)) => assert!((a * factor / b - 1.0).abs() < 1e-12, "{a} {b} {factor}"),
-                _ => assert_eq!(a, b),
-            }
-        }
-    }
-    let filled = vibro(&format!("{si} --store map.zarr --quiet")).current_dir(&folder).output().unwrap();
-    assert!(filled.status.success(), "{}", String::from_utf8_lossy(&filled.stderr));
-    assert_eq!(rows(&format!("{si} --store map.zarr --csv -")), found);
-}
-
-/// A sweep in Hz moves the frequency ratio alone, in every command that varies a parameter.
-#[test]
-fn frequencies_in_hertz() {
-    let hertz = 8.0 / std::f64::consts::TAU;
-    let same = |si: &str, plain: &str, head: &str| {
-        let text = |line: &str| String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
-        let (a, b) = (text(&format!("{si} --csv -")), text(&format!("{plain} --csv -")));
-        assert!(a.starts_with(head), "{si}: {a}");
-        assert_eq!(a.lines().count(), b.lines().count(), "{si}");
-        assert!(a.lines().count() > 3, "{si}");
-    };
-    let machine = "--mass-kg 1 --stiffness-n-per-m 64 --force-n 32 --gap-m 0.75 --restitution 0.5";
-    let (low, high) = (0.8 / hertz, 1.2 / hertz);
-    same(
-        &format!("diagram {machine} --vary frequency-hz --over 0.8:1.2:5 --keep 8"),
-        &format!("diagram --gap 1.5 --restitution 0.5 --vary beta --over {low:?}:{high:?}:5 --keep 8"),
-        "frequency_hz,sweep,kind,side,phase,velocity_m_per_s",
-    );
-    let begin = 1.146 / hertz;
-    same(
-        &format!("branch {machine} --frequency-hz 1.146 --label 1/1 --vary frequency-hz --to 1.2"),
-        &format!("branch --gap 1.5 --restitution 0.5 --beta {begin:?} --label 1/1 --vary beta --to {high:?}"),
-        "branch,frequency_hz,label",
-    );
-    same(
-        "region --mass-kg 1 --stiffness-n-per-m 64 --force-n 32 --restitution 0.5 --label 1/1 --frequency-hz 1.1:1.2 --gap-m 0.5:1.25 --grid 3",
-        &format!("region --restitution 0.5 --label 1/1 --beta {:?}:{high:?} --gap 1:2.5 --grid 3", 1.1 / hertz),
-        "region,polygon,hole,sheet,frequency_hz,gap_m,bound",
-    );
-    let refused = vibro("diagram --gap 1 --restitution 0.5 --vary frequency-hz --over 1:2:3").output().unwrap();
-    let complaint = String::from_utf8_lossy(&refused.stderr).into_owned();
-    assert!(refused.status.code() == Some(2) && complaint.contains("physical units"), "{complaint}");
 }

@@ -1,0 +1,76 @@
+//! Figures in metres and seconds: their marks are where those of the nondimensional figures are.
+
+use super::{COMMANDS, Command, Machine};
+use crate::vibro;
+
+/// A figure between its axes: curves and marks in parts of the frame, and images as they are.
+#[derive(Debug, Default)]
+struct Marks {
+    places: Vec<(f64, f64)>,
+    images: Vec<String>,
+}
+
+/// The value of an attribute of an element.
+fn attribute<'a>(element: &'a str, name: &str) -> Option<&'a str> {
+    let at = element.find(&format!(" {name}=\""))? + name.len() + 3;
+    element[at..].split('"').next()
+}
+
+/// The numbers of a part of a path, such as `12.5 -3`.
+fn numbers(text: &str) -> Vec<f64> {
+    text.split([' ', ',']).filter_map(|word| word.parse().ok()).collect()
+}
+
+/// The marks of a figure. Circles begin at their left end: `M x y a r r ...`.
+fn marks(svg: &str) -> Marks {
+    let elements: Vec<&str> = svg.split('<').collect();
+    let is_frame =
+        |element: &&&str| element.starts_with("rect") && element.contains("fill=\"none\" stroke=\"#000000\"");
+    let frame = elements.iter().position(|element| is_frame(&element)).expect("a frame");
+    let side = |name: &str| attribute(elements[frame], name).and_then(|text| text.parse::<f64>().ok()).unwrap();
+    let (left, top, width, height) = (side("x"), side("y"), side("width"), side("height"));
+    let mut found = Marks::default();
+    for element in &elements[..frame] {
+        if element.starts_with("image") {
+            found.images.push(attribute(element, "href").unwrap().to_owned());
+        }
+        for part in
+            attribute(element, "d").into_iter().flat_map(|path| path.split(['M', 'L'])).filter(|p| !p.is_empty())
+        {
+            let mut pieces = part.split('a');
+            let at = numbers(pieces.next().unwrap().trim_end_matches(['z', 'Z']));
+            let radius = pieces.next().map_or(0.0, |arc| numbers(arc)[0]);
+            let &[x, y] = at.as_slice() else { panic!("{part}") };
+            found.places.push(((x + radius - left) / width, (y - top) / height));
+        }
+    }
+    found
+}
+
+/// Random machines: dots, curves and images stand at the same places between the axes as in the nondimensional figure.
+#[test]
+fn random_machines_have_the_figures_of_the_oscillator() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut compared = 0;
+    let drawn = ["simulate", "settle", "basin"];
+    for machine in Machine::random().take(6) {
+        for Command { name, flags, without, .. } in COMMANDS.iter().filter(|command| drawn.contains(&command.name)) {
+            let (si, plain) = machine.lines(name, flags, without);
+            let figure = |line: &str, file: &str| {
+                let output = vibro(&format!("{line} --plot {file}")).current_dir(&folder).output().unwrap();
+                assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+                marks(&std::fs::read_to_string(folder.path().join(file)).unwrap())
+            };
+            let (plain, si) = (figure(&plain, "plain.svg"), figure(&si, "si.svg"));
+            assert!(plain.images == si.images, "{name}: {machine:?}");
+            assert_eq!(plain.places.len(), si.places.len(), "{name}: {machine:?}");
+            for (a, b) in plain.places.iter().zip(&si.places) {
+                // coordinates are written to a hundredth of a pixel, of at least 300
+                let off = (a.0 - b.0).abs().max((a.1 - b.1).abs());
+                assert!(off < 1e-4, "{name}: {a:?} {b:?} {machine:?}");
+            }
+            compared += plain.places.len() + plain.images.len();
+        }
+    }
+    assert!(compared > 500, "{compared} marks");
+}
