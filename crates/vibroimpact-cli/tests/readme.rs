@@ -26,7 +26,9 @@ fn vibro(line: &str, folder: &Path) -> std::process::Output {
 #[test]
 fn shown_output_is_real_output() {
     let mut shown = 0;
-    let blocks = [readme(), page("docs/machines-in-si.md")].map(|page| blocks(&page, "console")).concat();
+    let blocks = [readme(), page("docs/machines-in-si.md"), page("docs/basins.md")]
+        .map(|page| blocks(&page, "console"))
+        .concat();
     for block in blocks {
         // pages may name the same file
         let folder = tempfile::tempdir().unwrap();

@@ -12,7 +12,7 @@ pub(crate) fn certainty(counts: impl Iterator<Item = u64>, total: u64) -> String
         (share - low).max(high - share)
     };
     format!(
-        "  95 % confidence: shares are right to within {}; a motion that none of {} leads to has a share below {}\n",
+        "  95 % confidence: shares are right to within {} of the starts; a motion that none of {} leads to has a share below {}\n",
         percent(counts.map(error).fold(0.0, f64::max)),
         counted(total, "start"),
         percent(missed_share(total))
@@ -28,7 +28,9 @@ mod tests {
         // Wilson: (0.5 +- 0.0960) for 50 of 100, and 0 to 0.0370 for 0 of 100; 1 - 0.05^(1/100) = 0.0295
         let text = certainty([50, 50, 0].into_iter(), 100);
         assert!(
-            text.contains("within 9.6 %; a motion that none of 100 starts leads to has a share below 3.0 %"),
+            text.contains(
+                "within 9.6 % of the starts; a motion that none of 100 starts leads to has a share below 3.0 %"
+            ),
             "{text}"
         );
     }

@@ -190,10 +190,12 @@ mod tests {
         assert!((found.value - 1.0).abs() < 0.05, "{found:?}");
         assert!(found.error < 0.05 && found.shares.len() == 6, "{found:?}");
         // over the number of starts instead of the distance of the outermost ones, as other programs have it
-        let points: Vec<(f64, f64)> = found.shares.iter().map(|(side, share)| ((*side as f64).ln(), share.ln())).collect();
+        let points: Vec<(f64, f64)> =
+            found.shares.iter().map(|(side, share)| ((*side as f64).ln(), share.ln())).collect();
         let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / 6.0;
         let (x, y) = (mean(|p| p.0), mean(|p| p.1));
-        let slope = points.iter().map(|p| (p.0 - x) * (p.1 - y)).sum::<f64>() / points.iter().map(|p| (p.0 - x).powi(2)).sum::<f64>();
+        let slope = points.iter().map(|p| (p.0 - x) * (p.1 - y)).sum::<f64>()
+            / points.iter().map(|p| (p.0 - x).powi(2)).sum::<f64>();
         assert!((slope - 1.18).abs() < 0.005, "{slope}");
         let mut state = 1_u64;
         let noise: Vec<bool> = (0..side * side)
