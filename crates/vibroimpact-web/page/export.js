@@ -103,8 +103,9 @@ export class Export {
   /** The quantity whose values are the colours of a view, and their range. */
   colours({ source, range }) {
     if (!source?.quantity) return {};
-    const { name, of } = source.quantity;
-    return { colour: name, of, range: range?.join() };
+    const { name, of, per } = source.quantity;
+    // plans and commands have metres
+    return { colour: name, of, range: range?.map((end) => Number((end / per).toPrecision(15))).join() };
   }
 
   /** What lies over the map: layers, the chosen point, the line. */

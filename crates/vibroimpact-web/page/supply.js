@@ -4,7 +4,7 @@
  * Every place is computed with one budget after the other; its tile with the largest budget is kept.
  */
 
-import { askCoarse, askTile } from "./asking.js";
+import { askCoarse, tileAsked } from "./asking.js";
 
 /** Number of coarse pictures in the cache. */
 const COARSE_KEPT = 6;
@@ -112,7 +112,8 @@ export class Supply {
     const [x, y] = this.view.pointer ? v.toPlane(...this.view.pointer) : [v.cx, v.cy];
     const key = this.tileKey(stage, level, a, b);
     const far = Math.hypot(((a + 0.5) * wide - x) / wide, ((b + 0.5) * high - y) / high);
-    const run = (signal) => this.take(askTile(this.view, key, stage, level, [a, b], signal), signal, before?.key);
+    const asked = tileAsked(this.view, key, stage, level, [a, b]);
+    const run = (signal) => this.take(asked(signal), signal, before?.key);
     return { key, stage, rank: this.rank + NEXT_STAGE * number + far, run };
   }
 
@@ -126,7 +127,8 @@ export class Supply {
       this.sketching = key;
       await this.take(askCoarse(this.view, key, stage, signal), signal);
       this.sketching = null;
-      this.view.changed();
+      // the next one, if a slider has moved on
+      this.view.changed(0);
     };
     return { key, rank: 0, kept: true, run };
   }

@@ -59,8 +59,10 @@ export class Tile {
     Object.assign(this, { classes: null, shares: null, per: 1, pictures: new Map(), undecided: new Set() });
   }
 
-  fill({ classes, shares, per, values = null, own = null }) {
-    Object.assign(this, { classes, shares, per, values, own });
+  /** Takes the answer of the server, whose cells may be larger. @param {[number, number]} shape numbers of its rows and columns */
+  fill({ classes, shares, per, values = null, own = null }, [rows, columns]) {
+    const [hx, hy] = [(this.hx * this.columns) / columns, (this.hy * this.rows) / rows];
+    Object.assign(this, { classes, shares, per, values, own, hx, hy, rows, columns });
     this.findUndecided();
   }
 
