@@ -11,7 +11,10 @@ const COARSE_PIXELS = 8;
  * Time in which the server answers with a coarse picture, in milliseconds. When a slider moves, a picture is at most two of
  * these times old, one interval between two values of the slider, and two times that of the way to the screen.
  */
-const COARSE_TIME = 70;
+export const COARSE_TIME = 70;
+/** The same while nothing moves. The second picture is asked for if the first one has fewer points than `FEW`, because tiles will take long then. */
+export const STILL_TIMES = [200, 1000];
+export const FEW = 1500;
 /**
  * The next coarse picture has this part of the points if not all of them were computed in time, and more of them if all
  * were; many more if half of the time was enough. So few pictures in a row have other cells than the one before.
@@ -59,17 +62,17 @@ export function tileAsked(view, key, stage, level, [column, row]) {
 /** Number of points of the next coarse picture. */
 let coarsePoints = 1600;
 
-/** Requests the coarse picture: a few points over the whole view, as many as the server computes in time. */
-export function askCoarse(view, key, stage, signal) {
+/** Requests the coarse picture: a few points over the whole view, as many as the server computes in time. @param {number} time in milliseconds */
+export function askCoarse(view, key, stage, time, signal) {
   const { source, viewport: v } = view;
-  const pixels = Math.max(COARSE_PIXELS, Math.sqrt((v.width * v.height) / coarsePoints));
+  const pixels = Math.max(COARSE_PIXELS, Math.sqrt((v.width * v.height) / (time > COARSE_TIME ? COARSE_POINTS[1] : coarsePoints)));
   const [hx, hy] = [v.hx * pixels, v.hy * pixels];
   const [left, bottom] = v.toPlane(0, v.height);
   const across = cut(Math.floor(left / hx), hx, Math.ceil(v.width / pixels) + 1, source.legal.x, source.x.open);
   const up = cut(Math.floor(bottom / hy), hy, Math.ceil(v.height / pixels) + 1, source.legal.y, source.y.open);
   const [begin, points] = [performance.now(), across.count * up.count];
-  const asked = filled({ source, stage: { ...stage, refine: undefined }, key, level: -Infinity, hx, hy, across, up }, (plan) => picture(plan, COARSE_TIME, signal));
-  asked.then(({ columns, rows }) => {
+  const asked = filled({ source, stage: { ...stage, refine: undefined }, key, level: -Infinity, hx, hy, across, up }, (plan) => picture(plan, time, signal));
+  if (time === COARSE_TIME) asked.then(({ columns, rows }) => {
     const factor = columns * rows < points ? FEWER : performance.now() - begin < COARSE_TIME / 2 ? MANY_MORE : MORE;
     const [least, most] = COARSE_POINTS;
     coarsePoints = Math.min(most, Math.max(least, factor * coarsePoints));

@@ -71,6 +71,7 @@ export class Export {
     const views = {
       plane: {
         name: "map", plan: () => span(this.views.plane.view, mapPlan), points: true,
+        note: "The command draws the map without the layers, the point and the line.",
         // a finer picture is computed as the map is: points between others that agree are not
         drawn: () => ({ ...this.over(), ...this.colours(this.views.plane.view), refine: n > WHOLE && !state.colour ? n / 100 : null }),
       },

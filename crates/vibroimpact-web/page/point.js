@@ -120,6 +120,7 @@ export class Point {
   /** While a slider of the map moves, only the map is computed. */
   wait() {
     this.stop();
+    this.basin.view.supply.stop();
     [this.shown, this.drawing] = [null, null];
   }
 

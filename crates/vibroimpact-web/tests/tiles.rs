@@ -46,7 +46,8 @@ async fn ask(path: &str, plan: &str) -> Tile {
         header["labels"][code.to_string()]["name"].as_str().unwrap().to_owned()
     };
     let labels = field("label", 4).unwrap().iter().map(name).collect();
-    let own = field("computed", 1).map_or(vec![true; rows * columns], |all| all.iter().map(|one| one[0] == 1).collect());
+    let own =
+        field("computed", 1).map_or(vec![true; rows * columns], |all| all.iter().map(|one| one[0] == 1).collect());
     Tile { rows, columns, labels, own }
 }
 
@@ -89,10 +90,18 @@ fn windows(whole: [f64; 4]) -> impl Iterator<Item = [f64; 4]> {
     })
 }
 
-fn plan_of(task: &str, names: [&str; 2], [left, right, bottom, top]: [f64; 4], (counts, more): ([usize; 2], &str)) -> String {
-    let axis = |name: &str, from: f64, to: f64, count: usize| format!(r#"{{"vary":"{name}","over":"{from}:{to}:{count}"}}"#);
+fn plan_of(
+    task: &str,
+    names: [&str; 2],
+    [left, right, bottom, top]: [f64; 4],
+    (counts, more): ([usize; 2], &str),
+) -> String {
+    let axis =
+        |name: &str, from: f64, to: f64, count: usize| format!(r#"{{"vary":"{name}","over":"{from}:{to}:{count}"}}"#);
     let axes = [axis(names[0], left, right, counts[0]), axis(names[1], bottom, top, counts[1])].join(",");
-    format!(r#"{{"version":1,"system":{{"inverse_beta":1.3,"gap":0.75,"restitution":0.5}},"task":{{"{task}":{{"axes":[{axes}],"impacts":200{more}}}}}}}"#)
+    format!(
+        r#"{{"version":1,"system":{{"inverse_beta":1.3,"gap":0.75,"restitution":0.5}},"task":{{"{task}":{{"axes":[{axes}],"impacts":200{more}}}}}}}"#
+    )
 }
 
 #[tokio::test]
@@ -140,7 +149,8 @@ async fn every_cell_of_a_coarse_picture_is_that_of_its_centre() {
                 let larger = (to - from + cell) / count as f64;
                 (from - cell / 2.0 + larger / 2.0, to + cell / 2.0 - larger / 2.0)
             };
-            let ((left, right), (bottom, top)) = (centres(window[0], window[1], columns), centres(window[2], window[3], rows));
+            let ((left, right), (bottom, top)) =
+                (centres(window[0], window[1], columns), centres(window[2], window[3], rows));
             let same = plan_of(task, names, [left, right, bottom, top], ([columns, rows], more));
             let plan = Plan::from_text(&same).unwrap();
             for (k, label) in picture.labels.iter().enumerate() {
