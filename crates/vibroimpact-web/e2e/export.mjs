@@ -76,26 +76,24 @@ async function tableOf(command, folder) {
   return readFile(file, "utf8");
 }
 
-/** The command of a view for its table: the first one, of a line the one with the branches. */
-const commandOf = (view, text) => (view === "line" ? text.split("\n").at(-1) : text.split("\n")[0]);
-
-/** Runs an exported command of the shell that draws, and returns its figure. */
+/** Runs an exported command of the shell with this figure as its output, and returns the figure. */
 async function figureOf(command, folder) {
   const program = await readlink(`/proc/${process.env.VIBRO_PID}/exe`);
   const file = `${folder}/figure.svg`;
-  const line = command.replace(/^vibro/, `'${program}'`).replace(/--plot \S+/, `--plot '${file}' --force`);
+  assert.match(command, /^vibro /);
+  const line = `${command.replace(/^vibro/, `'${program}'`).replace(/--(csv|plot) \S+/g, "")} --plot '${file}' --force`;
   await promisify(execFile)("sh", ["-c", line], { cwd: folder });
   return readFile(file, "utf8");
 }
 
-/** The last figure that the page asked for, in the size of the command. */
-async function figureInSizeOfCommand(page, address, act) {
-  const asked = page.waitForRequest((request) => request.url().includes("/api/figure"));
+/** The figure that the page asks for when it acts, in the size of the command, and without what lies over a map, which no command draws. */
+async function figureOfCommand(page, address, act) {
+  const asked = page.waitForRequest((request) => /\/api\/(figure|bifurcation)\?/.test(request.url()));
   await act();
   const request = await asked;
-  const query = new URL(request.url()).searchParams;
-  query.delete("width");
-  const response = await fetch(`${address}api/figure?${query}`, {
+  const { pathname, searchParams: query } = new URL(request.url());
+  for (const name of ["width", "height", "chosen", "line"]) query.delete(name);
+  const response = await fetch(new URL(`${pathname}?${query}`, address), {
     method: "POST", headers: { "content-type": "application/json" }, body: request.postData(),
   });
   assert.ok(response.ok, await response.clone().text());
@@ -121,7 +119,7 @@ export async function figures_of_quantities_and_machines_are_those_of_their_comm
       const text = page.locator("#export pre").first();
       await until(`the command ${wanted}`, async () => wanted.test(await text.textContent()));
       const [table, figure] = (await text.textContent()).split("\n");
-      const svg = await figureInSizeOfCommand(page, address, () => saved(page, "svg"));
+      const svg = await figureOfCommand(page, address, () => saved(page, "svg"));
       // the store of a refined map is made anew
       await rm(`${folder}/map.zarr`, { recursive: true, force: true });
       assert.equal(await figureOf(figure, folder), svg, hash);
@@ -132,47 +130,44 @@ export async function figures_of_quantities_and_machines_are_those_of_their_comm
   }
 }
 
-/** The views of a point and of a line of a machine are in its units, as the tables of their commands. */
-export async function tables_of_a_machine_are_those_of_their_commands({ open }) {
-  if (!process.env.VIBRO_PID) return;
-  const folder = await mkdtemp(`${tmpdir()}/vibro-e2e-`);
-  try {
-    const { page } = await open("#machine=0.8,12000,30&x=beta&point=1&beta=0.77&gap=0.75&damping=0.02&start=0.1,0.2,0.3&view=0.7,1,0.4,2.2&line=0.7,1,0.8,1.2&impacts=200", { acceptDownloads: true });
-    await drawn(page);
-    await page.waitForSelector("#point .note:not(:empty)");
-    await page.locator("#export-button").click();
-    await page.locator("#export-points").selectOption("100");
-    for (const view of ["plane", "basin", "waveform", "steady", "attractors", "line"]) {
-      await page.locator("#export-view").selectOption(view);
-      const command = page.locator("#export pre").first();
-      await until(`the command of ${view}`, async () => /^vibro .*--mass-kg 0\.8/.test(await command.textContent()));
-      const saidByPage = (await saved(page, "csv")).toString();
-      assert.match(saidByPage.split("\n")[0], /_(hz|m|s|m_per_s)\b/, view);
-      assert.equal(await tableOf(commandOf(view, await command.textContent()), folder), saidByPage, view);
-    }
-  } finally {
-    await rm(folder, { recursive: true, force: true });
-  }
-}
-
-export async function the_exported_command_writes_the_exported_table({ open }) {
+/** The tables and the figures of every view: those of motions; and of a machine, in its units, in the colours of a quantity. */
+export async function every_export_is_that_of_its_command({ open, address }) {
   if (!process.env.VIBRO_PID) {
     console.log("        skipped: VIBRO_PID does not say which program the server is");
     return;
   }
   const folder = await mkdtemp(`${tmpdir()}/vibro-e2e-`);
   try {
-    const { page } = await open("#point=1&inverse_beta=1.3&gap=0.75&view=1,1.4,0.4,2.2&line=1.3,1,1.2,2&starts=2&layers=paper&impacts=1000", { acceptDownloads: true });
-    await drawn(page);
-    await page.locator("#export-button").click();
-    await page.locator("#export-points").selectOption("100");
-    for (const view of ["plane", "basin", "waveform", "line", "phase", "sections"]) {
-      await page.locator("#export-view").selectOption(view);
-      const command = page.locator("#export pre").first();
-      await until(`the command of ${view}`, async () => (await command.textContent()).startsWith("vibro "));
-      const saidByPage = (await saved(page, "csv")).toString();
-      assert.ok(saidByPage.split("\n").length > 5, view);
-      assert.equal(await tableOf(commandOf(view, await command.textContent()), folder), saidByPage, view);
+    for (const [hash, system, head] of [
+      ["#point=1&inverse_beta=1.3&gap=0.75&view=1,1.4,0.4,2.2&line=1.3,1,1.2,2&starts=2&layers=stripes&impacts=200", "--restitution 0.5", /./],
+      ["#machine=0.8,12000,30&x=beta&point=1&beta=0.77&gap=0.75&damping=0.02&start=0.1,0.2,0.3&view=0.7,1,0.4,2.2&line=0.7,1,0.8,1.2&layers=stripes&impacts=200&colour=displacement_max",
+        "--mass-kg 0.8", /_(hz|m|s|m_per_s)\b|^re,im$|^section,/],
+    ]) {
+      const { page } = await open(hash, { acceptDownloads: true });
+      await drawn(page, hash.includes("colour"));
+      await page.waitForSelector("#point .note:not(:empty)");
+      if (hash.includes("colour")) await page.waitForSelector("[data-name=basin] .bar-colours[data-range]");
+      await page.locator("#export-button").click();
+      await page.locator("#export-points").selectOption("100");
+      const views = await page.$$eval("#export-view option", (options) => options.map((option) => option.value));
+      assert.ok(views.length >= 10, views.join());
+      for (const view of views) {
+        const command = page.locator("#export pre").first();
+        const before = await command.textContent();
+        await page.locator("#export-view").selectOption(view);
+        await until(`the command of ${view}`, async () => {
+          const text = await command.textContent();
+          return text.startsWith("vibro ") && text.includes(system) && (view === views[0] || text !== before);
+        });
+        const commands = (await command.textContent()).trim().split("\n");
+        const saidByPage = (await saved(page, "csv")).toString();
+        assert.match(saidByPage.split("\n")[0], head, view);
+        assert.ok(saidByPage.split("\n").length > 2, view);
+        assert.equal(await tableOf(commands[0], folder), saidByPage, `${view} ${hash}`);
+        if (view === "attractors") continue;
+        const svg = await figureOfCommand(page, address, () => saved(page, "svg"));
+        assert.equal(await figureOf(commands.at(-1), folder), svg, `${view} ${hash}`);
+      }
     }
   } finally {
     await rm(folder, { recursive: true, force: true });

@@ -118,9 +118,50 @@ export async function a_slider_is_followed_while_it_moves({ open }) {
   console.log(`        ${seen} pictures of 60 values; the picture is at most ${ages.at(-1).toFixed(0)} ms old, in the median ${ages[ages.length >> 1].toFixed(0)} ms`);
   assert.ok(seen >= 2, `${seen} pictures in 3 seconds`);
   assert.equal(blank, 0, "the last picture stays until the next one is there");
-  assert.ok(ages.at(-1) < 5000, `a picture is ${ages.at(-1)} ms old`);
+  // on a quiet machine at most 300; other tests and builds may run beside this one
+  assert.ok(ages[ages.length >> 1] < 400 && ages.at(-1) < 2000, `a picture is ${ages.at(-1)} ms old`);
   await page.evaluate(() => document.querySelector("#parameters .parameter:not([hidden]) input[type=range]").dispatchEvent(new Event("change")));
   await until("the value is in the address", async () => (await hash(page)).get("restitution") === "0.795");
+}
+
+/** While a slider moves, there is one request at a time, for a coarse picture; the panels follow when it rests. */
+export async function only_the_map_is_computed_while_a_slider_moves({ open }) {
+  const { page } = await open("about:blank");
+  await page.addInitScript(() => {
+    const original = globalThis.fetch;
+    globalThis.asked = [];
+    globalThis.fetch = async (path, options) => {
+      const one = { path: String(path).split("?")[0], body: options?.body ?? "", time: performance.now(), done: false };
+      globalThis.asked.push(one);
+      one.abreast = globalThis.asked.filter((other) => other.path === "/api/picture" && !other.done).length;
+      try {
+        const response = await original(path, options);
+        const bytes = await response.arrayBuffer();
+        return new Response(bytes, { status: response.status, headers: response.headers });
+      } finally {
+        one.done = true;
+      }
+    };
+  });
+  await page.goto(`${page.address}#point=1&inverse_beta=1.3&gap=0.75&line=1.3,1,1.2,2&layers=regions`);
+  await drawn(page);
+  await page.locator(".verdict .label").waitFor();
+  const { during, last } = await page.evaluate(async () => {
+    const range = document.querySelector("#parameters .parameter:not([hidden]) input[type=range]");
+    const begin = performance.now();
+    for (let k = 0; k < 20; k++) {
+      range.value = String(0.5 + 0.01 * k);
+      range.dispatchEvent(new Event("input", { bubbles: true }));
+      await new Promise((resolve) => setTimeout(resolve, 50));
+    }
+    const moved = globalThis.asked.filter(({ time }) => time > begin + 1);
+    return { during: moved.map(({ path, abreast }) => ({ path, abreast })), last: range.value };
+  });
+  assert.ok(during.length >= 3, `${during.length} pictures`);
+  assert.deepEqual([...new Set(during.map(({ path }) => path))], ["/api/picture"]);
+  assert.equal(Math.max(...during.map(({ abreast }) => abreast)), 1, "one at a time");
+  await until("then the panels follow", () => page.evaluate((value) => ["/api/answer", "/api/motion", "/api/tile", "/api/layer"].every((path) =>
+    globalThis.asked.some((one) => one.path === path && one.body.includes(`"restitution":${value}`))), last));
 }
 
 const lin = (v) => (v / 255 <= 0.04045 ? v / 255 / 12.92 : ((v / 255 + 0.055) / 1.055) ** 2.4);
@@ -165,7 +206,7 @@ export async function what_is_no_motion_has_a_look_and_a_row_of_its_own({ open, 
   assert.ok(rows.includes("no such oscillator") && rows.includes("undecided in 200 impacts"), rows.join());
   assert.ok(!rows.includes("not computed yet"), rows.join());
   const { page: waiting } = await open("about:blank", { viewport: { width: 640, height: 480 } });
-  await waiting.route("**/api/tile", () => {});
+  await waiting.route(/\/api\/(tile|picture)/, () => {});
   await waiting.goto(waiting.address + link);
   await until("the row of what is not computed", async () => (await waiting.locator("#legend").textContent()).includes("not computed yet"));
   const at = (x, y) => place(page, x, y, window);

@@ -24,8 +24,9 @@ export const legend = async (page) => new Map(await page.$$eval("#legend button.
   item.querySelector(".legend-name").textContent, parseFloat(item.querySelector(".legend-share").textContent.replace("<", "")),
 ])));
 
-/** Waits for the first picture of the plane. */
-export const drawn = (page) => until("the legend names motions", async () => (await legend(page)).size > 0);
+/** Waits for the first picture of the plane, with the colours of motions or of a quantity. */
+export const drawn = (page, quantity = false) => (quantity ? page.waitForSelector("#legend .bar-colours[data-range]")
+  : until("the legend names motions", async () => (await legend(page)).size > 0));
 
 /** Waits until every tile in view is drawn with the first budget. */
 export const sharp = (page) => page.waitForSelector("#plane[data-sharp]", { timeout: 120000 });

@@ -52,7 +52,7 @@ export async function a_presentation_shows_the_map_and_one_panel({ open, folder 
   const before = await em();
   await page.keyboard.press("f");
   assert.ok((await em()) > 1.3 * before, "large type");
-  for (const hidden of [".masthead", "#legend", "#controls", "[data-name=basin]", ".tabs"]) {
+  for (const hidden of [".masthead", "#legend h2", "#starts-note", "#controls", "[data-name=basin]", ".tabs"]) {
     assert.ok(await page.locator(hidden).isHidden(), hidden);
   }
   for (const [width, height] of [[1280, 720], [1920, 1080]]) {
@@ -63,8 +63,14 @@ export async function a_presentation_shows_the_map_and_one_panel({ open, folder 
       await until(`${name} is shown`, async () => page.locator(shown).isVisible());
       await until(`${name} fits`, async () => (await onScreen(page, `${shown} .graph, ${shown} .view`)) && onScreen(page, "#plane"));
     }
+    // what the colours are, below the map
+    assert.ok(await onScreen(page, "#legend .legend-item"));
     await page.screenshot({ path: `${folder}/presentation-${height}.png` });
   }
+  await page.evaluate(() => { location.hash += "&colour=impact_speed_max&impacts=200"; });
+  await page.waitForSelector("#legend .bar-colours[data-range]");
+  assert.ok((await onScreen(page, "#legend .bar-colours")) && (await onScreen(page, "#plane")));
+  await page.goBack();
   await page.reload();
   await until("a link keeps it", async () => page.locator("#subject").isVisible());
   assert.ok(await page.locator("[data-name=portrait]").isVisible());

@@ -23,8 +23,8 @@ export const pending = {
   },
 };
 
-/** Requests that someone waits for; tiles and the first request of the page are none. */
-const waitedFor = (path) => !path.startsWith("/api/tile") && path !== "/api/about";
+/** Requests that someone waits for; tiles, coarse pictures and the first request of the page are none. */
+const waitedFor = (path) => !["/api/tile", "/api/picture", "/api/about"].some((other) => path.startsWith(other));
 
 /** Counts work as pending. */
 async function counted(path, work) {
@@ -78,8 +78,16 @@ export const about = async () => (await ask("/api/about")).json();
  * @param {object} plan
  * @param {AbortSignal} [signal]
  */
-export async function tile(plan, signal) {
-  const buffer = await whole((await ask("/api/tile", { body: plan, signal })).arrayBuffer());
+export const tile = (plan, signal) => arrays("/api/tile", plan, signal);
+
+/**
+ * Requests a coarse picture within some milliseconds. The plan has its finest grid; the header says how many rows and
+ * columns of larger cells the picture has. Returns the same as `tile`.
+ */
+export const picture = (plan, within, signal) => arrays(withQuery("/api/picture", { within }), plan, signal);
+
+async function arrays(path, plan, signal) {
+  const buffer = await whole((await ask(path, { body: plan, signal })).arrayBuffer());
   const length = new DataView(buffer).getUint32(0, true);
   const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
   const kinds = { i32: Int32Array, f64: Float64Array, i8: Int8Array };

@@ -5,6 +5,9 @@ import { numberField } from "./field.js";
 import { short, ticks } from "./ticks.js";
 import { colours, missingLook } from "./values.js";
 
+/** Part of the bar at each end in which a number begins or ends at its tick. */
+const END = 0.05;
+
 export class ColourBar {
   /**
    * @param {import("./tileview.js").TileView} view
@@ -57,7 +60,9 @@ export class ColourBar {
       this.ticks.replaceChildren(...ticks(low, high, Math.max(2, wide / 3.4)).ticks.map(({ value, text }) => {
         const size = Math.max(Math.abs(low), Math.abs(high));
         const tick = element("span", { text: size >= 1e5 || size < 1e-3 ? short(value) : text });
-        tick.style.left = `${(100 * (value - low)) / (high - low)}%`;
+        const part = (value - low) / (high - low);
+        tick.style.left = `${100 * part}%`;
+        if (part < END || part > 1 - END) tick.classList.add(part < 0.5 ? "first" : "last");
         return tick;
       }));
       range.forEach((value, k) => this.fields[k].show(value));

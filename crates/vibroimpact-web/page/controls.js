@@ -71,7 +71,7 @@ function startsPerPoint(store) {
 function parameter(store, name) {
   const { symbol, words, slider: [from, to, step] } = PARAMETERS[name];
   const own = () => shownAs(store.state, name);
-  const live = throttled((value) => store.set(patchOf(name, value), "quiet"), 40);
+  const live = throttled((value) => store.set(patchOf(name, value), "moving"), 40);
   const commit = (value) => store.set(patchOf(name, value));
   const range = element("input", {
     type: "range", min: from, max: to, step, "aria-label": `${words} ${symbol}`,

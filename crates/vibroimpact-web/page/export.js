@@ -71,6 +71,7 @@ export class Export {
     const views = {
       plane: {
         name: "map", plan: () => span(this.views.plane.view, mapPlan), points: true,
+        note: "The command draws the map without the layers, the point and the line.",
         // a finer picture is computed as the map is: points between others that agree are not
         drawn: () => ({ ...this.over(), ...this.colours(this.views.plane.view), refine: n > WHOLE && !state.colour ? n / 100 : null }),
       },
@@ -103,8 +104,9 @@ export class Export {
   /** The quantity whose values are the colours of a view, and their range. */
   colours({ source, range }) {
     if (!source?.quantity) return {};
-    const { name, of } = source.quantity;
-    return { colour: name, of, range: range?.join() };
+    const { name, of, per } = source.quantity;
+    // plans and commands have metres
+    return { colour: name, of, range: range?.map((end) => Number((end / per).toPrecision(15))).join() };
   }
 
   /** What lies over the map: layers, the chosen point, the line. */

@@ -71,7 +71,7 @@ export class Frame {
     // no stripes and lines in coarse cells, because they would look like regions of motions
     const coarse = tile.level === -Infinity;
     const { only, density, scale } = view;
-    const look = { only, density, scale, stripes: view.stripes && !coarse, boundaries: view.boundaries && !coarse };
+    const look = { only, density, scale, pixel: view.viewport.hx / density, stripes: view.stripes && !coarse, boundaries: view.boundaries && !coarse };
     context.imageSmoothingEnabled = x1 - x0 < tile.columns;
     context.imageSmoothingQuality = "high";
     context.drawImage(tile.picture(look, open), x0, y0, x1 - x0, y1 - y0);

@@ -33,7 +33,7 @@ export class Layers {
     plane.view.painters.unshift((context, viewport, frame) => this.paint(context, viewport, frame));
     this.settle = debounced(() => this.refresh(), 500);
     plane.view.addEventListener("view", this.settle);
-    store.on(["x", "y", ...Object.keys(PARAMETERS), "second", "view"], this.settle);
+    store.on(["x", "y", ...Object.keys(PARAMETERS), "second", "view"], this.settle, () => this.wait());
     store.on(["layers", "x", "y", "colour"], () => this.refresh());
     this.refresh();
   }
@@ -73,6 +73,11 @@ export class Layers {
       else if (!this.fits(kind)) this.asked[kind].ask(this.wanted(), true);
     }
     this.plane.view.draw();
+  }
+
+  /** While a slider of the map moves, only the map is computed. */
+  wait() {
+    for (const asked of Object.values(this.asked)) asked.stop();
   }
 
   systemKey() {

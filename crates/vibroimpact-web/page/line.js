@@ -50,7 +50,7 @@ export class LineTool {
     this.asked = new Latest((state, signal) => this.fetch(state, signal), (error) => this.refused(error, failed));
     plane.view.grab = (px, xy) => (this.active ? this.hold(px, xy) : null);
     plane.view.painters.push((context, viewport) => this.paint(context, viewport));
-    store.on(["line", "show", "panel", "x", "y", ...Object.keys(PARAMETERS), "second", "machine"], () => this.refresh());
+    store.on(["line", "show", "panel", "x", "y", ...Object.keys(PARAMETERS), "second", "machine"], () => this.refresh(), () => this.wait());
   }
 
   /** Buttons for a line through the chosen point, or through the centre of the map, along either axis. */
@@ -214,6 +214,12 @@ export class LineTool {
     } finally {
       this.progress.hidden = true;
     }
+  }
+
+  /** While a slider of the map moves, only the map is computed. */
+  wait() {
+    this.asked.stop();
+    this.key = null;
   }
 
   refused(error, failed) {

@@ -57,7 +57,7 @@ export class Point {
     );
     this.settled = new Latest((state, signal) => this.settle(state, signal), failed);
     this.heavy = new Latest((state, signal) => this.weigh(state, signal), failed);
-    store.on(["point", "panel", "start", "impacts", "basin", ...SYSTEM, ...SHOWN], (_, changed) => this.refresh(changed));
+    store.on(["point", "panel", "start", "impacts", "basin", ...SYSTEM, ...SHOWN], (_, changed) => this.refresh(changed), () => this.wait());
   }
 
   get basin() {
@@ -89,7 +89,7 @@ export class Point {
   refresh(changed) {
     const { state } = this.store;
     if (!state.point || state.panel !== "point") {
-      for (const part of [this.settled, this.heavy, this.motion, this.portrait]) part.stop();
+      this.stop();
       return;
     }
     this.planeFields();
@@ -111,6 +111,17 @@ export class Point {
     // the panel may have been hidden before, and have no size yet
     requestAnimationFrame(() => this.basin.refresh());
     if (changed?.has("start")) this.basin.view.draw();
+  }
+
+  stop() {
+    for (const part of [this.settled, this.heavy, this.motion, this.portrait]) part.stop();
+  }
+
+  /** While a slider of the map moves, only the map is computed. */
+  wait() {
+    this.stop();
+    this.basin.view.supply.stop();
+    [this.shown, this.drawing] = [null, null];
   }
 
   /** Requests everything again, after the server was gone. */
@@ -135,7 +146,7 @@ export class Point {
 
   async settle(state, signal) {
     const { motion } = await answer(settlePlan(state), signal).catch((error) => {
-      this.verdict.replaceChildren(element("p", { class: "soft", text: "No verdict." }));
+      if (!signal.aborted) this.verdict.replaceChildren(element("p", { class: "soft", text: "No verdict." }));
       throw error;
     });
     this.verdict.replaceChildren(...verdict(motion));

@@ -20,7 +20,7 @@ export function preview(plane, store) {
   const { view } = plane;
   const svg = drawn("svg", { class: "plot", viewBox: `0 0 ${WIDE} ${HIGH}`, preserveAspectRatio: "none" });
   const box = element("div", { id: "preview", hidden: true, "aria-hidden": "true" }, svg,
-    element("p", { class: "soft", text: "two periods after the transient" }));
+    element("p", { class: "soft", text: "two periods, settled" }));
   view.host.after(box);
   let timer = 0;
   // the motion at the pointer is no question of the user, so nothing is reported if it has no answer

@@ -4,6 +4,7 @@ import { about } from "./api.js";
 import { element } from "./dom.js";
 import { panel } from "./panel.js";
 import { short } from "./ticks.js";
+import { pageUnit } from "./units.js";
 
 let names = null;
 
@@ -22,9 +23,10 @@ export class Quantities {
     names ??= (await about()).quantities;
     const si = units === "si";
     const defined = names.filter(({ name }) => Number.isFinite(quantities[name]));
-    this.rows.replaceChildren(...defined.flatMap(({ name, description, unit }) => [
-      element("dt", { text: description }), element("dd", { text: `${short(quantities[name])}${si && unit ? ` ${unit}` : ""}` }),
-    ]));
-    this.note.textContent = si ? "" : "Lengths in units of F/k, times in units of 1/ωₙ. With a machine under Units they are in m, s, J and W.";
+    this.rows.replaceChildren(...defined.flatMap(({ name, description, unit: given }) => {
+      const { unit, per } = si ? pageUnit(given) : { unit: "", per: 1 };
+      return [element("dt", { text: description }), element("dd", { text: `${short(per * quantities[name])}${unit && ` ${unit}`}` })];
+    }));
+    this.note.textContent = si ? "" : "Lengths in units of F/k, times in units of 1/ωₙ. With a machine under Units they are in mm, s, J and W.";
   }
 }

@@ -153,6 +153,9 @@ export function write(state) {
   return search.size ? `#${search.toString().replaceAll("%2C", ",")}` : "";
 }
 
+/** Milliseconds without a new value after which a slider is taken to rest. */
+const REST = 150;
+
 /** The state, and the listeners for its changes. */
 export class Store {
   /** @param {Location} location @param {History} history */
@@ -179,21 +182,26 @@ export class Store {
     });
   }
 
-  /** @param {string[]} names @param {(state: State, changed: Set<string>) => void} listener called when one of them changes */
-  on(names, listener) {
-    this.listeners.push({ names, listener });
+  /**
+   * @param {string[]} names
+   * @param {(state: State, changed: Set<string>) => void} listener called when one of them changes
+   * @param {() => void} [meanwhile] called instead while a slider of the map moves; the listener is called when it rests
+   */
+  on(names, listener, meanwhile = null) {
+    this.listeners.push({ names, listener, meanwhile, missed: new Set() });
   }
 
   /**
    * Changes parts of the state.
    * @param {Partial<State>} patch
-   * @param {"push" | "replace" | "quiet"} how to change the history; `quiet` does not change the address
+   * @param {"push" | "replace" | "quiet" | "moving"} how to change the history; `quiet` does not change the address, nor does
+   *   `moving`, for a slider of the map
    */
   set(patch, how = "push") {
     const changed = this.changes({ ...this.state, ...patch });
     Object.assign(this.state, patch);
-    if (how !== "quiet") this.address(how);
-    this.tell(changed);
+    if (how === "push" || how === "replace") this.address(how);
+    this.tell(changed, how === "moving");
   }
 
   /** @param {"push" | "replace"} how */
@@ -222,10 +230,28 @@ export class Store {
     return new Set(Object.keys(DEFAULTS).filter(differs));
   }
 
-  tell(changed) {
+  tell(changed, moving = false) {
     if (!changed.size) return;
-    for (const { names, listener } of this.listeners) {
-      if (names.some((name) => changed.has(name))) listener(this.state, changed);
+    for (const one of this.listeners) {
+      if (!one.names.some((name) => changed.has(name))) continue;
+      if (!moving || !one.meanwhile) one.listener(this.state, changed);
+      else {
+        for (const name of changed) one.missed.add(name);
+        one.meanwhile();
+      }
     }
+    if (moving) this.resume();
+  }
+
+  /** When the slider rests, listeners are told what they have missed. */
+  resume() {
+    clearTimeout(this.resting);
+    this.resting = setTimeout(() => {
+      for (const one of this.listeners) {
+        const { missed } = one;
+        one.missed = new Set();
+        if (missed.size) one.listener(this.state, missed);
+      }
+    }, REST);
   }
 }

@@ -4,7 +4,7 @@
  * Every place is computed with one budget after the other; its tile with the largest budget is kept.
  */
 
-import { askCoarse, askTile } from "./asking.js";
+import { COARSE_TIME, FEW, STILL_TIMES, askCoarse, tileAsked } from "./asking.js";
 
 /** Number of coarse pictures in the cache. */
 const COARSE_KEPT = 6;
@@ -31,14 +31,23 @@ export class Supply {
     this.refused = new Set();
     /** Whether only the smallest budget is computed. */
     this.held = false;
+    /** Whether nothing is computed, until a source is shown. */
+    this.stopped = false;
     /** Numbers of tiles in view: all, those that are there, those that are final; and the budget that is computed. Null before the first request. */
     this.progress = null;
     /** Time of the last change of the source. */
     this.turned = -Infinity;
   }
 
+  /** Stops everything until a source is shown. */
+  stop() {
+    this.stopped = true;
+    this.queue.want(this.view, []);
+  }
+
   /** Called when the view changes to a source. @param {boolean} moved whether it has other axes */
   turn(source, moved) {
+    this.stopped = false;
     const before = this.view.source;
     if (source.key === before?.key) return;
     this.turned = before ? performance.now() : -Infinity;
@@ -74,6 +83,7 @@ export class Supply {
 
   /** Requests missing parts of the view: the coarse picture first, then tiles from the pointer or the centre outwards, with one budget after the other. */
   ask() {
+    if (this.stopped) return;
     const level = this.view.level();
     const jobs = [];
     const progress = { all: 0, seen: 0, done: 0, impacts: 0 };
@@ -86,10 +96,10 @@ export class Supply {
     }
     this.progress = progress;
     const missing = progress.all - progress.seen;
-    const coarse = missing > 0.4 * progress.all ? this.coarseJob() : null;
+    const left = this.turned + CALM - performance.now();
+    const coarse = missing > 0.4 * progress.all ? this.coarseJob(left <= 0) : null;
     const first = jobs.reduce((best, job) => (job.rank < best.rank ? job : best), { rank: Infinity });
     progress.impacts = first.stage?.impacts ?? 0;
-    const left = this.turned + CALM - performance.now();
     if (left > 0) setTimeout(() => this.view.changed(), left);
     this.queue.want(this.view, coarse ? [coarse] : left > 0 ? [] : jobs);
     this.view.dispatchEvent(new Event("tiles"));
@@ -112,21 +122,32 @@ export class Supply {
     const [x, y] = this.view.pointer ? v.toPlane(...this.view.pointer) : [v.cx, v.cy];
     const key = this.tileKey(stage, level, a, b);
     const far = Math.hypot(((a + 0.5) * wide - x) / wide, ((b + 0.5) * high - y) / high);
-    const run = (signal) => this.take(askTile(this.view, key, stage, level, [a, b], signal), signal, before?.key);
+    const asked = tileAsked(this.view, key, stage, level, [a, b]);
+    const run = (signal) => this.take(asked(signal), signal, before?.key);
     return { key, stage, rank: this.rank + NEXT_STAGE * number + far, run };
   }
 
-  /** The request for the coarse picture, which precedes all tiles; null if it or something finer is available. Only one is under way. */
-  coarseJob() {
+  /**
+   * The request for the coarse picture, which precedes all tiles; null if it or something finer is available. Only one is
+   * under way.
+   * @param {boolean} still whether nothing moves; the picture is finer then
+   */
+  coarseJob(still) {
     const [stage] = this.stages();
-    const key = `${stage.key}|coarse|${this.view.viewport.window().join()}`;
-    if (this.refused.has(key) || this.coarse.some((tile) => tile.key === key) || this.seen()) return null;
+    if (this.seen()) return null;
+    const keyOf = (time) => `${stage.key}|coarse|${time}|${this.view.viewport.window().join()}`;
+    // the next one is asked for if the one before it has few points
+    const known = (time) => this.coarse.find((tile) => tile.key === keyOf(time));
+    const time = (still ? STILL_TIMES : [COARSE_TIME]).find((one, k, all) => !known(one) && all.slice(0, k).every((shorter) => known(shorter).columns * known(shorter).rows < FEW));
+    const key = keyOf(time);
+    if (!time || this.refused.has(key)) return null;
     if (this.sketching) return { key: this.sketching, rank: 0, kept: true, run: async () => {} };
     const run = async (signal) => {
       this.sketching = key;
-      await this.take(askCoarse(this.view, key, stage, signal), signal);
+      await this.take(askCoarse(this.view, key, stage, time, signal), signal);
       this.sketching = null;
-      this.view.changed();
+      // the next one, if a slider has moved on
+      this.view.changed(0);
     };
     return { key, rank: 0, kept: true, run };
   }

@@ -17,8 +17,8 @@ export const wrapped = (place) => ((place % WRAP) + WRAP) % WRAP;
 /** Distance of the lines that hatch undecided points, in pixels, and their colour. */
 const HATCH = 7;
 const HATCH_LINE = "#d02020";
-/** Pixels of a point of the coarse picture along each axis, about as many as on the screen. */
-const COARSE_FOLD = 8;
+/** Largest number of pixels of a coarse picture, which must be painted quickly. */
+const COARSE_PIXELS = 100000;
 
 /** A colour on the way to grey, for motions other than those that are isolated. */
 const faded = (pixel) => {
@@ -42,6 +42,7 @@ const edged = (pixel) => {
  * @property {boolean} boundaries whether boundaries between motions are drawn
  * @property {import("./values.js").Scale | null} scale of a quantity; null where motions have their colours
  * @property {number} density device pixels a pixel
+ * @property {number} pixel width of a device pixel, in units of the abscissa
  */
 
 /**
@@ -59,8 +60,10 @@ export class Tile {
     Object.assign(this, { classes: null, shares: null, per: 1, pictures: new Map(), undecided: new Set() });
   }
 
-  fill({ classes, shares, per, values = null, own = null }) {
-    Object.assign(this, { classes, shares, per, values, own });
+  /** Takes the answer of the server, whose cells may be larger. @param {[number, number]} shape numbers of its rows and columns */
+  fill({ classes, shares, per, values = null, own = null }, [rows, columns]) {
+    const [hx, hy] = [(this.hx * this.columns) / columns, (this.hy * this.rows) / rows];
+    Object.assign(this, { classes, shares, per, values, own, hx, hy, rows, columns });
     this.findUndecided();
   }
 
@@ -168,25 +171,26 @@ export class Tile {
    * @returns {HTMLCanvasElement}
    */
   picture(look, open = false) {
-    const how = JSON.stringify([look.only ? [...look.only] : null, look.stripes, look.boundaries, look.density, look.scale]);
+    const how = JSON.stringify([look.only ? [...look.only] : null, look.stripes, look.boundaries, look.density, look.scale, this.foldFor(look)]);
     let picture = this.pictures.get(open);
     if (picture?.how !== how) {
-      const { columns, rows, fold } = this;
-      const canvas = picture?.canvas ?? Object.assign(document.createElement("canvas"), { width: fold * columns, height: fold * rows });
+      const [{ columns, rows }, fold] = [this, this.foldFor(look)];
+      const canvas = Object.assign(picture?.canvas ?? document.createElement("canvas"), { width: fold * columns, height: fold * rows });
       picture = { how, canvas };
       this.pictures.set(open, picture);
-      this.paint(canvas.getContext("2d"), look, open);
+      this.paint(canvas.getContext("2d"), look, open, fold);
     }
     return picture.canvas;
   }
 
-  /** Pixels of the picture for each point along each axis: the hatch needs several in the coarse picture. */
-  get fold() {
-    return this.level === -Infinity ? COARSE_FOLD : 1;
+  /** Pixels of the picture for each point along each axis: in the coarse picture as many as on the screen, so that hatched places look as in tiles. */
+  foldFor({ pixel }) {
+    if (this.level !== -Infinity || (!this.undecided.size && !this.values)) return 1;
+    const most = Math.floor(Math.sqrt(COARSE_PIXELS / (this.columns * this.rows)));
+    return Math.max(1, Math.min(most, Math.round(this.hx / pixel)));
   }
 
-  paint(context, { only, stripes, boundaries, density, scale }, open) {
-    const { fold } = this;
+  paint(context, { only, stripes, boundaries, density, scale }, open, fold) {
     const wide = fold * this.columns;
     const high = fold * this.rows;
     const image = context.createImageData(wide, high);
@@ -199,7 +203,7 @@ export class Tile {
       }
       return palette.get(id);
     };
-    const thick = density > 1.4 && fold === 1 ? 2 : 1;
+    const thick = density > 1.4 ? 2 : 1;
     const [lines, period] = [pixelOf(HATCH_LINE), HATCH * thick];
     const hatched = (column, row) =>
       (column + row + this.phase) % period < thick || (column - row + this.slant + period * high) % period < thick;

@@ -7,7 +7,7 @@
  * @property {string} key identifies everything on which the points depend
  * @property {string[]} shallower keys of the same points with smaller budgets, in rising order; correct where decided
  * @property {number} impacts the budget
- * @property {{name: string, description: string, unit: string, factor: number, of: string} | null} [quantity] whose values are the colours
+ * @property {{name: string, description: string, unit: string, per: number, factor: number, of: string} | null} [quantity] whose values are the colours
  * @property {import("./parameters.js").Coordinate} x
  * @property {import("./parameters.js").Coordinate} y
  * @property {{x: [number, number], y: [number, number]}} legal
@@ -77,7 +77,7 @@ export class TileView extends EventTarget {
     this.source = source;
     if (window) this.fit(window);
     this.frame.measure();
-    this.changed();
+    this.changed(0);
   }
 
   /** Shows a window, and shows it again when the size changes, until a gesture moves the view. */
@@ -101,16 +101,21 @@ export class TileView extends EventTarget {
     this.changed();
   }
 
-  /** Called when the view or its contents have changed. */
-  changed() {
+  /**
+   * Called when the view or its contents have changed.
+   * @param {number} [delay] milliseconds until requests follow: all changes within a frame or two lead to one set of them
+   */
+  changed(delay = 40) {
     this.draw();
-    if (!this.source || !this.sized || this.asking) return;
-    this.asking = true;
-    // all changes within a frame or two lead to one set of requests
-    setTimeout(() => {
-      this.asking = false;
+    if (!this.source || !this.sized) return;
+    const at = performance.now() + delay;
+    if (this.asking && this.asking.at <= at) return;
+    clearTimeout(this.asking?.timer);
+    const timer = setTimeout(() => {
+      this.asking = null;
       this.supply.ask();
-    }, 40);
+    }, delay);
+    this.asking = { at, timer };
   }
 
   /** Called when a gesture has ended. */

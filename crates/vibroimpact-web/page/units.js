@@ -71,13 +71,17 @@ export const givenValue = ({ factor }, shown) => shown / factor;
 /** A symbol with its unit, if it has one. */
 export const titled = ({ symbol, unit }) => (unit ? `${symbol} (${unit})` : symbol);
 
-/** The quantity whose values are the colours, with its unit and one nondimensional unit in it; null for none. */
+/** An SI unit as the page shows it, with its size: lengths are in millimetres. */
+export const pageUnit = (unit) => (unit === "m" ? { unit: "mm", per: 1000 } : { unit, per: 1 });
+
+/** The quantity whose values are the colours, with its unit and one nondimensional unit in it; null for none. `per` are shown units in one of a plan. */
 export function quantityOf(state) {
   const found = unitsOf(state);
   const named = quantities().find(({ name }) => name === state.colour);
   if (!named) return null;
-  const { name, description, unit } = named;
-  return { name, description, unit: found ? unit : "", factor: found?.quantities[name] ?? 1, of: state.of };
+  const { name, description } = named;
+  const { unit, per } = found ? pageUnit(named.unit) : { unit: "", per: 1 };
+  return { name, description, unit, per, factor: per * (found?.quantities[name] ?? 1), of: state.of };
 }
 
 /** The units of a machine, for plans in them; null without a machine or before they are there. */

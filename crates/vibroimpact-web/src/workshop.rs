@@ -1,6 +1,6 @@
 //! The computations of the server: limits of their number and time, and their end when a request is cancelled.
 //!
-//! There are two kinds of places (benches) for work, so that a click is answered while tiles are computed. If a client
+//! There are three kinds of places (benches) for work, so that a click is answered while tiles are computed, and a slider is followed. If a client
 //! closes its connection, its work is stopped, and its place becomes free when the work has ended. So the number of
 //! simultaneous computations never exceeds the number of places.
 
@@ -19,6 +19,8 @@ pub(crate) enum Bench {
     Tiles,
     /// For answers about a point or a line.
     Answers,
+    /// For coarse pictures, which have a time limit and do not wait for tiles that are being stopped.
+    Pictures,
 }
 
 /// Maximum number of requests that wait for a place, for each kind.
@@ -30,8 +32,8 @@ const LIMIT: Duration = Duration::from_secs(120);
 
 /// All places for work.
 pub(crate) struct Workshop {
-    benches: [Arc<Semaphore>; 2],
-    waiting: [AtomicUsize; 2],
+    benches: [Arc<Semaphore>; 3],
+    waiting: [AtomicUsize; 3],
     limit: Duration,
 }
 
@@ -79,8 +81,8 @@ impl Workshop {
     }
 
     fn new(tiles: usize, answers: usize, limit: Duration) -> Self {
-        let benches = [tiles, answers].map(|places| Arc::new(Semaphore::new(places)));
-        Self { benches, waiting: [AtomicUsize::new(0), AtomicUsize::new(0)], limit }
+        let benches = [tiles, answers, 1].map(|places| Arc::new(Semaphore::new(places)));
+        Self { benches, waiting: [const { AtomicUsize::new(0) }; 3], limit }
     }
 
     /// Runs work on `threads` threads (0 for one per processor), and reports the number of points done in `progress`.

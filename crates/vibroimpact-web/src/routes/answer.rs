@@ -76,7 +76,7 @@ pub(super) async fn command(Query(wanted): Query<Wanted>, asked: PlanRequest) ->
             let refined = wanted.refined(plan);
             shell_line_coloured(refined.as_ref().unwrap_or(plan), wanted.coloured()?.as_ref())
         }
-        Task::Diagram(_) => shell_line(plan).map(|line| format!("{line} --branches")),
+        Task::Diagram(_) => shell_line(plan).map(|line| format!("{line} --branches --plot diagram.svg")),
         _ => None,
     };
     let (vibro, python) = match wanted.kind {

@@ -8,6 +8,7 @@ mod layer;
 mod motion;
 mod overlay;
 mod page;
+mod picture;
 mod tile;
 mod units;
 
@@ -25,6 +26,7 @@ pub(crate) fn all() -> Router<Explorer> {
         .route("/api/about", get(about::about))
         .route("/api/units", get(units::units))
         .route("/api/tile", post(tile::tile))
+        .route("/api/picture", post(picture::picture))
         .route("/api/answer", post(answer::answer))
         .route("/api/motion", post(motion::motion))
         .route("/api/table", post(answer::table))

@@ -14,9 +14,6 @@ use vibroimpact_study::{Control, Study, Task};
 /// page requests several at a time. A tile whose budget is not small is always computed by several threads, because it
 /// may take a minute.
 const LARGE: u64 = 17_000;
-/// Number of points above which a tile without refinement is computed by one thread: up to it it is a coarse picture, for
-/// which someone waits.
-const COARSE: u64 = 10_000;
 /// Budgets of impacts up to this one are small.
 const BRIEF: u32 = 1000;
 /// Side of the part of a tile that one thread computes, if there are several threads.
@@ -24,15 +21,14 @@ const SIDE: u32 = 32;
 
 pub(super) async fn tile(State(explorer): State<Explorer>, asked: PlanRequest) -> Result<Response, Refusal> {
     let PlanRequest { mut plan, points } = asked;
-    let (refine, impacts) = match &plan.task {
-        Task::Map(map) => (map.refine, map.impacts),
-        Task::Basin(basin) => (basin.refine, basin.impacts),
+    let impacts = match &plan.task {
+        Task::Map(map) => map.impacts,
+        Task::Basin(basin) => basin.impacts,
         _ => return Err(Refusal::bad("a tile is a piece of a map or of a basin")),
     };
     let name = format!("tile {}", plan.hash());
     // the points of one thread are refined together; a tile without refinement may be divided in any way
-    let brief = impacts.is_some_and(|impacts| impacts <= BRIEF);
-    let alone = (refine.is_some() || points > COARSE) && brief && points <= LARGE;
+    let alone = impacts.is_some_and(|impacts| impacts <= BRIEF) && points <= LARGE;
     plan.tile = plan.tile.or(Some(if alone { 4096 } else { SIDE }));
     let threads = usize::from(alone);
     let work = move |control: &Control<'_>| {
@@ -42,4 +38,4 @@ pub(super) async fn tile(State(explorer): State<Explorer>, asked: PlanRequest) -
     Ok(bytes(KIND, explorer.once(name, (Bench::Tiles, threads), |_| {}, work).await?))
 }
 
-const KIND: &str = "application/octet-stream";
+pub(super) const KIND: &str = "application/octet-stream";
