@@ -66,6 +66,7 @@ impl Store {
         };
         self.settle_all(&self.descriptions(Some(&conclusion))?)?;
         self.sweep_waiting()?;
+        self.sweep_begun()?;
         self.shelf.sweep().map_err(|error| self.unread("", error))
     }
 

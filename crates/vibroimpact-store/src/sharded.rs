@@ -218,7 +218,8 @@ impl Store {
         self.remove(&self.shelf.list(LOOSE).map_err(|error| self.unread(LOOSE, error))?)
     }
 
-    fn remove(&self, items: &[Item]) -> Result<(), StoreError> {
+    /// Removes objects.
+    pub(crate) fn remove(&self, items: &[Item]) -> Result<(), StoreError> {
         let failed = |key: &str, error| StoreError::Write { place: self.place(), key: key.to_owned(), error };
         items.iter().try_for_each(|item| self.shelf.remove(&item.key).map_err(|error| failed(&item.key, error)))
     }
