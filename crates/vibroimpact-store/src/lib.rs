@@ -305,7 +305,7 @@ impl Store {
     /// The status that says that a tile, or all tiles of its shard, are complete.
     fn status_object(&self, tile: u64) -> Result<(String, Vec<u8>), StoreError> {
         let (array, place) = (&self.layout.status, self.layout.status_place(tile));
-        let bytes = array.encode(&place, &self.layout.all_done(tile)).map_err(|why| self.defect(&array.name, why))?;
+        let bytes = array.encode(&place, self.layout.all_done(tile)).map_err(|why| self.defect(&array.name, why))?;
         Ok((array.key(&place), bytes))
     }
 
@@ -313,7 +313,7 @@ impl Store {
     fn encoded(&self, tile: u64, field: usize, column: &Column) -> Result<Vec<u8>, StoreError> {
         let array = &self.layout.arrays[field];
         let chunk = Cells::Numbers(self.layout.padded(tile, field, column));
-        array.encode(&self.layout.place(tile, field), &chunk).map_err(|why| self.defect(&array.name, why))
+        array.encode(&self.layout.place(tile, field), chunk).map_err(|why| self.defect(&array.name, why))
     }
 
     /// The column of a field in a tile from its chunk, unless it is damaged.

@@ -26,7 +26,7 @@ mod tables;
 mod tests;
 
 pub use arrays::StudyArrays;
-pub use code::{CHAOTIC, NO_IMPACT, NO_MOTION, NOT_COMPUTED, REFUSED, STUCK, UNDECIDED, code, label_of};
+pub use code::{CHAOTIC, NO_IMPACT, NO_MOTION, NOT_COMPUTED, REFUSED, STUCK, UNDECIDED, code, label_of, meaning_of};
 pub use diagram::diagram_of;
 pub use fill::{Along, BegunTile, Keep};
 pub(crate) use fill::{Fill, on_axis};
