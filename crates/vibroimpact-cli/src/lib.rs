@@ -14,6 +14,7 @@ mod hints;
 mod machine_file;
 mod measure;
 mod picture;
+mod points_file;
 mod program;
 mod progress;
 mod report;

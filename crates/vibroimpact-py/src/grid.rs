@@ -8,7 +8,7 @@ use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use std::collections::BTreeSet;
 use vibroimpact_study::basin::measures;
-use vibroimpact_study::study::{Cells, Sheet, StudyTable, in_memory, label_of};
+use vibroimpact_study::study::{Cells, Sheet, StudyTable, in_memory, label_of, meaning_of};
 use vibroimpact_study::{Column, Field, Study};
 
 /// An array with its description, flat and in row-major order.
@@ -43,7 +43,7 @@ fn flags(field: &Field, values: &Column) -> Vec<(i32, String)> {
     } else {
         BTreeSet::new()
     };
-    own.chain(labels.into_iter().filter_map(|code| Some((code, label_of(code)?)))).collect()
+    own.chain(labels.into_iter().filter_map(|code| Some((code, meaning_of(code)?)))).collect()
 }
 
 fn variables(py: Python<'_>, sheet: Sheet) -> PyResult<Variables<'_>> {

@@ -47,6 +47,29 @@ def contents(store: Path) -> dict[str, bytes]:
 
 
 @pytest.mark.parametrize("workers", [1, 2, 4])
+def test_workers_make_the_same_shards(
+    client: "distributed.Client", workers: int, s: vi.Oscillator, tmp_path: Path
+) -> None:
+    plan = vi.Plan.map(s, {"inverse_beta": "1:1.5:11", "gap": "0:2:9"}, starts=4).with_tiles(tile=1, shard=4)
+    vi.run(plan, tmp_path / "one.zarr")
+    assert vi.dask.run(plan, tmp_path / "two.zarr", client).computed == 99
+    assert contents(tmp_path / "two.zarr") == contents(tmp_path / "one.zarr")
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_rounds_of_a_refined_study(
+    client: "distributed.Client", workers: int, s: vi.Oscillator, tmp_path: Path
+) -> None:
+    over = {"inverse_beta": (1.1, 1.5), "gap": (0.5, 1.0)}
+    here = vi.refine(s, over, tmp_path / "one", cells=4, rounds=2, impacts=500, tile=8)
+    there = vi.refine(s, over, tmp_path / "two", cells=4, rounds=2, impacts=500, tile=8, client=client)
+    assert there.load().identical(here.load())
+    for number in range(3):
+        name = f"round-{number}.zarr"
+        assert contents(tmp_path / "two" / name) == contents(tmp_path / "one" / name) != {}
+
+
+@pytest.mark.parametrize("workers", [1, 2, 4])
 def test_workers_make_the_same_bytes(
     client: "distributed.Client", workers: int, s: vi.Oscillator, tmp_path: Path
 ) -> None:
@@ -71,12 +94,16 @@ KILLS = 20
 A_RUN = 5
 
 
+long = pytest.mark.skipif("VIBROIMPACT_LONG" not in os.environ, reason="half a minute; VIBROIMPACT_LONG=1 runs it")
+
+
 @pytest.mark.parametrize("workers", [2])
+@pytest.mark.parametrize("shard", [1, pytest.param(3, marks=long)])
 def test_a_worker_may_be_killed_at_any_moment(
-    cluster: "distributed.LocalCluster", client: "distributed.Client", u: vi.Oscillator, tmp_path: Path
+    cluster: "distributed.LocalCluster", client: "distributed.Client", u: vi.Oscillator, tmp_path: Path, shard: int
 ) -> None:
-    """Twenty times `kill -9` of a worker that is computing a tile, at random moments over a whole run."""
-    plan = vi.Plan.map(u, {"inverse_beta": "1.1:1.2:10", "gap": "2.5:3:10"}, starts=8, tile=1)
+    """Twenty times `kill -9` of a worker that is computing a tile, at random moments over a whole run; with and without shards."""
+    plan = vi.Plan.map(u, {"inverse_beta": "1.1:1.2:10", "gap": "2.5:3:10"}, starts=8).with_tiles(tile=1, shard=shard)
     vi.run(plan, tmp_path / "one.zarr")
     want = contents(tmp_path / "one.zarr")
     random = Random(1)

@@ -1,6 +1,8 @@
 """Stores in other formats: the values read back are those of the store."""
 
 import csv
+import os
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable
@@ -63,6 +65,19 @@ def test_netcdf_holds_all_arrays(
         xr.testing.assert_equal(read.vibro.labels(), kept.vibro.labels())
     if "cycle_label" in kept:
         assert read["cycle_label"].values.tolist() == kept["cycle_label"].values.tolist() != []
+
+
+def test_the_conventions_are_kept(store: Path, tmp_path: Path) -> None:
+    """The checker of IOOS finds nothing; in the long run it is fetched."""
+    if shutil.which("compliance-checker"):
+        words = ["compliance-checker"]
+    elif os.environ.get("VIBROIMPACT_LONG") == "1":
+        words = [sys.executable, "-m", "uv", "tool", "run", "--from", "compliance-checker==6.1.0", "compliance-checker"]
+    else:
+        pytest.skip("there is no compliance-checker: pip install compliance-checker; VIBROIMPACT_LONG=1 fetches it")
+    assert main(["export", str(store), "--format", "netcdf", str(tmp_path / "out.nc")]) == 0
+    done = subprocess.run([*words, "--test=cf:1.11", "--criteria=strict", tmp_path / "out.nc"], capture_output=True, text=True)
+    assert done.returncode == 0 and "All tests passed!" in done.stdout, done.stdout + done.stderr
 
 
 def test_parquet_holds_the_table(store: Path, tmp_path: Path) -> None:

@@ -2,8 +2,10 @@
 
 import doctest
 import importlib
+import os
 import pkgutil
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -75,4 +77,13 @@ TOOLS = [["mypy.stubtest", "vibroimpact._core"], ["mypy"], ["mypy", "--python-ve
 def test_types_are_true(root: Path, tool: list[str]) -> None:
     pytest.importorskip("mypy")
     done = subprocess.run([sys.executable, "-m", *tool], cwd=root, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_types_are_true_for_pyright(root: Path) -> None:
+    """Pyright is a program of npm: `npm install --global pyright`. The long run fetches it."""
+    words = ["pyright"] if shutil.which("pyright") else ["npx", "--yes", "pyright@1.1.414"]
+    if words[0] == "npx" and not (shutil.which("npx") and os.environ.get("VIBROIMPACT_LONG") == "1"):
+        pytest.skip("there is no pyright: npm install --global pyright; VIBROIMPACT_LONG=1 fetches it")
+    done = subprocess.run(words, cwd=root, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr

@@ -74,6 +74,14 @@ def test_a_study_in_a_bucket_is_that_in_a_folder(bucket: str, s: vi.Oscillator, 
     for name, of in want.variables.items():
         np.testing.assert_array_equal(ds[name].values, of.values, err_msg=str(name))
     assert ds.vibro.labels().values.tolist() == want.vibro.labels().values.tolist()
+    # a sharded study, filled by two parts, has the same objects as a folder
+    many = plan.with_tiles(tile=1, shard=3)
+    vi.run(many, tmp_path / "many.zarr")
+    for part in ((2, 2), (1, 2)):
+        vi.run(many, f"{bucket}/many", part=part)
+    assert vi.status(f"{bucket}/many").complete and vi.verify(f"{bucket}/many", sample=35).whole
+    of_bucket, of_folder = vi.open(f"{bucket}/many").load(), vi.open(tmp_path / "many.zarr").load()
+    assert of_bucket.identical(of_folder)
     words = [sys.executable, "-m", "vibroimpact", "export", place, "--format", "csv", tmp_path / "there.csv"]
     subprocess.run(words, check=True)
     words[4], words[-1] = folder, tmp_path / "here.csv"

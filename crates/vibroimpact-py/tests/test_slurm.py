@@ -163,8 +163,11 @@ def logs(slurm: Slurm, job: str) -> str:
     return "".join(file.read_text() for file in sorted(slurm.home.glob(f"vibro-{job}_*.log")))
 
 
-def test_the_script_runs_as_it_stands(slurm: Slurm, vibro: Callable[..., Any], s: vi.Oscillator, tmp_path: Path) -> None:
-    plan = vi.Plan.map(s, {"inverse_beta": "1:1.5:11", "gap": "0:2:9"}, starts=4, tile=3)
+@pytest.mark.parametrize(("tile", "shard"), [(3, None), (1, 3)], ids=["tiles", "shards"])
+def test_the_script_runs_as_it_stands(
+    slurm: Slurm, vibro: Callable[..., Any], s: vi.Oscillator, tmp_path: Path, tile: int, shard: int | None
+) -> None:
+    plan = vi.Plan.map(s, {"inverse_beta": "1:1.5:11", "gap": "0:2:9"}, starts=4).with_tiles(tile, shard)
     (tmp_path / "study.toml").write_text(plan.json)
     vi.run(plan, tmp_path / "here.zarr")
     place = tmp_path / "there, too.zarr"

@@ -1,7 +1,7 @@
 //! The progress of a store, and the verification of its contents against its plan.
 
+use crate::memory::Memory;
 use crate::run::State;
-use crate::shelf::Memory;
 use crate::{Store, StoreError, order};
 use rayon::prelude::*;
 use std::sync::Arc;

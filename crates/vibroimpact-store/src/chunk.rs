@@ -110,16 +110,16 @@ impl Chunked {
     }
 
     /// The bytes of a chunk from its values.
-    pub(crate) fn encode(&self, place: &[u64], values: &Cells) -> Result<Vec<u8>, Defect> {
+    pub(crate) fn encode(&self, place: &[u64], values: Cells) -> Result<Vec<u8>, Defect> {
         let data = self.array.data_type();
         let bytes = match values {
-            Cells::Numbers(Column::I8(v)) => v.clone().into_array_bytes(data),
-            Cells::Numbers(Column::I32(v)) => v.clone().into_array_bytes(data),
+            Cells::Numbers(Column::I8(v)) => v.into_array_bytes(data),
+            Cells::Numbers(Column::I32(v)) => v.into_array_bytes(data),
             Cells::Numbers(Column::F64(v)) => {
-                let one_nan = |x: &f64| if x.is_nan() { f64::NAN } else { *x };
-                v.iter().map(one_nan).collect::<Vec<f64>>().into_array_bytes(data)
+                let one_nan = |x: f64| if x.is_nan() { f64::NAN } else { x };
+                v.into_iter().map(one_nan).collect::<Vec<f64>>().into_array_bytes(data)
             }
-            Cells::Text(words) => words.clone().into_array_bytes(data),
+            Cells::Text(words) => words.into_array_bytes(data),
         };
         let bytes = bytes.map_err(|error| error.to_string())?.into_owned();
         let shape = self.array.chunk_shape(place).map_err(|error| error.to_string())?;

@@ -1,6 +1,33 @@
-//! The processor time of a thread.
+//! The processor time of a thread, and pauses between writes.
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
+
+/// Minimum time between two writes.
+const SHORTEST: Duration = Duration::from_secs(2);
+/// The part of the time that writes may take.
+const PART: u32 = 50;
+
+/// The time until something is written again: it is longer where writes take longer.
+#[derive(Debug, Default)]
+pub(crate) struct Pause {
+    /// The end of the last write, or the begin of the work, and how long the pause is from then.
+    last: Option<(Instant, Duration)>,
+}
+
+impl Pause {
+    /// Whether it is over. It begins with the first call.
+    pub(crate) fn is_over(&mut self) -> bool {
+        let (from, pause) = *self.last.get_or_insert_with(|| (Instant::now(), SHORTEST));
+        from.elapsed() >= pause
+    }
+
+    /// Writes, and begins another pause.
+    pub(crate) fn during(&mut self, write: impl FnOnce()) {
+        let begun = Instant::now();
+        write();
+        self.last = Some((Instant::now(), (begun.elapsed() * PART).max(SHORTEST)));
+    }
+}
 
 /// The processor time that this thread has used.
 #[cfg(unix)]
@@ -29,5 +56,15 @@ mod tests {
             sum = std::hint::black_box(sum.wrapping_add(1));
         }
         assert!(thread_time() > begun);
+    }
+
+    #[test]
+    fn pauses_have_a_least_length() {
+        let mut pause = Pause::default();
+        assert!(!pause.is_over());
+        pause.during(|| {});
+        assert!(!pause.is_over() && pause.last.is_some_and(|(_, length)| length >= SHORTEST));
+        pause.last = Some((Instant::now(), Duration::ZERO));
+        assert!(pause.is_over());
     }
 }

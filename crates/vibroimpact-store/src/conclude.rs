@@ -5,7 +5,7 @@ use crate::root::Conclusion;
 use crate::{Store, StoreError};
 use std::collections::{BTreeMap, BTreeSet};
 use vibroimpact_study::Column;
-use vibroimpact_study::study::{StudyTable, Tiles, label_of};
+use vibroimpact_study::study::{StudyTable, Tiles, meaning_of};
 
 impl Tiles for &Store {
     type Error = StoreError;
@@ -66,6 +66,7 @@ impl Store {
         };
         self.settle_all(&self.descriptions(Some(&conclusion))?)?;
         self.sweep_waiting()?;
+        self.sweep_begun()?;
         self.shelf.sweep().map_err(|error| self.unread("", error))
     }
 
@@ -100,6 +101,6 @@ impl Store {
                 }
             }
         }
-        Ok(codes.into_iter().filter(|code| *code > 0).filter_map(|code| Some((code, label_of(code)?))).collect())
+        Ok(codes.into_iter().filter(|code| *code > 0).filter_map(|code| Some((code, meaning_of(code)?))).collect())
     }
 }

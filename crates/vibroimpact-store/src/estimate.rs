@@ -242,7 +242,7 @@ fn compressed(layout: &Layout, probes: &[Probe]) -> Result<f64, String> {
         }
         if filled > 0 {
             raw += filled as u64 * size(field.kind);
-            small += (array.encode(&place, &Cells::Numbers(chunk))?.len() as u64).saturating_sub(CHUNK);
+            small += (array.encode(&place, Cells::Numbers(chunk))?.len() as u64).saturating_sub(CHUNK);
         }
     }
     #[allow(clippy::cast_precision_loss)] // sizes of a tile

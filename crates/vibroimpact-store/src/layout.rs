@@ -171,6 +171,9 @@ impl Layout {
     /// The chunk of a tile: its column, padded to the size of a chunk.
     pub(crate) fn padded(&self, tile: u64, field: usize, column: &Column) -> Column {
         let (full, field) = (self.grid.full_tile(tile), &self.fields[field]);
+        if self.grid.tile(tile) == full {
+            return column.clone();
+        }
         let mut chunk = field.empty(full.points());
         self.grid.tile(tile).rows(&full, field.width(), |at, from, len| chunk.copy(at, column, from, len));
         chunk

@@ -26,12 +26,13 @@
 //!
 //! | idea | file |
 //! |---|---|
-//! | objects by name, in a folder or a bucket | `shelf.rs`, `bucket.rs` |
+//! | objects by name, in a folder, a bucket or memory | `shelf.rs`, `bucket.rs`, `memory.rs` |
 //! | an array: its metadata, its chunks as bytes | `chunk.rs` |
 //! | the arrays of a study | `layout.rs` |
 //! | the metadata of the store | `root.rs` |
 //! | which tiles are in which shard, the bytes of a shard | `shards.rs` |
 //! | tiles that wait for their shard, and its completion | `sharded.rs` |
+//! | parts of tiles that are computed point after point | `begun.rs` |
 //! | filling tiles by several threads until all are complete, or the time is spent | `run.rs` |
 //! | which tiles come first | `order.rs` |
 //! | the processor time of each tile, beside the store | `costs.rs`, `clock.rs`, `tile_costs.rs` |
@@ -40,6 +41,7 @@
 //! | progress and verification | `check.rs` |
 //! | verification of the metadata | `described.rs` |
 
+mod begun;
 #[cfg(feature = "s3")]
 mod bucket;
 mod check;
@@ -52,6 +54,7 @@ mod error;
 mod estimate;
 mod handle;
 mod layout;
+mod memory;
 mod order;
 mod read;
 mod root;
@@ -67,10 +70,12 @@ pub use check::{Damage, Progress, Verified};
 pub use error::StoreError;
 pub use estimate::{Estimate, Sampling, estimate};
 pub use handle::{FORMAT, Store};
+pub use memory::Memory;
 pub use run::{Part, Ran};
 pub use shelf::{Folder, Item, Shelf};
 pub use tile_costs::{RegionCost, TileCosts};
 
+use begun::BEGUN;
 use handle::{PLAIN, VERSION};
 use layout::Layout;
 use root::{Found, ROOT, read_root};
@@ -141,7 +146,7 @@ impl Store {
                 }
                 // a store that another process is creating at this moment contains only arrays
                 let known = |key: &str| {
-                    key.starts_with(LOOSE)
+                    [LOOSE, BEGUN].iter().any(|folder| key.starts_with(folder))
                         || store.described().any(|array| key.starts_with(&format!("{}/", array.name)))
                 };
                 if there.iter().any(|item| !known(&item.key)) {
@@ -274,8 +279,9 @@ impl Store {
 
     /// Computes a tile and writes it, with its status last. Writes nothing if stopped.
     fn fill(&self, tile: u64, tick: &(dyn Fn() -> bool + Sync)) -> Result<bool, StoreError> {
-        let Some(columns) = self.study.tile(tile, tick) else { return Ok(false) };
+        let Some(columns) = self.continued(tile, tick)? else { return Ok(false) };
         self.write_tile(tile, &columns)?;
+        self.forget_begun(tile)?;
         Ok(true)
     }
 
@@ -299,7 +305,7 @@ impl Store {
     /// The status that says that a tile, or all tiles of its shard, are complete.
     fn status_object(&self, tile: u64) -> Result<(String, Vec<u8>), StoreError> {
         let (array, place) = (&self.layout.status, self.layout.status_place(tile));
-        let bytes = array.encode(&place, &self.layout.all_done(tile)).map_err(|why| self.defect(&array.name, why))?;
+        let bytes = array.encode(&place, self.layout.all_done(tile)).map_err(|why| self.defect(&array.name, why))?;
         Ok((array.key(&place), bytes))
     }
 
@@ -307,7 +313,7 @@ impl Store {
     fn encoded(&self, tile: u64, field: usize, column: &Column) -> Result<Vec<u8>, StoreError> {
         let array = &self.layout.arrays[field];
         let chunk = Cells::Numbers(self.layout.padded(tile, field, column));
-        array.encode(&self.layout.place(tile, field), &chunk).map_err(|why| self.defect(&array.name, why))
+        array.encode(&self.layout.place(tile, field), chunk).map_err(|why| self.defect(&array.name, why))
     }
 
     /// The column of a field in a tile from its chunk, unless it is damaged.

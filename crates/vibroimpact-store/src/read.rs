@@ -32,12 +32,17 @@ impl Store {
     /// # Errors
     /// [`StoreError`] if the place cannot be read, or if the tile is damaged.
     pub fn tile(&self, tile: u64) -> Result<(Block, Vec<Column>), StoreError> {
-        let block = self.study.grid().tile(tile);
-        let column = |(number, field): (usize, &vibroimpact_study::Field)| {
-            Ok(self.kept(tile, number)?.unwrap_or_else(|| field.empty(block.points())))
-        };
-        let columns = self.layout.fields.iter().enumerate().map(column).collect::<Result<_, StoreError>>()?;
-        Ok((block, columns))
+        let columns = (0..self.layout.fields.len()).map(|field| self.tile_field(tile, field));
+        Ok((self.study.grid().tile(tile), columns.collect::<Result<_, StoreError>>()?))
+    }
+
+    /// The column of a field in a tile; empty if the tile is not complete.
+    ///
+    /// # Errors
+    /// As for [`Store::tile`].
+    pub fn tile_field(&self, tile: u64, field: usize) -> Result<Column, StoreError> {
+        let points = || self.study.grid().tile(tile).points();
+        Ok(self.kept(tile, field)?.unwrap_or_else(|| self.layout.fields[field].empty(points())))
     }
 
     /// The array of a field over the whole grid, in row-major order.

@@ -66,6 +66,8 @@ impl Store {
                 "Conventions": "CF-1.11",
                 "title": self.plan.title(),
                 "source": format!("vibroimpact {}", self.begun_by),
+                // the conventions want one; nothing in a store depends on the time
+                "history": format!("computed by vibroimpact {} from the attribute plan", self.begun_by),
                 "references": references(&self.plan),
                 "vibroimpact_format": self.format(),
                 "vibroimpact_version": self.begun_by,
@@ -127,7 +129,7 @@ impl Described {
         self.consolidated.insert(array.name.clone(), description);
         if let Some(values) = values {
             let first = array.first();
-            self.objects.push(Object { key: array.key(&first), bytes: array.encode(&first, values)? });
+            self.objects.push(Object { key: array.key(&first), bytes: array.encode(&first, values.clone())? });
         }
         Ok(())
     }

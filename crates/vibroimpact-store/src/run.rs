@@ -64,7 +64,7 @@ impl Store {
     }
 
     /// The same, but no tile is begun after `until`, except the first one, so that every run gets on. Tiles that are being
-    /// computed then are finished.
+    /// computed then are finished, or what is there of them is written, if they can be continued.
     ///
     /// # Errors
     /// As for [`Store::run`].
@@ -155,7 +155,9 @@ impl Store {
                 return self.complete_if_last(&unfinished, tile);
             }
             let before = thread_time();
-            if self.fill(tile, &|| part.tick() || failed.load(Ordering::Relaxed))? {
+            // a tile that can be continued is not finished if there is no time
+            let late = || self.study.continues() && until.is_some_and(|until| Instant::now() >= until);
+            if self.fill(tile, &|| part.tick() || failed.load(Ordering::Relaxed) || late())? {
                 if let Some(costs) = &self.costs {
                     costs.add(tile, thread_time().saturating_sub(before));
                 }

@@ -147,19 +147,20 @@ impl Store {
         {
             return Ok(true);
         }
+        let waits: BTreeSet<&str> = waiting.iter().map(|item| item.key.as_str()).collect();
         for field in 0..self.layout.fields.len() {
             let (old, exact) = self.shard_chunks(shards, shard, field)?;
             let mut chunks = vec![None; tiles.len()];
             let (mut kept, known) = (0, tiles.iter().flatten().count());
             for (tile, (chunk, old)) in tiles.iter().zip(chunks.iter_mut().zip(old)) {
                 let Some(tile) = tile else { continue };
-                *chunk = match old.filter(|old| self.decoded(*tile, field, old.clone()).is_some()) {
-                    Some(old) => {
-                        kept += 1;
-                        Some(old)
-                    }
-                    None => self.sound(*tile, field)?.map(|(chunk, _)| chunk),
-                };
+                // a tile that was damaged in the shard and computed again waits
+                let new = if waits.contains(shards.loose_key(*tile).as_str()) { self.waiting(*tile)? } else { None };
+                let new = new.and_then(|chunks| chunks.into_iter().nth(field)).filter(|new| shards::sealed(new));
+                *chunk = new.or_else(|| {
+                    kept += 1;
+                    old.filter(|old| shards::sealed(old))
+                });
                 if chunk.is_none() {
                     return Ok(false);
                 }
@@ -218,7 +219,8 @@ impl Store {
         self.remove(&self.shelf.list(LOOSE).map_err(|error| self.unread(LOOSE, error))?)
     }
 
-    fn remove(&self, items: &[Item]) -> Result<(), StoreError> {
+    /// Removes objects.
+    pub(crate) fn remove(&self, items: &[Item]) -> Result<(), StoreError> {
         let failed = |key: &str, error| StoreError::Write { place: self.place(), key: key.to_owned(), error };
         items.iter().try_for_each(|item| self.shelf.remove(&item.key).map_err(|error| failed(&item.key, error)))
     }

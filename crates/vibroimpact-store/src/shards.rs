@@ -157,6 +157,12 @@ pub(crate) fn index(bytes: &[u8], length: u64) -> Option<Vec<Option<(u64, u64)>>
     entries.chunks(ENTRY).map(entry).collect()
 }
 
+/// Whether the bytes of a chunk have the CRC-32C that they end in. What they hold is checked when they are read.
+pub(crate) fn sealed(chunk: &[u8]) -> bool {
+    let split = chunk.len().checked_sub(CHECK).and_then(|at| chunk.split_at_checked(at));
+    split.is_some_and(|(bytes, check)| crc32c::crc32c(bytes).to_le_bytes() == check)
+}
+
 /// The chunks of a shard; `None` if its index is damaged.
 pub(crate) fn chunks(bytes: &[u8], index_length: usize) -> Option<Chunks> {
     let tail = bytes.get(bytes.len().checked_sub(index_length)?..)?;

@@ -249,49 +249,6 @@ pub(crate) fn host() -> String {
     if plain.is_empty() { plain } else { plain + "." }
 }
 
-/// A shelf in memory, used to compute a tile again without a change to the store.
-#[derive(Debug, Default)]
-pub(crate) struct Memory(std::sync::Mutex<std::collections::BTreeMap<String, Vec<u8>>>);
-
-impl Memory {
-    fn objects(&self) -> std::sync::MutexGuard<'_, std::collections::BTreeMap<String, Vec<u8>>> {
-        self.0.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
-    }
-}
-
-impl Shelf for Memory {
-    fn get(&self, key: &str) -> io::Result<Option<Vec<u8>>> {
-        Ok(self.objects().get(key).cloned())
-    }
-
-    fn put(&self, key: &str, bytes: &[u8]) -> io::Result<()> {
-        self.objects().insert(key.to_owned(), bytes.to_vec());
-        Ok(())
-    }
-
-    fn list(&self, prefix: &str) -> io::Result<Vec<Item>> {
-        let item = |(key, bytes): (&String, &Vec<u8>)| Item {
-            key: key.clone(),
-            size: bytes.len() as u64,
-            modified: SystemTime::UNIX_EPOCH,
-        };
-        Ok(self.objects().iter().filter(|(key, _)| key.starts_with(prefix)).map(item).collect())
-    }
-
-    fn remove(&self, key: &str) -> io::Result<()> {
-        self.objects().remove(key);
-        Ok(())
-    }
-
-    fn sweep(&self) -> io::Result<()> {
-        Ok(())
-    }
-
-    fn name(&self) -> String {
-        "memory".to_owned()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

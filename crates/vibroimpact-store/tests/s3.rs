@@ -106,6 +106,11 @@ fn variables(server: &str) -> Vec<(String, String)> {
     names.into_iter().zip(values).map(|(name, value)| (name.to_owned(), value.to_owned())).collect()
 }
 
+/// The same plans with shards of 2 by 2 and 3 by 3 tiles.
+fn sharded() -> [Plan; 2] {
+    [Plan { shard: Some(2), ..basin() }, Plan { shard: Some(3), ..map() }]
+}
+
 /// All objects of a place.
 fn objects(shelf: &dyn Shelf) -> BTreeMap<String, Vec<u8>> {
     shelf.list("").unwrap().into_iter().map(|item| (item.key.clone(), shelf.get(&item.key).unwrap().unwrap())).collect()
@@ -144,7 +149,13 @@ fn a_bucket_is_a_place_like_a_folder() {
 #[test]
 fn the_same_bytes_as_in_a_folder() {
     let Some(server) = Server::start() else { return };
-    for (plan, place) in [(basin(), "s3://studies/basin"), (map(), "s3://studies/deep/in/it")] {
+    let [of_basin, of_map] = sharded();
+    for (plan, place) in [
+        (basin(), "s3://studies/basin"),
+        (map(), "s3://studies/deep/in/it"),
+        (of_basin, "s3://studies/sharded/basin"),
+        (of_map, "s3://studies/sharded/map"),
+    ] {
         let (_kept, want) = whole(&plan);
         let store = server.open(place, &plan);
         let tiles = store.study().grid().tiles();
@@ -164,24 +175,26 @@ fn the_same_bytes_as_in_a_folder() {
 #[test]
 fn stopped_and_resumed_it_is_the_same() {
     let Some(server) = Server::start() else { return };
-    let (plan, place) = (basin(), "s3://studies/basin");
-    let (_kept, want) = whole(&plan);
-    let mut stops = 0;
-    loop {
-        let (stop, first) = (AtomicBool::new(false), std::sync::OnceLock::new());
-        let progress = |now: u64| {
-            stop.fetch_or(now > first.get_or_init(|| now) + 400, Ordering::Relaxed);
-        };
-        match server.open(place, &plan).run(Part::ALL, &Control { stop: &stop, progress: &progress, threads: 2 }) {
-            Ok(_) => break,
-            Err(StoreError::Stopped(stopped)) => assert!(stopped.done < stopped.total),
-            Err(other) => panic!("{other}"),
+    let [of_basin, _] = sharded();
+    for (plan, place) in [(basin(), "s3://studies/basin"), (of_basin, "s3://studies/sharded")] {
+        let (_kept, want) = whole(&plan);
+        let mut stops = 0;
+        loop {
+            let (stop, first) = (AtomicBool::new(false), std::sync::OnceLock::new());
+            let progress = |now: u64| {
+                stop.fetch_or(now > first.get_or_init(|| now) + 400, Ordering::Relaxed);
+            };
+            match server.open(place, &plan).run(Part::ALL, &Control { stop: &stop, progress: &progress, threads: 2 }) {
+                Ok(_) => break,
+                Err(StoreError::Stopped(stopped)) => assert!(stopped.done < stopped.total),
+                Err(other) => panic!("{other}"),
+            }
+            stops += 1;
+            assert!(stops < 100);
         }
-        stops += 1;
-        assert!(stops < 100);
+        assert!(stops > 1, "{stops}");
+        assert!(objects(server.shelf(place).as_ref()) == want, "{place}");
     }
-    assert!(stops > 1, "{stops}");
-    assert!(objects(server.shelf(place).as_ref()) == want);
 }
 
 #[test]
@@ -207,9 +220,39 @@ fn damage_is_found_and_mended() {
 }
 
 #[test]
+fn damage_of_shards_is_found_and_mended() {
+    let Some(server) = Server::start() else { return };
+    for (plan, place) in sharded().into_iter().zip(["s3://studies/basin", "s3://studies/map"]) {
+        let (_kept, want) = whole(&plan);
+        server.open(place, &plan).run(Part::ALL, &control(2)).unwrap();
+        let shelf = server.shelf(place);
+        let shards: Vec<&String> = want.keys().filter(|key| key.starts_with("label/c/")).collect();
+        for (k, key) in shards.iter().copied().enumerate() {
+            let bytes = &want[key];
+            match k % 3 {
+                0 => shelf.put(key, &bytes[..bytes.len() / 2]).unwrap(),
+                1 => shelf.put(key, &bytes.iter().map(|byte| byte ^ 4).collect::<Vec<u8>>()).unwrap(),
+                _ => shelf.remove(key).unwrap(),
+            }
+        }
+        let store = Store::open(server.shelf(place)).unwrap();
+        let tiles = store.study().grid().tiles();
+        assert_eq!(store.verify(0, 0, &control(2)).unwrap().damage.len() as u64, tiles);
+        assert_eq!(store.run(Part::ALL, &control(2)).unwrap().mended, tiles);
+        assert!(objects(shelf.as_ref()) == want, "{place}");
+    }
+}
+
+#[test]
 fn two_at_once_do_no_harm() {
     let Some(server) = Server::start() else { return };
-    for (plan, place) in [(basin(), "s3://studies/basin"), (map(), "s3://studies/map")] {
+    let [of_basin, of_map] = sharded();
+    for (plan, place) in [
+        (basin(), "s3://studies/basin"),
+        (map(), "s3://studies/map"),
+        (of_basin, "s3://studies/sharded/basin"),
+        (of_map, "s3://studies/sharded/map"),
+    ] {
         let (_kept, want) = whole(&plan);
         std::thread::scope(|scope| {
             for _ in 0..2 {

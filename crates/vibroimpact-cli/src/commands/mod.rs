@@ -28,6 +28,7 @@ mod resume;
 mod run;
 mod schema;
 mod settle;
+mod settle_many;
 mod simulate;
 mod slurm;
 mod status;
@@ -67,6 +68,7 @@ pub(crate) struct CommandLine {
 enum Command {
     Simulate(simulate::Simulate),
     Settle(settle::Settle),
+    SettleMany(settle_many::SettleMany),
     Attractors(attractors::Attractors),
     Orbit(orbit::Orbit),
     Branch(branch::Branch),
@@ -100,6 +102,7 @@ pub(crate) fn run(line: &CommandLine, session: &Session) -> Result<(), Failure> 
     match &line.command {
         Command::Simulate(args) => simulate::run(args, session),
         Command::Settle(args) => settle::run(args, session),
+        Command::SettleMany(args) => settle_many::run(args, session),
         Command::Attractors(args) => attractors::run(args, session),
         Command::Orbit(args) => orbit::run(args, session),
         Command::Branch(args) => branch::run(args, session),

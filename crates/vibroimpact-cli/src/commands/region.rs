@@ -1,8 +1,6 @@
 //! `vibro region`: the regions of a plane of two parameters in which a motion exists and in which it is stable.
 
-use crate::args::{
-    AxesArgs, Convention, FigureArgs, ParameterFlag, PhysicalArgs, Place, SystemArgs, of_oscillator, whole,
-};
+use crate::args::{AxesArgs, Convention, FigureArgs, PhysicalArgs, SystemStretchesArgs, of_oscillator, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -10,7 +8,7 @@ use crate::session::Session;
 use clap::Args;
 use std::path::PathBuf;
 use vibroimpact_report::{Asked, Shown};
-use vibroimpact_study::{DEFAULT_GRID, Parameter, Plan, RegionPlan, Stretch, Task};
+use vibroimpact_study::{DEFAULT_GRID, Plan, RegionPlan, Stretch, Task};
 
 /// Where a motion exists and where it is stable, over two parameters: closed polygons
 ///
@@ -32,33 +30,8 @@ pub(crate) struct Region {
     #[arg(long, value_name = "m/n", allow_hyphen_values = true, help_heading = "Motion")]
     label: String,
 
-    /// Frequency ratio: forcing over natural frequency, a value or a range A:B
-    #[arg(long, value_name = "B", allow_hyphen_values = true, conflicts_with = "inverse_beta", help_heading = "Plane")]
-    beta: Option<Place>,
-
-    /// Its inverse omega_n/omega instead
-    #[arg(long, value_name = "X", allow_hyphen_values = true, help_heading = "Plane")]
-    inverse_beta: Option<Place>,
-
-    /// Distance of the stop from the rest position in units of F/k
-    #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Plane")]
-    gap: Option<Place>,
-
-    /// Restitution: rebound speed over arrival speed, 0 to 1
-    #[arg(long, value_name = "E", allow_hyphen_values = true, help_heading = "Plane")]
-    restitution: Place,
-
-    /// Damping ratio zeta, 0 or more [default: 0]
-    #[arg(long, value_name = "Z", allow_hyphen_values = true, help_heading = "Plane")]
-    damping: Option<Place>,
-
-    /// A second stop on the other side, at x = -D2
-    #[arg(long, value_name = "D2", allow_hyphen_values = true, help_heading = "Plane")]
-    second_gap: Option<Place>,
-
-    /// Restitution of the second stop [default: that of the first]
-    #[arg(long, value_name = "E2", allow_hyphen_values = true, requires = "second_gap", help_heading = "Plane")]
-    second_restitution: Option<Place>,
+    #[command(flatten, next_help_heading = "Plane")]
+    system: SystemStretchesArgs,
 
     #[command(flatten, next_help_heading = "Plane")]
     axes: AxesArgs,
@@ -92,64 +65,9 @@ pub(crate) struct Region {
 }
 
 impl Region {
-    fn places(&self) -> [(Parameter, Option<Place>); 7] {
-        [
-            (Parameter::Beta, self.beta),
-            (Parameter::InverseBeta, self.inverse_beta),
-            (Parameter::Gap, self.gap),
-            (Parameter::Restitution, Some(self.restitution)),
-            (Parameter::Damping, self.damping),
-            (Parameter::SecondGap, self.second_gap),
-            (Parameter::SecondRestitution, self.second_restitution),
-        ]
-    }
-
-    /// The system, with the smallest values of the parameters that vary, and these parameters. A system in physical units
-    /// must be given completely, because its units depend on all quantities; ranges replace its values.
-    fn asked(&self) -> Result<(Asked, Vec<Stretch>), Failure> {
-        let machine = self.machine.any();
-        let restitution = |p: Parameter| matches!(p, Parameter::Restitution | Parameter::SecondRestitution);
-        let own = |(parameter, place): (Parameter, Option<Place>)| {
-            let replaces =
-                machine && !restitution(parameter) && place.is_some_and(|place| place.over(parameter).is_some());
-            (parameter, place.filter(|_| !replaces).map(Place::first))
-        };
-        let physical: Vec<(ParameterFlag, (f64, f64))> = self.machine.ends()?;
-        let units = if physical.is_empty() { self.units } else { Convention::Si };
-        let mut asked = SystemArgs::of(&self.places().map(own), self.machine.clone(), units).first(&[])?;
-        let flags: Vec<ParameterFlag> = physical.iter().map(|(named, _)| *named).collect();
-        let parameters = of_oscillator(&mut asked, &flags);
-        let ranges = parameters.into_iter().zip(physical).map(|(parameter, (_, ends))| (parameter, ends));
-        let plain = self.places().into_iter().filter_map(|(parameter, place)| {
-            let Stretch { from, to, .. } = place?.over(parameter)?;
-            Some((parameter, (from, to)))
-        });
-        let stretch = |(parameter, (from, to))| {
-            let unit = asked.units.of(parameter);
-            Stretch { parameter, from: from / unit, to: to / unit }
-        };
-        let over: Vec<Stretch> = plain.chain(ranges).map(stretch).collect();
-        let of_machines = over.iter().any(|stretch| matches!(stretch.parameter, Parameter::Physical(_)));
-        if of_machines {
-            let first = over.iter().map(|stretch| (stretch.parameter, stretch.from));
-            asked.system = asked.system.with_all(first)?;
-            asked = asked.refreshed();
-        } else if machine {
-            // the plane has parameters of the oscillator, in the units of the machine
-            asked.system.machine = None;
-            for stretch in &over {
-                asked.system = asked.system.with(stretch.parameter, stretch.from)?;
-            }
-        }
-        Ok((asked, over))
-    }
-
     /// The two parameters with ranges, the abscissa first.
     fn plane(&self, asked: &Asked, over: Vec<Stretch>) -> Result<(Stretch, Stretch), Failure> {
-        if asked.system.second_stop.is_some()
-            && self.second_restitution.is_none()
-            && self.restitution.over(Parameter::Gap).is_some()
-        {
+        if self.system.second_stop_follows(asked) {
             return Err(Failure::bad(
                 "the restitution varies and that of the second stop is not given\nhint: --second-restitution E2",
             ));
@@ -166,7 +84,7 @@ impl Region {
 }
 
 pub(super) fn run(args: &Region, session: &Session) -> Result<(), Failure> {
-    let (asked, over) = args.asked()?;
+    let (asked, over) = args.system.asked((&args.machine, args.units), &[], of_oscillator)?;
     let (across, up) = args.plane(&asked, over)?;
     let task = RegionPlan { label: args.label.clone(), across, up, grid: args.grid };
     let plan = Plan::new(asked.system, Task::Region(task));

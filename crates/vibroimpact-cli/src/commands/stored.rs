@@ -6,10 +6,12 @@ use crate::failure::Failure;
 use crate::report::stored as report;
 use crate::session::Session;
 use serde::Serialize;
+use std::sync::Arc;
 use vibroimpact_report::figure::coloured::Coloured;
 use vibroimpact_report::figure::stored::figure;
-use vibroimpact_store::{Ran, Store, StoreError, costs_beside, shelf};
-use vibroimpact_study::{StudyPlan, counted};
+use vibroimpact_store::{Memory, Part, Ran, Store, StoreError, costs_beside, shelf};
+use vibroimpact_study::study::check_memory;
+use vibroimpact_study::{Study, StudyPlan, counted};
 
 /// The fields about the store in a JSON object.
 #[derive(Serialize)]
@@ -97,13 +99,38 @@ pub(super) fn run(
         session.note("hint: tables and figures are written when all tiles are there: `vibro export`, `vibro plot`");
         return Ok(());
     }
+    tell(&store, Some(filled), (outputs, colour), session)
+}
+
+/// Computes a study in memory, and writes the requested outputs.
+pub(super) fn run_in_memory(
+    plan: &StudyPlan,
+    (outputs, colour): (Outputs, Option<Coloured>),
+    session: &Session,
+) -> Result<(), Failure> {
+    // before anything is allocated
+    check_memory(&Study::new(plan)?)?;
+    let store = Store::create(Arc::new(Memory::default()), plan)?;
+    let total = store.study().grid().points();
+    session.tiled(total, "points", |control, _| store.run(Part::ALL, control))?;
+    tell(&store, None, (outputs, colour), session)
+}
+
+/// Writes the table and the figure of a store, then the JSON object or the summary.
+fn tell(
+    store: &Store,
+    filled: Option<Filled>,
+    (outputs, colour): (Outputs, Option<Coloured>),
+    session: &Session,
+) -> Result<(), Failure> {
     let (json, silent) = (outputs.json(), outputs.any());
-    outputs.stream(session, |out| report::table(&store, false, out), || figure(&store, colour.as_ref()))?;
+    outputs.stream(session, |out| report::table(store, false, out), || figure(store, colour.as_ref()))?;
+    let left = filled.as_ref().is_some_and(|filled| filled.left > 0);
     if json {
-        return session.print_json(&report::StoredFields::new(&store, Some(filled))?);
+        return session.print_json(&report::StoredFields::new(store, filled)?);
     }
-    if silent || filled.left > 0 {
+    if silent || left {
         return Ok(());
     }
-    session.print(&report::summary(&store)?)
+    session.print(&report::summary(store)?)
 }

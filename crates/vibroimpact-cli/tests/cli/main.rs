@@ -12,6 +12,7 @@ mod files;
 mod lyapunov;
 mod machine_studies;
 mod machines;
+mod many;
 mod margins;
 mod planes;
 mod questions;

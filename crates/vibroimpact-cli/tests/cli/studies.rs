@@ -71,7 +71,12 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 #[cfg(unix)]
 fn killed_at_twenty_moments() {
     killed_at_ten_moments(PLAN);
-    killed_at_ten_moments(&PLAN.replace("tile = 4", "tile = 2\nshard = 5"));
+    killed_at_ten_moments(&sharded());
+}
+
+/// The plan in smaller tiles, in shards of 25 tiles.
+fn sharded() -> String {
+    PLAN.replace("tile = 4", "tile = 2\nshard = 5")
 }
 
 #[cfg(unix)]
@@ -247,6 +252,31 @@ fn an_estimate_before_anything_starts() {
     fs::write(folder.path().join("no.toml"), PLAN.replace("map", "settle")).unwrap();
     assert_eq!(said(folder.path(), "estimate no.toml").0, Some(2));
     assert_eq!(said(folder.path(), "estimate study.toml --sample 0").0, Some(2));
+}
+
+#[test]
+fn two_at_once_and_parts_fill_shards() {
+    let folder = tempfile::tempdir().unwrap();
+    plan(folder.path(), &sharded());
+    done(folder.path(), "run study.toml --store whole.zarr --threads 1");
+    let want = files(&folder.path().join("whole.zarr"));
+    for number in 0..3 {
+        let line = format!("run study.toml --store both{number}.zarr --threads 2");
+        let mut both = [1, 2].map(|_| begin(folder.path(), &line));
+        for run in &mut both {
+            assert!(run.wait().unwrap().success());
+        }
+        assert!(files(&folder.path().join(format!("both{number}.zarr"))) == want, "{number}");
+    }
+    // parts of tiles, and parts of whole shards
+    for (of, store) in [(3, "tiles.zarr"), (2, "shards.zarr")] {
+        let mut parts = (1..=of).map(|part| format!("run study.toml --store {store} --tiles {part}/{of}"));
+        let mut runs: Vec<Child> = parts.by_ref().map(|line| begin(folder.path(), &line)).collect();
+        assert!(runs.iter_mut().all(|run| run.wait().unwrap().success()));
+        // two parts that end at the same moment may each see the other's last tile missing
+        done(folder.path(), &format!("resume {store}"));
+        assert!(files(&folder.path().join(store)) == want, "{store}");
+    }
 }
 
 #[test]
@@ -504,10 +534,17 @@ fn a_complete_study_where_nothing_can_be_written() {
     }
 }
 
-/// A full disk: complete tiles are kept, and the run can be resumed when there is space.
+/// A full disk: complete tiles are kept, and the run can be resumed when there is space; with and without shards.
 #[test]
 #[cfg(target_os = "linux")]
 fn a_full_disk() {
+    fills_a_disk(PLAN);
+    fills_a_disk(&sharded());
+}
+
+#[cfg(target_os = "linux")]
+#[allow(clippy::print_stdout, reason = "a test says that it is skipped")]
+fn fills_a_disk(text: &str) {
     let folder = tempfile::tempdir().unwrap();
     let disk = folder.path().join("disk");
     fs::create_dir(&disk).unwrap();
@@ -516,7 +553,7 @@ fn a_full_disk() {
         println!("skipped: this user may not mount a small disk");
         return;
     }
-    plan(folder.path(), PLAN);
+    plan(folder.path(), text);
     let (code, complaint) = said(folder.path(), "run study.toml --store disk/s.zarr");
     let remounted = mount("remount,size=8m").is_ok_and(|status| status.success());
     let outcome = if remounted { Some(said(folder.path(), "resume disk/s.zarr")) } else { None };

@@ -134,7 +134,7 @@ impl Property for Commands {
         }
         let has = |flag: &str| case.words.iter().any(|word| word == flag || word.starts_with(&format!("{flag}=")));
         if has("--json") && !has("--help") {
-            told(verb, &ran.stdout, has("--store") || verb == "run", !has("--rule"))?;
+            told(verb, &ran.stdout, has("--store") || matches!(verb, "run" | "settle-many"), !has("--rule"))?;
         }
         if ran.took < SOON {
             again(self, case, &ran)?;

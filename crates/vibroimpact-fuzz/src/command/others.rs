@@ -4,13 +4,16 @@ use super::parts::{Words, all, flag, line, switch, system, word};
 use crate::values::{count, number, odd};
 use proptest::prelude::*;
 
-/// The files in the folder of every case: a valid plan, an invalid one, a file that is no store, and a machine.
-pub(super) const FILES: [(&str, &str); 4] = [
+/// The files in the folder of every case: a valid plan, an invalid one, points, invalid points, a file that is no store, and a
+/// machine.
+pub(super) const FILES: [(&str, &str); 6] = [
     (
         "plan.toml",
         "version = 1\nsystem = { inverse_beta = 1.3, gap = 0.75, restitution = 0.5 }\n[task.basin]\naxes = [{ vary = \"x\", over = \"-2:0.5:5\" }, { vary = \"v\", over = \"-1:1:4\" }]\n",
     ),
     ("bad.toml", "version = 1\n[task.map]\naxes = [{ vary = \"gap\", over = [0, NaN] }]\n"),
+    ("points.csv", "inverse_beta,gap,v\n1.3,0.75,0.5\n0.9,1.5,-1\n1.8,0.25,0\n"),
+    ("bad.csv", "gap,v\n1,x\n"),
     ("thesis.zarr", "years of work"),
     (
         "machine.toml",

@@ -1,4 +1,4 @@
-//! Command lines with ranges: basin, map, diagram, region, curve and response.
+//! Command lines with ranges: basin, map, diagram, region, curve, response and settle-many.
 
 use super::parts::{Words, all, flag, flags, line, outputs, start, switch, word};
 use crate::system::{parameter, system, without};
@@ -7,7 +7,8 @@ use proptest::prelude::*;
 
 /// Any of these command lines.
 pub(super) fn lines() -> Words {
-    prop_oneof![3 => basin(), 3 => map(), 3 => diagram(), 2 => region(), 2 => curve(), 1 => response()].boxed()
+    prop_oneof![3 => basin(), 3 => map(), 3 => diagram(), 2 => region(), 2 => curve(), 1 => response(), 2 => many()]
+        .boxed()
 }
 
 fn few() -> ProptestText {
@@ -149,6 +150,34 @@ fn region() -> Words {
             flag("grid", 0.97, word(&["2", "3", "4", "1", "401", "-1"])),
             flag("axes", 0.05, word(&["gap,inverse-beta", "gap", ""])),
             outputs("csv"),
+        ],
+    )
+}
+
+fn many() -> Words {
+    let of_system = varied(2, interval).prop_map(|(over, system)| [flags(&over), flags(&system)].concat());
+    let (drawn, machine) = (of_system.boxed(), super::parts::machine_with_ranges());
+    let sample = flag("sample", 0.97, word(&["lhs:7", "sobol:4", "lhs:1", "sobol:0", "lhs:1e10", "sobol:x", "grid:3"]));
+    let sampled = all(vec![prop_oneof![5 => drawn, 1 => machine].boxed(), sample]);
+    let listed = all(vec![
+        flag("points", 1.0, word(&["points.csv", "points.csv", "bad.csv", "none.csv", "plan.toml", ""])),
+        flag("restitution", 0.9, crate::values::restitution()),
+    ]);
+    let start = || prop_oneof![3 => interval(-2.0, 0.0), 2 => crate::values::number()].boxed();
+    line(
+        "settle-many",
+        vec![
+            prop_oneof![3 => sampled, 1 => listed].boxed(),
+            flag("x", 0.2, start()),
+            flag("v", 0.4, start()),
+            flag("phase", 0.2, start()),
+            flag("seed", 0.2, count()),
+            flag("impacts", 0.8, budget()),
+            fields(),
+            switch("transient", 0.2),
+            store(),
+            flag("csv", 0.3, word(&["-", "t.csv", ""])),
+            switch("json", 0.4),
         ],
     )
 }

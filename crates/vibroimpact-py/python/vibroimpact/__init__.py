@@ -65,6 +65,7 @@ from vibroimpact._margins import MarginEnd, Margins, MotionBox, Nearest, Paramet
 from vibroimpact._motion import Motion
 from vibroimpact._orbits import EarlierContact, Orbit, orbits
 from vibroimpact._plan import Estimate, Plan
+from vibroimpact._refine import refine
 from vibroimpact._region import Part, Polygon, Region, region
 from vibroimpact._register import register as _register
 from vibroimpact._response import Response, ResponseCurve, response
@@ -152,6 +153,7 @@ __all__ = [
     "open",
     "orbit_diagram",
     "orbits",
+    "refine",
     "region",
     "region_map",
     "response",

@@ -102,7 +102,8 @@ def table(ds: "xr.Dataset") -> "pd.DataFrame":
         columns[name] = column
         if wide:
             keep |= column.notna().to_numpy().reshape(points, width)
-    return pd.DataFrame(columns)[keep.reshape(-1)].reset_index(drop=True)
+    rows: pd.DataFrame = pd.DataFrame(columns).loc[keep.reshape(-1)].reset_index(drop=True)
+    return rows
 
 
 def _words(ds: "xr.Dataset", name: str) -> Any:

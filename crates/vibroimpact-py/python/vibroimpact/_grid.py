@@ -72,6 +72,7 @@ def _dataset(
             "Conventions": "CF-1.11",
             "title": plan.title,
             "source": f"vibroimpact {_core.__version__}",
+            "history": f"computed by vibroimpact {_core.__version__}",
             "plan": plan.json,
             "plan_hash": plan.hash,
             **_si.attributes(units),

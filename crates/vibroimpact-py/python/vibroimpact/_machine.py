@@ -619,7 +619,7 @@ class MachineSimulation(Result):
         rows = zip(*(getattr(self, name).tolist() for name in names), self.with_)
         events = []
         for *values, others in rows:
-            event = dict(zip(names, values))
+            event: dict[str, Any] = dict(zip(names, values))
             if not forced:
                 del event["phase"]
             if others:

@@ -26,6 +26,7 @@ def dataset(over: Over, title: str, variables: Mapping[str, Any]) -> "xr.Dataset
             "Conventions": "CF-1.11",
             "title": title,
             "source": f"vibroimpact {_core.__version__}",
+            "history": f"computed by vibroimpact {_core.__version__}",
             # what varies is in the coordinates
             "system": _core.system_fields(over.osc),
             **_si.attributes(over.osc.units),

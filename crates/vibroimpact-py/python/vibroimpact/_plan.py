@@ -225,11 +225,11 @@ class Plan:
 
         The plan of a `Sample` keeps how its points are drawn; that of arrays keeps them.
         """
-        given = {"systems": systems, "over": over, "starts": starts}
+        given: dict[str, Any] = {"systems": systems, "over": over, "starts": starts}
         drawn = {name: of for name, of in given.items() if isinstance(of, Sample)}
         if len(drawn) > 1:
             raise _core.QuestionError(f"{' and '.join(drawn)} are two samples\nhint: one sample of all that varies")
-        asked = {name: of.low() if isinstance(of, Sample) else of for name, of in given.items()}
+        asked: dict[str, Any] = {name: of.low() if isinstance(of, Sample) else of for name, of in given.items()}
         all_ = points(asked["systems"], asked["over"], asked["starts"])
         if drawn:
             if all_.sizes:

@@ -93,6 +93,8 @@ def table(ds: "xr.Dataset") -> "pd.DataFrame":
     if "stop" in ds:
         # a motion without points has no stop
         stop = ds["stop"].values[run, at][known]
-        out["stop"] = np.where(stop < 0, None, _stops(ds)[stop])
+        out["stop"] = _stops(ds)[stop].astype(object)
+        out["stop"][stop < 0] = None
     out.update({name: of[known] for name, of in points.items()})
-    return pd.DataFrame(out)
+    rows: pd.DataFrame = pd.DataFrame(out)
+    return rows

@@ -56,7 +56,8 @@ class Result:
         """The result as a table of pandas: one row for each event, motion, point or value."""
         import pandas as pd
 
-        return pd.DataFrame(self._table())
+        rows: pd.DataFrame = pd.DataFrame(self._table())
+        return rows
 
     def _repr_html_(self) -> str:
         text = f"<pre>{html.escape(repr(self))}</pre>"

@@ -47,6 +47,9 @@ AHEAD = Range(1, 1_000_000)
 BLOCKS = Range(1, 100_000)
 #: Points of a sample.
 SAMPLES = Range(1, 1_000_000_000)
+#: Cells along a range, and rounds that halve them.
+CELLS = Range(1, 4096)
+ROUNDS = Range(0, 20)
 #: Values of a range.
 SPAN = Range(1)
 

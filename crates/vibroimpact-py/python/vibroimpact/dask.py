@@ -16,8 +16,8 @@ the scheduler. If a worker dies, its tiles are computed by others, and the store
 
 import time
 from collections.abc import Mapping, Sequence
+from contextlib import closing
 from functools import lru_cache
-from itertools import islice
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
 from uuid import uuid4
@@ -26,6 +26,7 @@ from vibroimpact import _core
 from vibroimpact._budget import Budget, seconds
 from vibroimpact._plan import Plan
 from vibroimpact._progress import Progress, watched
+from vibroimpact._rolling import rolling
 from vibroimpact._store import Ran
 from vibroimpact._whole import AHEAD, COUNT, whole
 
@@ -81,8 +82,6 @@ def run(
     resources, workers, priority
         Which workers may compute the tiles, and before what else: as for `client.submit`.
     """
-    from distributed import as_completed
-
     retries, in_flight = whole("retries", retries, COUNT), whole("in_flight", in_flight, AHEAD)
     if in_flight < 1:
         raise _core.QuestionError("in_flight = 0 lies outside 1 <= in_flight\nhint: more than the cluster has threads")
@@ -98,31 +97,17 @@ def run(
         spent = False
         while todo and not spent:
             done = begun["points"] - sum(points for _, points in todo)
-            turn, queue, before = uuid4().hex[:8], iter(todo), len(todo)
-            running: dict[str, Any] = {}
-
-            def submit(count: int) -> list[Any]:
-                new = {}
-                for tile, points in islice(queue, count):
-                    key = f"vibroimpact-tile-{plan.hash}-{turn}-{tile}"
-                    new[key] = client.submit(_tile, tile, points, place, plan.json, key=key, **how)
-                running.update(new)
-                return list(new.values())
-
-            tasks = as_completed(submit(in_flight), with_results=True)  # type: ignore[no-untyped-call]
-            try:
-                for batch in tasks.batches():  # type: ignore[no-untyped-call]
-                    for task, (points, new, was_damaged) in batch:
-                        running.pop(task.key, None)
+            turn, before = uuid4().hex[:8], len(todo)
+            tasks = ((f"vibroimpact-tile-{plan.hash}-{turn}-{tile}", (tile, points, place, plan.json)) for tile, points in todo)
+            with closing(rolling(client, _tile, tasks, in_flight, how)) as batches:
+                for batch in batches:
+                    for points, new, was_damaged in batch:
                         computed, mended, done = computed + new, mended + was_damaged, done + points
                     if tell is not None and tell(min(done, begun["points"] - 1), begun["points"]) is False:
                         raise _core.StoppedError(f"stopped after {done} of {begun['points']} points")
                     spent = end is not None and time.monotonic() >= end
                     if spent:
                         break
-                    tasks.update(submit(in_flight - len(running)))  # type: ignore[no-untyped-call]
-            finally:
-                client.cancel(list(running.values()))  # type: ignore[no-untyped-call]
             if not spent:
                 todo, _ = here.to_do()
                 if len(todo) == before:

@@ -1,6 +1,6 @@
 //! Common parts of the tests of stores.
 
-#![allow(clippy::unwrap_used, unreachable_pub)]
+#![allow(clippy::unwrap_used, unreachable_pub, dead_code)] // each program of tests uses a part of it
 
 use std::collections::BTreeMap;
 use std::fs;

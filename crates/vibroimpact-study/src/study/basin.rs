@@ -1,6 +1,7 @@
 //! The tiles of a basin: for each start, the motion to which it leads.
 
 mod columns;
+mod settling;
 
 use super::code;
 use super::cycles::{self, Numbered, Numbering};
@@ -13,13 +14,12 @@ use crate::limits::MOST_STARTS;
 use crate::quantity::{Quantities, Quantity};
 use crate::{BasinPlan, PlanError, SystemPlan};
 use core::cell::RefCell;
-use std::collections::HashMap;
+use settling::Settled;
 use std::sync::OnceLock;
 use vibroimpact::lanes::Width;
 use vibroimpact::math::Multiplier;
-use vibroimpact::quantities::of_verdict_only;
 use vibroimpact::verdict::{
-    Census, CountedMotion, Ending, KnownAttractors, Reason, SettleOptions, StartBox, Verdict, settle_many,
+    Census, CountedMotion, Ending, KnownAttractors, SettleOptions, StartBox, Verdict, settle_many,
 };
 use vibroimpact::{Oscillator, Start};
 
@@ -66,17 +66,6 @@ struct Found {
     multipliers: Option<[Multiplier; 2]>,
     quantities: Option<Quantities>,
 }
-
-/// The motions of a tile while it is computed.
-#[derive(Default)]
-struct Settled {
-    met: Census,
-    found: Vec<Found>,
-    endings: Vec<Ending>,
-}
-
-/// A point that was not computed, or has no valid system.
-const NOTHING: Ending = Ending { reason: Reason::SearchLimit, impacts: 0 };
 
 /// The result of a start as it is stored: the code of its label and the number of its cycle.
 type Leads = (i32, i32);
@@ -153,92 +142,6 @@ impl BasinFill {
         self.starts.at(osc, (&self.system, there), index)
     }
 
-    /// Settles the given points of a tile. Returns for each point the index of its motion in the tile.
-    fn settled(
-        &self,
-        block: &Block,
-        wanted: &[usize],
-        into: &mut Settled,
-        tick: &(dyn Fn() -> bool + Sync),
-    ) -> Option<Vec<u32>> {
-        into.endings.resize(block.points(), NOTHING);
-        if let Some(one) = &self.one {
-            let start = |k: usize| self.start(&one.osc, &self.system, &block.index(wanted[k]));
-            let all: Vec<usize> = (0..wanted.len()).collect();
-            let (motions, cells) = self.among(&one.osc, (&all, wanted), start, &one.survey, &mut into.endings, tick)?;
-            let numbers: Vec<u32> = motions.iter().map(|found| whole(into.met.add_found(found))).collect();
-            return Some(cells.into_iter().map(|cell| numbers[cell as usize]).collect());
-        }
-        // starts of one system are settled together
-        let mut groups: Vec<Vec<usize>> = Vec::new();
-        let mut known: HashMap<Vec<u64>, usize> = HashMap::new();
-        for (k, number) in wanted.iter().enumerate() {
-            let group = *known.entry(self.starts.key(&block.index(*number))).or_insert_with(|| {
-                groups.push(Vec::new());
-                groups.len() - 1
-            });
-            groups[group].push(k);
-        }
-        let mut numbers = vec![0; wanted.len()];
-        for group in groups {
-            let first = block.index(wanted[group[0]]);
-            // the corners are valid; a point between them that is not is undecided
-            let Some((there, osc)) = self.starts.system(&self.system, &first) else {
-                let number = whole(into.found.len());
-                into.found.push(Found { code: super::UNDECIDED, multipliers: None, quantities: None });
-                group.iter().for_each(|k| numbers[*k] = number);
-                if group.iter().any(|_| tick()) {
-                    return None;
-                }
-                continue;
-            };
-            let start = |k: usize| self.start(&osc, &there, &block.index(wanted[group[k]]));
-            let traps = if group.len() as u64 > WORTH_A_SURVEY && !self.transient() { TRAPS } else { 0 };
-            let chosen = spread(group.len() as u64, traps).filter_map(|k| usize::try_from(k).ok()).map(start);
-            let survey = KnownAttractors::survey(&osc, chosen, &self.options);
-            let (motions, cells) = self.among(&osc, (&group, wanted), start, &survey, &mut into.endings, tick)?;
-            let own: Vec<u32> = motions.iter().map(|found| self.found(&osc, &found.verdict, &mut into.found)).collect();
-            group.iter().zip(cells).for_each(|(k, cell)| numbers[*k] = own[cell as usize]);
-        }
-        Some(numbers)
-    }
-
-    /// Settles starts of one oscillator, and notes how each was decided. `group` are the places of the starts in `wanted`.
-    fn among(
-        &self,
-        osc: &Oscillator,
-        (group, wanted): (&[usize], &[usize]),
-        start: impl Fn(usize) -> Start,
-        survey: &KnownAttractors,
-        endings: &mut [Ending],
-        tick: &(dyn Fn() -> bool + Sync),
-    ) -> Option<(Vec<CountedMotion>, Vec<u32>)> {
-        let start = |k: u64| start(usize::try_from(k).unwrap_or(0));
-        let range = 0..group.len() as u64;
-        let settlement = settle_many(osc, range, start, survey, &self.options, Width::best(), &|| tick());
-        if settlement.cells.len() < group.len() {
-            return None;
-        }
-        for (k, ending) in group.iter().zip(&settlement.endings) {
-            endings[wanted[*k]] = *ending;
-        }
-        Some((settlement.motions, settlement.cells))
-    }
-
-    /// The number of a motion in a tile of several systems. Without quantities and multipliers motions are their labels.
-    fn found(&self, osc: &Oscillator, verdict: &Verdict, all: &mut Vec<Found>) -> u32 {
-        let code = code(verdict);
-        let bare = self.asked().is_empty() && !self.of_points();
-        let known = if bare { all.iter().position(|known| known.code == code) } else { None };
-        whole(known.unwrap_or_else(|| {
-            let asked = self.asked();
-            let quantities = if asked.is_empty() { None } else { of_verdict_only(osc, verdict, asked) };
-            let multipliers = if self.of_systems() { verdict.multipliers(osc) } else { None };
-            all.push(Found { code, multipliers, quantities });
-            all.len() - 1
-        }))
-    }
-
     /// The stored result of each motion of a tile, and the cycles that the survey has not found.
     fn leads(&self, tile: &BasinTile) -> (Vec<Leads>, Census) {
         let mut unknown = Census::default();
@@ -278,11 +181,6 @@ impl BasinFill {
         let plain = |of: Option<&Verdict>| of.filter(|verdict| !matches!(verdict, Verdict::Periodic(_))).map(code);
         a == b || (plain(label(a)).is_some() && plain(label(a)) == plain(label(b)))
     }
-}
-
-/// An index of a motion.
-fn whole(number: usize) -> u32 {
-    u32::try_from(number).unwrap_or(u32::MAX)
 }
 
 impl Fill for BasinFill {

@@ -87,6 +87,12 @@ fn of(label: Label) -> i32 {
     i32::try_from(m + n).unwrap_or(UNDECIDED)
 }
 
+/// The label of a code as a word that may be a flag meaning of the CF conventions (3.5), which has no slash: `2_in_1` for 2/1.
+#[must_use]
+pub fn meaning_of(code: i32) -> Option<String> {
+    label_of(code).map(|label| label.replace('/', "_in_"))
+}
+
 /// The label of a code as text; `None` if the code stands for no motion.
 ///
 /// ```

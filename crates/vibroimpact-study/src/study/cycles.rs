@@ -115,9 +115,10 @@ impl<V: StoredMotion> Numbering<'_, V> {
                 tiles.write(k, self.field, &Column::I32(numbers.clone()))?;
             }
             beyond += numbers.iter().filter(|n| **n == BEYOND).count() as u64;
-            for n in numbers {
-                if let Some(count) = usize::try_from(n).ok().and_then(|n| starts.get_mut(n)) {
-                    *count += 1;
+            // neighbours mostly have the same number
+            for run in numbers.chunk_by(|a, b| a == b) {
+                if let Some(count) = usize::try_from(run[0]).ok().and_then(|n| starts.get_mut(n)) {
+                    *count += run.len() as i64;
                 }
             }
         }

@@ -100,6 +100,15 @@ impl Swept for OscillatorDiagram {
         step.index
     }
 
+    fn numbers((_, left): &Self::Left) -> Vec<f64> {
+        vec![left.x, left.v, left.phase]
+    }
+
+    fn left(&self, index: u32, numbers: &[f64]) -> Option<Self::Left> {
+        let &[x, v, phase] = numbers else { return None };
+        Some((self.plan.system(&self.system, index).ok()?, Start { x, v, phase }))
+    }
+
     fn columns(&self, points: usize, steps: &[(usize, &DiagramStep)]) -> Vec<Column> {
         let mut tile = Tile::empty(points, self.keep);
         steps.iter().for_each(|(at, step)| tile.put(*at, step, self.keep));

@@ -50,7 +50,39 @@ pub(crate) trait Fill: Send + Sync {
     fn together(&self) -> u64 {
         1
     }
+
+    /// Whether a tile can be continued after a part of it.
+    fn continues(&self) -> bool {
+        false
+    }
+
+    /// The columns of a tile, continued from what was computed of it before; `None` if stopped.
+    fn continued(
+        &self,
+        block: &Block,
+        before: Option<BegunTile>,
+        keep: Keep<'_>,
+        tick: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Vec<Column>> {
+        let _ = (before, keep);
+        Some(self.columns(block, self.compute(block, tick)?))
+    }
 }
+
+/// A part of a tile whose points are computed one after another, each from the last state at the point before.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BegunTile {
+    /// Number of points that are computed.
+    pub done: u64,
+    /// The numbers of the last state; none if the next point begins anew.
+    pub left: Vec<f64>,
+    /// The columns of the tile, empty where nothing is computed yet.
+    pub columns: Vec<Column>,
+}
+
+/// Called when a part of a tile is computed. Its first argument says whether the computation is about to be stopped, the
+/// second returns the part.
+pub type Keep<'a> = &'a dyn Fn(bool, &dyn Fn() -> BegunTile);
 
 /// A [`Fill`] whose tiles are available only as columns, so that a study can contain any task.
 pub(super) trait Columns: Send + Sync {
@@ -60,6 +92,14 @@ pub(super) trait Columns: Send + Sync {
     fn fill(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>>;
     fn numbered(&self) -> Option<cycles::Numbered<'_>>;
     fn together(&self) -> u64;
+    fn continues(&self) -> bool;
+    fn continued(
+        &self,
+        block: &Block,
+        before: Option<BegunTile>,
+        keep: Keep<'_>,
+        tick: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Vec<Column>>;
 }
 
 impl<F: Fill> Columns for F {
@@ -85,6 +125,20 @@ impl<F: Fill> Columns for F {
 
     fn together(&self) -> u64 {
         Fill::together(self)
+    }
+
+    fn continues(&self) -> bool {
+        Fill::continues(self)
+    }
+
+    fn continued(
+        &self,
+        block: &Block,
+        before: Option<BegunTile>,
+        keep: Keep<'_>,
+        tick: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Vec<Column>> {
+        Fill::continued(self, block, before, keep, tick)
     }
 }
 

@@ -87,6 +87,16 @@ impl Swept for MachineSweep {
         step.index
     }
 
+    fn numbers(left: &MachineStart) -> Vec<f64> {
+        left.q.iter().chain(&left.qdot).copied().chain([left.phase]).collect()
+    }
+
+    fn left(&self, _: u32, numbers: &[f64]) -> Option<MachineStart> {
+        let (phase, state) = numbers.split_last()?;
+        let (q, qdot) = state.split_at(state.len() / 2);
+        (q.len() == qdot.len()).then(|| MachineStart { q: q.to_vec(), qdot: qdot.to_vec(), phase: *phase })
+    }
+
     fn columns(&self, points: usize, steps: &[(usize, &MachineDiagramStep)]) -> Vec<Column> {
         let mut kind = vec![-1_i8; points];
         let mut value = vec![f64::NAN; points * self.keep];

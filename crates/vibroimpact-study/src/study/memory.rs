@@ -19,16 +19,23 @@ pub struct Sheet {
     pub tables: Vec<StudyTable>,
 }
 
+/// Checks that one run can keep all numbers of a study in memory.
+///
+/// # Errors
+/// [`PlanError::Memory`] if there are too many.
+pub fn check_memory(study: &Study) -> Result<(), PlanError> {
+    let width = study.fields().iter().map(|field| field.width() as u64).sum::<u64>();
+    let numbers = width.saturating_mul(study.grid().points());
+    if numbers > 4 * MOST_CELLS { Err(PlanError::Memory { numbers, most: 4 * MOST_CELLS }) } else { Ok(()) }
+}
+
 /// Computes all tiles of a study and joins them.
 ///
 /// # Errors
 /// [`RunError`] when stopped, or for more numbers than one run keeps in memory.
 pub fn in_memory(study: Study, control: &Control<'_>) -> Result<Sheet, RunError> {
     let (fields, grid) = (study.fields(), study.grid().clone());
-    let numbers = fields.iter().map(|field| field.width() as u64).sum::<u64>().saturating_mul(grid.points());
-    if numbers > 4 * MOST_CELLS {
-        return Err(PlanError::Memory { numbers, most: 4 * MOST_CELLS }.into());
-    }
+    check_memory(&study)?;
     let points = usize::try_from(grid.points()).unwrap_or(usize::MAX);
     let parts = each_tile(&grid, control, |k, tick| study.tile(k, tick))?;
     let mut columns: Vec<Column> = fields.iter().map(|field| field.empty(points)).collect();

@@ -26,13 +26,13 @@ mod tables;
 mod tests;
 
 pub use arrays::StudyArrays;
-pub use code::{CHAOTIC, NO_IMPACT, NO_MOTION, NOT_COMPUTED, REFUSED, STUCK, UNDECIDED, code, label_of};
+pub use code::{CHAOTIC, NO_IMPACT, NO_MOTION, NOT_COMPUTED, REFUSED, STUCK, UNDECIDED, code, label_of, meaning_of};
 pub use diagram::diagram_of;
-pub use fill::Along;
+pub use fill::{Along, BegunTile, Keep};
 pub(crate) use fill::{Fill, on_axis};
 pub use machine_diagram::machine_diagram_of;
 pub(crate) use memory::tiles_of;
-pub use memory::{Sheet, in_memory};
+pub use memory::{Sheet, check_memory, in_memory};
 pub use plan::StudyPlan;
 pub(crate) use refine::Cell;
 pub(crate) use sweeps::{SweepFill, Swept};
@@ -128,6 +128,24 @@ impl Study {
     #[must_use]
     pub fn tile(&self, k: u64, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
         self.fill.fill(&self.grid().tile(k), tick)
+    }
+
+    /// Whether a tile can be continued after a part of it: the sweeps of an orbit diagram, which carry their state.
+    #[must_use]
+    pub fn continues(&self) -> bool {
+        self.fill.continues()
+    }
+
+    /// As [`Study::tile`], continued from what was computed of the tile before; `keep` is called for each further part.
+    #[must_use]
+    pub fn continued(
+        &self,
+        k: u64,
+        before: Option<BegunTile>,
+        keep: Keep<'_>,
+        tick: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Vec<Column>> {
+        self.fill.continued(&self.grid().tile(k), before, keep, tick)
     }
 
     /// Number of points of a block that is computed at the cost of the same points in a whole tile; `u64::MAX` if only a

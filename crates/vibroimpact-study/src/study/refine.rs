@@ -64,9 +64,12 @@ pub(super) fn fill<T>(
             let result = |k: usize| if let Some(Cell::Computed(result)) = &cells[k] { Some(result) } else { None };
             let first = result(corners[0])?;
             if corners.iter().all(|k| result(*k).is_some_and(|other| same(first, other))) {
-                for index in within(cuboid) {
-                    cells[number(&index)].get_or_insert(Cell::Like(corners[0]));
-                }
+                each_row(cuboid, |first, length| {
+                    let from = number(first);
+                    for cell in &mut cells[from..from + length] {
+                        cell.get_or_insert(Cell::Like(corners[0]));
+                    }
+                });
             } else {
                 finer.extend(halves(cuboid));
             }
@@ -108,8 +111,19 @@ fn corners(cuboid: &Cuboid) -> impl Iterator<Item = Vec<usize>> {
     product(&cuboid.iter().map(ends).collect::<Vec<_>>()).into_iter()
 }
 
-fn within(cuboid: &Cuboid) -> impl Iterator<Item = Vec<usize>> {
-    product(&cuboid.iter().map(|(low, high)| (*low..=*high).collect()).collect::<Vec<Vec<_>>>()).into_iter()
+/// Calls `each` with the first index and the length of every row of a box, that is, of its points along the last dimension.
+fn each_row(cuboid: &Cuboid, mut each: impl FnMut(&[usize], usize)) {
+    let Some(((low, high), others)) = cuboid.split_last() else { return };
+    let mut index: Vec<usize> = cuboid.iter().map(|(low, _)| *low).collect();
+    loop {
+        each(&index, high - low + 1);
+        // the next row, as an odometer counts
+        let Some(turns) = (0..others.len()).rfind(|k| index[*k] < others[*k].1) else { return };
+        index[turns] += 1;
+        for k in turns + 1..others.len() {
+            index[k] = others[k].0;
+        }
+    }
 }
 
 /// The Cartesian product; the last factor varies fastest.

@@ -1,6 +1,6 @@
 //! The tiles of an orbit diagram. A sweep is one tile; scattered starts have many.
 
-use super::fill::{Along, Fill};
+use super::fill::{Along, BegunTile, Fill, Keep};
 use crate::diagram::{Sweep, SweepDirection, carried};
 use crate::field::{Column, Field};
 use crate::grid::{Block, Dimension, Grid};
@@ -33,6 +33,12 @@ pub(crate) trait Swept: Send + Sync {
 
     /// The number of the value of a step.
     fn index(step: &Self::Step) -> u32;
+
+    /// The numbers of a state to carry.
+    fn numbers(left: &Self::Left) -> Vec<f64>;
+
+    /// The state to carry from value number `index`, from its numbers.
+    fn left(&self, index: u32, numbers: &[f64]) -> Option<Self::Left>;
 }
 
 /// The motions at all values.
@@ -69,6 +75,75 @@ impl<S: Swept> Fill for SweepFill<S> {
             // each value starts from the last state at the value before
             _ => u64::MAX,
         }
+    }
+
+    fn continues(&self) -> bool {
+        !matches!(self.swept.sweep().2, SweepDirection::Scatter { .. })
+    }
+
+    fn continued(
+        &self,
+        block: &Block,
+        before: Option<BegunTile>,
+        keep: Keep<'_>,
+        tick: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Vec<Column>> {
+        if !Fill::continues(self) {
+            return Some(self.columns(block, self.compute(block, tick)?));
+        }
+        let (_, over, direction) = self.swept.sweep();
+        // a sweep is one row and all values
+        let (row, points) = (block.ranges[0].start as u64, block.points());
+        let place = |j: usize| Some(carried(over, direction, row, u32::try_from(j).ok()?));
+        let known = |done: u64| usize::try_from(done).ok().filter(|done| *done <= points);
+        let begun = before.and_then(|begun| Some((known(begun.done)?, begun)));
+        let from = begun.as_ref().map_or(0, |(done, _)| *done);
+        let mut left = begun.as_ref().and_then(|(done, begun)| {
+            let (index, _) = place(done.checked_sub(1)?)?;
+            self.swept.left(index, &begun.left)
+        });
+        // a run that is stopped gets on by one value at least
+        (0..from).for_each(|_| {
+            let _ = tick();
+        });
+        let fields = self.swept.fields();
+        // the columns of all steps so far: those of this run, and those of the run before
+        let columns = |steps: &[(usize, S::Step)]| -> Vec<Column> {
+            let own: Vec<(usize, &S::Step)> = steps.iter().map(|(at, step)| (*at, step)).collect();
+            let mut columns = self.swept.columns(points, &own);
+            if let Some((_, begun)) = &begun {
+                for ((field, column), old) in fields.iter().zip(&mut columns).zip(&begun.columns) {
+                    let width = field.width();
+                    for (index, _) in (0..from).filter_map(place) {
+                        column.copy(index as usize * width, old, index as usize * width, width);
+                    }
+                }
+            }
+            columns
+        };
+        let mut steps: Vec<(usize, S::Step)> = Vec::new();
+        for j in from..points {
+            // the ends were checked, and every value between two valid ends is valid
+            let step = self.swept.step(place(j)?, left.take());
+            if let Ok((step, next)) = step {
+                steps.push((S::index(&step) as usize, step));
+                left = Some(next);
+            }
+            let stops = tick();
+            if j + 1 == points {
+                break;
+            }
+            let part = || BegunTile {
+                done: j as u64 + 1,
+                left: left.as_ref().map(S::numbers).unwrap_or_default(),
+                columns: columns(&steps),
+            };
+            keep(stops, &part);
+            if stops {
+                return None;
+            }
+        }
+        Some(columns(&steps))
     }
 
     fn grid(&self) -> &Grid {

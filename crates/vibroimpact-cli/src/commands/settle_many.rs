@@ -1,0 +1,241 @@
+//! `vibro settle-many`: the motions at many points of parameters and starts, listed or drawn.
+
+use crate::args::{
+    Convention, FieldsArgs, FigureArgs, Interval, PhysicalArgs, Place, StoreArgs, SystemStretchesArgs, whole,
+};
+use crate::commands::outputs::Outputs;
+use crate::commands::stored;
+use crate::failure::Failure;
+use crate::points_file;
+use crate::session::Session;
+use clap::Args;
+use core::str::FromStr;
+use std::path::PathBuf;
+use vibroimpact_report::{Asked, Units};
+use vibroimpact_study::{
+    BasinPlan, Coordinate, DrawnPoints, ListedColumn, Parameter, Plan, PointRange, PointRule, PointsPlan, StartPlan,
+    StudyPlan, Task,
+};
+
+/// Which motion each of many systems and starts leads to: points from a table, or drawn from ranges
+///
+/// --points FILE is a table with a header: a column for each parameter and coordinate of the start that varies. --sample
+/// draws points from the ranges A:B of parameters and starts, by Sobol's sequence or as a Latin hypercube. What is in no
+/// column and has no range is the same at all points. Without --csv or --json the command prints the shares of the motions.
+#[derive(Clone, Debug, Args)]
+#[command(
+    mut_arg("restitution", |arg| arg.required(false)),
+    override_usage = "vibro settle-many --sample lhs:N --inverse-beta A:B --gap A:B --restitution E [OPTIONS]\n       \
+        vibro settle-many --points FILE.csv --restitution E [OPTIONS]",
+    after_help = "Examples:\n  \
+        vibro settle-many --sample lhs:1e4 --inverse-beta 0.6:2 --gap 0:2 --restitution 0.3:0.8 --v 0.5 --csv sample.csv\n  \
+        vibro settle-many --sample sobol:65536 --beta 1 --gap 1 --restitution 0.5 --x -4:1 --v -4:4 --store starts.zarr\n  \
+        vibro settle-many --points systems.csv --restitution 0.5 --fields impact-speed-max --csv -"
+)]
+#[command(group = clap::ArgGroup::new("of_points").required(true).args(["points", "sample"]))]
+pub(crate) struct SettleMany {
+    /// A table of points, comma-separated, with the names of what varies in its first line; - for stdin
+    #[arg(long, value_name = "FILE", help_heading = "Points")]
+    points: Option<PathBuf>,
+
+    /// Draw N points from the ranges: by Sobol's sequence, or as a Latin hypercube
+    #[arg(long, value_name = "sobol:N|lhs:N", help_heading = "Points")]
+    sample: Option<Drawn>,
+
+    /// Which of the sequences of --sample
+    #[arg(long, value_parser = whole::<u64>, value_name = "S", default_value_t = 0, help_heading = "Points")]
+    seed: u64,
+
+    #[command(flatten, next_help_heading = "System")]
+    system: SystemStretchesArgs,
+
+    #[command(flatten)]
+    machine: PhysicalArgs,
+
+    /// Units of ranges, columns and results
+    #[arg(long, value_enum, value_name = "UNITS", default_value_t = Convention::Nondimensional, help_heading = "System")]
+    units: Convention,
+
+    /// Position, a value or a range A:B [default: 0, or on the stop when the gap is negative]
+    #[arg(long, value_name = "X", allow_hyphen_values = true, help_heading = "Starts")]
+    x: Option<Place>,
+
+    /// Velocity, a value or a range A:B [default: 0]
+    #[arg(long, value_name = "V", allow_hyphen_values = true, help_heading = "Starts")]
+    v: Option<Place>,
+
+    /// Phase of the force in radians, a value or a range A:B [default: 0]
+    #[arg(long, value_name = "P", allow_hyphen_values = true, help_heading = "Starts")]
+    phase: Option<Place>,
+
+    /// Budget of impacts for each start, 1 to 1000000; what is not settled by then is undecided
+    #[arg(long, value_parser = whole::<u32>, value_name = "N", allow_hyphen_values = true, help_heading = "Starts")]
+    impacts: Option<u32>,
+
+    #[command(flatten)]
+    store: StoreArgs,
+
+    #[command(flatten)]
+    fields: FieldsArgs,
+
+    /// Report the number of impacts after which each motion was decided too
+    #[arg(long, help_heading = "Output")]
+    transient: bool,
+
+    /// Write one row a point to this file; - for stdout. Columns: what varies, then label, and --fields
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    csv: Option<PathBuf>,
+
+    /// Print one JSON object with the labels and how often they occur
+    #[arg(long, help_heading = "Output")]
+    json: bool,
+}
+
+/// `sobol:N` or `lhs:N`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Drawn(PointRule, u64);
+
+impl FromStr for Drawn {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let shown: String = text.chars().take(60).collect();
+        let (rule, count) = text.split_once(':').ok_or_else(|| format!("`{shown}` is not sobol:N or lhs:N"))?;
+        let rule = match rule.trim() {
+            "sobol" => PointRule::Sobol,
+            "lhs" => PointRule::Lhs,
+            other => return Err(format!("`{other}` is neither sobol nor lhs")),
+        };
+        Ok(Self(rule, whole(count.trim())?))
+    }
+}
+
+impl SettleMany {
+    fn starts(&self) -> [(Coordinate, Option<Place>); 3] {
+        [(Coordinate::X, self.x), (Coordinate::V, self.v), (Coordinate::Phase, self.phase)]
+    }
+
+    /// The coordinates that are the same at all points.
+    fn start(&self, units: &Units) -> StartPlan {
+        let at = |place: Option<Place>| match place {
+            Some(Place::At(value)) => Some(value),
+            _ => None,
+        };
+        StartPlan {
+            x: at(self.x).map(|x| x / units.length()),
+            v: at(self.v).unwrap_or(0.0) / units.velocity(),
+            phase: at(self.phase).unwrap_or(0.0),
+        }
+    }
+
+    /// The system and the points of a table.
+    fn listed(&self, columns: Vec<ListedColumn>) -> Result<(Asked, PointsPlan), Failure> {
+        let starts = self.starts();
+        let of_starts = starts.iter().filter_map(|(vary, place)| place.map(|_| *vary));
+        let flags: Vec<Coordinate> = of_starts.chain(self.system.given().map(Coordinate::Parameter)).collect();
+        let same = |a: Coordinate, b: Coordinate| match (a, b) {
+            (Coordinate::Parameter(a), Coordinate::Parameter(b)) => a.same_number(b),
+            (a, b) => a == b,
+        };
+        for column in &columns {
+            if let Some(flag) = flags.iter().find(|flag| same(**flag, column.vary)) {
+                let (flag, name) = (flag.name().replace('_', "-"), column.vary.name());
+                return Err(Failure::bad(format!(
+                    "--{flag} cannot go together with the column {name}\nhint: leave it out, the table has its values"
+                )));
+            }
+        }
+        let first = |column: &ListedColumn| match (column.vary, column.values.first()) {
+            (Coordinate::Parameter(parameter), Some(value)) => Some((parameter, *value)),
+            _ => None,
+        };
+        let first: Vec<(Parameter, f64)> = columns.iter().filter_map(first).collect();
+        let (asked, over) = self.asked(&first)?;
+        let ranged =
+            starts.iter().find(|(_, place)| matches!(place, Some(Place::Over(_)))).map(|(vary, _)| vary.name());
+        if let Some(name) = over.first().map(|stretch| stretch.parameter.name()).or(ranged) {
+            return Err(Failure::bad(format!(
+                "--{} is a range, and points of a table have one value\nhint: --sample lhs:N draws points from ranges",
+                name.replace('_', "-")
+            )));
+        }
+        let scaled = |column: ListedColumn| {
+            let unit = asked.units.of_coordinate(column.vary);
+            ListedColumn { values: column.values.iter().map(|value| value / unit).collect(), ..column }
+        };
+        let columns = columns.into_iter().map(scaled).collect();
+        Ok((asked, PointsPlan::Listed(columns)))
+    }
+
+    /// The system and the points that are drawn.
+    fn drawn(&self, Drawn(rule, count): Drawn) -> Result<(Asked, PointsPlan), Failure> {
+        let (asked, over) = self.asked(&[])?;
+        let of_system = over.iter().map(|stretch| PointRange {
+            vary: Coordinate::Parameter(stretch.parameter),
+            from: stretch.from,
+            to: stretch.to,
+        });
+        let of_starts = self.starts().into_iter().filter_map(|(vary, place)| match place {
+            Some(Place::Over(Interval(from, to))) => {
+                let unit = asked.units.of_coordinate(vary);
+                Some(PointRange { vary, from: from / unit, to: to / unit })
+            }
+            _ => None,
+        });
+        let over: Vec<PointRange> = of_system.chain(of_starts).collect();
+        if over.is_empty() {
+            return Err(Failure::bad(
+                "nothing varies\nhint: give a parameter or a start a range, --gap 0:5 or --v -1:1",
+            ));
+        }
+        Ok((asked, PointsPlan::Drawn(DrawnPoints { rule, count, seed: self.seed, over })))
+    }
+
+    fn asked(&self, first: &[(Parameter, f64)]) -> Result<(Asked, Vec<vibroimpact_study::Stretch>), Failure> {
+        let as_they_are = |_: &mut Asked, flags: &[crate::args::ParameterFlag]| {
+            flags.iter().map(|named| named.parameter).collect::<Vec<_>>()
+        };
+        let (asked, over) = self.system.asked((&self.machine, self.units), first, as_they_are)?;
+        if self.system.second_stop_follows(&asked) {
+            return Err(Failure::bad(
+                "the restitution varies and that of the second stop is not given\nhint: --second-restitution E2",
+            ));
+        }
+        Ok((asked, over))
+    }
+}
+
+pub(super) fn run(args: &SettleMany, session: &Session) -> Result<(), Failure> {
+    let (asked, points) = match (&args.points, args.sample) {
+        (Some(path), _) => args.listed(points_file::read(path)?)?,
+        (None, Some(drawn)) => args.drawn(drawn)?,
+        (None, None) => return Err(Failure::bad("there are no points\nhint: --points FILE.csv, or --sample lhs:N")),
+    };
+    let task = BasinPlan {
+        impacts: args.impacts,
+        fields: args.fields.quantities()?,
+        transient: args.transient,
+        ..BasinPlan::of_points(points, args.start(&asked.units))
+    };
+    let plan = Plan { units: asked.units.plan(), ..Plan::new(asked.system, Task::Basin(task)) };
+    let plan = StudyPlan::from(&args.store.tiled(plan)?);
+    let outputs = Outputs::reserve(args.csv.as_deref(), (None, &FigureArgs::default()), args.json, session)?;
+    match args.store.filling() {
+        Some(filling) => stored::run(&plan, &filling, (outputs, None), session),
+        None => stored::run_in_memory(&plan, (outputs, None), session),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rules_and_numbers_of_points() {
+        assert_eq!("lhs:1e5".parse(), Ok(Drawn(PointRule::Lhs, 100_000)));
+        assert_eq!("sobol: 64".parse(), Ok(Drawn(PointRule::Sobol, 64)));
+        for bad in ["lhs", "grid:5", "lhs:", "sobol:1.5", ":5"] {
+            assert!(bad.parse::<Drawn>().is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! `vibro settle-many`: points that are listed in a table or drawn from ranges, with and without a store.
+#![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+
+use crate::vibro;
+use serde_json::{Value, json};
+use std::fs;
+use std::path::Path;
+
+/// What a successful command prints.
+fn told(folder: &Path, line: &str) -> String {
+    let output = vibro(line).current_dir(folder).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// Exit code and stderr.
+fn said(folder: &Path, line: &str) -> (Option<i32>, String) {
+    let output = vibro(line).current_dir(folder).output().unwrap();
+    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+}
+
+const HYPERCUBE: &str =
+    "settle-many --sample lhs:120 --seed 3 --inverse-beta 0.6:2 --gap 0:2 --restitution 0.3:0.8 --v 0.5";
+
+/// A row of a table without its first cell, the number of the point.
+fn rows(text: &str) -> Vec<Vec<String>> {
+    text.lines().map(|line| line.split(',').skip(1).map(str::to_owned).collect()).collect()
+}
+
+#[test]
+fn a_sample_is_that_of_its_plan_in_memory_in_a_store_and_as_a_table() {
+    let (folder, task) = (tempfile::tempdir().unwrap(), "--fields impact-speed-max --transient");
+    let here = folder.path();
+    let memory = told(here, &format!("{HYPERCUBE} {task} --csv -"));
+    assert_eq!(memory.lines().count(), 121);
+    let store = told(here, &format!("{HYPERCUBE} {task} --store cube.zarr --tile 25 --csv -"));
+    assert_eq!(memory, store);
+    // the same plan as a file
+    let of = |vary: &str, from: f64, to: f64| json!({ "vary": vary, "from": from, "to": to });
+    let over = [of("inverse_beta", 0.6, 2.0), of("gap", 0.0, 2.0), of("restitution", 0.3, 0.8)];
+    let drawn = json!({ "rule": "lhs", "count": 120, "seed": 3, "over": over });
+    let basin = json!({ "points": { "drawn": drawn }, "start": { "v": 0.5 }, "fields": ["impact_speed_max"], "transient": true });
+    let plan = json!({ "version": 1, "tile": 25, "system": { "restitution": 0.3 }, "task": { "basin": basin } });
+    fs::write(here.join("plan.json"), plan.to_string()).unwrap();
+    let ran: Value = serde_json::from_str(&told(here, "run plan.json --store cube.zarr --json")).unwrap();
+    assert_eq!((&ran["computed"], &ran["found"]), (&json!(0), &json!(5)));
+    // the values of the sample as a table
+    let columns: Vec<String> = rows(&memory).iter().map(|row| row[..3].join(",")).collect();
+    fs::write(here.join("points.csv"), columns.join("\n")).unwrap();
+    let listed = told(here, &format!("settle-many --points points.csv --v 0.5 {task} --csv -"));
+    assert_eq!(listed, memory);
+    // and from stdin, with the names of flags
+    let table = columns.join("\n").replace("inverse_beta", "inverse-beta");
+    let mut piped = vibro(&format!("settle-many --points - --v 0.5 {task} --csv -"));
+    let output = piped.write_stdin(table).output().unwrap();
+    assert_eq!(String::from_utf8(output.stdout).unwrap(), memory);
+}
+
+#[test]
+fn a_sample_is_resumed_and_divided() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let line = format!("{HYPERCUBE} --tile 10 --store cube.zarr");
+    let mut runs = 0;
+    loop {
+        let (code, complaint) = said(here, &format!("--threads 1 {line} --budget 0.001s"));
+        runs += 1;
+        match code {
+            Some(0) => break,
+            Some(130) => assert!(complaint.contains("the budget is spent"), "{complaint}"),
+            other => panic!("{other:?} {complaint}"),
+        }
+    }
+    assert_eq!(runs, 12);
+    assert!(told(here, &format!("{HYPERCUBE} --csv -")) == told(here, &format!("{line} --csv -")));
+    // an export has all fields
+    assert!(told(here, "export cube.zarr --csv -").lines().next().is_some_and(|head| head.contains("multiplier_1_re")));
+    assert!(told(here, "verify cube.zarr --sample 3").contains("12"));
+}
+
+/// One start is that of `settle`, and a machine in SI units has the same motions as its oscillator.
+#[test]
+fn the_same_motions_as_settle_and_in_other_units() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("starts.csv"), "x,v\n-1,0.5\n0.25,-2\n0.75,0\n").unwrap();
+    let system = "--inverse-beta 1.3 --gap 0.75 --restitution 0.5";
+    let table = told(here, &format!("settle-many --points starts.csv {system} --phase 1 --csv -"));
+    for row in rows(&table).iter().skip(1) {
+        let settled = format!("settle {system} --x={} --v={} --phase 1 --json", row[0], row[1]);
+        let settled: Value = serde_json::from_str(&told(here, &settled)).unwrap();
+        assert_eq!(settled["motion"]["label"], row[2], "{row:?}");
+    }
+    // F/k = 5 mm, omega_n = 20 /s
+    let machine = "--mass-kg 2 --stiffness-n-per-m 800 --force-n 4 --frequency-hz 2.5 --restitution 0.6";
+    let beta = 2.5 * std::f64::consts::TAU / 20.0;
+    let metres = told(here, &format!("settle-many --sample sobol:32 {machine} --gap-m 0.001:0.006 --v 0.02 --csv -"));
+    let plain = told(
+        here,
+        &format!("settle-many --sample sobol:32 --beta {beta} --gap 0.2:1.2 --restitution 0.6 --v 0.2 --csv -"),
+    );
+    let labels = |text: &str| rows(text).iter().skip(1).map(|row| row[1].clone()).collect::<Vec<_>>();
+    assert_eq!(labels(&metres), labels(&plain));
+    assert!(metres.starts_with("sample,gap_m,label"), "{metres}");
+    fs::write(here.join("gaps.csv"), "gap_m,v\n0.001,0.02\n0.004,0.02\n").unwrap();
+    let listed = told(here, &format!("settle-many --points gaps.csv {machine} --csv -"));
+    assert!(rows(&listed)[2][..2] == ["0.004", "0.02"], "{listed}");
+}
+
+#[test]
+fn summaries_and_refusals() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let text = told(here, "settle-many --sample sobol:64 --beta 1 --gap 1 --restitution 0.5 --v -2:2");
+    assert!(text.contains("64 points") && text.contains("share of starts"), "{text}");
+    let answer: Value =
+        serde_json::from_str(&told(here, "settle-many --sample sobol:8 --beta 1 --gap 0.5:1 --restitution 0.5 --json"))
+            .unwrap();
+    assert_eq!(answer["points"], 8);
+    assert_eq!(answer["plan"]["task"]["basin"]["points"]["drawn"]["rule"], "sobol");
+    fs::write(here.join("gaps.csv"), "gap\n0.5\n1\n").unwrap();
+    fs::write(here.join("bad.csv"), "gap,mass\n0.5,1\n").unwrap();
+    for (line, sentence) in [
+        ("settle-many --beta 1 --gap 0:1 --restitution 0.5", "the following required arguments were not provided"),
+        ("settle-many --sample lhs:9 --beta 1 --gap 1 --restitution 0.5", "nothing varies"),
+        ("settle-many --sample grid:9 --beta 1 --gap 0:1 --restitution 0.5", "neither sobol nor lhs"),
+        ("settle-many --sample lhs:9 --beta 1 --gap 1:0 --restitution 0.5", "is not A:B with finite A < B"),
+        (
+            "settle-many --points gaps.csv --beta 1 --gap 1 --restitution 0.5",
+            "--gap cannot go together with the column gap",
+        ),
+        (
+            "settle-many --points gaps.csv --beta 1:2 --restitution 0.5",
+            "--beta is a range, and points of a table have one value",
+        ),
+        ("settle-many --points gaps.csv --beta 1 --v -1:1 --restitution 0.5", "--v is a range"),
+        ("settle-many --points bad.csv --beta 1 --restitution 0.5", "`bad.csv`: the column `mass` is no parameter"),
+        ("settle-many --points none.csv --beta 1 --restitution 0.5", "the points `none.csv` cannot be read"),
+        ("settle-many --points gaps.csv --beta 1", "the restitution is not given"),
+        ("settle-many --points gaps.csv --restitution 0.5", "the frequency is given nowhere"),
+        ("settle-many --sample lhs:9 --beta 1 --gap 0:1 --restitution 0.5 --tile 3", "--store"),
+    ] {
+        let (code, complaint) = said(here, line);
+        assert_eq!(code, Some(2), "{line}: {complaint}");
+        assert!(complaint.contains(sentence), "{line}: {complaint}");
+    }
+}

@@ -1,0 +1,114 @@
+//! Tests of sweeps that carry their state: a run that was stopped goes on from the last state, to the same bytes.
+
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use common::{S, control, files, open, whole};
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::Instant;
+use vibroimpact_store::{Folder, Part, Store, StoreError};
+use vibroimpact_study::machine::CATALOGUE;
+use vibroimpact_study::{Control, MachinePlan, PLAN_VERSION, Plan, StudyPlan, Task};
+
+/// Orbit diagrams of two sweeps with 15 values.
+fn plans() -> [Plan; 2] {
+    ["velocity", "strobe"].map(|show| {
+        let task = format!(
+            r#"{{"diagram":{{"vary":"gap","over":"0.2:2:15","show":"{show}","direction":"both","transient":40,"keep":16}}}}"#
+        );
+        Plan::new(S, serde_json::from_str::<Task>(&task).unwrap())
+    })
+}
+
+#[test]
+fn a_budget_ends_between_two_values() {
+    for plan in plans() {
+        let (_kept, want) = whole(&plan);
+        let folder = tempfile::tempdir().unwrap();
+        let mut runs = 0;
+        loop {
+            let ran = open(folder.path(), &plan).run_until(Part::ALL, Some(Instant::now()), &control(1)).unwrap();
+            runs += 1;
+            let begun = fs::read_dir(folder.path().join(".begun")).map_or(0, Iterator::count);
+            assert_eq!((ran.spent, begun), if runs % 15 == 0 { (runs < 30, 0) } else { (true, 1) }, "{runs}");
+            let found = open(folder.path(), &plan).verify(10, 0, &control(1)).unwrap();
+            assert_eq!(found.damage, []);
+            if !ran.spent {
+                break;
+            }
+        }
+        // one value each
+        assert_eq!(runs, 30);
+        assert!(files(folder.path()) == want);
+    }
+}
+
+#[test]
+fn stopped_runs_lose_no_value() {
+    for plan in plans() {
+        let (_kept, want) = whole(&plan);
+        let folder = tempfile::tempdir().unwrap();
+        let (mut runs, computed) = (0, AtomicU64::new(0));
+        loop {
+            let (stop, first) = (AtomicBool::new(false), std::sync::OnceLock::new());
+            let progress = |now: u64| {
+                let from = *first.get_or_init(|| now);
+                if now > from + 4 {
+                    computed.fetch_add(1, Ordering::Relaxed);
+                    stop.store(true, Ordering::Relaxed);
+                }
+            };
+            match open(folder.path(), &plan).run(Part::ALL, &Control { stop: &stop, progress: &progress, threads: 1 }) {
+                Ok(_) => break,
+                Err(StoreError::Stopped(_)) => runs += 1,
+                Err(other) => panic!("{other}"),
+            }
+            assert!(runs < 60);
+        }
+        assert!(runs >= 2 && computed.into_inner() > 0, "{runs}");
+        assert!(files(folder.path()) == want);
+    }
+}
+
+#[test]
+fn damaged_parts_are_computed_again() {
+    let [plan, _] = plans();
+    let (_kept, want) = whole(&plan);
+    let folder = tempfile::tempdir().unwrap();
+    let part = folder.path().join(".begun/0");
+    for k in 0..5 {
+        open(folder.path(), &plan).run_until(Part::ALL, Some(Instant::now()), &control(1)).unwrap();
+        let bytes = fs::read(&part).unwrap();
+        let mut bad = bytes.clone();
+        let at = [9, 30, bytes.len() / 2, bytes.len() - 3, 70][k];
+        bad[at] ^= 64;
+        fs::write(&part, if k == 4 { &bytes[..at] } else { &bad }).unwrap();
+    }
+    open(folder.path(), &plan).run(Part::ALL, &control(2)).unwrap();
+    assert!(files(folder.path()) == want);
+    // a part that was left behind is removed when the store is complete
+    fs::create_dir(folder.path().join(".begun")).unwrap();
+    fs::write(&part, "left behind").unwrap();
+    open(folder.path(), &plan).run(Part::ALL, &control(1)).unwrap();
+    assert!(files(folder.path()) == want);
+}
+
+#[test]
+fn sweeps_of_machines_too() {
+    let machine = CATALOGUE.iter().find(|entry| entry.name == "soft-stop").unwrap().source().unwrap();
+    let task = r#"{"diagram":{"vary":"frequency","over":"0.7:0.9:6","transient":20,"keep":8}}"#;
+    let task = serde_json::from_str(task).unwrap();
+    let plan = StudyPlan::from(&MachinePlan { version: PLAN_VERSION, machine, task, tile: None, shard: None });
+    let store = |folder: &Path| Store::create(Arc::new(Folder::new(folder)), plan.clone()).unwrap();
+    let (one, two) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    store(one.path()).run(Part::ALL, &control(1)).unwrap();
+    let mut runs = 1;
+    while store(two.path()).run_until(Part::ALL, Some(Instant::now()), &control(1)).unwrap().spent {
+        runs += 1;
+    }
+    assert!(runs == 12 && files(one.path()) == files(two.path()), "{runs}");
+}
