@@ -89,6 +89,7 @@ fn path() -> BoxedStrategy<String> {
         "answer",
         "answer",
         "tile",
+        "picture?within=20",
         "table",
         "command",
         "figure",
@@ -136,7 +137,8 @@ fn path() -> BoxedStrategy<String> {
     prop_oneof![
         14 => (prop::sample::select(routes), query).prop_map(|(route, query)| {
             let query = query.join("&");
-            format!("/api/{route}{}{query}", if query.is_empty() { "" } else { "?" })
+            let sign = if query.is_empty() { "" } else if route.contains('?') { "&" } else { "?" };
+            format!("/api/{route}{sign}{query}")
         }),
         1 => pages.prop_map(str::to_owned),
     ]

@@ -131,7 +131,7 @@ export async function only_the_map_is_computed_while_a_slider_moves({ open }) {
     const original = globalThis.fetch;
     globalThis.asked = [];
     globalThis.fetch = async (path, options) => {
-      const one = { path: String(path).split("?")[0], body: options?.body ?? "", time: performance.now(), done: false };
+      const one = { path: String(path).split("?")[0], body: options?.body ?? "", done: false };
       globalThis.asked.push(one);
       one.abreast = globalThis.asked.filter((other) => other.path === "/api/picture" && !other.done).length;
       try {
@@ -148,13 +148,15 @@ export async function only_the_map_is_computed_while_a_slider_moves({ open }) {
   await page.locator(".verdict .label").waitFor();
   const { during, last } = await page.evaluate(async () => {
     const range = document.querySelector("#parameters .parameter:not([hidden]) input[type=range]");
-    const begin = performance.now();
+    const before = globalThis.asked.length;
     for (let k = 0; k < 20; k++) {
-      range.value = String(0.5 + 0.01 * k);
+      range.value = String(0.51 + 0.01 * k);
       range.dispatchEvent(new Event("input", { bubbles: true }));
       await new Promise((resolve) => setTimeout(resolve, 50));
     }
-    const moved = globalThis.asked.filter(({ time }) => time > begin + 1);
+    const moved = globalThis.asked.slice(before);
+    // before the first picture, requests may begin that the slider then stops
+    moved.splice(0, moved.findIndex(({ path }) => path === "/api/picture"));
     return { during: moved.map(({ path, abreast }) => ({ path, abreast })), last: range.value };
   });
   assert.ok(during.length >= 3, `${during.length} pictures`);

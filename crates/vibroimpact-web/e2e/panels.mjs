@@ -27,9 +27,10 @@ export async function panels_enlarge_zoom_and_return({ open, folder }) {
     await until("the focus is back", async () => /^Enlarge/.test(await focused()));
   }
   // the figures of the server are drawn in the new size
+  const widthIn = (where) => page.locator(`${where} .sheet img`).evaluate((image) => image.naturalWidth);
+  const narrow = await widthIn("#point [data-name=multipliers]");
   await enlarge(page, "multipliers");
-  const width = () => page.locator("#large .sheet img").evaluate((image) => image.naturalWidth);
-  const narrow = await width();
+  const width = () => widthIn("#large");
   await until("a larger picture", async () => (await width()) > 1.5 * narrow);
   await page.locator("#large .zoom").nth(1).click();
   const part = await page.locator("#large .sheet").evaluate((sheet) => sheet.scrollWidth / sheet.clientWidth);

@@ -23,6 +23,8 @@ export class Figure {
   constructor(title, ratio, failed, exported = null, name = "figure") {
     this.ratio = ratio;
     this.scale = 1;
+    /** Whether the picture keeps its proportions in a place of any size. */
+    this.rigid = false;
     this.image = element("img", { alt: "", hidden: true });
     this.sheet = element("div", { class: "sheet" }, this.image);
     this.sheet.style.setProperty("--shape", String(1 / ratio));
@@ -65,8 +67,10 @@ export class Figure {
     const { width: css, height } = this.sheet.getBoundingClientRect();
     const text = parseFloat(getComputedStyle(this.box).fontSize) * SMALLER;
     const units = (pixels) => Math.min(4000, Math.max(200, Math.round((pixels * TEXT) / text)));
-    const width = units(css || 400);
-    return { width, height: this.free && height ? units(height) : Math.round(width * this.ratio) };
+    const wide = units(css || 400);
+    if (this.free && height && !this.rigid) return { width: wide, height: units(height) };
+    const width = this.free && height ? Math.min(wide, Math.round(units(height) / this.ratio)) : wide;
+    return { width, height: Math.round(width * this.ratio) };
   }
 
   /** Whether the place has a height of its own: enlarged, in the tour, in a presentation. */

@@ -166,6 +166,7 @@ export class LineTool {
 
   refresh() {
     const { state } = this.store;
+    byId("line").removeAttribute("data-stale");
     this.plane.view.draw();
     this.show.value = state.show;
     this.ends.box.hidden = !state.line;
@@ -219,6 +220,7 @@ export class LineTool {
   /** While a slider of the map moves, only the map is computed. */
   wait() {
     this.asked.stop();
+    byId("line").toggleAttribute("data-stale", true);
     this.key = null;
   }
 

@@ -39,6 +39,8 @@ export class Point {
     this.motion.player.addEventListener("time", () => this.portrait.move(this.motion.wave.track, this.motion.player.time));
     this.starts = new Starts(store, parts, { say, exported: () => exported("basin"), startAt: (at, dragging) => this.startAt(at, dragging) });
     this.circle = figure("multipliers", "Multipliers", 1.02);
+    // the unit circle is a circle
+    this.circle.rigid = true;
     this.sections = figure("sections", "Impact map and stroboscopic section", 1.05);
     this.exponents = figure("lyapunov", "Attractor and Lyapunov exponents", 1.05);
     this.exponentsText = element("p", { class: "note" });
@@ -88,6 +90,7 @@ export class Point {
   /** @param {Set<string> | null} changed null for everything */
   refresh(changed) {
     const { state } = this.store;
+    byId("point").removeAttribute("data-stale");
     if (!state.point || state.panel !== "point") {
       this.stop();
       return;
@@ -121,6 +124,7 @@ export class Point {
   wait() {
     this.stop();
     this.basin.view.supply.stop();
+    byId("point").toggleAttribute("data-stale", true);
     [this.shown, this.drawing] = [null, null];
   }
 

@@ -116,12 +116,12 @@ fn with_points(plan: &Plan, number: f64) -> Result<Plan, Refusal> {
     Ok(coarser)
 }
 
-/// The centres of a part of the cells whose centres are these values. Lists stay as they are.
+/// The centres of a part of the cells whose centres are these values. Lists and logarithmic ranges stay as they are.
 fn cells(over: &Values, part: f64) -> Result<Values, Refusal> {
     let Values::Span(span) = over else { return Ok(over.clone()) };
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // at most the count
     let count = ((f64::from(span.count()) * part).round() as u32).clamp(1, span.count());
-    if count == span.count() || span.count() < 2 {
+    if count == span.count() || span.is_logarithmic() {
         return Ok(over.clone());
     }
     let (first, last) = span.ends();
