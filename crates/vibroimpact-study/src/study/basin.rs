@@ -14,7 +14,6 @@ use crate::limits::MOST_STARTS;
 use crate::quantity::{Quantities, Quantity};
 use crate::{BasinPlan, PlanError, SystemPlan};
 use core::cell::RefCell;
-use settling::Settled;
 use std::sync::OnceLock;
 use vibroimpact::lanes::Width;
 use vibroimpact::math::Multiplier;
@@ -65,6 +64,14 @@ struct Found {
     code: i32,
     multipliers: Option<[Multiplier; 2]>,
     quantities: Option<Quantities>,
+}
+
+/// The motions of a tile while it is computed.
+#[derive(Default)]
+struct Settled {
+    met: Census,
+    found: Vec<Found>,
+    endings: Vec<Ending>,
 }
 
 /// The result of a start as it is stored: the code of its label and the number of its cycle.

@@ -1,22 +1,14 @@
 //! The motions of the starts of a tile: starts of one system are settled together.
 
-use super::{BasinFill, Found, TRAPS, WORTH_A_SURVEY};
+use super::{BasinFill, Found, Settled, TRAPS, WORTH_A_SURVEY};
 use crate::grid::Block;
 use crate::study::code;
 use crate::study::fill::spread;
 use std::collections::HashMap;
 use vibroimpact::lanes::Width;
 use vibroimpact::quantities::of_verdict_only;
-use vibroimpact::verdict::{Census, CountedMotion, Ending, KnownAttractors, Reason, Verdict, settle_many};
+use vibroimpact::verdict::{CountedMotion, Ending, KnownAttractors, Reason, Verdict, settle_many};
 use vibroimpact::{Oscillator, Start};
-
-/// The motions of a tile while it is computed.
-#[derive(Default)]
-pub(super) struct Settled {
-    pub(super) met: Census,
-    pub(super) found: Vec<Found>,
-    pub(super) endings: Vec<Ending>,
-}
 
 /// A point that was not computed, or has no valid system.
 const NOTHING: Ending = Ending { reason: Reason::SearchLimit, impacts: 0 };
