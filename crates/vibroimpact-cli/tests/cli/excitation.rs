@@ -95,7 +95,7 @@ fn each_value_of_a_sweep_is_a_machine() {
         ("base-acceleration-m-per-s2", [1.0, 2.0, 3.0], "--gap-m 0.004 --frequency-hz 4.5"),
         ("gap-m", [0.002, 0.004, 0.006], "--force-n 3 --constant-force-n -0.9 --frequency-hz 4.5"),
         ("constant-force-n", [-1.0, 0.5, 2.0], "--force-n 3 --gap-m 0.004 --frequency-hz 4.5"),
-        ("gravity-m-per-s2", [-9.81, -2.0, 1.5], "--force-n 3 --gap-m 0.004 --frequency-hz 4.5"),
+        ("gravity-m-per-s2", [-4.0, -1.25, 1.5], "--force-n 3 --gap-m 0.004 --frequency-hz 4.5"),
         ("mass-kg", [0.5, 0.75, 1.0], "--gap-m 0.004 --frequency-hz 4.5 --force-n 3 --gravity -1m/s^2"),
         ("gaps-m", [0.002, 0.004, 0.006], "--force-n 3 --frequency-hz 4.5"),
     ] {

@@ -79,7 +79,7 @@ fn frequencies_in_hertz() {
 fn over_gaps(machine: &Machine, (name, extra): (&str, &str), gaps: [f64; 2]) -> [Value; 2] {
     let gaps = gaps.map(|part| part * machine.length());
     let by_hand = gaps.map(|gap| gap / machine.length());
-    let line = |flag: &str, [low, high]: [f64; 2]| format!("{flag} {low:?}:{high:?}:2 {extra} --json");
+    let line = |flag: &str, [low, high]: [f64; 2]| format!("{flag} {low:?}:{high:?}:2 {extra}");
     let plain = format!("{name} {} {}", machine.by_hand(&["--gap"]), line("--gap", by_hand));
     let si = format!("{name} {} {}", machine.in_si(&["--gap-m"]), line("--gap-m", gaps));
     [json(&plain), json(&si)]

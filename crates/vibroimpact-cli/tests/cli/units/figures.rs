@@ -30,16 +30,17 @@ fn marks(svg: &str) -> Marks {
     let side = |name: &str| attribute(elements[frame], name).and_then(|text| text.parse::<f64>().ok()).unwrap();
     let (left, top, width, height) = (side("x"), side("y"), side("width"), side("height"));
     let mut found = Marks::default();
-    for element in &elements[..frame] {
+    // hatches of areas are defined before
+    let begin = elements.iter().position(|element| element.starts_with("/defs")).unwrap_or(0);
+    for element in &elements[begin..frame] {
         if element.starts_with("image") {
             found.images.push(attribute(element, "href").unwrap().to_owned());
         }
-        for part in
-            attribute(element, "d").into_iter().flat_map(|path| path.split(['M', 'L'])).filter(|p| !p.is_empty())
-        {
-            let mut pieces = part.split('a');
-            let at = numbers(pieces.next().unwrap().trim_end_matches(['z', 'Z']));
-            let radius = pieces.next().map_or(0.0, |arc| numbers(arc)[0]);
+        let path = attribute(element, "d").into_iter().flat_map(|path| path.split(['M', 'L']));
+        for part in path.filter(|part| !part.is_empty()) {
+            // of a rectangle the first corner
+            let at = numbers(part.split(|sign: char| sign.is_ascii_alphabetic()).next().unwrap());
+            let radius = part.split_once('a').map_or(0.0, |(_, arc)| numbers(arc)[0]);
             let &[x, y] = at.as_slice() else { panic!("{part}") };
             found.places.push(((x + radius - left) / width, (y - top) / height));
         }
