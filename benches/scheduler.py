@@ -46,7 +46,7 @@ def sleep(tile: int, seconds: float) -> int:
 
 
 async def schedule(file: str) -> None:
-    async with Scheduler(scheduler_file=file, dashboard=False, port=0, host="127.0.0.1") as scheduler:
+    async with Scheduler(scheduler_file=file, dashboard=False, dashboard_address=":0", port=0, host="127.0.0.1") as scheduler:
         await scheduler.finished()
 
 
