@@ -48,6 +48,17 @@ fn marks(svg: &str) -> Marks {
     found
 }
 
+/// The distance of a place from the line through others.
+fn distance((x, y): (f64, f64), line: &[(f64, f64)]) -> f64 {
+    let to = |pair: &[(f64, f64)]| {
+        let ((a, b), (dx, dy)) = (pair[0], (pair[1].0 - pair[0].0, pair[1].1 - pair[0].1));
+        let square = dx * dx + dy * dy;
+        let part = if square > 0.0 { (((x - a) * dx + (y - b) * dy) / square).clamp(0.0, 1.0) } else { 0.0 };
+        (x - a - part * dx).hypot(y - b - part * dy)
+    };
+    line.windows(2).map(to).fold(f64::INFINITY, f64::min)
+}
+
 /// Random machines: dots, curves and images stand at the same places between the axes as in the nondimensional figure.
 #[test]
 fn random_machines_have_the_figures_of_the_oscillator() {
@@ -64,11 +75,10 @@ fn random_machines_have_the_figures_of_the_oscillator() {
             };
             let (plain, si) = (figure(&plain, "plain.svg"), figure(&si, "si.svg"));
             assert!(plain.images == si.images, "{name}: {machine:?}");
-            assert_eq!(plain.places.len(), si.places.len(), "{name}: {machine:?}");
-            for (a, b) in plain.places.iter().zip(&si.places) {
-                // coordinates are written to a hundredth of a pixel, of at least 300
-                let off = (a.0 - b.0).abs().max((a.1 - b.1).abs());
-                assert!(off < 1e-4, "{name}: {a:?} {b:?} {machine:?}");
+            // curves have fewer points where they are nearly straight, and which ones depends on the size of the frame
+            for (one, other) in [(&plain, &si), (&si, &plain)] {
+                let off = one.places.iter().map(|at| distance(*at, &other.places)).fold(0.0, f64::max);
+                assert!(off < 1e-3, "{name}: {off} {machine:?}");
             }
             compared += plain.places.len() + plain.images.len();
         }
