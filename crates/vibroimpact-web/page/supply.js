@@ -141,15 +141,18 @@ export class Supply {
     const time = (still ? STILL_TIMES : [COARSE_TIME]).find((one, k, all) => !known(one) && all.slice(0, k).every((shorter) => known(shorter).columns * known(shorter).rows < FEW));
     const key = keyOf(time);
     if (!time || this.refused.has(key)) return null;
-    if (this.sketching) return { key: this.sketching, rank: 0, kept: true, run: async () => {} };
+    // one for a moving slider is finished, one that takes longer gives way to it
+    const quick = time === COARSE_TIME;
+    if (this.sketching && (still || this.sketching.quick)) return { key: this.sketching.key, rank: 0, kept: true, run: async () => {} };
     const run = async (signal) => {
-      this.sketching = key;
+      const own = { key, quick };
+      this.sketching = own;
       await this.take(askCoarse(this.view, key, stage, time, signal), signal);
-      this.sketching = null;
+      if (this.sketching === own) this.sketching = null;
       // the next one, if a slider has moved on
       this.view.changed(0);
     };
-    return { key, rank: 0, kept: true, run };
+    return { key, rank: 0, kept: quick, run };
   }
 
   /** Whether tiles of a level fill the view. */

