@@ -69,7 +69,7 @@ fn random_machines_have_the_figures_of_the_oscillator() {
         for Command { name, flags, without, .. } in COMMANDS.iter().filter(|command| drawn.contains(&command.name)) {
             let (si, plain) = machine.lines(name, flags, without);
             let figure = |line: &str, file: &str| {
-                let output = vibro(&format!("{line} --plot {file}")).current_dir(&folder).output().unwrap();
+                let output = vibro(&format!("{line} --plot {file} --force")).current_dir(&folder).output().unwrap();
                 assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
                 marks(&std::fs::read_to_string(folder.path().join(file)).unwrap())
             };
