@@ -4,8 +4,7 @@
 //! derivative; so it is positive where both are larger. Other steps are decided by the series of the guard over the step.
 //! What is not decided so, which is rare, is left to the search (`search`).
 
-use super::flight::MachineFlight;
-use super::found::{Buffers, Found, Guards};
+use super::flight::{MachineFlight, Modes};
 use crate::regime::{POWERS, REST, SAMPLES, Sampled, Span};
 
 /// The state is computed anew, by the search, after so many spans.
@@ -135,13 +134,19 @@ fn crossing(c: &[f64; POWERS - 1], error: f64) -> Option<f64> {
     (t > 0.0 && end <= 1.0 && steepest < -16.0 * error).then_some(t)
 }
 
-/// The first zero before `until`, if it is the plain crossing of one guard; the modes are then those there.
-pub(super) fn plain_crossing(flight: &MachineFlight, until: f64, steps: u32, buffers: &mut Buffers) -> Option<Found> {
+/// The time of the first zero before `until` and its guard, if it is the plain crossing of one guard; the modes are then those
+/// there.
+pub(super) fn plain_crossing(
+    flight: &MachineFlight,
+    until: f64,
+    steps: u32,
+    sampling: &mut Sampling,
+    modes: &mut Modes,
+) -> Option<(f64, usize)> {
     let sampled = flight.structure.sampled.as_ref()?;
     if flight.guards.iter().any(|guard| guard.known > 1 || guard.recovery.is_some()) {
         return None;
     }
-    let Buffers { sampling, modes, .. } = buffers;
     let (s, guard, part) = sampling.search(flight, sampled, until, steps.min(SPANS))?;
     modes.s = s;
     let over = 1.0 / sampled.spans[0].step;
@@ -152,7 +157,7 @@ pub(super) fn plain_crossing(flight: &MachineFlight, until: f64, steps: u32, buf
         (*moved, *v) = (value, slope * over);
     }
     flight.turn(s, modes);
-    Some(Found::Zero { s, guards: Guards::One([guard]) })
+    Some((s, guard))
 }
 
 /// The value of a polynomial and its slope, by even and odd powers.

@@ -32,9 +32,9 @@ pub(crate) fn first_event(
     buffers: &mut Buffers,
     touches: &mut Vec<Touch>,
 ) -> Found {
-    if let Some(found) = plain_crossing(flight, until, steps, buffers) {
+    if let Some((s, guard)) = plain_crossing(flight, until, steps, &mut buffers.sampling, &mut buffers.modes) {
         buffers.fresh = true;
-        return found;
+        return Found::Zero { s, guards: Guards::One([guard]) };
     }
     by_windows(flight, until, steps, buffers, touches)
 }
@@ -234,17 +234,17 @@ mod tests {
             let known = |kind| (usize::from(on_stop && kind == GuardKind::Gap(0)), None);
             let flight = MachineFlight::new(structure.clone(), begin, |_| 0.0, known);
             let mut buffers = Buffers::default();
-            let crossing = plain_crossing(&flight, 30.0, 100, &mut buffers);
+            let crossing = plain_crossing(&flight, 30.0, 100, &mut buffers.sampling, &mut buffers.modes);
             let modes = buffers.modes.clone();
             let mut touches = Vec::new();
             let searched = by_windows(&flight, 30.0, 10_000, &mut buffers, &mut touches);
             all += u32::from(matches!(searched, Found::Zero { .. }));
-            let Some(Found::Zero { s, guards }) = crossing else { continue };
+            let Some((s, guard)) = crossing else { continue };
             plain += 1;
             let Found::Zero { s: wanted, guards: same } = searched else { panic!("case {case}: no zero, {s} found") };
-            assert!(touches.is_empty() && guards[..] == same[..], "case {case}: {guards:?} {same:?}");
+            assert!(touches.is_empty() && same[..] == [guard], "case {case}: {guard} {same:?}");
             // a slow approach has an uncertain time
-            let (_, speed, error) = flight.guard(guards[0], &buffers.modes);
+            let (_, speed, error) = flight.guard(guard, &buffers.modes);
             let allowed = 8.0 * error / speed.abs() + 32.0 * f64::EPSILON * (1.0 + s);
             assert!((s - wanted).abs() < allowed, "case {case}: {s} {wanted}, {allowed:e} allowed");
             flight.at(s, &mut buffers.modes);
