@@ -1,5 +1,7 @@
 //! What drives the modes during a flight: constants, ramps and harmonics, turned to the phase of its beginning.
 
+use crate::regime::Structure;
+
 /// What drives the modes of a flight.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Drive {
@@ -14,6 +16,20 @@ pub(super) struct Drive {
 }
 
 impl Drive {
+    /// What drives the modes of a structure, without what depends on the beginning of a flight.
+    pub(super) fn of_structure(structure: &Structure) -> Self {
+        let mut drive = Self::default();
+        drive.become_of(structure);
+        drive
+    }
+
+    /// The same in the place of that of another structure.
+    pub(super) fn become_of(&mut self, structure: &Structure) {
+        self.ramp.clear();
+        self.ramp.extend(structure.drive.iter().map(|signal| signal.ramp));
+        self.rates.clone_from(&structure.rates);
+    }
+
     /// The amplitudes of one mode.
     pub(super) fn of(&self, mode: usize) -> &[(f64, f64)] {
         let count = self.rates.len();

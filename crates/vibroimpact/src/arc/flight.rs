@@ -94,15 +94,15 @@ impl MachineFlight {
         structure: Arc<Structure>,
         begin: Begin<'_>,
         gap: impl Fn(usize) -> f64,
-        known: impl FnMut(GuardKind) -> (usize, Option<Recovery>),
+        known: impl Fn(GuardKind) -> (usize, Option<Recovery>),
     ) -> Self {
         let mut flight = Self {
+            drive: Drive::of_structure(&structure),
             structure,
             origin: Vec::new(),
             v: Vec::new(),
             x: Vec::new(),
             rate: Vec::new(),
-            drive: Drive::default(),
             guards: Vec::new(),
             harmonics: Vec::new(),
             set: Vec::new(),
@@ -113,15 +113,18 @@ impl MachineFlight {
         flight
     }
 
-    /// Another flight in the place of this one, in its memory.
+    /// Another flight in the place of this one, in its memory; without a structure, in that of this one.
     pub(crate) fn renew(
         &mut self,
-        structure: Arc<Structure>,
+        structure: Option<Arc<Structure>>,
         begin: Begin<'_>,
         gap: impl Fn(usize) -> f64,
-        known: impl FnMut(GuardKind) -> (usize, Option<Recovery>),
+        known: impl Fn(GuardKind) -> (usize, Option<Recovery>),
     ) {
-        self.structure = structure;
+        if let Some(structure) = structure {
+            self.drive.become_of(&structure);
+            self.structure = structure;
+        }
         self.begin(begin, gap, known);
     }
 
@@ -129,7 +132,7 @@ impl MachineFlight {
         &mut self,
         Begin { x, v: rate, set, turns }: Begin<'_>,
         gap: impl Fn(usize) -> f64,
-        mut known: impl FnMut(GuardKind) -> (usize, Option<Recovery>),
+        known: impl Fn(GuardKind) -> (usize, Option<Recovery>),
     ) {
         let structure = &self.structure;
         let value = |signal: &Signal| signal.steady(set) + signal.swing(turns);
@@ -142,8 +145,8 @@ impl MachineFlight {
             let function = &guard.function;
             let mut moving = function.signal.swing(turns);
             let (mut sum, mut size) = (function.signal.steady(set) + moving, function.signal.constant.abs());
-            for i in 0..y.len() {
-                let (one, two) = (function.position[i] * y[i], function.velocity[i] * v[i]);
+            for ((a, y), (b, v)) in function.position.iter().zip(y).zip(function.velocity.iter().zip(v)) {
+                let (one, two) = (a * y, b * v);
                 sum += one + two;
                 moving += two;
                 size += one.abs() + two.abs();
@@ -160,11 +163,10 @@ impl MachineFlight {
         }
         let drive = &mut self.drive;
         structure.rest_force(x, rate, turns, gap, &mut self.rest, &mut drive.steady);
-        drive.ramp.clear();
-        drive.ramp.extend(structure.drive.iter().map(|signal| signal.ramp));
         drive.harmonics.clear();
-        drive.harmonics.extend(structure.drive.iter().flat_map(|signal| signal.turned(turns)));
-        drive.rates.clone_from(&structure.rates);
+        for signal in &structure.drive {
+            drive.harmonics.extend(signal.turned(turns));
+        }
         self.x.clear();
         self.x.extend_from_slice(x);
         self.rate.clear();
@@ -185,6 +187,31 @@ impl MachineFlight {
     pub(super) fn dense(&self) -> Option<Dense<'_>> {
         let (stiffness, damping) = self.structure.dense.as_ref()?;
         Some(Dense { stiffness, damping, drive: &self.drive, rate: self.structure.fastest() })
+    }
+
+    /// The state of the modes and harmonics at the beginning: see `Pass`.
+    pub(super) fn state_of_modes(&self, z: &mut Vec<f64>) {
+        let count = 3 * self.v.len();
+        if z.len() != count + 2 * self.turns.len() + 2 {
+            z.resize(count + 2 * self.turns.len() + 2, 0.0);
+        }
+        let (modes, rest) = z.split_at_mut(count);
+        let ((modes, _), (turns, time)) = (modes.as_chunks_mut::<3>(), rest.split_at_mut(2 * self.turns.len()));
+        for (mode, (v, q)) in modes.iter_mut().zip(self.v.iter().zip(&self.drive.steady)) {
+            *mode = [0.0, *v, *q];
+        }
+        for (turn, (sin, cos)) in turns.as_chunks_mut::<2>().0.iter_mut().zip(&self.turns) {
+            *turn = [*cos, *sin];
+        }
+        (time[0], time[1]) = (0.0, 1.0);
+    }
+
+    /// Turns the harmonics of modes at a time, if coordinates depend on them.
+    pub(super) fn turn(&self, s: f64, modes: &mut Modes) {
+        modes.turned.clear();
+        if self.structure.carries {
+            modes.turned.extend(self.structure.rates.iter().map(|rate| Turned::of(rate * s)));
+        }
     }
 
     /// The modes a time `s` after the beginning.
@@ -408,6 +435,17 @@ impl MachineFlight {
 
     /// Mass-normalised coordinates and velocities at a time, from the modes there.
     pub(crate) fn state(&self, modes: &Modes, x: &mut Vec<f64>, v: &mut Vec<f64>) {
+        if self.structure.plain && !self.structure.carries {
+            // coordinates are combinations of displacements alone, and velocities of velocities
+            x.clone_from(&self.x);
+            v.clone_from(&self.rate);
+            for ((x, of), (v, of_v)) in x.iter_mut().zip(&self.structure.x).zip(v.iter_mut().zip(&self.structure.v)) {
+                *x += dot(&of.position, &modes.moved);
+                let gained = of_v.velocity.iter().zip(modes.v.iter().zip(&self.v));
+                *v += gained.fold(0.0, |sum, (factor, (now, before))| sum + factor * (now - before));
+            }
+            return;
+        }
         let evaluate = |all: &[Observable], begin: &[f64], to: &mut Vec<f64>| {
             to.clear();
             to.extend(all.iter().zip(begin).map(|(of, begin)| {

@@ -1,5 +1,6 @@
 //! What a search for the first event finds, and what it keeps from flight to flight.
 
+use super::crossing::Sampling;
 use super::dense_series::DenseSeries;
 use super::flight::{MachineFlight, Modes};
 use super::guard_polynomial::GuardPolynomial;
@@ -10,9 +11,27 @@ use super::track::Track;
 pub(crate) enum Found {
     /// The guards (by place) that become zero a time after the beginning. If there are several, they are zero at the
     /// same time within rounding.
-    Zero { s: f64, guards: Vec<usize> },
+    Zero { s: f64, guards: Guards },
     /// No zero before this time.
     NoneBefore(f64),
+}
+
+/// The guards that are zero at the end of a flight: nearly always one.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Guards {
+    One([usize; 1]),
+    Several(Vec<usize>),
+}
+
+impl core::ops::Deref for Guards {
+    type Target = [usize];
+
+    fn deref(&self) -> &[usize] {
+        match self {
+            Self::One(one) => one,
+            Self::Several(all) => all,
+        }
+    }
 }
 
 /// A guard that touches zero within rounding and is positive again.
@@ -28,6 +47,7 @@ pub(crate) struct Buffers {
     pub(crate) modes: Modes,
     pub(super) dense: DenseSeries,
     pub(super) polynomials: Vec<GuardPolynomial>,
+    pub(super) sampling: Sampling,
     pub(super) track: Track,
     pub(super) known: Vec<usize>,
     pub(super) touched: Vec<bool>,

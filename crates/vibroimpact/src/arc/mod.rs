@@ -7,6 +7,7 @@
 //! | the same where there are no modes | `dense`, `dense_series` |
 //! | whether a flight ends at all | `never` |
 //! | how small changes of the state move | `transition` |
+//! | plain crossings, by samples of the guards | `crossing` |
 //! | guards as polynomials over a window | `guard_polynomial` |
 //! | windows that are passed without the closed form | `track` |
 //! | first zeros of polynomials | `polynomial` |
@@ -14,6 +15,7 @@
 //! | proof of a zero, and its time | `zero` |
 //! | the first zero of any guard, which misses none | `search` |
 
+mod crossing;
 mod dense;
 mod dense_series;
 mod drive;

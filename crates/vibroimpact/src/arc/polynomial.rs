@@ -34,7 +34,7 @@ pub(super) fn first_zero_near(p: &[f64; TERMS], guess: f64) -> Option<f64> {
 }
 
 /// Whether the Bernstein coefficients change from positive to negative once: then there is one zero, and it is a crossing.
-pub(super) fn crosses_once(b: &[f64; TERMS]) -> bool {
+fn crosses_once(b: &[f64; TERMS]) -> bool {
     let first = b.iter().position(|value| *value <= 0.0).unwrap_or(TERMS);
     b[first..].iter().all(|value| *value < 0.0)
 }

@@ -1,62 +1,15 @@
 //! The zero of a guard: proof that there is one, and its time.
 
 use super::flight::{MachineFlight, Modes};
-use super::found::{Buffers, Found};
+use super::found::{Buffers, Found, Guards};
 use super::guard_polynomial::ORDER;
-use super::polynomial::{RESOLUTION, crosses_once, falls, first_zero_near, value};
-use crate::regime::{TERMS, Window, bernstein};
+use super::polynomial::{RESOLUTION, falls, first_zero_near, value};
+use crate::regime::TERMS;
 
 /// Over this part of a radian of the fastest rate the modes move on by their rates, exact to rounding.
 const NEARBY: f64 = 1e-8;
 /// Up to this part of a window the remainder of the polynomial, of the ninth order, is below rounding.
 const NEAR: f64 = 0.01;
-
-/// The zero in a part of the first window from where the track is, where one guard crosses zero plainly and the others are
-/// positive. The lower polynomial is positive before one point, the upper one negative at another behind it, and the guard
-/// falls between them.
-pub(super) fn plain(flight: &MachineFlight, window: &Window, part: f64, buffers: &mut Buffers) -> Option<Found> {
-    let mut only = None;
-    for (g, of) in buffers.polynomials.iter().enumerate() {
-        if of.is_positive() {
-            continue;
-        }
-        if only.is_some() || of.known > 0 {
-            return None;
-        }
-        only = Some((g, of));
-    }
-    let (g, of) = only?;
-    let lower = of.beside(-1.0);
-    let hull = bernstein(&lower);
-    if hull[0] <= 0.0 || !crosses_once(&hull) {
-        return None;
-    }
-    let p = without_remainder(&of.p);
-    let mut t = hull[0] / (hull[0] - hull[ORDER]);
-    for _ in 0..3 {
-        let (height, slope) = value(&p, t);
-        t = (t - height / slope).clamp(0.0, 1.0);
-    }
-    let length = window.length * part;
-    let (time, curvature) = buffers.track.sharp(flight, window, g, t * part);
-    let t = (time - buffers.track.s) / length;
-    let slope = value(&p, t).1 + 9.0 * of.p[ORDER];
-    let beside = 2.0 * (of.p[ORDER] + of.error) / -slope + 1e-13;
-    let (mut bend, mut k) = (0.0, 2.0);
-    for c in &p[2..ORDER] {
-        bend += k * (k - 1.0) * c.abs();
-        k += 1.0;
-    }
-    let (from, to) = (t - beside, t + beside);
-    let falls = slope < 0.0 && slope + beside * bend < 0.0 && from > 0.0 && to < 1.0;
-    if !(falls && value(&lower, from).0 > 0.0 && value(&of.beside(1.0), to).0 < 0.0) {
-        return None;
-    }
-    let begin = buffers.track.s;
-    let bracket = (begin + from * length, begin + to * length);
-    let s = refine(flight, g, bracket, Some((time, curvature)), RESOLUTION * length, &mut buffers.modes);
-    Some(Found::Zero { s, guards: vec![g] })
-}
 
 /// The zero, if it is proven that there is exactly one near `near` for each guard that may be the first.
 pub(super) fn certain(flight: &MachineFlight, window: f64, s: f64, near: f64, buffers: &mut Buffers) -> Option<Found> {
@@ -136,7 +89,7 @@ fn proven(
     // the same time within rounding
     let together = |at: f64| at <= best * (1.0 + 4.0 * f64::EPSILON);
     let guards = brackets.iter().filter(|(_, at, _)| together(*at)).map(|(g, ..)| *g).collect();
-    Some(Found::Zero { s: best, guards })
+    Some(Found::Zero { s: best, guards: Guards::Several(guards) })
 }
 
 /// The zero of a falling polynomial between two points, nearly, and the size of its second derivative.

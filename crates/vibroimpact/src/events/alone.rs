@@ -9,12 +9,18 @@ use crate::math::{add_scaled, dot};
 use crate::regime::{ContactState, GuardKind};
 
 impl MachineMotion<'_> {
-    /// Whether the event at this guard was one of them.
-    pub(super) fn happen_alone(&mut self, kind: GuardKind) -> bool {
-        let turns = self.place.turns(&self.normal);
+    /// Whether the event at this guard was one of them. `fastest` is the rate of the structure before it.
+    pub(super) fn happen_alone(&mut self, kind: GuardKind, fastest: f64) -> bool {
+        let turns = self.place.turns_of(&self.normal, &mut self.scratch);
+        let happened = self.happened_alone(kind, fastest, &turns);
+        self.scratch.give_back(turns);
+        happened
+    }
+
+    fn happened_alone(&mut self, kind: GuardKind, fastest: f64, turns: &[(f64, f64)]) -> bool {
         match kind {
             GuardKind::Gap(j) => {
-                let (gap, rate, ..) = self.place.gap(&self.normal, &turns, j);
+                let (gap, rate) = self.place.gap_and_rate(&self.normal, turns, j);
                 let speed = (-rate).max(0.0);
                 let w = &self.normal.directions[j];
                 let square = dot(w, w);
@@ -35,7 +41,10 @@ impl MachineMotion<'_> {
                             passage.blows.push(Blow { stop: j, speed, impulse });
                         }
                         self.announce(MachineEventKind::Impact, j, speed, Vec::new());
-                        self.complete(j, &turns);
+                        let open = self.place.states.iter().all(|state| *state == ContactState::Open);
+                        if !(open && self.is_far_from_an_end(j, restitution, fastest, turns)) {
+                            self.complete(j, turns);
+                        }
                     }
                     StopLaw::Compliant { .. } => {
                         if self.place.surfaces[j].take().is_none() {
@@ -49,7 +58,7 @@ impl MachineMotion<'_> {
                 }
             }
             GuardKind::Depth(j) | GuardKind::Force(j) if self.place.states[j] == ContactState::Closed => {
-                self.open(kind, j, &turns);
+                self.open(kind, j, turns);
                 self.record(&[]);
                 self.announce(MachineEventKind::Open, j, 0.0, Vec::new());
             }

@@ -15,7 +15,7 @@ impl MachineMotion<'_> {
     /// of the sum are exact to rounding (A. B. Nordmark and P. T. Piiroinen, doi:10.1007/s11071-008-9463-y).
     pub(super) fn complete(&mut self, j: usize, turns: &[(f64, f64)]) {
         let StopLaw::Rigid { restitution } = self.machine.stops()[j].law else { return };
-        let rebound = self.place.gap(&self.normal, turns, j).1;
+        let rebound = self.place.gap_and_rate(&self.normal, turns, j).1;
         if restitution >= 1.0 || rebound <= 0.0 {
             return;
         }
@@ -77,6 +77,17 @@ impl MachineMotion<'_> {
         self.move_to(&flight, duration);
         self.announce(MachineEventKind::Stick, j, 0.0, Vec::new());
         self.largest_impact = 0.0;
+    }
+
+    /// Whether a chatter on a stop that is struck alone, while all others are open, is far from its end: a test without the
+    /// structure at rest. `fastest` is the rate of the structure.
+    pub(super) fn is_far_from_an_end(&self, j: usize, restitution: f64, fastest: f64, turns: &[(f64, f64)]) -> bool {
+        let approach = &self.normal.approaches[j];
+        let rebound = self.place.gap_and_rate(&self.normal, turns, j).1;
+        // the velocity of the gap taken away changes the acceleration by its drag
+        let a = approach.at(&self.place.x, &self.place.v, turns) - approach.drag * rebound;
+        let first = 2.0 * rebound / (a * (1.0 - restitution));
+        a <= 0.0 || first * fastest.max(approach.drag) > 11.0 * SMALL
     }
 
     /// Whether a chatter is far from its end, by the reaction at rest here: a first test without a flight.

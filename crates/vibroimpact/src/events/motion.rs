@@ -41,7 +41,7 @@ pub struct MachineMotion<'a> {
     pub(super) buffers: Buffers,
     touches: Vec<Touch>,
     /// The memory of the last flight.
-    spare: Option<MachineFlight>,
+    spare: Option<Box<MachineFlight>>,
     pub(super) scratch: Scratch,
     /// Events since the time last advanced.
     crowd: u32,
@@ -287,7 +287,7 @@ impl<'a> MachineMotion<'a> {
     /// Opens a compliant stop.
     pub(super) fn open(&mut self, kind: GuardKind, j: usize, turns: &[(f64, f64)]) {
         self.place.states[j] = ContactState::Open;
-        let depth = -self.place.gap(&self.normal, turns, j).0;
+        let depth = -self.place.gap_and_rate(&self.normal, turns, j).0;
         let mut known = 1;
         if matches!(kind, GuardKind::Force(_)) && depth > 0.0 {
             self.place.surfaces[j] = standing_back(&self.machine.stops()[j].law, depth);
@@ -383,12 +383,26 @@ impl<'a> MachineMotion<'a> {
         &self.place
     }
 
+    /// The flight from here, in the memory of the last one; `None` if its constraints depend on each other.
+    fn fly(&mut self) -> Option<Box<MachineFlight>> {
+        let spare = self.spare.take();
+        let structure = match &spare {
+            Some(flight) if flight.structure.is_in(&self.place.states) => None,
+            _ => Some(self.structures.get(self.machine, &self.normal, &self.place.states)?),
+        };
+        match (spare, structure) {
+            (Some(mut flight), structure) => {
+                self.place.fly(&self.normal, structure, &mut flight, &mut self.scratch);
+                Some(flight)
+            }
+            (None, structure) => Some(Box::new(self.place.flight(&self.normal, structure?))),
+        }
+    }
+
     /// Follows the motion to its next event.
     fn advance(&mut self) {
-        let Some(structure) = self.structures.get(self.machine, &self.normal, &self.place.states) else {
-            return self.end = Some(MachineEnd::Inconsistent);
-        };
-        let flight = self.place.fly(&self.normal, structure.clone(), self.spare.take(), &mut self.scratch);
+        let Some(flight) = self.fly() else { return self.end = Some(MachineEnd::Inconsistent) };
+        let structure = &flight.structure;
         // the first surface that reaches its holder changes its guard without an event
         let recovered = self
             .place
@@ -454,23 +468,27 @@ impl<'a> MachineMotion<'a> {
                 if self.crowd > CROWD {
                     return self.end = Some(MachineEnd::Collapse);
                 }
-                let kinds: Vec<GuardKind> = guards.iter().map(|g| structure.guards[*g].kind).collect();
                 if let Some(passage) = &mut self.passage {
-                    passage.guards.clone_from(&guards);
+                    passage.guards = guards.to_vec();
                     passage.before = Some(self.place.clone());
                 }
-                self.happen(&kinds);
+                let kind = |g: &usize| structure.guards[*g].kind;
+                let fastest = structure.fastest();
+                match &*guards {
+                    [g] => self.happen(&[kind(g)], fastest),
+                    all => self.happen(&all.iter().map(kind).collect::<Vec<_>>(), fastest),
+                }
             }
         }
         self.spare = Some(flight);
     }
 
-    /// What follows when these guards are zero.
-    fn happen(&mut self, kinds: &[GuardKind]) {
+    /// What follows when these guards of a structure of this rate are zero.
+    fn happen(&mut self, kinds: &[GuardKind], fastest: f64) {
         if let [kind] = *kinds
             && self.machine.joints().is_empty()
             && !self.place.states.iter().any(|state| state.constrains())
-            && self.happen_alone(kind)
+            && self.happen_alone(kind, fastest)
         {
             return;
         }

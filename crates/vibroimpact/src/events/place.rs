@@ -10,7 +10,11 @@ use std::sync::Arc;
 
 /// The structures of the regimes that a motion has visited.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Structures(BTreeMap<Vec<ContactState>, Option<Arc<Structure>>>);
+pub(crate) struct Structures {
+    all: BTreeMap<Vec<ContactState>, Option<Arc<Structure>>>,
+    /// The last ones, between which most motions alternate.
+    last: [Option<Arc<Structure>>; 3],
+}
 
 impl Structures {
     /// The structure with these states of stops and joints; `None` if its constraints depend on each other.
@@ -20,19 +24,25 @@ impl Structures {
         normal: &Normal,
         states: &[ContactState],
     ) -> Option<Arc<Structure>> {
-        if let Some(known) = self.0.get(states) {
-            return known.clone();
+        if let Some(known) = self.last.iter().flatten().find(|last| last.is_in(states)) {
+            return Some(known.clone());
         }
-        let made = Structure::new(machine, normal, states).map(Arc::new);
-        self.0.insert(states.to_vec(), made.clone());
+        let made = self.all.get(states).cloned();
+        let made = made.unwrap_or_else(|| {
+            let made = Structure::new(machine, normal, states).map(Arc::new);
+            self.all.insert(states.to_vec(), made.clone());
+            made
+        });
+        self.last.rotate_right(1);
+        self.last[0].clone_from(&made);
         made
     }
 
     /// Takes over those of another motion.
     pub(crate) fn join(&mut self, other: &Self) {
-        for (states, structure) in &other.0 {
-            if !self.0.contains_key(states) {
-                self.0.insert(states.clone(), structure.clone());
+        for (states, structure) in &other.all {
+            if !self.all.contains_key(states) {
+                self.all.insert(states.clone(), structure.clone());
             }
         }
     }
@@ -48,9 +58,18 @@ pub(crate) fn standing_back(law: &StopLaw, depth: f64) -> Option<Recovery> {
 /// Vectors for the beginning of a flight, which are used again.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Scratch {
+    /// Sine and cosine of all harmonics at a phase.
     turns: Vec<(f64, f64)>,
+    phase: Option<f64>,
     set: Vec<f64>,
     pub(super) v: Vec<f64>,
+}
+
+impl Scratch {
+    /// Keeps the sines and cosines for the same phase.
+    pub(super) fn give_back(&mut self, turns: Vec<(f64, f64)>) {
+        self.turns = turns;
+    }
 }
 
 /// The state of a machine at one time.
@@ -75,6 +94,16 @@ impl Place {
         turns
     }
 
+    /// The same, computed once for a phase; they are given back to the scratch.
+    pub(super) fn turns_of(&self, normal: &Normal, scratch: &mut Scratch) -> Vec<(f64, f64)> {
+        let mut turns = core::mem::take(&mut scratch.turns);
+        if scratch.phase != Some(self.phase) {
+            self.turns_into(normal, &mut turns);
+            scratch.phase = Some(self.phase);
+        }
+        turns
+    }
+
     fn turns_into(&self, normal: &Normal, turns: &mut Vec<(f64, f64)>) {
         let phase = |order: f64| if order == 1.0 { self.phase } else { phase::wrap(order * self.phase) };
         turns.clear();
@@ -83,45 +112,50 @@ impl Place {
 
     /// The flight from here in the regime of `structure`.
     pub(crate) fn flight(&self, normal: &Normal, structure: Arc<Structure>) -> MachineFlight {
-        self.fly(normal, structure, None, &mut Scratch::default())
+        let mut scratch = Scratch::default();
+        self.begin(normal, &mut scratch, |begin, gap, known| MachineFlight::new(structure, begin, gap, known))
     }
 
-    /// The same, in the memory of another flight.
+    /// The same in the place of another flight; without a structure, in the regime of that.
     pub(super) fn fly(
         &self,
         normal: &Normal,
-        structure: Arc<Structure>,
-        spare: Option<MachineFlight>,
+        structure: Option<Arc<Structure>>,
+        flight: &mut MachineFlight,
         scratch: &mut Scratch,
-    ) -> MachineFlight {
+    ) {
+        self.begin(normal, scratch, |begin, gap, known| flight.renew(structure, begin, gap, known));
+    }
+
+    fn begin<T>(
+        &self,
+        normal: &Normal,
+        scratch: &mut Scratch,
+        begun: impl FnOnce(Begin<'_>, &dyn Fn(usize) -> f64, &dyn Fn(GuardKind) -> (usize, Option<Recovery>)) -> T,
+    ) -> T {
         // the time restarts with each flight, and the set points of joints that hold on a moving belt with it
         let stops = self.surfaces.len();
         let joints = 0..self.states.len() - stops;
-        let Scratch { turns, set, .. } = scratch;
+        let turns = self.turns_of(normal, scratch);
+        let set = &mut scratch.set;
         set.clear();
         set.extend(joints.map(|joint| match self.states[stops + joint] {
             ContactState::Holding => dot(&normal.directions[stops + joint], &self.x),
             _ => 0.0,
         }));
-        self.turns_into(normal, turns);
         let gap = |stop: usize| {
             let at_zero = self.known.iter().any(|(kind, _)| *kind == GuardKind::Depth(stop));
-            let gap = if at_zero { 0.0 } else { self.gap(normal, turns, stop).0 };
-            gap - normal.walls[stop].swing(turns)
+            let gap = if at_zero { 0.0 } else { self.gap_and_rate(normal, &turns, stop).0 };
+            gap - normal.walls[stop].swing(&turns)
         };
         let known = |kind| {
             let known = self.known.iter().find(|(of, _)| *of == kind).map_or(0, |(_, count)| *count);
             let surface = if let GuardKind::Gap(stop) = kind { self.surfaces[stop] } else { None };
             (known, surface)
         };
-        let begin = Begin { x: &self.x, v: &self.v, set, turns };
-        match spare {
-            Some(mut flight) => {
-                flight.renew(structure, begin, gap, known);
-                flight
-            }
-            None => MachineFlight::new(structure, begin, gap, known),
-        }
+        let result = begun(Begin { x: &self.x, v: &self.v, set, turns: &turns }, &gap, &known);
+        scratch.give_back(turns);
+        result
     }
 
     /// Moves to a time `s` after the beginning of a flight that began here, whose modes are these then; `frequency` is that
@@ -176,6 +210,17 @@ impl Place {
             wall.abs() + size(&self.x),
             wall_rate.abs() + size(&self.v),
         )
+    }
+
+    /// The gap of a stop and its rate alone.
+    pub(super) fn gap_and_rate(&self, normal: &Normal, turns: &[(f64, f64)], stop: usize) -> (f64, f64) {
+        let (w, wall) = (&normal.directions[stop], &normal.walls[stop]);
+        let (mut gap, mut rate) = (wall.constant, 0.0);
+        for (((a, b), (sin, cos)), w) in wall.harmonics.iter().zip(turns).zip(&normal.rates) {
+            gap += a * cos + b * sin;
+            rate += w * (b * cos - a * sin);
+        }
+        (gap - dot(w, &self.x), rate - dot(w, &self.v))
     }
 
     /// The relative velocity of a joint, and the size to which its rounding error is relative: velocities are rounded as

@@ -111,9 +111,16 @@ impl Matrix {
     }
 
     /// The image of a vector, into another one.
+    #[inline]
     pub(crate) fn apply_into(&self, vector: &[f64], image: &mut Vec<f64>) {
-        image.clear();
-        image.extend((0..self.rows).map(|i| dot(self.row(i), vector)));
+        if image.len() != self.rows {
+            image.resize(self.rows, 0.0);
+        }
+        let mut rest = self.values.as_slice();
+        for value in image.iter_mut() {
+            let (row, next) = rest.split_at(self.columns);
+            (*value, rest) = (dot(row, vector), next);
+        }
     }
 
     /// The image of a vector under the transpose, into another one.
@@ -240,11 +247,13 @@ impl IndexMut<(usize, usize)> for Matrix {
 }
 
 /// The scalar product.
+#[inline]
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// Adds `factor * vector` to `sum`.
+#[inline]
 pub(crate) fn add_scaled(sum: &mut [f64], factor: f64, vector: &[f64]) {
     for (s, v) in sum.iter_mut().zip(vector) {
         *s += factor * v;

@@ -12,7 +12,9 @@
 //! | the structure in one regime, its guards | `structure` |
 //! | small changes of its state, and the gradients of guards | `change` |
 //! | polynomials in Bernstein's form | `bernstein` |
+//! | how its state moves through a time | `pass` |
 //! | its motion over windows of one length | `window` |
+//! | its guards at equal steps | `sampled` |
 
 mod basis;
 mod bernstein;
@@ -21,7 +23,9 @@ mod complement;
 mod contact_state;
 mod mode;
 mod normal;
+mod pass;
 mod rest_force;
+mod sampled;
 mod signal;
 mod structure;
 mod window;
@@ -32,6 +36,7 @@ pub use contact_state::ContactState;
 pub(crate) use mode::{Mode, Turned};
 pub(crate) use normal::{Normal, compliant};
 pub(crate) use rest_force::RestBuffers;
+pub(crate) use sampled::{POWERS, REST, SAMPLES, Sampled, Span};
 pub(crate) use signal::{Observable, Signal, turned};
 pub(crate) use structure::{GuardKind, Structure};
 pub(crate) use window::{ALL, REACH, Window, add_harmonic, derivative_bounds};

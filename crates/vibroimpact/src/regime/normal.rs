@@ -1,8 +1,25 @@
 //! A machine in mass-normalised coordinates $`x = L^Tq`$, $`M = LL^T`$, in which kinetic energy is $`|\dot x|^2/2`$.
 
 use super::signal::Signal;
-use crate::machine::{HarmonicMotion, Machine, StopLaw};
-use crate::math::Matrix;
+use crate::machine::{HarmonicMotion, Machine, MachineStop, StopLaw};
+use crate::math::{Matrix, dot};
+
+/// The acceleration of a machine without contacts towards a stop, as a function of the mass-normalised state.
+#[derive(Clone, Debug)]
+pub(crate) struct Approach {
+    x: Vec<f64>,
+    v: Vec<f64>,
+    signal: Signal,
+    /// The rate of the damping along the stop.
+    pub(crate) drag: f64,
+}
+
+impl Approach {
+    /// At a state; `turns` are sine and cosine of the harmonics.
+    pub(crate) fn at(&self, x: &[f64], v: &[f64], turns: &[(f64, f64)]) -> f64 {
+        self.signal.constant + self.signal.swing(turns) - dot(&self.x, x) - dot(&self.v, v)
+    }
+}
 
 /// A machine in mass-normalised coordinates.
 #[derive(Clone, Debug)]
@@ -19,11 +36,15 @@ pub(crate) struct Normal {
     pub(crate) directions: Vec<Vec<f64>>,
     /// The position of each stop, $`d - r(t)`$: it is open while $`w\cdot x`$ is below.
     pub(crate) walls: Vec<Signal>,
+    /// How the open machine accelerates towards each stop.
+    pub(crate) approaches: Vec<Approach>,
     /// Angular frequencies of the harmonics.
     pub(crate) rates: Vec<f64>,
     /// Orders of the harmonics.
     pub(crate) orders: Vec<f64>,
     factor: Matrix,
+    /// Its diagonal, if it has no other elements.
+    diagonal: Option<Vec<f64>>,
 }
 
 impl Normal {
@@ -60,28 +81,53 @@ impl Normal {
             }
             wall
         });
+        let walls: Vec<Signal> = walls.collect();
+        let rates: Vec<f64> = orders.iter().map(|order| f64::from(*order) * parts.frequency.unwrap_or(0.0)).collect();
+        let (stiffness, damping) = (parts.stiffness.reduced(&factor), parts.damping.reduced(&factor));
+        let approach = |(stop, wall): (&MachineStop, &Signal)| {
+            let w = factor.solve_lower(&stop.direction);
+            let mut signal = wall.derivative(&rates).derivative(&rates);
+            signal.add(-2.0, &signal.clone());
+            for (factor, force) in w.iter().zip(&force) {
+                signal.add(*factor, force);
+            }
+            let v = damping.apply(&w);
+            Approach { x: stiffness.apply(&w), drag: dot(&w, &v) / dot(&w, &w), v, signal }
+        };
+        let approaches = parts.stops.iter().zip(&walls).map(approach).collect();
         let of_stops = parts.stops.iter().map(|stop| &stop.direction);
         let of_joints = parts.joints.iter().map(|joint| &joint.direction);
         Self {
             n,
-            stiffness: parts.stiffness.reduced(&factor),
-            damping: parts.damping.reduced(&factor),
+            stiffness,
+            damping,
+            approaches,
             force,
             directions: of_stops.chain(of_joints).map(|direction| factor.solve_lower(direction)).collect(),
-            walls: walls.collect(),
-            rates: orders.iter().map(|order| f64::from(*order) * parts.frequency.unwrap_or(0.0)).collect(),
+            walls,
+            rates,
             orders: orders.iter().map(|order| f64::from(*order)).collect(),
+            diagonal: (0..n)
+                .all(|i| (0..i).all(|j| factor[(i, j)] == 0.0))
+                .then(|| (0..n).map(|i| factor[(i, i)]).collect()),
             factor,
         }
     }
 
     /// Coordinates, or velocities, from the mass-normalised ones.
     pub(crate) fn to_machine(&self, x: &[f64]) -> Vec<f64> {
-        self.factor.solve_lower_transposed(x)
+        let mut q = Vec::with_capacity(x.len());
+        self.to_machine_into(x, &mut q);
+        q
     }
 
     /// The same into a vector that is used again.
     pub(crate) fn to_machine_into(&self, x: &[f64], q: &mut Vec<f64>) {
+        if let Some(diagonal) = &self.diagonal {
+            q.clear();
+            q.extend(x.iter().zip(diagonal).map(|(x, own)| x / own));
+            return;
+        }
         self.factor.solve_lower_transposed_into(x, q);
     }
 

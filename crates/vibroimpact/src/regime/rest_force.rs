@@ -14,10 +14,12 @@ pub(super) struct RestForce {
     pub(super) free: Matrix,
     /// What the constraints carry along.
     pub(super) carried: Vec<Signal>,
+    /// Whether any of that moves.
+    pub(super) carries: bool,
     /// The closed stops.
     pub(super) contacts: Vec<RestContact>,
-    /// $`B_2 + 2dA_2`$ and $`A_2`$.
-    pub(super) push: Matrix,
+    /// The force on each mode per unit of force on each coordinate, and $`A_2`$.
+    pub(super) push_of_force: Matrix,
     pub(super) drift: Matrix,
     /// Whether the last is not zero.
     pub(super) drifts: bool,
@@ -28,6 +30,7 @@ pub(super) struct RestForce {
 pub(crate) struct RestBuffers {
     swung: Vec<f64>,
     mean: Vec<f64>,
+    pulled: Vec<f64>,
     on_free: Vec<f64>,
     push: Vec<f64>,
     drift: Vec<f64>,
@@ -40,14 +43,14 @@ impl RestBuffers {
     }
 }
 
-/// A closed stop: its place, stiffness, constant force at gap 0, direction, and direction in the free directions.
+/// A closed stop: its place, stiffness, constant force at gap 0, direction, and the force on each mode per unit of its force.
 #[derive(Clone, Debug)]
 pub(super) struct RestContact {
     pub(super) place: usize,
     pub(super) stiffness: f64,
     pub(super) force: f64,
     pub(super) direction: Vec<f64>,
-    pub(super) share: Vec<f64>,
+    pub(super) push: Vec<f64>,
 }
 
 impl RestForce {
@@ -63,21 +66,30 @@ impl RestForce {
         gap: impl Fn(usize) -> f64,
         buffers: &mut RestBuffers,
     ) {
-        let RestBuffers { swung, mean, on_free, push, drift } = buffers;
-        swung.clear();
-        swung.extend(self.carried.iter().map(|signal| signal.swing(turns)));
-        mean.clear();
-        mean.extend(x.iter().zip(swung.iter()).map(|(x, swung)| x - swung));
-        on_free.clear();
-        on_free.resize(self.free.columns(), 0.0);
-        for (i, force) in self.force.iter().enumerate() {
-            add_scaled(on_free, force - dot(self.stiffness.row(i), mean), self.free.row(i));
+        let RestBuffers { swung, mean, pulled, on_free, push, drift } = buffers;
+        swung.resize(x.len(), 0.0);
+        let mean = if self.carries {
+            for (swung, signal) in swung.iter_mut().zip(&self.carried) {
+                *swung = signal.swing(turns);
+            }
+            mean.clear();
+            mean.extend(x.iter().zip(swung.iter()).map(|(x, swung)| x - swung));
+            mean
+        } else {
+            x
+        };
+        pulled.resize(x.len(), 0.0);
+        for (i, (pulled, force)) in pulled.iter_mut().zip(&self.force).enumerate() {
+            *pulled = force - dot(self.stiffness.row(i), mean);
         }
+        self.push_of_force.apply_into(pulled, push);
         for contact in &self.contacts {
-            let gap = gap(contact.place) + dot(&contact.direction, swung);
-            add_scaled(on_free, contact.stiffness * gap + contact.force, &contact.share);
+            let mut gap = gap(contact.place);
+            if self.carries {
+                gap += dot(&contact.direction, swung);
+            }
+            add_scaled(push, contact.stiffness * gap + contact.force, &contact.push);
         }
-        self.push.apply_into(on_free, push);
         drift.clear();
         if self.drifts {
             self.free.apply_transposed_into(v, on_free);

@@ -28,6 +28,11 @@ impl Signal {
             && self.harmonics.iter().all(|pair| *pair == (0.0, 0.0))
     }
 
+    /// Whether it changes with time.
+    pub(crate) fn moves(&self) -> bool {
+        self.ramp != 0.0 || self.harmonics.iter().any(|pair| *pair != (0.0, 0.0))
+    }
+
     /// Adds a multiple of another one.
     pub(crate) fn add(&mut self, factor: f64, other: &Self) {
         self.constant += factor * other.constant;

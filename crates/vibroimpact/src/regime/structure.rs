@@ -5,9 +5,11 @@ use super::complement::complement;
 use super::contact_state::ContactState;
 use super::mode::Mode;
 use super::normal::{Normal, compliant};
+use super::pass::Moved;
 use super::rest_force::{RestBuffers, RestContact, RestForce};
+use super::sampled::Sampled;
 use super::signal::{Observable, Signal};
-use super::window::{Moved, Window, windows};
+use super::window::{Window, windows};
 use crate::machine::{Machine, Opening, StopLaw};
 use crate::math::{Matrix, add_scaled, dot};
 
@@ -74,11 +76,15 @@ pub(crate) struct Structure {
     rest: RestForce,
     /// Whether modal displacements are combinations of coordinates alone, and modal velocities of velocities alone: no damping
     /// couples modes, and no constraint moves.
-    plain: bool,
+    pub(crate) plain: bool,
     /// The reactions as functions of the mass-normalised state.
     pressing: Vec<Pressing>,
     /// Windows of useful lengths, the shortest first; none without modes.
     pub(crate) windows: Vec<Window>,
+    /// Its guards at equal steps, if plain crossings can be found by them.
+    pub(crate) sampled: Option<Sampled>,
+    /// Whether coordinates and velocities have prescribed parts.
+    pub(crate) carries: bool,
     /// The fastest rate of the free motion and of the forcing.
     fastest: f64,
 }
@@ -262,12 +268,13 @@ impl Structure {
                         stiffness: contact.k,
                         force: -contact.p - contact.c * along.sum::<f64>(),
                         direction: contact.direction.to_vec(),
-                        share: share.clone(),
+                        push: push.apply(share),
                     }
                 })
                 .collect(),
             carried: carried.clone(),
-            push,
+            carries: carried.iter().any(Signal::moves),
+            push_of_force: push.times(&free.transposed()),
             drift: basis.a[1].clone(),
             drifts: basis.a[1].largest() > 0.0,
         };
@@ -341,6 +348,8 @@ impl Structure {
             plain: false,
             pressing: Vec::new(),
             windows: Vec::new(),
+            sampled: None,
+            carries: false,
             fastest: 0.0,
         };
         let still = |signals: &[Signal]| signals.iter().all(Signal::is_zero);
@@ -349,6 +358,7 @@ impl Structure {
             && still(&structure.to_y_signal)
             && still(&structure.to_z_signal)
             && still(&structure.slip);
+        structure.carries = structure.x.iter().chain(&structure.v).any(|of| of.signal.moves());
         structure.pressing = structure.reactions.iter().map(|reaction| structure.pressing(reaction)).collect();
         structure.fastest =
             structure.modes.iter().map(|mode| mode.rate).fold(rates.last().copied().unwrap_or(0.0), f64::max);
@@ -357,8 +367,14 @@ impl Structure {
             let moved = Moved { modes: &structure.modes, drive: &structure.drive, rates };
             let guards: Vec<&Observable> = structure.guards.iter().map(|guard| &guard.function).collect();
             structure.windows = windows(moved, &guards);
+            structure.sampled = Sampled::new(moved, &guards);
         }
         Some(structure)
+    }
+
+    /// Whether stops and joints have these states in it.
+    pub(crate) fn is_in(&self, states: &[ContactState]) -> bool {
+        self.states == states
     }
 
     /// Whether nothing can move.
@@ -503,14 +519,14 @@ impl Structure {
         y: &mut Vec<f64>,
         rate: &mut Vec<f64>,
     ) {
+        if self.plain {
+            self.to_y[0].apply_into(x, y);
+            self.to_z[1].apply_into(v, rate);
+            return;
+        }
         y.clear();
         rate.clear();
         let modes = 0..self.modes.len();
-        if self.plain {
-            y.extend(modes.clone().map(|i| dot(self.to_y[0].row(i), x)));
-            rate.extend(modes.map(|i| dot(self.to_z[1].row(i), v)));
-            return;
-        }
         let of = |maps: &[Matrix; 2], signals: &[Signal], i: usize| {
             dot(maps[0].row(i), x) + dot(maps[1].row(i), v) - at(&signals[i])
         };

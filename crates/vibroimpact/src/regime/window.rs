@@ -10,7 +10,8 @@
 
 use super::bernstein::{TERMS, bernstein};
 use super::mode::Mode;
-use super::signal::{Observable, Signal};
+use super::pass::{Moved, Pass};
+use super::signal::Observable;
 use crate::math::hypot;
 
 /// Eight powers are expanded; the ninth is the remainder.
@@ -30,25 +31,9 @@ const FAR: f64 = 2.0;
 #[derive(Clone, Debug)]
 pub(crate) struct Window {
     pub(crate) length: f64,
-    steps: Vec<Step>,
-    /// Mode after mode, for each harmonic: displacement from cosine and sine, velocity from cosine and sine.
-    forced: Vec<[f64; 4]>,
-    /// Sine and cosine of the turn of each harmonic.
-    turns: Vec<(f64, f64)>,
+    pass: Pass,
     pub(crate) guards: Vec<GuardSeries>,
     pub(crate) faint: Vec<Faint>,
-}
-
-/// How a mode moves through a window.
-#[derive(Clone, Copy, Debug)]
-struct Step {
-    c: f64,
-    s: f64,
-    ks: f64,
-    s_rate: f64,
-    step: f64,
-    /// What a ramp adds to displacement, velocity and force.
-    ramp: [f64; 3],
 }
 
 /// The series of a guard, and the bound of its remainder.
@@ -90,21 +75,7 @@ pub(crate) struct Faint {
     response: Vec<(f64, f64)>,
 }
 
-/// What moves a structure: its modes, the forces on them and the harmonics.
-#[derive(Clone, Copy)]
-pub(crate) struct Moved<'a> {
-    pub(crate) modes: &'a [Mode],
-    pub(crate) drive: &'a [Signal],
-    pub(crate) rates: &'a [f64],
-}
-
 impl Moved<'_> {
-    /// Number of elements of the state: displacement, velocity and force of each mode, cosine and sine of each harmonic,
-    /// the time, and one.
-    pub(crate) const fn elements(&self) -> usize {
-        3 * self.modes.len() + 2 * self.rates.len() + 2
-    }
-
     /// The functional that has the derivative of a functional of the state.
     fn derivative(&self, of: &[f64]) -> Vec<f64> {
         let mut to = vec![0.0; of.len()];
@@ -129,14 +100,15 @@ impl Moved<'_> {
         }
         to
     }
-
-    fn rate(&self) -> f64 {
-        self.rates.last().copied().unwrap_or(0.0)
-    }
 }
 
 /// Windows of all useful lengths, the shortest first, in which no mode is faint.
 pub(crate) fn windows(of: Moved<'_>, guards: &[&Observable]) -> Vec<Window> {
+    levels(of).into_iter().map(|(faint, rate)| Window::new(of, guards, &faint, rate)).collect()
+}
+
+/// The modes that are faint, and the fastest rate of the others and of the forcing, in windows of all useful lengths.
+pub(super) fn levels(of: Moved<'_>) -> Vec<(Vec<usize>, f64)> {
     let mut order: Vec<usize> = (0..of.modes.len()).collect();
     order.sort_by(|i, j| of.modes[*i].rate.total_cmp(&of.modes[*j].rate));
     let mut all = Vec::new();
@@ -151,7 +123,7 @@ pub(crate) fn windows(of: Moved<'_>, guards: &[&Observable]) -> Vec<Window> {
         let rate = order[..kept].last().map_or(0.0, |i| of.modes[*i].rate).max(of.rate());
         if all.is_empty() || (rate > 0.0 && rate <= SLOWER * last) {
             last = rate;
-            all.push(Window::new(of, guards, &order[kept..], rate));
+            all.push((order[kept..].to_vec(), rate));
         }
     }
     all
@@ -162,30 +134,9 @@ impl Window {
         // without any rate the guards are polynomials of low order; a window must still be finite
         let length = if rate > 0.0 { REACH / rate } else { 1.0 };
         let faint: Vec<Faint> = faint.iter().map(|i| Faint::new(of, *i)).collect();
-        let (mut steps, mut forced) = (Vec::new(), Vec::new());
-        for (i, mode) in of.modes.iter().enumerate() {
-            let free = mode.free(length);
-            let ramp = of.drive[i].ramp;
-            steps.push(Step {
-                c: 1.0 - free.one_minus_c,
-                s: free.s,
-                ks: mode.k * free.s,
-                s_rate: free.s_rate,
-                step: free.step,
-                ramp: [ramp * free.ramp, ramp * free.step, ramp * length],
-            });
-            for (h, (a, b)) in of.drive[i].harmonics.iter().enumerate() {
-                let w = of.rates[h];
-                let (kc, ks, _) = mode.forced(h, length, &free, &super::mode::Turned::of(w * length));
-                let (kc_rate, ks_rate) = (free.s - w * ks, w * kc);
-                forced.push([a * kc + b * ks, b * kc - a * ks, a * kc_rate + b * ks_rate, b * kc_rate - a * ks_rate]);
-            }
-        }
         Self {
             length,
-            steps,
-            forced,
-            turns: of.rates.iter().map(|w| crate::math::sin_cos(w * length)).collect(),
+            pass: Pass::new(of, length),
             guards: guards.iter().map(|guard| GuardSeries::new(of, guard, &faint, length)).collect(),
             faint,
         }
@@ -193,22 +144,7 @@ impl Window {
 
     /// The state at the end of a window.
     pub(crate) fn pass(&self, z: &mut [f64]) {
-        let (modes, rest) = z.split_at_mut(3 * self.steps.len());
-        let count = self.turns.len();
-        for (i, (mode, step)) in modes.chunks_exact_mut(3).zip(&self.steps).enumerate() {
-            let (y, v, q) = (mode[0], mode[1], mode[2]);
-            let mut moved = step.c * y + step.s * v + step.step * q + step.ramp[0];
-            let mut rate = step.s_rate * v - step.ks * y + step.s * q + step.ramp[1];
-            for (f, turn) in self.forced[i * count..].iter().zip(rest.chunks_exact(2)).take(count) {
-                moved += f[0] * turn[0] + f[1] * turn[1];
-                rate += f[2] * turn[0] + f[3] * turn[1];
-            }
-            (mode[0], mode[1], mode[2]) = (moved, rate, q + step.ramp[2]);
-        }
-        for (turn, (sin, cos)) in rest.chunks_exact_mut(2).zip(&self.turns) {
-            (turn[0], turn[1]) = (turn[0] * cos - turn[1] * sin, turn[1] * cos + turn[0] * sin);
-        }
-        rest[2 * count] += self.length;
+        self.pass.pass(z);
     }
 }
 
@@ -447,6 +383,7 @@ pub(crate) fn derivative_bounds(mode: &Mode, window: f64, energy: f64, push: f64
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::regime::Signal;
 
     /// The series of a guard at one state, summed at the end of the window, is its value at the state there; and faint modes
     /// lower it by no less than they move.

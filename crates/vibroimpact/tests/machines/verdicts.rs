@@ -14,7 +14,7 @@ fn products_of_multipliers() {
         f64::from(u32::try_from(state >> 33).unwrap()) / f64::from(1_u32 << 31)
     };
     let mut cycles = 0;
-    for case in 0..700 {
+    for case in 0..720 {
         let n = 1 + case % 3;
         let names: Vec<String> = (0..n).map(|i| format!("q{i}")).collect();
         let mut parts = MachineParts::new(names.iter().map(String::as_str)).with_frequency(0.4 + random());
