@@ -43,5 +43,6 @@ pub use parameter_plane::ParameterPlane;
 pub use physical::{DrivenOscillator, PhysicalParameter, Reduced};
 pub use quantity_kind::QuantityKind;
 pub use response::{Propagator, Response};
+pub(crate) use response::{FormKind, UndampedForm};
 pub use start::Start;
 pub use units::{Damping, Frequency, PhysicalOscillator, PhysicalStop, Scales};

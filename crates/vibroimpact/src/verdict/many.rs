@@ -330,7 +330,7 @@ impl Pool<'_> {
             return;
         }
         let (state, _) = self.batch.arrival(slot);
-        if self.batch.settles_after(&state) {
+        if self.batch.settles_after(slot, &state) {
             self.hand_over(slot, Motion::after(self.question.osc, &state, self.question.options.limits));
         }
     }
@@ -361,7 +361,7 @@ impl Pool<'_> {
         let track = &mut self.tracks[slot as usize];
         let (osc, options, batch) = (self.question.osc, self.question.options, &self.batch);
         let mut drive = Drive { osc, options, follow: &mut track.follow, releases: &mut self.releases, time: 0.0 };
-        match drive.on(&mut motion, |state| !batch.settles_after(state)) {
+        match drive.on(&mut motion, |state| !batch.settles_after(slot, state)) {
             Some(verdict) => self.followed(slot, verdict),
             None => {
                 let state = track.follow.last();
