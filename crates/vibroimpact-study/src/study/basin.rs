@@ -19,7 +19,8 @@ use vibroimpact::lanes::Width;
 use vibroimpact::math::Multiplier;
 use vibroimpact::quantities::of_verdict_only;
 use vibroimpact::verdict::{
-    Census, CountedMotion, Ending, KnownAttractors, Reason, SettleOptions, StartBox, Verdict, settle_many,
+    Census, CountedMotion, Ending, KnownAttractors, Reason, SettleOptions, Settlement, StartBox, Verdict, settle_each,
+    settle_many,
 };
 use vibroimpact::{Oscillator, Start};
 
@@ -180,6 +181,8 @@ impl BasinFill {
             groups[group].push(k);
         }
         let mut numbers = vec![0; wanted.len()];
+        // the starts of systems with few of them share lanes
+        let mut few: Vec<(Vec<usize>, SystemPlan, Oscillator)> = Vec::new();
         for group in groups {
             let first = block.index(wanted[group[0]]);
             // the corners are valid; a point between them that is not is undecided
@@ -192,15 +195,48 @@ impl BasinFill {
                 }
                 continue;
             };
+            if group.len() as u64 <= WORTH_A_SURVEY {
+                few.push((group, there, osc));
+                continue;
+            }
             let start = |k: usize| self.start(&osc, &there, &block.index(wanted[group[k]]));
-            let traps = if group.len() as u64 > WORTH_A_SURVEY && !self.transient() { TRAPS } else { 0 };
+            let traps = if self.transient() { 0 } else { TRAPS };
             let chosen = spread(group.len() as u64, traps).filter_map(|k| usize::try_from(k).ok()).map(start);
             let survey = KnownAttractors::survey(&osc, chosen, &self.options);
             let (motions, cells) = self.among(&osc, (&group, wanted), start, &survey, &mut into.endings, tick)?;
             let own: Vec<u32> = motions.iter().map(|found| self.found(&osc, &found.verdict, &mut into.found)).collect();
             group.iter().zip(cells).for_each(|(k, cell)| numbers[*k] = own[cell as usize]);
         }
+        for ((group, _, osc), settlement) in few.iter().zip(self.of_few(block, wanted, &few, tick)?) {
+            let own: Vec<u32> =
+                settlement.motions.iter().map(|found| self.found(osc, &found.verdict, &mut into.found)).collect();
+            for ((k, cell), ending) in group.iter().zip(&settlement.cells).zip(&settlement.endings) {
+                numbers[*k] = own[*cell as usize];
+                into.endings[wanted[*k]] = *ending;
+            }
+        }
         Some(numbers)
+    }
+
+    /// Settles the few starts of each of several systems, side by side.
+    fn of_few(
+        &self,
+        block: &Block,
+        wanted: &[usize],
+        few: &[(Vec<usize>, SystemPlan, Oscillator)],
+        tick: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Vec<Settlement>> {
+        let counted: Vec<(Oscillator, u64)> = few.iter().map(|(group, _, osc)| (*osc, group.len() as u64)).collect();
+        let start = |system: usize, k: u64| {
+            let (group, there, osc) = &few[system];
+            self.start(osc, there, &block.index(wanted[group[usize::try_from(k).unwrap_or(0)]]))
+        };
+        let mut settlements = vec![Settlement::default(); few.len()];
+        settle_each(&counted, start, &self.options, false, Width::best(), &mut |system, settlement| {
+            settlements[system] = settlement;
+            few[system].0.iter().fold(false, |stop, _| tick() || stop)
+        })
+        .then_some(settlements)
     }
 
     /// Settles starts of one oscillator, and notes how each was decided. `group` are the places of the starts in `wanted`.

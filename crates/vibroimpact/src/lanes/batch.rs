@@ -9,7 +9,7 @@
 
 use super::flight::{Hit, Progress};
 use super::slots::{ARRIVAL, COS, INTERVAL, Lists, PHASE, SIDE, SIN, Slots, V, X, rebound, row};
-use super::stride::{NODES, Stride};
+use super::stride::Stride;
 use super::strike::Launch;
 use super::systems::{Each, Kind, One};
 use super::width::Width;
@@ -47,6 +47,7 @@ pub struct Batch {
     lists: Lists,
     rare: Vec<u32>,
     settling: Vec<u32>,
+    capacity: usize,
     width: Width,
 }
 
@@ -78,7 +79,7 @@ impl Batch {
 
     fn of(systems: Oscillators, capacity: usize, width: Width) -> Self {
         let (slots, lists) = (Slots::new(capacity), Lists::new());
-        Self { systems, slots, lists, rare: Vec::new(), settling: Vec::new(), width }
+        Self { systems, slots, lists, rare: Vec::new(), settling: Vec::new(), capacity, width }
     }
 
     /// The number of motions.
@@ -96,10 +97,9 @@ impl Batch {
     /// The longest flight whose end the lanes can find.
     #[must_use]
     pub fn longest(&self) -> f64 {
-        let longest = |stride: &Stride| f64::from(NODES + 3) * stride.constants.h;
         match &self.systems {
-            Oscillators::One(_, one) => longest(&one.stride),
-            Oscillators::Many(_, each) => each.strides.iter().map(longest).fold(0.0, f64::max),
+            Oscillators::One(_, one) => one.stride.longest(),
+            Oscillators::Many(_, each) => each.strides.iter().map(Stride::longest).fold(0.0, f64::max),
         }
     }
 
@@ -132,10 +132,29 @@ impl Batch {
         self.slots.launch(slot as usize, row(start));
     }
 
-    /// Gives a slot the oscillator with this number in the list; it must be launched again.
-    pub(crate) fn set_system(&mut self, slot: u32, number: u32) {
+    /// The largest number of motions.
+    pub(crate) const fn capacity(&self) -> usize {
+        self.capacity
+    }
+
+    /// Adds a motion of the oscillator with this number in the list, in the next slot.
+    ///
+    /// # Panics
+    /// If the batch has `capacity` motions already.
+    pub(crate) fn push_of(&mut self, system: u32, start: Start) {
+        self.set(self.slots.count, system);
+        self.push(start);
+    }
+
+    /// Replaces the motion in a slot by one of the oscillator with this number.
+    pub(crate) fn launch_of(&mut self, slot: u32, system: u32, start: Start) {
+        self.set(slot as usize, system);
+        self.launch(slot, start);
+    }
+
+    fn set(&mut self, slot: usize, system: u32) {
         if let Oscillators::Many(_, each) = &mut self.systems {
-            each.set(slot as usize, number);
+            each.set(slot, system);
         }
     }
 
@@ -211,7 +230,6 @@ impl Batch {
         }
         (contact, steps)
     }
-
 
     /// Whether the leg after an impact of the motion in a slot is not a flight.
     #[must_use]

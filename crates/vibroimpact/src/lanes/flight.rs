@@ -2,8 +2,8 @@
 //! first. Where neither can be proven, steps are halved; where this does not help, the flight is left to the careful
 //! search.
 
-use super::hull::MARGIN;
 use super::constants::Constants;
+use super::hull::MARGIN;
 use super::stride::{Halvings, LEVELS, Propagators, State, Stride};
 use super::strike::{Guess, Launch, Strike};
 use crate::flight::{Contact, Flight, SearchLimits, counted};

@@ -94,14 +94,7 @@ impl<N: Numbers> Constants<N> {
     /// Whether the arc is proven clear of the stops, except at its beginning; `margin` is relative. If `arrives` is
     /// set, its end is excepted too.
     #[inline(always)]
-    pub(super) fn clear(
-        &self,
-        scale: &HullScale<N>,
-        from: &End<N>,
-        to: &End<N>,
-        margin: N,
-        arrives: bool,
-    ) -> N::Mask {
+    pub(super) fn clear(&self, scale: &HullScale<N>, from: &End<N>, to: &End<N>, margin: N, arrives: bool) -> N::Mask {
         let Hull { size, error, coefficients: [c1, c2, c3, c4, c5] } = Hull::of(scale, from, to);
         let mut highest = c1.max(c2).max((c3 + error).max(c4)).max(c5);
         if !arrives {

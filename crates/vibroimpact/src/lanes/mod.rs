@@ -52,4 +52,5 @@ pub(crate) use flight::found;
 pub(crate) use integrals::add_integrals;
 pub(crate) use stride::Stride;
 pub(crate) use systems::Kind;
+pub(crate) use width::Task;
 pub use width::Width;

@@ -1,8 +1,8 @@
 //! The flights of a batch: each has a slot in arrays that are read by lanes.
 
 use super::compaction::list;
-use super::hull::MARGIN;
 use super::constants::Constants;
+use super::hull::MARGIN;
 use super::stride::{State, WIDEST};
 use super::strike::{Approach, Guess, Launch, Strike};
 use super::systems::Systems;
@@ -171,8 +171,7 @@ impl Slots {
                 let row = L::rows(&self.launches, slots);
                 phases[k] = row[PHASE];
                 let launch = Launch { x: row[X], v: row[V], sin: row[SIN], cos: row[COS] };
-                approach[k] =
-                    systems.constants(&of[k]).approach(&launch, &guess[k], &systems.propagators(&of[k]));
+                approach[k] = systems.constants(&of[k]).approach(&launch, &guess[k], &systems.propagators(&of[k]));
             }
             for k in 0..groups {
                 hits[k] = systems.constants(&of[k]).polish(&guess[k], &approach[k]);

@@ -102,6 +102,12 @@ pub(super) fn closed<L: Lane>(form: &UndampedForm<L>, time: L) -> Row<L> {
     [p.one_minus_c, p.c, p.s, p.c, p.kc, p.ks, p.sin_turn, p.cos_turn]
 }
 
+/// The propagator without damping over whole steps.
+#[inline(always)]
+pub(super) fn closed_at_node<L: Lane>(form: &UndampedForm<L>, time: L) -> Row<L> {
+    let p = form.exact(time);
+    [p.one_minus_c, p.c, p.s, p.c, p.kc, p.ks, p.sin_turn, p.cos_turn]
+}
 
 impl Stride {
     /// The constants for `osc`; `None` if the lanes cannot follow its flights, and all of them need the careful search.
@@ -147,6 +153,11 @@ impl Stride {
             form: response.undamped_form(),
             response,
         })
+    }
+
+    /// The longest flight whose end the lanes can find.
+    pub(super) fn longest(&self) -> f64 {
+        f64::from(NODES + 3) * self.constants.h
     }
 
     /// The propagator over a time of either sign, at most half a step, by the series.
@@ -357,30 +368,24 @@ impl<N> Pace<N> {
     }
 }
 
-impl<N> Pace<N> {
-    /// Puts each number of another representation into the one here.
-    pub(super) fn put<M>(&mut self, from: &Pace<M>, mut f: impl FnMut(&mut N, &M)) {
-        let (scale, given) = (&mut self.scale, &from.scale);
-        for (to, from) in [
-            (&mut self.h, &from.h),
-            (&mut self.c, &from.c),
-            (&mut self.s, &from.s),
-            (&mut self.kc, &from.kc),
-            (&mut self.ks, &from.ks),
-            (&mut self.s_rate, &from.s_rate),
-            (&mut self.ks_rate, &from.ks_rate),
-            (&mut self.kc_rate, &from.kc_rate),
-            (&mut self.cos, &from.cos),
-            (&mut self.sin, &from.sin),
-            (&mut scale.sixth, &given.sixth),
-            (&mut scale.thirtieth, &given.thirtieth),
-            (&mut scale.two_fifths, &given.two_fifths),
-            (&mut scale.twentieth, &given.twentieth),
-            (&mut scale.error, &given.error),
-            (&mut scale.error_rate, &given.error_rate),
-        ] {
-            f(to, from);
-        }
+impl<N: Copy> Pace<N> {
+    /// As a row.
+    pub(super) const fn row(&self) -> [N; 16] {
+        let Self { h, c, s, kc, ks, s_rate, ks_rate, kc_rate, cos, sin, scale } = *self;
+        let HullScale { sixth, thirtieth, two_fifths, twentieth, error, error_rate } = scale;
+        [
+            h, c, s, kc, ks, s_rate, ks_rate, kc_rate, cos, sin, sixth, thirtieth, two_fifths, twentieth, error,
+            error_rate,
+        ]
+    }
+
+    /// From a row.
+    #[inline(always)]
+    pub(super) const fn of_row(row: [N; 16]) -> Self {
+        let [h, c, s, kc, ks, s_rate, ks_rate, kc_rate, cos, sin, sixth, thirtieth, two_fifths, twentieth, error, rate] =
+            row;
+        let scale = HullScale { sixth, thirtieth, two_fifths, twentieth, error, error_rate: rate };
+        Self { h, c, s, kc, ks, s_rate, ks_rate, kc_rate, cos, sin, scale }
     }
 }
 

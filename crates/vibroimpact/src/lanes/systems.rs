@@ -1,9 +1,9 @@
 //! The systems of the flights of a batch: one for all slots, or another one in each.
 
 use super::constants::Constants;
-use super::stride::{Pace, Propagators, Row, Stride, Table, WIDEST, closed};
+use super::stride::{Pace, Propagators, Row, Stride, Table, WIDEST, closed, closed_at_node};
 use crate::math::{Lane, Mask, Numbers, Single};
-use crate::system::{FormKind, UndampedForm};
+use crate::system::{FormKind, Oscillator, UndampedForm};
 
 /// Where the stages of a round find the constants of the flights in their lanes.
 pub(super) trait Systems {
@@ -97,6 +97,13 @@ pub(crate) struct Kind {
 }
 
 impl Kind {
+    /// The kind of an oscillator, and the longest flight whose end the lanes can find; `None` if the lanes cannot follow
+    /// its flights.
+    pub(crate) fn of_flights(osc: &Oscillator) -> Option<(Self, f64)> {
+        let stride = Stride::new(osc)?;
+        Some((Self::of(&stride), stride.longest()))
+    }
+
     /// That of a system.
     pub(super) fn of(stride: &Stride) -> Self {
         let Constants { two_stops, damped, .. } = stride.constants;
@@ -117,8 +124,10 @@ pub(super) struct Each {
     /// The number of the system of each slot.
     pub(super) numbers: Vec<u32>,
     rows: Vec<Columns<f64>>,
+    /// The paces of the slots.
+    paces: Vec<[f64; 16]>,
     /// The constants of sixteen slots side by side.
-    blocks: Vec<(Constants<[f32; WIDEST]>, Pace<[f32; WIDEST]>)>,
+    blocks: Vec<(Constants<[f32; WIDEST]>, [[f32; WIDEST]; 16])>,
 }
 
 impl Each {
@@ -131,6 +140,7 @@ impl Each {
             strides,
             numbers: vec![0; padded],
             rows: vec![[0.0; 16]; padded],
+            paces: vec![[0.0; 16]; padded],
             blocks: vec![Default::default(); blocks],
         }
     }
@@ -138,17 +148,32 @@ impl Each {
     /// Gives a slot the system with this number.
     pub(super) fn set(&mut self, slot: usize, number: u32) {
         self.numbers[slot] = number;
-        let Stride { constants, roughly, rough, form, .. } = &self.strides[number as usize];
+        let Stride { constants, roughly, pace, rough, form, .. } = &self.strides[number as usize];
         let Constants { beta, drag, gap, restitution, h, margin_rate, shortest, bound, sixth, .. } = *constants;
         let [a, b, c] = form.numbers;
         self.rows[slot] = [
-            beta, drag, gap[0], gap[1], restitution[0], restitution[1], h, margin_rate, shortest, bound[0], bound[1],
-            sixth[0], sixth[1], a, b, c,
+            beta,
+            drag,
+            gap[0],
+            gap[1],
+            restitution[0],
+            restitution[1],
+            h,
+            margin_rate,
+            shortest,
+            bound[0],
+            bound[1],
+            sixth[0],
+            sixth[1],
+            a,
+            b,
+            c,
         ];
         let (block, lane) = (&mut self.blocks[slot / WIDEST], slot % WIDEST);
         (block.0.two_stops, block.0.damped) = (self.kind.two_stops, self.kind.damped);
         block.0.put(roughly, |numbers, number| numbers[lane] = *number);
-        block.1.put(rough, |numbers, number| numbers[lane] = *number);
+        block.1.iter_mut().zip(rough.row()).for_each(|(numbers, number)| numbers[lane] = number);
+        self.paces[slot] = pace.row();
     }
 
     /// The system of a slot.
@@ -164,7 +189,13 @@ impl Systems for Each {
     #[inline(always)]
     fn step<N: Single>(&self, first: usize) -> (Constants<N>, Pace<N>) {
         let ((constants, pace), lane) = (&self.blocks[first / WIDEST], first % WIDEST);
-        (constants.each(|numbers| N::load(&numbers[lane..])), pace.each(|numbers| N::load(&numbers[lane..])))
+        let mut row = [N::splat(0.0); 16];
+        let mut k = 0;
+        while k < row.len() {
+            row[k] = N::load(&pace[k][lane..]);
+            k += 1;
+        }
+        (constants.each(|numbers| N::load(&numbers[lane..])), Pace::of_row(row))
     }
     #[inline(always)]
     fn group<L: Lane>(&self, slots: &[u32; WIDEST]) -> Group<L> {
@@ -206,11 +237,7 @@ impl Systems for Each {
     }
     #[inline(always)]
     fn pace<L: Lane>(&self, group: &Group<L>) -> Pace<L> {
-        let mut columns = Pace::<[f64; WIDEST]>::default();
-        for (lane, slot) in group.slots.iter().enumerate() {
-            columns.put(&self.stride(*slot as usize).pace, |numbers, number| numbers[lane] = *number);
-        }
-        columns.each(|numbers| L::load(numbers))
+        Pace::of_row(L::rows(&self.paces, &group.slots))
     }
 }
 
@@ -253,7 +280,12 @@ impl<L: Lane> OfGroup<'_, L> {
 impl<L: Lane> Propagators<L> for OfGroup<'_, L> {
     #[inline(always)]
     fn node(&self, k: L) -> Row<L> {
-        self.alone(every::<L>(), [k; 8], k, |stride, k| stride.node(k))
+        let Group { constants, form, .. } = &self.group;
+        if constants.damped {
+            self.alone(every::<L>(), [k; 8], k, |stride, k| stride.node(k))
+        } else {
+            closed_at_node(form, k * constants.h)
+        }
     }
     #[inline(always)]
     fn rest(&self, t: L) -> Row<L> {

@@ -63,7 +63,7 @@ impl Width {
     }
 
     /// Does a task in lanes of double precision.
-    pub(super) fn run<T: Task>(self, task: T) -> T::Output {
+    pub(crate) fn run<T: Task>(self, task: T) -> T::Output {
         match self {
             Self::Scalar => task.run::<f64>(),
             #[cfg(target_arch = "x86_64")]
@@ -116,7 +116,7 @@ impl Width {
 }
 
 /// Something that is computed in lanes of any type. Lane types have 1, 4 or 16 numbers.
-pub(super) trait Task {
+pub(crate) trait Task {
     /// The result.
     type Output;
     /// Computes it; must be inlined, so that it is compiled for the processor's instructions.

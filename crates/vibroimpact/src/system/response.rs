@@ -138,6 +138,12 @@ impl Response {
         }
     }
 
+    /// The responses without damping, in lanes, with the bits of [`at`](Self::at); times and angles up to 1e5.
+    #[inline(always)]
+    pub(crate) fn undamped<L: Lane>(&self, s: L) -> Undamped<L> {
+        self.undamped_form().splat().exact(s)
+    }
+
     /// The constants of the closed form without damping.
     pub(crate) fn undamped_form(&self) -> UndampedForm<f64> {
         match self.regime {
@@ -254,15 +260,14 @@ struct Turn<L> {
     versine: L,
 }
 
-impl Turn<f64> {
+impl<L: Lane> Turn<L> {
     /// Accurate to the last bits.
-    fn of(angle: f64) -> Self {
-        let (sin, cos) = sin_cos(angle);
+    #[inline(always)]
+    fn of(angle: L) -> Self {
+        let (sin, cos) = angle.sine_and_cosine();
         Self { sin, cos, versine: versine(sin, cos) }
     }
-}
 
-impl<L: Lane> Turn<L> {
     /// Accurate to two units in the last place, without a division.
     #[inline(always)]
     fn by_half(angle: L) -> Self {
@@ -312,6 +317,21 @@ impl<L: Lane> UndampedForm<L> {
         }
     }
 
+    /// The same with the bits of [`Response::at`].
+    #[inline(always)]
+    pub(crate) fn exact(&self, s: L) -> Undamped<L> {
+        let free = Turn::of(s);
+        if self.kind != FormKind::Plain {
+            return self.near(s, free);
+        }
+        let [beta, ..] = self.numbers;
+        let (one, turn) = (L::splat(1.0), Turn::of(beta * s));
+        let z = ((one - beta) * (one + beta), L::splat(0.0));
+        let (kc, ks) = divided((free.versine - turn.versine, turn.sin - beta * free.sin), z);
+        let (sin_turn, cos_turn, forced_size) = (turn.sin, turn.cos, L::splat(0.0));
+        Undamped { one_minus_c: free.versine, c: free.cos, s: free.sin, kc, ks, sin_turn, cos_turn, forced_size }
+    }
+
     /// Near resonance and at resonance.
     #[inline(always)]
     fn near(&self, s: L, free: Turn<L>) -> Undamped<L> {
@@ -355,7 +375,13 @@ impl<L: Lane> UndampedForm<L> {
 /// The quotient of two complex numbers.
 #[inline(always)]
 pub(super) fn divide<L: Lane>(n: (L, L), d: (f64, f64)) -> (L, L) {
-    let (norm, re, im) = (L::splat(d.0 * d.0 + d.1 * d.1), L::splat(d.0), L::splat(d.1));
+    divided(n, (L::splat(d.0), L::splat(d.1)))
+}
+
+/// The same for a divisor in each lane.
+#[inline(always)]
+fn divided<L: Lane>(n: (L, L), (re, im): (L, L)) -> (L, L) {
+    let norm = re * re + im * im;
     ((n.0 * re + n.1 * im) / norm, (n.1 * re - n.0 * im) / norm)
 }
 
@@ -411,6 +437,17 @@ mod tests {
                     assert!((p.sin_turn - (beta * s).sin()).abs() < 1e-13);
                     assert!((p.cos_turn - (beta * s).cos()).abs() < 1e-13);
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn lanes_without_damping_have_the_same_bits() {
+        for beta in [1e-3, 0.3, 0.5, 0.9, 1.0, 1.0 + 1e-9, 2.0, 2.7, 40.0] {
+            let response = Response::new(beta, 0.0);
+            for s in [1e-9, 0.05, 0.7, 1.6, 3.0, 4.7, 11.0, 300.0] {
+                let (p, q) = (response.at(s), response.undamped(s));
+                assert_eq!([p.one_minus_c, p.c, p.s, p.kc, p.ks], [q.one_minus_c, q.c, q.s, q.kc, q.ks], "{beta} {s}");
             }
         }
     }
