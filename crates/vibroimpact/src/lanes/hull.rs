@@ -19,7 +19,7 @@
 //!
 //! $`B_6`$ grows with the energy radius (`flight/bounds.rs`), for which $`\sqrt{x^2+v^2} \le |x| + |v|`$.
 
-use super::constants::Constants;
+use super::constants::{Constants, ROUGH};
 use super::stride::{HullScale, NODES, State};
 use crate::math::{Mask, Numbers};
 
@@ -34,14 +34,6 @@ pub(super) struct End<L> {
 /// A bound of the rounding error of a coefficient, relative to 1 + |gap| + |x| + |v|, if the step begins at a state in
 /// double precision. It is far above the few dozen rounding errors of a coefficient.
 pub(super) const MARGIN: f64 = 1e-12;
-/// The same for each step taken in single precision. With $`u = 2^{-24}`$ a step adds at most $`6u`$ to sine and cosine
-/// and $`11u\,(|x| + |v| + 3/2)`$ to position and velocity. The free motion preserves these errors up to a factor
-/// $`\sqrt2`$ between the two. An error of the force is added at each step, near resonance in phase with the motion,
-/// and becomes $`3u n^2`$ after $`n`$ steps. For at most 64 steps the sum is below $`230u\,n\,(1 + |x| + |v|)`$. One
-/// step more is counted than was taken: for the step itself, and for the hull of the launch, which has about $`50u`$ in
-/// single precision.
-pub(super) const ROUGH: f64 = 1.4e-5;
-
 /// The coefficients of an arc, without those at its ends.
 pub(super) struct Hull<L> {
     /// |x| + |v| at its beginning.

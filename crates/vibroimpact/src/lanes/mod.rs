@@ -2,7 +2,8 @@
 //!
 //! | idea | file |
 //! |---|---|
-//! | the constants of the flights of an oscillator: steps with a constant matrix | `stride` |
+//! | the constants of the flights of an oscillator: steps with a constant matrix | `stride`, `constants` |
+//! | one oscillator for all lanes, or another one in each | `systems` |
 //! | a step proven clear of the stops | `hull` |
 //! | a step that comes close to a stop and turns back | `swing` |
 //! | a contact that is found, refined and proven to be the first | `strike` |

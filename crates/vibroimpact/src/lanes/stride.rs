@@ -13,8 +13,7 @@
 //! are power series with coefficients from $`y^{(k+2)} = f^{(k)} - y^{(k)} - 2\zeta y^{(k+1)}`$. The step satisfies
 //! $`\mu h \le 3/2`$, $`\mu = \max(\beta, 1 + 2\zeta)`$, so nine terms of each parity leave an error below $`2^{-60}`$.
 
-use super::constants::Constants;
-use super::hull::ROUGH;
+use super::constants::{Constants, ROUGH};
 use crate::flight::Response;
 use crate::math::{Lane, Mask, Numbers};
 use crate::system::{Oscillator, Side, UndampedForm};

@@ -16,7 +16,7 @@ use crate::motion::ImpactState;
 use crate::system::{Oscillator, Start};
 
 /// The number of motions side by side. More need more memory, and fewer leave more lanes empty at the end.
-const ABREAST: usize = 512;
+const ABREAST: usize = 256;
 
 /// An oscillator and the number of its starts.
 pub type Counted = (Oscillator, u64);
