@@ -6,7 +6,7 @@ use crate::study::{Cell, MapFill, on_axis, tiles_of};
 use crate::{Control, RunError, SystemPlan, axis};
 
 /// Number of points of a tile along each axis, for one axis and more.
-const TILE: [u32; 4] = [128, 12, 5, 3];
+const TILE: [u32; 4] = [400, 20, 7, 4];
 
 /// Settles several starts at every point of the plane, without refinement.
 ///

@@ -116,6 +116,9 @@ impl Kind {
 /// sixth derivative, the closed form.
 type Columns<L> = [L; 16];
 
+/// The constants and the pace of sixteen slots, side by side.
+type Block = (Constants<[f32; WIDEST]>, [[f32; WIDEST]; 16]);
+
 /// Another system in each slot; all are of one [`Kind`].
 #[derive(Clone, Debug)]
 pub(super) struct Each {
@@ -127,7 +130,7 @@ pub(super) struct Each {
     /// The paces of the slots.
     paces: Vec<[f64; 16]>,
     /// The constants of sixteen slots side by side.
-    blocks: Vec<(Constants<[f32; WIDEST]>, [[f32; WIDEST]; 16])>,
+    blocks: Vec<Block>,
 }
 
 impl Each {
