@@ -81,7 +81,7 @@ fn side_by_side(osc: &Oscillator, starts: &[Start], width: Width, most: usize, t
             match batch.carefully(slot, SearchLimits::default()).0 {
                 Contact::Impact { .. } => {
                     struck.push(slot);
-                    if batch.settles_after(&batch.arrival(slot).0) {
+                    if batch.settles_after(slot, &batch.arrival(slot).0) {
                         settling.push(slot);
                     }
                 }

@@ -5,6 +5,9 @@ use crate::map::{MapPlan, MapPoint, RegionMap};
 use crate::study::{Cell, MapFill, on_axis, tiles_of};
 use crate::{Control, RunError, SystemPlan, axis};
 
+/// Number of points of a tile along each axis, for one axis and more.
+const TILE: [u32; 4] = [400, 20, 7, 4];
+
 /// Settles several starts at every point of the plane, without refinement.
 ///
 /// # Errors
@@ -15,8 +18,8 @@ pub(crate) fn map(system: &SystemPlan, plan: &MapPlan, control: &Control<'_>) ->
         return Err(axis::too_many("points", &plan.axes).into());
     }
     let all = MapPlan { refine: None, ..plan.clone() };
-    // small tiles, because one point may take a thousand times as long as another
-    let task = MapFill::new(system, &all, Some(if plan.axes.len() > 1 { 2 } else { 4 }));
+    // the starts of a tile share lanes; smaller tiles leave more lanes empty, and larger ones leave threads without work
+    let task = MapFill::new(system, &all, Some(TILE[plan.axes.len().min(TILE.len()) - 1]));
     let whole = axis::whole(&plan.axes);
     let mut points: Vec<Option<MapPoint>> = (0..whole.points()).map(|_| None).collect();
     for (block, tile) in tiles_of(&task, control)? {

@@ -10,7 +10,7 @@ use vibroimpact::chaos::Arrivals;
 use vibroimpact::lanes::Width;
 use vibroimpact::quantities::{Quantities, of_arrivals};
 use vibroimpact::verdict::{
-    CountedMotion, KnownAttractors, SettleOptions, StartBox, Verdict, scattered_starts, settle_many,
+    CountedMotion, SettleOptions, Settlement, StartBox, Verdict, scattered_starts, settle_each,
 };
 
 /// A motion at a point, with the share of starts that lead to it.
@@ -42,12 +42,25 @@ pub struct RegionMap {
     pub points: Vec<MapPoint>,
 }
 
-/// The motions at one point, the most frequent first, with their shares of the starts.
-pub(crate) fn motions(osc: &Oscillator, plan: &MapPlan, options: &SettleOptions) -> Vec<Share> {
-    let area = StartBox::natural(osc);
-    let start = |index: u64| scattered_starts(osc, area, plan.seed, index);
-    let settlement =
-        settle_many(osc, 0..plan.starts, start, &KnownAttractors::default(), options, Width::best(), &|| false);
+/// The motions at each of some points, the most frequent first, with their shares of the starts. `done` is called for
+/// each point that is settled, with its number; returns false if `done` returned true, which stops the computation.
+pub(crate) fn motions(
+    systems: &[Oscillator],
+    plan: &MapPlan,
+    options: &SettleOptions,
+    mut done: impl FnMut(usize, Vec<Share>) -> bool,
+) -> bool {
+    let counted: Vec<(Oscillator, u64)> = systems.iter().map(|osc| (*osc, plan.starts)).collect();
+    let areas: Vec<StartBox> = systems.iter().map(StartBox::natural).collect();
+    let start = |k: usize, index: u64| scattered_starts(&systems[k], areas[k], plan.seed, index);
+    let tails = !plan.fields.is_empty();
+    settle_each(&counted, start, options, tails, Width::best(), &mut |k, settlement| {
+        done(k, shares(&systems[k], plan, settlement))
+    })
+}
+
+/// The motions of a settlement, the most frequent first.
+fn shares(osc: &Oscillator, plan: &MapPlan, settlement: Settlement) -> Vec<Share> {
     let mut found: Vec<(CountedMotion, Arrivals)> = settlement.motions.into_iter().zip(settlement.tails).collect();
     found.sort_by_key(|(found, _)| core::cmp::Reverse(found.count));
     #[allow(clippy::cast_precision_loss)] // counts below 2^53

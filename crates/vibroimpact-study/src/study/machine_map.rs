@@ -2,9 +2,10 @@
 
 use super::code;
 use super::fill::{Along, along_machine, machine_fields, machine_grid, on_axis};
-use super::map::{MapFill, Mapped, side};
+use super::map::{MapFill, Mapped, Motions, side};
 use super::stored_motion::StoredMotion;
 use crate::field::{Extra, Field};
+use crate::grid::Index;
 use crate::machine::MachineSource;
 use crate::machine_plan::{MachineMapPlan, MachineShare, values_of};
 use crate::map::options;
@@ -41,17 +42,9 @@ impl MachinesOver {
         }
         Ok(source)
     }
-}
 
-impl Mapped for MachinesOver {
-    type Motion = MachineShare;
-    const VELOCITY: Unit = Unit::CONSISTENT;
-
-    fn coordinates(&self) -> Vec<Along> {
-        along_machine(&self.plan.axes)
-    }
-
-    fn motions(&self, index: &[usize]) -> Result<Vec<MachineShare>, PlanError> {
+    /// The motions at a point, the most frequent first.
+    fn at(&self, index: &[usize]) -> Result<Vec<MachineShare>, PlanError> {
         let machine = self.source(index)?.machine()?;
         let mut census: Census<MachineVerdict> = Census::default();
         for k in 0..self.plan.starts {
@@ -74,6 +67,19 @@ impl Mapped for MachinesOver {
             }
         };
         Ok(census.by_share().into_iter().map(motion).collect())
+    }
+}
+
+impl Mapped for MachinesOver {
+    type Motion = MachineShare;
+    const VELOCITY: Unit = Unit::CONSISTENT;
+
+    fn coordinates(&self) -> Vec<Along> {
+        along_machine(&self.plan.axes)
+    }
+
+    fn motions(&self, points: &[Index], tick: &dyn Fn() -> bool) -> Option<Vec<Motions<Self>>> {
+        points.iter().map(|index| (!tick()).then(|| self.at(index))).collect()
     }
 
     fn label(motion: &MachineShare) -> (i32, f64) {

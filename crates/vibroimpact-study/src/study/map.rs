@@ -5,6 +5,7 @@ use super::code;
 use super::fill::{self, Along, Fill, along, grid_of, on_axis};
 use super::refine::{self, Cell};
 use crate::field::{Column, Extra, Field, NumberType};
+use crate::grid::Index;
 use crate::map::motions;
 use crate::quantity;
 use crate::{Block, Grid, MapPlan, PlanError, Share, SystemPlan, Unit};
@@ -17,7 +18,7 @@ const MOST_MOTIONS: usize = 8;
 const TILE: usize = 64;
 
 /// Systems whose motions are found at each point of a grid over numbers of the system.
-pub(crate) trait Mapped: Send + Sync {
+pub(crate) trait Mapped: Send + Sync + Sized {
     /// A motion at a point.
     type Motion: Send;
     /// The unit of speeds.
@@ -26,8 +27,9 @@ pub(crate) trait Mapped: Send + Sync {
     /// The coordinate values of the axes.
     fn coordinates(&self) -> Vec<Along>;
 
-    /// The motions at a point of the grid, the most frequent first, or the error if the point is no valid system.
-    fn motions(&self, index: &[usize]) -> Result<Vec<Self::Motion>, PlanError>;
+    /// The motions at points of the grid, the most frequent first, or the error if a point is no valid system. `tick` is
+    /// called for each point; if it returns true, the computation stops with `None`.
+    fn motions(&self, points: &[Index], tick: &dyn Fn() -> bool) -> Option<Vec<Motions<Self>>>;
 
     /// The code of the label of a motion, and the share of the starts that lead to it.
     fn label(motion: &Self::Motion) -> (i32, f64);
@@ -81,8 +83,22 @@ impl Mapped for OscillatorMap {
         along(&self.plan.axes)
     }
 
-    fn motions(&self, index: &[usize]) -> Result<Vec<Share>, PlanError> {
-        Ok(motions(&self.oscillator(index)?, &self.plan, &self.options))
+    fn motions(&self, points: &[Index], tick: &dyn Fn() -> bool) -> Option<Vec<Motions<Self>>> {
+        let mut systems = Vec::new();
+        let mut numbers = Vec::new();
+        let mut found = Vec::new();
+        for index in points {
+            found.push(self.oscillator(index).map(|osc| {
+                systems.push(osc);
+                numbers.push(found.len());
+                Vec::new()
+            }));
+        }
+        let ended = motions(&systems, &self.plan, &self.options, |k, shares| {
+            found[numbers[k]] = Ok(shares);
+            tick()
+        });
+        ended.then_some(found)
     }
 
     fn label(motion: &Share) -> (i32, f64) {
@@ -133,7 +149,7 @@ impl<M: Mapped> MapFill<M> {
 }
 
 /// The motions at a point, the most frequent first, or the error if the point is no valid system.
-type Motions<M> = Result<Vec<<M as Mapped>::Motion>, PlanError>;
+pub(super) type Motions<M> = Result<Vec<<M as Mapped>::Motion>, PlanError>;
 
 /// The largest speed before an impact of a cycle.
 fn speed(verdict: &Verdict) -> f64 {
@@ -192,7 +208,7 @@ impl<M: Mapped> Fill for MapFill<M> {
 
     fn compute(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Self::Tile> {
         let points = |wanted: &[usize]| -> Option<Vec<Motions<M>>> {
-            wanted.iter().map(|k| (!tick()).then(|| self.mapped.motions(&block.index(*k)))).collect()
+            self.mapped.motions(&wanted.iter().map(|k| block.index(*k)).collect::<Vec<_>>(), &|| tick())
         };
         match self.refine {
             None => Some(points(&(0..block.points()).collect::<Vec<_>>())?.into_iter().map(Cell::Computed).collect()),

@@ -42,7 +42,7 @@ impl<'a> Flow<'a> {
         }
         for slot in self.batch.rare().to_vec() {
             match self.batch.carefully(slot, SearchLimits::default()).0 {
-                Contact::Impact { .. } if !self.batch.settles_after(&self.batch.arrival(slot).0) => impacts += 1,
+                Contact::Impact { .. } if !self.batch.settles_after(slot, &self.batch.arrival(slot).0) => impacts += 1,
                 _ => self.replace(slot),
             }
         }

@@ -1,4 +1,4 @@
-//! A batch: many motions of one oscillator, from impact to impact, without waiting for each other.
+//! A batch: many motions of one oscillator, or of several, from impact to impact, without waiting for each other.
 //!
 //! Every flight has a slot. A round takes one step of every flight. When a contact is found, the slot is launched again
 //! from the stop at once, so all lanes are used in every step, whatever the lengths of the flights. The contacts are
@@ -9,8 +9,9 @@
 
 use super::flight::{Hit, Progress};
 use super::slots::{ARRIVAL, COS, INTERVAL, Lists, PHASE, SIDE, SIN, Slots, V, X, rebound, row};
-use super::stride::{NODES, Stride, Table};
+use super::stride::Stride;
 use super::strike::Launch;
+use super::systems::{Each, Kind, One};
 use super::width::Width;
 use crate::contact::ImpactState;
 use crate::contact::chatter;
@@ -41,14 +42,21 @@ pub const ABREAST: usize = 1024;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Batch {
-    osc: Oscillator,
-    stride: Stride,
-    table: Table,
+    systems: Oscillators,
     slots: Slots,
     lists: Lists,
     rare: Vec<u32>,
     settling: Vec<u32>,
+    capacity: usize,
     width: Width,
+}
+
+/// The oscillators of the motions.
+#[derive(Clone, Debug)]
+enum Oscillators {
+    One(Oscillator, Box<One>),
+    /// Those of which motions may be launched.
+    Many(Vec<Oscillator>, Each),
 }
 
 impl Batch {
@@ -57,18 +65,21 @@ impl Batch {
     /// deflections away.
     #[must_use]
     pub fn new(osc: &Oscillator, capacity: usize, width: Width) -> Option<Self> {
-        let stride = Stride::new(osc)?;
-        let table = Table::new(&stride);
-        Some(Self {
-            osc: *osc,
-            stride,
-            table,
-            slots: Slots::new(capacity),
-            lists: Lists::new(),
-            rare: Vec::new(),
-            settling: Vec::new(),
-            width,
-        })
+        Some(Self::of(Oscillators::One(*osc, Box::new(One::new(Stride::new(osc)?))), capacity, width))
+    }
+
+    /// A batch for at most `capacity` motions of these oscillators, each of its own. `None` if the lanes cannot follow
+    /// the flights of one of them, or if they are not all of the same [`Kind`].
+    pub(crate) fn of_many(oscillators: Vec<Oscillator>, capacity: usize, width: Width) -> Option<Self> {
+        let strides: Vec<Stride> = oscillators.iter().map(Stride::new).collect::<Option<_>>()?;
+        let kind = Kind::of(strides.first()?);
+        let alike = strides.iter().all(|stride| Kind::of(stride) == kind);
+        alike.then(|| Self::of(Oscillators::Many(oscillators, Each::new(kind, strides, capacity)), capacity, width))
+    }
+
+    fn of(systems: Oscillators, capacity: usize, width: Width) -> Self {
+        let (slots, lists) = (Slots::new(capacity), Lists::new());
+        Self { systems, slots, lists, rare: Vec::new(), settling: Vec::new(), capacity, width }
     }
 
     /// The number of motions.
@@ -86,7 +97,25 @@ impl Batch {
     /// The longest flight whose end the lanes can find.
     #[must_use]
     pub fn longest(&self) -> f64 {
-        f64::from(NODES + 3) * self.stride.pace.h
+        match &self.systems {
+            Oscillators::One(_, one) => one.stride.longest(),
+            Oscillators::Many(_, each) => each.strides.iter().map(Stride::longest).fold(0.0, f64::max),
+        }
+    }
+
+    /// The oscillator of a slot.
+    pub(crate) fn osc(&self, slot: u32) -> &Oscillator {
+        match &self.systems {
+            Oscillators::One(osc, _) => osc,
+            Oscillators::Many(all, each) => &all[each.numbers[slot as usize] as usize],
+        }
+    }
+
+    fn stride(&self, slot: usize) -> &Stride {
+        match &self.systems {
+            Oscillators::One(_, one) => &one.stride,
+            Oscillators::Many(_, each) => each.stride(slot),
+        }
     }
 
     /// Adds a motion, in the next slot.
@@ -103,9 +132,38 @@ impl Batch {
         self.slots.launch(slot as usize, row(start));
     }
 
+    /// The largest number of motions.
+    pub(crate) const fn capacity(&self) -> usize {
+        self.capacity
+    }
+
+    /// Adds a motion of the oscillator with this number in the list, in the next slot.
+    ///
+    /// # Panics
+    /// If the batch has `capacity` motions already.
+    pub(crate) fn push_of(&mut self, system: u32, start: Start) {
+        self.set(self.slots.count, system);
+        self.push(start);
+    }
+
+    /// Replaces the motion in a slot by one of the oscillator with this number.
+    pub(crate) fn launch_of(&mut self, slot: u32, system: u32, start: Start) {
+        self.set(slot as usize, system);
+        self.launch(slot, start);
+    }
+
+    fn set(&mut self, slot: usize, system: u32) {
+        if let Oscillators::Many(_, each) = &mut self.systems {
+            each.set(slot, system);
+        }
+    }
+
     /// Removes a motion; the one in the last slot moves to this slot.
     pub fn remove(&mut self, slot: u32) {
         self.slots.remove(slot as usize);
+        if let Oscillators::Many(_, each) = &mut self.systems {
+            each.set(slot as usize, each.numbers[self.slots.count]);
+        }
     }
 
     /// Takes one step of every flight.
@@ -113,7 +171,10 @@ impl Batch {
         self.lists.clear();
         self.rare.clear();
         self.settling.clear();
-        self.width.round(&mut self.slots, &self.stride, &self.table, &mut self.lists);
+        match &self.systems {
+            Oscillators::One(_, one) => self.width.round(&mut self.slots, &**one, &mut self.lists),
+            Oscillators::Many(_, each) => self.width.round(&mut self.slots, each, &mut self.lists),
+        }
         for k in 0..self.lists.left.len() {
             self.refine(self.lists.left[k]);
         }
@@ -161,31 +222,40 @@ impl Batch {
     /// an impact the slot is launched again, as after an impact in a round; after any other contact it is left as it
     /// is.
     pub fn carefully(&mut self, slot: u32, limits: SearchLimits) -> (Contact, u32) {
-        let flight = Flight::new(&self.osc, self.launched(slot));
+        let flight = Flight::new(self.osc(slot), self.launched(slot));
         let clear = f64::from(self.slots.state(slot as usize).s);
-        let (contact, steps) = counted(&self.osc, &flight, limits, clear);
+        let (contact, steps) = counted(self.osc(slot), &flight, limits, clear);
         if let Contact::Impact { time, side, velocity } = contact {
             self.struck_at(slot, Hit { time, velocity, side: side.sign() });
         }
         (contact, steps)
     }
 
-    /// Whether the leg after an impact is not a flight.
+    /// Whether the leg after an impact of the motion in a slot is not a flight.
     #[must_use]
-    pub fn settles_after(&self, state: &ImpactState) -> bool {
-        let rebound = state.rebound(&self.osc).v.abs();
+    pub fn settles_after(&self, slot: u32, state: &ImpactState) -> bool {
+        let osc = self.osc(slot);
+        let rebound = state.rebound(osc).v.abs();
         rebound == 0.0
-            || chatter::completion(&self.osc, state.side, state.phase, rebound, chatter::DEFAULT_SMALLNESS).is_some()
+            || chatter::completion(osc, state.side, state.phase, rebound, chatter::DEFAULT_SMALLNESS).is_some()
     }
 
     /// Examines a step that the lanes could not decide, in halved steps.
     fn refine(&mut self, slot: u32) {
         let row = &self.slots.launches[slot as usize];
         let launch = Launch { x: row[X], v: row[V], sin: row[SIN], cos: row[COS] };
-        match self.stride.refine(&launch, self.slots.state(slot as usize), &self.table) {
+        let state = self.slots.state(slot as usize);
+        let progress = match &self.systems {
+            Oscillators::One(_, one) => one.stride.refine(&launch, state, &&**one, &one.table),
+            Oscillators::Many(_, each) => {
+                let stride = each.stride(slot as usize);
+                stride.refine(&launch, state, stride, stride)
+            }
+        };
+        match progress {
             Progress::Clear(on) => {
                 self.slots.put(slot as usize, on);
-                if self.stride.late(on.s) {
+                if self.stride(slot as usize).roughly.late(on.s) {
                     self.lists.late.push(slot);
                 }
             }
@@ -201,13 +271,13 @@ impl Batch {
     /// Launches a slot again after its contact.
     fn struck_at(&mut self, slot: u32, Hit { time, velocity, side }: Hit) {
         let phase = self.slots.launches[slot as usize][PHASE];
-        let next = rebound(&self.stride, phase, (time, velocity, side));
+        let next = rebound(&self.stride(slot as usize).constants, phase, (time, velocity, side));
         self.slots.launch(slot as usize, next);
     }
 
     /// Lists a slot as settling if the leg after its impact is not a flight.
     fn sum_chatter(&mut self, slot: u32) {
-        if self.settles_after(&self.arrival(slot).0) {
+        if self.settles_after(slot, &self.arrival(slot).0) {
             self.settling.push(slot);
         }
     }

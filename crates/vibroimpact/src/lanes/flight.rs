@@ -2,11 +2,11 @@
 //! first. Where neither can be proven, steps are halved; where this does not help, the flight is left to the careful
 //! search.
 
+use super::constants::Constants;
 use super::hull::MARGIN;
-use super::stride::{LEVELS, NODES, Propagators, State, Stride};
+use super::stride::{Halvings, LEVELS, Propagators, State, Stride};
 use super::strike::{Guess, Launch, Strike};
 use crate::flight::{Contact, Flight, SearchLimits, counted};
-use crate::math::Numbers;
 use crate::system::{Oscillator, Side};
 
 /// The first contact of `flight` with the stops of `osc`, as in a [`Motion`](crate::motion::Motion): by strides where
@@ -61,42 +61,37 @@ impl Stride {
 
     /// Takes steps from the launch until one is not proven clear, and examines that one.
     fn fly(&self, launch: &Launch<f64>) -> Result<Hit, f64> {
+        let Self { constants, roughly, rough, .. } = self;
         let mut state = launch.state().rough();
         loop {
-            let next = self.rough.step(state);
-            let (from, to) = (self.end(&state), self.end(&next));
-            if self.clear(&self.rough.scale, &from, &to, self.margin(state.s), false) {
+            let next = rough.step(state);
+            let (from, to) = (roughly.end(&state), roughly.end(&next));
+            if roughly.clear(&rough.scale, &from, &to, roughly.margin(state.s), false) {
                 state = next;
             } else {
-                let guess = Guess::of(&self.guess(self.rough.h, state.s, &from, &to));
-                let strike = self.polish(&guess, &self.approach(launch, &guess, self));
-                if self.first_roughly(&strike, state.s, &from) == 1 {
+                let guess = Guess::of(&roughly.guess(rough.h, state.s, &from, &to));
+                let strike = constants.polish(&guess, &constants.approach(launch, &guess, self));
+                if Constants::first_roughly(roughly, &strike, state.s, &from) == 1 {
                     return Ok(strike.into());
                 }
-                match self.refine(launch, state, self) {
+                match self.refine(launch, state, self, self) {
                     Progress::Hit(hit) => return Ok(hit),
                     Progress::Clear(on) => state = on,
                     Progress::Rare => return Err(f64::from(state.s)),
                 }
             }
-            if self.late(state.s) {
+            if roughly.late(state.s) {
                 return Err(f64::from(state.s));
             }
         }
     }
 
-    /// Whether the time is past the last step that lanes take.
-    #[inline(always)]
-    pub(super) fn late<L: Numbers>(&self, s: L) -> L::Mask {
-        L::splat(f64::from(NODES) * self.pace.h).less(s)
-    }
-
     /// For a flight that is pressed back and returns after about 2v/a: the number of halvings with which its contact
     /// may be proven.
     fn promising(&self, state: &State<f64>) -> usize {
-        let a = self.end(state).a;
+        let a = self.constants.end(state).a;
         let back = if state.v * a < 0.0 { -4.0 * state.v / a } else { f64::INFINITY };
-        let mut h = self.pace.h;
+        let mut h = self.constants.h;
         let mut level = 0;
         while h > back && level < LEVELS - 1 {
             h *= 0.5;
@@ -112,15 +107,17 @@ impl Stride {
         launch: &Launch<f64>,
         way: State<f32>,
         propagators: &impl Propagators<f64>,
+        halvings: &impl Halvings,
     ) -> Progress {
-        let mut state = self.after_steps(launch, f64::from(way.s), propagators);
-        let end = state.s + self.pace.h;
+        let constants = &self.constants;
+        let mut state = constants.after_steps(launch, f64::from(way.s), propagators);
+        let end = state.s + constants.h;
         let mut level = 0;
         while level < LEVELS {
-            let pace = propagators.pace(level);
+            let pace = halvings.pace(level);
             let next = pace.step(state);
-            let ends = (state.s, self.end(&state), self.end(&next));
-            let swing = self.swing(&pace.scale, &ends.1, &ends.2, MARGIN);
+            let ends = (state.s, constants.end(&state), constants.end(&next));
+            let swing = constants.swing(&pace.scale, &ends.1, &ends.2, MARGIN);
             if swing.clear {
                 state = next;
                 // lengths are dyadic fractions, so the sums are exact
@@ -132,12 +129,12 @@ impl Stride {
             // for the whole step the guess of a contact was tried before
             if swing.above || level > 0 {
                 let guess = if swing.above {
-                    self.guess_near(pace.h, &ends, &swing)
+                    constants.guess_near(pace.h, &ends, &swing)
                 } else {
-                    self.guess(pace.h, ends.0, &ends.1, &ends.2)
+                    constants.guess(pace.h, ends.0, &ends.1, &ends.2)
                 };
-                let strike = self.polish(&guess, &self.approach(launch, &guess, propagators));
-                if self.first(&strike, state.s, &ends.1) {
+                let strike = constants.polish(&guess, &constants.approach(launch, &guess, propagators));
+                if constants.first(&strike, state.s, &ends.1) {
                     return Progress::Hit(strike.into());
                 }
             }

@@ -19,7 +19,8 @@
 //!
 //! $`B_6`$ grows with the energy radius (`flight/bounds.rs`), for which $`\sqrt{x^2+v^2} \le |x| + |v|`$.
 
-use super::stride::{HullScale, State, Stride};
+use super::constants::{Constants, ROUGH};
+use super::stride::{HullScale, NODES, State};
 use crate::math::{Mask, Numbers};
 
 /// The motion at an end of the arc.
@@ -33,14 +34,6 @@ pub(super) struct End<L> {
 /// A bound of the rounding error of a coefficient, relative to 1 + |gap| + |x| + |v|, if the step begins at a state in
 /// double precision. It is far above the few dozen rounding errors of a coefficient.
 pub(super) const MARGIN: f64 = 1e-12;
-/// The same for each step taken in single precision. With $`u = 2^{-24}`$ a step adds at most $`6u`$ to sine and cosine
-/// and $`11u\,(|x| + |v| + 3/2)`$ to position and velocity. The free motion preserves these errors up to a factor
-/// $`\sqrt2`$ between the two. An error of the force is added at each step, near resonance in phase with the motion,
-/// and becomes $`3u n^2`$ after $`n`$ steps. For at most 64 steps the sum is below $`230u\,n\,(1 + |x| + |v|)`$. One
-/// step more is counted than was taken: for the step itself, and for the hull of the launch, which has about $`50u`$ in
-/// single precision.
-const ROUGH: f64 = 1.4e-5;
-
 /// The coefficients of an arc, without those at its ends.
 pub(super) struct Hull<L> {
     /// |x| + |v| at its beginning.
@@ -69,38 +62,37 @@ impl<L: Numbers> Hull<L> {
     }
 }
 
-impl Stride {
+impl<N: Numbers> Constants<N> {
     /// The motion at a state, with its acceleration.
     #[inline(always)]
-    pub(super) fn end<L: Numbers>(&self, state: &State<L>) -> End<L> {
+    pub(super) fn end(&self, state: &State<N>) -> End<N> {
         let force = state.sin - state.x;
-        let a = if self.drag == 0.0 { force } else { force - L::splat(self.drag) * state.v };
+        let a = if self.damped { force - self.drag * state.v } else { force };
         End { x: state.x, v: state.v, a }
     }
 
     /// The relative margin for a state a time `s` after the launch; the launch itself counts as one step.
     #[inline(always)]
-    pub(super) fn margin<L: Numbers>(&self, s: L) -> L {
-        L::splat(ROUGH) + L::splat(ROUGH / self.pace.h) * s
+    pub(super) fn margin(&self, s: N) -> N {
+        N::splat(ROUGH) + self.margin_rate * s
+    }
+
+    /// Whether the time is past the last step that lanes take.
+    #[inline(always)]
+    pub(super) fn late(&self, s: N) -> N::Mask {
+        (N::splat(f64::from(NODES)) * self.h).less(s)
     }
 
     /// Whether the arc is proven clear of the stops, except at its beginning; `margin` is relative. If `arrives` is
     /// set, its end is excepted too.
     #[inline(always)]
-    pub(super) fn clear<L: Numbers>(
-        &self,
-        scale: &HullScale<L>,
-        from: &End<L>,
-        to: &End<L>,
-        margin: L,
-        arrives: bool,
-    ) -> L::Mask {
+    pub(super) fn clear(&self, scale: &HullScale<N>, from: &End<N>, to: &End<N>, margin: N, arrives: bool) -> N::Mask {
         let Hull { size, error, coefficients: [c1, c2, c3, c4, c5] } = Hull::of(scale, from, to);
         let mut highest = c1.max(c2).max((c3 + error).max(c4)).max(c5);
         if !arrives {
             highest = highest.max(to.x);
         }
-        let clear = highest.less(room(self.gap[0], margin, size));
+        let clear = highest.less(self.room(0, margin, size));
         if !self.two_stops {
             return clear;
         }
@@ -108,12 +100,12 @@ impl Stride {
         if !arrives {
             lowest = lowest.min(to.x);
         }
-        clear.and((-lowest).less(room(self.gap[1], margin, size)))
+        clear.and((-lowest).less(self.room(1, margin, size)))
     }
-}
 
-/// The gap less the margin.
-#[inline(always)]
-pub(super) fn room<L: Numbers>(gap: f64, margin: L, size: L) -> L {
-    L::splat(gap) - margin * (L::splat(1.0 + gap.abs()) + size)
+    /// The gap of the upper (0) or the lower stop (1) less the margin.
+    #[inline(always)]
+    pub(super) fn room(&self, stop: usize, margin: N, size: N) -> N {
+        self.gap[stop] - margin * (self.bulk[stop] + size)
+    }
 }

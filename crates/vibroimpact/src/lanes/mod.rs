@@ -2,7 +2,8 @@
 //!
 //! | idea | file |
 //! |---|---|
-//! | the constants of the flights of an oscillator: steps with a constant matrix | `stride` |
+//! | the constants of the flights of an oscillator: steps with a constant matrix | `stride`, `constants` |
+//! | one oscillator for all lanes, or another one in each | `systems` |
 //! | a step proven clear of the stops | `hull` |
 //! | a step that comes close to a stop and turns back | `swing` |
 //! | a contact that is found, refined and proven to be the first | `strike` |
@@ -26,6 +27,7 @@ mod avx2;
 mod avx512;
 mod batch;
 mod compaction;
+mod constants;
 mod extremes;
 mod flight;
 mod hull;
@@ -40,6 +42,7 @@ mod slots;
 mod stride;
 mod strike;
 mod swing;
+mod systems;
 mod uncertain;
 mod width;
 
@@ -49,4 +52,6 @@ pub use flight::first_contact;
 pub(crate) use flight::found;
 pub(crate) use integrals::add_integrals;
 pub(crate) use stride::Stride;
+pub(crate) use systems::Kind;
+pub(crate) use width::Task;
 pub use width::Width;

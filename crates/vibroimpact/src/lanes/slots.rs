@@ -1,12 +1,14 @@
 //! The flights of a batch: each has a slot in arrays that are read by lanes.
 
 use super::compaction::list;
+use super::constants::Constants;
 use super::hull::MARGIN;
-use super::stride::{State, Stride, Table, WIDEST};
+use super::stride::{State, WIDEST};
 use super::strike::{Approach, Guess, Launch, Strike};
+use super::systems::Systems;
 use super::uncertain::{SEGMENT, UncertainSteps};
 use crate::contact::chatter;
-use crate::math::{Lane, Mask, Numbers, Single, sin_cos, sin_cos_lanes};
+use crate::math::{Lane, Mask, Single, sin_cos, sin_cos_lanes};
 use crate::system::{Start, phase};
 
 /// Columns of a launch: the state, and the arrival before it (speed, time since the launch before, side).
@@ -99,10 +101,9 @@ impl Slots {
     /// Takes one step of every flight in a segment of slots. Flights whose step is not proven clear keep their state
     /// and are added to `doubts`.
     #[inline(always)]
-    pub(super) fn march<N: Single>(&mut self, segment: usize, stride: &Stride, lists: &mut Lists) {
+    pub(super) fn march<N: Single>(&mut self, segment: usize, systems: &impl Systems, lists: &mut Lists) {
         let Lists { doubts, late, .. } = lists;
         doubts.clear();
-        let pace = stride.pace.splat::<N>();
         let mut first = segment * SEGMENT;
         let last = self.count.min(first + SEGMENT);
         for block in &mut self.states[first / WIDEST..last.div_ceil(WIDEST)] {
@@ -116,9 +117,10 @@ impl Slots {
                     sin: N::load(&sin[lane..]),
                     cos: N::load(&cos[lane..]),
                 };
+                let (constants, pace) = systems.step::<N>(first + lane);
                 let next = pace.step(state);
-                let (from, to) = (stride.end(&state), stride.end(&next));
-                let clear = stride.clear(&pace.scale, &from, &to, stride.margin(state.s), false);
+                let (from, to) = (constants.end(&state), constants.end(&next));
+                let clear = constants.clear(&pace.scale, &from, &to, constants.margin(state.s), false);
                 N::choose(clear, next.s, state.s).store(&mut s[lane..]);
                 N::choose(clear, next.x, state.x).store(&mut x[lane..]);
                 N::choose(clear, next.v, state.v).store(&mut v[lane..]);
@@ -131,7 +133,7 @@ impl Slots {
                 if doubtful != 0 {
                     doubts.add(doubtful, first + lane, state.s, &from, &to);
                 }
-                let gone = clear.and(stride.late(next.s)).bits() & valid;
+                let gone = clear.and(constants.late(next.s)).bits() & valid;
                 if gone != 0 {
                     let mut more = [0; WIDEST];
                     let count = list(gone, first + lane, &mut more);
@@ -146,38 +148,41 @@ impl Slots {
     /// Proves contacts for the steps in `doubts`, and launches those slots again from the stop. Every other slot in
     /// `doubts` is added to `open`.
     #[inline(always)]
-    pub(super) fn strike<L: Lane>(&mut self, stride: &Stride, table: &Table, lists: &mut Lists) {
-        let h = L::Rough::splat(stride.pace.h);
+    pub(super) fn strike<L: Lane, S: Systems>(&mut self, systems: &S, lists: &mut Lists) {
         let zero = L::splat(0.0);
         let mut guess = [Guess::nowhere(); BLOCK];
         let (mut approach, mut hits) = ([Approach::nowhere(); BLOCK], [Strike::nowhere(); BLOCK]);
         let mut phases = [zero; BLOCK];
+        let mut of = [S::nowhere::<L>(); BLOCK];
         let mut first = 0;
         let count = lists.doubts.len();
         while first < count {
             // stage by stage, so that the operations of one group fill the time in which another one waits for its
             // results
             let groups = (count - first).div_ceil(L::WIDTH).min(BLOCK);
-            for (k, guess) in guess.iter_mut().enumerate().take(groups) {
+            for k in 0..groups {
                 let (s, from, to) = lists.doubts.steps::<L::Rough>(first + k * L::WIDTH);
-                *guess = Guess::<L>::of(&stride.guess(h, s, &from, &to));
+                of[k] = systems.group::<L>(lists.doubts.slots(first + k * L::WIDTH));
+                let roughly = systems.roughly(&of[k]);
+                guess[k] = Guess::<L>::of(&roughly.guess(roughly.h, s, &from, &to));
             }
             for k in 0..groups {
-                let row = L::rows(&self.launches, lists.doubts.slots(first + k * L::WIDTH));
+                let slots = lists.doubts.slots(first + k * L::WIDTH);
+                let row = L::rows(&self.launches, slots);
                 phases[k] = row[PHASE];
                 let launch = Launch { x: row[X], v: row[V], sin: row[SIN], cos: row[COS] };
-                approach[k] = stride.approach(&launch, &guess[k], table);
+                approach[k] = systems.constants(&of[k]).approach(&launch, &guess[k], &systems.propagators(&of[k]));
             }
             for k in 0..groups {
-                hits[k] = stride.polish(&guess[k], &approach[k]);
+                hits[k] = systems.constants(&of[k]).polish(&guess[k], &approach[k]);
             }
             for k in 0..groups {
                 let first = first + k * L::WIDTH;
                 let (s, from, _) = lists.doubts.steps::<L::Rough>(first);
-                let proven = stride.first_roughly(&hits[k], s, &from);
+                let proven = Constants::first_roughly(&systems.roughly(&of[k]), &hits[k], s, &from);
                 let slots = *lists.doubts.slots(first);
                 let there = (1_u32 << (count - first).min(L::WIDTH)) - 1;
-                self.relaunch(stride, &slots, phases[k], &hits[k], proven & there, lists);
+                self.relaunch(&systems.constants(&of[k]), &slots, phases[k], &hits[k], proven & there, lists);
                 each(!proven & there, |lane| lists.open.push(slots[lane]));
             }
             first += BLOCK * L::WIDTH;
@@ -187,36 +192,39 @@ impl Slots {
     /// Examines the steps in `open` in full precision. Those that come close to a stop and turn back continue. Those
     /// with a contact that was not guessed before are launched again. All others are added to `left`.
     #[inline(always)]
-    pub(super) fn look_closer<L: Lane>(&mut self, stride: &Stride, table: &Table, lists: &mut Lists) {
+    pub(super) fn look_closer<L: Lane>(&mut self, systems: &impl Systems, lists: &mut Lists) {
         let mut open = core::mem::take(&mut lists.open);
-        let pace = stride.pace.splat::<L>();
         for few in open.chunks(L::WIDTH) {
             let at = padded(few);
+            let group = systems.group::<L>(&at);
+            let (constants, propagators, pace) =
+                (systems.constants(&group), systems.propagators(&group), systems.pace(&group));
             let row = L::rows(&self.launches, &at);
             let launch = Launch { x: row[X], v: row[V], sin: row[SIN], cos: row[COS] };
             let s = L::load(&at.map(|slot| f64::from(self.states[slot as usize / WIDEST][0][slot as usize % WIDEST])));
-            let state = stride.after_steps(&launch, s, table);
+            let state = constants.after_steps(&launch, s, &propagators);
             let next = pace.step(state);
-            let ends = (s, stride.end(&state), stride.end(&next));
-            let swing = stride.swing(&pace.scale, &ends.1, &ends.2, L::splat(MARGIN));
-            let guess = stride.guess_near(pace.h, &ends, &swing);
-            let strike = stride.polish(&guess, &stride.approach(&launch, &guess, table));
+            let ends = (s, constants.end(&state), constants.end(&next));
+            let swing = constants.swing(&pace.scale, &ends.1, &ends.2, L::splat(MARGIN));
+            let guess = constants.guess_near(pace.h, &ends, &swing);
+            let strike = constants.polish(&guess, &constants.approach(&launch, &guess, &propagators));
             let clear = swing.clear.bits();
-            let proven = swing.above.and(stride.first(&strike, s, &ends.1)).bits() & !clear;
+            let proven = swing.above.and(constants.first(&strike, s, &ends.1)).bits() & !clear;
             let there = (1_u32 << few.len()) - 1;
             let mut on = [[0.0; WIDEST]; 5];
             for (on, number) in on.iter_mut().zip([next.s, next.x, next.v, next.sin, next.cos]) {
                 number.rounded().store(on);
             }
+            let gone = constants.late(next.s).bits();
             each(clear & there, |lane| {
                 let state =
                     State { s: on[0][lane], x: on[1][lane], v: on[2][lane], sin: on[3][lane], cos: on[4][lane] };
                 self.put(at[lane] as usize, state);
-                if stride.late(state.s) {
+                if gone >> lane & 1 == 1 {
                     lists.late.push(at[lane]);
                 }
             });
-            self.relaunch(stride, &at, row[PHASE], &strike, proven & there, lists);
+            self.relaunch(&constants, &at, row[PHASE], &strike, proven & there, lists);
             each(!(clear | proven) & there, |lane| lists.left.push(at[lane]));
         }
         open.clear();
@@ -227,14 +235,14 @@ impl Slots {
     #[inline(always)]
     fn relaunch<L: Lane>(
         &mut self,
-        stride: &Stride,
+        constants: &Constants<L>,
         slots: &[u32; WIDEST],
         phases: L,
         hits: &Strike<L>,
         proven: u32,
         lists: &mut Lists,
     ) {
-        let next = rebound(stride, phases, (hits.time, hits.velocity, hits.side));
+        let next = rebound(constants, phases, (hits.time, hits.velocity, hits.side));
         let mut rows = [[0.0; 8]; WIDEST];
         L::store_rows(next, &mut rows);
         let mut rough = [[0.0; WIDEST]; 4];
@@ -249,7 +257,7 @@ impl Slots {
             lists.struck.push(slot);
         });
         let pressed = next[SIN] - next[X];
-        let pressed = if stride.two_stops { hits.side * pressed } else { pressed }.max(L::splat(0.0));
+        let pressed = if constants.two_stops { hits.side * pressed } else { pressed }.max(L::splat(0.0));
         let soft = next[V].abs().less(L::splat(2.0 * chatter::SLOW) * pressed).bits();
         each(soft & proven, |lane| lists.gentle.push(slots[lane]));
     }
@@ -275,16 +283,16 @@ const BLOCK: usize = 4;
 
 /// The launch after a contact, from the phase of the last launch.
 #[inline(always)]
-pub(super) fn rebound<L: Lane>(stride: &Stride, phase: L, (time, velocity, side): (L, L, L)) -> [L; 8] {
-    let phase = phase::advance_lanes(phase, L::splat(stride.beta), time);
+pub(super) fn rebound<L: Lane>(constants: &Constants<L>, phase: L, (time, velocity, side): (L, L, L)) -> [L; 8] {
+    let phase = phase::advance_lanes(phase, constants.beta, time);
     let (sin, cos) = sin_cos_lanes(phase);
-    let (upper, lower) = (L::splat(stride.restitution[0]), L::splat(stride.restitution[1]));
-    let (x, v) = if stride.two_stops {
+    let ([upper, lower], [high, deep]) = (constants.restitution, constants.gap);
+    let (x, v) = if constants.two_stops {
         let low = side.less(L::splat(0.0));
         let speed = L::choose(low, lower, upper) * velocity;
-        (L::choose(low, L::splat(-stride.gap[1]), L::splat(stride.gap[0])), -(side * speed))
+        (L::choose(low, -deep, high), -(side * speed))
     } else {
-        (L::splat(stride.gap[0]), -(upper * velocity))
+        (high, -(upper * velocity))
     };
     [x, v, sin, cos, phase, velocity, time, side]
 }

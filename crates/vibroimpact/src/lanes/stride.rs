@@ -13,9 +13,10 @@
 //! are power series with coefficients from $`y^{(k+2)} = f^{(k)} - y^{(k)} - 2\zeta y^{(k+1)}`$. The step satisfies
 //! $`\mu h \le 3/2`$, $`\mu = \max(\beta, 1 + 2\zeta)`$, so nine terms of each parity leave an error below $`2^{-60}`$.
 
+use super::constants::{Constants, ROUGH};
 use crate::flight::Response;
 use crate::math::{Lane, Mask, Numbers};
-use crate::system::{Oscillator, Side};
+use crate::system::{Oscillator, Side, UndampedForm};
 
 /// The number of step lengths, each half of the one before. If the shortest does not suffice, the flight is left to the
 /// careful search.
@@ -34,7 +35,7 @@ const SHORTEST: f64 = 1.0 / 64.0;
 const GRAIN: f64 = 1.0 / 1024.0;
 
 /// The constants of one step length.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Pace<L> {
     pub(super) h: L,
     c: L,
@@ -50,7 +51,7 @@ pub(super) struct Pace<L> {
 }
 
 /// The multiples of the step length for the coefficients of the hull.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct HullScale<L> {
     /// h/6.
     pub(super) sixth: L,
@@ -79,24 +80,32 @@ pub(super) type Row<L> = [L; 8];
 /// The constants of the flights of an oscillator.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stride {
-    pub(super) beta: f64,
-    /// 2 zeta.
-    pub(super) drag: f64,
-    /// The gaps of the upper and the lower stop; infinite where there is none.
-    pub(super) gap: [f64; 2],
-    pub(super) restitution: [f64; 2],
-    pub(super) two_stops: bool,
+    pub(super) constants: Constants<f64>,
+    /// The same in single precision.
+    pub(super) roughly: Constants<f32>,
     /// The constants of a whole step.
     pub(super) pace: Pace<f64>,
     /// The same in single precision.
     pub(super) rough: Pace<f32>,
-    /// B6 over a window from a state with |x| + |v| = 0, and its increase with |x| + |v|.
-    bound: [f64; 2],
-    /// The coefficients of acceleration and position in the sixth derivative (without damping), times h^6/720.
-    pub(super) sixth: [f64; 2],
     /// The series of 1 - C, S, Kc and Ks.
     series: [Coefficients; 4],
+    /// The closed form without damping.
+    pub(super) form: UndampedForm<f64>,
     response: Response,
+}
+
+/// The propagator without damping by the closed form.
+#[inline(always)]
+pub(super) fn closed<L: Lane>(form: &UndampedForm<L>, time: L) -> Row<L> {
+    let p = form.at(time);
+    [p.one_minus_c, p.c, p.s, p.c, p.kc, p.ks, p.sin_turn, p.cos_turn]
+}
+
+/// The propagator without damping over whole steps.
+#[inline(always)]
+pub(super) fn closed_at_node<L: Lane>(form: &UndampedForm<L>, time: L) -> Row<L> {
+    let p = form.exact(time);
+    [p.one_minus_c, p.c, p.s, p.c, p.kc, p.ks, p.sin_turn, p.cos_turn]
 }
 
 impl Stride {
@@ -117,35 +126,51 @@ impl Stride {
         let bound = sixth_derivative(beta, drag);
         let response = *osc.response();
         let pace = Pace::new(&response, h, bound);
-        Some(Self {
+        let power = h * h * h * h * h * h / 720.0;
+        let force = beta * beta * (1.0 + beta * beta);
+        let gap = [upper.gap, lower.map_or(f64::INFINITY, |stop| stop.gap)];
+        let constants = Constants {
+            two_stops: lower.is_some(),
+            damped: drag != 0.0,
             beta,
             drag,
-            gap: [upper.gap, lower.map_or(f64::INFINITY, |stop| stop.gap)],
+            gap,
+            bulk: gap.map(|gap| 1.0 + gap.abs()),
             restitution: [upper.restitution, lower.map_or(0.0, |stop| stop.restitution)],
-            two_stops: lower.is_some(),
-            pace,
-            rough: pace.splat(),
+            h,
+            margin_rate: ROUGH / h,
+            shortest: 1.0 / fastest,
             bound,
-            sixth: {
-                let power = h * h * h * h * h * h / 720.0;
-                let force = beta * beta * (1.0 + beta * beta);
-                [power * (1.0 + force), power * force]
-            },
+            sixth: [power * (1.0 + force), power * force],
+        };
+        Some(Self {
+            constants,
+            roughly: constants.each(|x| Numbers::splat(*x)),
+            pace,
+            rough: pace.each(|x| Numbers::splat(*x)),
             series: series(beta, drag),
+            form: response.undamped_form(),
             response,
         })
     }
 
+    /// The longest flight whose end the lanes can find.
+    pub(super) fn longest(&self) -> f64 {
+        f64::from(NODES + 3) * self.constants.h
+    }
+
     /// The propagator over a time of either sign, at most half a step, by the series.
     #[inline(always)]
-    pub(super) fn rest<L: Lane>(&self, t: L) -> Row<L> {
-        let (beta, drag) = (L::splat(self.beta), L::splat(self.drag));
+    pub(super) fn by_series<L: Lane>(&self, t: L) -> Row<L> {
+        let Constants { damped, beta, drag, .. } = self.constants;
+        let detuning = L::splat((1.0 - beta) * (1.0 + beta));
+        let (beta, drag) = (L::splat(beta), L::splat(drag));
         let z = t * t;
         let zz = z * z;
         let [free_c, free_s, forced_c, forced_s] = &self.series;
         let (mut omc, mut s) = (z * sum(&free_c.even, z, zz), t * sum(&free_s.odd, z, zz));
         let (mut kc, mut ks) = (z * sum(&forced_c.even, z, zz), t * (z * sum(&forced_s.odd, z, zz)));
-        if self.drag != 0.0 {
+        if damped {
             let zt = z * t;
             omc = omc + zt * sum(&free_c.odd, z, zz);
             s = s + z * sum(&free_s.even, z, zz);
@@ -155,12 +180,11 @@ impl Stride {
         let c = L::splat(1.0) - omc;
         let s_rate = c - drag * s;
         // cos and sin of beta t follow from K'' + 2 zeta K' + K = e^{i beta t}
-        let detuning = L::splat((1.0 - self.beta) * (1.0 + self.beta));
         let cross = drag * beta;
-        let (cos, sin) = if self.drag == 0.0 {
-            (c + detuning * kc, beta * s + detuning * ks)
-        } else {
+        let (cos, sin) = if damped {
             (c + detuning * kc - cross * ks, beta * s + detuning * ks + cross * kc)
+        } else {
+            (c + detuning * kc, beta * s + detuning * ks)
         };
         [omc, c, s, s_rate, kc, ks, sin, cos]
     }
@@ -168,14 +192,13 @@ impl Stride {
     /// The propagator without damping over any time from 0 on, accurate to the last bits: by the series over the first
     /// half step, where differences are small, otherwise by the closed form.
     #[inline(always)]
-    pub(super) fn whole<L: Lane>(&self, time: L) -> Row<L> {
-        let p = self.response.undamped(time);
-        let row = [p.one_minus_c, p.c, p.s, p.c, p.kc, p.ks, p.sin_turn, p.cos_turn];
-        let early = time.less(L::splat(0.5 * self.pace.h));
+    pub(super) fn undamped<L: Lane>(&self, time: L) -> Row<L> {
+        let row = closed(&self.form.splat(), time);
+        let early = time.less(L::splat(0.5 * self.constants.h));
         if early.bits() == 0 {
             return row;
         }
-        let series = self.rest(time);
+        let series = self.by_series(time);
         let mut chosen = row;
         let mut k = 0;
         while k < chosen.len() {
@@ -184,18 +207,20 @@ impl Stride {
         }
         chosen
     }
-
-    /// The multiples of a step of any length for the coefficients of the hull.
-    #[inline(always)]
-    pub(super) fn scale<L: Numbers>(&self, h: L) -> HullScale<L> {
-        HullScale::new(h, [L::splat(self.bound[0]), L::splat(self.bound[1])])
-    }
 }
 
 /// The propagators that are not needed in every step.
 pub(super) trait Propagators<L> {
     /// The propagator over `k` whole steps.
     fn node(&self, k: L) -> Row<L>;
+    /// The propagator over a time of either sign, at most half a step.
+    fn rest(&self, t: L) -> Row<L>;
+    /// The propagator without damping over any time from 0 on.
+    fn whole(&self, time: L) -> Row<L>;
+}
+
+/// Halved steps.
+pub(super) trait Halvings {
     /// The constants of a step halved `level` times.
     fn pace(&self, level: usize) -> Pace<f64>;
 }
@@ -204,16 +229,26 @@ pub(super) trait Propagators<L> {
 impl Propagators<f64> for Stride {
     #[inline]
     fn node(&self, k: f64) -> Row<f64> {
-        let p = self.response.at(k * self.pace.h);
+        let p = self.response.at(k * self.constants.h);
         [p.one_minus_c, p.c, p.s, p.s_rate, p.kc, p.ks, p.sin_turn, p.cos_turn]
     }
+    #[inline]
+    fn rest(&self, t: f64) -> Row<f64> {
+        self.by_series(t)
+    }
+    #[inline]
+    fn whole(&self, time: f64) -> Row<f64> {
+        self.undamped(time)
+    }
+}
 
+impl Halvings for Stride {
     fn pace(&self, level: usize) -> Pace<f64> {
-        let mut h = self.pace.h;
+        let mut h = self.constants.h;
         for _ in 0..level {
             h *= 0.5;
         }
-        Pace::new(&self.response, h, self.bound)
+        Pace::new(&self.response, h, self.constants.bound)
     }
 }
 
@@ -238,9 +273,10 @@ impl Table {
     }
 }
 
-impl<L: Lane> Propagators<L> for Table {
+impl Table {
+    /// The propagators over these numbers of whole steps.
     #[inline(always)]
-    fn node(&self, k: L) -> Row<L> {
+    pub(super) fn node<L: Lane>(&self, k: L) -> Row<L> {
         let mut numbers = [0.0; WIDEST];
         k.store(&mut numbers);
         let mut which = [0; WIDEST];
@@ -252,7 +288,9 @@ impl<L: Lane> Propagators<L> for Table {
         }
         L::rows(&self.nodes, &which)
     }
+}
 
+impl Halvings for Table {
     fn pace(&self, level: usize) -> Pace<f64> {
         self.paces[level]
     }
@@ -264,8 +302,9 @@ pub(super) const WIDEST: usize = 16;
 const FAR: f64 = 1e6;
 
 impl<L: Numbers> HullScale<L> {
+    /// The multiples of a step of any length.
     #[inline(always)]
-    fn new(h: L, [rest, rate]: [L; 2]) -> Self {
+    pub(super) fn new(h: L, [rest, rate]: [L; 2]) -> Self {
         let hh = h * h;
         let power = hh * hh * hh * L::splat(1.0 / 14400.0);
         let error_rate = rate * power;
@@ -298,31 +337,54 @@ impl Pace<f64> {
             scale: HullScale::new(h, bound),
         }
     }
+}
 
-    /// The same numbers in every lane.
+impl<N> Pace<N> {
+    /// The same with another representation of each number.
     #[inline(always)]
-    pub(super) fn splat<L: Numbers>(&self) -> Pace<L> {
+    pub(super) fn each<M>(&self, mut f: impl FnMut(&N) -> M) -> Pace<M> {
         let scale = &self.scale;
         Pace {
-            h: L::splat(self.h),
-            c: L::splat(self.c),
-            s: L::splat(self.s),
-            kc: L::splat(self.kc),
-            ks: L::splat(self.ks),
-            s_rate: L::splat(self.s_rate),
-            ks_rate: L::splat(self.ks_rate),
-            kc_rate: L::splat(self.kc_rate),
-            cos: L::splat(self.cos),
-            sin: L::splat(self.sin),
+            h: f(&self.h),
+            c: f(&self.c),
+            s: f(&self.s),
+            kc: f(&self.kc),
+            ks: f(&self.ks),
+            s_rate: f(&self.s_rate),
+            ks_rate: f(&self.ks_rate),
+            kc_rate: f(&self.kc_rate),
+            cos: f(&self.cos),
+            sin: f(&self.sin),
             scale: HullScale {
-                sixth: L::splat(scale.sixth),
-                thirtieth: L::splat(scale.thirtieth),
-                two_fifths: L::splat(scale.two_fifths),
-                twentieth: L::splat(scale.twentieth),
-                error: L::splat(scale.error),
-                error_rate: L::splat(scale.error_rate),
+                sixth: f(&scale.sixth),
+                thirtieth: f(&scale.thirtieth),
+                two_fifths: f(&scale.two_fifths),
+                twentieth: f(&scale.twentieth),
+                error: f(&scale.error),
+                error_rate: f(&scale.error_rate),
             },
         }
+    }
+}
+
+impl<N: Copy> Pace<N> {
+    /// As a row.
+    pub(super) const fn row(&self) -> [N; 16] {
+        let Self { h, c, s, kc, ks, s_rate, ks_rate, kc_rate, cos, sin, scale } = *self;
+        let HullScale { sixth, thirtieth, two_fifths, twentieth, error, error_rate } = scale;
+        [
+            h, c, s, kc, ks, s_rate, ks_rate, kc_rate, cos, sin, sixth, thirtieth, two_fifths, twentieth, error,
+            error_rate,
+        ]
+    }
+
+    /// From a row.
+    #[inline(always)]
+    pub(super) const fn of_row(row: [N; 16]) -> Self {
+        let [h, c, s, kc, ks, s_rate, ks_rate, kc_rate, cos, sin, sixth, thirtieth, two_fifths, twentieth, error, rate] =
+            row;
+        let scale = HullScale { sixth, thirtieth, two_fifths, twentieth, error, error_rate: rate };
+        Self { h, c, s, kc, ks, s_rate, ks_rate, kc_rate, cos, sin, scale }
     }
 }
 
@@ -437,7 +499,7 @@ mod tests {
             let stride = Stride::new(&osc).unwrap();
             for k in -8_i32..=8 {
                 let t = 0.5 * stride.pace.h * f64::from(k) / 8.0;
-                let [omc, c, s, s_rate, kc, ks, sin, cos] = stride.rest(t);
+                let [omc, c, s, s_rate, kc, ks, sin, cos] = stride.by_series(t);
                 if t < 0.0 {
                     assert!((omc + c - 1.0).abs() < 1e-16 && (sin * sin + cos * cos - 1.0).abs() < 1e-15);
                     continue;

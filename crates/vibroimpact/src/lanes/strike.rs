@@ -13,8 +13,9 @@
 //!
 //! If one of these fails, no contact is reported, and the step is halved.
 
+use super::constants::Constants;
 use super::hull::{End, MARGIN};
-use super::stride::{Propagators, Row, State, Stride};
+use super::stride::{HullScale, Propagators, Row, State};
 use super::swing::Swing;
 use crate::math::{Lane, Mask, Numbers};
 
@@ -53,13 +54,13 @@ struct Mirror<L> {
 impl<L: Numbers> Mirror<L> {
     /// The stop on this side.
     #[inline(always)]
-    fn at(stride: &Stride, side: L) -> Self {
-        let upper = L::splat(stride.gap[0]);
-        if !stride.two_stops {
+    fn at(constants: &Constants<L>, side: L) -> Self {
+        let [upper, lower] = constants.gap;
+        if !constants.two_stops {
             return Self { two_stops: false, side, gap: upper };
         }
         let low = side.less(L::splat(0.0));
-        Self { two_stops: true, side, gap: L::choose(low, L::splat(stride.gap[1]), upper) }
+        Self { two_stops: true, side, gap: L::choose(low, lower, upper) }
     }
 
     #[inline(always)]
@@ -129,31 +130,41 @@ impl<L: Lane> Strike<L> {
     }
 }
 
-impl Stride {
+impl<N: Numbers> Constants<N> {
     /// Step 1: the guess, where the interpolant of the step reaches a stop.
     #[inline(always)]
-    pub(super) fn guess<N: Numbers>(&self, h: N, s: N, from: &End<N>, to: &End<N>) -> Guess<N> {
+    pub(super) fn guess(&self, h: N, s: N, from: &End<N>, to: &End<N>) -> Guess<N> {
         let mut side = N::splat(1.0);
         if self.two_stops {
-            side = N::choose(to.x.less(N::splat(-self.gap[1])), -side, side);
+            side = N::choose(to.x.less(-self.gap[1]), -side, side);
         }
         let mirror = Mirror::at(self, side);
         let quintic = Quintic::of(h, from, to, mirror);
-        let sixth = |end: &End<N>| mirror.of(N::splat(self.sixth[0]) * end.a + N::splat(self.sixth[1]) * end.x);
+        let sixth = |end: &End<N>| mirror.of(self.sixth[0] * end.a + self.sixth[1] * end.x);
         let t = quintic.root(quintic.first_crossing(), [sixth(from), sixth(to)]);
         Guess { time: s + h * t, side }
     }
 
+    /// Whether no stop is reached before this arrival.
+    #[inline(always)]
+    fn reaches(&self, h: N, from: &End<N>, (side, v, a): (N, N, N), margin: N) -> N::Mask {
+        let mirror = Mirror::at(self, side);
+        let arrival = End { x: mirror.of(mirror.gap), v: mirror.of(v), a: mirror.of(a) };
+        self.clear(&HullScale::new(h, self.bound), from, &arrival, margin, true).and(N::splat(0.0).less(h))
+    }
+}
+
+impl<L: Lane> Constants<L> {
     /// Step 1: the guess from the estimate of a swing.
     #[inline(always)]
-    pub(super) fn guess_near<L: Lane>(&self, h: L, (s, from, to): &(L, End<L>, End<L>), swing: &Swing<L>) -> Guess<L> {
+    pub(super) fn guess_near(&self, h: L, (s, from, to): &(L, End<L>, End<L>), swing: &Swing<L>) -> Guess<L> {
         let quintic = Quintic::of(h, from, to, Mirror::at(self, swing.side));
         Guess { time: *s + h * quintic.root(swing.estimate, [L::splat(0.0); 2]), side: swing.side }
     }
 
     /// Step 2: the motion at the guess.
     #[inline(always)]
-    pub(super) fn approach<L: Lane>(
+    pub(super) fn approach(
         &self,
         launch: &Launch<L>,
         guess: &Guess<L>,
@@ -161,31 +172,31 @@ impl Stride {
     ) -> Approach<L> {
         let mirror = Mirror::at(self, guess.side);
         let launch = launch.mirrored(mirror);
-        if self.drag == 0.0 {
-            let (room, state) = self.carried(&launch, &self.whole(guess.time), mirror.gap);
+        if !self.damped {
+            let (room, state) = self.carried(&launch, &propagators.whole(guess.time), mirror.gap);
             return Approach { room, state };
         }
-        let nearest = (guess.time * L::splat(1.0 / self.pace.h)).nearest();
+        let nearest = (guess.time * (L::splat(1.0) / self.h)).nearest();
         let (room, node) = self.carried(&launch, &propagators.node(nearest), mirror.gap);
-        let rest = self.rest(guess.time - nearest * L::splat(self.pace.h));
+        let rest = propagators.rest(guess.time - nearest * self.h);
         let (_, state) = self.carried(&node, &rest, mirror.gap);
-        Approach { room: room - self.moved(&node, &rest), state }
+        Approach { room: room - Self::moved(&node, &rest), state }
     }
 
     /// Step 3: the contact, from the Taylor polynomial at the guess.
     #[inline(always)]
-    pub(super) fn polish<L: Lane>(&self, guess: &Guess<L>, approach: &Approach<L>) -> Strike<L> {
+    pub(super) fn polish(&self, guess: &Guess<L>, approach: &Approach<L>) -> Strike<L> {
         let Approach { room: g, state: Launch { x, v: p, sin, cos } } = *approach;
-        let (drag, beta) = (L::splat(self.drag), L::splat(self.beta));
-        let damped = self.drag != 0.0;
+        let Self { damped, beta, drag, .. } = *self;
+        let square = beta * beta;
         let q = if damped { (sin - x) - drag * p } else { sin - x };
         let j = if damped { (beta * cos - p) - drag * q } else { beta * cos - p };
-        let force = L::splat(self.beta * self.beta) * sin;
+        let force = square * sin;
         let snap = if damped { -(force + q) - drag * j } else { -(force + q) };
-        let force_rate = L::splat(self.beta * self.beta * self.beta) * cos;
+        let force_rate = square * beta * cos;
         let crackle = if damped { -(force_rate + j) - drag * snap } else { -(force_rate + j) };
 
-        let pop = L::splat(self.beta * self.beta) * force - snap;
+        let pop = square * force - snap;
         let pop = if damped { pop - drag * crackle } else { pop };
 
         // g = p t + q t^2/2 + j t^3/6 + ... + pop t^6/720: the series of its inverse to the third order, then one
@@ -211,7 +222,7 @@ impl Stride {
                 + ss * (L::splat(5.0) * crackle120 + L::splat(6.0) * (pop720 * shift)));
 
         // close enough for the polynomial, and the remainder after the correction is within rounding
-        let reach = time.min(L::splat(1.0 / self.beta.max(1.0 + self.drag)));
+        let reach = time.min(self.shortest);
         let near = shift.abs().less(L::splat(NEAR) * reach);
         let left = (turn * turn * turn).abs() + (bend * correction).abs();
         let settled = (correction.abs() * left).less(L::splat(0.25 * f64::EPSILON) * time);
@@ -229,42 +240,39 @@ impl Stride {
     /// Step 4: whether the contact is proven to be the first since the beginning of the step at `s`, as bits. Single
     /// precision suffices unless the arc is very short.
     #[inline(always)]
-    pub(super) fn first_roughly<L: Lane>(&self, strike: &Strike<L>, s: L::Rough, from: &End<L::Rough>) -> u32 {
+    pub(super) fn first_roughly(
+        roughly: &Constants<L::Rough>,
+        strike: &Strike<L>,
+        s: L::Rough,
+        from: &End<L::Rough>,
+    ) -> u32 {
         let h = (strike.time - L::widened(s)).rounded();
         let (v, a) = (strike.velocity.rounded(), strike.acceleration.rounded());
-        strike.settled.bits() & self.reaches(h, from, (strike.side.rounded(), v, a), self.margin(s)).bits()
+        strike.settled.bits() & roughly.reaches(h, from, (strike.side.rounded(), v, a), roughly.margin(s)).bits()
     }
 
     /// Step 4 in double precision.
     #[inline(always)]
-    pub(super) fn first<L: Lane>(&self, strike: &Strike<L>, s: L, from: &End<L>) -> L::Mask {
+    pub(super) fn first(&self, strike: &Strike<L>, s: L, from: &End<L>) -> L::Mask {
         let arrival = (strike.side, strike.velocity, strike.acceleration);
         strike.settled.and(self.reaches(strike.time - s, from, arrival, L::splat(MARGIN)))
     }
 
-    /// Whether no stop is reached before this arrival.
-    #[inline(always)]
-    fn reaches<N: Numbers>(&self, h: N, from: &End<N>, (side, v, a): (N, N, N), margin: N) -> N::Mask {
-        let mirror = Mirror::at(self, side);
-        let arrival = End { x: mirror.of(mirror.gap), v: mirror.of(v), a: mirror.of(a) };
-        self.clear(&self.scale(h), from, &arrival, margin, true).and(N::splat(0.0).less(h))
-    }
-
     /// The state a whole number of steps after the launch, in full precision.
     #[inline(always)]
-    pub(super) fn after_steps<L: Lane>(&self, launch: &Launch<L>, s: L, propagators: &impl Propagators<L>) -> State<L> {
-        let steps = (s * L::splat(1.0 / self.pace.h)).nearest();
+    pub(super) fn after_steps(&self, launch: &Launch<L>, s: L, propagators: &impl Propagators<L>) -> State<L> {
+        let steps = (s * (L::splat(1.0) / self.h)).nearest();
         let (_, there) = self.carried(launch, &propagators.node(steps), L::splat(0.0));
         State { s, x: there.x, v: there.v, sin: there.sin, cos: there.cos }
     }
 
     /// The state that a propagator gives from another state, and its distance from the stop.
     #[inline(always)]
-    fn carried<L: Lane>(&self, from: &Launch<L>, over: &Row<L>, gap: L) -> (L, Launch<L>) {
-        let beta = L::splat(self.beta);
+    fn carried(&self, from: &Launch<L>, over: &Row<L>, gap: L) -> (L, Launch<L>) {
+        let beta = self.beta;
         let [_, c, s, s_rate, kc, ks, st, ct] = *over;
         let forced = from.sin * kc + from.cos * ks;
-        let displacement = self.moved(from, over);
+        let displacement = Self::moved(from, over);
         // after a quarter of a free oscillation the terms of the position itself are smaller
         let far = (from.x * c + from.v * s) + forced;
         let is_far = c.less(L::splat(0.5));
@@ -276,7 +284,7 @@ impl Stride {
 
     /// The displacement that a propagator gives.
     #[inline(always)]
-    fn moved<L: Lane>(&self, from: &Launch<L>, over: &Row<L>) -> L {
+    fn moved(from: &Launch<L>, over: &Row<L>) -> L {
         let [omc, _, s, _, kc, ks, _, _] = *over;
         (from.v * s - from.x * omc) + (from.sin * kc + from.cos * ks)
     }

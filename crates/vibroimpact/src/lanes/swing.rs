@@ -7,8 +7,9 @@
 //! rises above the stop for a short time, and where it does. The place of the maximum need not be exact: the parts are
 //! a hull wherever the polynomial is divided.
 
-use super::hull::{End, Hull, room};
-use super::stride::{HullScale, Stride};
+use super::constants::Constants;
+use super::hull::{End, Hull};
+use super::stride::HullScale;
 use crate::math::{Lane, Mask};
 
 /// The number of Newton steps to the maximum, beginning at that of a parabola.
@@ -27,19 +28,19 @@ pub(super) struct Swing<L: Lane> {
     pub(super) side: L,
 }
 
-impl Stride {
+impl<L: Lane> Constants<L> {
     /// Examines the arc of a step whose hull as a whole is not clear, except at its beginning; `margin` is relative.
     #[inline(always)]
-    pub(super) fn swing<L: Lane>(&self, scale: &HullScale<L>, from: &End<L>, to: &End<L>, margin: L) -> Swing<L> {
+    pub(super) fn swing(&self, scale: &HullScale<L>, from: &End<L>, to: &End<L>, margin: L) -> Swing<L> {
         let Hull { size, error, coefficients: [c1, c2, c3, c4, c5] } = Hull::of(scale, from, to);
         let one = L::splat(1.0);
         let arc = [from.x, c1, c2, c3 + error, c4, c5, to.x];
-        let upper = split(arc, room(self.gap[0], margin, size), error, one);
+        let upper = split(arc, self.room(0, margin, size), error, one);
         if !self.two_stops {
             return upper;
         }
         let arc = [-from.x, -c1, -c2, -(c3 - error), -c4, -c5, -to.x];
-        let lower = split(arc, room(self.gap[1], margin, size), error, -one);
+        let lower = split(arc, self.room(1, margin, size), error, -one);
         Swing {
             clear: upper.clear.and(lower.clear),
             above: upper.above.or(lower.above),

@@ -2,7 +2,7 @@
 
 use super::pack::Pack;
 use super::slots::{Lists, Slots};
-use super::stride::{Stride, Table};
+use super::systems::Systems;
 use super::uncertain::SEGMENT;
 use crate::math::Lane;
 
@@ -63,7 +63,7 @@ impl Width {
     }
 
     /// Does a task in lanes of double precision.
-    pub(super) fn run<T: Task>(self, task: T) -> T::Output {
+    pub(crate) fn run<T: Task>(self, task: T) -> T::Output {
         match self {
             Self::Scalar => task.run::<f64>(),
             #[cfg(target_arch = "x86_64")]
@@ -78,37 +78,37 @@ impl Width {
     }
 
     /// Takes one step of every flight, and processes the contacts that it leads to.
-    pub(super) fn round(self, slots: &mut Slots, stride: &Stride, table: &Table, lists: &mut Lists) {
+    pub(super) fn round(self, slots: &mut Slots, systems: &impl Systems, lists: &mut Lists) {
         for segment in 0..slots.count.div_ceil(SEGMENT) {
             match self {
                 Self::Scalar => {
-                    slots.march::<f32>(segment, stride, lists);
-                    slots.strike::<f64>(stride, table, lists);
-                    slots.look_closer::<f64>(stride, table, lists);
+                    slots.march::<f32>(segment, systems, lists);
+                    slots.strike::<f64, _>(systems, lists);
+                    slots.look_closer::<f64>(systems, lists);
                 }
                 #[cfg(target_arch = "x86_64")]
                 // available() has asked the processor
                 Self::Avx2 if self.available() => {
                     #[allow(unsafe_code)]
                     unsafe {
-                        march_avx2(segment, slots, stride, lists);
-                        strike_avx2(slots, stride, table, lists);
-                        look_closer_avx2(slots, stride, table, lists);
+                        march_avx2(segment, slots, systems, lists);
+                        strike_avx2(slots, systems, lists);
+                        look_closer_avx2(slots, systems, lists);
                     }
                 }
                 #[cfg(target_arch = "x86_64")]
                 Self::Avx512 if self.available() => {
                     #[allow(unsafe_code)]
                     unsafe {
-                        march_avx512(segment, slots, stride, lists);
-                        strike_avx512(slots, stride, table, lists);
-                        look_closer_avx512(slots, stride, table, lists);
+                        march_avx512(segment, slots, systems, lists);
+                        strike_avx512(slots, systems, lists);
+                        look_closer_avx512(slots, systems, lists);
                     }
                 }
                 _ => {
-                    slots.march::<Pack<f32, 4>>(segment, stride, lists);
-                    slots.strike::<Pack<f64, 4>>(stride, table, lists);
-                    slots.look_closer::<Pack<f64, 4>>(stride, table, lists);
+                    slots.march::<Pack<f32, 4>>(segment, systems, lists);
+                    slots.strike::<Pack<f64, 4>, _>(systems, lists);
+                    slots.look_closer::<Pack<f64, 4>>(systems, lists);
                 }
             }
         }
@@ -116,7 +116,7 @@ impl Width {
 }
 
 /// Something that is computed in lanes of any type. Lane types have 1, 4 or 16 numbers.
-pub(super) trait Task {
+pub(crate) trait Task {
     /// The result.
     type Output;
     /// Computes it; must be inlined, so that it is compiled for the processor's instructions.
@@ -137,36 +137,36 @@ fn run_avx512<T: Task>(task: T) -> T::Output {
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,bmi1,bmi2,popcnt")]
-fn march_avx2(segment: usize, slots: &mut Slots, stride: &Stride, lists: &mut Lists) {
-    slots.march::<Pair<EightSingle>>(segment, stride, lists);
+fn march_avx2(segment: usize, slots: &mut Slots, systems: &impl Systems, lists: &mut Lists) {
+    slots.march::<Pair<EightSingle>>(segment, systems, lists);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,bmi1,bmi2,popcnt")]
-fn strike_avx2(slots: &mut Slots, stride: &Stride, table: &Table, lists: &mut Lists) {
-    slots.strike::<Pair<Pair<Four>>>(stride, table, lists);
+fn strike_avx2(slots: &mut Slots, systems: &impl Systems, lists: &mut Lists) {
+    slots.strike::<Pair<Pair<Four>>, _>(systems, lists);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,bmi1,bmi2,popcnt")]
-fn march_avx512(segment: usize, slots: &mut Slots, stride: &Stride, lists: &mut Lists) {
-    slots.march::<Pair<EightSingle>>(segment, stride, lists);
+fn march_avx512(segment: usize, slots: &mut Slots, systems: &impl Systems, lists: &mut Lists) {
+    slots.march::<Pair<EightSingle>>(segment, systems, lists);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,bmi1,bmi2,popcnt")]
-fn strike_avx512(slots: &mut Slots, stride: &Stride, table: &Table, lists: &mut Lists) {
-    slots.strike::<Pair<Eight>>(stride, table, lists);
+fn strike_avx512(slots: &mut Slots, systems: &impl Systems, lists: &mut Lists) {
+    slots.strike::<Pair<Eight>, _>(systems, lists);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,bmi1,bmi2,popcnt")]
-fn look_closer_avx2(slots: &mut Slots, stride: &Stride, table: &Table, lists: &mut Lists) {
-    slots.look_closer::<Pair<Four>>(stride, table, lists);
+fn look_closer_avx2(slots: &mut Slots, systems: &impl Systems, lists: &mut Lists) {
+    slots.look_closer::<Pair<Four>>(systems, lists);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,bmi1,bmi2,popcnt")]
-fn look_closer_avx512(slots: &mut Slots, stride: &Stride, table: &Table, lists: &mut Lists) {
-    slots.look_closer::<Eight>(stride, table, lists);
+fn look_closer_avx512(slots: &mut Slots, systems: &impl Systems, lists: &mut Lists) {
+    slots.look_closer::<Eight>(systems, lists);
 }

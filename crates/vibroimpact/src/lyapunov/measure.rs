@@ -7,8 +7,8 @@
 
 use super::Tail;
 use crate::flight::SearchLimits;
-use crate::math::{Sum, ln};
-use crate::motion::{ImpactState, Mapped, derivative, impact_map};
+use crate::math::{Matrix2, Sum, ln};
+use crate::motion::{ABREAST, ImpactState, Mapped, derivatives, impact_map};
 use crate::system::Oscillator;
 
 /// A measured number with its error bar.
@@ -96,6 +96,12 @@ pub(crate) struct Measure {
     u: [f64; 2],
     w: [f64; 2],
     per_block: u32,
+    /// The number of impacts that are still missing.
+    left: u32,
+    /// The impacts whose derivatives are not computed yet, with the time since the one before, and the impact before
+    /// them.
+    pending: Vec<(ImpactState, f64)>,
+    before: ImpactState,
     /// The number of impacts of the current block.
     count: u32,
     time: Sum,
@@ -108,12 +114,16 @@ pub(crate) struct Measure {
 impl Measure {
     /// A measurement from an impact on, over this number of further impacts.
     pub(crate) fn new(from: ImpactState, impacts: u32) -> Self {
+        let per_block = (impacts / BLOCKS).max(1);
         Self {
             state: from,
             tail: Tail::new(from),
             u: [1.0, 0.0],
             w: [0.0, 1.0],
-            per_block: (impacts / BLOCKS).max(1),
+            per_block,
+            left: BLOCKS * per_block,
+            pending: Vec::with_capacity(ABREAST),
+            before: from,
             count: 0,
             time: Sum::default(),
             one: LogSum::default(),
@@ -123,19 +133,40 @@ impl Measure {
     }
 
     /// Whether all impacts have been added.
-    pub(crate) fn complete(&self) -> bool {
-        self.blocks.len() >= BLOCKS as usize
+    pub(crate) const fn complete(&self) -> bool {
+        self.left == 0
     }
 
     /// The number of impacts that are still missing.
-    pub(crate) fn left(&self) -> u32 {
-        let blocks = BLOCKS - u32::try_from(self.blocks.len()).unwrap_or(BLOCKS).min(BLOCKS);
-        (blocks * self.per_block).saturating_sub(self.count)
+    pub(crate) const fn left(&self) -> u32 {
+        self.left
     }
 
     /// Adds the next impact, `interval` after the last one.
     pub(crate) fn impact(&mut self, osc: &Oscillator, next: ImpactState, interval: f64) {
-        let d = derivative(osc, &self.state, &next, interval);
+        self.state = next;
+        self.left = self.left.saturating_sub(1);
+        self.tail.impact(next, u64::from(self.left));
+        self.pending.push((next, interval));
+        if self.pending.len() == ABREAST || self.complete() {
+            self.catch_up(osc);
+        }
+    }
+
+    /// Takes the pending impacts into account. Their derivatives do not depend on each other and are computed side by
+    /// side.
+    fn catch_up(&mut self, osc: &Oscillator) {
+        let derivatives = derivatives(osc, &self.before, &self.pending);
+        let mut pending = core::mem::take(&mut self.pending);
+        for ((next, interval), derivative) in pending.drain(..).zip(derivatives) {
+            self.before = next;
+            self.stretch(derivative, interval);
+        }
+        self.pending = pending;
+    }
+
+    /// Carries the tangent vectors through a flight and its impact.
+    fn stretch(&mut self, d: Matrix2, interval: f64) {
         let (u, w) = (d.apply(self.u), d.apply(self.w));
         let along = (u[0] * u[0] + u[1] * u[1]).sqrt();
         self.u = [u[0] / along, u[1] / along];
@@ -145,9 +176,7 @@ impl Measure {
         self.one.multiply(along);
         self.two.multiply(across);
         self.time.add(interval);
-        self.state = next;
         self.count += 1;
-        self.tail.impact(next, u64::from(self.left()));
         if self.count == self.per_block {
             let t = self.time.value();
             let means = [self.one.value() / t, self.two.value() / t, f64::from(self.per_block) / t];
@@ -157,24 +186,40 @@ impl Measure {
         }
     }
 
+    /// The blocks that are complete.
+    fn blocks(&self, osc: &Oscillator) -> Vec<([f64; 3], f64)> {
+        if self.pending.is_empty() {
+            return self.blocks.clone();
+        }
+        let mut all = self.clone();
+        all.catch_up(osc);
+        all.blocks
+    }
+
     /// The exponents, and whether the motion is chaotic by this measurement: [`Spectrum::chaotic`] holds, and the last
     /// fifth of the measurement diverges too. `None` for fewer than [`FEWEST`] blocks, or if the larger exponent is not
     /// finite.
     pub(crate) fn chaos(&self, osc: &Oscillator) -> Option<(Spectrum, bool)> {
-        let spectrum = self.spectrum(osc).filter(|_| self.blocks.len() >= FEWEST)?;
-        let last: f64 = self.blocks.iter().rev().take(FEWEST).map(|(means, t)| means[0] * t).sum();
+        let blocks = self.blocks(osc);
+        let spectrum = self.over(osc, &blocks).filter(|_| blocks.len() >= FEWEST)?;
+        let last: f64 = blocks.iter().rev().take(FEWEST).map(|(means, t)| means[0] * t).sum();
         Some((spectrum, spectrum.chaotic() && last > 0.0))
     }
 
     /// The exponents of all complete blocks; `None` if the larger exponent is not finite.
     pub(crate) fn spectrum(&self, osc: &Oscillator) -> Option<Spectrum> {
+        self.over(osc, &self.blocks(osc))
+    }
+
+    /// The exponents over these blocks.
+    fn over(&self, osc: &Oscillator, blocks: &[([f64; 3], f64)]) -> Option<Spectrum> {
         let of = |k: usize, scale: f64| {
-            let values: Vec<(f64, f64)> = self.blocks.iter().map(|(means, t)| (means[k] * scale, *t)).collect();
+            let values: Vec<(f64, f64)> = blocks.iter().map(|(means, t)| (means[k] * scale, *t)).collect();
             mean(&values)
         };
         let exponents = [of(0, 1.0), of(1, 1.0)];
         let impacts_per_period = of(2, osc.period());
-        let time = self.blocks.iter().map(|(_, t)| t).sum();
+        let time = blocks.iter().map(|(_, t)| t).sum();
         let (last, tail) = (self.state, self.tail.so_far());
         exponents[0].value.is_finite().then_some(Spectrum { exponents, impacts_per_period, time, last, tail })
     }

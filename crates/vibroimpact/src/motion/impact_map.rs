@@ -17,8 +17,8 @@
 
 use super::{End, Event, EventKind, ImpactState, Motion};
 use crate::flight::SearchLimits;
-use crate::math::{Matrix2, sin_cos};
-use crate::system::Oscillator;
+use crate::math::{Lane, Matrix2};
+use crate::system::{Oscillator, Side};
 
 /// The result of the impact map.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,31 +76,69 @@ pub fn impact_map(osc: &Oscillator, state: &ImpactState, limits: SearchLimits) -
 /// `next`, a time `interval` later. It is not finite if `next` has velocity zero.
 #[must_use]
 pub fn derivative(osc: &Oscillator, state: &ImpactState, next: &ImpactState, interval: f64) -> Matrix2 {
-    let start = state.rebound(osc);
-    let beta = osc.beta();
-    let eps = osc.stop(state.side).map_or(0.0, |stop| stop.restitution);
+    let of = |side: Side| osc.stop(side).map_or((0.0, 0.0), |stop| (stop.restitution, stop.gap));
     let p = osc.response().at(interval);
-    let (sin, cos) = sin_cos(start.phase);
-    let (x_phase, x_v) = (cos * p.kc - sin * p.ks, p.s);
-    let (v_phase, v_v) = (cos * (p.s - beta * p.ks) - sin * beta * p.kc, p.s_rate);
-    let sign = next.side.sign();
-    let v1 = sign * next.velocity;
-    // the acceleration at the next impact, from the equation of motion
-    let a1 = sin_cos(next.phase).0 - sign * osc.stop(next.side).map_or(0.0, |stop| stop.gap) - 2.0 * osc.damping() * v1;
-    // one column for the phase, one for the arrival speed (dv0 = -sigma eps dU)
-    let dv0 = -state.side.sign() * eps;
-    let column = |dphi: f64, dv: f64| {
-        let ds = -(x_phase * dphi + x_v * dv) / v1;
-        [dphi + beta * ds, sign * (v_phase * dphi + v_v * dv + a1 * ds)]
-    };
-    let (by_phase, by_speed) = (column(1.0, 0.0), column(0.0, dv0));
-    Matrix2([[by_phase[0], by_speed[0]], [by_phase[1], by_speed[1]]])
+    Matrix2(Passage::elements(
+        osc,
+        &Passage {
+            phase: state.phase,
+            side: state.side.sign(),
+            restitution: of(state.side).0,
+            next_phase: next.phase,
+            next_side: next.side.sign(),
+            next_gap: of(next.side).1,
+            speed: next.velocity,
+        },
+        [p.kc, p.ks, p.s, p.s_rate],
+    ))
+}
+
+/// The way from an impact to the next one, or several side by side.
+pub(super) struct Passage<L> {
+    pub(super) phase: L,
+    pub(super) side: L,
+    /// Of the stop of the first impact.
+    pub(super) restitution: L,
+    pub(super) next_phase: L,
+    pub(super) next_side: L,
+    /// Of the stop of the next impact.
+    pub(super) next_gap: L,
+    /// Of the next arrival.
+    pub(super) speed: L,
+}
+
+impl<L: Lane> Passage<L> {
+    /// The elements of the derivative, from $`K_c, K_s, S, S'`$ after the time between the impacts.
+    #[inline(always)]
+    pub(super) fn elements(osc: &Oscillator, at: &Self, [kc, ks, s, s_rate]: [L; 4]) -> [[L; 2]; 2] {
+        let (beta, drag) = (L::splat(osc.beta()), L::splat(2.0 * osc.damping()));
+        let (sin, cos) = at.phase.sine_and_cosine();
+        let (x_phase, x_v) = (cos * kc - sin * ks, s);
+        let (v_phase, v_v) = (cos * (s - beta * ks) - sin * beta * kc, s_rate);
+        let v1 = at.next_side * at.speed;
+        // the acceleration at the next impact, from the equation of motion
+        let a1 = at.next_phase.sine_and_cosine().0 - at.next_side * at.next_gap - drag * v1;
+        // one column for the phase, one for the arrival speed (dv0 = -sigma eps dU)
+        let dv0 = -at.side * at.restitution;
+        let (zero, one) = (L::splat(0.0), L::splat(1.0));
+        let columns = [(one, zero), (zero, dv0)];
+        let mut elements = [[zero; 2]; 2];
+        let mut k = 0;
+        while k < 2 {
+            let (dphi, dv) = columns[k];
+            let ds = -(x_phase * dphi + x_v * dv) / v1;
+            elements[0][k] = dphi + beta * ds;
+            elements[1][k] = at.next_side * (v_phase * dphi + v_v * dv + a1 * ds);
+            k += 1;
+        }
+        elements
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::{Side, phase};
+    use crate::system::phase;
 
     fn step(osc: &Oscillator, state: &ImpactState) -> (ImpactState, f64) {
         match impact_map(osc, state, SearchLimits::default()) {

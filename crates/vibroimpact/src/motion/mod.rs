@@ -4,7 +4,7 @@
 //! |---|---|
 //! | the events | [`Event`] |
 //! | the events of a motion in order, and the legs between them | [`Motion`], [`Leg`] |
-//! | from one impact to the next, with its derivative | [`impact_map`] |
+//! | from one impact to the next, with its derivative; at several impacts side by side | [`impact_map`], `derivatives` |
 //! | from one forcing period to the next | [`stroboscopic_map`] |
 //! | the states at one phase of the force, once in every period | [`Strobes`] |
 //! | the states at given times | [`states_at`] |
@@ -12,6 +12,7 @@
 //! | points of the waveform, for display | [`sample`] |
 
 mod crossings;
+mod derivatives;
 mod event;
 mod impact_map;
 mod legs;
@@ -22,6 +23,7 @@ mod stroboscopic;
 
 pub use crate::contact::ImpactState;
 pub use crossings::{Crossing, Level};
+pub(crate) use derivatives::{ABREAST, derivatives};
 pub use event::{End, Event, EventKind};
 pub use impact_map::{MAX_TOUCHES, Mapped, derivative, impact_map};
 pub use legs::{Leg, Motion, Path};

@@ -42,6 +42,7 @@ pub use parameter_path::ParameterPath;
 pub use parameter_plane::ParameterPlane;
 pub use physical::{DrivenOscillator, PhysicalParameter, Reduced};
 pub use quantity_kind::QuantityKind;
+pub(crate) use response::{FormKind, UndampedForm};
 pub use response::{Propagator, Response};
 pub use start::Start;
 pub use units::{Damping, Frequency, PhysicalOscillator, PhysicalStop, Scales};

@@ -39,7 +39,7 @@ impl Response {
         let zeta = self.damping();
         let s = L::splat(middle) + offset;
         if zeta == 0.0 {
-            let p = self.undamped(s);
+            let p = self.undamped_form().splat().at(s);
             return Nearby {
                 c: p.c,
                 s: p.s,

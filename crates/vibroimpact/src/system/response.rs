@@ -115,8 +115,8 @@ impl Response {
     #[must_use]
     pub fn at(&self, s: f64) -> Propagator {
         match self.regime {
-            Regime::Undamped { detuning, over_sum } => {
-                let near = Undamped::near(s, Turn::of(s), detuning, over_sum);
+            Regime::Undamped { over_sum, .. } => {
+                let near = self.undamped_form().near(s, Turn::of(s));
                 Propagator {
                     one_minus_c: near.one_minus_c,
                     c: near.c,
@@ -138,12 +138,23 @@ impl Response {
         }
     }
 
-    /// The responses without damping, in lanes; times up to 1e5.
+    /// The responses without damping, in lanes, with the bits of [`at`](Self::at); times and angles up to 1e5.
     #[inline(always)]
     pub(crate) fn undamped<L: Lane>(&self, s: L) -> Undamped<L> {
+        self.undamped_form().splat().exact(s)
+    }
+
+    /// The constants of the closed form without damping.
+    pub(crate) fn undamped_form(&self) -> UndampedForm<f64> {
         match self.regime {
-            Regime::Undamped { detuning, over_sum } => Undamped::near(s, Turn::by_half(s), detuning, over_sum),
-            _ => Undamped::plain(s, self.beta),
+            Regime::Undamped { detuning, over_sum } => {
+                let kind = if detuning == 0.0 { FormKind::Resonance } else { FormKind::Near };
+                UndampedForm { kind, numbers: [0.5 * detuning, 1.0 / detuning, over_sum] }
+            }
+            _ => {
+                let over = 1.0 / ((1.0 - self.beta) * (1.0 + self.beta));
+                UndampedForm { kind: FormKind::Plain, numbers: [self.beta, over, 0.0] }
+            }
         }
     }
 
@@ -249,15 +260,14 @@ struct Turn<L> {
     versine: L,
 }
 
-impl Turn<f64> {
+impl<L: Lane> Turn<L> {
     /// Accurate to the last bits.
-    fn of(angle: f64) -> Self {
-        let (sin, cos) = sin_cos(angle);
+    #[inline(always)]
+    fn of(angle: L) -> Self {
+        let (sin, cos) = angle.sine_and_cosine();
         Self { sin, cos, versine: versine(sin, cos) }
     }
-}
 
-impl<L: Lane> Turn<L> {
     /// Accurate to two units in the last place, without a division.
     #[inline(always)]
     fn by_half(angle: L) -> Self {
@@ -268,16 +278,70 @@ impl<L: Lane> Turn<L> {
     }
 }
 
-impl<L: Lane> Undamped<L> {
+/// The formulas of the closed form without damping.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum FormKind {
+    /// Away from resonance.
+    #[default]
+    Plain,
+    /// Near resonance.
+    Near,
+    /// At resonance.
+    Resonance,
+}
+
+/// The constants of the closed form without damping, of one system or of several side by side.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct UndampedForm<L> {
+    pub(crate) kind: FormKind,
+    /// Near resonance half the detuning, its inverse and $`1/(\beta+1)`$; otherwise $`\beta`$ and $`1/(1-\beta^2)`$.
+    pub(crate) numbers: [L; 3],
+}
+
+impl UndampedForm<f64> {
+    /// The same in every lane.
+    #[inline(always)]
+    pub(crate) fn splat<L: Lane>(&self) -> UndampedForm<L> {
+        let [a, b, c] = self.numbers;
+        UndampedForm { kind: self.kind, numbers: [L::splat(a), L::splat(b), L::splat(c)] }
+    }
+}
+
+impl<L: Lane> UndampedForm<L> {
+    /// The responses after times up to 1e5.
+    #[inline(always)]
+    pub(crate) fn at(&self, s: L) -> Undamped<L> {
+        match self.kind {
+            FormKind::Plain => self.plain(s),
+            FormKind::Near | FormKind::Resonance => self.near(s, Turn::by_half(s)),
+        }
+    }
+
+    /// The same with the bits of [`Response::at`].
+    #[inline(always)]
+    pub(crate) fn exact(&self, s: L) -> Undamped<L> {
+        let free = Turn::of(s);
+        if self.kind != FormKind::Plain {
+            return self.near(s, free);
+        }
+        let [beta, ..] = self.numbers;
+        let (one, turn) = (L::splat(1.0), Turn::of(beta * s));
+        let z = ((one - beta) * (one + beta), L::splat(0.0));
+        let (kc, ks) = divided((free.versine - turn.versine, turn.sin - beta * free.sin), z);
+        let (sin_turn, cos_turn, forced_size) = (turn.sin, turn.cos, L::splat(0.0));
+        Undamped { one_minus_c: free.versine, c: free.cos, s: free.sin, kc, ks, sin_turn, cos_turn, forced_size }
+    }
+
     /// Near resonance and at resonance.
     #[inline(always)]
-    fn near(s: L, free: Turn<L>, detuning: f64, over_sum: f64) -> Self {
+    fn near(&self, s: L, free: Turn<L>) -> Undamped<L> {
+        let [half, over_detuning, over_sum] = self.numbers;
         let (ss, cs) = (free.sin, free.cos);
-        let (sh, ch) = (L::splat(0.5 * detuning) * s).sine_and_cosine();
-        let q = if detuning == 0.0 { L::splat(0.5) * s } else { sh * L::splat(1.0 / detuning) };
+        let (sh, ch) = (half * s).sine_and_cosine();
+        let q = if self.kind == FormKind::Resonance { L::splat(0.5) * s } else { sh * over_detuning };
         let (sa, ca) = (ss * ch + cs * sh, cs * ch - ss * sh);
-        let part = sa * L::splat(over_sum);
-        Self {
+        let part = sa * over_sum;
+        Undamped {
             one_minus_c: free.versine,
             c: cs,
             s: ss,
@@ -292,15 +356,15 @@ impl<L: Lane> Undamped<L> {
 
     /// Away from resonance: $`K = (e^{i\beta s} - C - i\beta S)/(1-\beta^2)`$.
     #[inline(always)]
-    fn plain(s: L, beta: f64) -> Self {
-        let (free, turn) = (Turn::by_half(s), Turn::by_half(L::splat(beta) * s));
-        let over = L::splat(1.0 / ((1.0 - beta) * (1.0 + beta)));
-        Self {
+    fn plain(&self, s: L) -> Undamped<L> {
+        let [beta, over, _] = self.numbers;
+        let (free, turn) = (Turn::by_half(s), Turn::by_half(beta * s));
+        Undamped {
             one_minus_c: free.versine,
             c: free.cos,
             s: free.sin,
             kc: (free.versine - turn.versine) * over,
-            ks: (turn.sin - L::splat(beta) * free.sin) * over,
+            ks: (turn.sin - beta * free.sin) * over,
             sin_turn: turn.sin,
             cos_turn: turn.cos,
             forced_size: L::splat(0.0),
@@ -311,7 +375,13 @@ impl<L: Lane> Undamped<L> {
 /// The quotient of two complex numbers.
 #[inline(always)]
 pub(super) fn divide<L: Lane>(n: (L, L), d: (f64, f64)) -> (L, L) {
-    let (norm, re, im) = (L::splat(d.0 * d.0 + d.1 * d.1), L::splat(d.0), L::splat(d.1));
+    divided(n, (L::splat(d.0), L::splat(d.1)))
+}
+
+/// The same for a divisor in each lane.
+#[inline(always)]
+fn divided<L: Lane>(n: (L, L), (re, im): (L, L)) -> (L, L) {
+    let norm = re * re + im * im;
     ((n.0 * re + n.1 * im) / norm, (n.1 * re - n.0 * im) / norm)
 }
 
@@ -367,6 +437,17 @@ mod tests {
                     assert!((p.sin_turn - (beta * s).sin()).abs() < 1e-13);
                     assert!((p.cos_turn - (beta * s).cos()).abs() < 1e-13);
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn lanes_without_damping_have_the_same_bits() {
+        for beta in [1e-3, 0.3, 0.5, 0.9, 1.0, 1.0 + 1e-9, 2.0, 2.7, 40.0] {
+            let response = Response::new(beta, 0.0);
+            for s in [1e-9, 0.05, 0.7, 1.6, 3.0, 4.7, 11.0, 300.0] {
+                let (p, q) = (response.at(s), response.undamped(s));
+                assert_eq!([p.one_minus_c, p.c, p.s, p.kc, p.ks], [q.one_minus_c, q.c, q.s, q.kc, q.ks], "{beta} {s}");
             }
         }
     }

@@ -1,24 +1,22 @@
 //! Many starts of one oscillator settled side by side, with the same verdicts as one after another.
 //!
-//! The flights are computed by a [`Batch`]. Each motion is [followed](super::follow) as a single one would be, with the
-//! same impacts. Time is saved by what is known already: a motion that enters the [trapping
-//! region](super::trapping_region) of a cycle need not be followed further. A motion that the lanes cannot continue is
-//! continued by a scalar [`Motion`], from the middle of its flight.
+//! Time is saved by what is known already: a motion that enters the [trapping region](super::trapping_region) of a
+//! cycle need not be followed further. The others are followed [side by side](super::abreast).
 //!
 //! The result does not depend on how the starts are divided. Motions are compared as in [`Census`](super::Census), and
 //! the verdict reported for each is that of [`settle`] on the first start that leads to it.
 
-use super::CountedMotion;
+use super::abreast::{Abreast, Launched, Source};
 use super::attractors::SAME;
-use super::follow::{Follow, Releases, ended};
+use super::follow::{Follow, Releases};
 use super::options::SettleOptions;
-use super::outcome::{Reason, Verdict};
-use super::settle::{Drive, settle, settle_knowing};
+use super::outcome::Verdict;
+use super::settle::{settle, settle_knowing};
+use super::settlement::{Part, Settlement};
 use super::trapping_region::TrappingRegion;
-use crate::flight::Contact;
 use crate::lanes::{ABREAST, Batch, Width};
 use crate::lyapunov::Arrivals;
-use crate::motion::{End, Motion};
+use crate::motion::ImpactState;
 use crate::system::{Oscillator, Start};
 use core::ops::Range;
 
@@ -45,31 +43,6 @@ impl KnownAttractors {
         }
         survey
     }
-}
-
-/// The motions to which a range of starts leads.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Settlement {
-    /// The distinct motions, in the order of the first start that leads to each.
-    pub motions: Vec<CountedMotion>,
-    /// For each motion, the impacts of its [tail](crate::chaos::Tail) if it is chaotic and its first start was followed
-    /// alone, as few starts are; otherwise nothing. [`of_arrivals`](crate::quantities::of_arrivals) computes its
-    /// quantities from them, or without them.
-    pub tails: Vec<Arrivals>,
-    /// The index of its motion for each start; shorter than the range if stopped.
-    pub cells: Vec<u32>,
-    /// How each start was decided, one for each cell.
-    pub endings: Vec<Ending>,
-}
-
-/// How a start was decided.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Ending {
-    /// Why the verdict on this start holds.
-    pub reason: Reason,
-    /// The number of impacts from the start to the decision: those of [`Settled`](super::Settled), or fewer where the
-    /// motion entered the trapping region of a cycle that was known.
-    pub impacts: u32,
 }
 
 /// Settles the starts with these indices. `tick` is called after each start; if it returns true, the computation stops.
@@ -104,103 +77,9 @@ pub fn settle_many(
     })
 }
 
-/// A motion of this part, and the first start that leads to it.
-#[derive(Clone, Debug)]
-struct Local {
-    verdict: Verdict,
-    first: u64,
-    /// The first start that was followed to its end, its verdict, and the impacts of the tail of a chaotic motion.
-    followed: Option<(u64, (Verdict, Arrivals))>,
-}
-
-/// The verdicts on a range of starts.
-#[derive(Debug, Default)]
-struct Part {
-    motions: Vec<Local>,
-    /// The index of its motion for each start; [`OPEN`] if not decided.
-    cells: Vec<u32>,
-    /// How each start was decided; without meaning where it is not.
-    endings: Vec<Ending>,
-}
-
-const OPEN: u32 = u32::MAX;
 /// Fewer starts than this are followed one by one if no cycle is known. Lanes save no time for them, because most lanes
 /// are empty during the last motions of a batch.
-const FEW: usize = 32;
-
-impl Part {
-    /// The index of a motion in this part; a new motion is added.
-    fn number(&mut self, verdict: &Verdict, index: u64) -> usize {
-        let known = self.motions.iter().position(|motion| motion.verdict.same_as(verdict, SAME));
-        known.unwrap_or_else(|| {
-            self.motions.push(Local { verdict: verdict.clone(), first: index, followed: None });
-            self.motions.len() - 1
-        })
-    }
-
-    /// No start of a range of this length is decided.
-    fn open(count: usize) -> Self {
-        let nothing = Ending { reason: Reason::Impacts, impacts: 0 };
-        Self { motions: Vec::new(), cells: vec![OPEN; count], endings: vec![nothing; count] }
-    }
-
-    /// Records the motion to which a start leads, decided after this number of impacts.
-    fn caught(&mut self, place: usize, index: u64, verdict: &Verdict, impacts: u64) {
-        let impacts = u32::try_from(impacts).unwrap_or(u32::MAX);
-        self.endings[place] = Ending { reason: verdict.reason(), impacts };
-        let number = self.number(verdict, index);
-        self.motions[number].first = self.motions[number].first.min(index);
-        self.cells[place] = u32::try_from(number).unwrap_or(OPEN);
-    }
-
-    /// Records the motion to which a start leads, with the full verdict on this start.
-    fn followed(&mut self, place: usize, index: u64, (verdict, arrivals): (Verdict, Arrivals), impacts: u64) {
-        self.caught(place, index, &verdict, impacts);
-        let motion = &mut self.motions[self.cells[place] as usize];
-        if motion.followed.as_ref().is_none_or(|(other, _)| index < *other) {
-            motion.followed = Some((index, (verdict, arrivals)));
-        }
-    }
-
-    /// The motions in order of first appearance, each with the full verdict on its first start; `None` if this verdict
-    /// is another motion.
-    fn settlement(mut self, first: u64, full: impl Fn(u64) -> Verdict) -> Option<Settlement> {
-        self.cells.truncate(self.cells.iter().position(|&cell| cell == OPEN).unwrap_or(self.cells.len()));
-        self.endings.truncate(self.cells.len());
-        let end = first + self.cells.len() as u64;
-        let mut order: Vec<usize> = (0..self.motions.len()).filter(|&k| self.motions[k].first < end).collect();
-        order.sort_by_key(|&k| self.motions[k].first);
-        let mut renamed = vec![OPEN; self.motions.len()];
-        let mut motions = Vec::with_capacity(order.len());
-        let mut tails = Vec::with_capacity(order.len());
-        for (new, &old) in order.iter().enumerate() {
-            let motion = &self.motions[old];
-            let (verdict, arrivals) = match &motion.followed {
-                Some((index, followed)) if *index == motion.first => followed.clone(),
-                _ => (full(motion.first), Arrivals::new()),
-            };
-            if !verdict.same_as(&motion.verdict, SAME) {
-                return None;
-            }
-            renamed[old] = u32::try_from(new).unwrap_or(OPEN);
-            motions.push(CountedMotion { verdict, count: 0 });
-            tails.push(arrivals);
-        }
-        for cell in &mut self.cells {
-            *cell = renamed[*cell as usize];
-            motions[*cell as usize].count += 1;
-        }
-        Some(Settlement { motions, tails, cells: self.cells, endings: self.endings })
-    }
-}
-
-/// The motion in a slot of the batch.
-#[derive(Debug)]
-struct Track {
-    place: usize,
-    follow: Follow,
-    done: bool,
-}
+pub(super) const FEW: usize = 32;
 
 struct Question<'a> {
     osc: &'a Oscillator,
@@ -229,145 +108,53 @@ impl Question<'_> {
             }
             return part;
         };
-        let known = &survey.known;
-        Pool { question: self, known, releases, first: range.start, batch, tracks: Vec::new(), part }.run(count, start)
+        let source = Starts { known: &survey.known, releases, range, start, next: 0, part, tick: self.tick };
+        Abreast::new(batch, self.options, source).run().part
     }
 }
 
-/// A batch with the range of starts that it works on.
-struct Pool<'a> {
-    question: &'a Question<'a>,
+/// Starts of one oscillator.
+struct Starts<'a, F> {
     known: &'a [(Verdict, TrappingRegion)],
     releases: Releases,
-    first: u64,
-    batch: Batch,
-    tracks: Vec<Track>,
+    range: Range<u64>,
+    start: &'a F,
+    next: usize,
     part: Part,
+    tick: &'a dyn Fn() -> bool,
 }
 
-impl Pool<'_> {
-    /// Follows all starts: a slot whose motion is decided is launched again with the next start.
-    fn run(mut self, count: usize, start: &impl Fn(u64) -> Start) -> Part {
-        let mut next = 0;
-        while next < count.min(ABREAST) {
-            self.batch.push(start(self.first + next as u64));
-            self.tracks.push(Track { place: next, follow: Follow::default(), done: false });
-            next += 1;
-        }
-        let (mut list, mut free) = (Vec::new(), Vec::new());
-        while !self.batch.is_empty() {
-            self.batch.round();
-            list.clear();
-            list.extend_from_slice(self.batch.struck());
-            for &slot in &list {
-                self.struck(slot);
-            }
-            list.clear();
-            list.extend_from_slice(self.batch.settling());
-            for &slot in &list {
-                self.settling(slot);
-            }
-            list.clear();
-            list.extend_from_slice(self.batch.rare());
-            for &slot in &list {
-                self.rare(slot);
-            }
-            free.extend((0_u32..).zip(&self.tracks).filter(|(_, track)| track.done).map(|(slot, _)| slot));
-            while let Some(slot) = free.pop() {
-                if (self.question.tick)() {
-                    return self.part;
-                }
-                if next < count {
-                    self.batch.launch(slot, start(self.first + next as u64));
-                    let track = &mut self.tracks[slot as usize];
-                    track.follow.reset();
-                    (track.place, track.done) = (next, false);
-                    next += 1;
-                } else {
-                    self.batch.remove(slot);
-                    self.tracks.swap_remove(slot as usize);
-                }
-            }
-        }
-        self.part
+impl<F: Fn(u64) -> Start> Source for Starts<'_, F> {
+    fn next(&mut self) -> Option<Launched> {
+        let (place, index) = (self.next, self.range.start + self.next as u64);
+        (index < self.range.end).then(|| {
+            self.next += 1;
+            Launched { place, system: 0, start: (self.start)(index) }
+        })
     }
 
-    /// Records the full verdict on the motion in a slot.
-    fn followed(&mut self, slot: u32, verdict: Verdict) {
-        let track = &mut self.tracks[slot as usize];
-        track.done = true;
-        let impacts = track.follow.count() as u64;
-        let index = self.first + track.place as u64;
-        self.part.followed(track.place, index, (verdict, Arrivals::new()), impacts);
+    fn follow(&self) -> Follow {
+        Follow::default()
     }
 
-    /// Records the impact of a slot whose motion continues with a flight.
-    fn struck(&mut self, slot: u32) {
-        let (osc, options) = (self.question.osc, self.question.options);
-        let (state, interval) = self.batch.arrival(slot);
-        let track = &mut self.tracks[slot as usize];
-        track.follow.steps += 1;
-        if let Some((verdict, trap)) = self.known.iter().find(|(_, trap)| trap.catches(&state))
-            && track.follow.reaches(trap.depth(), options)
-        {
-            track.done = true;
-            let impacts = track.follow.count() as u64;
-            self.part.caught(track.place, self.first + track.place as u64, verdict, impacts);
-            return;
-        }
-        if let Some(verdict) = track.follow.impact(osc, options, state, interval) {
-            self.followed(slot, verdict);
-        } else if !track.follow.within(options) {
-            let verdict = track.follow.last_look(osc, options);
-            self.followed(slot, verdict);
-        }
+    fn releases(&mut self, _: usize) -> &mut Releases {
+        &mut self.releases
     }
 
-    /// Continues a slot whose impact is not followed by a flight.
-    fn settling(&mut self, slot: u32) {
-        let track = &self.tracks[slot as usize];
-        if track.done {
-            return;
-        }
-        let (state, _) = self.batch.arrival(slot);
-        if self.batch.settles_after(&state) {
-            self.hand_over(slot, Motion::after(self.question.osc, &state, self.question.options.limits));
-        }
+    fn caught(&mut self, place: usize, follow: &Follow, state: &ImpactState, options: &SettleOptions) -> bool {
+        let known = self.known.iter().find(|(_, trap)| trap.catches(state));
+        let Some((verdict, _)) = known.filter(|(_, trap)| follow.reaches(trap.depth(), options)) else { return false };
+        self.part.caught(place, self.range.start + place as u64, verdict, follow.count() as u64);
+        true
     }
 
-    /// Continues a slot whose flight needs the careful search.
-    fn rare(&mut self, slot: u32) {
-        let options = self.question.options;
-        let launched = self.batch.launched(slot);
-        let (contact, steps) = self.batch.carefully(slot, options.limits);
-        match contact {
-            Contact::Impact { .. } => {
-                self.tracks[slot as usize].follow.steps += u64::from(steps) - 1;
-                self.struck(slot);
-                self.settling(slot);
-            }
-            Contact::Never(why) => self.followed(slot, ended(self.question.osc, Some(End::Never(why)), options.limits)),
-            Contact::NoneUntil(s) => {
-                self.followed(slot, ended(self.question.osc, Some(End::NoneFor(s)), options.limits));
-            }
-            Contact::Grazing { .. } | Contact::Contact { .. } => {
-                self.hand_over(slot, Motion::with_limits(self.question.osc, launched, options.limits));
-            }
-        }
+    fn decided(&mut self, place: usize, verdict: Verdict, follow: &Follow, _: &SettleOptions) {
+        let index = self.range.start + place as u64;
+        self.part.followed(place, index, (verdict, Arrivals::new()), follow.count() as u64);
     }
 
-    /// Follows a single motion until it flies from impact to impact again, or to its end.
-    fn hand_over(&mut self, slot: u32, mut motion: Motion<'_>) {
-        let track = &mut self.tracks[slot as usize];
-        let (osc, options, batch) = (self.question.osc, self.question.options, &self.batch);
-        let mut drive = Drive { osc, options, follow: &mut track.follow, releases: &mut self.releases, time: 0.0 };
-        match drive.on(&mut motion, |state| !batch.settles_after(state)) {
-            Some(verdict) => self.followed(slot, verdict),
-            None => {
-                let state = track.follow.last();
-                self.batch.launch(slot, state.rebound(osc));
-            }
-        }
+    fn stopping(&mut self) -> bool {
+        (self.tick)()
     }
 }
 
@@ -375,7 +162,7 @@ impl Pool<'_> {
 mod tests {
     use super::*;
     use crate::scenario;
-    use crate::verdict::{Census, StartBox, scattered_starts};
+    use crate::verdict::{Census, Ending, StartBox, scattered_starts};
 
     fn systems() -> Vec<Oscillator> {
         let mut systems: Vec<Oscillator> = scenario::PAPER.iter().map(scenario::Scenario::oscillator).collect();

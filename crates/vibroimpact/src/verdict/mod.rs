@@ -7,13 +7,15 @@
 //! | from a start to a verdict | [`settle`], `follow` |
 //! | the latest returns, recurrence, chaos: for the oscillator and for machines | `record`, `recurrence`, `recurring` |
 //! | the same for machines | `of_machine` |
-//! | many starts side by side | [`settle_many`] |
+//! | many starts side by side: of one oscillator, of several; what both need | [`settle_many`], [`settle_each`], `abreast`, `settlement` |
 //! | neighbourhoods of cycles that no motion leaves | `trapping_region` |
 //! | ever gentler impacts: the limit without impacts | [`graze_limit`] |
 //! | the rule of the 1971 paper | [`paper_rule`] |
 //! | the distinct motions from many starts, and their shares | [`Census`], [`attractors`] |
 
+mod abreast;
 mod attractors;
+mod each;
 mod follow;
 pub mod graze_limit;
 mod many;
@@ -25,12 +27,14 @@ mod record;
 mod recurrence;
 mod recurring;
 mod settle;
+mod settlement;
 mod trapping_region;
 
 pub use crate::orbit::{Count, Label, LabelError};
 pub use attractors::{Census, CountedMotion, StartBox, SteadyMotion, attractors, scattered_starts};
+pub use each::{Counted, settle_each};
 pub(crate) use follow::{Follow, Releases, ended};
-pub use many::{Ending, KnownAttractors, Settlement, settle_many};
+pub use many::{KnownAttractors, settle_many};
 pub use of_machine::{
     MachineSettled, MachineTail, MachineUndecided, MachineVerdict, scattered_machine_starts, settle_machine,
     settle_machine_while,
@@ -41,3 +45,4 @@ pub use outcome::{Chaos, NoImpact, Reason, Undecided, Verdict};
 pub use paper_rule::{PaperRule, PaperVerdict, paper_rule};
 pub(crate) use recurring::Recurring;
 pub use settle::{Settled, settle, settle_while};
+pub use settlement::{Ending, Settlement};

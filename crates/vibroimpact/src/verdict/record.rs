@@ -67,7 +67,7 @@ impl<R: Recurring> Record<R> {
     /// Resets the record for another motion.
     pub(super) fn reset(&mut self) {
         let returns = core::mem::take(&mut self.returns);
-        *self = Self { returns, ..Self::default() };
+        *self = Self { returns, latest: self.latest, ..Self::default() };
         self.returns.clear();
     }
 

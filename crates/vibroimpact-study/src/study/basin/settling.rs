@@ -1,13 +1,16 @@
 //! The motions of the starts of a tile: starts of one system are settled together.
 
 use super::{BasinFill, Found, Settled, TRAPS, WORTH_A_SURVEY};
+use crate::SystemPlan;
 use crate::grid::Block;
 use crate::study::code;
 use crate::study::fill::spread;
 use std::collections::HashMap;
 use vibroimpact::lanes::Width;
 use vibroimpact::quantities::of_verdict_only;
-use vibroimpact::verdict::{CountedMotion, Ending, KnownAttractors, Reason, Verdict, settle_many};
+use vibroimpact::verdict::{
+    CountedMotion, Ending, KnownAttractors, Reason, Settlement, Verdict, settle_each, settle_many,
+};
 use vibroimpact::{Oscillator, Start};
 
 /// A point that was not computed, or has no valid system.
@@ -41,6 +44,8 @@ impl BasinFill {
             groups[group].push(k);
         }
         let mut numbers = vec![0; wanted.len()];
+        // the starts of systems with few of them share lanes
+        let mut few: Vec<(Vec<usize>, SystemPlan, Oscillator)> = Vec::new();
         for group in groups {
             let first = block.index(wanted[group[0]]);
             // the corners are valid; a point between them that is not is undecided
@@ -53,15 +58,48 @@ impl BasinFill {
                 }
                 continue;
             };
+            if group.len() as u64 <= WORTH_A_SURVEY {
+                few.push((group, there, osc));
+                continue;
+            }
             let start = |k: usize| self.start(&osc, &there, &block.index(wanted[group[k]]));
-            let traps = if group.len() as u64 > WORTH_A_SURVEY && !self.transient() { TRAPS } else { 0 };
+            let traps = if self.transient() { 0 } else { TRAPS };
             let chosen = spread(group.len() as u64, traps).filter_map(|k| usize::try_from(k).ok()).map(start);
             let survey = KnownAttractors::survey(&osc, chosen, &self.options);
             let (motions, cells) = self.among(&osc, (&group, wanted), start, &survey, &mut into.endings, tick)?;
             let own: Vec<u32> = motions.iter().map(|found| self.found(&osc, &found.verdict, &mut into.found)).collect();
             group.iter().zip(cells).for_each(|(k, cell)| numbers[*k] = own[cell as usize]);
         }
+        for ((group, _, osc), settlement) in few.iter().zip(self.of_few(block, wanted, &few, tick)?) {
+            let own: Vec<u32> =
+                settlement.motions.iter().map(|found| self.found(osc, &found.verdict, &mut into.found)).collect();
+            for ((k, cell), ending) in group.iter().zip(&settlement.cells).zip(&settlement.endings) {
+                numbers[*k] = own[*cell as usize];
+                into.endings[wanted[*k]] = *ending;
+            }
+        }
         Some(numbers)
+    }
+
+    /// Settles the few starts of each of several systems, side by side.
+    fn of_few(
+        &self,
+        block: &Block,
+        wanted: &[usize],
+        few: &[(Vec<usize>, SystemPlan, Oscillator)],
+        tick: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Vec<Settlement>> {
+        let counted: Vec<(Oscillator, u64)> = few.iter().map(|(group, _, osc)| (*osc, group.len() as u64)).collect();
+        let start = |system: usize, k: u64| {
+            let (group, there, osc) = &few[system];
+            self.start(osc, there, &block.index(wanted[group[usize::try_from(k).unwrap_or(0)]]))
+        };
+        let mut settlements = vec![Settlement::default(); few.len()];
+        settle_each(&counted, start, &self.options, false, Width::best(), &mut |system, settlement| {
+            settlements[system] = settlement;
+            few[system].0.iter().fold(false, |stop, _| tick() || stop)
+        })
+        .then_some(settlements)
     }
 
     /// Settles starts of one oscillator, and notes how each was decided. `group` are the places of the starts in `wanted`.

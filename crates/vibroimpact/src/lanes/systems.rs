@@ -1,0 +1,308 @@
+//! The systems of the flights of a batch: one for all slots, or another one in each.
+
+use super::constants::Constants;
+use super::stride::{Pace, Propagators, Row, Stride, Table, WIDEST, closed, closed_at_node};
+use crate::math::{Lane, Mask, Numbers, Single};
+use crate::system::{FormKind, Oscillator, UndampedForm};
+
+/// Where the stages of a round find the constants of the flights in their lanes.
+pub(super) trait Systems {
+    /// What is kept of the systems of a group of slots between the stages.
+    type Group<L: Lane>: Copy;
+    /// The propagators of a group.
+    type Propagators<'a, L: Lane>: Propagators<L>
+    where
+        Self: 'a;
+
+    /// The constants for a step of the slots from this one on.
+    fn step<N: Single>(&self, first: usize) -> (Constants<N>, Pace<N>);
+    /// A group of slots.
+    fn group<L: Lane>(&self, slots: &[u32; WIDEST]) -> Self::Group<L>;
+    /// A placeholder.
+    fn nowhere<L: Lane>() -> Self::Group<L>;
+    /// The constants of a group.
+    fn constants<L: Lane>(&self, group: &Self::Group<L>) -> Constants<L>;
+    /// The same in single precision.
+    fn roughly<L: Lane>(&self, group: &Self::Group<L>) -> Constants<L::Rough>;
+    /// The propagators of a group.
+    fn propagators<L: Lane>(&self, group: &Self::Group<L>) -> Self::Propagators<'_, L>;
+    /// The pace of a whole step of a group.
+    fn pace<L: Lane>(&self, group: &Self::Group<L>) -> Pace<L>;
+}
+
+/// One system for all slots.
+#[derive(Clone, Debug)]
+pub(super) struct One {
+    pub(super) stride: Stride,
+    pub(super) table: Table,
+}
+
+impl One {
+    pub(super) fn new(stride: Stride) -> Self {
+        Self { table: Table::new(&stride), stride }
+    }
+}
+
+impl Systems for One {
+    type Group<L: Lane> = ();
+    type Propagators<'a, L: Lane> = &'a Self;
+
+    #[inline(always)]
+    fn step<N: Single>(&self, _: usize) -> (Constants<N>, Pace<N>) {
+        (self.stride.constants.each(|x| N::splat(*x)), self.stride.pace.each(|x| N::splat(*x)))
+    }
+    #[inline(always)]
+    fn group<L: Lane>(&self, _: &[u32; WIDEST]) {}
+    #[inline(always)]
+    fn nowhere<L: Lane>() {}
+    #[inline(always)]
+    fn constants<L: Lane>(&self, (): &()) -> Constants<L> {
+        self.stride.constants.each(|x| L::splat(*x))
+    }
+    #[inline(always)]
+    fn roughly<L: Lane>(&self, (): &()) -> Constants<L::Rough> {
+        self.stride.constants.each(|x| L::Rough::splat(*x))
+    }
+    #[inline(always)]
+    fn propagators<L: Lane>(&self, (): &()) -> &Self {
+        self
+    }
+    #[inline(always)]
+    fn pace<L: Lane>(&self, (): &()) -> Pace<L> {
+        self.stride.pace.each(|x| L::splat(*x))
+    }
+}
+
+impl<L: Lane> Propagators<L> for &One {
+    #[inline(always)]
+    fn node(&self, k: L) -> Row<L> {
+        self.table.node(k)
+    }
+    #[inline(always)]
+    fn rest(&self, t: L) -> Row<L> {
+        self.stride.by_series(t)
+    }
+    #[inline(always)]
+    fn whole(&self, time: L) -> Row<L> {
+        self.stride.undamped(time)
+    }
+}
+
+/// What the systems of one batch have in common, so that the same operations serve all lanes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Kind {
+    two_stops: bool,
+    damped: bool,
+    form: FormKind,
+}
+
+impl Kind {
+    /// The kind of an oscillator, and the longest flight whose end the lanes can find; `None` if the lanes cannot follow
+    /// its flights.
+    pub(crate) fn of_flights(osc: &Oscillator) -> Option<(Self, f64)> {
+        let stride = Stride::new(osc)?;
+        Some((Self::of(&stride), stride.longest()))
+    }
+
+    /// That of a system.
+    pub(super) fn of(stride: &Stride) -> Self {
+        let Constants { two_stops, damped, .. } = stride.constants;
+        // with damping the closed form is not used in lanes
+        Self { two_stops, damped, form: if damped { FormKind::Plain } else { stride.form.kind } }
+    }
+}
+
+/// The constants of a slot, by column: beta, 2 zeta, both gaps, both restitutions, h, margin rate, shortest time, B6, the
+/// sixth derivative, the closed form.
+type Columns<L> = [L; 16];
+
+/// The constants and the pace of sixteen slots, side by side.
+type Block = (Constants<[f32; WIDEST]>, [[f32; WIDEST]; 16]);
+
+/// Another system in each slot; all are of one [`Kind`].
+#[derive(Clone, Debug)]
+pub(super) struct Each {
+    kind: Kind,
+    pub(super) strides: Vec<Stride>,
+    /// The number of the system of each slot.
+    pub(super) numbers: Vec<u32>,
+    rows: Vec<Columns<f64>>,
+    /// The paces of the slots.
+    paces: Vec<[f64; 16]>,
+    /// The constants of sixteen slots side by side.
+    blocks: Vec<Block>,
+}
+
+impl Each {
+    /// For this number of slots.
+    pub(super) fn new(kind: Kind, strides: Vec<Stride>, capacity: usize) -> Self {
+        let blocks = capacity.div_ceil(WIDEST) + 1;
+        let padded = blocks * WIDEST;
+        Self {
+            kind,
+            strides,
+            numbers: vec![0; padded],
+            rows: vec![[0.0; 16]; padded],
+            paces: vec![[0.0; 16]; padded],
+            blocks: vec![Default::default(); blocks],
+        }
+    }
+
+    /// Gives a slot the system with this number.
+    pub(super) fn set(&mut self, slot: usize, number: u32) {
+        self.numbers[slot] = number;
+        let Stride { constants, roughly, pace, rough, form, .. } = &self.strides[number as usize];
+        let Constants { beta, drag, gap, restitution, h, margin_rate, shortest, bound, sixth, .. } = *constants;
+        let [a, b, c] = form.numbers;
+        self.rows[slot] = [
+            beta,
+            drag,
+            gap[0],
+            gap[1],
+            restitution[0],
+            restitution[1],
+            h,
+            margin_rate,
+            shortest,
+            bound[0],
+            bound[1],
+            sixth[0],
+            sixth[1],
+            a,
+            b,
+            c,
+        ];
+        let (block, lane) = (&mut self.blocks[slot / WIDEST], slot % WIDEST);
+        (block.0.two_stops, block.0.damped) = (self.kind.two_stops, self.kind.damped);
+        block.0.put(roughly, |numbers, number| numbers[lane] = *number);
+        block.1.iter_mut().zip(rough.row()).for_each(|(numbers, number)| numbers[lane] = number);
+        self.paces[slot] = pace.row();
+    }
+
+    /// The system of a slot.
+    pub(super) fn stride(&self, slot: usize) -> &Stride {
+        &self.strides[self.numbers[slot] as usize]
+    }
+}
+
+impl Systems for Each {
+    type Group<L: Lane> = Group<L>;
+    type Propagators<'a, L: Lane> = OfGroup<'a, L>;
+
+    #[inline(always)]
+    fn step<N: Single>(&self, first: usize) -> (Constants<N>, Pace<N>) {
+        let ((constants, pace), lane) = (&self.blocks[first / WIDEST], first % WIDEST);
+        let mut row = [N::splat(0.0); 16];
+        let mut k = 0;
+        while k < row.len() {
+            row[k] = N::load(&pace[k][lane..]);
+            k += 1;
+        }
+        (constants.each(|numbers| N::load(&numbers[lane..])), Pace::of_row(row))
+    }
+    #[inline(always)]
+    fn group<L: Lane>(&self, slots: &[u32; WIDEST]) -> Group<L> {
+        let columns: Columns<L> = L::rows(&self.rows, slots);
+        let [beta, drag, up, low, up_rest, low_rest, h, margin_rate, shortest, b0, b1, s0, s1, form @ ..] = columns;
+        let one = L::splat(1.0);
+        let constants = Constants {
+            two_stops: self.kind.two_stops,
+            damped: self.kind.damped,
+            beta,
+            drag,
+            gap: [up, low],
+            bulk: [one + up.abs(), one + low.abs()],
+            restitution: [up_rest, low_rest],
+            h,
+            margin_rate,
+            shortest,
+            bound: [b0, b1],
+            sixth: [s0, s1],
+        };
+        Group { slots: *slots, constants, form: UndampedForm { kind: self.kind.form, numbers: form } }
+    }
+    #[inline(always)]
+    fn nowhere<L: Lane>() -> Group<L> {
+        let form = UndampedForm { kind: FormKind::Plain, numbers: [L::splat(0.0); 3] };
+        Group { slots: [0; WIDEST], constants: Constants::<()>::default().each(|()| L::splat(0.0)), form }
+    }
+    #[inline(always)]
+    fn constants<L: Lane>(&self, group: &Group<L>) -> Constants<L> {
+        group.constants
+    }
+    #[inline(always)]
+    fn roughly<L: Lane>(&self, group: &Group<L>) -> Constants<L::Rough> {
+        group.constants.each(|x| x.rounded())
+    }
+    #[inline(always)]
+    fn propagators<L: Lane>(&self, group: &Group<L>) -> OfGroup<'_, L> {
+        OfGroup { each: self, group: *group }
+    }
+    #[inline(always)]
+    fn pace<L: Lane>(&self, group: &Group<L>) -> Pace<L> {
+        Pace::of_row(L::rows(&self.paces, &group.slots))
+    }
+}
+
+/// A group of slots with systems of their own.
+#[derive(Clone, Copy)]
+pub(super) struct Group<L> {
+    slots: [u32; WIDEST],
+    constants: Constants<L>,
+    form: UndampedForm<L>,
+}
+
+/// The propagators of such a group.
+pub(super) struct OfGroup<'a, L> {
+    each: &'a Each,
+    group: Group<L>,
+}
+
+impl<L: Lane> OfGroup<'_, L> {
+    /// Computes the rows of the lanes whose bits are set one by one, in place of those given.
+    #[inline(always)]
+    fn alone(&self, mut bits: u32, row: Row<L>, times: L, of: impl Fn(&Stride, f64) -> Row<f64>) -> Row<L> {
+        let mut single = [0.0; WIDEST];
+        times.store(&mut single);
+        let mut columns = [[0.0; WIDEST]; 8];
+        for (column, numbers) in columns.iter_mut().zip(row) {
+            numbers.store(column);
+        }
+        while bits != 0 {
+            let lane = bits.trailing_zeros() as usize % WIDEST;
+            let of_lane = of(self.each.stride(self.group.slots[lane] as usize), single[lane]);
+            for (column, number) in columns.iter_mut().zip(of_lane) {
+                column[lane] = number;
+            }
+            bits &= bits - 1;
+        }
+        columns.map(|column| L::load(&column))
+    }
+}
+
+impl<L: Lane> Propagators<L> for OfGroup<'_, L> {
+    #[inline(always)]
+    fn node(&self, k: L) -> Row<L> {
+        let Group { constants, form, .. } = &self.group;
+        if constants.damped {
+            self.alone(every::<L>(), [k; 8], k, |stride, k| stride.node(k))
+        } else {
+            closed_at_node(form, k * constants.h)
+        }
+    }
+    #[inline(always)]
+    fn rest(&self, t: L) -> Row<L> {
+        self.alone(every::<L>(), [t; 8], t, |stride, t| stride.rest(t))
+    }
+    #[inline(always)]
+    fn whole(&self, time: L) -> Row<L> {
+        let row = closed(&self.group.form, time);
+        let early = time.less(L::splat(0.5) * self.group.constants.h).bits();
+        if early == 0 { row } else { self.alone(early, row, time, |stride, t| stride.rest(t)) }
+    }
+}
+
+/// The bits of all lanes.
+const fn every<L: Numbers>() -> u32 {
+    (1 << L::WIDTH) - 1
+}

@@ -1,0 +1,143 @@
+//! The derivatives of the impact map at successive impacts, side by side, with the same bits as one by one.
+
+use super::ImpactState;
+use super::impact_map::Passage;
+use crate::lanes::{Task, Width};
+use crate::math::{Lane, Matrix2};
+use crate::system::Oscillator;
+
+/// The largest number of impacts side by side.
+pub(crate) const ABREAST: usize = 16;
+/// The longest time, and the largest angle of the force, for the sine and cosine in lanes.
+const LONGEST: f64 = 1e5;
+
+/// Numbers of each impact.
+type Column = [f64; ABREAST];
+
+/// The derivatives from each impact to the next: from `first` to the first of the others, and so on. Those beyond the
+/// last impact have no meaning. `others` are at most [`ABREAST`], each with the time since the impact before.
+pub(crate) fn derivatives(osc: &Oscillator, first: &ImpactState, others: &[(ImpactState, f64)]) -> [Matrix2; ABREAST] {
+    with(Width::best(), osc, first, others)
+}
+
+fn with(width: Width, osc: &Oscillator, first: &ImpactState, others: &[(ImpactState, f64)]) -> [Matrix2; ABREAST] {
+    let mut columns = Columns { osc, at: [[0.0; ABREAST]; 7], times: [0.0; ABREAST], alone: None };
+    let mut before = first;
+    for (k, (next, interval)) in others.iter().enumerate().take(ABREAST) {
+        let restitution = osc.stop(before.side).map_or(0.0, |stop| stop.restitution);
+        let gap = osc.stop(next.side).map_or(0.0, |stop| stop.gap);
+        let numbers = [before.phase, before.side.sign(), restitution, next.phase, next.side.sign(), gap, next.velocity];
+        columns.at.iter_mut().zip(numbers).for_each(|(column, number)| column[k] = number);
+        columns.times[k] = *interval;
+        before = next;
+    }
+    let long = columns.times.iter().any(|time| time * osc.beta().max(1.0) > LONGEST);
+    if osc.damping() > 0.0 || long {
+        let mut alone = [[0.0; ABREAST]; 4];
+        for k in 0..others.len().min(ABREAST) {
+            let p = osc.response().at(columns.times[k]);
+            alone.iter_mut().zip([p.kc, p.ks, p.s, p.s_rate]).for_each(|(column, number)| column[k] = number);
+        }
+        columns.alone = Some(alone);
+    }
+    let elements = width.run(columns);
+    core::array::from_fn(|k| {
+        let [[a, b], [c, d]] = elements;
+        Matrix2([[a[k], b[k]], [c[k], d[k]]])
+    })
+}
+
+/// The impacts as columns.
+struct Columns<'a> {
+    osc: &'a Oscillator,
+    /// The numbers of [`Passage`].
+    at: [Column; 7],
+    times: Column,
+    /// The responses, if they are not computed in lanes.
+    alone: Option<[Column; 4]>,
+}
+
+impl Task for Columns<'_> {
+    /// The elements of the derivatives.
+    type Output = [[Column; 2]; 2];
+
+    #[inline(always)]
+    fn run<L: Lane>(self) -> Self::Output {
+        let mut all = Self::Output::default();
+        let mut k = 0;
+        while k < ABREAST {
+            let [phase, side, restitution, next_phase, next_side, next_gap, speed] = &self.at;
+            let at = Passage {
+                phase: L::load(&phase[k..]),
+                side: L::load(&side[k..]),
+                restitution: L::load(&restitution[k..]),
+                next_phase: L::load(&next_phase[k..]),
+                next_side: L::load(&next_side[k..]),
+                next_gap: L::load(&next_gap[k..]),
+                speed: L::load(&speed[k..]),
+            };
+            let response = match &self.alone {
+                Some([kc, ks, s, s_rate]) => {
+                    [L::load(&kc[k..]), L::load(&ks[k..]), L::load(&s[k..]), L::load(&s_rate[k..])]
+                }
+                None => {
+                    let p = self.osc.response().undamped(L::load(&self.times[k..]));
+                    [p.kc, p.ks, p.s, p.c]
+                }
+            };
+            let elements = Passage::elements(self.osc, &at, response);
+            let mut row = 0;
+            while row < 2 {
+                elements[row][0].store(&mut all[row][0][k..]);
+                elements[row][1].store(&mut all[row][1][k..]);
+                row += 1;
+            }
+            k += L::WIDTH;
+        }
+        all
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::flight::SearchLimits;
+    use crate::motion::{Mapped, derivative, impact_map};
+    use crate::system::Side;
+
+    #[test]
+    fn side_by_side_as_one_by_one() {
+        for (beta, gap, eps, zeta, lower) in [
+            (0.9, 2.0, 0.5, 0.0, None),
+            (0.3, 0.3, 0.8, 0.0, None),
+            (2.7, 0.3, 0.8, 0.0, Some(0.7)),
+            (1.0, 1.0, 0.4, 0.0, None),
+            (0.7, 0.6, 0.7, 0.1, Some(0.8)),
+            (1.3, 0.2, 0.9, 1.2, Some(0.1)),
+            (1e-6, 0.2, 0.9, 0.0, None),
+        ] {
+            let mut osc = Oscillator::new(beta, gap, eps).unwrap().with_damping(zeta).unwrap();
+            if let Some(gap) = lower {
+                osc = osc.with_second_stop(gap, 0.6).unwrap();
+            }
+            let first = ImpactState { phase: 1.2, velocity: 1.9, side: Side::Upper };
+            let (mut last, mut others) = (first, Vec::new());
+            while others.len() < ABREAST {
+                let Mapped::Impact { state, interval } = impact_map(&osc, &last, SearchLimits::default()) else {
+                    break;
+                };
+                others.push((state, interval));
+                last = state;
+            }
+            assert!(!others.is_empty(), "{osc:?}");
+            for width in Width::ALL.into_iter().filter(|width| width.available()) {
+                let mut before = first;
+                let together = with(width, &osc, &first, &others);
+                for ((next, interval), got) in others.iter().zip(together) {
+                    assert_eq!(got, derivative(&osc, &before, next, *interval), "{width:?} {osc:?}");
+                    before = *next;
+                }
+            }
+        }
+    }
+}

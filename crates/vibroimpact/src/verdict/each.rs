@@ -1,0 +1,255 @@
+//! A few starts of each of many oscillators settled side by side, with the same verdicts as one after another.
+//!
+//! The flights of different oscillators share the lanes of a batch, if the same formulas hold for them. Most motions
+//! are decided soon; the long ones, which are chaotic or become periodic slowly, fill the lanes.
+
+use super::abreast::{Abreast, Launched, Source};
+use super::follow::{Follow, Releases};
+use super::many::{FEW, KnownAttractors, settle_many};
+use super::options::SettleOptions;
+use super::outcome::Verdict;
+use super::settle::settle;
+use super::settlement::{Part, Settlement};
+use crate::lanes::{Batch, Kind, Width};
+use crate::lyapunov::Arrivals;
+use crate::motion::ImpactState;
+use crate::system::{Oscillator, Start};
+
+/// The number of motions side by side. More need more memory, and fewer leave more lanes empty at the end.
+const ABREAST: usize = 256;
+
+/// An oscillator and the number of its starts.
+pub type Counted = (Oscillator, u64);
+
+/// Settles the starts of each oscillator; `start(i, k)` is number `k` of oscillator `i`. `tails` tells whether the
+/// [tails](Settlement::tails) of chaotic motions are kept. `done` is called for each oscillator when its starts are
+/// settled, with its number; if it returns true, the computation stops. Returns whether it came to its end.
+///
+/// ```
+/// use vibroimpact::{Oscillator, Start, lanes::Width, verdict::{SettleOptions, settle_each}};
+/// let systems: Vec<_> = (0..40)
+///     .map(|k| Ok((Oscillator::from_inverse_beta(1.2 + 0.005 * f64::from(k), 0.75, 0.5)?, 3)))
+///     .collect::<Result<_, vibroimpact::SystemError>>()?;
+/// let start = |_: usize, k: u64| Start { x: 0.0, v: -1.0 * k as f64, phase: 0.0 };
+/// let mut starts = 0;
+/// let ended = settle_each(&systems, start, &SettleOptions::default(), false, Width::best(), &mut |_, settlement| {
+///     starts += settlement.cells.len();
+///     false
+/// });
+/// assert!(ended && starts == 120);
+/// # Ok::<(), vibroimpact::SystemError>(())
+/// ```
+pub fn settle_each(
+    systems: &[Counted],
+    start: impl Fn(usize, u64) -> Start,
+    options: &SettleOptions,
+    tails: bool,
+    width: Width,
+    done: &mut dyn FnMut(usize, Settlement) -> bool,
+) -> bool {
+    let mut groups: Vec<(Kind, Vec<usize>)> = Vec::new();
+    for (system, (osc, count)) in systems.iter().enumerate() {
+        let few = (1..FEW as u64).contains(count);
+        match Kind::of_flights(osc).filter(|(_, longest)| few && *longest < options.limits.horizon(osc)) {
+            Some((kind, _)) => match groups.iter_mut().find(|(known, _)| *known == kind) {
+                Some((_, group)) => group.push(system),
+                None => groups.push((kind, vec![system])),
+            },
+            None => {
+                let (of_one, none) = (|k: u64| start(system, k), KnownAttractors::default());
+                if done(system, settle_many(osc, 0..*count, of_one, &none, options, width, &|| false)) {
+                    return false;
+                }
+            }
+        }
+    }
+    for (_, group) in groups {
+        let starts: u64 = group.iter().map(|system| systems[*system].1).sum();
+        let oscillators = group.iter().map(|system| systems[*system].0).collect();
+        let capacity = usize::try_from(starts).unwrap_or(ABREAST).min(ABREAST);
+        // all are of one kind
+        let Some(batch) = Batch::of_many(oscillators, capacity, width) else { return false };
+        let points = group.iter().map(|system| Point::new(*system, systems[*system].1)).collect();
+        let source = Points {
+            systems,
+            points,
+            start: &start,
+            options,
+            next: (0, 0),
+            places: Vec::new(),
+            tails,
+            done: &mut *done,
+            stopped: false,
+        };
+        if Abreast::new(batch, options, source).run().stopped {
+            return false;
+        }
+    }
+    true
+}
+
+/// The verdict on a start: with the impacts of its tail and the number of impacts to the decision.
+type Decided = (Verdict, Arrivals, u64);
+
+/// The starts of one oscillator.
+struct Point {
+    system: usize,
+    releases: Releases,
+    /// The verdicts so far.
+    decided: Vec<Option<Decided>>,
+    left: usize,
+}
+
+impl Point {
+    fn new(system: usize, count: u64) -> Self {
+        let count = usize::try_from(count).unwrap_or(0);
+        Self { system, releases: Releases::default(), decided: vec![None; count], left: count }
+    }
+}
+
+/// The starts of several oscillators of one kind.
+struct Points<'a, F> {
+    systems: &'a [Counted],
+    points: Vec<Point>,
+    start: &'a F,
+    options: &'a SettleOptions,
+    /// The point and the start that is launched next.
+    next: (usize, usize),
+    /// The point and the start of each motion.
+    places: Vec<(usize, usize)>,
+    tails: bool,
+    done: &'a mut dyn FnMut(usize, Settlement) -> bool,
+    stopped: bool,
+}
+
+impl<F: Fn(usize, u64) -> Start> Points<'_, F> {
+    /// The settlement of a point, once all its starts are decided. They are taken in their order, so it does not depend
+    /// on the order of the decisions.
+    fn settle(&mut self, number: usize) {
+        let point = &mut self.points[number];
+        let decided = core::mem::take(&mut point.decided);
+        let mut part = Part::open(decided.len());
+        for (k, (verdict, arrivals, impacts)) in decided.into_iter().flatten().enumerate() {
+            part.followed(k, k as u64, (verdict, arrivals), impacts);
+        }
+        let osc = &self.systems[point.system].0;
+        let full = |k: u64| settle(osc, (self.start)(point.system, k), self.options).verdict;
+        // the verdicts are full ones, which contradict nothing
+        let settlement = part.settlement(0, full).unwrap_or_default();
+        self.stopped |= (self.done)(point.system, settlement);
+    }
+}
+
+impl<F: Fn(usize, u64) -> Start> Source for Points<'_, F> {
+    fn next(&mut self) -> Option<Launched> {
+        let (mut number, mut k) = self.next;
+        while k >= self.points.get(number)?.decided.len() {
+            (number, k) = (number + 1, 0);
+        }
+        self.next = (number, k + 1);
+        self.places.push((number, k));
+        #[allow(clippy::cast_possible_truncation)] // a tile
+        let system = number as u32;
+        Some(Launched {
+            place: self.places.len() - 1,
+            system,
+            start: (self.start)(self.points[number].system, k as u64),
+        })
+    }
+
+    fn follow(&self) -> Follow {
+        if self.tails { Follow::keeping_tail() } else { Follow::default() }
+    }
+
+    fn releases(&mut self, place: usize) -> &mut Releases {
+        &mut self.points[self.places[place].0].releases
+    }
+
+    fn caught(&mut self, _: usize, _: &Follow, _: &ImpactState, _: &SettleOptions) -> bool {
+        false
+    }
+
+    fn decided(&mut self, place: usize, verdict: Verdict, follow: &Follow, options: &SettleOptions) {
+        let (number, k) = self.places[place];
+        let arrivals = if self.tails { follow.arrivals(&verdict, options) } else { Arrivals::new() };
+        let point = &mut self.points[number];
+        point.decided[k] = Some((verdict, arrivals, follow.count() as u64));
+        point.left -= 1;
+        if point.left == 0 {
+            self.settle(number);
+        }
+    }
+
+    fn stopping(&mut self) -> bool {
+        self.stopped
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario;
+    use crate::verdict::{StartBox, scattered_starts};
+
+    /// Of every kind, several of some, with numbers of starts from 0 to more than a few.
+    fn systems() -> Vec<Counted> {
+        let mut all: Vec<Oscillator> = Vec::new();
+        for point in scenario::PAPER {
+            let osc = point.oscillator();
+            all.extend([osc, osc.with_damping(0.02).unwrap(), osc.with_second_stop(3.0, 0.8).unwrap()]);
+        }
+        for (inverse, gap, eps, damping) in [
+            (1.11, -0.5, 0.5, 0.0),
+            (0.4, -0.95, 0.9, 0.05),
+            (1.3, 0.75, 0.0, 0.0),
+            (1.0, 0.0, 0.7, 0.3),
+            (1.0, 0.4, 0.7, 0.0),
+            (0.002, 0.4, 0.6, 0.0),
+            (0.35, 0.4, 0.6, 0.0),
+            (2.6, 0.4, 0.6, 0.0),
+            (1.12, 3.0, 0.5, 0.0),
+            (1.10, 3.0, 0.5, 0.0),
+        ] {
+            all.push(Oscillator::from_inverse_beta(inverse, gap, eps).unwrap().with_damping(damping).unwrap());
+        }
+        let counts = [3, 1, 5, 0, 4, 40, 2].into_iter().cycle();
+        all.into_iter().zip(counts).collect()
+    }
+
+    /// The verdicts, numbers of impacts and tails of each system do not depend on the systems beside it, nor on the width
+    /// of the lanes.
+    #[test]
+    fn as_system_by_system() {
+        let options =
+            SettleOptions { max_impacts: 6000, chaos_over: 4000, max_steps: 200_000, ..SettleOptions::default() };
+        let systems = systems();
+        let areas: Vec<StartBox> = systems.iter().map(|(osc, _)| StartBox::natural(osc)).collect();
+        let start = |system: usize, k: u64| scattered_starts(&systems[system].0, areas[system], 3, k);
+        let none = KnownAttractors::default();
+        let alone = |system: usize| {
+            let (osc, count) = systems[system];
+            settle_many(&osc, 0..count, |k| start(system, k), &none, &options, Width::Scalar, &|| false)
+        };
+        let expected: Vec<Settlement> = (0..systems.len()).map(alone).collect();
+        let chaotic = |of: &Settlement| of.motions.iter().any(|found| matches!(found.verdict, Verdict::Chaotic(_)));
+        assert!(expected.iter().any(chaotic));
+        for width in Width::ALL.into_iter().filter(|width| width.available()) {
+            for part in [0..systems.len(), 0..9, 5..systems.len()] {
+                let mut left: Vec<usize> = part.clone().collect();
+                let of = |k: usize, index: u64| start(part.start + k, index);
+                let ended = settle_each(&systems[part.clone()], of, &options, true, width, &mut |k, got| {
+                    assert_eq!(got, expected[part.start + k], "{width:?} {:?}", systems[part.start + k]);
+                    left.retain(|system| *system != part.start + k);
+                    false
+                });
+                assert!(ended && left.is_empty(), "{left:?}");
+            }
+        }
+        let mut count = 0;
+        let ended = settle_each(&systems, start, &options, false, Width::best(), &mut |_, _| {
+            count += 1;
+            count == 7
+        });
+        assert!(!ended && count == 7, "{count}");
+    }
+}
