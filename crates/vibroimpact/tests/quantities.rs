@@ -67,7 +67,7 @@ fn work_is_lost_in_impacts_and_damper_for_a_thousand_attractors() {
     assert!(sticking > 50 && chatter > 30 && undamped > 150 && two > 100, "{sticking} {chatter} {undamped} {two}");
 }
 
-/// The same quantities from a fine waveform by the trapezoidal rule, over whole periods of the settled motion.
+/// All quantities from a fine waveform by the trapezoidal rule, over whole periods of the settled motion.
 #[test]
 fn quantities_agree_with_a_fine_waveform() {
     let mut numbers = Numbers(3);
@@ -89,12 +89,15 @@ fn quantities_agree_with_a_fine_waveform() {
         };
         let total = f64::from(cycle.label.periods) * osc.period();
         let (mut motion, mut time) = (start, 0.0);
-        let (mut squares, mut speeds, mut work) = (0.0, 0.0, 0.0);
+        let (mut places, mut squares, mut speeds, mut work, mut resting) = (0.0, 0.0, 0.0, 0.0, 0.0);
         let (mut lowest, mut highest, mut fastest, mut hard) = (f64::INFINITY, f64::NEG_INFINITY, 0.0_f64, 0.0_f64);
-        let (mut loss, mut impulse) = (0.0, 0.0);
+        let (mut loss, mut impulse, mut hardest) = (0.0, 0.0, 0.0_f64);
+        let (mut arrivals, mut count_of_impacts, mut largest) = (0.0, 0.0, 0.0_f64);
         let mut impact = |u: f64, v: f64| {
             loss += 0.5 * (u * u - v * v);
             impulse += u - v;
+            hardest = hardest.max(u - v);
+            (arrivals, count_of_impacts, largest) = (arrivals + u, count_of_impacts + 1.0, largest.max(u));
         };
         if let (true, Some(point)) = (cycle.rests.is_empty(), cycle.points.first()) {
             let stop = osc.stop(point.state.side).unwrap();
@@ -111,12 +114,16 @@ fn quantities_agree_with_a_fine_waveform() {
                 let (x, v) = leg.state(&osc, s);
                 let force = (leg.phase + osc.beta() * s).sin();
                 let weight = if k == 0 || k == n { 0.5 * h } else { h };
+                places += weight * x;
                 squares += weight * x * x;
                 speeds += weight * v * v;
                 work += weight * force * v;
                 (lowest, highest, fastest) = (lowest.min(x), highest.max(x), fastest.max(v.abs()));
-                if leg.state(&osc, 0.5 * leg.duration).1 != 0.0 {
+                let moves = leg.state(&osc, 0.5 * leg.duration).1 != 0.0;
+                if moves {
                     hard = hard.max((force - x - 2.0 * osc.damping() * v).abs());
+                } else {
+                    resting += weight;
                 }
             }
             time += leg.duration;
@@ -132,17 +139,31 @@ fn quantities_agree_with_a_fine_waveform() {
             assert!((found - value).abs() < tolerance * (1.0 + value.abs()), "{osc:?} {quantity:?}: {found} {value}");
         };
         let chatters = cycle.rests.iter().any(|rest| rest.chatter);
+        near(Quantity::DisplacementMean, places / total, 1e-4);
+        near(Quantity::DisplacementAmplitude, 0.5 * (highest - lowest), 1e-4);
         near(Quantity::DisplacementRms, (squares / total).sqrt(), 1e-4);
         near(Quantity::VelocityRms, (speeds / total).sqrt(), 1e-4);
         near(Quantity::WorkPerPeriod, work / periods, 1e-3);
+        near(Quantity::Power, work / total, 1e-3);
+        near(Quantity::DampingLossPerPeriod, 2.0 * osc.damping() * speeds / periods, 1e-3);
+        near(Quantity::DampingPower, 2.0 * osc.damping() * speeds / total, 1e-3);
+        near(Quantity::StickingFraction, resting / total, 1e-8);
         near(Quantity::DisplacementMin, lowest, 1e-4);
         near(Quantity::DisplacementMax, highest, 1e-4);
         near(Quantity::VelocityMax, fastest, 1e-4);
         near(Quantity::ImpactLossPerPeriod, loss / periods, 1e-6);
+        near(Quantity::ImpactPower, loss / total, 1e-6);
+        near(Quantity::ImpactSpeedMax, largest, 1e-8);
+        near(Quantity::ImpulseMax, hardest, 1e-8);
         // the impulses of the summed part of a chatter are not among those listed
         near(Quantity::ImpulsePerPeriod, impulse / periods, if chatters { 0.05 } else { 1e-8 });
         if !chatters {
             near(Quantity::AccelerationMax, hard, 2e-3);
+            near(Quantity::ImpactsPerPeriod, count_of_impacts / periods, 1e-12);
+            near(Quantity::ImpactRate, count_of_impacts / total, 1e-8);
+            if count_of_impacts > 0.0 {
+                near(Quantity::ImpactSpeedMean, arrivals / count_of_impacts, 1e-8);
+            }
         }
     }
 }

@@ -173,11 +173,14 @@ impl MachineBranch {
                 Some(MINUS_ONE) => MachineBranchEvent::Flip,
                 Some(_) => MachineBranchEvent::Torus,
             };
-            let at = self.tracer.between(&step, *s).and_then(|w| {
+            // where another curve of solutions crosses, the equations are singular, and rounding decides whether they can be
+            // solved there; then the event is reported beside its place
+            let solved = |share: f64| {
+                let w = self.tracer.between(&step, (s + share * step.length).clamp(0.0, step.length))?;
                 let along = self.tracer.tangent_at(&w).unwrap_or_else(|| self.tracer.here.tangent.clone());
                 self.tracer.solution_along(w, along)
-            });
-            let Some(at) = at else { continue };
+            };
+            let Some(at) = BESIDE.into_iter().find_map(solved) else { continue };
             // two real multipliers whose product is 1 are no torus bifurcation
             let complex = at.known.multipliers.iter().any(|m| m.im.abs() > 1e-6 && (m.modulus() - 1.0).abs() < 1e-6);
             if what != &Some(TORUS) || complex {
@@ -259,6 +262,9 @@ impl MachineBranch {
         self.add(&here, None);
     }
 }
+
+/// Parts of a step by which an event may be moved where its equations are singular.
+const BESIDE: [f64; 7] = [0.0, 1e-8, -1e-8, 1e-6, -1e-6, 1e-4, -1e-4];
 
 impl Iterator for MachineBranch {
     type Item = MachinePoint;
