@@ -131,9 +131,11 @@ export async function only_the_map_is_computed_while_a_slider_moves({ open }) {
     const original = globalThis.fetch;
     globalThis.asked = [];
     globalThis.fetch = async (path, options) => {
-      const one = { path: String(path).split("?")[0], body: options?.body ?? "", done: false };
+      const one = { path: String(path).split("?")[0], body: options?.body ?? "", signal: options?.signal, done: false };
       globalThis.asked.push(one);
-      one.abreast = globalThis.asked.filter((other) => other.path === "/api/picture" && !other.done).length;
+      // a request that was stopped ends a moment later
+      const runs = ({ path, done, signal }) => path === "/api/picture" && !done && !signal?.aborted;
+      one.abreast = globalThis.asked.filter(runs).length;
       try {
         const response = await original(path, options);
         const bytes = await response.arrayBuffer();

@@ -147,7 +147,8 @@ fn quantities_agree_with_a_fine_waveform() {
         near(Quantity::Power, work / total, 1e-3);
         near(Quantity::DampingLossPerPeriod, 2.0 * osc.damping() * speeds / periods, 1e-3);
         near(Quantity::DampingPower, 2.0 * osc.damping() * speeds / total, 1e-3);
-        near(Quantity::StickingFraction, resting / total, 1e-8);
+        // the replay counts the summed part of a chatter as rest
+        near(Quantity::StickingFraction, resting / total, if chatters { 1e-4 } else { 1e-8 });
         near(Quantity::DisplacementMin, lowest, 1e-4);
         near(Quantity::DisplacementMax, highest, 1e-4);
         near(Quantity::VelocityMax, fastest, 1e-4);

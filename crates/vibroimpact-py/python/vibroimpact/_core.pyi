@@ -19,6 +19,8 @@ _Part: TypeAlias = tuple[list[tuple[_Array, list[str], bool, bool]], _Array]
 
 __all__ = [
     "attractors",
+    "missed_share",
+    "share_interval",
     "basin_measures",
     "fill",
     "labels_of",
