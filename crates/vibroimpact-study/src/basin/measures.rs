@@ -118,6 +118,12 @@ fn exponent<T: Copy + PartialEq>(cells: &[T], width: usize) -> Option<Uncertaint
     }
     #[allow(clippy::cast_precision_loss)] // sides of a few thousand cells
     let points: Vec<(f64, f64)> = shares.iter().map(|(side, share)| ((*side as f64 - 1.0).ln(), share.ln())).collect();
+    let (value, error) = slope(&points);
+    Some(UncertaintyExponent { value, error, shares })
+}
+
+/// The slope of the line through at least three points by least squares, and its standard error.
+fn slope(points: &[(f64, f64)]) -> (f64, f64) {
     #[allow(clippy::cast_precision_loss)] // a handful
     let n = points.len() as f64;
     let mean = |of: &dyn Fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / n;
@@ -125,7 +131,7 @@ fn exponent<T: Copy + PartialEq>(cells: &[T], width: usize) -> Option<Uncertaint
     let spread: f64 = points.iter().map(|p| (p.0 - x).powi(2)).sum();
     let value = points.iter().map(|p| (p.0 - x) * (p.1 - y)).sum::<f64>() / spread;
     let rest: f64 = points.iter().map(|p| (p.1 - y - value * (p.0 - x)).powi(2)).sum();
-    Some(UncertaintyExponent { value, error: (rest / (n - 2.0) / spread).sqrt(), shares })
+    (value, (rest / (n - 2.0) / spread).sqrt())
 }
 
 /// The normal deviate of a confidence of 95 %.
@@ -192,10 +198,7 @@ mod tests {
         // over the number of starts instead of the distance of the outermost ones, as other programs have it
         let points: Vec<(f64, f64)> =
             found.shares.iter().map(|(side, share)| ((*side as f64).ln(), share.ln())).collect();
-        let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / 6.0;
-        let (x, y) = (mean(|p| p.0), mean(|p| p.1));
-        let slope = points.iter().map(|p| (p.0 - x) * (p.1 - y)).sum::<f64>()
-            / points.iter().map(|p| (p.0 - x).powi(2)).sum::<f64>();
+        let (slope, _) = slope(&points);
         assert!((slope - 1.18).abs() < 0.005, "{slope}");
         let mut state = 1_u64;
         let noise: Vec<bool> = (0..side * side)
