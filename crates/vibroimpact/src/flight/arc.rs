@@ -182,6 +182,12 @@ impl Flight {
         &self.response
     }
 
+    /// The fastest rate at which the flight changes, $`\max(\beta, 1 + 2\zeta)`$.
+    #[inline]
+    pub(crate) const fn fastest(&self) -> f64 {
+        self.fastest
+    }
+
     /// Third derivative at the beginning.
     pub(super) fn jerk(&self) -> f64 {
         self.response.beta() * self.cos - self.v - 2.0 * self.response.damping() * self.a

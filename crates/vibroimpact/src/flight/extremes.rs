@@ -180,22 +180,25 @@ impl Extremes {
 
     /// Includes the first `duration` of a flight.
     pub fn add(&mut self, flight: &Flight, duration: f64) {
-        if !self.any() {
-            return;
+        if self.any() {
+            self.add_between(flight, 0.0, duration);
         }
+    }
+
+    /// Includes the part of a flight from the time `begin` to the time `end`.
+    pub(crate) fn add_between(&mut self, flight: &Flight, mut begin: f64, end: f64) {
         // over longer windows the bounds are too wide to leave anything out
         let most = 1.5 / (1.0 + flight.fastest);
-        self.include_point(&flight.at(duration));
-        let mut begin = 0.0;
-        while begin < duration {
-            let (point, rest) = (flight.at(begin), duration - begin);
+        self.include_point(&flight.at(end));
+        while begin < end {
+            let (point, rest) = (flight.at(begin), end - begin);
             self.include_point(&point);
             let quiet = self.quiet(flight, &point);
             let length = quiet.max(most).min(rest);
             if quiet < length {
                 self.all(flight, begin, &point, length);
             }
-            begin = if length < rest { begin + length } else { duration };
+            begin = if length < rest { begin + length } else { end };
         }
     }
 

@@ -9,7 +9,7 @@ use super::{Flight, FlightPoint};
 use crate::math::RULE;
 
 /// The longest panel, in units of the time in which a function changes.
-const PANEL: f64 = 5.0;
+pub(crate) const PANEL: f64 = 5.0;
 
 /// Integrals over a flight, or sums of them over several flights.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -53,7 +53,7 @@ pub fn integrate(flight: &Flight, duration: f64, rate: f64, mut sum: impl FnMut(
 
 /// The middles and half lengths of the panels of the quadrature over the first `duration` of a flight, for an integrand
 /// with a factor of this rate.
-pub(crate) fn panels(flight: &Flight, duration: f64, rate: f64) -> impl Iterator<Item = (f64, f64)> {
+fn panels(flight: &Flight, duration: f64, rate: f64) -> impl Iterator<Item = (f64, f64)> {
     let shortest = PANEL / flight.fastest;
     let slow = PANEL / (flight.response().beta().max(1.0) + rate);
     let mut begin = 0.0;

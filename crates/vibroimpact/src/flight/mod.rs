@@ -29,5 +29,5 @@ pub use extremes::{Extreme, Extremes};
 pub(crate) use first_contact::counted;
 pub use first_contact::first_contact;
 pub use horizon::{Horizon, SearchLimits};
-pub(crate) use integrals::panels;
+pub(crate) use integrals::PANEL;
 pub use integrals::{FlightIntegrals, integrate};

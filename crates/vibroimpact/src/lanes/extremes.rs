@@ -1,144 +1,167 @@
 //! Extremes over a flight. Most flights of a long motion exceed none of those so far, which is proven here at points
 //! side by side, unless the amplitudes of the flight show it already.
 //!
-//! Each panel of the quadrature is divided into equal intervals. Over an interval of half the length $`\rho`$, a function
-//! with $`|f'''| \le B`$ is at most $`\max_{|r| \le \rho}(f + f'r + f''r^2/2) + B\rho^3/6`$, with $`f`$ and its
-//! derivatives in the middle. If no interval of the flight exceeds an extreme, the extremes stay as they are. Otherwise
-//! the flight is searched, one point at a time ([`Extremes::add`]).
+//! The flight is divided into equal panels, and these into equal intervals. Over an interval of half the length
+//! $`\rho`$, a function with $`|f'''| \le B`$ is at most
+//! $`\max_{|r| \le \rho}(f + f'r + f''r^2/2) + B\rho^3/6`$, with $`f`$ and its derivatives in the middle. Of the
+//! last interval only the part that belongs to the flight counts. If no interval exceeds an extreme, the extremes stay as
+//! they are. A panel with one that may is searched, one point at a time ([`Extremes::add_between`]).
 
-use super::points::{Points, suited};
+use super::points::{MIDDLES, Panels, Points, RHO, Rows, suited};
 use super::width::{Task, Width};
-use crate::flight::{Ceiling, Extremes, Flight, panels};
+use crate::flight::{Ceiling, Extremes, Flight};
 use crate::math::{Lane, Mask, POINTS};
 
-/// Half the length of an interval on [-1, 1].
-const RHO: f64 = 1.0 / 16.0;
-/// The middles of the intervals.
-const MIDDLES: [f64; POINTS] = {
-    let mut middles = [RHO - 1.0; POINTS];
-    let mut k = 1;
-    while k < POINTS {
-        middles[k] = middles[k - 1] + 2.0 * RHO;
-        k += 1;
-    }
-    middles
-};
-
-/// Includes the first `duration` of a flight.
-pub(crate) fn add_extremes(extremes: &mut Extremes, flight: &Flight, duration: f64) {
-    add_with(Width::best(), extremes, flight, duration);
+/// Includes the first `duration` of a flight; the panels are those of its oscillator.
+pub(crate) fn add_extremes(extremes: &mut Extremes, panels: &Panels, flight: &Flight, duration: f64) {
+    add_with(Width::best(), extremes, panels, flight, duration);
 }
 
-fn add_with(width: Width, extremes: &mut Extremes, flight: &Flight, duration: f64) {
-    let ceilings = extremes.ceilings();
-    // most of them are out of reach however long the flight is; a bound that is not a number leaves none out
-    let largest = flight.largest();
-    let reachable = |ceiling: &Ceiling| {
-        let below = largest[ceiling.derivative] < ceiling.level;
-        ceiling.level < f64::INFINITY && !below
-    };
-    let ceilings = &mut ceilings.into_iter().filter(reachable);
-    let mut low = [Ceiling::NONE; 6];
-    let mut count = 0;
-    for (place, ceiling) in low.iter_mut().zip(ceilings) {
-        *place = ceiling;
-        count += 1;
-    }
-    // nothing is asked for, or nothing can be exceeded
-    if count == 0 {
+fn add_with(width: Width, extremes: &mut Extremes, panels: &Panels, flight: &Flight, duration: f64) {
+    if !suited(flight, duration) {
+        if reachable(extremes, flight).1 > 0 {
+            extremes.add(flight, duration);
+        }
         return;
     }
-    // a first flight exceeds every extreme
-    let known = low[..count].iter().all(|ceiling| ceiling.level > f64::NEG_INFINITY);
-    let proven =
-        known && suited(flight, duration) && { width.run(Within { flight, duration, ceilings: &low[..count] }) };
-    if !proven {
-        extremes.add(flight, duration);
+    let mut from = Part { begin: 0.0, end: duration, point: Points::begin(flight) };
+    loop {
+        let (low, count) = reachable(extremes, flight);
+        if count == 0 {
+            return;
+        }
+        let found = width.run(Above { flight, from, panels, ceilings: &low[..count] });
+        let Some(part) = found else { return };
+        extremes.add_between(flight, part.begin, part.end);
+        if part.end >= duration {
+            return;
+        }
+        let panel = panels.longest(flight);
+        from = Part { begin: part.end, end: duration, point: part.point.then(flight.response().beta(), &panel.end) };
     }
 }
 
-/// Whether no point of the flight is above these ceilings.
-struct Within<'a> {
+/// The ceilings that the flight could exceed, however long it is, and their number.
+fn reachable(extremes: &Extremes, flight: &Flight) -> ([Ceiling; 6], usize) {
+    let largest = flight.largest();
+    let mut low = [Ceiling::NONE; 6];
+    let mut count = 0;
+    for ceiling in extremes.ceilings() {
+        // a bound that is not a number leaves none out
+        let below = largest[ceiling.derivative] < ceiling.level;
+        if ceiling.level < f64::INFINITY && !below {
+            low[count] = ceiling;
+            count += 1;
+        }
+    }
+    (low, count)
+}
+
+/// A part of a flight, and the point at its beginning.
+#[derive(Clone, Copy)]
+struct Part {
+    begin: f64,
+    end: f64,
+    point: Points<f64>,
+}
+
+/// The first panel of a part of the flight in which a point may be above one of these ceilings.
+struct Above<'a> {
     flight: &'a Flight,
-    duration: f64,
+    from: Part,
+    panels: &'a Panels,
     ceilings: &'a [Ceiling],
 }
 
 /// Position, velocity and their derivatives up to the fourth of the position, at the points of a panel.
 type Derivatives = [[f64; POINTS]; 5];
 
-impl Task for Within<'_> {
-    type Output = bool;
+impl Task for Above<'_> {
+    type Output = Option<Part>;
 
     #[inline(always)]
-    fn run<L: Lane>(self) -> bool {
-        let radius = |x: f64, v: f64| (x * x + v * v).sqrt();
-        // the energy radius grows at most at the rate 1, here from the last point before the panel
-        let mut before = radius(self.flight.x, self.flight.v);
-        for (middle, half) in panels(self.flight, self.duration, 0.0) {
-            let points = self.derivatives::<L>(middle, half);
-            let mut largest = before;
-            let mut k = 0;
-            while k < POINTS {
-                before = radius(points[0][k], points[1][k]);
-                largest = largest.max(before);
-                k += 1;
-            }
-            let bounds = self.flight.third_derivatives(largest + 2.0 * RHO * half);
+    fn run<L: Lane>(self) -> Option<Part> {
+        let panel = self.panels.longest(self.flight);
+        let (beta, half) = (self.flight.response().beta(), panel.half);
+        let Part { mut begin, end, mut point } = self.from;
+        while begin < end {
+            let (points, square) = self.derivatives::<L>(&point, &panel.middles);
+            // the energy radius grows at most at the rate 1, here from the middle before
+            let bounds = self.flight.third_derivatives(square.sqrt() + 2.0 * RHO * half);
+            let left = end - begin;
             let mut which = 0;
             while which < self.ceilings.len() {
                 let ceiling = &self.ceilings[which];
-                if exceeds::<L>(&points, ceiling, bounds[ceiling.derivative], RHO * half) {
-                    return false;
+                if exceeds::<L>(&points, ceiling, bounds[ceiling.derivative], half, left) {
+                    return Some(Part { begin, end: if left > 2.0 * half { begin + 2.0 * half } else { end }, point });
                 }
                 which += 1;
             }
+            point = point.then(beta, &panel.end);
+            begin += 2.0 * half;
         }
-        true
+        None
     }
 }
 
-impl Within<'_> {
+impl Above<'_> {
+    /// The derivatives in the middles, and the largest square of the energy radius there and at the beginning.
     #[inline(always)]
-    fn derivatives<L: Lane>(&self, middle: f64, half: f64) -> Derivatives {
+    fn derivatives<L: Lane>(&self, here: &Points<f64>, middles: &Rows) -> (Derivatives, f64) {
         let (beta, drag) = (self.flight.response().beta(), L::splat(2.0 * self.flight.response().damping()));
         let mut all = Derivatives::default();
+        let mut squares = [0.0; POINTS];
         let mut k = 0;
         while k < POINTS {
-            let offset = L::splat(half) * L::load(&MIDDLES[k..]);
-            let Points { x, v, force, force_rate } = Points::new(self.flight, middle, offset);
+            let Points { x, v, sin: force, cos } = here.then(beta, &middles.load::<L>(k));
             let a = force - x - drag * v;
-            let j = force_rate - v - drag * a;
+            let j = L::splat(beta) * cos - v - drag * a;
             let snap = -(L::splat(beta * beta) * force) - a - drag * j;
             x.store(&mut all[0][k..]);
             v.store(&mut all[1][k..]);
             a.store(&mut all[2][k..]);
             j.store(&mut all[3][k..]);
             snap.store(&mut all[4][k..]);
+            (x * x + v * v).store(&mut squares[k..]);
             k += L::WIDTH;
         }
-        all
+        let mut largest = here.x * here.x + here.v * here.v;
+        let mut k = 0;
+        while k < POINTS {
+            largest = largest.max(squares[k]);
+            k += 1;
+        }
+        (all, largest)
     }
 }
 
-/// Whether an interval of half the length `rho` around one of these points can exceed the ceiling.
+/// Whether an interval around one of these points can exceed the ceiling, in the first `left` of the panel.
 #[inline(always)]
-fn exceeds<L: Lane>(points: &Derivatives, ceiling: &Ceiling, bound: f64, rho: f64) -> bool {
+fn exceeds<L: Lane>(points: &Derivatives, ceiling: &Ceiling, bound: f64, half: f64, left: f64) -> bool {
     let (sign, level) = (L::splat(ceiling.sign), L::splat(ceiling.level));
-    let (error, rho, half) = (L::splat(bound * rho * rho * rho / 6.0), L::splat(rho), L::splat(0.5));
+    let rho = RHO * half;
+    let (error, rho, one_half) = (L::splat(bound * rho * rho * rho / 6.0), L::splat(rho), L::splat(0.5));
     let mut k = 0;
     while k < POINTS {
         let f = sign * L::load(&points[ceiling.derivative][k..]);
-        let slope = L::load(&points[ceiling.derivative + 1][k..]).abs();
+        let slope = sign * L::load(&points[ceiling.derivative + 1][k..]);
         let second = sign * L::load(&points[ceiling.derivative + 2][k..]);
-        // the quadratic part is largest at its peak if that lies inside, otherwise at an end
-        let inside = slope.less(-(second * rho));
-        let peak = half * slope * slope / L::choose(inside, -second, L::splat(1.0));
-        let rise = L::choose(inside, peak, slope * rho + half * second * rho * rho);
-        // all lanes must be below, so that NaN is not
-        let below = (f + rise + error).less(level).bits();
-        if below.count_ones() as usize != L::WIDTH {
-            return true;
+        let curve = one_half * second;
+        // most of them stay far below
+        let far = (f + (slope.abs() + curve.abs() * rho) * rho + error).less(level).bits();
+        // all intervals must be below, so that NaN is not
+        if far.count_ones() as usize != L::WIDTH {
+            // the interval is from -rho to end
+            let end = (L::splat(left - half) - L::splat(half) * L::load(&MIDDLES[k..])).min(rho);
+            // the quadratic part is largest at its peak if that lies inside, otherwise at an end
+            let ends = ((curve * rho - slope) * rho).max((curve * end + slope) * end);
+            let inside = slope.less(-(second * end)).and((second * rho).less(slope));
+            let peak = one_half * slope * slope / L::choose(inside, -second, L::splat(1.0));
+            let rise = L::choose(inside, peak, ends);
+            let below = (f + rise + error).less(level).or(end.less(-rho)).bits();
+            if below.count_ones() as usize != L::WIDTH {
+                return true;
+            }
         }
         k += L::WIDTH;
     }
@@ -163,6 +186,7 @@ mod tests {
     fn extremes_are_those_of_the_search_of_every_flight() {
         for (beta, zeta) in [(0.05, 0.0), (0.7, 0.02), (1.0, 0.0), (1.0, 0.3), (2.3, 0.1), (11.0, 0.0), (0.9, 0.6)] {
             let osc = Oscillator::new(beta, 9.0, 0.5).unwrap().with_damping(zeta).unwrap();
+            let panels = Panels::default();
             for sought in ALL.map(|extreme| vec![extreme]).into_iter().chain([ALL.to_vec()]) {
                 let mut searched = Extremes::only(&sought);
                 let mut found = Width::ALL.map(|_| searched);
@@ -173,7 +197,7 @@ mod tests {
                     searched.add(&flight, duration);
                     for (width, found) in Width::ALL.into_iter().zip(&mut found) {
                         if width.available() {
-                            add_with(width, found, &flight, duration);
+                            add_with(width, found, &panels, &flight, duration);
                         } else {
                             *found = searched;
                         }
@@ -206,7 +230,10 @@ mod tests {
         all.add(&flight, 8.0);
         let below = all.ceilings().map(|ceiling| Ceiling { level: ceiling.level - 1e-12, ..ceiling });
         let above = all.ceilings().map(|ceiling| Ceiling { level: ceiling.level + 0.1, ..ceiling });
-        let within = |ceilings: &[Ceiling]| Width::Scalar.run(Within { flight: &flight, duration: 8.0, ceilings });
+        let from = Part { begin: 0.0, end: 8.0, point: Points::begin(&flight) };
+        let panels = &Panels::default();
+        let within =
+            |ceilings: &[Ceiling]| Width::Scalar.run(Above { flight: &flight, from, panels, ceilings }).is_none();
         assert!(within(&above));
         // the speed and the acceleration have two ceilings each, of which the motion reaches at least one
         for pair in [&below[0..1], &below[1..2], &below[2..4], &below[4..6]] {

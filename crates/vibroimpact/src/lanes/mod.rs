@@ -51,6 +51,7 @@ pub(crate) use extremes::add_extremes;
 pub use flight::first_contact;
 pub(crate) use flight::found;
 pub(crate) use integrals::add_integrals;
+pub(crate) use points::Panels;
 pub(crate) use stride::Stride;
 pub(crate) use systems::Kind;
 pub(crate) use width::Task;

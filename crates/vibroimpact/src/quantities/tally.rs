@@ -3,7 +3,7 @@
 use super::{Quantity, Segment};
 use crate::contact::mirrored;
 use crate::flight::{Extreme, Extremes, FlightIntegrals};
-use crate::lanes::{add_extremes, add_integrals};
+use crate::lanes::{Panels, add_extremes, add_integrals};
 use crate::math::sin_cos;
 use crate::system::{Oscillator, Side, Start};
 use core::f64::consts::TAU;
@@ -38,7 +38,7 @@ const EACH_IMPACT: f64 = 100.0;
 
 /// Sums over the parts of a motion. Integrals and extremes are NaN if its flights are longer in total than
 /// $`3\cdot 10^4 + 100\,m`$ units of $`1/\max(\beta, 1 + 2\zeta)`$ after $`m`$ impacts; sums over impacts are not.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Tally<'a> {
     osc: &'a Oscillator,
     /// Whether each quantity is computed; sums over impacts always are.
@@ -49,6 +49,8 @@ pub struct Tally<'a> {
     /// `None` if no quantity needs them.
     pub(super) integrals: Option<FlightIntegrals>,
     extremes: Extremes,
+    /// The responses at the points of the flights.
+    panels: Panels,
     pub(super) time: f64,
     pub(super) sticking: f64,
     pub(super) impacts: f64,
@@ -79,6 +81,7 @@ impl<'a> Tally<'a> {
             skipped: false,
             integrals: integrals.then(FlightIntegrals::default),
             extremes: Extremes::only(&extremes),
+            panels: Panels::default(),
             time: 0.0,
             sticking: 0.0,
             impacts: 0.0,
@@ -111,9 +114,9 @@ impl<'a> Tally<'a> {
                 self.skipped |= self.flown > LONGEST + EACH_IMPACT * self.impacts;
                 if !self.skipped {
                     if let Some(integrals) = &mut self.integrals {
-                        add_integrals(integrals, &flight, duration);
+                        add_integrals(integrals, &self.panels, &flight, duration);
                     }
-                    add_extremes(&mut self.extremes, &flight, duration);
+                    add_extremes(&mut self.extremes, &self.panels, &flight, duration);
                 }
             }
             Segment::Impact { side, speed } => self.impact(side, speed),

@@ -36,6 +36,7 @@ pub(crate) use commensurable::common_period;
 pub use error::SystemError;
 pub use excitation::{Amplitude, EquivalentOscillator, Excitation, Shaking};
 pub(crate) use free::{FreeResponse, HEAVY, decay, versine};
+pub(crate) use nearby::Nearby;
 pub use oscillator::{Oscillator, Side, Stop};
 pub use parameter::Parameter;
 pub use parameter_path::ParameterPath;

@@ -12,7 +12,7 @@ use crate::math::Lane;
 const TERMS: u32 = 23;
 
 /// The responses at several times.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Nearby<L> {
     /// $`C`$, $`S`$ and $`S'`$ of the free response.
     pub(crate) c: L,

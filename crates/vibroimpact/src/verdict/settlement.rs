@@ -102,9 +102,9 @@ impl Part {
         let mut motions = Vec::with_capacity(order.len());
         let mut tails = Vec::with_capacity(order.len());
         for (new, &old) in order.iter().enumerate() {
-            let motion = &self.motions[old];
-            let (verdict, arrivals) = match &motion.followed {
-                Some((index, followed)) if *index == motion.first => followed.clone(),
+            let motion = &mut self.motions[old];
+            let (verdict, arrivals) = match motion.followed.take() {
+                Some((index, followed)) if index == motion.first => followed,
                 _ => (full(motion.first), Arrivals::new()),
             };
             if !verdict.same_as(&motion.verdict, SAME) {
