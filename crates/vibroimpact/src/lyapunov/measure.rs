@@ -8,7 +8,7 @@
 use super::Tail;
 use crate::flight::SearchLimits;
 use crate::math::{Matrix2, Sum, ln};
-use crate::motion::{ABREAST, ImpactState, Mapped, derivatives, impact_map};
+use crate::motion::{ABREAST, ImpactMap, ImpactState, Mapped, derivatives};
 use crate::system::Oscillator;
 
 /// A measured number with its error bar.
@@ -78,8 +78,9 @@ const FEWEST: usize = 5;
 #[must_use]
 pub fn lyapunov(osc: &Oscillator, from: ImpactState, impacts: u32) -> Option<Spectrum> {
     let mut measure = Measure::new(from, impacts);
+    let mut map = ImpactMap::new(osc, LIMITS);
     while !measure.complete() {
-        let Mapped::Impact { state, interval } = impact_map(osc, &measure.state, LIMITS) else {
+        let Mapped::Impact { state, interval } = map.after(&measure.state) else {
             return None;
         };
         measure.impact(osc, state, interval);

@@ -52,22 +52,38 @@ pub const MAX_TOUCHES: u32 = 8;
 /// ```
 #[must_use]
 pub fn impact_map(osc: &Oscillator, state: &ImpactState, limits: SearchLimits) -> Mapped {
-    // a chatter is completed as in a motion; without this, iterating the map would go through all its impacts
-    let mut motion = Motion::after(osc, state, limits);
-    let mut passed = 0;
-    loop {
-        match motion.next() {
-            // contacts without an impact may repeat for ever
-            Some(event) if passed > MAX_TOUCHES => return Mapped::End(End::NoneFor(event.time)),
-            Some(event) => match event.kind {
-                EventKind::Impact { velocity_before, .. } => {
-                    let state = ImpactState { phase: event.phase, velocity: velocity_before, side: event.side };
-                    return Mapped::Impact { state, interval: event.time };
-                }
-                EventKind::Stick { .. } => return Mapped::Stick(event),
-                EventKind::Graze { .. } | EventKind::Release => passed += 1,
-            },
-            None => return Mapped::End(motion.end().unwrap_or(End::NoneFor(0.0))),
+    ImpactMap::new(osc, limits).after(state)
+}
+
+/// The impact map of one oscillator, for many impacts.
+pub(crate) struct ImpactMap<'a>(Motion<'a>);
+
+impl<'a> ImpactMap<'a> {
+    /// With these limits of the search for each contact.
+    pub(crate) fn new(osc: &'a Oscillator, limits: SearchLimits) -> Self {
+        Self(Motion::after(osc, &ImpactState { phase: 0.0, velocity: 0.0, side: Side::Upper }, limits))
+    }
+
+    /// The event after an impact, as [`impact_map`] returns it.
+    pub(crate) fn after(&mut self, state: &ImpactState) -> Mapped {
+        // a chatter is completed as in a motion; without this, iterating the map would go through all its impacts
+        let motion = &mut self.0;
+        motion.restart(state);
+        let mut passed = 0;
+        loop {
+            match motion.next() {
+                // contacts without an impact may repeat for ever
+                Some(event) if passed > MAX_TOUCHES => return Mapped::End(End::NoneFor(event.time)),
+                Some(event) => match event.kind {
+                    EventKind::Impact { velocity_before, .. } => {
+                        let state = ImpactState { phase: event.phase, velocity: velocity_before, side: event.side };
+                        return Mapped::Impact { state, interval: event.time };
+                    }
+                    EventKind::Stick { .. } => return Mapped::Stick(event),
+                    EventKind::Graze { .. } | EventKind::Release => passed += 1,
+                },
+                None => return Mapped::End(motion.end().unwrap_or(End::NoneFor(0.0))),
+            }
         }
     }
 }

@@ -117,9 +117,15 @@ impl<'a> Motion<'a> {
     #[must_use]
     pub fn after(osc: &'a Oscillator, state: &ImpactState, limits: SearchLimits) -> Self {
         let mut motion = Self::begin(osc, limits, Mode::Ended(End::Stuck(state.side)));
-        let rebound = osc.stop(state.side).map_or(0.0, |stop| stop.rebound(state.velocity));
-        motion.mode = motion.after_impact(state.side, state.phase, rebound);
+        motion.restart(state);
         motion
+    }
+
+    /// Makes it the motion [after](Self::after) an impact, without computing the constants of the flights again.
+    pub(super) fn restart(&mut self, state: &ImpactState) {
+        let rebound = self.osc.stop(state.side).map_or(0.0, |stop| stop.rebound(state.velocity));
+        self.mode = self.after_impact(state.side, state.phase, rebound);
+        (self.time, self.last, self.steps) = (Sum::default(), None, 0);
     }
 
     /// The motion after a release from the stop on `side`. It ends at once, without an event, if that stop never

@@ -25,6 +25,7 @@ pub use crate::contact::ImpactState;
 pub use crossings::{Crossing, Level};
 pub(crate) use derivatives::{ABREAST, derivatives};
 pub use event::{End, Event, EventKind};
+pub(crate) use impact_map::ImpactMap;
 pub use impact_map::{MAX_TOUCHES, Mapped, derivative, impact_map};
 pub use legs::{Leg, Motion, Path};
 pub use sample::{Sample, sample};

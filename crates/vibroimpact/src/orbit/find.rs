@@ -5,7 +5,7 @@ use super::label::{Count, Label};
 use super::physical::Orbit;
 use super::ring::Ring;
 use super::{DEFAULT_EVENTS, flight_limits, from_release, newton, one_impact, without_impacts};
-use crate::motion::{ImpactState, Mapped, impact_map};
+use crate::motion::{ImpactMap, ImpactState, Mapped};
 use crate::system::{Oscillator, Side};
 use core::f64::consts::TAU;
 
@@ -157,6 +157,7 @@ fn chain(osc: &Oscillator, guess: ImpactState, m: u32, n: u32) -> Option<Ring> {
     // BIT 20 (1980) 176-184, doi:10.1007/BF01933190)
     let (mut marked, mut mark) = (guess, 0);
     let mut period = None;
+    let mut map = ImpactMap::new(osc, flight_limits(n));
     for k in 0..m {
         sides.push(state.side);
         unknowns.extend([theta, state.velocity]);
@@ -166,7 +167,7 @@ fn chain(osc: &Oscillator, guess: ImpactState, m: u32, n: u32) -> Option<Ring> {
             let next = before + 1;
             state = ImpactState { velocity: unknowns[2 * next + 1], side: sides[next], ..state };
         } else {
-            let Mapped::Impact { state: next, interval } = impact_map(osc, &state, flight_limits(n)) else {
+            let Mapped::Impact { state: next, interval } = map.after(&state) else {
                 return None;
             };
             turns.push(osc.beta() * interval);
@@ -235,7 +236,8 @@ mod tests {
         for _ in 0..m {
             ring.sides.push(state.side);
             ring.unknowns.extend([theta, state.velocity]);
-            let Mapped::Impact { state: next, interval } = impact_map(osc, &state, flight_limits(n)) else {
+            let Mapped::Impact { state: next, interval } = crate::motion::impact_map(osc, &state, flight_limits(n))
+            else {
                 return None;
             };
             theta += osc.beta() * interval;

@@ -10,7 +10,7 @@ use super::cycle::{Cycle, CyclePoint, distance};
 use super::label::Label;
 use crate::flight::SearchLimits;
 use crate::math::{Matrix2, eigenvalues, exp};
-use crate::motion::{ImpactState, Mapped, derivative, impact_map};
+use crate::motion::{ImpactMap, ImpactState, Mapped, derivative};
 use crate::system::{Oscillator, phase};
 use core::f64::consts::TAU;
 use thiserror::Error;
@@ -46,8 +46,9 @@ const CLOSED: f64 = 1e-11;
 pub fn shoot(osc: &Oscillator, guess: ImpactState, m: u32, n: u32) -> Result<Cycle, ShootingError> {
     let mut state = guess;
     let mut best: Option<(f64, Vec<(ImpactState, f64)>)> = None;
+    let mut map = ImpactMap::new(osc, flight_limits(n));
     for step in 0..MAX_STEPS {
-        let lap = Lap::fly(osc, state, m, flight_limits(n))?;
+        let lap = Lap::by(osc, &mut map, state, m)?;
         let advance = lap.turned - TAU * f64::from(n);
         let miss = [advance, lap.last.velocity - state.velocity];
         let residual = miss[0].abs().max(miss[1].abs() / state.velocity);
@@ -103,10 +104,15 @@ impl Lap {
         m: u32,
         limits: SearchLimits,
     ) -> Result<Self, ShootingError> {
+        Self::by(osc, &mut ImpactMap::new(osc, limits), start, m)
+    }
+
+    /// The same by an impact map of `osc`.
+    fn by(osc: &Oscillator, map: &mut ImpactMap<'_>, start: ImpactState, m: u32) -> Result<Self, ShootingError> {
         let mut lap = Self { points: Vec::new(), last: start, turned: 0.0, derivative: Matrix2::IDENTITY };
         let mut turns = 0.0_f64;
         for _ in 0..m {
-            let Mapped::Impact { state, interval } = impact_map(osc, &lap.last, limits) else {
+            let Mapped::Impact { state, interval } = map.after(&lap.last) else {
                 return Err(ShootingError::Broken);
             };
             lap.derivative = derivative(osc, &lap.last, &state, interval).times(lap.derivative);
