@@ -137,6 +137,16 @@ impl<'a> Motion<'a> {
         Self { osc, stride: Stride::new(osc), limits, time: Sum::default(), mode, last: None, steps: 0 }
     }
 
+    /// The same motion, begun at this time of a longer one.
+    pub(crate) fn begun(self, time: Sum) -> Self {
+        Self { time, ..self }
+    }
+
+    /// The time of the last event.
+    pub(crate) const fn time(&self) -> Sum {
+        self.time
+    }
+
     /// Why there is no further event; `None` while the motion continues.
     #[must_use]
     pub const fn end(&self) -> Option<End> {

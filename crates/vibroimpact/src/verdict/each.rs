@@ -3,7 +3,7 @@
 //! The flights of different oscillators share the lanes of a batch, if the same formulas hold for them. Most motions
 //! are decided soon; the long ones, which are chaotic or become periodic slowly, fill the lanes.
 
-use super::abreast::{Abreast, Launched, Source};
+use super::abreast::{Launched, Source, settle_abreast};
 use super::follow::{Follow, Releases};
 use super::many::{FEW, KnownAttractors, settle_many};
 use super::options::SettleOptions;
@@ -81,7 +81,7 @@ pub fn settle_each(
             done: &mut *done,
             stopped: false,
         };
-        if Abreast::new(batch, options, source).run().stopped {
+        if settle_abreast(batch, options, source).stopped {
             return false;
         }
     }
