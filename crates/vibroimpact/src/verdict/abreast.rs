@@ -101,7 +101,7 @@ impl<S: Source> Recorder for Settling<'_, S> {
     ) -> Option<ImpactState> {
         let (Track { place, follow }, options) = (track, self.options);
         let releases = self.source.releases(*place);
-        let mut drive = Drive { osc, options, follow, releases, time: 0.0 };
+        let mut drive = Drive { osc, options, follow, releases, cache: None, time: 0.0 };
         match drive.on(&mut motion, leave) {
             None => Some(follow.last()),
             Some(verdict) => {
