@@ -1,6 +1,5 @@
 //! Many motions event by event, and their states at given times, at one phase of the force and at one position.
 
-use crate::columns::sign;
 use crate::door::{self, Watch};
 use crate::error::Trouble;
 use crate::oscillator::Oscillator;
@@ -8,8 +7,8 @@ use crate::points::column;
 use crate::simulate::{StartArgument, start_plan};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
-use vibroimpact::motion::{EventKind, Level, Strobes, states_at};
-use vibroimpact_study::{Control, PlanError, PointsPlan, Simulated, StartPlan, SystemPlan, simulate};
+use vibroimpact::motion::{Level, Strobes, states_at};
+use vibroimpact_study::{Control, END_REASONS, EventColumns, PlanError, PointsPlan, StartPlan, SystemPlan};
 
 /// The columns that vary, and the numbers of all other parameters and coordinates of starts.
 type Over<'py> = Vec<(String, PyReadonlyArray1<'py, f64>)>;
@@ -62,30 +61,25 @@ fn padded<'py, T: numpy::Element + Copy>(
     all.into_pyarray(py)
 }
 
-/// The events of many motions: rows of `width` events each.
+/// The events of many motions: rows of `width` events each, as [`EventColumns`] describes them.
 #[derive(IntoPyObject)]
 pub(crate) struct ManyFields<'py> {
     width: usize,
-    /// 0 impact, 1 graze, 2 stick, 3 release; -1 after the last event.
     kind: Bound<'py, PyArray1<i8>>,
     side: Bound<'py, PyArray1<i8>>,
     time: Bound<'py, PyArray1<f64>>,
     phase: Bound<'py, PyArray1<f64>>,
     velocity_before: Bound<'py, PyArray1<f64>>,
     velocity_after: Bound<'py, PyArray1<f64>>,
-    /// Number of events, place of the reason in `REASONS`, and time of the end of each motion.
     count: Bound<'py, PyArray1<i32>>,
     end: Bound<'py, PyArray1<i8>>,
     end_time: Bound<'py, PyArray1<f64>>,
 }
 
-/// Why lists of events end, by code.
-const REASONS: [&str; 5] = ["impact_limit", "time_limit", "no_more_impacts", "stuck", "search_limit"];
-
 /// The reasons for which lists of events end, in the order of their codes.
 #[pyfunction]
-pub(crate) const fn end_reasons() -> [&'static str; 5] {
-    REASONS
+pub(crate) const fn end_reasons() -> [&'static str; END_REASONS.len()] {
+    END_REASONS
 }
 
 /// Follows the motion at each point event by event.
@@ -100,51 +94,23 @@ pub(crate) fn simulate_points<'py>(
     threads: usize,
     progress: Option<Py<PyAny>>,
 ) -> Result<ManyFields<'py>, Trouble> {
-    let asked = Asked::new(osc, &over, start)?;
-    let found: Vec<Option<Simulated>> = asked
-        .each(py, (threads, progress), move |osc, start, control| Ok(simulate(osc, start, limits, control).ok()))?;
-    // one that was stopped has stopped all
-    let found: Vec<Simulated> = found.into_iter().flatten().collect();
-    let (rows, width) = (found.len(), found.iter().map(|one| one.events.len()).max().unwrap_or(0));
-    let real = |of: fn(&vibroimpact::motion::Event) -> f64| {
-        padded(py, rows, width, f64::NAN, |k, put| found[k].events.iter().for_each(|event| put(of(event))))
-    };
-    let small = |of: fn(&vibroimpact::motion::Event) -> i8, nothing| {
-        padded(py, rows, width, nothing, |k, put| found[k].events.iter().for_each(|event| put(of(event))))
-    };
+    let Asked { points, system, start } = Asked::new(osc, &over, start)?;
+    let watch = Watch { what: "following motions", total: points.count(), progress, threads };
+    let found = door::run(py, watch, move |control| {
+        Ok(vibroimpact_study::simulate_points(&points, (&system, &start), limits, control)?)
+    })?;
+    let EventColumns { width, kind, side, time, phase, velocity_before, velocity_after, count, end, end_time } = found;
     Ok(ManyFields {
         width,
-        kind: small(
-            |event| match event.kind {
-                EventKind::Impact { .. } => 0,
-                EventKind::Graze { .. } => 1,
-                EventKind::Stick { .. } => 2,
-                EventKind::Release => 3,
-            },
-            -1,
-        ),
-        side: small(|event| sign(event.side), 0),
-        time: real(|event| event.time),
-        phase: real(|event| event.phase),
-        velocity_before: real(|event| {
-            if let EventKind::Impact { velocity_before, .. } = event.kind { velocity_before } else { f64::NAN }
-        }),
-        velocity_after: real(|event| {
-            if let EventKind::Impact { velocity_after, .. } = event.kind { velocity_after } else { f64::NAN }
-        }),
-        count: found
-            .iter()
-            .map(|one| i32::try_from(one.events.len()).unwrap_or(i32::MAX))
-            .collect::<Vec<_>>()
-            .into_pyarray(py),
-        end: found
-            .iter()
-            .map(|one| {
-                REASONS.iter().position(|reason| *reason == one.reason).and_then(|k| i8::try_from(k).ok()).unwrap_or(-1)
-            })
-            .collect::<Vec<_>>()
-            .into_pyarray(py),
-        end_time: found.iter().map(|one| one.time).collect::<Vec<_>>().into_pyarray(py),
+        kind: kind.into_pyarray(py),
+        side: side.into_pyarray(py),
+        time: time.into_pyarray(py),
+        phase: phase.into_pyarray(py),
+        velocity_before: velocity_before.into_pyarray(py),
+        velocity_after: velocity_after.into_pyarray(py),
+        count: count.into_pyarray(py),
+        end: end.into_pyarray(py),
+        end_time: end_time.into_pyarray(py),
     })
 }
 

@@ -15,7 +15,7 @@
 //! | the arrays that a tile of a plan holds | [`Study`], [`study`] |
 //! | tiles over threads, with a stop flag and progress | [`Control`], [`tiles`] |
 //! | points of parameters and starts, listed or drawn from a box | [`PointsPlan`] |
-//! | the events of one motion | [`Simulated`] |
+//! | the events of one motion; of many motions, as columns | [`Simulated`]; [`simulate_points`], [`EventColumns`] |
 //! | the motion to which each start of a plane leads | [`BasinPlan`], [`Basin`] |
 //! | the motions at each point of a parameter plane | [`MapPlan`], [`RegionMap`] |
 //! | the motion after its transient at each value of a parameter | [`DiagramPlan`], [`Diagram`], [`diagram`] |
@@ -44,6 +44,7 @@ mod curve;
 mod cut;
 pub mod diagram;
 mod error;
+mod event_columns;
 mod event_record;
 mod field;
 mod grid;
@@ -64,6 +65,7 @@ mod region;
 mod response;
 mod run;
 mod simulate;
+mod simulate_many;
 mod span;
 mod stretch;
 pub mod study;
@@ -83,6 +85,7 @@ pub use curve::{CurvePlan, EventCurve, FollowedEvent};
 pub use cut::{Cut, Target};
 pub use diagram::{Diagram, DiagramPlan};
 pub use error::{PlanError, RunError};
+pub use event_columns::{END_REASONS, EventColumns};
 pub use event_record::EventRecord;
 pub use field::{Column, Extra, Field, NumberType};
 pub use grid::{Block, Dimension, Grid, number, place};
@@ -108,6 +111,7 @@ pub use region::{DEFAULT_GRID, RegionPlan, Regions, stability_regions};
 pub use response::{ResponseBranch, ResponseCurves, ResponsePlan, ResponsePoint, SweptMotion};
 pub use run::{Results, run};
 pub use simulate::{Simulated, simulate};
+pub use simulate_many::simulate_points;
 pub use span::Span;
 pub use stretch::Stretch;
 pub use study::{Study, StudyPlan};

@@ -36,6 +36,64 @@ pub(crate) fn most_impacts(impacts: Option<u64>, periods: Option<f64>) -> u64 {
     impacts.unwrap_or(if periods.is_some() { MOST_IMPACTS } else { DEFAULT_IMPACTS })
 }
 
+/// The reason why a list of events ends, the time at which it ends, and why there are no more impacts, if this is decided.
+pub(crate) type Ended = (&'static str, f64, Option<NoImpact>);
+
+/// When a list of events ends.
+pub(crate) struct Bounds {
+    pub(crate) impacts: u64,
+    until: f64,
+    period: f64,
+    /// The limits of the search for each contact.
+    pub(crate) search: SearchLimits,
+}
+
+/// The events of a motion so far.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct SoFar {
+    /// The number of impacts.
+    pub(crate) struck: u64,
+    /// The number of events since the last impact.
+    idle: u32,
+    /// The time of the last event.
+    last: f64,
+}
+
+impl Bounds {
+    /// Up to the given number of impacts and of forcing periods; 100 impacts, or a million with `periods`, when absent.
+    pub(crate) fn new(osc: &Oscillator, (impacts, periods): (Option<u64>, Option<f64>)) -> Self {
+        let search = SearchLimits::default();
+        Self {
+            impacts: most_impacts(impacts, periods),
+            until: periods.map_or(f64::INFINITY, |n| n * osc.period()),
+            period: osc.period(),
+            search: SearchLimits { periods: search.periods.max(periods.unwrap_or(0.0)), ..search },
+        }
+    }
+
+    /// Whether the next event of a motion belongs to the list, and the end if the list ends with it or before it.
+    pub(crate) fn next(&self, so_far: &mut SoFar, event: &Event) -> (bool, Option<Ended>) {
+        if event.time > self.until {
+            return (false, Some(("time_limit", self.until, None)));
+        }
+        so_far.last = event.time;
+        let end = if let EventKind::Impact { .. } = event.kind {
+            (so_far.struck, so_far.idle) = (so_far.struck + 1, 0);
+            (so_far.struck >= self.impacts).then_some(("impact_limit", event.time, None))
+        } else {
+            so_far.idle += 1;
+            let horizon = Some(NoImpact::Grazing { phase: event.phase });
+            (so_far.idle >= IDLE).then_some(("no_more_impacts", event.time, horizon))
+        };
+        (true, end)
+    }
+
+    /// The end of a list if no event follows those so far.
+    pub(crate) fn ended(&self, so_far: &SoFar, end: Option<End>) -> Ended {
+        ended(end, so_far.last, self.until, self.period)
+    }
+}
+
 /// Follows a motion up to the given number of impacts and of forcing periods; 100 impacts, or a million with `periods`,
 /// when absent.
 ///
@@ -44,49 +102,37 @@ pub(crate) fn most_impacts(impacts: Option<u64>, periods: Option<f64>) -> u64 {
 pub fn simulate(
     osc: &Oscillator,
     start: Start,
-    (impacts, periods): (Option<u64>, Option<f64>),
+    limits: (Option<u64>, Option<f64>),
     control: &Control<'_>,
 ) -> Result<Simulated, Stopped> {
-    let impacts = most_impacts(impacts, periods);
-    let limits = SearchLimits::default();
-    let limits = SearchLimits { periods: limits.periods.max(periods.unwrap_or(0.0)), ..limits };
-    let until = periods.map_or(f64::INFINITY, |n| n * osc.period());
-    let mut motion = Motion::with_limits(osc, start, limits);
+    let bounds = Bounds::new(osc, limits);
+    let mut motion = Motion::with_limits(osc, start, bounds.search);
     let mut events: Vec<Event> = Vec::new();
-    let (mut struck, mut idle) = (0, 0);
+    let mut so_far = SoFar::default();
     let (reason, time, horizon) = loop {
-        let last = events.last().map_or(0.0, |event| event.time);
         if control.stopping() {
-            return Err(Stopped { done: struck, total: impacts });
+            return Err(Stopped { done: so_far.struck, total: bounds.impacts });
         }
         let Some(event) = motion.next() else {
-            break ended(motion.end(), last, until, osc.period());
+            break bounds.ended(&so_far, motion.end());
         };
-        if event.time > until {
-            break ("time_limit", until, None);
+        let before = so_far.struck;
+        let (listed, end) = bounds.next(&mut so_far, &event);
+        if listed {
+            events.push(event);
         }
-        events.push(event);
-        if let EventKind::Impact { .. } = event.kind {
-            (struck, idle) = (struck + 1, 0);
-            if struck % TELL == 0 {
-                (control.progress)(struck);
-            }
-            if struck >= impacts {
-                break ("impact_limit", event.time, None);
-            }
-        } else {
-            idle += 1;
-            if idle >= IDLE {
-                let phase = event.phase;
-                break ("no_more_impacts", event.time, Some(NoImpact::Grazing { phase }));
-            }
+        if so_far.struck > before && so_far.struck.is_multiple_of(TELL) {
+            (control.progress)(so_far.struck);
+        }
+        if let Some(end) = end {
+            break end;
         }
     };
     Ok(Simulated { events, reason, time, horizon })
 }
 
 /// The reason why no further event came; `last` is the time of the last event.
-fn ended(end: Option<End>, last: f64, until: f64, period: f64) -> (&'static str, f64, Option<NoImpact>) {
+fn ended(end: Option<End>, last: f64, until: f64, period: f64) -> Ended {
     match end {
         Some(End::Never(why)) => ("no_more_impacts", last, Some(NoImpact::Flight(why))),
         Some(End::Stuck(_)) => ("stuck", last, None),

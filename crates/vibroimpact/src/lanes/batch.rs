@@ -69,11 +69,11 @@ impl Batch {
     }
 
     /// A batch for at most `capacity` motions of these oscillators, each of its own. `None` if the lanes cannot follow
-    /// the flights of one of them, or if they are not all of the same [`Kind`].
+    /// the flights of one of them, or if they have no [`Kind`] or not all the same one.
     pub(crate) fn of_many(oscillators: Vec<Oscillator>, capacity: usize, width: Width) -> Option<Self> {
         let strides: Vec<Stride> = oscillators.iter().map(Stride::new).collect::<Option<_>>()?;
-        let kind = Kind::of(strides.first()?);
-        let alike = strides.iter().all(|stride| Kind::of(stride) == kind);
+        let kind = Kind::of(strides.first()?)?;
+        let alike = strides.iter().all(|stride| Kind::of(stride) == Some(kind));
         alike.then(|| Self::of(Oscillators::Many(oscillators, Each::new(kind, strides, capacity)), capacity, width))
     }
 

@@ -4,6 +4,7 @@
 
 use super::constants::Constants;
 use super::hull::MARGIN;
+use super::propagator_cache::{Cached, PropagatorCache};
 use super::stride::{Halvings, LEVELS, Propagators, State, Stride};
 use super::strike::{Guess, Launch, Strike};
 use crate::flight::{Contact, Flight, SearchLimits, counted};
@@ -14,17 +15,18 @@ use crate::system::{Oscillator, Side};
 /// documents the results and `limits`.
 #[must_use]
 pub fn first_contact(osc: &Oscillator, flight: &Flight, limits: SearchLimits) -> Contact {
-    found(Stride::new(osc).as_ref(), osc, flight, limits).0
+    found((Stride::new(osc).as_ref(), None), osc, flight, limits).0
 }
 
-/// The same with the strides of the oscillator given, if it has any; returns also the number of steps.
+/// The same with the strides of the oscillator given, if it has any, and a cache of its propagators; returns also the
+/// number of steps.
 pub(crate) fn found(
-    stride: Option<&Stride>,
+    (stride, cache): (Option<&Stride>, Option<&PropagatorCache>),
     osc: &Oscillator,
     flight: &Flight,
     limits: SearchLimits,
 ) -> (Contact, u32) {
-    match stride.map_or(Err(0.0), |stride| stride.first_contact(flight)) {
+    match stride.map_or(Err(0.0), |stride| stride.first_contact(flight, cache)) {
         Ok(hit) if hit.time <= limits.horizon(osc) => (hit.into(), 1),
         Ok(_) => counted(osc, flight, limits, 0.0),
         Err(clear) => counted(osc, flight, limits, clear),
@@ -55,12 +57,16 @@ pub(super) enum Progress {
 impl Stride {
     /// The first contact of a flight. If only the careful search can decide, an error with the time up to which there
     /// is no contact.
-    pub(crate) fn first_contact(&self, flight: &Flight) -> Result<Hit, f64> {
-        self.fly(&Launch { x: flight.x, v: flight.v, sin: flight.sin, cos: flight.cos })
+    pub(crate) fn first_contact(&self, flight: &Flight, cache: Option<&PropagatorCache>) -> Result<Hit, f64> {
+        let launch = Launch { x: flight.x, v: flight.v, sin: flight.sin, cos: flight.cos };
+        match cache {
+            Some(cache) => self.fly(&launch, &Cached(self, cache)),
+            None => self.fly(&launch, self),
+        }
     }
 
     /// Takes steps from the launch until one is not proven clear, and examines that one.
-    fn fly(&self, launch: &Launch<f64>) -> Result<Hit, f64> {
+    fn fly(&self, launch: &Launch<f64>, with: &(impl Propagators<f64> + Halvings)) -> Result<Hit, f64> {
         let Self { constants, roughly, rough, .. } = self;
         let mut state = launch.state().rough();
         loop {
@@ -70,11 +76,11 @@ impl Stride {
                 state = next;
             } else {
                 let guess = Guess::of(&roughly.guess(rough.h, state.s, &from, &to));
-                let strike = constants.polish(&guess, &constants.approach(launch, &guess, self));
+                let strike = constants.polish(&guess, &constants.approach(launch, &guess, with));
                 if Constants::first_roughly(roughly, &strike, state.s, &from) == 1 {
                     return Ok(strike.into());
                 }
-                match self.refine(launch, state, self, self) {
+                match self.refine(launch, state, with, with) {
                     Progress::Hit(hit) => return Ok(hit),
                     Progress::Clear(on) => state = on,
                     Progress::Rare => return Err(f64::from(state.s)),
@@ -177,7 +183,7 @@ mod tests {
         let mut rare = 0;
         for start in starts {
             let flight = Flight::new(osc, start);
-            let Ok(hit) = stride.first_contact(&flight) else {
+            let Ok(hit) = stride.first_contact(&flight, None) else {
                 rare += 1;
                 continue;
             };

@@ -3,6 +3,7 @@
 //! | idea | file |
 //! |---|---|
 //! | the constants of the flights of an oscillator: steps with a constant matrix | `stride`, `constants` |
+//! | propagators that a long single motion needs again | `propagator_cache` |
 //! | one oscillator for all lanes, or another one in each | `systems` |
 //! | a step proven clear of the stops | `hull` |
 //! | a step that comes close to a stop and turns back | `swing` |
@@ -36,6 +37,7 @@ mod pack;
 #[cfg(target_arch = "x86_64")]
 mod pair;
 mod points;
+mod propagator_cache;
 #[cfg(target_arch = "x86_64")]
 mod single;
 mod slots;
@@ -52,6 +54,7 @@ pub use flight::first_contact;
 pub(crate) use flight::found;
 pub(crate) use integrals::add_integrals;
 pub(crate) use points::Panels;
+pub(crate) use propagator_cache::PropagatorCache;
 pub(crate) use stride::Stride;
 pub(crate) use systems::Kind;
 pub(crate) use width::Task;

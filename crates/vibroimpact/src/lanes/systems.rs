@@ -88,27 +88,27 @@ impl<L: Lane> Propagators<L> for &One {
     }
 }
 
-/// What the systems of one batch have in common, so that the same operations serve all lanes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// What the systems of one batch have in common, so that the same operations serve all lanes. They have no damping: with
+/// damping the closed form is not used in lanes, and propagators that differ from lane to lane would have to be computed
+/// one by one, which costs more than single motions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Kind {
     two_stops: bool,
-    damped: bool,
     form: FormKind,
 }
 
 impl Kind {
-    /// The kind of an oscillator, and the longest flight whose end the lanes can find; `None` if the lanes cannot follow
-    /// its flights.
+    /// The kind of an oscillator, and the longest flight whose end the lanes can find; `None` if its flights cannot share
+    /// lanes with those of others.
     pub(crate) fn of_flights(osc: &Oscillator) -> Option<(Self, f64)> {
         let stride = Stride::new(osc)?;
-        Some((Self::of(&stride), stride.longest()))
+        Some((Self::of(&stride)?, stride.longest()))
     }
 
     /// That of a system.
-    pub(super) fn of(stride: &Stride) -> Self {
+    pub(super) fn of(stride: &Stride) -> Option<Self> {
         let Constants { two_stops, damped, .. } = stride.constants;
-        // with damping the closed form is not used in lanes
-        Self { two_stops, damped, form: if damped { FormKind::Plain } else { stride.form.kind } }
+        (!damped).then_some(Self { two_stops, form: stride.form.kind })
     }
 }
 
@@ -173,7 +173,7 @@ impl Each {
             c,
         ];
         let (block, lane) = (&mut self.blocks[slot / WIDEST], slot % WIDEST);
-        (block.0.two_stops, block.0.damped) = (self.kind.two_stops, self.kind.damped);
+        (block.0.two_stops, block.0.damped) = (self.kind.two_stops, false);
         block.0.put(roughly, |numbers, number| numbers[lane] = *number);
         block.1.iter_mut().zip(rough.row()).for_each(|(numbers, number)| numbers[lane] = number);
         self.paces[slot] = pace.row();
@@ -207,7 +207,7 @@ impl Systems for Each {
         let one = L::splat(1.0);
         let constants = Constants {
             two_stops: self.kind.two_stops,
-            damped: self.kind.damped,
+            damped: false,
             beta,
             drag,
             gap: [up, low],
@@ -283,12 +283,7 @@ impl<L: Lane> OfGroup<'_, L> {
 impl<L: Lane> Propagators<L> for OfGroup<'_, L> {
     #[inline(always)]
     fn node(&self, k: L) -> Row<L> {
-        let Group { constants, form, .. } = &self.group;
-        if constants.damped {
-            self.alone(every::<L>(), [k; 8], k, |stride, k| stride.node(k))
-        } else {
-            closed_at_node(form, k * constants.h)
-        }
+        closed_at_node(&self.group.form, k * self.group.constants.h)
     }
     #[inline(always)]
     fn rest(&self, t: L) -> Row<L> {

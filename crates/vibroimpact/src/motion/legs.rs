@@ -6,7 +6,7 @@
 use super::{End, Event, EventKind, ImpactState};
 use crate::contact::{chatter, landing, sticking};
 use crate::flight::{Contact, Flight, SearchLimits};
-use crate::lanes::{self, Stride};
+use crate::lanes::{self, PropagatorCache, Stride};
 use crate::math::Sum;
 use crate::system::{Oscillator, Side, Start, phase};
 
@@ -143,6 +143,16 @@ impl<'a> Motion<'a> {
         Self { osc, stride: Stride::new(osc), limits, time: Sum::default(), mode, last: None, steps: 0 }
     }
 
+    /// The same motion, begun at this time of a longer one.
+    pub(crate) fn begun(self, time: Sum) -> Self {
+        Self { time, ..self }
+    }
+
+    /// The time of the last event.
+    pub(crate) const fn time(&self) -> Sum {
+        self.time
+    }
+
     /// Why there is no further event; `None` while the motion continues.
     #[must_use]
     pub const fn end(&self) -> Option<End> {
@@ -177,10 +187,10 @@ impl<'a> Motion<'a> {
     }
 
     /// Follows a flight to its end; `released` is the stop from which it was released, if it begins with a release.
-    fn fly(&mut self, flight: Flight, released: Option<Side>) -> Option<Event> {
+    fn fly(&mut self, flight: Flight, released: Option<Side>, cache: Option<&PropagatorCache>) -> Option<Event> {
         let leg =
             |duration| Leg { begin: self.time.value(), duration, phase: flight.phase, path: Path::Flight(flight) };
-        let (contact, steps) = lanes::found(self.stride.as_ref(), self.osc, &flight, self.limits);
+        let (contact, steps) = lanes::found((self.stride.as_ref(), cache), self.osc, &flight, self.limits);
         self.steps += u64::from(steps);
         if let Contact::Impact { time, side, .. } | Contact::Grazing { time, side, .. } = contact
             && released == Some(side)
@@ -250,9 +260,16 @@ impl Iterator for Motion<'_> {
     type Item = Event;
 
     fn next(&mut self) -> Option<Event> {
+        self.advance(None)
+    }
+}
+
+impl Motion<'_> {
+    /// The next event; a cache of the propagators of the oscillator saves time in a long motion and changes nothing.
+    pub(crate) fn advance(&mut self, cache: Option<&PropagatorCache>) -> Option<Event> {
         match self.mode {
-            Mode::Flying(flight) => self.fly(flight, None),
-            Mode::Released(side, flight) => self.fly(flight, Some(side)),
+            Mode::Flying(flight) => self.fly(flight, None, cache),
+            Mode::Released(side, flight) => self.fly(flight, Some(side), cache),
             Mode::Settling { side, phase, duration, error, chatter } => {
                 let leg = Leg { begin: self.time.value(), duration, phase, path: Path::Rest(side) };
                 let phase = phase::advance(phase, self.osc.beta(), duration);

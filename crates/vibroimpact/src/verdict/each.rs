@@ -1,9 +1,11 @@
 //! A few starts of each of many oscillators settled side by side, with the same verdicts as one after another.
 //!
-//! The flights of different oscillators share the lanes of a batch, if the same formulas hold for them. Most motions
-//! are decided soon; the long ones, which are chaotic or become periodic slowly, fill the lanes.
+//! The flights of different oscillators share the lanes of a batch where this saves time: if the same formulas hold for
+//! them, without damping, and if there are many motions. Most motions are decided soon; the long ones, which are chaotic
+//! or become periodic slowly, fill the lanes only if there are many of them. With damping the propagators of different
+//! oscillators are computed lane by lane, which costs more than single motions.
 
-use super::abreast::{Abreast, Launched, Source};
+use super::abreast::{Launched, Source, settle_abreast};
 use super::follow::{Follow, Releases};
 use super::many::{FEW, KnownAttractors, settle_many};
 use super::options::SettleOptions;
@@ -17,6 +19,10 @@ use crate::system::{Oscillator, Start};
 
 /// The number of motions side by side. More need more memory, and fewer leave more lanes empty at the end.
 const ABREAST: usize = 256;
+
+/// The number of motions from which shared lanes save time. With fewer, most lanes are empty while the last motions are
+/// followed. (Measured with 128 to 2000 motions side by side, with one start and with six starts of each oscillator.)
+const WORTH_SHARING: u64 = 4 * ABREAST as u64;
 
 /// An oscillator and the number of its starts.
 pub type Counted = (Oscillator, u64);
@@ -47,23 +53,43 @@ pub fn settle_each(
     width: Width,
     done: &mut dyn FnMut(usize, Settlement) -> bool,
 ) -> bool {
-    let mut groups: Vec<(Kind, Vec<usize>)> = Vec::new();
-    for (system, (osc, count)) in systems.iter().enumerate() {
+    each_sharing(WORTH_SHARING, systems, start, (options, tails, width), done)
+}
+
+/// The same; lanes are shared by this number of motions or more.
+fn each_sharing(
+    least: u64,
+    systems: &[Counted],
+    start: impl Fn(usize, u64) -> Start,
+    (options, tails, width): (&SettleOptions, bool, Width),
+    done: &mut dyn FnMut(usize, Settlement) -> bool,
+) -> bool {
+    // the number of motions of each kind that can share lanes
+    let mut kinds: Vec<(Kind, u64)> = Vec::new();
+    let mut kind_of = |(osc, count): &Counted| {
         let few = (1..FEW as u64).contains(count);
-        match Kind::of_flights(osc).filter(|(_, longest)| few && *longest < options.limits.horizon(osc)) {
-            Some((kind, _)) => match groups.iter_mut().find(|(known, _)| *known == kind) {
-                Some((_, group)) => group.push(system),
-                None => groups.push((kind, vec![system])),
-            },
-            None => {
-                let (of_one, none) = (|k: u64| start(system, k), KnownAttractors::default());
-                if done(system, settle_many(osc, 0..*count, of_one, &none, options, width, &|| false)) {
-                    return false;
-                }
-            }
+        let kind = if few { Kind::of_flights(osc) } else { None };
+        let (kind, _) = kind.filter(|(_, longest)| *longest < options.limits.horizon(osc))?;
+        let known = kinds.iter().position(|(known, _)| *known == kind).unwrap_or_else(|| {
+            kinds.push((kind, 0));
+            kinds.len() - 1
+        });
+        kinds[known].1 += count;
+        Some(known)
+    };
+    let numbers: Vec<Option<usize>> = systems.iter().map(&mut kind_of).collect();
+    let mut groups: Vec<Vec<usize>> = vec![Vec::new(); kinds.len()];
+    for (system, number) in numbers.into_iter().enumerate() {
+        if let Some(number) = number.filter(|number| kinds[*number].1 >= least) {
+            groups[number].push(system);
+            continue;
+        }
+        let ((osc, count), none) = (&systems[system], KnownAttractors::default());
+        if done(system, settle_many(osc, 0..*count, |k| start(system, k), &none, options, width, &|| false)) {
+            return false;
         }
     }
-    for (_, group) in groups {
+    for group in groups.into_iter().filter(|group| !group.is_empty()) {
         let starts: u64 = group.iter().map(|system| systems[*system].1).sum();
         let oscillators = group.iter().map(|system| systems[*system].0).collect();
         let capacity = usize::try_from(starts).unwrap_or(ABREAST).min(ABREAST);
@@ -81,7 +107,7 @@ pub fn settle_each(
             done: &mut *done,
             stopped: false,
         };
-        if Abreast::new(batch, options, source).run().stopped {
+        if settle_abreast(batch, options, source).stopped {
             return false;
         }
     }
@@ -234,10 +260,13 @@ mod tests {
         let chaotic = |of: &Settlement| of.motions.iter().any(|found| matches!(found.verdict, Verdict::Chaotic(_)));
         assert!(expected.iter().any(chaotic));
         for width in Width::ALL.into_iter().filter(|width| width.available()) {
-            for part in [0..systems.len(), 0..9, 5..systems.len()] {
+            for (least, part) in
+                [(0, 0..systems.len()), (0, 0..9), (20, 5..systems.len()), (u64::MAX, 0..systems.len())]
+            {
                 let mut left: Vec<usize> = part.clone().collect();
                 let of = |k: usize, index: u64| start(part.start + k, index);
-                let ended = settle_each(&systems[part.clone()], of, &options, true, width, &mut |k, got| {
+                let asked = (&options, true, width);
+                let ended = each_sharing(least, &systems[part.clone()], of, asked, &mut |k, got| {
                     assert_eq!(got, expected[part.start + k], "{width:?} {:?}", systems[part.start + k]);
                     left.retain(|system| *system != part.start + k);
                     false

@@ -6,7 +6,7 @@
 //! The result does not depend on how the starts are divided. Motions are compared as in [`Census`](super::Census), and
 //! the verdict reported for each is that of [`settle`] on the first start that leads to it.
 
-use super::abreast::{Abreast, Launched, Source};
+use super::abreast::{Launched, Source, settle_abreast};
 use super::attractors::SAME;
 use super::follow::{Follow, Releases};
 use super::options::SettleOptions;
@@ -109,7 +109,7 @@ impl Question<'_> {
             return part;
         };
         let source = Starts { known: &survey.known, releases, range, start, next: 0, part, tick: self.tick };
-        Abreast::new(batch, self.options, source).run().part
+        settle_abreast(batch, self.options, source).part
     }
 }
 

@@ -23,6 +23,7 @@
 use super::follow::{Follow, Releases, ended};
 use super::options::SettleOptions;
 use super::outcome::{Chaos, Verdict};
+use crate::lanes::PropagatorCache;
 use crate::lyapunov::Arrivals;
 use crate::motion::{EventKind, ImpactState, Motion};
 use crate::system::{Oscillator, Start};
@@ -91,8 +92,9 @@ fn drive(
     go_on: impl Fn() -> bool,
 ) -> Option<(Settled, Arrivals)> {
     let mut follow = Follow::keeping_tail();
+    let cache = PropagatorCache::new();
     let mut motion = Motion::with_limits(osc, start, options.limits);
-    let mut drive = Drive { osc, options, follow: &mut follow, releases, time: 0.0 };
+    let mut drive = Drive { osc, options, follow: &mut follow, releases, cache: Some(&cache), time: 0.0 };
     let verdict = drive.on(&mut motion, |_| !go_on())?;
     let time = drive.time;
     let transient =
@@ -107,6 +109,8 @@ pub(super) struct Drive<'a> {
     pub(super) options: &'a SettleOptions,
     pub(super) follow: &'a mut Follow,
     pub(super) releases: &'a mut Releases,
+    /// The propagators of the oscillator, kept for a motion that may be long.
+    pub(super) cache: Option<&'a PropagatorCache>,
     /// The time followed so far.
     pub(super) time: f64,
 }
@@ -114,11 +118,11 @@ pub(super) struct Drive<'a> {
 impl Drive<'_> {
     /// Follows the motion to a verdict, or to the first impact at which `leave` returns true.
     pub(super) fn on(&mut self, motion: &mut Motion<'_>, leave: impl Fn(&ImpactState) -> bool) -> Option<Verdict> {
-        let Self { osc, options, follow, .. } = self;
+        let Self { osc, options, follow, cache, .. } = self;
         let before = follow.steps;
         // every other event is followed by an impact or ends the motion; runs of grazing contacts are limited
         while follow.within(options) {
-            let Some(event) = motion.next() else {
+            let Some(event) = motion.advance(*cache) else {
                 return Some(ended(osc, motion.end(), options.limits));
             };
             self.time = event.time;

@@ -1,0 +1,178 @@
+//! The events of many motions as columns of numbers.
+
+use vibroimpact::Side;
+use vibroimpact::motion::{Event, EventKind};
+
+/// The reasons for which lists of events end, in the order of their codes.
+pub const END_REASONS: [&str; 5] = ["impact_limit", "time_limit", "no_more_impacts", "stuck", "search_limit"];
+
+/// The events of many motions: a row for each motion, with room for `width` events.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct EventColumns {
+    /// The largest number of events of a motion.
+    pub width: usize,
+    /// 0 impact, 1 graze, 2 stick, 3 release; -1 after the last event.
+    pub kind: Vec<i8>,
+    /// 1 for the first stop, -1 for the second; 0 after the last event.
+    pub side: Vec<i8>,
+    /// Time since the start; nan after the last event.
+    pub time: Vec<f64>,
+    /// Phase of the force.
+    pub phase: Vec<f64>,
+    /// The velocity towards the stop before an impact; nan for other events.
+    pub velocity_before: Vec<f64>,
+    /// The velocity towards the stop after an impact; nan for other events.
+    pub velocity_after: Vec<f64>,
+    /// The number of events of each motion.
+    pub count: Vec<i32>,
+    /// Why the list of each motion ends: a place in [`END_REASONS`].
+    pub end: Vec<i8>,
+    /// The time at which the list of each motion ends.
+    pub end_time: Vec<f64>,
+}
+
+/// Some rows, which one thread fills. Events for which the rows have no room are kept aside, each with its row.
+pub(crate) struct Rows<'a> {
+    width: usize,
+    small: [&'a mut [i8]; 2],
+    real: [&'a mut [f64]; 4],
+    count: &'a mut [i32],
+    end: &'a mut [i8],
+    end_time: &'a mut [f64],
+    aside: Vec<(usize, Event)>,
+}
+
+/// The numbers of an event: kind and stop; time, phase and velocities.
+fn numbers(event: &Event) -> ([i8; 2], [f64; 4]) {
+    let (kind, before, after) = match event.kind {
+        EventKind::Impact { velocity_before, velocity_after } => (0, velocity_before, velocity_after),
+        EventKind::Graze { .. } => (1, f64::NAN, f64::NAN),
+        EventKind::Stick { .. } => (2, f64::NAN, f64::NAN),
+        EventKind::Release => (3, f64::NAN, f64::NAN),
+    };
+    let side = match event.side {
+        Side::Upper => 1,
+        Side::Lower => -1,
+    };
+    ([kind, side], [event.time, event.phase, before, after])
+}
+
+/// What is written after the last event of a motion.
+const NOTHING: ([i8; 2], [f64; 4]) = ([-1, 0], [f64::NAN; 4]);
+
+impl Rows<'_> {
+    /// Writes the next event of a motion into its row.
+    #[inline]
+    pub(crate) fn push(&mut self, row: usize, event: &Event) {
+        let count = usize::try_from(self.count[row]).unwrap_or(usize::MAX);
+        self.count[row] += 1;
+        if count >= self.width {
+            return self.aside.push((row, *event));
+        }
+        let (at, (small, real)) = (row * self.width + count, numbers(event));
+        self.small.iter_mut().zip(small).for_each(|(column, value)| column[at] = value);
+        self.real.iter_mut().zip(real).for_each(|(column, value)| column[at] = value);
+    }
+
+    /// Writes why and when the list of a motion ends.
+    pub(crate) fn end(&mut self, row: usize, reason: &str, time: f64) {
+        let code = END_REASONS.iter().position(|known| *known == reason);
+        self.end[row] = code.and_then(|code| i8::try_from(code).ok()).unwrap_or(-1);
+        self.end_time[row] = time;
+    }
+
+    /// Fills up all rows. Returns the events for which they had no room.
+    pub(crate) fn filled(mut self) -> Vec<(usize, Event)> {
+        for (row, count) in self.count.iter().enumerate() {
+            let count = usize::try_from(*count).unwrap_or(0).min(self.width);
+            let rest = row * self.width + count..(row + 1) * self.width;
+            self.small.iter_mut().zip(NOTHING.0).for_each(|(column, value)| column[rest.clone()].fill(value));
+            self.real.iter_mut().zip(NOTHING.1).for_each(|(column, value)| column[rest.clone()].fill(value));
+        }
+        self.aside
+    }
+}
+
+impl EventColumns {
+    /// Columns with this number of rows, of `width` events each, which is at least 1. They must be
+    /// [filled](Rows::filled).
+    pub(crate) fn open(rows: usize, width: usize) -> Self {
+        let (small, real) = (|| vec![0; rows * width], || vec![0.0; rows * width]);
+        Self {
+            width,
+            kind: small(),
+            side: small(),
+            time: real(),
+            phase: real(),
+            velocity_before: real(),
+            velocity_after: real(),
+            count: vec![0; rows],
+            end: vec![0; rows],
+            end_time: vec![0.0; rows],
+        }
+    }
+
+    /// The rows in parts of `part` rows each.
+    pub(crate) fn parts(&mut self, part: usize) -> Vec<Rows<'_>> {
+        let (width, cells) = (self.width, part * self.width);
+        let small = self.kind.chunks_mut(cells).zip(self.side.chunks_mut(cells));
+        let times = self.time.chunks_mut(cells).zip(self.phase.chunks_mut(cells));
+        let velocities = self.velocity_before.chunks_mut(cells).zip(self.velocity_after.chunks_mut(cells));
+        let ends = self.count.chunks_mut(part).zip(self.end.chunks_mut(part)).zip(self.end_time.chunks_mut(part));
+        let all = small.zip(times.zip(velocities)).zip(ends);
+        all.map(|(((kind, side), ((time, phase), (before, after))), ((count, end), end_time))| Rows {
+            width,
+            small: [kind, side],
+            real: [time, phase, before, after],
+            count,
+            end,
+            end_time,
+            aside: Vec::new(),
+        })
+        .collect()
+    }
+
+    /// The columns with room for exactly the events of the longest row. `aside` are the events that the rows had no room
+    /// for, in their order.
+    pub(crate) fn fitted(mut self, aside: impl Iterator<Item = (usize, Event)>) -> Self {
+        let longest = self.count.iter().max().map_or(0, |count| usize::try_from(*count).unwrap_or(0));
+        let (old, rows) = (self.width, self.count.len());
+        if longest == old {
+            return self;
+        }
+        for (column, nothing) in [&mut self.kind, &mut self.side].into_iter().zip(NOTHING.0) {
+            refit(column, rows, (old, longest), nothing);
+        }
+        let real = [&mut self.time, &mut self.phase, &mut self.velocity_before, &mut self.velocity_after];
+        for (column, nothing) in real.into_iter().zip(NOTHING.1) {
+            refit(column, rows, (old, longest), nothing);
+        }
+        self.width = longest;
+        let mut next = vec![old; rows];
+        for (row, event) in aside {
+            let (at, ([kind, side], [time, phase, before, after])) = (row * longest + next[row], numbers(&event));
+            next[row] += 1;
+            (self.kind[at], self.side[at], self.time[at], self.phase[at]) = (kind, side, time, phase);
+            (self.velocity_before[at], self.velocity_after[at]) = (before, after);
+        }
+        self
+    }
+}
+
+/// Rows of one width as rows of another one.
+fn refit<T: Copy>(column: &mut Vec<T>, rows: usize, (old, new): (usize, usize), nothing: T) {
+    if new < old {
+        for row in 0..rows {
+            column.copy_within(row * old..row * old + new, row * new);
+        }
+        column.truncate(rows * new);
+        column.shrink_to_fit();
+        return;
+    }
+    let mut wider = Vec::with_capacity(rows * new);
+    for (row, values) in column.chunks(old).enumerate() {
+        wider.extend_from_slice(values);
+        wider.resize((row + 1) * new, nothing);
+    }
+    *column = wider;
+}

@@ -1,0 +1,232 @@
+//! The events of the motions at many points, by several threads.
+
+use crate::event_columns::Rows;
+use crate::simulate::{Bounds, SoFar};
+use crate::{Control, EventColumns, PlanError, PointsPlan, RunError, StartPlan, SystemPlan, tiles};
+use std::sync::Mutex;
+use vibroimpact::lanes::Width;
+use vibroimpact::motion::{End, Event, EventRecorder, record_events};
+use vibroimpact::{Oscillator, Start};
+
+/// Number of points of a tile: of one system, whose motions share lanes, and of several.
+const TILES: [usize; 2] = [512, 32];
+
+/// The largest number of cells of a column that is allocated before the number of events is known.
+const MOST_CELLS: usize = 1 << 25;
+/// The number of events for which there is room if only the time is limited.
+const ROOM: u64 = 64;
+
+/// Follows the motion at each point event by event, up to the given number of impacts and of forcing periods, as
+/// [`simulate`](crate::simulate()) does. The motions of one system are followed side by side.
+///
+/// # Errors
+/// [`RunError`] for the first invalid point, or when stopped.
+pub fn simulate_points(
+    points: &PointsPlan,
+    (system, start): (&SystemPlan, &StartPlan),
+    limits: (Option<u64>, Option<f64>),
+    control: &Control<'_>,
+) -> Result<EventColumns, RunError> {
+    points.check(system, start, |there, start| start.start(&there.oscillator()?).map(|_| ()))?;
+    let one = if points.one_system() { Some(system.oscillator()?) } else { None };
+    let tile = TILES[usize::from(one.is_none())];
+    let total = usize::try_from(points.count()).unwrap_or(usize::MAX);
+    let mut columns = EventColumns::open(total, room(total, limits));
+    let parts: Vec<Mutex<Option<Rows<'_>>>> =
+        columns.parts(tile).into_iter().map(|rows| Mutex::new(Some(rows))).collect();
+    let aside = tiles(total as u64, tile as u64, control, |range, tick| {
+        let [first, last] = [range.start, range.end].map(|k| usize::try_from(k).unwrap_or(usize::MAX));
+        let rows = parts[first / tile].lock().ok().and_then(|mut rows| rows.take());
+        let Some(rows) = rows else { return Ok(Vec::new()) };
+        let mut part = Part { rows, so_far: vec![SoFar::default(); last - first], control, tick };
+        if let Some(osc) = &one {
+            let at = |k: usize| points.start_in((system, system), start, k).start(osc);
+            let starts: Vec<Start> = (first..last).map(at).collect::<Result<_, PlanError>>()?;
+            part.record(0, osc, &starts, limits);
+        } else {
+            for k in first..last {
+                let (osc, start) = points.problem(system, start, k)?;
+                part.record(k - first, &osc, &[start], limits);
+                if control.stopping() {
+                    break;
+                }
+            }
+        }
+        Ok(part.rows.filled().into_iter().map(|(row, event)| (first + row, event)).collect::<Vec<_>>())
+    })?;
+    drop(parts);
+    let aside = aside.into_iter().collect::<Result<Vec<Vec<_>>, PlanError>>()?;
+    Ok(columns.fitted(aside.into_iter().flatten()))
+}
+
+/// The number of events for which each row has room at first: most motions have one for each impact.
+fn room(rows: usize, (impacts, periods): (Option<u64>, Option<f64>)) -> usize {
+    let wanted = impacts.unwrap_or(if periods.is_some() { ROOM } else { crate::simulate::most_impacts(None, None) });
+    usize::try_from(wanted).unwrap_or(usize::MAX).min(MOST_CELLS / rows.max(1)).max(1)
+}
+
+/// The rows of a tile, and the events of each of its motions so far.
+struct Part<'a> {
+    rows: Rows<'a>,
+    so_far: Vec<SoFar>,
+    control: &'a Control<'a>,
+    tick: &'a (dyn Fn() -> bool + Sync),
+}
+
+impl Part<'_> {
+    /// Follows the motions of one system into the rows from `first` on.
+    fn record(&mut self, first: usize, osc: &Oscillator, starts: &[Start], limits: (Option<u64>, Option<f64>)) {
+        let bounds = Bounds::new(osc, limits);
+        let search = bounds.search;
+        record_events(osc, starts, search, Width::best(), &mut Motions { part: self, first, bounds });
+    }
+}
+
+/// Motions of one system, with the row of the first one.
+struct Motions<'p, 'a> {
+    part: &'p mut Part<'a>,
+    first: usize,
+    bounds: Bounds,
+}
+
+impl EventRecorder for Motions<'_, '_> {
+    #[inline]
+    fn event(&mut self, motion: usize, event: &Event) -> bool {
+        let row = self.first + motion;
+        let (listed, end) = self.bounds.next(&mut self.part.so_far[row], event);
+        if listed {
+            self.part.rows.push(row, event);
+        }
+        if let Some((reason, time, _)) = end {
+            self.part.rows.end(row, reason, time);
+            return false;
+        }
+        !self.part.control.stopping()
+    }
+
+    fn end(&mut self, motion: usize, end: Option<End>) {
+        let row = self.first + motion;
+        let (reason, time, _) = self.bounds.ended(&self.part.so_far[row], end);
+        self.part.rows.end(row, reason, time);
+    }
+
+    fn stopping(&mut self) -> bool {
+        (self.part.tick)()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Coordinate, END_REASONS, ListedColumn, Simulated, simulate};
+    use core::sync::atomic::{AtomicBool, Ordering};
+    use vibroimpact::Side;
+    use vibroimpact::motion::EventKind;
+
+    /// What varies, and its value for a number from 0 to 1.
+    type Varied = (&'static str, fn(f64) -> f64);
+
+    /// Points with these columns.
+    fn listed(columns: &[Varied], count: u32) -> PointsPlan {
+        let column = |(name, of): &Varied| ListedColumn {
+            vary: Coordinate::named(name).unwrap(),
+            values: (0..count).map(|k| of((0.618_034 * f64::from(k)).fract())).collect(),
+        };
+        PointsPlan::Listed(columns.iter().map(column).collect())
+    }
+
+    /// The columns from the events of each motion alone.
+    fn expected(all: &[Simulated]) -> EventColumns {
+        let width = all.iter().map(|one| one.events.len()).max().unwrap();
+        let mut columns = EventColumns { width, ..EventColumns::default() };
+        for one in all {
+            for k in 0..width {
+                let event = one.events.get(k);
+                let kind = event.map(|event| event.kind);
+                columns.kind.push(kind.map_or(-1, |kind| match kind {
+                    EventKind::Impact { .. } => 0,
+                    EventKind::Graze { .. } => 1,
+                    EventKind::Stick { .. } => 2,
+                    EventKind::Release => 3,
+                }));
+                columns.side.push(event.map_or(0, |event| if event.side == Side::Upper { 1 } else { -1 }));
+                columns.time.push(event.map_or(f64::NAN, |event| event.time));
+                columns.phase.push(event.map_or(f64::NAN, |event| event.phase));
+                let (before, after) = match kind {
+                    Some(EventKind::Impact { velocity_before, velocity_after }) => (velocity_before, velocity_after),
+                    _ => (f64::NAN, f64::NAN),
+                };
+                columns.velocity_before.push(before);
+                columns.velocity_after.push(after);
+            }
+            columns.count.push(i32::try_from(one.events.len()).unwrap());
+            columns.end.push(END_REASONS.iter().position(|reason| *reason == one.reason).unwrap().try_into().unwrap());
+            columns.end_time.push(one.time);
+        }
+        columns
+    }
+
+    /// All numbers as bits, so that nan equals nan.
+    fn bits(of: &EventColumns) -> (usize, Vec<i8>, Vec<i32>, Vec<u64>) {
+        let real = [&of.time, &of.phase, &of.velocity_before, &of.velocity_after, &of.end_time];
+        let real = real.into_iter().flatten().map(|value| value.to_bits()).collect();
+        (of.width, [&of.kind[..], &of.side, &of.end].concat(), of.count.clone(), real)
+    }
+
+    fn system(inverse: f64, gap: f64, restitution: f64, damping: f64) -> SystemPlan {
+        SystemPlan { inverse_beta: Some(inverse), gap, restitution, damping, ..SystemPlan::default() }
+    }
+
+    #[test]
+    fn the_same_as_one_by_one() {
+        let starts: &[Varied] = &[("x", |u| -0.6 - 3.0 * u), ("v", |u| 4.0 * u - 2.0), ("phase", |u| 9.0 * u)];
+        let various: &[Varied] = &[("inverse_beta", |u| 0.4 + 2.0 * u), ("gap", |u| 3.0 * u - 0.5), ("v", |u| u)];
+        let mut reasons = [0; END_REASONS.len()];
+        let limits = [(Some(40), None), (None, Some(12.5)), (None, Some(70.0)), (Some(3), Some(20.0)), (None, None)];
+        for (over, x, system) in [
+            (starts, None, system(1.8, 0.25, 0.5, 0.0)),
+            (starts, None, system(1.11, -0.5, 0.5, 0.0)),
+            (starts, None, system(1.3, 0.75, 0.0, 0.01)),
+            (starts, None, system(1.3, 0.4, 1.0, 0.0)),
+            (starts, None, system(0.5, 40.0, 0.5, 0.0)),
+            (starts, None, system(0.5, -0.5, 0.9, 0.05)),
+            (various, Some(-0.6), system(1.0, 0.5, 0.6, 0.02)),
+        ] {
+            let points = listed(over, 530);
+            let start = StartPlan { x, ..StartPlan::default() };
+            for limits in limits {
+                let alone = |k| {
+                    let (osc, start) = points.problem(&system, &start, k).unwrap();
+                    simulate(&osc, start, limits, &Control::default()).unwrap()
+                };
+                let alone: Vec<Simulated> = (0..530).map(alone).collect();
+                for one in &alone {
+                    reasons[END_REASONS.iter().position(|reason| *reason == one.reason).unwrap()] += 1;
+                }
+                let expected = expected(&alone);
+                for threads in [1, 2] {
+                    let control = Control { threads, ..Control::default() };
+                    let got = simulate_points(&points, (&system, &start), limits, &control).unwrap();
+                    assert!(bits(&got) == bits(&expected), "{system:?} {limits:?}");
+                }
+            }
+        }
+        assert!(reasons[..3].iter().all(|count| *count > 100), "{reasons:?}");
+    }
+
+    #[test]
+    fn the_flag_stops_it_also_in_a_long_motion() {
+        let (points, system) = (listed(&[("v", |u| u)], 40), system(1.8, 0.25, 0.5, 0.0));
+        let stop = AtomicBool::new(false);
+        let tell = |done| {
+            stop.fetch_or(done >= 1, Ordering::Relaxed);
+        };
+        let control = Control { stop: &stop, progress: &tell, threads: 1 };
+        let start = StartPlan::default();
+        let stopped = simulate_points(&points, (&system, &start), (Some(1000), None), &control);
+        assert!(matches!(stopped, Err(RunError::Stopped(of)) if of.done < 40), "{stopped:?}");
+        stop.store(true, Ordering::Relaxed);
+        let stopped = simulate_points(&points, (&system, &start), (Some(10_000_000), None), &control);
+        assert!(matches!(stopped, Err(RunError::Stopped(of)) if of.done == 0), "{stopped:?}");
+    }
+}
