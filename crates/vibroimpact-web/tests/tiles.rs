@@ -52,7 +52,8 @@ fn read(bytes: &[u8]) -> Tile {
     };
     let name = |four: &&[u8]| {
         let code = i32::from_le_bytes((*four).try_into().unwrap());
-        header["labels"][code.to_string()]["name"].as_str().unwrap().to_owned()
+        // places after the last motion have none
+        header["labels"][code.to_string()]["name"].as_str().unwrap_or_default().to_owned()
     };
     let labels = field("label", 4).unwrap().iter().map(name).collect();
     let own =
@@ -146,9 +147,9 @@ async fn every_point_of_a_whole_tile_is_that_of_the_command_without_refinement()
     let side = SIDE as usize;
     let names = ["inverse_beta", "gap"];
     for (more, budgets, within) in [
-        (r#","starts":1,"seed":1"#, [200, 5000], 0),
-        (r#","starts":1,"seed":1"#, [200, 1000], 10_000),
-        (r#","starts":3,"seed":1,"fields":["power"]"#, [200, 1000], 20),
+        (r#","starts":1,"seed":1"#, [200, 5000], 10_000),
+        (r#","starts":1,"seed":1"#, [200, 1000], 20),
+        (r#","starts":16,"seed":1,"fields":["power"]"#, [60, 200], 0),
     ] {
         let (mut parts, mut filled) = (0, 0);
         for window in windows([0.375, 2.025, 0.005, 5.0]) {

@@ -17,7 +17,7 @@ const LARGE: u64 = 17_000;
 /// Budgets of impacts up to this one are small.
 const BRIEF: u32 = 1000;
 /// Side of the part of a tile that one thread computes, if there are several threads.
-const SIDE: u32 = 32;
+const SIDE: u32 = 64;
 
 pub(super) async fn tile(State(explorer): State<Explorer>, asked: PlanRequest) -> Result<Response, Refusal> {
     let PlanRequest { mut plan, points } = asked;
