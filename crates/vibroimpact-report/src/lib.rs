@@ -6,7 +6,6 @@
 //! | idea | file |
 //! |---|---|
 //! | a plan, its result, and everything that is reported of it | [`answer()`], [`Answer`], [`Shown`] |
-//! | the figure of a map whose points between others that agree are not computed | [`refined_figure`] |
 //! | the same for a plan of a machine | [`machine_answer()`], [`MachineAnswer`] |
 //! | the system of a question, and the units of results | [`Asked`], [`Units`] |
 //! | the JSON objects of the commands, one file for each | [`json`] |
@@ -24,7 +23,6 @@ pub mod json;
 mod machine_answer;
 pub mod number;
 pub mod question;
-mod refined;
 pub mod scene;
 pub mod table;
 mod units;
@@ -32,7 +30,6 @@ mod units;
 pub use answer::{Answer, AnswerError, Shown, answer};
 pub use error::ReportError;
 pub use machine_answer::{MachineAnswer, machine_answer};
-pub use refined::refined_figure;
 pub use table::Table;
 pub use units::{Asked, Units};
 

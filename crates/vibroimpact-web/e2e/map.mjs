@@ -10,7 +10,7 @@ const countTiles = (page) => page.addInitScript(() => {
   const original = globalThis.fetch;
   globalThis.tiles = { under: 0, budgets: [] };
   globalThis.fetch = async (path, options) => {
-    if (path !== "/api/tile") return original(path, options);
+    if (!/^.api.(tile|whole)/.test(path)) return original(path, options);
     const { map, basin } = JSON.parse(options.body).task;
     globalThis.tiles.budgets.push((map ?? basin).impacts);
     globalThis.tiles.under++;
@@ -36,7 +36,7 @@ export async function the_map_rests_while_hidden_and_pauses({ open }) {
   const begun = () => page.evaluate(() => globalThis.tiles.budgets.length);
   // chaos, which takes long, and another window in every run, because the server keeps answers
   await page.goto(`${page.address}#view=1,1.3,2.6,${3.6 + 0.01 * Math.random()}&panel=none`);
-  await until("it says what it does", async () => /^Sharpening, (1000|20.000) impacts: \d+ of \d+ tiles final\.$/.test(await progress(page)));
+  await until("it says what it does", async () => /^Sharpening, 20.000 impacts: \d+ of \d+ tiles sharp\.$/.test(await progress(page)));
   // a hidden tab: nothing runs soon after, and goes on when it is seen again
   const hidden = Date.now();
   await hide(page, true);
@@ -68,13 +68,52 @@ export async function the_map_sharpens_by_itself_and_keeps_what_is_decided({ ope
   const colour = await decided();
   await complete(page);
   console.log(`        sharp after ${(first / 1000).toFixed(1)} s, complete after ${((Date.now() - begin) / 1000).toFixed(1)} s`);
-  assert.equal(await progress(page), "Complete, 1000 impacts.");
+  assert.equal(await progress(page), "Complete: every point computed, 1000 impacts.");
   assert.deepEqual(await decided(), colour, "what is decided keeps its colour");
   const budgets = await page.evaluate(() => globalThis.tiles.budgets);
   assert.ok(budgets.indexOf(1000) > 0 && budgets[0] === 200, `first 200 impacts, then 1000: ${budgets}`);
   assert.equal(budgets.lastIndexOf(200) < budgets.indexOf(1000), true, "no tile is computed again before all are there");
   await until("nothing is undecided so far", async () => !(await legend(page)).has("undecided so far"));
   assert.ok(await page.locator("#pause").isHidden());
+}
+
+/** Points between others that agree are computed at last; then the picture is that of the command without refinement. */
+export async function a_complete_map_has_no_filled_points({ open, address, folder }) {
+  for (const [k, window, more] of [[0, [1.05, 1.3, 1.6, 2.4], ""], [1, [1.6, 1.64, 1.02, 1.1], ""], [2, [1.25, 1.35, 0.7, 0.8], "&starts=3"]]) {
+    const { page } = await open("about:blank", { viewport: { width: 400, height: 340 } });
+    const [filled, plans] = [[], []];
+    page.on("response", async (response) => {
+      if (!response.url().includes("/api/whole?") || !response.ok()) return;
+      plans.push(response.request().postDataJSON());
+      filled.push((await response.body()).subarray(0, 4000).includes('"computed","type"'));
+    });
+    await page.goto(`${address}#view=${window}&impacts=1000&panel=none&layers=${more}`);
+    const said = [];
+    await until("every point is computed", async () => {
+      said.push(await progress(page));
+      return (await page.locator("#plane").getAttribute("data-complete")) !== null;
+    });
+    await complete(page);
+    assert.ok(plans.length > 0, "points between others are computed");
+    assert.ok(plans.every(({ task: { map } }) => map.refine === undefined && map.impacts === 1000));
+    // it says so while there are filled points
+    if (said.some((text) => text.startsWith("Sharp;"))) assert.ok(said.some((text) => /^Sharp; \d+ of \d+ tiles have filled points\.$/.test(text)), said.join("\n"));
+    // every tile that is drawn has the motions of the command
+    const different = await page.evaluate(async (all) => {
+      const { tile, whole } = await import("/assets/api.js");
+      let count = 0;
+      for (const plan of all) {
+        const [one, other] = [await whole(plan, { within: 60000 }), await tile({ ...plan, tile: 16 })];
+        const names = ({ header, fields }) => [...fields.label.values].map((code) => header.labels[code]?.name ?? "");
+        const [a, b] = [names(one), names(other)];
+        if (one.fields.computed || a.length !== b.length) return -1;
+        count += a.filter((name, at) => name !== b[at]).length;
+      }
+      return count;
+    }, [...new Map(plans.map((plan) => [JSON.stringify(plan), plan])).values()]);
+    assert.equal(different, 0);
+    await page.screenshot({ path: `${folder}/complete-${k}.png` });
+  }
 }
 
 /** A slider that moves 20 times a second. */

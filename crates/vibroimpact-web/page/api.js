@@ -24,7 +24,7 @@ export const pending = {
 };
 
 /** Requests that someone waits for; tiles, coarse pictures and the first request of the page are none. */
-const waitedFor = (path) => !["/api/tile", "/api/picture", "/api/about"].some((other) => path.startsWith(other));
+const waitedFor = (path) => !["/api/tile", "/api/whole", "/api/picture", "/api/about"].some((other) => path.startsWith(other));
 
 /** Counts work as pending. */
 async function counted(path, work) {
@@ -55,7 +55,7 @@ async function ask(path, { body, signal, accept } = {}) {
 }
 
 /** The body of an answer. An interrupted connection is reported as `ServerGone`. */
-async function whole(reading) {
+async function complete(reading) {
   try {
     return await reading;
   } catch (error) {
@@ -69,7 +69,7 @@ const withQuery = (path, query) => {
 };
 
 /** The units of a machine. @returns {Promise<{units: object, velocity_m_per_s: number, natural_hz: number}>} */
-export const units = async (machine, signal) => whole((await ask(withQuery("/api/units", machine), { signal })).json());
+export const units = async (machine, signal) => complete((await ask(withQuery("/api/units", machine), { signal })).json());
 
 export const about = async () => (await ask("/api/about")).json();
 
@@ -81,13 +81,21 @@ export const about = async () => (await ask("/api/about")).json();
 export const tile = (plan, signal) => arrays("/api/tile", plan, signal);
 
 /**
+ * Requests a tile of a map in which more points are computed than before, or all of them. The field `computed` says which; it
+ * is missing when all are.
+ * @param {object} plan without refinement
+ * @param {{within: number, after: string}} query milliseconds after which no further points begin, and how the tile was computed before
+ */
+export const whole = (plan, query, signal) => arrays(withQuery("/api/whole", query), plan, signal);
+
+/**
  * Requests a coarse picture within some milliseconds. The plan has its finest grid; the header says how many rows and
  * columns of larger cells the picture has. Returns the same as `tile`.
  */
 export const picture = (plan, within, signal) => arrays(withQuery("/api/picture", { within }), plan, signal);
 
 async function arrays(path, plan, signal) {
-  const buffer = await whole((await ask(path, { body: plan, signal })).arrayBuffer());
+  const buffer = await complete((await ask(path, { body: plan, signal })).arrayBuffer());
   const length = new DataView(buffer).getUint32(0, true);
   const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
   const kinds = { i32: Int32Array, f64: Float64Array, i8: Int8Array };
@@ -104,7 +112,7 @@ async function* events(response) {
   const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
   let text = "";
   for (;;) {
-    const { value, done } = await whole(reader.read());
+    const { value, done } = await complete(reader.read());
     if (done) return;
     text = (text + value).replaceAll("\r\n", "\n");
     for (let end = text.indexOf("\n\n"); end >= 0; end = text.indexOf("\n\n")) {
@@ -121,7 +129,7 @@ const told = (path, ...given) => counted(path, () => listened(path, ...given));
 
 async function listened(path, plan, signal, onProgress) {
   const response = await ask(path, { body: plan, signal, accept: "text/event-stream" });
-  if (!response.headers.get("content-type")?.startsWith("text/event-stream")) return whole(response.json());
+  if (!response.headers.get("content-type")?.startsWith("text/event-stream")) return complete(response.json());
   for await (const { event, data } of events(response)) {
     if (event === "progress") onProgress?.(data.total ? data.done / data.total : 0);
     if (event === "error") throw new ServerError(data.error);
@@ -138,7 +146,7 @@ export const answer = (plan, signal, onProgress) => told("/api/answer", plan, si
  * @returns {Promise<object>}
  */
 export const motion = (plan, periods, signal) => counted("/api/motion", async () =>
-  whole((await ask(withQuery("/api/motion", { periods }), { body: plan, signal })).json()));
+  complete((await ask(withQuery("/api/motion", { periods }), { body: plan, signal })).json()));
 
 /** @returns {Promise<{svg: string}>} the orbit diagram with its branches */
 export const bifurcation = (plan, query, signal, onProgress) =>
@@ -160,17 +168,17 @@ export const figure = (plan, query, signal) => drawn("/api/figure", plan, query,
 export const bifurcationFigure = (plan, query, signal) => drawn("/api/bifurcation", plan, query, signal);
 
 const drawn = (path, plan, query, signal) =>
-  counted(path, async () => whole((await ask(withQuery(path, query), { body: plan, signal })).blob()));
+  counted(path, async () => complete((await ask(withQuery(path, query), { body: plan, signal })).blob()));
 
 /** The table of the orbit diagram with its branches. */
 export const bifurcationTable = (plan, signal) => drawn("/api/bifurcation", plan, { table: true }, signal);
 
 /** @param {string} [kind] the view of a settled motion whose table is requested */
 export const table = (plan, kind, signal) =>
-  counted("/api/table", async () => whole((await ask(withQuery("/api/table", { kind }), { body: plan, signal })).blob()));
+  counted("/api/table", async () => complete((await ask(withQuery("/api/table", { kind }), { body: plan, signal })).blob()));
 
 /**
- * @param {{kind?: string, colour?: string, of?: string, range?: string, refine?: number}} query what the figure of the command shows
+ * @param {{kind?: string, colour?: string, of?: string, range?: string}} query what the figure of the command shows
  * @returns {Promise<{vibro: string, python: string, figure: string | null}>}
  */
-export const command = async (plan, query, signal) => whole((await ask(withQuery("/api/command", query), { body: plan, signal })).json());
+export const command = async (plan, query, signal) => complete((await ask(withQuery("/api/command", query), { body: plan, signal })).json());

@@ -1,6 +1,6 @@
 /** Requests for tiles and coarse pictures: the positions of their points, restricted to legal values. */
 
-import { tile as ask, picture } from "./api.js";
+import { tile as ask, picture, whole } from "./api.js";
 import { over } from "./plans.js";
 import { SIDE, Tile, wrapped } from "./tiles.js";
 
@@ -36,7 +36,8 @@ function cut(first, h, count, [least, most], open) {
  * @property {string} key of its tiles
  * @property {number} impacts the budget
  * @property {number} [refine] distance of the points that are computed first, if those between are computed only where these differ
- * @property {boolean} [whole] whether it computes points that an earlier stage with the same budget did not
+ * @property {boolean} [whole] whether it computes points that an earlier stage did not, which have the motions of their neighbours
+ * @property {{within: number, after: string}} [parts] if it computes them a part at a time: the options of these requests
  */
 
 /**
@@ -56,7 +57,7 @@ export function tileAsked(view, key, stage, level, [column, row]) {
   const place = () => ({
     across: cut(column * SIDE, hx, SIDE, source.legal.x, source.x.open), up: cut(row * SIDE, hy, SIDE, source.legal.y, source.y.open),
   });
-  return (signal) => ({ key, stage, tile: filled({ source, stage, key, level, shape, hx, hy, ...place() }, (plan) => ask(plan, signal)) });
+  return (signal) => ({ key, stage, tile: filled({ source, stage, key, level, shape, hx, hy, ...place() }, (plan) => (stage.parts ? whole(plan, stage.parts, signal) : ask(plan, signal))) });
 }
 
 /** Number of points of the next coarse picture. */

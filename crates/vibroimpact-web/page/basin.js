@@ -9,8 +9,8 @@ import { quantityOf, shownAs } from "./units.js";
 import { legendText, placeText, valueText } from "./words.js";
 
 /**
- * Step of the points of the first picture, and of those that are still undecided with the largest budget, which take seconds
- * where the motion is chaotic. Basins have thin arms, so with budgets up to `BRIEF` every point is computed.
+ * Step of the points of the first picture, and of those that are computed first with the largest budget, which take seconds
+ * where the motion is chaotic. Basins have thin arms, so with budgets up to `BRIEF` every point is computed, and at last with every budget.
  */
 const STEP = 2;
 const BRIEF = 1000;
@@ -104,6 +104,7 @@ export class Basin {
       stages: [
         { key: key(first, STEP), impacts: first, refine: STEP },
         ...budgets(state.impacts).map((impacts) => (impacts <= BRIEF ? { key: key(impacts), impacts, whole: true } : { key: key(impacts), impacts, refine: STEP })),
+        { key: `${key(state.impacts)}|every`, impacts: state.impacts, whole: true },
       ],
       impacts: state.impacts,
       quantity: quantityOf(state),

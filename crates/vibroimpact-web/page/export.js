@@ -12,9 +12,6 @@ import { asShown } from "./units.js";
 /** Width of figures for print, in the units of the server. */
 const WIDTH = 1000;
 
-/** Number of points along each axis of a map up to which all points of its figure are computed. */
-const WHOLE = 200;
-
 /** Numbers of points along each axis of a view. */
 const POINTS = [100, 200, 400, 800];
 
@@ -72,8 +69,7 @@ export class Export {
       plane: {
         name: "map", plan: () => span(this.views.plane.view, mapPlan), points: true,
         note: "The command draws the map without the layers, the point and the line.",
-        // a finer picture is computed as the map is: points between others that agree are not
-        drawn: () => ({ ...this.over(), ...this.colours(this.views.plane.view), refine: n > WHOLE && !state.colour ? n / 100 : null }),
+        drawn: () => ({ ...this.over(), ...this.colours(this.views.plane.view) }),
       },
     };
     if (state.point) {

@@ -18,6 +18,8 @@ const TOGETHER = 1500;
 const REFINE = 8;
 /** Budgets up to this one are small: with them every point of a quantity is computed. */
 const BRIEF = 1000;
+/** Milliseconds in which a part of the points between others is computed at last. */
+const PART = 3000;
 
 /** Maximum distance, in pixels, of a click that selects a point of the paper. */
 const NEAR = 9;
@@ -87,9 +89,15 @@ export class Plane {
     const key = (impacts) => JSON.stringify([state.x, state.y, systemOf(state, free), state.starts, impacts, state.colour]);
     // between points that agree a quantity is not the same; with the largest budget values between are those of a smaller one
     const refine = (impacts) => (state.colour && impacts <= BRIEF ? undefined : REFINE);
+    // budgets between decide few points more, and what they follow is followed again
+    const [first, last] = [budgets(state.impacts)[0], state.impacts];
+    const stages = [...new Set([first, last])].map((impacts) => ({ key: key(impacts), impacts, refine: refine(impacts) }));
+    // at last all points that have the motions of their neighbours are computed
+    const after = stages.toReversed().map((stage) => (stage.refine ? `${stage.impacts}:${stage.refine}` : stage.impacts)).join();
+    stages.push({ key: `${key(state.impacts)}|every`, impacts: state.impacts, whole: true, parts: { within: PART, after } });
     return {
       key: key(state.impacts),
-      stages: budgets(state.impacts).map((impacts) => ({ key: key(impacts), impacts, refine: refine(impacts) })),
+      stages,
       impacts: state.impacts,
       quantity: quantityOf(state),
       beyond: "no such oscillator",

@@ -18,18 +18,25 @@ export function sharpening(queue, views, gone) {
 
   const tell = () => {
     if (!plane.progress) return;
-    const { all, seen, done, impacts } = plane.progress;
+    const { all, seen, full, done, impacts } = plane.progress;
     const complete = done >= all;
     byId("plane").toggleAttribute("data-sharp", seen >= all);
+    byId("plane").toggleAttribute("data-full", full >= all);
     byId("plane").toggleAttribute("data-complete", complete);
     button.hidden = (complete || seen < all) && !paused;
     button.textContent = paused ? "Sharpen" : "Pause";
     const budget = grouped(impacts || plane.source?.impacts || 0);
-    if (!all || complete) said.textContent = all ? `Complete, ${grouped(plane.source.impacts)} impacts.` : "";
+    if (!all || complete) said.textContent = all ? `Complete: every point computed, ${grouped(plane.source.impacts)} impacts.` : "";
     else if (seen < all) said.textContent = `First picture: ${seen} of ${all} tiles.`;
-    else if (paused) said.textContent = `Paused: ${done} of ${all} tiles final.`;
-    else if (pending.count) said.textContent = `Waiting: ${done} of ${all} tiles final.`;
-    else said.textContent = `Sharpening, ${budget} impacts: ${done} of ${all} tiles final.`;
+    else {
+      const sharp = `${full} of ${all} tiles sharp`;
+      const filled = `${all - done} of ${all} tiles have filled points`;
+      const state = full < all ? sharp : filled;
+      if (paused) said.textContent = `Paused: ${state}.`;
+      else if (pending.count) said.textContent = `Waiting: ${state}.`;
+      else said.textContent = full < all ? `Sharpening, ${budget} impacts: ${sharp}.` : `Sharp; ${filled}.`;
+    }
+    said.title = seen >= all && !complete ? "Filled points have the motions of their neighbours, which agree. They are computed at last." : "";
   };
 
   button.addEventListener("click", () => {

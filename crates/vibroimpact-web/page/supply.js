@@ -33,7 +33,10 @@ export class Supply {
     this.held = false;
     /** Whether nothing is computed, until a source is shown. */
     this.stopped = false;
-    /** Numbers of tiles in view: all, those that are there, those that are final; and the budget that is computed. Null before the first request. */
+    /**
+     * Numbers of tiles in view: all, those that are there, those of which no point needs a larger budget, those in which
+     * every point is computed; and the budget that is computed. Null before the first request.
+     */
     this.progress = null;
     /** Time of the last change of the source. */
     this.turned = -Infinity;
@@ -86,11 +89,12 @@ export class Supply {
     if (this.stopped) return;
     const level = this.view.level();
     const jobs = [];
-    const progress = { all: 0, seen: 0, done: 0, impacts: 0 };
+    const progress = { all: 0, seen: 0, full: 0, done: 0, impacts: 0 };
     for (const [a, b] of this.view.places(level)) {
       const { tile, stage, next } = this.nextOf(level, a, b);
       progress.all++;
       if (stage >= 0 || !next) progress.seen++;
+      if (!next || (tile && next.whole)) progress.full++;
       if (!next) progress.done++;
       else if (stage < 0 || !this.held) jobs.push(this.tileJob(next, stage + 1, level, [a, b], tile));
     }
@@ -112,7 +116,8 @@ export class Supply {
     const following = stages.slice(stage + 1);
     // where all motions are decided, a larger budget changes nothing, but points may be left that were not computed
     const more = tile?.decided ? undefined : following.find(({ impacts }) => !tile || impacts > tile.impacts);
-    const next = more ?? following.find(({ impacts, whole }) => whole && impacts === tile?.impacts);
+    const every = tile?.filled ? stages.slice(stage).find(({ impacts, whole }) => whole && impacts >= tile.impacts) : undefined;
+    const next = more ?? every;
     return { tile, stage: next ? stages.indexOf(next) - 1 : stage, next: next && !this.refused.has(this.tileKey(next, level, a, b)) ? next : null };
   }
 
@@ -200,7 +205,8 @@ export class Supply {
         const older = before && this.cache.get(before);
         if (older) tile.adopt(older);
         this.cache.set(key, tile);
-        if (before) this.cache.delete(before);
+        // a tile of which a part was computed has the same key as before
+        if (before && before !== key) this.cache.delete(before);
       }
     } catch (error) {
       if (signal.aborted) return;

@@ -50,21 +50,23 @@ const edged = (pixel) => {
  *
  * `x0`, `y0` are the lower left corner of the first cell, `hx`, `hy` the size of a cell. `classes` has `per` numbers of
  * motions for each point (-1 for none), in rows from the bottom; `shares` has as many shares, or is null; `values` those of a
- * quantity, if one is asked for, and `own` says of each point whether it was computed itself. `look` returns
+ * quantity, if one is asked for, and `own` says of each point whether it was computed itself (1) or has the motions of its
+ * neighbours (2); null if all were computed. `filled` tells whether there are points of the second kind. `look` returns
  * the name and colour of a motion; `impacts` is the budget of the computation. `phase` and `slant` are the place of the
  * first cell in patterns along both diagonals.
  */
 export class Tile {
   constructor({ source, look, impacts, key, level, shape, x0, y0, hx, hy, columns, rows, phase, slant }) {
     Object.assign(this, { source, look, impacts, key, level, shape, x0, y0, hx, hy, columns, rows, phase, slant });
-    Object.assign(this, { classes: null, shares: null, per: 1, pictures: new Map(), undecided: new Set() });
+    Object.assign(this, { classes: null, shares: null, per: 1, pictures: new Map(), undecided: new Set(), filled: false });
   }
 
   /** Takes the answer of the server, whose cells may be larger. @param {[number, number]} shape numbers of its rows and columns */
   fill({ classes, shares, per, values = null, own = null }, [rows, columns]) {
     const [hx, hy] = [(this.hx * this.columns) / columns, (this.hy * this.rows) / rows];
     Object.assign(this, { classes, shares, per, values, own, hx, hy, rows, columns });
-    this.findUndecided();
+    this.pictures.clear();
+    this.examine();
   }
 
   /** Whether a larger budget would change nothing: every motion is decided. */
@@ -77,23 +79,29 @@ export class Tile {
     return this.own === null || this.own[point] === 1;
   }
 
-  /** Takes points that were not computed with this budget from the tile of a smaller one, if they were computed and decided with that. */
+  /**
+   * Takes points that were not computed with this budget from the tile of a smaller one, if they were computed and decided with
+   * that; and points without any motion.
+   */
   adopt(older) {
     const { own, per, classes, shares, values } = this;
     if (!own || older.classes?.length !== classes.length) return;
     for (let point = 0; point < own.length; point++) {
       const begin = point * per;
       const taken = older.classes.subarray(begin, begin + per);
-      if (own[point] === 1 || !older.isOwn(point) || taken.some((id) => older.undecided.has(id))) continue;
+      if (own[point] === 1) continue;
+      const decided = older.isOwn(point) && !taken.some((id) => older.undecided.has(id));
+      if (!decided && own[point] !== 0) continue;
       classes.set(taken, begin);
       shares?.set(older.shares.subarray(begin, begin + per), begin);
       values?.set(older.values.subarray(begin, begin + per), begin);
-      own[point] = 1;
+      own[point] = decided ? 1 : 2;
     }
-    this.findUndecided();
+    this.examine();
   }
 
-  findUndecided() {
+  examine() {
+    this.filled = this.own?.some((how) => how !== 1) ?? false;
     this.undecided = new Set([...new Set(this.classes)].filter((id) => id !== -1 && this.look(id).name === "undecided"));
   }
 

@@ -50,11 +50,26 @@ impl Explorer {
         progress: impl Fn(u64) + Send + Sync + 'static,
         work: impl FnOnce(&Control<'_>) -> Result<Bytes, Refusal> + Send + 'static,
     ) -> Result<Bytes, Refusal> {
-        if let Some(known) = self.finished.get(&name) {
+        if let Some(known) = self.known(&name) {
             return Ok(known);
         }
         let body = self.workshop.run(bench, threads, progress, work).await?;
-        self.finished.insert(name, body.clone());
+        self.keep(name, body.clone());
         Ok(body)
+    }
+
+    /// The cached answer with this key.
+    pub(crate) fn known(&self, name: &str) -> Option<Bytes> {
+        self.finished.get(name)
+    }
+
+    /// Puts an answer into the cache.
+    pub(crate) fn keep(&self, name: String, body: Bytes) {
+        self.finished.insert(name, body);
+    }
+
+    /// Removes an answer from the cache.
+    pub(crate) fn forget(&self, name: &str) {
+        self.finished.remove(name);
     }
 }

@@ -4,11 +4,12 @@
 //! bytes. The header contains the fields with their types and positions, every label that occurs with its colour, and
 //! for a basin its cycles.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use vibroimpact_plot::class_style;
 use vibroimpact_study::study::{Cells, NOT_COMPUTED, Sheet, StudyTable, label_of};
-use vibroimpact_study::{Column, Field, Quantity};
+use vibroimpact_study::{Column, Field, Grid, NumberType, Quantity};
 
 /// The fields that the page draws, besides the quantities that the plan asks for. Other fields of a study are only for tables.
 const DRAWN: [&str; 4] = ["label", "share", "cycle", "computed"];
@@ -24,11 +25,11 @@ struct Header<'a> {
     computed: f64,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
 struct Place<'a> {
-    name: &'a str,
+    name: Cow<'a, str>,
     #[serde(rename = "type")]
-    kind: &'static str,
+    kind: Cow<'a, str>,
     per_point: usize,
     offset: usize,
     length: usize,
@@ -57,21 +58,31 @@ struct Cycle {
     colour: String,
 }
 
+/// Whether the page draws a field.
+pub(crate) fn is_drawn(field: &Field) -> bool {
+    DRAWN.contains(&field.name.as_ref()) || Quantity::from_name(&field.name).is_some()
+}
+
 /// The bytes of a sheet.
 pub(crate) fn pack(sheet: &Sheet) -> Vec<u8> {
-    let grid = sheet.study.grid();
+    pack_fields(sheet.study.grid(), sheet.fields.iter().zip(&sheet.columns), &sheet.tables)
+}
+
+/// The bytes of the fields of a grid.
+pub(crate) fn pack_fields<'a>(
+    grid: &Grid,
+    fields: impl Iterator<Item = (&'a Field, &'a Column)>,
+    tables: &[StudyTable],
+) -> Vec<u8> {
     let mut body = Vec::new();
     let mut header = Header {
         shape: grid.dimensions.iter().map(|dimension| dimension.count).collect(),
         fields: Vec::new(),
         labels: BTreeMap::new(),
-        cycles: cycles(&sheet.tables),
+        cycles: cycles(tables),
         computed: 1.0,
     };
-    for (field, column) in sheet.fields.iter().zip(&sheet.columns) {
-        if !DRAWN.contains(&field.name.as_ref()) && Quantity::from_name(&field.name).is_none() {
-            continue;
-        }
+    for (field, column) in fields.filter(|(field, _)| is_drawn(field)) {
         header.fields.push(place(field, column, &mut body));
         match (field.name.as_ref(), column) {
             ("label", Column::I32(codes)) => header.labels = labels(codes),
@@ -108,7 +119,41 @@ fn place<'a>(field: &'a Field, column: &Column, body: &mut Vec<u8>) -> Place<'a>
             "f64"
         }
     };
-    Place { name: &field.name, kind, per_point: field.width(), offset, length: column.len() }
+    Place {
+        name: field.name.as_ref().into(),
+        kind: kind.into(),
+        per_point: field.width(),
+        offset,
+        length: column.len(),
+    }
+}
+
+/// The columns of these fields in packed bytes, for a grid of `points` points; `None` for a field that they do not have.
+pub(crate) fn unpack(bytes: &[u8], fields: &[Field], points: usize) -> Option<Vec<Option<Column>>> {
+    #[derive(Deserialize)]
+    struct Places<'a> {
+        #[serde(borrow)]
+        fields: Vec<Place<'a>>,
+    }
+    let (length, rest) = bytes.split_first_chunk::<4>()?;
+    let (header, body) = rest.split_at_checked(usize::try_from(u32::from_le_bytes(*length)).ok()?)?;
+    let Places { fields: places } = serde_json::from_slice(header).ok()?;
+    let column = |field: &Field| {
+        let place = places.iter().find(|place| place.name == field.name)?;
+        let (from, count) = (body.get(place.offset..)?, points * field.width());
+        Some(match field.kind {
+            NumberType::I8 => Column::I8(numbers(from, count, i8::from_le_bytes)?),
+            NumberType::I32 => Column::I32(numbers(from, count, i32::from_le_bytes)?),
+            NumberType::F64 => Column::F64(numbers(from, count, f64::from_le_bytes)?),
+        })
+    };
+    Some(fields.iter().map(column).collect())
+}
+
+/// The first `count` numbers of N bytes each.
+fn numbers<T, const N: usize>(bytes: &[u8], count: usize, read: impl Fn([u8; N]) -> T) -> Option<Vec<T>> {
+    let each = bytes.get(..N * count)?.chunks_exact(N);
+    Some(each.filter_map(|chunk| Some(read(*chunk.first_chunk()?))).collect())
 }
 
 fn labels(codes: &[i32]) -> BTreeMap<i32, Named> {
@@ -204,6 +249,23 @@ mod tests {
         assert!(value(one) > 0.0, "{}", value(one));
         let none = labels.iter().position(|code| *code == vibroimpact_study::study::NO_MOTION).unwrap();
         assert!(value(none).is_nan());
+    }
+
+    #[test]
+    fn what_is_packed_is_unpacked() {
+        let axes = r#"[{"vary":"inverse_beta","over":"0.5:2:7"},{"vary":"gap","over":"0:2:5"}]"#;
+        let task = format!(r#""map":{{"axes":{axes},"starts":2,"impacts":200,"refine":4,"fields":["power"]}}"#);
+        let text = format!(
+            r#"{{"version":1,"system":{{"inverse_beta":1.3,"gap":0.75,"restitution":0.5}},"task":{{{task}}}}}"#
+        );
+        let sheet = in_memory(Study::new(&Plan::from_text(&text).unwrap()).unwrap(), &Control::default()).unwrap();
+        let bytes = pack(&sheet);
+        let columns = unpack(&bytes, &sheet.fields, 35).unwrap();
+        for ((field, packed), unpacked) in sheet.fields.iter().zip(&sheet.columns).zip(columns) {
+            assert_eq!(unpacked.as_ref(), is_drawn(field).then_some(packed), "{}", field.name);
+        }
+        assert!(unpack(&bytes[..100], &sheet.fields, 35).is_none_or(|all| all.iter().all(Option::is_none)));
+        assert!(unpack(&bytes, &sheet.fields, 36).unwrap().iter().any(Option::is_none));
     }
 
     #[test]

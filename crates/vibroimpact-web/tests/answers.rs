@@ -178,8 +178,6 @@ async fn quantities_as_colours() {
         figure.ends_with("--fields power --colour power --of smallest --colour-range -3:7 --plot map.svg"),
         "{figure}"
     );
-    let told: Value = serde_json::from_slice(&ask("/api/command?refine=4", MAP).await.2).unwrap();
-    assert!(told["figure"].as_str().unwrap().ends_with("--store map.zarr --refine 4 --plot map.svg"), "{told}");
     for (query, sentence) in [
         ("?colour=power&of=best", "of = best is none of"),
         ("?colour=power&range=2,1", "range = 2,1"),

@@ -162,7 +162,9 @@ fn plans_that_make_no_sense_or_are_too_much() {
         (400, plan(r#""settle":{"start":{"y":1}}"#), "unknown field `y`"),
         (422, plan(r#""attractors":{"starts":900000000,"seed":1}"#), "starts = 900000000"),
     ] {
-        for path in ["/api/tile", "/api/picture?within=10", "/api/answer", "/api/figure", "/api/table"] {
+        for path in
+            ["/api/tile", "/api/whole?within=10", "/api/picture?within=10", "/api/answer", "/api/figure", "/api/table"]
+        {
             let (got, text) = server.post(path, &body);
             // a plan that is no plane is refused as a tile for this reason, if it is valid
             assert_eq!(got, status, "{path} {body}: {text}");

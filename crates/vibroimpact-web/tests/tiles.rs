@@ -21,15 +21,24 @@ struct Tile {
     own: Vec<bool>,
 }
 
-async fn ask(path: &str, plan: &str) -> Tile {
+/// The bytes of an answer.
+async fn answer(explorer: &Explorer, path: &str, plan: &str) -> Vec<u8> {
     let request = Request::post(path)
         .header(header::HOST, format!("127.0.0.1:{PORT}"))
         .header(header::CONTENT_TYPE, "application/json")
         .body(Body::from(plan.to_owned()));
-    let response = app(Explorer::new(PORT, 2)).oneshot(request.unwrap()).await.unwrap();
+    let response = app(explorer.clone()).oneshot(request.unwrap()).await.unwrap();
     let status = response.status();
     let bytes = to_bytes(response.into_body(), usize::MAX).await.unwrap();
     assert_eq!(status, 200, "{}", String::from_utf8_lossy(&bytes));
+    bytes.to_vec()
+}
+
+async fn ask(path: &str, plan: &str) -> Tile {
+    read(&answer(&Explorer::new(PORT, 2), path, plan).await)
+}
+
+fn read(bytes: &[u8]) -> Tile {
     let length = u32::from_le_bytes(bytes[..4].try_into().unwrap()) as usize;
     let header: Value = serde_json::from_slice(&bytes[4..4 + length]).unwrap();
     let body = &bytes[4 + length..];
@@ -43,7 +52,8 @@ async fn ask(path: &str, plan: &str) -> Tile {
     };
     let name = |four: &&[u8]| {
         let code = i32::from_le_bytes((*four).try_into().unwrap());
-        header["labels"][code.to_string()]["name"].as_str().unwrap().to_owned()
+        // places after the last motion have none
+        header["labels"][code.to_string()]["name"].as_str().unwrap_or_default().to_owned()
     };
     let labels = field("label", 4).unwrap().iter().map(name).collect();
     let own =
@@ -128,6 +138,81 @@ async fn every_point_of_a_tile_is_that_of_the_command() {
     // places that are filled, because the corners of an eight-point box agree, miss what touches no corner: here 60 of 6232
     println!("{seen} points, {filled} of them filled, {other} of these differ");
     assert!(seen == 10 * side * side && filled > seen / 8 && other * 50 < filled, "{seen} {filled} {other}");
+}
+
+/// After all its steps a tile of the page has no point with the motion of its neighbours: every point is that of the command
+/// without refinement, and so are the bytes.
+#[tokio::test]
+async fn every_point_of_a_whole_tile_is_that_of_the_command_without_refinement() {
+    let side = SIDE as usize;
+    let names = ["inverse_beta", "gap"];
+    for (more, budgets, within) in [
+        (r#","starts":1,"seed":1"#, [200, 5000], 10_000),
+        (r#","starts":1,"seed":1"#, [200, 1000], 20),
+        (r#","starts":16,"seed":1,"fields":["power"]"#, [60, 200], 0),
+    ] {
+        let (mut parts, mut filled) = (0, 0);
+        for window in windows([0.375, 2.025, 0.005, 5.0]) {
+            let explorer = Explorer::new(PORT, 2);
+            let text = |impacts: u32, refine: &str| {
+                plan_of("map", names, window, ([side, side], &format!("{more}{refine}")))
+                    .replace(r#""impacts":200"#, &format!(r#""impacts":{impacts}"#))
+            };
+            for impacts in budgets {
+                answer(&explorer, "/api/tile", &text(impacts, r#","refine":8"#)).await;
+            }
+            let [first, last] = budgets;
+            let whole = text(last, "");
+            let path = format!("/api/whole?within={within}&after={last}:8,{first}:8");
+            let bytes = loop {
+                let bytes = answer(&explorer, &path, &whole).await;
+                let own = read(&bytes).own;
+                parts += 1;
+                filled += own.iter().filter(|own| !**own).count();
+                if own.iter().all(|own| *own) {
+                    break bytes;
+                }
+            };
+            // a request for what is finished has the same answer
+            assert!(bytes == answer(&explorer, &path, &whole).await);
+            assert!(bytes == answer(&Explorer::new(PORT, 2), "/api/tile", &whole).await, "{whole}");
+            if more.contains("fields") {
+                continue;
+            }
+            let plan = Plan::from_text(&whole).unwrap();
+            for (k, label) in read(&bytes).labels.iter().enumerate() {
+                assert_eq!(*label, alone(&plan, k % side, k / side), "{k} of {whole}");
+            }
+        }
+        // without time each request computes one group
+        println!("{parts} requests for 5 tiles, {filled} points not computed in their answers");
+        assert!(within > 0 || (parts > 5 && filled > 0), "{parts} {filled}");
+    }
+}
+
+/// What was computed before is taken from the cache and not computed again.
+#[tokio::test]
+async fn a_whole_tile_without_what_was_before_is_the_same() {
+    let text = plan_of("map", ["inverse_beta", "gap"], [1.0, 1.5, 0.5, 2.5], ([40, 40], r#","starts":1,"seed":1"#));
+    let explorer = Explorer::new(PORT, 2);
+    let path = "/api/whole?within=100000";
+    let alone = answer(&explorer, path, &text).await;
+    let after = answer(&Explorer::new(PORT, 2), "/api/whole?within=100000&after=200:8,1000", &text).await;
+    assert!(alone == after && alone == answer(&Explorer::new(PORT, 2), "/api/tile", &text).await);
+    for (path, text, sentence) in [
+        ("/api/whole?within=1&after=200:x", text.clone(), "is no BUDGET"),
+        ("/api/whole?within=1", text.replace(r#""seed":1"#, r#""seed":1,"refine":8"#), "has no refine"),
+        ("/api/whole?within=1", plan_of("basin", ["x", "v"], [-1.0, 0.5, -1.0, 1.0], ([4, 4], "")), "piece of a map"),
+    ] {
+        let request = Request::post(path)
+            .header(header::HOST, format!("127.0.0.1:{PORT}"))
+            .header(header::CONTENT_TYPE, "application/json")
+            .body(Body::from(text));
+        let response = app(Explorer::new(PORT, 2)).oneshot(request.unwrap()).await.unwrap();
+        assert_eq!(response.status(), 400);
+        let said = to_bytes(response.into_body(), usize::MAX).await.unwrap();
+        assert!(String::from_utf8_lossy(&said).contains(sentence), "{}", String::from_utf8_lossy(&said));
+    }
 }
 
 /// The cells of a coarse picture divide its rectangle, and each has the motion of its centre.

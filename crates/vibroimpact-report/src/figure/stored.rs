@@ -23,18 +23,6 @@ pub fn figure<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     store: &A,
     colour: Option<&Coloured>,
 ) -> Result<Figure, E> {
-    figure_with(store, colour, (true, false))
-}
-
-/// As [`figure`], and whether coexisting motions and the boundaries between motions of a map are drawn.
-///
-/// # Errors
-/// As [`figure`].
-pub fn figure_with<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
-    store: &A,
-    colour: Option<&Coloured>,
-    drawn: (bool, bool),
-) -> Result<Figure, E> {
     let whole = match store.plan() {
         StudyPlan::Oscillator(plan) => plan.as_ref(),
         StudyPlan::Machine(plan) => return of_machine(store, plan, colour),
@@ -53,7 +41,7 @@ pub fn figure_with<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
             let title = title_without(&asked, &varied(&plan.axes));
             match Sides::of(&plan.axes, &asked.units)? {
                 Sides::Line(side) => Ok(shares::draw(&side, &points::<A, E>(store, None)?, title)),
-                Sides::Plane(plane) => of_map(store, &plane, title, drawn),
+                Sides::Plane(plane) => of_map(store, &plane, title),
             }
         }
         (task, None) => of_task(store, task, &asked),
@@ -102,7 +90,7 @@ fn of_machine<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     match &plan.task {
         MachineTask::Map(map) => match Sides::of_machine(&map.axes)? {
             Sides::Line(side) => Ok(shares::draw(&side, &points::<A, E>(store, None)?, title)),
-            Sides::Plane(plane) => of_map(store, &plane, title, (true, false)),
+            Sides::Plane(plane) => of_map(store, &plane, title),
         },
         MachineTask::Basin(basin) => of_basin(store, &Sides::of_machine(&basin.axes)?, title),
         MachineTask::Diagram(diagram) => {
@@ -165,7 +153,6 @@ fn of_map<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     store: &A,
     plane: &Plane,
     title: String,
-    drawn: (bool, bool),
 ) -> Result<Figure, E> {
     let Some(label) = store.field_number("label") else { return Err(ReportError::NoLabels.into()) };
     let width = store.study().fields()[label].width();
@@ -181,7 +168,7 @@ fn of_map<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
         let label = |(k, code): (usize, &i32)| Some((known.get(code)?.as_deref()?.into(), share(k)));
         cells.push(codes.iter().enumerate().filter_map(label));
     }
-    Ok(map::draw_with(plane, cells, title, drawn)?)
+    Ok(map::draw(plane, &cells, title)?)
 }
 
 #[allow(clippy::cast_precision_loss)] // counts below 2^53

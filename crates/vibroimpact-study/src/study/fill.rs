@@ -1,7 +1,7 @@
 //! The interface of a task over a grid: its grid, its coordinates, its tiles and its final tables.
 
 use super::cycles;
-use crate::grid::Dimension;
+use crate::grid::{Dimension, Index};
 use crate::{Axis, Block, Column, Extra, Field, Grid, MachineAxis, NumberType, Unit};
 use std::borrow::Cow;
 
@@ -39,6 +39,13 @@ pub(crate) trait Fill: Send + Sync {
 
     /// The columns of a tile, one for each field.
     fn columns(&self, block: &Block, tile: Self::Tile) -> Vec<Column>;
+
+    /// The columns of some points of the grid, one for each field, as a tile has them; `None` if stopped, or if only whole
+    /// tiles are computed.
+    fn points(&self, points: &[Index], tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
+        let _ = (points, tick);
+        None
+    }
 
     /// The field with the numbers of cycles and the cycles of the survey, if the task has such a field.
     fn numbered(&self) -> Option<cycles::Numbered<'_>> {
@@ -90,6 +97,7 @@ pub(super) trait Columns: Send + Sync {
     fn coordinates(&self) -> Vec<Along>;
     fn fields(&self) -> Vec<Field>;
     fn fill(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>>;
+    fn points(&self, points: &[Index], tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>>;
     fn numbered(&self) -> Option<cycles::Numbered<'_>>;
     fn together(&self) -> u64;
     fn continues(&self) -> bool;
@@ -117,6 +125,10 @@ impl<F: Fill> Columns for F {
 
     fn fill(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
         Some(self.columns(block, self.compute(block, tick)?))
+    }
+
+    fn points(&self, points: &[Index], tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
+        Fill::points(self, points, tick)
     }
 
     fn numbered(&self) -> Option<cycles::Numbered<'_>> {

@@ -146,6 +146,33 @@ impl<M: Mapped> MapFill<M> {
         let all = point.as_deref().unwrap_or(&[]);
         &all[..all.len().min(self.kept)]
     }
+
+    /// The columns of some points; `index` is the place of each in the grid.
+    fn columns_at(&self, cells: &[Cell<Motions<M>>], index: impl Fn(usize) -> Index) -> Vec<Column> {
+        let points = cells.len();
+        let mut label = vec![super::NO_MOTION; points * self.kept];
+        let mut share = vec![f64::NAN; points * self.kept];
+        // the largest speed, the largest multiplier, and the quantities
+        let mut numbers = vec![vec![f64::NAN; points * self.kept]; 2 + self.mapped.quantities(&[]).len()];
+        for (k, cell) in cells.iter().enumerate() {
+            let Some((point, own)) = cell.result(cells) else { continue };
+            let kept = self.kept(point);
+            for (i, found) in kept.iter().enumerate() {
+                (label[k * self.kept + i], share[k * self.kept + i]) = M::label(found);
+            }
+            // the labels are those of the corner that agreed, but the other numbers would be those of another point
+            let of_motions = if own { self.mapped.numbers(&index(k), kept) } else { Vec::new() };
+            for (i, values) in of_motions.into_iter().enumerate() {
+                numbers.iter_mut().zip(values).for_each(|(column, value)| column[k * self.kept + i] = value);
+            }
+        }
+        let mut columns = vec![Column::I32(label), Column::F64(share)];
+        columns.extend(numbers.into_iter().map(Column::F64));
+        if self.refine.is_some() {
+            columns.push(computed_column(cells));
+        }
+        columns
+    }
 }
 
 /// The motions at a point, the most frequent first, or the error if the point is no valid system.
@@ -218,29 +245,12 @@ impl<M: Mapped> Fill for MapFill<M> {
     }
 
     fn columns(&self, block: &Block, cells: Self::Tile) -> Vec<Column> {
-        let points = block.points();
-        let mut label = vec![super::NO_MOTION; points * self.kept];
-        let mut share = vec![f64::NAN; points * self.kept];
-        // the largest speed, the largest multiplier, and the quantities
-        let mut numbers = vec![vec![f64::NAN; points * self.kept]; 2 + self.mapped.quantities(&[]).len()];
-        for (k, cell) in cells.iter().enumerate() {
-            let Some((point, own)) = cell.result(&cells) else { continue };
-            let kept = self.kept(point);
-            for (i, found) in kept.iter().enumerate() {
-                (label[k * self.kept + i], share[k * self.kept + i]) = M::label(found);
-            }
-            // the labels are those of the corner that agreed, but the other numbers would be those of another point
-            let of_motions = if own { self.mapped.numbers(&block.index(k), kept) } else { Vec::new() };
-            for (i, values) in of_motions.into_iter().enumerate() {
-                numbers.iter_mut().zip(values).for_each(|(column, value)| column[k * self.kept + i] = value);
-            }
-        }
-        let mut columns = vec![Column::I32(label), Column::F64(share)];
-        columns.extend(numbers.into_iter().map(Column::F64));
-        if self.refine.is_some() {
-            columns.push(computed_column(&cells));
-        }
-        columns
+        self.columns_at(&cells, |k| block.index(k))
+    }
+
+    fn points(&self, points: &[Index], tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
+        let cells: Vec<_> = self.mapped.motions(points, &|| tick())?.into_iter().map(Cell::Computed).collect();
+        Some(self.columns_at(&cells, |k| points[k]))
     }
 }
 

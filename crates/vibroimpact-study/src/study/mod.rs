@@ -18,6 +18,7 @@ mod memory;
 mod plan;
 mod reason;
 mod refine;
+mod some_points;
 mod starts;
 mod stored_motion;
 mod sweeps;
@@ -35,6 +36,7 @@ pub(crate) use memory::tiles_of;
 pub use memory::{Sheet, check_memory, in_memory};
 pub use plan::StudyPlan;
 pub(crate) use refine::Cell;
+pub use some_points::{PointColumns, points_until};
 pub(crate) use sweeps::{SweepFill, Swept};
 pub use tables::{Cells, StudyTable, Tiles};
 pub(crate) use {basin::BasinFill, machine_basin::MachineBasinFill, map::MapFill};
@@ -128,6 +130,16 @@ impl Study {
     #[must_use]
     pub fn tile(&self, k: u64, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
         self.fill.fill(&self.grid().tile(k), tick)
+    }
+
+    /// The columns of some points of a map, one for each field, in the order of `points`, which are numbers in row-major
+    /// order. They are those of the tiles without refinement: the results of a point do not depend on the points beside
+    /// it. `None` if stopped, and for studies of which only whole tiles are computed. `tick` is called for each point and
+    /// returns whether to stop.
+    #[must_use]
+    pub fn points(&self, points: &[usize], tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
+        let whole = self.grid().whole();
+        self.fill.points(&points.iter().map(|k| whole.index(*k)).collect::<Vec<_>>(), tick)
     }
 
     /// Whether a tile can be continued after a part of it: the sweeps of an orbit diagram, which carry their state.

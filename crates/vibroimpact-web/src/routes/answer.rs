@@ -18,8 +18,8 @@ use vibroimpact_plot::Figure;
 use vibroimpact_report::figure::coloured::{Coloured, Of};
 use vibroimpact_report::question::{python, python_showing, shell_line, shell_line_coloured, shell_line_showing};
 use vibroimpact_report::scene::View;
-use vibroimpact_report::{AnswerError, Shown, Table, Units, answer as ask, refined_figure};
-use vibroimpact_study::{Control, MapPlan, Plan, Task};
+use vibroimpact_report::{AnswerError, Shown, Table, Units, answer as ask};
+use vibroimpact_study::{Control, Task};
 
 /// The object that `--json` prints, with progress events if the page requests them.
 pub(super) async fn answer(
@@ -72,10 +72,7 @@ pub(super) fn csv(table: Table<'_>) -> Result<(&'static str, Bytes), Refusal> {
 pub(super) async fn command(Query(wanted): Query<Wanted>, asked: PlanRequest) -> Result<Json<Value>, Refusal> {
     let plan = &asked.plan;
     let figure = match &plan.task {
-        Task::Map(_) | Task::Basin(_) => {
-            let refined = wanted.refined(plan);
-            shell_line_coloured(refined.as_ref().unwrap_or(plan), wanted.coloured()?.as_ref())
-        }
+        Task::Map(_) | Task::Basin(_) => shell_line_coloured(plan, wanted.coloured()?.as_ref()),
         Task::Diagram(_) => shell_line(plan).map(|line| format!("{line} --branches --plot diagram.svg")),
         _ => None,
     };
@@ -107,8 +104,6 @@ pub(super) struct Wanted {
     of: Option<String>,
     /// The values at the ends of the colours, separated by a comma.
     range: Option<String>,
-    /// Distance of the points of a map that are computed first, if those between are computed only where these differ.
-    refine: Option<u32>,
 }
 
 #[derive(Clone, Copy, Default, Deserialize, PartialEq, Eq)]
@@ -146,13 +141,6 @@ impl Wanted {
             Some((low, high)) => Err(Refusal::bad(format!("range = {low},{high} is not a low and a high value"))),
             None => Ok(Some(Coloured { field, of, range })),
         }
-    }
-
-    /// The plan of the figure: with refinement, if it is asked for.
-    fn refined(&self, plan: &Plan) -> Option<Plan> {
-        let Task::Map(map) = &plan.task else { return None };
-        let task = Task::Map(MapPlan { refine: Some(self.refine?), ..map.clone() });
-        Some(Plan { task, ..plan.clone() })
     }
 
     fn overlay(&self) -> Result<Overlay, Refusal> {
@@ -208,13 +196,8 @@ pub(super) async fn figure(
     let plan = asked.plan;
     let work = move |control: &Control<'_>| {
         let shown = wanted.shown()?;
-        let mut figure = match wanted.refined(&plan) {
-            Some(refined) => refined_figure(&refined, &shown, control)?,
-            None => {
-                let answer = ask(&plan, Units::default(), control)?;
-                answer.figure(&shown, control)?.ok_or_else(|| nothing("figure"))?
-            }
-        };
+        let answer = ask(&plan, Units::default(), control)?;
+        let mut figure = answer.figure(&shown, control)?.ok_or_else(|| nothing("figure"))?;
         wanted.overlay()?.add(&mut figure, &plan, control)?;
         wanted.draw(figure)
     };

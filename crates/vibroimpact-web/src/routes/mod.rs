@@ -11,6 +11,7 @@ mod page;
 mod picture;
 mod tile;
 mod units;
+mod whole;
 
 use crate::Explorer;
 use crate::refusal::Refusal;
@@ -26,6 +27,7 @@ pub(crate) fn all() -> Router<Explorer> {
         .route("/api/about", get(about::about))
         .route("/api/units", get(units::units))
         .route("/api/tile", post(tile::tile))
+        .route("/api/whole", post(whole::whole))
         .route("/api/picture", post(picture::picture))
         .route("/api/answer", post(answer::answer))
         .route("/api/motion", post(motion::motion))
