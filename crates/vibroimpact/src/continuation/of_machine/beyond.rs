@@ -53,8 +53,11 @@ fn with_ring(
     MachineProblem { equations, range: old.range }
 }
 
-/// Lengths of the first step beyond a grazing contact, at which the derivative does not exist.
-const STEPS: [f64; 5] = [2e-3, 5e-4, 1e-4, 1e-5, 1e-6];
+/// Lengths of the first step beyond a grazing contact, at which the derivative does not exist. The shortest that works is
+/// taken, because a multiplier that is without limit at the contact can pass -1 and 1 close to it, and the curve can turn.
+const STEPS: [f64; 5] = [1e-6, 1e-5, 1e-4, 5e-4, 2e-3];
+/// The smallest cosine of the angle by which the curve turns on this step.
+const BEND: f64 = 0.9;
 
 /// The first admissible solution in one of these directions.
 fn first_step(
@@ -70,6 +73,9 @@ fn first_step(
             let level = problem.dot(along, w) + h;
             let Some((next, _)) = correct(problem, &guess, &row, level) else { continue };
             let Some(next_along) = tangent(problem, &next, &row) else { continue };
+            if problem.dot(&next_along, along) < BEND {
+                continue;
+            }
             if let Some(tracer) = traced(problem.clone(), next, next_along, *options)
                 && tracer.here.known.physical()
             {

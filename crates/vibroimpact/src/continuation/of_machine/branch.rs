@@ -8,8 +8,9 @@ use super::equations::MachineEquations;
 use super::family::MachineFamily;
 use super::point::{MachineBranchEvent, MachinePoint};
 use super::problem::{Judged, MINUS_ONE, MachineProblem, MachineSolution, PACE, PLUS_ONE, TORUS};
+use super::touch::{grazing, touching};
 use crate::continuation::branches::{BranchOptions, Direction};
-use crate::continuation::trace::tracer::{Step, Tracer};
+use crate::continuation::trace::tracer::{Crossing, Step, Tracer};
 use crate::orbit::{MachineCycle, MachineFrame, MachineRing};
 use core::ops::RangeInclusive;
 use std::collections::VecDeque;
@@ -150,8 +151,17 @@ impl MachineBranch {
             let here = self.tracer.here.clone();
             return self.end(&here, MachineBranchEvent::NoConvergence);
         }
-        let until = edge.as_ref().map_or(f64::INFINITY, |(s, _, _)| *s);
-        for (s, what) in step.crossed.iter().filter(|(s, _)| *s < until) {
+        // at a grazing impact a multiplier is without limit, and its test functions change sign without a zero
+        let until = edge.as_ref().map_or(f64::INFINITY, |(s, ..)| s - ASIDE * step.length);
+        let mut crossed: Vec<Crossing> = step.crossed.iter().copied().filter(|(s, _)| *s < until).collect();
+        if edge.is_some()
+            && until > 0.0
+            && let Some(inside) = self.tracer.between(&step, until).and_then(|w| self.tracer.solution(w))
+        {
+            crossed.extend(self.tracer.hidden(&[PLUS_ONE, MINUS_ONE, TORUS], &crossed, (until, &inside)));
+            crossed.sort_by(|a, b| a.0.total_cmp(&b.0));
+        }
+        for (s, what) in &crossed {
             let event = match what {
                 None => {
                     let (low, high) = self.tracer.problem.range;
@@ -225,16 +235,24 @@ impl MachineBranch {
     /// differ beyond it.
     fn edge(&self, step: &Step<Judged>, outside: f64) -> Option<(f64, MachineSolution, Difference)> {
         let (s, inside, beyond) = edge(&self.tracer, step, outside, Judged::physical)?;
-        Some((s, inside, difference(&self.tracer.problem.equations.ring, &beyond)))
+        let found = grazing(&self.tracer, &inside, difference(&self.tracer.problem.equations.ring, &beyond));
+        // a curve of the loss of contact begins with a cycle that has the impact
+        let exact = self.lost(&inside, &found).is_none().then(|| touching(&self.tracer, step, (s, &inside), &found));
+        let (s, at) = exact.flatten().unwrap_or((s, inside));
+        Some((s, at, found))
+    }
+
+    /// The stop of the only impact of a cycle, if this impact disappears.
+    fn lost(&self, at: &MachineSolution, found: &Difference) -> Option<usize> {
+        let Difference::Disappears { stop, .. } = *found else { return None };
+        let single = at.known.cycle.as_ref().is_some_and(|cycle| cycle.counts.iter().sum::<u32>() == 1);
+        (single && self.tracer.problem.equations.ring.len() <= 2).then_some(stop)
     }
 
     /// Reports the change of the events at `at` and goes on with the events beyond.
     fn pass(&mut self, at: &MachineSolution, found: &Difference) {
-        if let Difference::Disappears { stop, .. } = found
-            && at.known.cycle.as_ref().is_some_and(|cycle| cycle.counts.iter().sum::<u32>() == 1)
-            && self.tracer.problem.equations.ring.len() <= 2
-        {
-            return self.end(at, MachineBranchEvent::LossOfContact { stop: *stop });
+        if let Some(stop) = self.lost(at, found) {
+            return self.end(at, MachineBranchEvent::LossOfContact { stop });
         }
         let Some(next) = beyond(&self.tracer, at, found, &self.options) else {
             self.add(at, Some(found.event(false)));
@@ -263,6 +281,9 @@ impl MachineBranch {
     }
 }
 
+/// The distance, in parts of a step, from a grazing solution to that at which the signs of test functions are compared
+/// with those at the beginning.
+const ASIDE: f64 = 1e-6;
 /// Parts of a step by which an event may be moved where its equations are singular.
 const BESIDE: [f64; 7] = [0.0, 1e-8, -1e-8, 1e-6, -1e-6, 1e-4, -1e-4];
 

@@ -10,7 +10,7 @@
 //! | where a tracer begins | `beginning` |
 //! | how the events of a motion differ from those of a signature | `change` |
 //! | where the solutions along a step cease to be admissible | `edge` |
-//! | where a flight comes closest to a stop | `closest` |
+//! | where a flight comes closest to a stop, and where a cycle grazes it | `closest`, `touch` |
 //! | the branch beyond such a change | `beyond` |
 //! | the cycle of twice the period beside a flip | `switch` |
 //! | the branch | [`MachineBranch`] |
@@ -27,6 +27,7 @@ mod linear;
 mod point;
 mod problem;
 mod switch;
+mod touch;
 
 pub use branch::{MachineBranch, MachineBranchError};
 pub(crate) use change::{Difference, difference, place};

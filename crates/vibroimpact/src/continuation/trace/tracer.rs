@@ -276,6 +276,21 @@ impl<P: Problem> Tracer<P> {
         root::between(f, (0.0, at_here), (step.length, step.there.values[j]), resolution)
     }
 
+    /// The crossings of these test functions before the solution `inside`, at the distance `length` along a step, that are
+    /// not in `crossed`. Towards a grazing impact a multiplier grows without limit, and beyond it comes back from the
+    /// other side, so its test functions have the same signs at both ends of the step.
+    pub(crate) fn hidden(
+        &self,
+        tests: &[usize],
+        crossed: &[Crossing],
+        (length, inside): (f64, &Solution<P::Known>),
+    ) -> Vec<Crossing> {
+        let part = Step { there: inside.clone(), length, on_end: false, crossed: Vec::new(), growth: 1.0 };
+        let missing = |j: &usize| !crossed.iter().any(|(_, what)| *what == Some(*j));
+        let changed = self.changed(inside).into_iter().filter(|j| tests.contains(j)).filter(missing);
+        changed.filter_map(|j| Some((self.zero(j, &part, self.problem.resolution(j))?, Some(j)))).collect()
+    }
+
     /// The distance of the solution `w` from the current solution, along the tangent.
     pub(crate) fn ahead(&self, w: &[f64]) -> f64 {
         let off: Vec<f64> = w.iter().zip(&self.here.w).map(|(a, b)| a - b).collect();
