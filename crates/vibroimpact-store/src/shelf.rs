@@ -76,6 +76,9 @@ pub trait Shelf: Send + Sync {
 /// A folder of a file system.
 #[derive(Debug)]
 pub struct Folder {
+    /// As it was given.
+    given: PathBuf,
+    /// Absolute, because a process can change its working folder.
     path: PathBuf,
 }
 
@@ -92,13 +95,13 @@ impl Folder {
     /// The folder at `path`, which need not exist yet.
     #[must_use]
     pub fn new(path: &Path) -> Self {
-        Self { path: path.to_owned() }
+        Self { given: path.to_owned(), path: std::path::absolute(path).unwrap_or_else(|_| path.to_owned()) }
     }
 
-    /// The path of the folder.
+    /// The path of the folder, as it was given.
     #[must_use]
     pub fn path(&self) -> &Path {
-        &self.path
+        &self.given
     }
 
     /// An object for reading, if there is one.
@@ -238,7 +241,7 @@ impl Shelf for Folder {
     }
 
     fn name(&self) -> String {
-        self.path.display().to_string()
+        self.given.display().to_string()
     }
 }
 
@@ -252,6 +255,14 @@ pub(crate) fn host() -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A record that is written after the working folder has changed goes to the place meant at first.
+    #[test]
+    fn a_relative_folder_keeps_its_place() {
+        let folder = Folder::new(Path::new("some/store"));
+        assert_eq!((folder.path(), folder.name().as_str()), (Path::new("some/store"), "some/store"));
+        assert!(folder.path.is_absolute() && folder.path.ends_with("some/store"));
+    }
 
     #[test]
     fn objects_are_whole_and_leftovers_are_swept() {
