@@ -49,7 +49,7 @@ fn the_export_of_the_page_is_the_figure_of_its_command() {
     for (query, plan, flags, part) in [
         ("layers=stripes", &plain, "", ""),
         ("layers=", &plain, "--layers none", ""),
-        ("layers=regions,stripes", &plain, "--layers regions,stripes", "#000000\" stroke-width=\"1.6\""),
+        ("layers=regions,stripes", &plain, "--layers regions,stripes", r##"stroke="#ffffff" stroke-width="3.6""##),
         ("layers=stripes,amplitude", &plain, "--layers amplitude,stripes", "#8c1d18"),
         ("layers=paper,stripes", &plain, "--layers paper,stripes", ">T<"),
         ("layers=boundaries", &plain, "--layers boundaries", ""),
