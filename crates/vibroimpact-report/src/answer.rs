@@ -1,6 +1,7 @@
 //! A plan, its result, and everything that is reported of it: the JSON object, the table and the figure.
 
 use crate::figure::coloured::{self, Coloured};
+use crate::figure::overlay::Overlay;
 use crate::figure::{self, title};
 use crate::scene::{View, Viewed, phase_portrait};
 use crate::{Asked, ReportError, Table, Units, json, table};
@@ -39,23 +40,13 @@ pub struct Shown {
     pub inadmissible: bool,
     /// The quantity whose values are the colours of a map or basin.
     pub colour: Option<Coloured>,
-    /// Whether the cells of a map are divided between the motions that coexist.
-    pub stripes: bool,
-    /// Whether lines are drawn between the cells of a map with different motions.
-    pub boundaries: bool,
+    /// The layers of a map, and a point and a line over it.
+    pub overlay: Overlay,
 }
 
 impl Default for Shown {
     fn default() -> Self {
-        Self {
-            view: None,
-            step: None,
-            diagram: true,
-            inadmissible: false,
-            colour: None,
-            stripes: true,
-            boundaries: false,
-        }
+        Self { view: None, step: None, diagram: true, inadmissible: false, colour: None, overlay: Overlay::default() }
     }
 }
 
@@ -165,6 +156,15 @@ impl Answer {
     /// # Errors
     /// [`AnswerError`] for a result that cannot be drawn, or when stopped.
     pub fn figure(&self, shown: &Shown, control: &Control<'_>) -> Result<Option<Figure>, AnswerError> {
+        let mut figure = self.plain_figure(shown, control)?;
+        if let Some(figure) = &mut figure {
+            shown.overlay.add(figure, &self.plan, control)?;
+        }
+        Ok(figure)
+    }
+
+    /// The figure without what lies over it.
+    fn plain_figure(&self, shown: &Shown, control: &Control<'_>) -> Result<Option<Figure>, AnswerError> {
         let Self { asked, osc, plan, .. } = self;
         let default = shown.view.is_none_or(|view| view == View::Waveform);
         if let Some(colour) = &shown.colour {
@@ -190,7 +190,7 @@ impl Answer {
                 figure::waveform::figure(osc, *start, span, &asked.units, title(asked))
             }
             (_, Results::Basin(found)) => figure::basin::figure(found, asked)?,
-            (_, Results::Map(found)) => figure::map::figure_with(found, asked, (shown.stripes, shown.boundaries))?,
+            (_, Results::Map(found)) => figure::map::figure_with(found, asked, shown.overlay.cells())?,
             (_, Results::Diagram(found)) => figure::diagram::figure(found, asked)?,
             (_, Results::Response(found)) => figure::response::figure(found, asked)?,
             (Task::Branch(task), Results::Branch(found)) => {

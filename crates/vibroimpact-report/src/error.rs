@@ -47,6 +47,31 @@ pub enum ReportError {
     /// A colour by a quantity in a figure without cells or motions.
     #[error("only maps and basins have colours by a quantity")]
     NoColours,
+    /// Layers, a mark or a line in the figure of anything but a map over two parameters.
+    #[error("layers, a mark and a line are drawn over a map of two parameters\nhint: two parameters with ranges")]
+    NoPlane,
+    /// A layer that shows motions, in a figure in the colours of a quantity.
+    #[error("the layer {0} shows motions, and the figure shows a quantity\nhint: leave out {0}")]
+    LayerOfMotions(&'static str),
+    /// The amplitude in a plane without a gap.
+    #[error("the layer amplitude needs the gap on an axis\nhint: a range of --gap or --gap-m")]
+    NoGapAxis,
+    /// A mark or a line outside the figure.
+    #[error(
+        "{name} = {value} of the {what} lies outside {low} <= {name} <= {high}, the axis of the figure\nhint: coordinates are in the units of the axes, the abscissa first"
+    )]
+    Outside {
+        /// Whether it is the mark or the line.
+        what: &'static str,
+        /// The name of the axis.
+        name: String,
+        /// The given value.
+        value: f64,
+        /// The smallest value on the axis.
+        low: f64,
+        /// The largest value on the axis.
+        high: f64,
+    },
     /// A waveform with more points than a table may have.
     #[error(
         "step = {} gives {} points over a time of {}; at most {most} are allowed\nhint: a longer step, or fewer periods or impacts",

@@ -86,13 +86,13 @@ async function figureOf(command, folder) {
   return readFile(file, "utf8");
 }
 
-/** The figure that the page asks for when it acts, in the size of the command, and without what lies over a map, which no command draws. */
+/** The figure that the page asks for when it acts, in the size of the command. */
 async function figureOfCommand(page, address, act) {
   const asked = page.waitForRequest((request) => /\/api\/(figure|bifurcation)\?/.test(request.url()));
   await act();
   const request = await asked;
   const { pathname, searchParams: query } = new URL(request.url());
-  for (const name of ["width", "height", "chosen", "line"]) query.delete(name);
+  for (const name of ["width", "height"]) query.delete(name);
   const response = await fetch(new URL(`${pathname}?${query}`, address), {
     method: "POST", headers: { "content-type": "application/json" }, body: request.postData(),
   });
@@ -110,6 +110,10 @@ export async function figures_of_quantities_and_machines_are_those_of_their_comm
       [`#${window}&colour=power&range=0,0.5&starts=2&of=smallest`, 100, /--colour power --of smallest --colour-range 0:0\.5 --plot/],
       [`#${window}&starts=2`, 400, /:400 (?!.*--refine).* --plot/],
       [`#${window}&machine=0.8,12000,30&colour=power`, 100, /--mass-kg 0\.8 .*--frequency-hz \S+:100 .*--colour power/],
+      ["#view=1,1.5,0.5,2.5&impacts=200&point=1&inverse_beta=1.3&gap=1&line=1.1,1.5,1.1,2.2&panel=line&layers=regions,paper,amplitude,boundaries", 100,
+        /--layers regions,amplitude,paper,boundaries --mark 1\.3,1 --line 1\.1,1\.5:1\.1,2\.2 --plot/],
+      ["#machine=0.8,12000,30&x=beta&point=1&beta=0.77&gap=0.75&view=0.7,1,0.4,2.2&impacts=200&layers=regions,paper,amplitude,stripes", 100,
+        /--mass-kg 0\.8 .*--layers regions,amplitude,paper,stripes --mark \S+,0\.001875 --plot/],
     ]) {
       const { page } = await open(hash, { acceptDownloads: true, viewport: { width: 800, height: 600 } });
       await page.waitForSelector("#plane[data-picture]");

@@ -178,7 +178,7 @@ export const table = (plan, kind, signal) =>
   counted("/api/table", async () => complete((await ask(withQuery("/api/table", { kind }), { body: plan, signal })).blob()));
 
 /**
- * @param {{kind?: string, colour?: string, of?: string, range?: string}} query what the figure of the command shows
+ * @param {{kind?: string, colour?: string, of?: string, range?: string, layers?: string, mark?: string, line?: string}} query what the figure of the command shows
  * @returns {Promise<{vibro: string, python: string, figure: string | null}>}
  */
 export const command = async (plan, query, signal) => complete((await ask(withQuery("/api/command", query), { body: plan, signal })).json());

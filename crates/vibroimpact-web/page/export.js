@@ -7,7 +7,7 @@ import { valueOf } from "./parameters.js";
 import {
   attractorsPlan, basinPlan, diagramPlan, lyapunovPlan, mapPlan, over, settlePlan, simulatePlan, within,
 } from "./plans.js";
-import { asShown } from "./units.js";
+import { asShown, planValue } from "./units.js";
 
 /** Width of figures for print, in the units of the server. */
 const WIDTH = 1000;
@@ -68,7 +68,6 @@ export class Export {
     const views = {
       plane: {
         name: "map", plan: () => span(this.views.plane.view, mapPlan), points: true,
-        note: "The command draws the map without the layers, the point and the line.",
         drawn: () => ({ ...this.over(), ...this.colours(this.views.plane.view) }),
       },
     };
@@ -108,10 +107,12 @@ export class Export {
   /** What lies over the map: layers, the chosen point, the line. */
   over() {
     const { state } = this.store;
+    // coordinates in the units of the axes of the plan
+    const inPlan = (values) => values.map((value, k) => planValue(state, k % 2 ? state.y : state.x, value)).join();
     return {
       layers: state.layers.join(),
-      chosen: state.point ? [valueOf(state, state.x), valueOf(state, state.y)].join() : null,
-      line: state.line && state.panel === "line" ? state.line.join() : null,
+      mark: state.point ? inPlan([valueOf(state, state.x), valueOf(state, state.y)]) : null,
+      line: state.line && state.panel === "line" ? inPlan(state.line) : null,
     };
   }
 
@@ -140,8 +141,7 @@ export class Export {
 
   async tell({ plan, query }, signal) {
     for (const { code } of Object.values(this.commands)) code.textContent = "";
-    const { layers, chosen, line, ...asked } = query;
-    const told = await api.command(plan, asked, signal);
+    const told = await api.command(plan, query, signal);
     // the figure and the table of a view may need commands of their own
     this.commands.vibro.code.textContent = [this.choice.value === "line" ? null : told.vibro, told.figure].filter((text) => text).join("\n");
     this.commands.python.code.textContent = told.python;

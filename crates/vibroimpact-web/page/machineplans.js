@@ -9,7 +9,8 @@ const NAMES = {
 /** Significant digits of numbers that are converted. */
 const DIGITS = 12;
 
-const exact = (value) => Number(value.toPrecision(DIGITS));
+/** A number that is converted, without the digits of the conversion. */
+export const exact = (value) => Number(value.toPrecision(DIGITS));
 
 /** One nondimensional unit of a parameter in the unit of its name. */
 export const unitOf = (name, { units, natural_hz: natural }) => ({ beta: natural, gap: units.length_m, second_gap: units.length_m })[name] ?? 1;

@@ -4,7 +4,7 @@ import { units as askUnits } from "./api.js";
 import { byId, element } from "./dom.js";
 import { numberField } from "./field.js";
 import { Latest } from "./latest.js";
-import { frequencyAxes, inMachine, unitOf } from "./machineplans.js";
+import { exact, frequencyAxes, inMachine, unitOf } from "./machineplans.js";
 import { PARAMETERS, START, valueOf } from "./parameters.js";
 import { short } from "./ticks.js";
 import { quantities } from "./values.js";
@@ -27,6 +27,13 @@ export function inUnits(plan, state) {
 
 /** A plan in the numbers of the machine of the state, if it has one. */
 export const asShown = (plan, state) => inMachine(plan, state.machine, unitsOf(state));
+
+/** A value of a parameter in the unit that it has in plans in the units of the machine of the state, if it has one. */
+export function planValue(state, name, value) {
+  const found = unitsOf(state);
+  const unit = found ? unitOf(name, found) : 1;
+  return unit === 1 ? value : exact(value * unit);
+}
 
 /** One unit of a parameter in the plan of a diagram, in the units that are shown: a plan has metres, the page millimetres. */
 export function perUnit(state, name) {

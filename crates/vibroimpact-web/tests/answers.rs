@@ -182,6 +182,8 @@ async fn quantities_as_colours() {
         ("?colour=power&of=best", "of = best is none of"),
         ("?colour=power&range=2,1", "range = 2,1"),
         ("?colour=impact_rate", "no values of `impact-rate`"),
+        ("?layers=paper,lines", "layers = lines: there is no such layer"),
+        ("?mark=1", "mark = 1 is not 2 numbers"),
     ] {
         let (status, _, body) = ask(&format!("/api/figure{query}"), &map).await;
         let said = String::from_utf8(body).unwrap();

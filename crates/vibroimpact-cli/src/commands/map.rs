@@ -1,7 +1,7 @@
 //! `vibro map`: the motions at each point of a plane of parameters.
 
 use crate::args::{
-    ColourArgs, FieldsArgs, FigureArgs, MachineArgs, MachineAxesArgs, RangedSystemArgs, StoreArgs, whole,
+    ColourArgs, FieldsArgs, FigureArgs, MachineArgs, MachineAxesArgs, OverlayArgs, RangedSystemArgs, StoreArgs, whole,
 };
 use crate::commands::outputs::Outputs;
 use crate::commands::{of_machine, respond};
@@ -31,6 +31,8 @@ use vibroimpact_study::{MachineMapPlan, MachineTask, MapPlan, Plan, Task};
         vibro map --machine NAME|FILE --axis PATH=A:B:N [--axis PATH=A:B:N] --starts N [OPTIONS]",
     after_help = "Examples:\n  \
         vibro map --inverse-beta 0.4:2:33 --gap 0:5:41 --restitution 0.5 --starts 20 --csv map.csv --plot map.png\n  \
+        vibro map --inverse-beta 0.9:1.5:61 --gap 0.5:3:51 --restitution 0.5 --starts 4 --plot map.svg \\\n    \
+        --layers regions,amplitude,stripes --mark 1.3,1 --line 1.1,1.5:1.1,2.5\n  \
         vibro map --beta 0.1:10:60:log --restitution 0.2:0.9:40 --gap 1 --starts 8 --plot restitution.png\n  \
         vibro map --inverse-beta 0.4:2:800 --gap 0:5:800 --restitution 0.5 --starts 8 --store map.zarr --refine 8"
 )]
@@ -72,6 +74,8 @@ pub(crate) struct Map {
     #[command(flatten)]
     colour: ColourArgs,
     #[command(flatten)]
+    overlay: OverlayArgs,
+    #[command(flatten)]
     figure: FigureArgs,
 
     #[command(flatten)]
@@ -84,6 +88,9 @@ pub(crate) struct Map {
 
 pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
     let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
+    if args.machine.machine.is_some() && args.overlay.any() {
+        return Err(Failure::bad("--layers, --mark and --line are for maps without --machine"));
+    }
     let task = || {
         Ok(MachineTask::Map(MachineMapPlan {
             axes: args.machine_axes.axes(),
@@ -118,6 +125,8 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
     let plan = args.store.tiled(Plan::new(system, Task::Map(task)))?;
     let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
     outputs.drawable(&axes, 1)?;
-    let shown = Shown { colour: args.colour.coloured(outputs.drawn())?, ..Shown::default() };
+    let colour = args.colour.coloured(outputs.drawn())?;
+    let overlay = args.overlay.overlay(outputs.drawn(), colour.is_some())?;
+    let shown = Shown { colour, overlay, ..Shown::default() };
     respond::run(&plan, units, (outputs, shown), Some(&args.store), session)
 }

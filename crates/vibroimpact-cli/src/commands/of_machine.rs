@@ -9,7 +9,7 @@ use crate::session::Session;
 use std::path::Path;
 use vibroimpact_report::figure::coloured::Coloured;
 use vibroimpact_report::figure::plane::Sides;
-use vibroimpact_report::machine_answer;
+use vibroimpact_report::{Shown, machine_answer};
 use vibroimpact_study::{MachineBasinPlan, MachineMapPlan, MachinePlan, MachineResults, MachineTask, StudyPlan};
 
 /// The files of a command: its table, its figure, and whether it prints JSON.
@@ -36,7 +36,7 @@ pub(super) fn asked(
             return run(name, &plan, (outputs, None, colour), session);
         };
         drawable(&plan, &outputs)?;
-        stored::run(&StudyPlan::from(&plan), &filling, (outputs, colour), session)
+        stored::run(&StudyPlan::from(&plan), &filling, (outputs, Shown { colour, ..Shown::default() }), session)
     };
     Some(answer())
 }

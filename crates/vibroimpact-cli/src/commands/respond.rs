@@ -17,8 +17,9 @@ pub(super) fn run(
     store: Option<&StoreArgs>,
     session: &Session,
 ) -> Result<(), Failure> {
+    shown.overlay.check(&in_units(plan, &units), shown.colour.is_some())?;
     if let Some(filling) = store.and_then(StoreArgs::filling) {
-        return stored::run(&StudyPlan::from(&in_units(plan, &units)), &filling, (outputs, shown.colour), session);
+        return stored::run(&StudyPlan::from(&in_units(plan, &units)), &filling, (outputs, shown), session);
     }
     let answer = compute(plan, units, session)?;
     tell(&answer, (outputs, shown), session)

@@ -2,7 +2,7 @@
 
 use super::of_machine as of_machine_plan;
 use super::stored;
-use crate::args::{BudgetArgs, ColourArgs, FigureArgs, Filling, Tiles};
+use crate::args::{BudgetArgs, ColourArgs, FigureArgs, Filling, OverlayArgs, Tiles};
 use crate::commands::outputs::Outputs;
 use crate::failure::Failure;
 use crate::hints;
@@ -10,6 +10,7 @@ use crate::machine_file;
 use crate::session::Session;
 use clap::Args;
 use std::path::{Path, PathBuf};
+use vibroimpact_report::Shown;
 use vibroimpact_store::Part;
 use vibroimpact_study::{MachinePlan, PlanError, Study, StudyPlan};
 
@@ -49,6 +50,8 @@ pub(crate) struct Run {
     #[command(flatten)]
     colour: ColourArgs,
     #[command(flatten)]
+    overlay: OverlayArgs,
+    #[command(flatten)]
     figure: FigureArgs,
 
     /// Print one JSON object with what was done
@@ -87,6 +90,7 @@ fn run_machine(args: &Run, plan: &MachinePlan, session: &Session) -> Result<(), 
         return Err(Study::new(plan).err().map_or_else(|| Failure::bad("the plan fills no store"), Failure::from));
     }
     args.colour.coloured(false)?;
+    args.overlay.overlay(false, false)?;
     let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
     let name = args.plan.file_stem().map_or_else(|| "machine".into(), |stem| stem.to_string_lossy());
     of_machine_plan::run(&name, plan, (outputs, None, None), session)
@@ -108,7 +112,9 @@ pub(super) fn run(args: &Run, session: &Session) -> Result<(), Failure> {
     let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
     let place = args.store.clone().unwrap_or_else(|| default_store(&args.plan));
     let colour = args.colour.coloured(outputs.drawn())?;
+    let overlay = args.overlay.overlay(outputs.drawn(), colour.is_some())?;
+    stored::check_overlay(&overlay, &plan, colour.is_some())?;
     let part = args.tiles.map_or(Part::ALL, |tiles| tiles.0);
     let filling = Filling { place: &place, part, budget: args.budget.get() };
-    stored::run(&plan, &filling, (outputs, colour), session)
+    stored::run(&plan, &filling, (outputs, Shown { colour, overlay, ..Shown::default() }), session)
 }

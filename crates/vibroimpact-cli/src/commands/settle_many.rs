@@ -11,7 +11,7 @@ use crate::session::Session;
 use clap::Args;
 use core::str::FromStr;
 use std::path::PathBuf;
-use vibroimpact_report::{Asked, Units};
+use vibroimpact_report::{Asked, Shown, Units};
 use vibroimpact_study::{
     BasinPlan, Coordinate, DrawnPoints, ListedColumn, Parameter, Plan, PointRange, PointRule, PointsPlan, StartPlan,
     StudyPlan, Task,
@@ -221,8 +221,8 @@ pub(super) fn run(args: &SettleMany, session: &Session) -> Result<(), Failure> {
     let plan = StudyPlan::from(&args.store.tiled(plan)?);
     let outputs = Outputs::reserve(args.csv.as_deref(), (None, &FigureArgs::default()), args.json, session)?;
     match args.store.filling() {
-        Some(filling) => stored::run(&plan, &filling, (outputs, None), session),
-        None => stored::run_in_memory(&plan, (outputs, None), session),
+        Some(filling) => stored::run(&plan, &filling, (outputs, Shown::default()), session),
+        None => stored::run_in_memory(&plan, (outputs, Shown::default()), session),
     }
 }
 

@@ -7,11 +7,12 @@ use crate::report::stored as report;
 use crate::session::Session;
 use serde::Serialize;
 use std::sync::Arc;
-use vibroimpact_report::figure::coloured::Coloured;
+use vibroimpact_report::Shown;
+use vibroimpact_report::figure::overlay::Overlay;
 use vibroimpact_report::figure::stored::figure;
 use vibroimpact_store::{Memory, Part, Ran, Store, StoreError, costs_beside, shelf};
 use vibroimpact_study::study::check_memory;
-use vibroimpact_study::{Study, StudyPlan, counted};
+use vibroimpact_study::{Control, Study, StudyPlan, counted};
 
 /// The fields about the store in a JSON object.
 #[derive(Serialize)]
@@ -85,11 +86,20 @@ impl Filled {
     }
 }
 
+/// Refuses what the figure of a study cannot show.
+pub(super) fn check_overlay(overlay: &Overlay, plan: &StudyPlan, coloured: bool) -> Result<(), Failure> {
+    match plan {
+        StudyPlan::Oscillator(plan) => Ok(overlay.check(plan, coloured)?),
+        StudyPlan::Machine(_) if overlay.plain() => Ok(()),
+        StudyPlan::Machine(_) => Err(Failure::bad("--layers, --mark and --line are for maps without --machine")),
+    }
+}
+
 /// Fills a store according to the flags of a command, then writes the requested outputs from it.
 pub(super) fn run(
     plan: &StudyPlan,
     filling: &Filling<'_>,
-    (outputs, colour): (Outputs, Option<Coloured>),
+    (outputs, shown): (Outputs, Shown),
     session: &Session,
 ) -> Result<(), Failure> {
     let store = begin(plan, filling.place)?;
@@ -99,13 +109,13 @@ pub(super) fn run(
         session.note("hint: tables and figures are written when all tiles are there: `vibro export`, `vibro plot`");
         return Ok(());
     }
-    tell(&store, Some(filled), (outputs, colour), session)
+    tell(&store, Some(filled), (outputs, shown), session)
 }
 
 /// Computes a study in memory, and writes the requested outputs.
 pub(super) fn run_in_memory(
     plan: &StudyPlan,
-    (outputs, colour): (Outputs, Option<Coloured>),
+    (outputs, shown): (Outputs, Shown),
     session: &Session,
 ) -> Result<(), Failure> {
     // before anything is allocated
@@ -113,18 +123,19 @@ pub(super) fn run_in_memory(
     let store = Store::create(Arc::new(Memory::default()), plan)?;
     let total = store.study().grid().points();
     session.tiled(total, "points", |control, _| store.run(Part::ALL, control))?;
-    tell(&store, None, (outputs, colour), session)
+    tell(&store, None, (outputs, shown), session)
 }
 
 /// Writes the table and the figure of a store, then the JSON object or the summary.
 fn tell(
     store: &Store,
     filled: Option<Filled>,
-    (outputs, colour): (Outputs, Option<Coloured>),
+    (outputs, shown): (Outputs, Shown),
     session: &Session,
 ) -> Result<(), Failure> {
     let (json, silent) = (outputs.json(), outputs.any());
-    outputs.stream(session, |out| report::table(store, false, out), || figure(store, colour.as_ref()))?;
+    let drawn = |control: &Control<'_>| figure(store, shown.colour.as_ref(), &shown.overlay, control);
+    outputs.stream(session, |out| report::table(store, false, out), || session.watched(None, drawn))?;
     let left = filled.as_ref().is_some_and(|filled| filled.left > 0);
     if json {
         return session.print_json(&report::StoredFields::new(store, filled)?);

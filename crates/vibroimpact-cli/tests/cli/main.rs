@@ -14,6 +14,7 @@ mod machine_studies;
 mod machines;
 mod many;
 mod margins;
+mod overlays;
 mod planes;
 mod questions;
 mod refusals;

@@ -103,10 +103,20 @@ fn map() -> Words {
             flag("axes", 0.05, word(&["gap,inverse-beta", "gap", "mass", ""])),
             fields(),
             colour(),
+            overlay(),
             store(),
             outputs("csv"),
         ],
     )
+}
+
+/// What lies over the figure of a map.
+fn overlay() -> Words {
+    all(vec![
+        flag("layers", 0.08, word(&["paper", "amplitude,stripes", "boundaries", "none", "none,paper", "lines", ""])),
+        flag("mark", 0.08, word(&["1,1", "0.5,0.5", "-1,1", "1e300,0", "nan,1", "1", ""])),
+        flag("line", 0.08, word(&["0,0:3,3", "1,1:1,1", "0,-1:1e300,2", "-5,0:-4,0", "1,2", ""])),
+    ])
 }
 
 fn diagram() -> Words {

@@ -8,6 +8,7 @@ pub mod diagram;
 pub mod machine;
 pub mod machine_waveform;
 pub mod map;
+pub mod overlay;
 pub mod plane;
 pub mod point_motion;
 pub mod region;

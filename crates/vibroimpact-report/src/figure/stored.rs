@@ -1,32 +1,50 @@
 //! The figure of a store, equal to that of the command for the same question.
 
 use crate::figure::coloured::{self, Coloured, Value, asked_for, place};
+use crate::figure::overlay::Overlay;
 use crate::figure::plane::{Plane, PlaneAxis, Sides, varied};
 use crate::figure::point_motion::{PointMotion, group};
 use crate::figure::{basin, diagram, map, quantity_name, shares, title_without};
 use crate::machine_answer::machine_title;
-use crate::{Asked, ReportError, Units};
+use crate::{AnswerError, Asked, ReportError, Units};
 use std::collections::BTreeMap;
 use vibroimpact_plot::{Colour, Figure, FigureAxis, Line, Panel, SERIES, plain};
 use vibroimpact_study::study::{
     NOT_COMPUTED, REFUSED, StudyArrays, StudyPlan, diagram_of, label_of, machine_diagram_of,
 };
 use vibroimpact_study::{
-    BasinPlan, Column, LyapunovPlan, MachineBasinPlan, MachineMapPlan, MachinePlan, MachineTask, MapPlan, Task,
+    BasinPlan, Column, Control, LyapunovPlan, MachineBasinPlan, MachineMapPlan, MachinePlan, MachineTask, MapPlan,
+    Plan, Task,
 };
 
-/// Draws the figure of a study; that of a map or basin in the colours of a quantity, if one is given.
+/// Draws the figure of a study; that of a map or basin in the colours of a quantity, if one is given, and that of a map
+/// with what lies over it.
 ///
 /// # Errors
-/// [`ReportError`] for a study without a figure, and the error of the store if it cannot be read.
-pub fn figure<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
+/// [`ReportError`] for a study without a figure, [`AnswerError`] for layers that cannot be computed, and the error of the
+/// store if it cannot be read.
+pub fn figure<A: StudyArrays, E: From<A::Error> + From<ReportError> + From<AnswerError>>(
     store: &A,
     colour: Option<&Coloured>,
+    overlay: &Overlay,
+    control: &Control<'_>,
 ) -> Result<Figure, E> {
     let whole = match store.plan() {
         StudyPlan::Oscillator(plan) => plan.as_ref(),
         StudyPlan::Machine(plan) => return of_machine(store, plan, colour),
     };
+    let mut figure = of_oscillator::<A, E>(store, whole, colour, overlay.cells())?;
+    overlay.add(&mut figure, whole, control)?;
+    Ok(figure)
+}
+
+/// Draws the figure of a study of the oscillator without what lies over it.
+fn of_oscillator<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
+    store: &A,
+    whole: &Plan,
+    colour: Option<&Coloured>,
+    cells: (bool, bool),
+) -> Result<Figure, E> {
     let asked = Asked { system: whole.system, units: Units::of_plan(whole) };
     match (&whole.task, colour) {
         (Task::Map(MapPlan { axes, fields, .. }) | Task::Basin(BasinPlan { axes, fields, .. }), Some(colour)) => {
@@ -41,7 +59,7 @@ pub fn figure<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
             let title = title_without(&asked, &varied(&plan.axes));
             match Sides::of(&plan.axes, &asked.units)? {
                 Sides::Line(side) => Ok(shares::draw(&side, &points::<A, E>(store, None)?, title)),
-                Sides::Plane(plane) => of_map(store, &plane, title),
+                Sides::Plane(plane) => of_map(store, &plane, title, cells),
             }
         }
         (task, None) => of_task(store, task, &asked),
@@ -90,7 +108,7 @@ fn of_machine<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     match &plan.task {
         MachineTask::Map(map) => match Sides::of_machine(&map.axes)? {
             Sides::Line(side) => Ok(shares::draw(&side, &points::<A, E>(store, None)?, title)),
-            Sides::Plane(plane) => of_map(store, &plane, title),
+            Sides::Plane(plane) => of_map(store, &plane, title, Overlay::default().cells()),
         },
         MachineTask::Basin(basin) => of_basin(store, &Sides::of_machine(&basin.axes)?, title),
         MachineTask::Diagram(diagram) => {
@@ -153,6 +171,7 @@ fn of_map<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     store: &A,
     plane: &Plane,
     title: String,
+    shown: (bool, bool),
 ) -> Result<Figure, E> {
     let Some(label) = store.field_number("label") else { return Err(ReportError::NoLabels.into()) };
     let width = store.study().fields()[label].width();
@@ -168,7 +187,7 @@ fn of_map<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
         let label = |(k, code): (usize, &i32)| Some((known.get(code)?.as_deref()?.into(), share(k)));
         cells.push(codes.iter().enumerate().filter_map(label));
     }
-    Ok(map::draw(plane, &cells, title)?)
+    Ok(map::draw_with(plane, cells, title, shown)?)
 }
 
 #[allow(clippy::cast_precision_loss)] // counts below 2^53

@@ -7,7 +7,7 @@ mod shell;
 
 pub use command::command;
 pub use python::{python, python_showing};
-pub use shell::{quoted, shell_line, shell_line_coloured, shell_line_showing};
+pub use shell::{quoted, shell_line, shell_line_figure, shell_line_showing};
 
 /// The text of a number that reads back as the same double in Rust, Python and the shell.
 fn number(x: f64) -> String {

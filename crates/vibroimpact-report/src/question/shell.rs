@@ -2,6 +2,7 @@
 
 use super::{command, number};
 use crate::figure::coloured::{Coloured, Of};
+use crate::figure::overlay::{Layer, Overlay};
 use crate::scene::View;
 use vibroimpact_study::{Plan, Study, Task};
 
@@ -39,9 +40,10 @@ pub fn shell_line_showing(plan: &Plan, view: View) -> Option<String> {
     Some(format!("{line}{show} --plot {name}.svg"))
 }
 
-/// The same, with a figure in the colours of a quantity if one is given. `None` for a plan that no flags can express.
+/// The same, with a figure in the colours of a quantity if one is given, and with what can be seen over a map. `None` for a
+/// plan that no flags can express.
 #[must_use]
-pub fn shell_line_coloured(plan: &Plan, coloured: Option<&Coloured>) -> Option<String> {
+pub fn shell_line_figure(plan: &Plan, coloured: Option<&Coloured>, overlay: &Overlay) -> Option<String> {
     let mut words = command(plan)?;
     if let Some(Coloured { field, of, range }) = coloured {
         words.extend(["--colour".to_owned(), field.replace('_', "-")]);
@@ -52,8 +54,27 @@ pub fn shell_line_coloured(plan: &Plan, coloured: Option<&Coloured>) -> Option<S
             words.extend(["--colour-range".to_owned(), format!("{}:{}", number(*low), number(*high))]);
         }
     }
+    words.extend(over(&overlay.visible(plan, coloured.is_some()).ok()?, coloured.is_some()));
     words.extend(["--plot".to_owned(), format!("{}.svg", words[1])]);
     Some(words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" "))
+}
+
+/// The flags for what lies over a map.
+fn over(overlay: &Overlay, coloured: bool) -> Vec<String> {
+    let names: Vec<&str> = overlay.layers.iter().map(|layer| layer.name()).collect();
+    let usual: &[Layer] = if coloured { &[] } else { &[Layer::Stripes] };
+    let mut words = Vec::new();
+    if overlay.layers != usual {
+        words.extend(["--layers".to_owned(), if names.is_empty() { "none".to_owned() } else { names.join(",") }]);
+    }
+    if let Some([x, y]) = overlay.mark {
+        words.extend(["--mark".to_owned(), format!("{},{}", number(x), number(y))]);
+    }
+    if let Some([x0, y0, x1, y1]) = overlay.line {
+        let [x0, y0, x1, y1] = [x0, y0, x1, y1].map(number);
+        words.extend(["--line".to_owned(), format!("{x0},{y0}:{x1},{y1}")]);
+    }
+    words
 }
 
 #[cfg(test)]

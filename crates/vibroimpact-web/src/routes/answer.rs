@@ -1,7 +1,6 @@
 //! The output of the command for a plan (JSON, table and figure), and the command line itself.
 
 use super::asked::{PlanRequest, Query, bytes, listed, wants_events};
-use super::overlay::Overlay;
 use crate::Explorer;
 use crate::events::{Done, stream};
 use crate::refusal::Refusal;
@@ -16,7 +15,8 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 use vibroimpact_plot::Figure;
 use vibroimpact_report::figure::coloured::{Coloured, Of};
-use vibroimpact_report::question::{python, python_showing, shell_line, shell_line_coloured, shell_line_showing};
+use vibroimpact_report::figure::overlay::{Layer, Overlay};
+use vibroimpact_report::question::{python, python_showing, shell_line, shell_line_figure, shell_line_showing};
 use vibroimpact_report::scene::View;
 use vibroimpact_report::{AnswerError, Shown, Table, Units, answer as ask};
 use vibroimpact_study::{Control, Task};
@@ -72,7 +72,7 @@ pub(super) fn csv(table: Table<'_>) -> Result<(&'static str, Bytes), Refusal> {
 pub(super) async fn command(Query(wanted): Query<Wanted>, asked: PlanRequest) -> Result<Json<Value>, Refusal> {
     let plan = &asked.plan;
     let figure = match &plan.task {
-        Task::Map(_) | Task::Basin(_) => shell_line_coloured(plan, wanted.coloured()?.as_ref()),
+        Task::Map(_) | Task::Basin(_) => shell_line_figure(plan, wanted.coloured()?.as_ref(), &wanted.overlay()?),
         Task::Diagram(_) => shell_line(plan).map(|line| format!("{line} --branches --plot diagram.svg")),
         _ => None,
     };
@@ -92,11 +92,11 @@ pub(super) struct Wanted {
     height: Option<f64>,
     /// The view of a settled motion; by default that of `--plot`.
     kind: Option<View>,
-    /// The layers over a map, separated by commas.
+    /// The layers of a map, separated by commas; without a list those of the command.
     layers: Option<String>,
-    /// The chosen point of a map: its abscissa and ordinate, separated by a comma.
-    chosen: Option<String>,
-    /// A line in a map: the coordinates of its ends, separated by commas.
+    /// A point of a map: its abscissa and ordinate in the units of the axes, separated by a comma.
+    mark: Option<String>,
+    /// A line in a map: the coordinates of its ends in the units of the axes, separated by commas.
     line: Option<String>,
     /// The quantity in whose colours a map or basin is drawn.
     colour: Option<String>,
@@ -121,11 +121,7 @@ const SHARPNESS: f64 = 2.0;
 
 impl Wanted {
     fn shown(&self) -> Result<Shown, Refusal> {
-        let shown = Shown { view: self.kind, colour: self.coloured()?, ..Shown::default() };
-        // a figure without a list of layers is that of the command
-        let Some(layers) = &self.layers else { return Ok(shown) };
-        let has = |name: &str| listed(layers).iter().any(|layer| layer == name);
-        Ok(Shown { stripes: has("stripes"), boundaries: has("boundaries"), ..shown })
+        Ok(Shown { view: self.kind, colour: self.coloured()?, overlay: self.overlay()?, ..Shown::default() })
     }
 
     /// The colours of a quantity, if one is named.
@@ -144,12 +140,17 @@ impl Wanted {
     }
 
     fn overlay(&self) -> Result<Overlay, Refusal> {
-        let layers = self.layers.as_deref().map(listed).unwrap_or_default();
-        Ok(Overlay {
-            layers,
-            chosen: numbers("chosen", self.chosen.as_deref())?,
-            line: numbers("line", self.line.as_deref())?,
-        })
+        let layer = |name: &String| {
+            let known = Layer::from_name(name);
+            known.ok_or_else(|| Refusal::bad(format!("layers = {name}: there is no such layer")))
+        };
+        let layers = match self.layers.as_deref() {
+            None => Overlay::default().layers,
+            Some("") => Vec::new(),
+            Some(names) => listed(names).iter().map(layer).collect::<Result<_, _>>()?,
+        };
+        let (mark, line) = (numbers("mark", self.mark.as_deref())?, numbers("line", self.line.as_deref())?);
+        Ok(Overlay { layers, mark, line })
     }
 
     pub(super) fn check(&self) -> Result<(), Refusal> {
@@ -197,8 +198,7 @@ pub(super) async fn figure(
     let work = move |control: &Control<'_>| {
         let shown = wanted.shown()?;
         let answer = ask(&plan, Units::default(), control)?;
-        let mut figure = answer.figure(&shown, control)?.ok_or_else(|| nothing("figure"))?;
-        wanted.overlay()?.add(&mut figure, &plan, control)?;
+        let figure = answer.figure(&shown, control)?.ok_or_else(|| nothing("figure"))?;
         wanted.draw(figure)
     };
     let (kind, body) = explorer.workshop.run(Bench::Answers, 0, |_| {}, work).await?;

@@ -6,7 +6,6 @@ mod asked;
 mod bifurcation;
 mod layer;
 mod motion;
-mod overlay;
 mod page;
 mod picture;
 mod tile;

@@ -1,0 +1,145 @@
+//! OVERLAY: what lies over the figure of a map of two parameters: layers, a marked point, a line.
+
+use super::numbers::shown;
+use crate::failure::Failure;
+use clap::{Args, ValueEnum};
+use core::str::FromStr;
+use vibroimpact_report::figure::overlay::{Layer, Overlay};
+use vibroimpact_study::typed::decimal;
+
+/// What lies over the figure of a map.
+#[derive(Clone, Debug, Default, Args)]
+#[command(next_help_heading = "Figure")]
+pub(crate) struct OverlayArgs {
+    /// Layers of a map of two parameters, separated by commas, or none [default: stripes; with --colour: none]
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "LAYER,...")]
+    layers: Option<Vec<LayerName>>,
+
+    /// Mark this point of a map of two parameters, in the units of the axes
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    mark: Option<Place>,
+
+    /// Draw a line in a map of two parameters, in the units of the axes; it may leave the figure
+    #[arg(long, value_name = "X0,Y0:X1,Y1", allow_hyphen_values = true)]
+    line: Option<Segment>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum LayerName {
+    /// Boundaries of the regions in which 1/1, 2/1, 3/1, 4/1, 1/2, 1/3, 2/2, 3/2 and 2/4 are stable
+    Regions,
+    /// The amplitude of the motion without stops; the gap is on an axis
+    Amplitude,
+    /// The points of the 1971 paper
+    Paper,
+    /// Stripes where motions coexist
+    Stripes,
+    /// Lines where the motion changes
+    Boundaries,
+    /// No layer
+    None,
+}
+
+impl LayerName {
+    const fn layer(self) -> Option<Layer> {
+        match self {
+            Self::Regions => Some(Layer::Regions),
+            Self::Amplitude => Some(Layer::Amplitude),
+            Self::Paper => Some(Layer::Paper),
+            Self::Stripes => Some(Layer::Stripes),
+            Self::Boundaries => Some(Layer::Boundaries),
+            Self::None => None,
+        }
+    }
+}
+
+impl OverlayArgs {
+    /// Whether any option is given.
+    pub(crate) const fn any(&self) -> bool {
+        self.layers.is_some() || self.mark.is_some() || self.line.is_some()
+    }
+
+    /// The requested overlay of a figure, which is in the colours of a quantity or not.
+    pub(crate) fn overlay(&self, drawn: bool, coloured: bool) -> Result<Overlay, Failure> {
+        if self.any() && !drawn {
+            return Err(Failure::bad("--layers, --mark and --line say what the figure shows\nhint: --plot FILE"));
+        }
+        let layers = match &self.layers {
+            None if coloured => Vec::new(),
+            None => Overlay::default().layers,
+            Some(names) if names.len() > 1 && names.contains(&LayerName::None) => {
+                return Err(Failure::bad("--layers none stands alone\nhint: leave out none, or the others"));
+            }
+            Some(names) => {
+                let mut layers: Vec<Layer> = names.iter().filter_map(|name| name.layer()).collect();
+                layers.sort_unstable();
+                layers.dedup();
+                layers
+            }
+        };
+        let line = self.line.map(|Segment(Place(x0, y0), Place(x1, y1))| [x0, y0, x1, y1]);
+        Ok(Overlay { layers, mark: self.mark.map(|Place(x, y)| [x, y]), line })
+    }
+}
+
+/// `X,Y`: a point of a figure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Place(f64, f64);
+
+impl FromStr for Place {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let bad = || format!("`{}` is not X,Y with finite numbers, such as 1.3,0.75", shown(text));
+        let number = |part: &str| decimal(part).filter(|x| x.is_finite()).ok_or_else(bad);
+        let (x, y) = text.split_once(',').ok_or_else(bad)?;
+        Ok(Self(number(x)?, number(y)?))
+    }
+}
+
+/// `X0,Y0:X1,Y1`: a line in a figure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Segment(Place, Place);
+
+impl FromStr for Segment {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let bad = || format!("`{}` is not X0,Y0:X1,Y1 with finite numbers, such as 1.1,0.5:1.1,2.5", shown(text));
+        let (from, to) = text.split_once(':').ok_or_else(bad)?;
+        let (from, to): (Place, Place) = (from.parse().map_err(|_| bad())?, to.parse().map_err(|_| bad())?);
+        if from == to {
+            return Err(format!("`{}` is no line: its two ends are the same point", shown(text)));
+        }
+        Ok(Self(from, to))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_and_lines_and_what_is_none() {
+        assert_eq!("1.3,0.75".parse(), Ok(Place(1.3, 0.75)));
+        assert_eq!(" -1e-3, 2 ".parse(), Ok(Place(-1e-3, 2.0)));
+        assert_eq!("1,2:3,-4".parse(), Ok(Segment(Place(1.0, 2.0), Place(3.0, -4.0))));
+        for bad in ["", "1", "1,", ",1", "1,2,3", "1:2", "1,nan", "inf,1", "a,b"] {
+            assert!(bad.parse::<Place>().is_err_and(|why| why.contains("is not X,Y")), "{bad}");
+        }
+        for bad in ["", "1,2", "1,2:3", "1:2,3:4", "1,2:3,4:5,6", "1,2:3,inf"] {
+            assert!(bad.parse::<Segment>().is_err_and(|why| why.contains("is not X0,Y0:X1,Y1")), "{bad}");
+        }
+        assert!("1,2:1,2.0".parse::<Segment>().is_err_and(|why| why.contains("the same point")));
+    }
+
+    #[test]
+    fn every_layer_has_its_name() {
+        let names = LayerName::value_variants().iter().filter_map(|name| {
+            Some((name.layer()?.name(), name.to_possible_value().map(|value| value.get_name().to_owned())?))
+        });
+        let names: Vec<_> = names.collect();
+        assert_eq!(names.len(), Layer::ALL.len());
+        assert!(names.iter().all(|(layer, name)| layer == name), "{names:?}");
+    }
+}
