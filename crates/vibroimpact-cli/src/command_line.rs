@@ -50,7 +50,7 @@ pub(crate) fn explained(mut error: clap::Error, words: &[String]) -> clap::Error
             error.insert(ContextKind::InvalidArg, ContextValue::Strings(all));
         }
         (ErrorKind::UnknownArgument, Some(ContextValue::String(word))) => {
-            if let Some(tip) = dashed(word, words) {
+            if let Some(tip) = dashed(word, words).or_else(|| after_force(word, words)) {
                 error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![StyledStr::from(tip)]));
             }
         }
@@ -114,6 +114,13 @@ fn dashed(unknown: &str, words: &[String]) -> Option<String> {
     (long && wrong).then(|| format!("flags begin with two dashes: '--{name}'"))
 }
 
+/// The tip for a force that was given to `--force`, which replaces files and takes no value.
+fn after_force(unknown: &str, words: &[String]) -> Option<String> {
+    let given = words.windows(2).any(|pair| pair[0] == "--force" && pair[1] == unknown);
+    let number = unknown.starts_with(|c: char| c.is_ascii_digit() || c == '.');
+    (given && number).then(|| format!("the force of a machine is '--force-n {unknown}'; '--force' replaces files"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -155,5 +162,14 @@ mod tests {
         {
             assert_eq!(tip(unknown, line), None, "{line}");
         }
+    }
+
+    #[test]
+    fn a_force_that_is_no_flag() {
+        let tip = |unknown: &str, line: &str| after_force(unknown, &words(line));
+        let found = tip("30N", "vibro attractors --force 30N --gap 1");
+        assert_eq!(found.as_deref(), Some("the force of a machine is '--force-n 30N'; '--force' replaces files"));
+        assert_eq!(tip("x", "vibro attractors --force x"), None);
+        assert_eq!(tip("30", "vibro attractors --gap 1 30"), None);
     }
 }
