@@ -4,13 +4,13 @@ use crate::figure::coloured::{self, Coloured};
 use crate::figure::overlay::Overlay;
 use crate::figure::{self, title};
 use crate::scene::{View, Viewed, phase_portrait};
-use crate::{Asked, ReportError, Table, Units, json, table};
+use crate::{AnswerError, Asked, ReportError, Table, Units, json, table};
 use serde::ser::Error as _;
 use serde::{Serialize, Serializer};
 use vibroimpact::Oscillator;
 use vibroimpact::verdict::{PaperRule, PaperVerdict};
 use vibroimpact_plot::Figure;
-use vibroimpact_study::{Control, Plan, PlanError, Results, RunError, Stopped, Task, run};
+use vibroimpact_study::{Control, Plan, Results, Task, run};
 
 /// A plan and its result, in memory. Its [`Serialize`] form is the JSON object that the command prints with `--json`.
 #[derive(Clone, Debug)]
@@ -47,44 +47,6 @@ pub struct Shown {
 impl Default for Shown {
     fn default() -> Self {
         Self { view: None, step: None, diagram: true, inadmissible: false, colour: None, overlay: Overlay::default() }
-    }
-}
-
-/// The reason why there is no answer, or no figure or table of it.
-#[derive(Debug, thiserror::Error)]
-pub enum AnswerError {
-    /// The question is invalid.
-    #[error(transparent)]
-    Plan(PlanError),
-    /// The run was stopped by its caller.
-    #[error(transparent)]
-    Stopped(#[from] Stopped),
-    /// The result cannot be drawn or tabulated.
-    #[error(transparent)]
-    Report(ReportError),
-}
-
-impl From<PlanError> for AnswerError {
-    fn from(error: PlanError) -> Self {
-        Self::Plan(error)
-    }
-}
-
-impl From<RunError> for AnswerError {
-    fn from(error: RunError) -> Self {
-        match error {
-            RunError::Plan(error) => Self::Plan(error),
-            RunError::Stopped(error) => Self::Stopped(error),
-        }
-    }
-}
-
-impl From<ReportError> for AnswerError {
-    fn from(error: ReportError) -> Self {
-        match error {
-            ReportError::Plan(error) => Self::Plan(error),
-            error => Self::Report(error),
-        }
     }
 }
 

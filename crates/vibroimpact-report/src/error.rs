@@ -1,8 +1,8 @@
-//! The errors of figures and tables.
+//! The errors of answers, figures and tables.
 
 use crate::number::short;
 use vibroimpact_plot::PlotError;
-use vibroimpact_study::PlanError;
+use vibroimpact_study::{PlanError, RunError, Stopped};
 
 /// The reason why a result has no figure or table. The message names the cause, often with a hint.
 #[derive(Debug, thiserror::Error)]
@@ -115,5 +115,43 @@ fn listed(quantities: &[String]) -> String {
     match quantities {
         [] => "no quantities".to_owned(),
         list => list.iter().map(|field| flag(field)).collect::<Vec<_>>().join(", "),
+    }
+}
+
+/// The reason why there is no answer, or no figure or table of it.
+#[derive(Debug, thiserror::Error)]
+pub enum AnswerError {
+    /// The question is invalid.
+    #[error(transparent)]
+    Plan(PlanError),
+    /// The run was stopped by its caller.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
+    /// The result cannot be drawn or tabulated.
+    #[error(transparent)]
+    Report(ReportError),
+}
+
+impl From<PlanError> for AnswerError {
+    fn from(error: PlanError) -> Self {
+        Self::Plan(error)
+    }
+}
+
+impl From<RunError> for AnswerError {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Plan(error) => Self::Plan(error),
+            RunError::Stopped(error) => Self::Stopped(error),
+        }
+    }
+}
+
+impl From<ReportError> for AnswerError {
+    fn from(error: ReportError) -> Self {
+        match error {
+            ReportError::Plan(error) => Self::Plan(error),
+            error => Self::Report(error),
+        }
     }
 }

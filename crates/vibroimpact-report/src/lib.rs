@@ -27,8 +27,8 @@ pub mod scene;
 pub mod table;
 mod units;
 
-pub use answer::{Answer, AnswerError, Shown, answer};
-pub use error::ReportError;
+pub use answer::{Answer, Shown, answer};
+pub use error::{AnswerError, ReportError};
 pub use machine_answer::{MachineAnswer, machine_answer};
 pub use table::Table;
 pub use units::{Asked, Units};

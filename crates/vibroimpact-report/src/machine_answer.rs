@@ -1,6 +1,6 @@
 //! A plan of a machine, its result, and everything that is reported of it: the JSON object, the table and the figure.
 
-use crate::answer::AnswerError;
+use crate::AnswerError;
 use crate::figure::coloured::{self, Coloured};
 use crate::{ReportError, Table, figure, table};
 use vibroimpact::events::MachineStart;

@@ -77,9 +77,9 @@ pub trait Shelf: Send + Sync {
 #[derive(Debug)]
 pub struct Folder {
     /// As it was given.
-    given: PathBuf,
-    /// Absolute, because a process can change its working folder.
     path: PathBuf,
+    /// Absolute, because a process can change its working folder.
+    place: PathBuf,
 }
 
 /// Number of files begun by this process. It makes the names of unfinished files unique within the process.
@@ -95,18 +95,18 @@ impl Folder {
     /// The folder at `path`, which need not exist yet.
     #[must_use]
     pub fn new(path: &Path) -> Self {
-        Self { given: path.to_owned(), path: std::path::absolute(path).unwrap_or_else(|_| path.to_owned()) }
+        Self { path: path.to_owned(), place: std::path::absolute(path).unwrap_or_else(|_| path.to_owned()) }
     }
 
     /// The path of the folder, as it was given.
     #[must_use]
     pub fn path(&self) -> &Path {
-        &self.given
+        &self.path
     }
 
     /// An object for reading, if there is one.
     fn open(&self, key: &str) -> io::Result<Option<File>> {
-        match File::open(self.path.join(key)) {
+        match File::open(self.place.join(key)) {
             Ok(file) => Ok(Some(file)),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
             Err(error) => Err(error),
@@ -147,7 +147,7 @@ impl Folder {
 
 impl Shelf for Folder {
     fn get(&self, key: &str) -> io::Result<Option<Vec<u8>>> {
-        match fs::read(self.path.join(key)) {
+        match fs::read(self.place.join(key)) {
             Ok(bytes) => Ok(Some(bytes)),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
             Err(error) => Err(error),
@@ -172,13 +172,13 @@ impl Shelf for Folder {
     }
 
     fn remove(&self, key: &str) -> io::Result<()> {
-        let path = self.path.join(key);
+        let path = self.place.join(key);
         match fs::remove_file(&path) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
             _ => {}
         }
         // folders that have become empty; one that another process is filling is not removed, or made again by it
-        for folder in path.ancestors().skip(1).take_while(|folder| *folder != self.path) {
+        for folder in path.ancestors().skip(1).take_while(|folder| *folder != self.place) {
             if fs::remove_dir(folder).is_err() {
                 break;
             }
@@ -187,7 +187,7 @@ impl Shelf for Folder {
     }
 
     fn put(&self, key: &str, bytes: &[u8]) -> io::Result<()> {
-        let place = self.path.join(key);
+        let place = self.place.join(key);
         let (Some(folder), Some(name)) = (place.parent(), place.file_name()) else {
             return Err(io::ErrorKind::InvalidInput.into());
         };
@@ -212,9 +212,9 @@ impl Shelf for Folder {
     fn list(&self, prefix: &str) -> io::Result<Vec<Item>> {
         let mut items = Vec::new();
         // objects with this prefix are in the folder named by the prefix up to its last slash
-        let from = prefix.rfind('/').map_or(self.path.clone(), |end| self.path.join(&prefix[..end]));
+        let from = prefix.rfind('/').map_or(self.place.clone(), |end| self.place.join(&prefix[..end]));
         Self::walk(&from, &mut |path, entry| {
-            let Ok(relative) = path.strip_prefix(&self.path) else { return Ok(()) };
+            let Ok(relative) = path.strip_prefix(&self.place) else { return Ok(()) };
             let parts: Vec<_> = relative.iter().map(|part| part.to_string_lossy()).collect();
             let key = parts.join("/");
             if key.starts_with(prefix) && !parts.last().is_some_and(|name| Self::unfinished(name)) {
@@ -231,7 +231,7 @@ impl Shelf for Folder {
     }
 
     fn sweep(&self) -> io::Result<()> {
-        Self::walk(&self.path, &mut |path, _| {
+        Self::walk(&self.place, &mut |path, _| {
             if path.file_name().is_some_and(|name| Self::unfinished(&name.to_string_lossy())) {
                 // if another process is still writing this file, it writes it again
                 let _ = fs::remove_file(path);
@@ -241,7 +241,7 @@ impl Shelf for Folder {
     }
 
     fn name(&self) -> String {
-        self.given.display().to_string()
+        self.path.display().to_string()
     }
 }
 
@@ -261,7 +261,7 @@ mod tests {
     fn a_relative_folder_keeps_its_place() {
         let folder = Folder::new(Path::new("some/store"));
         assert_eq!((folder.path(), folder.name().as_str()), (Path::new("some/store"), "some/store"));
-        assert!(folder.path.is_absolute() && folder.path.ends_with("some/store"));
+        assert!(folder.place.is_absolute() && folder.place.ends_with("some/store"));
     }
 
     #[test]
