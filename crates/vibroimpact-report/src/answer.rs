@@ -210,6 +210,7 @@ mod tests {
     use super::*;
     use core::sync::atomic::AtomicBool;
     use core::sync::atomic::Ordering;
+    use vibroimpact_study::PlanError;
     use vibroimpact_study::{StartPlan, SystemPlan};
 
     const S: SystemPlan = SystemPlan {

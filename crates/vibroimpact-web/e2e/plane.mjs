@@ -211,15 +211,17 @@ export async function tiles_have_hardly_more_points_than_pixels({ open }) {
 export async function what_was_seen_is_not_asked_again({ open }) {
   const { page } = await open("#view=1.05,1.15,2.2,2.5&impacts=200", { viewport: { width: 800, height: 600 } });
   await sharp(page);
-  await page.locator("#zoom-in").click();
-  await until("another level", async () => (await hash(page)).get("view") !== "1.05,1.15,2.2,2.5");
-  // its tiles are requested a little later
-  await page.waitForTimeout(1000);
-  await sharp(page);
   const asked = [];
   page.on("request", (request) => {
     if (request.url().endsWith("/api/tile")) asked.push(request);
   });
+  await page.locator("#zoom-in").click();
+  await until("another level", async () => (await hash(page)).get("view") !== "1.05,1.15,2.2,2.5");
+  // its tiles are requested a little later
+  await until("its tiles are requested", async () => asked.length > 0);
+  await page.waitForTimeout(1000);
+  await sharp(page);
+  asked.length = 0;
   await page.locator("#zoom-out").click();
   await page.waitForTimeout(1000);
   await sharp(page);
