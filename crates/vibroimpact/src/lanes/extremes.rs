@@ -18,15 +18,16 @@ pub(crate) fn add_extremes(extremes: &mut Extremes, panels: &Panels, flight: &Fl
 }
 
 fn add_with(width: Width, extremes: &mut Extremes, panels: &Panels, flight: &Flight, duration: f64) {
+    let largest = flight.largest();
     if !suited(flight, duration) {
-        if reachable(extremes, flight).1 > 0 {
+        if reachable(extremes, largest).1 > 0 {
             extremes.add(flight, duration);
         }
         return;
     }
     let mut from = Part { begin: 0.0, end: duration, point: Points::begin(flight) };
     loop {
-        let (low, count) = reachable(extremes, flight);
+        let (low, count) = reachable(extremes, largest);
         if count == 0 {
             return;
         }
@@ -41,9 +42,8 @@ fn add_with(width: Width, extremes: &mut Extremes, panels: &Panels, flight: &Fli
     }
 }
 
-/// The ceilings that the flight could exceed, however long it is, and their number.
-fn reachable(extremes: &Extremes, flight: &Flight) -> ([Ceiling; 6], usize) {
-    let largest = flight.largest();
+/// The ceilings that a flight with these [bounds](Flight::largest) could exceed, however long it is, and their number.
+fn reachable(extremes: &Extremes, largest: [f64; 3]) -> ([Ceiling; 6], usize) {
     let mut low = [Ceiling::NONE; 6];
     let mut count = 0;
     for ceiling in extremes.ceilings() {

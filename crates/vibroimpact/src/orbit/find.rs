@@ -206,6 +206,7 @@ const LONG: usize = 64;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::motion::impact_map;
 
     #[test]
     fn both_motions_at_t_and_the_doubled_one() {
@@ -236,8 +237,7 @@ mod tests {
         for _ in 0..m {
             ring.sides.push(state.side);
             ring.unknowns.extend([theta, state.velocity]);
-            let Mapped::Impact { state: next, interval } = crate::motion::impact_map(osc, &state, flight_limits(n))
-            else {
+            let Mapped::Impact { state: next, interval } = impact_map(osc, &state, flight_limits(n)) else {
                 return None;
             };
             theta += osc.beta() * interval;

@@ -6,22 +6,13 @@ use super::options::SettleOptions;
 use super::outcome::Verdict;
 use super::settle::Drive;
 use crate::lanes::Batch;
-use crate::motion::{self, End, ImpactState, Motion, Recorder};
-use crate::system::{Oscillator, Start};
-
-/// A motion that is to be followed.
-pub(super) struct Launched {
-    /// Its number.
-    pub(super) place: usize,
-    /// The number of its oscillator in the batch.
-    pub(super) system: u32,
-    pub(super) start: Start,
-}
+use crate::motion::{Abreast, End, ImpactState, Launched, Motion, Recorder};
+use crate::system::Oscillator;
 
 /// Where motions come from, and where their verdicts go.
 pub(super) trait Source {
-    /// The next motion; `None` if there is no more.
-    fn next(&mut self) -> Option<Launched>;
+    /// The next motion with its number; `None` if there is no more.
+    fn next(&mut self) -> Option<(usize, Launched)>;
     /// An empty record.
     fn follow(&self) -> Follow;
     /// The verdicts on releases of the oscillator of a motion.
@@ -36,7 +27,7 @@ pub(super) trait Source {
 
 /// Follows all motions of a source in an empty batch. Returns the source.
 pub(super) fn settle_abreast<S: Source>(batch: Batch, options: &SettleOptions, source: S) -> S {
-    motion::Abreast::new(batch, options.limits, Settling { options, source }).run().source
+    Abreast::new(batch, options.limits, Settling { options, source }).run().source
 }
 
 struct Settling<'a, S> {
@@ -57,11 +48,11 @@ impl<S: Source> Recorder for Settling<'_, S> {
         Track { place: 0, follow: self.source.follow() }
     }
 
-    fn next(&mut self, track: &mut Track) -> Option<motion::Launched> {
-        let Launched { place, system, start } = self.source.next()?;
+    fn next(&mut self, track: &mut Track) -> Option<Launched> {
+        let (place, launched) = self.source.next()?;
         track.place = place;
         track.follow.reset();
-        Some(motion::Launched { system, start })
+        Some(launched)
     }
 
     fn impact(

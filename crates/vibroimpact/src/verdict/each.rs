@@ -5,7 +5,7 @@
 //! or become periodic slowly, fill the lanes only if there are many of them. With damping the propagators of different
 //! oscillators are computed lane by lane, which costs more than single motions.
 
-use super::abreast::{Launched, Source, settle_abreast};
+use super::abreast::{Source, settle_abreast};
 use super::follow::{Follow, Releases};
 use super::many::{FEW, KnownAttractors, settle_many};
 use super::options::SettleOptions;
@@ -14,7 +14,7 @@ use super::settle::settle;
 use super::settlement::{Part, Settlement};
 use crate::lanes::{Batch, Kind, Width};
 use crate::lyapunov::Arrivals;
-use crate::motion::ImpactState;
+use crate::motion::{ImpactState, Launched};
 use crate::system::{Oscillator, Start};
 
 /// The number of motions side by side. More need more memory, and fewer leave more lanes empty at the end.
@@ -167,7 +167,7 @@ impl<F: Fn(usize, u64) -> Start> Points<'_, F> {
 }
 
 impl<F: Fn(usize, u64) -> Start> Source for Points<'_, F> {
-    fn next(&mut self) -> Option<Launched> {
+    fn next(&mut self) -> Option<(usize, Launched)> {
         let (mut number, mut k) = self.next;
         while k >= self.points.get(number)?.decided.len() {
             (number, k) = (number + 1, 0);
@@ -176,11 +176,8 @@ impl<F: Fn(usize, u64) -> Start> Source for Points<'_, F> {
         self.places.push((number, k));
         #[allow(clippy::cast_possible_truncation)] // a tile
         let system = number as u32;
-        Some(Launched {
-            place: self.places.len() - 1,
-            system,
-            start: (self.start)(self.points[number].system, k as u64),
-        })
+        let start = (self.start)(self.points[number].system, k as u64);
+        Some((self.places.len() - 1, Launched { system, start }))
     }
 
     fn follow(&self) -> Follow {

@@ -6,7 +6,7 @@
 //! The result does not depend on how the starts are divided. Motions are compared as in [`Census`](super::Census), and
 //! the verdict reported for each is that of [`settle`] on the first start that leads to it.
 
-use super::abreast::{Launched, Source, settle_abreast};
+use super::abreast::{Source, settle_abreast};
 use super::attractors::SAME;
 use super::follow::{Follow, Releases};
 use super::options::SettleOptions;
@@ -16,7 +16,7 @@ use super::settlement::{Part, Settlement};
 use super::trapping_region::TrappingRegion;
 use crate::lanes::{ABREAST, Batch, Width};
 use crate::lyapunov::Arrivals;
-use crate::motion::ImpactState;
+use crate::motion::{ImpactState, Launched};
 use crate::system::{Oscillator, Start};
 use core::ops::Range;
 
@@ -125,11 +125,11 @@ struct Starts<'a, F> {
 }
 
 impl<F: Fn(u64) -> Start> Source for Starts<'_, F> {
-    fn next(&mut self) -> Option<Launched> {
+    fn next(&mut self) -> Option<(usize, Launched)> {
         let (place, index) = (self.next, self.range.start + self.next as u64);
         (index < self.range.end).then(|| {
             self.next += 1;
-            Launched { place, system: 0, start: (self.start)(index) }
+            (place, Launched { system: 0, start: (self.start)(index) })
         })
     }
 
