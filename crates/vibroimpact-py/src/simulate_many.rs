@@ -61,9 +61,10 @@ fn padded<'py, T: numpy::Element + Copy>(
     all.into_pyarray(py)
 }
 
-/// The events of many motions: rows of `width` events each, as [`EventColumns`] describes them.
+/// The events of many motions: rows of `room` cells each, as [`EventColumns`] describes them.
 #[derive(IntoPyObject)]
 pub(crate) struct ManyFields<'py> {
+    room: usize,
     width: usize,
     kind: Bound<'py, PyArray1<i8>>,
     side: Bound<'py, PyArray1<i8>>,
@@ -99,8 +100,10 @@ pub(crate) fn simulate_points<'py>(
     let found = door::run(py, watch, move |control| {
         Ok(vibroimpact_study::simulate_points(&points, (&system, &start), limits, control)?)
     })?;
-    let EventColumns { width, kind, side, time, phase, velocity_before, velocity_after, count, end, end_time } = found;
+    let EventColumns { room, width, kind, side, time, phase, velocity_before, velocity_after, count, end, end_time } =
+        found;
     Ok(ManyFields {
+        room,
         width,
         kind: kind.into_pyarray(py),
         side: side.into_pyarray(py),

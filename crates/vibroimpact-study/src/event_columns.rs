@@ -6,10 +6,12 @@ use vibroimpact::motion::{Event, EventKind};
 /// The reasons for which lists of events end, in the order of their codes.
 pub const END_REASONS: [&str; 5] = ["impact_limit", "time_limit", "no_more_impacts", "stuck", "search_limit"];
 
-/// The events of many motions: a row for each motion, with room for `width` events.
+/// The events of many motions: a row for each motion, with room for `room` events.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EventColumns {
-    /// The largest number of events of a motion.
+    /// The number of cells of each row.
+    pub room: usize,
+    /// The largest number of events of a motion, at most `room`. The further cells of all rows hold no events.
     pub width: usize,
     /// 0 impact, 1 graze, 2 stick, 3 release; -1 after the last event.
     pub kind: Vec<i8>,
@@ -33,7 +35,7 @@ pub struct EventColumns {
 
 /// Some rows, which one thread fills. Events for which the rows have no room are kept aside, each with its row.
 pub(crate) struct Rows<'a> {
-    width: usize,
+    room: usize,
     small: [&'a mut [i8]; 2],
     real: [&'a mut [f64]; 4],
     count: &'a mut [i32],
@@ -66,10 +68,10 @@ impl Rows<'_> {
     pub(crate) fn push(&mut self, row: usize, event: &Event) {
         let count = usize::try_from(self.count[row]).unwrap_or(usize::MAX);
         self.count[row] += 1;
-        if count >= self.width {
+        if count >= self.room {
             return self.aside.push((row, *event));
         }
-        let (at, (small, real)) = (row * self.width + count, numbers(event));
+        let (at, (small, real)) = (row * self.room + count, numbers(event));
         self.small.iter_mut().zip(small).for_each(|(column, value)| column[at] = value);
         self.real.iter_mut().zip(real).for_each(|(column, value)| column[at] = value);
     }
@@ -84,8 +86,8 @@ impl Rows<'_> {
     /// Fills up all rows. Returns the events for which they had no room.
     pub(crate) fn filled(mut self) -> Vec<(usize, Event)> {
         for (row, count) in self.count.iter().enumerate() {
-            let count = usize::try_from(*count).unwrap_or(0).min(self.width);
-            let rest = row * self.width + count..(row + 1) * self.width;
+            let count = usize::try_from(*count).unwrap_or(0).min(self.room);
+            let rest = row * self.room + count..(row + 1) * self.room;
             self.small.iter_mut().zip(NOTHING.0).for_each(|(column, value)| column[rest.clone()].fill(value));
             self.real.iter_mut().zip(NOTHING.1).for_each(|(column, value)| column[rest.clone()].fill(value));
         }
@@ -94,12 +96,13 @@ impl Rows<'_> {
 }
 
 impl EventColumns {
-    /// Columns with this number of rows, of `width` events each, which is at least 1. They must be
+    /// Columns with this number of rows, with room for `room` events each, which is at least 1. They must be
     /// [filled](Rows::filled).
-    pub(crate) fn open(rows: usize, width: usize) -> Self {
-        let (small, real) = (|| vec![0; rows * width], || vec![0.0; rows * width]);
+    pub(crate) fn open(rows: usize, room: usize) -> Self {
+        let (small, real) = (|| vec![0; rows * room], || vec![0.0; rows * room]);
         Self {
-            width,
+            room,
+            width: 0,
             kind: small(),
             side: small(),
             time: real(),
@@ -114,14 +117,14 @@ impl EventColumns {
 
     /// The rows in parts of `part` rows each.
     pub(crate) fn parts(&mut self, part: usize) -> Vec<Rows<'_>> {
-        let (width, cells) = (self.width, part * self.width);
+        let (room, cells) = (self.room, part * self.room);
         let small = self.kind.chunks_mut(cells).zip(self.side.chunks_mut(cells));
         let times = self.time.chunks_mut(cells).zip(self.phase.chunks_mut(cells));
         let velocities = self.velocity_before.chunks_mut(cells).zip(self.velocity_after.chunks_mut(cells));
         let ends = self.count.chunks_mut(part).zip(self.end.chunks_mut(part)).zip(self.end_time.chunks_mut(part));
         let all = small.zip(times.zip(velocities)).zip(ends);
         all.map(|(((kind, side), ((time, phase), (before, after))), ((count, end), end_time))| Rows {
-            width,
+            room,
             small: [kind, side],
             real: [time, phase, before, after],
             count,
@@ -132,25 +135,26 @@ impl EventColumns {
         .collect()
     }
 
-    /// The columns with room for exactly the events of the longest row. `aside` are the events that the rows had no room
-    /// for, in their order.
+    /// The columns with room for the events of the longest row. `aside` are the events that the rows had no room for, in
+    /// their order.
     pub(crate) fn fitted(mut self, aside: impl Iterator<Item = (usize, Event)>) -> Self {
-        let longest = self.count.iter().max().map_or(0, |count| usize::try_from(*count).unwrap_or(0));
-        let (old, rows) = (self.width, self.count.len());
-        if longest == old {
+        self.width = self.count.iter().max().map_or(0, |count| usize::try_from(*count).unwrap_or(0));
+        let (old, new, rows) = (self.room, self.width, self.count.len());
+        // a copy of all events takes longer than a few empty cells are worth
+        if (old - old / 4..=old).contains(&new) {
             return self;
         }
         for (column, nothing) in [&mut self.kind, &mut self.side].into_iter().zip(NOTHING.0) {
-            refit(column, rows, (old, longest), nothing);
+            refit(column, rows, (old, new), nothing);
         }
         let real = [&mut self.time, &mut self.phase, &mut self.velocity_before, &mut self.velocity_after];
         for (column, nothing) in real.into_iter().zip(NOTHING.1) {
-            refit(column, rows, (old, longest), nothing);
+            refit(column, rows, (old, new), nothing);
         }
-        self.width = longest;
+        self.room = new;
         let mut next = vec![old; rows];
         for (row, event) in aside {
-            let (at, ([kind, side], [time, phase, before, after])) = (row * longest + next[row], numbers(&event));
+            let (at, ([kind, side], [time, phase, before, after])) = (row * new + next[row], numbers(&event));
             next[row] += 1;
             (self.kind[at], self.side[at], self.time[at], self.phase[at]) = (kind, side, time, phase);
             (self.velocity_before[at], self.velocity_after[at]) = (before, after);
@@ -159,7 +163,7 @@ impl EventColumns {
     }
 }
 
-/// Rows of one width as rows of another one.
+/// Rows with room for so many cells as rows with other room.
 fn refit<T: Copy>(column: &mut Vec<T>, rows: usize, (old, new): (usize, usize), nothing: T) {
     if new < old {
         for row in 0..rows {

@@ -59,8 +59,9 @@ pub fn simulate_points(
     Ok(columns.fitted(aside.into_iter().flatten()))
 }
 
-/// The number of events for which each row has room at first: most motions have one for each impact.
+/// The number of events for which each row has room at first: most motions have one for each impact, and a few others.
 fn room(rows: usize, (impacts, periods): (Option<u64>, Option<f64>)) -> usize {
+    let impacts = impacts.map(|impacts| impacts.saturating_add(impacts / 16 + 4));
     let wanted = impacts.unwrap_or(if periods.is_some() { ROOM } else { crate::simulate::most_impacts(None, None) });
     usize::try_from(wanted).unwrap_or(usize::MAX).min(MOST_CELLS / rows.max(1)).max(1)
 }
@@ -138,7 +139,7 @@ mod tests {
     /// The columns from the events of each motion alone.
     fn expected(all: &[Simulated]) -> EventColumns {
         let width = all.iter().map(|one| one.events.len()).max().unwrap();
-        let mut columns = EventColumns { width, ..EventColumns::default() };
+        let mut columns = EventColumns { room: width, width, ..EventColumns::default() };
         for one in all {
             for k in 0..width {
                 let event = one.events.get(k);
@@ -166,11 +167,14 @@ mod tests {
         columns
     }
 
-    /// All numbers as bits, so that nan equals nan.
+    /// All numbers as bits, so that nan equals nan, without the cells that hold no events in any row.
     fn bits(of: &EventColumns) -> (usize, Vec<i8>, Vec<i32>, Vec<u64>) {
-        let real = [&of.time, &of.phase, &of.velocity_before, &of.velocity_after, &of.end_time];
-        let real = real.into_iter().flatten().map(|value| value.to_bits()).collect();
-        (of.width, [&of.kind[..], &of.side, &of.end].concat(), of.count.clone(), real)
+        fn used<T: Copy>(column: &[T], of: &EventColumns) -> Vec<T> {
+            column.chunks(of.room).flat_map(|row| row[..of.width].to_vec()).collect()
+        }
+        let real = [&of.time, &of.phase, &of.velocity_before, &of.velocity_after].map(|column| used(column, of));
+        let real = real.iter().flatten().chain(&of.end_time).map(|value| value.to_bits()).collect();
+        (of.width, [used(&of.kind, of), used(&of.side, of), of.end.clone()].concat(), of.count.clone(), real)
     }
 
     fn system(inverse: f64, gap: f64, restitution: f64, damping: f64) -> SystemPlan {

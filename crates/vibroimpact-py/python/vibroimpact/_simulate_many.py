@@ -153,7 +153,7 @@ def _events(points: Over, found: dict[str, Any]) -> "xr.Dataset":
     """The Dataset of the events of motions."""
     from vibroimpact import _many
 
-    event = ("event", found["width"])
+    event = ("event", found["room"])
     ends = {name: code for code, name in enumerate(_core.end_reasons())}
     variables = {
         "time": _variable(points, found["time"], event, "time of the event", _TIME),
@@ -166,7 +166,10 @@ def _events(points: Over, found: dict[str, Any]) -> "xr.Dataset":
         "end": _variable(points, found["end"], None, "why the list ends", "", **_flags(ends)),
         "end_time": _variable(points, found["end_time"], None, "time at which the list ends", _TIME),
     }
-    return _many.dataset(points, "events of motions of an impact oscillator", variables)
+    whole = _many.dataset(points, "events of motions of an impact oscillator", variables)
+    # the further cells hold no events; without a copy
+    used: xr.Dataset = whole.isel(event=slice(found["width"]))
+    return used
 
 
 def _state_variables(points: Over, found: dict[str, Any], further: tuple[str, int]) -> dict[str, Any]:
