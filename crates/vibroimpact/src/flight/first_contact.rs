@@ -50,12 +50,11 @@ pub fn first_contact(osc: &Oscillator, flight: &Flight, limits: SearchLimits) ->
 
 /// The first contact, if it is known that there is none before the time `clear` (0 for unknown), and the number of
 /// search steps.
-pub(crate) fn counted(osc: &Oscillator, flight: &Flight, limits: SearchLimits, clear: f64) -> (Contact, u32) {
+pub(crate) fn counted(osc: &Oscillator, flight: &Flight, limits: SearchLimits, mut clear: f64) -> (Contact, u32) {
     let mut search = match Search::begin(osc, flight) {
         Ok(search) => search,
         Err(contact) => return (contact, 0),
     };
-    search.stride_to(clear);
     // most flights end within a few steps, so bounds that need arctangents are computed only after them
     let (quick, patient) = if clear > 0.0 { (0, 0) } else { (QUICK, PATIENT) };
     let mut outlook: Option<Outlook> = None;
@@ -70,24 +69,26 @@ pub(crate) fn counted(osc: &Oscillator, flight: &Flight, limits: SearchLimits, c
             outlook = Some(known);
         }
         if let Some(known) = &outlook {
-            if search.s >= known.until {
+            if search.s.max(clear) >= known.until {
+                search.stride_to(clear);
                 return (search.ended(known), step);
             }
             if let Some(envelope) = known.envelope
                 && step >= patient
             {
                 for (reach, (sign, stop)) in reaches.iter_mut().zip(search.walls()) {
-                    reach.get_or_insert_with(|| Reach::new(envelope, sign, stop.gap));
+                    reach.get_or_insert_with(|| Reach::new(envelope, sign, stop.gap, known.until));
                 }
-                let mut next = known.until;
+                let (from, mut next) = (search.s.max(clear), known.until);
                 for reach in reaches.iter().flatten() {
-                    let (clear, strides) = reach.next(search.s, next);
-                    next = next.min(clear);
-                    step += strides;
+                    let (closed, examined) = reach.next(from, next);
+                    next = next.min(closed);
+                    step += examined;
                 }
-                search.stride_to(next);
+                clear = next;
             }
         }
+        search.stride_to(clear);
         if let Some(contact) = search.advance() {
             return (contact, step + 1);
         }
@@ -98,5 +99,5 @@ pub(crate) fn counted(osc: &Oscillator, flight: &Flight, limits: SearchLimits, c
 
 /// The number of steps after which the bounds of the whole flight are computed.
 const QUICK: u32 = 12;
-/// The number of steps after which strides are tried.
+/// The number of steps after which the times at which the flight can reach a stop are computed.
 const PATIENT: u32 = 64;

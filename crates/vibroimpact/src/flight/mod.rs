@@ -16,6 +16,7 @@ mod bounds;
 mod contact;
 mod extremes;
 mod first_contact;
+mod first_hit;
 mod horizon;
 mod integrals;
 mod reach;
