@@ -340,6 +340,7 @@ fn tables_and_figures_of_every_kind_of_store() {
     for (line, fast) in [
         (format!("basin {system} --x -4:0.75:30 --v -4:4:20"), true),
         (format!("diagram {free} --vary gap --over 0:2:21"), true),
+        (format!("diagram {free} --vary gap --over 0,0.5,0.6,2"), true),
         (format!("diagram {free} --vary gap --over 0:2:9 --direction scatter --starts 3 --show strobe"), true),
         ("map --beta 0.5:2:8:log --gap 0.5,1,2 --restitution 0.5 --starts 3".to_owned(), true),
         ("map --beta 0.8 --gap 0:2:3 --restitution 0.3,0.6 --damping 0:0.1:2 --starts 2".to_owned(), false),

@@ -181,7 +181,7 @@ impl MachinePlan {
             MachineTask::Basin(basin) => Some((MachineAxis::points(&basin.axes), "starts")),
             MachineTask::Map(map) => Some((MachineAxis::points(&map.axes), "points")),
             MachineTask::Diagram(diagram) => {
-                Some((u64::from(diagram.over.count()).saturating_mul(diagram.direction.runs()), "motions"))
+                Some(((diagram.over.count() as u64).saturating_mul(diagram.direction.runs()), "motions"))
             }
             _ => None,
         }
