@@ -40,8 +40,8 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "machine basin": lambda: HAMMER.basin({"q.head": (-1, 1, 5), "qdot.head": (-1, 1, 3)}),
     "machine map": lambda: HAMMER.map({"frequency": (0.8, 1.2, 3)}, starts=2),
 }
-#: Results without a figure of one axes.
-NO_PICTURE = {"cycle", "lyapunov", "margins"}
+#: Results without a figure.
+NO_PICTURE = {"cycle"}
 
 
 @pytest.mark.parametrize("name", RESULTS)
