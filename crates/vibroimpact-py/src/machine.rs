@@ -152,14 +152,14 @@ pub(crate) fn simulate_machine<'py>(
     from: Start,
     impacts: Option<u64>,
     periods: Option<f64>,
+    progress: Option<Py<PyAny>>,
 ) -> Result<Fields<'py>, Trouble> {
     // a start of the wrong size is refused by its path
     let plan = MachinePlan::new(file.0.clone(), MachineTask::Simulate { impacts, periods }).starting(&start(from));
     plan.check()?;
     let (machine, text) = (plan.machine.machine()?, plan.json());
-    let MachineResults::Simulate(found) =
-        door::run(py, Watch::alone("following a machine"), move |control| Ok(run_machine(&plan, control)?))?
-    else {
+    let watch = Watch::one("following a machine", plan.most_events().unwrap_or(1), progress);
+    let MachineResults::Simulate(found) = door::run(py, watch, move |control| Ok(run_machine(&plan, control)?))? else {
         return Err(PlanError::NoStudy("simulate").into()); // the task of the plan is to simulate
     };
     let (n, events) = (machine.n(), &found.events);

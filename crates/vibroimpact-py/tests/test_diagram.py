@@ -42,6 +42,27 @@ def test_an_axis_may_be_written_in_three_ways(ds: xr.Dataset) -> None:
         assert {"0.5:1:11", "0.5:1.0:11"} >= {json.loads(other.attrs["plan"])["task"]["diagram"]["over"]}
 
 
+def test_listed_values(ds: xr.Dataset, tmp_path: Path) -> None:
+    osc = vi.Oscillator(inverse_beta=1.3, gap=0, restitution=0.5)
+    gaps = [0.5, 0.55, 0.75, 1.0]
+    listed = vi.orbit_diagram(osc, "gap", gaps, direction="scatter", starts=3)
+    whole = vi.orbit_diagram(osc, "gap", "0.5:1:11", direction="scatter", starts=3)
+    assert json.loads(listed.attrs["plan"])["task"]["diagram"]["over"] == gaps
+    xr.testing.assert_equal(listed, whole.sel(gap=gaps))
+    # in a store, and as falling values
+    stored = vi.orbit_diagram(osc, "gap", np.array(gaps)[::-1], direction="scatter", starts=3, store=tmp_path / "listed.zarr")
+    assert stored["gap"].values.tolist() == gaps[::-1]
+    for name in ("kind", "velocity", "impact_phase", "side"):
+        np.testing.assert_array_equal(stored[name].isel(gap=slice(None, None, -1)), listed[name])
+    lines = listed.vibro.plot().get_lines()
+    assert {float(x) for line in lines for x in line.get_xdata()} == set(gaps)
+    hammer = vi.Machine.named("two-mass-hammer")
+    machine = vi.orbit_diagram(hammer, "frequency", [0.9, 1.0, 1.15], direction="up")
+    again = vi.orbit_diagram(hammer, "frequency", "0.9:1:2", direction="up")
+    assert machine["frequency"].values.tolist() == [0.9, 1.0, 1.15]
+    xr.testing.assert_equal(machine["speed"].isel(frequency=slice(2)), again["speed"])
+
+
 def test_sweeps_and_what_is_shown(s: vi.Oscillator) -> None:
     down = vi.orbit_diagram(s, "gap", "0.5:1:5", direction="down")
     both = vi.orbit_diagram(s, "gap", "0.5:1:5")

@@ -3,6 +3,7 @@
 import json
 import math
 import subprocess
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -118,6 +119,25 @@ def test_progress_stops() -> None:
     with pytest.raises(vi.StoppedError):
         HAMMER.basin(axes, progress=stop, threads=1)
     assert seen[0][1] == 40_000
+
+
+#: 1/beta = 1.11, a gap of 3 F/k.
+CHAOTIC = vi.Machine(
+    coordinates=["x"], mass=[1], stiffness=[1], frequency=1 / 1.11, forces=[{"at": "x", "cos": 1}],
+    stops={"wall": {"at": "x", "gap": 3, "restitution": 0.5}},
+)
+
+
+@pytest.mark.parametrize("ask", [
+    lambda **of: HAMMER.simulate(impacts=10_000_000, **of),
+    lambda **of: CHAOTIC.lyapunov(impacts=10_000_000, **of),
+    lambda **of: HAMMER.branch("frequency", 0.2, points=100_000, **of),
+], ids=["simulate", "lyapunov", "branch"])
+def test_long_work_on_one_motion_stops(ask: Callable[..., Any]) -> None:
+    begun = time.monotonic()
+    with pytest.raises(vi.StoppedError):
+        ask(progress=lambda done, total: False)
+    assert time.monotonic() - begun < 5
 
 
 def test_the_command_answers_the_same(vibro: Callable[..., subprocess.CompletedProcess[str]]) -> None:

@@ -35,6 +35,21 @@ def test_the_motion_is_found_at_random_points_of_the_box() -> None:
     assert loss == "unstable" and not any(orbit.physical and orbit.stable for orbit in beside)
 
 
+def test_the_bars_end_at_the_events() -> None:
+    found = vi.margins(vi.Oscillator(inverse_beta=1.11, gap=1.5, restitution=0.5), label="1/1", lines=4)
+    ax = found.plot()
+    ends = [(of, end) for of in found.parameters.values() for end in (of.down, of.up)]
+    changes = [((end.limit if end.at is None else end.at) - of.value) / of.scale for of, end in ends]
+    bars = [bar for group in ax.containers for bar in group]
+    assert [bar.get_width() for bar in bars] == pytest.approx(changes)
+    assert [text.get_text() for text in ax.texts] == [f"{end.at:.3g}" for _, end in ends if end.at is not None]
+    assert found.box is not None and max(abs(x) for x in ax.patches[-1].get_bbox().intervalx) == pytest.approx(found.box.size)
+    chaotic = vi.margins(vi.Oscillator(inverse_beta=1.11, gap=3, restitution=0.5))
+    with pytest.raises(vi.QuestionError, match="the motion chaotic is not periodic, so it has no margins to draw"):
+        chaotic.plot()
+    assert "<img" not in chaotic._repr_html_()
+
+
 def test_scales_and_refusals() -> None:
     osc = vi.Oscillator(beta=0.9, gap=1.5, restitution=0.5)
     found = vi.margins(osc, scale={"gap": 0.1})

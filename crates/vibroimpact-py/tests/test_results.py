@@ -40,8 +40,8 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "machine basin": lambda: HAMMER.basin({"q.head": (-1, 1, 5), "qdot.head": (-1, 1, 3)}),
     "machine map": lambda: HAMMER.map({"frequency": (0.8, 1.2, 3)}, starts=2),
 }
-#: Results without a figure of one axes.
-NO_PICTURE = {"cycle", "lyapunov", "margins"}
+#: Results without a figure.
+NO_PICTURE = {"cycle"}
 
 
 @pytest.mark.parametrize("name", RESULTS)
@@ -167,6 +167,16 @@ LONG: list[Callable[..., Any]] = [
     lambda **of: vi.margins(OSC, vary=["gap"], lines=4, **of),
     lambda **of: vi.region_map(OSC, {"gap": "1:2:9", "inverse_beta": "1:1.2:9"}, starts=2, refine=4, **of),
     lambda **of: vi.simulate_many(OSC, starts={"v": [0.0, 0.5]}, **of),
+    lambda **of: HAMMER.simulate(impacts=3000, **of),
+    lambda **of: HAMMER.simulate(periods=50, **of),
+    lambda **of: HAMMER.settle(**of),
+    lambda **of: HAMMER.lyapunov(impacts=200, **of),
+    lambda **of: HAMMER.orbit("1/1", **of),
+    lambda **of: HAMMER.branch("frequency", 1.05, **of),
+    lambda **of: HAMMER.curve("grazing", {"frequency": (0.9, 1.3), "b": (0.4, 0.6)}, **of),
+    lambda **of: HAMMER.attractors(4, **of),
+    lambda **of: HAMMER.basin({"q.head": (-1, 1, 5), "qdot.head": (-1, 1, 3)}, **of),
+    lambda **of: HAMMER.map({"frequency": (0.8, 1.2, 3)}, starts=2, **of),
 ]
 
 

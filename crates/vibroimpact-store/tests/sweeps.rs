@@ -14,11 +14,12 @@ use vibroimpact_store::{Folder, Part, Store, StoreError};
 use vibroimpact_study::machine::CATALOGUE;
 use vibroimpact_study::{Control, MachinePlan, PLAN_VERSION, Plan, StudyPlan, Task};
 
-/// Orbit diagrams of two sweeps with 15 values.
-fn plans() -> [Plan; 2] {
-    ["velocity", "strobe"].map(|show| {
+/// Orbit diagrams of two sweeps with 15 values, of a range or listed.
+fn plans() -> [Plan; 3] {
+    let listed = "[2,1.9,1.75,1.5,1.49,1.2,1.1,1,0.9,0.7,0.65,0.6,0.5,0.3,0.2]";
+    [("velocity", "\"0.2:2:15\""), ("strobe", "\"0.2:2:15\""), ("velocity", listed)].map(|(show, over)| {
         let task = format!(
-            r#"{{"diagram":{{"vary":"gap","over":"0.2:2:15","show":"{show}","direction":"both","transient":40,"keep":16}}}}"#
+            r#"{{"diagram":{{"vary":"gap","over":{over},"show":"{show}","direction":"both","transient":40,"keep":16}}}}"#
         );
         Plan::new(S, serde_json::from_str::<Task>(&task).unwrap())
     })
@@ -76,7 +77,7 @@ fn stopped_runs_lose_no_value() {
 
 #[test]
 fn damaged_parts_are_computed_again() {
-    let [plan, _] = plans();
+    let [plan, ..] = plans();
     let (_kept, want) = whole(&plan);
     let folder = tempfile::tempdir().unwrap();
     let part = folder.path().join(".begun/0");

@@ -142,6 +142,38 @@ impl Values {
         (0..self.count()).map(|k| self.at(k)).collect()
     }
 
+    /// The first and the last value, in the given order; not-a-number for an empty list, which [`Self::check`] refuses.
+    #[must_use]
+    pub fn ends(&self) -> (f64, f64) {
+        match self {
+            Self::Span(span) => span.ends(),
+            Self::Listed(values) => {
+                let end = |value: Option<&f64>| value.copied().unwrap_or(f64::NAN);
+                (end(values.first()), end(values.last()))
+            }
+        }
+    }
+
+    /// Whether the values rise or fall, as those of a range do.
+    #[must_use]
+    pub fn in_order(&self) -> bool {
+        match self {
+            Self::Span(_) => true,
+            Self::Listed(values) => values.is_sorted() || values.is_sorted_by(|a, b| a >= b),
+        }
+    }
+
+    /// The same values, each divided by `unit`.
+    ///
+    /// # Errors
+    /// As [`Span::scaled`]; a list is checked by [`Self::check`].
+    pub fn scaled(&self, unit: f64) -> Result<Self, PlanError> {
+        Ok(match self {
+            Self::Span(span) => Self::Span(span.scaled(unit)?),
+            Self::Listed(values) => Self::Listed(values.iter().map(|value| value / unit).collect()),
+        })
+    }
+
     /// The smallest and the largest value.
     #[must_use]
     pub fn extent(&self) -> (f64, f64) {

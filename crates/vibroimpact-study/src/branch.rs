@@ -85,7 +85,7 @@ impl BranchPlan {
         let Cut { vary, ends, also } = self.cut(system)?;
         Ok(DiagramPlan {
             vary,
-            over: Span::new(ends.0, ends.1, DIAGRAM_VALUES)?,
+            over: Span::new(ends.0, ends.1, DIAGRAM_VALUES)?.into(),
             also,
             show: Show::Velocity,
             direction: SweepDirection::Both,

@@ -187,6 +187,9 @@ pub enum PlanError {
         /// The invalid value; `None` if the length is the error.
         wrong: Option<f64>,
     },
+    /// A list of a diagram with values that neither rise nor fall.
+    #[error("the values of a diagram rise or fall, and those of the list do neither\nhint: sort them")]
+    Order,
     /// A point of a list that is invalid.
     #[error("{}", at_point(error, *point))]
     AtPoint {

@@ -128,7 +128,7 @@ impl Plan {
             Task::Attractors { starts, .. } => Some((*starts, "starts")),
             Task::Basin(basin) => Some((basin.starts(), "starts")),
             Task::Map(map) => Some((map.points(), "points")),
-            Task::Diagram(diagram) => Some((u64::from(diagram.over.count()).saturating_mul(diagram.runs()), "motions")),
+            Task::Diagram(diagram) => Some(((diagram.over.count() as u64).saturating_mul(diagram.runs()), "motions")),
             Task::Region(_) => Some((2, "regions")),
             Task::Response(response) => Some((response.motions(), "motions")),
             _ => None,

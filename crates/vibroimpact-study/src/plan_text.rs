@@ -74,7 +74,8 @@ impl Task {
                 points.flat_map(|points| points.parameters(0)).chain(on(&basin.axes)).collect()
             }
             Self::Lyapunov(lyapunov) => on(&lyapunov.axes),
-            Self::Diagram(diagram) => diagram.cut().values(diagram.over.at(0)).collect(),
+            // an empty list is refused later
+            Self::Diagram(diagram) if diagram.over.count() > 0 => diagram.cut().values(diagram.over.at(0)).collect(),
             Self::Response(response) => vec![(response.vary, response.over.at(0))],
             // the first value of a branch is that of the system
             _ => Vec::new(),

@@ -14,8 +14,8 @@ const MOST_IMPACTS: u64 = 1_000_000;
 /// further.
 const IDLE: u32 = 1000;
 
-/// Number of impacts between two reports of progress.
-const TELL: u64 = 1024;
+/// Number of impacts or events between two reports of progress.
+pub(crate) const TELL: u64 = 1024;
 
 /// The events of a motion and the reason why the list ends.
 #[derive(Clone, Debug, PartialEq)]

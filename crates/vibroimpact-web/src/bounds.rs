@@ -30,7 +30,7 @@ pub(crate) fn check(plan: &Plan) -> Result<(), Refusal> {
         Task::Basin(basin) => within("starts", basin.starts(), MOST_POINTS),
         Task::Attractors { starts, .. } => within("starts", *starts, 100_000),
         Task::Diagram(diagram) => {
-            let motions = u64::from(diagram.over.count()).saturating_mul(diagram.runs());
+            let motions = (diagram.over.count() as u64).saturating_mul(diagram.runs());
             within("motions", motions, 20_000)?;
             within("impacts", motions.saturating_mul(diagram.transient + diagram.keep), 20 * MOST_IMPACTS)
         }

@@ -1,13 +1,13 @@
 //! A machine instead of an oscillator, its start, and the axes of its grids.
 
-use super::ranged::Ranged;
+use super::ranged::axis_values;
 use super::{SetArgs, number};
 use crate::failure::Failure;
 use crate::machine_file;
 use clap::Args;
 use core::str::FromStr;
+use vibroimpact_study::MachineAxis;
 use vibroimpact_study::machine::{MachineSource, NumberText, StartText, VectorText};
-use vibroimpact_study::{MachineAxis, Span, Values};
 
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Machine")]
@@ -51,12 +51,7 @@ impl FromStr for AxisFlag {
     fn from_str(text: &str) -> Result<Self, String> {
         let (vary, over) =
             text.split_once('=').ok_or("an axis is PATH=A:B:N, for example stop.wall.gap=0:2:41".to_owned())?;
-        let over = match over.parse() {
-            Ok(Ranged::Over(values)) => values,
-            // one value, or the ends of a range: the error of a range says what is missing
-            _ => Values::Span(over.parse::<Span>().map_err(|error| error.to_string())?),
-        };
-        Ok(Self(MachineAxis { vary: vary.trim().to_owned(), over }))
+        Ok(Self(MachineAxis { vary: vary.trim().to_owned(), over: axis_values(over)? }))
     }
 }
 

@@ -68,6 +68,16 @@ impl Ranged {
     }
 }
 
+/// Reads the values of an axis: a range or a list.
+pub(crate) fn axis_values(text: &str) -> Result<Values, String> {
+    match text.parse() {
+        Ok(Ranged::Over(values)) => Ok(values),
+        Err(why) if text.contains(',') => Err(why),
+        // one value, or the ends of a range: the error of a range says what is missing
+        _ => text.parse().map(Values::Span).map_err(|error: PlanError| error.to_string()),
+    }
+}
+
 /// Reads numbers with units of one kind.
 pub(crate) fn with_unit(kind: UnitKind) -> impl TypedValueParser<Value = Ranged> {
     move |text: &str| Ranged::read(text, |part| kind.parse(part))

@@ -1,8 +1,8 @@
 //! `vibro diagram`: the orbit diagram, the motion after its transient at each value of a parameter.
 
 use crate::args::{
-    Ends, FigureArgs, MachineArgs, Named, StartOfMachineArgs, StoreArgs, SystemArgs, Varied, number, quantity, varied,
-    whole,
+    Ends, FigureArgs, MachineArgs, Named, StartOfMachineArgs, StoreArgs, SystemArgs, Varied, axis_values, number,
+    quantity, varied, whole,
 };
 use crate::commands::outputs::Outputs;
 use crate::commands::{of_machine, respond};
@@ -14,7 +14,7 @@ use vibroimpact_report::number::short;
 use vibroimpact_report::scene::bifurcation;
 use vibroimpact_report::{Asked, Shown};
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
-use vibroimpact_study::{DiagramPlan, MachineDiagramPlan, MachineTask, Plan, PlanError, Span, Stretch, Task};
+use vibroimpact_study::{DiagramPlan, MachineDiagramPlan, MachineTask, Plan, PlanError, Stretch, Task, Values};
 
 /// The orbit diagram: impacts or states after the transient, over one parameter or along a line through two
 ///
@@ -61,9 +61,10 @@ pub(crate) struct Diagram {
     #[arg(long, value_parser = varied(), value_name = "PARAMETER", help_heading = "Sweep")]
     vary: Varied,
 
-    /// Its values: N from A to B, both included
-    #[arg(long, value_name = "A:B:N", allow_hyphen_values = true, help_heading = "Sweep")]
-    over: Span,
+    /// Its values: A:B:N is N values from A to B, both included, A:B:N:log is N values in equal ratios, and A,B,C is a list of rising or
+    /// falling values
+    #[arg(long, value_parser = axis_values, value_name = "A:B:N", allow_hyphen_values = true, help_heading = "Sweep")]
+    over: Values,
 
     /// A second parameter that varies with it in proportion, from A at its first value to B at its last: the diagram along any
     /// line through two parameters
@@ -167,7 +168,7 @@ pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
         }
         Ok(MachineTask::Diagram(MachineDiagramPlan {
             vary: args.vary.path(),
-            over: args.over,
+            over: args.over.clone(),
             show: args.show.clone().unwrap_or_else(|| "speed".to_owned()),
             direction: args.direction()?,
             transient: args.transient,
@@ -199,7 +200,7 @@ pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
     if args.store.store.is_some() && matches!(show, Show::Quantity(_)) {
         return Err(PlanError::NoStoredQuantity.into());
     }
-    let plan = args.store.tiled(Plan::new(asked.system, Task::Diagram(task)))?;
+    let plan = args.store.tiled(Plan::new(asked.system, Task::Diagram(task.clone())))?;
     let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
     if let Some(labels) = &args.branches {
         return with_branches((&Asked { units, ..asked }, &task), labels, outputs, session);

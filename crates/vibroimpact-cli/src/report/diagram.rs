@@ -19,7 +19,7 @@ pub(crate) fn text(found: &Diagram, units: &Units) -> String {
     });
     format!(
         "{} of {name} from {} to {}{also}\n\n{}{}",
-        counted(u64::from(plan.over.count()), "value"),
+        counted(plan.over.count() as u64, "value"),
         short(from * unit),
         short(to * unit),
         of_sweeps(&counts(found)),
@@ -65,7 +65,7 @@ pub(crate) fn of_machine(found: &MachineDiagram) -> String {
     let noun = if plan.shows_closings() { "closing" } else { "forcing period" };
     format!(
         "{} of {} from {} to {}\n\n{}{}",
-        counted(u64::from(plan.over.count()), "value"),
+        counted(plan.over.count() as u64, "value"),
         plan.vary,
         short(from),
         short(to),

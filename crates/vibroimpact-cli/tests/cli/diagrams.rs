@@ -123,26 +123,72 @@ fn a_machine_in_physical_units() {
     }
 }
 
+/// Values that are listed are those of a range, for oscillators and for machines; sweeps rise and fall through them.
+#[test]
+fn listed_values() {
+    for line in [
+        "diagram --inverse-beta 1.3 --restitution 0.5 --vary gap",
+        "diagram --machine two-mass-hammer --vary stop.anvil.gap --transient 50",
+        "diagram --gap 0 --restitution 0.8 --vary beta --direction scatter --starts 3 --show strobe",
+        "diagram --mass-kg 2 --stiffness-n-per-m 800 --force-n 4 --frequency-hz 4 --restitution 0.5 --gap-m 1 --vary gap-m",
+    ] {
+        let rows = table(&format!("{line} --over 0.5:1.5:5"));
+        assert_eq!(table(&format!("{line} --over 0.5,0.75,1,1.25,1.5")), rows, "{line}");
+        let answer = json(&format!("{line} --over 1.5,0.75,0.5"));
+        let task = &answer["plan"]["task"]["diagram"];
+        let list = serde_json::json!([1.5, 0.75, 0.5]);
+        assert_eq!((&answer["over"], &task["over"]), (&list, &list), "{line}");
+        for (over, sentence) in [
+            ("0.5,1.5,0.75", "the values of a diagram rise or fall, and those of the list do neither\nhint: sort them"),
+            ("0.5,0.5", "none of them twice, not 0.5"),
+            ("0.5,x", "`0.5,x` is no list of numbers"),
+            ("0.5", "range `0.5` is not A:B:N"),
+        ] {
+            let output = vibro(&format!("{line} --over {over}")).output().expect("vibro runs");
+            let said = String::from_utf8_lossy(&output.stderr).into_owned();
+            assert!(output.status.code() == Some(2) && said.contains(sentence), "{over}: {said}");
+        }
+    }
+    let rows = table("diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 2,0.6,0.5,0 --keep 1");
+    let steps: Vec<String> = rows.iter().map(|row| format!("{} {}", row[0], row[1])).collect();
+    assert_eq!(steps, ["0 up", "0.5 up", "0.6 up", "2 up", "2 down", "0.6 down", "0.5 down", "0 down"]);
+}
+
+/// The figure of a diagram over the gap.
+fn drawn(line: &str) -> String {
+    let folder = tempfile::tempdir().expect("a folder");
+    let place = folder.path().join("a.svg");
+    let output = vibro(&format!("diagram --restitution 0.5 --vary gap {line} --plot")).arg(&place).output();
+    let output = output.expect("vibro runs");
+    assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+    std::fs::read_to_string(place).expect("a figure is text")
+}
+
+/// Where the dots or cells of a figure begin, from left to right.
+fn places(figure: &str) -> Vec<f64> {
+    let path = figure.lines().find(|line| line.starts_with("<path d=\"M") && line.contains("#0072b2"));
+    let path = path.expect("a path").split('"').nth(1).expect("its data");
+    let place = |piece: &str| number(piece.split(' ').next().expect("a number"));
+    let mut places: Vec<f64> = path.split('M').skip(1).map(place).collect();
+    places.sort_by(f64::total_cmp);
+    places
+}
+
+/// The dots of listed values are at their values.
+#[test]
+fn listed_values_are_drawn_at_their_places() {
+    for over in ["0.2,0.3,1,2", "2,1,0.3,0.2"] {
+        let xs = places(&drawn(&format!("--inverse-beta 1.11 --over {over} --direction up --keep 1")));
+        let along = |k: usize| (xs[k] - xs[0]) / (xs[3] - xs[0]);
+        assert!(xs.len() == 4 && (along(1) - 0.1 / 1.8).abs() < 1e-3 && (along(2) - 0.8 / 1.8).abs() < 1e-3, "{xs:?}");
+    }
+}
+
 /// With logarithmic values the distances on the page are equal, both for dots and for the cells of a raster.
 #[test]
 fn a_logarithmic_span_has_a_logarithmic_axis() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let drawn = |line: &str| -> String {
-        let place = folder.path().join("a.svg");
-        let output = vibro(&format!("diagram --restitution 0.5 --vary gap {line} --force --plot")).arg(&place).output();
-        let output = output.expect("vibro runs");
-        assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
-        std::fs::read_to_string(place).expect("a figure is text")
-    };
-    // the beginnings of the pieces of the path in the first colour, for dots or cells
-    let pieces = |figure: &str| -> Vec<f64> {
-        let path = figure.lines().find(|line| line.starts_with("<path d=\"M") && line.contains("#0072b2"));
-        let path = path.expect("a path").split('"').nth(1).expect("its data");
-        path.split('M').skip(1).map(|piece| number(piece.split(' ').next().expect("a number"))).collect()
-    };
     for over in ["0.02:2:5:log", "2:0.02:5:log"] {
-        let mut xs = pieces(&drawn(&format!("--inverse-beta 1.11 --over {over} --direction up --keep 1")));
-        xs.sort_by(f64::total_cmp);
+        let xs = places(&drawn(&format!("--inverse-beta 1.11 --over {over} --direction up --keep 1")));
         assert!(
             xs.len() == 5 && xs.windows(2).all(|pair| (pair[1] - pair[0] - (xs[4] - xs[0]) / 4.0).abs() < 0.02),
             "{xs:?}"
@@ -151,8 +197,7 @@ fn a_logarithmic_span_has_a_logarithmic_axis() {
     // mostly chaos, with so many dots that a raster is drawn: no column is narrower than another
     let figure = drawn("--inverse-beta 1.11 --over 2.2:4.4:700:log --direction up --keep 900 --transient 100");
     assert!(figure.contains("crispEdges"), "still dots");
-    let mut xs = pieces(&figure);
-    xs.sort_by(f64::total_cmp);
+    let mut xs = places(&figure);
     xs.dedup();
     let column = (xs[xs.len() - 1] - xs[0]) / 699.0;
     let narrowest = xs.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::MAX, f64::min);

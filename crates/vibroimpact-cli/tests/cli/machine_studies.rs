@@ -50,6 +50,7 @@ fn stores_have_the_results_of_commands() {
             "basin --machine soft-stop --axis q.mass=-1:2:4 --axis phase=0:6:3 --fields stop.stop.force_max",
         ),
         ("diagram", DIAGRAM),
+        ("listed", "diagram --machine two-mass-hammer --vary stop.anvil.gap --over 0.7,0.6,0.35,0.3 --transient 50"),
         (
             "quantity",
             "diagram --machine two-mass-hammer --vary frequency --over 0.9:1.1:5 --show stop.anvil.impact_loss_per_period",

@@ -45,6 +45,7 @@ fn of_every_task() {
         json!({ "diagram": { "vary": "inverse_beta", "over": "1:1.2:2", "show": "strobe", "transient": 9,
                              "direction": { "scatter": { "starts": 2, "seed": 5 } } } }),
         json!({ "diagram": { "vary": "inverse_beta", "over": "1:1.2:3", "also": over("damping", 0.1, -0.0), "keep": 3 } }),
+        json!({ "diagram": { "vary": "inverse_beta", "over": [1.2, 1.15, 1.0], "keep": 3 } }),
         json!({ "lyapunov": { "start": { "phase": 3.0 }, "impacts": 1000, "transient": 5 } }),
         json!({ "lyapunov": { "impacts": 1000, "points": 20 } }),
         json!({ "margins": { "start": { "v": -1.0 }, "lines": 3 } }),
@@ -201,6 +202,7 @@ fn stores_and_plans_in_files() {
     for task in [
         json!({ "map": axes(json!([{ "vary": "gap", "over": [1.0] }])) }),
         json!({ "basin": { "axes": [{ "vary": "x", "over": [0.0, 0.5] }, { "vary": "v", "over": "0:1:2" }] } }),
+        json!({ "diagram": { "vary": "gap", "over": [1.0], "transient": 10, "keep": 3 } }),
         json!({ "lyapunov": { "axes": [gap], "impacts": 1000 } }),
     ] {
         let plan = plan(&one, &task);

@@ -82,6 +82,7 @@ fn over_parameters() {
     );
     same("diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 0:3:31 --transient 100 --keep 16");
     same(&format!("diagram {MACHINE} --vary gap --over 0.001:0.0123:14 --direction up --transient 50"));
+    same("diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 0,0.2,0.75,3 --transient 100 --keep 16");
     same("diagram --gap 0 --restitution 0.8 --vary beta --over 2.5:3:7 --direction scatter --starts 3 --show strobe");
 }
 

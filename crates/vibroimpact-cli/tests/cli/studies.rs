@@ -116,6 +116,52 @@ fn killed_at_ten_moments(text: &str) {
     assert!(files(&place) == want);
 }
 
+/// Sweeps of an orbit diagram that are killed again and again, before any run could complete one of them: each run goes on
+/// from the last state that was written, and the bytes are those of a run without interruption.
+#[test]
+#[cfg(unix)]
+fn sweeps_go_on_however_often_they_are_killed() {
+    // a part of a sweep is written two seconds after the begin of a run
+    const PART: Duration = Duration::from_secs(2);
+    let folder = tempfile::tempdir().unwrap();
+    let line = |store: &str, values: u32| {
+        format!(
+            "diagram --inverse-beta 1.11 --restitution 0.5 --vary gap --over 2:4:{values} --transient 20000 --keep 16 \
+             --store {store}.zarr --threads 2"
+        )
+    };
+    let time = |store: &str, values: u32| {
+        let begun = Instant::now();
+        done(folder.path(), &line(store, values));
+        begun.elapsed()
+    };
+    // as many values as take four times as long
+    let values = 8 * 4 * PART.as_millis() / time("few", 8).as_millis().max(1);
+    let values = u32::try_from(values).unwrap().clamp(8, 20_000);
+    time("whole", values);
+    let want = files(&folder.path().join("whole.zarr"));
+    let place = folder.path().join("killed.zarr");
+    let (mut kills, mut parts) = (0, 0);
+    loop {
+        let goes_on = kills % 2 == 1 && place.join("zarr.json").exists();
+        let line = if goes_on { "resume killed.zarr --threads 2".to_owned() } else { line("killed", values) };
+        let mut run = begin(folder.path(), &line);
+        // the first one before anything is written, the others later and later
+        std::thread::sleep(if kills == 0 { PART / 4 } else { PART + Duration::from_millis(60 * kills) });
+        if let Some(status) = run.try_wait().unwrap() {
+            assert!(status.success(), "{line}: {status}");
+            break;
+        }
+        run.kill().unwrap();
+        run.wait().unwrap();
+        kills += 1;
+        parts += usize::from(place.join(".begun").is_dir());
+        assert!(kills < 40, "it does not get on");
+    }
+    assert!(kills >= 3 && parts >= 2, "{values} values, {kills} kills, {parts} with parts");
+    assert!(files(&place) == want, "{values} values, {kills} kills");
+}
+
 /// After Ctrl-C, complete tiles are kept, and a hint says how to continue.
 #[test]
 #[cfg(unix)]
@@ -340,6 +386,7 @@ fn tables_and_figures_of_every_kind_of_store() {
     for (line, fast) in [
         (format!("basin {system} --x -4:0.75:30 --v -4:4:20"), true),
         (format!("diagram {free} --vary gap --over 0:2:21"), true),
+        (format!("diagram {free} --vary gap --over 0,0.5,0.6,2"), true),
         (format!("diagram {free} --vary gap --over 0:2:9 --direction scatter --starts 3 --show strobe"), true),
         ("map --beta 0.5:2:8:log --gap 0.5,1,2 --restitution 0.5 --starts 3".to_owned(), true),
         ("map --beta 0.8 --gap 0:2:3 --restitution 0.3,0.6 --damping 0:0.1:2 --starts 2".to_owned(), false),

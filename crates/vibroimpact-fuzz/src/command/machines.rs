@@ -164,7 +164,7 @@ pub(super) fn lines() -> Words {
         2 => line("map", vec![machine(), set(), axis(PATHS), axis(PATHS), flag("starts", 0.97, few()), budget(), stored(),
             outputs("csv")]),
         2 => line("diagram", vec![machine(), set(), flag("vary", 0.97, path()),
-            flag("over", 0.97, crate::values::range(0.2, 1.5)), flag("show", 0.3, word(&["speed", "q.a", "qdot.b", "x", ""])),
+            flag("over", 0.97, prop_oneof![3 => crate::values::range(0.2, 1.5), 1 => word(&["0.3,0.5,1.2", "1.2,0.4", "0.5,0.5", "0.5,x"])].boxed()), flag("show", 0.3, word(&["speed", "q.a", "qdot.b", "x", ""])),
             flag("direction", 0.2, word(&["up", "down", "scatter"])), flag("transient", 1.0, word(&["10", "0", "30"])),
             flag("keep", 1.0, word(&["5", "1", "0"])), stored(), outputs("csv")]),
         1 => line("machine", vec![word(&["show"]).prop_map(|word| vec![word]).boxed(),

@@ -125,10 +125,15 @@ fn diagram() -> Words {
             .prop_map(|(system, name, range)| {
                 [system, vec![format!("--vary={name}"), format!("--over={range}")]].concat()
             });
-    let nondimensional = varied(1, range).prop_map(|(over, system)| {
+    let values = |low: f64, high: f64| {
+        let list = (range(low, high), 0..3_usize)
+            .prop_map(|(text, k)| [&text, "0.2,0.5,1.1", "0.5,0.2,0.3"][k].replace(':', ","));
+        prop_oneof![3 => range(low, high), 1 => list].boxed()
+    };
+    let nondimensional = varied(1, values).prop_map(|(over, system)| {
         let mut words = flags(&system);
-        for (name, range) in over {
-            words.extend([format!("--vary={}", name.replace('_', "-")), format!("--over={range}")]);
+        for (name, values) in over {
+            words.extend([format!("--vary={}", name.replace('_', "-")), format!("--over={values}")]);
         }
         words
     });

@@ -132,7 +132,10 @@ fn units() -> BoxedStrategy<Option<Value>> {
 }
 
 fn diagram() -> Tasks {
-    let over = parameter().prop_flat_map(|(name, low, high)| (Just(name), range(low, high)));
+    let listed = prop::bool::weighted(0.3);
+    let over = (parameter(), listed)
+        .prop_flat_map(|((name, low, high), listed)| (Just(name), range(low, high), Just(listed)))
+        .prop_map(|(name, over, listed)| (name, axis(name, &over, listed)));
     let direction = prop::sample::select(vec![
         json!("up"),
         json!("down"),
@@ -141,8 +144,14 @@ fn diagram() -> Tasks {
     ]);
     let show = prop::sample::select(vec!["velocity", "strobe"]);
     (over, direction, show, 0..100_u64, 1..20_u64, system())
-        .prop_map(|((name, over), direction, show, transient, keep, system)| {
-            let task = json!({ "vary": name, "over": over, "direction": direction, "show": show, "transient": transient, "keep": keep });
+        .prop_map(|((name, mut task), direction, show, transient, keep, system)| {
+            let rest = [
+                ("direction", direction),
+                ("show", json!(show)),
+                ("transient", json!(transient)),
+                ("keep", json!(keep)),
+            ];
+            rest.into_iter().for_each(|(field, value)| task[field] = value);
             (json!({ "diagram": task }), without(system, &[name]))
         })
         .boxed()

@@ -139,7 +139,7 @@ fn budget(plan: &Plan) -> u64 {
         Task::Map(map) => map.points().saturating_mul(map.starts).saturating_mul(map.impacts.map_or(5000, u64::from)),
         Task::Diagram(diagram) => {
             let each = diagram.transient.saturating_add(diagram.keep);
-            u64::from(diagram.over.count()).saturating_mul(diagram.runs()).saturating_mul(each)
+            (diagram.over.count() as u64).saturating_mul(diagram.runs()).saturating_mul(each)
         }
         Task::Lyapunov(lyapunov) => {
             lyapunov.impacts.saturating_add(lyapunov.transient).saturating_add(lyapunov.points.unwrap_or(0))

@@ -64,16 +64,22 @@ def numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
 
 def even(over: Axis) -> str:
     """A range as the text in a plan; an array must be evenly spaced."""
-    given = values(over)
+    given = sweep(over)
     if isinstance(given, str):
+        return given
+    raise _core.QuestionError(
+        f"the values from {given[0]} to {given[-1]} are not evenly spaced\nhint: numpy.linspace(a, b, n)"
+    )
+
+
+def sweep(over: Axis) -> str | list[float]:
+    """Values of a sweep in the form of a plan: a range as text if an array is evenly spaced to rounding, or else a list."""
+    given = values(over)
+    if isinstance(given, str) or len(given) > 1 and given[0] == given[-1] or not np.all(np.isfinite(given)):
         return given
     text = _text(given[0], given[-1], len(given))
     spread = _core.span_values(text)
-    if not np.allclose(given, spread, rtol=0, atol=_EVEN * float(np.max(np.abs(given)))):
-        raise _core.QuestionError(
-            f"the values from {given[0]} to {given[-1]} are not evenly spaced\nhint: numpy.linspace(a, b, n)"
-        )
-    return text
+    return text if np.allclose(given, spread, rtol=0, atol=_EVEN * float(np.max(np.abs(given)))) else given
 
 
 def values(over: Axis) -> str | list[float]:

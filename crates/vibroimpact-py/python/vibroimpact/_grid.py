@@ -258,7 +258,8 @@ def orbit_diagram(
         "beta", "inverse_beta", "gap", "restitution", "damping", "second_gap" or "second_restitution"; for a
         machine the path of a number.
     over : str or array
-        Its values: a range ("0:3:601" has 601 values) or an evenly spaced array.
+        Its values: a range ("0:3:601" has 601 values), or a list or an array of rising or falling values. An array that is evenly
+        spaced to rounding is the range.
     also : dict
         A second parameter that varies in proportion to the first, with its values at the first and the last value of
         `over`: {"gap": (0.5, 1.5)}. It is a second coordinate of the same dimension.

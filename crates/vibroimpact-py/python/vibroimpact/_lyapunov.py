@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact import _core
+from vibroimpact import _core, _exponents
 from vibroimpact._core import Oscillator
 from vibroimpact._cycle import finite
+from vibroimpact._figure import named, title
 from vibroimpact._motion import Motion, fields_of, horizon_object
 from vibroimpact._progress import Progress, watched
 from vibroimpact._result import Result
@@ -63,8 +64,6 @@ class Lyapunov(Result):
         The plan as JSON.
     """
 
-    _pictured = False
-
     osc: Oscillator
     motion: Motion
     exponents: tuple[Measured, Measured]
@@ -100,6 +99,10 @@ class Lyapunov(Result):
         if not len(self.impacts.phase) and not len(self.strobes.x):
             raise _core.QuestionError("there are no points of the sections\nhint: lyapunov(..., points=5000)")
         return sections(self.osc, self.impacts, self.strobes, axes)
+
+    def _draw(self, ax: Any) -> None:
+        exact = not any(of.error for of in self.exponents)
+        _exponents.plot(self.exponents, exact, f"{title(self.osc)}: {named(self.motion.label)}", ax)
 
     def to_dict(self) -> dict[str, Any]:
         """The fields of the JSON of the command; numbers that are not finite are None."""

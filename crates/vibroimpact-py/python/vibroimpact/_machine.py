@@ -24,7 +24,7 @@ from vibroimpact._machine_answers import (
     MachineOrbits,
     MachineSettled,
 )
-from vibroimpact._progress import Progress
+from vibroimpact._progress import Progress, watched
 from vibroimpact._result import Result
 from vibroimpact._whole import BRANCH, BUDGET, NUMBER, POINT_STARTS, SEED, SIMULATED, STARTS, TRANSIENT, maybe, whole
 
@@ -262,6 +262,7 @@ class Machine:
         phase: float | None = None,
         impacts: int | None = None,
         periods: float | None = None,
+        progress: Progress = None,
     ) -> "MachineSimulation":
         """Follow a motion event by event.
 
@@ -275,6 +276,8 @@ class Machine:
             Stop after this number of events, 1 to 1e7. Default: 100, or 1e6 with `periods`.
         periods : float
             Stop after this number of forcing periods, up to 1e9.
+        progress : bool or callable
+            True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
 
         Examples
         --------
@@ -287,7 +290,8 @@ class Machine:
         9950.0
         """
         start = self.start_of(q, qdot, phase)
-        fields = _core.simulate_machine(self._file, start, maybe("impacts", impacts, SIMULATED), periods)
+        with watched(progress, "events") as tell:
+            fields = _core.simulate_machine(self._file, start, maybe("impacts", impacts, SIMULATED), periods, tell)
         kind, stop = (np.array(fields.pop(name), dtype=np.str_) for name in ("kind", "stop"))
         with_ = tuple(tuple(names) for names in fields.pop("with_"))
         return MachineSimulation(machine=self, start=start, kind=kind, stop=stop, with_=with_, **fields)
@@ -298,9 +302,15 @@ class Machine:
         """Coordinates, velocities and phase of a start: what is given, and else those of the table `start`, or 0."""
         return self._file.start(_vector(q), _vector(qdot), None if phase is None else float(phase))
 
+    def _ask(
+        self, task: _Part, start: tuple[ArrayLike | None, ArrayLike | None, float | None], progress: Progress, what: str
+    ) -> dict[str, Any]:
+        """The JSON object of the command for a task of one motion."""
+        return _machine_answers.ask(self._file, self.start_of(*start), task, progress=progress, what=what)[0]
+
     def settle(
         self, *, q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None,
-        impacts: int | None = None,
+        impacts: int | None = None, progress: Progress = None,
     ) -> MachineSettled:
         """Decide what a motion settles into: a cycle, chaos, no further event, or rest on a stop.
 
@@ -310,6 +320,8 @@ class Machine:
             Start: coordinates, velocities and phase of the forcing. Default: those of `start`, or 0.
         impacts : int
             Budget of events, 1 to 1e6. A motion that has not settled by then is undecided. Default: 20 000.
+        progress : bool or callable
+            True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
 
         Examples
         --------
@@ -319,7 +331,7 @@ class Machine:
         (<MachineMotion 1/1, stable>, {'anvil': 1}, 4)
         """
         task = {"settle": {"impacts": maybe("impacts", impacts, BUDGET)}}
-        return _machine_answers.settled(_machine_answers.ask(self._file, self.start_of(q, qdot, phase), task)[0], self)
+        return _machine_answers.settled(self._ask(task, (q, qdot, phase), progress, "motions"), self)
 
     def attractors(
         self, starts: int = 200, *, seed: int = 1, impacts: int | None = None, threads: int = 0,
@@ -338,7 +350,7 @@ class Machine:
         threads : int
             Number of threads; 0 for one per core. The result does not depend on it.
         progress : bool or callable
-            True for a progress bar, or a function called with the amounts done and in total.
+            True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
 
         Examples
         --------
@@ -354,7 +366,7 @@ class Machine:
 
     def lyapunov(
         self, *, q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None,
-        impacts: int | None = None, transient: int | None = None,
+        impacts: int | None = None, transient: int | None = None, progress: Progress = None,
     ) -> MachineLyapunov:
         """All Lyapunov exponents of a motion, per unit of time, with error bars.
 
@@ -366,6 +378,8 @@ class Machine:
             Events to measure over, 25 to 1e7. Default: 20 000.
         transient : int
             Events to pass before. Default: 1000.
+        progress : bool or callable
+            True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
 
         Examples
         --------
@@ -377,21 +391,21 @@ class Machine:
         task = {"lyapunov": {
             "impacts": maybe("impacts", impacts, SIMULATED), "transient": maybe("transient", transient, TRANSIENT),
         }}
-        return _machine_answers.lyapunov(_machine_answers.ask(self._file, self.start_of(q, qdot, phase), task)[0], self)
+        return _machine_answers.lyapunov(self._ask(task, (q, qdot, phase), progress, "motions"), self)
 
-    def orbit(self, label: str) -> MachineOrbits:
-        """The orbits with a label m/n, stable or not, from many guesses; m counts closings of all stops.
+    def orbit(self, label: str, *, progress: Progress = None) -> MachineOrbits:
+        """The orbits with a label m/n, stable or not, from many guesses; m counts closings of all stops. `progress` as for `branch`.
 
         >>> import vibroimpact as vi
         >>> vi.Machine.named("two-mass-hammer").orbit("1/1")[-1].stable
         True
         """
-        found, _ = _machine_answers.ask(self._file, self.start_of(), {"orbit": {"label": label}})
-        return _machine_answers.orbits(found, self)
+        task = {"orbit": {"label": label}}
+        return _machine_answers.orbits(self._ask(task, (None, None, None), progress, "searches"), self)
 
     def branch(
         self, vary: str, to: float, *, label: str | None = None, points: int = 5000,
-        q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None,
+        q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None, progress: Progress = None,
     ) -> MachineBranch:
         """Follow an orbit in one number of the machine through folds and grazing, from its value to another one.
 
@@ -407,6 +421,8 @@ class Machine:
             The largest number of points, 2 to 100 000.
         q, qdot, phase : array, array, float
             Start: coordinates, velocities and phase of the forcing. Default: those of `start`, or 0.
+        progress : bool or callable
+            True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
 
         Examples
         --------
@@ -417,11 +433,12 @@ class Machine:
         """
         points = whole("points", points, BRANCH)
         task = {"branch": {"label": label, "vary": vary, "to": float(to), "points": points}}
-        return _machine_answers.branch(_machine_answers.ask(self._file, self.start_of(q, qdot, phase), task)[0])
+        return _machine_answers.branch(self._ask(task, (q, qdot, phase), progress, "branches"))
 
     def curve(
         self, kind: str, vary: Mapping[str, tuple[float, float]], *, label: str | None = None, event: int | None = None,
         points: int = 5000, q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None,
+        progress: Progress = None,
     ) -> MachineCurve:
         """Follow an event of an orbit in a plane of two numbers of the machine.
 
@@ -442,6 +459,8 @@ class Machine:
             The largest number of points in each direction, 2 to 100 000.
         q, qdot, phase : array, array, float
             Start: coordinates, velocities and phase of the forcing. Default: those of `start`, or 0.
+        progress : bool or callable
+            True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
 
         Examples
         --------
@@ -464,7 +483,7 @@ class Machine:
             "label": label, "kind": kind, "vary": sides[0], "and": sides[1], "event": maybe("event", event, NUMBER),
             "points": whole("points", points, BRANCH),
         }}
-        return _machine_answers.curve(_machine_answers.ask(self._file, self.start_of(q, qdot, phase), task)[0])
+        return _machine_answers.curve(self._ask(task, (q, qdot, phase), progress, "curves"))
 
     def basin(
         self, axes: MachineAxes, *, q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None,
@@ -483,7 +502,7 @@ class Machine:
         threads : int
             Number of threads; 0 for one per core. The result does not depend on it.
         progress : bool or callable
-            True for a progress bar, or a function called with the amounts done and in total.
+            True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
 
         Examples
         --------
@@ -518,7 +537,7 @@ class Machine:
         threads : int
             Number of threads; 0 for one per core. The result does not depend on it.
         progress : bool or callable
-            True for a progress bar, or a function called with the amounts done and in total.
+            True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
 
         Examples
         --------

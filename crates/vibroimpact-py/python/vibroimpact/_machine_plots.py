@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vibroimpact import _exponents
 from vibroimpact._core import QuestionError
 from vibroimpact._figure import legend, named, new_axes
 from vibroimpact._palette import SERIES
@@ -49,20 +50,7 @@ def exponents(of: Any, ax: "Axes | None") -> "Axes":
     """Draw the exponents with their error bars."""
     if not of.exponents:
         raise QuestionError("there are no exponents: the motion ended before they could be measured")
-    ax = new_axes(ax, (6.4, 3.6))
-    places = np.arange(1, len(of.exponents) + 1)
-    values = np.array([one.value for one in of.exponents])
-    known = np.isfinite(values)
-    errors = np.nan_to_num([one.error for one in of.exponents])
-    ax.axhline(0, color="0.6", linewidth=0.8)
-    ax.errorbar(places[known], values[known], errors[known], fmt="o", color=SERIES[0], capsize=4,
-                label="exact" if of.exact else "three standard errors")
-    ax.set_xticks(places)
-    ax.set_xlabel("number of the exponent")
-    ax.set_ylabel("exponent per unit of time")
-    ax.set_title(f"{title(of.plan)}: {named(of.motion.label)}")
-    legend(ax)
-    return ax
+    return _exponents.plot(of.exponents, of.exact, f"{title(of.plan)}: {named(of.motion.label)}", ax)
 
 
 def _of_closings(of: Any) -> NDArray[np.bool_]:

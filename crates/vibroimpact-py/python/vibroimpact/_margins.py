@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vibroimpact import _core
 from vibroimpact._core import Oscillator
@@ -10,6 +10,9 @@ from vibroimpact._motion import Motion, fields_of
 from vibroimpact._progress import Progress, watched
 from vibroimpact._result import Result
 from vibroimpact._whole import LINES, whole
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,6 +137,12 @@ class Margins(Result):
             **{name: [getattr(end, name) for _, _, end in ends] for name in ("limit", "at", "distance", "relative")},
             "event": [None if end.event is None else end.event["kind"] for _, _, end in ends],
         }
+
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
+        """Draw the change of each parameter to its nearest events as bars, with the values there, and the box."""
+        from vibroimpact import _margin_bars
+
+        return _margin_bars.plot(self, ax)
 
     def to_dict(self) -> dict[str, Any]:
         """The fields of the JSON of the command; numbers that are not finite are None."""

@@ -10,7 +10,7 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from vibroimpact import _core
-from vibroimpact._axis import Axis, Interval, axes, beside, even, interval
+from vibroimpact._axis import Axis, Interval, axes, beside, interval, sweep
 from vibroimpact._budget import Budget, seconds
 from vibroimpact._core import Oscillator
 from vibroimpact._machine import Machine
@@ -283,7 +283,7 @@ class Plan:
         line = {} if second is None else {"also": dict(zip(("parameter", "from", "to"), (second[0], *interval(second[1]))))}
         task = {
             "vary": vary,
-            "over": even(over),
+            "over": sweep(over),
             **line,
             "show": show,
             "direction": way,

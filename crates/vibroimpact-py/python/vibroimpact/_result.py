@@ -5,7 +5,7 @@ import html
 import io
 import json
 from dataclasses import fields, is_dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -40,8 +40,6 @@ class Result:
     """The base of all results."""
 
     __slots__ = ()
-    #: Whether `plot` draws into one axes; other figures are not shown in notebooks.
-    _pictured: ClassVar[bool] = True
 
     def __eq__(self, other: object) -> bool:
         return equal(self, other) if type(self) is type(other) else NotImplemented
@@ -61,7 +59,7 @@ class Result:
 
     def _repr_html_(self) -> str:
         text = f"<pre>{html.escape(repr(self))}</pre>"
-        picture = self._picture() if self._pictured and hasattr(self, "plot") else None
+        picture = self._picture() if hasattr(self, "plot") else None
         return text if picture is None else f'{text}<img alt="{html.escape(repr(self))}" src="data:image/png;base64,{picture}">'
 
     def _picture(self) -> str | None:
@@ -80,7 +78,7 @@ class Result:
         return base64.b64encode(file.getvalue()).decode("ascii")
 
     def _draw(self, ax: Any) -> None:
-        """Draw the picture; a quick one, where the figure takes long."""
+        """Draw the picture into one axes; a quick one, where the figure takes long."""
         self.plot(ax)  # type: ignore[attr-defined]
 
 

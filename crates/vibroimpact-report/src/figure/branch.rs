@@ -5,6 +5,7 @@ use crate::figure::diagram::{backdrop, ordinate};
 use crate::figure::styles::{BRANCH_MARKS, MACHINE_BRANCH_MARKS};
 use crate::figure::tracks::{Followed as What, Look, Track, TrackPoint};
 use crate::figure::{along, label, title_without, variant};
+use crate::units::shown;
 use crate::{Asked, ReportError};
 use std::collections::BTreeMap;
 use vibroimpact_plot::{
@@ -12,7 +13,7 @@ use vibroimpact_plot::{
     plain,
 };
 use vibroimpact_study::diagram::{Diagram, Show};
-use vibroimpact_study::{Cut, Followed, MachineBranched, Span, counted};
+use vibroimpact_study::{Cut, Followed, MachineBranched, counted};
 
 /// Colour of the orbit diagram from simulation.
 const GREY: Colour = Colour::hex(0xb0_b0b0);
@@ -63,9 +64,7 @@ pub fn figure(
         ordinate(show, asked),
     );
     if let Some(diagram) = behind {
-        let (a, b) = diagram.plan.over.ends();
-        let over = Span::new(a * unit, b * unit, diagram.plan.over.count())?;
-        for dots in backdrop(diagram, &over, asked, GREY) {
+        for dots in backdrop(diagram, &shown(&diagram.plan.over, unit)?, asked, GREY) {
             panel.add(dots);
         }
     }

@@ -5,12 +5,12 @@
 //! are visible. Motions that do not repeat have small dots in both sweeps.
 
 use crate::figure::{along, plane::PlaneAxis, quantity_name, symbol, title_without};
-use crate::units::shown_span;
+use crate::units::shown;
 use crate::{Asked, ReportError, Units};
 use std::collections::HashSet;
 use vibroimpact_plot::{ClassStyle, Colour, Figure, FigureAxis, Legend, Panel, Points, Raster, Rects, SERIES, plain};
 use vibroimpact_study::diagram::{Diagram, DiagramPoint, DiagramStep, Show, Sweep, SweepDirection};
-use vibroimpact_study::{MachineDiagram, MachineDiagramStep, Span, counted};
+use vibroimpact_study::{MachineDiagram, MachineDiagramStep, Values, counted};
 
 /// Maximum number of dots, which gives a file of a few megabytes. With more dots a raster is drawn instead.
 const MOST_DOTS: usize = 50_000;
@@ -47,9 +47,9 @@ struct Motion {
 /// [`ReportError::Plan`] if a value of the parameter overflows in these units.
 pub fn figure(found: &Diagram, asked: &Asked) -> Result<Figure, ReportError> {
     let plan = &found.plan;
-    let over = shown_span(&plan.over, asked.units.of(plan.vary))?;
+    let over = shown(&plan.over, asked.units.of(plan.vary))?;
     let cut = plan.cut();
-    let side = PlaneAxis::new(along(&cut, &asked.units), &over.into())?;
+    let side = PlaneAxis::new(along(&cut, &asked.units), &over)?;
     let symbol = if asked.units.unit_of(plan.vary) == "Hz" { "frequency" } else { symbol(plan.vary) };
     let axes = (&side, ordinate(plan.show, asked));
     let figure = draw(&motions(found, asked), (&over, plan.direction, symbol), axes)?;
@@ -70,7 +70,7 @@ pub fn of_machine(found: &MachineDiagram, title: String) -> Result<Figure, Repor
     };
     let motions: Vec<Motion> = found.steps.iter().map(motion).collect();
     let name = plain(&plan.vary);
-    let side = PlaneAxis::new(name.clone(), &plan.over.into())?;
+    let side = PlaneAxis::new(name.clone(), &plan.over)?;
     let shown = match plan.show.as_str() {
         _ if plan.shows_closings() => "speed of closing".to_owned(),
         show if plan.shows_states() => format!("{} at phase 0", plain(show)),
@@ -83,7 +83,7 @@ pub fn of_machine(found: &MachineDiagram, title: String) -> Result<Figure, Repor
 /// Draws a dot for every point.
 fn draw(
     motions: &[Motion],
-    (over, direction, symbol): (&Span, SweepDirection, &str),
+    (over, direction, symbol): (&Values, SweepDirection, &str),
     (side, ordinate): (&PlaneAxis, FigureAxis),
 ) -> Result<Figure, ReportError> {
     let mut clouds = clouds(motions, direction, symbol);
@@ -100,14 +100,14 @@ fn draw(
 }
 
 /// All dots of a diagram in one colour, to be drawn behind curves. Dots of motions that repeat are wider than a curve.
-pub(super) fn backdrop(found: &Diagram, over: &Span, asked: &Asked, colour: Colour) -> [Points; 2] {
+pub(super) fn backdrop(found: &Diagram, over: &Values, asked: &Asked, colour: Colour) -> [Points; 2] {
     let motions = motions(found, asked);
     let range = spread(motions.iter().flat_map(|motion| motion.ys.iter().copied()));
     [(true, WIDE), (false, NARROW)].map(|(repeating, size)| {
         let shown = motions.iter().filter(|motion| motion.repeats == repeating);
         let mut dots: Vec<(u32, f64)> = shown.flat_map(|motion| motion.ys.iter().map(|y| (motion.index, *y))).collect();
         thin(&mut dots, range);
-        let (xs, ys): (Vec<f64>, Vec<f64>) = dots.into_iter().map(|(k, y)| (over.at(k), y)).unzip();
+        let (xs, ys): (Vec<f64>, Vec<f64>) = dots.into_iter().map(|(k, y)| (over.at(k as usize), y)).unzip();
         Points::new(xs, ys, colour).size(size)
     })
 }
@@ -127,7 +127,7 @@ fn ordinate_of(point: &DiagramPoint, units: &Units) -> f64 {
 
 /// The units at a step of a diagram.
 fn units_of(found: &Diagram, step: &DiagramStep, asked: &Asked) -> Units {
-    asked.units.at(found.plan.vary, found.plan.over.at(step.index))
+    asked.units.at(found.plan.vary, found.plan.over.at(step.index as usize))
 }
 
 /// The ordinate axis of a diagram.
@@ -200,13 +200,14 @@ fn thin(dots: &mut Vec<(u32, f64)>, (low, high): (f64, f64)) {
     dots.retain(|(k, y)| seen.insert((*k, (ROWS * ((y - low) / (high - low))) as i32)));
 }
 
-fn as_dots(mut panel: Panel, clouds: Vec<Cloud>, over: &Span) -> (Panel, Legend) {
+fn as_dots(mut panel: Panel, clouds: Vec<Cloud>, over: &Values) -> (Panel, Legend) {
     // about the distance between two values on the page, within limits for visibility
-    let size = (850.0 / f64::from(over.count())).clamp(2.4, 6.0);
+    #[allow(clippy::cast_precision_loss)] // a million at most
+    let size = (850.0 / over.count() as f64).clamp(2.4, 6.0);
     let mut legend = Legend::below();
     for cloud in clouds {
         let points = |dots: &[(u32, f64)], size: f64| {
-            let (xs, ys): (Vec<f64>, Vec<f64>) = dots.iter().map(|(k, y)| (over.at(*k), *y)).unzip();
+            let (xs, ys): (Vec<f64>, Vec<f64>) = dots.iter().map(|(k, y)| (over.at(*k as usize), *y)).unzip();
             Points::new(xs, ys, cloud.colour).size(size)
         };
         let small = points(&cloud.small, size);
@@ -218,20 +219,21 @@ fn as_dots(mut panel: Panel, clouds: Vec<Cloud>, over: &Span) -> (Panel, Legend)
 }
 
 /// The number of value `k` in rising order (and its inverse, which is the same function).
-fn rising(over: &Span, k: usize) -> usize {
+fn rising(over: &Values, k: usize) -> usize {
     let (a, b) = over.ends();
-    if a <= b { k } else { over.count() as usize - 1 - k }
+    if a <= b { k } else { over.count() - 1 - k }
 }
 
-/// The same diagram as a raster. The number of columns is the number of values, or less by an integer factor.
-fn as_cells(
-    panel: Panel,
-    clouds: &[Cloud],
-    (over, side): (&Span, &PlaneAxis),
-    range: (f64, f64),
-) -> Result<(Panel, Legend), ReportError> {
-    let values = over.count() as usize;
-    let (columns, rows) = (values / values.div_ceil(MOST_COLUMNS), CELL_ROWS);
+/// The classes of the cells of a raster, row by row from below, and the number of columns: that of the values of a range, or less
+/// by an integer factor. A class is the number of a cloud; cells without a dot have [`u16::MAX`].
+fn cells(clouds: &[Cloud], (over, side): (&Values, &PlaneAxis), range: (f64, f64)) -> (usize, Vec<u16>) {
+    let values = over.count();
+    let columns = match over {
+        Values::Span(_) => values / values.div_ceil(MOST_COLUMNS),
+        // listed values may be close to each other
+        Values::Listed(_) => MOST_COLUMNS,
+    };
+    let rows = CELL_ROWS;
     let mut cells = vec![(u16::MAX, false); columns * rows];
     let across = side.range();
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss)] // a few hundred
@@ -242,10 +244,9 @@ fn as_cells(
         if side.logarithmic() {
             rising(over, k as usize) * columns / values
         } else {
-            place(over.at(k), across, columns)
+            place(over.at(k as usize), across, columns)
         }
     };
-    let mut legend = Legend::below();
     for (class, cloud) in (0_u16..).zip(clouds) {
         for (dots, small) in [(&cloud.large, false), (&cloud.small, true)] {
             let reach = usize::from(!small);
@@ -262,10 +263,23 @@ fn as_cells(
                 }
             }
         }
-        legend = legend.patch(ClassStyle::plain(cloud.colour), cloud.name.clone());
     }
+    (columns, cells.into_iter().map(|(class, _)| class).collect())
+}
+
+/// The same diagram as a raster.
+fn as_cells(
+    panel: Panel,
+    clouds: &[Cloud],
+    (over, side): (&Values, &PlaneAxis),
+    range: (f64, f64),
+) -> Result<(Panel, Legend), ReportError> {
+    let (columns, classes) = cells(clouds, (over, side), range);
+    let (values, rows, across) = (over.count(), CELL_ROWS, side.range());
+    let legend = clouds
+        .iter()
+        .fold(Legend::below(), |legend, cloud| legend.patch(ClassStyle::plain(cloud.colour), cloud.name.clone()));
     let colours: Vec<Colour> = clouds.iter().map(|cloud| cloud.colour).collect();
-    let classes: Vec<u16> = cells.into_iter().map(|(class, _)| class).collect();
     if side.logarithmic() {
         // on a logarithmic axis, columns of equal width do not have equal ranges of the parameter
         let edge = |i: usize| match (i * values).div_ceil(columns) {
@@ -287,4 +301,31 @@ fn as_cells(
         return Ok((panel.with(rects), legend));
     }
     Ok((panel.with(Raster::new(across, range, (columns, rows), classes, colours)?), legend))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The cells of listed values are at their values, however many values there are.
+    #[test]
+    fn listed_values_have_cells_at_their_places() {
+        let list = vec![0.0, 0.01, 0.02, 1.0, 5.0];
+        let over = Values::Listed(list.clone());
+        let side = PlaneAxis::new("x", &over).unwrap();
+        let dots: Vec<(u32, f64)> = (0..5).map(|k| (k, 0.5)).collect();
+        let cloud = Cloud { name: "up".into(), colour: SERIES[0], large: Vec::new(), small: dots };
+        let (columns, classes) = cells(&[cloud], (&over, &side), (0.0, 1.0));
+        assert_eq!(classes.len(), columns * CELL_ROWS);
+        let filled: Vec<usize> = (0..classes.len()).filter(|k| classes[*k] == 0).map(|k| k % columns).collect();
+        let (low, high) = side.range();
+        let width = (high - low) / columns as f64;
+        // the first three are closer to each other than two columns
+        let (near, far) = filled.split_at(filled.len() - 2);
+        assert!((1..=3).contains(&near.len()) && near.iter().all(|i| (*i as f64) < 0.03 / width + 1.0), "{filled:?}");
+        for (i, value) in far.iter().zip(&list[3..]) {
+            let (left, right) = (low + width * *i as f64, low + width * (*i as f64 + 1.0));
+            assert!(left <= *value && *value <= right, "{value}: {left} to {right}");
+        }
+    }
 }

@@ -87,8 +87,7 @@ impl PlaneAxis {
     /// # Errors
     /// [`ReportError::Order`] for values in another order.
     pub fn new(name: impl Into<String>, values: &Values) -> Result<Self, ReportError> {
-        let all = values.all();
-        if !(all.is_sorted() || all.is_sorted_by(|a, b| a >= b)) {
+        if !values.in_order() {
             return Err(ReportError::Order);
         }
         Ok(Self { name: name.into(), values: values.clone() })

@@ -1,6 +1,6 @@
 //! A summary of an orbit diagram: numbers of motions of each kind.
 
-use super::{Document, Pair, Range};
+use super::{Document, Pair, Place};
 use crate::Asked;
 use crate::table::diagram::columns;
 use serde::Serialize;
@@ -12,7 +12,7 @@ use vibroimpact_study::{MachineDiagram, Plan};
 #[derive(Serialize)]
 struct DiagramFields {
     vary: &'static str,
-    over: Range,
+    over: Place,
     #[serde(skip_serializing_if = "Option::is_none")]
     also: Option<Pair>,
     columns: Vec<String>,
@@ -23,7 +23,7 @@ struct DiagramFields {
 #[must_use]
 pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &Diagram) -> impl Serialize + use<'a> {
     let task = &found.plan;
-    let over = Range::new(&task.over, asked.units.of(task.vary));
+    let over = Place::over(&task.over, asked.units.of(task.vary));
     let also = Pair::of(&task.cut(), &asked.units);
     let answer = DiagramFields {
         vary: asked.units.name_of(task.vary),

@@ -13,7 +13,7 @@ use vibroimpact::continuation::{MachineBranchEvent, MachinePoint};
 use vibroimpact::events::{MachineEvent, MachineStart};
 use vibroimpact::machine::Machine;
 use vibroimpact_study::{
-    MachineAxis, MachineDiagramPlan, MachinePlan, MachineResults, MachineSimulated, MachineTask, Span,
+    MachineAxis, MachineDiagramPlan, MachinePlan, MachineResults, MachineSimulated, MachineTask, Values,
 };
 
 /// The object that a command prints: the machine, the start, the fields of the command, and the plan.
@@ -165,7 +165,7 @@ struct Mapped<'a> {
 #[derive(Serialize)]
 struct Diagrammed<'a> {
     vary: &'a str,
-    over: &'a Span,
+    over: &'a Values,
     show: &'a str,
     sweeps: Vec<Counts>,
 }

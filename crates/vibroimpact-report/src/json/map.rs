@@ -1,13 +1,12 @@
 //! The labels of a map and their frequencies.
 
-use super::Range;
-use crate::units::given;
+use super::Place;
 use crate::{Asked, PROGRAM, Units};
 use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use vibroimpact_plot::{GROUPS, legend_group};
-use vibroimpact_study::{Axis, Coordinate, Parameter, PhysicalPlan, Plan, RegionMap, SystemPlan, Values};
+use vibroimpact_study::{Axis, Coordinate, Parameter, PhysicalPlan, Plan, RegionMap, SystemPlan};
 
 /// The fields of `vibro map`.
 #[derive(Serialize)]
@@ -67,14 +66,8 @@ fn objects(
     axes: &[Axis],
     units: &Units,
 ) -> (serde_json::Map<String, Value>, serde_json::Map<String, Value>) {
-    let range = |axis: &Axis| match &axis.over {
-        Values::Span(span) => {
-            serde_json::to_value(Range::new(span, units.of_coordinate(axis.vary))).unwrap_or_default()
-        }
-        Values::Listed(values) => {
-            values.iter().map(|value| given(*value, units.of_coordinate(axis.vary))).collect::<Vec<f64>>().into()
-        }
-    };
+    let range =
+        |axis: &Axis| serde_json::to_value(Place::over(&axis.over, units.of_coordinate(axis.vary))).unwrap_or_default();
     let name = |vary: Coordinate| match vary {
         Coordinate::Parameter(parameter) => units.name_of(parameter),
         start => start.name(),

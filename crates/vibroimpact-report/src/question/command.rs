@@ -42,7 +42,7 @@ pub fn command(plan: &Plan) -> Option<Vec<String>> {
         Task::Orbit { label } => Line::new("orbit").system(system, &[]).flag("label", label),
         Task::Basin(task) => basin(system, task, units)?,
         Task::Map(task) => map(system, task)?,
-        Task::Diagram(task) => diagram(system, task),
+        Task::Diagram(task) => diagram(system, task)?,
         Task::Lyapunov(task) => lyapunov(system, task, units)?,
         Task::Branch(task) => branch(system, task),
         Task::Curve(task) => curve(system, task),
@@ -207,19 +207,20 @@ fn basin(system: &SystemPlan, task: &BasinPlan, units: &Units) -> Option<Line> {
 }
 
 fn map(system: &SystemPlan, task: &MapPlan) -> Option<Line> {
-    let words = |axis: &Axis| {
-        let parameter = parameter(axis.vary)?;
-        let over = match &axis.over {
-            Values::Span(span) => span.to_string(),
-            Values::Listed(list) if list.len() > 1 => list.iter().map(|x| number(*x)).collect::<Vec<_>>().join(","),
-            Values::Listed(_) => return None,
-        };
-        Some((parameter, Some(over)))
-    };
+    let words = |axis: &Axis| Some((parameter(axis.vary)?, Some(values(&axis.over)?)));
     let varied = task.axes.iter().map(words).collect::<Option<Vec<_>>>()?;
     let line = Line::new("map").system(system, &varied).given("axes", order(&varied));
     let line = line.flag("starts", task.starts).unless("seed", task.seed, 1);
     Some(line.given("impacts", task.impacts).fields(&task.fields))
+}
+
+/// The values of an axis. A list of one value has no form of its own.
+fn values(of: &Values) -> Option<String> {
+    match of {
+        Values::Span(span) => Some(span.to_string()),
+        Values::Listed(list) if list.len() > 1 => Some(list.iter().map(|x| number(*x)).collect::<Vec<_>>().join(",")),
+        Values::Listed(_) => None,
+    }
 }
 
 /// The name of the flag of a parameter, without the dashes.
@@ -236,10 +237,10 @@ fn order<T>(varied: &[(Parameter, T)]) -> Option<String> {
     (!varied.is_sorted_by_key(place)).then(|| names().join(","))
 }
 
-fn diagram(system: &SystemPlan, task: &DiagramPlan) -> Line {
+fn diagram(system: &SystemPlan, task: &DiagramPlan) -> Option<Line> {
     let varied: Vec<_> = task.cut().parameters().map(|parameter| (parameter, None)).collect();
     let line = Line::new("diagram").system(system, &varied);
-    let line = line.flag("vary", flag(task.vary)).flag("over", task.over);
+    let line = line.flag("vary", flag(task.vary)).flag("over", values(&task.over)?);
     let line = line.given("also", task.also.as_ref().map(over));
     let line = match task.direction {
         SweepDirection::Both => line,
@@ -254,7 +255,7 @@ fn diagram(system: &SystemPlan, task: &DiagramPlan) -> Line {
         Show::Strobe => line.flag("show", "strobe"),
         Show::Quantity(quantity) => line.flag("show", quantity.name().replace('_', "-")),
     };
-    line.unless("transient", task.transient, DEFAULT_TRANSIENT).unless("keep", task.keep, DEFAULT_KEEP)
+    Some(line.unless("transient", task.transient, DEFAULT_TRANSIENT).unless("keep", task.keep, DEFAULT_KEEP))
 }
 
 fn lyapunov(system: &SystemPlan, task: &LyapunovPlan, units: &Units) -> Option<Line> {

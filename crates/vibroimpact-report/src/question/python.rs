@@ -224,7 +224,7 @@ fn basin(task: &BasinPlan) -> Call {
 }
 
 fn diagram(task: &DiagramPlan) -> Call {
-    let call = Call::new("orbit_diagram").then(text(task.vary.name())).then(text(&task.over.to_string()));
+    let call = Call::new("orbit_diagram").then(text(task.vary.name())).then(values(&task.over));
     let call = call.given("also", task.also.as_ref().map(|also| mapping(core::iter::once(range(also)))));
     let call = match task.direction {
         SweepDirection::Both => call,
@@ -303,6 +303,10 @@ mod tests {
             (
                 r#"{"diagram":{"vary":"damping","over":"0:0.1:3","direction":{"scatter":{"starts":3,"seed":0}},"show":"strobe"}}"#,
                 "diagram = vi.orbit_diagram(osc, \"damping\", \"0:0.1:3\", direction=\"scatter\", starts=3, seed=0, show=\"strobe\")\n",
+            ),
+            (
+                r#"{"diagram":{"vary":"damping","over":[0,0.02,0.1],"direction":"up"}}"#,
+                "diagram = vi.orbit_diagram(osc, \"damping\", [0, 0.02, 0.1], direction=\"up\")\n",
             ),
             (r#"{"lyapunov":{"impacts":2000,"points":50}}"#, "exponents = vi.lyapunov(osc, impacts=2000, points=50)\n"),
             (

@@ -76,7 +76,7 @@ impl BifurcationDiagram {
     }
 }
 
-/// The branches of some labels over the orbit diagram of a plan, which also determines whether impact velocities or
+/// The branches of some labels over the orbit diagram of a plan, between the ends of its values. The plan also determines whether impact velocities or
 /// positions at phase 0 are shown. Without labels they are those of the motions on the line with most starts. Each orbit found on a grid of
 /// values is followed in both directions to the ends of the range, through its events. Of the branches that begin at
 /// flips and branch points, those that reach one of the labels are drawn too.
@@ -99,7 +99,7 @@ pub fn bifurcation(
             &found[..found.len().min(MOST_LABELS)]
         }
     };
-    let Results::Diagram(behind) = run(&Plan::new(asked.system, Task::Diagram(*plan)), control)? else {
+    let Results::Diagram(behind) = run(&Plan::new(asked.system, Task::Diagram(plan.clone())), control)? else {
         // the task of this plan has no other result
         return Err(ReportError::NoLabels.into());
     };
@@ -193,7 +193,7 @@ pub fn labels(
 ) -> Result<Vec<String>, AnswerError> {
     plan.check(&asked.system)?;
     let (from, to) = plan.over.ends();
-    let over = if from == to { plan.over } else { Span::new(from, to, count.max(2))? };
+    let over = Span::new(from, to, if from == to { 1 } else { count.max(2) })?;
     let options = SettleOptions::default();
     let found = tiles(u64::from(over.count()), 1, control, |range, tick| {
         let mut found = Vec::new();
@@ -263,7 +263,7 @@ mod tests {
         }
         // along a line through two parameters, 1/1 flips where the line crosses its curve of flips
         let also = Stretch { parameter: Parameter::InverseBeta, from: 1.05, to: 1.12 };
-        let line = DiagramPlan { also: Some(also), ..plan };
+        let line = DiagramPlan { also: Some(also), ..plan.clone() };
         let found = labels(&asked, &line, 8, &control).unwrap();
         assert!(found.iter().any(|label| label == "1/1"), "{found:?}");
         let svg = bifurcation(&asked, &line, Some(&found), &control).unwrap().figure().unwrap().to_svg();
@@ -271,7 +271,7 @@ mod tests {
             assert!(svg.contains(word), "{word}");
         }
         // positions once in a period, if requested: 1/1 has one, which lies between the stop and the lowest position
-        let strobes = DiagramPlan { show: Show::Strobe, ..plan };
+        let strobes = DiagramPlan { show: Show::Strobe, ..plan.clone() };
         let figure = bifurcation(&asked, &strobes, Some(&["1/1".into()]), &control).unwrap().figure().unwrap();
         let svg = figure.to_svg();
         assert!(svg.contains("at phase 0") && !svg.contains("arrival velocity"), "{svg}");
@@ -283,7 +283,7 @@ mod tests {
             });
             lines.flat_map(|line| line.ys.clone()).filter(|y| !y.is_nan()).collect()
         };
-        let behind = Plan::new(asked.system, Task::Diagram(strobes));
+        let behind = Plan::new(asked.system, Task::Diagram(strobes.clone()));
         let Results::Diagram(behind) = run(&behind, &control).unwrap() else { panic!("another result") };
         let positions: Vec<f64> = behind
             .steps

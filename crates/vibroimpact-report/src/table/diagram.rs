@@ -4,17 +4,17 @@ use super::Table;
 use crate::Units;
 use crate::json::motion::side;
 use crate::number::Number;
-use crate::units::shown_span;
+use crate::units::shown;
 use vibroimpact::machine::Machine;
 use vibroimpact_study::diagram::{Diagram, DiagramPoint, DiagramStep, MotionKind, Show, Sweep};
-use vibroimpact_study::{MachineDiagram, MachineDiagramPoint, PlanError, Span};
+use vibroimpact_study::{MachineDiagram, MachineDiagramPoint, PlanError, Values};
 
 /// The table of `vibro diagram`.
 ///
 /// # Errors
 /// [`PlanError`] if a value of the parameter overflows in these units.
 pub fn table(found: &Diagram, units: Units) -> Result<Table<'_>, PlanError> {
-    let over = shown_span(&found.plan.over, units.of(found.plan.vary))?;
+    let over = shown(&found.plan.over, units.of(found.plan.vary))?;
     Ok(Table::new(columns(found, &units).join(","), rows(found, over, units)))
 }
 
@@ -38,7 +38,7 @@ pub fn columns(found: &Diagram, units: &Units) -> Vec<String> {
 
 /// One row for each point; a motion without points has one row with empty cells. Values of the parameter are exactly
 /// the numbers of the question.
-fn rows(found: &Diagram, over: Span, units: Units) -> impl Iterator<Item = String> + '_ {
+fn rows(found: &Diagram, over: Values, units: Units) -> impl Iterator<Item = String> + '_ {
     let none = match found.plan.show {
         Show::Velocity => ",,",
         Show::Strobe => ",",
@@ -48,9 +48,9 @@ fn rows(found: &Diagram, over: Span, units: Units) -> impl Iterator<Item = Strin
         // the value of the second parameter, without rounding by a conversion of the first
         let also = found.plan.values(step.index).nth(1);
         let also = also.map_or_else(String::new, |(p, value)| format!(",{}", Number(value * units.of(p))));
-        let head = format!("{}{also},{}", Number(over.at(step.index)), sweep(step.sweep));
+        let head = format!("{}{also},{}", Number(over.at(step.index as usize)), sweep(step.sweep));
         let alone = step.points.is_empty().then(|| format!("{head},{},{none}", kind(step.kind)));
-        let units = units.at(found.plan.vary, over.at(step.index));
+        let units = units.at(found.plan.vary, over.at(step.index as usize));
         let points = step.points.iter().map(move |point| format!("{head},{}", row(step, point, units)));
         alone.into_iter().chain(points)
     })
@@ -83,7 +83,7 @@ pub fn of_machine<'a>(found: &'a MachineDiagram, machine: &'a Machine) -> Table<
     let shown: &[&str] = if closings { &["stop", "phase", "speed"] } else { &[&plan.show] };
     let header = [&[plan.vary.as_str(), "sweep", "kind"], shown].concat().join(",");
     let rows = found.steps.iter().flat_map(move |step| {
-        let head = format!("{},{},{}", Number(plan.over.at(step.index)), sweep(step.sweep), kind(step.kind));
+        let head = format!("{},{},{}", Number(plan.over.at(step.index as usize)), sweep(step.sweep), kind(step.kind));
         let alone = step.points.is_empty().then(|| format!("{head}{}", if closings { ",,," } else { "," }));
         let row = move |point: &MachineDiagramPoint| {
             let of_stop = point.stop.map(|stop| format!(",{},{}", machine.name_of(stop), Number(point.phase)));

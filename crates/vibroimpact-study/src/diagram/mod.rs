@@ -15,10 +15,10 @@ mod strobes;
 pub use follow::{DiagramPoint, MotionKind};
 pub(crate) use follow::{SAME, carried_state};
 pub use plan::{DEFAULT_KEEP, DEFAULT_TRANSIENT, DiagramPlan, Show, SweepDirection};
-pub(crate) use plan::{check_shown, keep, transient};
+pub(crate) use plan::{check_order, check_shown, keep, transient};
 pub(crate) use settled::state_on;
 
-use crate::{PlanError, Span, SystemPlan};
+use crate::{PlanError, SystemPlan, Values};
 use follow::AfterTransient;
 use vibroimpact::Start;
 use vibroimpact::verdict::{StartBox, scattered_starts};
@@ -37,7 +37,7 @@ pub enum Sweep {
 /// A motion at one value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DiagramStep {
-    /// Number of the value in the range, counted from 0.
+    /// Number of the value among those of the plan, counted from 0.
     pub index: u32,
     /// The sweep or start of the motion.
     pub sweep: Sweep,
@@ -57,8 +57,8 @@ pub struct Diagram {
 }
 
 /// The number of the value, and the direction, at step `j` of sweep number `row`.
-pub(crate) fn carried(over: &Span, direction: SweepDirection, row: u64, j: u32) -> (u32, Sweep) {
-    let count = over.count();
+pub(crate) fn carried(over: &Values, direction: SweepDirection, row: u64, j: u32) -> (u32, Sweep) {
+    let count = number_of(over);
     let (first, last) = over.ends();
     // index of value number j in rising order
     let rising = |j: u32| if first <= last { j } else { count - 1 - j };
@@ -67,6 +67,11 @@ pub(crate) fn carried(over: &Span, direction: SweepDirection, row: u64, j: u32) 
         SweepDirection::Both if row == 1 => (rising(count - 1 - j), Sweep::Down),
         _ => (rising(j), Sweep::Up),
     }
+}
+
+/// The number of values. A checked plan has a million at most.
+pub(crate) fn number_of(over: &Values) -> u32 {
+    u32::try_from(over.count()).unwrap_or(u32::MAX)
 }
 
 /// The motion at one value, with the oscillator and the state to carry to the next value.

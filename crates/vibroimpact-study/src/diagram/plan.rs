@@ -2,7 +2,7 @@
 
 use crate::limits::{MOST_STARTS, starts};
 use crate::quantity::Quantity;
-use crate::{Cut, Parameter, PlanError, Span, Stretch, SystemPlan};
+use crate::{Cut, Parameter, PlanError, Span, Stretch, SystemPlan, Values};
 use serde::{Deserialize, Serialize};
 use vibroimpact::Oscillator;
 
@@ -11,16 +11,16 @@ pub const DEFAULT_TRANSIENT: u64 = 500;
 /// Default number of impacts or states shown at each value.
 pub const DEFAULT_KEEP: u64 = 64;
 
-/// One parameter over a range, and what is shown of the motion at each value.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+/// One parameter over rising or falling values, and what is shown of the motion at each value.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DiagramPlan {
     /// The parameter that varies; its value in the system counts for nothing.
     #[serde(with = "crate::parameter")]
     #[schemars(with = "crate::parameter::Name")]
     pub vary: Parameter,
-    /// Its values.
-    pub over: Span,
+    /// Its values, which rise or fall.
+    pub over: Values,
     /// A second parameter that varies with it, in proportion, from its value at the first to its value at the last: the
     /// diagram along any line through two parameters.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -105,12 +105,21 @@ impl SweepDirection {
     }
 }
 
+/// Checks the values of a diagram, which a sweep takes one after another.
+///
+/// # Errors
+/// [`PlanError`] for an invalid list, and for a list whose values neither rise nor fall.
+pub(crate) fn check_order(over: &Values) -> Result<(), PlanError> {
+    over.check()?;
+    if over.in_order() { Ok(()) } else { Err(PlanError::Order) }
+}
+
 /// Checks the lengths of a diagram: those of the transient and of what is shown, and the number of all points.
 ///
 /// # Errors
 /// [`PlanError`] names the first invalid value.
 pub(crate) fn check_shown(
-    over: &Span,
+    over: &Values,
     direction: SweepDirection,
     (transient, keep): (u64, u64),
 ) -> Result<(), PlanError> {
@@ -123,7 +132,7 @@ pub(crate) fn check_shown(
     if let SweepDirection::Scatter { starts: given, .. } = direction {
         starts(given, MOST_STARTS)?;
     }
-    let (columns, rows) = (u64::from(over.count()), direction.runs() * keep);
+    let (columns, rows) = (over.count() as u64, direction.runs() * keep);
     if columns.saturating_mul(rows) > MOST_POINTS {
         return Err(PlanError::Size { what: "points", columns, rows, most: MOST_POINTS });
     }
@@ -136,22 +145,27 @@ impl DiagramPlan {
     /// # Errors
     /// [`PlanError`] names the first invalid value.
     pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
+        check_order(&self.over)?;
         self.cut().check(system)?;
         check_shown(&self.over, self.direction, (self.transient, self.keep))
     }
 
     /// The line of parameters of the diagram.
     #[must_use]
-    pub const fn cut(&self) -> Cut {
+    pub fn cut(&self) -> Cut {
         Cut { vary: self.vary, ends: self.over.ends(), also: self.also }
     }
 
     /// The values of the parameters at value number `k`. If the values are evenly spaced, those of the second parameter
     /// are too, rounded as a range of that parameter would be.
     pub fn values(&self, k: u32) -> impl Iterator<Item = (Parameter, f64)> + use<> {
-        let value = self.over.at(k);
-        let even = self.also.filter(|_| !self.over.is_logarithmic());
-        let second = even.and_then(|also| Some(Span::new(also.from, also.to, self.over.count()).ok()?.at(k)));
+        let value = self.over.at(k as usize);
+        let second = match (&self.over, self.also) {
+            (Values::Span(span), Some(also)) if !span.is_logarithmic() => {
+                Span::new(also.from, also.to, span.count()).ok().map(|span| span.at(k))
+            }
+            _ => None,
+        };
         self.cut().values(value).enumerate().map(move |(place, (parameter, value))| match second {
             Some(second) if place == 1 => (parameter, second),
             _ => (parameter, value),
@@ -190,7 +204,7 @@ mod tests {
     fn a_plan_survives_json_and_short_ones_are_filled_in() {
         let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.0, restitution: 0.5, ..SystemPlan::default() };
         let direction = SweepDirection::Scatter { starts: 9, seed: 4 };
-        let over = "0:3:601".parse().unwrap();
+        let over = "0:3:601".parse::<Span>().unwrap().into();
         let task = DiagramPlan {
             vary: Parameter::Gap,
             over,
@@ -206,6 +220,9 @@ mod tests {
         let short: DiagramPlan = serde_json::from_str(r#"{"vary": "inverse_beta", "over": "1:2:3"}"#).unwrap();
         assert_eq!((short.direction, short.show), (SweepDirection::Both, Show::Velocity));
         assert_eq!((short.transient, short.keep), (DEFAULT_TRANSIENT, DEFAULT_KEEP));
+        let listed: DiagramPlan = serde_json::from_str(r#"{"vary": "gap", "over": [0.5, 0.7, 1.5]}"#).unwrap();
+        assert_eq!(listed.over, Values::Listed(vec![0.5, 0.7, 1.5]));
+        assert!(serde_json::to_string(&listed).unwrap().starts_with(r#"{"vary":"gap","over":[0.5,0.7,1.5],"#));
         for wrong in
             [text.replace("keep", "kept"), text.replace("seed", "sed"), text.replace("gap\",\"over", "gup\",\"over")]
         {
@@ -216,35 +233,44 @@ mod tests {
     #[test]
     fn nonsense_is_refused() {
         let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.0, restitution: 0.5, ..SystemPlan::default() };
-        let good = DiagramPlan {
+        let over = |text: &str| Values::from(text.parse::<Span>().unwrap());
+        let good = || DiagramPlan {
             vary: Parameter::Gap,
-            over: "0:3:601".parse().unwrap(),
+            over: over("0:3:601"),
             also: None,
             show: Show::Velocity,
             direction: SweepDirection::Both,
             transient: 500,
             keep: 64,
         };
-        assert_eq!(good.check(&system), Ok(()));
-        let over = |text: &str| text.parse::<Span>().unwrap();
+        assert_eq!(good().check(&system), Ok(()));
         for (plan, sentence) in [
-            (DiagramPlan { vary: Parameter::Beta, ..good }, "frequency ratio beta = 0 lies outside"),
-            (DiagramPlan { vary: Parameter::Restitution, ..good }, "restitution eps = 3 lies outside"),
-            (DiagramPlan { vary: Parameter::SecondGap, ..good }, "second_gap is to vary, but there is no second stop"),
+            (DiagramPlan { vary: Parameter::Beta, ..good() }, "frequency ratio beta = 0 lies outside"),
+            (DiagramPlan { vary: Parameter::Restitution, ..good() }, "restitution eps = 3 lies outside"),
             (
-                DiagramPlan { transient: 2_000_000, ..good },
+                DiagramPlan { vary: Parameter::SecondGap, ..good() },
+                "second_gap is to vary, but there is no second stop",
+            ),
+            (
+                DiagramPlan { transient: 2_000_000, ..good() },
                 "transient = 2000000 lies outside 0 <= transient <= 1000000",
             ),
             (
-                DiagramPlan { also: Some(Stretch { parameter: Parameter::Gap, from: 0.0, to: 1.0 }), ..good },
+                DiagramPlan { also: Some(Stretch { parameter: Parameter::Gap, from: 0.0, to: 1.0 }), ..good() },
                 "gap and gap cannot vary together",
             ),
-            (DiagramPlan { keep: 0, ..good }, "keep = 0 lies outside 1 <= keep <= 100000"),
+            (DiagramPlan { keep: 0, ..good() }, "keep = 0 lies outside 1 <= keep <= 100000"),
             (
-                DiagramPlan { direction: SweepDirection::Scatter { starts: 0, seed: 0 }, ..good },
+                DiagramPlan { direction: SweepDirection::Scatter { starts: 0, seed: 0 }, ..good() },
                 "starts = 0 lies outside",
             ),
-            (DiagramPlan { over: over("0:3:1000000"), ..good }, "128 x 1000000 = 128000000 points; at most 20000000"),
+            (
+                DiagramPlan { over: Values::Listed(vec![0.5, 2.0, 1.0]), ..good() },
+                "the values of a diagram rise or fall",
+            ),
+            (DiagramPlan { over: Values::Listed(vec![]), ..good() }, "a list of 0 values was given"),
+            (DiagramPlan { over: Values::Listed(vec![0.5, 0.5]), ..good() }, "a list of 2 values was given"),
+            (DiagramPlan { over: over("0:3:1000000"), ..good() }, "128 x 1000000 = 128000000 points; at most 20000000"),
         ] {
             let message = plan.check(&system).unwrap_err().to_string();
             assert!(message.starts_with(sentence), "{message}");

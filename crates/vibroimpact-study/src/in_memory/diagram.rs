@@ -16,7 +16,10 @@ const TILE: u32 = 4;
 pub(crate) fn diagram(system: &SystemPlan, plan: &DiagramPlan, control: &Control<'_>) -> Result<Diagram, RunError> {
     plan.check(system)?;
     let task = SweepFill::new(system, plan, Some(TILE));
-    Ok(Diagram { plan: *plan, steps: steps_of(&task, plan.direction, |step| (step.index, step.sweep), control)? })
+    Ok(Diagram {
+        plan: plan.clone(),
+        steps: steps_of(&task, plan.direction, |step| (step.index, step.sweep), control)?,
+    })
 }
 
 /// Follows the motions of a machine at all values.
@@ -53,8 +56,8 @@ fn steps_of<S: Swept>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diagram::{DiagramPoint, MotionKind, Show};
-    use crate::{Parameter, Stretch};
+    use crate::diagram::{DiagramPoint, DiagramStep, MotionKind, Show};
+    use crate::{Parameter, Span, Stretch, Values};
 
     const S: SystemPlan = SystemPlan {
         beta: None,
@@ -66,10 +69,14 @@ mod tests {
         machine: None,
     };
 
+    fn span(over: &str) -> Values {
+        over.parse::<Span>().unwrap().into()
+    }
+
     fn plan(over: &str) -> DiagramPlan {
         DiagramPlan {
             vary: Parameter::Gap,
-            over: over.parse().unwrap(),
+            over: span(over),
             also: None,
             show: Show::Velocity,
             direction: SweepDirection::Both,
@@ -104,13 +111,47 @@ mod tests {
             let plan = plan(over);
             let found = run(&S, &plan);
             let order = |sweep| -> Vec<f64> {
-                found.steps.iter().filter(|s| s.sweep == sweep).map(|s| plan.over.at(s.index)).collect()
+                found.steps.iter().filter(|s| s.sweep == sweep).map(|s| plan.over.at(s.index as usize)).collect()
             };
             assert!(order(Sweep::Up).is_sorted() && order(Sweep::Up).len() == 7);
             assert!(order(Sweep::Down).is_sorted_by(|a, b| a >= b) && order(Sweep::Down).len() == 7);
         }
         let written = |over| run(&S, &plan(over)).steps.into_iter().map(|s| s.points).collect::<Vec<_>>();
         assert_eq!(written("0:3:7"), written("3:0:7"));
+    }
+
+    /// A list has the points of the range with the same values, and its sweeps skip nothing but values that are left out.
+    #[test]
+    fn listed_values_give_the_points_of_a_range() {
+        let scatter = SweepDirection::Scatter { starts: 3, seed: 2 };
+        for direction in [SweepDirection::Both, SweepDirection::Down, scatter] {
+            for over in ["0.1:1.5:8", "1.5:0.1:8"] {
+                let even = DiagramPlan { direction, ..plan(over) };
+                let listed = DiagramPlan { over: Values::Listed(even.over.all()), ..even.clone() };
+                assert_ne!(listed.over, even.over);
+                assert_eq!(run(&S, &listed).steps, run(&S, &even).steps);
+            }
+        }
+        // where no state is carried, the points at some of the values are those at all of them
+        let even = DiagramPlan { direction: scatter, ..plan("0.1:1.5:8") };
+        let all = run(&S, &even);
+        for few in [[0, 1, 4, 7], [7, 4, 1, 0]] {
+            let over = Values::Listed(few.iter().map(|k| even.over.at(*k)).collect());
+            let found = run(&S, &DiagramPlan { over, ..even.clone() });
+            assert_eq!(found.steps.len(), 12);
+            for step in &found.steps {
+                let same = |of: &&DiagramStep| of.index as usize == few[step.index as usize] && of.sweep == step.sweep;
+                let other = all.steps.iter().find(same).unwrap();
+                assert_eq!((step.kind, &step.points), (other.kind, &other.points));
+            }
+        }
+        // sweeps rise and fall however the list is written
+        for over in [vec![0.0, 0.5, 0.6, 2.0], vec![2.0, 0.6, 0.5, 0.0]] {
+            let plan = DiagramPlan { over: Values::Listed(over), ..plan("0:1:2") };
+            let found = run(&S, &plan);
+            let order: Vec<f64> = found.steps.iter().map(|s| plan.over.at(s.index as usize)).collect();
+            assert_eq!(order, [0.0, 0.5, 0.6, 2.0, 2.0, 0.6, 0.5, 0.0]);
+        }
     }
 
     /// At S of the 1971 paper, 1/1 and 2/1 coexist. A sweep that begins where only one of them exists stays on that
@@ -120,7 +161,7 @@ mod tests {
         let plan = plan("0:2:81");
         let found = run(&S, &plan);
         let here = |sweep| {
-            let step = found.steps.iter().find(|s| s.sweep == sweep && plan.over.at(s.index) == 0.75).unwrap();
+            let step = found.steps.iter().find(|s| s.sweep == sweep && plan.over.at(s.index as usize) == 0.75).unwrap();
             let mut speeds: Vec<f64> = step
                 .points
                 .iter()
@@ -161,13 +202,13 @@ mod tests {
         for k in 0..5_u32 {
             let value = f64::from(k) / 2.0;
             let system = SystemPlan { inverse_beta: Some(line.values(k).last().unwrap().1), ..S };
-            let alone =
-                run(&system, &DiagramPlan { also: None, over: format!("{value}:{value}:1").parse().unwrap(), ..line });
+            let over = span(&format!("{value}:{value}:1"));
+            let alone = run(&system, &DiagramPlan { also: None, over, ..line.clone() });
             let here: Vec<_> = found.steps.iter().filter(|step| step.index == k).map(|step| &step.points).collect();
             assert_eq!(here, alone.steps.iter().map(|step| &step.points).collect::<Vec<_>>(), "at {value}");
         }
         // the state is also carried when the frequency changes
-        let carried = run(&S, &DiagramPlan { direction: SweepDirection::Both, ..line });
+        let carried = run(&S, &DiagramPlan { direction: SweepDirection::Both, ..line.clone() });
         assert!(carried.steps.iter().all(|step| step.kind != MotionKind::Undecided));
     }
 
@@ -180,7 +221,7 @@ mod tests {
         let found = run(&system, &plan);
         let free = plan.cut().oscillator(&system, 1.0).unwrap().free_amplitude();
         for step in found.steps.iter().filter(|step| step.sweep == Sweep::Down) {
-            let gap = plan.over.at(step.index);
+            let gap = plan.over.at(step.index as usize);
             assert_eq!(step.kind == MotionKind::NoImpact, gap > free, "gap {gap}: {:?}", step.kind);
         }
         let lost = |sweep| found.steps.iter().filter(|s| s.sweep == sweep && s.kind == MotionKind::NoImpact).count();

@@ -1,9 +1,9 @@
 //! The orbit diagram of a machine: its motion after the transient at each value of a number.
 
 use super::after_transient::{Followed, closings, settled, strobes};
-use crate::diagram::{MotionKind, Sweep, SweepDirection, check_shown};
+use crate::diagram::{MotionKind, Sweep, SweepDirection, check_order, check_shown};
 use crate::machine::MachineSource;
-use crate::{PlanError, Span};
+use crate::{PlanError, Values};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vibroimpact::events::MachineStart;
@@ -13,14 +13,14 @@ use vibroimpact::verdict::scattered_machine_starts;
 
 pub use super::after_transient::MachineDiagramPoint;
 
-/// A number of a machine over a range, and what is shown of the motion at each value.
+/// A number of a machine over rising or falling values, and what is shown of the motion at each value.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MachineDiagramPlan {
     /// The path of the number that varies.
     pub vary: String,
-    /// Its values.
-    pub over: Span,
+    /// Its values, which rise or fall.
+    pub over: Values,
     /// What is shown: `speed`, the phase and speed of each closing of a stop; the value of `q.COORDINATE` or
     /// `qdot.COORDINATE` once in every forcing period, at phase 0; or a quantity of the settled motion by its path.
     #[serde(default = "speed")]
@@ -59,7 +59,7 @@ pub enum MachineShow {
 /// A motion at one value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MachineDiagramStep {
-    /// Number of the value in the range, counted from 0.
+    /// Number of the value among those of the plan, counted from 0.
     pub index: u32,
     /// The sweep or start of the motion.
     pub sweep: Sweep,
@@ -119,6 +119,7 @@ impl MachineDiagramPlan {
     /// # Errors
     /// [`PlanError`] names the first invalid value.
     pub fn check(&self, source: &MachineSource) -> Result<(), PlanError> {
+        check_order(&self.over)?;
         source.number(&self.vary)?;
         let (first, last) = self.over.ends();
         for end in [first, last] {
@@ -136,7 +137,7 @@ pub(crate) fn step(
     (index, sweep): (u32, Sweep),
     before: Option<MachineStart>,
 ) -> Result<(MachineDiagramStep, MachineStart), PlanError> {
-    let machine = source.with(&plan.vary, plan.over.at(index))?.machine()?;
+    let machine = source.with(&plan.vary, plan.over.at(index as usize))?.machine()?;
     let start = match (plan.direction, sweep, before) {
         (SweepDirection::Scatter { seed, .. }, Sweep::Start(k), _) => {
             scattered_machine_starts(&machine, seed, k).within_stops(&machine)

@@ -4,7 +4,7 @@ use super::axis::MachineAxis;
 use super::curve::MachineCurvePlan;
 use super::diagram::MachineDiagramPlan;
 use super::grid::{MachineBasinPlan, MachineMapPlan};
-use super::simulate::check;
+use super::simulate::{check, most_events};
 use super::{orbits, verdicts};
 use crate::machine::{MachineSource, NumberText, StartNumbers, StartText, VectorText};
 use crate::map::check_impacts;
@@ -181,8 +181,17 @@ impl MachinePlan {
             MachineTask::Basin(basin) => Some((MachineAxis::points(&basin.axes), "starts")),
             MachineTask::Map(map) => Some((MachineAxis::points(&map.axes), "points")),
             MachineTask::Diagram(diagram) => {
-                Some((u64::from(diagram.over.count()).saturating_mul(diagram.direction.runs()), "motions"))
+                Some(((diagram.over.count() as u64).saturating_mul(diagram.direction.runs()), "motions"))
             }
+            _ => None,
+        }
+    }
+
+    /// The number of events after which a simulation ends; `None` for other tasks.
+    #[must_use]
+    pub fn most_events(&self) -> Option<u64> {
+        match self.task {
+            MachineTask::Simulate { impacts, periods } => Some(most_events(impacts, periods)),
             _ => None,
         }
     }

@@ -1,5 +1,6 @@
 //! The events of a motion of a machine, up to a number of events or forcing periods, and the reason why the list ends.
 
+use crate::simulate::TELL;
 use crate::{Control, PlanError, RunError, Stopped};
 use vibroimpact::events::{MachineEnd, MachineEvent, MachineLimits, MachineMotion, MachineStart};
 use vibroimpact::machine::Machine;
@@ -34,6 +35,11 @@ pub(super) fn check(machine: &Machine, (impacts, periods): (Option<u64>, Option<
     }
 }
 
+/// The number of events after which a motion is not followed further.
+pub(super) fn most_events(impacts: Option<u64>, periods: Option<f64>) -> u64 {
+    impacts.unwrap_or(if periods.is_some() { EVENTS_IN_PERIODS } else { EVENTS })
+}
+
 /// Follows a motion up to the given number of events and of forcing periods.
 pub(super) fn simulate(
     machine: &Machine,
@@ -41,7 +47,7 @@ pub(super) fn simulate(
     (impacts, periods): (Option<u64>, Option<f64>),
     control: &Control<'_>,
 ) -> Result<MachineSimulated, RunError> {
-    let most = impacts.unwrap_or(if periods.is_some() { EVENTS_IN_PERIODS } else { EVENTS });
+    let most = most_events(impacts, periods);
     let until = periods.zip(machine.period()).map_or(f64::INFINITY, |(periods, period)| periods * period);
     let limits = limits(until);
     let mut motion = MachineMotion::new(machine, start, limits).map_err(|error| PlanError::Machine(error.into()))?;
@@ -67,6 +73,9 @@ pub(super) fn simulate(
             break ("time_limit", until);
         }
         events.push(event);
+        if (events.len() as u64).is_multiple_of(TELL) {
+            (control.progress)(events.len() as u64);
+        }
     };
     let last = events.last().map_or(0.0, |event| event.time);
     let for_ever = matches!(reason, "no_more_impacts" | "stuck");

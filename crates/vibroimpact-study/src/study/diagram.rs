@@ -3,9 +3,9 @@
 use super::fill::Along;
 use super::sweeps::{KINDS, SweepFill, Swept, in_order};
 use crate::axis::Coordinate;
-use crate::diagram::{Diagram, DiagramPoint, DiagramStep, MotionKind, Show, Sweep, SweepDirection, step};
+use crate::diagram::{Diagram, DiagramPoint, DiagramStep, MotionKind, Show, Sweep, SweepDirection, number_of, step};
 use crate::field::{Column, Extra, Field, NumberType};
-use crate::{DiagramPlan, PlanError, Span, SystemPlan, Unit};
+use crate::{DiagramPlan, PlanError, SystemPlan, Unit, Values};
 use vibroimpact::{Side, Start};
 
 /// Oscillators over a parameter, or along a line through two.
@@ -18,7 +18,7 @@ pub(crate) struct OscillatorDiagram {
 impl SweepFill<OscillatorDiagram> {
     pub(crate) fn new(system: &SystemPlan, plan: &DiagramPlan, tile: Option<u32>) -> Self {
         let keep = usize::try_from(plan.keep).unwrap_or(usize::MAX);
-        Self::of(OscillatorDiagram { system: *system, plan: *plan, keep }, tile)
+        Self::of(OscillatorDiagram { system: *system, plan: plan.clone(), keep }, tile)
     }
 }
 
@@ -26,7 +26,7 @@ impl Swept for OscillatorDiagram {
     type Step = DiagramStep;
     type Left = (SystemPlan, Start);
 
-    fn sweep(&self) -> (&str, &Span, SweepDirection) {
+    fn sweep(&self) -> (&str, &Values, SweepDirection) {
         (self.plan.vary.name(), &self.plan.over, self.plan.direction)
     }
 
@@ -39,7 +39,7 @@ impl Swept for OscillatorDiagram {
             Along {
                 name: parameter.name().to_owned(),
                 dimension: cut.vary.name().to_owned(),
-                values: (0..self.plan.over.count()).map(value).collect(),
+                values: (0..number_of(&self.plan.over)).map(value).collect(),
                 long_name: parameter.long_name().into(),
                 unit: parameter.unit(),
             }
@@ -127,7 +127,7 @@ impl Swept for OscillatorDiagram {
 /// Motions of tiles that are not complete are left out.
 #[must_use]
 pub fn diagram_of(plan: &DiagramPlan, columns: &[Column]) -> Diagram {
-    let (count, keep) = (plan.over.count() as usize, usize::try_from(plan.keep).unwrap_or(usize::MAX));
+    let (count, keep) = (plan.over.count(), usize::try_from(plan.keep).unwrap_or(usize::MAX));
     let whole = |k: usize| if let Some(Column::I8(values)) = columns.get(k) { values.as_slice() } else { &[] };
     let real = |k: usize| columns.get(k).map_or(&[][..], Column::real);
     let (kinds, first, second, sides) = (whole(0), real(1), real(2), whole(3));
@@ -148,7 +148,7 @@ pub fn diagram_of(plan: &DiagramPlan, columns: &[Column]) -> Diagram {
         Some(DiagramStep { index, sweep, kind, points })
     };
     let steps = in_order(&plan.over, plan.direction, motion);
-    Diagram { plan: *plan, steps }
+    Diagram { plan: plan.clone(), steps }
 }
 
 enum Part {

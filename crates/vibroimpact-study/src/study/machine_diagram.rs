@@ -6,7 +6,7 @@ use crate::diagram::{MotionKind, Sweep, SweepDirection};
 use crate::field::{Column, Extra, Field, NumberType};
 use crate::machine::MachineSource;
 use crate::machine_plan::{MachineDiagram, MachineDiagramPlan, MachineDiagramPoint, MachineDiagramStep, diagram_step};
-use crate::{MachineAxis, PlanError, Span, Unit};
+use crate::{MachineAxis, PlanError, Unit, Values};
 use vibroimpact::events::MachineStart;
 
 /// Machines over a number.
@@ -27,12 +27,12 @@ impl Swept for MachineSweep {
     type Step = MachineDiagramStep;
     type Left = MachineStart;
 
-    fn sweep(&self) -> (&str, &Span, SweepDirection) {
+    fn sweep(&self) -> (&str, &Values, SweepDirection) {
         (&self.plan.vary, &self.plan.over, self.plan.direction)
     }
 
     fn varied(&self) -> Vec<Along> {
-        along_machine(&[MachineAxis { vary: self.plan.vary.clone(), over: self.plan.over.into() }])
+        along_machine(&[MachineAxis { vary: self.plan.vary.clone(), over: self.plan.over.clone() }])
     }
 
     fn fields(&self) -> Vec<Field> {
@@ -122,7 +122,7 @@ impl Swept for MachineSweep {
 /// Motions of tiles that are not complete are left out.
 #[must_use]
 pub fn machine_diagram_of(plan: &MachineDiagramPlan, columns: &[Column]) -> MachineDiagram {
-    let (count, keep) = (plan.over.count() as usize, usize::try_from(plan.keep).unwrap_or(usize::MAX));
+    let (count, keep) = (plan.over.count(), usize::try_from(plan.keep).unwrap_or(usize::MAX));
     let kinds = columns.first().map_or(&[][..], Column::flags);
     let real = |k: usize| columns.get(k).map_or(&[][..], Column::real);
     let (values, phases, stops) = (real(1), real(2), columns.get(3).map_or(&[][..], Column::whole));

@@ -1,10 +1,10 @@
 //! The tiles of an orbit diagram. A sweep is one tile; scattered starts have many.
 
 use super::fill::{Along, BegunTile, Fill, Keep};
-use crate::diagram::{Sweep, SweepDirection, carried};
+use crate::diagram::{Sweep, SweepDirection, carried, number_of};
 use crate::field::{Column, Field};
 use crate::grid::{Block, Dimension, Grid};
-use crate::{PlanError, Span, Unit};
+use crate::{PlanError, Unit, Values};
 
 /// Number of starts and of values in a tile of scattered starts.
 const TILE: (usize, usize) = (16, 64);
@@ -17,7 +17,7 @@ pub(crate) trait Swept: Send + Sync {
     type Left;
 
     /// The name of the number, its values, and how starts are chosen.
-    fn sweep(&self) -> (&str, &Span, SweepDirection);
+    fn sweep(&self) -> (&str, &Values, SweepDirection);
 
     /// The coordinate values of what varies.
     fn varied(&self) -> Vec<Along>;
@@ -52,7 +52,7 @@ impl<S: Swept> SweepFill<S> {
         let (name, over, direction) = swept.sweep();
         let dimension =
             |name: &str, count: usize, tile: usize| Dimension { name: name.into(), count, tile: tile.min(count) };
-        let (values, runs) = (over.count() as usize, usize::try_from(direction.runs()).unwrap_or(usize::MAX));
+        let (values, runs) = (over.count(), usize::try_from(direction.runs()).unwrap_or(usize::MAX));
         let side = |default: usize| tile.map_or(default, |tile| tile as usize);
         let dimensions = match direction {
             SweepDirection::Scatter { .. } => {
@@ -215,11 +215,11 @@ pub(super) const KINDS: [(i32, &str); 5] =
 /// The steps of a stored diagram in the order of its results: sweeps one after another, scattered starts value by value.
 /// `motion` returns the step in this row at this value.
 pub(super) fn in_order<T>(
-    over: &Span,
+    over: &Values,
     direction: SweepDirection,
     motion: impl Fn(usize, u32, Sweep) -> Option<T>,
 ) -> Vec<T> {
-    let values = 0..over.count();
+    let values = 0..number_of(over);
     match direction {
         SweepDirection::Scatter { starts, .. } => values
             .flat_map(|index| (0..starts).map(move |start| (index, start)))

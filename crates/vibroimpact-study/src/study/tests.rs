@@ -185,20 +185,20 @@ fn a_diagram_is_that_of_its_steps() {
     ] {
         let plan = DiagramPlan {
             vary: Parameter::Gap,
-            over: span("0:2:41"),
+            over: span("0:2:41").into(),
             also,
             show: Show::Velocity,
             direction,
             transient: 100,
             keep: 6,
         };
-        let found = sheet(S, Task::Diagram(plan), None, 2);
+        let found = sheet(S, Task::Diagram(plan.clone()), None, 2);
         let direct = crate::in_memory::diagram(&S, &plan, &Control::default()).unwrap();
         assert_eq!(diagram_of(&plan, &found.columns), direct);
         let beside = found.study.coordinates().into_iter().find(|along| along.name == "damping");
         assert_eq!(beside.map(|along| (along.dimension, along.values[10])), also.map(|_| ("gap".into(), 0.01)));
-        let strobes = DiagramPlan { show: Show::Strobe, ..plan };
-        let held = sheet(S, Task::Diagram(strobes), None, 2);
+        let strobes = DiagramPlan { show: Show::Strobe, ..plan.clone() };
+        let held = sheet(S, Task::Diagram(strobes.clone()), None, 2);
         assert_eq!(
             diagram_of(&strobes, &held.columns),
             crate::in_memory::diagram(&S, &strobes, &Control::default()).unwrap()

@@ -83,7 +83,7 @@ fn simulated() -> Result<(Vec<f64>, Vec<f64>), Error> {
     };
     let plan = DiagramPlan {
         vary: Parameter::Gap,
-        over: Span::new(SHOWN.0, SHOWN.1, 1181)?,
+        over: Span::new(SHOWN.0, SHOWN.1, 1181)?.into(),
         also: None,
         show: diagram::Show::Velocity,
         direction: diagram::SweepDirection::Both,
@@ -96,7 +96,9 @@ fn simulated() -> Result<(Vec<f64>, Vec<f64>), Error> {
     let mut places = Vec::new();
     for step in &found.steps {
         places.extend(step.points.iter().filter_map(|point| match point {
-            diagram::DiagramPoint::Impact { velocity, .. } => Some((plan.over.at(step.index), *velocity)),
+            diagram::DiagramPoint::Impact { velocity, .. } => {
+                Some((found.plan.over.at(step.index as usize), *velocity))
+            }
             _ => None,
         }));
     }
