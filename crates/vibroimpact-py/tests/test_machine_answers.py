@@ -62,6 +62,50 @@ def test_a_branch_has_columns() -> None:
     assert len(same) == 5 and same.event_kind.tolist() == ["step limit"] and set(same.label) == {"1/1"}
 
 
+def test_branches_follow_lines_orbits_and_flips() -> None:
+    at = HAMMER.set(frequency=1.06)
+    one, two = (at.branch("frequency", 1.065, label="2/1", orbit=k) for k in (1, 2))
+    assert (one.orbit, two.orbit) == ((1, 2), (2, 2)) and not one.stable[0] and two.stable[0]
+    orbits = at.orbit("2/1")
+    assert [abs(found.speed[0] - orbit.cycle.speed[0]) < 1e-9 for found, orbit in zip((one, two), orbits)] == [True, True]
+    with pytest.raises(vi.QuestionError, match="no orbit 2/1 number 3"):
+        at.branch("frequency", 1.065, label="2/1", orbit=3)
+    fold = {"frequency": (1.0, 1.1), "b": (0.45, 0.55)}
+    curves = [at.curve("fold", fold, label="2/1", orbit=k, points=3) for k in (1, 2)]
+    assert np.allclose(curves[0].found_at, curves[1].found_at, rtol=0, atol=1e-8)
+
+    line = HAMMER.branch("frequency", 1.1, also={"stop.anvil.gap": 0.6})
+    assert line.also == ("stop.anvil.gap", 0.5, 0.6) and line.second is not None and line.orbit is None
+    assert np.allclose(line.second, 0.5 + (1.2 - line.parameter), rtol=0, atol=1e-12)
+    assert line.to_dataframe()["stop.anvil.gap"].iloc[-1] == 0.6
+    there = HAMMER.set({"frequency": 1.1, "stop.anvil.gap": 0.6}).settle().motion
+    assert abs(there.cycle.speed.max() - line.speed[-1]) < 1e-9
+    diagram = vi.orbit_diagram(HAMMER, "frequency", "1.1:1.2:3", also={"stop.anvil.gap": (0.6, 0.5)}, direction="up")
+    assert diagram["stop.anvil.gap"].dims == ("frequency",)
+    assert diagram["stop.anvil.gap"].values.tolist() == [0.6, 0.55, 0.5]
+    assert abs(diagram["speed"].isel(frequency=0, sweep=0).max().item() - line.speed[-1]) < 1e-7
+
+    branch = HAMMER.set(frequency=0.95).branch("frequency", 0.895, follow=1)
+    (doubled,) = branch.followed
+    assert doubled.flip == branch.event_parameter[branch.event_kind == "flip"][0] and branch.flip is None
+    assert "5/2" in set(doubled.label) and len(branch.to_dict()["followed"]) == 1
+
+
+def test_the_sections_of_an_attractor() -> None:
+    found = HAMMER.set(frequency=1.06).lyapunov(impacts=200, points=30)
+    cycle = found.motion.cycle
+    assert found.closings.q.shape == found.strobes.qdot.shape == (30, 2) and set(found.closings.stop) == {"anvil"}
+    near = np.abs(found.closings.speed[:, None] - cycle.speed) + np.abs(found.closings.phase[:, None] - cycle.phase)
+    assert np.all(near.min(axis=1) < 1e-9)
+    assert np.ptp(found.strobes.q, axis=0).max() < 1e-9
+    bare = HAMMER.lyapunov(impacts=200)
+    assert bare.closings.q.shape == bare.strobes.q.shape == (0, 2)
+    with pytest.raises(vi.QuestionError, match="no points of the sections"):
+        bare.plot_sections()
+    with pytest.raises(vi.QuestionError, match="no section at a phase"):
+        vi.Machine.named("sdnd122").lyapunov(points=10)
+
+
 def test_a_curve_is_that_of_the_closed_form() -> None:
     ball = vi.Machine.named("bouncing-ball").set(Gamma=1.2)
     found = ball.curve("fold", {"Gamma": (0.2, 3), "e": (0.3, 0.8)}, label="1/1")

@@ -47,14 +47,31 @@ def test_orbits_branches_and_curves() -> None:
     assert len(words(ax)) == len(found) and words(ax)[-1].startswith("1/1, no.")
     np.testing.assert_array_equal(ax.get_lines()[-1].get_ydata(), found[-1].cycle.speed[np.isin(found[-1].cycle.kind, ("impact", "close"))])
     branch = HAMMER.branch("frequency", 1.05)
-    ax = branch.plot()
+    ax = branch.plot(diagram=False)
     assert ax.get_xlabel() == "frequency" and {"grazing", "fold", "1/1", "stable"} <= set(words(ax))
     drawn = np.concatenate([line.get_xdata() for line in ax.get_lines() if len(line.get_xdata()) > 1 and line.get_marker() == "None"])
     assert set(branch.parameter.tolist()) == set(drawn.tolist())
+    # a curve for each closing, not only for the fastest
+    heights = np.concatenate([line.get_ydata() for line in ax.get_lines() if len(line.get_xdata()) > 1 and line.get_marker() == "None"])
+    closings = np.concatenate([cycle.speed[np.isin(cycle.kind, ("impact", "close"))] for cycle in branch.cycles])
+    assert set(closings.tolist()) == set(heights.tolist())
+    line = HAMMER.branch("frequency", 1.1, also={"b": 0.6})
+    ax = line.plot()
+    assert ax.get_xlabel() == "frequency, with b from 0.6 to 0.5" and words(ax)[-1] == "stable" and "simulation" in words(ax)
     curve = HAMMER.curve("grazing", {"frequency": (0.9, 1.3), "b": (0.4, 0.6)})
     ax = curve.plot()
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("frequency", "b") and words(ax)[0] == f"grazing of {curve.label}"
     np.testing.assert_array_equal(ax.get_lines()[0].get_xdata(), curve.values[:, 0])
+
+
+def test_sections() -> None:
+    found = vi.Machine.named("impact-pair").lyapunov(impacts=300, points=200)
+    drawn = found.plot_sections()
+    assert [ax.get_xlabel() for ax in drawn] == [r"phase $\theta$", "q.ball"] and drawn[1].get_ylabel() == "qdot.ball"
+    assert words(drawn[0]) == ["right", "left"]
+    np.testing.assert_array_equal(drawn[1].get_lines()[0].get_xdata(), found.strobes.q[:, 0])
+    with pytest.raises(vi.QuestionError, match="2 axes are needed"):
+        found.plot_sections([plt.subplots()[1]])
 
 
 def test_basins_and_maps() -> None:

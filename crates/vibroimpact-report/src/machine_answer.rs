@@ -1,15 +1,17 @@
 //! A plan of a machine, its result, and everything that is reported of it: the JSON object, the table and the figure.
 
 use crate::AnswerError;
-use crate::figure::coloured::{self, Coloured};
-use crate::{ReportError, Table, figure, table};
+use crate::figure::coloured;
+use crate::{ReportError, Shown, Table, figure, table};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::MachineCycle;
 use vibroimpact::verdict::MachineVerdict;
 use vibroimpact_plot::Figure;
 use vibroimpact_study::machine::MachineSource;
-use vibroimpact_study::{Control, MachinePlan, MachineResults, MachineTask, PlanError, run_machine};
+use vibroimpact_study::{
+    Control, MachineBranchPlan, MachineDiagram, MachinePlan, MachineResults, MachineTask, run_machine,
+};
 
 /// The largest number of characters of a title over an axis of ordinary width.
 const TITLE: usize = 45;
@@ -64,13 +66,13 @@ impl MachineAnswer {
     }
 
     /// The figure that the command draws with `--plot`, that of a map or basin in the colours of a quantity, if one is given;
-    /// `None` for a task without one.
+    /// `None` for a task without one. The orbit diagram behind a branch is computed here.
     ///
     /// # Errors
-    /// [`AnswerError`] for a result that cannot be drawn.
-    pub fn figure(&self, colour: Option<&Coloured>) -> Result<Option<Figure>, AnswerError> {
+    /// [`AnswerError`] for a result that cannot be drawn, or when stopped.
+    pub fn figure(&self, shown: &Shown, control: &Control<'_>) -> Result<Option<Figure>, AnswerError> {
         let title = machine_title(&self.plan.machine, &self.name);
-        if let Some(colour) = colour {
+        if let Some(colour) = &shown.colour {
             return Ok(Some(match &self.results {
                 MachineResults::Basin(found) => coloured::of_machine_basin(found, colour, title)?,
                 MachineResults::Map(found) => coloured::of_machine_map(found, colour, title)?,
@@ -89,9 +91,9 @@ impl MachineAnswer {
                 self.one_period(cycle, &title)?
             }
             MachineResults::Branch(found) => {
-                let MachineTask::Branch { vary, to, .. } = &self.plan.task else { return Ok(None) };
-                let from = self.plan.machine.number(vary).map_err(PlanError::from).map_err(ReportError::from)?;
-                figure::branch::of_machine(found, (vary, (from, *to)), title)
+                let MachineTask::Branch(plan) = &self.plan.task else { return Ok(None) };
+                let behind = if shown.diagram { self.behind(plan, control)? } else { None };
+                figure::branch::of_machine(found, &plan.cut(&self.plan.machine)?, behind.as_ref(), title)
             }
             MachineResults::Curve(found) => {
                 let MachineTask::Curve(plan) = &self.plan.task else { return Ok(None) };
@@ -100,8 +102,23 @@ impl MachineAnswer {
             MachineResults::Basin(found) => figure::basin::of_machine(found, title)?,
             MachineResults::Map(found) => figure::map::of_machine(found, title)?,
             MachineResults::Diagram(found) => figure::diagram::of_machine(found, title)?,
-            MachineResults::Attractors(_) | MachineResults::Lyapunov(_) | MachineResults::Orbit(_) => return Ok(None),
+            MachineResults::Lyapunov(found, Some(points)) => {
+                let label = figure::label(&found.motion.label());
+                figure::machine_section::figure(points, &self.machine, format!("{title}: {label}"))
+            }
+            MachineResults::Attractors(_) | MachineResults::Lyapunov(..) | MachineResults::Orbit(_) => return Ok(None),
         }))
+    }
+
+    /// The orbit diagram over the range of a branch; `None` if there is no machine at one end, where no branch can come either.
+    fn behind(&self, plan: &MachineBranchPlan, control: &Control<'_>) -> Result<Option<MachineDiagram>, AnswerError> {
+        let task = MachineTask::Diagram(plan.diagram(&self.plan.machine)?);
+        let plan = MachinePlan { task, ..self.plan.clone() };
+        if plan.check().is_err() {
+            return Ok(None);
+        }
+        let found = run_machine(&plan, control)?;
+        Ok(if let MachineResults::Diagram(found) = found { Some(found) } else { None })
     }
 
     /// The waveform of one period of a cycle.
@@ -116,22 +133,22 @@ impl MachineAnswer {
         Ok(figure::machine_waveform::figure(&self.machine, &cycle.state, &found, title)?)
     }
 
-    /// The table that the command writes with `--csv`, with points a time `step` apart; a hundredth of the forcing period
-    /// by default, or a thousandth of the whole time without forcing; `None` for a task without one.
+    /// The table that the command writes with `--csv`; `None` for a task without one. Points of a waveform are a hundredth of
+    /// the forcing period apart by default, or a thousandth of the whole time without forcing.
     ///
     /// # Errors
     /// [`AnswerError`] for a result that cannot be tabulated.
-    pub fn table(&self, step: Option<f64>) -> Result<Option<Table<'_>>, AnswerError> {
+    pub fn table(&self, shown: &Shown) -> Result<Option<Table<'_>>, AnswerError> {
         Ok(Some(match &self.results {
             MachineResults::Simulate(found) => {
                 let until = found.shown_until;
-                let step = step.unwrap_or_else(|| self.machine.period().unwrap_or(0.1 * until) / 100.0);
+                let step = shown.step.unwrap_or_else(|| self.machine.period().unwrap_or(0.1 * until) / 100.0);
                 table::machine_waveform::table(&self.machine, &self.start, (until, step))?
             }
             MachineResults::Attractors(census) => table::machine_tables::attractors(&self.machine, census),
             MachineResults::Branch(found) => {
-                let MachineTask::Branch { vary, .. } = &self.plan.task else { return Ok(None) };
-                table::machine_tables::branch(&self.machine, vary, &found.points)
+                let MachineTask::Branch(plan) = &self.plan.task else { return Ok(None) };
+                table::machine_branch::table(&self.machine, &plan.cut(&self.plan.machine)?, found)
             }
             MachineResults::Curve(found) => {
                 let MachineTask::Curve(plan) = &self.plan.task else { return Ok(None) };
@@ -140,7 +157,8 @@ impl MachineAnswer {
             MachineResults::Basin(found) => table::machine_tables::basin(found),
             MachineResults::Map(found) => table::machine_tables::map(found),
             MachineResults::Diagram(found) => table::diagram::of_machine(found, &self.machine),
-            MachineResults::Settle(_) | MachineResults::Orbit(_) | MachineResults::Lyapunov(_) => return Ok(None),
+            MachineResults::Lyapunov(_, Some(points)) => table::machine_section::table(&self.machine, points),
+            MachineResults::Settle(_) | MachineResults::Orbit(_) | MachineResults::Lyapunov(..) => return Ok(None),
         }))
     }
 }

@@ -15,9 +15,9 @@ use vibroimpact::{Label, Oscillator, ParameterPath};
 /// Default maximum number of points of a branch.
 pub const DEFAULT_BRANCH_POINTS: u32 = 5_000;
 /// Maximum number of further branches.
-const MOST_FOLLOWED: u32 = 100;
+pub(crate) const MOST_FOLLOWED: u32 = 100;
 /// Number of values of the orbit diagram drawn behind a branch.
-const DIAGRAM_VALUES: u32 = 401;
+pub(crate) const DIAGRAM_VALUES: u32 = 401;
 
 /// An orbit that is followed in one parameter, or along a line through two.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]

@@ -45,16 +45,8 @@ impl Cut {
 
     /// The values of the parameters that vary, where the first has the value `value`.
     pub fn values(&self, value: f64) -> impl Iterator<Item = (Parameter, f64)> + use<> {
-        let (first, last) = self.ends;
-        let second = move |also: Stretch| {
-            let at = match value {
-                // exact at the ends, and exactly constant if both ends are equal
-                _ if value == first || also.from == also.to => also.from,
-                _ if value == last => also.to,
-                _ => ((last - value) * also.from + (value - first) * also.to) / (last - first),
-            };
-            (also.parameter, at)
-        };
+        let ends = self.ends;
+        let second = move |also: Stretch| (also.parameter, in_proportion(value, ends, (also.from, also.to)));
         core::iter::once((self.vary, value)).chain(self.also.map(second))
     }
 
@@ -108,6 +100,17 @@ impl Cut {
             self.oscillator(system, end)?;
         }
         self.varying(system, self.ends.0).map(|_| ())
+    }
+}
+
+/// The value of a number that goes from one value to another in proportion to a first number, where that has the value `value`
+/// between these ends.
+pub(crate) fn in_proportion(value: f64, (first, last): (f64, f64), (from, to): (f64, f64)) -> f64 {
+    match value {
+        // exact at the ends, and exactly constant if both ends are equal
+        _ if value == first || from == to => from,
+        _ if value == last => to,
+        _ => ((last - value) * from + (value - first) * to) / (last - first),
     }
 }
 

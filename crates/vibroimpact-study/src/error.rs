@@ -32,6 +32,9 @@ pub enum PlanError {
     /// Periodic motions of a machine without forcing.
     #[error("the machine has no forcing, so its motions have no forcing periods and no label m/n")]
     NoPeriodUnforced,
+    /// Sections of the attractor of a machine without forcing.
+    #[error("the machine has no forcing, so its attractor has no section at a phase")]
+    UnforcedSection,
     /// The range of a number of a machine along a branch.
     #[error(
         "{path} is {from} in the machine, and the branch would end at {to}\nhint: the other end of the range is another finite number"
@@ -44,6 +47,24 @@ pub enum PlanError {
         /// The other end.
         to: f64,
     },
+    /// Both numbers of a line through two are the same.
+    #[error("{0} and {0} cannot vary together: a line goes through two different numbers")]
+    MachineTogether(String),
+    /// The values of the second number of a line.
+    #[error("{path} is to go from {from} to {to}, but both values are finite")]
+    MachineAlso {
+        /// The path.
+        path: String,
+        /// Its first value.
+        from: f64,
+        /// Its last value.
+        to: f64,
+    },
+    /// The number of an orbit without a label.
+    #[error(
+        "the number of an orbit is given without a label\nhint: orbits are numbered among those with the same label m/n"
+    )]
+    NumberWithoutLabel,
     /// The motion from the start of a branch is not periodic.
     #[error(
         "the motion from the start is `{0}`, not periodic, so no branch begins there\nhint: give the label of an orbit, or another start"

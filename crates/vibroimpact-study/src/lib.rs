@@ -92,10 +92,10 @@ pub use grid::{Block, Dimension, Grid, number, place};
 pub use limits::PLAN_VERSION;
 pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
 pub use machine_plan::{
-    MachineAxis, MachineBasin, MachineBasinPlan, MachineBranched, MachineCurvePlan, MachineDiagram, MachineDiagramPlan,
-    MachineDiagramPoint, MachineDiagramStep, MachineEventCurve, MachineFollowed, MachineFollowedEvent, MachineMap,
-    MachineMapPlan, MachinePlan, MachineResults, MachineShare, MachineSimulated, MachineStretch, MachineTask,
-    is_machine_plan, run_machine,
+    MachineAxis, MachineBasin, MachineBasinPlan, MachineBranchPlan, MachineBranched, MachineCurvePlan, MachineCut,
+    MachineDiagram, MachineDiagramPlan, MachineDiagramPoint, MachineDiagramStep, MachineEventCurve, MachineFollowed,
+    MachineFollowedEvent, MachineMap, MachineMapPlan, MachinePlan, MachineResults, MachineSection, MachineShare,
+    MachineSimulated, MachineStretch, MachineTarget, MachineTask, is_machine_plan, run_machine,
 };
 pub use map::{MapPlan, MapPoint, RegionMap, Share};
 pub use margins::{

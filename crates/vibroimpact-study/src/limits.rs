@@ -21,6 +21,18 @@ pub(crate) fn branch_points(given: u32) -> Result<(), PlanError> {
     if (2..=MOST_POINTS).contains(&given) { Ok(()) } else { Err(PlanError::BranchPoints { given, most: MOST_POINTS }) }
 }
 
+/// Maximum number of points of a section, more than a figure can show.
+const MOST_SECTION: u64 = 100_000;
+
+/// Checks a number of points of a section, if any are requested.
+///
+/// # Errors
+/// [`PlanError::Points`] unless it lies between 1 and 100 000.
+pub(crate) fn section(points: Option<u64>) -> Result<(), PlanError> {
+    let wrong = points.filter(|points| !(1..=MOST_SECTION).contains(points));
+    wrong.map_or(Ok(()), |given| Err(PlanError::Points { given, most: MOST_SECTION }))
+}
+
 /// Checks a number of starts.
 ///
 /// # Errors

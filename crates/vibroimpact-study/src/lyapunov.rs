@@ -2,7 +2,7 @@
 //! computed.
 
 use crate::axis::{self, Axis, Coordinate};
-use crate::{PlanError, StartPlan, SystemPlan};
+use crate::{PlanError, StartPlan, SystemPlan, limits};
 use serde::{Deserialize, Serialize};
 use vibroimpact::chaos::{DEFAULT_IMPACTS, DEFAULT_TRANSIENT, ExponentOptions};
 
@@ -59,8 +59,6 @@ const FEWEST_IMPACTS: u64 = 1_000;
 const MOST_IMPACTS: u64 = 10_000_000;
 /// Maximum number of impacts of a transient.
 const MOST_TRANSIENT: u64 = 1_000_000;
-/// Maximum number of points of a section, more than a figure can show.
-const MOST_POINTS: u64 = 100_000;
 
 impl LyapunovPlan {
     /// Checks everything that can be checked without running the plan.
@@ -74,9 +72,7 @@ impl LyapunovPlan {
         if self.transient > MOST_TRANSIENT {
             return Err(PlanError::Transient { given: self.transient, most: MOST_TRANSIENT });
         }
-        if let Some(given) = self.points.filter(|points| !(1..=MOST_POINTS).contains(points)) {
-            return Err(PlanError::Points { given, most: MOST_POINTS });
-        }
+        limits::section(self.points)?;
         axis::check(
             "study of exponents",
             &self.axes,

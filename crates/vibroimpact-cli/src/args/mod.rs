@@ -32,7 +32,7 @@ pub(crate) use output::Globals;
 pub(crate) use overlay::OverlayArgs;
 pub(crate) use parameter_flag::{ParameterFlag, Varied, parameter, varied};
 pub(crate) use physical::PhysicalArgs;
-pub(crate) use plane::{Ends, Interval, Named, Over, Place, Value, VariedOver};
+pub(crate) use plane::{Ends, Interval, Named, Over, Place, Value, VariedNamed, VariedOver};
 pub(crate) use ranged::{Ranged, axis_values};
 pub(crate) use ranged_system::RangedSystemArgs;
 pub(crate) use start::StartArgs;

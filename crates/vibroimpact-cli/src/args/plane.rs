@@ -5,7 +5,7 @@ use super::parameter_flag::{ParameterFlag, Varied};
 use crate::failure::Failure;
 use core::str::FromStr;
 use vibroimpact_study::typed::{self, decimal, meant};
-use vibroimpact_study::{MachineStretch, Parameter, Stretch};
+use vibroimpact_study::{MachineStretch, MachineTarget, Parameter, Stretch};
 
 /// `A:B`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -124,37 +124,56 @@ impl<T: FromStr<Err: core::fmt::Display>> FromStr for Named<T> {
     }
 }
 
-/// `PARAMETER=A:B` or `PATH=A:B`: what varies over an interval.
+/// `PARAMETER=...` or `PATH=...`: what varies, with a value or range.
 #[derive(Clone, Debug)]
-pub(crate) struct VariedOver(pub(crate) Varied, pub(crate) Interval);
+pub(crate) struct VariedNamed<T>(pub(crate) Varied, pub(crate) T);
 
-impl VariedOver {
+/// `PARAMETER=A:B` or `PATH=A:B`.
+pub(crate) type VariedOver = VariedNamed<Interval>;
+
+impl<T: Copy> VariedNamed<T> {
     /// A parameter of the oscillator.
-    pub(crate) fn over(&self) -> Result<Over, Failure> {
+    pub(crate) fn of_oscillator(&self) -> Result<Named<T>, Failure> {
         Ok(Named(self.0.parameter()?, self.1))
     }
+}
 
+impl VariedOver {
     /// A number of a machine.
     pub(crate) fn stretch(&self) -> MachineStretch {
         MachineStretch { path: self.0.path(), from: self.1.0, to: self.1.1 }
     }
 }
 
-impl FromStr for VariedOver {
+impl VariedNamed<Ends> {
+    /// A number of a machine.
+    pub(crate) fn stretch(&self) -> MachineStretch {
+        MachineStretch { path: self.0.path(), from: self.1.0, to: self.1.1 }
+    }
+}
+
+impl VariedNamed<Value> {
+    /// A number of a machine.
+    pub(crate) fn target(&self) -> MachineTarget {
+        MachineTarget { path: self.0.path(), to: self.1.0 }
+    }
+}
+
+impl<T: FromStr<Err: core::fmt::Display>> FromStr for VariedNamed<T> {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let unknown = match text.parse::<Over>() {
+        let unknown = match text.parse::<Named<T>>() {
             Ok(Named(named, range)) => return Ok(Self(Varied::Parameter(named), range)),
             Err(error) => error,
         };
         let Some((name, range)) = text.split_once('=') else { return Err(unknown) };
         let name = name.trim();
-        // the range of a parameter is wrong
+        // the value or range of a parameter is wrong
         if ParameterFlag::all().any(|named| named.flag() == name) {
             return Err(unknown);
         }
-        let range = range.trim().parse()?;
+        let range = range.trim().parse().map_err(|error: T::Err| error.to_string())?;
         let path = name.contains('.') || name == "frequency";
         // whether a machine has this parameter is not known here
         Ok(Self(if path { Varied::Path(name.to_owned()) } else { Varied::Name(name.to_owned(), unknown) }, range))

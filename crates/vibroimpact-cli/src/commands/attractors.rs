@@ -54,7 +54,8 @@ pub(super) fn run(args: &Attractors, session: &Session) -> Result<(), Failure> {
     let look = FigureArgs::default();
     let files = (args.csv.as_deref(), (None, &look), args.json);
     let task = || Ok(MachineTask::Attractors { starts: args.starts, seed: args.seed, impacts: args.impacts });
-    if let Some(answer) = of_machine::asked(&args.machine, None, task, files, (None, None), session) {
+    if let Some(answer) = of_machine::asked(&args.machine, None, task, files, (None, |_| Ok(Shown::default())), session)
+    {
         return answer;
     }
     let asked = args.system.asked()?;

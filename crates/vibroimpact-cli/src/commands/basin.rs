@@ -100,9 +100,8 @@ pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
         let fields = args.colour.with(&args.fields).paths();
         Ok(MachineTask::Basin(MachineBasinPlan { axes, refine, impacts, fields }))
     };
-    if let Some(answer) =
-        of_machine::asked(&args.machine, start, task, files, (Some(&args.store), Some(&args.colour)), session)
-    {
+    let shown = |drawn| Ok(Shown { colour: args.colour.coloured(drawn)?, ..Shown::default() });
+    if let Some(answer) = of_machine::asked(&args.machine, start, task, files, (Some(&args.store), shown), session) {
         return answer;
     }
     let (Some(x), Some(v)) = (&args.x, &args.v) else {

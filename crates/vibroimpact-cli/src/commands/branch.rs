@@ -1,7 +1,8 @@
 //! `vibro branch`: a branch of periodic orbits in one parameter, through its events.
 
 use crate::args::{
-    FigureArgs, MachineArgs, Named, ParameterFlag, StartOfMachineArgs, SystemArgs, Value, Varied, number, varied, whole,
+    FigureArgs, MachineArgs, Named, ParameterFlag, StartOfMachineArgs, SystemArgs, Value, Varied, VariedNamed, number,
+    varied, whole,
 };
 use crate::commands::outputs::Outputs;
 use crate::commands::{of_machine, respond};
@@ -10,7 +11,7 @@ use crate::session::Session;
 use clap::Args;
 use std::path::PathBuf;
 use vibroimpact_report::Shown;
-use vibroimpact_study::{BranchPlan, DEFAULT_BRANCH_POINTS, MachineTask, Plan, Target, Task};
+use vibroimpact_study::{BranchPlan, DEFAULT_BRANCH_POINTS, MachineBranchPlan, MachineTask, Plan, Target, Task};
 
 /// Follow an orbit in one parameter, stable or unstable, with all events on the branch
 ///
@@ -64,10 +65,10 @@ pub(crate) struct Branch {
     #[arg(long, value_parser = number, value_name = "VALUE", allow_hyphen_values = true, help_heading = "Branch")]
     to: f64,
 
-    /// A second parameter that varies with it in proportion, from its value in the system to this one when the first is at --to:
-    /// the branch along any line through two parameters
-    #[arg(long, value_name = "PARAMETER=VALUE", allow_hyphen_values = true, help_heading = "Branch")]
-    also: Option<Named<Value>>,
+    /// A second parameter, or path, that varies with it in proportion, from its value in the system to this one when the first is
+    /// at --to: the branch along any line through two parameters
+    #[arg(long, value_name = "PARAMETER|PATH=VALUE", allow_hyphen_values = true, help_heading = "Branch")]
+    also: Option<VariedNamed<Value>>,
 
     /// Follow up to this number of the branches that begin at flips and branch points, 0 to 100
     #[arg(long, value_parser = whole::<u32>, value_name = "N", default_value_t = 0, allow_hyphen_values = true, help_heading = "Branch")]
@@ -78,7 +79,8 @@ pub(crate) struct Branch {
     points: u32,
 
     /// Write one row a point to this file; - for stdout. Columns: branch, the parameter, that of --also, label, physical, stable, event,
-    /// real and imaginary part of both multipliers, phases and velocities of the impacts (lists with blanks between)
+    /// real and imaginary part of both multipliers, phases and velocities of the impacts (lists with blanks between); of a machine
+    /// also the stop of the event, the fastest closing, and the stops
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 
@@ -103,32 +105,41 @@ pub(crate) struct Branch {
     json: bool,
 }
 
-pub(super) fn run(args: &Branch, session: &Session) -> Result<(), Failure> {
-    let also = args.also.map(|Named(named, _)| named);
-    let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
-    let task = || {
-        if args.also.is_some() || args.orbit.is_some() {
-            return Err(Failure::bad("--also and --orbit are not there for machines yet"));
+impl Branch {
+    fn of_machine(&self) -> MachineBranchPlan {
+        MachineBranchPlan {
+            label: self.label.clone(),
+            orbit: self.orbit,
+            vary: self.vary.path(),
+            to: self.to,
+            also: self.also.as_ref().map(VariedNamed::target),
+            points: self.points,
+            follow: self.follow,
         }
-        let (points, follow) = (args.points, args.follow);
-        Ok(MachineTask::Branch { label: args.label.clone(), vary: args.vary.path(), to: args.to, points, follow })
-    };
-    if let Some(answer) =
-        of_machine::asked(&args.machine, Some((&args.of_machine, None)), task, files, (None, None), session)
-    {
-        return answer;
     }
-    let named = args.vary.parameter()?;
-    let asked = args.system.over(&[named].into_iter().chain(also).collect::<Vec<_>>())?;
-    let vary = named.parameter;
+}
+
+pub(super) fn run(args: &Branch, session: &Session) -> Result<(), Failure> {
     if args.plot.is_none() && (args.no_diagram || args.show_virtual) {
         return Err(Failure::bad("--no-diagram and --virtual say how the figure is drawn\nhint: --plot FILE"));
     }
+    let shown = Shown { diagram: !args.no_diagram, inadmissible: args.show_virtual, ..Shown::default() };
+    let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
+    let task = || Ok(MachineTask::Branch(args.of_machine()));
+    let start = Some((&args.of_machine, None));
+    if let Some(answer) = of_machine::asked(&args.machine, start, task, files, (None, |_| Ok(shown.clone())), session) {
+        return answer;
+    }
+    let also = args.also.as_ref().map(VariedNamed::of_oscillator).transpose()?;
+    let named = args.vary.parameter()?;
+    let second = also.map(|Named(named, _)| named);
+    let asked = args.system.over(&[named].into_iter().chain(second).collect::<Vec<_>>())?;
+    let vary = named.parameter;
     let task = BranchPlan {
         label: args.label.clone().unwrap_or_default(),
         vary,
         to: args.to / asked.units.of(vary),
-        also: args.also.map(|Named(ParameterFlag { parameter, .. }, Value(to))| Target {
+        also: also.map(|Named(ParameterFlag { parameter, .. }, Value(to))| Target {
             parameter,
             to: to / asked.units.of(parameter),
         }),
@@ -139,6 +150,5 @@ pub(super) fn run(args: &Branch, session: &Session) -> Result<(), Failure> {
     let plan = Plan::new(asked.system, Task::Branch(task));
     plan.check()?;
     let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
-    let shown = Shown { diagram: !args.no_diagram, inadmissible: args.show_virtual, ..Shown::default() };
     respond::run(&plan, asked.units, (outputs, shown), None, session)
 }

@@ -80,7 +80,8 @@ pub(crate) struct Curve {
     points: Option<u32>,
 
     /// Write one row a point to this file; - for stdout. Columns: both parameters, physical, event, real and
-    /// imaginary part of both multipliers, phases and velocities of the impacts (lists with blanks between)
+    /// imaginary part of both multipliers, phases and velocities of the impacts (lists with blanks between); of a machine also
+    /// label, stop of the event, residual and the phase of the touch
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 
@@ -133,12 +134,10 @@ impl Curve {
         })
     }
 
-    fn of_machine(&self) -> Result<MachineTask, Failure> {
-        if self.orbit.is_some() {
-            return Err(Failure::bad("--orbit is not there for machines yet"));
-        }
-        Ok(MachineTask::Curve(MachineCurvePlan {
+    fn of_machine(&self) -> MachineTask {
+        MachineTask::Curve(MachineCurvePlan {
             label: self.label.clone(),
+            orbit: self.orbit,
             kind: match self.kind {
                 Kind::Fold => MachineFollowedEvent::Fold,
                 Kind::Flip => MachineFollowedEvent::Flip,
@@ -150,17 +149,20 @@ impl Curve {
             and: self.and.stretch(),
             event: self.event,
             points: self.points.unwrap_or(DEFAULT_BRANCH_POINTS),
-        }))
+        })
     }
 }
 
 pub(super) fn run(args: &Curve, session: &Session) -> Result<(), Failure> {
     let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
     let start = Some((&args.of_machine, None));
-    if let Some(answer) = of_machine::asked(&args.machine, start, || args.of_machine(), files, (None, None), session) {
+    let task = || Ok(args.of_machine());
+    if let Some(answer) =
+        of_machine::asked(&args.machine, start, task, files, (None, |_| Ok(Shown::default())), session)
+    {
         return answer;
     }
-    let over = (args.vary.over()?, args.and.over()?);
+    let over = (args.vary.of_oscillator()?, args.and.of_oscillator()?);
     let varied = [over.0.0, over.1.0];
     let mut asked = args.system.over(&varied)?;
     let parameters = of_oscillator(&mut asked, &varied);

@@ -1,8 +1,8 @@
 //! `vibro diagram`: the orbit diagram, the motion after its transient at each value of a parameter.
 
 use crate::args::{
-    Ends, FigureArgs, MachineArgs, Named, StartOfMachineArgs, StoreArgs, SystemArgs, Varied, axis_values, number,
-    quantity, varied, whole,
+    Ends, FigureArgs, MachineArgs, Named, StartOfMachineArgs, StoreArgs, SystemArgs, Varied, VariedNamed, axis_values,
+    number, quantity, varied, whole,
 };
 use crate::commands::outputs::Outputs;
 use crate::commands::{of_machine, respond};
@@ -66,10 +66,10 @@ pub(crate) struct Diagram {
     #[arg(long, value_parser = axis_values, value_name = "A:B:N", allow_hyphen_values = true, help_heading = "Sweep")]
     over: Values,
 
-    /// A second parameter that varies with it in proportion, from A at its first value to B at its last: the diagram along any
-    /// line through two parameters
-    #[arg(long, value_name = "PARAMETER=A:B", allow_hyphen_values = true, help_heading = "Sweep")]
-    also: Option<Named<Ends>>,
+    /// A second parameter, or path, that varies with it in proportion, from A at its first value to B at its last: the diagram
+    /// along any line through two parameters
+    #[arg(long, value_name = "PARAMETER|PATH=A:B", allow_hyphen_values = true, help_heading = "Sweep")]
+    also: Option<VariedNamed<Ends>>,
 
     /// From which starts
     #[arg(long, value_enum, value_name = "DIRECTION", default_value_t = Way::Both, help_heading = "Sweep")]
@@ -163,12 +163,10 @@ impl Diagram {
 pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
     let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
     let task = || {
-        if args.also.is_some() {
-            return Err(Failure::bad("--also is for oscillators: a diagram of a machine has one number"));
-        }
         Ok(MachineTask::Diagram(MachineDiagramPlan {
             vary: args.vary.path(),
             over: args.over.clone(),
+            also: args.also.as_ref().map(VariedNamed::<Ends>::stretch),
             show: args.show.clone().unwrap_or_else(|| "speed".to_owned()),
             direction: args.direction()?,
             transient: args.transient,
@@ -176,13 +174,16 @@ pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
         }))
     };
     let start = Some((&args.of_machine, args.phase));
-    if let Some(answer) = of_machine::asked(&args.machine, start, task, files, (Some(&args.store), None), session) {
+    if let Some(answer) =
+        of_machine::asked(&args.machine, start, task, files, (Some(&args.store), |_| Ok(Shown::default())), session)
+    {
         return answer;
     }
     let (named, show) = (args.vary.parameter()?, what(args.show.as_deref())?);
     let first = (named, args.over.ends().0, ["vary", "over"]);
-    let also = args.also.map(|Named(named, ends)| (named, ends.0, ["also", "also"]));
-    let asked = args.system.varied(&[first].into_iter().chain(also).collect::<Vec<_>>())?;
+    let also = args.also.as_ref().map(VariedNamed::of_oscillator).transpose()?;
+    let second = also.map(|Named(named, ends)| (named, ends.0, ["also", "also"]));
+    let asked = args.system.varied(&[first].into_iter().chain(second).collect::<Vec<_>>())?;
     let (units, vary) = (asked.units, named.parameter);
     let stretch = |Named(named, Ends(from, to)): Named<Ends>| {
         let unit = units.of(named.parameter);
@@ -191,7 +192,7 @@ pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
     let task = DiagramPlan {
         vary,
         over: args.over.scaled(units.of(vary))?,
-        also: args.also.map(stretch),
+        also: also.map(stretch),
         show,
         direction: args.direction()?,
         transient: args.transient,

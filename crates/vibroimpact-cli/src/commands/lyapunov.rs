@@ -51,7 +51,8 @@ pub(crate) struct Lyapunov {
     points: Option<u64>,
 
     /// Write the points of both sections of the attractor to this file; - for stdout. Columns: section (impact, or strobe
-    /// for the states at phase 0), side, phase, x, v; at an impact v is the velocity of arrival
+    /// for the states at phase 0), side, phase, x, v; at an impact v is the velocity of arrival. Of a machine: section (closing or
+    /// strobe), stop, phase, speed of the closing, all coordinates and velocities, which at a closing are those after it
     #[arg(long, visible_alias = "csv", value_name = "FILE", help_heading = "Output")]
     section: Option<PathBuf>,
 
@@ -70,26 +71,29 @@ pub(crate) struct Lyapunov {
 pub(super) fn run(args: &Lyapunov, session: &Session) -> Result<(), Failure> {
     let files = (args.section.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
     let start = Some((&args.of_machine, args.start.phase));
-    let task = || {
-        let count = |given: Option<u64>| given.map(|given| u32::try_from(given).unwrap_or(u32::MAX));
-        Ok(MachineTask::Lyapunov { impacts: count(args.impacts), transient: count(args.transient) })
-    };
-    if let Some(answer) = of_machine::asked(&args.machine, start, task, files, (None, None), session) {
-        return answer;
-    }
-    let asked = args.system.asked()?;
     let shown = args.section.is_some() || args.plot.is_some();
     if args.points.is_some() && !shown {
         return Err(Failure::bad(
             "--points says how much of the sections is shown\nhint: --section FILE or --plot FILE",
         ));
     }
+    let points = shown.then(|| args.points.unwrap_or(DEFAULT_POINTS));
+    let task = || {
+        let count = |given: Option<u64>| given.map(|given| u32::try_from(given).unwrap_or(u32::MAX));
+        Ok(MachineTask::Lyapunov { impacts: count(args.impacts), transient: count(args.transient), points })
+    };
+    if let Some(answer) =
+        of_machine::asked(&args.machine, start, task, files, (None, |_| Ok(Shown::default())), session)
+    {
+        return answer;
+    }
+    let asked = args.system.asked()?;
     let task = LyapunovPlan {
         axes: Vec::new(),
         start: args.start.plan(&asked.units),
         impacts: args.impacts.unwrap_or(DEFAULT_IMPACTS),
         transient: args.transient.unwrap_or(DEFAULT_TRANSIENT),
-        points: shown.then(|| args.points.unwrap_or(DEFAULT_POINTS)),
+        points,
     };
     let plan = Plan::new(asked.system, Task::Lyapunov(task));
     plan.check()?;

@@ -101,9 +101,8 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
             fields: args.colour.with(&args.fields).paths(),
         }))
     };
-    if let Some(answer) =
-        of_machine::asked(&args.machine, None, task, files, (Some(&args.store), Some(&args.colour)), session)
-    {
+    let shown = |drawn| Ok(Shown { colour: args.colour.coloured(drawn)?, ..Shown::default() });
+    if let Some(answer) = of_machine::asked(&args.machine, None, task, files, (Some(&args.store), shown), session) {
         return answer;
     }
     let Asked { system, units } = args.plane.asked()?;

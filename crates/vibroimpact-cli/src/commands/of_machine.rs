@@ -1,28 +1,29 @@
 //! Commands with `--machine`, and `vibro run` with a plan of a machine: the result of the plan.
 
-use crate::args::{ColourArgs, FigureArgs, MachineArgs, StartOfMachineArgs, StoreArgs};
+use crate::args::{FigureArgs, MachineArgs, StartOfMachineArgs, StoreArgs};
 use crate::commands::outputs::Outputs;
 use crate::commands::{respond, stored};
 use crate::failure::Failure;
 use crate::report::{machine_answers, machine_events};
 use crate::session::Session;
 use std::path::Path;
-use vibroimpact_report::figure::coloured::Coloured;
 use vibroimpact_report::figure::plane::Sides;
 use vibroimpact_report::{Shown, machine_answer};
-use vibroimpact_study::{MachineBasinPlan, MachineMapPlan, MachinePlan, MachineResults, MachineTask, StudyPlan};
+use vibroimpact_study::{
+    Control, MachineBasinPlan, MachineMapPlan, MachinePlan, MachineResults, MachineTask, StudyPlan,
+};
 
 /// The files of a command: its table, its figure, and whether it prints JSON.
 pub(super) type Files<'a> = (Option<&'a Path>, (Option<&'a Path>, &'a FigureArgs), bool);
 
-/// The machine of a command computes this task from this start; `None` if no machine is named. Grids may have a store and
-/// colours.
+/// The machine of a command computes this task from this start; `None` if no machine is named. Grids may have a store. `shown`
+/// says how the table and the figure look; it is asked with whether there is a figure.
 pub(super) fn asked(
     machine: &MachineArgs,
     start: Option<(&StartOfMachineArgs, Option<f64>)>,
     task: impl FnOnce() -> Result<MachineTask, Failure>,
     (csv, plot, json): Files<'_>,
-    (store, colour): (Option<&StoreArgs>, Option<&ColourArgs>),
+    (store, shown): (Option<&StoreArgs>, impl FnOnce(bool) -> Result<Shown, Failure>),
     session: &Session,
 ) -> Option<Result<(), Failure>> {
     let name = machine.machine.as_deref()?;
@@ -31,12 +32,12 @@ pub(super) fn asked(
         let plan = MachinePlan { tile, shard, ..MachinePlan::new(machine.source(start)?, task()?) };
         plan.check()?;
         let outputs = Outputs::reserve(csv, plot, json, session)?;
-        let colour = colour.map(|colour| colour.coloured(outputs.drawn())).transpose()?.flatten();
+        let shown = shown(outputs.drawn())?;
         let Some(filling) = store.and_then(StoreArgs::filling) else {
-            return run(name, &plan, (outputs, None, colour), session);
+            return run(name, &plan, (outputs, shown), session);
         };
         drawable(&plan, &outputs)?;
-        stored::run(&StudyPlan::from(&plan), &filling, (outputs, Shown { colour, ..Shown::default() }), session)
+        stored::run(&StudyPlan::from(&plan), &filling, (outputs, shown), session)
     };
     Some(answer())
 }
@@ -58,19 +59,21 @@ fn drawable(plan: &MachinePlan, outputs: &Outputs) -> Result<(), Failure> {
 pub(super) fn run(
     name: &str,
     plan: &MachinePlan,
-    (outputs, step, colour): (Outputs, Option<f64>, Option<Coloured>),
+    (outputs, shown): (Outputs, Shown),
     session: &Session,
 ) -> Result<(), Failure> {
     let none = |what: &str| Failure::bad(format!("of a machine this command has no {what} yet"));
     // before the computation
     drawable(plan, &outputs)?;
     match &plan.task {
-        MachineTask::Attractors { .. } | MachineTask::Orbit { .. } | MachineTask::Lyapunov { .. }
+        MachineTask::Attractors { .. } | MachineTask::Orbit { .. } | MachineTask::Lyapunov { points: None, .. }
             if outputs.drawn() =>
         {
             return Err(none("figure"));
         }
-        MachineTask::Settle { .. } | MachineTask::Orbit { .. } | MachineTask::Lyapunov { .. } if outputs.tabled() => {
+        MachineTask::Settle { .. } | MachineTask::Orbit { .. } | MachineTask::Lyapunov { points: None, .. }
+            if outputs.tabled() =>
+        {
             return Err(none("table"));
         }
         _ => {}
@@ -79,10 +82,12 @@ pub(super) fn run(
     let answer = session.watched(work, |control| machine_answer(name, plan, control));
     let answer = answer.map_err(|error| respond::stopped(error, work))?;
     let (json, table, files) = (outputs.json(), outputs.table_on_stdout(), outputs.any_file());
+    // the orbit diagram behind a branch is computed with its figure
+    let behind = |control: &Control<'_>| answer.figure(&shown, control);
     outputs.write(
         session,
-        || answer.table(step)?.ok_or_else(|| none("table")),
-        || answer.figure(colour.as_ref())?.ok_or_else(|| none("figure")),
+        || answer.table(&shown)?.ok_or_else(|| none("table")),
+        || session.watched(None, behind)?.ok_or_else(|| none("figure")),
     )?;
     if json {
         return session.print_json(&answer);

@@ -43,9 +43,14 @@ pub(crate) struct Orbit {
 pub(super) fn run(args: &Orbit, session: &Session) -> Result<(), Failure> {
     let look = FigureArgs::default();
     let task = || Ok(MachineTask::Orbit { label: args.label.clone() });
-    if let Some(answer) =
-        of_machine::asked(&args.machine, None, task, (None, (None, &look), args.json), (None, None), session)
-    {
+    if let Some(answer) = of_machine::asked(
+        &args.machine,
+        None,
+        task,
+        (None, (None, &look), args.json),
+        (None, |_| Ok(Shown::default())),
+        session,
+    ) {
         return answer;
     }
     let asked = args.system.asked()?;

@@ -93,7 +93,7 @@ fn run_machine(args: &Run, plan: &MachinePlan, session: &Session) -> Result<(), 
     args.overlay.overlay(false, false)?;
     let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
     let name = args.plan.file_stem().map_or_else(|| "machine".into(), |stem| stem.to_string_lossy());
-    of_machine_plan::run(&name, plan, (outputs, None, None), session)
+    of_machine_plan::run(&name, plan, (outputs, Shown::default()), session)
 }
 
 /// The default place of the store of a plan.

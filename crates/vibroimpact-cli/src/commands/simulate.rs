@@ -71,7 +71,7 @@ pub(super) fn run(args: &Simulate, session: &Session) -> Result<(), Failure> {
         plan.check()?;
         let step = checked(args.step)?;
         let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
-        return of_machine::run(name, &plan, (outputs, step, None), session);
+        return of_machine::run(name, &plan, (outputs, Shown { step, ..Shown::default() }), session);
     }
     let asked = args.system.asked()?;
     let start = args.start.plan(&asked.units);

@@ -42,11 +42,14 @@ pub(crate) fn text(answer: &MachineAnswer) -> String {
             if found.is_empty() {
                 text.push_str("no such orbit found\n");
             }
-            for cycle in found {
+            for (k, cycle) in found.iter().enumerate() {
+                if found.len() > 1 {
+                    let _ = writeln!(text, "orbit {} of {}", k + 1, found.len());
+                }
                 text.push_str(&described(machine, cycle));
             }
         }
-        MachineResults::Lyapunov(found) => {
+        MachineResults::Lyapunov(found, _) => {
             match &found.spectrum {
                 Some(spectrum) => text.push_str(&exponents(spectrum)),
                 None => text.push_str("no exponents: the motion ended before\n"),
@@ -55,6 +58,9 @@ pub(crate) fn text(answer: &MachineAnswer) -> String {
             let _ = writeln!(text, "  {how}; the motion is {}", found.motion.label());
         }
         MachineResults::Branch(found) => {
+            if let Some((number, count)) = found.among.filter(|(_, count)| *count > 1) {
+                let _ = writeln!(text, "orbit {number} of {count}");
+            }
             text.push_str(&branch(machine, &found.points));
             for followed in &found.followed {
                 let _ = writeln!(text, "from the flip at {}:", short(followed.flip));

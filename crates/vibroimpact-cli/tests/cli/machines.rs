@@ -2,7 +2,7 @@
 
 use super::{json, vibro};
 use std::fs;
-use vibroimpact_report::machine_answer;
+use vibroimpact_report::{Shown, machine_answer};
 use vibroimpact_study::machine::{CATALOGUE, MachineSource, no_files};
 use vibroimpact_study::{Control, MachinePlan, MachineTask};
 
@@ -213,12 +213,15 @@ fn the_command_answers_as_the_library_does() {
     let line = "simulate --machine impact-damper --impacts 30";
     assert_eq!(printed(&format!("{line} --json")), answer.json() + "\n");
     let mut table = Vec::new();
-    answer.table(None).unwrap().unwrap().write(&mut table).unwrap();
+    answer.table(&Shown::default()).unwrap().unwrap().write(&mut table).unwrap();
     assert_eq!(printed(&format!("{line} --csv -")).as_bytes(), table);
     let folder = tempfile::tempdir().unwrap();
     let svg = folder.path().join("a.svg");
     printed(&format!("{line} --plot {}", svg.display()));
-    assert_eq!(fs::read_to_string(svg).unwrap(), answer.figure(None).unwrap().unwrap().to_svg());
+    assert_eq!(
+        fs::read_to_string(svg).unwrap(),
+        answer.figure(&Shown::default(), &Control::default()).unwrap().unwrap().to_svg()
+    );
 }
 
 fn close(value: &serde_json::Value, expected: f64) -> bool {
@@ -281,6 +284,66 @@ fn attractors_orbits_and_exponents() {
     assert!(text.contains("  exponent 4: ") && text.contains("the motion is 1/1"), "{text}");
     let table = printed("attractors --machine two-mass-hammer --starts 8 --csv -");
     assert!(table.starts_with("label,share,starts,count.anvil,multiplier_1_re,multiplier_1_im,"), "{table}");
+    // the quantities of a motion are those of its JSON
+    let of = |name: &str| {
+        let at = table.lines().next().unwrap().split(',').position(|head| head == name).unwrap();
+        table.lines().nth(1).unwrap().split(',').nth(at).unwrap().parse::<f64>().unwrap()
+    };
+    let quantities = &motions[0]["quantities"];
+    assert_eq!(Some(of("power")), quantities["power"].as_f64());
+    assert_eq!(Some(of("stop.anvil.impulse_max")), quantities["stops"]["anvil"]["impulse_max"].as_f64());
+    assert_eq!(Some(of("q.head.displacement_rms")), quantities["coordinates"]["head"]["displacement_rms"].as_f64());
+}
+
+/// Orbits are numbered as `--orbit` counts them.
+#[test]
+fn numbers_of_orbits() {
+    let machine = "--machine two-mass-hammer --set frequency=1.06 --label 2/1";
+    let text = printed(&format!("orbit {machine}"));
+    assert!(text.starts_with("orbit 1 of 2\n2/1, unstable") && text.contains("orbit 2 of 2\n2/1, stable"), "{text}");
+    let orbits = json(&format!("orbit {machine}"))["orbits"].clone();
+    for k in [0, 1] {
+        let found = json(&format!("branch {machine} --orbit {} --vary frequency --to 1.065", k + 1));
+        let speed = orbits[k]["cycle"][0]["speed"].as_f64().unwrap();
+        assert!(close(&found["points"][0]["cycle"][0]["speed"], speed), "{}", found["points"][0]);
+        assert_eq!(found["orbit"], serde_json::json!({"number": k + 1, "count": 2}));
+    }
+    let curve = "--kind fold --vary frequency=1:1.1 --and b=0.45:0.55 --points 5";
+    let [one, two] = [1, 2].map(|k| json(&format!("curve {machine} --orbit {k} {curve}")));
+    assert_eq!((&one["orbit"]["number"], &two["orbit"]["number"]), (&1.into(), &2.into()));
+    // both orbits meet at the fold
+    assert!(close(&one["found_at"][0], two["found_at"][0].as_f64().unwrap()), "{one}");
+    assert!(refused(&format!("curve {machine} --orbit 3 {curve}")).contains("there is no orbit 2/1 number 3"));
+}
+
+/// The sections of an attractor: a cycle is a few points, in the table and in the figure.
+#[test]
+fn sections() {
+    let line = "lyapunov --machine two-mass-hammer --set frequency=1.06 --impacts 500 --points 40";
+    let table = printed(&format!("{line} --csv -"));
+    let mut rows = table.lines();
+    assert_eq!(rows.next(), Some("section,stop,phase,speed,q.frame,q.head,qdot.frame,qdot.head"));
+    let rows: Vec<Vec<&str>> = rows.map(|row| row.split(',').collect()).collect();
+    assert_eq!(rows.iter().map(|row| row[0]).filter(|name| *name == "strobe").count(), 40);
+    let cycle = json("settle --machine two-mass-hammer --set frequency=1.06")["motion"]["cycle"].clone();
+    for row in rows.iter().filter(|row| row[0] == "closing") {
+        let number = |k: usize| row[k].parse::<f64>().unwrap();
+        let same = |event: &serde_json::Value| close(&event["phase"], number(2)) && close(&event["speed"], number(3));
+        assert!(row[1] == "anvil" && cycle.as_array().unwrap().iter().any(same), "{row:?}");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let svg = folder.path().join("sections.svg");
+    printed(&format!(
+        "{} --plot {}",
+        line.replace("two-mass-hammer --set frequency=1.06", "impact-pair"),
+        svg.display()
+    ));
+    let svg = fs::read_to_string(svg).unwrap();
+    for text in ["closings of stops", "states at phase 0", ">right<", ">left<", "q.ball", "qdot.ball"] {
+        assert!(svg.contains(text), "{text}");
+    }
+    assert!(refused("lyapunov --machine two-mass-hammer --points 4").contains("--section FILE or --plot FILE"));
+    assert!(refused("lyapunov --machine sdnd122 --csv -").contains("no forcing, so its attractor has no section"));
 }
 
 #[test]
@@ -299,11 +362,62 @@ fn branches() {
     let at = usize::try_from(grazing["point"].as_u64().unwrap()).unwrap();
     assert_eq!(points[at]["parameter"], grazing["parameter"]);
     let table = printed("branch --machine two-mass-hammer --vary frequency --to 1.05 --csv -");
-    assert!(table.starts_with("frequency,label,stable,event,stop,fastest,multiplier_1_re,"), "{table}");
+    assert!(table.starts_with("branch,frequency,label,physical,stable,event,stop,fastest,multiplier_1_re,"), "{table}");
+    assert!(table.lines().next().unwrap().ends_with(",multiplier_4_im,phases,speeds,stops"), "{table}");
     assert_eq!(table.lines().count(), points.len() + 1);
+    let row: Vec<&str> = table.lines().nth(at + 1).unwrap().split(',').collect();
+    assert_eq!((row[5], row[6]), ("grazing", "anvil"), "{row:?}");
+    let closings = points[at]["cycle"].as_array().unwrap();
+    let speeds: Vec<f64> = row[17].split(' ').map(|speed| speed.parse().unwrap()).collect();
+    assert!(
+        speeds.len() == closings.len() && closings.iter().zip(&speeds).all(|(of, speed)| close(&of["speed"], *speed))
+    );
+    assert_eq!(row[18].split(' ').collect::<Vec<_>>(), vec!["anvil"; closings.len()]);
     // a parameter of the file has no dot
     let text = printed("branch --machine two-mass-hammer --vary b --to 0.45");
     assert!(text.contains("end of range") && text.contains("stable"), "{text}");
+}
+
+/// Branches that begin at flips are in the table and in the figure, before the simulation; the second number of a line is a column.
+#[test]
+fn all_branches_of_a_machine_are_written_and_drawn() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name).display().to_string();
+    let line = "branch --machine two-mass-hammer --set frequency=0.95 --vary frequency --to 0.895 --follow 1";
+    printed(&format!("{line} --csv {} --plot {}", file("a.csv"), file("a.svg")));
+    let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
+    let of = |k: &str| read("a.csv").lines().filter(|row| row.starts_with(k)).count();
+    let found = json(line);
+    let count = |points: &serde_json::Value| points.as_array().unwrap().len();
+    assert!(of("2,") > 2 && of("2,") == count(&found["followed"][0]["points"]) && of("1,") == count(&found["points"]));
+    for text in [">stable<", ">unstable<", ">flip<", ">fold<", ">grazing<", ">simulation<", ">5/2<", "stroke-dasharray"]
+    {
+        assert!(read("a.svg").contains(text), "{text}");
+    }
+    printed(&format!("{line} --plot {} --no-diagram", file("b.svg")));
+    assert!(!read("b.svg").contains(">simulation<") && read("b.svg").contains(">5/2<"));
+    assert!(refused(&format!("{line} --no-diagram")).contains("hint: --plot FILE"));
+
+    let line = "--machine two-mass-hammer --vary frequency";
+    let table = printed(&format!("branch {line} --to 1.1 --also stop.anvil.gap=0.6 --csv -"));
+    assert!(table.starts_with("branch,frequency,stop.anvil.gap,label,"), "{table}");
+    let last: Vec<&str> = table.lines().last().unwrap().split(',').collect();
+    assert_eq!((last[1], last[2], last[6]), ("1.1", "0.6", "end of range"));
+    let diagram =
+        printed(&format!("diagram {line} --over 1.2:1.1:3 --also stop.anvil.gap=0.5:0.6 --direction up --csv -"));
+    let rows: Vec<Vec<&str>> = diagram.lines().map(|row| row.split(',').collect()).collect();
+    assert_eq!(rows[0], ["frequency", "stop.anvil.gap", "sweep", "kind", "stop", "phase", "speed"]);
+    assert_eq!(
+        rows[1..].iter().map(|row| (row[0], row[1])).collect::<Vec<_>>(),
+        [("1.1", "0.6"), ("1.15", "0.55"), ("1.2", "0.5")]
+    );
+    // the sweep ends on the branch
+    let (swept, followed): (f64, f64) = (rows[1][6].parse().unwrap(), last[8].parse().unwrap());
+    assert!((swept - followed).abs() < 1e-7, "{swept} {followed}");
+    let object = json(&format!("branch {line} --to 1.1 --also b=0.6"));
+    assert_eq!(object["also"], serde_json::json!({"path": "b", "from": 0.5, "to": 0.6}));
+    let end = object["events"].as_array().unwrap().last().unwrap().clone();
+    assert_eq!(end["values"], serde_json::json!([1.1, 0.6]));
 }
 
 /// The curve of flips of the ball on a table in closed form.
@@ -382,8 +496,6 @@ fn figures() {
     let none = folder.path().join("none.svg").display().to_string();
     let said = refused(&format!("settle --machine two-mass-hammer --set stop.anvil.gap=50 --plot {none}"));
     assert!(said.contains("settles into none: no impact\nhint: `vibro simulate"), "{said}");
-    let said = refused(&format!("lyapunov --machine two-mass-hammer --plot {none}"));
-    assert!(said.contains("no figure yet"), "{said}");
     let said = refused(&format!("{basin} --axis qdot.head=0:1:2 --axis phase=0:1:2 --plot {none}"));
     assert!(said.contains("one or two axes, not 3"), "{said}");
 }

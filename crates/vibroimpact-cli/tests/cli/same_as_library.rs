@@ -3,8 +3,8 @@
 use crate::{S, vibro};
 use serde_json::Value;
 use vibroimpact::Scales;
-use vibroimpact_report::{Shown, Units, answer};
-use vibroimpact_study::{Control, Plan};
+use vibroimpact_report::{Shown, Units, answer, machine_answer};
+use vibroimpact_study::{Control, MachinePlan, Plan};
 
 /// A system in physical units: omega_n = 20 rad/s, F/k = 0.005 m.
 const MACHINE: &str =
@@ -53,6 +53,56 @@ fn same(line: &str) {
         .expect("it was drawn before")
         .map(|figure| figure.to_svg().into_bytes());
     assert!(figure == std::fs::read(&svg).ok(), "the figure of {line}");
+}
+
+/// The same for a machine of the catalogue.
+fn same_of_machine(line: &str) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (csv, svg) = (folder.path().join("table.csv"), folder.path().join("figure.svg"));
+    let mut command = vibro(line);
+    command.arg("--json");
+    if !line.starts_with("orbit") {
+        command.arg("--csv").arg(&csv);
+    }
+    if !line.starts_with("attractors") && !line.starts_with("orbit") {
+        command.arg("--plot").arg(&svg);
+    }
+    let output = command.output().expect("vibro runs");
+    assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+    let printed = String::from_utf8(output.stdout).expect("text");
+    let object: Value = serde_json::from_str(&printed).expect("one object");
+    let plan: MachinePlan = serde_json::from_value(object["plan"].clone()).expect("a plan");
+    let control = Control::default();
+    let told = machine_answer(object["machine"].as_str().expect("a name"), &plan, &control).expect("answered before");
+    assert_eq!(told.json() + "\n", printed, "{line}");
+    let table = told.table(&Shown::default()).expect("it was written before").map(|table| {
+        let mut text = Vec::new();
+        table.write(&mut text).expect("memory takes it");
+        text
+    });
+    assert!(table == std::fs::read(&csv).ok(), "the table of {line}");
+    let figure = told.figure(&Shown::default(), &control).expect("it was drawn before");
+    let figure = figure.map(|figure| figure.to_svg().into_bytes());
+    assert!(figure == std::fs::read(&svg).ok(), "the figure of {line}");
+}
+
+#[test]
+fn of_machines() {
+    let hammer = "--machine two-mass-hammer --set frequency=1.06";
+    same_of_machine(&format!("simulate {hammer} --impacts 20"));
+    same_of_machine(&format!("attractors {hammer} --starts 10"));
+    same_of_machine(&format!("orbit {hammer} --label 1/1"));
+    same_of_machine(&format!("lyapunov {hammer} --impacts 100 --points 30"));
+    same_of_machine("lyapunov --machine impact-pair --impacts 1000 --points 300");
+    same_of_machine(&format!(
+        "branch {hammer} --label 2/1 --orbit 1 --vary frequency --to 1.1 --also b=0.52 --follow 1"
+    ));
+    same_of_machine(&format!("diagram {hammer} --vary b --over 0.4:0.6:5 --also frequency=1:1.06 --transient 50"));
+    same_of_machine(&format!(
+        "curve {hammer} --label 2/1 --orbit 2 --kind fold --vary frequency=1:1.1 --and b=0.45:0.55"
+    ));
+    same_of_machine("map --machine two-mass-hammer --axis frequency=0.9:1.2:4 --starts 2");
+    same_of_machine(&format!("basin {hammer} --axis q.head=-1:0.5:4"));
 }
 
 #[test]

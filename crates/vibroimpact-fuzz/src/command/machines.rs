@@ -137,10 +137,8 @@ pub(super) fn lines() -> Words {
     let few = || prop_oneof![6 => word(&["1", "2", "5"]), 1 => count()].boxed();
     let budget = || flag("impacts", 0.9, word(&["60", "200", "400", "0", "-1"]));
     let path = || prop_oneof![9 => word(PATHS), 1 => odd()].boxed();
-    let set = || {
-        let set = (path(), plain()).prop_map(|(path, value)| format!("{path}={value}"));
-        flag("set", 0.2, prop_oneof![19 => set.boxed(), 1 => odd()].boxed())
-    };
+    let named = |path, value| (path, value).prop_map(|(path, value)| format!("{path}={value}")).boxed();
+    let set = || flag("set", 0.2, prop_oneof![19 => named(path(), plain()), 1 => odd()].boxed());
     let start = || {
         let list = || prop::collection::vec(plain(), 1..4).prop_map(|list| list.join(",")).boxed();
         super::parts::all(vec![flag("q", 0.2, list()), flag("qdot", 0.2, list()), flag("phase", 0.2, plain())])
@@ -157,14 +155,19 @@ pub(super) fn lines() -> Words {
         2 => line("attractors", vec![machine(), set(), flag("starts", 0.97, few()), budget(), outputs("csv")]),
         1 => line("orbit", vec![machine(), set(), flag("label", 0.98, label()), switch("json", 0.6)]),
         2 => line("lyapunov", vec![machine(), set(), start(), flag("impacts", 1.0, word(&["60", "300", "24"])),
-            flag("transient", 1.0, word(&["10", "0", "-1"])), outputs("")]),
+            flag("transient", 1.0, word(&["10", "0", "-1"])), flag("points", 0.2, word(&["3", "40", "0"])),
+            outputs("csv")]),
         2 => line("branch", vec![machine(), set(), start(), flag("vary", 0.98, path()), flag("to", 0.98, plain()),
+            flag("also", 0.2, named(path(), plain())), flag("label", 0.3, label()), flag("orbit", 0.1, count()),
+            flag("follow", 0.1, word(&["1", "2"])), switch("no-diagram", 0.05),
             flag("points", 1.0, word(&["2", "5", "12", "1"])), outputs("csv")]),
         2 => line("basin", vec![machine(), set(), axis(STARTS), axis(STARTS), budget(), stored(), outputs("csv")]),
         2 => line("map", vec![machine(), set(), axis(PATHS), axis(PATHS), flag("starts", 0.97, few()), budget(), stored(),
             outputs("csv")]),
         2 => line("diagram", vec![machine(), set(), flag("vary", 0.97, path()),
-            flag("over", 0.97, prop_oneof![3 => crate::values::range(0.2, 1.5), 1 => word(&["0.3,0.5,1.2", "1.2,0.4", "0.5,0.5", "0.5,x"])].boxed()), flag("show", 0.3, word(&["speed", "q.a", "qdot.b", "x", ""])),
+            flag("over", 0.97, prop_oneof![3 => crate::values::range(0.2, 1.5), 1 => word(&["0.3,0.5,1.2", "1.2,0.4", "0.5,0.5", "0.5,x"])].boxed()),
+            flag("also", 0.1, named(path(), word(&["1:2", "0.4:0.2", "1"]))),
+            flag("show", 0.3, word(&["speed", "q.a", "qdot.b", "x", ""])),
             flag("direction", 0.2, word(&["up", "down", "scatter"])), flag("transient", 1.0, word(&["10", "0", "30"])),
             flag("keep", 1.0, word(&["5", "1", "0"])), stored(), outputs("csv")]),
         1 => line("machine", vec![word(&["show"]).prop_map(|word| vec![word]).boxed(),

@@ -163,7 +163,14 @@ class Branch(Result):
         """
         from vibroimpact import _tracks
 
-        return _tracks.plot(self, ax, diagram, virtual, si)
+        behind = None
+        if diagram:
+            from vibroimpact._grid import orbit_diagram
+
+            also = None if self.also is None else {self.also[0]: self.also[1:]}
+            first, last = map(float, self.ends)
+            behind = orbit_diagram(self.osc, self.vary, f"{first!r}:{last!r}:{_tracks.VALUES}", also=also)
+        return _tracks.plot(self, ax, behind, virtual, si)
 
     def _draw(self, ax: Any) -> None:
         self.plot(ax, diagram=False)

@@ -59,13 +59,18 @@ class Scale:
 
     def line(self, parameter: str, ends: tuple[float, float], also: tuple[str, float, float] | None) -> str:
         """The name of an axis along a line: the first parameter, and the range of the second one."""
-        if also is None:
-            return self.axis(parameter)
-        name, *values = also
-        # the axis rises, in whichever direction the line was followed
-        first, last = values if ends[0] <= ends[1] else reversed(values)
-        unit = self.of(name)
-        return f"{self.axis(parameter)}, with {self.axis(name)} from {first * unit:.6g} to {last * unit:.6g}"
+        second = also and (self.axis(also[0]), also[1] * self.of(also[0]), also[2] * self.of(also[0]))
+        return along(self.axis(parameter), ends, second)
+
+
+def along(name: str, ends: tuple[float, float], second: tuple[str, float, float] | None) -> str:
+    """The name of an axis along a line: the first number, and the range of the second one."""
+    if second is None:
+        return name
+    other, *values = second
+    # the axis rises, in whichever direction the line was followed
+    first, last = values if ends[0] <= ends[1] else reversed(values)
+    return f"{name}, with {other} from {first:.6g} to {last:.6g}"
 
 
 def new_axes(ax: "Axes | None", size: tuple[float, float]) -> "Axes":

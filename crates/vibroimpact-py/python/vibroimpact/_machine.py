@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact import _core, _machine_answers
+from vibroimpact._axis import beside
 from vibroimpact._core import QuestionError
 from vibroimpact._machine_answers import (
     MachineAttractors,
@@ -26,7 +27,20 @@ from vibroimpact._machine_answers import (
 )
 from vibroimpact._progress import Progress, watched
 from vibroimpact._result import Result
-from vibroimpact._whole import BRANCH, BUDGET, NUMBER, POINT_STARTS, SEED, SIMULATED, STARTS, TRANSIENT, maybe, whole
+from vibroimpact._whole import (
+    BRANCH,
+    BUDGET,
+    FOLLOW,
+    NUMBER,
+    POINT_STARTS,
+    SECTION,
+    SEED,
+    SIMULATED,
+    STARTS,
+    TRANSIENT,
+    maybe,
+    whole,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -302,11 +316,18 @@ class Machine:
         """Coordinates, velocities and phase of a start: what is given, and else those of the table `start`, or 0."""
         return self._file.start(_vector(q), _vector(qdot), None if phase is None else float(phase))
 
+    def _answered(
+        self, task: _Part, start: tuple[ArrayLike | None, ArrayLike | None, float | None], progress: Progress, what: str
+    ) -> dict[str, Any]:
+        """The answer of the command for a task of one motion."""
+        return _machine_answers.answered(self._file, self.start_of(*start), task, progress=progress, what=what)
+
     def _ask(
         self, task: _Part, start: tuple[ArrayLike | None, ArrayLike | None, float | None], progress: Progress, what: str
     ) -> dict[str, Any]:
-        """The JSON object of the command for a task of one motion."""
-        return _machine_answers.ask(self._file, self.start_of(*start), task, progress=progress, what=what)[0]
+        """Its JSON object."""
+        found: dict[str, Any] = self._answered(task, start, progress, what)["object"]
+        return found
 
     def settle(
         self, *, q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None,
@@ -361,14 +382,14 @@ class Machine:
         starts = whole("starts", starts, STARTS)
         budget = maybe("impacts", impacts, BUDGET)
         task = {"attractors": {"starts": starts, "seed": whole("seed", seed, SEED), "impacts": budget}}
-        found, _ = _machine_answers.ask(self._file, self.start_of(), task, starts, threads, progress)
+        found = _machine_answers.ask(self._file, self.start_of(), task, starts, threads, progress)
         return _machine_answers.attractors(found, self)
 
     def lyapunov(
         self, *, q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None,
-        impacts: int | None = None, transient: int | None = None, progress: Progress = None,
+        impacts: int | None = None, transient: int | None = None, points: int | None = None, progress: Progress = None,
     ) -> MachineLyapunov:
-        """All Lyapunov exponents of a motion, per unit of time, with error bars.
+        """All Lyapunov exponents of a motion, per unit of time, with error bars, and sections of its attractor.
 
         Parameters
         ----------
@@ -377,7 +398,9 @@ class Machine:
         impacts : int
             Events to measure over, 25 to 1e7. Default: 20 000.
         transient : int
-            Events to pass before. Default: 1000.
+            Events to pass before; for the sections closings and forcing periods. Default: 1000.
+        points : int
+            Number of points of each section of the attractor, 1 to 100 000; by default no sections.
         progress : bool or callable
             True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
 
@@ -390,8 +413,10 @@ class Machine:
         """
         task = {"lyapunov": {
             "impacts": maybe("impacts", impacts, SIMULATED), "transient": maybe("transient", transient, TRANSIENT),
+            "points": maybe("points", points, SECTION),
         }}
-        return _machine_answers.lyapunov(self._ask(task, (q, qdot, phase), progress, "motions"), self)
+        found = self._answered(task, (q, qdot, phase), progress, "motions")
+        return _machine_answers.lyapunov(found["object"], self, found["section"])
 
     def orbit(self, label: str, *, progress: Progress = None) -> MachineOrbits:
         """The orbits with a label m/n, stable or not, from many guesses; m counts closings of all stops. `progress` as for `branch`.
@@ -404,7 +429,8 @@ class Machine:
         return _machine_answers.orbits(self._ask(task, (None, None, None), progress, "searches"), self)
 
     def branch(
-        self, vary: str, to: float, *, label: str | None = None, points: int = 5000,
+        self, vary: str, to: float, *, label: str | None = None, also: Mapping[str, float] | None = None,
+        orbit: int | None = None, follow: int = 0, points: int = 5000,
         q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None, progress: Progress = None,
     ) -> MachineBranch:
         """Follow an orbit in one number of the machine through folds and grazing, from its value to another one.
@@ -417,8 +443,15 @@ class Machine:
             The other end of its range.
         label : str
             The label m/n of the orbit at the machine. Default: that of the motion from the start.
+        also : dict
+            A second number that varies in proportion to the first, and its value where the first is `to`:
+            {"stop.anvil.gap": 0.6}. Its value at the beginning is that of the machine.
+        orbit : int
+            Number of the orbit, counted from 1 in the order of `orbit`. Default: the stable one, or else the fastest.
+        follow : int
+            Maximum number of branches of twice the period, 0 to 100, to follow from flips.
         points : int
-            The largest number of points, 2 to 100 000.
+            The largest number of points of each branch, 2 to 100 000.
         q, qdot, phase : array, array, float
             Start: coordinates, velocities and phase of the forcing. Default: those of `start`, or 0.
         progress : bool or callable
@@ -431,14 +464,18 @@ class Machine:
         >>> found.event_kind.tolist(), found.event_stop.tolist()
         (['grazing', 'fold', 'end of range'], ['anvil', '', ''])
         """
-        points = whole("points", points, BRANCH)
-        task = {"branch": {"label": label, "vary": vary, "to": float(to), "points": points}}
-        return _machine_answers.branch(self._ask(task, (q, qdot, phase), progress, "branches"))
+        second = beside(also)
+        task = {"branch": {
+            "label": label, "orbit": maybe("orbit", orbit, NUMBER), "vary": vary, "to": float(to),
+            "also": second and {"path": second[0], "to": float(second[1])},
+            "follow": whole("follow", follow, FOLLOW), "points": whole("points", points, BRANCH),
+        }}
+        return _machine_answers.branch(self._ask(task, (q, qdot, phase), progress, "branches"), self)
 
     def curve(
-        self, kind: str, vary: Mapping[str, tuple[float, float]], *, label: str | None = None, event: int | None = None,
-        points: int = 5000, q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None,
-        progress: Progress = None,
+        self, kind: str, vary: Mapping[str, tuple[float, float]], *, label: str | None = None, orbit: int | None = None,
+        event: int | None = None, points: int = 5000,
+        q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None, progress: Progress = None,
     ) -> MachineCurve:
         """Follow an event of an orbit in a plane of two numbers of the machine.
 
@@ -453,6 +490,8 @@ class Machine:
             Two paths, each with its range (a, b). Both ranges contain the values of the machine.
         label : str
             The label m/n of the orbit at the machine. Default: that of the motion from the start.
+        orbit : int
+            Number of the orbit, counted from 1 in the order of `orbit`. Default: the stable one, or else the fastest.
         event : int
             Which of several events, counted from 1 from small values to large. Default: the nearest.
         points : int
@@ -480,8 +519,8 @@ class Machine:
                 raise TypeError(f"the range of {path} is (a, b), not {ends!r}") from None
             sides.append({"path": path, "from": first, "to": last})
         task = {"curve": {
-            "label": label, "kind": kind, "vary": sides[0], "and": sides[1], "event": maybe("event", event, NUMBER),
-            "points": whole("points", points, BRANCH),
+            "label": label, "orbit": maybe("orbit", orbit, NUMBER), "kind": kind, "vary": sides[0], "and": sides[1],
+            "event": maybe("event", event, NUMBER), "points": whole("points", points, BRANCH),
         }}
         return _machine_answers.curve(self._ask(task, (q, qdot, phase), progress, "curves"))
 
@@ -516,7 +555,7 @@ class Machine:
         over = _machine_answers.spans(axes)
         task = {"basin": {"axes": over, "impacts": maybe("impacts", impacts, BUDGET)}}
         start, total = self.start_of(q, qdot, phase), _machine_answers.size(over)
-        return _machine_answers.basin(_machine_answers.ask(self._file, start, task, total, threads, progress)[0], self)
+        return _machine_answers.basin(_machine_answers.ask(self._file, start, task, total, threads, progress), self)
 
     def map(
         self, axes: MachineAxes, starts: int, *, seed: int = 1, impacts: int | None = None, threads: int = 0,
@@ -550,8 +589,8 @@ class Machine:
         task = {"map": {"axes": over, "starts": starts, "seed": whole("seed", seed, SEED),
                         "impacts": maybe("impacts", impacts, BUDGET)}}
         total = _machine_answers.size(over)
-        found, cells = _machine_answers.ask(self._file, self.start_of(), task, total, threads, progress, "points")
-        return _machine_answers.mapped(found, cells or [])
+        found = _machine_answers.answered(self._file, self.start_of(), task, total, threads, progress, "points")
+        return _machine_answers.mapped(found["object"], found["cells"] or [])
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)

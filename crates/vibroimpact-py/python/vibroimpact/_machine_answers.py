@@ -4,7 +4,7 @@ import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +25,7 @@ _Start: TypeAlias = tuple[list[float], list[float], float]
 MachineAxes: TypeAlias = Mapping[str, "str | tuple[float, float, int]"]
 
 
-def ask(
+def answered(
     file: _core.MachineFile,
     start: _Start,
     task: Mapping[str, Any],
@@ -33,12 +33,19 @@ def ask(
     threads: int = 1,
     progress: Progress = None,
     what: str = "starts",
-) -> tuple[dict[str, Any], list[list[tuple[str, float]]] | None]:
-    """The JSON object of the command for a task, and the points of a map."""
+) -> dict[str, Any]:
+    """The JSON object of the command for a task as "object", and what it does not have: the points of a map as "cells", the
+    sections of an attractor as "section", and the points of an orbit diagram as "diagram"."""
     with watched(progress, what) as tell:
         threads = whole("threads", threads, THREADS)
-        text, cells = _core.machine_answer(file, start, json.dumps(task), total, threads, tell)
-    return json.loads(text), cells
+        found = _core.machine_answer(file, start, json.dumps(task), total, threads, tell)
+    return {"object": json.loads(found.pop("json")), **found}
+
+
+def ask(file: _core.MachineFile, start: _Start, task: Mapping[str, Any], *further: Any) -> dict[str, Any]:
+    """The JSON object of the command for a task."""
+    found: dict[str, Any] = answered(file, start, task, *further)["object"]
+    return found
 
 
 def _measured(given: Mapping[str, Any]) -> Measured:
@@ -336,9 +343,27 @@ def attractors(found: Mapping[str, Any], machine: Any) -> MachineAttractors:
     return MachineAttractors(*shared, intervals, found["missed_below"], found["starts"], json.dumps(found["plan"]))
 
 
+class Closings(NamedTuple):
+    """The section of an attractor at the closings of stops: stop, phase and speed, and coordinates and velocities after it."""
+
+    stop: NDArray[np.str_]
+    phase: _Floats
+    speed: _Floats
+    #: Closings x coordinates.
+    q: _Floats
+    qdot: _Floats
+
+
+class MachineStrobes(NamedTuple):
+    """The stroboscopic section: coordinates and velocities at phase 0 of the forcing, states x coordinates."""
+
+    q: _Floats
+    qdot: _Floats
+
+
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
 class MachineLyapunov(Result):
-    """The Lyapunov exponents of a motion of a machine, two for each coordinate, the largest first.
+    """The Lyapunov exponents of a motion of a machine, two for each coordinate, the largest first, and sections of its attractor.
 
     Attributes
     ----------
@@ -350,6 +375,8 @@ class MachineLyapunov(Result):
         Whether the exponents are those of a cycle or of a motion without impacts, and not measured.
     motion : MachineMotion
         The motion.
+    closings, strobes : named tuples of ndarray
+        Points of both sections; empty unless requested.
     plan : str
         The plan as JSON.
     """
@@ -358,6 +385,8 @@ class MachineLyapunov(Result):
     impacts_per_period: Measured | None
     exact: bool
     motion: MachineMotion
+    closings: Closings
+    strobes: MachineStrobes
     plan: str
 
     def __repr__(self) -> str:
@@ -385,13 +414,32 @@ class MachineLyapunov(Result):
 
         return _machine_plots.exponents(self, ax)
 
+    def plot_sections(self, axes: "Sequence[Axes] | None" = None) -> "NDArray[Any]":
+        """Draw both sections of the attractor: the phase and speed of closings, and the plane of each coordinate and its velocity
+        at phase 0.
 
-def lyapunov(found: Mapping[str, Any], machine: Any) -> MachineLyapunov:
-    """Of the JSON object."""
-    rate, plan = found["impacts_per_period"], json.dumps(found["plan"])
+        `axes` are one axes more than there are coordinates. Returns the axes.
+        """
+        from vibroimpact import _machine_plots
+
+        if not len(self.closings.phase) and not len(self.strobes.q):
+            raise _core.QuestionError("there are no points of the sections\nhint: machine.lyapunov(points=5000)")
+        return _machine_plots.sections(self, axes)
+
+
+def lyapunov(found: Mapping[str, Any], machine: Any, points: Mapping[str, Any] | None) -> MachineLyapunov:
+    """Of the JSON object, and the points of both sections."""
+    rate, plan, width = found["impacts_per_period"], json.dumps(found["plan"]), len(found["coordinates"])
+    none, states = np.empty(0), np.empty((0, width))
+    given = points or {
+        "stop": [], "phase": none, "speed": none, **{name: states for name in ("q", "qdot", "strobe_q", "strobe_qdot")},
+    }
+    closings = Closings(
+        np.array(given["stop"], dtype=np.str_), *(given[name] for name in ("phase", "speed", "q", "qdot"))
+    )
     return MachineLyapunov(
         _all_measured(found["exponents"]), rate and _measured(rate), found["exact"],
-        _motion(found["motion"], len(found["coordinates"]), machine), plan,
+        _motion(found["motion"], width, machine), closings, MachineStrobes(given["strobe_q"], given["strobe_qdot"]), plan,
     )
 
 
@@ -448,7 +496,7 @@ def orbits(found: Mapping[str, Any], machine: Any) -> MachineOrbits:
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
 class MachineBranch(Result):
-    """A branch of orbits of a machine over one number; each point is one step along it.
+    """A branch of orbits of a machine over one number, or along a line through two; each point is one step along it.
 
     Attributes
     ----------
@@ -456,6 +504,10 @@ class MachineBranch(Result):
         The path of the number.
     parameter : ndarray
         Its value at each point.
+    also : (str, float, float) or None
+        The path of the number that varies with it along a line, and its values at the ends of the range.
+    second : ndarray or None
+        The value of that number at each point.
     label : ndarray of str
         m/n at each point.
     stable : ndarray of bool
@@ -471,12 +523,20 @@ class MachineBranch(Result):
         there, and the stop or joint, if there is one.
     event_parameter, event_point : ndarray
         Value of the number at each event, and the index of the point.
+    flip : float or None
+        The value of the number at the flip at which it begins; None for the branch of the orbit that was asked for.
+    followed : list of MachineBranch
+        The branches of twice the period that begin at flips.
+    orbit : (int, int) or None
+        The number of the orbit at which it begins, and the number of orbits with its label; None for the motion from the start.
     plan : str
         The plan as JSON.
     """
 
     vary: str
     parameter: _Floats
+    also: tuple[str, float, float] | None
+    second: _Floats | None
     label: NDArray[np.str_]
     stable: NDArray[np.bool_]
     speed: _Floats
@@ -487,10 +547,16 @@ class MachineBranch(Result):
     event_point: NDArray[np.int64]
     event_label: NDArray[np.str_]
     event_stop: NDArray[np.str_]
+    flip: float | None
+    followed: "list[MachineBranch]"
+    orbit: tuple[int, int] | None
     plan: str
+    _machine: Any
 
     def __repr__(self) -> str:
-        return f"<MachineBranch over {self.vary}, {len(self)} points, {len(self.event_kind)} events>"
+        more = f", {len(self.followed)} more begin on it" if self.followed else ""
+        along = f" and {self.also[0]}" if self.also else ""
+        return f"<MachineBranch over {self.vary}{along}, {len(self)} points, {len(self.event_kind)} events{more}>"
 
     def __len__(self) -> int:
         return len(self.parameter)
@@ -504,23 +570,65 @@ class MachineBranch(Result):
             "vary": self.vary,
             "points": [dict(zip(table, row)) for row in zip(*table.values())],
             "events": [dict(zip(events, row)) for row in columns],
+            **({} if self.flip is None else {"flip": self.flip}),
+            "followed": [branch.to_dict() for branch in self.followed],
         }
 
     def _table(self) -> dict[str, Any]:
         """One row for each point."""
+        second = {} if self.also is None or self.second is None else {self.also[0]: self.second}
         modulus = np.abs(self.multipliers).max(axis=1) if len(self) else np.empty(0)
-        return {self.vary: self.parameter, "label": self.label, "stable": self.stable, "speed": self.speed, "multiplier": modulus}
+        return {
+            self.vary: self.parameter, **second, "label": self.label, "stable": self.stable, "speed": self.speed,
+            "multiplier": modulus,
+        }
 
-    def plot(self, ax: "Axes | None" = None) -> "Axes":
-        """Draw the largest speed of a closing: solid if stable, dashed if unstable, with the events."""
-        from vibroimpact import _machine_plots
+    def plot(self, ax: "Axes | None" = None, *, diagram: bool = True) -> "Axes":
+        """Draw the speeds of the closings of stops, of this branch and of those that begin on it: solid if stable, dashed if
+        unstable, with the events.
 
-        return _machine_plots.branch(self, ax)
+        Parameters
+        ----------
+        ax : matplotlib Axes
+            The axes to draw on; by default those of a new figure.
+        diagram : bool
+            Whether to draw the orbit diagram from simulation in grey behind the branch.
+        """
+        from vibroimpact import _machine_plots, _tracks
+
+        ends = (self._machine.number(self.vary), float(json.loads(self.plan)["task"]["branch"]["to"]))
+        behind = None
+        if diagram:
+            task: dict[str, Any] = {"vary": self.vary, "over": f"{ends[0]!r}:{ends[1]!r}:{_tracks.VALUES}"}
+            if self.also is not None:
+                task["also"] = dict(zip(("path", "from", "to"), self.also))
+            # the sweeps use all cores
+            behind = answered(self._machine._file, self._machine.start_of(), {"diagram": task}, threads=0)["diagram"]
+        return _machine_plots.branch(self, ax, ends, behind)
+
+    def _draw(self, ax: Any) -> None:
+        self.plot(ax, diagram=False)
 
 
-def branch(found: Mapping[str, Any]) -> MachineBranch:
+def branch(found: Mapping[str, Any], machine: Any) -> MachineBranch:
     """Of the JSON object."""
-    width, points, events = len(found["coordinates"]), found["points"], found["events"]
+    line, orbit = found.get("also"), found.get("orbit")
+    whole_answer = {
+        "vary": found["vary"],
+        "also": line and (line["path"], line["from"], line["to"]),
+        "orbit": orbit and (orbit["number"], orbit["count"]),
+        "plan": json.dumps(found["plan"]),
+        "_machine": machine,
+    }
+    width = len(found["coordinates"])
+    followed = [_branch(one, width, [], whole_answer) for one in found.get("followed", [])]
+    return _branch(found, width, followed, whole_answer)
+
+
+def _branch(
+    found: Mapping[str, Any], width: int, followed: list[MachineBranch], whole_answer: dict[str, Any]
+) -> MachineBranch:
+    points, events = found["points"], found["events"]
 
     def words(of: Sequence[Mapping[str, Any]], name: str) -> NDArray[np.str_]:
         return np.array([one.get(name, "") for one in of], dtype=np.str_)
@@ -529,9 +637,13 @@ def branch(found: Mapping[str, Any]) -> MachineBranch:
         return max((event["speed"] for event in point["cycle"] if event["kind"] in ("impact", "close")), default=0.0)
 
     flat = [pair for point in points for pair in point["multipliers"]]
+    second = np.array([point["values"][1] for point in points if "values" in point], dtype=np.float64)
     return MachineBranch(
-        vary=found["vary"],
+        **whole_answer,
         parameter=np.array([point["parameter"] for point in points], dtype=np.float64),
+        second=None if whole_answer["also"] is None else second,
+        flip=found.get("flip"),
+        followed=followed,
         label=words(points, "label"),
         stable=np.array([point["stable"] for point in points], dtype=np.bool_),
         speed=np.array([closing(point) for point in points], dtype=np.float64),
@@ -542,7 +654,6 @@ def branch(found: Mapping[str, Any]) -> MachineBranch:
         event_point=np.array([event["point"] for event in events], dtype=np.int64),
         event_label=words(events, "label"),
         event_stop=words(events, "stop"),
-        plan=json.dumps(found["plan"]),
     )
 
 

@@ -2,16 +2,17 @@
 
 import json
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact import _exponents
+from vibroimpact import _exponents, _tracks
 from vibroimpact._core import QuestionError
-from vibroimpact._figure import legend, named, new_axes
+from vibroimpact._figure import along, legend, named, new_axes
 from vibroimpact._palette import SERIES
-from vibroimpact._tables import BRANCH_MARKS, CURVE_MARKS, EVENT_COLOURS
+from vibroimpact._sections import dot_legend, dots, room
+from vibroimpact._tables import CURVE_MARKS, EVENT_COLOURS
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -76,42 +77,86 @@ def orbits(of: Any, ax: "Axes | None") -> "Axes":
     return ax
 
 
-def branch(of: Any, ax: "Axes | None") -> "Axes":
-    """Draw the largest speed of a closing: solid if stable, dashed if unstable, with the events."""
+def sections(of: Any, axes: Any) -> "NDArray[Any]":
+    """Draw the phase and speed of closings of each stop, and the plane of each coordinate and its velocity at phase 0."""
+    import matplotlib.pyplot as plt
+
+    names = of.motion._machine.coordinates
+    if axes is None:
+        rows = -(-(len(names) + 1) // 2)
+        figure, grid = plt.subplots(rows, 2, figsize=(10, 4.0 * rows), layout="constrained", squeeze=False)
+        figure.suptitle(f"{title(of.plan)}: {named(of.motion.label)}")
+        axes = grid.ravel()
+        for ax in axes[len(names) + 1 :]:
+            ax.remove()
+    drawn = np.asarray(axes, dtype=object).ravel()[: len(names) + 1]
+    if len(drawn) != len(names) + 1:
+        raise QuestionError(f"{len(names) + 1} axes are needed, for the closings and for each coordinate, not {len(drawn)}")
+    first = drawn[0]
+    stops = of.motion._machine.stops
+    for k, stop in enumerate(stops):
+        at = of.closings.stop == stop
+        if np.any(at):
+            dots(first, of.closings.phase[at], of.closings.speed[at], color=SERIES[k % _USABLE], label=stop)
+    first.set(xlabel=r"phase $\theta$", ylabel="speed of closing", title="closings of stops")
+    if len(stops) > 1:
+        dot_legend(first)
+    for i, (ax, name) in enumerate(zip(drawn[1:], names)):
+        dots(ax, of.strobes.q[:, i], of.strobes.qdot[:, i], color="black")
+        ax.set(xlabel=f"q.{name}", ylabel=f"qdot.{name}", title="states at phase 0")
+    for ax in drawn:
+        room(ax)
+    return drawn
+
+
+class _Closings(NamedTuple):
+    """The closings of stops of a cycle, as the figure of a branch needs them."""
+
+    phase: NDArray[np.float64]
+    velocity_before: NDArray[np.float64]
+
+    def __len__(self) -> int:
+        return len(self.phase)
+
+
+class _Event(NamedTuple):
+    kind: str
+    parameter: float
+    point: int
+
+
+class _Branch:
+    """A branch of a machine, as the figure of a branch of an oscillator needs it."""
+
+    def __init__(self, of: Any) -> None:
+        closing = [np.isin(cycle.kind, ("impact", "close")) for cycle in of.cycles]
+        self.cycles = [_Closings(cycle.phase[at], cycle.speed[at]) for cycle, at in zip(of.cycles, closing)]
+        self.parameter, self.multipliers = of.parameter, of.multipliers
+        self.label = of.label.tolist()
+        # a branch of a machine ends where its orbit ceases to be admissible
+        self.physical = np.ones(len(of), dtype=np.bool_)
+        columns = (of.event_kind.tolist(), of.event_parameter.tolist(), of.event_point.tolist())
+        self.events = [_Event(*row) for row in zip(*columns)]
+
+    def __len__(self) -> int:
+        return len(self.parameter)
+
+
+def branch(
+    of: Any, ax: "Axes | None", ends: tuple[float, float], diagram: Mapping[str, NDArray[Any]] | None
+) -> "Axes":
+    """Draw the speeds of all closings: solid if stable, dashed if unstable, with the events. `diagram` has the columns of the orbit
+    diagram behind."""
     ax = new_axes(ax, (7.6, 4.8))
-    colours: dict[str, str] = {}
-    looks = set()
-    for begin, end in _pieces(of):
-        label, stable = str(of.label[begin]), bool(of.stable[begin])
-        if label not in colours:
-            colours[label] = SERIES[len(colours) % _USABLE]
-            ax.plot([], [], color=colours[label], linewidth=1.8, label=named(label))
-        looks.add(stable)
-        # the curve goes on to the first point of the next piece
-        at = slice(begin, min(end + 1, len(of)))
-        ax.plot(of.parameter[at], of.speed[at], "-" if stable else "--", color=colours[label], linewidth=1.8)
-    for stable, dash, words in ((True, "-", "stable"), (False, "--", "unstable")):
-        if stable in looks:
-            ax.plot([], [], dash, color="black", label=words)
-    for kind in sorted(set(of.event_kind.tolist()) & {*BRANCH_MARKS, "torus"}):
-        here = of.event_kind == kind
-        mark = BRANCH_MARKS[kind][0] if kind in BRANCH_MARKS else "h"
-        ax.plot(of.event_parameter[here], of.speed[of.event_point[here]], mark, color="white", markeredgecolor="black",
-                markersize=6, label=kind, zorder=4, clip_on=False)
-    ax.set_xlabel(of.vary)
-    ax.set_ylabel("largest speed of closing")
+    if diagram is not None:
+        _tracks.behind(ax, diagram["parameter"], diagram["speed"], diagram["repeats"])
+    _tracks.draw([_Branch(one) for one in (of, *of.followed)], ax)
+    ax.set_xlim(*sorted(ends))
+    ax.set_xlabel(along(of.vary, ends, of.also))
+    ax.set_ylabel("speed of closing")
     ax.set_title(title(of.plan))
     legend(ax)
     return ax
-
-
-def _pieces(of: Any) -> list[tuple[int, int]]:
-    """Ranges of points with one label and one stability."""
-    if not len(of):
-        return []
-    changes = (of.label[1:] != of.label[:-1]) | (of.stable[1:] != of.stable[:-1])
-    edges = [0, *(np.flatnonzero(changes) + 1).tolist(), len(of)]
-    return list(zip(edges[:-1], edges[1:]))
 
 
 def curve(of: Any, ax: "Axes | None") -> "Axes":

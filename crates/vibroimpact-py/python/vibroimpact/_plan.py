@@ -270,8 +270,6 @@ class Plan:
         show = show or ("speed" if machine else "velocity")
         if not machine:
             _known("show", show, ("velocity", "strobe"))
-        elif also is not None:
-            raise _core.QuestionError("also is for oscillators\nhint: a diagram of a machine has one number")
         _known("direction", direction, ("up", "down", "both", "scatter"))
         way: object = direction
         if direction == "scatter":
@@ -280,7 +278,8 @@ class Plan:
         elif starts is not None or seed is not None:
             raise _core.QuestionError('starts and seed belong to direction="scatter"')
         second = beside(also)
-        line = {} if second is None else {"also": dict(zip(("parameter", "from", "to"), (second[0], *interval(second[1]))))}
+        keys = ("path" if machine else "parameter", "from", "to")
+        line = {} if second is None else {"also": dict(zip(keys, (second[0], *interval(second[1]))))}
         task = {
             "vary": vary,
             "over": sweep(over),

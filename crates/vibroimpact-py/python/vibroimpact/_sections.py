@@ -42,28 +42,34 @@ def sections(
     for sign, colour, name in ((1, SERIES[0], "stop"), (-1, SERIES[1], "second stop")):
         at = impacts.side == sign
         if np.any(at):
-            _dots(left, impacts.phase[at], impacts.velocity_before[at], color=colour, label=name)
+            dots(left, impacts.phase[at], impacts.velocity_before[at], color=colour, label=name)
     left.set_xlabel(r"phase $\theta$")
     left.set_ylabel(ARRIVAL)
     left.set_title("impacts")
     if osc.second_gap is not None:
-        left.legend(loc="best")
-    _dots(right, strobes.x, strobes.v, color="black")
+        dot_legend(left)
+    dots(right, strobes.x, strobes.v, color="black")
     right.set_xlabel(r"$\xi$")
     right.set_ylabel("velocity $u$")
     right.set_title("states at phase 0")
-    _room(left)
-    _room(right)
+    room(left)
+    room(right)
     return left, right
 
 
-def _dots(ax: "Axes", xs: NDArray[np.float64], ys: NDArray[np.float64], **look: Any) -> None:
+def dots(ax: "Axes", xs: NDArray[np.float64], ys: NDArray[np.float64], **look: Any) -> None:
     """Draw points: large dots for few distinct points, small dots for many."""
     few = len(np.unique(np.round(np.stack([xs, ys]), 6), axis=1).T) <= 200
     ax.plot(xs, ys, "o", markersize=5 if few else 1, markeredgewidth=0, **look)
 
 
-def _room(ax: "Axes") -> None:
+def dot_legend(ax: "Axes") -> None:
+    """A legend of points. A dot of a cloud is too small for it, so it has large ones."""
+    for handle in ax.legend(loc="best").get_lines():
+        handle.set_markersize(5)
+
+
+def room(ax: "Axes") -> None:
     """Set the range of an axis whose values are all equal to rounding."""
     box = ax.dataLim
     for low, high, limit in ((box.x0, box.x1, ax.set_xlim), (box.y0, box.y1, ax.set_ylim)):

@@ -100,6 +100,13 @@ BRANCH_MARKS = {
     "end of rest": ("X", True),
     "rest for ever": ("X", True),
     "chatter": ("X", True),
+    "torus": ("P", False),
+    "corner": ("X", False),
+    "sticking begins": ("X", False),
+    "sticking ends": ("X", False),
+    "holding begins": ("X", False),
+    "holding ends": ("X", False),
+    "change": ("X", False),
 }
 
 #: Marks of points of codimension two on curves.

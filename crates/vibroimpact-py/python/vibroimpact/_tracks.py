@@ -12,9 +12,8 @@ from vibroimpact._palette import SERIES
 from vibroimpact._tables import BRANCH_MARKS
 
 if TYPE_CHECKING:
+    import xarray as xr
     from matplotlib.axes import Axes
-
-    from vibroimpact._cycle import Cycle, Cycles
 
 
 class Event(Protocol):
@@ -28,10 +27,44 @@ class Event(Protocol):
     def point(self) -> int: ...
 
 
-class Followed(Protocol):
-    """What a figure needs of a branch."""
+class Impacts(Protocol):
+    """What a figure needs of the impacts of a cycle."""
 
     def __len__(self) -> int: ...
+    @property
+    def phase(self) -> NDArray[np.float64]: ...
+    @property
+    def velocity_before(self) -> NDArray[np.float64]: ...
+
+
+class Cycles(Protocol):
+    """The impacts at each point of a branch."""
+
+    def __iter__(self) -> Iterator[Impacts]: ...
+    def __getitem__(self, k: int, /) -> Impacts: ...
+
+
+class Curves(Protocol):
+    """What the curves of a branch need, of an oscillator or of a machine."""
+
+    def __len__(self) -> int: ...
+    @property
+    def parameter(self) -> NDArray[np.float64]: ...
+    @property
+    def label(self) -> Sequence[str]: ...
+    @property
+    def physical(self) -> NDArray[np.bool_]: ...
+    @property
+    def multipliers(self) -> NDArray[np.complex128]: ...
+    @property
+    def cycles(self) -> "Cycles": ...
+    @property
+    def events(self) -> Sequence[Event]: ...
+
+
+class Followed(Curves, Protocol):
+    """What a figure needs of a branch of an oscillator."""
+
     @property
     def osc(self) -> Oscillator: ...
     @property
@@ -41,36 +74,36 @@ class Followed(Protocol):
     @property
     def also(self) -> tuple[str, float, float] | None: ...
     @property
-    def parameter(self) -> NDArray[np.float64]: ...
-    @property
-    def label(self) -> list[str]: ...
-    @property
-    def physical(self) -> NDArray[np.bool_]: ...
-    @property
-    def multipliers(self) -> NDArray[np.complex128]: ...
-    @property
-    def cycles(self) -> "Cycles": ...
-    @property
-    def events(self) -> Sequence[Event]: ...
-    @property
     def followed(self) -> "Sequence[Followed]": ...
 
 
 #: Number of values of the orbit diagram behind a branch.
-_VALUES = 401
+VALUES = 401
 #: Maximum number of labels with a colour of their own.
 _NAMED = 12
 _LOOKS = {"stable": "-", "unstable": "--", "inadmissible": ":"}
 
 
-def plot(branch: Followed, ax: "Axes | None", diagram: bool, virtual: bool, si: bool) -> "Axes":
-    """Draw the speeds before impacts over the parameter: solid if stable, dashed if unstable."""
+def plot(branch: Followed, ax: "Axes | None", diagram: "xr.Dataset | None", virtual: bool, si: bool) -> "Axes":
+    """Draw the speeds before impacts over the parameter: solid if stable, dashed if unstable. `diagram` is the orbit diagram
+    behind."""
     scale = Scale(branch.osc, si)
     unit, speed = scale.of(branch.vary), scale.velocity
     ax = new_axes(ax, (7.6, 4.8))
-    if diagram:
-        _behind(branch, ax, unit, speed)
-    branches: list[Followed] = [branch, *branch.followed]
+    if diagram is not None:
+        _behind(diagram, branch.vary, ax, unit, speed)
+    draw([branch, *branch.followed], ax, virtual, unit, speed)
+    low, high = sorted(branch.ends)
+    ax.set_xlim(low * unit, high * unit)
+    ax.set_xlabel(scale.line(branch.vary, branch.ends, branch.also))
+    ax.set_ylabel(scale.named(ARRIVAL, "m/s"))
+    ax.set_title(title(branch.osc, (branch.vary, *(branch.also or ())[:1])))
+    legend(ax)
+    return ax
+
+
+def draw(branches: "Sequence[Curves]", ax: "Axes", virtual: bool = False, unit: float = 1.0, speed: float = 1.0) -> None:
+    """Draw the speeds of all impacts of branches, and their events."""
     colours: dict[str, tuple[str, float]] = {}
     looks: list[str] = []
     for one in branches:
@@ -87,13 +120,6 @@ def plot(branch: Followed, ax: "Axes | None", diagram: bool, virtual: bool, si: 
     for look in (look for look in _LOOKS if look in looks):
         ax.plot([], [], _LOOKS[look], color="black", label=look)
     _events(branches, ax, virtual, unit, speed)
-    low, high = sorted(branch.ends)
-    ax.set_xlim(low * unit, high * unit)
-    ax.set_xlabel(scale.line(branch.vary, branch.ends, branch.also))
-    ax.set_ylabel(scale.named(ARRIVAL, "m/s"))
-    ax.set_title(title(branch.osc, (branch.vary, *(branch.also or ())[:1])))
-    legend(ax)
-    return ax
 
 
 def _colour(k: int) -> tuple[str, float]:
@@ -101,25 +127,25 @@ def _colour(k: int) -> tuple[str, float]:
     return (SERIES[k % 6], 1.0 if k < 6 else 0.55) if k < _NAMED else ("0.3", 1.0)
 
 
-def _behind(branch: Followed, ax: "Axes", unit: float, speed: float) -> None:
-    """Draw the orbit diagram from simulation in grey."""
-    from vibroimpact._grid import orbit_diagram
-
-    also = {branch.also[0]: branch.also[1:]} if branch.also else None
-    first, last = map(float, branch.ends)
-    ds = orbit_diagram(branch.osc, branch.vary, f"{first!r}:{last!r}:{_VALUES}", also=also)
-    for k in range(ds.sizes["sweep"]):
-        one = ds.isel(sweep=k)
-        xs = np.broadcast_to(one[branch.vary].values[:, None], one["velocity"].shape)
-        repeats = np.isfinite(one["velocity"].values).sum(axis=1) < ds.sizes["point"]
-        # the dots of motions that repeat are wider than a curve
-        for rows, size in ((repeats, 4.5), (~repeats, 1.6)):
-            ys = one["velocity"].values[rows].ravel()
-            ax.plot(xs[rows].ravel() * unit, ys * speed, "o", color="0.72", markersize=size, markeredgewidth=0, zorder=0)
+def behind(
+    ax: "Axes", xs: NDArray[np.float64], ys: NDArray[np.float64], repeats: NDArray[np.bool_]
+) -> None:
+    """Draw the speeds of an orbit diagram from simulation in grey; `repeats` are those of motions that repeat."""
+    # the dots of motions that repeat are wider than a curve
+    for at, size in ((repeats, 4.5), (~repeats, 1.6)):
+        ax.plot(xs[at], ys[at], "o", color="0.72", markersize=size, markeredgewidth=0, zorder=0)
     ax.plot([], [], "o", color="0.72", markersize=4, label="simulation")
 
 
-def _events(branches: list[Followed], ax: "Axes", virtual: bool, unit: float, speed: float) -> None:
+def _behind(ds: "xr.Dataset", vary: str, ax: "Axes", unit: float, speed: float) -> None:
+    ys = ds["velocity"].transpose("sweep", vary, "point").values
+    xs = np.broadcast_to(ds[vary].values[:, None], ys.shape)
+    repeats = np.isfinite(ys).sum(axis=-1, keepdims=True) < ys.shape[-1]
+    there = np.isfinite(ys)
+    behind(ax, xs[there] * unit, ys[there] * speed, np.broadcast_to(repeats, ys.shape)[there])
+
+
+def _events(branches: "Sequence[Curves]", ax: "Axes", virtual: bool, unit: float, speed: float) -> None:
     places: dict[str, list[tuple[float, float]]] = {}
     for one in branches:
         for event in one.events:
@@ -134,19 +160,21 @@ def _events(branches: list[Followed], ax: "Axes", virtual: bool, unit: float, sp
                 zorder=4, clip_on=False)
 
 
-def pieces(branch: Followed) -> Iterator[tuple[str, str, NDArray[np.float64], NDArray[np.float64]]]:
+def pieces(branch: Curves) -> Iterator[tuple[str, str, NDArray[np.float64], NDArray[np.float64]]]:
     """Curves of one impact with one label and one line style. Consecutive curves share a point."""
     begin = 0
+    # cycles with one label may have different numbers of impacts, if they stick
+    key = [(label, len(cycle)) for label, cycle in zip(branch.label, branch.cycles)]
     while begin < len(branch):
         label = branch.label[begin]
-        end = next((k for k in range(begin, len(branch)) if branch.label[k] != label), len(branch))
+        end = next((k for k in range(begin, len(branch)) if key[k] != key[begin]), len(branch))
         for track in _tracks([branch.cycles[k] for k in range(begin, end)]):
             for look, at in _runs(branch, begin, end):
                 yield label, look, branch.parameter[at], track[at.start - begin : at.stop - begin]
         begin = end
 
 
-def _runs(branch: Followed, begin: int, end: int) -> Iterator[tuple[str, slice]]:
+def _runs(branch: Curves, begin: int, end: int) -> Iterator[tuple[str, slice]]:
     """Ranges of points with one line style. A step takes its style from the end that is no event."""
     events = {event.point for event in branch.events}
     before, first = None, begin
@@ -162,7 +190,7 @@ def _runs(branch: Followed, begin: int, end: int) -> Iterator[tuple[str, slice]]
         yield before, slice(first, end)
 
 
-def _tracks(run: "list[Cycle]") -> NDArray[np.float64]:
+def _tracks(run: list[Impacts]) -> NDArray[np.float64]:
     """The speed of each impact at consecutive points with one label, one row for each impact."""
     count = len(run[0])
     rows = np.zeros((len(run), max(count, 1)))

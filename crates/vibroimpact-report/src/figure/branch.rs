@@ -1,19 +1,18 @@
 //! The bifurcation diagram: impact velocities of orbits over the parameter, or their positions at phase 0. Stable
 //! orbits are solid and unstable ones dashed. Events are marked, and the orbit diagram from simulation is behind.
 
-use crate::figure::diagram::{backdrop, ordinate};
+use crate::figure::diagram::{backdrop, backdrop_of_machine, ordinate};
 use crate::figure::styles::{BRANCH_MARKS, MACHINE_BRANCH_MARKS};
 use crate::figure::tracks::{Followed as What, Look, Track, TrackPoint};
-use crate::figure::{along, label, title_without, variant};
+use crate::figure::{along, along_machine, label, series, title_without, variant};
 use crate::units::shown;
 use crate::{Asked, ReportError};
 use std::collections::BTreeMap;
 use vibroimpact_plot::{
-    Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, SERIES, Shape, Stroke, class_style, legend_group,
-    plain,
+    Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, Shape, Stroke, class_style, legend_group,
 };
 use vibroimpact_study::diagram::{Diagram, Show};
-use vibroimpact_study::{Cut, Followed, MachineBranched, counted};
+use vibroimpact_study::{Cut, Followed, MachineBranched, MachineCut, MachineDiagram, counted};
 
 /// Colour of the orbit diagram from simulation.
 const GREY: Colour = Colour::hex(0xb0_b0b0);
@@ -71,8 +70,7 @@ pub fn figure(
     let tracks: Vec<Track> = followed.iter().map(|branch| Track::of(&branch.points, what)).collect();
     let mut legend = draw(&mut panel, &tracks, show_virtual, (unit, &size));
     if behind.is_some() {
-        // a dot of the cloud is too small for the legend
-        legend = legend.points(&Points::new([], [], GREY).size(7.0), "simulation");
+        legend = with_simulation(legend);
     }
     Ok(Figure::new(panel)
         .size(680.0, 520.0)
@@ -80,13 +78,26 @@ pub fn figure(
         .legend(legend))
 }
 
-/// The figure of `vibro branch --machine`: the speeds of the closings of all stops over the number at a path.
+/// The figure of `vibro branch --machine`: the speeds of the closings of all stops along a line, with the orbit diagram from
+/// simulation behind, if it is given.
 #[must_use]
-pub fn of_machine(found: &MachineBranched, (path, (from, to)): (&str, (f64, f64)), title: String) -> Figure {
-    let mut panel =
-        Panel::new(FigureAxis::new(plain(path)).range(from.min(to), from.max(to)), FigureAxis::new("speed of closing"));
-    let legend = draw(&mut panel, &[Track::of_machine(&found.points)], false, (1.0, &|_| 1.0));
+pub fn of_machine(found: &MachineBranched, cut: &MachineCut, behind: Option<&MachineDiagram>, title: String) -> Figure {
+    let (from, to) = cut.ends;
+    let abscissa = FigureAxis::new(along_machine(cut)).range(from.min(to), from.max(to));
+    let mut panel = Panel::new(abscissa, FigureAxis::new("speed of closing"));
+    for dots in behind.into_iter().flat_map(|diagram| backdrop_of_machine(diagram, GREY)) {
+        panel.add(dots);
+    }
+    let tracks: Vec<Track> = found.all().map(Track::of_machine).collect();
+    let legend = draw(&mut panel, &tracks, false, (1.0, &|_| 1.0));
+    let legend = if behind.is_some() { with_simulation(legend) } else { legend };
     Figure::new(panel).size(680.0, 520.0).title(title).legend(legend)
+}
+
+/// The legend with the dots of the orbit diagram behind.
+fn with_simulation(legend: Legend) -> Legend {
+    // a dot of the cloud is too small for the legend
+    legend.points(&Points::new([], [], GREY).size(7.0), "simulation")
 }
 
 /// Draws branches with their events, with the units of both axes, and returns the legend.
@@ -155,8 +166,6 @@ fn of_motion(label: &str) -> bool {
 /// A colour for each label, in the order of first appearance on the branches: that of the motion on maps, or one of a
 /// series for the labels of machines.
 fn colours(tracks: &[Track]) -> Vec<(String, Colour)> {
-    // without black, which is used for marks, and yellow, which is too light for a thin line
-    const USABLE: usize = 6;
     let mut labels: Vec<String> = Vec::new();
     for point in tracks.iter().flat_map(|track| &track.points) {
         if !labels.contains(&point.label) {
@@ -165,7 +174,7 @@ fn colours(tracks: &[Track]) -> Vec<(String, Colour)> {
     }
     let colour = |k: usize, label: &str| match k {
         _ if of_motion(label) => class_style(label).colour,
-        k if k < NAMED => variant(SERIES[k % USABLE], k / USABLE),
+        k if k < NAMED => series(k),
         _ => OTHERS,
     };
     labels.into_iter().enumerate().map(|(k, label)| (label.clone(), colour(k, &label))).collect()

@@ -4,7 +4,7 @@
 //! Where both sweeps have the same cycle, the small dot of one lies inside the large dot of the other, so both colours
 //! are visible. Motions that do not repeat have small dots in both sweeps.
 
-use crate::figure::{along, plane::PlaneAxis, quantity_name, symbol, title_without};
+use crate::figure::{along, along_machine, plane::PlaneAxis, quantity_name, symbol, title_without};
 use crate::units::shown;
 use crate::{Asked, ReportError, Units};
 use std::collections::HashSet;
@@ -62,15 +62,9 @@ pub fn figure(found: &Diagram, asked: &Asked) -> Result<Figure, ReportError> {
 /// As [`figure`].
 pub fn of_machine(found: &MachineDiagram, title: String) -> Result<Figure, ReportError> {
     let plan = &found.plan;
-    let motion = |step: &MachineDiagramStep| Motion {
-        index: step.index,
-        sweep: step.sweep,
-        repeats: (step.points.len() as u64) < plan.keep || step.points.len() == 1,
-        ys: step.points.iter().map(|point| point.value).collect(),
-    };
-    let motions: Vec<Motion> = found.steps.iter().map(motion).collect();
+    let motions = motions_of_machine(found);
     let name = plain(&plan.vary);
-    let side = PlaneAxis::new(name.clone(), &plan.over)?;
+    let side = PlaneAxis::new(along_machine(&plan.cut()), &plan.over)?;
     let shown = match plan.show.as_str() {
         _ if plan.shows_closings() => "speed of closing".to_owned(),
         show if plan.shows_states() => format!("{} at phase 0", plain(show)),
@@ -101,7 +95,15 @@ fn draw(
 
 /// All dots of a diagram in one colour, to be drawn behind curves. Dots of motions that repeat are wider than a curve.
 pub(super) fn backdrop(found: &Diagram, over: &Values, asked: &Asked, colour: Colour) -> [Points; 2] {
-    let motions = motions(found, asked);
+    behind(&motions(found, asked), over, colour)
+}
+
+/// The same of a machine.
+pub(super) fn backdrop_of_machine(found: &MachineDiagram, colour: Colour) -> [Points; 2] {
+    behind(&motions_of_machine(found), &found.plan.over, colour)
+}
+
+fn behind(motions: &[Motion], over: &Values, colour: Colour) -> [Points; 2] {
     let range = spread(motions.iter().flat_map(|motion| motion.ys.iter().copied()));
     [(true, WIDE), (false, NARROW)].map(|(repeating, size)| {
         let shown = motions.iter().filter(|motion| motion.repeats == repeating);
@@ -150,6 +152,17 @@ fn motions(found: &Diagram, asked: &Asked) -> Vec<Motion> {
             repeats: (kept as u64) < found.plan.keep || kept == 1,
             ys: step.points.iter().map(|point| ordinate_of(point, &units)).collect(),
         }
+    };
+    found.steps.iter().map(motion).collect()
+}
+
+/// The dots of an orbit diagram of a machine.
+fn motions_of_machine(found: &MachineDiagram) -> Vec<Motion> {
+    let motion = |step: &MachineDiagramStep| Motion {
+        index: step.index,
+        sweep: step.sweep,
+        repeats: (step.points.len() as u64) < found.plan.keep || step.points.len() == 1,
+        ys: step.points.iter().map(|point| point.value).collect(),
     };
     found.steps.iter().map(motion).collect()
 }

@@ -6,6 +6,7 @@ pub mod coloured;
 pub mod curve;
 pub mod diagram;
 pub mod machine;
+pub mod machine_section;
 pub mod machine_waveform;
 pub mod map;
 pub mod overlay;
@@ -25,8 +26,8 @@ use crate::number::short;
 use crate::{Asked, Units};
 use vibroimpact::PhysicalParameter;
 use vibroimpact::quantities::Quantity;
-use vibroimpact_plot::{Colour, plain};
-use vibroimpact_study::{Cut, Parameter};
+use vibroimpact_plot::{Colour, SERIES, plain};
+use vibroimpact_study::{Cut, MachineCut, Parameter};
 
 /// The title of a figure: the parameters, with the frequency in the form in which it was given, in the units of the
 /// results.
@@ -89,13 +90,26 @@ fn same_in_title(varied: Parameter, number: Parameter) -> bool {
 /// The name of an axis along a line: the first parameter, and the range of the second one.
 #[must_use]
 pub fn along(cut: &Cut, units: &Units) -> String {
-    let name = named(cut.vary, units);
-    let Some(also) = cut.also else { return name };
-    let unit = units.of(also.parameter);
+    let also = cut.also.map(|also| {
+        let unit = units.of(also.parameter);
+        (named(also.parameter, units), (also.from * unit, also.to * unit))
+    });
+    along_line(named(cut.vary, units), cut.ends, also)
+}
+
+/// The name of an axis along a line through numbers of a machine.
+#[must_use]
+pub fn along_machine(cut: &MachineCut) -> String {
+    let also = cut.also.as_ref().map(|also| (plain(&also.path), (also.from, also.to)));
+    along_line(plain(&cut.vary), cut.ends, also)
+}
+
+fn along_line(name: String, ends: (f64, f64), also: Option<(String, (f64, f64))>) -> String {
+    let Some((second, (first, last))) = also else { return name };
     // the axis rises, in whichever direction the line is followed
-    let (from, to) = if cut.ends.0 <= cut.ends.1 { (also.from, also.to) } else { (also.to, also.from) };
-    let value = |value: f64| short(value * unit).replace('-', "−");
-    format!("{name}, with {} from {} to {}", named(also.parameter, units), value(from), value(to))
+    let (from, to) = if ends.0 <= ends.1 { (first, last) } else { (last, first) };
+    let value = |value: f64| short(value).replace('-', "−");
+    format!("{name}, with {second} from {} to {}", value(from), value(to))
 }
 
 /// The symbol of a parameter, as markup.
@@ -141,6 +155,12 @@ pub fn label(label: &str) -> String {
         "0" => "no impact".into(),
         label => plain(label).replace("inf", "∞"),
     }
+}
+
+/// Colour number `k` of a series: without black, which is used for marks, and yellow, which is too light for thin lines and dots.
+pub(crate) fn series(k: usize) -> Colour {
+    const USABLE: usize = 6;
+    variant(SERIES[k % USABLE], k / USABLE)
 }
 
 /// Variant number `k` of a colour, for the motions of one class: the colour itself, darker, lighter, darker still, and

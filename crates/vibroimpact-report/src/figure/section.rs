@@ -15,7 +15,7 @@ const FEW: usize = 200;
 /// Two points are the same if they differ by less than this fraction of the range.
 const SAME: f64 = 1e-6;
 /// Diameter of a large dot, and of a dot in a cloud.
-const LARGE: f64 = 9.0;
+pub(super) const LARGE: f64 = 9.0;
 const SMALL: f64 = 2.6;
 
 /// The figure of `vibro lyapunov`.
@@ -24,7 +24,8 @@ pub fn figure(found: &Section, osc: &Oscillator, asked: &Asked) -> Figure {
     let units = &asked.units;
     let speeds: Vec<f64> = found.impacts.iter().map(|impact| impact.velocity * units.velocity()).collect();
     let ordinate = fitted(units.named("arrival velocity *u*_−", "m/s"), &speeds, units.velocity());
-    let mut above = Panel::new(phases(found), ordinate).caption("impacts");
+    let phases = phases(found.impacts.iter().map(|impact| impact.phase));
+    let mut above = Panel::new(phases, ordinate).caption("impacts");
     let second = osc.stop(Side::Lower);
     let of_second = |stop: Stop| {
         format!("second stop, *δ*_2 = {}, *ε*_2 = {}", short(stop.gap), short(stop.restitution)).replace('-', "−")
@@ -60,7 +61,7 @@ const ROUNDING: f64 = 1e-6;
 
 /// An axis over some values. Values that are equal to rounding are placed in the middle of a range of suitable size, so
 /// that they appear as one point. An axis fitted to their last digits would show rounding as structure.
-fn fitted(name: String, values: &[f64], unit: f64) -> FigureAxis {
+pub(super) fn fitted(name: String, values: &[f64], unit: f64) -> FigureAxis {
     let axis = FigureAxis::new(name);
     let (low, high) = extremes(values.iter().copied());
     let size = low.abs().max(high.abs()).max(unit);
@@ -73,8 +74,8 @@ fn fitted(name: String, values: &[f64], unit: f64) -> FigureAxis {
 
 /// The axis of the phase: the full period in fractions of pi, or the part with impacts if that is less than half of it
 /// (and more than one point).
-fn phases(found: &Section) -> FigureAxis {
-    let (low, high) = extremes(found.impacts.iter().map(|impact| impact.phase));
+pub(super) fn phases(values: impl Iterator<Item = f64>) -> FigureAxis {
+    let (low, high) = extremes(values);
     let axis = FigureAxis::new("phase *θ*");
     if (0.01..PI).contains(&(high - low)) {
         return axis;
@@ -88,7 +89,7 @@ fn extremes(values: impl Iterator<Item = f64>) -> (f64, f64) {
 }
 
 /// Points as large dots if few are distinct, otherwise as a cloud of small dots.
-fn dots(xs: Vec<f64>, ys: Vec<f64>, colour: Colour) -> Points {
+pub(super) fn dots(xs: Vec<f64>, ys: Vec<f64>, colour: Colour) -> Points {
     let size = if distinct(&xs, &ys) <= FEW { LARGE } else { SMALL };
     Points::new(xs, ys, colour).size(size)
 }

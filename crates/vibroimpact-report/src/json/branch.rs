@@ -119,6 +119,11 @@ impl ChosenObject {
     pub(super) const fn new(chosen: &Chosen) -> Self {
         Self { number: chosen.number, count: chosen.count }
     }
+
+    /// That of a machine, from its number and how many there are.
+    pub(super) fn of_machine(among: Option<(u32, u32)>) -> Option<Self> {
+        among.map(|(number, count)| Self { number, count })
+    }
 }
 
 impl BranchFields {

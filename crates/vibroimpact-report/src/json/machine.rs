@@ -1,5 +1,6 @@
 //! The object of a machine: its start, the events of its motion, and the reason why the list ends.
 
+use super::branch::ChosenObject;
 use super::certainty::Certainty;
 use super::diagram::{Counts, machine_counts};
 use super::machine_curve::curved;
@@ -13,7 +14,8 @@ use vibroimpact::continuation::{MachineBranchEvent, MachinePoint};
 use vibroimpact::events::{MachineEvent, MachineStart};
 use vibroimpact::machine::Machine;
 use vibroimpact_study::{
-    MachineAxis, MachineDiagramPlan, MachinePlan, MachineResults, MachineSimulated, MachineTask, Values,
+    MachineAxis, MachineCut, MachineDiagramPlan, MachinePlan, MachineResults, MachineSimulated, MachineStretch,
+    MachineTask, Values,
 };
 
 /// The object that a command prints: the machine, the start, the fields of the command, and the plan.
@@ -98,6 +100,9 @@ struct Exponents<'a> {
 #[derive(Serialize)]
 struct PointObject<'a> {
     parameter: f64,
+    /// Values of both numbers, on a line through two.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    values: Option<[f64; 2]>,
     label: String,
     cycle: Vec<EventObject<'a>>,
     multipliers: Vec<[f64; 2]>,
@@ -109,6 +114,8 @@ struct PointObject<'a> {
 struct BranchEventObject<'a> {
     kind: &'static str,
     parameter: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    values: Option<[f64; 2]>,
     /// Number of the point, counted from 0.
     point: usize,
     label: String,
@@ -123,6 +130,11 @@ struct BranchEventObject<'a> {
 #[derive(Serialize)]
 struct Branched<'a> {
     vary: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    also: Option<&'a MachineStretch>,
+    /// Absent for the motion from the start.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    orbit: Option<ChosenObject>,
     #[serde(flatten)]
     main: PointsObject<'a>,
     /// The branches of twice the period that begin at flips.
@@ -166,6 +178,8 @@ struct Mapped<'a> {
 struct Diagrammed<'a> {
     vary: &'a str,
     over: &'a Values,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    also: Option<&'a MachineStretch>,
     show: &'a str,
     sweeps: Vec<Counts>,
 }
@@ -200,7 +214,7 @@ impl Serialize for MachineAnswer {
                 let orbits = found.iter().map(|found| OrbitObject { motion: cycle(machine, found), physical: true });
                 self.document(Orbits { orbits: orbits.collect() }, to)
             }
-            MachineResults::Lyapunov(found) => {
+            MachineResults::Lyapunov(found, _) => {
                 let spectrum = found.spectrum.as_ref();
                 let rate = spectrum.zip(machine.period()).map(|(spectrum, period)| Measured {
                     value: spectrum.closings.value * period,
@@ -217,16 +231,17 @@ impl Serialize for MachineAnswer {
                 )
             }
             MachineResults::Branch(found) => {
-                let vary = match &self.plan.task {
-                    MachineTask::Branch { vary, .. } => vary.as_str(),
-                    _ => "",
+                let MachineTask::Branch(plan) = &self.plan.task else {
+                    return Err(serde::ser::Error::custom("the plan is that of another task"));
                 };
-                let followed = found
-                    .followed
-                    .iter()
-                    .map(|followed| FollowedObject { flip: followed.flip, branch: self.points(&followed.points) });
+                let cut = plan.cut(&self.plan.machine).map_err(serde::ser::Error::custom)?;
+                let followed = found.followed.iter().map(|followed| FollowedObject {
+                    flip: followed.flip,
+                    branch: self.points(&followed.points, &cut),
+                });
                 let followed = followed.collect();
-                self.document(Branched { vary, main: self.points(&found.points), followed }, to)
+                let (orbit, main) = (ChosenObject::of_machine(found.among), self.points(&found.points, &cut));
+                self.document(Branched { vary: &cut.vary, also: cut.also.as_ref(), orbit, main, followed }, to)
             }
             MachineResults::Curve(found) => {
                 let MachineTask::Curve(plan) = &self.plan.task else {
@@ -252,8 +267,9 @@ impl Serialize for MachineAnswer {
                 )
             }
             MachineResults::Diagram(found) => {
-                let MachineDiagramPlan { vary, over, show, .. } = &found.plan;
-                self.document(Diagrammed { vary, over, show, sweeps: machine_counts(found) }, to)
+                let MachineDiagramPlan { vary, over, also, show, .. } = &found.plan;
+                let also = also.as_ref();
+                self.document(Diagrammed { vary, over, also, show, sweeps: machine_counts(found) }, to)
             }
             MachineResults::Map(found) => {
                 let (labels, points) = (found.labels(), found.cells.len());
@@ -273,8 +289,9 @@ impl MachineAnswer {
         Document { machine: name, coordinates, start, result, plan, program: PROGRAM }.serialize(to)
     }
 
-    fn points<'a>(&'a self, points: &'a [MachinePoint]) -> PointsObject<'a> {
+    fn points<'a>(&'a self, points: &'a [MachinePoint], cut: &MachineCut) -> PointsObject<'a> {
         let machine = &self.machine;
+        let values = |value: f64| cut.values(value).nth(1).map(|second| [value, second]);
         let events = points.iter().enumerate().filter_map(|(k, point)| {
             let event = point.event?;
             let (appears, turns) = match event {
@@ -284,6 +301,7 @@ impl MachineAnswer {
             Some(BranchEventObject {
                 kind: event.name(),
                 parameter: point.value,
+                values: values(point.value),
                 point: k,
                 label: point.cycle.label.to_string(),
                 stop: event.place().map(|place| machine.name_of(place)),
@@ -293,6 +311,7 @@ impl MachineAnswer {
         });
         let of = |point: &'a MachinePoint| PointObject {
             parameter: point.value,
+            values: values(point.value),
             label: point.cycle.label.to_string(),
             cycle: point.cycle.events.iter().map(|event| event_object(machine, event)).collect(),
             multipliers: multipliers(&point.cycle.multipliers),

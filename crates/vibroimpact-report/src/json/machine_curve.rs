@@ -1,5 +1,6 @@
 //! Curves of events of machines in a plane of two numbers: their points, and their points of codimension two.
 
+use super::branch::ChosenObject;
 use super::machine_event::{EventObject, event_object};
 use super::machine_motion::multipliers;
 use serde::Serialize;
@@ -11,6 +12,9 @@ use vibroimpact_study::{MachineCurvePlan, MachineEventCurve};
 #[derive(Serialize)]
 pub(super) struct Curved<'a> {
     label: String,
+    /// Absent for the motion from the start.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    orbit: Option<ChosenObject>,
     kind: &'static str,
     /// The stop of a curve of grazing, or the stops and joints of a corner.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -59,6 +63,7 @@ pub(super) fn curved<'a>(machine: &'a Machine, plan: &'a MachineCurvePlan, found
     let pair = |(p, q): (f64, f64)| [p, q];
     Curved {
         label: found.label.to_string(),
+        orbit: ChosenObject::of_machine(found.among),
         kind: plan.kind.name(),
         of: match found.kind {
             MachineCurveKind::Grazing { stop } => vec![machine.name_of(stop)],

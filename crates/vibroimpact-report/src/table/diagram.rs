@@ -74,16 +74,17 @@ fn row(step: &DiagramStep, point: &DiagramPoint, units: Units) -> String {
     }
 }
 
-/// The table of `vibro diagram --machine`: the number, sweep, kind, and for closings stop, phase and speed, or else the value at
+/// The table of `vibro diagram --machine`: the numbers that vary, sweep, kind, and for closings stop, phase and speed, or else the value at
 /// phase 0. A motion without points has one row with empty cells.
 #[must_use]
 pub fn of_machine<'a>(found: &'a MachineDiagram, machine: &'a Machine) -> Table<'a> {
     let plan = &found.plan;
     let closings = plan.shows_closings();
     let shown: &[&str] = if closings { &["stop", "phase", "speed"] } else { &[&plan.show] };
-    let header = [&[plan.vary.as_str(), "sweep", "kind"], shown].concat().join(",");
+    let header = plan.cut().paths().chain(["sweep", "kind"]).chain(shown.iter().copied()).collect::<Vec<_>>().join(",");
     let rows = found.steps.iter().flat_map(move |step| {
-        let head = format!("{},{},{}", Number(plan.over.at(step.index as usize)), sweep(step.sweep), kind(step.kind));
+        let values: String = plan.values(step.index).map(|value| format!("{},", Number(value))).collect();
+        let head = format!("{values}{},{}", sweep(step.sweep), kind(step.kind));
         let alone = step.points.is_empty().then(|| format!("{head}{}", if closings { ",,," } else { "," }));
         let row = move |point: &MachineDiagramPoint| {
             let of_stop = point.stop.map(|stop| format!(",{},{}", machine.name_of(stop), Number(point.phase)));

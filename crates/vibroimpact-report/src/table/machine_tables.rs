@@ -1,18 +1,22 @@
-//! Tables of machines: attractors, branches, basins and maps.
+//! Tables of machines: attractors, basins and maps.
 
 use super::Table;
 use crate::number::Number;
-use vibroimpact::continuation::MachinePoint;
 use vibroimpact::machine::Machine;
 use vibroimpact::math::Multiplier;
+use vibroimpact::quantities::{machine_quantities, machine_quantity_paths};
 use vibroimpact::verdict::{Census, MachineVerdict};
 use vibroimpact_study::{MachineAxis, MachineBasin, MachineMap, MachineShare};
 
-/// One row a motion: label, share, starts, counts of each stop, real and imaginary part of all multipliers.
+/// One row a motion: label, share, starts, counts of each stop, real and imaginary part of all multipliers, all quantities by
+/// path.
 pub(crate) fn attractors<'a>(machine: &'a Machine, census: &'a Census<MachineVerdict>) -> Table<'a> {
     let stops = machine.stops().iter().map(|stop| format!("count.{}", stop.name));
+    let paths = machine_quantity_paths(machine);
+    let undefined = vec![f64::NAN; paths.len()];
     let header = ["label", "share", "starts"].into_iter().map(str::to_owned).chain(stops).chain(numbered(machine));
-    let rows = census.by_share().into_iter().map(|found| {
+    let header = header.chain(paths).collect::<Vec<_>>().join(",");
+    let rows = census.by_share().into_iter().map(move |found| {
         let mut row = format!("{},{},{}", found.verdict.label(), Number(census.share(found)), found.count);
         let (counts, multipliers) = match &found.verdict {
             MachineVerdict::Periodic(cycle) => (Some(&cycle.counts), Some(&cycle.multipliers)),
@@ -22,9 +26,12 @@ pub(crate) fn attractors<'a>(machine: &'a Machine, census: &'a Census<MachineVer
             row.push_str(&counts.map_or_else(|| ",".to_owned(), |counts| format!(",{}", counts[k])));
         }
         push(&mut row, multipliers, machine.n());
+        let values = machine_quantities(machine, &found.verdict)
+            .map_or_else(|| undefined.clone(), |found| found.iter().map(|(.., measured)| measured.value).collect());
+        row.push_str(&quantities(&values));
         row
     });
-    Table::new(header.collect::<Vec<_>>().join(","), rows)
+    Table::new(header, rows)
 }
 
 /// The names of the columns of multipliers.
@@ -39,23 +46,6 @@ pub(super) fn push(row: &mut String, multipliers: Option<&Vec<Multiplier>>, n: u
             None => row.push_str(",,"),
         }
     }
-}
-
-/// One row a point: the number, label, whether it is stable, event, stop of the event, fastest closing, multipliers.
-pub(crate) fn branch<'a>(machine: &'a Machine, vary: &str, points: &'a [MachinePoint]) -> Table<'a> {
-    let names = [vary, "label", "stable", "event", "stop", "fastest"].map(str::to_owned);
-    let header = names.into_iter().chain(numbered(machine)).collect::<Vec<_>>().join(",");
-    let rows = points.iter().map(|point| {
-        let event = point.event.map_or("", |event| event.name());
-        let stop = point.event.and_then(|event| event.place()).map_or("", |place| machine.name_of(place));
-        let cycle = &point.cycle;
-        let stable = cycle.stable();
-        let mut row =
-            format!("{},{},{stable},{event},{stop},{}", Number(point.value), cycle.label, Number(cycle.fastest()));
-        push(&mut row, Some(&cycle.multipliers), machine.n());
-        row
-    });
-    Table::new(header, rows)
 }
 
 fn heads(axes: &[MachineAxis]) -> Vec<&str> {

@@ -139,6 +139,13 @@ pub(crate) fn check_shown(
     Ok(())
 }
 
+/// Value number `k` of a second parameter with these ends, if the values of the first are evenly spaced: rounded as a range of
+/// that parameter would be.
+pub(crate) fn even(over: &Values, (from, to): (f64, f64), k: u32) -> Option<f64> {
+    let Values::Span(over) = over else { return None };
+    if over.is_logarithmic() { None } else { Some(Span::new(from, to, over.count()).ok()?.at(k)) }
+}
+
 impl DiagramPlan {
     /// Checks everything that can be checked without running the plan.
     ///
@@ -160,12 +167,7 @@ impl DiagramPlan {
     /// are too, rounded as a range of that parameter would be.
     pub fn values(&self, k: u32) -> impl Iterator<Item = (Parameter, f64)> + use<> {
         let value = self.over.at(k as usize);
-        let second = match (&self.over, self.also) {
-            (Values::Span(span), Some(also)) if !span.is_logarithmic() => {
-                Span::new(also.from, also.to, span.count()).ok().map(|span| span.at(k))
-            }
-            _ => None,
-        };
+        let second = self.also.and_then(|also| even(&self.over, (also.from, also.to), k));
         self.cut().values(value).enumerate().map(move |(place, (parameter, value))| match second {
             Some(second) if place == 1 => (parameter, second),
             _ => (parameter, value),

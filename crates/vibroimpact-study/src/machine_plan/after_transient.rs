@@ -34,7 +34,7 @@ pub(super) struct Followed {
 }
 
 /// The largest number of events for each closing or period: opening, sticking, slipping and chatter are events too.
-const EVENTS_EACH: u64 = 1000;
+pub(super) const EVENTS_EACH: u64 = 1000;
 
 fn state(event: &MachineEvent) -> MachineStart {
     MachineStart { q: event.q.clone(), qdot: event.qdot.clone(), phase: event.phase }
@@ -44,7 +44,7 @@ fn near(a: f64, b: f64) -> bool {
     (a - b).abs() <= SAME * (1.0 + a.abs())
 }
 
-fn refused(error: vibroimpact::machine::MachineError) -> PlanError {
+pub(super) fn refused(error: vibroimpact::machine::MachineError) -> PlanError {
     PlanError::Machine(error.into())
 }
 
@@ -106,29 +106,39 @@ fn after(machine: &Machine, start: &MachineStart, time: f64) -> Result<MachineSt
     Ok(samples.last().map_or_else(|| start.clone(), |sample| sampled(&sample)))
 }
 
-fn sampled(sample: &MachineSample) -> MachineStart {
+pub(super) fn sampled(sample: &MachineSample) -> MachineStart {
     MachineStart { q: sample.q.clone(), qdot: sample.qdot.clone(), phase: sample.phase }
 }
 
-/// Follows the motion for `transient` forcing periods and returns the values of `of` at the next `keep` times of phase 0,
-/// or fewer if the states repeat.
+/// A motion from its first state at phase 0 of the forcing: that state, and the states at phase 0 over so many forcing periods,
+/// which are even samples, with those at its events between them.
 #[allow(clippy::cast_precision_loss)] // at most 1.1e6 periods
-pub(super) fn strobes(
-    machine: &Machine,
+pub(super) fn at_phase_zero<'a>(
+    machine: &'a Machine,
     start: &MachineStart,
-    (transient, keep): (u64, u64),
-    of: impl Fn(&MachineSample) -> f64,
-) -> Result<Followed, PlanError> {
+    periods: u64,
+) -> Result<(MachineStart, MachineSamples<'a>), PlanError> {
     let period = machine.period().ok_or(PlanError::Unforced)?;
-    // to phase 0 first
     let start = if start.phase > 0.0 {
         let there = after(machine, start, (TAU - start.phase) / TAU * period)?;
         MachineStart { phase: 0.0, ..there.within_stops(machine) }
     } else {
         start.clone()
     };
-    let until = (transient + keep) as f64 * period;
+    let until = periods as f64 * period;
     let samples = MachineSamples::new(machine, &start, limits(until), (until, period)).map_err(refused)?;
+    Ok((start, samples))
+}
+
+/// Follows the motion for `transient` forcing periods and returns the values of `of` at the next `keep` times of phase 0,
+/// or fewer if the states repeat.
+pub(super) fn strobes(
+    machine: &Machine,
+    start: &MachineStart,
+    (transient, keep): (u64, u64),
+    of: impl Fn(&MachineSample) -> f64,
+) -> Result<Followed, PlanError> {
+    let (start, samples) = at_phase_zero(machine, start, transient + keep)?;
     let mut points: Vec<MachineDiagramPoint> = Vec::new();
     let mut first: Option<MachineSample> = None;
     let (mut number, mut events) = (0, false);

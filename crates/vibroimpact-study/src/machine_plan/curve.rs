@@ -1,6 +1,7 @@
 //! Curves of events of an orbit of a machine in a plane of two of its numbers. A curve begins at an event on a branch in the
 //! first one.
 
+use super::cut::MachineStretch;
 use super::orbits;
 use crate::machine::MachineSource;
 use crate::{Control, DEFAULT_BRANCH_POINTS, PlanError, RunError, Stopped, limits};
@@ -56,18 +57,6 @@ impl MachineFollowedEvent {
     }
 }
 
-/// A number of a machine and its range.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MachineStretch {
-    /// The path of the number.
-    pub path: String,
-    /// Its smallest value.
-    pub from: f64,
-    /// Its largest value.
-    pub to: f64,
-}
-
 /// A curve of an event of an orbit over two numbers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -75,6 +64,9 @@ pub struct MachineCurvePlan {
     /// The label of the orbit at the machine; that of the motion from the start when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub label: Option<String>,
+    /// Which of the orbits with the label, counted from 1, the fastest last; when absent the stable one, else the fastest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub orbit: Option<u32>,
     /// What holds along the curve.
     pub kind: MachineFollowedEvent,
     /// The number in which the orbit is followed to the event, and its range.
@@ -98,6 +90,9 @@ const fn points() -> u32 {
 pub struct MachineEventCurve {
     /// The label of the orbit whose branch contains the event.
     pub label: Label,
+    /// The number of that orbit among those with its label, counted from 1, and how many there are; `None` for the motion from
+    /// the start.
+    pub among: Option<(u32, u32)>,
     /// What holds along the curve, with the stop or the events.
     pub kind: MachineCurveKind,
     /// The events of the requested kind on its branch, in order of rising values.
@@ -116,7 +111,7 @@ const LONGEST: f64 = 0.1;
 impl MachineCurvePlan {
     /// Checks the label, both numbers and their ranges.
     pub(super) fn check(&self, source: &MachineSource, machine: &Machine) -> Result<(), PlanError> {
-        orbits::label(machine, self.label.as_deref().unwrap_or("1/1"))?;
+        orbits::check(machine, (self.label.as_deref(), self.orbit))?;
         let Self { vary, and, points, .. } = self;
         for MachineStretch { path, from, to } in [vary, and] {
             let value = source.number(path).map_err(PlanError::from)?;
@@ -149,8 +144,8 @@ pub(super) fn curve(
     control: &Control<'_>,
 ) -> Result<MachineEventCurve, RunError> {
     let MachineCurvePlan { vary, and, .. } = asked;
-    let label = asked.label.as_deref().map(|label| orbits::label(machine, label)).transpose()?;
-    let cycle = orbits::chosen((machine, start), label, control)?;
+    let chosen = orbits::chosen((machine, start), (asked.label.as_deref(), asked.orbit), control)?;
+    let cycle = &chosen.cycle;
     let label = cycle.label;
     let stopped = |done| if control.stopping() { Err(Stopped { done, total: 2 }) } else { Ok(()) };
     stopped(0)?;
@@ -163,7 +158,7 @@ pub(super) fn curve(
             continue;
         }
         let range = vary.from..=vary.to;
-        let branch = MachineBranch::new((&family, own), &cycle, &range, direction, BranchOptions::default())
+        let branch = MachineBranch::new((&family, own), cycle, &range, direction, BranchOptions::default())
             .map_err(|error| PlanError::MachineBranch(error.to_string()))?;
         for point in branch.take_while(|point| point.cycle.label == label && !control.stopping()) {
             let known = |other: &MachinePoint| (other.value - point.value).abs() <= 1e-9 * (1.0 + point.value.abs());
@@ -207,7 +202,7 @@ pub(super) fn curve(
     points.reverse();
     let begin = points.len();
     points.extend(forth);
-    Ok(MachineEventCurve { label, kind, events, through, points, begin })
+    Ok(MachineEventCurve { label, among: chosen.among, kind, events, through, points, begin })
 }
 
 #[cfg(test)]
@@ -224,6 +219,7 @@ mod tests {
             source,
             MachineTask::Curve(MachineCurvePlan {
                 label: Some("1/1".to_owned()),
+                orbit: None,
                 kind,
                 vary: stretch("Gamma", 0.2, 3.0),
                 and: stretch("e", 0.2, 0.9),

@@ -1,7 +1,8 @@
 //! The orbit diagram of a machine: its motion after the transient at each value of a number.
 
 use super::after_transient::{Followed, closings, settled, strobes};
-use crate::diagram::{MotionKind, Sweep, SweepDirection, check_order, check_shown};
+use super::cut::{MachineCut, MachineStretch};
+use crate::diagram::{MotionKind, Sweep, SweepDirection, check_order, check_shown, even};
 use crate::machine::MachineSource;
 use crate::{PlanError, Values};
 use schemars::JsonSchema;
@@ -13,7 +14,7 @@ use vibroimpact::verdict::scattered_machine_starts;
 
 pub use super::after_transient::MachineDiagramPoint;
 
-/// A number of a machine over rising or falling values, and what is shown of the motion at each value.
+/// A number of a machine over rising or falling values, or a line through two, and what is shown of the motion at each value.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MachineDiagramPlan {
@@ -21,6 +22,9 @@ pub struct MachineDiagramPlan {
     pub vary: String,
     /// Its values, which rise or fall.
     pub over: Values,
+    /// A second number that varies with it in proportion, with its values at the first and at the last value of `over`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub also: Option<MachineStretch>,
     /// What is shown: `speed`, the phase and speed of each closing of a stop; the value of `q.COORDINATE` or
     /// `qdot.COORDINATE` once in every forcing period, at phase 0; or a quantity of the settled motion by its path.
     #[serde(default = "speed")]
@@ -39,7 +43,7 @@ pub struct MachineDiagramPlan {
 /// What is shown of closings.
 const SPEED: &str = "speed";
 
-fn speed() -> String {
+pub(super) fn speed() -> String {
     SPEED.to_owned()
 }
 
@@ -114,16 +118,30 @@ impl MachineDiagramPlan {
         Ok(show)
     }
 
+    /// The line over which the machine varies.
+    #[must_use]
+    pub fn cut(&self) -> MachineCut {
+        MachineCut { vary: self.vary.clone(), ends: self.over.ends(), also: self.also.clone() }
+    }
+
+    /// The values of the numbers that vary at value number `k`. If the values are evenly spaced, those of the second number are
+    /// too, rounded as a range of that number would be.
+    pub fn values(&self, k: u32) -> impl Iterator<Item = f64> + use<> {
+        let first = self.over.at(k as usize);
+        let second = self.also.as_ref().and_then(|also| even(&self.over, (also.from, also.to), k));
+        core::iter::once(first).chain(second.or_else(|| self.cut().values(first).nth(1)))
+    }
+
     /// Checks everything that can be checked without running the plan.
     ///
     /// # Errors
     /// [`PlanError`] names the first invalid value.
     pub fn check(&self, source: &MachineSource) -> Result<(), PlanError> {
         check_order(&self.over)?;
-        source.number(&self.vary)?;
-        let (first, last) = self.over.ends();
-        for end in [first, last] {
-            self.shown(&source.with(&self.vary, end)?.machine()?)?;
+        let cut = self.cut();
+        cut.check(source)?;
+        for end in [cut.ends.0, cut.ends.1] {
+            self.shown(&cut.source(source, end)?.machine()?)?;
         }
         check_shown(&self.over, self.direction, (self.transient, self.keep))
     }
@@ -137,7 +155,7 @@ pub(crate) fn step(
     (index, sweep): (u32, Sweep),
     before: Option<MachineStart>,
 ) -> Result<(MachineDiagramStep, MachineStart), PlanError> {
-    let machine = source.with(&plan.vary, plan.over.at(index as usize))?.machine()?;
+    let machine = plan.cut().with(source, plan.values(index))?.machine()?;
     let start = match (plan.direction, sweep, before) {
         (SweepDirection::Scatter { seed, .. }, Sweep::Start(k), _) => {
             scattered_machine_starts(&machine, seed, k).within_stops(&machine)

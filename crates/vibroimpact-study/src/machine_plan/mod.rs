@@ -6,7 +6,10 @@
 //! | a plan as TOML and JSON | `text` |
 //! | the function that turns a plan into its result | [`run_machine`], [`MachineResults`], `run` |
 //! | what motions settle into, their exponents | `verdicts` |
-//! | orbits, and branches of them | [`MachineBranched`], `orbits` |
+//! | points of an attractor in two sections | [`MachineSection`], `section` |
+//! | orbits, and the one at which a branch begins | `orbits` |
+//! | a line through one number or two | [`MachineCut`], [`MachineStretch`], [`MachineTarget`], `cut` |
+//! | branches of orbits | [`MachineBranchPlan`], [`MachineBranched`], `branch` |
 //! | curves of events over two numbers | [`MachineCurvePlan`], [`MachineEventCurve`], `curve` |
 //! | an axis of a grid | [`MachineAxis`] |
 //! | basins and maps: plans and results | [`MachineBasinPlan`], [`MachineBasin`], [`MachineMapPlan`], [`MachineMap`], `grid` |
@@ -15,24 +18,29 @@
 
 mod after_transient;
 mod axis;
+mod branch;
 mod curve;
+mod cut;
 mod diagram;
 mod grid;
 mod orbits;
 mod plan;
 mod run;
+mod section;
 mod simulate;
 mod text;
 mod verdicts;
 
 pub use axis::MachineAxis;
-pub use curve::{MachineCurvePlan, MachineEventCurve, MachineFollowedEvent, MachineStretch};
+pub use branch::{MachineBranchPlan, MachineBranched, MachineFollowed};
+pub use curve::{MachineCurvePlan, MachineEventCurve, MachineFollowedEvent};
+pub use cut::{MachineCut, MachineStretch, MachineTarget};
 pub(crate) use diagram::step as diagram_step;
 pub use diagram::{MachineDiagram, MachineDiagramPlan, MachineDiagramPoint, MachineDiagramStep};
 pub use grid::{MachineBasin, MachineBasinPlan, MachineMap, MachineMapPlan, MachineShare};
 pub(crate) use grid::{StartAxis, check_memory, values_of};
-pub use orbits::{MachineBranched, MachineFollowed};
 pub use plan::{MachinePlan, MachineTask};
 pub use run::{MachineResults, run_machine};
+pub use section::MachineSection;
 pub use simulate::MachineSimulated;
 pub use text::is_machine_plan;

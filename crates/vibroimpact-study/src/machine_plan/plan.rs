@@ -1,6 +1,7 @@
 //! A plan of a machine: everything on which a result depends, and nothing else.
 
 use super::axis::MachineAxis;
+use super::branch::MachineBranchPlan;
 use super::curve::MachineCurvePlan;
 use super::diagram::MachineDiagramPlan;
 use super::grid::{MachineBasinPlan, MachineMapPlan};
@@ -9,7 +10,7 @@ use super::{orbits, verdicts};
 use crate::machine::{MachineSource, NumberText, StartNumbers, StartText, VectorText};
 use crate::map::check_impacts;
 use crate::plan::{check_shard, check_tile, hash_of};
-use crate::{DEFAULT_BRANCH_POINTS, PLAN_VERSION, PlanError};
+use crate::{PLAN_VERSION, PlanError, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vibroimpact::events::{MachineLimits, MachineMotion, MachineStart};
@@ -89,28 +90,17 @@ pub enum MachineTask {
         /// Events to pass before: up to 1000000. 1000 when absent.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         transient: Option<u32>,
+        /// Points to show of each section of the attractor: 1 to 100000; none when absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        points: Option<u64>,
     },
     /// The orbits with a label, stable or not, from many guesses.
     Orbit {
         /// The label m/n.
         label: String,
     },
-    /// A branch of orbits in one number.
-    Branch {
-        /// The label of the orbit at the machine; that of the motion from the start when absent.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        label: Option<String>,
-        /// The path of the number that varies, from its value in the machine.
-        vary: String,
-        /// The other end of its range.
-        to: f64,
-        /// The largest number of points: 2 to 100000.
-        #[serde(default = "points")]
-        points: u32,
-        /// How many of the branches of twice the period that begin at flips are followed: 0 to 100.
-        #[serde(default, skip_serializing_if = "is_zero")]
-        follow: u32,
-    },
+    /// A branch of orbits in one number, or along a line through two.
+    Branch(MachineBranchPlan),
     /// A curve of an event of an orbit over two numbers.
     Curve(MachineCurvePlan),
     /// The motion to which each start of a grid leads.
@@ -123,15 +113,6 @@ pub enum MachineTask {
 
 const fn one() -> u64 {
     1
-}
-
-#[allow(clippy::trivially_copy_pass_by_ref)] // serde wants it
-const fn is_zero(count: &u32) -> bool {
-    *count == 0
-}
-
-const fn points() -> u32 {
-    DEFAULT_BRANCH_POINTS
 }
 
 impl MachinePlan {
@@ -266,7 +247,11 @@ impl MachinePlan {
             MachineTask::Simulate { impacts, periods } => check(&machine, (*impacts, *periods)),
             MachineTask::Settle { impacts } => check_impacts(*impacts),
             MachineTask::Attractors { starts, impacts, .. } => verdicts::check_starts(*starts, *impacts),
-            MachineTask::Lyapunov { impacts, transient } => {
+            MachineTask::Lyapunov { impacts, transient, points } => {
+                if points.is_some() && machine.period().is_none() {
+                    return Err(PlanError::UnforcedSection);
+                }
+                limits::section(*points)?;
                 let most = impacts.unwrap_or(1_000).max(transient.unwrap_or(0));
                 if impacts.is_some_and(|impacts| impacts < 25) || most > 10_000_000 {
                     return Err(PlanError::Impacts(u64::from(most.min(impacts.unwrap_or(most)))));
@@ -274,13 +259,7 @@ impl MachinePlan {
                 Ok(())
             }
             MachineTask::Orbit { label } => orbits::label(&machine, label).map(|_| ()),
-            MachineTask::Branch { label, vary, to, points, follow } => {
-                if *follow > 100 {
-                    return Err(PlanError::Follow { given: *follow, most: 100 });
-                }
-                orbits::label(&machine, label.as_deref().unwrap_or("1/1"))?;
-                orbits::check(&self.machine, vary, *to, *points)
-            }
+            MachineTask::Branch(branch) => branch.check(&self.machine, &machine),
             MachineTask::Curve(curve) => curve.check(&self.machine, &machine),
             MachineTask::Basin(basin) => basin.check(&machine),
             MachineTask::Map(map) => map.check(&self.machine),

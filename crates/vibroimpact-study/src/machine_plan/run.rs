@@ -1,14 +1,15 @@
 //! The function that computes the result of a plan of a machine. The command and the Python package call it.
 
+use super::branch::{self, MachineBranched};
 use super::curve::{self, MachineEventCurve};
 use super::diagram::MachineDiagram;
 use super::grid::{MachineBasin, MachineMap};
-use super::orbits::MachineBranched;
 use super::plan::{MachinePlan, MachineTask};
+use super::section::{self, MachineSection};
 use super::simulate::{MachineSimulated, simulate};
 use super::{orbits, verdicts};
 use crate::{Control, RunError, in_memory};
-use vibroimpact::chaos::MachineExponents;
+use vibroimpact::chaos::{DEFAULT_MACHINE_TRANSIENT, MachineExponents};
 use vibroimpact::orbit::MachineCycle;
 use vibroimpact::verdict::{Census, MachineSettled, MachineVerdict};
 
@@ -21,8 +22,8 @@ pub enum MachineResults {
     Settle(MachineSettled),
     /// The distinct motions and their counts.
     Attractors(Census<MachineVerdict>),
-    /// The exponents.
-    Lyapunov(MachineExponents),
+    /// The exponents, and the sections of the attractor if points of them were requested.
+    Lyapunov(MachineExponents, Option<MachineSection>),
     /// The orbits, the fastest last.
     Orbit(Vec<MachineCycle>),
     /// The branch.
@@ -55,21 +56,18 @@ pub fn run_machine(plan: &MachinePlan, control: &Control<'_>) -> Result<MachineR
         MachineTask::Attractors { starts, seed, impacts } => {
             MachineResults::Attractors(verdicts::attractors(&machine, (*starts, *seed, *impacts), control)?)
         }
-        MachineTask::Lyapunov { impacts, transient } => {
-            MachineResults::Lyapunov(verdicts::lyapunov(&machine, &start, (*impacts, *transient), control)?)
+        MachineTask::Lyapunov { impacts, transient, points } => {
+            let before = u64::from(transient.unwrap_or(DEFAULT_MACHINE_TRANSIENT));
+            let points =
+                points.map(|points| section::section(&machine, &start, (before, points), control)).transpose()?;
+            let found = verdicts::lyapunov(&machine, &start, (*impacts, *transient), control)?;
+            MachineResults::Lyapunov(found, points)
         }
         MachineTask::Orbit { label } => {
             MachineResults::Orbit(orbits::orbits(&machine, orbits::label(&machine, label)?, control)?)
         }
-        MachineTask::Branch { label, vary, to, points, follow } => {
-            let label = label.as_deref().map(|label| orbits::label(&machine, label)).transpose()?;
-            MachineResults::Branch(orbits::branch(
-                &plan.machine,
-                (&machine, &start),
-                (label, vary, *to),
-                (*points, *follow),
-                control,
-            )?)
+        MachineTask::Branch(asked) => {
+            MachineResults::Branch(branch::branch(&plan.machine, (&machine, &start), asked, control)?)
         }
         MachineTask::Curve(asked) => {
             MachineResults::Curve(curve::curve(&plan.machine, (&machine, &start), asked, control)?)

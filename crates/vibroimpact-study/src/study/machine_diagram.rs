@@ -32,7 +32,14 @@ impl Swept for MachineSweep {
     }
 
     fn varied(&self) -> Vec<Along> {
-        along_machine(&[MachineAxis { vary: self.plan.vary.clone(), over: self.plan.over.clone() }])
+        let mut along = along_machine(&[MachineAxis { vary: self.plan.vary.clone(), over: self.plan.over.clone() }]);
+        // the values of the second number are a second coordinate of the same dimension
+        if let (Some(also), Some(first)) = (&self.plan.also, along.first()) {
+            let second = |k: u32| self.plan.values(k).nth(1).unwrap_or(f64::NAN);
+            let values = (0..).take(self.plan.over.count()).map(second).collect();
+            along.push(Along { name: also.path.clone(), dimension: first.dimension.clone(), values, ..first.clone() });
+        }
+        along
     }
 
     fn fields(&self) -> Vec<Field> {

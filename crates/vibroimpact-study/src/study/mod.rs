@@ -78,7 +78,7 @@ impl Study {
             MachineTask::Attractors { .. } => return none("find attractors"),
             MachineTask::Lyapunov { .. } => return none("measure exponents"),
             MachineTask::Orbit { .. } => return none("find orbits"),
-            MachineTask::Branch { .. } => return none("follow a branch"),
+            MachineTask::Branch(_) => return none("follow a branch"),
             MachineTask::Curve(_) => return none("follow a curve"),
         };
         Ok(Self { fill })

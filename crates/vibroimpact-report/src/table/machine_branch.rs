@@ -1,0 +1,47 @@
+//! Branches of machines: one row for each point.
+
+use super::Table;
+use super::machine_tables::{numbered, push};
+use crate::number::Number;
+use vibroimpact::machine::Machine;
+use vibroimpact::orbit::MachineCycle;
+use vibroimpact_study::{MachineBranched, MachineCut};
+
+/// The columns of the closings of stops.
+pub(super) const CLOSINGS: [&str; 3] = ["phases", "speeds", "stops"];
+
+/// One row a point: number of the branch, the numbers that vary, label, whether it is admissible and stable, event, stop of the
+/// event, fastest closing, multipliers, and of each closing the phase, speed and stop.
+pub(crate) fn table<'a>(machine: &'a Machine, cut: &MachineCut, found: &'a MachineBranched) -> Table<'a> {
+    let own = ["label", "physical", "stable", "event", "stop", "fastest"];
+    let heads = core::iter::once("branch").chain(cut.paths()).chain(own).map(str::to_owned);
+    let header = heads.chain(numbered(machine)).chain(CLOSINGS.map(str::to_owned)).collect::<Vec<_>>().join(",");
+    let cut = cut.clone();
+    let points = found.all().enumerate().flat_map(|(k, points)| points.iter().map(move |point| (k + 1, point)));
+    let rows = points.map(move |(number, point)| {
+        let event = point.event.map_or("", |event| event.name());
+        let stop = point.event.and_then(|event| event.place()).map_or("", |place| machine.name_of(place));
+        let cycle = &point.cycle;
+        let values: String = cut.values(point.value).map(|value| format!("{},", Number(value))).collect();
+        // a branch ends where its orbit ceases to be admissible
+        let (stable, physical, fastest) = (cycle.stable(), true, Number(cycle.fastest()));
+        let mut row = format!("{number},{values}{},{physical},{stable},{event},{stop},{fastest}", cycle.label);
+        push(&mut row, Some(&cycle.multipliers), machine.n());
+        row.push_str(&closings(machine, cycle));
+        row
+    });
+    Table::new(header, rows)
+}
+
+/// Phases, speeds and stops of the closings of a cycle, lists with blanks between, each after a comma.
+pub(super) fn closings(machine: &Machine, cycle: &MachineCycle) -> String {
+    let list = |of: &dyn Fn(&vibroimpact::events::MachineEvent) -> String| {
+        cycle.events.iter().filter(|event| event.closes()).map(of).collect::<Vec<_>>().join(" ")
+    };
+    format!(
+        ",{},{},{}",
+        list(&|event| Number(event.phase).to_string()),
+        list(&|event| Number(event.speed).to_string()),
+        list(&|event| machine.name_of(event.place).to_owned())
+    )
+}

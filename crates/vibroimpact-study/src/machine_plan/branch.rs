@@ -1,0 +1,260 @@
+//! Branches of a machine in one number or along a line through two, and the branches that begin at their flips.
+
+use super::cut::{MachineCut, MachineStretch, MachineTarget};
+use super::diagram::MachineDiagramPlan;
+use super::orbits::{self, ChosenCycle};
+use crate::branch::{DIAGRAM_VALUES, MOST_FOLLOWED};
+use crate::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, SweepDirection};
+use crate::machine::MachineSource;
+use crate::{Control, DEFAULT_BRANCH_POINTS, PlanError, RunError, Span, Stopped, limits};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::VecDeque;
+use vibroimpact::continuation::{
+    BranchOptions, Direction, MachineBranch, MachineBranchEvent, MachineFamily, MachinePoint,
+};
+use vibroimpact::events::MachineStart;
+use vibroimpact::machine::Machine;
+use vibroimpact::orbit::MachineCycle;
+
+/// An orbit that is followed in one number, or along a line through two.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MachineBranchPlan {
+    /// The label of the orbit at the machine; that of the motion from the start when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub label: Option<String>,
+    /// Which of the orbits with the label, counted from 1, the fastest last; when absent the stable one, else the fastest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub orbit: Option<u32>,
+    /// The path of the number that varies, from its value in the machine.
+    pub vary: String,
+    /// The other end of its range.
+    pub to: f64,
+    /// A second number that varies with it, in proportion, from its value in the machine.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub also: Option<MachineTarget>,
+    /// The largest number of points of each branch: 2 to 100000.
+    #[serde(default = "points")]
+    pub points: u32,
+    /// How many of the branches of twice the period that begin at flips are followed: 0 to 100.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub follow: u32,
+}
+
+const fn points() -> u32 {
+    DEFAULT_BRANCH_POINTS
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref)] // serde wants it
+const fn is_zero(count: &u32) -> bool {
+    *count == 0
+}
+
+/// A branch of a machine, and the branches that begin on it.
+#[derive(Clone, Debug)]
+pub struct MachineBranched {
+    /// The number of the orbit at which it begins among those with its label, counted from 1, and how many there are; `None` for
+    /// the motion from the start.
+    pub among: Option<(u32, u32)>,
+    /// The points in order.
+    pub points: Vec<MachinePoint>,
+    /// The branches of twice the period that begin at flips.
+    pub followed: Vec<MachineFollowed>,
+}
+
+/// A branch of twice the period that begins at a flip.
+#[derive(Clone, Debug)]
+pub struct MachineFollowed {
+    /// The value of the number at the flip.
+    pub flip: f64,
+    /// The points in order, away from the flip.
+    pub points: Vec<MachinePoint>,
+}
+
+impl MachineBranched {
+    /// The points of all branches, those of the first one first.
+    pub fn all(&self) -> impl Iterator<Item = &[MachinePoint]> {
+        core::iter::once(self.points.as_slice()).chain(self.followed.iter().map(|followed| followed.points.as_slice()))
+    }
+}
+
+impl MachineBranchPlan {
+    /// Checks the orbit, the numbers that vary and their ranges.
+    pub(super) fn check(&self, source: &MachineSource, machine: &Machine) -> Result<(), PlanError> {
+        if self.follow > MOST_FOLLOWED {
+            return Err(PlanError::Follow { given: self.follow, most: MOST_FOLLOWED });
+        }
+        orbits::check(machine, (self.label.as_deref(), self.orbit))?;
+        let cut = self.cut(source)?;
+        let (from, to) = cut.ends;
+        if !to.is_finite() || to == from {
+            return Err(PlanError::MachineRange { path: self.vary.clone(), from, to });
+        }
+        cut.check(source)?;
+        limits::branch_points(self.points)?;
+        cut.source(source, to)?.parts()?;
+        Ok(())
+    }
+
+    /// The line along which the orbit is followed.
+    ///
+    /// # Errors
+    /// [`PlanError::Machine`] if a path leads to no number.
+    pub fn cut(&self, source: &MachineSource) -> Result<MachineCut, PlanError> {
+        let from = |MachineTarget { path, to }: &MachineTarget| {
+            source.number(path).map(|from| MachineStretch { path: path.clone(), from, to: *to })
+        };
+        let also = self.also.as_ref().map(from).transpose()?;
+        Ok(MachineCut { vary: self.vary.clone(), ends: (source.number(&self.vary)?, self.to), also })
+    }
+
+    /// The plan of an orbit diagram over the same range.
+    ///
+    /// # Errors
+    /// [`PlanError`] for an invalid plan.
+    pub fn diagram(&self, source: &MachineSource) -> Result<MachineDiagramPlan, PlanError> {
+        let MachineCut { vary, ends, also } = self.cut(source)?;
+        let over = Span::new(ends.0, ends.1, DIAGRAM_VALUES)?.into();
+        let (direction, transient, keep) = (SweepDirection::Both, DEFAULT_TRANSIENT, DEFAULT_KEEP);
+        Ok(MachineDiagramPlan { vary, over, also, show: super::diagram::speed(), direction, transient, keep })
+    }
+}
+
+/// The branch of an orbit along a line, and the branches that begin on it.
+pub(super) fn branch(
+    source: &MachineSource,
+    problem: (&Machine, &MachineStart),
+    plan: &MachineBranchPlan,
+    control: &Control<'_>,
+) -> Result<MachineBranched, RunError> {
+    let (cut, points) = (plan.cut(source)?, plan.points);
+    let (from, to) = cut.ends;
+    let ChosenCycle { cycle, among } = orbits::chosen(problem, (plan.label.as_deref(), plan.orbit), control)?;
+    let source = source.clone();
+    let family = MachineFamily::new(move |value| cut.source(&source, value).ok()?.machine().ok());
+    let range = from.min(to)..=from.max(to);
+    let direction = if to > from { Direction::Up } else { Direction::Down };
+    let options = BranchOptions { points, ..BranchOptions::default() };
+    let trace = |value: f64, cycle: &MachineCycle, direction: Direction| {
+        let mut branch = MachineBranch::new((&family, value), cycle, &range, direction, options)
+            .map_err(|error| PlanError::MachineBranch(error.to_string()))?;
+        let mut found = Vec::new();
+        while !control.stopping() {
+            let Some(point) = branch.next() else { return Ok(found) };
+            found.push(point);
+        }
+        Err(RunError::from(Stopped { done: found.len() as u64, total: u64::from(points) }))
+    };
+    let main = trace(from, &cycle, direction)?;
+    // flips of branches that begin at flips are followed in turn
+    let mut waiting: VecDeque<MachinePoint> = flips(&main);
+    let mut followed = Vec::new();
+    while let (Some(flip), true) = (waiting.pop_front(), followed.len() < plan.follow as usize) {
+        let scale = 0.25 * (range.end() - range.start());
+        let Some((value, doubled)) = flip.doubled(&family, scale).filter(|(value, _)| range.contains(value)) else {
+            continue;
+        };
+        let away = if value > flip.value { Direction::Up } else { Direction::Down };
+        let Ok(points) = trace(value, &doubled, away) else { continue };
+        waiting.extend(flips(&points));
+        followed.push(MachineFollowed { flip: flip.value, points });
+    }
+    if control.stopping() {
+        return Err(Stopped { done: main.len() as u64, total: u64::from(points) }.into());
+    }
+    Ok(MachineBranched { among, points: main, followed })
+}
+
+/// The flips among some points.
+fn flips(points: &[MachinePoint]) -> VecDeque<MachinePoint> {
+    points.iter().filter(|point| point.event == Some(MachineBranchEvent::Flip)).cloned().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine::CATALOGUE;
+    use crate::{MachinePlan, MachineResults, MachineTask, run_machine};
+
+    fn hammer() -> MachineSource {
+        CATALOGUE.iter().find(|entry| entry.name == "two-mass-hammer").unwrap().source().unwrap()
+    }
+
+    fn asked(vary: &str, to: f64, also: Option<(&str, f64)>) -> MachineBranchPlan {
+        let also = also.map(|(path, to)| MachineTarget { path: path.to_owned(), to });
+        MachineBranchPlan { label: None, orbit: None, vary: vary.to_owned(), to, also, points: 500, follow: 0 }
+    }
+
+    fn followed(source: &MachineSource, plan: &MachineBranchPlan) -> MachineBranched {
+        let plan = MachinePlan::new(source.clone(), MachineTask::Branch(plan.clone()));
+        let MachineResults::Branch(found) = run_machine(&plan, &Control::default()).unwrap() else { panic!() };
+        found
+    }
+
+    fn grazing(found: &MachineBranched) -> f64 {
+        let is_grazing = |point: &&MachinePoint| matches!(point.event, Some(MachineBranchEvent::Grazing { .. }));
+        found.points.iter().find(is_grazing).unwrap().value
+    }
+
+    #[test]
+    fn a_line_meets_the_grazing_that_its_first_number_meets_alone_there() {
+        let source = hammer();
+        let line = asked("frequency", 1.0, Some(("stop.anvil.gap", 0.6)));
+        let found = followed(&source, &line);
+        let value = grazing(&found);
+        let gap = line.cut(&source).unwrap().values(value).nth(1).unwrap();
+        assert!(gap > 0.5 && gap < 0.6, "{gap}");
+        let there = source.with("stop.anvil.gap", gap).unwrap();
+        assert!((grazing(&followed(&there, &asked("frequency", 1.0, None))) - value).abs() < 1e-9);
+        let ends = [1.2, 1.0].map(|end| line.cut(&source).unwrap().values(end).nth(1));
+        assert_eq!(ends, [Some(0.5), Some(0.6)]);
+        assert_eq!(line.diagram(&source).unwrap().cut(), line.cut(&source).unwrap());
+    }
+
+    #[test]
+    fn the_number_of_the_orbit() {
+        let source = hammer().with("frequency", 1.06).unwrap();
+        let of = |orbit| MachineBranchPlan { label: Some("2/1".into()), orbit, ..asked("frequency", 1.065, None) };
+        let begins = |orbit| {
+            let found = followed(&source, &of(orbit));
+            let first = &found.points[0].cycle;
+            (found.among, first.stable(), first.fastest())
+        };
+        let (one, two) = (begins(Some(1)), begins(Some(2)));
+        assert_eq!((one.0, one.1, two.0, two.1), (Some((1, 2)), false, Some((2, 2)), true));
+        assert!(one.2 < two.2);
+        // the stable one by default
+        assert_eq!(begins(None), two);
+        let refused = |plan: MachineBranchPlan| {
+            let plan = MachinePlan::new(source.clone(), MachineTask::Branch(plan));
+            run_machine(&plan, &Control::default()).unwrap_err().to_string()
+        };
+        for orbit in [0, 3] {
+            let said = refused(of(Some(orbit)));
+            assert!(said.starts_with(&format!("there is no orbit 2/1 number {orbit}; found: 2")), "{said}");
+        }
+        let unlabelled = MachineBranchPlan { label: None, ..of(Some(1)) };
+        assert!(refused(unlabelled).starts_with("the number of an orbit is given without a label"));
+        let twice = asked("frequency", 1.0, Some(("frequency", 1.1)));
+        assert!(refused(twice).starts_with("frequency and frequency cannot vary together"));
+        let endless = asked("frequency", 1.0, Some(("b", f64::NAN)));
+        assert!(refused(endless).starts_with("b is to go from 0.5 to NaN"));
+    }
+
+    #[test]
+    fn a_plan_survives_json() {
+        let full = MachineBranchPlan {
+            label: Some("2/1".into()),
+            orbit: Some(1),
+            follow: 2,
+            ..asked("b", 0.7, Some(("mu", 0.6)))
+        };
+        let text = serde_json::to_string(&full).unwrap();
+        assert_eq!(serde_json::from_str::<MachineBranchPlan>(&text).unwrap(), full);
+        let short = r#"{"vary":"b","to":0.7,"points":500}"#;
+        let plan: MachineBranchPlan = serde_json::from_str(short).unwrap();
+        assert_eq!(plan, asked("b", 0.7, None));
+        assert_eq!(serde_json::to_string(&plan).unwrap(), short);
+    }
+}

@@ -1,0 +1,70 @@
+//! Points of the attractor of a machine: its closings of stops, and its states once in every forcing period.
+
+use super::after_transient::{EVENTS_EACH, at_phase_zero, refused, sampled};
+use crate::{Control, RunError, Stopped};
+use vibroimpact::events::{MachineEvent, MachineLimits, MachineMotion, MachineStart};
+use vibroimpact::machine::Machine;
+
+/// The points of a motion of a machine in two sections, in the order of time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MachineSection {
+    /// Its closings of stops; velocities are those after the closing.
+    pub closings: Vec<MachineEvent>,
+    /// Its states at phase 0 of the forcing: the stroboscopic section.
+    pub strobes: Vec<MachineStart>,
+}
+
+/// So many closings after a transient of closings, and so many states at phase 0 after a transient of forcing periods. There are
+/// fewer if the motion has no more of them.
+pub(super) fn section(
+    machine: &Machine,
+    start: &MachineStart,
+    (transient, points): (u64, u64),
+    control: &Control<'_>,
+) -> Result<MachineSection, RunError> {
+    let whole = |count: u64| usize::try_from(count).unwrap_or(usize::MAX);
+    let motion = MachineMotion::new(machine, start, MachineLimits::default()).map_err(refused)?;
+    let events = motion.take(whole(EVENTS_EACH * (transient + points))).take_while(|_| !control.stopping());
+    let closings = events.filter(MachineEvent::closes).skip(whole(transient)).take(whole(points)).collect();
+    let (_, samples) = at_phase_zero(machine, start, transient + points)?;
+    let states = samples.take_while(|_| !control.stopping()).filter(|sample| sample.even);
+    let state = |sample| MachineStart { phase: 0.0, ..sampled(&sample) };
+    let strobes = states.skip(whole(transient)).take(whole(points)).map(state).collect();
+    if control.stopping() {
+        return Err(Stopped { done: 0, total: 1 }.into());
+    }
+    Ok(MachineSection { closings, strobes })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::PlanError;
+    use vibroimpact::chaos::section as of_oscillator;
+    use vibroimpact::machine::MachineParts;
+    use vibroimpact::{Oscillator, Start, scenario};
+
+    /// A machine of one coordinate has the sections of the oscillator.
+    #[test]
+    fn of_one_coordinate() {
+        let osc: Oscillator = scenario::S.oscillator();
+        let parts = MachineParts::new(["x"]).with_mass(0, 1.0).with_link(&[1.0], 1.0, 0.0).with_frequency(osc.beta());
+        let parts = parts.with_force(0, 1, 0.0, 1.0).with_rigid_stop("wall", &[1.0], osc.gap(), osc.restitution());
+        let machine = Machine::new(parts).unwrap();
+        let (transient, points) = (300, 20);
+        let rest = Start::at_rest(&osc);
+        let start = MachineStart { q: vec![rest.x], qdot: vec![rest.v], phase: rest.phase };
+        let found = section(&machine, &start, (transient, points), &Control::default()).unwrap();
+        let expected = of_oscillator(&osc, rest, transient, points);
+        assert_eq!((found.closings.len(), found.strobes.len()), (20, 20));
+        for (closing, impact) in found.closings.iter().zip(&expected.impacts) {
+            assert!((closing.phase - impact.phase).abs() < 1e-9 && (closing.speed - impact.velocity).abs() < 1e-9);
+        }
+        for (state, strobe) in found.strobes.iter().zip(&expected.strobes) {
+            assert!((state.q[0] - strobe.x).abs() < 1e-9 && (state.qdot[0] - strobe.v).abs() < 1e-9, "{state:?}");
+        }
+        let free = Machine::new(MachineParts::new(["x"]).with_mass(0, 1.0).with_link(&[1.0], 1.0, 0.1)).unwrap();
+        let refused = section(&free, &MachineStart::default(), (1, 1), &Control::default());
+        assert!(matches!(refused, Err(RunError::Plan(PlanError::Unforced))), "{refused:?}");
+    }
+}
