@@ -51,7 +51,7 @@ pub fn first_contact(osc: &Oscillator, flight: &Flight, limits: SearchLimits) ->
 /// The first contact, if it is known that there is none before the time `clear` (0 for unknown), and the number of
 /// search steps.
 pub(crate) fn counted(osc: &Oscillator, flight: &Flight, limits: SearchLimits, mut clear: f64) -> (Contact, u32) {
-    let mut search = match Search::begin(osc, flight) {
+    let mut search = match Search::begin(osc, flight, clear > 0.0) {
         Ok(search) => search,
         Err(contact) => return (contact, 0),
     };

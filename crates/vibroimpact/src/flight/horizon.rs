@@ -14,7 +14,7 @@
 use super::Flight;
 use crate::math::{atan2, hypot, ln, sin_cos};
 use crate::system::Oscillator;
-use core::f64::consts::{E, TAU};
+use core::f64::consts::{E, PI, TAU};
 
 /// Why a flight never reaches a stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,12 +76,19 @@ impl Envelope {
     pub(super) fn new(flight: &Flight) -> Option<Self> {
         let (beta, zeta) = (flight.response().beta(), flight.response().damping());
         let (zr, zi) = ((1.0 - beta) * (1.0 + beta), 2.0 * zeta * beta);
-        let steady = 1.0 / hypot(zr, zi);
+        let steady = 1.0 / if zeta == 0.0 { zr.abs() } else { hypot(zr, zi) };
         if !steady.is_finite() {
             return None;
         }
-        let steady_angle = flight.phase - atan2(zi, zr);
-        let (sin, cos) = sin_cos(steady_angle);
+        // without damping the steady part is in phase with the force, or opposite to it
+        let (steady_angle, (sin, cos)) = if zeta > 0.0 {
+            let angle = flight.phase - atan2(zi, zr);
+            (angle, sin_cos(angle))
+        } else if zr < 0.0 {
+            (flight.phase - PI, (-flight.sin, -flight.cos))
+        } else {
+            (flight.phase, (flight.sin, flight.cos))
+        };
         let (xf, vf) = (flight.x - steady * sin, flight.v - beta * steady * cos);
         let (rho, kappa) = if zeta == 0.0 {
             (hypot(xf, vf), 0.0)

@@ -25,15 +25,16 @@ pub(super) struct Search<'a> {
 
 impl<'a> Search<'a> {
     /// The search from the beginning of a flight; an error with the contact there if the mass is on a stop and does not
-    /// leave it.
-    pub(super) fn begin(osc: &'a Oscillator, flight: &'a Flight) -> Result<Self, Contact> {
+    /// leave it. If the flight is known to have `left` the stops, the search must [stride](Self::stride_to) to a later time
+    /// first.
+    pub(super) fn begin(osc: &'a Oscillator, flight: &'a Flight, left: bool) -> Result<Self, Contact> {
         let (mut room, mut gap) = ([f64::INFINITY; 2], [f64::INFINITY; 2]);
         let mut leave = f64::INFINITY;
         let r = radius(flight.x, flight.v);
         for (side, stop) in osc.stops() {
-            let left = stop.gap - side.sign() * flight.x;
-            (room[index(side)], gap[index(side)]) = (left, stop.gap);
-            if left <= 0.0 {
+            let apart = stop.gap - side.sign() * flight.x;
+            (room[index(side)], gap[index(side)]) = (apart, stop.gap);
+            if apart <= 0.0 && !left {
                 leave = leave.min(leave_time(flight, side.sign(), stop.gap, r).ok_or(Contact::Contact { side })?);
             }
         }

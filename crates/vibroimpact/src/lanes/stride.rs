@@ -24,6 +24,8 @@ pub(super) const LEVELS: usize = 16;
 /// The number of whole steps after which a flight is left to the careful search, which decides flights that may last
 /// for ever.
 pub(super) const NODES: u32 = 64;
+/// The same without damping, where that search finds the end of a long flight in few steps.
+pub(super) const UNDAMPED: u32 = 32;
 /// The number of terms of each parity of the series.
 const TERMS: usize = 9;
 /// The largest $`\mu h`$ of a step. On longer steps the first guess too often misses an arc that rises above a stop and

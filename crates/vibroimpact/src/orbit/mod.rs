@@ -55,4 +55,4 @@ pub(crate) use free::{crest, room};
 pub(crate) use newton::{cycle as ring_cycle, solve};
 pub(crate) use release::{Excursion, Stretch};
 pub(crate) use ring::Ring;
-pub(crate) use shooting::{Lap, flight_limits};
+pub(crate) use shooting::{Lap, flight_limits, shoot_stable};

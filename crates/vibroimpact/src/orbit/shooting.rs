@@ -44,6 +44,30 @@ const CLOSED: f64 = 1e-11;
 /// # Errors
 /// [`ShootingError`] states why the iteration failed.
 pub fn shoot(osc: &Oscillator, guess: ImpactState, m: u32, n: u32) -> Result<Cycle, ShootingError> {
+    newton(osc, guess, (m, n), |_, _| false)
+}
+
+/// The same orbit if it may be stable. The iteration is ended when it is clear that it approaches an unstable one, as nearly
+/// always in chaos.
+pub(crate) fn shoot_stable(osc: &Oscillator, guess: ImpactState, m: u32, n: u32) -> Option<Cycle> {
+    let unstable = |residual: f64, j: &Matrix2| {
+        residual <= APPROACHED && eigenvalues(j.trace(), j.determinant())[0].modulus() > UNSTABLE
+    };
+    newton(osc, guess, (m, n), unstable).ok()
+}
+
+/// With this residual the multipliers are those of the orbit to a few digits, and above this modulus it is unstable.
+const APPROACHED: f64 = 1e-7;
+/// See [`APPROACHED`].
+const UNSTABLE: f64 = 2.0;
+
+/// Newton's method, which is ended where `abandon` returns true of a residual and a derivative.
+fn newton(
+    osc: &Oscillator,
+    guess: ImpactState,
+    (m, n): (u32, u32),
+    abandon: impl Fn(f64, &Matrix2) -> bool,
+) -> Result<Cycle, ShootingError> {
     let mut state = guess;
     let mut best: Option<(f64, Vec<(ImpactState, f64)>)> = None;
     let mut map = ImpactMap::new(osc, flight_limits(n));
@@ -54,6 +78,9 @@ pub fn shoot(osc: &Oscillator, guess: ImpactState, m: u32, n: u32) -> Result<Cyc
         let residual = miss[0].abs().max(miss[1].abs() / state.velocity);
         if lap.last.side != state.side {
             return Err(ShootingError::Broken);
+        }
+        if abandon(residual, &lap.derivative) {
+            return Err(ShootingError::NotConverged(residual));
         }
         let improves = best.as_ref().is_none_or(|(so_far, _)| residual < *so_far);
         if improves {

@@ -30,8 +30,8 @@ impl Oscillator {
     /// # Ok::<(), vibroimpact::SystemError>(())
     /// ```
     #[must_use]
-    pub fn fraction(&self) -> Option<(u32, u32)> {
-        fraction(self.beta())
+    pub const fn fraction(&self) -> Option<(u32, u32)> {
+        self.fraction
     }
 
     /// This fraction, if flights repeat after a common period: without damping and away from resonance.
@@ -59,7 +59,7 @@ pub(crate) fn common_period(mut ratios: impl Iterator<Item = f64>) -> Option<f64
 }
 
 /// The first convergent of the continued fraction of `beta` that equals it to within two units in the last place.
-fn fraction(beta: f64) -> Option<(u32, u32)> {
+pub(super) fn fraction(beta: f64) -> Option<(u32, u32)> {
     // convergents of the continued fraction
     let (mut p0, mut q0, mut p1, mut q1) = (0.0, 1.0, 1.0, 0.0);
     let mut rest = beta;

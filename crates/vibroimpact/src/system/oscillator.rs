@@ -84,6 +84,8 @@ pub(super) const LENGTHS: core::ops::RangeInclusive<f64> = -1e100..=1e100;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Oscillator {
     response: Response,
+    /// The frequency ratio as a fraction, if it counts as one.
+    pub(super) fraction: Option<(u32, u32)>,
     upper: Stop,
     lower: Option<Stop>,
 }
@@ -98,7 +100,8 @@ impl Oscillator {
         if !RATIOS.contains(&beta) {
             return Err(SystemError::Beta(beta));
         }
-        Ok(Self { response: Response::new(beta, 0.0), upper: stop(gap, restitution)?, lower: None })
+        let (response, upper) = (Response::new(beta, 0.0), stop(gap, restitution)?);
+        Ok(Self { response, fraction: super::commensurable::fraction(beta), upper, lower: None })
     }
 
     /// The same with the frequency ratio given as $`1/\beta = \omega_n/\omega`$, the abscissa of the 1971 paper.

@@ -3,7 +3,7 @@
 use super::recurring::{Diverging, Recurring};
 use crate::lyapunov::{Measure, Spectrum};
 use crate::motion::ImpactState;
-use crate::orbit::{Cycle, Lap, cycle_distance, flight_limits, shoot};
+use crate::orbit::{Cycle, Lap, cycle_distance, flight_limits, shoot_stable};
 use crate::system::Oscillator;
 use core::f64::consts::TAU;
 
@@ -95,7 +95,7 @@ impl Recurring for Oscillator {
     }
 
     fn cycle(&self, last: &ImpactState, m: u32, n: u32) -> Option<Cycle> {
-        shoot(self, *last, m, n).ok()
+        shoot_stable(self, *last, m, n)
     }
 
     fn stable(cycle: &Cycle) -> bool {

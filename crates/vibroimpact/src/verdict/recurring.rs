@@ -15,7 +15,7 @@ pub(crate) trait Recurring {
     fn distance(&self, a: &Self::Return, b: &Self::Return) -> f64;
     /// The number of forcing periods in a time.
     fn periods(&self, time: f64) -> f64;
-    /// The cycle near a return that takes `m` returns and `n` forcing periods.
+    /// The cycle near a return that takes `m` returns and `n` forcing periods; it may be `None` if it is unstable.
     fn cycle(&self, last: &Self::Return, m: u32, n: u32) -> Option<Self::Cycle>;
     /// Whether a cycle attracts its neighbourhood.
     fn stable(cycle: &Self::Cycle) -> bool;
