@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Machines in vibroimpact, heyoka and SciPy: events per second, and starts with a wrong event among the first five.
 
-    python3 benches/peers/machines.py [--rounds N] [--seconds S] [--starts N] [--python PATH] [--rates PATH]
+    python3 benches/peers/machines.py [--rounds N] [--seconds S] [--starts N] [--python PATH] [--rates PATH] [--page]
 
-It prints two tables in Markdown. `--python` is an interpreter with heyoka and SciPy (that of run.py in target/peers by
+It prints two tables in Markdown; with `--page` it writes docs/performance-machines.md, whose text is in
+`performance-machines.md.in`. `--python` is an interpreter with heyoka and SciPy (that of run.py in target/peers by
 default), `--rates` the example `machine_rates` of the core, built with --release. The contenders take turns.
 """
 
@@ -17,6 +18,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 from statistics import median
+from string import Template
 
 SOURCES = Path(__file__).resolve().parent
 ROOT = SOURCES.parent.parent
@@ -120,11 +122,26 @@ def main() -> None:
     parser.add_argument("--starts", type=int, default=100)
     parser.add_argument("--python", type=Path, default=ROOT / "target/peers/venv/bin/python")
     parser.add_argument("--rates", type=Path, default=ROOT / "target/release/examples/machine_rates")
+    parser.add_argument("--page", action="store_true")
     arguments = parser.parse_args()
-    print("Events per second, medians, and medians of the ratios:\n")
-    print(rates_table(arguments), flush=True)
-    print(f"\nStarts with a wrong event among the first five, of {arguments.starts} each:\n")
-    print(wrong_table(arguments))
+    rates, wrong = rates_table(arguments), wrong_table(arguments)
+    if not arguments.page:
+        print(f"Events per second, medians, and medians of the ratios:\n\n{rates}\n")
+        print(f"Starts with a wrong event among the first five, of {arguments.starts} each:\n\n{wrong}")
+        return
+    versions = call([arguments.python, "-c", VERSIONS]).strip()
+    text = Template((SOURCES / "performance-machines.md.in").read_text(encoding="utf-8"))
+    page = text.substitute(rates=rates, wrong=wrong, starts=arguments.starts, versions=versions, processor=processor())
+    (ROOT / "docs/performance-machines.md").write_text(page, encoding="utf-8")
+
+
+VERSIONS = "import heyoka, scipy, sys; print(f'heyoka {heyoka.__version__}, SciPy {scipy.__version__}, Python {sys.version.split()[0]}')"
+
+
+def processor() -> str:
+    lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+    names = [line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")]
+    return f"{names[0] if names else 'unknown'}, {os.cpu_count()} processors"
 
 
 if __name__ == "__main__":
