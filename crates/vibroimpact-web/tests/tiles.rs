@@ -232,7 +232,9 @@ async fn every_cell_of_a_coarse_picture_is_that_of_its_centre() {
             let centres = |from: f64, to: f64, count: usize| {
                 let cell = (to - from) / (most - 1) as f64;
                 let larger = (to - from + cell) / count as f64;
-                (from - cell / 2.0 + larger / 2.0, to + cell / 2.0 - larger / 2.0)
+                // rounded as in the answer, because the labels of some motions depend on the last digits
+                let air = if count == most { 0.0 } else { (larger - cell) / 2.0 };
+                (from + air, to - air)
             };
             let ((left, right), (bottom, top)) =
                 (centres(window[0], window[1], columns), centres(window[2], window[3], rows));

@@ -116,6 +116,17 @@ fn killed_at_ten_moments(text: &str) {
     assert!(files(&place) == want);
 }
 
+/// The parts of sweeps in a store, with the times at which they were written.
+#[cfg(unix)]
+fn parts_in(store: &Path) -> Vec<(std::ffi::OsString, std::time::SystemTime)> {
+    let Ok(entries) = fs::read_dir(store.join(".begun")) else { return Vec::new() };
+    // a part may be replaced while the folder is read
+    let written = |entry: fs::DirEntry| Some((entry.file_name(), entry.metadata().ok()?.modified().ok()?));
+    let mut parts: Vec<_> = entries.flatten().filter_map(written).collect();
+    parts.sort();
+    parts
+}
+
 /// Sweeps of an orbit diagram that are killed again and again, before any run could complete one of them: each run goes on
 /// from the last state that was written, and the bytes are those of a run without interruption.
 #[test]
@@ -145,9 +156,13 @@ fn sweeps_go_on_however_often_they_are_killed() {
     loop {
         let goes_on = kills % 2 == 1 && place.join("zarr.json").exists();
         let line = if goes_on { "resume killed.zarr --threads 2".to_owned() } else { line("killed", values) };
+        let before = parts_in(&place);
         let mut run = begin(folder.path(), &line);
-        // the first one before anything is written, the others later and later
-        std::thread::sleep(if kills == 0 { PART / 4 } else { PART + Duration::from_millis(60 * kills) });
+        // the first one before anything is written, the others when a further part of a sweep has been written
+        std::thread::sleep(PART / 4);
+        while kills > 0 && parts_in(&place) == before && run.try_wait().unwrap().is_none() {
+            std::thread::sleep(Duration::from_millis(20));
+        }
         if let Some(status) = run.try_wait().unwrap() {
             assert!(status.success(), "{line}: {status}");
             break;
@@ -158,7 +173,7 @@ fn sweeps_go_on_however_often_they_are_killed() {
         parts += usize::from(place.join(".begun").is_dir());
         assert!(kills < 40, "it does not get on");
     }
-    assert!(kills >= 3 && parts >= 2, "{values} values, {kills} kills, {parts} with parts");
+    assert!(kills >= 2 && parts >= 1, "{values} values, {kills} kills, {parts} with parts");
     assert!(files(&place) == want, "{values} values, {kills} kills");
 }
 

@@ -132,7 +132,7 @@ fn units() -> BoxedStrategy<Option<Value>> {
 }
 
 fn diagram() -> Tasks {
-    let listed = prop::bool::weighted(0.3);
+    let listed = prop::bool::weighted(0.15);
     let over = (parameter(), listed)
         .prop_flat_map(|((name, low, high), listed)| (Just(name), range(low, high), Just(listed)))
         .prop_map(|(name, over, listed)| (name, axis(name, &over, listed)));

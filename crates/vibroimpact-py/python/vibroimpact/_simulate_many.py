@@ -166,10 +166,9 @@ def _events(points: Over, found: dict[str, Any]) -> "xr.Dataset":
         "end": _variable(points, found["end"], None, "why the list ends", "", **_flags(ends)),
         "end_time": _variable(points, found["end_time"], None, "time at which the list ends", _TIME),
     }
-    whole = _many.dataset(points, "events of motions of an impact oscillator", variables)
     # the further cells hold no events; without a copy
-    used: xr.Dataset = whole.isel(event=slice(found["width"]))
-    return used
+    used = {name: (dims, of[..., : found["width"]] if "event" in dims else of, attrs) for name, (dims, of, attrs) in variables.items()}
+    return _many.dataset(points, "events of motions of an impact oscillator", used)
 
 
 def _state_variables(points: Over, found: dict[str, Any], further: tuple[str, int]) -> dict[str, Any]:

@@ -12,33 +12,10 @@
 //! ([`graze_limit`](crate::verdict::graze_limit)). These results are exact for the fraction. The phase of the stored
 //! number drifts from it by at most $`4\cdot10^{-16}\,\beta`$ per unit of time, about $`10^{-9}`$ in a million periods.
 
-use super::Oscillator;
-
 /// The largest denominator.
 const LARGEST: f64 = 1000.0;
 /// The largest numerator; with a larger one the force is a billion times faster than the oscillator.
 const LARGEST_NUMERATOR: f64 = 1e9;
-
-impl Oscillator {
-    /// The fraction $`p/q`$ in lowest terms, $`q \le 1000`$, that equals $`\beta`$ to within two units in the last
-    /// place; `None` if there is none.
-    ///
-    /// ```
-    /// use vibroimpact::Oscillator;
-    /// assert_eq!(Oscillator::from_inverse_beta(0.7, 2.5, 0.5)?.fraction(), Some((10, 7)));
-    /// assert_eq!(Oscillator::new(1.4285714285728572, 2.5, 0.5)?.fraction(), None);
-    /// # Ok::<(), vibroimpact::SystemError>(())
-    /// ```
-    #[must_use]
-    pub const fn fraction(&self) -> Option<(u32, u32)> {
-        self.fraction
-    }
-
-    /// This fraction, if flights repeat after a common period: without damping and away from resonance.
-    pub(crate) fn common_period(&self) -> Option<(u32, u32)> {
-        if self.damping() > 0.0 { None } else { self.fraction().filter(|(p, q)| p != q) }
-    }
-}
 
 /// The common period, in periods of the first, of motions whose frequencies have these ratios to it; `None` if one is not
 /// a fraction by the rule above, or if the period is longer than a million.

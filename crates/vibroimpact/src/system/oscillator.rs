@@ -140,6 +140,25 @@ impl Oscillator {
         }
     }
 
+    /// The fraction $`p/q`$ in lowest terms, $`q \le 1000`$, that equals $`\beta`$ to within two units in the last
+    /// place; `None` if there is none.
+    ///
+    /// ```
+    /// use vibroimpact::Oscillator;
+    /// assert_eq!(Oscillator::from_inverse_beta(0.7, 2.5, 0.5)?.fraction(), Some((10, 7)));
+    /// assert_eq!(Oscillator::new(1.4285714285728572, 2.5, 0.5)?.fraction(), None);
+    /// # Ok::<(), vibroimpact::SystemError>(())
+    /// ```
+    #[must_use]
+    pub const fn fraction(&self) -> Option<(u32, u32)> {
+        self.fraction
+    }
+
+    /// This fraction, if flights repeat after a common period: without damping and away from resonance.
+    pub(crate) fn common_period(&self) -> Option<(u32, u32)> {
+        if self.damping() > 0.0 { None } else { self.fraction.filter(|(p, q)| p != q) }
+    }
+
     /// Frequency ratio $`\beta = \omega/\omega_n`$.
     #[inline]
     #[must_use]
