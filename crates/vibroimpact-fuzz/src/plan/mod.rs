@@ -245,11 +245,12 @@ mod tests {
     use crate::case::runner;
     use proptest::strategy::ValueTree;
 
-    /// Most plans are valid, so that results are computed.
+    /// Many plans are valid, so that results are computed, and many are not, so that errors are. The share is about 30 %, with
+    /// a standard error of 2.3 %.
     #[test]
-    fn most_plans_are_sound() {
+    fn many_plans_are_sound() {
         let texts = (0..400).map(|k| Plans.strategy().new_tree(&mut runner(1, "plans", k)).unwrap().current());
         let sound = texts.filter(|case| Plan::from_text(&case.text()).is_ok_and(|plan| plan.check().is_ok())).count();
-        assert!((120..330).contains(&sound), "{sound} of 400");
+        assert!((90..330).contains(&sound), "{sound} of 400");
     }
 }
