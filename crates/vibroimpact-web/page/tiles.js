@@ -195,7 +195,8 @@ export class Tile {
   foldFor({ pixel }) {
     if (this.level !== -Infinity || (!this.undecided.size && !this.values)) return 1;
     const most = Math.floor(Math.sqrt(COARSE_PIXELS / (this.columns * this.rows)));
-    return Math.max(1, Math.min(most, Math.round(this.hx / pixel)));
+    // a picture of one column has no distance between columns
+    return Math.max(1, Math.min(most, Math.round(this.hx / pixel) || 1));
   }
 
   paint(context, { only, stripes, boundaries, density, scale }, open, fold) {
