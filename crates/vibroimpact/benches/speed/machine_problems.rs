@@ -1,4 +1,4 @@
-//! The machines that are measured, with a start each: `benches/peers/python/machine.py` has the same numbers.
+//! The machines that are measured, with a start each: `benches/peers/python/machine_problems.py` has the same numbers.
 
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts, Opening, StopLaw};
