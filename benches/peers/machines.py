@@ -43,6 +43,7 @@ SICONOS = {
 }
 SICONOS_HEADERS = [Path("/usr/include/siconos"), Path("/usr/local/include/siconos")]
 SICONOS_LIBRARIES = ["-lsiconos_kernel", "-lsiconos_numerics", "-lsiconos_externals"]
+VERSIONS = "import heyoka, scipy, sys; print(f'heyoka {heyoka.__version__}, SciPy {scipy.__version__}, Python {sys.version.split()[0]}')"
 COMPILE = "g++ -O3 -march=native -std=c++17 -Wall -Wextra"
 OURS = "vibroimpact, one motion"
 TOLERANCE = 1e-6
@@ -184,9 +185,6 @@ def main() -> None:
     text = Template((SOURCES / "performance-machines.md.in").read_text(encoding="utf-8"))
     page = text.substitute(rates=rates, wrong=wrong, starts=arguments.starts, versions=versions, processor=processor())
     (ROOT / "docs/performance-machines.md").write_text(page, encoding="utf-8")
-
-
-VERSIONS = "import heyoka, scipy, sys; print(f'heyoka {heyoka.__version__}, SciPy {scipy.__version__}, Python {sys.version.split()[0]}')"
 
 
 def processor() -> str:

@@ -45,7 +45,8 @@ pub struct BranchPlan {
     pub points: u32,
 }
 
-const fn points() -> u32 {
+/// The default of plans of branches and curves, also of machines.
+pub(crate) const fn points() -> u32 {
     DEFAULT_BRANCH_POINTS
 }
 

@@ -27,7 +27,9 @@ impl Control<'_> {
     /// # Errors
     /// If the operating system cannot start the threads.
     pub fn pool(&self) -> Result<rayon::ThreadPool, rayon::ThreadPoolBuildError> {
-        rayon::ThreadPoolBuilder::new().num_threads(self.workers()).build()
+        // 0 leaves the number to rayon, which reads `RAYON_NUM_THREADS`
+        let threads = if self.threads == 0 { 0 } else { self.workers() };
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build()
     }
 
     /// Whether the stop flag is set.

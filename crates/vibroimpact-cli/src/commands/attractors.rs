@@ -54,8 +54,7 @@ pub(super) fn run(args: &Attractors, session: &Session) -> Result<(), Failure> {
     let look = FigureArgs::default();
     let files = (args.csv.as_deref(), (None, &look), args.json);
     let task = || Ok(MachineTask::Attractors { starts: args.starts, seed: args.seed, impacts: args.impacts });
-    if let Some(answer) = of_machine::asked(&args.machine, None, task, files, (None, |_| Ok(Shown::default())), session)
-    {
+    if let Some(answer) = of_machine::asked(&args.machine, None, task, files, (None, of_machine::usual), session) {
         return answer;
     }
     let asked = args.system.asked()?;

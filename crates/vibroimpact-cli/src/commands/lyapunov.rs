@@ -82,9 +82,7 @@ pub(super) fn run(args: &Lyapunov, session: &Session) -> Result<(), Failure> {
         let count = |given: Option<u64>| given.map(|given| u32::try_from(given).unwrap_or(u32::MAX));
         Ok(MachineTask::Lyapunov { impacts: count(args.impacts), transient: count(args.transient), points })
     };
-    if let Some(answer) =
-        of_machine::asked(&args.machine, start, task, files, (None, |_| Ok(Shown::default())), session)
-    {
+    if let Some(answer) = of_machine::asked(&args.machine, start, task, files, (None, of_machine::usual), session) {
         return answer;
     }
     let asked = args.system.asked()?;

@@ -16,6 +16,12 @@ use vibroimpact_study::{
 /// The files of a command: its table, its figure, and whether it prints JSON.
 pub(super) type Files<'a> = (Option<&'a Path>, (Option<&'a Path>, &'a FigureArgs), bool);
 
+/// The look of the table and the figure of a command that has no flags for it.
+#[allow(clippy::unnecessary_wraps, reason = "other looks may be refused")]
+pub(super) fn usual(_: bool) -> Result<Shown, Failure> {
+    Ok(Shown::default())
+}
+
 /// The machine of a command computes this task from this start; `None` if no machine is named. Grids may have a store. `shown`
 /// says how the table and the figure look; it is asked with whether there is a figure.
 pub(super) fn asked(

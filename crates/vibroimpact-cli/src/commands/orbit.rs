@@ -48,7 +48,7 @@ pub(super) fn run(args: &Orbit, session: &Session) -> Result<(), Failure> {
         None,
         task,
         (None, (None, &look), args.json),
-        (None, |_| Ok(Shown::default())),
+        (None, of_machine::usual),
         session,
     ) {
         return answer;

@@ -110,9 +110,7 @@ pub(super) fn run(args: &Settle, session: &Session) -> Result<(), Failure> {
     let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
     let start = Some((&args.of_machine, args.start.phase));
     let task = || Ok(MachineTask::Settle { impacts: args.impacts });
-    if let Some(answer) =
-        of_machine::asked(&args.machine, start, task, files, (None, |_| Ok(Shown::default())), session)
-    {
+    if let Some(answer) = of_machine::asked(&args.machine, start, task, files, (None, of_machine::usual), session) {
         return answer;
     }
     let asked = args.system.asked()?;

@@ -3,7 +3,8 @@
 use crate::{S, vibro};
 use serde_json::Value;
 use vibroimpact::Scales;
-use vibroimpact_report::{Shown, Units, answer, machine_answer};
+use vibroimpact_plot::Figure;
+use vibroimpact_report::{Shown, Table, Units, answer, machine_answer};
 use vibroimpact_study::{Control, MachinePlan, Plan};
 
 /// A system in physical units: omega_n = 20 rad/s, F/k = 0.005 m.
@@ -21,69 +22,65 @@ fn units(object: &Value) -> Units {
     Units { scales: scales(), si: object["units"] == "si", hertz, ..Units::default() }
 }
 
-/// Runs a command with all its outputs, and compares them with the answer of the library to the printed plan.
+/// What a command prints and writes with all its outputs.
+struct Written {
+    printed: String,
+    object: Value,
+    table: Option<Vec<u8>>,
+    figure: Option<Vec<u8>>,
+}
+
+impl Written {
+    fn by(line: &str) -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (csv, svg) = (folder.path().join("table.csv"), folder.path().join("figure.svg"));
+        let task = line.split_whitespace().next().expect("a command");
+        let mut command = vibro(line);
+        command.arg("--json");
+        if task != "orbit" {
+            command.arg("--csv").arg(&csv);
+        }
+        if !["attractors", "orbit", "margins"].contains(&task) {
+            command.arg("--plot").arg(&svg);
+        }
+        let output = command.output().expect("vibro runs");
+        assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+        let printed = String::from_utf8(output.stdout).expect("text");
+        let object = serde_json::from_str(&printed).expect("one object");
+        Self { printed, object, table: std::fs::read(&csv).ok(), figure: std::fs::read(&svg).ok() }
+    }
+
+    /// Compares it with the answer of the library.
+    fn is(&self, line: &str, json: String, table: Option<Table<'_>>, figure: Option<Figure>) {
+        assert_eq!(json + "\n", self.printed, "{line}");
+        let table = table.map(|table| {
+            let mut text = Vec::new();
+            table.write(&mut text).expect("memory takes it");
+            text
+        });
+        assert!(table == self.table, "the table of {line}");
+        assert!(figure.map(|figure| figure.to_svg().into_bytes()) == self.figure, "the figure of {line}");
+    }
+}
+
+/// Compares what a command prints and writes with the answer of the library to the printed plan.
 fn same(line: &str) {
-    let folder = tempfile::tempdir().expect("a folder");
-    let (csv, svg) = (folder.path().join("table.csv"), folder.path().join("figure.svg"));
-    let task = line.split_whitespace().next().expect("a command");
-    let mut command = vibro(line);
-    command.arg("--json");
-    if task != "orbit" {
-        command.arg("--csv").arg(&csv);
-    }
-    if !["attractors", "orbit", "margins"].contains(&task) {
-        command.arg("--plot").arg(&svg);
-    }
-    let output = command.output().expect("vibro runs");
-    assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
-    let printed = String::from_utf8(output.stdout).expect("text");
-    let object: Value = serde_json::from_str(&printed).expect("one object");
-    let plan: Plan = serde_json::from_value(object["plan"].clone()).expect("a plan");
+    let written = Written::by(line);
+    let plan: Plan = serde_json::from_value(written.object["plan"].clone()).expect("a plan");
     let control = Control::default();
-    let told = answer(&plan, units(&object), &control).expect("it was answered before");
-    assert_eq!(told.json() + "\n", printed, "{line}");
-    let table = told.table(&Shown::default()).expect("it was written before").map(|table| {
-        let mut text = Vec::new();
-        table.write(&mut text).expect("memory takes it");
-        text
-    });
-    assert!(table == std::fs::read(&csv).ok(), "the table of {line}");
-    let figure = told
-        .figure(&Shown::default(), &control)
-        .expect("it was drawn before")
-        .map(|figure| figure.to_svg().into_bytes());
-    assert!(figure == std::fs::read(&svg).ok(), "the figure of {line}");
+    let told = answer(&plan, units(&written.object), &control).expect("it was answered before");
+    let (table, figure) = (told.table(&Shown::default()), told.figure(&Shown::default(), &control));
+    written.is(line, told.json(), table.expect("it was written before"), figure.expect("it was drawn before"));
 }
 
 /// The same for a machine of the catalogue.
 fn same_of_machine(line: &str) {
-    let folder = tempfile::tempdir().expect("a folder");
-    let (csv, svg) = (folder.path().join("table.csv"), folder.path().join("figure.svg"));
-    let mut command = vibro(line);
-    command.arg("--json");
-    if !line.starts_with("orbit") {
-        command.arg("--csv").arg(&csv);
-    }
-    if !line.starts_with("attractors") && !line.starts_with("orbit") {
-        command.arg("--plot").arg(&svg);
-    }
-    let output = command.output().expect("vibro runs");
-    assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
-    let printed = String::from_utf8(output.stdout).expect("text");
-    let object: Value = serde_json::from_str(&printed).expect("one object");
-    let plan: MachinePlan = serde_json::from_value(object["plan"].clone()).expect("a plan");
-    let control = Control::default();
-    let told = machine_answer(object["machine"].as_str().expect("a name"), &plan, &control).expect("answered before");
-    assert_eq!(told.json() + "\n", printed, "{line}");
-    let table = told.table(&Shown::default()).expect("it was written before").map(|table| {
-        let mut text = Vec::new();
-        table.write(&mut text).expect("memory takes it");
-        text
-    });
-    assert!(table == std::fs::read(&csv).ok(), "the table of {line}");
-    let figure = told.figure(&Shown::default(), &control).expect("it was drawn before");
-    let figure = figure.map(|figure| figure.to_svg().into_bytes());
-    assert!(figure == std::fs::read(&svg).ok(), "the figure of {line}");
+    let written = Written::by(line);
+    let plan: MachinePlan = serde_json::from_value(written.object["plan"].clone()).expect("a plan");
+    let (control, name) = (Control::default(), written.object["machine"].as_str().expect("a name"));
+    let told = machine_answer(name, &plan, &control).expect("it was answered before");
+    let (table, figure) = (told.table(&Shown::default()), told.figure(&Shown::default(), &control));
+    written.is(line, told.json(), table.expect("it was written before"), figure.expect("it was drawn before"));
 }
 
 #[test]

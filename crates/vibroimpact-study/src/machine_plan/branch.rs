@@ -6,7 +6,7 @@ use super::orbits::{self, ChosenCycle};
 use crate::branch::{DIAGRAM_VALUES, MOST_FOLLOWED};
 use crate::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, SweepDirection};
 use crate::machine::MachineSource;
-use crate::{Control, DEFAULT_BRANCH_POINTS, PlanError, RunError, Span, Stopped, limits};
+use crate::{Control, PlanError, RunError, Span, Stopped, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
@@ -35,15 +35,11 @@ pub struct MachineBranchPlan {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub also: Option<MachineTarget>,
     /// The largest number of points of each branch: 2 to 100000.
-    #[serde(default = "points")]
+    #[serde(default = "crate::branch::points")]
     pub points: u32,
     /// How many of the branches of twice the period that begin at flips are followed: 0 to 100.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub follow: u32,
-}
-
-const fn points() -> u32 {
-    DEFAULT_BRANCH_POINTS
 }
 
 #[allow(clippy::trivially_copy_pass_by_ref)] // serde wants it

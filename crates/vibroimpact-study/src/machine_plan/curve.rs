@@ -4,7 +4,7 @@
 use super::cut::MachineStretch;
 use super::orbits;
 use crate::machine::MachineSource;
-use crate::{Control, DEFAULT_BRANCH_POINTS, PlanError, RunError, Stopped, limits};
+use crate::{Control, PlanError, RunError, Stopped, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vibroimpact::Label;
@@ -77,12 +77,8 @@ pub struct MachineCurvePlan {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub event: Option<u32>,
     /// The largest number of points in each direction: 2 to 100000.
-    #[serde(default = "points")]
+    #[serde(default = "crate::branch::points")]
     pub points: u32,
-}
-
-const fn points() -> u32 {
-    DEFAULT_BRANCH_POINTS
 }
 
 /// A curve, followed in both directions from the event at which it begins.

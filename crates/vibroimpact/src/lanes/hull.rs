@@ -20,7 +20,7 @@
 //! $`B_6`$ grows with the energy radius (`flight/bounds.rs`), for which $`\sqrt{x^2+v^2} \le |x| + |v|`$.
 
 use super::constants::{Constants, ROUGH};
-use super::stride::{HullScale, NODES, State, UNDAMPED};
+use super::stride::{HullScale, State, nodes};
 use crate::math::{Mask, Numbers};
 
 /// The motion at an end of the arc.
@@ -80,7 +80,7 @@ impl<N: Numbers> Constants<N> {
     /// Whether the time is past the last step that lanes take.
     #[inline(always)]
     pub(super) fn late(&self, s: N) -> N::Mask {
-        (N::splat(f64::from(if self.damped { NODES } else { UNDAMPED })) * self.h).less(s)
+        (N::splat(f64::from(nodes(self.damped))) * self.h).less(s)
     }
 
     /// Whether the arc is proven clear of the stops, except at its beginning; `margin` is relative. If `arrives` is

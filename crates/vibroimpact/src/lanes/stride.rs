@@ -21,11 +21,14 @@ use crate::system::{Oscillator, Side, UndampedForm};
 /// The number of step lengths, each half of the one before. If the shortest does not suffice, the flight is left to the
 /// careful search.
 pub(super) const LEVELS: usize = 16;
-/// The number of whole steps after which a flight is left to the careful search, which decides flights that may last
-/// for ever.
+/// The largest number of whole steps after which a flight is left to the careful search, which decides flights that may
+/// last for ever.
 pub(super) const NODES: u32 = 64;
-/// The same without damping, where that search finds the end of a long flight in few steps.
-pub(super) const UNDAMPED: u32 = 32;
+/// This number of whole steps. Without damping that search finds the end of a long flight in few steps.
+pub(super) const fn nodes(damped: bool) -> u32 {
+    if damped { NODES } else { NODES / 2 }
+}
+
 /// The number of terms of each parity of the series.
 const TERMS: usize = 9;
 /// The largest $`\mu h`$ of a step. On longer steps the first guess too often misses an arc that rises above a stop and
@@ -158,7 +161,7 @@ impl Stride {
 
     /// The longest flight whose end the lanes can find.
     pub(super) fn longest(&self) -> f64 {
-        f64::from(NODES + 3) * self.constants.h
+        f64::from(nodes(self.constants.damped) + 3) * self.constants.h
     }
 
     /// The propagator over a time of either sign, at most half a step, by the series.
@@ -264,12 +267,12 @@ pub(super) struct Table {
 impl Table {
     pub(super) fn new(stride: &Stride) -> Self {
         let mut k = -1.0;
-        let nodes = core::iter::repeat_with(|| {
+        let rows = core::iter::repeat_with(|| {
             k += 1.0;
             stride.node(k)
         });
         Self {
-            nodes: nodes.take(NODES as usize + 4).collect(),
+            nodes: rows.take(nodes(stride.constants.damped) as usize + 4).collect(),
             paces: core::array::from_fn(|level| stride.pace(level)),
         }
     }
@@ -282,11 +285,13 @@ impl Table {
         let mut numbers = [0.0; WIDEST];
         k.store(&mut numbers);
         let mut which = [0; WIDEST];
+        #[allow(clippy::cast_possible_truncation)] // a few dozen
+        let last = self.nodes.len() as u32 - 1;
         for (which, k) in which.iter_mut().zip(numbers) {
             // whole numbers up to a few dozen; invalid values saturate
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
             let k = k as u32;
-            *which = k.min(NODES + 3);
+            *which = k.min(last);
         }
         L::rows(&self.nodes, &which)
     }

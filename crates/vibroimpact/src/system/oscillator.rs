@@ -85,7 +85,7 @@ pub(super) const LENGTHS: core::ops::RangeInclusive<f64> = -1e100..=1e100;
 pub struct Oscillator {
     response: Response,
     /// The frequency ratio as a fraction, if it counts as one.
-    pub(super) fraction: Option<(u32, u32)>,
+    fraction: Option<(u32, u32)>,
     upper: Stop,
     lower: Option<Stop>,
 }
