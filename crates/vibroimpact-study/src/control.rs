@@ -14,22 +14,14 @@ pub struct Control<'a> {
 }
 
 impl Control<'_> {
-    /// The number of threads: that which was requested, limited to eight per processor. More threads would only use memory,
-    /// because each holds a tile.
-    #[must_use]
-    pub fn workers(&self) -> usize {
-        let processors = std::thread::available_parallelism().map_or(1, core::num::NonZero::get);
-        if self.threads == 0 { processors } else { self.threads.min(MOST_THREADS * processors) }
-    }
-
-    /// The thread pool with this number of threads.
+    /// The thread pool with the requested number of threads, limited to eight per processor. More threads would only
+    /// use memory, because each holds a tile.
     ///
     /// # Errors
     /// If the operating system cannot start the threads.
     pub fn pool(&self) -> Result<rayon::ThreadPool, rayon::ThreadPoolBuildError> {
-        // 0 leaves the number to rayon, which reads `RAYON_NUM_THREADS`
-        let threads = if self.threads == 0 { 0 } else { self.workers() };
-        rayon::ThreadPoolBuilder::new().num_threads(threads).build()
+        let most = std::thread::available_parallelism().map_or(MOST_THREADS, |count| MOST_THREADS * count.get());
+        rayon::ThreadPoolBuilder::new().num_threads(self.threads.min(most)).build()
     }
 
     /// Whether the stop flag is set.

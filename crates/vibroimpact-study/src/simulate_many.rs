@@ -8,11 +8,8 @@ use vibroimpact::lanes::Width;
 use vibroimpact::motion::{End, Event, EventRecorder, record_events};
 use vibroimpact::{Oscillator, Start};
 
-/// Number of points of a tile of several systems.
-const SEVERAL: usize = 32;
-/// Least and largest number of points of a tile of one system, whose motions share lanes. During the last motions of a tile most
-/// lanes are empty, so a thread takes few tiles.
-const ONE: (usize, usize) = (256, 2048);
+/// Number of points of a tile: of one system, whose motions share lanes, and of several.
+const TILES: [usize; 2] = [512, 32];
 
 /// The largest number of cells of a column that is allocated before the number of events is known.
 const MOST_CELLS: usize = 1 << 25;
@@ -32,8 +29,8 @@ pub fn simulate_points(
 ) -> Result<EventColumns, RunError> {
     points.check(system, start, |there, start| start.start(&there.oscillator()?).map(|_| ()))?;
     let one = if points.one_system() { Some(system.oscillator()?) } else { None };
+    let tile = TILES[usize::from(one.is_none())];
     let total = usize::try_from(points.count()).unwrap_or(usize::MAX);
-    let tile = if one.is_some() { total.div_ceil(control.workers()).clamp(ONE.0, ONE.1) } else { SEVERAL };
     let mut columns = EventColumns::open(total, room(total, limits));
     let parts: Vec<Mutex<Option<Rows<'_>>>> =
         columns.parts(tile).into_iter().map(|rows| Mutex::new(Some(rows))).collect();
