@@ -201,7 +201,7 @@ def test_a_task_puts_itself_into_the_queue_again(
 def test_a_task_that_was_ended_is_submitted_again(
     slurm: Slurm, vibro: Callable[..., Any], u: vi.Oscillator, tmp_path: Path, how: list[str]
 ) -> None:
-    plan = vi.Plan.lyapunov(u, {"gap": "2.5:3:60"}, impacts=300_000, tile=1)
+    plan = vi.Plan.lyapunov(u, {"gap": "2.5:3:60"}, impacts=150_000, tile=1)
     (tmp_path / "study.toml").write_text(plan.json)
     place = tmp_path / "there.zarr"
     text = script(vibro, tmp_path / "study.toml", place)

@@ -108,7 +108,7 @@ export async function figures_of_quantities_and_machines_are_those_of_their_comm
   try {
     for (const [hash, points, wanted] of [
       [`#${window}&colour=power&range=0,0.5&starts=2&of=smallest`, 100, /--colour power --of smallest --colour-range 0:0\.5 --plot/],
-      [`#${window}&starts=2`, 400, /:400 (?!.*--refine).* --plot/],
+      [`#${window}&starts=2`, 200, /:200 (?!.*--refine).* --plot/],
       [`#${window}&machine=0.8,12000,30&colour=power`, 100, /--mass-kg 0\.8 .*--frequency-hz \S+:100 .*--colour power/],
       ["#view=1,1.5,0.5,2.5&impacts=200&point=1&inverse_beta=1.3&gap=1&line=1.1,1.5,1.1,2.2&panel=line&layers=regions,paper,amplitude,boundaries", 100,
         /--layers regions,amplitude,paper,boundaries --mark 1\.3,1 --line 1\.1,1\.5:1\.1,2\.2 --plot/],
