@@ -63,11 +63,23 @@ impl Of {
 
     /// The first step in which it is not positive by its samples, from one on.
     fn first_open(&self, from: usize) -> usize {
-        (from..SAMPLES - 1).find(|step| !self.is_clear(*step)).unwrap_or(SAMPLES - 1)
+        // all steps at once, because no processor can predict which one it is
+        let mut positive = 0_u32;
+        for (j, sample) in self.samples.iter().enumerate() {
+            positive |= u32::from(*sample > self.margin) << j;
+        }
+        let mut clear = positive & (positive >> 1);
+        if self.known {
+            clear = clear & !1 | u32::from(self.is_clear(0));
+        }
+        from + usize::try_from((clear >> from).trailing_ones()).unwrap_or(0)
     }
 
     /// The same from the first step on.
     fn first_open_of_all(&self) -> usize {
+        if self.known {
+            return self.first_open(0);
+        }
         let less = |one: f64, other: f64| if one < other { one } else { other };
         let (eight, _) = self.samples.as_chunks::<8>();
         let mut least = eight[0];
@@ -77,12 +89,11 @@ impl Of {
         let four =
             [less(least[0], least[4]), less(least[1], least[5]), less(least[2], least[6]), less(least[3], least[7])];
         let all_clear = less(less(four[0], four[2]), less(four[1], four[3])) > self.margin;
-        if all_clear && !self.known { SAMPLES - 1 } else { self.first_open(0) }
+        if all_clear { SAMPLES - 1 } else { self.first_open(0) }
     }
 
     /// What it does in a step, by its series there.
-    fn decide(&self, c: &[f64; POWERS - 1], step: usize) -> Step {
-        let mut c = *c;
+    fn decide(&self, c: &mut [f64; POWERS - 1], step: usize) -> Step {
         let mut error = self.error;
         if self.known && step == 0 {
             // the zero at the beginning is divided out
@@ -91,9 +102,9 @@ impl Of {
             error += 64.0 * f64::EPSILON * (c[0].abs() + c[1].abs());
         }
         if self.samples[step + 1] > 0.0 {
-            return if is_positive(&c, error) { Step::Positive } else { Step::Open };
+            return if is_positive(c, error) { Step::Positive } else { Step::Open };
         }
-        if c[0] <= error { Step::Open } else { crossing(&c, error).map_or(Step::Open, Step::Crosses) }
+        if c[0] <= error { Step::Open } else { crossing(c, error).map_or(Step::Open, Step::Crosses) }
     }
 }
 
@@ -150,8 +161,11 @@ pub(super) fn plain_crossing(
     let (s, guard, part) = sampling.search(flight, sampled, until, steps.min(SPANS))?;
     modes.s = s;
     let over = 1.0 / sampled.spans[0].step;
-    modes.moved.resize(sampling.series.len(), 0.0);
-    modes.v.resize(sampling.series.len(), 0.0);
+    let count = sampling.series.len();
+    if modes.moved.len() != count || modes.v.len() != count {
+        modes.moved.resize(count, 0.0);
+        modes.v.resize(count, 0.0);
+    }
     for (c, (moved, v)) in sampling.series.iter().zip(modes.moved.iter_mut().zip(&mut modes.v)) {
         let (value, slope) = value_and_slope(c, part);
         (*moved, *v) = (value, slope * over);
@@ -164,8 +178,10 @@ pub(super) fn plain_crossing(
 #[inline(always)]
 fn value_and_slope<const N: usize>(c: &[f64; N], t: f64) -> (f64, f64) {
     let u = t * t;
-    let (mut even, mut odd, mut even_slope, mut odd_slope) = (0.0, 0.0, 0.0, 0.0);
-    let mut k = N + N % 2;
+    // the last two powers have nothing above them
+    let mut k = N - 2 + N % 2;
+    let (mut even, mut odd) = (c[k], if k + 1 < N { c[k + 1] } else { 0.0 });
+    let (mut even_slope, mut odd_slope) = (0.0, 0.0);
     while k > 1 {
         k -= 2;
         even_slope = even_slope * u + even;
@@ -190,13 +206,18 @@ impl Sampling {
         // the sizes of all terms in the time that can be searched
         let longest = sampled.spans.last().map_or(0.0, |span| span.step) * LAST * f64::from(spans);
         sampled.grown(&self.first, &self.z, longest, &mut self.energies);
-        self.guards.resize(flight.guards.len(), Of::default());
+        if self.guards.len() != flight.guards.len() {
+            self.guards.resize(flight.guards.len(), Of::default());
+        }
         for ((of, start), parts) in self.guards.iter_mut().zip(&flight.guards).zip(&sampled.guards) {
             (of.constant, of.value, of.known) = (start.constant, Some(start.value), start.known > 0);
             of.size = parts.size(&self.energies, &self.z, longest);
             of.size_at_start = 8.0 * (start.size + start.constant.abs());
         }
-        self.energies.clone_from(&self.first);
+        // those at the beginning hold for ever if none grows
+        if !sampled.grows {
+            core::mem::swap(&mut self.first, &mut self.energies);
+        }
         let (mut s, mut level, mut stay, mut passed, mut bounded) = (0.0, 0, 0, 0.0, None);
         for _ in 0..spans {
             if s >= until {
@@ -261,7 +282,10 @@ impl Sampling {
     fn decide(&mut self, sampled: &Sampled, mut step: usize) -> Option<(f64, Option<(usize, f64)>)> {
         let count = sampled.parts.len();
         while step < SAMPLES - 1 {
-            self.there.clone_from(&self.z);
+            if self.there.len() != self.z.len() {
+                self.there.resize(self.z.len(), 0.0);
+            }
+            self.there.copy_from_slice(&self.z);
             if step > 0 {
                 sampled.spans[0].pass(step, &mut self.there);
             }
@@ -276,7 +300,7 @@ impl Sampling {
                     Some(value) if step == 0 => value,
                     _ => c[0] + of.constant,
                 };
-                match of.decide(&c, step) {
+                match of.decide(&mut c, step) {
                     Step::Positive => {}
                     Step::Crosses(part) if found.is_none() => found = Some((g, part)),
                     Step::Crosses(_) | Step::Open => return None,

@@ -190,6 +190,7 @@ impl MachineFlight {
     }
 
     /// The state of the modes and harmonics at the beginning: see `Pass`.
+    #[inline]
     pub(super) fn state_of_modes(&self, z: &mut Vec<f64>) {
         let count = 3 * self.v.len();
         if z.len() != count + 2 * self.turns.len() + 2 {
@@ -437,12 +438,17 @@ impl MachineFlight {
     pub(crate) fn state(&self, modes: &Modes, x: &mut Vec<f64>, v: &mut Vec<f64>) {
         if self.structure.plain && !self.structure.carries {
             // coordinates are combinations of displacements alone, and velocities of velocities
-            x.clone_from(&self.x);
-            v.clone_from(&self.rate);
-            for ((x, of), (v, of_v)) in x.iter_mut().zip(&self.structure.x).zip(v.iter_mut().zip(&self.structure.v)) {
-                *x += dot(&of.position, &modes.moved);
-                let gained = of_v.velocity.iter().zip(modes.v.iter().zip(&self.v));
-                *v += gained.fold(0.0, |sum, (factor, (now, before))| sum + factor * (now - before));
+            for (to, from) in [(&mut *x, &self.x), (&mut *v, &self.rate)] {
+                if to.len() != from.len() {
+                    to.resize(from.len(), 0.0);
+                }
+            }
+            for ((x, begin), of) in x.iter_mut().zip(&self.x).zip(&self.structure.x) {
+                *x = begin + dot(&of.position, &modes.moved);
+            }
+            for ((v, begin), of) in v.iter_mut().zip(&self.rate).zip(&self.structure.v) {
+                let gained = of.velocity.iter().zip(modes.v.iter().zip(&self.v));
+                *v = begin + gained.fold(0.0, |sum, (factor, (now, before))| sum + factor * (now - before));
             }
             return;
         }

@@ -1,6 +1,7 @@
 //! Events that change one stop and nothing else: no joint is there, and nothing rests. They are what most motions consist
 //! of; the general way (`motion`, `strike`) does the same with them.
 
+use super::chatter::is_far_from_an_end;
 use super::event::MachineEventKind;
 use super::motion::MachineMotion;
 use super::passage::Blow;
@@ -11,13 +12,7 @@ use crate::regime::{ContactState, GuardKind};
 impl MachineMotion<'_> {
     /// Whether the event at this guard was one of them. `fastest` is the rate of the structure before it.
     pub(super) fn happen_alone(&mut self, kind: GuardKind, fastest: f64) -> bool {
-        let turns = self.place.turns_of(&self.normal, &mut self.scratch);
-        let happened = self.happened_alone(kind, fastest, &turns);
-        self.scratch.give_back(turns);
-        happened
-    }
-
-    fn happened_alone(&mut self, kind: GuardKind, fastest: f64, turns: &[(f64, f64)]) -> bool {
+        let turns = self.scratch.turns_at(&self.place, &self.normal);
         match kind {
             GuardKind::Gap(j) => {
                 let (gap, rate) = self.place.gap_and_rate(&self.normal, turns, j);
@@ -42,8 +37,10 @@ impl MachineMotion<'_> {
                         }
                         self.announce(MachineEventKind::Impact, j, speed, Vec::new());
                         let open = self.place.states.iter().all(|state| *state == ContactState::Open);
-                        if !(open && self.is_far_from_an_end(j, restitution, fastest, turns)) {
-                            self.complete(j, turns);
+                        let turns = self.scratch.turns_at(&self.place, &self.normal);
+                        if !(open && is_far_from_an_end(&self.place, &self.normal, (j, restitution), fastest, turns)) {
+                            let turns = turns.to_vec();
+                            self.complete(j, &turns);
                         }
                     }
                     StopLaw::Compliant { .. } => {
@@ -58,7 +55,7 @@ impl MachineMotion<'_> {
                 }
             }
             GuardKind::Depth(j) | GuardKind::Force(j) if self.place.states[j] == ContactState::Closed => {
-                self.open(kind, j, turns);
+                self.place.open(&self.normal, &self.machine.stops()[j].law, kind, j, turns);
                 self.record(&[]);
                 self.announce(MachineEventKind::Open, j, 0.0, Vec::new());
             }

@@ -2,10 +2,11 @@
 
 use super::event::MachineEventKind;
 use super::motion::MachineMotion;
+use super::place::Place;
 use crate::arc::{Found, first_event};
 use crate::machine::StopLaw;
 use crate::math::add_scaled;
-use crate::regime::{ContactState, GuardKind, Structure};
+use crate::regime::{ContactState, GuardKind, Normal, Structure};
 
 /// A chatter is summed if its first correction is below this part of the sum.
 const SMALL: f64 = 1e-6;
@@ -79,17 +80,6 @@ impl MachineMotion<'_> {
         self.largest_impact = 0.0;
     }
 
-    /// Whether a chatter on a stop that is struck alone, while all others are open, is far from its end: a test without the
-    /// structure at rest. `fastest` is the rate of the structure.
-    pub(super) fn is_far_from_an_end(&self, j: usize, restitution: f64, fastest: f64, turns: &[(f64, f64)]) -> bool {
-        let approach = &self.normal.approaches[j];
-        let rebound = self.place.gap_and_rate(&self.normal, turns, j).1;
-        // the velocity of the gap taken away changes the acceleration by its drag
-        let a = approach.at(&self.place.x, &self.place.v, turns) - approach.drag * rebound;
-        let first = 2.0 * rebound / (a * (1.0 - restitution));
-        a <= 0.0 || first * fastest.max(approach.drag) > 11.0 * SMALL
-    }
-
     /// Whether a chatter is far from its end, by the reaction at rest here: a first test without a flight.
     fn is_far_from_rest(
         &mut self,
@@ -110,4 +100,21 @@ impl MachineMotion<'_> {
         let first = 2.0 * rebound / (a * (1.0 - restitution));
         a <= 0.0 || first * fastest.max(drag) > 11.0 * SMALL
     }
+}
+
+/// Whether a chatter on a stop that is struck alone, while all others are open, is far from its end: a test without the
+/// structure at rest. `fastest` is the rate of the structure.
+pub(super) fn is_far_from_an_end(
+    place: &Place,
+    normal: &Normal,
+    (j, restitution): (usize, f64),
+    fastest: f64,
+    turns: &[(f64, f64)],
+) -> bool {
+    let approach = &normal.approaches[j];
+    let rebound = place.gap_and_rate(normal, turns, j).1;
+    // the velocity of the gap taken away changes the acceleration by its drag
+    let a = approach.at(&place.x, &place.v, turns) - approach.drag * rebound;
+    let first = 2.0 * rebound / (a * (1.0 - restitution));
+    a <= 0.0 || first * fastest.max(approach.drag) > 11.0 * SMALL
 }

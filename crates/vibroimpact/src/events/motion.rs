@@ -40,8 +40,8 @@ pub struct MachineMotion<'a> {
     end: Option<MachineEnd>,
     pub(super) buffers: Buffers,
     touches: Vec<Touch>,
-    /// The memory of the last flight.
-    spare: Option<Box<MachineFlight>>,
+    /// The last flights in two regimes, between which most motions alternate: their memory is used again.
+    spare: [Option<Box<MachineFlight>>; 2],
     pub(super) scratch: Scratch,
     /// Events since the time last advanced.
     crowd: u32,
@@ -284,19 +284,6 @@ impl<'a> MachineMotion<'a> {
         }
     }
 
-    /// Opens a compliant stop.
-    pub(super) fn open(&mut self, kind: GuardKind, j: usize, turns: &[(f64, f64)]) {
-        self.place.states[j] = ContactState::Open;
-        let depth = -self.place.gap_and_rate(&self.normal, turns, j).0;
-        let mut known = 1;
-        if matches!(kind, GuardKind::Force(_)) && depth > 0.0 {
-            self.place.surfaces[j] = standing_back(&self.machine.stops()[j].law, depth);
-            // the surface leaves the body with the velocity of the body
-            known = 2;
-        }
-        self.place.note(GuardKind::Gap(j), known);
-    }
-
     pub(super) fn announce(&mut self, kind: MachineEventKind, place: usize, speed: f64, with: Vec<usize>) {
         self.pending.push_back(MachineEvent {
             kind,
@@ -358,7 +345,7 @@ impl<'a> MachineMotion<'a> {
             end: None,
             buffers: Buffers::default(),
             touches: Vec::new(),
-            spare: None,
+            spare: [None, None],
             scratch: Scratch::default(),
             crowd: 0,
             largest_impact: 0.0,
@@ -383,9 +370,12 @@ impl<'a> MachineMotion<'a> {
         &self.place
     }
 
-    /// The flight from here, in the memory of the last one; `None` if its constraints depend on each other.
+    /// The flight from here, in the memory of an earlier one; `None` if its constraints depend on each other.
     fn fly(&mut self) -> Option<Box<MachineFlight>> {
-        let spare = self.spare.take();
+        if !matches!(&self.spare[0], Some(last) if last.structure.is_in(&self.place.states)) {
+            self.spare.swap(0, 1);
+        }
+        let spare = self.spare[0].take();
         let structure = match &spare {
             Some(flight) if flight.structure.is_in(&self.place.states) => None,
             _ => Some(self.structures.get(self.machine, &self.normal, &self.place.states)?),
@@ -413,16 +403,16 @@ impl<'a> MachineMotion<'a> {
             .map(|surface| crate::math::ln(surface.size / surface.offset) / surface.rate);
         let recovered = recovered.fold(f64::INFINITY, f64::min);
         let until = recovered.min(self.limits.time);
-        let mut touches = core::mem::take(&mut self.touches);
-        touches.clear();
-        let mut found = first_event(&flight, until, self.limits.steps.min(PATIENCE), &mut self.buffers, &mut touches);
+        self.touches.clear();
+        let steps = self.limits.steps.min(PATIENCE);
+        let mut found = first_event(&flight, until, steps, &mut self.buffers, &mut self.touches);
         let mut never = false;
         if let Found::NoneBefore(s) = found {
             // a long flight: is there an event at all?
             never = !recovered.is_finite() && flight.never_after(s, &mut self.buffers.modes);
             if !never && s < until && self.limits.steps > PATIENCE {
-                touches.clear();
-                found = first_event(&flight, until, self.limits.steps, &mut self.buffers, &mut touches);
+                self.touches.clear();
+                found = first_event(&flight, until, self.limits.steps, &mut self.buffers, &mut self.touches);
                 if let Found::NoneBefore(s) = found {
                     never = !recovered.is_finite() && flight.never_after(s, &mut self.buffers.modes);
                 }
@@ -432,7 +422,8 @@ impl<'a> MachineMotion<'a> {
             // the closed form holds as long as it is wanted
             found = Found::NoneBefore(until);
         }
-        for touch in &touches {
+        for k in 0..self.touches.len() {
+            let touch = self.touches[k];
             if let GuardKind::Gap(j) = structure.guards[touch.guard].kind {
                 let (place, time) = (self.place.clone(), self.time);
                 self.move_to(&flight, touch.s);
@@ -440,7 +431,6 @@ impl<'a> MachineMotion<'a> {
                 (self.place, self.time) = (place, time);
             }
         }
-        self.touches = touches;
         self.passage = None;
         if self.recording {
             let duration = match &found {
@@ -449,21 +439,21 @@ impl<'a> MachineMotion<'a> {
             };
             self.passage = Some(Passage::new(structure.clone(), duration));
         }
-        match found {
-            Found::NoneBefore(s) if s >= until && recovered <= self.limits.time => {
+        match &found {
+            Found::NoneBefore(s) if *s >= until && recovered <= self.limits.time => {
                 self.move_to(&flight, recovered);
             }
             Found::NoneBefore(s) => {
-                self.move_to(&flight, s);
+                self.move_to(&flight, *s);
                 self.end = Some(match never {
                     true if self.place.states.contains(&ContactState::Resting) => MachineEnd::Stuck,
                     true => MachineEnd::Never,
-                    false if s >= until => MachineEnd::NoEventWithin,
+                    false if *s >= until => MachineEnd::NoEventWithin,
                     false => MachineEnd::SearchLimit,
                 });
             }
             Found::Zero { s, guards } => {
-                self.move_to(&flight, s);
+                self.move_to(&flight, *s);
                 self.crowd += 1;
                 if self.crowd > CROWD {
                     return self.end = Some(MachineEnd::Collapse);
@@ -474,13 +464,13 @@ impl<'a> MachineMotion<'a> {
                 }
                 let kind = |g: &usize| structure.guards[*g].kind;
                 let fastest = structure.fastest();
-                match &*guards {
+                match &guards[..] {
                     [g] => self.happen(&[kind(g)], fastest),
                     all => self.happen(&all.iter().map(kind).collect::<Vec<_>>(), fastest),
                 }
             }
         }
-        self.spare = Some(flight);
+        self.spare[0] = Some(flight);
     }
 
     /// What follows when these guards of a structure of this rate are zero.
@@ -511,7 +501,7 @@ impl<'a> MachineMotion<'a> {
                     if self.place.states[j] != ContactState::Closed {
                         continue;
                     }
-                    self.open(*kind, j, &turns);
+                    self.place.open(&self.normal, &self.machine.stops()[j].law, *kind, j, &turns);
                     fixed.push(j);
                 }
                 GuardKind::Reaction(j) => {

@@ -66,9 +66,13 @@ pub(super) struct Scratch {
 }
 
 impl Scratch {
-    /// Keeps the sines and cosines for the same phase.
-    pub(super) fn give_back(&mut self, turns: Vec<(f64, f64)>) {
-        self.turns = turns;
+    /// Sine and cosine of all harmonics at a place, computed once for a phase.
+    pub(super) fn turns_at(&mut self, place: &Place, normal: &Normal) -> &[(f64, f64)] {
+        if self.phase != Some(place.phase) {
+            place.turns_into(normal, &mut self.turns);
+            self.phase = Some(place.phase);
+        }
+        &self.turns
     }
 }
 
@@ -91,16 +95,6 @@ impl Place {
     pub(crate) fn turns(&self, normal: &Normal) -> Vec<(f64, f64)> {
         let mut turns = Vec::new();
         self.turns_into(normal, &mut turns);
-        turns
-    }
-
-    /// The same, computed once for a phase; they are given back to the scratch.
-    pub(super) fn turns_of(&self, normal: &Normal, scratch: &mut Scratch) -> Vec<(f64, f64)> {
-        let mut turns = core::mem::take(&mut scratch.turns);
-        if scratch.phase != Some(self.phase) {
-            self.turns_into(normal, &mut turns);
-            scratch.phase = Some(self.phase);
-        }
         turns
     }
 
@@ -135,27 +129,26 @@ impl Place {
     ) -> T {
         // the time restarts with each flight, and the set points of joints that hold on a moving belt with it
         let stops = self.surfaces.len();
-        let joints = 0..self.states.len() - stops;
-        let turns = self.turns_of(normal, scratch);
-        let set = &mut scratch.set;
-        set.clear();
-        set.extend(joints.map(|joint| match self.states[stops + joint] {
-            ContactState::Holding => dot(&normal.directions[stops + joint], &self.x),
-            _ => 0.0,
-        }));
+        scratch.turns_at(self, normal);
+        let Scratch { turns, set, .. } = scratch;
+        let joints = &self.states[stops..];
+        if set.len() != joints.len() {
+            set.resize(joints.len(), 0.0);
+        }
+        for ((point, state), direction) in set.iter_mut().zip(joints).zip(&normal.directions[stops..]) {
+            *point = if *state == ContactState::Holding { dot(direction, &self.x) } else { 0.0 };
+        }
         let gap = |stop: usize| {
             let at_zero = self.known.iter().any(|(kind, _)| *kind == GuardKind::Depth(stop));
-            let gap = if at_zero { 0.0 } else { self.gap_and_rate(normal, &turns, stop).0 };
-            gap - normal.walls[stop].swing(&turns)
+            let gap = if at_zero { 0.0 } else { self.gap_and_rate(normal, turns, stop).0 };
+            gap - normal.walls[stop].swing(turns)
         };
         let known = |kind| {
             let known = self.known.iter().find(|(of, _)| *of == kind).map_or(0, |(_, count)| *count);
             let surface = if let GuardKind::Gap(stop) = kind { self.surfaces[stop] } else { None };
             (known, surface)
         };
-        let result = begun(Begin { x: &self.x, v: &self.v, set, turns: &turns }, &gap, &known);
-        scratch.give_back(turns);
-        result
+        begun(Begin { x: &self.x, v: &self.v, set, turns }, &gap, &known)
     }
 
     /// Moves to a time `s` after the beginning of a flight that began here, whose modes are these then; `frequency` is that
@@ -182,6 +175,21 @@ impl Place {
                 *count = (*count).min(if matches!(kind, GuardKind::Sliding(_)) { 1 } else { 2 });
             }
         }
+    }
+
+    /// Opens a compliant stop with this law at the zero of a guard.
+    pub(super) fn open(&mut self, normal: &Normal, law: &StopLaw, kind: GuardKind, j: usize, turns: &[(f64, f64)]) {
+        self.states[j] = ContactState::Open;
+        let mut known = 1;
+        if let GuardKind::Force(_) = kind {
+            let depth = -self.gap_and_rate(normal, turns, j).0;
+            if depth > 0.0 {
+                self.surfaces[j] = standing_back(law, depth);
+                // the surface leaves the body with the velocity of the body
+                known = 2;
+            }
+        }
+        self.note(GuardKind::Gap(j), known);
     }
 
     /// Notes how many derivatives of a guard are zero now.
@@ -213,6 +221,7 @@ impl Place {
     }
 
     /// The gap of a stop and its rate alone.
+    #[inline]
     pub(super) fn gap_and_rate(&self, normal: &Normal, turns: &[(f64, f64)], stop: usize) -> (f64, f64) {
         let (w, wall) = (&normal.directions[stop], &normal.walls[stop]);
         let (mut gap, mut rate) = (wall.constant, 0.0);

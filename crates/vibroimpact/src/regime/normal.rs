@@ -115,9 +115,18 @@ impl Normal {
     }
 
     /// Coordinates, or velocities, from the mass-normalised ones.
+    #[inline]
     pub(crate) fn to_machine(&self, x: &[f64]) -> Vec<f64> {
+        match &self.diagonal {
+            Some(diagonal) => x.iter().zip(diagonal).map(|(x, own)| x / own).collect(),
+            None => self.to_coupled_machine(x),
+        }
+    }
+
+    /// The same if masses couple coordinates.
+    fn to_coupled_machine(&self, x: &[f64]) -> Vec<f64> {
         let mut q = Vec::with_capacity(x.len());
-        self.to_machine_into(x, &mut q);
+        self.factor.solve_lower_transposed_into(x, &mut q);
         q
     }
 

@@ -32,15 +32,7 @@ pub(crate) struct RestBuffers {
     mean: Vec<f64>,
     pulled: Vec<f64>,
     on_free: Vec<f64>,
-    push: Vec<f64>,
     drift: Vec<f64>,
-}
-
-impl RestBuffers {
-    /// The force on each mode, and the displacements that belong to velocities, or none.
-    pub(super) fn push_and_drift(&mut self) -> (&mut Vec<f64>, &[f64]) {
-        (&mut self.push, &self.drift)
-    }
 }
 
 /// A closed stop: its place, stiffness, constant force at gap 0, direction, and the force on each mode per unit of its force.
@@ -55,20 +47,22 @@ pub(super) struct RestContact {
 
 impl RestForce {
     /// The force on each mode at the position `x`, into `push`, and the displacement of each mode that belongs to the
-    /// velocities `v` alone, into `drift`, which stays empty if there is none. `gap` is the gap of a closed stop with its
+    /// velocities `v` alone, or none. `gap` is the gap of a closed stop with its
     /// wall at its mean place. Harmonics of walls and of what they carry along are counted from their mean, as they are in
     /// what drives the modes; `turns` are their sines and cosines.
-    pub(super) fn at(
+    #[inline]
+    pub(super) fn at<'a>(
         &self,
         x: &[f64],
         v: &[f64],
         turns: &[(f64, f64)],
         gap: impl Fn(usize) -> f64,
-        buffers: &mut RestBuffers,
-    ) {
-        let RestBuffers { swung, mean, pulled, on_free, push, drift } = buffers;
-        swung.resize(x.len(), 0.0);
+        buffers: &'a mut RestBuffers,
+        push: &mut Vec<f64>,
+    ) -> &'a [f64] {
+        let RestBuffers { swung, mean, pulled, on_free, drift } = buffers;
         let mean = if self.carries {
+            swung.resize(x.len(), 0.0);
             for (swung, signal) in swung.iter_mut().zip(&self.carried) {
                 *swung = signal.swing(turns);
             }
@@ -78,7 +72,9 @@ impl RestForce {
         } else {
             x
         };
-        pulled.resize(x.len(), 0.0);
+        if pulled.len() != x.len() {
+            pulled.resize(x.len(), 0.0);
+        }
         for (i, (pulled, force)) in pulled.iter_mut().zip(&self.force).enumerate() {
             *pulled = force - dot(self.stiffness.row(i), mean);
         }
@@ -95,5 +91,6 @@ impl RestForce {
             self.free.apply_transposed_into(v, on_free);
             self.drift.apply_into(on_free, drift);
         }
+        drift
     }
 }

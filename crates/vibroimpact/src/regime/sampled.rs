@@ -106,34 +106,37 @@ impl Sampled {
     }
 
     /// The energies of the free parts of all modes at a state.
+    #[inline]
     pub(crate) fn energies(&self, z: &[f64], to: &mut Vec<f64>) {
         let (modes, turns) = z.split_at(3 * self.parts.len());
         let ((modes, _), (turns, _)) = (modes.as_chunks::<3>(), turns.as_chunks::<2>());
-        to.clear();
-        to.extend(self.parts.iter().zip(modes).map(|(part, [y, v, q])| {
+        if to.len() != modes.len() {
+            to.resize(modes.len(), 0.0);
+        }
+        for (to, (part, [y, v, q])) in to.iter_mut().zip(self.parts.iter().zip(modes)) {
             let (mut u, mut rate) = (y - if part.k > 0.0 { q / part.k } else { 0.0 }, *v);
             for (r, [cos, sin]) in part.response.iter().zip(turns) {
                 u -= r[0] * cos + r[1] * sin;
                 rate -= r[2] * cos + r[3] * sin;
             }
-            (rate * rate + part.k * u * u).sqrt()
-        }));
+            *to = (rate * rate + part.k * u * u).sqrt();
+        }
     }
 
     /// Bounds of the energies a time `s` later.
+    #[inline]
     pub(crate) fn grown(&self, energies: &[f64], z: &[f64], s: f64, to: &mut Vec<f64>) {
-        to.clear();
         let (modes, _) = z.as_chunks::<3>();
-        to.extend(
-            energies
-                .iter()
-                .zip(&self.parts)
-                .zip(modes)
-                .map(|((energy, part), mode)| energy + (part.growth + part.loose * mode[2].abs()) * s),
-        );
+        if to.len() != energies.len() {
+            to.resize(energies.len(), 0.0);
+        }
+        for (to, ((energy, part), mode)) in to.iter_mut().zip(energies.iter().zip(&self.parts).zip(modes)) {
+            *to = energy + (part.growth + part.loose * mode[2].abs()) * s;
+        }
     }
 
     /// The series of all modes over a step of the shortest span from a state.
+    #[inline]
     pub(crate) fn expand(&self, z: &[f64], to: &mut Vec<[f64; POWERS]>) {
         let (modes, turns) = z.split_at(3 * self.parts.len());
         let (modes, _) = modes.as_chunks::<3>();
@@ -303,7 +306,8 @@ impl GuardParts {
                 own.loose.push((i, a, b));
             }
         }
-        for ((a, b), w) in guard.signal.harmonics.iter().zip(of.rates) {
+        // the rows of a guard without harmonics would add nothing
+        for ((a, b), w) in guard.signal.harmonics.iter().zip(of.rates).filter(|_| guard.signal.moves()) {
             own.harmonics.extend([harmonic((*a, *b), w * step), harmonic((*b, -a), w * step)]);
         }
         own

@@ -495,18 +495,18 @@ impl Structure {
         buffers: &mut RestBuffers,
         force: &mut Vec<f64>,
     ) {
-        self.rest.at(x, v, turns, gap, buffers);
-        let (push, drift) = buffers.push_and_drift();
+        let drift = self.rest.at(x, v, turns, gap, buffers, force);
         if self.dense.is_none() {
-            for (push, slip) in push.iter_mut().zip(&self.slip) {
-                // the rate of a ramp in $`P_1`$
-                *push += slip.ramp;
+            if !self.plain {
+                for (push, slip) in force.iter_mut().zip(&self.slip) {
+                    // the rate of a ramp in $`P_1`$
+                    *push += slip.ramp;
+                }
             }
-            for ((push, drift), mode) in push.iter_mut().zip(drift).zip(&self.modes) {
+            for ((push, drift), mode) in force.iter_mut().zip(drift).zip(&self.modes) {
                 *push -= mode.k * drift;
             }
         }
-        core::mem::swap(push, force);
     }
 
     /// The modal displacements and velocities from the mass-normalised state at the beginning of a flight; `at` is the value
