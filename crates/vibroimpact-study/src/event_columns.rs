@@ -41,11 +41,35 @@ pub(crate) struct Rows<'a> {
     count: &'a mut [i32],
     end: &'a mut [i8],
     end_time: &'a mut [f64],
-    aside: Vec<(usize, Event)>,
+    /// Events that are not yet written, together, because those of motions side by side come in any order, and each would
+    /// touch a line of the cache in every column.
+    last: Vec<Last>,
+    kept: Vec<Kept>,
+    aside: Vec<(usize, Numbers)>,
 }
 
-/// The numbers of an event: kind and stop; time, phase and velocities.
-fn numbers(event: &Event) -> ([i8; 2], [f64; 4]) {
+/// An event as it is written: kind and stop; time, phase and velocities.
+pub(crate) type Numbers = ([i8; 2], [f64; 4]);
+
+/// The number of events that are written at once: as many numbers as a line of the cache has.
+const AT_ONCE: usize = 8;
+
+/// The number of events of a motion that are written, and kinds and stops of those that are not.
+#[derive(Clone, Copy, Default)]
+struct Last {
+    written: u32,
+    count: u32,
+    small: [[i8; 2]; AT_ONCE],
+}
+
+/// The numbers of the last events of a motion, which are not yet written.
+#[derive(Clone, Copy, Default)]
+#[repr(align(64))]
+struct Kept([[f64; 4]; AT_ONCE]);
+
+/// The numbers of an event.
+#[inline]
+fn numbers(event: &Event) -> Numbers {
     let (kind, before, after) = match event.kind {
         EventKind::Impact { velocity_before, velocity_after } => (0, velocity_before, velocity_after),
         EventKind::Graze { .. } => (1, f64::NAN, f64::NAN),
@@ -60,20 +84,42 @@ fn numbers(event: &Event) -> ([i8; 2], [f64; 4]) {
 }
 
 /// What is written after the last event of a motion.
-const NOTHING: ([i8; 2], [f64; 4]) = ([-1, 0], [f64::NAN; 4]);
+const NOTHING: Numbers = ([-1, 0], [f64::NAN; 4]);
 
 impl Rows<'_> {
-    /// Writes the next event of a motion into its row.
+    /// Makes the rows ready for events.
+    pub(crate) fn begun(mut self) -> Self {
+        self.last = vec![Last::default(); self.count.len()];
+        self.kept = vec![Kept::default(); self.count.len()];
+        self
+    }
+
+    /// Takes the next event of a motion for its row.
     #[inline]
     pub(crate) fn push(&mut self, row: usize, event: &Event) {
-        let count = usize::try_from(self.count[row]).unwrap_or(usize::MAX);
-        self.count[row] += 1;
-        if count >= self.room {
-            return self.aside.push((row, *event));
+        let (last, (small, real)) = (&mut self.last[row], numbers(event));
+        let at = last.count as usize % AT_ONCE;
+        (last.small[at], self.kept[row].0[at]) = (small, real);
+        last.count += 1;
+        if last.count as usize == AT_ONCE {
+            self.write(row);
         }
-        let (at, (small, real)) = (row * self.room + count, numbers(event));
-        self.small.iter_mut().zip(small).for_each(|(column, value)| column[at] = value);
-        self.real.iter_mut().zip(real).for_each(|(column, value)| column[at] = value);
+    }
+
+    /// Writes the last events of a motion into its row.
+    fn write(&mut self, row: usize) {
+        let (last, kept) = (&mut self.last[row], &self.kept[row].0);
+        let (written, count) = (last.written as usize, last.count as usize);
+        (last.written, last.count) = (last.written + last.count, 0);
+        let here = count.min(self.room.saturating_sub(written));
+        self.aside.extend((here..count).map(|k| (row, (last.small[k], kept[k]))));
+        let at = row * self.room + written.min(self.room);
+        for (k, column) in self.small.iter_mut().enumerate() {
+            column[at..at + here].iter_mut().zip(&last.small).for_each(|(cell, small)| *cell = small[k]);
+        }
+        for (k, column) in self.real.iter_mut().enumerate() {
+            column[at..at + here].iter_mut().zip(kept).for_each(|(cell, real)| *cell = real[k]);
+        }
     }
 
     /// Writes why and when the list of a motion ends.
@@ -84,10 +130,12 @@ impl Rows<'_> {
     }
 
     /// Fills up all rows. Returns the events for which they had no room.
-    pub(crate) fn filled(mut self) -> Vec<(usize, Event)> {
-        for (row, count) in self.count.iter().enumerate() {
-            let count = usize::try_from(*count).unwrap_or(0).min(self.room);
-            let rest = row * self.room + count..(row + 1) * self.room;
+    pub(crate) fn filled(mut self) -> Vec<(usize, Numbers)> {
+        for row in 0..self.last.len() {
+            self.write(row);
+            let written = self.last[row].written;
+            self.count[row] = i32::try_from(written).unwrap_or(i32::MAX);
+            let rest = row * self.room + (written as usize).min(self.room)..(row + 1) * self.room;
             self.small.iter_mut().zip(NOTHING.0).for_each(|(column, value)| column[rest.clone()].fill(value));
             self.real.iter_mut().zip(NOTHING.1).for_each(|(column, value)| column[rest.clone()].fill(value));
         }
@@ -127,6 +175,8 @@ impl EventColumns {
             room,
             small: [kind, side],
             real: [time, phase, before, after],
+            last: Vec::new(),
+            kept: Vec::new(),
             count,
             end,
             end_time,
@@ -137,7 +187,7 @@ impl EventColumns {
 
     /// The columns with room for the events of the longest row. `aside` are the events that the rows had no room for, in
     /// their order.
-    pub(crate) fn fitted(mut self, aside: impl Iterator<Item = (usize, Event)>) -> Self {
+    pub(crate) fn fitted(mut self, aside: impl Iterator<Item = (usize, Numbers)>) -> Self {
         self.width = self.count.iter().max().map_or(0, |count| usize::try_from(*count).unwrap_or(0));
         let (old, new, rows) = (self.room, self.width, self.count.len());
         // a copy of all events takes longer than a few empty cells are worth
@@ -154,7 +204,7 @@ impl EventColumns {
         self.room = new;
         let mut next = vec![old; rows];
         for (row, event) in aside {
-            let (at, ([kind, side], [time, phase, before, after])) = (row * new + next[row], numbers(&event));
+            let (at, ([kind, side], [time, phase, before, after])) = (row * new + next[row], event);
             next[row] += 1;
             (self.kind[at], self.side[at], self.time[at], self.phase[at]) = (kind, side, time, phase);
             (self.velocity_before[at], self.velocity_after[at]) = (before, after);

@@ -72,6 +72,7 @@ impl Bounds {
     }
 
     /// Whether the next event of a motion belongs to the list, and the end if the list ends with it or before it.
+    #[inline]
     pub(crate) fn next(&self, so_far: &mut SoFar, event: &Event) -> (bool, Option<Ended>) {
         if event.time > self.until {
             return (false, Some(("time_limit", self.until, None)));

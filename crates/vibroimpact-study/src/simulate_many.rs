@@ -38,7 +38,7 @@ pub fn simulate_points(
         let [first, last] = [range.start, range.end].map(|k| usize::try_from(k).unwrap_or(usize::MAX));
         let rows = parts[first / tile].lock().ok().and_then(|mut rows| rows.take());
         let Some(rows) = rows else { return Ok(Vec::new()) };
-        let mut part = Part { rows, so_far: vec![SoFar::default(); last - first], control, tick };
+        let mut part = Part { rows: rows.begun(), so_far: vec![SoFar::default(); last - first], control, tick };
         if let Some(osc) = &one {
             let at = |k: usize| points.start_in((system, system), start, k).start(osc);
             let starts: Vec<Start> = (first..last).map(at).collect::<Result<_, PlanError>>()?;
@@ -91,7 +91,8 @@ struct Motions<'p, 'a> {
 }
 
 impl EventRecorder for Motions<'_, '_> {
-    #[inline]
+    // an event in memory, written number by number, could not be read in larger pieces before all are there
+    #[inline(always)]
     fn event(&mut self, motion: usize, event: &Event) -> bool {
         let row = self.first + motion;
         let (listed, end) = self.bounds.next(&mut self.part.so_far[row], event);
