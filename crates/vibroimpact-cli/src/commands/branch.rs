@@ -96,8 +96,8 @@ pub(crate) struct Branch {
     #[arg(long, help_heading = "Output")]
     no_diagram: bool,
 
-    /// Draw inadmissible solutions too, dotted
-    #[arg(long = "virtual", help_heading = "Output")]
+    /// Draw inadmissible solutions too, dotted. Not for a machine, whose branches end where an orbit ceases to be admissible
+    #[arg(long = "virtual", conflicts_with = "machine", help_heading = "Output")]
     show_virtual: bool,
 
     /// Print one JSON object instead of text

@@ -154,6 +154,19 @@ fn listed_values() {
     assert_eq!(steps, ["0 up", "0.5 up", "0.6 up", "2 up", "2 down", "0.6 down", "0.5 down", "0 down"]);
 }
 
+/// The text names both numbers that vary; only branches of oscillators have inadmissible solutions to draw.
+#[test]
+fn both_numbers_of_a_machine_are_named() {
+    let line = "diagram --machine two-mass-hammer --vary frequency --over 0.9:1:2 --also stop.anvil.gap=0.4:0.5 --transient 50";
+    let output = vibro(line).output().expect("vibro runs");
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(said.starts_with("2 values of frequency from 0.9 to 1, stop.anvil.gap from 0.4 to 0.5\n"), "{said}");
+    let line = "branch --machine two-mass-hammer --vary frequency --to 1.01 --plot a.svg --virtual";
+    let output = vibro(line).output().expect("vibro runs");
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.code() == Some(2) && said.contains("--virtual") && said.contains("--machine"), "{said}");
+}
+
 /// The figure of a diagram over the gap.
 fn drawn(line: &str) -> String {
     let folder = tempfile::tempdir().expect("a folder");
