@@ -54,7 +54,7 @@ impl Explorer {
             return Ok(known);
         }
         let body = self.workshop.run(bench, threads, progress, work).await?;
-        self.keep(name, body.clone());
+        self.keep(name, &body);
         Ok(body)
     }
 
@@ -63,9 +63,10 @@ impl Explorer {
         self.finished.get(name)
     }
 
-    /// Puts an answer into the cache.
-    pub(crate) fn keep(&self, name: String, body: Bytes) {
-        self.finished.insert(name, body);
+    /// Puts an answer into the cache: a copy, because the memory of a body that grew is up to twice its length, which the
+    /// limit of the cache does not see.
+    pub(crate) fn keep(&self, name: String, body: &Bytes) {
+        self.finished.insert(name, Bytes::copy_from_slice(body));
     }
 
     /// Removes an answer from the cache.

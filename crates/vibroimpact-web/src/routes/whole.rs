@@ -61,10 +61,10 @@ pub(super) async fn whole(
         tile.compute(control, || Instant::now() > end);
         let body = Bytes::from(tile.pack());
         if tile.missing().is_empty() {
-            cache.keep(name, body.clone());
+            cache.keep(name, &body);
             cache.forget(&begun);
         } else {
-            cache.keep(begun, body.clone());
+            cache.keep(begun, &body);
         }
         Ok(body)
     };
