@@ -152,7 +152,7 @@ def test_the_command_asks_for_it(store: Path, vibro: Callable[..., Any], tmp_pat
         words = ("export", store, f"--{form}", tmp_path / form, "--python", sys.executable)
         done = vibro(*words)
         assert done.returncode == 0 and (tmp_path / form).stat().st_size > 500, done.stderr
-        assert vibro(*words).returncode == 2 and vibro(*words, "--force").returncode == 0
+    assert vibro(*words).returncode == 2 and vibro(*words, "--force").returncode == 0
 
 
 def test_refusals(s: vi.Oscillator, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
