@@ -112,6 +112,9 @@ fn motion(machine: &Machine, verdict: &MachineVerdict) -> String {
         MachineVerdict::Undecided { why, events, .. } => {
             let why = match why {
                 MachineUndecided::Events => "the budget is used up".to_owned(),
+                MachineUndecided::Unconfirmed => {
+                    "it is periodic, as it returns to a release from rest, but rounding errors decide its period".to_owned()
+                }
                 why => undecided(*why).replace('_', " "),
             };
             format!("undecided after {}: {why}\n", counted(*events, "event"))

@@ -156,6 +156,7 @@ pub(super) fn motion<'a>(machine: &'a Machine, verdict: &'a MachineVerdict) -> M
 pub const fn undecided(why: MachineUndecided) -> &'static str {
     match why {
         MachineUndecided::Events => "events",
+        MachineUndecided::Unconfirmed => "unconfirmed",
         MachineUndecided::Ended(MachineEnd::NoEventWithin) => "time_limit",
         MachineUndecided::Ended(MachineEnd::SearchLimit) => "search_limit",
         MachineUndecided::Ended(MachineEnd::Inconsistent) => "inconsistent",
