@@ -7,7 +7,7 @@ use crate::events::{MachineEnd, Place};
 use crate::lyapunov::Measured;
 use crate::lyapunov::blocks::FEWEST;
 use crate::machine::{Machine, MachineError};
-use crate::orbit::{MachineCycle, MachineFrame, MachineLap, machine_distance};
+use crate::orbit::{MachineCycle, MachineFrame, MachineLap};
 use crate::quantities::quantity::Quantity;
 use crate::regime::ContactState;
 use crate::verdict::{MachineTail, MachineVerdict};
@@ -191,7 +191,7 @@ fn steady(frame: &MachineFrame<'_>, from: &Place) -> Option<MachineQuantities> {
     let (size, speed) = lap.sizes;
     // at rest without forcing, velocities are what is left of a motion
     let sizes = (size, speed.max(size / time));
-    (machine_distance(from, &lap.end, sizes) <= CLOSED).then(|| over_time(frame, from, time))?
+    (frame.distance(from, &lap.end, sizes) <= CLOSED).then(|| over_time(frame, from, time))?
 }
 
 /// The quantities of a chaotic motion over its last steps.

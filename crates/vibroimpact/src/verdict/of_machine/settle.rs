@@ -204,7 +204,7 @@ fn settle_in<'a>(
             let decided = matches!(verdict, MachineVerdict::NoImpact(_) | MachineVerdict::Stuck(_));
             return settled(verdict, events, if decided { before } else { time }, &record);
         }
-        let (x, v) = MachineFrame::sizes(&step.begin);
+        let (x, v) = system.frame.sizes(&step.begin);
         sizes.push_back((x, v));
         if sizes.len() > RECENT {
             sizes.pop_front();
