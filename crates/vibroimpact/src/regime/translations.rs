@@ -9,6 +9,8 @@ use crate::math::{Matrix, add_scaled, dot};
 
 /// A row that is a combination of others to within this part of its size depends on them.
 const DEPENDENT: f64 = 1e-14;
+/// A spring or a stop of this part of the size of its row does not see a direction, which is rounded.
+const UNSEEN: f64 = 1e-13;
 
 /// The free translations. Most machines have none, and then nothing here changes a number.
 #[derive(Clone, Debug, Default)]
@@ -25,19 +27,20 @@ impl Translations {
     /// Those of a machine with this lower factor of its mass matrix.
     pub(crate) fn new(parts: &MachineParts, factor: &Matrix) -> Self {
         let n = parts.n();
-        let springs = (0..n).map(|i| factor.solve_lower(parts.stiffness.row(i)));
-        let mut seen: Vec<Vec<f64>> = springs.collect();
-        // the smallest first, so that stiff springs hide no soft ones
-        seen.sort_by(|a, b| dot(a, a).total_cmp(&dot(b, b)));
         let mut across: Vec<Vec<f64>> = Vec::new();
-        for row in parts.stops.iter().map(|stop| factor.solve_lower(&stop.direction)).chain(seen) {
+        let mut rows: Vec<Vec<f64>> = Vec::new();
+        let mut springs: Vec<usize> = (0..n).collect();
+        // the smallest first, so that stiff springs hide no soft ones
+        let size = |i: &usize| dot(parts.stiffness.row(*i), parts.stiffness.row(*i));
+        springs.sort_by(|a, b| size(a).total_cmp(&size(b)));
+        let stops = parts.stops.iter().map(|stop| stop.direction.as_slice());
+        for row in stops.chain(springs.iter().map(|i| parts.stiffness.row(*i))) {
+            let row = factor.solve_lower(row);
+            across.extend(perpendicular(&row, &across));
             if across.len() == n {
                 return Self::default();
             }
-            across.extend(perpendicular(&row, &across));
-        }
-        if across.len() == n {
-            return Self::default();
+            rows.push(row);
         }
         let mut along: Vec<Vec<f64>> = Vec::new();
         while along.len() + across.len() < n {
@@ -48,6 +51,10 @@ impl Translations {
             let unit: Vec<f64> = (0..n).map(|k| if k == i { 1.0 } else { 0.0 }).collect();
             let Some(next) = perpendicular(&unit, &known) else { break };
             along.push(next);
+        }
+        let sees = |row: &Vec<f64>, r: &Vec<f64>| dot(row, r).abs() > UNSEEN * dot(row, row).sqrt();
+        if rows.iter().any(|row| along.iter().any(|r| sees(row, r))) {
+            return Self::default();
         }
         let mut in_machine: Vec<Vec<f64>> = Vec::new();
         for x in &along {
@@ -64,6 +71,11 @@ impl Translations {
     /// The number of them.
     pub(crate) const fn count(&self) -> usize {
         self.along.len()
+    }
+
+    /// Whether one of them moves a coordinate of the machine.
+    pub(crate) fn moves(&self, coordinate: usize) -> bool {
+        self.in_machine.iter().any(|direction| direction[coordinate].abs() > UNSEEN)
     }
 
     /// The directions of a state that are no translations: of displacements, of velocities and of what follows them.
@@ -176,7 +188,8 @@ mod tests {
             let direction = &free.in_machine[0];
             assert!(direction.iter().all(|q| (q.abs() - 0.5).abs() < 1e-12), "{direction:?}");
             assert!(of(parts.clone().with_rigid_stop("wall", &[0.0, 1.0, 0.0, 0.0], 0.1, 0.5)).is_empty());
-            assert!(of(parts.with_link(&[0.0, 0.0, 1.0, 0.0], 1e-6 * (springs[1] + springs[2]), 0.0)).is_empty());
+            let soft = 1e-9 * springs.iter().sum::<f64>();
+            assert!(of(parts.with_link(&[0.0, 0.0, 1.0, 0.0], soft, 0.0)).is_empty());
         }
     }
 

@@ -7,6 +7,7 @@ use vibroimpact::events::{MachineLimits, MachineMotion, MachineSamples, MachineS
 use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::math::Matrix;
 use vibroimpact::orbit::MachineCycle;
+use vibroimpact::quantities::machine_cycle_quantities;
 use vibroimpact::verdict::{MachineVerdict, SettleOptions, SteadyMotion, settle_machine};
 
 /// A mass on a spring in a capsule on a rough surface, driven, with a soft plate on one side; `pull` acts on the capsule.
@@ -155,6 +156,20 @@ fn closed_form_of_the_drift() {
         cycles += 1;
     }
     assert!(cycles >= 3, "{cycles}");
+}
+
+/// Over a cycle the powers balance, with that of the constant force along the drift.
+#[test]
+fn powers_balance() {
+    for machine in [capsule(0.0), capsule(-0.2), pair(0.05, (0.3, 0.1), 0.6), pair(0.4, (0.5, 0.0), 0.3)] {
+        let found = machine_cycle_quantities(&machine, &cycle(&machine, &MachineStart::default())).unwrap();
+        let of = |path: &str| found.value(&machine, path).unwrap();
+        let lost = of("impact_power") + of("contact_power") + of("friction_power") + of("damping_power");
+        assert!((of("power") - lost).abs() < 1e-12 * lost, "{} {lost}", of("power"));
+        // displacements depend on where the machine is
+        let name = &machine.parts().coordinates[0];
+        assert!(of(&format!("q.{name}.displacement_mean")).is_nan() && of(&format!("q.{name}.velocity_rms")) > 0.0);
+    }
 }
 
 /// Motions that differ by a translation are the same, wherever they begin.
