@@ -32,7 +32,8 @@ pub struct MachineCycle {
     /// The largest difference of a coordinate or velocity after one period, but for a translation, relative to the largest
     /// ones.
     pub residual: f64,
-    /// By how much each coordinate moves on in one period: 0 in machines without free translations.
+    /// By how much each coordinate moves on in one period: 0 in machines without free translations, and below 1e-12 of the
+    /// size of the motion.
     pub drift: Vec<f64>,
     /// A state of the cycle between two events.
     pub state: MachineStart,
@@ -51,6 +52,8 @@ const PATIENCE: u32 = 8;
 const HOPELESS: f64 = 1e-2;
 /// A residual up to this is accepted; the rounding error is usually 1e-14.
 const CLOSED: f64 = 1e-10;
+/// What rounding leaves of no drift, relative to the motion.
+const ROUNDED: f64 = 1e-12;
 /// States that differ by less, relative to the motion, are the same.
 const SAME: f64 = 1e-8;
 
@@ -227,6 +230,10 @@ impl MachineCycle {
         multipliers.truncate(frame.multipliers());
         let free = frame.normal.translations.clone();
         let moved: Vec<f64> = lap.end.x.iter().zip(&begin.x).map(|(end, begin)| end - begin).collect();
+        let mut drift = frame.normal.to_machine(&free.part(&moved));
+        if drift.iter().all(|drift| drift.abs() <= ROUNDED * lap.sizes.0) {
+            drift.fill(0.0);
+        }
         Self {
             label: Label { impacts, periods: n },
             counts,
@@ -234,7 +241,7 @@ impl MachineCycle {
             period,
             multipliers,
             residual,
-            drift: frame.normal.to_machine(&free.part(&moved)),
+            drift,
             state: MachineStart {
                 q: frame.normal.to_machine(&begin.x),
                 qdot: frame.normal.to_machine(&begin.v),
