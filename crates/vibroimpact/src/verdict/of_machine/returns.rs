@@ -73,7 +73,9 @@ impl Recurring for Recorded<'_> {
     }
 
     fn cycle(&self, last: &Arc<Step>, _: u32, n: u32) -> Option<MachineCycle> {
-        MachineCycle::near(&self.frame, &last.end, n)
+        // a machine that moves freely comes to rest anywhere: its motion without events begins after the last one
+        let attracts = |cycle: &MachineCycle| !cycle.events.is_empty() || cycle.translations() == 0;
+        MachineCycle::near(&self.frame, &last.end, n).filter(attracts)
     }
 
     fn stable(cycle: &MachineCycle) -> bool {
