@@ -223,6 +223,40 @@ fn branches_of_drifting_cycles() {
     }
 }
 
+/// At a flip a cycle of twice the period begins, with twice the drift; beyond, it is what simulation finds.
+#[test]
+fn a_flip_doubles_the_drift() {
+    let machine = capsule(0.0);
+    let found = cycle(&machine, &MachineStart::default());
+    let (family, value) = MachineFamily::of_path(&machine, "force.1.cos.mass").unwrap();
+    let branch = MachineBranch::new((&family, value), &found, &(1.05..=1.6), Direction::Down, BranchOptions::default());
+    let flip = branch.unwrap().find(|point| point.event == Some(MachineBranchEvent::Flip)).unwrap();
+    assert!((flip.cycle.multipliers[0].re + 1.0).abs() < 1e-6);
+    let (at, doubled) = flip.doubled(&family, 0.1).unwrap();
+    assert_eq!(doubled.label.to_string(), "6/4");
+    assert!(
+        (doubled.drift[0] - 2.0 * flip.cycle.drift[0]).abs() < 0.05 * doubled.drift[0].abs(),
+        "{:?}",
+        doubled.drift
+    );
+    if doubled.stable() {
+        let MachineVerdict::Periodic(other) = settled(&family.at(at).unwrap(), &doubled.state) else { panic!() };
+        assert!(other.same_as(&doubled, 1e-6));
+    }
+}
+
+/// A capsule that its surface holds has no further event, wherever it has come to rest.
+#[test]
+fn a_held_capsule_is_no_cycle() {
+    let mut parts = capsule(0.0).parts().clone();
+    (parts.frequency, parts.forces[0].cos[0], parts.stops[0].gap) = (Some(0.5), 0.750_726_995, 10.0);
+    let held = Machine::new(parts).unwrap();
+    let slipping = held.with("force.1.cos.mass", 0.750_726_996).unwrap();
+    assert!(matches!(settled(&held, &MachineStart::default()), MachineVerdict::NoImpact(_)));
+    let MachineVerdict::Periodic(found) = settled(&slipping, &MachineStart::default()) else { panic!() };
+    assert!(!found.events.is_empty() && found.drift == [0.0, 0.0]);
+}
+
 /// A free body without stops has no events; its steady motion drifts with the force over the drag.
 #[test]
 fn without_stops() {
