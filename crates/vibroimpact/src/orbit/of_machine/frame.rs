@@ -25,14 +25,16 @@ pub(crate) fn distance(free: &Translations, (a, b): (&Place, &Place), (size, spe
     if a.states != b.states {
         return f64::INFINITY;
     }
-    let mut x: Vec<f64> = a.x.iter().zip(&b.x).map(|(a, b)| a - b).collect();
-    free.remove(&mut x);
-    let v = a.v.iter().zip(&b.v).map(|(a, b)| a - b);
-    let apart = |differences: &mut dyn Iterator<Item = f64>, size: f64| {
-        let most = differences.fold(0.0_f64, |most, difference| most.max(difference.abs()));
-        if most == 0.0 { 0.0 } else { most / size }
+    let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+    let x = if free.is_empty() {
+        apart(&a.x, &b.x)
+    } else {
+        let mut x: Vec<f64> = a.x.iter().zip(&b.x).map(|(a, b)| a - b).collect();
+        free.remove(&mut x);
+        x.iter().fold(0.0_f64, |most, x| most.max(x.abs()))
     };
-    let (x, v) = (apart(&mut x.into_iter(), size), apart(&mut { v }, speed));
+    let part = |apart: f64, size: f64| if apart == 0.0 { 0.0 } else { apart / size };
+    let (x, v) = (part(x, size), part(apart(&a.v, &b.v), speed));
     x.max(v).max(phase::difference(a.phase, b.phase).abs())
 }
 
