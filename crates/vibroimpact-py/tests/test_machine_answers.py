@@ -35,6 +35,25 @@ def test_a_settled_motion_has_columns() -> None:
     assert np.allclose(wave.q[-1], q, atol=1e-9) and np.allclose(wave.qdot[-1], qdot, atol=1e-9)
 
 
+def test_a_capsule_drifts() -> None:
+    capsule = vi.Machine.named("capsule")
+    motion = capsule.settle().motion
+    assert (motion.label, motion.stable, motion.multipliers.shape) == ("3/2", True, (3,))
+    assert motion.drift is not None and motion.drift_velocity is not None and list(motion.drift) == ["mass", "capsule"]
+    # two periods from its state lead to the same velocities, and on by the drift
+    q, qdot, phase = motion.state or ([], [], 0.0)
+    wave = capsule.simulate(q=q, qdot=qdot, phase=phase, periods=2).waveform(events=True)
+    assert np.allclose(wave.q[-1] - wave.q[0], list(motion.drift.values()), atol=1e-9, rtol=0)
+    assert np.allclose(wave.qdot[-1], qdot, atol=1e-9)
+    assert abs(motion.drift["mass"] / (2 * (capsule.period or math.nan)) - motion.drift_velocity["mass"]) < 1e-12
+    exponents = capsule.lyapunov().exponents
+    assert exponents is not None and len(exponents) == 4 and exponents[0].value == 0
+    branch = capsule.branch("alpha", 1.55)
+    assert branch.multipliers.shape == (len(branch), 3) and branch.drift.shape == (len(branch), 2)
+    assert np.allclose(branch.drift[0], list(motion.drift.values()), atol=1e-9, rtol=0)
+    assert HAMMER.settle().motion.drift is None and not HAMMER.branch("frequency", 1.19).drift.any()
+
+
 def test_attractors_orbits_and_exponents_agree() -> None:
     found = HAMMER.attractors(12, seed=3, threads=1)
     assert found.starts == 12 == found.count.sum() and abs(found.share.sum() - 1) < 1e-12

@@ -112,6 +112,10 @@ fn motion(machine: &Machine, verdict: &MachineVerdict) -> String {
         MachineVerdict::Undecided { why, events, .. } => {
             let why = match why {
                 MachineUndecided::Events => "the budget is used up".to_owned(),
+                MachineUndecided::Unconfirmed => {
+                    "it is periodic, as it returns to a release from rest, but rounding errors decide its period"
+                        .to_owned()
+                }
                 why => undecided(*why).replace('_', " "),
             };
             format!("undecided after {}: {why}\n", counted(*events, "event"))
@@ -162,6 +166,18 @@ fn described(machine: &Machine, cycle: &MachineCycle) -> String {
         if multiplier.im == 0.0 { short(multiplier.re) } else { format!("|{size}| complex") }
     });
     let _ = writeln!(text, "  multipliers: {}", multipliers.collect::<Vec<_>>().join(", "));
+    if cycle.translations() > 0 {
+        let by_name = |values: &[f64]| {
+            let names = machine.parts().coordinates.iter().zip(values);
+            names.map(|(name, value)| format!("{name} {}", short(*value))).collect::<Vec<_>>().join(", ")
+        };
+        let _ = match cycle.drift.iter().any(|drift| *drift != 0.0) {
+            true => {
+                writeln!(text, "  drift: {}; mean velocity {}", by_name(&cycle.drift), by_name(&cycle.drift_velocity()))
+            }
+            false => writeln!(text, "  drift: none"),
+        };
+    }
     for event in &cycle.events {
         let _ = writeln!(
             text,

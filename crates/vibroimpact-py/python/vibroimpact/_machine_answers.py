@@ -129,7 +129,11 @@ class MachineMotion(Result):
     counts : dict
         The closings of each stop in one period.
     multipliers : ndarray of complex128
-        All Floquet multipliers of a cycle, two for each coordinate, the largest first.
+        All Floquet multipliers of a cycle, two for each coordinate, the largest first. In a machine that can be translated as
+        a whole, the 1 that belongs to this is left out.
+    drift, drift_velocity : dict or None
+        By how much each coordinate moves on in one period of a cycle, and the mean velocity of this; None if the machine
+        cannot be translated.
     cycle : MachineCycle
         The events of a cycle.
     state : (list, list, float) or None
@@ -155,6 +159,8 @@ class MachineMotion(Result):
     sticks: int | None
     counts: dict[str, int]
     multipliers: NDArray[np.complex128]
+    drift: dict[str, float] | None
+    drift_velocity: dict[str, float] | None
     cycle: MachineCycle
     state: tuple[list[float], list[float], float] | None
     exponents: tuple[Measured, ...] | None
@@ -207,6 +213,8 @@ def _motion(given: dict[str, Any], width: int, machine: Any) -> MachineMotion:
         **{name: given[name] for name in ("label", "kind", "stable", "impacts", "periods", "sticks")},
         counts=given.get("counts", {}),
         multipliers=_complex(given["multipliers"] or []),
+        drift=given.get("drift"),
+        drift_velocity=given.get("drift_velocity"),
         cycle=_cycle(given["cycle"], width),
         state=state and (state["q"], state["qdot"], state["phase"]),
         exponents=_all_measured(given.get("exponents")),
@@ -515,7 +523,9 @@ class MachineBranch(Result):
     speed : ndarray
         The largest speed of a closing at each point.
     multipliers : ndarray of complex128, points x (two for each coordinate)
-        Floquet multipliers.
+        Floquet multipliers, without the 1 of each free translation.
+    drift : ndarray, points x coordinates
+        By how much each coordinate moves on in one period; 0 if the machine cannot be translated.
     cycles : tuple of MachineCycle
         The events at each point.
     event_kind, event_label, event_stop : ndarray of str
@@ -541,6 +551,7 @@ class MachineBranch(Result):
     stable: NDArray[np.bool_]
     speed: _Floats
     multipliers: NDArray[np.complex128]
+    drift: _Floats
     cycles: tuple[MachineCycle, ...]
     event_kind: NDArray[np.str_]
     event_parameter: _Floats
@@ -610,6 +621,12 @@ class MachineBranch(Result):
         self.plot(ax, diagram=False)
 
 
+def _multipliers(points: Sequence[Mapping[str, Any]], width: int) -> NDArray[np.complex128]:
+    """Those of all points, in rows."""
+    each = len(points[0]["multipliers"]) if points else 2 * width
+    return _complex([pair for point in points for pair in point["multipliers"]]).reshape(len(points), each)
+
+
 def branch(found: Mapping[str, Any], machine: Any) -> MachineBranch:
     """Of the JSON object."""
     line, orbit = found.get("also"), found.get("orbit")
@@ -636,7 +653,7 @@ def _branch(
     def closing(point: Mapping[str, Any]) -> float:
         return max((event["speed"] for event in point["cycle"] if event["kind"] in ("impact", "close")), default=0.0)
 
-    flat = [pair for point in points for pair in point["multipliers"]]
+    drift = [list(point["drift"].values()) if "drift" in point else [0.0] * width for point in points]
     second = np.array([point["values"][1] for point in points if "values" in point], dtype=np.float64)
     return MachineBranch(
         **whole_answer,
@@ -647,7 +664,8 @@ def _branch(
         label=words(points, "label"),
         stable=np.array([point["stable"] for point in points], dtype=np.bool_),
         speed=np.array([closing(point) for point in points], dtype=np.float64),
-        multipliers=_complex(flat).reshape(len(points), 2 * width),
+        multipliers=_multipliers(points, width),
+        drift=np.array(drift, dtype=np.float64).reshape(len(points), width),
         cycles=tuple(_cycle(point["cycle"], width) for point in points),
         event_kind=words(events, "kind"),
         event_parameter=np.array([event["parameter"] for event in events], dtype=np.float64),
@@ -740,7 +758,6 @@ class MachineCurve(Result):
 def curve(found: Mapping[str, Any]) -> MachineCurve:
     """Of the JSON object."""
     width, points, events = len(found["coordinates"]), found["points"], found["events"]
-    flat = [pair for point in points for pair in point["multipliers"]]
     one, two = found["parameters"]
     return MachineCurve(
         kind=found["kind"],
@@ -748,7 +765,7 @@ def curve(found: Mapping[str, Any]) -> MachineCurve:
         of=tuple(found.get("of", ())),
         parameters=(one, two),
         values=np.array([point["values"] for point in points], dtype=np.float64).reshape(len(points), 2),
-        multipliers=_complex(flat).reshape(len(points), 2 * width),
+        multipliers=_multipliers(points, width),
         residual=np.array([point["residual"] for point in points], dtype=np.float64),
         cycles=tuple(_cycle(point["cycle"], width) for point in points),
         event_kind=np.array([event["kind"] for event in events], dtype=np.str_),

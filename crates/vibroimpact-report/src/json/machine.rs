@@ -5,9 +5,10 @@ use super::certainty::Certainty;
 use super::diagram::{Counts, machine_counts};
 use super::machine_curve::curved;
 use super::machine_event::{EventObject, event_object};
-use super::machine_motion::{Estimate, MotionObject, cycle, estimates, motion, multipliers};
+use super::machine_motion::{Estimate, MotionObject, cycle, drift, estimates, motion, multipliers};
 use crate::{MachineAnswer, PROGRAM};
 use serde::{Serialize, Serializer};
+use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 use vibroimpact::chaos::Measured;
 use vibroimpact::continuation::{MachineBranchEvent, MachinePoint};
@@ -106,6 +107,8 @@ struct PointObject<'a> {
     label: String,
     cycle: Vec<EventObject<'a>>,
     multipliers: Vec<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drift: Option<Map<String, Value>>,
     stable: bool,
     physical: bool,
 }
@@ -315,6 +318,7 @@ impl MachineAnswer {
             label: point.cycle.label.to_string(),
             cycle: point.cycle.events.iter().map(|event| event_object(machine, event)).collect(),
             multipliers: multipliers(&point.cycle.multipliers),
+            drift: drift(machine, &point.cycle),
             stable: point.cycle.stable(),
             physical: true,
         };

@@ -25,6 +25,11 @@ pub(super) struct MotionObject<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     counts: Option<Map<String, Value>>,
     multipliers: Option<Vec<[f64; 2]>>,
+    /// By how much each coordinate moves on in one period, and the mean velocity of this, in machines that can be translated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drift: Option<Map<String, Value>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drift_velocity: Option<Map<String, Value>>,
     cycle: Vec<EventObject<'a>>,
     /// A state between two events from which the motion can be started.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -83,6 +88,8 @@ fn empty<'a>(kind: &'static str, label: String) -> MotionObject<'a> {
         stable: None,
         counts: None,
         multipliers: None,
+        drift: None,
+        drift_velocity: None,
         cycle: Vec::new(),
         state: None,
         residual: None,
@@ -110,12 +117,24 @@ pub(super) fn cycle<'a>(machine: &'a Machine, cycle: &'a MachineCycle) -> Motion
         stable: Some(cycle.stable()),
         counts: Some(counts.map(|(stop, count)| (stop.name.clone(), Value::from(*count))).collect()),
         multipliers: Some(multipliers(&cycle.multipliers)),
+        drift: drift(machine, cycle),
+        drift_velocity: (cycle.translations() > 0).then(|| by_coordinate(machine, &cycle.drift_velocity())),
         cycle: cycle.events.iter().map(|event| event_object(machine, event)).collect(),
         state: Some(StateObject { q: &cycle.state.q, qdot: &cycle.state.qdot, phase: cycle.state.phase }),
         residual: Some(cycle.residual),
         quantities: machine_cycle_quantities(machine, cycle).map(|found| values(machine, &found)),
         ..empty("periodic", cycle.label.to_string())
     }
+}
+
+/// The drift of a cycle by coordinate; `None` in a machine without free translations.
+pub(super) fn drift(machine: &Machine, cycle: &MachineCycle) -> Option<Map<String, Value>> {
+    (cycle.translations() > 0).then(|| by_coordinate(machine, &cycle.drift))
+}
+
+fn by_coordinate(machine: &Machine, values: &[f64]) -> Map<String, Value> {
+    let names = machine.parts().coordinates.iter().cloned();
+    names.zip(values.iter().map(|value| Value::from(*value))).collect()
 }
 
 /// The real and the imaginary part of each.
@@ -156,6 +175,7 @@ pub(super) fn motion<'a>(machine: &'a Machine, verdict: &'a MachineVerdict) -> M
 pub const fn undecided(why: MachineUndecided) -> &'static str {
     match why {
         MachineUndecided::Events => "events",
+        MachineUndecided::Unconfirmed => "unconfirmed",
         MachineUndecided::Ended(MachineEnd::NoEventWithin) => "time_limit",
         MachineUndecided::Ended(MachineEnd::SearchLimit) => "search_limit",
         MachineUndecided::Ended(MachineEnd::Inconsistent) => "inconsistent",

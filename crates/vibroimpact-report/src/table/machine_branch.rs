@@ -1,7 +1,7 @@
 //! Branches of machines: one row for each point.
 
 use super::Table;
-use super::machine_tables::{numbered, push};
+use super::machine_tables::{drifts, numbered, push, push_drift};
 use crate::number::Number;
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::MachineCycle;
@@ -11,11 +11,17 @@ use vibroimpact_study::{MachineBranched, MachineCut};
 pub(super) const CLOSINGS: [&str; 3] = ["phases", "speeds", "stops"];
 
 /// One row a point: number of the branch, the numbers that vary, label, whether it is admissible and stable, event, stop of the
-/// event, fastest closing, multipliers, and of each closing the phase, speed and stop.
+/// event, fastest closing, multipliers, the drift of a machine that can be translated, and of each closing the phase, speed and stop.
 pub(crate) fn table<'a>(machine: &'a Machine, cut: &MachineCut, found: &'a MachineBranched) -> Table<'a> {
     let own = ["label", "physical", "stable", "event", "stop", "fastest"];
     let heads = core::iter::once("branch").chain(cut.paths()).chain(own).map(str::to_owned);
-    let header = heads.chain(numbered(machine)).chain(CLOSINGS.map(str::to_owned)).collect::<Vec<_>>().join(",");
+    let drifting = found.all().flatten().any(|point| point.cycle.translations() > 0);
+    let header = heads
+        .chain(numbered(machine))
+        .chain(drifts(machine, drifting))
+        .chain(CLOSINGS.map(str::to_owned))
+        .collect::<Vec<_>>()
+        .join(",");
     let cut = cut.clone();
     let points = found.all().enumerate().flat_map(|(k, points)| points.iter().map(move |point| (k + 1, point)));
     let rows = points.map(move |(number, point)| {
@@ -27,6 +33,9 @@ pub(crate) fn table<'a>(machine: &'a Machine, cut: &MachineCut, found: &'a Machi
         let (stable, physical, fastest) = (cycle.stable(), true, Number(cycle.fastest()));
         let mut row = format!("{number},{values}{},{physical},{stable},{event},{stop},{fastest}", cycle.label);
         push(&mut row, Some(&cycle.multipliers), machine.n());
+        if drifting {
+            push_drift(&mut row, Some(cycle), machine.n());
+        }
         row.push_str(&closings(machine, cycle));
         row
     });

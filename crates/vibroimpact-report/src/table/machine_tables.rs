@@ -4,34 +4,57 @@ use super::Table;
 use crate::number::Number;
 use vibroimpact::machine::Machine;
 use vibroimpact::math::Multiplier;
+use vibroimpact::orbit::MachineCycle;
 use vibroimpact::quantities::{machine_quantities, machine_quantity_paths};
 use vibroimpact::verdict::{Census, MachineVerdict};
 use vibroimpact_study::{MachineAxis, MachineBasin, MachineMap, MachineShare};
 
-/// One row a motion: label, share, starts, counts of each stop, real and imaginary part of all multipliers, all quantities by
-/// path.
+/// One row a motion: label, share, starts, counts of each stop, real and imaginary part of all multipliers, the drift of a
+/// machine that can be translated, all quantities by path.
 pub(crate) fn attractors<'a>(machine: &'a Machine, census: &'a Census<MachineVerdict>) -> Table<'a> {
     let stops = machine.stops().iter().map(|stop| format!("count.{}", stop.name));
     let paths = machine_quantity_paths(machine);
     let undefined = vec![f64::NAN; paths.len()];
     let header = ["label", "share", "starts"].into_iter().map(str::to_owned).chain(stops).chain(numbered(machine));
-    let header = header.chain(paths).collect::<Vec<_>>().join(",");
+    let drifting =
+        census.motions().iter().any(|found| cycle_of(&found.verdict).is_some_and(|cycle| cycle.translations() > 0));
+    let header = header.chain(drifts(machine, drifting)).chain(paths).collect::<Vec<_>>().join(",");
     let rows = census.by_share().into_iter().map(move |found| {
         let mut row = format!("{},{},{}", found.verdict.label(), Number(census.share(found)), found.count);
-        let (counts, multipliers) = match &found.verdict {
-            MachineVerdict::Periodic(cycle) => (Some(&cycle.counts), Some(&cycle.multipliers)),
-            _ => (None, None),
-        };
+        let cycle = cycle_of(&found.verdict);
+        let (counts, multipliers) = (cycle.map(|cycle| &cycle.counts), cycle.map(|cycle| &cycle.multipliers));
         for k in 0..machine.stops().len() {
             row.push_str(&counts.map_or_else(|| ",".to_owned(), |counts| format!(",{}", counts[k])));
         }
         push(&mut row, multipliers, machine.n());
+        if drifting {
+            push_drift(&mut row, cycle, machine.n());
+        }
         let values = machine_quantities(machine, &found.verdict)
             .map_or_else(|| undefined.clone(), |found| found.iter().map(|(.., measured)| measured.value).collect());
         row.push_str(&quantities(&values));
         row
     });
     Table::new(header, rows)
+}
+
+const fn cycle_of(verdict: &MachineVerdict) -> Option<&MachineCycle> {
+    match verdict {
+        MachineVerdict::Periodic(cycle) => Some(cycle),
+        _ => None,
+    }
+}
+
+/// The names of the columns of the drift, if there are any.
+pub(super) fn drifts(machine: &Machine, drifting: bool) -> impl Iterator<Item = String> {
+    machine.parts().coordinates.iter().filter(move |_| drifting).map(|name| format!("drift.{name}"))
+}
+
+pub(super) fn push_drift(row: &mut String, cycle: Option<&MachineCycle>, n: usize) {
+    match cycle {
+        Some(cycle) => cycle.drift.iter().for_each(|drift| row.push_str(&format!(",{}", Number(*drift)))),
+        None => row.push_str(&",".repeat(n)),
+    }
 }
 
 /// The names of the columns of multipliers.

@@ -2,8 +2,8 @@
 //!
 //! After a time each mode consists of its steady response, which is known, and of a transient whose energy
 //! $`\dot y^2 + ky^2`$ does not grow. So each guard lies above its steady part less bounds of the transients. If this is
-//! positive for every guard, there is no event for ever. A mode without stiffness drifts, or is accelerated by a constant
-//! force; this must not close a guard.
+//! positive for every guard, there is no event for ever. A mode without stiffness drifts, and without damping a constant force
+//! accelerates it; this must not close a guard.
 //!
 //! Without damping the transients do not decay. If all frequencies are commensurable, the flight repeats after their common
 //! period, so one such period without an event means that there is none for ever.
@@ -74,7 +74,7 @@ impl MachineFlight {
     fn steady(&self, i: usize, modes: &Modes) -> Option<Steady> {
         let mode = &self.structure.modes[i];
         let push = self.drive.steady[i];
-        if self.drive.ramp[i] != 0.0 || mode.k == 0.0 && mode.d > 0.0 && push != 0.0 {
+        if self.drive.ramp[i] != 0.0 {
             return None;
         }
         let mut middle = if mode.k > 0.0 { push / mode.k } else { 0.0 };
@@ -100,14 +100,15 @@ impl MachineFlight {
             let energy = (v * v + mode.k * y * y).sqrt();
             (energy / mode.omega, energy)
         } else if mode.d > 0.0 {
-            // it comes to rest within this distance
-            middle = y;
+            // it comes within this distance of the motion in which the damper balances the constant force
+            (middle, drift) = (y, push / (2.0 * mode.d));
+            v -= drift;
             (v.abs() / (2.0 * mode.d), v.abs())
         } else {
             (middle, drift) = (y, v);
             (0.0, 0.0)
         };
-        let acceleration = if mode.k == 0.0 { push } else { 0.0 };
+        let acceleration = if mode.k == 0.0 && mode.d == 0.0 { push } else { 0.0 };
         Some(Steady { middle, waves, swing, speed, drift, acceleration })
     }
 }

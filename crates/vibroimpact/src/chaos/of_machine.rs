@@ -47,7 +47,10 @@ pub fn machine_exponents_while(
     };
     match &settled.verdict {
         MachineVerdict::Periodic(cycle) => {
-            let rates = cycle.multipliers.iter().map(|multiplier| ln(multiplier.modulus()) / cycle.period).collect();
+            let own = cycle.multipliers.iter().map(|multiplier| ln(multiplier.modulus()) / cycle.period);
+            // a neighbour that is moved along a free translation stays as far away
+            let mut rates: Vec<f64> = own.chain((0..cycle.translations()).map(|_| 0.0)).collect();
+            rates.sort_by(|a, b| b.total_cmp(a));
             let closings = f64::from(cycle.counts.iter().sum::<u32>()) / cycle.period;
             let spectrum = Some(exact(rates, closings));
             return Ok(Some(MachineExponents { spectrum, motion: settled.verdict, exact: true }));

@@ -8,6 +8,7 @@
 //! | one mode in closed form | `mode` |
 //! | the modes of a structure with any damping | `basis` |
 //! | the directions in which it is free | `complement` |
+//! | the directions along which the whole machine can be moved | `translations` |
 //! | the constant force on its modes at a position | `rest_force` |
 //! | the structure in one regime, its guards | `structure` |
 //! | small changes of its state, and the gradients of guards | `change` |
@@ -28,6 +29,7 @@ mod rest_force;
 mod sampled;
 mod signal;
 mod structure;
+mod translations;
 mod window;
 
 pub(crate) use bernstein::{TERMS, bernstein};
@@ -39,4 +41,5 @@ pub(crate) use rest_force::RestBuffers;
 pub(crate) use sampled::{POWERS, REST, SAMPLES, Sampled, Span};
 pub(crate) use signal::{Observable, Signal, turned};
 pub(crate) use structure::{GuardKind, Structure};
+pub(crate) use translations::Translations;
 pub(crate) use window::{ALL, REACH, Window, add_harmonic, derivative_bounds};

@@ -1,6 +1,7 @@
 //! A machine in mass-normalised coordinates $`x = L^Tq`$, $`M = LL^T`$, in which kinetic energy is $`|\dot x|^2/2`$.
 
 use super::signal::Signal;
+use super::translations::Translations;
 use crate::machine::{HarmonicMotion, Machine, MachineStop, StopLaw};
 use crate::math::{Matrix, dot};
 
@@ -42,6 +43,8 @@ pub(crate) struct Normal {
     pub(crate) rates: Vec<f64>,
     /// Orders of the harmonics.
     pub(crate) orders: Vec<f64>,
+    /// The directions along which all of it can be moved.
+    pub(crate) translations: Translations,
     factor: Matrix,
     /// Its diagonal, if it has no other elements.
     diagonal: Option<Vec<f64>>,
@@ -107,6 +110,7 @@ impl Normal {
             walls,
             rates,
             orders: orders.iter().map(|order| f64::from(*order)).collect(),
+            translations: Translations::new(parts, &factor),
             diagonal: (0..n)
                 .all(|i| (0..i).all(|j| factor[(i, j)] == 0.0))
                 .then(|| (0..n).map(|i| factor[(i, i)]).collect()),

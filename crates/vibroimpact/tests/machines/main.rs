@@ -9,6 +9,8 @@ mod closed_forms;
 #[cfg(test)]
 mod curves;
 #[cfg(test)]
+mod drift;
+#[cfg(test)]
 mod quantities;
 #[cfg(test)]
 mod samples;

@@ -5,7 +5,7 @@
 
 use crate::continuation::of_machine::{CLOSED, Judged};
 use crate::math::Multiplier;
-use crate::orbit::{MachineCycle, MachineFrame, MachineLap, MachineRing, RingEvent, machine_distance};
+use crate::orbit::{MachineCycle, MachineFrame, MachineLap, MachineRing, RingEvent};
 
 /// How long after and before, as a fraction of the flights there.
 const BESIDE: f64 = 1e-4;
@@ -54,7 +54,7 @@ pub(super) fn judge_beside(
     let seen: Vec<RingEvent> =
         lap.steps[..lap.steps.len() - 1].iter().filter_map(|step| RingEvent::of(&step.2)).collect();
     let alike = seen.len() == others && (0..others).all(|i| seen[i] == ring.events[(last + 1 + i) % m]);
-    let residual = machine_distance(&expected, &lap.end, lap.sizes);
+    let residual = frame.distance(&expected, &lap.end, lap.sizes);
     let cycle = (alike && rising.is_none() && residual < CLOSED).then(|| MachineCycle {
         multipliers: multipliers.clone(),
         ..MachineCycle::of(frame, (&begin, ring.periods), &cycle, residual, vec![begin.clone()])

@@ -26,11 +26,11 @@ pub(super) fn turned(frame: &MachineFrame<'_>, ring: &MachineRing, turn: f64) ->
     Matrix::from_rows(&rows.chunks_exact(size).map(<[f64]>::to_vec).collect::<Vec<_>>())
 }
 
-/// The multipliers of a ring, as many as the machine has states; `None` where one is infinite.
+/// The multipliers of a ring, and the derivative that has them; `None` where one is infinite.
 pub(super) fn multipliers(frame: &MachineFrame<'_>, ring: &MachineRing) -> Option<(Matrix, Vec<Multiplier>)> {
-    let turn = MachineRing::monodromy(&ring.blocks(frame)?)?;
+    let turn = frame.without_translations(MachineRing::monodromy(&ring.blocks(frame)?)?);
     let mut all = general_eigenvalues(&turn)?;
-    all.truncate(2 * frame.shape.n);
+    all.truncate(frame.multipliers());
     Some((turn, all))
 }
 

@@ -6,6 +6,7 @@
 use super::point::{MachineCurveEvent, MachineCurveKind};
 use super::problem::{CurveProblem, CurveSolution};
 use crate::continuation::of_machine::place;
+use crate::orbit::MachineFrame;
 
 /// A flight that is shorter than this, in forcing periods, takes no time.
 const SHORT: f64 = 1e-3;
@@ -29,5 +30,6 @@ pub(super) fn reason(problem: &CurveProblem, here: &CurveSolution) -> Option<Mac
             _ => MachineCurveEvent::Touch { stop: first },
         });
     }
-    ring.is_twice(here.known.cycle.as_ref()?.sizes).then_some(MachineCurveEvent::DegenerateFlip)
+    let twice = ring.is_twice(&MachineFrame::new(&machine), here.known.cycle.as_ref()?.sizes);
+    twice.then_some(MachineCurveEvent::DegenerateFlip)
 }

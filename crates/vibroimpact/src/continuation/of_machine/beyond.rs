@@ -49,6 +49,7 @@ fn with_ring(
     sizes: (f64, f64),
 ) -> MachineProblem {
     let old = &tracer.problem;
+    let ring = ring.centred(&MachineFrame::new(machine).normal.translations);
     let equations = MachineEquations::new((machine, old.equations.family.clone()), ring, sizes, old.equations.scale);
     MachineProblem { equations, range: old.range }
 }

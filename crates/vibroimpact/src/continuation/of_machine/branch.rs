@@ -215,9 +215,9 @@ impl MachineBranch {
             let share = s / step.length;
             self.tracer.here.w.iter().zip(&step.there.w).map(|(a, b)| a + (b - a) * share).collect()
         });
-        let (_, ring) = self.tracer.problem.equations.split(&w)?;
+        let (machine, ring) = self.tracer.problem.equations.split(&w)?;
         let cycle = self.tracer.here.known.cycle.as_ref()?;
-        ring.is_twice(cycle.sizes).then_some(())?;
+        ring.is_twice(&MachineFrame::new(&machine), cycle.sizes).then_some(())?;
         let along = self.tracer.here.tangent.clone();
         let known = Judged { cycle: Some(cycle.clone()), ..self.tracer.here.known.clone() };
         Some(MachineSolution { w, tangent: along, values: self.tracer.here.values.clone(), known })

@@ -91,13 +91,13 @@ impl MachineProblem {
         let blocks = ring.blocks(frame)?;
         // every guard must fall to zero at its event
         let rising = blocks.iter().position(|block| block.late[0] >= 0.0).map(|k| (k + 1) % ring.len());
-        let turn = MachineRing::monodromy(&blocks)?;
+        let turn = frame.without_translations(MachineRing::monodromy(&blocks)?);
         let mut multipliers = general_eigenvalues(&turn)?;
         let even = if turn.rows().is_multiple_of(2) { 1.0 } else { -1.0 };
         let torus = over_pairs(&multipliers);
         let pace = tangent.last().map_or(0.0, |last| last / self.equations.scale);
         let values = vec![pace, even * shifted_determinant(&turn, -1.0), shifted_determinant(&turn, 1.0), torus];
-        multipliers.truncate(2 * frame.shape.n);
+        multipliers.truncate(frame.multipliers());
         Some((values, multipliers, rising))
     }
 }
@@ -119,7 +119,7 @@ pub(crate) fn judge(
         lap.steps[..lap.steps.len() - 1].iter().filter_map(|step| RingEvent::of(&step.2)).collect();
     let m = ring.len();
     let alike = seen.len() == m && (0..m).all(|i| seen[i] == ring.events[(from + 1 + i) % m]);
-    let residual = crate::orbit::machine_distance(&begin, &lap.end, lap.sizes);
+    let residual = frame.distance(&begin, &lap.end, lap.sizes);
     let cycle = (alike && rising.is_none() && residual < CLOSED).then(|| MachineCycle {
         multipliers: multipliers.clone(),
         ..MachineCycle::of(frame, (&begin, ring.periods), &lap, residual, vec![begin.clone()])

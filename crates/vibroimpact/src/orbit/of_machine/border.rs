@@ -5,7 +5,7 @@
 //! E. Ott, J. A. Yorke and E. D. Yorke, "Multiple coexisting attractors, basin boundaries and basic sets", Physica D 32 (1988)
 //! 296-305).
 
-use super::cycle::{MachineCycle, distance};
+use super::cycle::MachineCycle;
 use super::frame::MachineFrame;
 use super::lap::MachineLap;
 use crate::events::Place;
@@ -49,7 +49,7 @@ fn find(
         let mixed: Vec<f64> = x.iter().zip(&y).map(|(x, y)| x + part * (y - x)).collect();
         frame.shape.with_values(from, &mixed)
     };
-    let close = |strobes: &[Place], place: &Place| strobes.iter().any(|one| distance(one, place, a.sizes) < NEAR);
+    let close = |strobes: &[Place], place: &Place| strobes.iter().any(|one| frame.distance(one, place, a.sizes) < NEAR);
     // whether the motion leads to the first orbit
     let first = |mut place: Place| {
         for _ in 0..LAPS {

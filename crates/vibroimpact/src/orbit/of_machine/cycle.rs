@@ -1,13 +1,20 @@
 //! A periodic motion of a machine.
 
-use super::frame::MachineFrame;
+use super::frame::{MachineFrame, distance};
 use super::lap::MachineLap;
 use crate::events::{MachineEvent, MachineEventKind, MachineStart, Place};
 use crate::math::{Lu, Matrix, Multiplier, general_eigenvalues};
 use crate::orbit::{Count, Label};
+use crate::regime::Translations;
 use crate::system::phase;
+use core::f64::consts::TAU;
 
 /// A periodic motion of a machine over its smallest period.
+///
+/// A machine on which no spring and no stop acts from the ground can move on as a whole. After each period its velocities and
+/// the positions of its parts to each other are the same again, and all of it is moved by the [drift](Self::drift). Such
+/// cycles are the same motion wherever the machine is. Their states are given where the parts along the free translations
+/// are 0 at [`state`](Self::state), which for one translation in all coordinates is the centre of mass.
 #[derive(Clone, Debug)]
 pub struct MachineCycle {
     /// The label m/n: m closings of stops (impacts, and beginnings of compliant contact) in n forcing periods; `inf/n` with
@@ -19,16 +26,23 @@ pub struct MachineCycle {
     pub events: Vec<MachineEvent>,
     /// The time of one period.
     pub period: f64,
-    /// Floquet multipliers, as many as the machine has states, the largest first.
+    /// Floquet multipliers, the largest first: two for each coordinate, less one for each free translation, whose own is
+    /// always 1.
     pub multipliers: Vec<Multiplier>,
-    /// The largest difference of a coordinate or velocity after one period, relative to the largest ones.
+    /// The largest difference of a coordinate or velocity after one period, but for a translation, relative to the largest
+    /// ones.
     pub residual: f64,
+    /// By how much each coordinate moves on in one period: 0 in machines without free translations, and below 1e-12 of the
+    /// size of the motion.
+    pub drift: Vec<f64>,
     /// A state of the cycle between two events.
     pub state: MachineStart,
     /// The states at the phase of `state`, one for each forcing period.
     pub(crate) strobes: Vec<Place>,
     /// The largest sizes of coordinates and velocities.
     pub(crate) sizes: (f64, f64),
+    /// The free translations of the machine.
+    pub(crate) free: Translations,
 }
 
 /// The largest number of steps of Newton's method; from a good guess four or five are needed.
@@ -38,6 +52,8 @@ const PATIENCE: u32 = 8;
 const HOPELESS: f64 = 1e-2;
 /// A residual up to this is accepted; the rounding error is usually 1e-14.
 const CLOSED: f64 = 1e-10;
+/// What rounding leaves of no drift, relative to the motion.
+const ROUNDED: f64 = 1e-12;
 /// States that differ by less, relative to the motion, are the same.
 const SAME: f64 = 1e-8;
 
@@ -48,8 +64,20 @@ impl MachineCycle {
         self.multipliers.iter().all(|multiplier| multiplier.modulus() < 1.0)
     }
 
-    /// Whether `other` is the same motion: the same events in the same cyclic order, with phases and states equal to
-    /// within `tolerance` of the size of the motion.
+    /// The mean velocity of each coordinate: the drift divided by the period.
+    #[must_use]
+    pub fn drift_velocity(&self) -> Vec<f64> {
+        self.drift.iter().map(|drift| drift / self.period).collect()
+    }
+
+    /// The number of free translations of the machine.
+    #[must_use]
+    pub const fn translations(&self) -> usize {
+        self.free.count()
+    }
+
+    /// Whether `other` is the same motion, but for a translation: the same events in the same cyclic order, with phases and
+    /// states equal to within `tolerance` of the size of the motion.
     #[must_use]
     pub fn same_as(&self, other: &Self, tolerance: f64) -> bool {
         // a touch within rounding may be told or not
@@ -61,19 +89,27 @@ impl MachineCycle {
             return false;
         }
         if a.len() != b.len() || a.is_empty() {
-            let apart = |one: &Place, two: &Place| distance(one, two, self.sizes);
+            let apart = |one: &Place, two: &Place| distance(&self.free, (one, two), self.sizes);
             let nearest = |one: &Place| other.strobes.iter().any(|two| apart(one, two) <= tolerance);
             return a.len() == b.len() && self.strobes.iter().any(nearest);
         }
         let near = |x: f64, y: f64, size: f64| (x - y).abs() <= tolerance * size.max(f64::MIN_POSITIVE);
         let (_, speed) = self.sizes;
-        let size = self.events.iter().flat_map(|event| &event.q).fold(0.0_f64, |most, q| most.max(q.abs()));
         let rate = self.events.iter().flat_map(|event| &event.qdot).fold(speed, |most, v| most.max(v.abs()));
+        let untranslated = |mut q: Vec<f64>| {
+            self.free.remove_in_machine(&mut q);
+            q
+        };
+        let own = self.events.iter().flat_map(|event| untranslated(event.q.clone()));
+        // a coordinate that can be translated has the size of its way in a radian of the forcing
+        let radian = if self.free.is_empty() { 0.0 } else { self.period / (TAU * f64::from(self.label.periods)) };
+        let size = own.fold(radian * rate, |most, q| most.max(q.abs()));
         let close = |p: &MachineEvent, q: &MachineEvent| {
+            let apart = untranslated(p.q.iter().zip(&q.q).map(|(x, y)| x - y).collect());
             p.kind == q.kind
                 && p.place == q.place
                 && phase::difference(p.phase, q.phase).abs() <= tolerance
-                && p.q.iter().zip(&q.q).all(|(x, y)| near(*x, *y, size))
+                && apart.into_iter().all(|apart| near(apart, 0.0, size))
                 && p.qdot.iter().zip(&q.qdot).all(|(x, y)| near(*x, *y, rate))
         };
         (0..a.len()).any(|shift| (0..a.len()).all(|k| close(&a[k], &b[(k + shift) % b.len()])))
@@ -85,23 +121,24 @@ impl MachineCycle {
         self.events.iter().filter(|event| event.closes()).map(|event| event.speed).fold(0.0, f64::max)
     }
 
-    /// The cycle of `n` forcing periods near the motion from `from`, by Newton's method on the state between two events;
-    /// `None` if it does not converge, or without forcing.
+    /// The cycle of `n` forcing periods near the motion from `from`, by Newton's method on the state between two events,
+    /// which a free translation leaves as it is; `None` if it does not converge, or without forcing.
     pub(crate) fn near(frame: &MachineFrame<'_>, from: &Place, n: u32) -> Option<Self> {
         let time = frame.machine.period()? * f64::from(n);
         // begin in the middle of the longest flight, far from all events
         let first = MachineLap::fly(frame, from, time)?;
         let (_, place, passage) = first.steps.iter().max_by(|a, b| a.2.duration.total_cmp(&b.2.duration))?;
         let mut begin = frame.moved(place, &passage.structure, 0.5 * passage.duration.min(time));
+        frame.centre(&mut begin);
         let mut best: Option<(f64, Place, MachineLap)> = None;
         for step in 0..MAX_STEPS {
             let lap = MachineLap::fly(frame, &begin, time)?;
             if lap.end.states != begin.states {
                 return None;
             }
-            let residual = distance(&begin, &lap.end, lap.sizes);
-            let (from, to) = (frame.shape.values(&begin), frame.shape.values(&lap.end));
-            let mut change: Vec<f64> = from.iter().zip(&to).map(|(from, to)| to - from).collect();
+            let residual = frame.distance(&begin, &lap.end, lap.sizes);
+            let from = frame.shape.values(&begin);
+            let mut change = frame.apart(&lap.end, &begin);
             let derivative = lap.derivative.clone();
             let improves = best.as_ref().is_none_or(|(so_far, ..)| residual < *so_far);
             if improves {
@@ -115,9 +152,10 @@ impl MachineCycle {
             if !residual.is_finite() || step >= PATIENCE && residual > HOPELESS {
                 return None;
             }
-            // (I - J) change = end - begin
+            // (I - J) change = end - begin, both sides but for a translation
             let mut system = Matrix::identity(from.len());
-            let derivative = derivative?;
+            let mut derivative = derivative?;
+            frame.normal.translations.remove_from_columns(&mut derivative, 0);
             for i in 0..from.len() {
                 for j in 0..from.len() {
                     system[(i, j)] -= derivative[(i, j)];
@@ -141,9 +179,9 @@ impl MachineCycle {
         for k in 1..n {
             let last = strobes.last()?;
             let next = MachineLap::fly(frame, last, one)?.end;
-            if n.is_multiple_of(k) && distance(begin, &next, lap.sizes) <= SAME {
+            if n.is_multiple_of(k) && frame.distance(begin, &next, lap.sizes) <= SAME {
                 let lap = MachineLap::fly(frame, begin, one * f64::from(k))?;
-                let residual = distance(begin, &lap.end, lap.sizes);
+                let residual = frame.distance(begin, &lap.end, lap.sizes);
                 return Some(Self::of(frame, (begin, k), &lap, residual, strobes));
             }
             strobes.push(next);
@@ -184,11 +222,18 @@ impl MachineCycle {
             .collect();
         let chatter = lap.steps.iter().any(|(_, _, passage)| passage.rest.is_some());
         let impacts = if chatter { Count::Infinite } else { Count::Finite(counts.iter().sum()) };
-        let derivative = lap.derivative.as_ref();
+        let derivative = lap.derivative.clone().map(|derivative| frame.without_translations(derivative));
         let mut multipliers = derivative
+            .as_ref()
             .and_then(general_eigenvalues)
-            .unwrap_or_else(|| vec![Multiplier { re: f64::INFINITY, im: 0.0 }; 2 * frame.shape.n]);
-        multipliers.truncate(2 * frame.shape.n);
+            .unwrap_or_else(|| vec![Multiplier { re: f64::INFINITY, im: 0.0 }; frame.multipliers()]);
+        multipliers.truncate(frame.multipliers());
+        let free = frame.normal.translations.clone();
+        let moved: Vec<f64> = lap.end.x.iter().zip(&begin.x).map(|(end, begin)| end - begin).collect();
+        let mut drift = frame.normal.to_machine(&free.part(&moved));
+        if drift.iter().all(|drift| drift.abs() <= ROUNDED * lap.sizes.0) {
+            drift.fill(0.0);
+        }
         Self {
             label: Label { impacts, periods: n },
             counts,
@@ -196,6 +241,7 @@ impl MachineCycle {
             period,
             multipliers,
             residual,
+            drift,
             state: MachineStart {
                 q: frame.normal.to_machine(&begin.x),
                 qdot: frame.normal.to_machine(&begin.v),
@@ -203,19 +249,7 @@ impl MachineCycle {
             },
             strobes,
             sizes: lap.sizes,
+            free,
         }
     }
-}
-
-/// The largest difference of two states, relative to the sizes of coordinates and velocities; infinite in different
-/// regimes.
-pub(crate) fn distance(a: &Place, b: &Place, (size, speed): (f64, f64)) -> f64 {
-    if a.states != b.states {
-        return f64::INFINITY;
-    }
-    let apart = |a: &[f64], b: &[f64], size: f64| {
-        let most = a.iter().zip(b).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
-        if most == 0.0 { 0.0 } else { most / size }
-    };
-    apart(&a.x, &b.x, size).max(apart(&a.v, &b.v, speed)).max(phase::difference(a.phase, b.phase).abs())
 }

@@ -32,11 +32,11 @@ impl MachineLap {
         let mut derivative = Some(Matrix::identity(frame.shape.size()));
         let mut steps: Vec<(f64, Place, Passage)> = Vec::new();
         let mut events = Vec::new();
-        let mut sizes = MachineFrame::sizes(begin);
+        let mut sizes = frame.sizes(begin);
         let mut end = None;
         while end.is_none() {
             let (now, from) = (motion.time(), motion.place().clone());
-            let (x, v) = MachineFrame::sizes(&from);
+            let (x, v) = frame.sizes(&from);
             sizes = (sizes.0.max(x), sizes.1.max(v));
             let left = time - now;
             let passage = motion.step()?;

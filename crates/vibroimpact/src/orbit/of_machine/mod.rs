@@ -17,7 +17,6 @@ mod lap;
 mod ring;
 
 pub use cycle::MachineCycle;
-pub(crate) use cycle::distance as machine_distance;
 pub use find::find_machine_while;
 pub(crate) use frame::MachineFrame;
 pub(crate) use lap::MachineLap;

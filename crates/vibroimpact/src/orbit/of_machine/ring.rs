@@ -7,13 +7,16 @@
 //! $$`h_{k+1}(z_-, \theta_{k+1}) = 0, \qquad R_{k+1}(z_-, \theta_{k+1}) = z_{k+1}`$$
 //!
 //! with the guard $`h`$ and the reset $`R`$. No first zero is searched for, so the equations are smooth through grazing.
+//!
+//! In a machine with free translations the last flight closes the cycle but for one: the drift is what remains. The place
+//! of the first event along them is 0 instead, so that the solution is one.
 
 use super::frame::MachineFrame;
 use super::lap::MachineLap;
 use crate::events::{EventLaw, LinearEvent, Passage, Place, StateShape, standing_back};
 use crate::machine::{Machine, StopLaw};
-use crate::math::Matrix;
-use crate::regime::{ContactState, GuardKind, Structure};
+use crate::math::{Matrix, add_scaled};
+use crate::regime::{ContactState, GuardKind, Structure, Translations};
 use crate::system::phase;
 use core::f64::consts::TAU;
 use std::sync::Arc;
@@ -85,10 +88,9 @@ impl MachineRing {
     /// is none.
     pub(crate) fn of(frame: &MachineFrame<'_>, begin: &Place, periods: u32) -> Option<Self> {
         let time = frame.machine.period()? * f64::from(periods);
-        Self::of_lap(&MachineLap::fly(frame, begin, time)?, begin, periods, frame.machine.parts().frequency?)
-    }
-
-    pub(crate) fn of_lap(lap: &MachineLap, begin: &Place, periods: u32, frequency: f64) -> Option<Self> {
+        let frequency = frame.machine.parts().frequency?;
+        let lap = MachineLap::fly(frame, begin, time)?;
+        let free = &frame.normal.translations;
         let (mut events, mut places) = (Vec::new(), Vec::new());
         for (k, (time, _, passage)) in lap.steps.iter().enumerate() {
             // the last step is the flight to the end
@@ -101,7 +103,18 @@ impl MachineRing {
             events.push(event);
             places.push(place);
         }
-        (!events.is_empty()).then_some(Self { events, places, periods, together: None })
+        (!events.is_empty()).then_some(Self { events, places, periods, together: None }.centred(free))
+    }
+
+    /// The same motion where the first event has no part along a free translation.
+    pub(crate) fn centred(mut self, free: &Translations) -> Self {
+        if !free.is_empty() {
+            let part = self.places.first().map_or_else(Vec::new, |first| free.part(&first.x));
+            for place in &mut self.places {
+                add_scaled(&mut place.x, -1.0, &part);
+            }
+        }
+        self
     }
 
     /// The number of events.
@@ -185,8 +198,15 @@ impl MachineRing {
         }
         let to = self.place(next);
         let (reached, wanted) = (frame.shape.values(&arrived), frame.shape.values(&to));
+        let free = &frame.normal.translations;
+        let closes = next == 0 && !free.is_empty();
         let mut miss = vec![law.value(&frame.normal, &before)];
         miss.extend(reached.iter().zip(&wanted).map(|(reached, wanted)| reached - wanted));
+        if closes {
+            free.remove(&mut miss[1..]);
+            let part = free.part(&to.x);
+            add_scaled(&mut miss[1..=part.len()], -1.0, &part);
+        }
         let size = frame.shape.size();
         if !linear {
             return Some(MachineBlock { miss, left: Matrix::zeros(0, 0), late: Vec::new(), step: None });
@@ -208,6 +228,10 @@ impl MachineRing {
             left[(i + 1, 0)] = -carried[i] / frequency;
             left.row_mut(i + 1)[1..].copy_from_slice(through.row(i));
             late.push((ended[i] + linear.reset_rate[i]) / frequency);
+        }
+        if closes {
+            free.remove_from_columns(&mut left, 1);
+            free.remove(&mut late[1..]);
         }
         // nothing jumps at a touch
         let step = if event.touches(&from.states) {
@@ -264,7 +288,7 @@ impl MachineRing {
     }
 
     /// Whether the second half of the events repeats the first, to within 3e-4 of the sizes of the motion.
-    pub(crate) fn is_twice(&self, sizes: (f64, f64)) -> bool {
+    pub(crate) fn is_twice(&self, frame: &MachineFrame<'_>, sizes: (f64, f64)) -> bool {
         let half = self.len() / 2;
         self.len().is_multiple_of(2)
             && self.periods.is_multiple_of(2)
@@ -274,7 +298,7 @@ impl MachineRing {
                 two.phase = one.phase;
                 self.events[k] == self.events[k + half]
                     && ahead.abs() < ALIKE
-                    && super::cycle::distance(&one, &two, sizes) < ALIKE
+                    && frame.distance(&one, &two, sizes) < ALIKE
             })
     }
 

@@ -7,7 +7,7 @@ use crate::events::{MachineEnd, Place};
 use crate::lyapunov::Measured;
 use crate::lyapunov::blocks::FEWEST;
 use crate::machine::{Machine, MachineError};
-use crate::orbit::{MachineCycle, MachineFrame, MachineLap, machine_distance};
+use crate::orbit::{MachineCycle, MachineFrame, MachineLap};
 use crate::quantities::quantity::Quantity;
 use crate::regime::ContactState;
 use crate::verdict::{MachineTail, MachineVerdict};
@@ -16,8 +16,10 @@ use crate::verdict::{MachineTail, MachineVerdict};
 /// stops, friction joints and coordinates ([`MachinePart::quantities`] lists those of each).
 ///
 /// Powers balance: over a cycle the work of forces, moving stops and belts is what is lost in impacts, in the dampers of
-/// stops, in friction and in the damping of the structure. A constant force does no work over a cycle. Quantities that
-/// are not defined are NaN, as those per forcing period of a machine without forcing.
+/// stops, in friction and in the damping of the structure. A constant force does no work over a cycle, except along a free
+/// translation: there it does its own times the drift, which belongs to the power of the whole machine. Quantities that are
+/// not defined are NaN, as those per forcing period of a machine without forcing, and the displacements of coordinates
+/// that a free translation moves, because they depend on where the machine is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MachineQuantities {
     entries: Vec<(MachinePart, MachineQuantity, Measured)>,
@@ -63,7 +65,8 @@ impl MachineQuantities {
     fn of(machine: &Machine, tally: &MachineTally<'_>, blocks: &[MachineSums], exact: bool) -> Self {
         let period = machine.period().unwrap_or(f64::NAN);
         Self::from_fn(machine, |part, quantity| {
-            if tally.skipped && !quantity.of_events() {
+            let placeless = matches!(part, MachinePart::Coordinate(i) if tally.moves_freely(i) && quantity.of_place());
+            if placeless || tally.skipped && !quantity.of_events() {
                 return Measured { value: f64::NAN, error: f64::NAN };
             }
             let extreme = || Measured { value: tally.extremes.get(part, quantity), error: f64::NAN };
@@ -191,7 +194,7 @@ fn steady(frame: &MachineFrame<'_>, from: &Place) -> Option<MachineQuantities> {
     let (size, speed) = lap.sizes;
     // at rest without forcing, velocities are what is left of a motion
     let sizes = (size, speed.max(size / time));
-    (machine_distance(from, &lap.end, sizes) <= CLOSED).then(|| over_time(frame, from, time))?
+    (frame.distance(from, &lap.end, sizes) <= CLOSED).then(|| over_time(frame, from, time))?
 }
 
 /// The quantities of a chaotic motion over its last steps.

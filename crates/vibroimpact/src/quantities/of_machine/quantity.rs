@@ -140,6 +140,20 @@ impl MachineQuantity {
         }
     }
 
+    /// Whether it depends on where a coordinate is, and not only on how it moves.
+    pub(super) const fn of_place(self) -> bool {
+        matches!(
+            self,
+            Common(
+                Quantity::DisplacementMin
+                    | Quantity::DisplacementMax
+                    | Quantity::DisplacementAmplitude
+                    | Quantity::DisplacementMean
+                    | Quantity::DisplacementRms
+            )
+        )
+    }
+
     /// Whether it is a sum over events or a time, and needs no integral over the flights.
     pub(super) const fn of_events(self) -> bool {
         matches!(

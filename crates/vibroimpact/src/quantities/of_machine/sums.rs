@@ -14,6 +14,8 @@ pub(super) struct MachineSums {
     pub(super) damping: f64,
     /// The work of the forces of each order.
     pub(super) forces: Vec<(u32, f64)>,
+    /// The work of the constant forces along the free translations.
+    pub(super) constant: f64,
     pub(super) stops: Vec<StopSums>,
     pub(super) joints: Vec<JointSums>,
     pub(super) coordinates: Vec<CoordinateSums>,
@@ -101,7 +103,7 @@ impl MachineSums {
                 M::Common(Quantity::ImpactsPerPeriod | Quantity::ImpactRate) => self.over_stops(|stop| stop.closings),
                 M::Common(Quantity::WorkPerPeriod | Quantity::Power) => {
                     let forces = self.forces.iter().fold(0.0, |sum, (_, work)| sum + work);
-                    forces + self.over_stops(|stop| stop.work) + self.over_joints(|joint| joint.work)
+                    forces + self.constant + self.over_stops(|stop| stop.work) + self.over_joints(|joint| joint.work)
                 }
                 M::Common(Quantity::ImpactLossPerPeriod | Quantity::ImpactPower) => {
                     self.over_stops(|stop| stop.impact_loss)

@@ -87,6 +87,11 @@ impl<'a> MachineTally<'a> {
         }
     }
 
+    /// Whether a free translation moves a coordinate.
+    pub(super) fn moves_freely(&self, coordinate: usize) -> bool {
+        self.frame.normal.translations.moves(coordinate)
+    }
+
     /// The sums since this was last called.
     pub(super) fn take(&mut self) -> MachineSums {
         core::mem::replace(&mut self.sums, MachineSums::new(self.frame.machine))
@@ -113,7 +118,20 @@ impl<'a> MachineTally<'a> {
         for panel in all {
             self.panel(&leg, panel);
         }
+        self.constant_work(from);
         self.extremes.symmetric();
+    }
+
+    /// Adds the work of the constant forces along the free translations over a flight from `from` to the point where it is.
+    /// Along all other directions a motion returns, and they do none.
+    fn constant_work(&mut self, from: &Place) {
+        let normal = &self.frame.normal;
+        if normal.translations.is_empty() {
+            return;
+        }
+        let moved: Vec<f64> = self.point.x.iter().zip(&from.x).map(|(to, from)| to - from).collect();
+        let part = normal.translations.part(&moved);
+        self.sums.constant += normal.force.iter().zip(part).map(|(force, moved)| force.constant * moved).sum::<f64>();
     }
 
     /// What a flight adds that needs no integral: times in contact, and the energy that surfaces lose which stand back. At

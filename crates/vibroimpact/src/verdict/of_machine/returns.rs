@@ -3,7 +3,7 @@
 use super::super::recurring::{Diverging, Recurring};
 use crate::events::{MachineEvent, MachineMotion, Passage, Place, step_derivative};
 use crate::lyapunov::{MachineMeasure, MachineSpectrum};
-use crate::orbit::{MachineCycle, MachineFrame, MachineLap, machine_distance};
+use crate::orbit::{MachineCycle, MachineFrame, MachineLap};
 use crate::regime::GuardKind;
 use core::cell::Cell;
 use std::sync::Arc;
@@ -65,7 +65,7 @@ impl Recurring for Recorded<'_> {
         if a.passage.guards != b.passage.guards || a.begin.states != b.begin.states {
             return f64::INFINITY;
         }
-        machine_distance(&a.end, &b.end, self.sizes.get())
+        self.frame.distance(&a.end, &b.end, self.sizes.get())
     }
 
     fn periods(&self, time: f64) -> f64 {
@@ -73,7 +73,9 @@ impl Recurring for Recorded<'_> {
     }
 
     fn cycle(&self, last: &Arc<Step>, _: u32, n: u32) -> Option<MachineCycle> {
-        MachineCycle::near(&self.frame, &last.end, n)
+        // a machine that moves freely comes to rest anywhere: its motion without events begins after the last one
+        let attracts = |cycle: &MachineCycle| !cycle.events.is_empty() || cycle.translations() == 0;
+        MachineCycle::near(&self.frame, &last.end, n).filter(attracts)
     }
 
     fn stable(cycle: &MachineCycle) -> bool {
@@ -134,10 +136,11 @@ impl Recorded<'_> {
         let ahead = crate::system::phase::wrap(first.phase - place.phase) / frame.machine.parts().frequency?;
         let mut real = MachineLap::fly(frame, place, ahead)?.end;
         real.phase = first.phase;
-        let nearest = cycle.strobes.iter().min_by(|a, b| {
-            machine_distance(a, &real, cycle.sizes).total_cmp(&machine_distance(b, &real, cycle.sizes))
-        })?;
-        let apart = machine_distance(nearest, &real, cycle.sizes);
+        let nearest = cycle
+            .strobes
+            .iter()
+            .min_by(|a, b| frame.distance(a, &real, cycle.sizes).total_cmp(&frame.distance(b, &real, cycle.sizes)))?;
+        let apart = frame.distance(nearest, &real, cycle.sizes);
         if apart > NEAR {
             return Some(false);
         }
@@ -146,12 +149,10 @@ impl Recorded<'_> {
         }
         let time = period * f64::from(cycle.label.periods);
         let (reference, moved) = (MachineLap::fly(frame, nearest, time)?, MachineLap::fly(frame, &real, time)?);
-        let offset = |a: &Place, b: &Place| -> Vec<f64> {
-            frame.shape.values(a).iter().zip(frame.shape.values(b)).map(|(a, b)| a - b).collect()
-        };
-        let before = offset(&real, nearest);
-        let linear = reference.derivative.as_ref()?.apply(&before);
-        let after = offset(&moved.end, &reference.end);
+        let before = frame.apart(&real, nearest);
+        let mut linear = reference.derivative.as_ref()?.apply(&before);
+        frame.normal.translations.remove(&mut linear);
+        let after = frame.apart(&moved.end, &reference.end);
         let (size, speed) = cycle.sizes;
         let n = frame.shape.n;
         let largest = |of: &dyn Fn(usize) -> f64| {

@@ -46,6 +46,9 @@ pub enum MachineVerdict {
 pub enum MachineUndecided {
     /// The number of events is used up.
     Events,
+    /// The number of events is used up, and the motion has returned to a release from rest. So it is periodic, but the
+    /// rounding errors between two releases grow so much that they decide its period.
+    Unconfirmed,
     /// The motion ended for this reason.
     Ended(MachineEnd),
 }
@@ -170,6 +173,7 @@ fn settle_in<'a>(
     // the latest release from each stop, and chaos that has ended by a rest
     let mut releases: Vec<(Arc<Step>, f64)> = Vec::new();
     let over = core::cell::RefCell::new(None);
+    let mut unconfirmed = false;
     let settled = |verdict, events, time, record: &Record<Recorded<'a>>| {
         let transient = match &verdict {
             MachineVerdict::Chaotic { .. } | MachineVerdict::Undecided { .. } => None,
@@ -200,7 +204,7 @@ fn settle_in<'a>(
             let decided = matches!(verdict, MachineVerdict::NoImpact(_) | MachineVerdict::Stuck(_));
             return settled(verdict, events, if decided { before } else { time }, &record);
         }
-        let (x, v) = MachineFrame::sizes(&step.begin);
+        let (x, v) = system.frame.sizes(&step.begin);
         sizes.push_back((x, v));
         if sizes.len() > RECENT {
             sizes.pop_front();
@@ -213,9 +217,11 @@ fn settle_in<'a>(
             let earlier = releases.iter().position(|(earlier, _)| earlier.passage.guards == step.passage.guards);
             if let Some((earlier, then)) = earlier.map(|at| releases.swap_remove(at))
                 && system.distance(&step, &earlier) < FORGOTTEN
-                && let Some(cycle) = system.same(&step, time - then)
             {
-                return settled(MachineVerdict::Periodic(cycle), events, time, &record);
+                if let Some(cycle) = system.same(&step, time - then) {
+                    return settled(MachineVerdict::Periodic(cycle), events, time, &record);
+                }
+                unconfirmed |= step.was_still();
             }
             if step.was_still() {
                 if let Some(spectrum) = record.was_chaotic(&system) {
@@ -242,7 +248,10 @@ fn settle_in<'a>(
     let last = record.returns.last().map(|(step, _)| step.clone());
     let verdict = match last.and_then(|step| record.look(&system, options, &step)) {
         Some(cycle) => MachineVerdict::Periodic(cycle),
-        None => MachineVerdict::Undecided { why: MachineUndecided::Events, spectrum: record.latest(&system), events },
+        None => {
+            let why = if unconfirmed { MachineUndecided::Unconfirmed } else { MachineUndecided::Events };
+            MachineVerdict::Undecided { why, spectrum: record.latest(&system), events }
+        }
     };
     settled(verdict, events, motion.time(), &record)
 }
