@@ -51,6 +51,10 @@ pub fn machine_exponents_while(
             // a neighbour that is moved along a free translation stays as far away
             let mut rates: Vec<f64> = own.chain((0..cycle.translations()).map(|_| 0.0)).collect();
             rates.sort_by(|a, b| b.total_cmp(a));
+            // their multipliers are 0, and what is computed of them is a rounding error
+            let forgotten = cycle.forgotten(&MachineFrame::new(machine)).min(rates.len());
+            let kept = rates.len() - forgotten;
+            rates[kept..].fill(f64::NEG_INFINITY);
             let closings = f64::from(cycle.counts.iter().sum::<u32>()) / cycle.period;
             let spectrum = Some(exact(rates, closings));
             return Ok(Some(MachineExponents { spectrum, motion: settled.verdict, exact: true }));

@@ -136,6 +136,9 @@ fn multipliers_by_differences() {
         let found = machine_exponents_while(&machine, &MachineStart::default(), (2_000, 200), || true);
         let exponents = found.unwrap().unwrap().spectrum.unwrap().exponents;
         assert_eq!((exponents.len(), exponents[0].value), (4, 0.0));
+        // while a joint holds its velocity is known, so the motion forgets one direction
+        let forgotten = exponents.iter().filter(|exponent| exponent.value == f64::NEG_INFINITY).count();
+        assert_eq!(forgotten, machine.parts().joints.len(), "{exponents:?}");
     }
 }
 

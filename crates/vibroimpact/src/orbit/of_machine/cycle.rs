@@ -70,6 +70,15 @@ impl MachineCycle {
         self.drift.iter().map(|drift| drift / self.period).collect()
     }
 
+    /// The number of its multipliers, at least, that are 0, because the motion forgets these directions while the structure
+    /// rests or a joint holds.
+    pub(crate) fn forgotten(&self, frame: &MachineFrame<'_>) -> usize {
+        let lap = self.strobes.first().and_then(|begin| MachineLap::fly(frame, begin, self.period));
+        let forgotten = lap.map_or(0, |lap| lap.forgotten(frame.machine.stops().len()));
+        // surfaces that stand back are directions too, and may not be forgotten
+        forgotten.saturating_sub(frame.shape.size() - 2 * frame.shape.n)
+    }
+
     /// The number of free translations of the machine.
     #[must_use]
     pub const fn translations(&self) -> usize {

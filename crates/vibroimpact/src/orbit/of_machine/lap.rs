@@ -26,6 +26,16 @@ const STEPS: usize = 100_000;
 const BEYOND: f64 = 1.25;
 
 impl MachineLap {
+    /// The number of directions of the state, at least, in which differences of neighbours vanish: two where the structure rests
+    /// on a stop, whose gap and its rate are known, and one where a joint holds, whose velocity is.
+    pub(crate) fn forgotten(&self, stops: usize) -> usize {
+        let of = |(_, place, _): &(f64, Place, Passage)| {
+            let constrained = place.states.iter().enumerate().filter(|(_, state)| state.constrains());
+            constrained.map(|(place, _)| if place < stops { 2 } else { 1 }).sum()
+        };
+        self.steps.iter().map(of).max().unwrap_or(0)
+    }
+
     /// The motion from `begin` over a time. `None` if it ends before.
     pub(crate) fn fly(frame: &MachineFrame<'_>, begin: &Place, time: f64) -> Option<Self> {
         let mut motion = frame.resume(begin.clone()).limited(BEYOND * time);
