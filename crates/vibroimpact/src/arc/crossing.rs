@@ -5,6 +5,7 @@
 //! What is not decided so, which is rare, is left to the search (`search`).
 
 use super::flight::{MachineFlight, Modes};
+use crate::math::fit;
 use crate::regime::{POWERS, REST, SAMPLES, Sampled, Span};
 
 /// The state is computed anew, by the search, after so many spans.
@@ -162,10 +163,8 @@ pub(super) fn plain_crossing(
     modes.s = s;
     let over = 1.0 / sampled.spans[0].step;
     let count = sampling.series.len();
-    if modes.moved.len() != count || modes.v.len() != count {
-        modes.moved.resize(count, 0.0);
-        modes.v.resize(count, 0.0);
-    }
+    fit(&mut modes.moved, count);
+    fit(&mut modes.v, count);
     for (c, (moved, v)) in sampling.series.iter().zip(modes.moved.iter_mut().zip(&mut modes.v)) {
         let (value, slope) = value_and_slope(c, part);
         (*moved, *v) = (value, slope * over);
@@ -206,9 +205,7 @@ impl Sampling {
         // the sizes of all terms in the time that can be searched
         let longest = sampled.spans.last().map_or(0.0, |span| span.step) * LAST * f64::from(spans);
         sampled.grown(&self.first, &self.z, longest, &mut self.energies);
-        if self.guards.len() != flight.guards.len() {
-            self.guards.resize(flight.guards.len(), Of::default());
-        }
+        fit(&mut self.guards, flight.guards.len());
         for ((of, start), parts) in self.guards.iter_mut().zip(&flight.guards).zip(&sampled.guards) {
             (of.constant, of.value, of.known) = (start.constant, Some(start.value), start.known > 0);
             of.size = parts.size(&self.energies, &self.z, longest);
@@ -282,9 +279,7 @@ impl Sampling {
     fn decide(&mut self, sampled: &Sampled, mut step: usize) -> Option<(f64, Option<(usize, f64)>)> {
         let count = sampled.parts.len();
         while step < SAMPLES - 1 {
-            if self.there.len() != self.z.len() {
-                self.there.resize(self.z.len(), 0.0);
-            }
+            fit(&mut self.there, self.z.len());
             self.there.copy_from_slice(&self.z);
             if step > 0 {
                 sampled.spans[0].pass(step, &mut self.there);

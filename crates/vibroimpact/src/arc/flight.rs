@@ -2,7 +2,7 @@
 
 use super::dense::{Dense, Steps};
 use super::drive::Drive;
-use crate::math::dot;
+use crate::math::{dot, fit};
 use crate::regime::{GuardKind, Mode, Observable, RestBuffers, Signal, Structure, Turned};
 use std::sync::Arc;
 
@@ -193,9 +193,7 @@ impl MachineFlight {
     #[inline]
     pub(super) fn state_of_modes(&self, z: &mut Vec<f64>) {
         let count = 3 * self.v.len();
-        if z.len() != count + 2 * self.turns.len() + 2 {
-            z.resize(count + 2 * self.turns.len() + 2, 0.0);
-        }
+        fit(z, count + 2 * self.turns.len() + 2);
         let (modes, rest) = z.split_at_mut(count);
         let ((modes, _), (turns, time)) = (modes.as_chunks_mut::<3>(), rest.split_at_mut(2 * self.turns.len()));
         for (mode, (v, q)) in modes.iter_mut().zip(self.v.iter().zip(&self.drive.steady)) {
@@ -438,11 +436,8 @@ impl MachineFlight {
     pub(crate) fn state(&self, modes: &Modes, x: &mut Vec<f64>, v: &mut Vec<f64>) {
         if self.structure.plain && !self.structure.carries {
             // coordinates are combinations of displacements alone, and velocities of velocities
-            for (to, from) in [(&mut *x, &self.x), (&mut *v, &self.rate)] {
-                if to.len() != from.len() {
-                    to.resize(from.len(), 0.0);
-                }
-            }
+            fit(x, self.x.len());
+            fit(v, self.rate.len());
             for ((x, begin), of) in x.iter_mut().zip(&self.x).zip(&self.structure.x) {
                 *x = begin + dot(&of.position, &modes.moved);
             }

@@ -2,7 +2,7 @@
 
 use crate::arc::{Begin, MachineFlight, Modes, Recovery};
 use crate::machine::{Machine, StopLaw};
-use crate::math::{dot, sin_cos};
+use crate::math::{dot, fit, sin_cos};
 use crate::regime::{ContactState, GuardKind, Normal, Structure, compliant};
 use crate::system::phase;
 use std::collections::BTreeMap;
@@ -132,9 +132,7 @@ impl Place {
         scratch.turns_at(self, normal);
         let Scratch { turns, set, .. } = scratch;
         let joints = &self.states[stops..];
-        if set.len() != joints.len() {
-            set.resize(joints.len(), 0.0);
-        }
+        fit(set, joints.len());
         for ((point, state), direction) in set.iter_mut().zip(joints).zip(&normal.directions[stops..]) {
             *point = if *state == ContactState::Holding { dot(direction, &self.x) } else { 0.0 };
         }

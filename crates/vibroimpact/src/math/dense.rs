@@ -113,9 +113,7 @@ impl Matrix {
     /// The image of a vector, into another one.
     #[inline]
     pub(crate) fn apply_into(&self, vector: &[f64], image: &mut Vec<f64>) {
-        if image.len() != self.rows {
-            image.resize(self.rows, 0.0);
-        }
+        fit(image, self.rows);
         let mut rest = self.values.as_slice();
         for value in image.iter_mut() {
             let (row, next) = rest.split_at(self.columns);
@@ -250,6 +248,14 @@ impl IndexMut<(usize, usize)> for Matrix {
 #[inline]
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// Gives a buffer that is used again this length. It mostly has it, and then nothing is called.
+#[inline]
+pub(crate) fn fit<T: Default>(buffer: &mut Vec<T>, length: usize) {
+    if buffer.len() != length {
+        buffer.resize_with(length, T::default);
+    }
 }
 
 /// Adds `factor * vector` to `sum`.

@@ -3,7 +3,7 @@
 //! nothing.
 
 use super::signal::Signal;
-use crate::math::{Matrix, add_scaled, dot};
+use crate::math::{Matrix, add_scaled, dot, fit};
 
 /// The constant force on the modes at a position, from the force on the coordinates there.
 #[derive(Clone, Debug)]
@@ -47,9 +47,9 @@ pub(super) struct RestContact {
 
 impl RestForce {
     /// The force on each mode at the position `x`, into `push`, and the displacement of each mode that belongs to the
-    /// velocities `v` alone, or none. `gap` is the gap of a closed stop with its
-    /// wall at its mean place. Harmonics of walls and of what they carry along are counted from their mean, as they are in
-    /// what drives the modes; `turns` are their sines and cosines.
+    /// velocities `v` alone, or none. `gap` is the gap of a closed stop with its wall at its mean place. Harmonics of walls
+    /// and of what they carry along are counted from their mean, as they are in what drives the modes; `turns` are their
+    /// sines and cosines.
     #[inline]
     pub(super) fn at<'a>(
         &self,
@@ -72,9 +72,7 @@ impl RestForce {
         } else {
             x
         };
-        if pulled.len() != x.len() {
-            pulled.resize(x.len(), 0.0);
-        }
+        fit(pulled, x.len());
         for (i, (pulled, force)) in pulled.iter_mut().zip(&self.force).enumerate() {
             *pulled = force - dot(self.stiffness.row(i), mean);
         }

@@ -11,7 +11,7 @@
 use super::pass::{Moved, Pass};
 use super::signal::Observable;
 use super::window::levels;
-use crate::math::hypot;
+use crate::math::{fit, hypot};
 
 /// Number of samples of a span.
 pub(crate) const SAMPLES: usize = 16;
@@ -110,9 +110,7 @@ impl Sampled {
     pub(crate) fn energies(&self, z: &[f64], to: &mut Vec<f64>) {
         let (modes, turns) = z.split_at(3 * self.parts.len());
         let ((modes, _), (turns, _)) = (modes.as_chunks::<3>(), turns.as_chunks::<2>());
-        if to.len() != modes.len() {
-            to.resize(modes.len(), 0.0);
-        }
+        fit(to, modes.len());
         for (to, (part, [y, v, q])) in to.iter_mut().zip(self.parts.iter().zip(modes)) {
             let (mut u, mut rate) = (y - if part.k > 0.0 { q / part.k } else { 0.0 }, *v);
             for (r, [cos, sin]) in part.response.iter().zip(turns) {
@@ -127,9 +125,7 @@ impl Sampled {
     #[inline]
     pub(crate) fn grown(&self, energies: &[f64], z: &[f64], s: f64, to: &mut Vec<f64>) {
         let (modes, _) = z.as_chunks::<3>();
-        if to.len() != energies.len() {
-            to.resize(energies.len(), 0.0);
-        }
+        fit(to, energies.len());
         for (to, ((energy, part), mode)) in to.iter_mut().zip(energies.iter().zip(&self.parts).zip(modes)) {
             *to = energy + (part.growth + part.loose * mode[2].abs()) * s;
         }
@@ -141,9 +137,7 @@ impl Sampled {
         let (modes, turns) = z.split_at(3 * self.parts.len());
         let (modes, _) = modes.as_chunks::<3>();
         let turns = &turns[..turns.len() - 2];
-        if to.len() != modes.len() {
-            to.resize(modes.len(), [0.0; POWERS]);
-        }
+        fit(to, modes.len());
         let mut rest = self.series.as_slice();
         for (mode, to) in modes.iter().zip(to) {
             let (own, next) = rest.split_at(3 + turns.len());
