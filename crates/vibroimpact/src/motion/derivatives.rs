@@ -4,7 +4,7 @@ use super::ImpactState;
 use super::impact_map::Passage;
 use crate::lanes::{Task, Width};
 use crate::math::{Lane, Matrix2};
-use crate::system::Oscillator;
+use crate::system::{Oscillator, decay};
 
 /// The largest number of impacts side by side.
 pub(crate) const ABREAST: usize = 16;
@@ -21,7 +21,7 @@ pub(crate) fn derivatives(osc: &Oscillator, first: &ImpactState, others: &[(Impa
 }
 
 fn with(width: Width, osc: &Oscillator, first: &ImpactState, others: &[(ImpactState, f64)]) -> [Matrix2; ABREAST] {
-    let mut columns = Columns { osc, at: [[0.0; ABREAST]; 7], times: [0.0; ABREAST], alone: None };
+    let mut columns = Columns { osc, at: [[0.0; ABREAST]; 7], times: [0.0; ABREAST], responses: Responses::Undamped };
     let mut before = first;
     for (k, (next, interval)) in others.iter().enumerate().take(ABREAST) {
         let restitution = osc.stop(before.side).map_or(0.0, |stop| stop.restitution);
@@ -31,14 +31,21 @@ fn with(width: Width, osc: &Oscillator, first: &ImpactState, others: &[(ImpactSt
         columns.times[k] = *interval;
         before = next;
     }
-    let long = columns.times.iter().any(|time| time * osc.beta().max(1.0) > LONGEST);
-    if osc.damping() > 0.0 || long {
+    let (count, times) = (others.len().min(ABREAST), columns.times);
+    let long = times.iter().any(|time| time * osc.beta().max(1.0) > LONGEST);
+    if long || osc.damping() >= 1.0 {
         let mut alone = [[0.0; ABREAST]; 4];
-        for k in 0..others.len().min(ABREAST) {
-            let p = osc.response().at(columns.times[k]);
+        for k in 0..count {
+            let p = osc.response().at(times[k]);
             alone.iter_mut().zip([p.kc, p.ks, p.s, p.s_rate]).for_each(|(column, number)| column[k] = number);
         }
-        columns.alone = Some(alone);
+        columns.responses = Responses::Alone(alone);
+    } else if osc.damping() > 0.0 {
+        let mut decays = [[0.0; ABREAST]; 2];
+        for k in 0..count {
+            (decays[0][k], decays[1][k]) = decay(osc.damping() * times[k]);
+        }
+        columns.responses = Responses::Damped(decays);
     }
     let elements = width.run(columns);
     core::array::from_fn(|k| {
@@ -53,8 +60,17 @@ struct Columns<'a> {
     /// The numbers of [`Passage`].
     at: [Column; 7],
     times: Column,
-    /// The responses, if they are not computed in lanes.
-    alone: Option<[Column; 4]>,
+    responses: Responses,
+}
+
+/// How the responses after each time are computed.
+enum Responses {
+    /// In lanes, without damping.
+    Undamped,
+    /// In lanes, from the decay, which is computed one by one.
+    Damped([Column; 2]),
+    /// One by one: $`K_c`$, $`K_s`$, $`S`$ and $`S'`$.
+    Alone([Column; 4]),
 }
 
 impl Task for Columns<'_> {
@@ -76,13 +92,18 @@ impl Task for Columns<'_> {
                 next_gap: L::load(&next_gap[k..]),
                 speed: L::load(&speed[k..]),
             };
-            let response = match &self.alone {
-                Some([kc, ks, s, s_rate]) => {
-                    [L::load(&kc[k..]), L::load(&ks[k..]), L::load(&s[k..]), L::load(&s_rate[k..])]
-                }
-                None => {
-                    let p = self.osc.response().undamped(L::load(&self.times[k..]));
+            let (times, response) = (L::load(&self.times[k..]), self.osc.response());
+            let response = match &self.responses {
+                Responses::Undamped => {
+                    let p = response.undamped(times);
                     [p.kc, p.ks, p.s, p.c]
+                }
+                Responses::Damped([kept, loss]) => {
+                    let p = response.damped(times, (L::load(&kept[k..]), L::load(&loss[k..])));
+                    [p.kc, p.ks, p.free.s, p.free.s_rate]
+                }
+                Responses::Alone([kc, ks, s, s_rate]) => {
+                    [L::load(&kc[k..]), L::load(&ks[k..]), L::load(&s[k..]), L::load(&s_rate[k..])]
                 }
             };
             let elements = Passage::elements(self.osc, &at, response);
@@ -113,6 +134,9 @@ mod tests {
             (2.7, 0.3, 0.8, 0.0, Some(0.7)),
             (1.0, 1.0, 0.4, 0.0, None),
             (0.7, 0.6, 0.7, 0.1, Some(0.8)),
+            (2.7, 0.1, 0.8, 0.05, Some(0.1)),
+            (0.3, 0.1, 0.8, 0.01, Some(0.2)),
+            (0.9, 0.1, 0.9, 0.7, None),
             (1.3, 0.2, 0.9, 1.2, Some(0.1)),
             (1e-6, 0.2, 0.9, 0.0, None),
         ] {

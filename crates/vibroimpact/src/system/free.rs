@@ -7,7 +7,7 @@
 //! $`\sin^2/(1+\cos)`$ where the cosine is positive, which keeps its digits also near multiples of a whole period, and
 //! with damping by its Taylor series while $`s`$ is small.
 
-use crate::math::{Lane, exp, exp_m1, sin_cos, two_prod};
+use crate::math::{Lane, Mask, exp, exp_m1, two_prod};
 
 /// For damping ratios from this value on, nothing cancels at resonance.
 pub(crate) const HEAVY: f64 = 0.5;
@@ -28,16 +28,16 @@ pub(crate) struct FreeResponse {
     pub(crate) shift: f64,
 }
 
-/// The free response at one time.
+/// The free response at one time, or at several side by side.
 #[derive(Clone, Copy)]
-pub(crate) struct Free {
-    pub(crate) c: f64,
-    pub(crate) one_minus_c: f64,
-    pub(crate) s: f64,
-    pub(crate) s_rate: f64,
-    pub(crate) size: f64,
+pub(crate) struct Free<L = f64> {
+    pub(crate) c: L,
+    pub(crate) one_minus_c: L,
+    pub(crate) s: L,
+    pub(crate) s_rate: L,
+    pub(crate) size: L,
     /// The angle that has a rounding error.
-    pub(crate) angle: f64,
+    pub(crate) angle: L,
 }
 
 impl FreeResponse {
@@ -60,31 +60,35 @@ impl FreeResponse {
 
     /// Sine and cosine of $`ws`$, corrected for the rounding errors of the product and of $`w`$. Without the correction
     /// these errors would limit the accuracy of the position late in a long flight with light damping.
-    #[inline]
-    pub(crate) fn swing_angle(&self, s: f64) -> (f64, f64) {
-        let (angle, low) = two_prod(self.root, s);
-        let (sin, cos) = sin_cos(angle);
-        let rest = low + self.root_low * s;
+    #[inline(always)]
+    pub(crate) fn swing_angle<L: Lane>(&self, s: L) -> (L, L) {
+        let (angle, low) = two_prod(L::splat(self.root), s);
+        let (sin, cos) = angle.sine_and_cosine();
+        let rest = low + L::splat(self.root_low) * s;
         (sin + cos * rest, cos - sin * rest)
     }
 
     /// The free response below critical damping, from the sine and cosine of `w s` and the decay.
-    #[inline]
-    pub(crate) fn swing(&self, s: f64, (sw, cw): (f64, f64), (kept, loss): (f64, f64)) -> Free {
-        let zeta = self.damping;
-        let free_s = kept * if self.root == 0.0 { s } else { sw / self.root };
+    #[inline(always)]
+    pub(crate) fn swing<L: Lane>(&self, s: L, (sw, cw): (L, L), (kept, loss): (L, L)) -> Free<L> {
+        let zeta = L::splat(self.damping);
+        let free_s = kept * if self.root == 0.0 { s } else { sw / L::splat(self.root) };
         let versine = versine(sw, cw);
-        let (one_minus_c, size) = if zeta == 0.0 {
+        let (one_minus_c, size) = if self.damping == 0.0 {
             (versine, versine)
-        } else if s * (1.0 + zeta) < SMALL {
-            let sum = self.one_minus_c_series(s);
-            (sum, sum)
         } else {
             let sum = (loss - zeta * free_s) + kept * versine;
-            (sum, loss + (zeta * free_s).abs() + kept * versine)
+            let size = loss + (zeta * free_s).abs() + kept * versine;
+            let small = (s * L::splat(1.0 + self.damping)).less(L::splat(SMALL));
+            if small.bits() == 0 {
+                (sum, size)
+            } else {
+                let series = self.one_minus_c_series(s);
+                (L::choose(small, series, sum), L::choose(small, series, size))
+            }
         };
-        let s_rate = kept * cw - zeta * free_s;
-        Free { c: kept * cw + zeta * free_s, one_minus_c, s: free_s, s_rate, size, angle: self.shift * s }
+        let (c, s_rate) = (kept * cw + zeta * free_s, kept * cw - zeta * free_s);
+        Free { c, one_minus_c, s: free_s, s_rate, size, angle: L::splat(self.shift) * s }
     }
 
     /// The free response from critical damping on.
@@ -115,14 +119,17 @@ impl FreeResponse {
     }
 
     /// $`1 - C`$ by its Taylor series, for `s (1 + zeta) <` [`SMALL`]: $`c_{k+2} = -c_k - 2\zeta c_{k+1}`$.
-    fn one_minus_c_series(&self, s: f64) -> f64 {
+    #[inline(always)]
+    fn one_minus_c_series<L: Lane>(&self, s: L) -> L {
         let (mut a, mut b) = (1.0, 0.0); // derivatives of C at 0
-        let (mut power, mut sum) = (s, 0.0);
-        for k in 2..30 {
+        let (mut power, mut sum) = (s, L::splat(0.0));
+        let mut k = 2;
+        while k < 30 {
             let next = -a - 2.0 * self.damping * b;
-            power *= s / f64::from(k);
-            sum -= next * power;
+            power = power * (s / L::splat(f64::from(k)));
+            sum = sum - L::splat(next) * power;
             (a, b) = (b, next);
+            k += 1;
         }
         sum
     }

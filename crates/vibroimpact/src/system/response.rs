@@ -28,8 +28,8 @@
 //! there, because it uses $`\beta s`$ itself, and the sum $`ws + 2h`$ would add the rounding error of the larger term
 //! to the smaller one.
 //!
-use super::free::{FreeResponse, HEAVY, decay, versine};
-use crate::math::{Lane, sin_cos};
+use super::free::{Free, FreeResponse, HEAVY, decay, versine};
+use crate::math::Lane;
 
 /// The frequency ratios near resonance, for which the formula that holds through resonance is used.
 const NEAR: core::ops::RangeInclusive<f64> = 0.5..=2.0;
@@ -133,8 +133,15 @@ impl Response {
                     forced_angle: s * over_sum,
                 }
             }
-            Regime::Light { detuning } => self.light(s, detuning),
-            Regime::Plain => self.plain(s),
+            Regime::Light { detuning } => {
+                let over_angle = self.beta + self.free.root;
+                self.light(s, detuning, decay(self.free.damping * s)).propagator(s / over_angle)
+            }
+            Regime::Plain => {
+                let (re, im) = self.denominator();
+                // |Z|, or a little less
+                self.quotient(s, &self.free.at(s)).propagator(self.beta * s / re.abs().max(im.abs()))
+            }
         }
     }
 
@@ -158,37 +165,69 @@ impl Response {
         }
     }
 
+    /// The responses with damping below the critical one, in lanes, with the bits of [`at`](Self::at), from the
+    /// [`decay`] after each time; times and angles up to 1e5.
+    #[inline(always)]
+    pub(crate) fn damped<L: Lane>(&self, s: L, decay: (L, L)) -> Damped<L> {
+        match self.regime {
+            Regime::Light { detuning } => self.light(s, detuning, decay),
+            _ => self.quotient(s, &self.free.swing(s, self.free.swing_angle(s), decay)),
+        }
+    }
+
     /// The responses with light damping near resonance.
-    fn light(&self, s: f64, detuning: f64) -> Propagator {
-        let w = self.free.root;
-        let (swing, decay) = (self.free.swing_angle(s), decay(self.free.damping * s));
-        let near = NearForced::new(self, detuning, swing, sin_cos(0.5 * detuning * s), decay);
+    #[inline(always)]
+    fn light<L: Lane>(&self, s: L, detuning: f64, decay: (L, L)) -> Damped<L> {
+        let swing = self.free.swing_angle(s);
+        let half = (L::splat(0.5 * detuning) * s).sine_and_cosine();
+        let near = NearForced::new(self, detuning, swing, half, decay);
         let (first, second) = (near.first, near.second);
         let free = self.free.swing(s, swing, decay);
-        Propagator {
-            one_minus_c: free.one_minus_c,
-            c: free.c,
-            s: free.s,
-            s_rate: free.s_rate,
+        Damped {
+            free,
             kc: near.kc,
             ks: near.ks,
             sin_turn: near.sin_turn,
             cos_turn: near.cos_turn,
-            free_size: free.size,
-            free_angle: free.angle,
-            forced_size: (first.0.abs() + first.1.abs() + second.0.abs() + second.1.abs()) / w
-                * (1.0 + 0.25 * free.angle),
-            forced_angle: s / (self.beta + w),
+            forced_size: (first.0.abs() + first.1.abs() + second.0.abs() + second.1.abs()) / L::splat(self.free.root)
+                * (L::splat(1.0) + L::splat(0.25) * free.angle),
         }
     }
 
     /// The responses away from resonance, by the plain quotient.
-    fn plain(&self, s: f64) -> Propagator {
-        let (beta, z) = (self.beta, ((1.0 - self.beta) * (1.0 + self.beta), 2.0 * self.free.damping * self.beta));
-        let (st, ct) = sin_cos(beta * s);
-        let free = self.free.at(s);
-        let (kc, ks) = divide((free.one_minus_c - versine(st, ct), st - beta * free.s), z);
-        let over = z.0.abs().max(z.1); // |Z|, or a little less
+    #[inline(always)]
+    fn quotient<L: Lane>(&self, s: L, free: &Free<L>) -> Damped<L> {
+        let (beta, z) = (L::splat(self.beta), self.denominator());
+        let (st, ct) = (beta * s).sine_and_cosine();
+        let versine = versine(st, ct);
+        let (kc, ks) = divide((free.one_minus_c - versine, st - beta * free.s), z);
+        let size = versine + free.size + st.abs() + (beta * free.s).abs();
+        let over = L::splat(z.0.abs().max(z.1));
+        Damped { free: *free, kc, ks, sin_turn: st, cos_turn: ct, forced_size: size * L::splat(1.5) / over }
+    }
+
+    /// $`Z = 1-\beta^2+2i\zeta\beta`$.
+    fn denominator(&self) -> (f64, f64) {
+        ((1.0 - self.beta) * (1.0 + self.beta), 2.0 * self.free.damping * self.beta)
+    }
+}
+
+/// The free and the forced response.
+#[derive(Clone, Copy)]
+pub(crate) struct Damped<L> {
+    pub(crate) free: Free<L>,
+    pub(crate) kc: L,
+    pub(crate) ks: L,
+    sin_turn: L,
+    cos_turn: L,
+    forced_size: L,
+}
+
+impl Damped<f64> {
+    /// With the [angle](Propagator::forced_angle) of the force that was rounded.
+    #[inline]
+    const fn propagator(&self, forced_angle: f64) -> Propagator {
+        let Self { free, kc, ks, sin_turn, cos_turn, forced_size } = *self;
         Propagator {
             one_minus_c: free.one_minus_c,
             c: free.c,
@@ -196,12 +235,12 @@ impl Response {
             s_rate: free.s_rate,
             kc,
             ks,
-            sin_turn: st,
-            cos_turn: ct,
+            sin_turn,
+            cos_turn,
             free_size: free.size,
             free_angle: free.angle,
-            forced_size: (versine(st, ct) + free.size + st.abs() + (beta * free.s).abs()) * 1.5 / over,
-            forced_angle: beta * s / over,
+            forced_size,
+            forced_angle,
         }
     }
 }
