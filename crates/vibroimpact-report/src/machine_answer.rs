@@ -123,12 +123,19 @@ impl MachineAnswer {
 
     /// The waveform of one period of a cycle.
     fn one_period(&self, cycle: &MachineCycle, title: &str) -> Result<Figure, AnswerError> {
-        let periods = Some(f64::from(cycle.label.periods));
-        let task = MachineTask::Simulate { impacts: None, periods };
+        let forced = cycle.label.periods > 0;
+        let periods = forced.then(|| f64::from(cycle.label.periods));
+        // without forcing, to the first event after the period
+        let impacts = if forced { None } else { Some(cycle.events.len() as u64 + 1) };
+        let task = MachineTask::Simulate { impacts, periods };
         let plan = MachinePlan { task, ..self.plan.clone() }.starting(&cycle.state);
-        let MachineResults::Simulate(found) = run_machine(&plan, &Control::default())? else {
+        let MachineResults::Simulate(mut found) = run_machine(&plan, &Control::default())? else {
             return Err(ReportError::NoCycle(cycle.label.to_string()).into()); // the task of the plan is to simulate
         };
+        if !forced {
+            found.events.retain(|event| event.time <= cycle.period);
+            found.shown_until = cycle.period;
+        }
         let title = format!("{title}: {}", figure::label(&cycle.label.to_string()));
         Ok(figure::machine_waveform::figure(&self.machine, &cycle.state, &found, title)?)
     }

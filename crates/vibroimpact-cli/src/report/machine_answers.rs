@@ -160,7 +160,9 @@ fn described(machine: &Machine, cycle: &MachineCycle) -> String {
     let stable = if cycle.stable() { "stable" } else { "unstable" };
     let mut text = format!("{}, {stable}, period {}\n", cycle.label, short(cycle.period));
     let counts = machine.stops().iter().zip(&cycle.counts).map(|(stop, count)| format!("{} {count}", stop.name));
-    let _ = writeln!(text, "  closings: {}", counts.collect::<Vec<_>>().join(", "));
+    if !cycle.counts.is_empty() {
+        let _ = writeln!(text, "  closings: {}", counts.collect::<Vec<_>>().join(", "));
+    }
     let multipliers = cycle.multipliers.iter().map(|multiplier| {
         let size = short(multiplier.modulus());
         if multiplier.im == 0.0 { short(multiplier.re) } else { format!("|{size}| complex") }
@@ -179,10 +181,11 @@ fn described(machine: &Machine, cycle: &MachineCycle) -> String {
         };
     }
     for event in &cycle.events {
+        let (what, place) = if machine.period().is_some() { ("phase", event.phase) } else { ("time ", event.time) };
         let _ = writeln!(
             text,
-            "  phase {:<12} {:<8} {:<12} speed {}",
-            short(event.phase),
+            "  {what} {:<12} {:<8} {:<12} speed {}",
+            short(place),
             event.kind.name(),
             machine.name_of(event.place),
             short(event.speed)

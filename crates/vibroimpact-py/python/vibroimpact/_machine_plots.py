@@ -193,6 +193,8 @@ def cells(
 def _code(label: str) -> int:
     """The code of a label in a Dataset; that of no motion for other texts."""
     m, slash, n = label.partition("/")
+    if slash and n == "T":
+        return 1_600_000_000 if m == "inf" else 1_500_000_000 + int(m)
     if slash:
         return 1_000_000_000 + int(n) if m == "inf" else 10_000 * int(m) + int(n)
     return {"0": 0, "chaotic": -2, "stuck": -3, "undecided": -4}.get(label, -1)

@@ -63,10 +63,13 @@ def over_points(over: Over, values: NDArray[Any], further: Sequence[tuple[str, i
 
 def whole_numbers(dims: Sequence[str], codes: NDArray[Any]) -> dict[str, Any]:
     """Impacts m and periods n of the codes of labels: nan for what is not m/n, infinite impacts for a complete chatter."""
-    cycle, chatter = codes > 0, codes >= 1_000_000_000
-    impacts = np.where(chatter, np.inf, codes // 10_000)
-    periods = np.where(chatter, codes - 1_000_000_000, codes % 10_000).astype(np.float64)
-    impacts[~cycle] = periods[~cycle] = np.nan
+    whole = codes // 10_000
+    impacts, periods = whole.astype(np.float64), (codes - whole * 10_000).astype(np.float64)
+    chatter = codes >= 1_000_000_000
+    if chatter.any():
+        impacts[chatter], periods[chatter] = np.inf, codes[chatter] - 1_000_000_000
+    other = codes <= 0
+    impacts[other] = periods[other] = np.nan
     words = {"impacts": "impacts m in a period of the motion m/n", "periods": "forcing periods n in a period of the motion m/n"}
     values = {"impacts": impacts, "periods": periods}
     return {name: (list(dims), of, {"long_name": words[name], "units": "1"}) for name, of in values.items()}

@@ -120,7 +120,8 @@ impl LabelledCells {
         if labels.len() <= NAMED {
             for label in labels {
                 let group = legend_group(label);
-                let word = if group.contains('/') { legend_label(label) } else { legend_text(group).into() };
+                let named = group.contains('/') || label.contains('/') && group == "other";
+                let word = if named { legend_label(label) } else { legend_text(group).into() };
                 legend = legend.patch(style(label), word);
             }
             return legend;

@@ -112,7 +112,8 @@ pub(super) fn cycle<'a>(machine: &'a Machine, cycle: &'a MachineCycle) -> Motion
     let sticks = cycle.events.iter().filter(|event| matches!(event.kind.name(), "stick" | "hold")).count();
     MotionObject {
         impacts,
-        periods: Some(cycle.label.periods),
+        // 0 stands for no forcing
+        periods: Some(cycle.label.periods).filter(|periods| *periods > 0),
         sticks: Some(sticks),
         stable: Some(cycle.stable()),
         counts: Some(counts.map(|(stop, count)| (stop.name.clone(), Value::from(*count))).collect()),

@@ -2,7 +2,8 @@
 //!
 //! For example 1/1 is 10001 and 3/2 is 30002. A motion with a complete chatter is 1 000 000 000 + n, a motion without
 //! impacts is 0. Results that are no periodic motion are negative. A number of periods above 9999 is stored as 0, a
-//! number of impacts above 99 999 as 99 999.
+//! number of impacts above 99 999 as 99 999. Motions m/T of machines without forcing are 1 500 000 000 + m, and those with
+//! a complete chatter 1 600 000 000.
 
 use crate::field::{Extra, Field, NumberType};
 use crate::unit::Unit;
@@ -26,6 +27,8 @@ pub const NO_IMPACT: i32 = 0;
 
 const PER_IMPACT: u32 = 10_000;
 const CHATTER: u32 = 1_000_000_000;
+const UNFORCED: u32 = 1_500_000_000;
+const UNFORCED_CHATTER: u32 = 1_600_000_000;
 
 /// Special values without m and n, and their meanings.
 pub(super) const FLAGS: [(i32, &str); 6] = [
@@ -38,7 +41,8 @@ pub(super) const FLAGS: [(i32, &str); 6] = [
 ];
 
 pub(super) const COMMENT: &str = "10000 m + n for a motion m/n with m impacts in n forcing periods, 1000000000 + n for \
-                                  inf/n with a complete chatter; n = 0 stands for more than 9999 periods";
+                                  inf/n with a complete chatter; n = 0 stands for more than 9999 periods; 1500000000 + m \
+                                  for a motion m/T without forcing, 1600000000 for inf/T";
 
 /// The field of labels; further dimensions are `extra`.
 pub(super) fn field(long_name: &'static str, extra: Vec<Extra>) -> Field {
@@ -78,6 +82,13 @@ pub(crate) fn of_machine(verdict: &MachineVerdict) -> i32 {
 }
 
 fn of(label: Label) -> i32 {
+    if label.periods == 0 {
+        let code = match label.impacts {
+            Count::Finite(m) => UNFORCED + m.min(99_999),
+            Count::Infinite => UNFORCED_CHATTER,
+        };
+        return i32::try_from(code).unwrap_or(UNDECIDED);
+    }
     let n = if label.periods < PER_IMPACT { label.periods } else { 0 };
     let m = match label.impacts {
         Count::Finite(0) => return NO_IMPACT,
@@ -111,6 +122,12 @@ pub fn label_of(code: i32) -> Option<String> {
         UNDECIDED => "undecided".to_owned(),
         _ => {
             let code = u32::try_from(code).ok()?;
+            if code >= UNFORCED_CHATTER {
+                return Some("inf/T".to_owned());
+            }
+            if let Some(m) = code.checked_sub(UNFORCED) {
+                return Some(format!("{m}/T"));
+            }
             let (m, n) = match code.checked_sub(CHATTER) {
                 Some(n) => ("inf".to_owned(), n),
                 None => ((code / PER_IMPACT).to_string(), code % PER_IMPACT),
@@ -137,6 +154,10 @@ mod tests {
         }
         assert_eq!(label_of(of(Label::new(3, 10_000))).unwrap(), "3/>9999");
         assert_eq!(label_of(of(Label::new(4_000_000_000, 1))).unwrap(), "99999/1");
+        for m in [0, 1, 17, 99_999] {
+            assert_eq!(label_of(of(Label::new(m, 0))).unwrap(), format!("{m}/T"));
+        }
+        assert_eq!(label_of(of(Label { impacts: Count::Infinite, periods: 0 })).unwrap(), "inf/T");
         for (code, name) in FLAGS {
             assert_eq!(label_of(code).is_some(), !matches!(name, "not_computed" | "no_further_motion"), "{name}");
         }

@@ -48,8 +48,9 @@ pub fn machine_exponents_while(
     match &settled.verdict {
         MachineVerdict::Periodic(cycle) => {
             let own = cycle.multipliers.iter().map(|multiplier| ln(multiplier.modulus()) / cycle.period);
-            // a neighbour that is moved along a free translation stays as far away
-            let mut rates: Vec<f64> = own.chain((0..cycle.translations()).map(|_| 0.0)).collect();
+            // a neighbour that is moved along a free translation stays as far away, and without forcing one that is ahead
+            let kept = cycle.translations() + if machine.period().is_none() { 1 } else { 0 };
+            let mut rates: Vec<f64> = own.chain((0..kept).map(|_| 0.0)).collect();
             rates.sort_by(|a, b| b.total_cmp(a));
             // their multipliers are 0, and what is computed of them is a rounding error
             let forgotten = cycle.forgotten(&MachineFrame::new(machine)).min(rates.len());

@@ -1,7 +1,8 @@
 //! The label of a periodic motion: `m/n`, m impacts in n forcing periods over its smallest period.
 //!
 //! `2/2` is not `1/1`: its two impacts differ. A motion with a complete chatter has infinitely many impacts and the
-//! label `inf/n`. The steady motion without impacts has the label `0`. The 1971 paper calls 1/1 fundamental, m/1 of
+//! label `inf/n`. The steady motion without impacts has the label `0`. A limit cycle of a machine without forcing has the
+//! label `m/T`: m closings of stops in its period T. The 1971 paper calls 1/1 fundamental, m/1 of
 //! higher order, 1/n fractional and the others super-sub.
 
 use core::fmt;
@@ -31,7 +32,7 @@ pub enum Count {
 pub struct Label {
     /// Impacts per period.
     pub impacts: Count,
-    /// Forcing periods per period of the motion, at least 1.
+    /// Forcing periods per period of the motion, at least 1; 0 for a machine without forcing.
     pub periods: u32,
 }
 
@@ -46,6 +47,8 @@ impl Label {
 impl fmt::Display for Label {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.impacts {
+            Count::Finite(m) if self.periods == 0 => write!(f, "{m}/T"),
+            Count::Infinite if self.periods == 0 => f.write_str("inf/T"),
             Count::Finite(0) => f.write_str("0"),
             Count::Finite(m) => write!(f, "{m}/{}", self.periods),
             Count::Infinite => write!(f, "inf/{}", self.periods),

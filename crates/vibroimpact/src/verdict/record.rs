@@ -191,8 +191,8 @@ impl<R: Recurring> Record<R> {
             })
             .take(TRIES + 1)
             .collect();
-        for Candidate { m, n, .. } in found {
-            let Some(cycle) = system.cycle(state, u32::try_from(m).unwrap_or(u32::MAX), n) else {
+        for Candidate { m, time, .. } in found {
+            let Some(cycle) = system.cycle(state, u32::try_from(m).unwrap_or(u32::MAX), time) else {
                 continue;
             };
             if system.captured(state, &cycle) {

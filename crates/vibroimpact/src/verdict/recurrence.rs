@@ -11,8 +11,8 @@ use core::f64::consts::TAU;
 pub(super) struct Candidate {
     /// Number of returns.
     pub(super) m: usize,
-    /// Number of forcing periods.
-    pub(super) n: u32,
+    /// Their time.
+    pub(super) time: f64,
     /// Whether the last returns equal the earlier ones up to the small remainder of a transient.
     pub(super) close: bool,
 }
@@ -34,10 +34,9 @@ pub(super) fn candidates<R: Recurring>(
             |k: usize, tolerance: f64| system.distance(&returns[k].0, &returns[k - m].0) * m as f64 <= tolerance;
         let periods = system.periods(time).round();
         // the phases agree, so the time is close to a whole number of periods
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // checked to be small
         (close(j, tolerance) && close(j - 1, tolerance) && (1.0..1e6).contains(&periods)).then(|| Candidate {
             m,
-            n: periods as u32,
+            time,
             close: close(j, CLOSE) && close(j - 1, CLOSE),
         })
     })
@@ -94,7 +93,9 @@ impl Recurring for Oscillator {
         self.beta() * time / TAU
     }
 
-    fn cycle(&self, last: &ImpactState, m: u32, n: u32) -> Option<Cycle> {
+    fn cycle(&self, last: &ImpactState, m: u32, time: f64) -> Option<Cycle> {
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // at most 10^6, as that of a candidate
+        let n = self.periods(time).round() as u32;
         shoot_stable(self, *last, m, n)
     }
 

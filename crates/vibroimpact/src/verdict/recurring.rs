@@ -13,10 +13,10 @@ pub(crate) trait Recurring {
 
     /// The distance of two returns, relative to the motion; infinite if they are of different kinds.
     fn distance(&self, a: &Self::Return, b: &Self::Return) -> f64;
-    /// The number of forcing periods in a time.
+    /// The number of forcing periods in a time; 1 for any time without forcing.
     fn periods(&self, time: f64) -> f64;
-    /// The cycle near a return that takes `m` returns and `n` forcing periods; it may be `None` if it is unstable.
-    fn cycle(&self, last: &Self::Return, m: u32, n: u32) -> Option<Self::Cycle>;
+    /// The cycle near a return that takes `m` returns and about this time; it may be `None` if it is unstable.
+    fn cycle(&self, last: &Self::Return, m: u32, time: f64) -> Option<Self::Cycle>;
     /// Whether a cycle attracts its neighbourhood.
     fn stable(cycle: &Self::Cycle) -> bool;
     /// Whether the motion is captured by this stable cycle: it is near, and follows its linear law.

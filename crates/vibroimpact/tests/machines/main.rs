@@ -11,6 +11,8 @@ mod curves;
 #[cfg(test)]
 mod drift;
 #[cfg(test)]
+mod limit_cycles;
+#[cfg(test)]
 mod quantities;
 #[cfg(test)]
 mod samples;

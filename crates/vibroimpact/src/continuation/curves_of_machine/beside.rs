@@ -47,7 +47,8 @@ pub(super) fn judge_beside(
         let whole = frame.machine.period()? * f64::from(ring.periods);
         let lap = MachineLap::fly(frame, &begin, whole - after - until - apart)?;
         // both events of a corner belong to the cycle
-        let cycle = if first == last { lap.clone() } else { MachineLap::fly(frame, &begin, whole)? };
+        let touching = || MachineLap { time: whole, ..lap.clone() };
+        let cycle = if first == last { touching() } else { MachineLap::fly(frame, &begin, whole)? };
         Some((begin, expected, lap, cycle))
     };
     let Some((begin, expected, lap, cycle)) = flown() else { return nothing(multipliers) };

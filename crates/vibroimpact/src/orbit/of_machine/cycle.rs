@@ -3,7 +3,7 @@
 use super::frame::{MachineFrame, distance};
 use super::lap::MachineLap;
 use crate::events::{MachineEvent, MachineEventKind, MachineStart, Place};
-use crate::math::{Lu, Matrix, Multiplier, general_eigenvalues};
+use crate::math::{Multiplier, general_eigenvalues};
 use crate::orbit::{Count, Label};
 use crate::regime::Translations;
 use crate::system::phase;
@@ -18,7 +18,7 @@ use core::f64::consts::TAU;
 #[derive(Clone, Debug)]
 pub struct MachineCycle {
     /// The label m/n: m closings of stops (impacts, and beginnings of compliant contact) in n forcing periods; `inf/n` with
-    /// a complete chatter.
+    /// a complete chatter. `m/T` without forcing: m closings in one period of the motion.
     pub label: Label,
     /// The closings of each stop.
     pub counts: Vec<u32>,
@@ -27,7 +27,7 @@ pub struct MachineCycle {
     /// The time of one period.
     pub period: f64,
     /// Floquet multipliers, the largest first: two for each coordinate, less one for each free translation, whose own is
-    /// always 1.
+    /// always 1. Without forcing there is one less, because that along the motion is always 1.
     pub multipliers: Vec<Multiplier>,
     /// The largest difference of a coordinate or velocity after one period, but for a translation, relative to the largest
     /// ones.
@@ -37,7 +37,7 @@ pub struct MachineCycle {
     pub drift: Vec<f64>,
     /// A state of the cycle between two events.
     pub state: MachineStart,
-    /// The states at the phase of `state`, one for each forcing period.
+    /// The states at the phase of `state`, one for each forcing period; without forcing `state` alone.
     pub(crate) strobes: Vec<Place>,
     /// The largest sizes of coordinates and velocities.
     pub(crate) sizes: (f64, f64),
@@ -45,17 +45,8 @@ pub struct MachineCycle {
     pub(crate) free: Translations,
 }
 
-/// The largest number of steps of Newton's method; from a good guess four or five are needed.
-const MAX_STEPS: u32 = 30;
-/// After this number of steps the iteration is ended if the residual exceeds [`HOPELESS`].
-const PATIENCE: u32 = 8;
-const HOPELESS: f64 = 1e-2;
-/// A residual up to this is accepted; the rounding error is usually 1e-14.
-const CLOSED: f64 = 1e-10;
 /// What rounding leaves of no drift, relative to the motion.
 const ROUNDED: f64 = 1e-12;
-/// States that differ by less, relative to the motion, are the same.
-const SAME: f64 = 1e-8;
 
 impl MachineCycle {
     /// Whether the cycle attracts its neighbourhood: all multipliers lie inside the unit circle.
@@ -110,8 +101,9 @@ impl MachineCycle {
             q
         };
         let own = self.events.iter().flat_map(|event| untranslated(event.q.clone()));
-        // a coordinate that can be translated has the size of its way in a radian of the forcing
-        let radian = if self.free.is_empty() { 0.0 } else { self.period / (TAU * f64::from(self.label.periods)) };
+        // a coordinate that can be translated has the size of its way in a radian of the forcing, or of the period
+        let radian =
+            if self.free.is_empty() { 0.0 } else { self.period / (TAU * f64::from(self.label.periods.max(1))) };
         let size = own.fold(radian * rate, |most, q| most.max(q.abs()));
         let close = |p: &MachineEvent, q: &MachineEvent| {
             let apart = untranslated(p.q.iter().zip(&q.q).map(|(x, y)| x - y).collect());
@@ -130,75 +122,8 @@ impl MachineCycle {
         self.events.iter().filter(|event| event.closes()).map(|event| event.speed).fold(0.0, f64::max)
     }
 
-    /// The cycle of `n` forcing periods near the motion from `from`, by Newton's method on the state between two events,
-    /// which a free translation leaves as it is; `None` if it does not converge, or without forcing.
-    pub(crate) fn near(frame: &MachineFrame<'_>, from: &Place, n: u32) -> Option<Self> {
-        let time = frame.machine.period()? * f64::from(n);
-        // begin in the middle of the longest flight, far from all events
-        let first = MachineLap::fly(frame, from, time)?;
-        let (_, place, passage) = first.steps.iter().max_by(|a, b| a.2.duration.total_cmp(&b.2.duration))?;
-        let mut begin = frame.moved(place, &passage.structure, 0.5 * passage.duration.min(time));
-        frame.centre(&mut begin);
-        let mut best: Option<(f64, Place, MachineLap)> = None;
-        for step in 0..MAX_STEPS {
-            let lap = MachineLap::fly(frame, &begin, time)?;
-            if lap.end.states != begin.states {
-                return None;
-            }
-            let residual = frame.distance(&begin, &lap.end, lap.sizes);
-            let from = frame.shape.values(&begin);
-            let mut change = frame.apart(&lap.end, &begin);
-            let derivative = lap.derivative.clone();
-            let improves = best.as_ref().is_none_or(|(so_far, ..)| residual < *so_far);
-            if improves {
-                best = Some((residual, begin.clone(), lap));
-            } else if best.as_ref().is_some_and(|(so_far, ..)| *so_far <= CLOSED) {
-                break;
-            }
-            if residual == 0.0 {
-                break;
-            }
-            if !residual.is_finite() || step >= PATIENCE && residual > HOPELESS {
-                return None;
-            }
-            // (I - J) change = end - begin, both sides but for a translation
-            let mut system = Matrix::identity(from.len());
-            let mut derivative = derivative?;
-            frame.normal.translations.remove_from_columns(&mut derivative, 0);
-            for i in 0..from.len() {
-                for j in 0..from.len() {
-                    system[(i, j)] -= derivative[(i, j)];
-                }
-            }
-            Lu::new(system.values().to_vec(), from.len())?.solve(&mut change);
-            let next: Vec<f64> = from.iter().zip(&change).map(|(from, change)| from + change).collect();
-            begin = frame.shape.with_values(&begin, &next);
-        }
-        let (residual, begin, lap) = best?;
-        if residual > CLOSED {
-            return None;
-        }
-        Self::closed(frame, (&begin, n), &lap, residual)
-    }
-
-    /// The cycle whose motion over `n` periods is `lap`, over its smallest period.
-    fn closed(frame: &MachineFrame<'_>, (begin, n): (&Place, u32), lap: &MachineLap, residual: f64) -> Option<Self> {
-        let one = frame.machine.period()?;
-        let mut strobes = vec![begin.clone()];
-        for k in 1..n {
-            let last = strobes.last()?;
-            let next = MachineLap::fly(frame, last, one)?.end;
-            if n.is_multiple_of(k) && frame.distance(begin, &next, lap.sizes) <= SAME {
-                let lap = MachineLap::fly(frame, begin, one * f64::from(k))?;
-                let residual = frame.distance(begin, &lap.end, lap.sizes);
-                return Some(Self::of(frame, (begin, k), &lap, residual, strobes));
-            }
-            strobes.push(next);
-        }
-        Some(Self::of(frame, (begin, n), lap, residual, strobes))
-    }
-
-    /// The cycle that begins at a state between two events, whose motion over `n` periods is `lap`.
+    /// The cycle that begins at a state between two events, whose motion over `n` forcing periods is `lap`; without forcing
+    /// `n` is 0.
     pub(crate) fn of(
         frame: &MachineFrame<'_>,
         (begin, n): (&Place, u32),
@@ -206,7 +131,7 @@ impl MachineCycle {
         residual: f64,
         strobes: Vec<Place>,
     ) -> Self {
-        let period = frame.machine.period().unwrap_or(f64::INFINITY) * f64::from(n);
+        let period = lap.time;
         let mut events = lap.events.clone();
         let fastest = (0..events.len())
             .filter(|k| events[*k].closes())
@@ -231,7 +156,7 @@ impl MachineCycle {
             .collect();
         let chatter = lap.steps.iter().any(|(_, _, passage)| passage.rest.is_some());
         let impacts = if chatter { Count::Infinite } else { Count::Finite(counts.iter().sum()) };
-        let derivative = lap.derivative.clone().map(|derivative| frame.without_translations(derivative));
+        let derivative = lap.derivative.clone().map(|derivative| frame.across_cycles(derivative, begin));
         let mut multipliers = derivative
             .as_ref()
             .and_then(general_eigenvalues)

@@ -4,7 +4,7 @@
 use crate::arc::Modes;
 use crate::events::{MachineMotion, Place, StateShape, Structures};
 use crate::machine::Machine;
-use crate::math::{Matrix, add_scaled};
+use crate::math::{Matrix, add_scaled, dot};
 use crate::regime::{ContactState, Normal, Structure, Translations};
 use crate::system::phase;
 use core::cell::RefCell;
@@ -137,8 +137,77 @@ impl<'a> MachineFrame<'a> {
         others.transposed().times(&derivative.times(&others))
     }
 
-    /// The number of multipliers of a cycle: two for each coordinate, less one for each translation.
+    /// Whether motions have no phase: then each is a motion again at any later time.
+    pub(crate) const fn unforced(&self) -> bool {
+        self.machine.parts().frequency.is_none()
+    }
+
+    /// The rate of a state, but for a translation; `None` if its regime has no structure.
+    pub(crate) fn flow(&self, place: &Place) -> Option<Vec<f64>> {
+        let structure = self.structure(&place.states)?;
+        let mut flow = self.shape.flow(&structure, &self.normal, place);
+        self.normal.translations.remove(&mut flow);
+        Some(flow)
+    }
+
+    /// The derivative of the state of a cycle over its period, for differences that are neither translations nor, without
+    /// forcing, along the motion: those say nothing of it.
+    pub(crate) fn across_cycles(&self, derivative: Matrix, at: &Place) -> Matrix {
+        let reduced = self.without_translations(derivative);
+        let Some(flow) = self.unforced().then(|| self.flow(at)).flatten() else { return reduced };
+        let free = &self.normal.translations;
+        let flow = if free.is_empty() { flow } else { free.others(self.shape.size()).transposed().apply(&flow) };
+        // the eigenvalue of the direction of the flow is 1, so the others are those of the quotient by it
+        let Some(across) = complement(&flow) else { return reduced };
+        across.transposed().times(&reduced.times(&across))
+    }
+
+    /// The number of multipliers of a cycle: two for each coordinate, less one for each translation, and one less without
+    /// forcing.
     pub(crate) const fn multipliers(&self) -> usize {
-        2 * self.shape.n - self.normal.translations.count()
+        2 * self.shape.n - self.normal.translations.count() - if self.unforced() { 1 } else { 0 }
+    }
+}
+
+/// Orthonormal directions that are perpendicular to a vector, as columns: those of a reflection that takes the vector to
+/// its largest component. `None` for a vector of zeros.
+fn complement(vector: &[f64]) -> Option<Matrix> {
+    let size = vector.len();
+    let length = dot(vector, vector).sqrt();
+    let pivot = (0..size).max_by(|i, j| vector[*i].abs().total_cmp(&vector[*j].abs()))?;
+    if length == 0.0 || !length.is_finite() {
+        return None;
+    }
+    let mut normal: Vec<f64> = vector.iter().map(|x| x / length).collect();
+    normal[pivot] += normal[pivot].signum();
+    let half = 0.5 * dot(&normal, &normal);
+    let mut columns = Matrix::zeros(size, size - 1);
+    for (k, j) in (0..size).filter(|j| *j != pivot).enumerate() {
+        for i in 0..size {
+            let unit = if i == j { 1.0 } else { 0.0 };
+            columns[(i, k)] = unit - normal[i] * normal[j] / half;
+        }
+    }
+    Some(columns)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn directions_across_a_vector() {
+        for vector in [vec![3.0, -4.0], vec![1e-9, 2.0, -1e3, 5.0], vec![0.0, 0.0, -1.0]] {
+            let across = complement(&vector).unwrap();
+            let (products, along) = (across.transposed().times(&across), across.transposed().apply(&vector));
+            for i in 0..vector.len() - 1 {
+                assert!(along[i].abs() < 1e-12 * dot(&vector, &vector).sqrt());
+                for j in 0..vector.len() - 1 {
+                    let unit = if i == j { 1.0 } else { 0.0 };
+                    assert!((products[(i, j)] - unit).abs() < 1e-14);
+                }
+            }
+        }
+        assert!(complement(&[0.0, 0.0]).is_none());
     }
 }

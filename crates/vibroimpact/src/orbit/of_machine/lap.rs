@@ -7,6 +7,8 @@ use crate::math::Matrix;
 /// The motion over a time.
 #[derive(Clone, Debug)]
 pub(crate) struct MachineLap {
+    /// The time.
+    pub(crate) time: f64,
     /// The state at the end.
     pub(crate) end: Place,
     /// The derivative of the state at the end by that at the beginning; `None` if a guard was only touched.
@@ -79,6 +81,6 @@ impl MachineLap {
         let end = end?;
         // what happens after the end does not belong to it
         events.retain(|event: &MachineEvent| event.time <= time);
-        Some(Self { end, derivative, steps, events, sizes })
+        Some(Self { time, end, derivative, steps, events, sizes })
     }
 }

@@ -7,9 +7,11 @@
 //! | the events of a cycle as unknowns, and their equations | `ring` |
 //! | guesses of unstable ones between two that are stable | `border` |
 //! | all with a label, from many guesses | [`find_machine_while`] |
-//! | a cycle, by Newton's method on the state between two events | [`MachineCycle`] |
+//! | a cycle | [`MachineCycle`] |
+//! | the same, by Newton's method on the state between two events | `closing` |
 
 mod border;
+mod closing;
 mod cycle;
 mod find;
 mod frame;

@@ -69,13 +69,13 @@ impl Recurring for Recorded<'_> {
     }
 
     fn periods(&self, time: f64) -> f64 {
-        self.frame.machine.period().map_or(f64::NAN, |period| time / period)
+        self.frame.machine.period().map_or(1.0, |period| time / period)
     }
 
-    fn cycle(&self, last: &Arc<Step>, _: u32, n: u32) -> Option<MachineCycle> {
+    fn cycle(&self, last: &Arc<Step>, _: u32, time: f64) -> Option<MachineCycle> {
         // a machine that moves freely comes to rest anywhere: its motion without events begins after the last one
         let attracts = |cycle: &MachineCycle| !cycle.events.is_empty() || cycle.translations() == 0;
-        MachineCycle::near(&self.frame, &last.end, n).filter(attracts)
+        MachineCycle::returning(&self.frame, &last.end, time).filter(attracts)
     }
 
     fn stable(cycle: &MachineCycle) -> bool {
@@ -114,28 +114,32 @@ impl Recurring for Recorded<'_> {
 impl Recorded<'_> {
     /// The cycle of a motion that returns to a state after a time.
     pub(crate) fn same(&self, step: &Arc<Step>, after: f64) -> Option<MachineCycle> {
-        let periods = self.periods(after).round();
-        if !(1.0..=LONGEST).contains(&periods) {
+        if !(0.5..LONGEST + 0.5).contains(&self.periods(after)) {
             return None;
         }
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // checked to be small
-        let cycle = MachineCycle::near(&self.frame, &step.end, periods as u32)?;
+        let cycle = MachineCycle::returning(&self.frame, &step.end, after)?;
         self.captured(step, &cycle).then_some(cycle)
     }
 
     /// Whether the motion from `place` is captured by a stable cycle: it is near at the phase of the states of the cycle,
     /// and its next period follows the linear law of the cycle so closely that the remainder cannot undo the contraction.
+    /// Without forcing it is near where it crosses the plane across the flow at the state of the cycle.
     pub(crate) fn captures(&self, place: &Place, cycle: &MachineCycle) -> Option<bool> {
         if !cycle.stable() {
             return Some(false);
         }
         let frame = &self.frame;
-        let first = cycle.strobes.first()?;
-        let period = frame.machine.period()?;
-        // to the phase of the cycle's states
-        let ahead = crate::system::phase::wrap(first.phase - place.phase) / frame.machine.parts().frequency?;
-        let mut real = MachineLap::fly(frame, place, ahead)?.end;
-        real.phase = first.phase;
+        let real = match frame.machine.parts().frequency {
+            Some(frequency) => {
+                // to the phase of the cycle's states
+                let first = cycle.strobes.first()?;
+                let ahead = crate::system::phase::wrap(first.phase - place.phase) / frequency;
+                let mut real = MachineLap::fly(frame, place, ahead)?.end;
+                real.phase = first.phase;
+                real
+            }
+            None => crossing(frame, place, cycle)?,
+        };
         let nearest = cycle
             .strobes
             .iter()
@@ -147,7 +151,7 @@ impl Recorded<'_> {
         if apart <= AT_ROUNDING {
             return Some(true);
         }
-        let time = period * f64::from(cycle.label.periods);
+        let time = cycle.period;
         let (reference, moved) = (MachineLap::fly(frame, nearest, time)?, MachineLap::fly(frame, &real, time)?);
         let before = frame.apart(&real, nearest);
         let mut linear = reference.derivative.as_ref()?.apply(&before);
@@ -166,6 +170,39 @@ impl Recorded<'_> {
         Some(left_over <= 0.3 * (1.0 - rate) * largest(&|i| before[i]) + 1e-12)
     }
 }
+
+/// The state in which the motion from `place` crosses the plane across the flow at the state of a cycle, within a period of
+/// that, nearest to that state.
+fn crossing(frame: &MachineFrame<'_>, place: &Place, cycle: &MachineCycle) -> Option<Place> {
+    let (state, period) = (cycle.strobes.first()?, cycle.period);
+    let ((size, speed), n) = (cycle.sizes, frame.shape.n);
+    // products of differences relative to the sizes of coordinates and velocities
+    let scale = |i: usize| if (n..2 * n).contains(&i) { 1.0 / (speed * speed) } else { 1.0 / (size * size) };
+    let flow = frame.flow(state)?;
+    let along = |of: &[f64]| flow.iter().zip(of).enumerate().map(|(i, (f, x))| f * x * scale(i)).sum::<f64>();
+    let lap = MachineLap::fly(frame, place, period)?;
+    let flights = lap.steps.iter().filter(|(_, begin, _)| begin.states == state.states);
+    let crossings = flights.filter_map(|(_, begin, passage)| {
+        let whole = passage.duration.min(period);
+        let mut s = 0.5 * whole;
+        for _ in 0..CROSSING_STEPS {
+            let there = frame.moved(begin, &passage.structure, s);
+            let change = along(&frame.apart(&there, state)) / along(&frame.flow(&there)?);
+            let next = (s - change).clamp(0.0, whole);
+            let moved = (next - s).abs();
+            s = next;
+            if moved <= f64::EPSILON * whole {
+                break;
+            }
+        }
+        Some(frame.moved(begin, &passage.structure, s))
+    });
+    let apart = |of: &Place| frame.distance(of, state, cycle.sizes);
+    crossings.min_by(|a, b| apart(a).total_cmp(&apart(b)))
+}
+
+/// The largest number of steps of Newton's method to the plane.
+const CROSSING_STEPS: u32 = 20;
 
 impl Diverging for MachineSpectrum {
     fn diverges(&self) -> bool {

@@ -1,0 +1,155 @@
+//! Closing a cycle of a machine by Newton's method, on the state between two events. Without forcing the period is unknown
+//! too, and the state is determined across the motion only.
+
+use super::cycle::MachineCycle;
+use super::frame::MachineFrame;
+use super::lap::MachineLap;
+use crate::events::Place;
+use crate::math::{Lu, Matrix, Multiplier, dot};
+
+/// The largest number of steps of Newton's method; from a good guess four or five are needed.
+const MAX_STEPS: u32 = 30;
+/// After this number of steps the iteration is ended if the residual exceeds [`HOPELESS`].
+const PATIENCE: u32 = 8;
+const HOPELESS: f64 = 1e-2;
+/// A residual up to this is accepted; the rounding error is usually 1e-14.
+const CLOSED: f64 = 1e-10;
+/// A multiplier besides that along the motion that is this near to 1 is 1 to rounding: the cycle is one of a family, as those
+/// of machines that lose no energy.
+const FAMILY: f64 = 1e-9;
+/// States that differ by less, relative to the motion, are the same.
+const SAME: f64 = 1e-8;
+
+impl MachineCycle {
+    /// The cycle of `n` forcing periods near the motion from `from`, by Newton's method on the state between two events,
+    /// which a free translation leaves as it is; `None` if it does not converge, or without forcing.
+    pub(crate) fn near(frame: &MachineFrame<'_>, from: &Place, n: u32) -> Option<Self> {
+        let time = frame.machine.period()? * f64::from(n);
+        let (begin, lap, residual) = closed(frame, from, time)?;
+        Self::shortest(frame, (&begin, n), &lap, residual)
+    }
+
+    /// The cycle near the motion from `from` that returns after about this time; `None` if there is none that is isolated.
+    /// With forcing the time is rounded to whole periods of it.
+    pub(crate) fn returning(frame: &MachineFrame<'_>, from: &Place, time: f64) -> Option<Self> {
+        if let Some(period) = frame.machine.period() {
+            let periods = (time / period).round();
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // checked to be small
+            return (1.0..1e6).contains(&periods).then(|| Self::near(frame, from, periods as u32)).flatten();
+        }
+        let (begin, lap, residual) = closed(frame, from, time)?;
+        // without events nothing says that the motion is not one of many
+        let alone = |begin: &Place, lap: &MachineLap, residual| {
+            let cycle = Self::of(frame, (begin, 0), lap, residual, vec![begin.clone()]);
+            let near_one = |m: &Multiplier| crate::math::hypot(m.re - 1.0, m.im) <= FAMILY;
+            (!cycle.events.is_empty() && !cycle.multipliers.iter().any(near_one)).then_some(cycle)
+        };
+        // the smallest period has a whole part of the events
+        let count = lap.events.len();
+        let parts = (2..=count).rev().filter(|parts| count.is_multiple_of(*parts));
+        #[allow(clippy::cast_precision_loss)] // a small count
+        let parts = parts.map(|parts| lap.time / parts as f64);
+        for time in parts {
+            let short = MachineLap::fly(frame, &begin, time)?;
+            if frame.distance(&begin, &short.end, lap.sizes) <= SAME {
+                let (begin, lap, residual) = closed(frame, &begin, time)?;
+                return alone(&begin, &lap, residual);
+            }
+        }
+        alone(&begin, &lap, residual)
+    }
+
+    /// The cycle whose motion over `n` periods is `lap`, over its smallest period.
+    fn shortest(frame: &MachineFrame<'_>, (begin, n): (&Place, u32), lap: &MachineLap, residual: f64) -> Option<Self> {
+        let one = frame.machine.period()?;
+        let mut strobes = vec![begin.clone()];
+        for k in 1..n {
+            let last = strobes.last()?;
+            let next = MachineLap::fly(frame, last, one)?.end;
+            if n.is_multiple_of(k) && frame.distance(begin, &next, lap.sizes) <= SAME {
+                let lap = MachineLap::fly(frame, begin, one * f64::from(k))?;
+                let residual = frame.distance(begin, &lap.end, lap.sizes);
+                return Some(Self::of(frame, (begin, k), &lap, residual, strobes));
+            }
+            strobes.push(next);
+        }
+        Some(Self::of(frame, (begin, n), lap, residual, strobes))
+    }
+}
+
+/// The state, the motion and the residual of a cycle near the motion from `from` over a time, which is the period with
+/// forcing, and a guess of it without.
+fn closed(frame: &MachineFrame<'_>, from: &Place, mut time: f64) -> Option<(Place, MachineLap, f64)> {
+    // begin in the middle of the longest flight, far from all events
+    let first = MachineLap::fly(frame, from, time)?;
+    let (_, place, passage) = first.steps.iter().max_by(|a, b| a.2.duration.total_cmp(&b.2.duration))?;
+    let mut begin = frame.moved(place, &passage.structure, 0.5 * passage.duration.min(time));
+    frame.centre(&mut begin);
+    let mut best: Option<(f64, Place, MachineLap)> = None;
+    for step in 0..MAX_STEPS {
+        let lap = MachineLap::fly(frame, &begin, time)?;
+        if lap.end.states != begin.states {
+            return None;
+        }
+        let residual = frame.distance(&begin, &lap.end, lap.sizes);
+        let (end, derivative, sizes) = (lap.end.clone(), lap.derivative.clone(), lap.sizes);
+        let improves = best.as_ref().is_none_or(|(so_far, ..)| residual < *so_far);
+        if improves {
+            best = Some((residual, begin.clone(), lap));
+        } else if best.as_ref().is_some_and(|(so_far, ..)| *so_far <= CLOSED) {
+            break;
+        }
+        if residual == 0.0 {
+            break;
+        }
+        if !residual.is_finite() || step >= PATIENCE && residual > HOPELESS {
+            return None;
+        }
+        let (change, longer) = newton(frame, (&begin, &end), derivative?, sizes)?;
+        let next: Vec<f64> = frame.shape.values(&begin).iter().zip(&change).map(|(from, by)| from + by).collect();
+        begin = frame.shape.with_values(&begin, &next);
+        time += longer;
+        if !(time > 0.0 && time.is_finite()) {
+            return None;
+        }
+    }
+    let (residual, begin, lap) = best?;
+    (residual <= CLOSED).then_some((begin, lap, residual))
+}
+
+/// The changes of the state at the beginning and of the time that close a lap to first order:
+/// $`(I - J)\,\Delta z - f_1\,\Delta T = z_1 - z_0`$ but for a translation. Without forcing $`f_0\cdot\Delta z = 0`$, else
+/// $`\Delta T = 0`$.
+fn newton(
+    frame: &MachineFrame<'_>,
+    (begin, end): (&Place, &Place),
+    mut derivative: Matrix,
+    (size, speed): (f64, f64),
+) -> Option<(Vec<f64>, f64)> {
+    let mut change = frame.apart(end, begin);
+    frame.normal.translations.remove_from_columns(&mut derivative, 0);
+    let (states, n) = (change.len(), frame.shape.n);
+    let unknowns = if frame.unforced() { states + 1 } else { states };
+    let mut system = Matrix::identity(unknowns);
+    for i in 0..states {
+        for j in 0..states {
+            system[(i, j)] -= derivative[(i, j)];
+        }
+    }
+    if unknowns > states {
+        // rates relative to the sizes of coordinates and velocities
+        let (before, after) = (frame.flow(begin)?, frame.flow(end)?);
+        let scale = |i: usize| if (n..2 * n).contains(&i) { speed } else { size };
+        let scaled: Vec<f64> = (0..states).map(|i| before[i] / scale(i)).collect();
+        let length = dot(&scaled, &scaled).sqrt();
+        for i in 0..states {
+            system[(i, states)] = -after[i];
+            system[(states, i)] = scaled[i] / (scale(i) * length);
+        }
+        system[(states, states)] = 0.0;
+        change.push(0.0);
+    }
+    Lu::new(system.values().to_vec(), unknowns)?.solve(&mut change);
+    let longer = if unknowns > states { change.pop()? } else { 0.0 };
+    Some((change, longer))
+}
