@@ -73,7 +73,9 @@ pub use mark::rects::{Rect, Rects};
 pub use mark::region::FilledRegion;
 pub use mark::text::Text;
 pub use markup::plain;
-pub use palette::{ClassStyle, GROUP_RULES, GROUPS, GroupRule, SERIES, SHADES, class_style, legend_group, legend_text};
+pub use palette::{
+    ClassStyle, GROUP_RULES, GROUPS, GroupRule, SERIES, SHADES, class_style, legend_group, legend_text, unforced,
+};
 pub use panel::Panel;
 pub use scale::Scale;
 pub use stroke::{Dash, Stroke};

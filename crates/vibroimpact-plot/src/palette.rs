@@ -158,14 +158,26 @@ const fn colours([a, b, c, d]: [u32; 4]) -> [Colour; 4] {
 }
 
 /// The style of the label of a motion, the same in every figure. The label of a group has the style of the group.
+///
+/// A motion m/T of a machine without forcing, whose group is `other`, has the style of (m+1)/1: no motion m/n is in a figure
+/// with it, and 0/T differs from a motion without events.
 #[must_use]
 pub fn class_style(label: &str) -> ClassStyle {
+    if let Some(m) = unforced(label) {
+        return class_style(&format!("{}/1", m.saturating_add(1)));
+    }
     let group = group_of(label);
     let style = group_style(group);
     match shade(label, group) {
         Some(colour) => ClassStyle { colour, ..style },
         None => style,
     }
+}
+
+/// The number m of closings of a label m/T.
+#[must_use]
+pub fn unforced(label: &str) -> Option<u64> {
+    label.trim().strip_suffix("/T")?.parse().ok()
 }
 
 /// The colour of a label in a group with several labels; none if it is that of the group.
@@ -305,6 +317,8 @@ mod tests {
         assert_eq!(class_style("8/1"), class_style("m/1"));
         assert_eq!(class_style("5/1").colour, class_style("10/1").colour);
         assert_eq!(class_style("2/1'"), class_style("2/1"));
+        assert_eq!([0, 3, 7].map(|m| class_style(&format!("{m}/T"))), ["1/1", "4/1", "8/1"].map(class_style));
+        assert_eq!(class_style("inf/T"), class_style("inf/n"));
     }
 
     #[test]

@@ -35,6 +35,25 @@ def test_a_settled_motion_has_columns() -> None:
     assert np.allclose(wave.q[-1], q, atol=1e-9) and np.allclose(wave.qdot[-1], qdot, atol=1e-9)
 
 
+def test_a_limit_cycle_without_forcing() -> None:
+    belt = vi.Machine.named("stick-slip")
+    motion = belt.settle().motion
+    assert (motion.label, motion.kind, motion.stable, motion.impacts, motion.periods) == ("0/T", "periodic", True, 0, None)
+    assert motion.cycle.kind.tolist() == ["hold", "slip"] and motion.multipliers.shape == (1,)
+    f, fs, v = (belt.number(name) for name in ("f", "fs", "V"))
+    period = 2 * (fs - f) / v + math.pi + 2 * math.atan(v / (fs - f))
+    start, stop = motion.cycle.time
+    assert abs(stop - start - 2 * (fs - f) / v) < 1e-12
+    events = belt.simulate(q=motion.state[0], qdot=motion.state[1], impacts=3) if motion.state else None
+    assert events is not None and abs(events.time[2] - events.time[0] - period) < 1e-12
+    assert [drawn.get_xlabel() for drawn in motion.plot()][-1] == "time"
+    ds = vi.region_map(belt, {"V": [0.1, 1.0]}, starts=1)
+    assert ds.vibro.labels().values[:, 0].tolist() == ["0/T", "0"]
+    assert [text.get_text() for text in ds.vibro.plot().get_legend().get_texts()] == ["no impact", "0/T"]
+    found = belt.map({"V": (0.1, 1.0, 2)}, starts=1)
+    assert found.labels[0, 0] == "0/T"
+
+
 def test_a_capsule_drifts() -> None:
     capsule = vi.Machine.named("capsule")
     motion = capsule.settle().motion

@@ -21,6 +21,9 @@ def legend_group(label: str) -> str:
     impacts, slash, periods = label.partition("/")
     if not slash:
         return label if label in CLASSES else "other"
+    if periods == "T" and impacts.isdigit():
+        # a machine without forcing has no motions m/n: those with m closings have the colours of (m+1)/1
+        return legend_group(f"{int(impacts) + 1}/1")
     if impacts == "inf":
         return "inf/n"
     if not (impacts.isdigit() and periods.isdigit()):
@@ -36,7 +39,8 @@ def legend_text(group: str, labels: Iterable[str]) -> str:
     """The words of a legend for the motions of a group. A group of several labels names those that are there, the most common
     first as given; with very many it names some."""
     there = [label.replace("inf", "∞") for label in dict.fromkeys(labels)]
-    if group not in _SEVERAL or not there:
+    unforced = any(label.endswith("/T") for label in there)
+    if (group not in _SEVERAL and not unforced) or not there:
         return LEGEND[group]
     if len(there) <= _NAMED:
         return ", ".join(there)
@@ -51,5 +55,7 @@ def class_colour(label: str) -> str:
     if group not in SHADES:
         return CLASSES[group]
     impacts, _, periods = label.partition("/")
+    if periods == "T":
+        impacts, periods = (impacts if impacts == "inf" else str(int(impacts) + 1)), "1"
     number = ((0 if impacts == "inf" else int(impacts)) + 2 * int(periods)) % 5
     return (CLASSES[group], *SHADES[group])[number]

@@ -9,6 +9,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use vibroimpact_plot::{
     ClassStyle, Colour, Figure, GROUPS, Legend, Line, Panel, Raster, Rects, class_style, legend_group, legend_text,
+    unforced,
 };
 use vibroimpact_study::{MachineMap, MachineShare, MapPoint, RegionMap};
 
@@ -24,6 +25,8 @@ const HATCH: usize = 7;
 
 /// Maximum number of labels with an entry of their own in the legend; if there are more, their groups are named.
 const NAMED: usize = 14;
+/// Motions m/T with so many closings or more have one entry in a legend of groups, because their colours are similar.
+const MANY: u64 = 4;
 
 /// The distinct labels at the points of a map, and which of them each point has with which share, the most frequent first.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -120,14 +123,28 @@ impl LabelledCells {
         if labels.len() <= NAMED {
             for label in labels {
                 let group = legend_group(label);
-                let named = group.contains('/') || label.contains('/') && group == "other";
-                let word = if named { legend_label(label) } else { legend_text(group).into() };
+                let word = if group.contains('/') || unforced(label).is_some() {
+                    legend_label(label)
+                } else {
+                    legend_text(group).into()
+                };
                 legend = legend.patch(style(label), word);
             }
             return legend;
         }
-        for group in GROUPS.iter().filter(|group| labels.iter().any(|label| legend_group(label) == **group)) {
+        // motions m/T have no group
+        let (closings, grouped): (Vec<Option<u64>>, Vec<&str>) = (
+            labels.iter().map(|label| unforced(label)).collect(),
+            labels.iter().copied().filter(|label| unforced(label).is_none()).collect(),
+        );
+        for group in GROUPS.iter().filter(|group| grouped.iter().any(|label| legend_group(label) == **group)) {
             legend = legend.patch(style(group), legend_text(group));
+        }
+        for m in (0..MANY).filter(|m| closings.contains(&Some(*m))) {
+            legend = legend.patch(style(&format!("{m}/T")), format!("{m}/T"));
+        }
+        if closings.iter().flatten().any(|m| *m >= MANY) {
+            legend = legend.patch(style(&format!("{MANY}/T")), format!("*m*/T, *m* ≥ {MANY}"));
         }
         legend
     }

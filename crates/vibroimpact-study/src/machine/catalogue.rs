@@ -34,6 +34,7 @@ catalogue! {
     "pounding-buildings"
     "capsule"
     "den-hartog"
+    "stick-slip"
     "fukaya-irie-1971"
     "sdnd101"
     "sdnd102"
