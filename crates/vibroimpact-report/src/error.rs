@@ -87,12 +87,15 @@ pub enum ReportError {
     },
     /// A motion of a machine that is no cycle, where one period of a cycle would be drawn.
     #[error(
-        "the figure has one period of a cycle, and the motion settles into none: {0}\nhint: `vibro simulate --machine --plot` draws any motion"
+        "the settled motion has no state or no period from which it can be shown: {0}\nhint: `vibro simulate --machine --plot` draws any motion"
     )]
     NoCycle(String),
     /// A motion without multipliers.
     #[error("the motion `{0}` has no multipliers\nhint: periodic motions have, and those without impacts")]
     NoMultipliers(String),
+    /// The sections of a settled motion of a machine.
+    #[error("--show sections is for oscillators\nhint: of a machine, `vibro lyapunov --points N` has both sections")]
+    MachineSections,
     /// The figure cannot be rendered.
     #[error("the figure failed: {0}")]
     Plot(#[from] PlotError),

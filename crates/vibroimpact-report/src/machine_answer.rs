@@ -2,19 +2,25 @@
 
 use crate::AnswerError;
 use crate::figure::coloured;
+use crate::scene::{self, View};
 use crate::{ReportError, Shown, Table, figure, table};
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::{MachineLimits, MachineMotion, MachineStart};
 use vibroimpact::machine::Machine;
-use vibroimpact::orbit::MachineCycle;
 use vibroimpact::verdict::MachineVerdict;
 use vibroimpact_plot::Figure;
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{
-    Control, MachineBranchPlan, MachineDiagram, MachinePlan, MachineResults, MachineTask, run_machine,
+    Control, MachineBranchPlan, MachineDiagram, MachinePlan, MachineResults, MachineSimulated, MachineTask, PlanError,
+    run_machine,
 };
 
 /// The largest number of characters of a title over an axis of ordinary width.
 const TITLE: usize = 45;
+
+/// The number of forcing periods that are shown of a settled motion that is no cycle.
+const PERIODS: f64 = 24.0;
+/// The largest number of events in the waveform of a settled motion.
+const MOST_EVENTS: usize = 200_000;
 
 /// A plan of a machine and its result. Its [`Serialize`](serde::Serialize) form is the JSON object that the command
 /// prints with `--json`.
@@ -85,10 +91,17 @@ impl MachineAnswer {
                 figure::machine_waveform::figure(&self.machine, &self.start, found, title)?
             }
             MachineResults::Settle(found) => {
-                let MachineVerdict::Periodic(cycle) = &found.verdict else {
-                    return Err(ReportError::NoCycle(figure::label(&found.verdict.label())).into());
-                };
-                self.one_period(cycle, &title)?
+                let (from, time) = self.steady(&found.verdict)?;
+                let title = format!("{title}: {}", figure::label(&found.verdict.label()));
+                match (shown.view.unwrap_or_default(), &found.verdict) {
+                    (View::Waveform, _) => self.waveform(&from, time, title)?,
+                    (View::Phase, _) => scene::portrait(&self.machine, (&from, time), title)?,
+                    (View::Multipliers, MachineVerdict::Periodic(cycle)) => {
+                        scene::multipliers(&cycle.multipliers).title(title)
+                    }
+                    (View::Multipliers, other) => return Err(ReportError::NoMultipliers(other.label()).into()),
+                    (View::Sections, _) => return Err(ReportError::MachineSections.into()),
+                }
             }
             MachineResults::Branch(found) => {
                 let MachineTask::Branch(plan) = &self.plan.task else { return Ok(None) };
@@ -121,23 +134,27 @@ impl MachineAnswer {
         Ok(if let MachineResults::Diagram(found) = found { Some(found) } else { None })
     }
 
-    /// The waveform of one period of a cycle.
-    fn one_period(&self, cycle: &MachineCycle, title: &str) -> Result<Figure, AnswerError> {
-        let forced = cycle.label.periods > 0;
-        let periods = forced.then(|| f64::from(cycle.label.periods));
-        // without forcing, to the first event after the period
-        let impacts = if forced { None } else { Some(cycle.events.len() as u64 + 1) };
-        let task = MachineTask::Simulate { impacts, periods };
-        let plan = MachinePlan { task, ..self.plan.clone() }.starting(&cycle.state);
-        let MachineResults::Simulate(mut found) = run_machine(&plan, &Control::default())? else {
-            return Err(ReportError::NoCycle(cycle.label.to_string()).into()); // the task of the plan is to simulate
+    /// A state of a settled motion, and the time over which it is shown: one period of a cycle, [`PERIODS`] forcing periods of
+    /// another motion.
+    fn steady(&self, verdict: &MachineVerdict) -> Result<(MachineStart, f64), ReportError> {
+        let none = || ReportError::NoCycle(figure::label(&verdict.label()));
+        let from = verdict.reached(&self.machine).ok_or_else(none)?;
+        let time = match verdict {
+            MachineVerdict::Periodic(cycle) => cycle.period,
+            _ => PERIODS * self.machine.period().ok_or_else(none)?,
         };
-        if !forced {
-            found.events.retain(|event| event.time <= cycle.period);
-            found.shown_until = cycle.period;
-        }
-        let title = format!("{title}: {}", figure::label(&cycle.label.to_string()));
-        Ok(figure::machine_waveform::figure(&self.machine, &cycle.state, &found, title)?)
+        Ok((from, time))
+    }
+
+    /// The waveform of a motion from a state over a time.
+    fn waveform(&self, from: &MachineStart, time: f64, title: String) -> Result<Figure, AnswerError> {
+        let limits = MachineLimits::default();
+        let limits = MachineLimits { time: limits.time.max(time), ..limits };
+        let motion = MachineMotion::new(&self.machine, from, limits);
+        let motion = motion.map_err(|error| ReportError::Plan(PlanError::Machine(error.into())))?;
+        let events = motion.take_while(|event| event.time <= time).take(MOST_EVENTS).collect();
+        let found = MachineSimulated { events, reason: "time_limit", time, shown_until: time };
+        Ok(figure::machine_waveform::figure(&self.machine, from, &found, title)?)
     }
 
     /// The table that the command writes with `--csv`; `None` for a task without one. Points of a waveform are a hundredth of
@@ -152,6 +169,16 @@ impl MachineAnswer {
                 let step = shown.step.unwrap_or_else(|| self.machine.period().unwrap_or(0.1 * until) / 100.0);
                 table::machine_waveform::table(&self.machine, &self.start, (until, step))?
             }
+            MachineResults::Settle(found) => match (shown.view.unwrap_or_default(), &found.verdict) {
+                (View::Waveform | View::Phase, verdict) => {
+                    let (from, time) = self.steady(verdict)?;
+                    let step = self.machine.period().unwrap_or(time) / 100.0;
+                    table::machine_waveform::table(&self.machine, &from, (time, step))?
+                }
+                (View::Multipliers, MachineVerdict::Periodic(cycle)) => table::multipliers(&cycle.multipliers),
+                (View::Multipliers, other) => return Err(ReportError::NoMultipliers(other.label()).into()),
+                (View::Sections, _) => return Err(ReportError::MachineSections.into()),
+            },
             MachineResults::Attractors(census) => table::machine_tables::attractors(&self.machine, census),
             MachineResults::Branch(found) => {
                 let MachineTask::Branch(plan) = &self.plan.task else { return Ok(None) };
@@ -165,7 +192,7 @@ impl MachineAnswer {
             MachineResults::Map(found) => table::machine_tables::map(found),
             MachineResults::Diagram(found) => table::diagram::of_machine(found, &self.machine),
             MachineResults::Lyapunov(_, Some(points)) => table::machine_section::table(&self.machine, points),
-            MachineResults::Settle(_) | MachineResults::Orbit(_) | MachineResults::Lyapunov(..) => return Ok(None),
+            MachineResults::Orbit(_) | MachineResults::Lyapunov(..) => return Ok(None),
         }))
     }
 }

@@ -77,9 +77,7 @@ pub(super) fn run(
         {
             return Err(none("figure"));
         }
-        MachineTask::Settle { .. } | MachineTask::Orbit { .. } | MachineTask::Lyapunov { points: None, .. }
-            if outputs.tabled() =>
-        {
+        MachineTask::Orbit { .. } | MachineTask::Lyapunov { points: None, .. } if outputs.tabled() => {
             return Err(none("table"));
         }
         _ => {}

@@ -58,7 +58,8 @@ pub(crate) struct Settle {
     #[arg(long, value_enum, value_name = "VIEW", help_heading = "Output")]
     show: Option<Views>,
 
-    /// Write the steady motion to this file, one row a point, columns t, x, v unless --show says otherwise; - for stdout
+    /// Write the steady motion to this file, one row a point, columns t, x, v unless --show says otherwise; of a machine
+    /// those of `vibro simulate`; - for stdout
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 
@@ -82,7 +83,8 @@ enum Views {
     Phase,
     /// Floquet multipliers in the complex plane; columns re, im
     Multipliers,
-    /// Phase and speed of its impacts, and its states at phase 0; columns section, side, phase, x, v
+    /// Phase and speed of its impacts, and its states at phase 0; columns section, side, phase, x, v. Of a machine: `vibro
+    /// lyapunov --points N`
     Sections,
 }
 
@@ -109,8 +111,12 @@ enum Rule {
 pub(super) fn run(args: &Settle, session: &Session) -> Result<(), Failure> {
     let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
     let start = Some((&args.of_machine, args.start.phase));
-    let task = || Ok(MachineTask::Settle { impacts: args.impacts });
-    if let Some(answer) = of_machine::asked(&args.machine, start, task, files, (None, of_machine::usual), session) {
+    let task = || match args.rule {
+        Rule::Confirmed => Ok(MachineTask::Settle { impacts: args.impacts }),
+        Rule::Paper => Err(Failure::bad("--rule paper is for oscillators: the paper has no machines")),
+    };
+    let look = |_: bool| args.look();
+    if let Some(answer) = of_machine::asked(&args.machine, start, task, files, (None, look), session) {
         return answer;
     }
     let asked = args.system.asked()?;
@@ -118,19 +124,24 @@ pub(super) fn run(args: &Settle, session: &Session) -> Result<(), Failure> {
     let plan = Plan::new(asked.system, Task::Settle { start, impacts: args.impacts });
     plan.check()?;
     let rule = args.paper_rule()?;
-    if args.show.is_some() && args.csv.is_none() && args.plot.is_none() {
-        return Err(Failure::bad("--show says what is drawn or written: it belongs to --plot and --csv"));
-    }
+    let shown = args.look()?;
     let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
     let mut answer = respond::compute(&plan, asked.units, session)?;
     if let (Some(rule), Results::Settle(start, _)) = (rule, &answer.results) {
         answer.paper_rule = Some((rule, paper_rule(&answer.osc, *start, rule)));
     }
-    let shown = Shown { view: args.show.map(View::from), ..Shown::default() };
     respond::tell(&answer, (outputs, shown), session)
 }
 
 impl Settle {
+    /// The look of the table and the figure.
+    fn look(&self) -> Result<Shown, Failure> {
+        if self.show.is_some() && self.csv.is_none() && self.plot.is_none() {
+            return Err(Failure::bad("--show says what is drawn or written: it belongs to --plot and --csv"));
+        }
+        Ok(Shown { view: self.show.map(View::from), ..Shown::default() })
+    }
+
     fn paper_rule(&self) -> Result<Option<PaperRule>, Failure> {
         if self.rule == Rule::Confirmed {
             return match (self.percent, self.limit) {

@@ -259,6 +259,51 @@ fn a_motion_settles() {
     assert_eq!(json("settle --machine two-mass-hammer --set frequency=3")["motion"]["kind"], "no_impact");
 }
 
+/// The views of a settled motion: tables of one period and of the multipliers, figures of each, and what has none.
+#[test]
+fn a_settled_motion_is_shown() {
+    let hammer = "settle --machine two-mass-hammer --set frequency=1.06";
+    let table = printed(&format!("{hammer} --csv -"));
+    let rows: Vec<Vec<f64>> =
+        table.lines().skip(1).map(|row| row.split(',').map(|cell| cell.parse().unwrap()).collect()).collect();
+    assert!(table.starts_with("time,q.frame,q.head,qdot.frame,qdot.head,gap.anvil,force.anvil\n"));
+    let (first, last) = (&rows[0], &rows[rows.len() - 1]);
+    assert!((last[0] - core::f64::consts::TAU / 1.06).abs() < 1e-12, "{last:?}");
+    assert!((1..5).all(|k| (first[k] - last[k]).abs() < 1e-9), "{first:?} {last:?}");
+    let motion = &json(hammer)["motion"];
+    let multipliers = printed(&format!("{hammer} --show multipliers --csv -"));
+    assert_eq!(multipliers.lines().count(), 5);
+    assert_eq!(multipliers.lines().nth(1).unwrap(), format!("{},0", motion["multipliers"][0][0]));
+    let folder = tempfile::tempdir().unwrap();
+    for (command, view, said) in [
+        (hammer, "waveform", "displacement"),
+        (hammer, "phase", "qdot.head"),
+        (hammer, "multipliers", "Re "),
+        ("settle --machine impact-pair", "waveform", "chaotic"),
+        ("settle --machine stick-slip", "phase", "0/T"),
+    ] {
+        let file = folder.path().join(format!("{}-{view}.svg", command.len()));
+        printed(&format!("{command} --show {view} --plot {}", file.display()));
+        assert!(fs::read_to_string(&file).unwrap().contains(said), "{command} {view}");
+    }
+    assert!(refused(&format!("{hammer} --show phase")).contains("belongs to --plot and --csv"));
+    assert!(refused(&format!("{hammer} --show sections --csv -")).contains("vibro lyapunov --points N"));
+    assert!(refused(&format!("{hammer} --rule paper")).contains("for oscillators"));
+    assert!(refused("settle --machine impact-pair --show multipliers --csv -").contains("no multipliers"));
+}
+
+/// A machine without forcing: a limit cycle, of which JSON has the period by its events and no forcing periods.
+#[test]
+fn a_limit_cycle() {
+    let found = json("settle --machine stick-slip");
+    let motion = &found["motion"];
+    assert!(motion["label"] == "0/T" && motion["stable"] == true && motion["periods"].is_null(), "{motion}");
+    assert_eq!(motion["multipliers"].as_array().unwrap().len(), 1);
+    let times: Vec<f64> = motion["cycle"].as_array().unwrap().iter().map(|at| at["time"].as_f64().unwrap()).collect();
+    assert!((times[1] - times[0] - 4.0).abs() < 1e-12, "{times:?}");
+    assert!(refused("branch --machine stick-slip --vary V --to 0.2").contains("no forcing"));
+}
+
 #[test]
 fn attractors_orbits_and_exponents() {
     let found = json("attractors --machine two-mass-hammer --starts 8");
@@ -494,8 +539,8 @@ fn figures() {
     let settled = drawn("settle --machine two-mass-hammer", "settle.svg");
     assert!(settled.contains("displacement") && settled.contains(">impact<") && settled.contains("hammer: 1/1"));
     let none = folder.path().join("none.svg").display().to_string();
-    let said = refused(&format!("settle --machine two-mass-hammer --set stop.anvil.gap=50 --plot {none}"));
-    assert!(said.contains("settles into none: no impact\nhint: `vibro simulate"), "{said}");
+    let said = refused(&format!("settle --machine sdnd101 --impacts 200 --plot {none}"));
+    assert!(said.contains("can be shown: undecided\nhint: `vibro simulate"), "{said}");
     let said = refused(&format!("{basin} --axis qdot.head=0:1:2 --axis phase=0:1:2 --plot {none}"));
     assert!(said.contains("one or two axes, not 3"), "{said}");
 }

@@ -4,6 +4,7 @@
 //! [`Figure::size`]: vibroimpact_plot::Figure::size
 
 mod bifurcation;
+mod machine_phase;
 mod multipliers;
 mod phase;
 mod sampled_motion;
@@ -11,6 +12,7 @@ mod sections;
 mod view;
 
 pub use bifurcation::{BifurcationDiagram, BifurcationEvent, bifurcation, labels};
+pub(crate) use machine_phase::portrait;
 pub use multipliers::multipliers;
 pub use phase::phase_portrait;
 pub use sampled_motion::SampledMotion;

@@ -10,10 +10,10 @@ const CORNERS: u32 = 360;
 /// Width, and the height with which the frame is a square.
 const SIZE: (f64, f64) = (480.0, 502.0);
 
-/// Draws the unit circle and both multipliers, at a scale that shows all of them.
+/// Draws the unit circle and all multipliers, at a scale that shows all of them.
 #[must_use]
-pub fn multipliers(both: &[Multiplier; 2]) -> Figure {
-    let largest = both.iter().map(|m| m.modulus()).filter(|r| r.is_finite()).fold(1.0, f64::max);
+pub fn multipliers(all: &[Multiplier]) -> Figure {
+    let largest = all.iter().map(|m| m.modulus()).filter(|r| r.is_finite()).fold(1.0, f64::max);
     let range = 1.2 * largest;
     let end = tick(largest);
     let ticks = || [(-end, short(-end)), (0.0, "0".to_owned()), (end, short(end))];
@@ -29,7 +29,7 @@ pub fn multipliers(both: &[Multiplier; 2]) -> Figure {
     let mut panel =
         Panel::new(axis("Re *μ*"), axis("Im *μ*")).with(HLine::new(0.0, thin)).with(VLine::new(0.0, thin)).with(circle);
     for (inside, colour, name) in [(true, SERIES[0], "stable"), (false, SERIES[1], "unstable")] {
-        let some = both.iter().filter(|m| (m.modulus() < 1.0) == inside);
+        let some = all.iter().filter(|m| (m.modulus() < 1.0) == inside);
         let (xs, ys): (Vec<f64>, Vec<f64>) = some.map(|m| (m.re, m.im)).unzip();
         if !xs.is_empty() {
             let points = Points::new(xs, ys, colour).size(14.0).rim(Colour::WHITE);
@@ -37,17 +37,15 @@ pub fn multipliers(both: &[Multiplier; 2]) -> Figure {
             panel.add(points);
         }
     }
-    Figure::new(panel).size(SIZE.0, SIZE.1).title(said(both)).legend(legend)
+    Figure::new(panel).size(SIZE.0, SIZE.1).title(said(all)).legend(legend)
 }
 
 /// The text of the multipliers: `*μ* = −0.31, −0.013` or `*μ* = 0.2 ± 0.46 i`.
-fn said([a, b]: &[Multiplier; 2]) -> String {
-    let text = if a.im == 0.0 {
-        format!("*μ* = {}, {}", short(a.re), short(b.re))
-    } else {
-        format!("*μ* = {} ± {} i", short(a.re), short(a.im.abs()))
-    };
-    text.replace('-', "−")
+fn said(all: &[Multiplier]) -> String {
+    // of a pair the one above the real axis
+    let terms = all.iter().filter(|m| m.im.is_nan() || m.im >= 0.0);
+    let terms = terms.map(|m| if m.im == 0.0 { short(m.re) } else { format!("{} ± {} i", short(m.re), short(m.im)) });
+    format!("*μ* = {}", terms.collect::<Vec<_>>().join(", ")).replace('-', "−")
 }
 
 /// The largest of 1, 2, 5, 10, 20 ... that is at most `largest`, which is at least 1.

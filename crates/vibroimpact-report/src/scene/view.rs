@@ -4,7 +4,6 @@
 use super::sections::sections;
 use super::{multipliers, phase_portrait};
 use crate::figure::{section, settle};
-use crate::number::Number;
 use crate::table::{self, Table};
 use crate::{Asked, ReportError};
 use serde::Deserialize;
@@ -103,10 +102,7 @@ impl<'a> Viewed<'a> {
     pub fn table(&self) -> Result<Table<'_>, ReportError> {
         let Self { osc, start, settled, asked, .. } = *self;
         Ok(match (self.view, &self.multipliers) {
-            (View::Multipliers, Some(both)) => {
-                let row = |m: &Multiplier| format!("{},{}", Number(m.re), Number(m.im));
-                Table::new("re,im".to_owned(), both.iter().map(row))
-            }
+            (View::Multipliers, Some(both)) => table::multipliers(both),
             (View::Sections, _) => table::section::table(&self.section, osc, asked.units),
             (View::Waveform | View::Phase | View::Multipliers, _) => {
                 table::waveform::steady(osc, start, settled, asked.units)?

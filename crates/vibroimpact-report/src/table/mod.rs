@@ -20,8 +20,16 @@ pub mod response;
 pub mod section;
 pub mod waveform;
 
+use crate::number::Number;
 use core::fmt;
 use std::io::{self, Write};
+use vibroimpact::math::Multiplier;
+
+/// The multipliers of a cycle, one row each.
+pub(crate) fn multipliers(all: &[Multiplier]) -> Table<'_> {
+    let row = |m: &Multiplier| format!("{},{}", Number(m.re), Number(m.im));
+    Table::new("re,im".to_owned(), all.iter().map(row))
+}
 
 /// A table whose rows are made one by one.
 pub struct Table<'a> {
