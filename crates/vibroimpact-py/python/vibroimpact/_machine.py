@@ -604,7 +604,7 @@ class MachineSimulation(Result):
     start : (list, list, float)
         Coordinates, velocities and phase of the start.
     kind : ndarray of str
-        "impact", "close", "open", "stick", "release", "slip", "hold" or "graze".
+        "impact", "close", "open", "stick", "release", "slip", "hold", "graze" or "collapse".
     stop : ndarray of str
         The name of the stop or joint.
     time, phase : ndarray

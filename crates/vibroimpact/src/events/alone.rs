@@ -2,6 +2,7 @@
 //! of; the general way (`motion`, `strike`) does the same with them.
 
 use super::chatter::is_far_from_an_end;
+use super::collapse::SLOW;
 use super::event::MachineEventKind;
 use super::motion::MachineMotion;
 use super::passage::Blow;
@@ -41,6 +42,9 @@ impl MachineMotion<'_> {
                         if !(open && is_far_from_an_end(&self.place, &self.normal, (j, restitution), fastest, turns)) {
                             let turns = turns.to_vec();
                             self.complete(j, &turns);
+                        }
+                        if speed < SLOW * self.largest_impact {
+                            self.slow_impact(j, speed);
                         }
                     }
                     StopLaw::Compliant { .. } => {

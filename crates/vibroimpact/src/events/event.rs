@@ -19,6 +19,9 @@ pub enum MachineEventKind {
     Hold,
     /// A stop is touched within rounding, without effect.
     Graze,
+    /// Impacts on several stops in turn have accumulated: the structure comes to rest on this stop and on those of
+    /// [`with`](MachineEvent::with).
+    Collapse,
 }
 
 impl MachineEventKind {
@@ -34,6 +37,7 @@ impl MachineEventKind {
             Self::Slip => "slip",
             Self::Hold => "hold",
             Self::Graze => "graze",
+            Self::Collapse => "collapse",
         }
     }
 }
@@ -56,7 +60,7 @@ pub struct MachineEvent {
     pub q: Vec<f64>,
     /// Velocities after the event.
     pub qdot: Vec<f64>,
-    /// Other stops that take part at the same time: struck too, or at rest and pushed through.
+    /// Other stops that take part at the same time: struck too, at rest and pushed through, or of the same collapse.
     pub with: Vec<usize>,
 }
 
@@ -92,7 +96,7 @@ pub enum MachineEnd {
     SearchLimit,
     /// No state of the stops and joints is consistent.
     Inconsistent,
-    /// Too many events at one time.
+    /// Too many events at one time: impacts that accumulate, but not into rest on their stops.
     Collapse,
 }
 

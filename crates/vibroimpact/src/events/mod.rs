@@ -6,6 +6,7 @@
 //! | a start put onto the stops that it lies beyond | [`MachineStart::within_stops`], `within` |
 //! | the law of impact, impacts | `impulses`, `strike` |
 //! | the end of a chatter | `chatter` |
+//! | the end of impacts on several stops in turn | `collapse` |
 //! | events that change one stop alone | `alone` |
 //! | the state at one time | `place` |
 //! | which stops rest and which joints hold | `resolve` |
@@ -17,6 +18,7 @@
 
 mod alone;
 mod chatter;
+mod collapse;
 mod contact_force;
 mod event;
 mod impulses;

@@ -1,5 +1,6 @@
 //! The motion of a machine as an iterator over its events.
 
+use super::collapse::{SLOW, SlowImpacts};
 use super::event::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
 use super::passage::Passage;
 use super::place::{Place, Scratch, Structures, standing_back};
@@ -45,6 +46,9 @@ pub struct MachineMotion<'a> {
     pub(super) scratch: Scratch,
     /// Events since the time last advanced.
     crowd: u32,
+    /// Events since the beginning.
+    pub(super) count: u64,
+    pub(super) slow: SlowImpacts,
     /// The largest speed of an impact since the structure last came to rest by a chatter.
     pub(super) largest_impact: f64,
     /// The last step, if steps are recorded.
@@ -260,6 +264,9 @@ impl<'a> MachineMotion<'a> {
             && self.place.states[j] == ContactState::Open
         {
             self.complete(j, &turns);
+            if speeds[j] < SLOW * self.largest_impact {
+                self.slow_impact(j, speeds[j]);
+            }
         }
         Some(())
     }
@@ -348,6 +355,8 @@ impl<'a> MachineMotion<'a> {
             spare: [None, None],
             scratch: Scratch::default(),
             crowd: 0,
+            count: 0,
+            slow: SlowImpacts::default(),
             largest_impact: 0.0,
             passage: None,
             recording: false,
@@ -455,6 +464,7 @@ impl<'a> MachineMotion<'a> {
             Found::Zero { s, guards } => {
                 self.move_to(&flight, *s);
                 self.crowd += 1;
+                self.count += 1;
                 if self.crowd > CROWD {
                     return self.end = Some(MachineEnd::Collapse);
                 }

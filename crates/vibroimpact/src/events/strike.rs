@@ -21,7 +21,11 @@ impl MachineMotion<'_> {
     ) -> Option<Vec<usize>> {
         let stops = self.machine.stops();
         let turns = self.place.turns(&self.normal);
-        let resting = |place: &Place, j: usize| place.states[j] == ContactState::Resting && !fixed.contains(&j);
+        // closed without velocity: at rest, or at the start not yet known to be
+        let closed = candidates.clone();
+        let resting = |place: &Place, j: usize| {
+            (place.states[j] == ContactState::Resting || closed.contains(&j)) && !fixed.contains(&j)
+        };
         let restitution = |j: usize| match stops[j].law {
             StopLaw::Rigid { restitution } => Some(restitution),
             StopLaw::Compliant { .. } => None,

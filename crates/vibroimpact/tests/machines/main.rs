@@ -7,6 +7,8 @@ mod case;
 #[cfg(test)]
 mod closed_forms;
 #[cfg(test)]
+mod collapse;
+#[cfg(test)]
 mod curves;
 #[cfg(test)]
 mod drift;

@@ -1,0 +1,106 @@
+//! Impacts on several stops in turn that accumulate, and starts at which several stops are closed.
+
+use vibroimpact::events::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineMotion, MachineStart};
+use vibroimpact::machine::{Machine, MachineParts};
+
+/// A body on another one on a table, under gravity 1.
+fn stack((low, high): (f64, f64), restitution: f64) -> Machine {
+    let parts = MachineParts::new(["low", "high"])
+        .with_mass(0, low)
+        .with_mass(1, high)
+        .with_constant(0, -low)
+        .with_constant(1, -high)
+        .with_rigid_stop("table", &[-1.0, 0.0], 0.0, restitution)
+        .with_rigid_stop("bodies", &[1.0, -1.0], 0.0, restitution);
+    Machine::new(parts).unwrap()
+}
+
+fn events(machine: &Machine, start: &MachineStart) -> (Vec<MachineEvent>, Option<MachineEnd>) {
+    let mut motion = MachineMotion::new(machine, start, MachineLimits::default()).unwrap();
+    let events = motion.by_ref().take(20_000).collect();
+    (events, motion.end())
+}
+
+/// The end of all impacts of the stack, from rest at heights 1 and 2, by its recursion in the height of the lower body and
+/// the distance of the two, which loses no digits however close they come.
+fn ends_at((low, high): (f64, f64), e: f64) -> f64 {
+    let (mut h, mut u, mut d, mut w, mut time) = (1.0_f64, 0.0_f64, 1.0_f64, 0.0_f64, 0.0_f64);
+    for _ in 0..10_000 {
+        let table = u + (u * u + 2.0 * h).sqrt();
+        let bodies = if w < 0.0 { -d / w } else { f64::INFINITY };
+        let s = table.min(bodies);
+        h += s * (u - 0.5 * s);
+        u -= s;
+        d += w * s;
+        time += s;
+        if table < bodies {
+            (h, w, u) = (0.0, w + (1.0 + e) * u, -e * u);
+        } else {
+            (d, u, w) = (0.0, u + high / (low + high) * (1.0 + e) * w, -e * w);
+        }
+        if u.abs() + w.abs() < 1e-200 {
+            break;
+        }
+    }
+    time
+}
+
+/// A heavy body on a light one: both stops are struck in turn, and the time of all impacts is that of the recursion.
+#[test]
+fn a_stack_collapses() {
+    for (masses, restitution) in [((0.2, 1.0), 0.3), ((0.2, 1.0), 0.2), ((0.1, 1.0), 0.35), ((0.05, 1.0), 0.5)] {
+        let machine = stack(masses, restitution);
+        let start = MachineStart { q: vec![1.0, 2.0], qdot: vec![0.0; 2], phase: 0.0 };
+        let (seen, end) = events(&machine, &start);
+        let last = seen.last().unwrap();
+        assert_eq!(end, Some(MachineEnd::Stuck), "{masses:?} {restitution} {last:?}");
+        assert_eq!((last.kind, last.place, last.with.as_slice()), (MachineEventKind::Collapse, 0, &[1][..]));
+        let expected = ends_at(masses, restitution);
+        assert!((last.time - expected).abs() < 1e-12, "{masses:?} {restitution}: {} {expected}", last.time);
+        assert!(last.q.iter().chain(&last.qdot).all(|x| x.abs() < 1e-15), "{last:?}");
+        let impacts: Vec<usize> = seen.iter().filter(|event| event.closes()).map(|event| event.place).collect();
+        assert!(impacts.len() > 20 && impacts.windows(2).rev().take(10).all(|pair| pair[0] != pair[1]), "{impacts:?}");
+    }
+}
+
+/// Bodies without a force that presses them together fly on together: nothing rests.
+#[test]
+fn free_bodies_do_not_rest() {
+    let parts = MachineParts::new(["a", "b", "c"])
+        .with_mass(0, 1.0)
+        .with_mass(1, 1.0)
+        .with_mass(2, 1.0)
+        .with_rigid_stop("ab", &[1.0, -1.0, 0.0], 0.5, 0.05)
+        .with_rigid_stop("bc", &[0.0, 1.0, -1.0], 0.5, 0.05);
+    let start = MachineStart { q: vec![0.0; 3], qdot: vec![1.0, 0.0, -0.7], phase: 0.0 };
+    let (seen, end) = events(&Machine::new(parts).unwrap(), &start);
+    assert!(end == Some(MachineEnd::Never) && seen.iter().all(|event| event.kind != MachineEventKind::Collapse));
+    let together = &seen.last().unwrap().qdot;
+    assert!(together.iter().all(|v| (v - 0.1).abs() < 1e-14), "{together:?}");
+}
+
+/// A table that moves up throws both bodies of a stack that begins at rest on it: the impact goes through the lower one.
+#[test]
+fn a_start_on_several_stops() {
+    for (e, other) in [(0.3, 0.3), (0.5, 0.0), (0.0, 0.9)] {
+        let parts = MachineParts::new(["low", "high"])
+            .with_mass(0, 0.2)
+            .with_mass(1, 1.0)
+            .with_constant(0, -0.2)
+            .with_constant(1, -1.5)
+            .with_rigid_stop("bodies", &[1.0, -1.0], 0.0, other)
+            .with_rigid_stop("table", &[-1.0, 0.0], 0.0, e);
+        let machine = Machine::new(parts).unwrap();
+        // the stop of the table is struck because the body comes down on it
+        let start = MachineStart { q: vec![0.0, 0.0], qdot: vec![-1.8, -1.8], phase: 0.0 };
+        let (seen, _) = events(&machine, &start);
+        let first = &seen[0];
+        assert_eq!((first.kind, machine.name_of(first.place), first.time), (MachineEventKind::Impact, "table", 0.0));
+        // Moreau's law: both gaps were closed, that of the bodies without velocity
+        assert!((first.qdot[0] - e * 1.8).abs() < 1e-15, "{first:?}");
+        assert!((first.qdot[1] - first.qdot[0]).abs() < 1e-15, "{first:?}");
+        for event in &seen {
+            assert!(event.q[1] - event.q[0] > -1e-12 && event.q[0] > -1e-12, "{event:?}");
+        }
+    }
+}
