@@ -21,7 +21,13 @@ pub(crate) fn derivatives(osc: &Oscillator, first: &ImpactState, others: &[(Impa
 }
 
 fn with(width: Width, osc: &Oscillator, first: &ImpactState, others: &[(ImpactState, f64)]) -> [Matrix2; ABREAST] {
-    let mut columns = Columns { osc, at: [[0.0; ABREAST]; 7], times: [0.0; ABREAST], responses: Responses::Undamped };
+    let mut columns = Columns {
+        osc,
+        at: [[0.0; ABREAST]; 7],
+        times: [0.0; ABREAST],
+        by: Responses::Undamped,
+        known: [[0.0; ABREAST]; 4],
+    };
     let mut before = first;
     for (k, (next, interval)) in others.iter().enumerate().take(ABREAST) {
         let restitution = osc.stop(before.side).map_or(0.0, |stop| stop.restitution);
@@ -34,18 +40,17 @@ fn with(width: Width, osc: &Oscillator, first: &ImpactState, others: &[(ImpactSt
     let (count, times) = (others.len().min(ABREAST), columns.times);
     let long = times.iter().any(|time| time * osc.beta().max(1.0) > LONGEST);
     if long || osc.damping() >= 1.0 {
-        let mut alone = [[0.0; ABREAST]; 4];
-        for k in 0..count {
-            let p = osc.response().at(times[k]);
-            alone.iter_mut().zip([p.kc, p.ks, p.s, p.s_rate]).for_each(|(column, number)| column[k] = number);
+        columns.by = Responses::Alone;
+        for (k, time) in times.into_iter().enumerate().take(count) {
+            let p = osc.response().at(time);
+            columns.know(k, [p.kc, p.ks, p.s, p.s_rate]);
         }
-        columns.responses = Responses::Alone(alone);
     } else if osc.damping() > 0.0 {
-        let mut decays = [[0.0; ABREAST]; 2];
-        for k in 0..count {
-            (decays[0][k], decays[1][k]) = decay(osc.damping() * times[k]);
+        columns.by = Responses::Damped;
+        for (k, time) in times.into_iter().enumerate().take(count) {
+            let (kept, loss) = decay(osc.damping() * time);
+            columns.know(k, [kept, loss, 0.0, 0.0]);
         }
-        columns.responses = Responses::Damped(decays);
     }
     let elements = width.run(columns);
     core::array::from_fn(|k| {
@@ -60,17 +65,27 @@ struct Columns<'a> {
     /// The numbers of [`Passage`].
     at: [Column; 7],
     times: Column,
-    responses: Responses,
+    by: Responses,
+    /// What is computed one by one of the responses.
+    known: [Column; 4],
 }
 
 /// How the responses after each time are computed.
+#[derive(Clone, Copy)]
 enum Responses {
     /// In lanes, without damping.
     Undamped,
-    /// In lanes, from the decay, which is computed one by one.
-    Damped([Column; 2]),
-    /// One by one: $`K_c`$, $`K_s`$, $`S`$ and $`S'`$.
-    Alone([Column; 4]),
+    /// In lanes, from the decay: $`e^{-\zeta s}`$ and $`1 - e^{-\zeta s}`$ are known.
+    Damped,
+    /// One by one: $`K_c`$, $`K_s`$, $`S`$ and $`S'`$ are known.
+    Alone,
+}
+
+impl Columns<'_> {
+    /// Keeps numbers of impact `k`.
+    fn know(&mut self, k: usize, numbers: [f64; 4]) {
+        self.known.iter_mut().zip(numbers).for_each(|(column, number)| column[k] = number);
+    }
 }
 
 impl Task for Columns<'_> {
@@ -93,18 +108,18 @@ impl Task for Columns<'_> {
                 speed: L::load(&speed[k..]),
             };
             let (times, response) = (L::load(&self.times[k..]), self.osc.response());
-            let response = match &self.responses {
+            let [a, b, c, d] = &self.known;
+            let known = [L::load(&a[k..]), L::load(&b[k..]), L::load(&c[k..]), L::load(&d[k..])];
+            let response = match self.by {
                 Responses::Undamped => {
                     let p = response.undamped(times);
                     [p.kc, p.ks, p.s, p.c]
                 }
-                Responses::Damped([kept, loss]) => {
-                    let p = response.damped(times, (L::load(&kept[k..]), L::load(&loss[k..])));
+                Responses::Damped => {
+                    let p = response.damped(times, (known[0], known[1]));
                     [p.kc, p.ks, p.free.s, p.free.s_rate]
                 }
-                Responses::Alone([kc, ks, s, s_rate]) => {
-                    [L::load(&kc[k..]), L::load(&ks[k..]), L::load(&s[k..]), L::load(&s_rate[k..])]
-                }
+                Responses::Alone => known,
             };
             let elements = Passage::elements(self.osc, &at, response);
             let mut row = 0;
