@@ -2,10 +2,10 @@
 //! of; the general way (`motion`, `strike`) does the same with them.
 
 use super::chatter::is_far_from_an_end;
-use super::collapse::SLOW;
 use super::event::MachineEventKind;
 use super::motion::MachineMotion;
 use super::passage::Blow;
+use super::rounds::SLOW;
 use crate::machine::StopLaw;
 use crate::math::{add_scaled, dot};
 use crate::regime::{ContactState, GuardKind};

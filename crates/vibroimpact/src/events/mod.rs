@@ -6,7 +6,7 @@
 //! | a start put onto the stops that it lies beyond | [`MachineStart::within_stops`], `within` |
 //! | the law of impact, impacts | `impulses`, `strike` |
 //! | the end of a chatter | `chatter` |
-//! | the end of impacts on several stops in turn | `collapse` |
+//! | rounds of impacts on several stops in turn, their end | `rounds`, `collapse` |
 //! | events that change one stop alone | `alone` |
 //! | the state at one time | `place` |
 //! | which stops rest and which joints hold | `resolve` |
@@ -26,6 +26,7 @@ mod motion;
 mod passage;
 mod place;
 mod resolve;
+mod rounds;
 mod saltation;
 mod samples;
 mod stretch;

@@ -1,10 +1,10 @@
 //! The motion of a machine as an iterator over its events.
 
-use super::collapse::{SLOW, SlowImpacts};
 use super::event::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
 use super::passage::Passage;
 use super::place::{Place, Scratch, Structures, standing_back};
 use super::resolve::resolve;
+use super::rounds::{SLOW, SlowImpacts};
 use super::stretch::{Stretch, follow};
 use crate::arc::{Buffers, Found, MachineFlight, Touch, first_event};
 use crate::machine::{Machine, MachineError, MachineFault, Opening, StopLaw};
