@@ -39,4 +39,3 @@ pub use family::MachineFamily;
 pub(crate) use linear::{by_number, linearised, weights};
 pub use point::{MachineBranchEvent, MachinePoint};
 pub(crate) use problem::{CLOSED, Judged, judge, over_pairs};
-pub(crate) use rest::{Limit, Touch, limits, size, touches};
