@@ -36,8 +36,6 @@ pub(crate) struct Touch {
     pub(crate) leg: usize,
     /// The guard.
     pub(crate) guard: GuardKind,
-    /// The state there.
-    pub(crate) place: Place,
 }
 
 /// Of a limit its value, and the size of its terms.
@@ -119,14 +117,14 @@ pub(crate) fn touches(frame: &MachineFrame<'_>, ring: &MachineRing, contact: usi
         for guard in guards(frame, &ring.events[leg].after, contact) {
             let Some((value, place)) = closest(frame, ring, (leg, guard)) else { continue };
             let size = size(frame, &place, guard, speed);
-            found.push((value / size, Touch { leg, guard, place }));
+            found.push((value / size, Touch { leg, guard }));
         }
     }
     found
 }
 
 /// The size of a guard: the largest velocity, or that of the terms of a force.
-pub(crate) fn size(frame: &MachineFrame<'_>, place: &Place, guard: GuardKind, speed: f64) -> f64 {
+fn size(frame: &MachineFrame<'_>, place: &Place, guard: GuardKind, speed: f64) -> f64 {
     match guard {
         GuardKind::Sliding(_) => speed,
         _ => pressed(frame, place, guard).map_or(1.0, |pressed| pressed.size),
