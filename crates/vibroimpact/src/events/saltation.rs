@@ -106,18 +106,11 @@ pub(crate) struct EventLaw<'a> {
 impl EventLaw<'_> {
     /// The value of the guard at a state.
     pub(crate) fn value(&self, normal: &Normal, at: &Place) -> f64 {
-        self.value_and_rate(normal, at).0
-    }
-
-    /// The value of the guard at a state, and its rate along the flow there.
-    pub(crate) fn value_and_rate(&self, normal: &Normal, at: &Place) -> (f64, f64) {
         let guard = &self.structure.guards[self.guard];
-        let (value, rate) = at.flight(normal, self.structure.clone()).first(&guard.function);
+        let value = at.flight(normal, self.structure.clone()).first(&guard.function).0;
         match guard.kind {
-            GuardKind::Gap(j) => at.surfaces[j].map_or((value, rate), |surface| {
-                (value + (surface.size - surface.offset), rate - surface.rate * surface.size)
-            }),
-            _ => (value, rate),
+            GuardKind::Gap(j) => value + at.surfaces[j].map_or(0.0, |surface| surface.size - surface.offset),
+            _ => value,
         }
     }
 
@@ -187,12 +180,13 @@ impl LinearEvent {
         let guard = law.structure.guards.get(law.guard)?;
         let mut gradient = law.structure.gradient(normal, &guard.function);
         gradient.resize(shape.size(), 0.0);
-        let (_, rate) = law.value_and_rate(normal, before);
+        let mut rate = before.flight(normal, law.structure.clone()).first(&guard.function).1;
         if let GuardKind::Gap(j) = guard.kind
-            && before.surfaces[j].is_some()
+            && let Some(surface) = before.surfaces[j]
             && let Some(k) = shape.surfaces.iter().position(|of| *of == j)
         {
             gradient[2 * shape.n + k] = 1.0;
+            rate -= surface.rate * surface.size;
         }
         let (reset, reset_rate) = reset(shape, normal, law.pushed, before, after)?;
         Some(Self {

@@ -17,7 +17,7 @@ pub(super) fn bare(ring: &MachineRing, (first, last): (usize, usize)) -> Option<
     let kept: Vec<usize> = (1..=m - count).map(|i| (last + i) % m).collect();
     let events: Vec<RingEvent> = kept.iter().map(|k| ring.events[*k].clone()).collect();
     let places = kept.iter().map(|k| ring.places[*k].clone()).collect();
-    (!events.is_empty()).then_some(MachineRing { events, places, periods: ring.periods })
+    (!events.is_empty()).then_some(MachineRing { events, places, periods: ring.periods, together: None })
 }
 
 /// What is known of a solution whose events from `first` to `last` happen at once or are a touch. The events seen are those

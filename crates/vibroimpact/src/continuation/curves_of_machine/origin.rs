@@ -48,13 +48,13 @@ fn begin(
         MachineBranchEvent::Grazing { stop, appears: true, .. } => {
             let open = |leg: usize| ring.events[leg].after[stop] == ContactState::Open;
             let legs = (0..ring.len()).filter(|leg| open(*leg));
-            let lowest = legs.filter_map(|leg| Some((leg, closest(&frame, &ring, (leg, GuardKind::Gap(stop)))?)));
+            let lowest = legs.filter_map(|leg| Some((leg, closest(&frame, &ring, (leg, stop))?)));
             let (leg, (gap, place)) = lowest.min_by(|a, b| a.1.0.abs().total_cmp(&b.1.0.abs()))?;
             if gap.abs() > NEAR * sizes.0 {
                 return Some(Err(MachineCurveError::NotThere));
             }
             let back = place.surfaces.iter().map(Option::is_some).collect();
-            ring.events.insert(leg + 1, RingEvent::touch(GuardKind::Gap(stop), &place.states, back));
+            ring.events.insert(leg + 1, RingEvent::touch(stop, &place.states, back));
             ring.places.insert(leg + 1, place);
             (MachineCurveKind::Grazing { stop }, Some(Condition::Touch { at: leg + 1, size: sizes.1 }))
         }
@@ -75,6 +75,7 @@ fn begin(
                 .filter(both)
                 .min_by(|a, b| (ring.theta(a + 1) - ring.theta(*a)).total_cmp(&(ring.theta(b + 1) - ring.theta(*b))))?;
             let kind = MachineCurveKind::Corner { first: of(at), second: of(at + 1) };
+            ring.together = Some(at);
             (kind, Some(Condition::Together { at }))
         }
         _ => return Some(Err(MachineCurveError::NotThere)),
@@ -116,7 +117,7 @@ fn without_contact(frame: &MachineFrame<'_>, ring: &mut MachineRing, (stop, slow
     }
     let before = ring.events[(at + m - 1) % m].clone();
     let surface = ring.places[(at + m - 1) % m].surfaces[stop];
-    ring.events[at] = RingEvent::touch(GuardKind::Gap(stop), &before.after, before.back.clone());
+    ring.events[at] = RingEvent::touch(stop, &before.after, before.back.clone());
     ring.places[at].states.clone_from(&before.after);
     let mut at = at;
     if contact {

@@ -24,10 +24,6 @@ use std::sync::Arc;
 /// Two halves of a cycle that differ by less are the same.
 const ALIKE: f64 = 3e-4;
 
-/// How much earlier than the event before it an event may be, in forcing periods. Such a solution is not admissible, but
-/// with it the solution at which both events fall together is located as any other zero.
-const EARLY: f64 = 0.02;
-
 /// An event of a signature.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct RingEvent {
@@ -42,14 +38,14 @@ pub(crate) struct RingEvent {
 }
 
 impl RingEvent {
-    /// A touch of a guard at which the motion goes on as if the guard were not there; `after` are the states on both sides.
-    pub(crate) fn touch(guard: GuardKind, after: &[ContactState], back: Vec<bool>) -> Self {
-        Self { guard, after: after.to_vec(), pushed: Vec::new(), back }
+    /// A touch of a stop at which the motion goes on as if the stop were not there; `after` are the states on both sides.
+    pub(crate) fn touch(stop: usize, after: &[ContactState], back: Vec<bool>) -> Self {
+        Self { guard: GuardKind::Gap(stop), after: after.to_vec(), pushed: Vec::new(), back }
     }
 
     /// Whether nothing happens at it, where `before` are the states before.
     fn touches(&self, before: &[ContactState]) -> bool {
-        self.pushed.is_empty() && self.after == before
+        matches!(self.guard, GuardKind::Gap(_)) && self.pushed.is_empty() && self.after == before
     }
 
     /// The event at the end of a step; `None` if there is none.
@@ -71,6 +67,8 @@ pub(crate) struct MachineRing {
     /// The states after the events. Their phases increase along the cycle beyond 2 pi.
     pub(crate) places: Vec<Place>,
     pub(crate) periods: u32,
+    /// An event that may come at the same time as the next one, or by rounding after it.
+    pub(crate) together: Option<usize>,
 }
 
 /// One flight of a cycle and the event at its end, to first order.
@@ -105,7 +103,7 @@ impl MachineRing {
             events.push(event);
             places.push(place);
         }
-        (!events.is_empty()).then_some(Self { events, places, periods }.centred(free))
+        (!events.is_empty()).then_some(Self { events, places, periods, together: None }.centred(free))
     }
 
     /// The same motion where the first event has no part along a free translation.
@@ -171,7 +169,7 @@ impl MachineRing {
         frame.constrain(&mut from)?;
         let event = &self.events[next];
         let time = self.time(k, frequency);
-        if !(time.is_finite() && time > -EARLY * frame.machine.period()?) {
+        if !((time > 0.0 || self.together == Some(k)) && time.is_finite()) {
             return None;
         }
         let structure = frame.structure(&from.states)?;
