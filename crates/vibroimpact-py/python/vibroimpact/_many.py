@@ -64,7 +64,7 @@ def over_points(over: Over, values: NDArray[Any], further: Sequence[tuple[str, i
 def whole_numbers(dims: Sequence[str], codes: NDArray[Any]) -> dict[str, Any]:
     """Impacts m and periods n of the codes of labels: nan for what is not m/n, infinite impacts for a complete chatter."""
     whole = codes // 10_000
-    impacts, periods = whole.astype(np.float64), (codes - whole * 10_000).astype(np.float64)
+    impacts, periods = np.array(whole, dtype=np.float64), np.array(codes - whole * 10_000, dtype=np.float64)
     chatter = codes >= 1_000_000_000
     if chatter.any():
         impacts[chatter], periods[chatter] = np.inf, codes[chatter] - 1_000_000_000
