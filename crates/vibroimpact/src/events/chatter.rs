@@ -3,7 +3,7 @@
 use super::event::MachineEventKind;
 use super::motion::MachineMotion;
 use super::place::Place;
-use crate::arc::{Found, first_event};
+use crate::arc::{Found, MachineFlight, first_event};
 use crate::machine::StopLaw;
 use crate::math::add_scaled;
 use crate::regime::{ContactState, GuardKind, Normal, Structure};
@@ -65,19 +65,33 @@ impl MachineMotion<'_> {
         if !matches!(next, Found::Zero { ref guards, .. } if again(guards)) {
             return;
         }
-        let Found::NoneBefore(_) = first_event(&flight, duration, self.limits.steps, &mut self.buffers, &mut touches)
-        else {
-            return;
-        };
+        self.rest_after(there, &flight, duration, (MachineEventKind::Stick, &[j]));
+    }
+
+    /// Brings the structure to rest on stops: to the state `there`, and from it along its flight for the time that the
+    /// impacts take that were summed. `None` if an event ends this flight before.
+    pub(super) fn rest_after(
+        &mut self,
+        there: Place,
+        flight: &MachineFlight,
+        duration: f64,
+        (kind, stops): (MachineEventKind, &[usize]),
+    ) -> Option<()> {
+        let mut touches = Vec::new();
+        let found = first_event(flight, duration, self.limits.steps, &mut self.buffers, &mut touches);
+        if !matches!(found, Found::NoneBefore(_)) {
+            return None;
+        }
         self.place = there;
-        // the state at rest is that after an impact without rebound
-        self.record(&[(j, 0.0)]);
+        // the state at rest is that after impacts without rebound
+        self.record(&stops.iter().map(|j| (*j, 0.0)).collect::<Vec<_>>());
         if let Some(passage) = &mut self.passage {
             passage.rest = Some((flight.structure.clone(), duration));
         }
-        self.move_to(&flight, duration);
-        self.announce(MachineEventKind::Stick, j, 0.0, Vec::new());
+        self.move_to(flight, duration);
+        self.announce(kind, stops[0], 0.0, stops[1..].to_vec());
         self.largest_impact = 0.0;
+        Some(())
     }
 
     /// Whether a chatter is far from its end, by the reaction at rest here: a first test without a flight.

@@ -9,7 +9,6 @@
 use super::event::MachineEventKind;
 use super::motion::MachineMotion;
 use super::rounds::Slow;
-use crate::arc::{Found, first_event};
 use crate::math::add_scaled;
 use crate::regime::{ContactState, GuardKind};
 
@@ -29,7 +28,6 @@ impl MachineMotion<'_> {
             && self.collapse(&stops, left).is_some()
         {
             self.slow.clear();
-            self.largest_impact = 0.0;
         }
     }
 
@@ -55,19 +53,6 @@ impl MachineMotion<'_> {
         if held.any(|(place, reaction)| *place < all && flight.first(reaction).0 <= 0.0) {
             return None;
         }
-        let mut touches = Vec::new();
-        let Found::NoneBefore(_) = first_event(&flight, left, self.limits.steps, &mut self.buffers, &mut touches)
-        else {
-            return None;
-        };
-        self.place = there;
-        let pushed: Vec<(usize, f64)> = stops.iter().map(|j| (*j, 0.0)).collect();
-        self.record(&pushed);
-        if let Some(passage) = &mut self.passage {
-            passage.rest = Some((structure, left));
-        }
-        self.move_to(&flight, left);
-        self.announce(MachineEventKind::Collapse, stops[0], 0.0, stops[1..].to_vec());
-        Some(())
+        self.rest_after(there, &flight, left, (MachineEventKind::Collapse, stops))
     }
 }

@@ -40,11 +40,11 @@ fn pair(push: f64, drags: (f64, f64), restitution: f64) -> Machine {
     Machine::new(parts).unwrap()
 }
 
-fn settled(machine: &Machine, start: &MachineStart) -> MachineVerdict {
+pub(crate) fn settled(machine: &Machine, start: &MachineStart) -> MachineVerdict {
     settle_machine(machine, start, &SettleOptions::default()).unwrap().verdict
 }
 
-fn cycle(machine: &Machine, start: &MachineStart) -> MachineCycle {
+pub(crate) fn cycle(machine: &Machine, start: &MachineStart) -> MachineCycle {
     match settled(machine, start) {
         MachineVerdict::Periodic(cycle) => cycle,
         other => panic!("{}", other.label()),

@@ -1,24 +1,13 @@
 //! Limit cycles of machines without forcing: bodies on moving belts.
 
+use crate::drift::{cycle, settled};
 use std::f64::consts::PI;
 use vibroimpact::chaos::machine_exponents_while;
 use vibroimpact::events::{MachineEventKind, MachineLimits, MachineMotion, MachineStart};
 use vibroimpact::machine::{Machine, MachineParts};
 use vibroimpact::math::Multiplier;
-use vibroimpact::orbit::MachineCycle;
 use vibroimpact::quantities::machine_cycle_quantities;
-use vibroimpact::verdict::{Count, MachineVerdict, SettleOptions, settle_machine};
-
-fn settled(machine: &Machine, start: &MachineStart) -> MachineVerdict {
-    settle_machine(machine, start, &SettleOptions::default()).unwrap().verdict
-}
-
-fn cycle(machine: &Machine, start: &MachineStart) -> MachineCycle {
-    match settled(machine, start) {
-        MachineVerdict::Periodic(cycle) => cycle,
-        other => panic!("{}", other.label()),
-    }
-}
+use vibroimpact::verdict::Count;
 
 /// A mass of 1 on a spring of 1, on a belt.
 fn on_belt((sliding, limit): (f64, f64), belt: f64, damping: f64) -> Machine {
