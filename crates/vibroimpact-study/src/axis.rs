@@ -20,6 +20,16 @@ pub enum Coordinate {
 }
 
 impl Coordinate {
+    /// Gives a coordinate of a start this value; a parameter leaves the start as it is.
+    pub(crate) fn place(self, start: &mut StartPlan, value: impl FnOnce() -> f64) {
+        match self {
+            Self::Parameter(_) => {}
+            Self::X => start.x = Some(value()),
+            Self::V => start.v = value(),
+            Self::Phase => start.phase = value(),
+        }
+    }
+
     /// Its name in plans; also the name of the dimension in a store.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -311,13 +321,7 @@ pub fn start_at(
 ) -> StartPlan {
     let mut start = *start;
     for (k, axis) in axes.iter().enumerate() {
-        let value = || axis.over.at(index(k));
-        match axis.vary {
-            Coordinate::Parameter(_) => {}
-            Coordinate::X => start.x = Some(value()),
-            Coordinate::V => start.v = value(),
-            Coordinate::Phase => start.phase = value(),
-        }
+        axis.vary.place(&mut start, || axis.over.at(index(k)));
     }
     let (x, v) = system.state_in(there, (start.x.unwrap_or(0.0), start.v));
     StartPlan { x: start.x.map(|_| x), v, ..start }

@@ -93,12 +93,16 @@ impl PointsPlan {
     #[must_use]
     pub fn start(&self, start: &StartPlan, k: usize) -> StartPlan {
         let mut there = *start;
-        for column in 0..self.width() {
-            match self.vary(column) {
-                Coordinate::Parameter(_) => {}
-                Coordinate::X => there.x = Some(self.at(column, k)),
-                Coordinate::V => there.v = self.at(column, k),
-                Coordinate::Phase => there.phase = self.at(column, k),
+        match self {
+            Self::Listed(columns) => {
+                for column in columns {
+                    column.vary.place(&mut there, || column.values[k]);
+                }
+            }
+            Self::Drawn(drawn) => {
+                for (column, side) in drawn.over.iter().enumerate() {
+                    side.vary.place(&mut there, || drawn.at(column, k));
+                }
             }
         }
         there
@@ -142,20 +146,14 @@ impl PointsPlan {
 
     /// The start with the smallest of all listed coordinates, and that with the largest.
     fn hull(&self, start: &StartPlan) -> [StartPlan; 2] {
-        [f64::min, f64::max].map(|choose| {
-            let mut corner = *start;
-            let Self::Listed(columns) = self else { return corner };
-            for column in columns {
-                let end = column.values.iter().copied().reduce(choose).unwrap_or(f64::NAN);
-                match column.vary {
-                    Coordinate::Parameter(_) => {}
-                    Coordinate::X => corner.x = Some(end),
-                    Coordinate::V => corner.v = end,
-                    Coordinate::Phase => corner.phase = end,
-                }
-            }
-            corner
-        })
+        let mut corners = [*start; 2];
+        let Self::Listed(columns) = self else { return corners };
+        for column in columns {
+            let values = column.values.iter().copied();
+            column.vary.place(&mut corners[0], || values.clone().reduce(f64::min).unwrap_or(f64::NAN));
+            column.vary.place(&mut corners[1], || values.reduce(f64::max).unwrap_or(f64::NAN));
+        }
+        corners
     }
 
     /// As [`Self::start`], in the units of the system `there` at the point; `system` is that of the plan.

@@ -22,7 +22,7 @@ pub const LARGEST: f64 = 1e15;
 /// `angle` modulo $`2\pi`$, in $`[0, 2\pi)`$; for angles up to [`LARGEST`] in magnitude.
 #[must_use]
 pub fn wrap(angle: f64) -> f64 {
-    reduce(angle, 0.0)
+    if (0.0..TAU).contains(&angle) { angle } else { reduce(angle, 0.0) }
 }
 
 /// The phase reached from `phase` after a time `s` with the frequency ratio `beta`, in $`[0, 2\pi)`$.

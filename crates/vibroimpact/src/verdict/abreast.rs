@@ -55,6 +55,7 @@ impl<S: Source> Recorder for Settling<'_, S> {
         Some(launched)
     }
 
+    #[inline]
     fn impact(
         &mut self,
         track: &mut Track,

@@ -117,12 +117,13 @@ impl Follow {
         state: ImpactState,
         interval: f64,
     ) -> Option<Verdict> {
-        self.record.push(options, state, self.since + interval);
+        let since = self.since + interval;
+        self.record.push(options, state, since);
         (self.since, self.grazes) = (0.0, 0);
         if self.fading.strikes(osc, state, interval) {
             return Some(Verdict::NoImpact(NoImpact::GrazeLimit { velocity: state.velocity, phase: state.phase }));
         }
-        self.record.decide(osc, options).map(|shown| match shown {
+        self.record.decide(osc, options, &state, since).map(|shown| match shown {
             Shown::Cycle(cycle) => Verdict::Periodic(cycle),
             Shown::Chaos(spectrum) => Verdict::Chaotic(Chaos { spectrum, impacts: self.count() as u64 }),
         })

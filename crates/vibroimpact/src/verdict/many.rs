@@ -9,6 +9,7 @@
 use super::abreast::{Source, settle_abreast};
 use super::attractors::SAME;
 use super::follow::{Follow, Releases};
+use super::launches;
 use super::options::SettleOptions;
 use super::outcome::Verdict;
 use super::settle::{settle, settle_knowing};
@@ -108,7 +109,29 @@ impl Question<'_> {
             }
             return part;
         };
-        let source = Starts { known: &survey.known, releases, range, start, next: 0, part, tick: self.tick };
+        let first = range.start;
+        match launches::sorted(range.end - first, |k| start(first + k)) {
+            Some(sorted) => {
+                let launch = |k: usize| (sorted[k].0 as usize, sorted[k].1);
+                self.abreast(batch, range, launch, (&survey.known, releases, part))
+            }
+            None => {
+                let launch = |k: usize| (k, start(first + k as u64));
+                self.abreast(batch, range, launch, (&survey.known, releases, part))
+            }
+        }
+    }
+
+    /// Follows the starts in lanes; `launch` gives the place and the start of each in the order in which they are launched.
+    fn abreast(
+        &self,
+        batch: Batch,
+        range: Range<u64>,
+        launch: impl Fn(usize) -> (usize, Start),
+        (known, releases, part): (&[(Verdict, TrappingRegion)], Releases, Part),
+    ) -> Part {
+        let (numbers, tick) = (vec![None; known.len()], self.tick);
+        let source = Starts { known, numbers, releases, range, launch, next: 0, part, tick };
         settle_abreast(batch, self.options, source).part
     }
 }
@@ -116,20 +139,25 @@ impl Question<'_> {
 /// Starts of one oscillator.
 struct Starts<'a, F> {
     known: &'a [(Verdict, TrappingRegion)],
+    /// The number of each of these cycles in `part`, once a start leads to it.
+    numbers: Vec<Option<usize>>,
     releases: Releases,
     range: Range<u64>,
-    start: &'a F,
+    /// The place and the start of each, in the order in which they are launched.
+    launch: F,
     next: usize,
     part: Part,
     tick: &'a dyn Fn() -> bool,
 }
 
-impl<F: Fn(u64) -> Start> Source for Starts<'_, F> {
+impl<F: Fn(usize) -> (usize, Start)> Source for Starts<'_, F> {
+    #[inline]
     fn next(&mut self) -> Option<(usize, Launched)> {
-        let (place, index) = (self.next, self.range.start + self.next as u64);
+        let (next, index) = (self.next, self.range.start + self.next as u64);
         (index < self.range.end).then(|| {
             self.next += 1;
-            (place, Launched { system: 0, start: (self.start)(index) })
+            let (place, start) = (self.launch)(next);
+            (place, Launched { system: 0, start })
         })
     }
 
@@ -141,10 +169,16 @@ impl<F: Fn(u64) -> Start> Source for Starts<'_, F> {
         &mut self.releases
     }
 
+    #[inline]
     fn caught(&mut self, place: usize, follow: &Follow, state: &ImpactState, options: &SettleOptions) -> bool {
-        let known = self.known.iter().find(|(_, trap)| trap.catches(state));
-        let Some((verdict, _)) = known.filter(|(_, trap)| follow.reaches(trap.depth(), options)) else { return false };
-        self.part.caught(place, self.range.start + place as u64, verdict, follow.count() as u64);
+        let Some(known) = self.known.iter().position(|(_, trap)| trap.catches(state)) else { return false };
+        let (verdict, trap) = &self.known[known];
+        if !follow.reaches(trap.depth(), options) {
+            return false;
+        }
+        let index = self.range.start + place as u64;
+        let number = *self.numbers[known].get_or_insert_with(|| self.part.number(verdict, index));
+        self.part.caught(place, index, number, follow.count() as u64);
         true
     }
 
@@ -183,6 +217,20 @@ mod tests {
             systems.push(osc);
         }
         systems
+    }
+
+    /// Starts in no order, which are launched in another order than their own.
+    #[test]
+    fn scattered() {
+        let osc = scenario::S.oscillator();
+        let (area, options) = (StartBox::natural(&osc), SettleOptions::default());
+        let start = |k: u64| scattered_starts(&osc, area, 5, k);
+        let survey = KnownAttractors::survey(&osc, (0..10).map(start), &options);
+        let got = settle_many(&osc, 100..2600, start, &survey, &options, Width::best(), &|| false);
+        let mut census = Census::default();
+        let cells = (100..2600).map(|k| census.add(&settle(&osc, start(k), &options).verdict));
+        assert!(cells.eq(got.cells.iter().map(|cell| *cell as usize)));
+        assert_eq!(got.motions, census.motions());
     }
 
     /// As one start after another, for all lanes, trapping regions and parts.

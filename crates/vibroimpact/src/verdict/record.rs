@@ -107,17 +107,22 @@ impl<R: Recurring> Record<R> {
         self.returns.push((state, since));
     }
 
-    /// What the last return decides.
-    pub(super) fn decide(&mut self, system: &R, options: &SettleOptions) -> Option<Shown<R>> {
-        let (state, since) = self.returns.last()?.clone();
-        let complete = self.measured(system, options, &state, since);
+    /// What the last return decides, which is `state`, so long `since` the one before.
+    pub(super) fn decide(
+        &mut self,
+        system: &R,
+        options: &SettleOptions,
+        state: &R::Return,
+        since: f64,
+    ) -> Option<Shown<R>> {
+        let complete = self.measured(system, options, state, since);
         if complete || self.count() >= self.next_look.max(LOOK) {
-            let shown = self.look(system, options, &state);
+            let shown = self.look(system, options, state);
             if shown.is_some() || !complete {
                 return shown.map(Shown::Cycle);
             }
         }
-        if complete { self.judged(system, options, &state).map(Shown::Chaos) } else { None }
+        if complete { self.judged(system, options, state).map(Shown::Chaos) } else { None }
     }
 
     /// Continues or begins the measurement for chaos at this return; returns whether it is complete.

@@ -52,7 +52,7 @@ pub(super) struct Part {
 const OPEN: u32 = u32::MAX;
 impl Part {
     /// The index of a motion in this part; a new motion is added.
-    fn number(&mut self, verdict: &Verdict, index: u64) -> usize {
+    pub(super) fn number(&mut self, verdict: &Verdict, index: u64) -> usize {
         let known = self.motions.iter().position(|motion| motion.verdict.same_as(verdict, SAME));
         known.unwrap_or_else(|| {
             self.motions.push(Local { verdict: verdict.clone(), first: index, followed: None });
@@ -66,12 +66,12 @@ impl Part {
         Self { motions: Vec::new(), cells: vec![OPEN; count], endings: vec![nothing; count] }
     }
 
-    /// Records the motion to which a start leads, decided after this number of impacts.
-    pub(super) fn caught(&mut self, place: usize, index: u64, verdict: &Verdict, impacts: u64) {
+    /// Records the [number](Self::number) of the motion to which a start leads, decided after so many impacts.
+    pub(super) fn caught(&mut self, place: usize, index: u64, number: usize, impacts: u64) {
+        let motion = &mut self.motions[number];
         let impacts = u32::try_from(impacts).unwrap_or(u32::MAX);
-        self.endings[place] = Ending { reason: verdict.reason(), impacts };
-        let number = self.number(verdict, index);
-        self.motions[number].first = self.motions[number].first.min(index);
+        self.endings[place] = Ending { reason: motion.verdict.reason(), impacts };
+        motion.first = motion.first.min(index);
         self.cells[place] = u32::try_from(number).unwrap_or(OPEN);
     }
 
@@ -83,8 +83,11 @@ impl Part {
         (verdict, arrivals): (Verdict, Arrivals),
         impacts: u64,
     ) {
-        self.caught(place, index, &verdict, impacts);
-        let motion = &mut self.motions[self.cells[place] as usize];
+        let number = self.number(&verdict, index);
+        self.caught(place, index, number, impacts);
+        // the same motion may hold for other reasons
+        self.endings[place].reason = verdict.reason();
+        let motion = &mut self.motions[number];
         if motion.followed.as_ref().is_none_or(|(other, _)| index < *other) {
             motion.followed = Some((index, (verdict, arrivals)));
         }

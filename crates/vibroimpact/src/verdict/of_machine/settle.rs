@@ -229,12 +229,12 @@ fn settle_in<'a>(
                 }
                 record.forget();
             }
-            releases.push((step, time));
+            releases.push((step.clone(), time));
         }
         if record.count().is_multiple_of(64) {
             system.frame.keep(&motion);
         }
-        match record.decide(&system, options) {
+        match record.decide(&system, options, &step, interval) {
             Some(Shown::Cycle(cycle)) => {
                 return settled(MachineVerdict::Periodic(cycle), events, time, &record);
             }
