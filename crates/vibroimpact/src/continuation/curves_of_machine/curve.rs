@@ -9,7 +9,7 @@ use super::point::{MachineCurveEvent, MachineCurveKind, MachineCurvePoint};
 use super::problem::{CurveProblem, CurveSolution, Watched};
 use crate::continuation::curves::CurveOptions;
 use crate::continuation::equations::plane_tracer::first_step;
-use crate::continuation::of_machine::{Difference, Judged, MachinePoint, difference, edge, place};
+use crate::continuation::of_machine::{Difference, Judged, MachinePoint, difference, edge};
 use crate::continuation::trace::equations::{Equations, correct, tangent};
 use crate::continuation::trace::tracer::{Step, Tracer};
 use crate::orbit::MachineFrame;
@@ -184,7 +184,7 @@ impl MachineCurve {
         let ring = self.tracer.problem.equations.signature();
         let special = self.tracer.problem.equations.condition.special(ring.len());
         let stops = ring.events.first().map_or(0, |event| event.back.len());
-        let seen = known.seen.first().map(|event| place(event.guard, stops));
+        let seen = known.seen.first().map(|event| event.guard.place(stops));
         let found = match special {
             None => difference(ring, known),
             Some(special) => match bare(ring, special) {

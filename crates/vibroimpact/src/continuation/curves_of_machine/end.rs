@@ -5,7 +5,7 @@
 
 use super::point::{MachineCurveEvent, MachineCurveKind};
 use super::problem::{CurveProblem, CurveSolution};
-use crate::continuation::of_machine::place;
+
 use crate::orbit::MachineFrame;
 
 /// A flight that is shorter than this, in forcing periods, takes no time.
@@ -23,7 +23,7 @@ pub(super) fn reason(problem: &CurveProblem, here: &CurveSolution) -> Option<Mac
         (0..m).filter(|k| !corner(*k)).min_by(|a, b| ring.time(*a, frequency).total_cmp(&ring.time(*b, frequency)))?;
     if m > 1 && ring.time(shortest, frequency) < SHORT * period {
         let (first, second) =
-            (place(ring.events[shortest].guard, stops), place(ring.events[(shortest + 1) % m].guard, stops));
+            (ring.events[shortest].guard.place(stops), ring.events[(shortest + 1) % m].guard.place(stops));
         return Some(match problem.kind {
             _ if first != second || first >= stops => MachineCurveEvent::Corner { first, second },
             MachineCurveKind::Grazing { .. } => MachineCurveEvent::DoubleGrazing { stop: first },

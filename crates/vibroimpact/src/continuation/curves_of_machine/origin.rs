@@ -5,7 +5,7 @@ use super::equations::CurveEquations;
 use super::plane::{MachineCurveError, MachinePlane};
 use super::point::MachineCurveKind;
 use super::problem::CurveProblem;
-use crate::continuation::of_machine::{MachineBranchEvent, MachinePoint, closest, place};
+use crate::continuation::of_machine::{MachineBranchEvent, MachinePoint, closest};
 use crate::events::standing_back;
 use crate::machine::Machine;
 use crate::orbit::{MachineFrame, MachineRing, RingEvent};
@@ -48,13 +48,13 @@ fn begin(
         MachineBranchEvent::Grazing { stop, appears: true, .. } => {
             let open = |leg: usize| ring.events[leg].after[stop] == ContactState::Open;
             let legs = (0..ring.len()).filter(|leg| open(*leg));
-            let lowest = legs.filter_map(|leg| Some((leg, closest(&frame, &ring, (leg, stop))?)));
+            let lowest = legs.filter_map(|leg| Some((leg, closest(&frame, &ring, (leg, GuardKind::Gap(stop)))?)));
             let (leg, (gap, place)) = lowest.min_by(|a, b| a.1.0.abs().total_cmp(&b.1.0.abs()))?;
             if gap.abs() > NEAR * sizes.0 {
                 return Some(Err(MachineCurveError::NotThere));
             }
             let back = place.surfaces.iter().map(Option::is_some).collect();
-            ring.events.insert(leg + 1, RingEvent::touch(stop, &place.states, back));
+            ring.events.insert(leg + 1, RingEvent::touch(GuardKind::Gap(stop), &place.states, back));
             ring.places.insert(leg + 1, place);
             (MachineCurveKind::Grazing { stop }, Some(Condition::Touch { at: leg + 1, size: sizes.1 }))
         }
@@ -66,7 +66,7 @@ fn begin(
         }
         MachineBranchEvent::Corner { first, second } => {
             let stops = machine.stops().len();
-            let of = |k: usize| place(ring.events[k % ring.len()].guard, stops);
+            let of = |k: usize| ring.events[k % ring.len()].guard.place(stops);
             let both = |k: &usize| {
                 let (a, b) = (of(*k), of(k + 1));
                 (a, b) == (first, second) || (b, a) == (first, second)
@@ -117,7 +117,7 @@ fn without_contact(frame: &MachineFrame<'_>, ring: &mut MachineRing, (stop, slow
     }
     let before = ring.events[(at + m - 1) % m].clone();
     let surface = ring.places[(at + m - 1) % m].surfaces[stop];
-    ring.events[at] = RingEvent::touch(stop, &before.after, before.back.clone());
+    ring.events[at] = RingEvent::touch(GuardKind::Gap(stop), &before.after, before.back.clone());
     ring.places[at].states.clone_from(&before.after);
     let mut at = at;
     if contact {

@@ -2,7 +2,7 @@
 
 use super::beginning::{begun, last};
 use super::beyond::{beyond, replayed};
-use super::change::{Difference, difference, place};
+use super::change::{Difference, difference};
 use super::edge::edge;
 use super::equations::MachineEquations;
 use super::family::MachineFamily;
@@ -134,7 +134,7 @@ impl MachineBranch {
     fn meeting(&self, here: &MachineSolution) -> Option<MachineBranchEvent> {
         let (machine, ring) = self.tracer.problem.equations.split(&here.w)?;
         let (stops, m) = (machine.stops().len(), ring.len());
-        let of = |k: usize| place(ring.events[k % m].guard, stops);
+        let of = |k: usize| ring.events[k % m].guard.place(stops);
         let at = (0..m).find(|k| ring.theta(k + 1) - ring.theta(*k) < TOGETHER && of(*k) != of(k + 1))?;
         Some(MachineBranchEvent::Corner { first: of(at), second: of(at + 1) })
     }

@@ -10,7 +10,8 @@
 //! | where a tracer begins | `beginning` |
 //! | how the events of a motion differ from those of a signature | `change` |
 //! | where the solutions along a step cease to be admissible | `edge` |
-//! | where a flight comes closest to a stop, and where a cycle grazes it | `closest`, `touch` |
+//! | where a flight comes closest to a stop or another guard, and where a cycle grazes it | `closest`, `touch` |
+//! | where a rest on a stop, or the hold of a joint, begins or ends | `rest` |
 //! | the branch beyond such a change | `beyond` |
 //! | the cycle of twice the period beside a flip | `switch` |
 //! | the branch | [`MachineBranch`] |
@@ -26,11 +27,12 @@ mod family;
 mod linear;
 mod point;
 mod problem;
+mod rest;
 mod switch;
 mod touch;
 
 pub use branch::{MachineBranch, MachineBranchError};
-pub(crate) use change::{Difference, difference, place};
+pub(crate) use change::{Difference, difference};
 pub(crate) use closest::closest;
 pub(crate) use edge::edge;
 pub use family::MachineFamily;

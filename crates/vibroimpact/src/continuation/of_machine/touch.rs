@@ -1,12 +1,14 @@
-//! Where a cycle grazes a stop, to rounding.
+//! Where a cycle grazes a stop, or where a rest begins or ends, to rounding.
 //!
 //! The motion is followed to decide which solutions are admissible, and it takes an impact of a very small speed for a
 //! grazing contact, and a very small gap for a contact. So the last admissible solution lies a little before or beyond the
-//! grazing one. There the smallest gap of the flight is zero, or the speed after the impact.
+//! grazing one. There the smallest gap of the flight is zero, or the speed after the impact. Where a rest begins or ends, a
+//! limit is zero, or the smallest value of a guard.
 
 use super::change::Difference;
 use super::closest::closest;
 use super::problem::{Judged, MachineProblem, MachineSolution};
+use super::rest::{Limit, Touch, limits, touches};
 use crate::continuation::trace::tracer::{Solution, Step, Tracer};
 use crate::orbit::{MachineFrame, MachineRing};
 use crate::regime::GuardKind;
@@ -31,7 +33,7 @@ pub(super) fn grazing(tracer: &Tracer<MachineProblem>, at: &MachineSolution, fou
             weakest.map_or(found, |(at, _)| Difference::Disappears { at, stop })
         }
         Difference::Appears { stop, .. } => {
-            let flights = (0..m).filter_map(|leg| Some((leg, closest(&frame, &ring, (leg, stop))?.0)));
+            let flights = (0..m).filter_map(|leg| Some((leg, closest(&frame, &ring, (leg, GuardKind::Gap(stop)))?.0)));
             let nearest = lowest(&mut flights.into_iter());
             nearest.map_or(found, |(leg, _)| Difference::Appears { at: (leg + 1) % m, stop })
         }
@@ -45,22 +47,51 @@ fn speed_after(frame: &MachineFrame<'_>, ring: &MachineRing, event: usize, stop:
     after.gap(&frame.normal, &after.turns(&frame.normal), stop).1
 }
 
+/// What is zero where a rest begins or ends.
+enum RestZero {
+    Limit(Limit),
+    Touch(Touch),
+}
+
+/// A limit or a touch of a contact that is larger, relative to its size, is not zero.
+const NEAR: f64 = 1e-3;
+
+/// What is zero close to a solution where a rest of this contact begins or ends; `None` if it is not known.
+fn rest_zero(frame: &MachineFrame<'_>, ring: &MachineRing, contact: usize, speed: f64) -> Option<RestZero> {
+    let limits = limits(frame, ring, contact).into_iter().map(|(value, limit)| (value, RestZero::Limit(limit)));
+    let touches =
+        touches(frame, ring, contact, speed).into_iter().map(|(value, touch)| (value, RestZero::Touch(touch)));
+    let nearest = limits.chain(touches).min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
+    (nearest.0.abs() < NEAR).then_some(nearest.1)
+}
+
 /// The grazing solution near the last admissible one `inside` at the distance `s` along a step, beyond which the events
-/// differ as `found`: its distance, and the solution with what is known of `inside`. `None` if the difference is another
-/// one, or no solution grazes close by.
+/// differ as `found`: its distance, and the solution with what is known of `inside`; or that at which a rest begins or ends.
+/// `None` if the difference is another one, or no solution grazes close by.
 pub(super) fn touching(
     tracer: &Tracer<MachineProblem>,
     step: &Step<Judged>,
     (s, inside): (f64, &MachineSolution),
     found: &Difference,
 ) -> Option<(f64, MachineSolution)> {
+    let speed = inside.known.cycle.as_ref()?.sizes.1;
+    let rest = if let Difference::Rest { place, .. } = *found {
+        let (machine, ring) = tracer.problem.equations.split(&inside.w)?;
+        Some(rest_zero(&MachineFrame::new(&machine), &ring, place, speed)?)
+    } else {
+        None
+    };
     let value = |s: f64| {
         let w = tracer.between(step, s)?;
         let (machine, ring) = tracer.problem.equations.split(&w)?;
         let (frame, m) = (MachineFrame::new(&machine), ring.len());
-        match *found {
-            Difference::Appears { at, stop } => Some(closest(&frame, &ring, ((at + m - 1) % m, stop))?.0),
-            Difference::Disappears { at, stop } => Some(speed_after(&frame, &ring, at, stop)),
+        match (&rest, *found) {
+            (Some(RestZero::Limit(limit)), _) => Some(limit.of(&frame, &ring)?.value),
+            (Some(RestZero::Touch(touch)), _) => Some(closest(&frame, &ring, (touch.leg, touch.guard))?.0),
+            (_, Difference::Appears { at, stop }) => {
+                Some(closest(&frame, &ring, ((at + m - 1) % m, GuardKind::Gap(stop)))?.0)
+            }
+            (_, Difference::Disappears { at, stop }) => Some(speed_after(&frame, &ring, at, stop)),
             _ => None,
         }
     };

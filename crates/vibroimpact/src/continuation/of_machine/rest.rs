@@ -1,0 +1,131 @@
+//! Functions of the events of a cycle that are zero where a rest on a stop, or the hold of a joint, begins or ends to be a
+//! part of it.
+//!
+//! | zero | where | name for joints |
+//! |---|---|---|
+//! | the limit at which a contact would slip, after the event at which its velocity becomes zero | [`Limit`] | crossing and switching |
+//! | the velocity of a joint that slides, at its minimum | [`Touch`] | grazing |
+//! | the limit of a contact that rests or holds, at its minimum | [`Touch`] | adding |
+//!
+//! The names are those of M. di Bernardo, P. Kowalczyk and A. Nordmark, "Bifurcations of dynamical systems with sliding:
+//! derivation of normal-form mappings", Physica D 170 (2002) 175-205. A limit is what is missing to the largest force of a
+//! joint that holds, or the reaction of a stop.
+
+use super::closest::closest;
+use crate::events::Place;
+use crate::machine::StopLaw;
+use crate::orbit::{MachineFrame, MachineRing};
+use crate::regime::{ContactState, GuardKind};
+
+/// A limit of a contact in the regime in which it rests or holds, at the state after an event.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Limit {
+    /// The event.
+    pub(crate) at: usize,
+    /// The states of all stops and joints with the contact at rest.
+    pub(crate) states: Vec<ContactState>,
+    /// The guard of that regime.
+    pub(crate) guard: GuardKind,
+}
+
+/// The smallest value of a guard on a flight.
+#[derive(Clone, Debug)]
+pub(crate) struct Touch {
+    /// The event before the flight.
+    pub(crate) leg: usize,
+    /// The guard.
+    pub(crate) guard: GuardKind,
+}
+
+/// Of a limit its value, and the size of its terms.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pressed {
+    pub(crate) value: f64,
+    pub(crate) size: f64,
+}
+
+impl Limit {
+    /// Its value on a ring; `None` if there is no such regime.
+    pub(crate) fn of(&self, frame: &MachineFrame<'_>, ring: &MachineRing) -> Option<Pressed> {
+        let mut place = Place { states: self.states.clone(), known: Vec::new(), ..ring.place(self.at) };
+        frame.constrain(&mut place)?;
+        pressed(frame, &place, self.guard)
+    }
+}
+
+/// The value of a guard at a state.
+fn pressed(frame: &MachineFrame<'_>, place: &Place, guard: GuardKind) -> Option<Pressed> {
+    let structure = frame.structure(&place.states)?;
+    let function = &structure.guards.iter().find(|of| of.kind == guard)?.function;
+    let flight = place.flight(&frame.normal, structure.clone());
+    let value = flight.first(function).0;
+    Some(Pressed { value, size: flight.size(function).max(f64::MIN_POSITIVE) })
+}
+
+/// The guards of a contact in a regime, without those of its gap or depth.
+fn guards(frame: &MachineFrame<'_>, states: &[ContactState], contact: usize) -> Vec<GuardKind> {
+    let stops = frame.machine.stops().len();
+    let of_rest = |kind: &GuardKind| !matches!(kind, GuardKind::Gap(_) | GuardKind::Depth(_) | GuardKind::Force(_));
+    let Some(structure) = frame.structure(states) else { return Vec::new() };
+    structure
+        .guards
+        .iter()
+        .map(|guard| guard.kind)
+        .filter(|kind| of_rest(kind) && kind.place(stops) == contact)
+        .collect()
+}
+
+/// Whether a stop is rigid and takes the whole velocity away.
+fn plastic(law: &StopLaw) -> bool {
+    matches!(law, StopLaw::Rigid { restitution } if *restitution == 0.0)
+}
+
+/// All limits of a contact at events at which it has no velocity, relative to their terms.
+pub(crate) fn limits(frame: &MachineFrame<'_>, ring: &MachineRing, contact: usize) -> Vec<(f64, Limit)> {
+    let (m, stops) = (ring.len(), frame.machine.stops().len());
+    let mut found = Vec::new();
+    for (at, event) in ring.events.iter().enumerate() {
+        let own = event.guard.place(stops) == contact;
+        let held = ring.events[(at + m - 1) % m].after[contact].constrains();
+        let still = if contact < stops {
+            plastic(&frame.machine.stops()[contact].law) && event.pushed.iter().any(|(j, _)| *j == contact)
+        } else {
+            own && matches!(event.guard, GuardKind::Sliding(_))
+        };
+        // at its own release the limit is zero always
+        if !(event.after[contact].constrains() || still || held && !own) {
+            continue;
+        }
+        let mut states = event.after.clone();
+        states[contact] = if contact < stops { ContactState::Resting } else { ContactState::Holding };
+        for guard in guards(frame, &states, contact) {
+            let limit = Limit { at, states: states.clone(), guard };
+            if let Some(pressed) = limit.of(frame, ring) {
+                found.push((pressed.value / pressed.size, limit));
+            }
+        }
+    }
+    found
+}
+
+/// The smallest values of all guards of a contact on all flights, relative to the largest velocity `speed` or to their
+/// terms.
+pub(crate) fn touches(frame: &MachineFrame<'_>, ring: &MachineRing, contact: usize, speed: f64) -> Vec<(f64, Touch)> {
+    let mut found = Vec::new();
+    for leg in 0..ring.len() {
+        for guard in guards(frame, &ring.events[leg].after, contact) {
+            let Some((value, place)) = closest(frame, ring, (leg, guard)) else { continue };
+            let size = size(frame, &place, guard, speed);
+            found.push((value / size, Touch { leg, guard }));
+        }
+    }
+    found
+}
+
+/// The size of a guard: the largest velocity, or that of the terms of a force.
+fn size(frame: &MachineFrame<'_>, place: &Place, guard: GuardKind, speed: f64) -> f64 {
+    match guard {
+        GuardKind::Sliding(_) => speed,
+        _ => pressed(frame, place, guard).map_or(1.0, |pressed| pressed.size),
+    }
+}
