@@ -1,10 +1,14 @@
-//! Where rests and holds begin and end along branches, against closed forms.
+//! Where rests and holds begin and end along branches, and their curves, against closed forms.
 
 use crate::closed_forms::ball;
 use std::f64::consts::PI;
-use vibroimpact::continuation::{BranchOptions, Direction, MachineBranch, MachineBranchEvent, MachineFamily};
+use vibroimpact::continuation::{
+    BranchOptions, CurveOptions, Direction, MachineBranch, MachineBranchEvent, MachineCurve, MachineCurveEvent,
+    MachineCurveKind, MachineCurvePoint, MachineFamily, MachinePlane, MachinePoint,
+};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::{Machine, MachineParts};
+use vibroimpact::orbit::MachineCycle;
 use vibroimpact::verdict::{MachineVerdict, SettleOptions, settle_machine};
 
 /// An oscillator with dry friction (J. P. Den Hartog, Trans. ASME 53 (1931) 107-115).
@@ -18,18 +22,23 @@ pub(crate) fn den_hartog(beta: f64, friction: f64) -> Machine {
     Machine::new(parts).unwrap()
 }
 
-/// The first event of the branch of the settled motion, and its value.
+fn settled(machine: &Machine, start: &MachineStart) -> MachineCycle {
+    let verdict = settle_machine(machine, start, &SettleOptions::default()).unwrap().verdict;
+    let MachineVerdict::Periodic(cycle) = verdict else { panic!("{}", verdict.label()) };
+    cycle
+}
+
+/// The first event of the branch of the settled motion.
 fn first_event(
-    make: fn(f64) -> Machine,
+    make: impl Fn(f64) -> Machine + Send + Sync + 'static,
     (from, start): (f64, &MachineStart),
     (range, direction): ((f64, f64), Direction),
-) -> (MachineBranchEvent, f64) {
+) -> MachinePoint {
+    let cycle = settled(&make(from), start);
     let family = MachineFamily::new(move |value| Some(make(value)));
-    let verdict = settle_machine(&make(from), start, &SettleOptions::default()).unwrap().verdict;
-    let MachineVerdict::Periodic(cycle) = verdict else { panic!("{}", verdict.label()) };
     let range = range.0..=range.1;
     let branch = MachineBranch::new((&family, from), &cycle, &range, direction, BranchOptions::default()).unwrap();
-    branch.into_iter().find_map(|point| point.event.map(|event| (event, point.value))).unwrap()
+    branch.into_iter().find(|point| point.event.is_some()).unwrap()
 }
 
 /// A ball without rebound on a vibrating table rests for a part of each period below the amplitude at which it lands in the
@@ -40,25 +49,113 @@ fn a_ball_without_rebound() {
     let expected = (1.0 + PI * PI).sqrt();
     for (from, direction, begins) in [(2.0, Direction::Up, false), (3.5, Direction::Down, true)] {
         let start = MachineStart { q: vec![from + 0.1], qdot: vec![0.0], phase: 0.0 };
-        let (event, value) = first_event(make, (from, &start), ((0.5, 6.0), direction));
-        assert_eq!(event, MachineBranchEvent::Sticking { stop: 0, begins }, "{value}");
-        assert!((value - expected).abs() < 1e-12, "{value} {expected}");
+        let point = first_event(make, (from, &start), ((0.5, 6.0), direction));
+        assert_eq!(point.event, Some(MachineBranchEvent::Sticking { stop: 0, begins }), "{}", point.value);
+        assert!((point.value - expected).abs() < 1e-12, "{} {expected}", point.value);
     }
 }
 
+/// By Den Hartog's closed form of the motion that never holds: f = b^2 V / sqrt(1 + b^4 U^2) with V = 1/(1 - b^2) and
+/// U = sin(pi/b) / (b (1 + cos(pi/b))).
+fn friction_at_limit(beta: f64) -> f64 {
+    let (v, u) = (1.0 / (1.0 - beta * beta), (PI / beta).sin() / (beta * (1.0 + (PI / beta).cos())));
+    beta * beta * v / (1.0 + beta.powi(4) * u * u).sqrt()
+}
+
 /// The mass holds at its turning points from the friction on at which the spring and the force together no longer exceed it
-/// there: f = b^2 V / sqrt(1 + b^4 U^2) with V = 1/(1 - b^2) and U = sin(pi/b) / (b (1 + cos(pi/b))), by Den Hartog's
-/// closed form of the motion that never holds.
+/// there.
 #[test]
 fn dry_friction() {
-    let beta = 0.8_f64;
-    let (v, u) = (1.0 / (1.0 - beta * beta), (PI / beta).sin() / (beta * (1.0 + (PI / beta).cos())));
-    let expected = beta * beta * v / (1.0 + beta.powi(4) * u * u).sqrt();
-    for (from, direction, begins) in [(0.7, Direction::Up, true), (0.85, Direction::Down, false)] {
+    for beta in [0.55, 0.7, 0.8, 0.9] {
+        let expected = friction_at_limit(beta);
+        let beside = 0.5 * (1.0 - expected).abs().min(0.1);
+        for (from, direction, begins) in
+            [(expected - beside, Direction::Up, true), (expected + beside, Direction::Down, false)]
+        {
+            let start = (from, &MachineStart::default());
+            let point = first_event(move |friction| den_hartog(beta, friction), start, ((0.001, 1.2), direction));
+            assert_eq!(point.event, Some(MachineBranchEvent::Holding { joint: 0, begins }), "{beta} {}", point.value);
+            assert!((point.value - expected).abs() < 1e-12, "{beta} {} {expected}", point.value);
+        }
+    }
+}
+
+/// The points of a curve from one end to the other.
+fn curve(
+    make: impl Fn(f64, f64) -> Option<Machine> + Send + Sync + 'static,
+    values: (f64, f64),
+    ranges: ((f64, f64), (f64, f64)),
+    point: &MachinePoint,
+) -> (MachineCurveKind, Vec<MachineCurvePoint>) {
+    let ((a, b), (c, d)) = ranges;
+    let plane = MachinePlane::new(make, (a..=b, c..=d));
+    let [forth, back] =
+        MachineCurve::through(&plane, values, point, CurveOptions { longest: 0.1, points: 400 }).unwrap();
+    let kind = forth.kind();
+    let mut points: Vec<MachineCurvePoint> = back.skip(1).collect();
+    points.reverse();
+    points.extend(forth);
+    (kind, points)
+}
+
+/// Whether an event of this kind belongs to the settled motion a little on both sides of a point of a curve.
+fn beside(make: impl Fn(f64, f64) -> Option<Machine>, point: &MachineCurvePoint, kind: &str) -> [bool; 2] {
+    let (p, q) = point.values;
+    // above the table on both sides
+    let mut start = point.cycle.state.clone();
+    start.q[0] += 0.1;
+    [-5e-3, 5e-3].map(|by| {
+        let cycle = settled(&make(p + by, q).unwrap(), &start);
+        cycle.events.iter().any(|event| event.kind.name() == kind)
+    })
+}
+
+/// The curve of Den Hartog's limit over the frequency, from both sides of it; the mass holds above and not below.
+#[test]
+fn the_curve_of_dry_friction() {
+    let make = |friction, beta| Some(den_hartog(beta, friction));
+    for (from, direction) in [(0.7, Direction::Up), (0.85, Direction::Down)] {
         let start = MachineStart::default();
-        let (event, value) =
-            first_event(|friction| den_hartog(0.8, friction), (from, &start), ((0.001, 1.2), direction));
-        assert_eq!(event, MachineBranchEvent::Holding { joint: 0, begins }, "{value}");
-        assert!((value - expected).abs() < 1e-12, "{value} {expected}");
+        let point = first_event(|friction| den_hartog(0.8, friction), (from, &start), ((0.001, 1.2), direction));
+        let (kind, points) = curve(make, (point.value, 0.8), ((0.1, 1.2), (0.6, 0.97)), &point);
+        assert_eq!(kind, MachineCurveKind::Holding { joint: 0 });
+        for point in &points {
+            let (friction, beta) = point.values;
+            let expected = friction_at_limit(beta);
+            assert!((friction - expected).abs() < 1e-12, "{beta}: {friction} {expected}");
+            assert!(point.residual < 1e-14, "{point:?}");
+        }
+        for end in [&points[0], &points[points.len() - 1]] {
+            assert_eq!(end.event, Some(MachineCurveEvent::EndOfBox));
+        }
+        assert_eq!((points[0].values.1, points[points.len() - 1].values.1), (0.6, 0.97));
+        for point in points.iter().step_by(points.len() / 6) {
+            assert_eq!(beside(make, point, "hold"), [false, true], "{:?}", point.values);
+        }
+    }
+}
+
+/// The curve of the ball without rebound over its weight: it rests below.
+#[test]
+fn the_curve_of_a_ball_without_rebound() {
+    let make = |gamma: f64, gravity: f64| {
+        let mut parts = ball(gamma, 0.0).parts().clone();
+        parts.constant = vec![-gravity];
+        Machine::new(parts).ok()
+    };
+    for (from, direction) in [(2.0, Direction::Up), (3.5, Direction::Down)] {
+        let start = MachineStart { q: vec![from + 0.1], qdot: vec![0.0], phase: 0.0 };
+        let point = first_event(|gamma| ball(gamma, 0.0), (from, &start), ((0.5, 6.0), direction));
+        let (kind, points) = curve(make, (point.value, 1.0), ((0.5, 6.0), (0.4, 1.6)), &point);
+        assert_eq!(kind, MachineCurveKind::Sticking { stop: 0 });
+        for point in &points {
+            let (gamma, gravity) = point.values;
+            assert!((gamma - gravity * (1.0 + PI * PI).sqrt()).abs() < 1e-12, "{gravity}: {gamma}");
+            assert!(point.residual < 1e-14, "{point:?}");
+        }
+        assert_eq!((points[0].values.1, points[points.len() - 1].values.1), (0.4, 1.6));
+        for point in points.iter().step_by(points.len() / 6) {
+            assert_eq!(beside(make, point, "release"), [true, false], "{:?}", point.values);
+        }
     }
 }

@@ -1,64 +1,97 @@
-//! Whether a solution with a touch or a corner is admissible.
+//! Whether a solution with a touch, a corner, or contacts at their limits is admissible.
 //!
-//! At a touch and at a corner rounding decides which events the motion has. So the motion is followed from a little after to
-//! a little before, where it must have the other events of the signature and reach the state that the equations say.
+//! At these events rounding decides which events the motion has. So the motion is followed from a little after each of them
+//! to a little before the next one. There it must have the other events of the signature and reach the state that the
+//! equations say.
 
 use crate::continuation::of_machine::{CLOSED, Judged};
+use crate::events::Place;
 use crate::math::Multiplier;
 use crate::orbit::{MachineCycle, MachineFrame, MachineLap, MachineRing, RingEvent};
 
 /// How long after and before, as a fraction of the flights there.
 const BESIDE: f64 = 1e-4;
 
-/// The ring without its events from `first` to `last`, beginning with the event after them; `None` if there is no other.
-pub(super) fn bare(ring: &MachineRing, (first, last): (usize, usize)) -> Option<MachineRing> {
-    let m = ring.len();
-    let count = if first == last { 1 } else { 2 };
-    let kept: Vec<usize> = (1..=m - count).map(|i| (last + i) % m).collect();
+/// The events of a ring apart from those of `special`, which are given by their first and last event, in the order of the
+/// motion after the first of `special`.
+fn others(m: usize, special: &[(usize, usize)]) -> Vec<usize> {
+    let Some((_, begin)) = special.first() else { return Vec::new() };
+    let own = |k: &usize| special.iter().any(|(first, last)| k == first || k == last);
+    (1..=m).map(|i| (begin + i) % m).filter(|k| !own(k)).collect()
+}
+
+/// The ring without its events of `special`, beginning with the event after the first of them; `None` if there is no other.
+pub(super) fn bare(ring: &MachineRing, special: &[(usize, usize)]) -> Option<MachineRing> {
+    let kept = others(ring.len(), special);
     let events: Vec<RingEvent> = kept.iter().map(|k| ring.events[*k].clone()).collect();
     let places = kept.iter().map(|k| ring.places[*k].clone()).collect();
     (!events.is_empty()).then_some(MachineRing { events, places, periods: ring.periods, together: None })
 }
 
-/// What is known of a solution whose events from `first` to `last` happen at once or are a touch. The events seen are those
-/// after them.
+/// The motion from a little after event `last` to a little before event `next`, which is counted on beyond the end of the
+/// ring: the state at its beginning, the motion, and the state that the equations say at its end.
+fn between(
+    frame: &MachineFrame<'_>,
+    ring: &MachineRing,
+    (last, next): (usize, usize),
+) -> Option<(Place, MachineLap, Place)> {
+    let frequency = frame.machine.parts().frequency?;
+    let m = ring.len();
+    let at = |k: usize, time: f64| {
+        let mut from = ring.place(k);
+        frame.constrain(&mut from)?;
+        let structure = frame.structure(&from.states)?;
+        Some(frame.moved(&from, &structure, time))
+    };
+    let before = (next - 1) % m;
+    let (after, until) = (BESIDE * ring.time(last, frequency), BESIDE * ring.time(before, frequency));
+    let begin = at(last, after)?;
+    let expected = at(before, ring.time(before, frequency) - until)?;
+    let whole = (ring.theta(next) - ring.theta(last)) / frequency;
+    let lap = MachineLap::fly(frame, &begin, whole - after - until)?;
+    Some((begin, lap, expected))
+}
+
+/// What is known of a solution with the events `special`, in order, each given by its first and last event, which happen at
+/// once or are one. The events seen are those after the first of them.
 pub(super) fn judge_beside(
     frame: &MachineFrame<'_>,
     ring: &MachineRing,
-    (first, last): (usize, usize),
+    special: &[(usize, usize)],
     (multipliers, rising): (Vec<Multiplier>, Option<usize>),
 ) -> Judged {
     let m = ring.len();
-    let others = m - if first == last { 1 } else { 2 };
-    let nothing = |multipliers| Judged { cycle: None, multipliers, seen: Vec::new(), from: others.max(1) - 1, rising };
-    let flown = || {
-        let frequency = frame.machine.parts().frequency?;
-        let at = |k: usize, time: f64| {
-            let mut from = ring.place(k);
-            frame.constrain(&mut from)?;
-            let structure = frame.structure(&from.states)?;
-            Some(frame.moved(&from, &structure, time))
-        };
-        let before = (first + m - 1) % m;
-        let (after, until) = (BESIDE * ring.time(last, frequency), BESIDE * ring.time(before, frequency));
-        let begin = at(last, after)?;
-        let expected = at(before, ring.time(before, frequency) - until)?;
-        let apart = if first == last { 0.0 } else { ring.time(first, frequency) };
+    let kept = others(m, special);
+    let from = kept.len().max(1) - 1;
+    let nothing = |multipliers, seen| Judged { cycle: None, multipliers, seen, from, rising };
+    let mut seen = Vec::new();
+    let mut flown = Vec::new();
+    for (i, (_, last)) in special.iter().enumerate() {
+        let next = special.get(i + 1).map_or_else(|| special[0].0 + m, |next| next.0);
+        let Some(part) = between(frame, ring, (*last, next)) else { return nothing(multipliers, seen) };
+        let steps = &part.1.steps;
+        seen.extend(steps[..steps.len() - 1].iter().filter_map(|step| RingEvent::of(&step.2)));
+        flown.push(part);
+    }
+    let alike = seen.len() == kept.len() && seen.iter().zip(&kept).all(|(seen, k)| *seen == ring.events[*k]);
+    let apart = |(_, lap, expected): &(Place, MachineLap, Place)| frame.distance(expected, &lap.end, lap.sizes);
+    let residual = flown.iter().map(apart).fold(0.0, f64::max);
+    if !(alike && rising.is_none() && residual < CLOSED) {
+        return nothing(multipliers, seen);
+    }
+    // all events but a touch belong to the cycle
+    let cycle = || {
         let whole = frame.machine.period()? * f64::from(ring.periods);
-        let lap = MachineLap::fly(frame, &begin, whole - after - until - apart)?;
-        // both events of a corner belong to the cycle
-        let touching = || MachineLap { time: whole, ..lap.clone() };
-        let cycle = if first == last { touching() } else { MachineLap::fly(frame, &begin, whole)? };
-        Some((begin, expected, lap, cycle))
+        let (begin, lap, _) = flown.first()?;
+        let [(first, last)] = special else { return Some((begin, MachineLap::fly(frame, begin, whole)?)) };
+        let touch = first == last && ring.events[*first].touches(&ring.events[(first + m - 1) % m].after);
+        let lap = if touch { MachineLap { time: whole, ..lap.clone() } } else { MachineLap::fly(frame, begin, whole)? };
+        Some((begin, lap))
     };
-    let Some((begin, expected, lap, cycle)) = flown() else { return nothing(multipliers) };
-    let seen: Vec<RingEvent> =
-        lap.steps[..lap.steps.len() - 1].iter().filter_map(|step| RingEvent::of(&step.2)).collect();
-    let alike = seen.len() == others && (0..others).all(|i| seen[i] == ring.events[(last + 1 + i) % m]);
-    let residual = frame.distance(&expected, &lap.end, lap.sizes);
-    let cycle = (alike && rising.is_none() && residual < CLOSED).then(|| MachineCycle {
+    let Some((begin, lap)) = cycle() else { return nothing(multipliers, seen) };
+    let cycle = MachineCycle {
         multipliers: multipliers.clone(),
-        ..MachineCycle::of(frame, (&begin, ring.periods), &cycle, residual, vec![begin.clone()])
-    });
-    Judged { cycle, seen, ..nothing(multipliers) }
+        ..MachineCycle::of(frame, (begin, ring.periods), &lap, residual, vec![begin.clone()])
+    };
+    Judged { cycle: Some(cycle), seen, ..nothing(multipliers, Vec::new()) }
 }

@@ -1,6 +1,7 @@
 //! The condition that holds along a curve, as the zero of a function of the events and of the machine.
 
 use super::borders::Borders;
+use crate::continuation::of_machine::{Limit, limits};
 use crate::math::{Matrix, Multiplier, general_eigenvalues, hypot};
 use crate::orbit::{MachineFrame, MachineRing};
 
@@ -13,9 +14,14 @@ pub(super) enum Condition {
     Pair { cosine: f64 },
     /// The guard of this event, which is a touch, has the rate zero; rates are divided by `size`.
     Touch { at: usize, size: f64 },
+    /// A limit of a contact is zero, at which a rest would take no time; values are divided by `size`.
+    Limit { limit: Limit, contact: usize, size: f64 },
     /// This event and the next one have the same phase.
     Together { at: usize },
 }
+
+/// A limit that is smaller, relative to its terms, is reached but for rounding.
+const AT_LIMIT: f64 = 1e-8;
 
 /// The matrix of the linear equations of a cycle whose changes return multiplied by `turn`.
 pub(super) fn turned(frame: &MachineFrame<'_>, ring: &MachineRing, turn: f64) -> Option<Matrix> {
@@ -58,6 +64,7 @@ impl Condition {
                 let before = (at + ring.len() - 1) % ring.len();
                 Some(ring.block(frame, before, true)?.late[0] * frame.machine.parts().frequency? / size)
             }
+            Self::Limit { limit, size, .. } => Some(limit.of(frame, ring)?.value / size),
             Self::Together { at } => Some(ring.theta(at + 1) - ring.theta(*at)),
         }
     }
@@ -84,11 +91,26 @@ impl Condition {
         }
     }
 
-    /// The events between which the cycle has no equations of its own: the touch, or both events of a corner.
-    pub(super) fn special(&self, count: usize) -> Option<(usize, usize)> {
+    /// The first and the last of the events at which rounding decides what happens: the touch, both events of a corner, or
+    /// each event at which the contact is at its limit. A symmetric cycle reaches a limit in both halves.
+    pub(super) fn special(&self, frame: &MachineFrame<'_>, ring: &MachineRing) -> Vec<(usize, usize)> {
         match self {
-            Self::Touch { at, .. } => Some((*at, *at)),
-            Self::Together { at } => Some((*at, (at + 1) % count)),
+            Self::Touch { at, .. } => vec![(*at, *at)],
+            Self::Limit { contact, .. } => {
+                let at_limit = limits(frame, ring, *contact).into_iter().filter(|(value, _)| value.abs() < AT_LIMIT);
+                let mut events: Vec<(usize, usize)> = at_limit.map(|(_, limit)| (limit.at, limit.at)).collect();
+                events.dedup();
+                events
+            }
+            Self::Together { at } => vec![(*at, (at + 1) % ring.len())],
+            _ => Vec::new(),
+        }
+    }
+
+    /// The event that is a touch.
+    pub(super) const fn touch(&self) -> Option<usize> {
+        match self {
+            Self::Touch { at, .. } => Some(*at),
             _ => None,
         }
     }

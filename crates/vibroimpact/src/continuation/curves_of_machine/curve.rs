@@ -93,7 +93,7 @@ impl MachineCurve {
         let (machine, ring) = equations.split(&at.w)?;
         let cycle = at.known.cycle.clone().or_else(|| self.tracer.here.known.cycle.clone())?;
         let residual = equations.condition.residual(&MachineFrame::new(&machine), &ring, &at.known.multipliers);
-        let touch = equations.condition.special(ring.len()).map(|(first, _)| ring.place(first).phase);
+        let touch = equations.condition.touch().map(|at| ring.place(at).phase);
         let touch = touch.filter(|_| matches!(self.kind(), MachineCurveKind::Grazing { .. }));
         Some(MachineCurvePoint { values: CurveEquations::values(&at.w), cycle, residual, touch, event })
     }
@@ -181,18 +181,22 @@ impl MachineCurve {
 
     /// Why solutions are not admissible beyond.
     fn beyond(&self, known: &Judged) -> MachineCurveEvent {
-        let ring = self.tracer.problem.equations.signature();
-        let special = self.tracer.problem.equations.condition.special(ring.len());
+        let equations = &self.tracer.problem.equations;
+        let ring = equations.signature();
+        let special = equations
+            .split(&self.tracer.here.w)
+            .map_or_else(Vec::new, |(machine, ring)| equations.condition.special(&MachineFrame::new(&machine), &ring));
         let stops = ring.events.first().map_or(0, |event| event.back.len());
         let seen = known.seen.first().map(|event| event.guard.place(stops));
-        let found = match special {
-            None => difference(ring, known),
-            Some(special) => match bare(ring, special) {
+        let found = if special.is_empty() {
+            difference(ring, known)
+        } else {
+            match bare(ring, &special) {
                 Some(bare) => difference(&bare, &Judged { rising: None, ..known.clone() }),
                 None => seen
                     .filter(|stop| *stop < stops)
                     .map_or(Difference::Other { place: None }, |stop| Difference::Appears { at: 0, stop }),
-            },
+            }
         };
         let grazing = matches!(self.kind(), MachineCurveKind::Grazing { .. });
         let rigid = |stop: usize| {

@@ -17,8 +17,8 @@ pub(super) fn reason(problem: &CurveProblem, here: &CurveSolution) -> Option<Mac
     let (m, stops) = (ring.len(), machine.stops().len());
     let period = machine.period()?;
     let frequency = machine.parts().frequency?;
-    let own = problem.equations.condition.special(m);
-    let corner = |k: usize| own.is_some_and(|(first, last)| first != last && k == first);
+    let own = problem.equations.condition.special(&MachineFrame::new(&machine), &ring);
+    let corner = |k: usize| own.iter().any(|(first, last)| first != last && k == *first);
     let shortest =
         (0..m).filter(|k| !corner(*k)).min_by(|a, b| ring.time(*a, frequency).total_cmp(&ring.time(*b, frequency)))?;
     if m > 1 && ring.time(shortest, frequency) < SHORT * period {

@@ -2,6 +2,7 @@
 
 use super::condition::{Condition, multipliers, pair};
 use super::equations::CurveEquations;
+use super::origin_at_rest;
 use super::plane::{MachineCurveError, MachinePlane};
 use super::point::MachineCurveKind;
 use super::problem::CurveProblem;
@@ -77,6 +78,17 @@ fn begin(
             let kind = MachineCurveKind::Corner { first: of(at), second: of(at + 1) };
             ring.together = Some(at);
             (kind, Some(Condition::Together { at }))
+        }
+        MachineBranchEvent::Sticking { stop: contact, .. } | MachineBranchEvent::Holding { joint: contact, .. } => {
+            let Some(condition) = origin_at_rest::condition(&frame, &mut ring, (contact, sizes.1)) else {
+                return Some(Err(MachineCurveError::NotThere));
+            };
+            let kind = if contact < machine.stops().len() {
+                MachineCurveKind::Sticking { stop: contact }
+            } else {
+                MachineCurveKind::Holding { joint: contact }
+            };
+            (kind, Some(condition))
         }
         _ => return Some(Err(MachineCurveError::NotThere)),
     };

@@ -64,7 +64,7 @@ impl CurveProblem {
             MachineCurveKind::Grazing { .. } => {
                 watched.extend([Watched::Pull].into_iter().chain(rigid.then_some(Watched::Trace)).chain(others));
             }
-            MachineCurveKind::Corner { .. } => {}
+            MachineCurveKind::Corner { .. } | MachineCurveKind::Sticking { .. } | MachineCurveKind::Holding { .. } => {}
         }
         Self { equations, kind, watched, speed }
     }
@@ -135,7 +135,7 @@ impl CurveProblem {
             Watched::MinusOne => product(-1.0),
             Watched::Pair => Some(over_pairs(&self.others(all()?))),
             Watched::Pull => {
-                let (touch, _) = self.equations.condition.special(ring.len())?;
+                let touch = self.equations.condition.touch()?;
                 let MachineCurveKind::Grazing { stop } = self.kind else { return None };
                 let place = ring.place(touch);
                 let structure = frame.structure(&place.states)?;
@@ -147,7 +147,7 @@ impl CurveProblem {
                 Some(pull / (self.speed * frame.machine.parts().frequency?))
             }
             Watched::Trace => {
-                let (touch, _) = self.equations.condition.special(ring.len())?;
+                let touch = self.equations.condition.touch()?;
                 let MachineCurveKind::Grazing { stop } = self.kind else { return None };
                 // what an impulse at the touch changes of the gap at the next touch
                 let m = ring.len();
@@ -220,17 +220,18 @@ impl Problem for CurveProblem {
         let at = multipliers(&frame, &ring);
         let values: Option<Vec<f64>> =
             self.watched.iter().map(|what| self.value(*what, (&frame, &ring), w, &at)).collect();
-        let special = self.equations.condition.special(ring.len());
+        let special = self.equations.condition.special(&frame, &ring);
         // every guard must fall to zero at its event
         let rising = (0..ring.len()).find_map(|k| {
             let event = (k + 1) % ring.len();
-            let own = special.is_some_and(|(first, last)| event == first || event == last);
+            let own = special.iter().any(|(first, last)| event == *first || event == *last);
             (!own && ring.block(&frame, k, true).is_none_or(|block| block.late[0] >= 0.0)).then_some(event)
         });
         let all = at.map_or_else(Vec::new, |(_, all)| all);
-        let judged = match special {
-            Some(special) => judge_beside(&frame, &ring, special, (all, rising)),
-            None => judge(&frame, &ring, (all, rising)),
+        let judged = if special.is_empty() {
+            judge(&frame, &ring, (all, rising))
+        } else {
+            judge_beside(&frame, &ring, &special, (all, rising))
         };
         Some((values?, judged))
     }

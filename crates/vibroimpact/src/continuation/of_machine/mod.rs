@@ -39,3 +39,4 @@ pub use family::MachineFamily;
 pub(crate) use linear::{by_number, linearised, weights};
 pub use point::{MachineBranchEvent, MachinePoint};
 pub(crate) use problem::{CLOSED, Judged, judge, over_pairs};
+pub(crate) use rest::{Limit, RestZero, limits, rest_zero, size};

@@ -110,7 +110,7 @@ pub(crate) fn limits(frame: &MachineFrame<'_>, ring: &MachineRing, contact: usiz
 
 /// The smallest values of all guards of a contact on all flights, relative to the largest velocity `speed` or to their
 /// terms.
-pub(crate) fn touches(frame: &MachineFrame<'_>, ring: &MachineRing, contact: usize, speed: f64) -> Vec<(f64, Touch)> {
+fn touches(frame: &MachineFrame<'_>, ring: &MachineRing, contact: usize, speed: f64) -> Vec<(f64, Touch)> {
     let mut found = Vec::new();
     for leg in 0..ring.len() {
         for guard in guards(frame, &ring.events[leg].after, contact) {
@@ -122,8 +122,32 @@ pub(crate) fn touches(frame: &MachineFrame<'_>, ring: &MachineRing, contact: usi
     found
 }
 
+/// What is zero where a rest begins or ends.
+#[derive(Clone, Debug)]
+pub(crate) enum RestZero {
+    Limit(Limit),
+    Touch(Touch),
+}
+
+/// A limit or a touch of a contact that is larger, relative to its size, is not zero.
+const NEAR: f64 = 1e-3;
+
+/// What is zero close to a solution where a rest of this contact begins or ends; `None` if it is not known. `speed` is the
+/// largest velocity.
+pub(crate) fn rest_zero(
+    frame: &MachineFrame<'_>,
+    ring: &MachineRing,
+    (contact, speed): (usize, f64),
+) -> Option<RestZero> {
+    let limits = limits(frame, ring, contact).into_iter().map(|(value, limit)| (value, RestZero::Limit(limit)));
+    let touches =
+        touches(frame, ring, contact, speed).into_iter().map(|(value, touch)| (value, RestZero::Touch(touch)));
+    let nearest = limits.chain(touches).min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
+    (nearest.0.abs() < NEAR).then_some(nearest.1)
+}
+
 /// The size of a guard: the largest velocity, or that of the terms of a force.
-fn size(frame: &MachineFrame<'_>, place: &Place, guard: GuardKind, speed: f64) -> f64 {
+pub(crate) fn size(frame: &MachineFrame<'_>, place: &Place, guard: GuardKind, speed: f64) -> f64 {
     match guard {
         GuardKind::Sliding(_) => speed,
         _ => pressed(frame, place, guard).map_or(1.0, |pressed| pressed.size),

@@ -8,7 +8,7 @@
 use super::change::Difference;
 use super::closest::closest;
 use super::problem::{Judged, MachineProblem, MachineSolution};
-use super::rest::{Limit, Touch, limits, touches};
+use super::rest::{RestZero, rest_zero};
 use crate::continuation::trace::tracer::{Solution, Step, Tracer};
 use crate::orbit::{MachineFrame, MachineRing};
 use crate::regime::GuardKind;
@@ -47,24 +47,6 @@ fn speed_after(frame: &MachineFrame<'_>, ring: &MachineRing, event: usize, stop:
     after.gap(&frame.normal, &after.turns(&frame.normal), stop).1
 }
 
-/// What is zero where a rest begins or ends.
-enum RestZero {
-    Limit(Limit),
-    Touch(Touch),
-}
-
-/// A limit or a touch of a contact that is larger, relative to its size, is not zero.
-const NEAR: f64 = 1e-3;
-
-/// What is zero close to a solution where a rest of this contact begins or ends; `None` if it is not known.
-fn rest_zero(frame: &MachineFrame<'_>, ring: &MachineRing, contact: usize, speed: f64) -> Option<RestZero> {
-    let limits = limits(frame, ring, contact).into_iter().map(|(value, limit)| (value, RestZero::Limit(limit)));
-    let touches =
-        touches(frame, ring, contact, speed).into_iter().map(|(value, touch)| (value, RestZero::Touch(touch)));
-    let nearest = limits.chain(touches).min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
-    (nearest.0.abs() < NEAR).then_some(nearest.1)
-}
-
 /// The grazing solution near the last admissible one `inside` at the distance `s` along a step, beyond which the events
 /// differ as `found`: its distance, and the solution with what is known of `inside`; or that at which a rest begins or ends.
 /// `None` if the difference is another one, or no solution grazes close by.
@@ -77,7 +59,7 @@ pub(super) fn touching(
     let speed = inside.known.cycle.as_ref()?.sizes.1;
     let rest = if let Difference::Rest { place, .. } = *found {
         let (machine, ring) = tracer.problem.equations.split(&inside.w)?;
-        Some(rest_zero(&MachineFrame::new(&machine), &ring, place, speed)?)
+        Some(rest_zero(&MachineFrame::new(&machine), &ring, (place, speed))?)
     } else {
         None
     };

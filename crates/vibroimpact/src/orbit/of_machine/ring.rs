@@ -44,7 +44,7 @@ impl RingEvent {
     }
 
     /// Whether nothing happens at it, where `before` are the states before.
-    fn touches(&self, before: &[ContactState]) -> bool {
+    pub(crate) fn touches(&self, before: &[ContactState]) -> bool {
         self.pushed.is_empty() && self.after == before
     }
 
