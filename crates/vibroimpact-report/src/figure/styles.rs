@@ -49,12 +49,14 @@ pub const CURVE_MARKS: [(CurveEvent, Shape); 10] = [
 ];
 
 /// The colours of curves of events of machines.
-pub const MACHINE_EVENT_COLOURS: [(MachineFollowedEvent, Colour); 5] = [
+pub const MACHINE_EVENT_COLOURS: [(MachineFollowedEvent, Colour); 7] = [
     (MachineFollowedEvent::Fold, SERIES[1]),
     (MachineFollowedEvent::Flip, SERIES[0]),
     (MachineFollowedEvent::Torus, SERIES[3]),
     (MachineFollowedEvent::Grazing, SERIES[2]),
     (MachineFollowedEvent::Corner, SERIES[5]),
+    (MachineFollowedEvent::Sticking, SERIES[4]),
+    (MachineFollowedEvent::Holding, SERIES[6]),
 ];
 
 /// The marks of points of codimension two on curves of machines, by name. Ends of a curve have no mark.

@@ -159,3 +159,98 @@ fn the_curve_of_a_ball_without_rebound() {
         }
     }
 }
+
+/// The events of the branch of the settled motion at which a rest or a hold begins or ends.
+fn rests(
+    make: impl Fn(f64) -> Machine + Send + Sync + 'static,
+    from: f64,
+    (range, direction): ((f64, f64), Direction),
+) -> Vec<MachinePoint> {
+    let cycle = settled(&make(from), &MachineStart::default());
+    let family = MachineFamily::new(move |value| Some(make(value)));
+    let range = range.0..=range.1;
+    let branch = MachineBranch::new((&family, from), &cycle, &range, direction, BranchOptions::default()).unwrap();
+    let of_rest = |point: &MachinePoint| {
+        matches!(point.event, Some(MachineBranchEvent::Sticking { .. } | MachineBranchEvent::Holding { .. }))
+    };
+    branch.filter(of_rest).collect()
+}
+
+/// A damped oscillator with friction and a force of two harmonics: its cycles are not symmetric.
+fn two_harmonics(beta: f64, friction: f64) -> Machine {
+    let parts = MachineParts::new(["mass"])
+        .with_mass(0, 1.0)
+        .with_link(&[1.0], 1.0, 0.1)
+        .with_frequency(beta)
+        .with_force(0, 1, 1.0, 0.0)
+        .with_force(0, 2, 0.3, 0.4)
+        .with_joint("floor", &[1.0], friction, friction, 0.0);
+    Machine::new(parts).unwrap()
+}
+
+/// Each event is located at the same value from both sides, and what begins in one direction ends in the other. The joint
+/// begins to hold at a turning point, touches velocity zero, its hold is interrupted, and it slips back before it holds.
+#[test]
+fn events_from_both_sides() {
+    let mut compared = 0;
+    for beta in [0.3, 0.4, 0.5] {
+        let found = |from, direction| rests(move |f| two_harmonics(beta, f), from, ((0.01, 1.2), direction));
+        let up = found(0.05, Direction::Up);
+        let down = found(0.9, Direction::Down);
+        for back in &down {
+            let forth = up.iter().find(|forth| (forth.value - back.value).abs() < 1e-12);
+            let forth = forth.unwrap_or_else(|| panic!("{beta} {}", back.value));
+            let (
+                Some(MachineBranchEvent::Holding { begins: a, .. }),
+                Some(MachineBranchEvent::Holding { begins: b, .. }),
+            ) = (forth.event, back.event)
+            else {
+                panic!()
+            };
+            assert!(a != b, "{beta} {}", back.value);
+            compared += 1;
+        }
+    }
+    assert!(compared > 18, "{compared}");
+}
+
+/// Two masses, one of which strikes a stop without rebound.
+fn without_rebound(beta: f64, gap: f64) -> Machine {
+    let parts = MachineParts::new(["a", "b"])
+        .with_mass(0, 1.0)
+        .with_mass(1, 0.7)
+        .with_link(&[1.0, -1.0], 1.3, 0.2)
+        .with_link(&[0.0, 1.0], 0.6, 0.2)
+        .with_frequency(beta)
+        .with_force(1, 1, 0.7, 0.9)
+        .with_force(0, 2, 0.3, 0.0)
+        .with_rigid_stop("wall", &[1.0, 0.0], gap, 0.0);
+    Machine::new(parts).unwrap()
+}
+
+/// Curves through all events of a branch end at the edges of a frame where the branches there have the same events.
+#[test]
+fn curves_between_branches() {
+    let cases: [(fn(f64, f64) -> Machine, f64, f64, (f64, f64), Direction); 3] = [
+        (two_harmonics, 0.3, 0.05, (0.01, 1.2), Direction::Up),
+        (without_rebound, 0.4, 0.01, (-2.0, 3.0), Direction::Down),
+        (without_rebound, 0.8, 0.01, (-2.0, 3.0), Direction::Up),
+    ];
+    let mut ends = 0;
+    for (make, beta, from, range, direction) in cases {
+        let at = |beta| rests(move |value| make(beta, value), from, (range, direction));
+        let edges = [beta - 0.01, beta + 0.01].map(|beta| (beta, at(beta)));
+        for point in at(beta) {
+            let ranges = (range, (edges[0].0, edges[1].0));
+            let (_, points) = curve(move |value, beta| Some(make(beta, value)), (point.value, beta), ranges, &point);
+            for end in [&points[0], &points[points.len() - 1]] {
+                let Some((_, events)) = edges.iter().find(|(edge, _)| *edge == end.values.1) else { continue };
+                let nearest =
+                    events.iter().map(|event| (event.value - end.values.0).abs()).fold(f64::INFINITY, f64::min);
+                assert!(nearest < 1e-12, "{beta} {}: {:?} {nearest}", point.value, end.values);
+                ends += 1;
+            }
+        }
+    }
+    assert!(ends > 14, "{ends}");
+}

@@ -74,19 +74,24 @@ pub(super) fn judge_beside(
         flown.push(part);
     }
     let alike = seen.len() == kept.len() && seen.iter().zip(&kept).all(|(seen, k)| *seen == ring.events[*k]);
-    let apart = |(_, lap, expected): &(Place, MachineLap, Place)| frame.distance(expected, &lap.end, lap.sizes);
-    let residual = flown.iter().map(apart).fold(0.0, f64::max);
+    // a machine with friction has no velocity at its events
+    let middle = ring.middle(frame).map(|(_, middle)| frame.sizes(&middle));
+    let larger = |a: (f64, f64), b: (f64, f64)| (a.0.max(b.0), a.1.max(b.1));
+    let sizes = flown.iter().map(|(_, lap, _)| lap.sizes).chain(middle).fold((0.0, 0.0), larger);
+    let residual = flown.iter().map(|(_, lap, expected)| frame.distance(expected, &lap.end, sizes)).fold(0.0, f64::max);
     if !(alike && rising.is_none() && residual < CLOSED) {
         return nothing(multipliers, seen);
     }
-    // all events but a touch belong to the cycle
+    // the cycle has all events but a touch
     let cycle = || {
         let whole = frame.machine.period()? * f64::from(ring.periods);
         let (begin, lap, _) = flown.first()?;
-        let [(first, last)] = special else { return Some((begin, MachineLap::fly(frame, begin, whole)?)) };
-        let touch = first == last && ring.events[*first].touches(&ring.events[(first + m - 1) % m].after);
-        let lap = if touch { MachineLap { time: whole, ..lap.clone() } } else { MachineLap::fly(frame, begin, whole)? };
-        Some((begin, lap))
+        let touches = |event: usize| ring.events[event].touches(&ring.events[(event + m - 1) % m].after);
+        let touch = matches!(special, [(first, last)] if first == last && touches(*first));
+        let flown = if touch { None } else { MachineLap::fly(frame, begin, whole) };
+        // rounding can let a motion end at a limit
+        let lap = flown.or_else(|| (special.len() == 1).then(|| MachineLap { time: whole, ..lap.clone() }))?;
+        Some((begin, MachineLap { sizes, ..lap }))
     };
     let Some((begin, lap)) = cycle() else { return nothing(multipliers, seen) };
     let cycle = MachineCycle {

@@ -34,7 +34,11 @@ fn begin(
 ) -> Option<Origin> {
     let frame = MachineFrame::new(machine);
     let sizes = point.cycle.sizes;
-    let mut ring = MachineRing::of(&frame, point.cycle.strobes.first()?, point.cycle.label.periods)?;
+    let begin = point.cycle.strobes.first()?;
+    let ring_at = |machine: &Machine| MachineRing::of(&MachineFrame::new(machine), begin, point.cycle.label.periods);
+    // rounding can let a motion end at a limit
+    let beside = |by: f64| ring_at(&plane.at((values.0 + by * plane.scales().0, values.1))?);
+    let mut ring = ring_at(machine).or_else(|| beside(BESIDE)).or_else(|| beside(-BESIDE))?;
     let (kind, condition) = match event {
         MachineBranchEvent::Fold => (MachineCurveKind::Fold, None),
         MachineBranchEvent::Flip => (MachineCurveKind::Flip, None),
@@ -107,6 +111,9 @@ fn begin(
     };
     Some(Ok((CurveProblem::new(equations, kind, (sizes.1, rigid)), w)))
 }
+
+/// The change of the number at which the motion is followed instead, in its scale.
+const BESIDE: f64 = 1e-9;
 
 /// A gap or a speed that is larger, relative to the motion, is not that of a grazing contact.
 const NEAR: f64 = 1e-3;

@@ -12,10 +12,14 @@
 //! | where the solutions along a step cease to be admissible | `edge` |
 //! | where a flight comes closest to a stop or another guard, and where a cycle grazes it | `closest`, `touch` |
 //! | where a rest on a stop, or the hold of a joint, begins or ends | `rest` |
+//! | a signature without flights that take no time where a rest begins or ends | `joined` |
+//! | the solution at which a rest begins or ends, to rounding | `at_rest` |
+//! | two events that come so close that no further step converges | `meeting` |
 //! | the branch beyond such a change | `beyond` |
 //! | the cycle of twice the period beside a flip | `switch` |
 //! | the branch | [`MachineBranch`] |
 
+mod at_rest;
 mod beginning;
 mod beyond;
 mod branch;
@@ -24,7 +28,9 @@ mod closest;
 mod edge;
 mod equations;
 mod family;
+mod joined;
 mod linear;
+mod meeting;
 mod point;
 mod problem;
 mod rest;
@@ -36,6 +42,7 @@ pub(crate) use change::{Difference, difference};
 pub(crate) use closest::closest;
 pub(crate) use edge::edge;
 pub use family::MachineFamily;
+pub(crate) use joined::join;
 pub(crate) use linear::{by_number, linearised, weights};
 pub use point::{MachineBranchEvent, MachinePoint};
 pub(crate) use problem::{CLOSED, Judged, judge, over_pairs};

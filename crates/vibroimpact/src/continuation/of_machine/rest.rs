@@ -45,8 +45,9 @@ pub(crate) struct Pressed {
 }
 
 impl Limit {
-    /// Its value on a ring; `None` if there is no such regime.
+    /// Its value on a ring; `None` if there is no such regime, or if the contact has a velocity after the event.
     pub(crate) fn of(&self, frame: &MachineFrame<'_>, ring: &MachineRing) -> Option<Pressed> {
+        still(frame, ring, (self.at, self.guard.place(frame.machine.stops().len()))).then_some(())?;
         let mut place = Place { states: self.states.clone(), known: Vec::new(), ..ring.place(self.at) };
         frame.constrain(&mut place)?;
         pressed(frame, &place, self.guard)
@@ -75,27 +76,24 @@ fn guards(frame: &MachineFrame<'_>, states: &[ContactState], contact: usize) -> 
         .collect()
 }
 
-/// Whether a stop is rigid and takes the whole velocity away.
-fn plastic(law: &StopLaw) -> bool {
-    matches!(law, StopLaw::Rigid { restitution } if *restitution == 0.0)
+/// Whether a contact has no velocity after an event, which is not its own release.
+fn still(frame: &MachineFrame<'_>, ring: &MachineRing, (at, contact): (usize, usize)) -> bool {
+    let (m, stops) = (ring.len(), frame.machine.stops());
+    let event = &ring.events[at];
+    if event.pushed.iter().any(|(j, _)| *j == contact) {
+        return matches!(stops[contact].law, StopLaw::Rigid { restitution } if restitution == 0.0);
+    }
+    let own = event.guard.place(stops.len()) == contact;
+    let held = ring.events[(at + m - 1) % m].after[contact].constrains();
+    let other = held && !own && event.pushed.is_empty();
+    event.after[contact].constrains() || other || own && matches!(event.guard, GuardKind::Sliding(_))
 }
 
 /// All limits of a contact at events at which it has no velocity, relative to their terms.
 pub(crate) fn limits(frame: &MachineFrame<'_>, ring: &MachineRing, contact: usize) -> Vec<(f64, Limit)> {
-    let (m, stops) = (ring.len(), frame.machine.stops().len());
+    let stops = frame.machine.stops().len();
     let mut found = Vec::new();
-    for (at, event) in ring.events.iter().enumerate() {
-        let own = event.guard.place(stops) == contact;
-        let held = ring.events[(at + m - 1) % m].after[contact].constrains();
-        let still = if contact < stops {
-            plastic(&frame.machine.stops()[contact].law) && event.pushed.iter().any(|(j, _)| *j == contact)
-        } else {
-            own && matches!(event.guard, GuardKind::Sliding(_))
-        };
-        // at its own release the limit is zero always
-        if !(event.after[contact].constrains() || still || held && !own) {
-            continue;
-        }
+    for (at, event) in ring.events.iter().enumerate().filter(|(at, _)| still(frame, ring, (*at, contact))) {
         let mut states = event.after.clone();
         states[contact] = if contact < stops { ContactState::Resting } else { ContactState::Holding };
         for guard in guards(frame, &states, contact) {
@@ -127,6 +125,14 @@ fn touches(frame: &MachineFrame<'_>, ring: &MachineRing, contact: usize, speed: 
 pub(crate) enum RestZero {
     Limit(Limit),
     Touch(Touch),
+}
+
+impl RestZero {
+    /// Whether a contact rests or holds in the signature of `ring` where this is zero.
+    pub(crate) fn rests(&self, ring: &MachineRing, contact: usize) -> bool {
+        let (Self::Limit(Limit { at: event, .. }) | Self::Touch(Touch { leg: event, .. })) = self;
+        ring.events[*event].after[contact].constrains()
+    }
 }
 
 /// A limit or a touch of a contact that is larger, relative to its size, is not zero.

@@ -1,14 +1,12 @@
-//! Where a cycle grazes a stop, or where a rest begins or ends, to rounding.
+//! Where a cycle grazes a stop, to rounding.
 //!
 //! The motion is followed to decide which solutions are admissible, and it takes an impact of a very small speed for a
 //! grazing contact, and a very small gap for a contact. So the last admissible solution lies a little before or beyond the
-//! grazing one. There the smallest gap of the flight is zero, or the speed after the impact. Where a rest begins or ends, a
-//! limit is zero, or the smallest value of a guard.
+//! grazing one. There the smallest gap of the flight is zero, or the speed after the impact.
 
 use super::change::Difference;
 use super::closest::closest;
 use super::problem::{Judged, MachineProblem, MachineSolution};
-use super::rest::{RestZero, rest_zero};
 use crate::continuation::trace::tracer::{Solution, Step, Tracer};
 use crate::orbit::{MachineFrame, MachineRing};
 use crate::regime::GuardKind;
@@ -48,32 +46,23 @@ fn speed_after(frame: &MachineFrame<'_>, ring: &MachineRing, event: usize, stop:
 }
 
 /// The grazing solution near the last admissible one `inside` at the distance `s` along a step, beyond which the events
-/// differ as `found`: its distance, and the solution with what is known of `inside`; or that at which a rest begins or ends.
-/// `None` if the difference is another one, or no solution grazes close by.
+/// differ as `found`: its distance, and the solution with what is known of `inside`. `None` if the difference is another
+/// one, or no solution grazes close by.
 pub(super) fn touching(
     tracer: &Tracer<MachineProblem>,
     step: &Step<Judged>,
     (s, inside): (f64, &MachineSolution),
     found: &Difference,
 ) -> Option<(f64, MachineSolution)> {
-    let speed = inside.known.cycle.as_ref()?.sizes.1;
-    let rest = if let Difference::Rest { place, .. } = *found {
-        let (machine, ring) = tracer.problem.equations.split(&inside.w)?;
-        Some(rest_zero(&MachineFrame::new(&machine), &ring, (place, speed))?)
-    } else {
-        None
-    };
     let value = |s: f64| {
         let w = tracer.between(step, s)?;
         let (machine, ring) = tracer.problem.equations.split(&w)?;
         let (frame, m) = (MachineFrame::new(&machine), ring.len());
-        match (&rest, *found) {
-            (Some(RestZero::Limit(limit)), _) => Some(limit.of(&frame, &ring)?.value),
-            (Some(RestZero::Touch(touch)), _) => Some(closest(&frame, &ring, (touch.leg, touch.guard))?.0),
-            (_, Difference::Appears { at, stop }) => {
+        match *found {
+            Difference::Appears { at, stop } => {
                 Some(closest(&frame, &ring, ((at + m - 1) % m, GuardKind::Gap(stop)))?.0)
             }
-            (_, Difference::Disappears { at, stop }) => Some(speed_after(&frame, &ring, at, stop)),
+            Difference::Disappears { at, stop } => Some(speed_after(&frame, &ring, at, stop)),
             _ => None,
         }
     };

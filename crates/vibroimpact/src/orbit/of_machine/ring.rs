@@ -163,8 +163,8 @@ impl MachineRing {
     }
 
     /// Whether a contact rests or holds from event `k` to the next one and not before and after. Such a flight may end before
-    /// it begins: the solution is not admissible then, but with it the number at which the rest takes no time is located as
-    /// a zero like others.
+    /// it begins: the solution is not admissible then, but with it the one at which the rest takes no time is located as a
+    /// zero like others.
     fn rests(&self, k: usize) -> bool {
         let m = self.len();
         let (before, own) = (&self.events[(k + m - 1) % m].after, &self.events[k].after);
