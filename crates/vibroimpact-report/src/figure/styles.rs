@@ -60,7 +60,7 @@ pub const MACHINE_EVENT_COLOURS: [(MachineFollowedEvent, Colour); 7] = [
 ];
 
 /// The marks of points of codimension two on curves of machines, by name. Ends of a curve have no mark.
-pub const MACHINE_CURVE_MARKS: [(&str, Shape); 18] = [
+pub const MACHINE_CURVE_MARKS: [(&str, Shape); 19] = [
     ("cusp", Shape::TriangleDown),
     ("fold-flip", Shape::Circle),
     ("1:1", Shape::Circle),
@@ -74,6 +74,7 @@ pub const MACHINE_CURVE_MARKS: [(&str, Shape); 18] = [
     ("torus-grazing", Shape::Diamond),
     ("resonant grazing", Shape::Diamond),
     ("degenerate grazing", Shape::TriangleUp),
+    ("degenerate rest", Shape::TriangleUp),
     ("double grazing", Shape::Square),
     ("touch", Shape::Circle),
     ("corner", Shape::Cross),
@@ -115,6 +116,7 @@ mod tests {
             Event::TorusGrazing,
             Event::ResonantGrazing { stop },
             Event::DegenerateGrazing { stop },
+            Event::DegenerateRest { place },
             Event::DoubleGrazing { stop },
             Event::Touch { stop },
             Event::Corner { first, second },

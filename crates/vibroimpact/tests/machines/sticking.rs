@@ -231,8 +231,8 @@ fn without_rebound(beta: f64, gap: f64) -> Machine {
 /// Curves through all events of a branch end at the edges of a frame where the branches there have the same events.
 #[test]
 fn curves_between_branches() {
-    let cases: [(fn(f64, f64) -> Machine, f64, f64, (f64, f64), Direction); 3] = [
-        (two_harmonics, 0.3, 0.05, (0.01, 1.2), Direction::Up),
+    let cases = [
+        (two_harmonics as fn(f64, f64) -> Machine, 0.3, 0.05, (0.01, 1.2), Direction::Up),
         (without_rebound, 0.4, 0.01, (-2.0, 3.0), Direction::Down),
         (without_rebound, 0.8, 0.01, (-2.0, 3.0), Direction::Up),
     ];

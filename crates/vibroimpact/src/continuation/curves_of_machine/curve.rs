@@ -29,6 +29,8 @@ pub struct MachineCurve {
 /// A number that changes by less than this along the curve, in quarters of its range over the arclength, changes by
 /// rounding.
 const SLOWEST: f64 = 1e-9;
+/// The distance, in parts of a step, before a limit whose rate is zero at which solutions can be judged inadmissible.
+const INEXACT: f64 = 1e-2;
 /// A curve with no further step that is closer to an edge of the frame than this, in quarters of the range, ends there.
 const AT_EDGE: f64 = 1e-7;
 
@@ -139,8 +141,12 @@ impl MachineCurve {
             Some(None) => 0.0,
             None => f64::INFINITY,
         };
-        for (s, what) in step.crossed.iter().filter(|(s, _)| *s < until) {
+        for (s, what) in &step.crossed {
             let Some(what) = what.map(|j| self.tracer.problem.watched[j]) else { continue };
+            // close to a limit whose rate is zero, rounding decides on which side of it the motion leaves its rest
+            if *s >= until + if what == Watched::Release { INEXACT * step.length } else { 0.0 } {
+                continue;
+            }
             let Some(at) = self.tracer.between(step, *s).and_then(|w| self.tracer.solution(w)) else { continue };
             match self.tracer.problem.event(what) {
                 None => {

@@ -108,6 +108,12 @@ pub enum MachineCurveEvent {
         /// The stop.
         stop: usize,
     },
+    /// On a curve of sticking or holding, the rate of the limit is zero too: beyond, the contact leaves its rest before or
+    /// after the event instead. The curve ends.
+    DegenerateRest {
+        /// The stop or joint.
+        place: usize,
+    },
     /// On a curve of grazing, a second closing has speed zero. The curve ends.
     DoubleGrazing {
         /// The stop of the second one.
@@ -166,6 +172,7 @@ impl MachineCurveEvent {
             Self::TorusGrazing => "torus-grazing",
             Self::ResonantGrazing { .. } => "resonant grazing",
             Self::DegenerateGrazing { .. } => "degenerate grazing",
+            Self::DegenerateRest { .. } => "degenerate rest",
             Self::DoubleGrazing { .. } => "double grazing",
             Self::Touch { .. } => "touch",
             Self::Corner { .. } => "corner",
@@ -188,7 +195,7 @@ impl MachineCurveEvent {
             | Self::DoubleGrazing { stop }
             | Self::Touch { stop } => Some(stop),
             Self::Corner { first, .. } => Some(first),
-            Self::Rest { place } => Some(place),
+            Self::Rest { place } | Self::DegenerateRest { place } => Some(place),
             Self::Change { place } => place,
             _ => None,
         }

@@ -31,6 +31,8 @@ pub(super) enum Watched {
     Pair,
     /// The second derivative of the gap at the touch, in units of the largest velocity and the frequency.
     Pull,
+    /// The rate of the limit of a contact, in units of the size of its terms and the frequency.
+    Release,
     /// The factor of the inverse of the speed in the trace of the derivative over one cycle with an impact instead of the
     /// touch.
     Trace,
@@ -63,6 +65,11 @@ impl CurveProblem {
             }
             MachineCurveKind::Grazing { .. } => {
                 watched.extend([Watched::Pull].into_iter().chain(rigid.then_some(Watched::Trace)).chain(others));
+            }
+            MachineCurveKind::Sticking { .. } | MachineCurveKind::Holding { .. }
+                if matches!(equations.condition, Condition::Limit { .. }) =>
+            {
+                watched.push(Watched::Release);
             }
             MachineCurveKind::Corner { .. } | MachineCurveKind::Sticking { .. } | MachineCurveKind::Holding { .. } => {}
         }
@@ -146,6 +153,12 @@ impl CurveProblem {
                 }
                 Some(pull / (self.speed * frame.machine.parts().frequency?))
             }
+            Watched::Release => match &self.equations.condition {
+                Condition::Limit { limit, size, .. } => {
+                    Some(limit.of(frame, ring)?.rate / (size * frame.machine.parts().frequency?))
+                }
+                _ => None,
+            },
             Watched::Trace => {
                 let touch = self.equations.condition.touch()?;
                 let MachineCurveKind::Grazing { stop } = self.kind else { return None };
@@ -187,6 +200,13 @@ impl CurveProblem {
             (Watched::PlusOne | Watched::MinusOne, _) => MachineCurveEvent::FoldFlip,
             (Watched::Pair, _) => MachineCurveEvent::TorusGrazing,
             (Watched::Pull, _) => return Some((MachineCurveEvent::DegenerateGrazing { stop: stop? }, true)),
+            (
+                Watched::Release,
+                MachineCurveKind::Sticking { stop: place } | MachineCurveKind::Holding { joint: place },
+            ) => {
+                return Some((MachineCurveEvent::DegenerateRest { place }, true));
+            }
+            (Watched::Release, _) => return None,
             (Watched::Trace, _) => MachineCurveEvent::ResonantGrazing { stop: stop? },
         };
         Some((event, false))

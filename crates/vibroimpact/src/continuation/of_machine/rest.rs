@@ -37,10 +37,11 @@ pub(crate) struct Touch {
     pub(crate) guard: GuardKind,
 }
 
-/// Of a limit its value, and the size of its terms.
+/// Of a limit its value, its rate while the contact is at rest, and the size of its terms.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pressed {
     pub(crate) value: f64,
+    pub(crate) rate: f64,
     pub(crate) size: f64,
 }
 
@@ -59,8 +60,8 @@ fn pressed(frame: &MachineFrame<'_>, place: &Place, guard: GuardKind) -> Option<
     let structure = frame.structure(&place.states)?;
     let function = &structure.guards.iter().find(|of| of.kind == guard)?.function;
     let flight = place.flight(&frame.normal, structure.clone());
-    let value = flight.first(function).0;
-    Some(Pressed { value, size: flight.size(function).max(f64::MIN_POSITIVE) })
+    let (value, rate) = flight.first(function);
+    Some(Pressed { value, rate, size: flight.size(function).max(f64::MIN_POSITIVE) })
 }
 
 /// The guards of a contact in a regime, without those of its gap or depth.
