@@ -234,6 +234,7 @@ fn curves_between_branches() {
     let cases = [
         (two_harmonics as fn(f64, f64) -> Machine, 0.3, 0.05, (0.01, 1.2), Direction::Up),
         (without_rebound, 0.4, 0.01, (-2.0, 3.0), Direction::Down),
+        (without_rebound, 0.6, 0.01, (-2.0, 3.0), Direction::Down),
         (without_rebound, 0.8, 0.01, (-2.0, 3.0), Direction::Up),
     ];
     let mut ends = 0;
@@ -252,5 +253,5 @@ fn curves_between_branches() {
             }
         }
     }
-    assert!(ends > 14, "{ends}");
+    assert!(ends > 18, "{ends}");
 }

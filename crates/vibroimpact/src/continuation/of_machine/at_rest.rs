@@ -20,19 +20,26 @@ const MOST: f64 = 1e-2;
 /// The largest number of its steps.
 const STEPS: u32 = 12;
 
-/// The solution, near `inside`, at which a rest of this contact begins or ends, and which of both; its states are those of
-/// `inside`. `None` if nothing of the contact is zero close by.
+/// The solution, near `inside`, at which a rest begins or ends, and which of both, if the events differ beyond as `found`; its
+/// states are those of `inside`. `None` if nothing of the contact is zero close by. An impact that disappears with the flight
+/// after a release belongs to a rest that was interrupted.
 pub(super) fn at_rest(
     tracer: &Tracer<MachineProblem>,
     inside: &MachineSolution,
-    contact: usize,
+    found: &Difference,
 ) -> Option<(MachineSolution, Difference)> {
+    let (contact, interrupted) = match *found {
+        Difference::Rest { place, .. } => (place, false),
+        Difference::Disappears { stop, .. } => (stop, true),
+        _ => return None,
+    };
     let old = &tracer.problem.equations;
     let (machine, mut ring) = old.split(&inside.w)?;
     let frame = MachineFrame::new(&machine);
     let sizes = inside.known.cycle.as_ref()?.sizes;
     let joined = join(&frame, &mut ring, contact);
     let zero = rest_zero(&frame, &ring, (contact, sizes.1))?;
+    (!interrupted || joined && zero.rests(&ring, contact)).then_some(())?;
     // without the flight that takes no time the events are those beyond
     let begins = zero.rests(&ring, contact) == joined;
     let number = last(&inside.w);

@@ -3,7 +3,7 @@
 use super::at_rest::at_rest;
 use super::beginning::{begun, last};
 use super::beyond::{beyond, replayed};
-use super::change::{Difference, difference};
+use super::change::{Difference, additional, difference};
 use super::edge::edge;
 use super::equations::MachineEquations;
 use super::family::MachineFamily;
@@ -225,12 +225,14 @@ impl MachineBranch {
     /// differ beyond it.
     fn edge(&self, step: &Step<Judged>, outside: f64) -> Option<(f64, MachineSolution, Difference)> {
         let (s, inside, beyond) = edge(&self.tracer, step, outside, Judged::physical)?;
-        let found = grazing(&self.tracer, &inside, difference(&self.tracer.problem.equations.ring, &beyond));
-        if let Difference::Rest { place, .. } = found
-            && let Some((at, found)) = at_rest(&self.tracer, &inside, place)
-        {
+        let ring = &self.tracer.problem.equations.ring;
+        let found = difference(ring, &beyond);
+        if let Some((at, found)) = at_rest(&self.tracer, &inside, &found) {
             return Some((s, at, found));
         }
+        let rest = matches!(found, Difference::Rest { .. });
+        let found = if rest { additional(ring, &beyond).unwrap_or(found) } else { found };
+        let found = grazing(&self.tracer, &inside, found);
         // a curve of the loss of contact begins with a cycle that has the impact
         let exact = self.lost(&inside, &found).is_none().then(|| touching(&self.tracer, step, (s, &inside), &found));
         let (s, at) = exact.flatten().unwrap_or((s, inside));

@@ -44,6 +44,19 @@ fn rest(guard: GuardKind, stops: usize, holds: bool) -> Option<Difference> {
     }
 }
 
+/// The additional closing of a stop in the motion, if it has all events of the signature and this one.
+pub(super) fn additional(ring: &MachineRing, judged: &Judged) -> Option<Difference> {
+    let m = ring.len();
+    let wanted = |i: usize| (judged.from + 1 + i) % m;
+    let i = (0..m).find(|i| judged.seen.get(*i) != Some(&ring.events[wanted(*i)]))?;
+    let others = judged.seen.get(i + 1..)?;
+    let alike = others.len() == m - i && (i..m).all(|k| others[k - i] == ring.events[wanted(k)]);
+    match judged.seen[i].guard {
+        GuardKind::Gap(stop) if alike => Some(Difference::Appears { at: wanted(i), stop }),
+        _ => None,
+    }
+}
+
 /// The first difference between a signature and the events of the motion from one of its solutions.
 pub(crate) fn difference(ring: &MachineRing, judged: &Judged) -> Difference {
     let m = ring.len();

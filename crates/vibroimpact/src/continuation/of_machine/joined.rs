@@ -4,6 +4,7 @@
 //! takes no time, both events at its ends are one. The equations without it are smooth on both sides, and both halves of a
 //! symmetric cycle lose their flight at once.
 
+use crate::machine::StopLaw;
 use crate::orbit::{MachineFrame, MachineRing};
 use core::f64::consts::TAU;
 
@@ -11,9 +12,13 @@ use core::f64::consts::TAU;
 const SHORT: f64 = 1e-3;
 
 /// Joins all events of this contact between which no time passes, with the states after the second of them, and leaves out
-/// those at which then nothing changes; whether there were such events.
+/// those at which then nothing changes; whether there were such events. The impacts of a chatter are not joined.
 pub(crate) fn join(frame: &MachineFrame<'_>, ring: &mut MachineRing, contact: usize) -> bool {
     let stops = frame.machine.stops().len();
+    let law = frame.machine.stops().get(contact).map(|stop| stop.law);
+    if matches!(law, Some(StopLaw::Rigid { restitution }) if restitution > 0.0) {
+        return false;
+    }
     let mut joined = false;
     while ring.len() > 1 {
         let m = ring.len();

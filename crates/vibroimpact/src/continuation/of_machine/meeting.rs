@@ -19,7 +19,7 @@ pub(super) fn meeting(tracer: &Tracer<MachineProblem>) -> Option<(MachineSolutio
     let rest = (0..m).filter(|k| of(*k) == of(k + 1) && rests(*k) != rests(k + 1)).find_map(|k| {
         let found = Difference::Rest { place: of(k), joint: of(k) >= stops, begins: rests(k + 1) };
         let together = ring.theta(k + 1) - ring.theta(k) < TOGETHER;
-        at_rest(tracer, here, of(k)).or_else(|| together.then(|| (here.clone(), found)))
+        at_rest(tracer, here, &found).or_else(|| together.then(|| (here.clone(), found)))
     });
     rest.or_else(|| {
         let together = |k: &usize| ring.theta(k + 1) - ring.theta(*k) < TOGETHER && of(*k) != of(k + 1);
