@@ -4,71 +4,76 @@
 //! to a little before the next one. There it must have the other events of the signature and reach the state that the
 //! equations say.
 
+use super::moment::{Moment, OnFlight};
 use crate::continuation::of_machine::{CLOSED, Judged};
 use crate::events::Place;
 use crate::math::Multiplier;
 use crate::orbit::{MachineCycle, MachineFrame, MachineLap, MachineRing, RingEvent};
+use core::f64::consts::TAU;
 
-/// How long after and before, as a fraction of the flights there.
+/// How long after and before, as a fraction of the flight to the next or from the last event.
 const BESIDE: f64 = 1e-4;
 
-/// The events of a ring apart from those of `special`, which are given by their first and last event, in the order of the
-/// motion after the first of `special`.
-fn others(m: usize, special: &[(usize, usize)]) -> Vec<usize> {
-    let Some((_, begin)) = special.first() else { return Vec::new() };
-    let own = |k: &usize| special.iter().any(|(first, last)| k == first || k == last);
-    (1..=m).map(|i| (begin + i) % m).filter(|k| !own(k)).collect()
+/// Moments whose phases differ by less are the same.
+const SAME: f64 = 1e-6;
+
+/// The events of a ring that belong to none of these moments, in the order of the motion after the first moment.
+fn others(m: usize, moments: &[Moment]) -> Vec<usize> {
+    let Some(Moment::Events(_, begin) | Moment::Flight(begin, _)) = moments.first() else { return Vec::new() };
+    (1..=m).map(|i| (begin + i) % m).filter(|k| !moments.iter().any(|moment| moment.has(*k))).collect()
 }
 
-/// The ring without its events of `special`, beginning with the event after the first of them; `None` if there is no other.
-pub(super) fn bare(ring: &MachineRing, special: &[(usize, usize)]) -> Option<MachineRing> {
-    let kept = others(ring.len(), special);
+/// The ring without its events at these moments, beginning with the event after the first of them; `None` if there is no
+/// other.
+pub(super) fn bare(ring: &MachineRing, moments: &[Moment]) -> Option<MachineRing> {
+    let kept = others(ring.len(), moments);
     let events: Vec<RingEvent> = kept.iter().map(|k| ring.events[*k].clone()).collect();
     let places = kept.iter().map(|k| ring.places[*k].clone()).collect();
     (!events.is_empty()).then_some(MachineRing { events, places, periods: ring.periods, together: None })
 }
 
-/// The motion from a little after event `last` to a little before event `next`, which is counted on beyond the end of the
-/// ring: the state at its beginning, the motion, and the state that the equations say at its end.
+/// The motion from a little after a moment to a little before the next one: the state at its beginning, the motion, and the
+/// state that the equations say at its end.
 fn between(
     frame: &MachineFrame<'_>,
     ring: &MachineRing,
-    (last, next): (usize, usize),
+    (one, next): (&Moment, &Moment),
 ) -> Option<(Place, MachineLap, Place)> {
     let frequency = frame.machine.parts().frequency?;
-    let m = ring.len();
-    let at = |k: usize, time: f64| {
-        let mut from = ring.place(k);
+    let at = |(leg, time): OnFlight| {
+        let mut from = ring.place(leg);
         frame.constrain(&mut from)?;
         let structure = frame.structure(&from.states)?;
         Some(frame.moved(&from, &structure, time))
     };
-    let before = (next - 1) % m;
-    let (after, until) = (BESIDE * ring.time(last, frequency), BESIDE * ring.time(before, frequency));
-    let begin = at(last, after)?;
-    let expected = at(before, ring.time(before, frequency) - until)?;
-    let whole = (ring.theta(next) - ring.theta(last)) / frequency;
-    let lap = MachineLap::fly(frame, &begin, whole - after - until)?;
+    let ((leg, since), (end, until)) = (one.after(ring, frequency), next.before(ring, frequency));
+    let (after, before) = (BESIDE * (ring.time(leg, frequency) - since), BESIDE * until);
+    let begin = at((leg, since + after))?;
+    let expected = at((end, until - before))?;
+    let mut angle = ring.theta(end) - ring.theta(leg) + frequency * (until - since);
+    // from the only moment to itself
+    if angle < SAME {
+        angle += TAU * f64::from(ring.periods);
+    }
+    let lap = MachineLap::fly(frame, &begin, angle / frequency - after - before)?;
     Some((begin, lap, expected))
 }
 
-/// What is known of a solution with the events `special`, in order, each given by its first and last event, which happen at
-/// once or are one. The events seen are those after the first of them.
+/// What is known of a solution with these moments in order. The events seen are those after the first of them.
 pub(super) fn judge_beside(
     frame: &MachineFrame<'_>,
     ring: &MachineRing,
-    special: &[(usize, usize)],
+    moments: &[Moment],
     (multipliers, rising): (Vec<Multiplier>, Option<usize>),
 ) -> Judged {
     let m = ring.len();
-    let kept = others(m, special);
+    let kept = others(m, moments);
     let from = kept.len().max(1) - 1;
     let nothing = |multipliers, seen| Judged { cycle: None, multipliers, seen, from, rising };
     let mut seen = Vec::new();
     let mut flown = Vec::new();
-    for (i, (_, last)) in special.iter().enumerate() {
-        let next = special.get(i + 1).map_or_else(|| special[0].0 + m, |next| next.0);
-        let Some(part) = between(frame, ring, (*last, next)) else { return nothing(multipliers, seen) };
+    for (one, next) in moments.iter().zip(moments.iter().cycle().skip(1)) {
+        let Some(part) = between(frame, ring, (one, next)) else { return nothing(multipliers, seen) };
         let steps = &part.1.steps;
         seen.extend(steps[..steps.len() - 1].iter().filter_map(|step| RingEvent::of(&step.2)));
         flown.push(part);
@@ -87,10 +92,10 @@ pub(super) fn judge_beside(
         let whole = frame.machine.period()? * f64::from(ring.periods);
         let (begin, lap, _) = flown.first()?;
         let touches = |event: usize| ring.events[event].touches(&ring.events[(event + m - 1) % m].after);
-        let touch = matches!(special, [(first, last)] if first == last && touches(*first));
+        let touch = matches!(moments, [Moment::Events(first, last)] if first == last && touches(*first));
         let flown = if touch { None } else { MachineLap::fly(frame, begin, whole) };
         // rounding can let a motion end at a limit
-        let lap = flown.or_else(|| (special.len() == 1).then(|| MachineLap { time: whole, ..lap.clone() }))?;
+        let lap = flown.or_else(|| (moments.len() == 1).then(|| MachineLap { time: whole, ..lap.clone() }))?;
         Some((begin, MachineLap { sizes, ..lap }))
     };
     let Some((begin, lap)) = cycle() else { return nothing(multipliers, seen) };

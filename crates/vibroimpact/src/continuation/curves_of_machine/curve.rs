@@ -189,15 +189,15 @@ impl MachineCurve {
     fn beyond(&self, known: &Judged) -> MachineCurveEvent {
         let equations = &self.tracer.problem.equations;
         let ring = equations.signature();
-        let special = equations
+        let moments = equations
             .split(&self.tracer.here.w)
-            .map_or_else(Vec::new, |(machine, ring)| equations.condition.special(&MachineFrame::new(&machine), &ring));
+            .map_or_else(Vec::new, |(machine, ring)| equations.condition.moments(&MachineFrame::new(&machine), &ring));
         let stops = ring.events.first().map_or(0, |event| event.back.len());
         let seen = known.seen.first().map(|event| event.guard.place(stops));
-        let found = if special.is_empty() {
+        let found = if moments.is_empty() {
             difference(ring, known)
         } else {
-            match bare(ring, &special) {
+            match bare(ring, &moments) {
                 Some(bare) => difference(&bare, &Judged { rising: None, ..known.clone() }),
                 None => seen
                     .filter(|stop| *stop < stops)

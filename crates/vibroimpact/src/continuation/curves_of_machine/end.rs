@@ -3,6 +3,7 @@
 //! Steps become ever shorter towards a point at which the equations are singular. The last solution shows its kind: a flight
 //! takes no time any more, or both halves of the cycle have become equal.
 
+use super::moment::Moment;
 use super::point::{MachineCurveEvent, MachineCurveKind};
 use super::problem::{CurveProblem, CurveSolution};
 
@@ -17,8 +18,10 @@ pub(super) fn reason(problem: &CurveProblem, here: &CurveSolution) -> Option<Mac
     let (m, stops) = (ring.len(), machine.stops().len());
     let period = machine.period()?;
     let frequency = machine.parts().frequency?;
-    let own = problem.equations.condition.special(&MachineFrame::new(&machine), &ring);
-    let corner = |k: usize| own.iter().any(|(first, last)| first != last && k == *first);
+    let own = problem.equations.condition.moments(&MachineFrame::new(&machine), &ring);
+    let corner = |k: usize| {
+        own.iter().any(|moment| matches!(moment, Moment::Events(first, last) if first != last && k == *first))
+    };
     let shortest =
         (0..m).filter(|k| !corner(*k)).min_by(|a, b| ring.time(*a, frequency).total_cmp(&ring.time(*b, frequency)))?;
     if m > 1 && ring.time(shortest, frequency) < SHORT * period {

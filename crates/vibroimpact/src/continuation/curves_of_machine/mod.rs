@@ -6,6 +6,7 @@
 //! | singular equations of a cycle: a multiplier +1 or -1, smooth through grazing | `borders` |
 //! | the condition that holds along a curve | `condition` |
 //! | the equations of all events with two numbers and one condition | `equations` |
+//! | a moment at which rounding decides which events the motion has | `moment` |
 //! | whether a solution with a touch, a corner or a contact at its limit is admissible | `beside` |
 //! | the problem that the tracer solves: points of codimension two | `problem` |
 //! | the events and the condition of a curve, from an event of a branch | `origin` |
@@ -20,6 +21,7 @@ mod condition;
 mod curve;
 mod end;
 mod equations;
+mod moment;
 mod origin;
 mod origin_at_rest;
 mod plane;

@@ -39,6 +39,7 @@ fn begin(
     // rounding can let a motion end at a limit
     let beside = |by: f64| ring_at(&plane.at((values.0 + by * plane.scales().0, values.1))?);
     let mut ring = ring_at(machine).or_else(|| beside(BESIDE)).or_else(|| beside(-BESIDE))?;
+    let touch = |at: usize| Condition::Touch { at, size: sizes.1, contact: None, speed: sizes.1 };
     let (kind, condition) = match event {
         MachineBranchEvent::Fold => (MachineCurveKind::Fold, None),
         MachineBranchEvent::Flip => (MachineCurveKind::Flip, None),
@@ -61,13 +62,13 @@ fn begin(
             let back = place.surfaces.iter().map(Option::is_some).collect();
             ring.events.insert(leg + 1, RingEvent::touch(GuardKind::Gap(stop), &place.states, back));
             ring.places.insert(leg + 1, place);
-            (MachineCurveKind::Grazing { stop }, Some(Condition::Touch { at: leg + 1, size: sizes.1 }))
+            (MachineCurveKind::Grazing { stop }, Some(touch(leg + 1)))
         }
         MachineBranchEvent::Grazing { stop, .. } | MachineBranchEvent::LossOfContact { stop } => {
             let Some(at) = without_contact(&frame, &mut ring, (stop, NEAR * sizes.1)) else {
                 return Some(Err(MachineCurveError::NotThere));
             };
-            (MachineCurveKind::Grazing { stop }, Some(Condition::Touch { at, size: sizes.1 }))
+            (MachineCurveKind::Grazing { stop }, Some(touch(at)))
         }
         MachineBranchEvent::Corner { first, second } => {
             let stops = machine.stops().len();

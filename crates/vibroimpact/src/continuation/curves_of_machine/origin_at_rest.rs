@@ -28,7 +28,7 @@ pub(super) fn condition(
             let back = place.surfaces.iter().map(Option::is_some).collect();
             ring.events.insert(touch.leg + 1, RingEvent::touch(touch.guard, &place.states, back));
             ring.places.insert(touch.leg + 1, place);
-            Some(Condition::Touch { at: touch.leg + 1, size })
+            Some(Condition::Touch { at: touch.leg + 1, size, contact: Some(contact), speed })
         }
     }
 }

@@ -240,18 +240,18 @@ impl Problem for CurveProblem {
         let at = multipliers(&frame, &ring);
         let values: Option<Vec<f64>> =
             self.watched.iter().map(|what| self.value(*what, (&frame, &ring), w, &at)).collect();
-        let special = self.equations.condition.special(&frame, &ring);
+        let moments = self.equations.condition.moments(&frame, &ring);
         // every guard must fall to zero at its event
         let rising = (0..ring.len()).find_map(|k| {
             let event = (k + 1) % ring.len();
-            let own = special.iter().any(|(first, last)| event == *first || event == *last);
+            let own = moments.iter().any(|moment| moment.has(event));
             (!own && ring.block(&frame, k, true).is_none_or(|block| block.late[0] >= 0.0)).then_some(event)
         });
         let all = at.map_or_else(Vec::new, |(_, all)| all);
-        let judged = if special.is_empty() {
+        let judged = if moments.is_empty() {
             judge(&frame, &ring, (all, rising))
         } else {
-            judge_beside(&frame, &ring, &special, (all, rising))
+            judge_beside(&frame, &ring, &moments, (all, rising))
         };
         Some((values?, judged))
     }

@@ -46,4 +46,4 @@ pub(crate) use joined::join;
 pub(crate) use linear::{by_number, linearised, weights};
 pub use point::{MachineBranchEvent, MachinePoint};
 pub(crate) use problem::{CLOSED, Judged, judge, over_pairs};
-pub(crate) use rest::{Limit, RestZero, limits, rest_zero, size};
+pub(crate) use rest::{Limit, RestZero, limits, rest_zero, size, touches};

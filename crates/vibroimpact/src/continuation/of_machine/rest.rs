@@ -35,6 +35,8 @@ pub(crate) struct Touch {
     pub(crate) leg: usize,
     /// The guard.
     pub(crate) guard: GuardKind,
+    /// The phase there, beside those of the ring.
+    pub(crate) phase: f64,
 }
 
 /// Of a limit its value, its rate while the contact is at rest, and the size of its terms.
@@ -109,13 +111,13 @@ pub(crate) fn limits(frame: &MachineFrame<'_>, ring: &MachineRing, contact: usiz
 
 /// The smallest values of all guards of a contact on all flights, relative to the largest velocity `speed` or to their
 /// terms.
-fn touches(frame: &MachineFrame<'_>, ring: &MachineRing, contact: usize, speed: f64) -> Vec<(f64, Touch)> {
+pub(crate) fn touches(frame: &MachineFrame<'_>, ring: &MachineRing, contact: usize, speed: f64) -> Vec<(f64, Touch)> {
     let mut found = Vec::new();
     for leg in 0..ring.len() {
         for guard in guards(frame, &ring.events[leg].after, contact) {
             let Some((value, place)) = closest(frame, ring, (leg, guard)) else { continue };
             let size = size(frame, &place, guard, speed);
-            found.push((value / size, Touch { leg, guard }));
+            found.push((value / size, Touch { leg, guard, phase: place.phase }));
         }
     }
     found
