@@ -80,6 +80,18 @@ fn dry_friction() {
     }
 }
 
+/// At friction 1, the amplitude of the force, the mass holds for ever. Close to it, it has no velocity at its events and in the
+/// middle of its longest flight.
+#[test]
+fn holding_for_ever() {
+    for (beta, from) in [(0.8, 0.9), (0.3, 0.97)] {
+        let start = (from, &MachineStart::default());
+        let point = first_event(move |friction| den_hartog(beta, friction), start, ((0.001, 1.2), Direction::Up));
+        assert_eq!(point.event, Some(MachineBranchEvent::Holding { joint: 0, begins: true }), "{beta} {}", point.value);
+        assert!((point.value - 1.0).abs() < 1e-12, "{beta} {}", point.value);
+    }
+}
+
 /// The points of a curve from one end to the other.
 fn curve(
     make: impl Fn(f64, f64) -> Option<Machine> + Send + Sync + 'static,
