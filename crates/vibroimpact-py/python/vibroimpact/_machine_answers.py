@@ -694,8 +694,8 @@ class MachineCurve(Result):
         Floquet multipliers; on a curve of grazing those of the cycle without the contact.
     residual : ndarray
         By how much the condition of the curve fails at each point: the distance of a multiplier from +1 or -1, or of its
-        modulus from 1; the speed at the touch divided by the largest velocity; the difference of the phases at a corner; what is
-        missing to the limit of sticking or holding, divided by the size of its terms.
+        modulus from 1; the speed at the touch divided by the largest velocity; the difference of the phases at a corner; of
+        sticking or holding what is missing to the limit, divided by the size of its terms, or the rate of what is touched.
     cycles : tuple of MachineCycle
         The events at each point; on a curve of grazing without the touch.
     event_kind, event_stop : ndarray of str

@@ -62,8 +62,8 @@ pub struct MachineCurvePoint {
     /// holding those of the cycle without the rest that takes no time.
     pub cycle: MachineCycle,
     /// By how much the condition fails: the distance of a multiplier from +1 or -1, or of its modulus from 1; the speed at
-    /// the touch divided by the largest velocity; the difference of both phases at a corner; what is missing to the limit of
-    /// sticking or holding, divided by the size of its terms.
+    /// the touch divided by the largest velocity; the difference of both phases at a corner; of
+    /// sticking or holding what is missing to the limit, divided by the size of its terms, or the rate of what is touched.
     pub residual: f64,
     /// The phase of the touch on a curve of grazing.
     pub touch: Option<f64>,

@@ -8,8 +8,8 @@ use crate::machine::StopLaw;
 use crate::orbit::{MachineFrame, MachineRing};
 use core::f64::consts::TAU;
 
-/// A flight that is shorter than this, in forcing periods, takes no time.
-const SHORT: f64 = 1e-3;
+/// A flight whose phases differ by less takes no time.
+pub(super) const SHORT: f64 = 1e-3 * TAU;
 
 /// Joins all events of this contact between which no time passes, with the states after the second of them, and leaves out
 /// those at which then nothing changes; whether there were such events. The impacts of a chatter are not joined.
@@ -23,7 +23,7 @@ pub(crate) fn join(frame: &MachineFrame<'_>, ring: &mut MachineRing, contact: us
     while ring.len() > 1 {
         let m = ring.len();
         let own = |k: usize| ring.events[k % m].guard.place(stops) == contact;
-        let short = |k: &usize| own(*k) && own(k + 1) && ring.theta(k + 1) - ring.theta(*k) < SHORT * TAU;
+        let short = |k: &usize| own(*k) && own(k + 1) && ring.theta(k + 1) - ring.theta(*k) < SHORT;
         let Some(at) = (0..m).find(short) else { break };
         let next = (at + 1) % m;
         let (event, place) = (ring.events[next].clone(), ring.places[next].clone());

@@ -2,6 +2,7 @@
 
 use super::at_rest::at_rest;
 use super::change::Difference;
+use super::joined::SHORT;
 use super::problem::{MachineProblem, MachineSolution};
 use crate::continuation::trace::tracer::Tracer;
 
@@ -16,14 +17,14 @@ pub(super) fn meeting(tracer: &Tracer<MachineProblem>) -> Option<(MachineSolutio
     let (stops, m) = (machine.stops().len(), ring.len());
     let of = |k: usize| ring.events[k % m].guard.place(stops);
     let rests = |k: usize| ring.events[k % m].after[of(k)].constrains();
-    let rest = (0..m).filter(|k| of(*k) == of(k + 1) && rests(*k) != rests(k + 1)).find_map(|k| {
+    let angle = |k: usize| ring.theta(k + 1) - ring.theta(k);
+    let short = |k: &usize| angle(*k) < SHORT && of(*k) == of(k + 1) && rests(*k) != rests(k + 1);
+    let rest = (0..m).filter(short).find_map(|k| {
         let found = Difference::Rest { place: of(k), joint: of(k) >= stops, begins: rests(k + 1) };
-        let together = ring.theta(k + 1) - ring.theta(k) < TOGETHER;
-        at_rest(tracer, here, &found).or_else(|| together.then(|| (here.clone(), found)))
+        at_rest(tracer, here, &found).or_else(|| (angle(k) < TOGETHER).then(|| (here.clone(), found)))
     });
     rest.or_else(|| {
-        let together = |k: &usize| ring.theta(k + 1) - ring.theta(*k) < TOGETHER && of(*k) != of(k + 1);
-        let at = (0..m).find(together)?;
+        let at = (0..m).find(|k| angle(*k) < TOGETHER && of(*k) != of(k + 1))?;
         Some((here.clone(), Difference::Corner { first: of(at), second: of(at + 1) }))
     })
 }
