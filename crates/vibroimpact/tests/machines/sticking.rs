@@ -3,8 +3,8 @@
 use crate::closed_forms::ball;
 use std::f64::consts::PI;
 use vibroimpact::continuation::{
-    BranchOptions, CurveOptions, Direction, MachineBranch, MachineBranchEvent, MachineCurve, MachineCurveEvent,
-    MachineCurveKind, MachineCurvePoint, MachineFamily, MachinePlane, MachinePoint,
+    BranchOptions, CurveOptions, Direction, MachineBranch, MachineBranchEvent, MachineCurve, MachineCurveError,
+    MachineCurveEvent, MachineCurveKind, MachineCurvePoint, MachineFamily, MachinePlane, MachinePoint,
 };
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::{Machine, MachineParts};
@@ -170,6 +170,18 @@ fn the_curve_of_a_ball_without_rebound() {
             assert_eq!(beside(make, point, "release"), [true, false], "{:?}", point.values);
         }
     }
+}
+
+/// With rebound the ball comes to rest by a chatter, so the limit at its impact is no limit of a rest, and there is no curve
+/// over the restitution.
+#[test]
+fn no_curve_over_the_restitution() {
+    let start = MachineStart { q: vec![3.6], qdot: vec![0.0], phase: 0.0 };
+    let point = first_event(|gamma| ball(gamma, 0.0), (3.5, &start), ((0.5, 6.0), Direction::Down));
+    let make = |gamma, e| (0.0..=1.0).contains(&e).then(|| ball(gamma, e));
+    let plane = MachinePlane::new(make, (0.5..=6.0, 0.0..=0.5));
+    let curves = MachineCurve::through(&plane, (point.value, 0.0), &point, CurveOptions { longest: 0.1, points: 400 });
+    assert_eq!(curves.err(), Some(MachineCurveError::NoCurve));
 }
 
 /// The events of the branch of the settled motion at which a rest or a hold begins or ends.
