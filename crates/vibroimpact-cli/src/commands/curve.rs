@@ -23,8 +23,9 @@ use vibroimpact_study::{
 /// grazing, touch (beyond it the orbit is inadmissible), 1:2. The cycles of a grazing curve include the impact of speed
 /// zero.
 ///
-/// Of a machine any two numbers vary, by their paths. Its curves are those of folds, flips, torus bifurcations, grazing and
-/// corners, at which two events happen at the same time. They end where the orbit ceases to be admissible.
+/// Of a machine any two numbers vary, by their paths. Its curves are those of folds, flips, torus bifurcations, grazing,
+/// corners, at which two events happen at the same time, and of the begin and the end of sticking on a stop and of holding of
+/// a friction joint. They end where the orbit ceases to be admissible.
 #[derive(Clone, Debug, Args)]
 #[command(
     override_usage = "vibro curve --beta B --gap D --restitution E --label m/n --kind KIND --vary PARAMETER=A:B --and PARAMETER=A:B [OPTIONS]\n       \
@@ -109,6 +110,10 @@ enum Kind {
     Torus,
     /// Of a machine: two events happen at the same time
     Corner,
+    /// Of a machine: sticking on a stop begins or ends
+    Sticking,
+    /// Of a machine: holding of a friction joint begins or ends
+    Holding,
 }
 
 impl Curve {
@@ -123,8 +128,10 @@ impl Curve {
                 Kind::Fold => FollowedEvent::Fold,
                 Kind::Flip => FollowedEvent::Flip,
                 Kind::Grazing => FollowedEvent::Grazing,
-                Kind::Torus | Kind::Corner => {
-                    return Err(Failure::bad("torus and corner are curves of machines\nhint: --machine NAME|FILE"));
+                Kind::Torus | Kind::Corner | Kind::Sticking | Kind::Holding => {
+                    return Err(Failure::bad(
+                        "torus, corner, sticking and holding are curves of machines\nhint: --machine NAME|FILE",
+                    ));
                 }
             },
             vary: stretch(0, vary),
@@ -144,6 +151,8 @@ impl Curve {
                 Kind::Grazing => MachineFollowedEvent::Grazing,
                 Kind::Torus => MachineFollowedEvent::Torus,
                 Kind::Corner => MachineFollowedEvent::Corner,
+                Kind::Sticking => MachineFollowedEvent::Sticking,
+                Kind::Holding => MachineFollowedEvent::Holding,
             },
             vary: self.vary.stretch(),
             and: self.and.stretch(),

@@ -485,7 +485,8 @@ class Machine:
         Parameters
         ----------
         kind : str
-            "fold", "flip", "torus", "grazing" or "corner".
+            "fold", "flip", "torus", "grazing", "corner", "sticking" or "holding". The last two are the begin and the end of
+            sticking on a stop and of holding of a friction joint.
         vary : dict
             Two paths, each with its range (a, b). Both ranges contain the values of the machine.
         label : str

@@ -682,9 +682,10 @@ class MachineCurve(Result):
     Attributes
     ----------
     kind, label : str
-        "fold", "flip", "torus", "grazing" or "corner"; the label m/n of the orbit whose branch contains the event.
+        "fold", "flip", "torus", "grazing", "corner", "sticking" or "holding"; the label m/n of the orbit whose branch contains
+        the event.
     of : tuple of str
-        The stop of a curve of grazing, or the stops and joints of a corner.
+        The stop or joint of a curve of grazing, sticking or holding, or the stops and joints of a corner.
     parameters : (str, str)
         The paths of the two numbers.
     values : ndarray, points x 2
@@ -693,7 +694,8 @@ class MachineCurve(Result):
         Floquet multipliers; on a curve of grazing those of the cycle without the contact.
     residual : ndarray
         By how much the condition of the curve fails at each point: the distance of a multiplier from +1 or -1, or of its
-        modulus from 1; the speed at the touch divided by the largest velocity; the difference of the phases at a corner.
+        modulus from 1; the speed at the touch divided by the largest velocity; the difference of the phases at a corner; of
+        sticking or holding what is missing to the limit, divided by the size of its terms, or the rate of what is touched.
     cycles : tuple of MachineCycle
         The events at each point; on a curve of grazing without the touch.
     event_kind, event_stop : ndarray of str

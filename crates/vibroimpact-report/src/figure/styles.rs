@@ -49,16 +49,18 @@ pub const CURVE_MARKS: [(CurveEvent, Shape); 10] = [
 ];
 
 /// The colours of curves of events of machines.
-pub const MACHINE_EVENT_COLOURS: [(MachineFollowedEvent, Colour); 5] = [
+pub const MACHINE_EVENT_COLOURS: [(MachineFollowedEvent, Colour); 7] = [
     (MachineFollowedEvent::Fold, SERIES[1]),
     (MachineFollowedEvent::Flip, SERIES[0]),
     (MachineFollowedEvent::Torus, SERIES[3]),
     (MachineFollowedEvent::Grazing, SERIES[2]),
     (MachineFollowedEvent::Corner, SERIES[5]),
+    (MachineFollowedEvent::Sticking, SERIES[4]),
+    (MachineFollowedEvent::Holding, SERIES[6]),
 ];
 
 /// The marks of points of codimension two on curves of machines, by name. Ends of a curve have no mark.
-pub const MACHINE_CURVE_MARKS: [(&str, Shape); 18] = [
+pub const MACHINE_CURVE_MARKS: [(&str, Shape); 19] = [
     ("cusp", Shape::TriangleDown),
     ("fold-flip", Shape::Circle),
     ("1:1", Shape::Circle),
@@ -72,6 +74,7 @@ pub const MACHINE_CURVE_MARKS: [(&str, Shape); 18] = [
     ("torus-grazing", Shape::Diamond),
     ("resonant grazing", Shape::Diamond),
     ("degenerate grazing", Shape::TriangleUp),
+    ("degenerate rest", Shape::TriangleUp),
     ("double grazing", Shape::Square),
     ("touch", Shape::Circle),
     ("corner", Shape::Cross),
@@ -113,6 +116,7 @@ mod tests {
             Event::TorusGrazing,
             Event::ResonantGrazing { stop },
             Event::DegenerateGrazing { stop },
+            Event::DegenerateRest { place },
             Event::DoubleGrazing { stop },
             Event::Touch { stop },
             Event::Corner { first, second },

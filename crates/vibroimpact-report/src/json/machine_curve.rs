@@ -16,7 +16,7 @@ pub(super) struct Curved<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     orbit: Option<ChosenObject>,
     kind: &'static str,
-    /// The stop of a curve of grazing, or the stops and joints of a corner.
+    /// The stop or joint of a curve of grazing, sticking or holding, or the stops and joints of a corner.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     of: Vec<&'a str>,
     parameters: [&'a str; 2],
@@ -66,7 +66,8 @@ pub(super) fn curved<'a>(machine: &'a Machine, plan: &'a MachineCurvePlan, found
         orbit: ChosenObject::of_machine(found.among),
         kind: plan.kind.name(),
         of: match found.kind {
-            MachineCurveKind::Grazing { stop } => vec![machine.name_of(stop)],
+            MachineCurveKind::Grazing { stop } | MachineCurveKind::Sticking { stop } => vec![machine.name_of(stop)],
+            MachineCurveKind::Holding { joint } => vec![machine.name_of(joint)],
             MachineCurveKind::Corner { first, second } => vec![machine.name_of(first), machine.name_of(second)],
             _ => Vec::new(),
         },

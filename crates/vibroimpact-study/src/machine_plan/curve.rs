@@ -29,6 +29,10 @@ pub enum MachineFollowedEvent {
     Grazing,
     /// Two events happen at the same time.
     Corner,
+    /// A rest on a stop begins or ends to be a part of the orbit.
+    Sticking,
+    /// A friction joint begins or ends to hold in the orbit.
+    Holding,
 }
 
 impl MachineFollowedEvent {
@@ -41,6 +45,8 @@ impl MachineFollowedEvent {
             Self::Torus => "torus",
             Self::Grazing => "grazing",
             Self::Corner => "corner",
+            Self::Sticking => "sticking",
+            Self::Holding => "holding",
         }
     }
 
@@ -53,6 +59,8 @@ impl MachineFollowedEvent {
                 matches!(event, MachineBranchEvent::Grazing { .. } | MachineBranchEvent::LossOfContact { .. })
             }
             Self::Corner => matches!(event, MachineBranchEvent::Corner { .. }),
+            Self::Sticking => matches!(event, MachineBranchEvent::Sticking { .. }),
+            Self::Holding => matches!(event, MachineBranchEvent::Holding { .. }),
         }
     }
 }

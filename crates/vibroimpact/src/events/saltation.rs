@@ -106,11 +106,18 @@ pub(crate) struct EventLaw<'a> {
 impl EventLaw<'_> {
     /// The value of the guard at a state.
     pub(crate) fn value(&self, normal: &Normal, at: &Place) -> f64 {
+        self.value_and_rate(normal, at).0
+    }
+
+    /// The value of the guard at a state, and its rate along the flow there.
+    pub(crate) fn value_and_rate(&self, normal: &Normal, at: &Place) -> (f64, f64) {
         let guard = &self.structure.guards[self.guard];
-        let value = at.flight(normal, self.structure.clone()).first(&guard.function).0;
+        let (value, rate) = at.flight(normal, self.structure.clone()).first(&guard.function);
         match guard.kind {
-            GuardKind::Gap(j) => value + at.surfaces[j].map_or(0.0, |surface| surface.size - surface.offset),
-            _ => value,
+            GuardKind::Gap(j) => at.surfaces[j].map_or((value, rate), |surface| {
+                (value + (surface.size - surface.offset), rate - surface.rate * surface.size)
+            }),
+            _ => (value, rate),
         }
     }
 
@@ -180,13 +187,12 @@ impl LinearEvent {
         let guard = law.structure.guards.get(law.guard)?;
         let mut gradient = law.structure.gradient(normal, &guard.function);
         gradient.resize(shape.size(), 0.0);
-        let mut rate = before.flight(normal, law.structure.clone()).first(&guard.function).1;
+        let (_, rate) = law.value_and_rate(normal, before);
         if let GuardKind::Gap(j) = guard.kind
-            && let Some(surface) = before.surfaces[j]
+            && before.surfaces[j].is_some()
             && let Some(k) = shape.surfaces.iter().position(|of| *of == j)
         {
             gradient[2 * shape.n + k] = 1.0;
-            rate -= surface.rate * surface.size;
         }
         let (reset, reset_rate) = reset(shape, normal, law.pushed, before, after)?;
         Some(Self {

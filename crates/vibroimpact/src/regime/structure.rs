@@ -33,6 +33,16 @@ pub(crate) enum GuardKind {
     LimitBackward(usize),
 }
 
+impl GuardKind {
+    /// The stop of a guard, or the joint, counted after the stops.
+    pub(crate) const fn place(self, stops: usize) -> usize {
+        match self {
+            Self::Gap(j) | Self::Depth(j) | Self::Force(j) | Self::Reaction(j) | Self::Preload(j) => j,
+            Self::Sliding(joint) | Self::LimitForward(joint) | Self::LimitBackward(joint) => stops + joint,
+        }
+    }
+}
+
 /// A guard: a linear function of the state that is positive as long as the regime holds.
 #[derive(Clone, Debug)]
 pub(crate) struct Guard {

@@ -19,6 +19,8 @@ mod quantities;
 #[cfg(test)]
 mod samples;
 #[cfg(test)]
+mod sticking;
+#[cfg(test)]
 mod verdicts;
 
 use case::{Case, cases};

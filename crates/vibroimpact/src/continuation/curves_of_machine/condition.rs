@@ -1,6 +1,8 @@
 //! The condition that holds along a curve, as the zero of a function of the events and of the machine.
 
 use super::borders::Borders;
+use super::moment::Moment;
+use crate::continuation::of_machine::{Limit, limits, touches};
 use crate::math::{Matrix, Multiplier, general_eigenvalues, hypot};
 use crate::orbit::{MachineFrame, MachineRing};
 
@@ -12,10 +14,16 @@ pub(super) enum Condition {
     /// The product of two multipliers is 1; `cosine` is half their sum at the last solution.
     Pair { cosine: f64 },
     /// The guard of this event, which is a touch, has the rate zero; rates are divided by `size`.
-    Touch { at: usize, size: f64 },
+    /// `contact` is that of a curve of sticking or holding, and `speed` the largest velocity.
+    Touch { at: usize, size: f64, contact: Option<usize>, speed: f64 },
+    /// A limit of a contact is zero, at which a rest would take no time; values are divided by `size`.
+    Limit { limit: Limit, contact: usize, size: f64 },
     /// This event and the next one have the same phase.
     Together { at: usize },
 }
+
+/// A limit that is smaller, relative to its terms, is reached but for rounding.
+const AT_LIMIT: f64 = 1e-8;
 
 /// The matrix of the linear equations of a cycle whose changes return multiplied by `turn`.
 pub(super) fn turned(frame: &MachineFrame<'_>, ring: &MachineRing, turn: f64) -> Option<Matrix> {
@@ -54,10 +62,11 @@ impl Condition {
         match self {
             Self::Singular { turn, borders } => Some(borders.test(&turned(frame, ring, *turn)?)?.0),
             Self::Pair { cosine } => Some(pair(&multipliers(frame, ring)?.1, *cosine)?.1),
-            Self::Touch { at, size } => {
+            Self::Touch { at, size, .. } => {
                 let before = (at + ring.len() - 1) % ring.len();
                 Some(ring.block(frame, before, true)?.late[0] * frame.machine.parts().frequency? / size)
             }
+            Self::Limit { limit, size, .. } => Some(limit.of(frame, ring)?.value / size),
             Self::Together { at } => Some(ring.theta(at + 1) - ring.theta(*at)),
         }
     }
@@ -84,11 +93,37 @@ impl Condition {
         }
     }
 
-    /// The events between which the cycle has no equations of its own: the touch, or both events of a corner.
-    pub(super) fn special(&self, count: usize) -> Option<(usize, usize)> {
+    /// The moments at which rounding decides what happens, in order: the touch, both events of a corner, or each event at which
+    /// the contact is at its limit. A symmetric cycle reaches a limit, or touches it, in both halves.
+    pub(super) fn moments(&self, frame: &MachineFrame<'_>, ring: &MachineRing) -> Vec<Moment> {
+        let m = ring.len();
         match self {
-            Self::Touch { at, .. } => Some((*at, *at)),
-            Self::Together { at } => Some((*at, (at + 1) % count)),
+            Self::Touch { at, contact, speed, .. } => {
+                let mut moments = vec![Moment::Events(*at, *at)];
+                if let Some(contact) = contact {
+                    let other = |leg: usize| leg != *at && (leg + 1) % m != *at;
+                    let also = touches(frame, ring, *contact, *speed).into_iter();
+                    let also = also.filter(|(value, touch)| value.abs() < AT_LIMIT && other(touch.leg));
+                    moments.extend(also.map(|(_, touch)| Moment::Flight(touch.leg, touch.phase)));
+                    moments.sort_by(|a, b| a.phase(ring).total_cmp(&b.phase(ring)));
+                }
+                moments
+            }
+            Self::Limit { contact, .. } => {
+                let at_limit = limits(frame, ring, *contact).into_iter().filter(|(value, _)| value.abs() < AT_LIMIT);
+                let mut moments: Vec<Moment> = at_limit.map(|(_, limit)| Moment::Events(limit.at, limit.at)).collect();
+                moments.dedup();
+                moments
+            }
+            Self::Together { at } => vec![Moment::Events(*at, (at + 1) % m)],
+            _ => Vec::new(),
+        }
+    }
+
+    /// The event that is a touch.
+    pub(super) const fn touch(&self) -> Option<usize> {
+        match self {
+            Self::Touch { at, .. } => Some(*at),
             _ => None,
         }
     }

@@ -9,7 +9,7 @@ use super::point::{MachineCurveEvent, MachineCurveKind, MachineCurvePoint};
 use super::problem::{CurveProblem, CurveSolution, Watched};
 use crate::continuation::curves::CurveOptions;
 use crate::continuation::equations::plane_tracer::first_step;
-use crate::continuation::of_machine::{Difference, Judged, MachinePoint, difference, edge, place};
+use crate::continuation::of_machine::{Difference, Judged, MachinePoint, difference, edge};
 use crate::continuation::trace::equations::{Equations, correct, tangent};
 use crate::continuation::trace::tracer::{Step, Tracer};
 use crate::orbit::MachineFrame;
@@ -29,6 +29,8 @@ pub struct MachineCurve {
 /// A number that changes by less than this along the curve, in quarters of its range over the arclength, changes by
 /// rounding.
 const SLOWEST: f64 = 1e-9;
+/// The distance, in parts of a step, before a limit whose rate is zero at which solutions can be judged inadmissible.
+const INEXACT: f64 = 1e-2;
 /// A curve with no further step that is closer to an edge of the frame than this, in quarters of the range, ends there.
 const AT_EDGE: f64 = 1e-7;
 
@@ -93,7 +95,7 @@ impl MachineCurve {
         let (machine, ring) = equations.split(&at.w)?;
         let cycle = at.known.cycle.clone().or_else(|| self.tracer.here.known.cycle.clone())?;
         let residual = equations.condition.residual(&MachineFrame::new(&machine), &ring, &at.known.multipliers);
-        let touch = equations.condition.special(ring.len()).map(|(first, _)| ring.place(first).phase);
+        let touch = equations.condition.touch().map(|at| ring.place(at).phase);
         let touch = touch.filter(|_| matches!(self.kind(), MachineCurveKind::Grazing { .. }));
         Some(MachineCurvePoint { values: CurveEquations::values(&at.w), cycle, residual, touch, event })
     }
@@ -139,8 +141,12 @@ impl MachineCurve {
             Some(None) => 0.0,
             None => f64::INFINITY,
         };
-        for (s, what) in step.crossed.iter().filter(|(s, _)| *s < until) {
+        for (s, what) in &step.crossed {
             let Some(what) = what.map(|j| self.tracer.problem.watched[j]) else { continue };
+            // close to a limit whose rate is zero, rounding decides on which side of it the motion leaves its rest
+            if *s >= until + if what == Watched::Release { INEXACT * step.length } else { 0.0 } {
+                continue;
+            }
             let Some(at) = self.tracer.between(step, *s).and_then(|w| self.tracer.solution(w)) else { continue };
             match self.tracer.problem.event(what) {
                 None => {
@@ -181,18 +187,22 @@ impl MachineCurve {
 
     /// Why solutions are not admissible beyond.
     fn beyond(&self, known: &Judged) -> MachineCurveEvent {
-        let ring = self.tracer.problem.equations.signature();
-        let special = self.tracer.problem.equations.condition.special(ring.len());
+        let equations = &self.tracer.problem.equations;
+        let ring = equations.signature();
+        let moments = equations
+            .split(&self.tracer.here.w)
+            .map_or_else(Vec::new, |(machine, ring)| equations.condition.moments(&MachineFrame::new(&machine), &ring));
         let stops = ring.events.first().map_or(0, |event| event.back.len());
-        let seen = known.seen.first().map(|event| place(event.guard, stops));
-        let found = match special {
-            None => difference(ring, known),
-            Some(special) => match bare(ring, special) {
+        let seen = known.seen.first().map(|event| event.guard.place(stops));
+        let found = if moments.is_empty() {
+            difference(ring, known)
+        } else {
+            match bare(ring, &moments) {
                 Some(bare) => difference(&bare, &Judged { rising: None, ..known.clone() }),
                 None => seen
                     .filter(|stop| *stop < stops)
                     .map_or(Difference::Other { place: None }, |stop| Difference::Appears { at: 0, stop }),
-            },
+            }
         };
         let grazing = matches!(self.kind(), MachineCurveKind::Grazing { .. });
         let rigid = |stop: usize| {

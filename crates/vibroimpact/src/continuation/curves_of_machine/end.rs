@@ -3,9 +3,10 @@
 //! Steps become ever shorter towards a point at which the equations are singular. The last solution shows its kind: a flight
 //! takes no time any more, or both halves of the cycle have become equal.
 
+use super::moment::Moment;
 use super::point::{MachineCurveEvent, MachineCurveKind};
 use super::problem::{CurveProblem, CurveSolution};
-use crate::continuation::of_machine::place;
+
 use crate::orbit::MachineFrame;
 
 /// A flight that is shorter than this, in forcing periods, takes no time.
@@ -17,13 +18,15 @@ pub(super) fn reason(problem: &CurveProblem, here: &CurveSolution) -> Option<Mac
     let (m, stops) = (ring.len(), machine.stops().len());
     let period = machine.period()?;
     let frequency = machine.parts().frequency?;
-    let own = problem.equations.condition.special(m);
-    let corner = |k: usize| own.is_some_and(|(first, last)| first != last && k == first);
+    let own = problem.equations.condition.moments(&MachineFrame::new(&machine), &ring);
+    let corner = |k: usize| {
+        own.iter().any(|moment| matches!(moment, Moment::Events(first, last) if first != last && k == *first))
+    };
     let shortest =
         (0..m).filter(|k| !corner(*k)).min_by(|a, b| ring.time(*a, frequency).total_cmp(&ring.time(*b, frequency)))?;
     if m > 1 && ring.time(shortest, frequency) < SHORT * period {
         let (first, second) =
-            (place(ring.events[shortest].guard, stops), place(ring.events[(shortest + 1) % m].guard, stops));
+            (ring.events[shortest].guard.place(stops), ring.events[(shortest + 1) % m].guard.place(stops));
         return Some(match problem.kind {
             _ if first != second || first >= stops => MachineCurveEvent::Corner { first, second },
             MachineCurveKind::Grazing { .. } => MachineCurveEvent::DoubleGrazing { stop: first },

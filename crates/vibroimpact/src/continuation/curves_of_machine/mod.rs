@@ -6,9 +6,11 @@
 //! | singular equations of a cycle: a multiplier +1 or -1, smooth through grazing | `borders` |
 //! | the condition that holds along a curve | `condition` |
 //! | the equations of all events with two numbers and one condition | `equations` |
-//! | whether a solution with a touch or a corner is admissible | `beside` |
+//! | a moment at which rounding decides which events the motion has | `moment` |
+//! | whether a solution with a touch, a corner or a contact at its limit is admissible | `beside` |
 //! | the problem that the tracer solves: points of codimension two | `problem` |
 //! | the events and the condition of a curve, from an event of a branch | `origin` |
+//! | the same where a rest begins or ends | `origin_at_rest` |
 //! | why a curve ends | `end` |
 //! | a point of a curve, and its event | [`MachineCurvePoint`], [`MachineCurveEvent`] |
 //! | the curve | [`MachineCurve`] |
@@ -19,7 +21,9 @@ mod condition;
 mod curve;
 mod end;
 mod equations;
+mod moment;
 mod origin;
+mod origin_at_rest;
 mod plane;
 mod point;
 mod problem;

@@ -2,10 +2,11 @@
 
 use super::condition::{Condition, multipliers, pair};
 use super::equations::CurveEquations;
+use super::origin_at_rest;
 use super::plane::{MachineCurveError, MachinePlane};
 use super::point::MachineCurveKind;
 use super::problem::CurveProblem;
-use crate::continuation::of_machine::{MachineBranchEvent, MachinePoint, closest, place};
+use crate::continuation::of_machine::{MachineBranchEvent, MachinePoint, closest};
 use crate::events::standing_back;
 use crate::machine::Machine;
 use crate::orbit::{MachineFrame, MachineRing, RingEvent};
@@ -33,7 +34,12 @@ fn begin(
 ) -> Option<Origin> {
     let frame = MachineFrame::new(machine);
     let sizes = point.cycle.sizes;
-    let mut ring = MachineRing::of(&frame, point.cycle.strobes.first()?, point.cycle.label.periods)?;
+    let begin = point.cycle.strobes.first()?;
+    let ring_at = |machine: &Machine| MachineRing::of(&MachineFrame::new(machine), begin, point.cycle.label.periods);
+    // rounding can let a motion end at a limit
+    let beside = |by: f64| ring_at(&plane.at((values.0 + by * plane.scales().0, values.1))?);
+    let mut ring = ring_at(machine).or_else(|| beside(BESIDE)).or_else(|| beside(-BESIDE))?;
+    let touch = |at: usize| Condition::Touch { at, size: sizes.1, contact: None, speed: sizes.1 };
     let (kind, condition) = match event {
         MachineBranchEvent::Fold => (MachineCurveKind::Fold, None),
         MachineBranchEvent::Flip => (MachineCurveKind::Flip, None),
@@ -48,25 +54,25 @@ fn begin(
         MachineBranchEvent::Grazing { stop, appears: true, .. } => {
             let open = |leg: usize| ring.events[leg].after[stop] == ContactState::Open;
             let legs = (0..ring.len()).filter(|leg| open(*leg));
-            let lowest = legs.filter_map(|leg| Some((leg, closest(&frame, &ring, (leg, stop))?)));
+            let lowest = legs.filter_map(|leg| Some((leg, closest(&frame, &ring, (leg, GuardKind::Gap(stop)))?)));
             let (leg, (gap, place)) = lowest.min_by(|a, b| a.1.0.abs().total_cmp(&b.1.0.abs()))?;
             if gap.abs() > NEAR * sizes.0 {
                 return Some(Err(MachineCurveError::NotThere));
             }
             let back = place.surfaces.iter().map(Option::is_some).collect();
-            ring.events.insert(leg + 1, RingEvent::touch(stop, &place.states, back));
+            ring.events.insert(leg + 1, RingEvent::touch(GuardKind::Gap(stop), &place.states, back));
             ring.places.insert(leg + 1, place);
-            (MachineCurveKind::Grazing { stop }, Some(Condition::Touch { at: leg + 1, size: sizes.1 }))
+            (MachineCurveKind::Grazing { stop }, Some(touch(leg + 1)))
         }
         MachineBranchEvent::Grazing { stop, .. } | MachineBranchEvent::LossOfContact { stop } => {
             let Some(at) = without_contact(&frame, &mut ring, (stop, NEAR * sizes.1)) else {
                 return Some(Err(MachineCurveError::NotThere));
             };
-            (MachineCurveKind::Grazing { stop }, Some(Condition::Touch { at, size: sizes.1 }))
+            (MachineCurveKind::Grazing { stop }, Some(touch(at)))
         }
         MachineBranchEvent::Corner { first, second } => {
             let stops = machine.stops().len();
-            let of = |k: usize| place(ring.events[k % ring.len()].guard, stops);
+            let of = |k: usize| ring.events[k % ring.len()].guard.place(stops);
             let both = |k: &usize| {
                 let (a, b) = (of(*k), of(k + 1));
                 (a, b) == (first, second) || (b, a) == (first, second)
@@ -77,6 +83,17 @@ fn begin(
             let kind = MachineCurveKind::Corner { first: of(at), second: of(at + 1) };
             ring.together = Some(at);
             (kind, Some(Condition::Together { at }))
+        }
+        MachineBranchEvent::Sticking { stop: contact, .. } | MachineBranchEvent::Holding { joint: contact, .. } => {
+            let Some(condition) = origin_at_rest::condition(&frame, &mut ring, (contact, sizes.1)) else {
+                return Some(Err(MachineCurveError::NotThere));
+            };
+            let kind = if contact < machine.stops().len() {
+                MachineCurveKind::Sticking { stop: contact }
+            } else {
+                MachineCurveKind::Holding { joint: contact }
+            };
+            (kind, Some(condition))
         }
         _ => return Some(Err(MachineCurveError::NotThere)),
     };
@@ -95,6 +112,9 @@ fn begin(
     };
     Some(Ok((CurveProblem::new(equations, kind, (sizes.1, rigid)), w)))
 }
+
+/// The change of the number at which the motion is followed instead, in its scale.
+const BESIDE: f64 = 1e-9;
 
 /// A gap or a speed that is larger, relative to the motion, is not that of a grazing contact.
 const NEAR: f64 = 1e-3;
@@ -117,7 +137,7 @@ fn without_contact(frame: &MachineFrame<'_>, ring: &mut MachineRing, (stop, slow
     }
     let before = ring.events[(at + m - 1) % m].clone();
     let surface = ring.places[(at + m - 1) % m].surfaces[stop];
-    ring.events[at] = RingEvent::touch(stop, &before.after, before.back.clone());
+    ring.events[at] = RingEvent::touch(GuardKind::Gap(stop), &before.after, before.back.clone());
     ring.places[at].states.clone_from(&before.after);
     let mut at = at;
     if contact {

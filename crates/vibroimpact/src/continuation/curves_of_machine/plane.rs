@@ -22,7 +22,7 @@ pub enum MachineCurveError {
     },
     /// The point has another event, or none.
     #[error(
-        "what happens at this point begins no curve\nhint: curves go through folds, flips, torus bifurcations, grazing, loss of contact and corners"
+        "what happens at this point begins no curve\nhint: curves go through folds, flips, torus bifurcations, grazing, loss of contact, corners, and where sticking or holding begins or ends at a limit"
     )]
     NotThere,
     /// Newton's method does not converge from the point, or more than one curve goes through it.

@@ -24,6 +24,16 @@ pub enum MachineCurveKind {
         /// The other.
         second: usize,
     },
+    /// A rest on a stop begins or ends to be a part of the cycle.
+    Sticking {
+        /// The stop.
+        stop: usize,
+    },
+    /// A friction joint begins or ends to hold in the cycle.
+    Holding {
+        /// The joint.
+        joint: usize,
+    },
 }
 
 impl MachineCurveKind {
@@ -36,6 +46,8 @@ impl MachineCurveKind {
             Self::Torus => "torus",
             Self::Grazing { .. } => "grazing",
             Self::Corner { .. } => "corner",
+            Self::Sticking { .. } => "sticking",
+            Self::Holding { .. } => "holding",
         }
     }
 }
@@ -46,10 +58,12 @@ pub struct MachineCurvePoint {
     /// Values of the two numbers.
     pub values: (f64, f64),
     /// The cycle there. On a curve of grazing it is the one without the contact, which is also the limit of the one with
-    /// it. Its multipliers on a curve of corners are those of one order of the two events.
+    /// it. Its multipliers on a curve of corners are those of one order of the two events, and on a curve of sticking or
+    /// holding those of the cycle without the rest that takes no time.
     pub cycle: MachineCycle,
     /// By how much the condition fails: the distance of a multiplier from +1 or -1, or of its modulus from 1; the speed at
-    /// the touch divided by the largest velocity; the difference of both phases at a corner.
+    /// the touch divided by the largest velocity; the difference of both phases at a corner; of
+    /// sticking or holding what is missing to the limit, divided by the size of its terms, or the rate of what is touched.
     pub residual: f64,
     /// The phase of the touch on a curve of grazing.
     pub touch: Option<f64>,
@@ -93,6 +107,12 @@ pub enum MachineCurveEvent {
     DegenerateGrazing {
         /// The stop.
         stop: usize,
+    },
+    /// On a curve of sticking or holding, the rate of the limit is zero too: beyond, the contact leaves its rest before or
+    /// after the event instead. The curve ends.
+    DegenerateRest {
+        /// The stop or joint.
+        place: usize,
     },
     /// On a curve of grazing, a second closing has speed zero. The curve ends.
     DoubleGrazing {
@@ -152,6 +172,7 @@ impl MachineCurveEvent {
             Self::TorusGrazing => "torus-grazing",
             Self::ResonantGrazing { .. } => "resonant grazing",
             Self::DegenerateGrazing { .. } => "degenerate grazing",
+            Self::DegenerateRest { .. } => "degenerate rest",
             Self::DoubleGrazing { .. } => "double grazing",
             Self::Touch { .. } => "touch",
             Self::Corner { .. } => "corner",
@@ -174,7 +195,7 @@ impl MachineCurveEvent {
             | Self::DoubleGrazing { stop }
             | Self::Touch { stop } => Some(stop),
             Self::Corner { first, .. } => Some(first),
-            Self::Rest { place } => Some(place),
+            Self::Rest { place } | Self::DegenerateRest { place } => Some(place),
             Self::Change { place } => place,
             _ => None,
         }

@@ -31,6 +31,8 @@ pub(super) enum Watched {
     Pair,
     /// The second derivative of the gap at the touch, in units of the largest velocity and the frequency.
     Pull,
+    /// The rate of the limit of a contact, in units of the size of its terms and the frequency.
+    Release,
     /// The factor of the inverse of the speed in the trace of the derivative over one cycle with an impact instead of the
     /// touch.
     Trace,
@@ -64,7 +66,12 @@ impl CurveProblem {
             MachineCurveKind::Grazing { .. } => {
                 watched.extend([Watched::Pull].into_iter().chain(rigid.then_some(Watched::Trace)).chain(others));
             }
-            MachineCurveKind::Corner { .. } => {}
+            MachineCurveKind::Sticking { .. } | MachineCurveKind::Holding { .. }
+                if matches!(equations.condition, Condition::Limit { .. }) =>
+            {
+                watched.push(Watched::Release);
+            }
+            MachineCurveKind::Corner { .. } | MachineCurveKind::Sticking { .. } | MachineCurveKind::Holding { .. } => {}
         }
         Self { equations, kind, watched, speed }
     }
@@ -135,7 +142,7 @@ impl CurveProblem {
             Watched::MinusOne => product(-1.0),
             Watched::Pair => Some(over_pairs(&self.others(all()?))),
             Watched::Pull => {
-                let (touch, _) = self.equations.condition.special(ring.len())?;
+                let touch = self.equations.condition.touch()?;
                 let MachineCurveKind::Grazing { stop } = self.kind else { return None };
                 let place = ring.place(touch);
                 let structure = frame.structure(&place.states)?;
@@ -146,8 +153,14 @@ impl CurveProblem {
                 }
                 Some(pull / (self.speed * frame.machine.parts().frequency?))
             }
+            Watched::Release => match &self.equations.condition {
+                Condition::Limit { limit, size, .. } => {
+                    Some(limit.of(frame, ring)?.rate / (size * frame.machine.parts().frequency?))
+                }
+                _ => None,
+            },
             Watched::Trace => {
-                let (touch, _) = self.equations.condition.special(ring.len())?;
+                let touch = self.equations.condition.touch()?;
                 let MachineCurveKind::Grazing { stop } = self.kind else { return None };
                 // what an impulse at the touch changes of the gap at the next touch
                 let m = ring.len();
@@ -187,6 +200,13 @@ impl CurveProblem {
             (Watched::PlusOne | Watched::MinusOne, _) => MachineCurveEvent::FoldFlip,
             (Watched::Pair, _) => MachineCurveEvent::TorusGrazing,
             (Watched::Pull, _) => return Some((MachineCurveEvent::DegenerateGrazing { stop: stop? }, true)),
+            (
+                Watched::Release,
+                MachineCurveKind::Sticking { stop: place } | MachineCurveKind::Holding { joint: place },
+            ) => {
+                return Some((MachineCurveEvent::DegenerateRest { place }, true));
+            }
+            (Watched::Release, _) => return None,
             (Watched::Trace, _) => MachineCurveEvent::ResonantGrazing { stop: stop? },
         };
         Some((event, false))
@@ -220,17 +240,18 @@ impl Problem for CurveProblem {
         let at = multipliers(&frame, &ring);
         let values: Option<Vec<f64>> =
             self.watched.iter().map(|what| self.value(*what, (&frame, &ring), w, &at)).collect();
-        let special = self.equations.condition.special(ring.len());
+        let moments = self.equations.condition.moments(&frame, &ring);
         // every guard must fall to zero at its event
         let rising = (0..ring.len()).find_map(|k| {
             let event = (k + 1) % ring.len();
-            let own = special.is_some_and(|(first, last)| event == first || event == last);
+            let own = moments.iter().any(|moment| moment.has(event));
             (!own && ring.block(&frame, k, true).is_none_or(|block| block.late[0] >= 0.0)).then_some(event)
         });
         let all = at.map_or_else(Vec::new, |(_, all)| all);
-        let judged = match special {
-            Some(special) => judge_beside(&frame, &ring, special, (all, rising)),
-            None => judge(&frame, &ring, (all, rising)),
+        let judged = if moments.is_empty() {
+            judge(&frame, &ring, (all, rising))
+        } else {
+            judge_beside(&frame, &ring, &moments, (all, rising))
         };
         Some((values?, judged))
     }

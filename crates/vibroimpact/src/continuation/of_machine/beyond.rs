@@ -98,7 +98,7 @@ fn appearing(
     let frame = MachineFrame::new(machine);
     let m = ring.len();
     let leg = (before + m - 1) % m;
-    let (_, place) = closest(&frame, ring, (leg, stop))?;
+    let (_, place) = closest(&frame, ring, (leg, GuardKind::Gap(stop)))?;
     let event = RingEvent {
         guard: GuardKind::Gap(stop),
         after: place.states.clone(),

@@ -1,11 +1,13 @@
 //! The branch of a cycle of a machine in one of its numbers.
 
+use super::at_rest::at_rest;
 use super::beginning::{begun, last};
 use super::beyond::{beyond, replayed};
-use super::change::{Difference, difference, place};
+use super::change::{Difference, additional, difference};
 use super::edge::edge;
 use super::equations::MachineEquations;
 use super::family::MachineFamily;
+use super::meeting::meeting;
 use super::point::{MachineBranchEvent, MachinePoint};
 use super::problem::{Judged, MINUS_ONE, MachineProblem, MachineSolution, PACE, PLUS_ONE, TORUS};
 use super::touch::{grazing, touching};
@@ -15,9 +17,6 @@ use crate::orbit::{MachineCycle, MachineFrame, MachineRing};
 use core::ops::RangeInclusive;
 use std::collections::VecDeque;
 use thiserror::Error;
-
-/// Events with phases that differ by less, where no further step converges, happen at the same time.
-const TOGETHER: f64 = 1e-6;
 
 /// Why a branch of a machine cannot begin.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
@@ -120,23 +119,14 @@ impl MachineBranch {
             Some(step) => self.go_through(step),
             None => {
                 // the events change so close by that no step ends before
-                let corner = self.meeting(&here);
-                let event = corner.unwrap_or(MachineBranchEvent::Change { place: None });
-                match replayed(&self.tracer, &here, (&self.options, corner.is_some())) {
-                    Some(next) => self.go_on(&here, event, next),
-                    None => self.end(&here, MachineBranchEvent::NoConvergence),
+                let (at, found) = meeting(&self.tracer).unwrap_or((here, Difference::Other { place: None }));
+                let corner = matches!(found, Difference::Corner { .. });
+                match replayed(&self.tracer, &at, (&self.options, corner)) {
+                    Some(next) => self.go_on(&at, found.event(false), next),
+                    None => self.end(&at, MachineBranchEvent::NoConvergence),
                 }
             }
         }
-    }
-
-    /// The corner at a solution at which two events happen at the same time.
-    fn meeting(&self, here: &MachineSolution) -> Option<MachineBranchEvent> {
-        let (machine, ring) = self.tracer.problem.equations.split(&here.w)?;
-        let (stops, m) = (machine.stops().len(), ring.len());
-        let of = |k: usize| place(ring.events[k % m].guard, stops);
-        let at = (0..m).find(|k| ring.theta(k + 1) - ring.theta(*k) < TOGETHER && of(*k) != of(k + 1))?;
-        Some(MachineBranchEvent::Corner { first: of(at), second: of(at + 1) })
     }
 
     /// Reports the events of a step in order, up to one that changes the signature or ends the branch.
@@ -235,7 +225,14 @@ impl MachineBranch {
     /// differ beyond it.
     fn edge(&self, step: &Step<Judged>, outside: f64) -> Option<(f64, MachineSolution, Difference)> {
         let (s, inside, beyond) = edge(&self.tracer, step, outside, Judged::physical)?;
-        let found = grazing(&self.tracer, &inside, difference(&self.tracer.problem.equations.ring, &beyond));
+        let ring = &self.tracer.problem.equations.ring;
+        let found = difference(ring, &beyond);
+        if let Some((at, found)) = at_rest(&self.tracer, &inside, &found) {
+            return Some((s, at, found));
+        }
+        let rest = matches!(found, Difference::Rest { .. });
+        let found = if rest { additional(ring, &beyond).unwrap_or(found) } else { found };
+        let found = grazing(&self.tracer, &inside, found);
         // a curve of the loss of contact begins with a cycle that has the impact
         let exact = self.lost(&inside, &found).is_none().then(|| touching(&self.tracer, step, (s, &inside), &found));
         let (s, at) = exact.flatten().unwrap_or((s, inside));

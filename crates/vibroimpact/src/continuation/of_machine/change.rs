@@ -34,15 +34,26 @@ impl Difference {
     }
 }
 
-/// The stop of a guard, or the joint, counted after the stops.
-pub(crate) fn place(guard: GuardKind, stops: usize) -> usize {
+/// The change of a rest of the contact whose guard this is; `holds` says whether the contact rests or holds after it in the
+/// motion beyond. `None` for the guards of stops that are struck, open or are pushed.
+fn rest(guard: GuardKind, stops: usize, holds: bool) -> Option<Difference> {
+    let place = guard.place(stops);
     match guard {
-        GuardKind::Gap(j)
-        | GuardKind::Depth(j)
-        | GuardKind::Force(j)
-        | GuardKind::Reaction(j)
-        | GuardKind::Preload(j) => j,
-        GuardKind::Sliding(joint) | GuardKind::LimitForward(joint) | GuardKind::LimitBackward(joint) => stops + joint,
+        GuardKind::Gap(_) | GuardKind::Depth(_) | GuardKind::Force(_) => None,
+        _ => Some(Difference::Rest { place, joint: place >= stops, begins: holds }),
+    }
+}
+
+/// The additional closing of a stop in the motion, if it has all events of the signature and this one.
+pub(super) fn additional(ring: &MachineRing, judged: &Judged) -> Option<Difference> {
+    let m = ring.len();
+    let wanted = |i: usize| (judged.from + 1 + i) % m;
+    let i = (0..m).find(|i| judged.seen.get(*i) != Some(&ring.events[wanted(*i)]))?;
+    let others = judged.seen.get(i + 1..)?;
+    let alike = others.len() == m - i && (i..m).all(|k| others[k - i] == ring.events[wanted(k)]);
+    match judged.seen[i].guard {
+        GuardKind::Gap(stop) if alike => Some(Difference::Appears { at: wanted(i), stop }),
+        _ => None,
     }
 }
 
@@ -50,22 +61,28 @@ pub(crate) fn place(guard: GuardKind, stops: usize) -> usize {
 pub(crate) fn difference(ring: &MachineRing, judged: &Judged) -> Difference {
     let m = ring.len();
     let stops = ring.events.first().map_or(0, |event| event.back.len());
+    // beyond, what an expected event begins does not begin
+    let missing = |event: &RingEvent| {
+        let own = event.guard.place(stops);
+        rest(event.guard, stops, !event.after[own].constrains())
+    };
     if let Some(at) = judged.rising {
-        return match ring.events[at].guard {
+        let expected = &ring.events[at];
+        return match expected.guard {
             GuardKind::Gap(stop) => Difference::Disappears { at, stop },
-            guard => Difference::Other { place: Some(place(guard, stops)) },
+            guard => missing(expected).unwrap_or(Difference::Other { place: Some(guard.place(stops)) }),
         };
     }
     let wanted = |i: usize| (judged.from + 1 + i) % m;
     let at = (0..m.max(judged.seen.len())).find(|i| *i >= m || judged.seen.get(*i) != Some(&ring.events[wanted(*i)]));
     let Some(i) = at else { return Difference::Other { place: None } };
     let expected: &RingEvent = &ring.events[wanted(i % m)];
-    let own = place(expected.guard, stops);
+    let own = expected.guard.place(stops);
     let Some(found) = judged.seen.get(i) else {
         // the motion has fewer events than the signature
         return match expected.guard {
             GuardKind::Gap(stop) => Difference::Disappears { at: wanted(i % m), stop },
-            _ => Difference::Other { place: Some(own) },
+            _ => missing(expected).unwrap_or(Difference::Other { place: Some(own) }),
         };
     };
     if i < m && found.guard == expected.guard {
@@ -84,23 +101,25 @@ pub(crate) fn difference(ring: &MachineRing, judged: &Judged) -> Difference {
             None => Difference::Rest { place: own, joint: false, begins: found.pushed.iter().any(|(_, still)| *still) },
         };
     }
-    let other = place(found.guard, stops);
+    let other = found.guard.place(stops);
     let later = |events: &mut dyn Iterator<Item = &RingEvent>, guard| events.take(3).any(|event| event.guard == guard);
     // the expected event comes a little later, or not at all
     let delayed = i < m && later(&mut judged.seen.iter().skip(i + 1), expected.guard);
-    let early = later(&mut (1..4).map(|k| &ring.events[wanted(i + k)]), found.guard);
+    let early = later(&mut (1..m.min(4)).map(|k| &ring.events[wanted(i + k)]), found.guard);
+    let new = || rest(found.guard, stops, found.after[other].constrains());
     match (found.guard, expected.guard) {
         _ if delayed && early && judged.seen.len() == m => Difference::Corner { first: own, second: other },
+        // only one of both explains the difference
+        (_, guard) if early && !delayed && rest(guard, stops, false).is_some() => {
+            missing(expected).unwrap_or(Difference::Other { place: Some(own) })
+        }
+        (guard, _) if delayed && !early && rest(guard, stops, false).is_some() => {
+            new().unwrap_or(Difference::Other { place: Some(other) })
+        }
         (GuardKind::Gap(stop), _) if judged.seen.len() > m || i >= m => Difference::Appears { at: wanted(i), stop },
         (_, GuardKind::Gap(stop)) if judged.seen.len() < m => Difference::Disappears { at: wanted(i), stop },
         (GuardKind::Gap(stop), _) => Difference::Appears { at: wanted(i), stop },
         (_, GuardKind::Gap(stop)) => Difference::Disappears { at: wanted(i), stop },
-        (GuardKind::Sliding(_) | GuardKind::LimitForward(_) | GuardKind::LimitBackward(_), _) => {
-            Difference::Rest { place: other, joint: true, begins: found.after[other].constrains() }
-        }
-        (_, GuardKind::Sliding(_) | GuardKind::LimitForward(_) | GuardKind::LimitBackward(_)) => {
-            Difference::Rest { place: own, joint: true, begins: !expected.after[own].constrains() }
-        }
-        _ => Difference::Other { place: Some(other) },
+        _ => new().or_else(|| missing(expected)).unwrap_or(Difference::Other { place: Some(other) }),
     }
 }

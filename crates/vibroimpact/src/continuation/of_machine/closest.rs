@@ -1,49 +1,51 @@
-//! Where a flight of a cycle comes closest to a stop.
+//! Where a flight of a cycle comes closest to a guard: to a stop, to the velocity of a belt, or to the limit of a reaction.
 
-use crate::events::Place;
+use crate::events::{EventLaw, Place};
 use crate::orbit::{MachineFrame, MachineRing};
+use crate::regime::GuardKind;
 
-/// The number of parts of a flight in which one minimum of the gap is looked for.
+/// The number of parts of a flight in which one minimum of the guard is looked for.
 const PARTS: u32 = 400;
 
-/// The smallest of the minima of the gap of `stop`, or of its surface that stands back, on the flight after event `leg`, and
-/// the state there, with a phase that continues those of the ring; `None` if the gap has no minimum.
+/// The smallest of the minima of a guard on the flight after event `leg`, and the state there, with a phase that continues
+/// those of the ring. The gap of a stop whose surface stands back is that of the surface. `None` if the guard has no
+/// minimum, or belongs to another regime.
 pub(crate) fn closest(
     frame: &MachineFrame<'_>,
     ring: &MachineRing,
-    (leg, stop): (usize, usize),
+    (leg, kind): (usize, GuardKind),
 ) -> Option<(f64, Place)> {
     let frequency = frame.machine.parts().frequency?;
     let mut from = ring.place(leg);
     frame.constrain(&mut from)?;
     let structure = frame.structure(&from.states)?;
+    let guard = structure.guards.iter().position(|guard| guard.kind == kind)?;
+    let law = EventLaw { structure: &structure, guard, pushed: &[] };
     let time = ring.time(leg, frequency);
-    let gap = |s: f64| {
+    let at = |s: f64| {
         let place = frame.moved(&from, &structure, s);
-        let turns = place.turns(&frame.normal);
-        let (mut gap, mut rate, ..) = place.gap(&frame.normal, &turns, stop);
-        if let Some(surface) = place.surfaces[stop] {
-            gap += surface.size - surface.offset;
-            rate -= surface.rate * surface.size;
-        }
-        (gap, rate, place)
+        let (value, rate) = law.value_and_rate(&frame.normal, &place);
+        (value, rate, place)
     };
     let steps: Vec<(f64, f64)> =
-        (0..=PARTS).map(|k| time * f64::from(k) / f64::from(PARTS)).map(|s| (s, gap(s).1)).collect();
-    // a surface that stands back begins in contact
-    let begun = usize::from(from.surfaces[stop].is_some());
+        (0..=PARTS).map(|k| time * f64::from(k) / f64::from(PARTS)).map(|s| (s, at(s).1)).collect();
+    // at an event of the same contact, or in contact with a surface that stands back, the guard begins at zero
+    let stops = frame.machine.stops().len();
+    let own = kind.place(stops);
+    let standing = own < stops && from.surfaces[own].is_some();
+    let begun = usize::from(standing || ring.events[leg].guard.place(stops) == own);
     let turning = steps.windows(2).skip(begun).filter(|pair| pair[0].1 < 0.0 && pair[1].1 >= 0.0);
     let lowest = turning
         .map(|pair| {
             let (mut low, mut high) = (pair[0].0, pair[1].0);
             for _ in 0..60 {
                 let middle = 0.5 * (low + high);
-                if gap(middle).1 < 0.0 { low = middle } else { high = middle }
+                if at(middle).1 < 0.0 { low = middle } else { high = middle }
             }
             0.5 * (low + high)
         })
-        .min_by(|a, b| gap(*a).0.total_cmp(&gap(*b).0))?;
-    let (gap, _, mut place) = gap(lowest);
+        .min_by(|a, b| at(*a).0.total_cmp(&at(*b).0))?;
+    let (value, _, mut place) = at(lowest);
     place.phase = ring.theta(leg) + frequency * lowest;
-    Some((gap, place))
+    Some((value, place))
 }

@@ -10,11 +10,16 @@
 //! | where a tracer begins | `beginning` |
 //! | how the events of a motion differ from those of a signature | `change` |
 //! | where the solutions along a step cease to be admissible | `edge` |
-//! | where a flight comes closest to a stop, and where a cycle grazes it | `closest`, `touch` |
+//! | where a flight comes closest to a stop or another guard, and where a cycle grazes it | `closest`, `touch` |
+//! | where a rest on a stop, or the hold of a joint, begins or ends | `rest` |
+//! | a signature without flights that take no time where a rest begins or ends | `joined` |
+//! | the solution at which a rest begins or ends, to rounding | `at_rest` |
+//! | two events that come so close that no further step converges | `meeting` |
 //! | the branch beyond such a change | `beyond` |
 //! | the cycle of twice the period beside a flip | `switch` |
 //! | the branch | [`MachineBranch`] |
 
+mod at_rest;
 mod beginning;
 mod beyond;
 mod branch;
@@ -23,17 +28,22 @@ mod closest;
 mod edge;
 mod equations;
 mod family;
+mod joined;
 mod linear;
+mod meeting;
 mod point;
 mod problem;
+mod rest;
 mod switch;
 mod touch;
 
 pub use branch::{MachineBranch, MachineBranchError};
-pub(crate) use change::{Difference, difference, place};
+pub(crate) use change::{Difference, difference};
 pub(crate) use closest::closest;
 pub(crate) use edge::edge;
 pub use family::MachineFamily;
+pub(crate) use joined::join;
 pub(crate) use linear::{by_number, linearised, weights};
 pub use point::{MachineBranchEvent, MachinePoint};
 pub(crate) use problem::{CLOSED, Judged, judge, over_pairs};
+pub(crate) use rest::{Limit, RestZero, limits, rest_zero, size, touches};

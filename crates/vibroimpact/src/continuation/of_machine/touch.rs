@@ -31,7 +31,7 @@ pub(super) fn grazing(tracer: &Tracer<MachineProblem>, at: &MachineSolution, fou
             weakest.map_or(found, |(at, _)| Difference::Disappears { at, stop })
         }
         Difference::Appears { stop, .. } => {
-            let flights = (0..m).filter_map(|leg| Some((leg, closest(&frame, &ring, (leg, stop))?.0)));
+            let flights = (0..m).filter_map(|leg| Some((leg, closest(&frame, &ring, (leg, GuardKind::Gap(stop)))?.0)));
             let nearest = lowest(&mut flights.into_iter());
             nearest.map_or(found, |(leg, _)| Difference::Appears { at: (leg + 1) % m, stop })
         }
@@ -59,7 +59,9 @@ pub(super) fn touching(
         let (machine, ring) = tracer.problem.equations.split(&w)?;
         let (frame, m) = (MachineFrame::new(&machine), ring.len());
         match *found {
-            Difference::Appears { at, stop } => Some(closest(&frame, &ring, ((at + m - 1) % m, stop))?.0),
+            Difference::Appears { at, stop } => {
+                Some(closest(&frame, &ring, ((at + m - 1) % m, GuardKind::Gap(stop)))?.0)
+            }
             Difference::Disappears { at, stop } => Some(speed_after(&frame, &ring, at, stop)),
             _ => None,
         }

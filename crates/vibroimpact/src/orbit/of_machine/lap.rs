@@ -52,6 +52,12 @@ impl MachineLap {
             sizes = (sizes.0.max(x), sizes.1.max(v));
             let left = time - now;
             let passage = motion.step()?;
+            if !frame.machine.joints().is_empty() {
+                // at the events of a joint the velocity can be zero
+                let middle = frame.moved(&from, &passage.structure, 0.5 * passage.duration.min(left));
+                let (x, v) = frame.sizes(&middle);
+                sizes = (sizes.0.max(x), sizes.1.max(v));
+            }
             let for_ever = matches!(motion.end(), Some(MachineEnd::Never | MachineEnd::Stuck));
             let own = if left <= passage.duration || for_ever {
                 end = Some(frame.moved(&from, &passage.structure, left));

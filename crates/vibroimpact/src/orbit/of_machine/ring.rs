@@ -38,14 +38,14 @@ pub(crate) struct RingEvent {
 }
 
 impl RingEvent {
-    /// A touch of a stop at which the motion goes on as if the stop were not there; `after` are the states on both sides.
-    pub(crate) fn touch(stop: usize, after: &[ContactState], back: Vec<bool>) -> Self {
-        Self { guard: GuardKind::Gap(stop), after: after.to_vec(), pushed: Vec::new(), back }
+    /// A touch of a guard at which the motion goes on as if the guard were not there; `after` are the states on both sides.
+    pub(crate) fn touch(guard: GuardKind, after: &[ContactState], back: Vec<bool>) -> Self {
+        Self { guard, after: after.to_vec(), pushed: Vec::new(), back }
     }
 
     /// Whether nothing happens at it, where `before` are the states before.
-    fn touches(&self, before: &[ContactState]) -> bool {
-        matches!(self.guard, GuardKind::Gap(_)) && self.pushed.is_empty() && self.after == before
+    pub(crate) fn touches(&self, before: &[ContactState]) -> bool {
+        self.pushed.is_empty() && self.after == before
     }
 
     /// The event at the end of a step; `None` if there is none.
@@ -162,6 +162,20 @@ impl MachineRing {
         (self.theta(k + 1) - self.theta(k)) / frequency
     }
 
+    /// Whether a contact rests or holds from event `k` to the next one and not before and after. Such a flight may end before
+    /// it begins: the solution is not admissible then, but with it the one at which the rest takes no time is located as a
+    /// zero like others.
+    fn rests(&self, k: usize) -> bool {
+        let m = self.len();
+        let (before, own) = (&self.events[(k + m - 1) % m].after, &self.events[k].after);
+        let RingEvent { guard, after: next, back, .. } = &self.events[(k + 1) % m];
+        let j = guard.place(back.len());
+        matches!(guard, GuardKind::Reaction(_) | GuardKind::LimitForward(_) | GuardKind::LimitBackward(_))
+            && own[j].constrains()
+            && !before[j].constrains()
+            && !next[j].constrains()
+    }
+
     /// The flight after event `k` and the event at its end; the derivatives only if `linear`.
     pub(crate) fn block(&self, frame: &MachineFrame<'_>, k: usize, linear: bool) -> Option<MachineBlock> {
         let frequency = frame.machine.parts().frequency?;
@@ -169,7 +183,7 @@ impl MachineRing {
         frame.constrain(&mut from)?;
         let event = &self.events[next];
         let time = self.time(k, frequency);
-        if !((time > 0.0 || self.together == Some(k)) && time.is_finite()) {
+        if !((time > 0.0 || self.together == Some(k) || self.rests(k)) && time.is_finite()) {
             return None;
         }
         let structure = frame.structure(&from.states)?;
