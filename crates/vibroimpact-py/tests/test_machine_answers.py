@@ -158,6 +158,16 @@ def test_a_curve_is_that_of_the_closed_form() -> None:
         ball.curve("folds", {"Gamma": (0.2, 3), "e": (0.3, 0.8)})
 
 
+def test_a_curve_of_holding_is_that_of_den_hartog() -> None:
+    # the mass begins to stick at its turning points: J. P. Den Hartog, Trans. ASME 53 (1931), 107-115
+    oscillator = vi.Machine.named("den-hartog")
+    found = oscillator.curve("holding", {"f": (0.05, 1.2), "b": (0.6, 0.97)}, event=1)
+    f, b = found.values.T
+    u = np.sin(np.pi / b) / (b * (1 + np.cos(np.pi / b)))
+    assert len(b) > 10 and np.allclose(f, b**2 / (1 - b**2) / np.sqrt(1 + b**4 * u**2), rtol=0, atol=1e-12)
+    assert found.kind == "holding" and found.event_kind.tolist() == ["end of box"] * 2
+
+
 def test_basins_and_maps_have_the_shape_of_their_axes() -> None:
     pytest.importorskip("xarray")
     found = HAMMER.basin({"q.head": (-1, 1, 5), "qdot.head": (-1, 1, 3)}, threads=2)

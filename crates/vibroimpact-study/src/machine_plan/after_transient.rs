@@ -35,6 +35,8 @@ pub(super) struct Followed {
 
 /// The largest number of events for each closing or period: opening, sticking, slipping and chatter are events too.
 pub(super) const EVENTS_EACH: u64 = 1000;
+/// The number of closings for which a motion may have events in advance.
+const BEFORE: u64 = 10;
 
 fn state(event: &MachineEvent) -> MachineStart {
     MachineStart { q: event.q.clone(), qdot: event.qdot.clone(), phase: event.phase }
@@ -49,29 +51,33 @@ pub(super) fn refused(error: vibroimpact::machine::MachineError) -> PlanError {
 }
 
 /// Follows the motion for `transient` closings and returns the next `keep` ones, or fewer if they repeat. A motion that
-/// ends has no points; it is carried on for as many periods as the transient is long.
+/// ends has no points, nor has one of a machine without stops; it is carried on for as many periods as the transient is long.
 #[allow(clippy::cast_precision_loss)] // at most 1.1e6 periods
 pub(super) fn closings(
     machine: &Machine,
     start: &MachineStart,
     (transient, keep): (u64, u64),
 ) -> Result<Followed, PlanError> {
+    let onwards = |last: MachineStart| match machine.period() {
+        Some(period) => after(machine, &last, transient.max(1) as f64 * period),
+        None => Ok(last),
+    };
+    if machine.stops().is_empty() {
+        return Ok(Followed { kind: MotionKind::NoImpact, points: Vec::new(), last: onwards(start.clone())? });
+    }
     let mut motion = MachineMotion::new(machine, start, MachineLimits::default()).map_err(refused)?;
     let mut points: Vec<MachineDiagramPoint> = Vec::new();
-    let (mut count, mut last) = (0, start.clone());
-    for _ in 0..EVENTS_EACH * (transient + keep) {
+    let (mut count, mut events, mut last) = (0, 0, start.clone());
+    // a motion may have many events before its first closing, but one that closes no more is not followed for ever
+    while events < EVENTS_EACH * (count + BEFORE) {
+        events += 1;
         let Some(event) = motion.next() else {
             let kind = match motion.end() {
                 Some(MachineEnd::Never) => MotionKind::NoImpact,
                 Some(MachineEnd::Stuck) => MotionKind::Stuck,
                 _ => MotionKind::Undecided,
             };
-            let last = match (kind, machine.period()) {
-                (MotionKind::NoImpact | MotionKind::Stuck, Some(period)) => {
-                    after(machine, &last, transient.max(1) as f64 * period)?
-                }
-                _ => last,
-            };
+            let last = if kind == MotionKind::Undecided { last } else { onwards(last)? };
             return Ok(Followed { kind, points: Vec::new(), last });
         };
         last = state(&event);
@@ -189,4 +195,19 @@ pub(super) fn settled(machine: &Machine, start: &MachineStart, quantity: &str) -
     };
     let last = found.reached(machine).unwrap_or_else(|| start.clone());
     Ok(Followed { kind, points: point.into_iter().collect(), last })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine::MachineSource;
+
+    /// A machine with friction and without stops has events for ever, and no closings.
+    #[test]
+    fn without_stops_there_are_no_closings() {
+        let machine = MachineSource::open("den-hartog").unwrap().machine().unwrap();
+        let start = MachineStart { q: vec![0.0], qdot: vec![0.0], phase: 0.0 };
+        let Followed { kind, points, last } = closings(&machine, &start, (500, 100)).unwrap();
+        assert!(kind == MotionKind::NoImpact && points.is_empty() && last != start);
+    }
 }
