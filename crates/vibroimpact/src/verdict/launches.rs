@@ -81,6 +81,7 @@ pub(super) fn sorted(count: u64, start: impl Fn(u64) -> Start) -> Option<Vec<(u3
 fn cells(starts: &[Start]) -> Vec<u16> {
     let ranges = Ranges::of(starts.iter());
     let varying = ranges.lengths().into_iter().filter(|length| *length > 0.0).count();
+    // the roots of CELLS
     let parts: u16 = [1, 1 << 14, 1 << 7, 25][varying];
     let mut cells = vec![0; starts.len()];
     for (k, (low, high)) in ranges.0.into_iter().enumerate().filter(|(_, (low, high))| low < high) {

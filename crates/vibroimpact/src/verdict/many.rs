@@ -178,7 +178,7 @@ impl<F: Fn(usize) -> (usize, Start)> Source for Starts<'_, F> {
         }
         let index = self.range.start + place as u64;
         let number = *self.numbers[known].get_or_insert_with(|| self.part.number(verdict, index));
-        self.part.caught(place, index, number, follow.count() as u64);
+        self.part.caught(place, index, number, (verdict.reason(), follow.count() as u64));
         true
     }
 

@@ -7,7 +7,8 @@
 //! | from a start to a verdict | [`settle`], `follow` |
 //! | the latest returns, recurrence, chaos: for the oscillator and for machines | `record`, `recurrence`, `recurring` |
 //! | the same for machines | `of_machine` |
-//! | many starts side by side: of one oscillator, of several; what both need | [`settle_many`], [`settle_each`], `abreast`, `settlement`, `launches` |
+//! | many starts side by side: of one oscillator, of several; what both need | [`settle_many`], [`settle_each`], `abreast`, `settlement` |
+//! | the order in which many starts are launched | `launches` |
 //! | neighbourhoods of cycles that no motion leaves | `trapping_region` |
 //! | ever gentler impacts: the limit without impacts | [`graze_limit`] |
 //! | the rule of the 1971 paper | [`paper_rule`] |

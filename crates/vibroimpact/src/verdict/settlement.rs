@@ -66,11 +66,10 @@ impl Part {
         Self { motions: Vec::new(), cells: vec![OPEN; count], endings: vec![nothing; count] }
     }
 
-    /// Records the [number](Self::number) of the motion to which a start leads, decided after so many impacts.
-    pub(super) fn caught(&mut self, place: usize, index: u64, number: usize, impacts: u64) {
+    /// Records the [number](Self::number) of the motion to which a start leads, decided for this reason after so many impacts.
+    pub(super) fn caught(&mut self, place: usize, index: u64, number: usize, (reason, impacts): (Reason, u64)) {
         let motion = &mut self.motions[number];
-        let impacts = u32::try_from(impacts).unwrap_or(u32::MAX);
-        self.endings[place] = Ending { reason: motion.verdict.reason(), impacts };
+        self.endings[place] = Ending { reason, impacts: u32::try_from(impacts).unwrap_or(u32::MAX) };
         motion.first = motion.first.min(index);
         self.cells[place] = u32::try_from(number).unwrap_or(OPEN);
     }
@@ -84,9 +83,7 @@ impl Part {
         impacts: u64,
     ) {
         let number = self.number(&verdict, index);
-        self.caught(place, index, number, impacts);
-        // the same motion may hold for other reasons
-        self.endings[place].reason = verdict.reason();
+        self.caught(place, index, number, (verdict.reason(), impacts));
         let motion = &mut self.motions[number];
         if motion.followed.as_ref().is_none_or(|(other, _)| index < *other) {
             motion.followed = Some((index, (verdict, arrivals)));
