@@ -13,7 +13,7 @@ use vibroimpact::{Oscillator, Start};
 /// Default number of points of a tile along each of two axes; a tile takes about a tenth of a second.
 const TILE: usize = 256;
 /// Default numbers of points of a tile, from and to, where there are no axes: of one system, and of many.
-const POINTS: [(usize, usize); 2] = [(512, 65536), (16, 256)];
+const POINTS: [(usize, usize); 2] = [(512, 65536), (16, 4096)];
 
 /// Where the starts are.
 pub(super) enum Starts {

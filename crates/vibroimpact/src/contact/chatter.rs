@@ -27,6 +27,7 @@
 //! $`\rho`$ also shows that the chatter is complete: during $`\tau_\infty`$ the force changes by a fraction of order
 //! $`\rho`$, and each rebound is smaller than the one before.
 
+use super::ImpactState;
 use super::mirrored;
 use crate::math::sin_cos;
 use crate::system::{Oscillator, Side};
@@ -48,6 +49,12 @@ pub const DEFAULT_SMALLNESS: f64 = 1e-4;
 /// A chatter is not summed if the rebound speed exceeds this times the acceleration into the stop. The small parameter
 /// is of the order of this quotient; if it is smaller by a coincidence of parameters, it does not measure the error.
 pub(crate) const SLOW: f64 = 0.01;
+
+/// Whether the leg after an impact is not a flight, because the chatter is complete or the rebound speed is zero.
+pub(crate) fn settles_after(osc: &Oscillator, state: &ImpactState) -> bool {
+    let rebound = state.rebound(osc).v.abs();
+    rebound == 0.0 || completion(osc, state.side, state.phase, rebound, DEFAULT_SMALLNESS).is_some()
+}
 
 /// The accumulation of the chatter that follows an impact with rebound speed `rebound` on the stop at `side`; `None` if
 /// it is not certain that the chatter is complete, or if the accumulation point is too far away for the sum to be

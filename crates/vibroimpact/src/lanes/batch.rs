@@ -55,8 +55,7 @@ pub struct Batch {
 #[derive(Clone, Debug)]
 enum Oscillators {
     One(Oscillator, Box<One>),
-    /// Those of which motions may be launched.
-    Many(Vec<Oscillator>, Each),
+    Many(Each),
 }
 
 impl Batch {
@@ -68,13 +67,9 @@ impl Batch {
         Some(Self::of(Oscillators::One(*osc, Box::new(One::new(Stride::new(osc)?))), capacity, width))
     }
 
-    /// A batch for at most `capacity` motions of these oscillators, each of its own. `None` if the lanes cannot follow
-    /// the flights of one of them, or if they have no [`Kind`] or not all the same one.
-    pub(crate) fn of_many(oscillators: Vec<Oscillator>, capacity: usize, width: Width) -> Option<Self> {
-        let strides: Vec<Stride> = oscillators.iter().map(Stride::new).collect::<Option<_>>()?;
-        let kind = Kind::of(strides.first()?)?;
-        let alike = strides.iter().all(|stride| Kind::of(stride) == Some(kind));
-        alike.then(|| Self::of(Oscillators::Many(oscillators, Each::new(kind, strides, capacity)), capacity, width))
+    /// A batch for at most `capacity` motions, each of an oscillator of its own, which is of this kind.
+    pub(crate) fn of_many(kind: Kind, capacity: usize, width: Width) -> Self {
+        Self::of(Oscillators::Many(Each::new(kind, capacity)), capacity, width)
     }
 
     fn of(systems: Oscillators, capacity: usize, width: Width) -> Self {
@@ -99,7 +94,7 @@ impl Batch {
     pub fn longest(&self) -> f64 {
         match &self.systems {
             Oscillators::One(_, one) => one.stride.longest(),
-            Oscillators::Many(_, each) => each.strides.iter().map(Stride::longest).fold(0.0, f64::max),
+            Oscillators::Many(each) => (0..self.len()).map(|slot| each.of(slot).stride.longest()).fold(0.0, f64::max),
         }
     }
 
@@ -107,14 +102,14 @@ impl Batch {
     pub(crate) fn osc(&self, slot: u32) -> &Oscillator {
         match &self.systems {
             Oscillators::One(osc, _) => osc,
-            Oscillators::Many(all, each) => &all[each.numbers[slot as usize] as usize],
+            Oscillators::Many(each) => &each.of(slot as usize).osc,
         }
     }
 
     fn stride(&self, slot: usize) -> &Stride {
         match &self.systems {
             Oscillators::One(_, one) => &one.stride,
-            Oscillators::Many(_, each) => each.stride(slot),
+            Oscillators::Many(each) => &each.of(slot).stride,
         }
     }
 
@@ -137,32 +132,32 @@ impl Batch {
         self.capacity
     }
 
-    /// Adds a motion of the oscillator with this number in the list, in the next slot.
+    /// Adds a motion in the next slot: of this oscillator, if each has its own.
     ///
     /// # Panics
     /// If the batch has `capacity` motions already.
-    pub(crate) fn push_of(&mut self, system: u32, start: Start) {
-        self.set(self.slots.count, system);
+    pub(crate) fn push_of(&mut self, osc: &Oscillator, start: Start) {
+        self.set(self.slots.count, osc);
         self.push(start);
     }
 
-    /// Replaces the motion in a slot by one of the oscillator with this number.
-    pub(crate) fn launch_of(&mut self, slot: u32, system: u32, start: Start) {
-        self.set(slot as usize, system);
+    /// Replaces the motion in a slot by one of this oscillator, if each has its own.
+    pub(crate) fn launch_of(&mut self, slot: u32, osc: &Oscillator, start: Start) {
+        self.set(slot as usize, osc);
         self.launch(slot, start);
     }
 
-    fn set(&mut self, slot: usize, system: u32) {
-        if let Oscillators::Many(_, each) = &mut self.systems {
-            each.set(slot, system);
+    fn set(&mut self, slot: usize, osc: &Oscillator) {
+        if let Oscillators::Many(each) = &mut self.systems {
+            each.set(slot, osc);
         }
     }
 
     /// Removes a motion; the one in the last slot moves to this slot.
     pub fn remove(&mut self, slot: u32) {
         self.slots.remove(slot as usize);
-        if let Oscillators::Many(_, each) = &mut self.systems {
-            each.set(slot as usize, each.numbers[self.slots.count]);
+        if let Oscillators::Many(each) = &mut self.systems {
+            each.remove(slot as usize);
         }
     }
 
@@ -173,7 +168,7 @@ impl Batch {
         self.settling.clear();
         match &self.systems {
             Oscillators::One(_, one) => self.width.round(&mut self.slots, &**one, &mut self.lists),
-            Oscillators::Many(_, each) => self.width.round(&mut self.slots, each, &mut self.lists),
+            Oscillators::Many(each) => self.width.round(&mut self.slots, each, &mut self.lists),
         }
         for k in 0..self.lists.left.len() {
             self.refine(self.lists.left[k]);
@@ -234,10 +229,7 @@ impl Batch {
     /// Whether the leg after an impact of the motion in a slot is not a flight.
     #[must_use]
     pub fn settles_after(&self, slot: u32, state: &ImpactState) -> bool {
-        let osc = self.osc(slot);
-        let rebound = state.rebound(osc).v.abs();
-        rebound == 0.0
-            || chatter::completion(osc, state.side, state.phase, rebound, chatter::DEFAULT_SMALLNESS).is_some()
+        chatter::settles_after(self.osc(slot), state)
     }
 
     /// Examines a step that the lanes could not decide, in halved steps.
@@ -247,9 +239,9 @@ impl Batch {
         let state = self.slots.state(slot as usize);
         let progress = match &self.systems {
             Oscillators::One(_, one) => one.stride.refine(&launch, state, &&**one, &one.table),
-            Oscillators::Many(_, each) => {
-                let stride = each.stride(slot as usize);
-                stride.refine(&launch, state, stride, stride)
+            Oscillators::Many(each) => {
+                let cached = each.of(slot as usize).cached();
+                cached.0.refine(&launch, state, &cached, &cached)
             }
         };
         match progress {

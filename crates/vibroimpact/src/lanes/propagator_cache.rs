@@ -6,6 +6,8 @@ use core::cell::OnceCell;
 
 /// The number of nodes that the flights in lanes reach.
 const COUNT: usize = NODES as usize + 4;
+/// The last of them.
+pub(super) const LAST: u32 = NODES + 3;
 
 /// The propagators over whole steps and the constants of halved steps, as far as they were needed. They have the bits of
 /// those computed anew, so a motion does not depend on them.
@@ -19,6 +21,11 @@ impl PropagatorCache {
     /// With nothing computed.
     pub(crate) fn new() -> Self {
         Self { nodes: from_fn(|_| OnceCell::new()), paces: from_fn(|_| OnceCell::new()) }
+    }
+
+    /// The propagator over `k` whole steps, at most [`LAST`].
+    pub(super) fn node(&self, stride: &Stride, k: u32) -> &Row<f64> {
+        self.nodes[k as usize].get_or_init(|| stride.node(f64::from(k)))
     }
 }
 

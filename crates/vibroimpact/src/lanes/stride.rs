@@ -30,7 +30,7 @@ pub(super) const fn nodes(damped: bool) -> u32 {
 }
 
 /// The number of terms of each parity of the series.
-const TERMS: usize = 9;
+pub(super) const TERMS: usize = 9;
 /// The largest $`\mu h`$ of a step. On longer steps the first guess too often misses an arc that rises above a stop and
 /// returns. With damping, the series over half a step would lose digits.
 const LONGEST: f64 = 1.5;
@@ -79,6 +79,9 @@ struct Coefficients {
     odd: [f64; TERMS],
 }
 
+/// The coefficients of one index of both parities of the four functions.
+pub(super) type Terms = [f64; 8];
+
 /// The propagator over a time, as eight columns: 1 - C, C, S, S', Kc, Ks, and sin and cos of beta t.
 pub(super) type Row<L> = [L; 8];
 
@@ -113,21 +116,29 @@ pub(super) fn closed_at_node<L: Lane>(form: &UndampedForm<L>, time: L) -> Row<L>
     [p.one_minus_c, p.c, p.s, p.c, p.kc, p.ks, p.sin_turn, p.cos_turn]
 }
 
+/// The greatest of the rates of an oscillator.
+fn fastest(osc: &Oscillator) -> f64 {
+    osc.beta().max(1.0 + 2.0 * osc.damping())
+}
+
+/// The length of a whole step of an oscillator; `None` if the lanes cannot follow its flights.
+pub(super) fn whole_step(osc: &Oscillator) -> Option<f64> {
+    let h = (LONGEST / fastest(osc) / GRAIN).floor() * GRAIN;
+    let mut stops = [Side::Upper, Side::Lower].into_iter().filter_map(|side| osc.stop(side));
+    (h >= SHORTEST && stops.all(|stop| stop.restitution != 0.0 && stop.gap.abs() <= FAR)).then_some(h)
+}
+
+/// The longest flight whose end the lanes can find, with whole steps of length `h`.
+pub(super) fn longest(damped: bool, h: f64) -> f64 {
+    f64::from(nodes(damped) + 3) * h
+}
+
 impl Stride {
     /// The constants for `osc`; `None` if the lanes cannot follow its flights, and all of them need the careful search.
     pub(crate) fn new(osc: &Oscillator) -> Option<Self> {
-        let (beta, zeta) = (osc.beta(), osc.damping());
-        let fastest = beta.max(1.0 + 2.0 * zeta);
-        let h = (LONGEST / fastest / GRAIN).floor() * GRAIN;
-        let upper = osc.stop(Side::Upper)?;
-        if h < SHORTEST || upper.restitution == 0.0 || upper.gap.abs() > FAR {
-            return None;
-        }
-        let lower = osc.stop(Side::Lower);
-        if lower.is_some_and(|stop| stop.restitution == 0.0 || stop.gap.abs() > FAR) {
-            return None;
-        }
-        let drag = 2.0 * zeta;
+        let h = whole_step(osc)?;
+        let (beta, drag) = (osc.beta(), 2.0 * osc.damping());
+        let (upper, lower) = (osc.stop(Side::Upper)?, osc.stop(Side::Lower));
         let bound = sixth_derivative(beta, drag);
         let response = *osc.response();
         let pace = Pace::new(&response, h, bound);
@@ -144,7 +155,7 @@ impl Stride {
             restitution: [upper.restitution, lower.map_or(0.0, |stop| stop.restitution)],
             h,
             margin_rate: ROUGH / h,
-            shortest: 1.0 / fastest,
+            shortest: 1.0 / fastest(osc),
             bound,
             sixth: [power * (1.0 + force), power * force],
         };
@@ -161,37 +172,39 @@ impl Stride {
 
     /// The longest flight whose end the lanes can find.
     pub(super) fn longest(&self) -> f64 {
-        f64::from(nodes(self.constants.damped) + 3) * self.constants.h
+        longest(self.constants.damped, self.constants.h)
     }
 
     /// The propagator over a time of either sign, at most half a step, by the series.
     #[inline(always)]
     pub(super) fn by_series<L: Lane>(&self, t: L) -> Row<L> {
         let Constants { damped, beta, drag, .. } = self.constants;
-        let detuning = L::splat((1.0 - beta) * (1.0 + beta));
-        let (beta, drag) = (L::splat(beta), L::splat(drag));
-        let z = t * t;
-        let zz = z * z;
-        let [free_c, free_s, forced_c, forced_s] = &self.series;
-        let (mut omc, mut s) = (z * sum(&free_c.even, z, zz), t * sum(&free_s.odd, z, zz));
-        let (mut kc, mut ks) = (z * sum(&forced_c.even, z, zz), t * (z * sum(&forced_s.odd, z, zz)));
-        if damped {
-            let zt = z * t;
-            omc = omc + zt * sum(&free_c.odd, z, zz);
-            s = s + z * sum(&free_s.even, z, zz);
-            kc = kc + zt * sum(&forced_c.odd, z, zz);
-            ks = ks + zz * sum(&forced_s.even, z, zz);
+        let (z, zz) = (t * t, (t * t) * (t * t));
+        let mut sums = [[L::splat(0.0); 2]; 4];
+        let mut n = 0;
+        while n < 4 {
+            let Coefficients { even, odd } = &self.series[n];
+            // without damping the function 1 - C and Kc are even, the others odd
+            if damped || n % 2 == 0 {
+                sums[n][0] = sum(even, z, zz);
+            }
+            if damped || n % 2 == 1 {
+                sums[n][1] = sum(odd, z, zz);
+            }
+            n += 1;
         }
-        let c = L::splat(1.0) - omc;
-        let s_rate = c - drag * s;
-        // cos and sin of beta t follow from K'' + 2 zeta K' + K = e^{i beta t}
-        let cross = drag * beta;
-        let (cos, sin) = if damped {
-            (c + detuning * kc - cross * ks, beta * s + detuning * ks + cross * kc)
-        } else {
-            (c + detuning * kc, beta * s + detuning * ks)
-        };
-        [omc, c, s, s_rate, kc, ks, sin, cos]
+        of_sums(sums, (damped, L::splat(beta), L::splat(drag)), (t, z, zz))
+    }
+
+    /// The coefficients of the series, as [`damped_by_series`] takes them.
+    pub(super) fn terms(&self) -> [Terms; TERMS] {
+        let mut terms = [[0.0; 8]; TERMS];
+        for (n, Coefficients { even, odd }) in self.series.iter().enumerate() {
+            for (k, terms) in terms.iter_mut().enumerate() {
+                (terms[2 * n], terms[2 * n + 1]) = (even[k], odd[k]);
+            }
+        }
+        terms
     }
 
     /// The propagator without damping over any time from 0 on, accurate to the last bits: by the series over the first
@@ -214,11 +227,86 @@ impl Stride {
     }
 }
 
+/// The propagator over a time `t` from the sums of the series of its functions, of both parities in powers of
+/// `z` $`= t^2`$.
+#[inline(always)]
+fn of_sums<L: Lane>(sums: [[L; 2]; 4], (damped, beta, drag): (bool, L, L), (t, z, zz): (L, L, L)) -> Row<L> {
+    let one = L::splat(1.0);
+    let detuning = (one - beta) * (one + beta);
+    let [[free_c, free_c_odd], [free_s_even, free_s], [forced_c, forced_c_odd], [forced_s_even, forced_s]] = sums;
+    let (mut omc, mut s) = (z * free_c, t * free_s);
+    let (mut kc, mut ks) = (z * forced_c, t * (z * forced_s));
+    if damped {
+        let zt = z * t;
+        omc = omc + zt * free_c_odd;
+        s = s + z * free_s_even;
+        kc = kc + zt * forced_c_odd;
+        ks = ks + zz * forced_s_even;
+    }
+    let c = one - omc;
+    let s_rate = c - drag * s;
+    // cos and sin of beta t follow from K'' + 2 zeta K' + K = e^{i beta t}
+    let cross = drag * beta;
+    let (cos, sin) = if damped {
+        (c + detuning * kc - cross * ks, beta * s + detuning * ks + cross * kc)
+    } else {
+        (c + detuning * kc, beta * s + detuning * ks)
+    };
+    [omc, c, s, s_rate, kc, ks, sin, cos]
+}
+
+/// The propagator with damping over a time of either sign, at most half a step, of another oscillator in each lane: that
+/// with this number in a list of all [`Stride::terms`].
+#[inline(always)]
+pub(super) fn damped_by_series<L: Lane>(
+    terms: &[Terms],
+    numbers: &[u32; WIDEST],
+    (beta, drag): (L, L),
+    t: L,
+) -> Row<L> {
+    let (z, zz) = (t * t, (t * t) * (t * t));
+    // the sums of all eight series at once, each as in `sum`
+    let (sixth, seventh) = (terms_of::<L>(terms, numbers, 6), terms_of::<L>(terms, numbers, 7));
+    let eighth = terms_of::<L>(terms, numbers, 8);
+    let mut sums: [L; 8] = sixth;
+    let mut n = 0;
+    while n < 8 {
+        sums[n] = (sixth[n] + seventh[n] * z) + eighth[n] * zz;
+        n += 1;
+    }
+    let mut k = 6;
+    while k > 0 {
+        k -= 2;
+        let (one, next) = (terms_of::<L>(terms, numbers, k), terms_of::<L>(terms, numbers, k + 1));
+        n = 0;
+        while n < 8 {
+            sums[n] = (one[n] + next[n] * z) + zz * sums[n];
+            n += 1;
+        }
+    }
+    let [a, b, c, d, e, f, g, h] = sums;
+    of_sums([[a, b], [c, d], [e, f], [g, h]], (true, beta, drag), (t, z, zz))
+}
+
+/// The coefficients of one index of the oscillators with these numbers.
+#[inline(always)]
+fn terms_of<L: Lane>(terms: &[Terms], numbers: &[u32; WIDEST], k: usize) -> [L; 8] {
+    let mut at = [0; WIDEST];
+    let mut lane = 0;
+    while lane < L::WIDTH {
+        #[allow(clippy::cast_possible_truncation)] // nine terms
+        let row = numbers[lane] * TERMS as u32 + k as u32;
+        at[lane] = row;
+        lane += 1;
+    }
+    L::rows(terms, &at)
+}
+
 /// The propagators that are not needed in every step.
 pub(super) trait Propagators<L> {
     /// The propagator over `k` whole steps.
     fn node(&self, k: L) -> Row<L>;
-    /// The propagator over a time of either sign, at most half a step.
+    /// The propagator over a time of either sign, at most half a step. In lanes of several systems: with damping.
     fn rest(&self, t: L) -> Row<L>;
     /// The propagator without damping over any time from 0 on.
     fn whole(&self, time: L) -> Row<L>;
@@ -282,19 +370,26 @@ impl Table {
     /// The propagators over these numbers of whole steps.
     #[inline(always)]
     pub(super) fn node<L: Lane>(&self, k: L) -> Row<L> {
-        let mut numbers = [0.0; WIDEST];
-        k.store(&mut numbers);
-        let mut which = [0; WIDEST];
         #[allow(clippy::cast_possible_truncation)] // a few dozen
         let last = self.nodes.len() as u32 - 1;
-        for (which, k) in which.iter_mut().zip(numbers) {
-            // whole numbers up to a few dozen; invalid values saturate
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-            let k = k as u32;
-            *which = k.min(last);
-        }
-        L::rows(&self.nodes, &which)
+        L::rows(&self.nodes, &indices(k, last))
     }
+}
+
+/// The numbers of whole steps of the lanes as indices up to `last`; invalid guesses of a contact, in lanes that are not
+/// used, are numbers beyond these.
+#[inline(always)]
+pub(super) fn indices<L: Lane>(k: L, last: u32) -> [u32; WIDEST] {
+    let mut numbers = [0.0; WIDEST];
+    k.store(&mut numbers);
+    let mut which = [0; WIDEST];
+    for (which, k) in which.iter_mut().zip(numbers) {
+        // the conversion saturates
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let k = k as u32;
+        *which = k.min(last);
+    }
+    which
 }
 
 impl Halvings for Table {

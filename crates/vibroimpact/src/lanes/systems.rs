@@ -1,9 +1,13 @@
 //! The systems of the flights of a batch: one for all slots, or another one in each.
 
 use super::constants::Constants;
-use super::stride::{Pace, Propagators, Row, Stride, Table, WIDEST, closed, closed_at_node};
+use super::propagator_cache::{Cached, LAST, PropagatorCache};
+use super::stride::{
+    Pace, Propagators, Row, Stride, TERMS, Table, Terms, WIDEST, closed, closed_at_node, damped_by_series, indices,
+    longest, whole_step,
+};
 use crate::math::{Lane, Mask, Numbers, Single};
-use crate::system::{FormKind, Oscillator, UndampedForm};
+use crate::system::{FormKind, Oscillator, Side, UndampedForm};
 
 /// Where the stages of a round find the constants of the flights in their lanes.
 pub(super) trait Systems {
@@ -88,29 +92,28 @@ impl<L: Lane> Propagators<L> for &One {
     }
 }
 
-/// What the systems of one batch have in common, so that the same operations serve all lanes. They have no damping: with
-/// damping the closed form is not used in lanes, and propagators that differ from lane to lane would have to be computed
-/// one by one, which costs more than single motions.
+/// What the systems of one batch have in common, so that the same operations serve all lanes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Kind {
     two_stops: bool,
+    damped: bool,
+    /// The closed form, which is used without damping.
     form: FormKind,
 }
 
 impl Kind {
-    /// The kind of an oscillator, and the longest flight whose end the lanes can find; `None` if its flights cannot share
-    /// lanes with those of others.
-    pub(crate) fn of_flights(osc: &Oscillator) -> Option<(Self, f64)> {
-        let stride = Stride::new(osc)?;
-        Some((Self::of(&stride)?, stride.longest()))
-    }
-
-    /// That of a system.
-    pub(super) fn of(stride: &Stride) -> Option<Self> {
-        let Constants { two_stops, damped, .. } = stride.constants;
-        (!damped).then_some(Self { two_stops, form: stride.form.kind })
+    /// The kind of an oscillator, and the longest flight whose end the lanes can find; `None` if they cannot follow its
+    /// flights.
+    pub(crate) fn of(osc: &Oscillator) -> Option<(Self, f64)> {
+        let h = whole_step(osc)?;
+        let damped = osc.damping() != 0.0;
+        let form = if damped { FormKind::Plain } else { osc.response().undamped_form().kind };
+        Some((Self { two_stops: osc.stop(Side::Lower).is_some(), damped, form }, longest(damped, h)))
     }
 }
+
+/// The numbers of rows that are in the order of the lanes.
+const IN_ORDER: [u32; WIDEST] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
 
 /// The constants of a slot, by column: beta, 2 zeta, both gaps, both restitutions, h, margin rate, shortest time, B6, the
 /// sixth derivative, the closed form.
@@ -119,13 +122,28 @@ type Columns<L> = [L; 16];
 /// The constants and the pace of sixteen slots, side by side.
 type Block = (Constants<[f32; WIDEST]>, [[f32; WIDEST]; 16]);
 
+/// The system of a slot, with its propagators.
+#[derive(Clone, Debug)]
+pub(super) struct OfSlot {
+    pub(super) osc: Oscillator,
+    pub(super) stride: Stride,
+    cache: PropagatorCache,
+}
+
+impl OfSlot {
+    pub(super) const fn cached(&self) -> Cached<'_> {
+        Cached(&self.stride, &self.cache)
+    }
+}
+
 /// Another system in each slot; all are of one [`Kind`].
 #[derive(Clone, Debug)]
 pub(super) struct Each {
     kind: Kind,
-    pub(super) strides: Vec<Stride>,
-    /// The number of the system of each slot.
-    pub(super) numbers: Vec<u32>,
+    /// The systems of the slots.
+    systems: Vec<OfSlot>,
+    /// The coefficients of the series of the slots, with damping.
+    series: Vec<[Terms; TERMS]>,
     rows: Vec<Columns<f64>>,
     /// The paces of the slots.
     paces: Vec<[f64; 16]>,
@@ -134,24 +152,47 @@ pub(super) struct Each {
 }
 
 impl Each {
-    /// For this number of slots.
-    pub(super) fn new(kind: Kind, strides: Vec<Stride>, capacity: usize) -> Self {
+    /// For at most this number of slots.
+    pub(super) fn new(kind: Kind, capacity: usize) -> Self {
         let blocks = capacity.div_ceil(WIDEST) + 1;
         let padded = blocks * WIDEST;
         Self {
             kind,
-            strides,
-            numbers: vec![0; padded],
+            systems: Vec::with_capacity(capacity),
+            series: vec![[[0.0; 8]; TERMS]; if kind.damped { padded } else { 0 }],
             rows: vec![[0.0; 16]; padded],
             paces: vec![[0.0; 16]; padded],
             blocks: vec![Default::default(); blocks],
         }
     }
 
-    /// Gives a slot the system with this number.
-    pub(super) fn set(&mut self, slot: usize, number: u32) {
-        self.numbers[slot] = number;
-        let Stride { constants, roughly, pace, rough, form, .. } = &self.strides[number as usize];
+    /// Gives a slot, which may be the next one, a system of this kind.
+    pub(super) fn set(&mut self, slot: usize, osc: &Oscillator) {
+        let Some(stride) = Stride::new(osc) else { return };
+        let system = OfSlot { osc: *osc, stride, cache: PropagatorCache::new() };
+        if slot == self.systems.len() {
+            self.systems.push(system);
+        } else {
+            self.systems[slot] = system;
+        }
+        self.write(slot);
+    }
+
+    /// Removes a slot; the last one moves to its place.
+    pub(super) fn remove(&mut self, slot: usize) {
+        self.systems.swap_remove(slot);
+        if slot < self.systems.len() {
+            self.write(slot);
+        }
+    }
+
+    /// Writes the numbers of the system of a slot to where the lanes read them.
+    fn write(&mut self, slot: usize) {
+        let stride = &self.systems[slot].stride;
+        if self.kind.damped {
+            self.series[slot] = stride.terms();
+        }
+        let Stride { constants, roughly, pace, rough, form, .. } = stride;
         let Constants { beta, drag, gap, restitution, h, margin_rate, shortest, bound, sixth, .. } = *constants;
         let [a, b, c] = form.numbers;
         self.rows[slot] = [
@@ -173,15 +214,16 @@ impl Each {
             c,
         ];
         let (block, lane) = (&mut self.blocks[slot / WIDEST], slot % WIDEST);
-        (block.0.two_stops, block.0.damped) = (self.kind.two_stops, false);
+        (block.0.two_stops, block.0.damped) = (self.kind.two_stops, self.kind.damped);
         block.0.put(roughly, |numbers, number| numbers[lane] = *number);
         block.1.iter_mut().zip(rough.row()).for_each(|(numbers, number)| numbers[lane] = number);
         self.paces[slot] = pace.row();
     }
 
-    /// The system of a slot.
-    pub(super) fn stride(&self, slot: usize) -> &Stride {
-        &self.strides[self.numbers[slot] as usize]
+    /// The system of a slot; that of the last one for a slot beyond, which stands in a lane that is not used.
+    #[inline]
+    pub(super) fn of(&self, slot: usize) -> &OfSlot {
+        &self.systems[slot.min(self.systems.len() - 1)]
     }
 }
 
@@ -207,7 +249,7 @@ impl Systems for Each {
         let one = L::splat(1.0);
         let constants = Constants {
             two_stops: self.kind.two_stops,
-            damped: false,
+            damped: self.kind.damped,
             beta,
             drag,
             gap: [up, low],
@@ -270,7 +312,7 @@ impl<L: Lane> OfGroup<'_, L> {
         }
         while bits != 0 {
             let lane = bits.trailing_zeros() as usize % WIDEST;
-            let of_lane = of(self.each.stride(self.group.slots[lane] as usize), single[lane]);
+            let of_lane = of(&self.each.of(self.group.slots[lane] as usize).stride, single[lane]);
             for (column, number) in columns.iter_mut().zip(of_lane) {
                 column[lane] = number;
             }
@@ -283,11 +325,24 @@ impl<L: Lane> OfGroup<'_, L> {
 impl<L: Lane> Propagators<L> for OfGroup<'_, L> {
     #[inline(always)]
     fn node(&self, k: L) -> Row<L> {
-        closed_at_node(&self.group.form, k * self.group.constants.h)
+        let constants = &self.group.constants;
+        if !constants.damped {
+            return closed_at_node(&self.group.form, k * constants.h);
+        }
+        let which = indices(k, LAST);
+        let mut rows = [[0.0; 8]; WIDEST];
+        let mut lane = 0;
+        while lane < L::WIDTH {
+            let Cached(stride, cache) = self.each.of(self.group.slots[lane] as usize).cached();
+            rows[lane] = *cache.node(stride, which[lane]);
+            lane += 1;
+        }
+        L::rows(&rows, &IN_ORDER)
     }
     #[inline(always)]
     fn rest(&self, t: L) -> Row<L> {
-        self.alone(every::<L>(), [t; 8], t, |stride, t| stride.rest(t))
+        let Group { slots, constants, .. } = &self.group;
+        damped_by_series(self.each.series.as_flattened(), slots, (constants.beta, constants.drag), t)
     }
     #[inline(always)]
     fn whole(&self, time: L) -> Row<L> {
@@ -295,9 +350,4 @@ impl<L: Lane> Propagators<L> for OfGroup<'_, L> {
         let early = time.less(L::splat(0.5) * self.group.constants.h).bits();
         if early == 0 { row } else { self.alone(early, row, time, |stride, t| stride.rest(t)) }
     }
-}
-
-/// The bits of all lanes.
-const fn every<L: Numbers>() -> u32 {
-    (1 << L::WIDTH) - 1
 }

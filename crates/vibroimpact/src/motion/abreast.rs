@@ -5,14 +5,14 @@
 //! lanes would be empty.
 
 use super::{End, Motion};
-use crate::contact::ImpactState;
+use crate::contact::{ImpactState, chatter};
 use crate::flight::{Contact, SearchLimits};
-use crate::lanes::Batch;
+use crate::lanes::{Batch, PropagatorCache};
 use crate::system::{Oscillator, Start};
 
 /// A motion that is to be followed.
 pub(crate) struct Launched {
-    /// The number of its oscillator in the batch.
+    /// The number of its oscillator.
     pub(crate) system: u32,
     pub(crate) start: Start,
 }
@@ -25,18 +25,20 @@ pub(crate) trait Recorder {
     fn track(&self) -> Self::Track;
     /// The next motion, for which this record is used from now on; `None` if there is no more.
     fn next(&mut self, track: &mut Self::Track) -> Option<Launched>;
+    /// The oscillator with this number.
+    fn osc(&self, system: u32) -> &Oscillator;
     /// Records an impact a time `interval` after the last event, found in so many search steps. Returns whether the motion
     /// is done.
     fn impact(&mut self, track: &mut Self::Track, osc: &Oscillator, state: ImpactState, found: (f64, u64)) -> bool;
     /// Records that no event follows. The motion is done.
     fn end(&mut self, track: &mut Self::Track, osc: &Oscillator, end: End);
     /// Records the events of a single motion until it is done, or until an impact at which `leave` returns true, which is
-    /// returned.
+    /// returned. There is a cache of the propagators if the motion may be long.
     fn alone(
         &mut self,
         track: &mut Self::Track,
         osc: &Oscillator,
-        motion: Motion<'_>,
+        motion: (Motion<'_>, Option<&PropagatorCache>),
         leave: impl Fn(&ImpactState) -> bool,
     ) -> Option<ImpactState>;
     /// Called after each motion; whether to stop.
@@ -77,7 +79,7 @@ impl<R: Recorder> Abreast<R> {
             let next = self.recorder.next(&mut track);
             more = next.is_some();
             if let Some(Launched { system, start }) = next {
-                self.batch.push_of(system, start);
+                self.batch.push_of(self.recorder.osc(system), start);
                 self.slots.push(Slot { track, done: false });
             }
         }
@@ -111,7 +113,7 @@ impl<R: Recorder> Abreast<R> {
                 let next = if more { self.recorder.next(&mut self.slots[slot as usize].track) } else { None };
                 more = next.is_some();
                 if let Some(Launched { system, start }) = next {
-                    self.batch.launch_of(slot, system, start);
+                    self.batch.launch_of(slot, self.recorder.osc(system), start);
                     self.slots[slot as usize].done = false;
                 } else {
                     self.batch.remove(slot);
@@ -129,7 +131,8 @@ impl<R: Recorder> Abreast<R> {
             let slot = self.batch.len() as u32 - 1;
             let osc = self.batch.osc(slot);
             let motion = Motion::with_limits(osc, self.batch.launched(slot), self.limits);
-            self.recorder.alone(track, osc, motion, |_| false);
+            let cache = PropagatorCache::new();
+            self.recorder.alone(track, osc, (motion, Some(&cache)), |_| false);
             if self.recorder.stopping() {
                 break;
             }
@@ -161,8 +164,8 @@ impl<R: Recorder> Abreast<R> {
             return;
         }
         let (state, _) = self.batch.arrival(slot);
-        if self.batch.settles_after(slot, &state) {
-            let osc = *self.batch.osc(slot);
+        let osc = *self.batch.osc(slot);
+        if chatter::settles_after(&osc, &state) {
             self.hand_over(slot, &osc, Motion::after(&osc, &state, self.limits));
         }
     }
@@ -189,8 +192,8 @@ impl<R: Recorder> Abreast<R> {
 
     /// Follows a single motion until it flies from impact to impact again, or until it is done.
     fn hand_over(&mut self, slot: u32, osc: &Oscillator, motion: Motion<'_>) {
-        let (batch, track) = (&self.batch, &mut self.slots[slot as usize].track);
-        match self.recorder.alone(track, osc, motion, |state| !batch.settles_after(slot, state)) {
+        let track = &mut self.slots[slot as usize].track;
+        match self.recorder.alone(track, osc, (motion, None), |state| !chatter::settles_after(osc, state)) {
             Some(state) => self.batch.launch(slot, state.rebound(osc)),
             None => self.note(slot, true),
         }

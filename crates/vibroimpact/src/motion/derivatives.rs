@@ -1,13 +1,15 @@
 //! The derivatives of the impact map at successive impacts, side by side, with the same bits as one by one.
 
 use super::ImpactState;
-use super::impact_map::Passage;
+use super::impact_map::{Passage, derivative};
 use crate::lanes::{Task, Width};
 use crate::math::{Lane, Matrix2};
 use crate::system::{Oscillator, decay};
 
 /// The largest number of impacts side by side.
 pub(crate) const ABREAST: usize = 16;
+/// Fewer impacts than this are faster one by one.
+const FEW: usize = 3;
 /// The longest time, and the largest angle of the force, for the sine and cosine in lanes.
 const LONGEST: f64 = 1e5;
 
@@ -17,6 +19,14 @@ type Column = [f64; ABREAST];
 /// The derivatives from each impact to the next: from `first` to the first of the others, and so on. Those beyond the
 /// last impact have no meaning. `others` are at most [`ABREAST`], each with the time since the impact before.
 pub(crate) fn derivatives(osc: &Oscillator, first: &ImpactState, others: &[(ImpactState, f64)]) -> [Matrix2; ABREAST] {
+    if others.len() < FEW {
+        let (mut all, mut before) = ([Matrix2::IDENTITY; ABREAST], first);
+        for (one, (next, interval)) in all.iter_mut().zip(others) {
+            *one = derivative(osc, before, next, *interval);
+            before = next;
+        }
+        return all;
+    }
     with(Width::best(), osc, first, others)
 }
 
@@ -138,7 +148,7 @@ impl Task for Columns<'_> {
 mod tests {
     use super::*;
     use crate::flight::SearchLimits;
-    use crate::motion::{Mapped, derivative, impact_map};
+    use crate::motion::{Mapped, impact_map};
     use crate::system::Side;
 
     #[test]

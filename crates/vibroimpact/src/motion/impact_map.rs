@@ -17,6 +17,7 @@
 
 use super::{End, Event, EventKind, ImpactState, Motion};
 use crate::flight::SearchLimits;
+use crate::lanes::PropagatorCache;
 use crate::math::{Lane, Matrix2};
 use crate::system::{Oscillator, Side};
 
@@ -55,23 +56,24 @@ pub fn impact_map(osc: &Oscillator, state: &ImpactState, limits: SearchLimits) -
     ImpactMap::new(osc, limits).after(state)
 }
 
-/// The impact map of one oscillator, for many impacts.
-pub(crate) struct ImpactMap<'a>(Motion<'a>);
+/// The impact map of one oscillator, for many impacts: propagators are computed once.
+pub(crate) struct ImpactMap<'a>(Motion<'a>, PropagatorCache);
 
 impl<'a> ImpactMap<'a> {
     /// With these limits of the search for each contact.
     pub(crate) fn new(osc: &'a Oscillator, limits: SearchLimits) -> Self {
-        Self(Motion::after(osc, &ImpactState { phase: 0.0, velocity: 0.0, side: Side::Upper }, limits))
+        let motion = Motion::after(osc, &ImpactState { phase: 0.0, velocity: 0.0, side: Side::Upper }, limits);
+        Self(motion, PropagatorCache::new())
     }
 
     /// The event after an impact, as [`impact_map`] returns it.
     pub(crate) fn after(&mut self, state: &ImpactState) -> Mapped {
         // a chatter is completed as in a motion; without this, iterating the map would go through all its impacts
-        let motion = &mut self.0;
+        let Self(motion, cache) = self;
         motion.restart(state);
         let mut passed = 0;
         loop {
-            match motion.next() {
+            match motion.advance(Some(cache)) {
                 // contacts without an impact may repeat for ever
                 Some(event) if passed > MAX_TOUCHES => return Mapped::End(End::NoneFor(event.time)),
                 Some(event) => match event.kind {

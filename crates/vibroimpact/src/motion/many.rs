@@ -4,7 +4,7 @@ use super::abreast::{Abreast, Launched, Recorder};
 use super::{End, Event, EventKind, Motion};
 use crate::contact::ImpactState;
 use crate::flight::SearchLimits;
-use crate::lanes::{Batch, Width};
+use crate::lanes::{Batch, PropagatorCache, Width};
 use crate::math::Sum;
 use crate::system::{Oscillator, Start};
 
@@ -56,15 +56,17 @@ pub fn record_events(
     recorder: &mut impl EventRecorder,
 ) {
     let batch = if starts.len() < FEW { None } else { Batch::new(osc, MOST.min(starts.len()), width) };
-    let mut events = Events { starts, next: 0, recorder };
+    let mut events = Events { osc, starts, next: 0, recorder };
     match batch.filter(|batch| batch.longest() < limits.horizon(osc)) {
         Some(batch) => {
             Abreast::new(batch, limits, events).run();
         }
         None => {
+            let cache = PropagatorCache::new();
             for (number, start) in starts.iter().enumerate() {
                 let mut track = Track { number, time: Sum::default() };
-                events.alone(&mut track, osc, Motion::with_limits(osc, *start, limits), |_| false);
+                let motion = Motion::with_limits(osc, *start, limits);
+                events.alone(&mut track, osc, (motion, Some(&cache)), |_| false);
                 if events.stopping() {
                     return;
                 }
@@ -74,6 +76,7 @@ pub fn record_events(
 }
 
 struct Events<'a, R> {
+    osc: &'a Oscillator,
     starts: &'a [Start],
     next: usize,
     recorder: &'a mut R,
@@ -99,6 +102,10 @@ impl<R: EventRecorder> Recorder for Events<'_, R> {
         Some(Launched { system: 0, start })
     }
 
+    fn osc(&self, _: u32) -> &Oscillator {
+        self.osc
+    }
+
     fn impact(&mut self, track: &mut Track, osc: &Oscillator, state: ImpactState, (interval, _): (f64, u64)) -> bool {
         track.time.add(interval);
         let ImpactState { phase, velocity, side } = state;
@@ -115,11 +122,11 @@ impl<R: EventRecorder> Recorder for Events<'_, R> {
         &mut self,
         track: &mut Track,
         _: &Oscillator,
-        motion: Motion<'_>,
+        (motion, cache): (Motion<'_>, Option<&PropagatorCache>),
         leave: impl Fn(&ImpactState) -> bool,
     ) -> Option<ImpactState> {
         let mut motion = motion.begun(track.time);
-        while let Some(event) = motion.next() {
+        while let Some(event) = motion.advance(cache) {
             if !self.recorder.event(track.number, &event) {
                 return None;
             }

@@ -8,6 +8,7 @@
 use super::cycle::{Cycle, CyclePoint, RestSpan};
 use super::label::{Count, Label};
 use crate::contact::sticking::release_phase;
+use crate::lanes::PropagatorCache;
 use crate::math::Multiplier;
 use crate::motion::{EventKind, ImpactState, Motion};
 use crate::system::{Oscillator, Side};
@@ -59,10 +60,12 @@ impl Excursion {
         release_phase(osc, side)?;
         let after = |from| Stretch { from, strikes: Vec::new(), rest: None };
         let mut excursion = Self { stretches: vec![after(side)], periods: None };
-        let mut motion = Motion::released(osc, side);
+        let (mut motion, cache) = (Motion::released(osc, side), PropagatorCache::new());
         let mut flown = 0.0;
         for _ in 0..events {
-            let Some(event) = motion.next().filter(|event| event.time <= periods * osc.period()) else { break };
+            let Some(event) = motion.advance(Some(&cache)).filter(|event| event.time <= periods * osc.period()) else {
+                break;
+            };
             // sums of times of flight, because differences of the total time would lose the short flights of a chatter
             flown += motion.leg().map_or(0.0, |leg| leg.duration);
             let here = excursion.stretches.last_mut()?;

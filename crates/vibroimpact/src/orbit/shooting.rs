@@ -10,7 +10,7 @@ use super::cycle::{Cycle, CyclePoint, distance};
 use super::label::Label;
 use crate::flight::SearchLimits;
 use crate::math::{Matrix2, eigenvalues, exp};
-use crate::motion::{ImpactMap, ImpactState, Mapped, derivative};
+use crate::motion::{ABREAST, ImpactMap, ImpactState, Mapped, derivatives};
 use crate::system::{Oscillator, phase};
 use core::f64::consts::TAU;
 use thiserror::Error;
@@ -79,19 +79,21 @@ fn newton(
         if lap.last.side != state.side {
             return Err(ShootingError::Broken);
         }
-        if abandon(residual, &lap.derivative) {
+        let improves = best.as_ref().is_none_or(|(so_far, _)| residual < *so_far);
+        if !improves && best.as_ref().is_some_and(|(so_far, _)| *so_far <= CLOSED) {
+            break;
+        }
+        let derivative = lap.derivative(osc);
+        if abandon(residual, &derivative) {
             return Err(ShootingError::NotConverged(residual));
         }
-        let improves = best.as_ref().is_none_or(|(so_far, _)| residual < *so_far);
         if improves {
             best = Some((residual, lap.points));
-        } else if best.as_ref().is_some_and(|(so_far, _)| *so_far <= CLOSED) {
-            break;
         }
         if residual == 0.0 || (step >= PATIENCE && residual > HOPELESS) {
             break;
         }
-        let Matrix2([[a, b], [c, d]]) = lap.derivative;
+        let Matrix2([[a, b], [c, d]]) = derivative;
         let step = Matrix2([[a - 1.0, b], [c, d - 1.0]]).solve([-miss[0], -miss[1]]).ok_or(ShootingError::Singular)?;
         // a step is shortened if it would reverse the velocity or change the phase by more than half a radian
         let shorten = (0.5 * state.velocity / step[1].abs()).min(0.5 / step[0].abs()).min(1.0);
@@ -119,8 +121,6 @@ pub(crate) struct Lap {
     pub(crate) last: ImpactState,
     /// The advance of the phase, not reduced to one forcing period.
     pub(crate) turned: f64,
-    /// The derivative of the m-fold map.
-    pub(crate) derivative: Matrix2,
 }
 
 impl Lap {
@@ -136,13 +136,12 @@ impl Lap {
 
     /// The same by an impact map of `osc`.
     fn by(osc: &Oscillator, map: &mut ImpactMap<'_>, start: ImpactState, m: u32) -> Result<Self, ShootingError> {
-        let mut lap = Self { points: Vec::new(), last: start, turned: 0.0, derivative: Matrix2::IDENTITY };
+        let mut lap = Self { points: Vec::new(), last: start, turned: 0.0 };
         let mut turns = 0.0_f64;
         for _ in 0..m {
             let Mapped::Impact { state, interval } = map.after(&lap.last) else {
                 return Err(ShootingError::Broken);
             };
-            lap.derivative = derivative(osc, &lap.last, &state, interval).times(lap.derivative);
             // whole periods are counted and the rest is taken from the phases, which are accurate to their last digit
             turns += ((osc.beta() * interval - (state.phase - lap.last.phase)) / TAU).round();
             lap.points.push((lap.last, interval));
@@ -151,6 +150,29 @@ impl Lap {
         lap.turned = (lap.last.phase - start.phase) + turns * TAU;
         Ok(lap)
     }
+
+    /// The derivative of the m-fold map.
+    pub(crate) fn derivative(&self, osc: &Oscillator) -> Matrix2 {
+        product(osc, &self.points, &self.last)
+    }
+}
+
+/// The derivative over the impacts from the first of `points` to `last`; each point has the time to the next one.
+fn product(osc: &Oscillator, points: &[(ImpactState, f64)], last: &ImpactState) -> Matrix2 {
+    let mut product = Matrix2::IDENTITY;
+    let mut next = points.iter().skip(1).map(|(state, _)| *state).chain([*last]);
+    for part in points.chunks(ABREAST) {
+        // each next impact with the time since the one before
+        let mut others = [(*last, 0.0); ABREAST];
+        for (other, (_, interval)) in others.iter_mut().zip(part) {
+            *other = (next.next().unwrap_or(*last), *interval);
+        }
+        let all = derivatives(osc, &part[0].0, &others[..part.len()]);
+        for derivative in &all[..part.len()] {
+            product = derivative.times(product);
+        }
+    }
+    product
 }
 
 /// The cycle through `points`, reduced if it repeats a shorter one.
@@ -175,15 +197,13 @@ fn smallest_period(osc: &Oscillator, points: Vec<(ImpactState, f64)>, n: u32, re
 /// The cycle of these impacts and intervals, with its multipliers.
 pub(crate) fn assemble(osc: &Oscillator, points: Vec<(ImpactState, f64)>, n: u32, residual: f64) -> Cycle {
     let m = points.len();
-    let mut product = Matrix2::IDENTITY;
     let (mut det, mut length) = (1.0, 0.0);
-    for k in 0..m {
-        let ((state, interval), (next, _)) = (&points[k], &points[(k + 1) % m]);
-        product = derivative(osc, state, next, *interval).times(product);
+    for (state, interval) in &points {
         let eps = osc.stop(state.side).map_or(0.0, |stop| stop.restitution);
         det *= eps * eps;
         length += interval;
     }
+    let product = points.first().map_or(Matrix2::IDENTITY, |(first, _)| product(osc, &points, first));
     let multipliers = eigenvalues(product.trace(), det * exp(-2.0 * osc.damping() * length));
     let label = Label::new(u32::try_from(m).unwrap_or(u32::MAX), n);
     let points = points.into_iter().map(|(state, interval)| CyclePoint { state, interval }).collect();
@@ -227,6 +247,6 @@ mod tests {
         let lap = Lap::fly(&osc, cycle.points[0].state, 1, flight_limits(1)).unwrap();
         let [one, two] = cycle.multipliers;
         let det = one.re * two.re - one.im * two.im;
-        assert!((lap.derivative.determinant() - det).abs() < 1e-12);
+        assert!((lap.derivative(&osc).determinant() - det).abs() < 1e-12);
     }
 }

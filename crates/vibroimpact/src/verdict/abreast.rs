@@ -5,14 +5,16 @@ use super::follow::{Follow, Releases, ended};
 use super::options::SettleOptions;
 use super::outcome::Verdict;
 use super::settle::Drive;
-use crate::lanes::Batch;
+use crate::lanes::{Batch, PropagatorCache};
 use crate::motion::{Abreast, End, ImpactState, Launched, Motion, Recorder};
 use crate::system::Oscillator;
 
 /// Where motions come from, and where their verdicts go.
 pub(super) trait Source {
-    /// The next motion with its number; `None` if there is no more.
-    fn next(&mut self) -> Option<(usize, Launched)>;
+    /// The next motion with its number, of which `follow` is the record from now on; `None` if there is no more.
+    fn next(&mut self, follow: &mut Follow) -> Option<(usize, Launched)>;
+    /// The oscillator with this number.
+    fn osc(&self, system: u32) -> &Oscillator;
     /// An empty record.
     fn follow(&self) -> Follow;
     /// The verdicts on releases of the oscillator of a motion.
@@ -49,10 +51,13 @@ impl<S: Source> Recorder for Settling<'_, S> {
     }
 
     fn next(&mut self, track: &mut Track) -> Option<Launched> {
-        let (place, launched) = self.source.next()?;
+        let (place, launched) = self.source.next(&mut track.follow)?;
         track.place = place;
-        track.follow.reset();
         Some(launched)
+    }
+
+    fn osc(&self, system: u32) -> &Oscillator {
+        self.source.osc(system)
     }
 
     #[inline]
@@ -88,13 +93,13 @@ impl<S: Source> Recorder for Settling<'_, S> {
         &mut self,
         track: &mut Track,
         osc: &Oscillator,
-        mut motion: Motion<'_>,
+        (mut motion, cache): (Motion<'_>, Option<&PropagatorCache>),
         leave: impl Fn(&ImpactState) -> bool,
     ) -> Option<ImpactState> {
         let (Track { place, follow }, options) = (track, self.options);
         let releases = self.source.releases(*place);
-        let mut drive = Drive { osc, options, follow, releases, cache: None, time: 0.0 };
-        match drive.on(&mut motion, leave) {
+        let mut drive = Drive { osc, options, follow, releases, cache, time: 0.0 };
+        match drive.on(&mut motion, |follow| leave(&follow.last())) {
             None => Some(follow.last()),
             Some(verdict) => {
                 self.source.decided(*place, verdict, follow, options);

@@ -1,28 +1,28 @@
 //! A few starts of each of many oscillators settled side by side, with the same verdicts as one after another.
 //!
-//! The flights of different oscillators share the lanes of a batch where this saves time: if the same formulas hold for
-//! them, without damping, and if there are many motions. Most motions are decided soon; the long ones, which are chaotic
-//! or become periodic slowly, fill the lanes only if there are many of them. With damping the propagators of different
-//! oscillators are computed lane by lane, which costs more than single motions.
+//! Most motions are decided after a few dozen impacts. They are followed one after another, because what a batch needs of
+//! an oscillator takes longer to compute than so few flights. The others, which are chaotic or become periodic slowly, have
+//! most of the impacts: they are followed on in the lanes of a batch, those of oscillators for which the same formulas
+//! hold beside each other.
 
 use super::abreast::{Source, settle_abreast};
 use super::follow::{Follow, Releases};
 use super::many::{FEW, KnownAttractors, settle_many};
 use super::options::SettleOptions;
 use super::outcome::Verdict;
-use super::settle::settle;
+use super::settle::{Drive, settle};
 use super::settlement::{Part, Settlement};
-use crate::lanes::{Batch, Kind, Width};
+use crate::contact::chatter;
+use crate::lanes::{Batch, Kind, PropagatorCache, Width};
 use crate::lyapunov::Arrivals;
-use crate::motion::{ImpactState, Launched};
+use crate::motion::{ImpactState, Launched, Motion};
 use crate::system::{Oscillator, Start};
 
 /// The number of motions side by side. More need more memory, and fewer leave more lanes empty at the end.
-const ABREAST: usize = 256;
+const ABREAST: usize = 512;
 
-/// The number of motions from which shared lanes save time. With fewer, most lanes are empty while the last motions are
-/// followed. (Measured with 128 to 2000 motions side by side, with one start and with six starts of each oscillator.)
-const WORTH_SHARING: u64 = 4 * ABREAST as u64;
+/// The number of impacts after which a motion is followed on in a batch.
+const LONG: usize = 64;
 
 /// An oscillator and the number of its starts.
 pub type Counted = (Oscillator, u64);
@@ -53,61 +53,51 @@ pub fn settle_each(
     width: Width,
     done: &mut dyn FnMut(usize, Settlement) -> bool,
 ) -> bool {
-    each_sharing(WORTH_SHARING, systems, start, (options, tails, width), done)
+    each_from(LONG, systems, start, (options, tails, width), done)
 }
 
-/// The same; lanes are shared by this number of motions or more.
-fn each_sharing(
-    least: u64,
+/// The same; motions are followed on in a batch after `long` impacts.
+fn each_from(
+    long: usize,
     systems: &[Counted],
     start: impl Fn(usize, u64) -> Start,
     (options, tails, width): (&SettleOptions, bool, Width),
     done: &mut dyn FnMut(usize, Settlement) -> bool,
 ) -> bool {
-    // the number of motions of each kind that can share lanes
-    let mut kinds: Vec<(Kind, u64)> = Vec::new();
-    let mut kind_of = |(osc, count): &Counted| {
+    // the systems of each kind that can share lanes
+    let mut kinds: Vec<(Kind, Vec<usize>)> = Vec::new();
+    for (system, (osc, count)) in systems.iter().enumerate() {
         let few = (1..FEW as u64).contains(count);
-        let kind = if few { Kind::of_flights(osc) } else { None };
-        let (kind, _) = kind.filter(|(_, longest)| *longest < options.limits.horizon(osc))?;
-        let known = kinds.iter().position(|(known, _)| *known == kind).unwrap_or_else(|| {
-            kinds.push((kind, 0));
-            kinds.len() - 1
-        });
-        kinds[known].1 += count;
-        Some(known)
-    };
-    let numbers: Vec<Option<usize>> = systems.iter().map(&mut kind_of).collect();
-    let mut groups: Vec<Vec<usize>> = vec![Vec::new(); kinds.len()];
-    for (system, number) in numbers.into_iter().enumerate() {
-        if let Some(number) = number.filter(|number| kinds[*number].1 >= least) {
-            groups[number].push(system);
+        let kind = if few { Kind::of(osc) } else { None };
+        if let Some((kind, _)) = kind.filter(|(_, longest)| *longest < options.limits.horizon(osc)) {
+            match kinds.iter_mut().find(|(known, _)| *known == kind) {
+                Some((_, group)) => group.push(system),
+                None => kinds.push((kind, vec![system])),
+            }
             continue;
         }
-        let ((osc, count), none) = (&systems[system], KnownAttractors::default());
+        let none = KnownAttractors::default();
         if done(system, settle_many(osc, 0..*count, |k| start(system, k), &none, options, width, &|| false)) {
             return false;
         }
     }
-    for group in groups.into_iter().filter(|group| !group.is_empty()) {
+    for (kind, group) in kinds {
         let starts: u64 = group.iter().map(|system| systems[*system].1).sum();
-        let oscillators = group.iter().map(|system| systems[*system].0).collect();
         let capacity = usize::try_from(starts).unwrap_or(ABREAST).min(ABREAST);
-        // all are of one kind
-        let Some(batch) = Batch::of_many(oscillators, capacity, width) else { return false };
         let points = group.iter().map(|system| Point::new(*system, systems[*system].1)).collect();
         let source = Points {
             systems,
             points,
             start: &start,
             options,
+            long,
             next: (0, 0),
             places: Vec::new(),
             tails,
             done: &mut *done,
             stopped: false,
         };
-        if settle_abreast(batch, options, source).stopped {
+        if settle_abreast(Batch::of_many(kind, capacity, width), options, source).stopped {
             return false;
         }
     }
@@ -139,9 +129,10 @@ struct Points<'a, F> {
     points: Vec<Point>,
     start: &'a F,
     options: &'a SettleOptions,
-    /// The point and the start that is launched next.
+    long: usize,
+    /// The point and the start that is followed next.
     next: (usize, usize),
-    /// The point and the start of each motion.
+    /// The point and the start of each motion in the batch.
     places: Vec<(usize, usize)>,
     tails: bool,
     done: &'a mut dyn FnMut(usize, Settlement) -> bool,
@@ -149,6 +140,17 @@ struct Points<'a, F> {
 }
 
 impl<F: Fn(usize, u64) -> Start> Points<'_, F> {
+    /// Takes down the verdict on a start of a point.
+    fn decide(&mut self, (number, k): (usize, usize), verdict: Verdict, follow: &Follow) {
+        let arrivals = if self.tails { follow.arrivals(&verdict, self.options) } else { Arrivals::new() };
+        let point = &mut self.points[number];
+        point.decided[k] = Some((verdict, arrivals, follow.count() as u64));
+        point.left -= 1;
+        if point.left == 0 {
+            self.settle(number);
+        }
+    }
+
     /// The settlement of a point, once all its starts are decided. They are taken in their order, so it does not depend
     /// on the order of the decisions.
     fn settle(&mut self, number: usize) {
@@ -167,17 +169,35 @@ impl<F: Fn(usize, u64) -> Start> Points<'_, F> {
 }
 
 impl<F: Fn(usize, u64) -> Start> Source for Points<'_, F> {
-    fn next(&mut self) -> Option<(usize, Launched)> {
-        let (mut number, mut k) = self.next;
-        while k >= self.points.get(number)?.decided.len() {
-            (number, k) = (number + 1, 0);
+    fn next(&mut self, follow: &mut Follow) -> Option<(usize, Launched)> {
+        while !self.stopped {
+            let (mut number, mut k) = self.next;
+            while k >= self.points.get(number)?.decided.len() {
+                (number, k) = (number + 1, 0);
+            }
+            self.next = (number, k + 1);
+            let system = self.points[number].system;
+            let (osc, options) = (&self.systems[system].0, self.options);
+            follow.reset();
+            let mut motion = Motion::with_limits(osc, (self.start)(system, k as u64), options.limits);
+            let (releases, cache) = (&mut self.points[number].releases, PropagatorCache::new());
+            let mut drive = Drive { osc, options, follow, releases, cache: Some(&cache), time: 0.0 };
+            let flies_on = |follow: &Follow| !chatter::settles_after(osc, &follow.last());
+            match drive.on(&mut motion, |follow| follow.count() >= self.long && flies_on(follow)) {
+                Some(verdict) => self.decide((number, k), verdict, follow),
+                None => {
+                    self.places.push((number, k));
+                    #[allow(clippy::cast_possible_truncation)] // a tile
+                    let launched = Launched { system: system as u32, start: follow.last().rebound(osc) };
+                    return Some((self.places.len() - 1, launched));
+                }
+            }
         }
-        self.next = (number, k + 1);
-        self.places.push((number, k));
-        #[allow(clippy::cast_possible_truncation)] // a tile
-        let system = number as u32;
-        let start = (self.start)(self.points[number].system, k as u64);
-        Some((self.places.len() - 1, Launched { system, start }))
+        None
+    }
+
+    fn osc(&self, system: u32) -> &Oscillator {
+        &self.systems[system as usize].0
     }
 
     fn follow(&self) -> Follow {
@@ -192,15 +212,8 @@ impl<F: Fn(usize, u64) -> Start> Source for Points<'_, F> {
         false
     }
 
-    fn decided(&mut self, place: usize, verdict: Verdict, follow: &Follow, options: &SettleOptions) {
-        let (number, k) = self.places[place];
-        let arrivals = if self.tails { follow.arrivals(&verdict, options) } else { Arrivals::new() };
-        let point = &mut self.points[number];
-        point.decided[k] = Some((verdict, arrivals, follow.count() as u64));
-        point.left -= 1;
-        if point.left == 0 {
-            self.settle(number);
-        }
+    fn decided(&mut self, place: usize, verdict: Verdict, follow: &Follow, _: &SettleOptions) {
+        self.decide(self.places[place], verdict, follow);
     }
 
     fn stopping(&mut self) -> bool {
@@ -257,13 +270,13 @@ mod tests {
         let chaotic = |of: &Settlement| of.motions.iter().any(|found| matches!(found.verdict, Verdict::Chaotic(_)));
         assert!(expected.iter().any(chaotic));
         for width in Width::ALL.into_iter().filter(|width| width.available()) {
-            for (least, part) in
-                [(0, 0..systems.len()), (0, 0..9), (20, 5..systems.len()), (u64::MAX, 0..systems.len())]
+            for (long, part) in
+                [(1, 0..systems.len()), (1, 0..9), (20, 5..systems.len()), (usize::MAX, 0..systems.len())]
             {
                 let mut left: Vec<usize> = part.clone().collect();
                 let of = |k: usize, index: u64| start(part.start + k, index);
                 let asked = (&options, true, width);
-                let ended = each_sharing(least, &systems[part.clone()], of, asked, &mut |k, got| {
+                let ended = each_from(long, &systems[part.clone()], of, asked, &mut |k, got| {
                     assert_eq!(got, expected[part.start + k], "{width:?} {:?}", systems[part.start + k]);
                     left.retain(|system| *system != part.start + k);
                     false

@@ -131,13 +131,14 @@ impl Question<'_> {
         (known, releases, part): (&[(Verdict, TrappingRegion)], Releases, Part),
     ) -> Part {
         let (numbers, tick) = (vec![None; known.len()], self.tick);
-        let source = Starts { known, numbers, releases, range, launch, next: 0, part, tick };
+        let source = Starts { osc: self.osc, known, numbers, releases, range, launch, next: 0, part, tick };
         settle_abreast(batch, self.options, source).part
     }
 }
 
 /// Starts of one oscillator.
 struct Starts<'a, F> {
+    osc: &'a Oscillator,
     known: &'a [(Verdict, TrappingRegion)],
     /// The number of each of these cycles in `part`, once a start leads to it.
     numbers: Vec<Option<usize>>,
@@ -152,13 +153,18 @@ struct Starts<'a, F> {
 
 impl<F: Fn(usize) -> (usize, Start)> Source for Starts<'_, F> {
     #[inline]
-    fn next(&mut self) -> Option<(usize, Launched)> {
+    fn next(&mut self, follow: &mut Follow) -> Option<(usize, Launched)> {
         let (next, index) = (self.next, self.range.start + self.next as u64);
         (index < self.range.end).then(|| {
             self.next += 1;
+            follow.reset();
             let (place, start) = (self.launch)(next);
             (place, Launched { system: 0, start })
         })
+    }
+
+    fn osc(&self, _: u32) -> &Oscillator {
+        self.osc
     }
 
     fn follow(&self) -> Follow {

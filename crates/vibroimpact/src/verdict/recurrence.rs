@@ -64,7 +64,7 @@ pub(super) fn captured(osc: &Oscillator, state: &ImpactState, cycle: &Cycle) -> 
         [crate::system::phase::difference(a.phase, b.phase), a.velocity - b.velocity]
     };
     let before = offset(state, &nearest.state);
-    let linear = reference.derivative.apply(before);
+    let linear = reference.derivative(osc).apply(before);
     let after = offset(&real.last, &reference.last);
     let size = |d: [f64; 2]| d[0].abs().max(d[1].abs() / nearest.state.velocity);
     let left_over = size([after[0] - linear[0], after[1] - linear[1]]);

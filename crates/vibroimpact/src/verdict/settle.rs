@@ -116,8 +116,8 @@ pub(super) struct Drive<'a> {
 }
 
 impl Drive<'_> {
-    /// Follows the motion to a verdict, or to the first impact at which `leave` returns true.
-    pub(super) fn on(&mut self, motion: &mut Motion<'_>, leave: impl Fn(&ImpactState) -> bool) -> Option<Verdict> {
+    /// Follows the motion to a verdict, or to the first impact after which `leave` returns true of its record.
+    pub(super) fn on(&mut self, motion: &mut Motion<'_>, leave: impl Fn(&Follow) -> bool) -> Option<Verdict> {
         let Self { osc, options, follow, cache, .. } = self;
         let before = follow.steps;
         // every other event is followed by an impact or ends the motion; runs of grazing contacts are limited
@@ -146,7 +146,7 @@ impl Drive<'_> {
             if !matches!(event.kind, EventKind::Impact { .. }) {
                 continue;
             }
-            if follow.within(options) && leave(&follow.last()) {
+            if follow.within(options) && leave(follow) {
                 return None;
             }
         }

@@ -68,7 +68,7 @@ impl TrappingRegion {
         let usual = flight_limits(cycle.label.periods);
         let limits = SearchLimits { steps: usual.steps.min(steps / 2), ..usual };
         let lap = lap(osc, cycle, center, limits)?;
-        let p = norm(&lap.derivative, center.velocity)?;
+        let p = norm(&lap.derivative(osc), center.velocity)?;
         let [a, b, c] = p;
         // theta^2 = 1 - 1 / the largest eigenvalue of Q^-1 P
         let (trace, det) =
