@@ -2,6 +2,7 @@
 
 #[cfg(test)]
 mod branches;
+mod branches_unforced;
 #[cfg(test)]
 mod case;
 #[cfg(test)]
