@@ -9,8 +9,8 @@ use vibroimpact::continuation::{
 };
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::{Machine, MachineParts};
-use vibroimpact::orbit::MachineCycle;
-use vibroimpact::verdict::MachineVerdict;
+use vibroimpact::orbit::{MachineCycle, find_machine_while};
+use vibroimpact::verdict::{Label, MachineVerdict, scattered_machine_starts};
 
 fn from(
     machine: &Machine,
@@ -184,5 +184,26 @@ fn a_drifting_cycle() {
                 assert!(cycle.drift[0] > 0.1 && (cycle.drift[0] - cycle.drift[1]).abs() < 1e-12 * cycle.drift[0]);
             }
         }
+    }
+}
+
+/// The search from scattered starts finds the cycle of a branch where no motion settles into it, and coexisting stable ones.
+#[test]
+fn limit_cycles_with_a_label() {
+    let find = |machine: &Machine, label| {
+        let starts = (0..48).map(|k| scattered_machine_starts(machine, 1, k));
+        find_machine_while(machine, Label::unforced(label).unwrap(), starts, || true).unwrap()
+    };
+    let points = branch(&pair(0.2, 0.9, 0.5), ("stop.stop.gap", 0.7, 1.2), Direction::Down);
+    let unstable = points.last().unwrap();
+    assert_eq!((unstable.value, unstable.event), (0.7, Some(MachineBranchEvent::EndOfRange)));
+    let found = find(&pair(0.2, 0.7, 0.5), "1/T");
+    assert!(!unstable.cycle.stable() && found.iter().any(|cycle| cycle.same_as(&unstable.cycle, 1e-8)), "{found:?}");
+    let machine = pair(0.15, 0.688, 0.9);
+    let (none, one) = (find(&machine, "0/T"), find(&machine, "1/T"));
+    assert!(none.len() == 1 && one.len() > 1, "{none:?} {one:?}");
+    for cycle in none.iter().chain(&one).filter(|cycle| cycle.stable()) {
+        let simulated = settled(&machine, &cycle.state);
+        assert!(matches!(simulated, MachineVerdict::Periodic(found) if found.same_as(cycle, 1e-9)));
     }
 }
