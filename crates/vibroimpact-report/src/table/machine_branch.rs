@@ -11,9 +11,9 @@ use vibroimpact_study::{MachineBranched, MachineCut};
 pub(super) const CLOSINGS: [&str; 3] = ["phases", "speeds", "stops"];
 
 /// One row a point: number of the branch, the numbers that vary, label, whether it is admissible and stable, event, stop of the
-/// event, fastest closing, multipliers, the drift of a machine that can be translated, and of each closing the phase, speed and stop.
+/// event, fastest closing, period, multipliers, the drift of a machine that can be translated, and of each closing the phase, speed and stop.
 pub(crate) fn table<'a>(machine: &'a Machine, cut: &MachineCut, found: &'a MachineBranched) -> Table<'a> {
-    let own = ["label", "physical", "stable", "event", "stop", "fastest"];
+    let own = ["label", "physical", "stable", "event", "stop", "fastest", "period"];
     let heads = core::iter::once("branch").chain(cut.paths()).chain(own).map(str::to_owned);
     let drifting = found.all().flatten().any(|point| point.cycle.translations() > 0);
     let header = heads
@@ -31,7 +31,8 @@ pub(crate) fn table<'a>(machine: &'a Machine, cut: &MachineCut, found: &'a Machi
         let values: String = cut.values(point.value).map(|value| format!("{},", Number(value))).collect();
         // a branch ends where its orbit ceases to be admissible
         let (stable, physical, fastest) = (cycle.stable(), true, Number(cycle.fastest()));
-        let mut row = format!("{number},{values}{},{physical},{stable},{event},{stop},{fastest}", cycle.label);
+        let own = format!("{},{physical},{stable},{event},{stop},{fastest},{}", cycle.label, Number(cycle.period));
+        let mut row = format!("{number},{values}{own}");
         push(&mut row, Some(&cycle.multipliers), machine.n());
         if drifting {
             push_drift(&mut row, Some(cycle), machine.n());
