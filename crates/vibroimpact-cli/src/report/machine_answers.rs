@@ -96,7 +96,8 @@ fn branch(machine: &Machine, points: &[MachinePoint]) -> String {
         let at = place.map_or_else(String::new, |place| format!(" at {}", machine.name_of(place)));
         let cycle = &point.cycle;
         // with forcing the label says the period
-        let period = if machine.period().is_some() { String::new() } else { format!(", period {}", short(cycle.period)) };
+        let period =
+            if machine.period().is_some() { String::new() } else { format!(", period {}", short(cycle.period)) };
         let _ = writeln!(text, "{:>16}  {event}{at}, {}{period}", short(point.value), cycle.label);
     }
     let stable = points.iter().filter(|point| point.cycle.stable()).count();

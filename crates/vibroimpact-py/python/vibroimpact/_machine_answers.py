@@ -690,8 +690,7 @@ class MachineCurve(Result):
     Attributes
     ----------
     kind, label : str
-        "fold", "flip", "torus", "grazing", "corner", "sticking" or "holding"; the label m/n of the orbit whose branch contains
-        the event.
+        "fold", "flip", "torus", "grazing", "corner", "sticking" or "holding"; the label of the orbit whose branch contains the event.
     of : tuple of str
         The stop or joint of a curve of grazing, sticking or holding, or the stops and joints of a corner.
     parameters : (str, str)

@@ -24,7 +24,7 @@ fn from(
 }
 
 /// The branch of the motion that begins at rest on the belt.
-fn branch(machine: &Machine, over: (&str, f64, f64), direction: Direction) -> Vec<MachinePoint> {
+pub(crate) fn branch(machine: &Machine, over: (&str, f64, f64), direction: Direction) -> Vec<MachinePoint> {
     let mut qdot = vec![0.0; machine.n()];
     qdot[0] = machine.number("friction.belt.belt").unwrap();
     from(machine, &cycle(machine, &MachineStart { q: vec![0.0; machine.n()], qdot, phase: 0.0 }), over, direction)
@@ -45,8 +45,7 @@ fn stick_slip_in_closed_form() {
                 assert!(event.is_none_or(|event| event.ends()), "{path} {value}: {event:?}");
                 let there = machine.with(path, *value).unwrap();
                 let of = |path| there.number(path).unwrap();
-                let (belt, jump) =
-                    (of("friction.belt.belt"), of("friction.belt.static") - of("friction.belt.sliding"));
+                let (belt, jump) = (of("friction.belt.belt"), of("friction.belt.static") - of("friction.belt.sliding"));
                 let expected = 2.0 * jump / belt + PI + 2.0 * (belt / jump).atan();
                 assert!(
                     (cycle.period - expected).abs() < 1e-12 * expected,
@@ -109,7 +108,6 @@ fn simulation_agrees() {
             }
         }
     }
-    println!("{counts:?} {events:?}");
     assert!(counts.0 > 150 && counts.1 > 50, "{counts:?}");
     for name in ["fold", "flip", "torus", "grazing", "corner", "holding begins"] {
         assert!(events.contains_key(name), "{name} {events:?}");
@@ -151,7 +149,6 @@ fn a_branch_from_a_flip() {
         let points = from(&there, &doubled, over, direction);
         compared(&machine, over.0, &points);
         let last = points.last().unwrap();
-        println!("{direction:?} {value} {} {:?} {}", last.value, last.event, flip.value);
         if last.event == Some(MachineBranchEvent::Halving) {
             assert!((last.value - flip.value).abs() < 1e-7, "{} {}", last.value, flip.value);
             halved = true;
@@ -173,11 +170,9 @@ fn a_drifting_cycle() {
     let machine = Machine::new(parts).unwrap();
     let start = MachineStart { q: vec![0.0; 2], qdot: vec![0.0; 2], phase: 0.0 };
     let cycle = cycle(&machine, &start);
-    println!("{} {:?} {}", cycle.label, cycle.drift, cycle.period);
     for over in [("constant.carriage", 0.65, 1.4), ("friction.ground.sliding", 0.1, 0.5)] {
         for direction in [Direction::Up, Direction::Down] {
             let points = from(&machine, &cycle, over, direction);
-            println!("{} {:?} {:?}", over.0, points.len(), points.last().map(|p| (p.value, p.event, p.cycle.period)));
             assert!(compared(&machine, over.0, &points).0 > 3);
             for MachinePoint { cycle, .. } in &points {
                 // both move on by the same

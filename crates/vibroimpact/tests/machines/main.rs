@@ -11,6 +11,7 @@ mod closed_forms;
 mod collapse;
 #[cfg(test)]
 mod curves;
+mod curves_unforced;
 #[cfg(test)]
 mod drift;
 #[cfg(test)]

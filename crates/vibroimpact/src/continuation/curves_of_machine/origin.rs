@@ -35,7 +35,9 @@ fn begin(
     let frame = MachineFrame::new(machine);
     let sizes = point.cycle.sizes;
     let begin = point.cycle.strobes.first()?;
-    let ring_at = |machine: &Machine| MachineRing::of(&MachineFrame::new(machine), begin, (point.cycle.label.periods, point.cycle.period));
+    let ring_at = |machine: &Machine| {
+        MachineRing::of(&MachineFrame::new(machine), begin, (point.cycle.label.periods, point.cycle.period))
+    };
     // rounding can let a motion end at a limit
     let beside = |by: f64| ring_at(&plane.at((values.0 + by * plane.scales().0, values.1))?);
     let mut ring = ring_at(machine).or_else(|| beside(BESIDE)).or_else(|| beside(-BESIDE))?;

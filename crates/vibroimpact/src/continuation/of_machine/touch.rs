@@ -47,7 +47,8 @@ pub(super) fn grazing(tracer: &Tracer<MachineProblem>, at: &MachineSolution, fou
                 return found;
             }
             let slow = SLOW * at.known.cycle.as_ref().map_or(0.0, |cycle| cycle.sizes.1);
-            let struck = |k: &usize| matches!(ring.events[*k].guard, GuardKind::Gap(stop) if stop == first || stop == second);
+            let struck =
+                |k: &usize| matches!(ring.events[*k].guard, GuardKind::Gap(stop) if stop == first || stop == second);
             let weakest = lowest(&mut (0..m).filter(struck).map(|k| (k, speed_after(&frame, &ring, k, of(k)).abs())));
             let grazes = weakest.filter(|(_, speed)| *speed < slow);
             grazes.map_or(found, |(at, _)| Difference::Disappears { at, stop: of(at) })

@@ -39,9 +39,10 @@ pub(super) fn near_returns(frame: &MachineFrame<'_>, start: &MachineStart, impac
             closed && to.event == from.event
         };
         let window = &passed[k + 1..passed.len().min(k + 1 + LONGEST)];
-        let sizes = window.iter().map(|to| frame.sizes(&to.place)).fold((0.0, 0.0), |(x, v): (f64, f64), own| {
-            (x.max(own.0), v.max(own.1))
-        });
+        let sizes = window
+            .iter()
+            .map(|to| frame.sizes(&to.place))
+            .fold((0.0, 0.0), |(x, v): (f64, f64), own| (x.max(own.0), v.max(own.1)));
         let mut nearest: Vec<(f64, &Passed)> =
             window.iter().filter(returns).map(|to| (frame.distance(&from.place, &to.place, sizes), to)).collect();
         nearest.sort_by(|a, b| a.0.total_cmp(&b.0));
