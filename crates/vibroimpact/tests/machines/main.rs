@@ -2,6 +2,7 @@
 
 #[cfg(test)]
 mod branches;
+#[cfg(test)]
 mod branches_unforced;
 #[cfg(test)]
 mod case;
@@ -11,6 +12,7 @@ mod closed_forms;
 mod collapse;
 #[cfg(test)]
 mod curves;
+#[cfg(test)]
 mod curves_unforced;
 #[cfg(test)]
 mod drift;
