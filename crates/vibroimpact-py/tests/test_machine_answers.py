@@ -52,6 +52,13 @@ def test_a_limit_cycle_without_forcing() -> None:
     assert [text.get_text() for text in ds.vibro.plot().get_legend().get_texts()] == ["no impact", "0/T"]
     found = belt.map({"V": (0.1, 1.0, 2)}, starts=1)
     assert found.labels[0, 0] == "0/T"
+    assert abs((motion.period or math.nan) - period) < 1e-12
+    branch = belt.branch("V", 1.0)
+    expected = 2 * (fs - f) / branch.parameter + math.pi + 2 * np.arctan(branch.parameter / (fs - f))
+    assert np.allclose(branch.period, expected, atol=0, rtol=1e-12) and set(branch.label) == {"0/T"}
+    assert branch.multipliers.shape == (len(branch), 1) and branch.event_kind.tolist() == ["end of range"]
+    orbits = belt.orbit("0/T")
+    assert [orbit.label for orbit in orbits] == ["0/T"] and abs((orbits[0].period or math.nan) - period) < 1e-12
 
 
 def test_a_capsule_drifts() -> None:

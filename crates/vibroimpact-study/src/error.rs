@@ -29,9 +29,16 @@ pub enum PlanError {
     /// A number of forcing periods of a machine without forcing.
     #[error("the machine has no forcing, so no forcing periods\nhint: a number of impacts limits the number of events")]
     Unforced,
-    /// Periodic motions of a machine without forcing.
-    #[error("the machine has no forcing, so its motions have no forcing periods and no label m/n")]
-    NoPeriodUnforced,
+    /// A label of motions of a machine without forcing.
+    #[error(
+        "label `{0}` is not m/T with m a whole number from 0 to 10000 (or inf/T), and the machine has no forcing\nhint: m closings in one period T of the motion, for example 2/T"
+    )]
+    LabelUnforced(String),
+    /// A label of motions of a machine with forcing.
+    #[error(
+        "label `{0}` is one of a machine without forcing, and the machine has a forcing\nhint: m/n for m closings in n forcing periods, for example 2/1"
+    )]
+    LabelForced(String),
     /// Sections of the attractor of a machine without forcing.
     #[error("the machine has no forcing, so its attractor has no section at a phase")]
     UnforcedSection,

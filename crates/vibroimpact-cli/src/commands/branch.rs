@@ -42,8 +42,8 @@ pub(crate) struct Branch {
     #[command(flatten)]
     of_machine: StartOfMachineArgs,
 
-    /// m impacts in n forcing periods, for example 2/1, or inf/n: the orbit at the system given [default for a machine: the motion
-    /// from the start]
+    /// m impacts in n forcing periods, for example 2/1, or inf/n; m/T of a machine without forcing: the orbit at the system
+    /// given [default for a machine: the motion from the start]
     #[arg(
         long,
         value_name = "m/n",

@@ -45,8 +45,8 @@ pub(crate) struct Curve {
     #[command(flatten)]
     of_machine: StartOfMachineArgs,
 
-    /// m impacts in n forcing periods, for example 2/1: the orbit at the system given [default for a machine: the motion
-    /// from the start]
+    /// m impacts in n forcing periods, for example 2/1, or m/T of a machine without forcing: the orbit at the system given
+    /// [default for a machine: the motion from the start]
     #[arg(
         long,
         value_name = "m/n",

@@ -31,7 +31,8 @@ pub(crate) struct Orbit {
     #[command(flatten)]
     machine: MachineArgs,
 
-    /// m impacts in n forcing periods, for example 2/1; m and n from 1 to 10000; or inf/n; 0 is the steady motion without impacts
+    /// m impacts in n forcing periods, for example 2/1; m and n from 1 to 10000; or inf/n; 0 is the steady motion without impacts;
+    /// of a machine without forcing m/T: m impacts in one period of the motion, m from 0 to 10000, or inf/T
     #[arg(long, value_name = "m/n", allow_hyphen_values = true, help_heading = "Orbit")]
     label: String,
 

@@ -94,7 +94,11 @@ fn branch(machine: &Machine, points: &[MachinePoint]) -> String {
         let event = point.event.map_or("", |event| event.name());
         let place = point.event.and_then(|event| event.place());
         let at = place.map_or_else(String::new, |place| format!(" at {}", machine.name_of(place)));
-        let _ = writeln!(text, "{:>16}  {event}{at}, {}", short(point.value), point.cycle.label);
+        let cycle = &point.cycle;
+        // with forcing the label says the period
+        let period =
+            if machine.period().is_some() { String::new() } else { format!(", period {}", short(cycle.period)) };
+        let _ = writeln!(text, "{:>16}  {event}{at}, {}{period}", short(point.value), cycle.label);
     }
     let stable = points.iter().filter(|point| point.cycle.stable()).count();
     let _ = writeln!(text, "{}, {stable} of them stable", counted(points.len() as u64, "point"));

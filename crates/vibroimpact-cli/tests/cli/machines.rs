@@ -292,7 +292,7 @@ fn a_settled_motion_is_shown() {
     assert!(refused("settle --machine impact-pair --show multipliers --csv -").contains("no multipliers"));
 }
 
-/// A machine without forcing: a limit cycle, of which JSON has the period by its events and no forcing periods.
+/// A machine without forcing: a limit cycle, of which JSON has the period and no forcing periods, with its branch.
 #[test]
 fn a_limit_cycle() {
     let found = json("settle --machine stick-slip");
@@ -301,7 +301,26 @@ fn a_limit_cycle() {
     assert_eq!(motion["multipliers"].as_array().unwrap().len(), 1);
     let times: Vec<f64> = motion["cycle"].as_array().unwrap().iter().map(|at| at["time"].as_f64().unwrap()).collect();
     assert!((times[1] - times[0] - 4.0).abs() < 1e-12, "{times:?}");
-    assert!(refused("branch --machine stick-slip --vary V --to 0.2").contains("no forcing"));
+    let period = |belt: f64| 0.4 / belt + core::f64::consts::PI + 2.0 * (belt / 0.2).atan();
+    assert!(close(&motion["period"], period(0.1)), "{motion}");
+    let orbits = json("orbit --machine stick-slip --label 0/T")["orbits"].clone();
+    let [orbit] = orbits.as_array().unwrap().as_slice() else { panic!("{orbits}") };
+    assert!(orbit["label"] == "0/T" && close(&orbit["period"], period(0.1)), "{orbit}");
+    let branch = json("branch --machine stick-slip --vary V --to 1 --points 40");
+    for point in branch["points"].as_array().unwrap() {
+        let belt = point["parameter"].as_f64().unwrap();
+        assert!(point["label"] == "0/T" && close(&point["period"], period(belt)), "{point}");
+    }
+    let table = printed("branch --machine stick-slip --label 0/T --vary V --to 1 --csv -");
+    let last = table.lines().last().unwrap();
+    assert!(last.starts_with("1,1,0/T,true,true,end of range,,0,0,") && last.contains(",,,,6.28839"), "{last}");
+    let text = printed("branch --machine stick-slip --vary V --to 1");
+    assert!(text.starts_with("               1  end of range, 0/T, period 6.28839"), "{text}");
+    for command in ["orbit", "branch --vary V --to 0.2"] {
+        let said = refused(&format!("{command} --machine stick-slip --label 1/1"));
+        assert!(said.contains("not m/T") && said.contains("for example 2/T"), "{said}");
+    }
+    assert!(refused("orbit --machine den-hartog --label 1/T").contains("the machine has a forcing"));
 }
 
 #[test]
@@ -548,8 +567,8 @@ fn figures() {
 #[test]
 fn refusals_of_questions() {
     for (line, said) in [
-        ("orbit --machine sdnd101 --label 1/1", "error: the machine has no forcing"),
-        ("branch --machine sdnd101 --vary stop.stop.gap --to 1", "error: the machine has no forcing"),
+        ("orbit --machine sdnd101 --label 1/1", "error: label `1/1` is not m/T"),
+        ("branch --machine sdnd101 --vary stop.stop.gap --to 1", "not periodic, so no branch begins there"),
         ("orbit --machine two-mass-hammer --label one", "error: "),
         (
             "basin --machine two-mass-hammer --axis q.tail=0:1:3",

@@ -419,7 +419,8 @@ class Machine:
         return _machine_answers.lyapunov(found["object"], self, found["section"])
 
     def orbit(self, label: str, *, progress: Progress = None) -> MachineOrbits:
-        """The orbits with a label m/n, stable or not, from many guesses; m counts closings of all stops. `progress` as for `branch`.
+        """The orbits with a label m/n, or m/T without forcing, stable or not, from many guesses; m counts closings of all stops.
+        `progress` as for `branch`.
 
         >>> import vibroimpact as vi
         >>> vi.Machine.named("two-mass-hammer").orbit("1/1")[-1].stable
@@ -442,7 +443,7 @@ class Machine:
         to : float
             The other end of its range.
         label : str
-            The label m/n of the orbit at the machine. Default: that of the motion from the start.
+            The label m/n, or m/T without forcing, of the orbit at the machine. Default: that of the motion from the start.
         also : dict
             A second number that varies in proportion to the first, and its value where the first is `to`:
             {"stop.anvil.gap": 0.6}. Its value at the beginning is that of the machine.
@@ -490,7 +491,7 @@ class Machine:
         vary : dict
             Two paths, each with its range (a, b). Both ranges contain the values of the machine.
         label : str
-            The label m/n of the orbit at the machine. Default: that of the motion from the start.
+            The label m/n, or m/T without forcing, of the orbit at the machine. Default: that of the motion from the start.
         orbit : int
             Number of the orbit, counted from 1 in the order of `orbit`. Default: the stable one, or else the fastest.
         event : int

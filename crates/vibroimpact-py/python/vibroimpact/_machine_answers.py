@@ -119,13 +119,15 @@ class MachineMotion(Result):
     Attributes
     ----------
     label : str
-        m/n for m closings of stops in n forcing periods, or "0", "stuck", "chaotic" or "undecided".
+        m/n for m closings of stops in n forcing periods, m/T without forcing, or "0", "stuck", "chaotic" or "undecided".
     kind : str
         "periodic", "no_impact", "stuck", "chaotic" or "undecided".
     stable : bool or None
         Whether small changes of the start die out; None if that is not known.
     impacts, periods, sticks : int or None
         Closings, forcing periods, and rests and holds of a cycle.
+    period : float or None
+        The time of one period of a cycle.
     counts : dict
         The closings of each stop in one period.
     multipliers : ndarray of complex128
@@ -157,6 +159,7 @@ class MachineMotion(Result):
     impacts: int | None
     periods: int | None
     sticks: int | None
+    period: float | None
     counts: dict[str, int]
     multipliers: NDArray[np.complex128]
     drift: dict[str, float] | None
@@ -211,6 +214,7 @@ def _motion(given: dict[str, Any], width: int, machine: Any) -> MachineMotion:
     state = given.get("state")
     return MachineMotion(
         **{name: given[name] for name in ("label", "kind", "stable", "impacts", "periods", "sticks")},
+        period=given.get("period"),
         counts=given.get("counts", {}),
         multipliers=_complex(given["multipliers"] or []),
         drift=given.get("drift"),
@@ -517,7 +521,9 @@ class MachineBranch(Result):
     second : ndarray or None
         The value of that number at each point.
     label : ndarray of str
-        m/n at each point.
+        m/n at each point, or m/T without forcing.
+    period : ndarray
+        The time of one period at each point.
     stable : ndarray of bool
         Whether the orbit is stable.
     speed : ndarray
@@ -548,6 +554,7 @@ class MachineBranch(Result):
     also: tuple[str, float, float] | None
     second: _Floats | None
     label: NDArray[np.str_]
+    period: _Floats
     stable: NDArray[np.bool_]
     speed: _Floats
     multipliers: NDArray[np.complex128]
@@ -590,8 +597,8 @@ class MachineBranch(Result):
         second = {} if self.also is None or self.second is None else {self.also[0]: self.second}
         modulus = np.abs(self.multipliers).max(axis=1) if len(self) else np.empty(0)
         return {
-            self.vary: self.parameter, **second, "label": self.label, "stable": self.stable, "speed": self.speed,
-            "multiplier": modulus,
+            self.vary: self.parameter, **second, "label": self.label, "period": self.period, "stable": self.stable,
+            "speed": self.speed, "multiplier": modulus,
         }
 
     def plot(self, ax: "Axes | None" = None, *, diagram: bool = True) -> "Axes":
@@ -662,6 +669,7 @@ def _branch(
         flip=found.get("flip"),
         followed=followed,
         label=words(points, "label"),
+        period=np.array([point["period"] for point in points], dtype=np.float64),
         stable=np.array([point["stable"] for point in points], dtype=np.bool_),
         speed=np.array([closing(point) for point in points], dtype=np.float64),
         multipliers=_multipliers(points, width),
@@ -682,8 +690,7 @@ class MachineCurve(Result):
     Attributes
     ----------
     kind, label : str
-        "fold", "flip", "torus", "grazing", "corner", "sticking" or "holding"; the label m/n of the orbit whose branch contains
-        the event.
+        "fold", "flip", "torus", "grazing", "corner", "sticking" or "holding"; the label of the orbit whose branch contains the event.
     of : tuple of str
         The stop or joint of a curve of grazing, sticking or holding, or the stops and joints of a corner.
     parameters : (str, str)

@@ -105,6 +105,8 @@ struct PointObject<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     values: Option<[f64; 2]>,
     label: String,
+    /// The time of one period.
+    period: f64,
     cycle: Vec<EventObject<'a>>,
     multipliers: Vec<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -316,6 +318,7 @@ impl MachineAnswer {
             parameter: point.value,
             values: values(point.value),
             label: point.cycle.label.to_string(),
+            period: point.cycle.period,
             cycle: point.cycle.events.iter().map(|event| event_object(machine, event)).collect(),
             multipliers: multipliers(&point.cycle.multipliers),
             drift: drift(machine, &point.cycle),

@@ -38,6 +38,8 @@ struct Through {
 struct PointObject<'a> {
     values: [f64; 2],
     label: String,
+    /// The time of one period.
+    period: f64,
     /// The events; on a curve of grazing without the touch.
     cycle: Vec<EventObject<'a>>,
     multipliers: Vec<[f64; 2]>,
@@ -87,6 +89,7 @@ pub(super) fn curved<'a>(machine: &'a Machine, plan: &'a MachineCurvePlan, found
             .map(|point| PointObject {
                 values: pair(point.values),
                 label: point.cycle.label.to_string(),
+                period: point.cycle.period,
                 cycle: point.cycle.events.iter().map(|event| event_object(machine, event)).collect(),
                 multipliers: multipliers(&point.cycle.multipliers),
                 residual: point.residual,

@@ -19,6 +19,9 @@ pub(super) struct MotionObject<'a> {
     label: String,
     impacts: Option<u32>,
     periods: Option<u32>,
+    /// The time of one period.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    period: Option<f64>,
     /// Rests on stops, and holds of joints, in one period.
     sticks: Option<usize>,
     stable: Option<bool>,
@@ -84,6 +87,7 @@ fn empty<'a>(kind: &'static str, label: String) -> MotionObject<'a> {
         label,
         impacts: None,
         periods: None,
+        period: None,
         sticks: None,
         stable: None,
         counts: None,
@@ -114,6 +118,7 @@ pub(super) fn cycle<'a>(machine: &'a Machine, cycle: &'a MachineCycle) -> Motion
         impacts,
         // 0 stands for no forcing
         periods: Some(cycle.label.periods).filter(|periods| *periods > 0),
+        period: Some(cycle.period),
         sticks: Some(sticks),
         stable: Some(cycle.stable()),
         counts: Some(counts.map(|(stop, count)| (stop.name.clone(), Value::from(*count))).collect()),

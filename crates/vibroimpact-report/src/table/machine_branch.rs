@@ -7,11 +7,15 @@ use vibroimpact::machine::Machine;
 use vibroimpact::orbit::MachineCycle;
 use vibroimpact_study::{MachineBranched, MachineCut};
 
-/// The columns of the closings of stops.
-pub(super) const CLOSINGS: [&str; 3] = ["phases", "speeds", "stops"];
+/// The columns of the closings of stops, and without forcing of the period, which the label says otherwise.
+pub(super) fn closing_columns(machine: &Machine) -> impl Iterator<Item = String> {
+    let period = machine.period().is_none().then_some("period");
+    ["phases", "speeds", "stops"].into_iter().chain(period).map(str::to_owned)
+}
 
 /// One row a point: number of the branch, the numbers that vary, label, whether it is admissible and stable, event, stop of the
-/// event, fastest closing, multipliers, the drift of a machine that can be translated, and of each closing the phase, speed and stop.
+/// event, fastest closing, multipliers, the drift of a machine that can be translated, of each closing the phase, speed and stop, and without
+/// forcing the period.
 pub(crate) fn table<'a>(machine: &'a Machine, cut: &MachineCut, found: &'a MachineBranched) -> Table<'a> {
     let own = ["label", "physical", "stable", "event", "stop", "fastest"];
     let heads = core::iter::once("branch").chain(cut.paths()).chain(own).map(str::to_owned);
@@ -19,7 +23,7 @@ pub(crate) fn table<'a>(machine: &'a Machine, cut: &MachineCut, found: &'a Machi
     let header = heads
         .chain(numbered(machine))
         .chain(drifts(machine, drifting))
-        .chain(CLOSINGS.map(str::to_owned))
+        .chain(closing_columns(machine))
         .collect::<Vec<_>>()
         .join(",");
     let cut = cut.clone();
@@ -42,13 +46,15 @@ pub(crate) fn table<'a>(machine: &'a Machine, cut: &MachineCut, found: &'a Machi
     Table::new(header, rows)
 }
 
-/// Phases, speeds and stops of the closings of a cycle, lists with blanks between, each after a comma.
+/// Phases, speeds and stops of the closings of a cycle, lists with blanks between, and without forcing its period, each after a
+/// comma.
 pub(super) fn closings(machine: &Machine, cycle: &MachineCycle) -> String {
     let list = |of: &dyn Fn(&vibroimpact::events::MachineEvent) -> String| {
         cycle.events.iter().filter(|event| event.closes()).map(of).collect::<Vec<_>>().join(" ")
     };
+    let period = machine.period().map_or_else(|| format!(",{}", Number(cycle.period)), |_| String::new());
     format!(
-        ",{},{},{}",
+        ",{},{},{}{period}",
         list(&|event| Number(event.phase).to_string()),
         list(&|event| Number(event.speed).to_string()),
         list(&|event| machine.name_of(event.place).to_owned())

@@ -1,17 +1,18 @@
 //! Curves of events of machines: one row for each point.
 
 use super::Table;
-use super::machine_branch::{CLOSINGS, closings};
+use super::machine_branch::{closing_columns, closings};
 use super::machine_tables::{numbered, push};
 use crate::number::Number;
 use vibroimpact::machine::Machine;
 use vibroimpact_study::{MachineCurvePlan, MachineEventCurve};
 
 /// One row a point: both numbers, label, whether it is stable, event, stop of the event, residual of the condition, phase of
-/// the touch, multipliers, and of each closing besides the touch the phase, speed and stop.
+/// the touch, multipliers, of each closing besides the touch the phase, speed and stop, and without
+/// forcing the period.
 pub(crate) fn table<'a>(machine: &'a Machine, plan: &MachineCurvePlan, found: &'a MachineEventCurve) -> Table<'a> {
     let names = [plan.vary.path.as_str(), plan.and.path.as_str(), "label", "event", "stop", "residual", "touch"];
-    let header = names.map(str::to_owned).into_iter().chain(numbered(machine)).chain(CLOSINGS.map(str::to_owned));
+    let header = names.map(str::to_owned).into_iter().chain(numbered(machine)).chain(closing_columns(machine));
     let header = header.collect::<Vec<_>>().join(",");
     let rows = found.points.iter().map(|point| {
         let (p, q) = point.values;

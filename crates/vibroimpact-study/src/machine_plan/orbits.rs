@@ -20,12 +20,14 @@ pub(super) struct ChosenCycle {
     pub(super) among: Option<(u32, u32)>,
 }
 
-/// The label of a task; a machine without forcing has none.
+/// The label of a task: m/n with forcing, m/T without.
 pub(super) fn label(machine: &Machine, text: &str) -> Result<Label, PlanError> {
-    if machine.period().is_none() {
-        return Err(PlanError::NoPeriodUnforced);
+    let given = || text.chars().take(40).collect();
+    match (machine.period().is_some(), Label::unforced(text)) {
+        (false, label) => label.ok_or_else(|| PlanError::LabelUnforced(given())),
+        (true, Some(_)) => Err(PlanError::LabelForced(given())),
+        (true, None) => Ok(text.parse()?),
     }
-    Ok(text.parse()?)
 }
 
 /// The orbits with a label, from scattered starts.
@@ -37,10 +39,11 @@ pub(super) fn orbits(machine: &Machine, label: Label, control: &Control<'_>) -> 
 
 /// Checks a label and the number of an orbit with that label.
 pub(super) fn check(machine: &Machine, (text, orbit): (Option<&str>, Option<u32>)) -> Result<(), PlanError> {
-    if text.is_none() && orbit.is_some() {
-        return Err(PlanError::NumberWithoutLabel);
+    match text {
+        Some(text) => label(machine, text).map(|_| ()),
+        None if orbit.is_some() => Err(PlanError::NumberWithoutLabel),
+        None => Ok(()),
     }
-    label(machine, text.unwrap_or("1/1")).map(|_| ())
 }
 
 /// The orbit with a label and a number; without a number, the stable one or else the fastest; without a label, the motion from

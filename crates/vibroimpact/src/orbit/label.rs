@@ -42,6 +42,24 @@ impl Label {
     pub const fn new(impacts: u32, periods: u32) -> Self {
         Self { impacts: Count::Finite(impacts), periods }
     }
+
+    /// The label that a text `m/T` stands for, with m from 0 to 10000, or `inf/T`: of a limit cycle of a machine without
+    /// forcing. `None` for another text.
+    #[must_use]
+    pub fn unforced(text: &str) -> Option<Self> {
+        let impacts = match text.trim().strip_suffix("/T")? {
+            "inf" => Count::Infinite,
+            "0" => Count::Finite(0),
+            m => Count::Finite(whole(m)?),
+        };
+        Some(Self { impacts, periods: 0 })
+    }
+}
+
+/// A whole number from 1 to 10000, in digits.
+fn whole(text: &str) -> Option<u32> {
+    let digits = text.bytes().all(|b| b.is_ascii_digit());
+    text.parse::<u32>().ok().filter(|k| digits && (1..=10_000).contains(k))
 }
 
 impl fmt::Display for Label {
@@ -70,10 +88,7 @@ impl FromStr for Label {
 
     fn from_str(text: &str) -> Result<Self, LabelError> {
         let bad = || LabelError { given: text.chars().take(40).collect() };
-        let whole = |part: &str| match part.parse::<u32>() {
-            Ok(k @ 1..=10_000) if part.bytes().all(|b| b.is_ascii_digit()) => Ok(k),
-            _ => Err(bad()),
-        };
+        let whole = |part: &str| whole(part).ok_or_else(bad);
         if text.trim() == "0" {
             return Ok(Self::new(0, 1));
         }
@@ -91,6 +106,13 @@ mod tests {
     fn only_labels_parse() {
         for good in ["1/1", "10000/1", "inf/3", "0"] {
             assert_eq!(good.parse::<Label>().unwrap().to_string(), good);
+        }
+        for good in ["0/T", "12/T", "inf/T"] {
+            assert_eq!(Label::unforced(good).unwrap().to_string(), good);
+            assert!(good.parse::<Label>().is_err());
+        }
+        for bad in ["1/1", "/T", "+1/T", "10001/T", "1/t", "T", "0", "1/T/T"] {
+            assert_eq!(Label::unforced(bad), None);
         }
         for bad in ["3/0", "0/1", "1", "1/1/1", "-1/2", "+1/2", "1.5/2", "inf/0", "inf", "", "1/99999999999", "nan/1"] {
             let message = bad.parse::<Label>().unwrap_err().to_string();

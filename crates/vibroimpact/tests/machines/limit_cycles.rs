@@ -10,7 +10,7 @@ use vibroimpact::quantities::machine_cycle_quantities;
 use vibroimpact::verdict::Count;
 
 /// A mass of 1 on a spring of 1, on a belt.
-fn on_belt((sliding, limit): (f64, f64), belt: f64, damping: f64) -> Machine {
+pub(crate) fn on_belt((sliding, limit): (f64, f64), belt: f64, damping: f64) -> Machine {
     let parts = MachineParts::new(["mass"]).with_mass(0, 1.0).with_link(&[1.0], 1.0, damping);
     Machine::new(parts.with_joint("belt", &[1.0], sliding, limit, belt)).unwrap()
 }
@@ -31,7 +31,7 @@ fn stick_slip_in_closed_form() {
 }
 
 /// Two masses on springs, the first on a belt, the second against a stop.
-fn pair(belt: f64, gap: f64, restitution: f64) -> Machine {
+pub(crate) fn pair(belt: f64, gap: f64, restitution: f64) -> Machine {
     let parts = MachineParts::new(["low", "high"])
         .with_mass(0, 1.0)
         .with_mass(1, 0.4)

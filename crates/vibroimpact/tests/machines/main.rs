@@ -3,6 +3,8 @@
 #[cfg(test)]
 mod branches;
 #[cfg(test)]
+mod branches_unforced;
+#[cfg(test)]
 mod case;
 #[cfg(test)]
 mod closed_forms;
@@ -10,6 +12,8 @@ mod closed_forms;
 mod collapse;
 #[cfg(test)]
 mod curves;
+#[cfg(test)]
+mod curves_unforced;
 #[cfg(test)]
 mod drift;
 #[cfg(test)]

@@ -9,7 +9,6 @@ use crate::continuation::of_machine::{CLOSED, Judged};
 use crate::events::Place;
 use crate::math::Multiplier;
 use crate::orbit::{MachineCycle, MachineFrame, MachineLap, MachineRing, RingEvent};
-use core::f64::consts::TAU;
 
 /// How long after and before, as a fraction of the flight to the next or from the last event.
 const BESIDE: f64 = 1e-4;
@@ -29,7 +28,7 @@ pub(super) fn bare(ring: &MachineRing, moments: &[Moment]) -> Option<MachineRing
     let kept = others(ring.len(), moments);
     let events: Vec<RingEvent> = kept.iter().map(|k| ring.events[*k].clone()).collect();
     let places = kept.iter().map(|k| ring.places[*k].clone()).collect();
-    (!events.is_empty()).then_some(MachineRing { events, places, periods: ring.periods, together: None })
+    (!events.is_empty()).then_some(MachineRing { events, places, together: None, ..*ring })
 }
 
 /// The motion from a little after a moment to a little before the next one: the state at its beginning, the motion, and the
@@ -39,21 +38,21 @@ fn between(
     ring: &MachineRing,
     (one, next): (&Moment, &Moment),
 ) -> Option<(Place, MachineLap, Place)> {
-    let frequency = frame.machine.parts().frequency?;
+    let (machine, frequency) = (frame.machine, ring.frequency(frame.machine));
     let at = |(leg, time): OnFlight| {
         let mut from = ring.place(leg);
         frame.constrain(&mut from)?;
         let structure = frame.structure(&from.states)?;
         Some(frame.moved(&from, &structure, time))
     };
-    let ((leg, since), (end, until)) = (one.after(ring, frequency), next.before(ring, frequency));
-    let (after, before) = (BESIDE * (ring.time(leg, frequency) - since), BESIDE * until);
+    let ((leg, since), (end, until)) = (one.after(ring, machine), next.before(ring, machine));
+    let (after, before) = (BESIDE * (ring.time(leg, machine) - since), BESIDE * until);
     let begin = at((leg, since + after))?;
     let expected = at((end, until - before))?;
     let mut angle = ring.theta(end) - ring.theta(leg) + frequency * (until - since);
     // from the only moment to itself
     if angle < SAME {
-        angle += TAU * f64::from(ring.periods);
+        angle += ring.angle();
     }
     let lap = MachineLap::fly(frame, &begin, angle / frequency - after - before)?;
     Some((begin, lap, expected))
@@ -89,7 +88,7 @@ pub(super) fn judge_beside(
     }
     // the cycle has all events but a touch
     let cycle = || {
-        let whole = frame.machine.period()? * f64::from(ring.periods);
+        let whole = ring.period(frame);
         let (begin, lap, _) = flown.first()?;
         let touches = |event: usize| ring.events[event].touches(&ring.events[(event + m - 1) % m].after);
         let touch = matches!(moments, [Moment::Events(first, last)] if first == last && touches(*first));

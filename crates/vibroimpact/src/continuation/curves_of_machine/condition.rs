@@ -36,7 +36,7 @@ pub(super) fn turned(frame: &MachineFrame<'_>, ring: &MachineRing, turn: f64) ->
 
 /// The multipliers of a ring, and the derivative that has them; `None` where one is infinite.
 pub(super) fn multipliers(frame: &MachineFrame<'_>, ring: &MachineRing) -> Option<(Matrix, Vec<Multiplier>)> {
-    let turn = frame.without_translations(MachineRing::monodromy(&ring.blocks(frame)?)?);
+    let turn = ring.monodromy(frame, &ring.blocks(frame)?)?;
     let mut all = general_eigenvalues(&turn)?;
     all.truncate(frame.multipliers());
     Some((turn, all))
@@ -64,7 +64,7 @@ impl Condition {
             Self::Pair { cosine } => Some(pair(&multipliers(frame, ring)?.1, *cosine)?.1),
             Self::Touch { at, size, .. } => {
                 let before = (at + ring.len() - 1) % ring.len();
-                Some(ring.block(frame, before, true)?.late[0] * frame.machine.parts().frequency? / size)
+                Some(ring.block(frame, before, true)?.late[0] * ring.frequency(frame.machine) / size)
             }
             Self::Limit { limit, size, .. } => Some(limit.of(frame, ring)?.value / size),
             Self::Together { at } => Some(ring.theta(at + 1) - ring.theta(*at)),

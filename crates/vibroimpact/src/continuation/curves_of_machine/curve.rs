@@ -96,7 +96,8 @@ impl MachineCurve {
         let cycle = at.known.cycle.clone().or_else(|| self.tracer.here.known.cycle.clone())?;
         let residual = equations.condition.residual(&MachineFrame::new(&machine), &ring, &at.known.multipliers);
         let touch = equations.condition.touch().map(|at| ring.place(at).phase);
-        let touch = touch.filter(|_| matches!(self.kind(), MachineCurveKind::Grazing { .. }));
+        let touch =
+            touch.filter(|_| machine.period().is_some() && matches!(self.kind(), MachineCurveKind::Grazing { .. }));
         Some(MachineCurvePoint { values: CurveEquations::values(&at.w), cycle, residual, touch, event })
     }
 

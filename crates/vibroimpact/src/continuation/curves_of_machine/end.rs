@@ -9,22 +9,21 @@ use super::problem::{CurveProblem, CurveSolution};
 
 use crate::orbit::MachineFrame;
 
-/// A flight that is shorter than this, in forcing periods, takes no time.
+/// A flight that is shorter than this, in forcing periods or without forcing in periods of the cycle, takes no time.
 const SHORT: f64 = 1e-3;
 
 /// The event at the end of a curve; `None` if no reason is known.
 pub(super) fn reason(problem: &CurveProblem, here: &CurveSolution) -> Option<MachineCurveEvent> {
     let (machine, ring) = problem.equations.split(&here.w)?;
     let (m, stops) = (ring.len(), machine.stops().len());
-    let period = machine.period()?;
-    let frequency = machine.parts().frequency?;
+    let period = machine.period().unwrap_or_else(|| ring.period(&MachineFrame::new(&machine)));
     let own = problem.equations.condition.moments(&MachineFrame::new(&machine), &ring);
     let corner = |k: usize| {
         own.iter().any(|moment| matches!(moment, Moment::Events(first, last) if first != last && k == *first))
     };
     let shortest =
-        (0..m).filter(|k| !corner(*k)).min_by(|a, b| ring.time(*a, frequency).total_cmp(&ring.time(*b, frequency)))?;
-    if m > 1 && ring.time(shortest, frequency) < SHORT * period {
+        (0..m).filter(|k| !corner(*k)).min_by(|a, b| ring.time(*a, &machine).total_cmp(&ring.time(*b, &machine)))?;
+    if m > 1 && ring.time(shortest, &machine) < SHORT * period {
         let (first, second) =
             (ring.events[shortest].guard.place(stops), ring.events[(shortest + 1) % m].guard.place(stops));
         return Some(match problem.kind {

@@ -3,7 +3,7 @@
 use super::borders::Borders;
 use super::condition::{Condition, turned};
 use super::plane::MachinePlane;
-use crate::continuation::of_machine::{by_number, linearised, weights};
+use crate::continuation::of_machine::{by_number, linearised, weigh, weights};
 use crate::continuation::trace::equations::Equations;
 use crate::events::StateShape;
 use crate::machine::Machine;
@@ -41,6 +41,12 @@ impl CurveEquations {
         let columns = self.sizes(matrix.rows());
         self.condition = Condition::Singular { turn, borders: Borders::new(&matrix, columns, None)? };
         Some(self)
+    }
+
+    /// Adapts the weights to a solution; whether they can have changed.
+    pub(super) fn weigh(&mut self, w: &[f64]) -> bool {
+        let count = self.weights.len() - 2;
+        weigh(&mut self.weights[..count], &self.ring, w)
     }
 
     /// The sizes of the first unknowns.

@@ -1,5 +1,6 @@
 //! A moment of a cycle at which rounding decides which events the motion has.
 
+use crate::machine::Machine;
 use crate::orbit::MachineRing;
 
 /// A moment: events that happen at once, or a touch on a flight.
@@ -29,21 +30,21 @@ impl Moment {
     }
 
     /// The end of the motion before it.
-    pub(super) fn before(&self, ring: &MachineRing, frequency: f64) -> OnFlight {
+    pub(super) fn before(&self, ring: &MachineRing, machine: &Machine) -> OnFlight {
         match *self {
             Self::Events(first, _) => {
                 let leg = (first + ring.len() - 1) % ring.len();
-                (leg, ring.time(leg, frequency))
+                (leg, ring.time(leg, machine))
             }
-            Self::Flight(leg, phase) => (leg, (phase - ring.theta(leg)) / frequency),
+            Self::Flight(leg, phase) => (leg, (phase - ring.theta(leg)) / ring.frequency(machine)),
         }
     }
 
     /// The beginning of the motion after it.
-    pub(super) fn after(&self, ring: &MachineRing, frequency: f64) -> OnFlight {
+    pub(super) fn after(&self, ring: &MachineRing, machine: &Machine) -> OnFlight {
         match *self {
             Self::Events(_, last) => (last, 0.0),
-            Self::Flight(..) => self.before(ring, frequency),
+            Self::Flight(..) => self.before(ring, machine),
         }
     }
 }

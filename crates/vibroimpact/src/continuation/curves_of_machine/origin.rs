@@ -35,7 +35,9 @@ fn begin(
     let frame = MachineFrame::new(machine);
     let sizes = point.cycle.sizes;
     let begin = point.cycle.strobes.first()?;
-    let ring_at = |machine: &Machine| MachineRing::of(&MachineFrame::new(machine), begin, point.cycle.label.periods);
+    let ring_at = |machine: &Machine| {
+        MachineRing::of(&MachineFrame::new(machine), begin, (point.cycle.label.periods, point.cycle.period))
+    };
     // rounding can let a motion end at a limit
     let beside = |by: f64| ring_at(&plane.at((values.0 + by * plane.scales().0, values.1))?);
     let mut ring = ring_at(machine).or_else(|| beside(BESIDE)).or_else(|| beside(-BESIDE))?;
@@ -128,7 +130,7 @@ fn without_contact(frame: &MachineFrame<'_>, ring: &mut MachineRing, (stop, slow
     let at = (0..m)
         .filter(|k| ring.events[*k].guard == GuardKind::Gap(stop))
         .max_by(|a, b| rate(*a).total_cmp(&rate(*b)))?;
-    if rate(at).abs() * frame.machine.parts().frequency? > slow {
+    if rate(at).abs() * ring.frequency(frame.machine) > slow {
         return None;
     }
     let contact = ring.events[at].after[stop] != ContactState::Open;
@@ -142,8 +144,7 @@ fn without_contact(frame: &MachineFrame<'_>, ring: &mut MachineRing, (stop, slow
     let mut at = at;
     if contact {
         let opened = (at + 1) % m;
-        ring.events.remove(opened);
-        ring.places.remove(opened);
+        ring.remove(opened);
         if opened < at {
             at -= 1;
         }

@@ -15,7 +15,6 @@ pub(super) fn condition(
     ring: &mut MachineRing,
     (contact, speed): (usize, f64),
 ) -> Option<Condition> {
-    let frequency = frame.machine.parts().frequency?;
     join(frame, ring, contact);
     match rest_zero(frame, ring, (contact, speed))? {
         RestZero::Limit(limit) => {
@@ -24,7 +23,7 @@ pub(super) fn condition(
         }
         RestZero::Touch(touch) => {
             let (_, place) = closest(frame, ring, (touch.leg, touch.guard))?;
-            let size = frequency * size(frame, &place, touch.guard, speed);
+            let size = ring.frequency(frame.machine) * size(frame, &place, touch.guard, speed);
             let back = place.surfaces.iter().map(Option::is_some).collect();
             ring.events.insert(touch.leg + 1, RingEvent::touch(touch.guard, &place.states, back));
             ring.places.insert(touch.leg + 1, place);

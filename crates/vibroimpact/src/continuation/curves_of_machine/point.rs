@@ -65,7 +65,7 @@ pub struct MachineCurvePoint {
     /// the touch divided by the largest velocity; the difference of both phases at a corner; of
     /// sticking or holding what is missing to the limit, divided by the size of its terms, or the rate of what is touched.
     pub residual: f64,
-    /// The phase of the touch on a curve of grazing.
+    /// The phase of the touch on a curve of grazing of a machine with forcing.
     pub touch: Option<f64>,
     /// The event at this point; `None` for an ordinary point.
     pub event: Option<MachineCurveEvent>,

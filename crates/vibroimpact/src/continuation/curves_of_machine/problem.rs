@@ -151,11 +151,11 @@ impl CurveProblem {
                 if let Some(surface) = place.surfaces[stop] {
                     pull += surface.rate * surface.rate * surface.size;
                 }
-                Some(pull / (self.speed * frame.machine.parts().frequency?))
+                Some(pull / (self.speed * ring.frequency(frame.machine)))
             }
             Watched::Release => match &self.equations.condition {
                 Condition::Limit { limit, size, .. } => {
-                    Some(limit.of(frame, ring)?.rate / (size * frame.machine.parts().frequency?))
+                    Some(limit.of(frame, ring)?.rate / (size * ring.frequency(frame.machine)))
                 }
                 _ => None,
             },
@@ -172,7 +172,7 @@ impl CurveProblem {
                     change = step?.apply(&change);
                 }
                 let moved = dot(direction, &change[..frame.shape.n]);
-                Some(moved * frame.machine.parts().frequency? / dot(direction, direction))
+                Some(moved * ring.frequency(frame.machine) / dot(direction, direction))
             }
         }
     }
@@ -271,10 +271,10 @@ impl Problem for CurveProblem {
         0
     }
 
-    /// Adapts the condition to the solution. The weights stay.
+    /// Adapts the condition to the solution. The weights stay with forcing.
     fn weigh(&mut self, w: &[f64]) -> bool {
         self.renew(w);
-        false
+        self.equations.weigh(w)
     }
 }
 

@@ -122,7 +122,7 @@ fn appearing(
     first_step(&problem, &w, &[along], options)
 }
 
-/// Without the impact `gone`, whose speed is zero.
+/// Without the impact `gone`, whose speed is zero. What is left can be several times a shorter cycle.
 fn disappearing(
     tracer: &Tracer<MachineProblem>,
     at: &MachineSolution,
@@ -131,9 +131,9 @@ fn disappearing(
     options: &BranchOptions,
 ) -> Option<Tracer<MachineProblem>> {
     let mut next = ring.clone();
-    next.events.remove(gone);
-    next.places.remove(gone);
+    next.remove(gone);
     let sizes = at.known.cycle.as_ref()?.sizes;
+    let next = next.shortest(&MachineFrame::new(machine), sizes);
     let problem = with_ring(tracer, machine, next, sizes);
     let w = MachineEquations::join(machine, &problem.equations.ring, last(&at.w));
     let mut row = vec![0.0; w.len()];
@@ -156,7 +156,8 @@ pub(super) fn replayed(
     let (machine, ring) = equations.split(&at.w)?;
     let value = last(&at.w);
     let forward = if last(&at.tangent) < 0.0 { -1.0 } else { 1.0 };
-    let begin = ring.middle(&MachineFrame::new(&machine))?.1;
+    let frame = MachineFrame::new(&machine);
+    let (begin, period) = (ring.middle(&frame)?.1, ring.period(&frame));
     let (low, high) = tracer.problem.range;
     for up in [forward, -forward] {
         for by in BESIDE {
@@ -166,11 +167,10 @@ pub(super) fn replayed(
             }
             let Some(moved) = equations.family.at(there) else { continue };
             let frame = MachineFrame::new(&moved);
-            let Some(cycle) = MachineCycle::near(&frame, &begin, ring.periods) else { continue };
-            if cycle.label.periods != ring.periods {
-                continue;
-            }
-            let Some(next) = MachineRing::of(&frame, cycle.strobes.first()?, ring.periods) else { continue };
+            let lasting = (ring.periods, period);
+            let Some(cycle) = MachineCycle::lasting(&frame, &begin, lasting) else { continue };
+            let lasting = (ring.periods, cycle.period);
+            let Some(next) = MachineRing::of(&frame, cycle.strobes.first()?, lasting) else { continue };
             if same_signature(&next, &ring) && !(corner && up == forward) {
                 continue;
             }

@@ -75,7 +75,7 @@ impl MachineBranch {
         let ring = cycle
             .strobes
             .first()
-            .and_then(|begin| MachineRing::of(&MachineFrame::new(machine), begin, cycle.label.periods))
+            .and_then(|begin| MachineRing::of(&MachineFrame::new(machine), begin, (cycle.label.periods, cycle.period)))
             .ok_or(MachineBranchError::NoCycle)?;
         let equations = MachineEquations::new((machine, family.clone()), ring, cycle.sizes, 0.25 * (high - low));
         let up = if direction == Direction::Up { 1.0 } else { -1.0 };

@@ -105,7 +105,8 @@ pub(crate) fn difference(ring: &MachineRing, judged: &Judged) -> Difference {
     let later = |events: &mut dyn Iterator<Item = &RingEvent>, guard| events.take(3).any(|event| event.guard == guard);
     // the expected event comes a little later, or not at all
     let delayed = i < m && later(&mut judged.seen.iter().skip(i + 1), expected.guard);
-    let early = later(&mut (1..m.min(4)).map(|k| &ring.events[wanted(i + k)]), found.guard);
+    // an event after all expected ones is an additional one
+    let early = i < m && later(&mut (1..m.min(4)).map(|k| &ring.events[wanted(i + k)]), found.guard);
     let new = || rest(found.guard, stops, found.after[other].constrains());
     match (found.guard, expected.guard) {
         _ if delayed && early && judged.seen.len() == m => Difference::Corner { first: own, second: other },

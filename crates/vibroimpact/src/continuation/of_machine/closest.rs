@@ -15,13 +15,12 @@ pub(crate) fn closest(
     ring: &MachineRing,
     (leg, kind): (usize, GuardKind),
 ) -> Option<(f64, Place)> {
-    let frequency = frame.machine.parts().frequency?;
     let mut from = ring.place(leg);
     frame.constrain(&mut from)?;
     let structure = frame.structure(&from.states)?;
     let guard = structure.guards.iter().position(|guard| guard.kind == kind)?;
     let law = EventLaw { structure: &structure, guard, pushed: &[] };
-    let time = ring.time(leg, frequency);
+    let time = ring.time(leg, frame.machine);
     let at = |s: f64| {
         let place = frame.moved(&from, &structure, s);
         let (value, rate) = law.value_and_rate(&frame.normal, &place);
@@ -46,6 +45,6 @@ pub(crate) fn closest(
         })
         .min_by(|a, b| at(*a).0.total_cmp(&at(*b).0))?;
     let (value, _, mut place) = at(lowest);
-    place.phase = ring.theta(leg) + frequency * lowest;
+    place.phase = ring.theta(leg) + ring.frequency(frame.machine) * lowest;
     Some((value, place))
 }

@@ -32,16 +32,11 @@ pub(crate) fn join(frame: &MachineFrame<'_>, ring: &mut MachineRing, contact: us
         ring.places[at].states = place.states;
         ring.places[at].surfaces = place.surfaces;
         let unchanged = ring.events[at].touches(&ring.events[(at + m - 1) % m].after);
-        remove(ring, next);
+        ring.remove(next);
         if unchanged && ring.len() > 1 {
-            remove(ring, if next < at { at - 1 } else { at });
+            ring.remove(if next < at { at - 1 } else { at });
         }
         joined = true;
     }
     joined
-}
-
-fn remove(ring: &mut MachineRing, event: usize) {
-    ring.events.remove(event);
-    ring.places.remove(event);
 }

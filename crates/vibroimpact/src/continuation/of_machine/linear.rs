@@ -4,9 +4,25 @@
 use crate::events::StateShape;
 use crate::machine::Machine;
 use crate::orbit::{MachineFrame, MachineRing};
+use core::f64::consts::TAU;
 
 /// The step of differences by a number, relative to its scale.
 const STEP: f64 = 1e-3;
+
+/// Adapts the weights of the unknowns of a ring, the first of `w`, to the period: without forcing a change of all times by a part of the
+/// period has the same length for each period. Returns whether there is no forcing.
+pub(crate) fn weigh(weights: &mut [f64], ring: &MachineRing, w: &[f64]) -> bool {
+    if ring.periods > 0 {
+        return false;
+    }
+    #[allow(clippy::cast_precision_loss)] // a few dozen
+    let m = ring.len() as f64;
+    // the first unknown is the period, with another sign
+    let radian = w[0] / TAU;
+    let width = weights.len() / ring.len();
+    weights.iter_mut().step_by(width).for_each(|weight| *weight = 1.0 / (m * radian * radian));
+    true
+}
 
 /// The weights of the unknowns of a ring, for the largest coordinates and velocities `sizes`.
 pub(crate) fn weights(machine: &Machine, ring: &MachineRing, sizes: (f64, f64)) -> Vec<f64> {

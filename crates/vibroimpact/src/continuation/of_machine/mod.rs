@@ -43,7 +43,7 @@ pub(crate) use closest::closest;
 pub(crate) use edge::edge;
 pub use family::MachineFamily;
 pub(crate) use joined::join;
-pub(crate) use linear::{by_number, linearised, weights};
+pub(crate) use linear::{by_number, linearised, weigh, weights};
 pub use point::{MachineBranchEvent, MachinePoint};
 pub(crate) use problem::{CLOSED, Judged, judge, over_pairs};
 pub(crate) use rest::{Limit, RestZero, limits, rest_zero, size, touches};

@@ -91,7 +91,7 @@ impl MachineProblem {
         let blocks = ring.blocks(frame)?;
         // every guard must fall to zero at its event
         let rising = blocks.iter().position(|block| block.late[0] >= 0.0).map(|k| (k + 1) % ring.len());
-        let turn = frame.without_translations(MachineRing::monodromy(&blocks)?);
+        let turn = ring.monodromy(frame, &blocks)?;
         let mut multipliers = general_eigenvalues(&turn)?;
         let even = if turn.rows().is_multiple_of(2) { 1.0 } else { -1.0 };
         let torus = over_pairs(&multipliers);
@@ -111,10 +111,7 @@ pub(crate) fn judge(
 ) -> Judged {
     let nothing = |multipliers| Judged { cycle: None, multipliers, seen: Vec::new(), from: 0, rising };
     let Some((from, begin)) = ring.middle(frame) else { return nothing(multipliers) };
-    let Some(time) = frame.machine.period().map(|period| period * f64::from(ring.periods)) else {
-        return nothing(multipliers);
-    };
-    let Some(lap) = MachineLap::fly(frame, &begin, time) else { return nothing(multipliers) };
+    let Some(lap) = MachineLap::fly(frame, &begin, ring.period(frame)) else { return nothing(multipliers) };
     let seen: Vec<RingEvent> =
         lap.steps[..lap.steps.len() - 1].iter().filter_map(|step| RingEvent::of(&step.2)).collect();
     let m = ring.len();
@@ -163,5 +160,9 @@ impl Problem for MachineProblem {
 
     fn range(&self) -> Option<(f64, f64)> {
         Some(self.range)
+    }
+
+    fn weigh(&mut self, w: &[f64]) -> bool {
+        self.equations.weigh(w)
     }
 }

@@ -25,7 +25,8 @@ impl MachinePoint {
         let frame = MachineFrame::new(&machine);
         let begin = self.cycle.strobes.first()?;
         let periods = self.cycle.label.periods;
-        let turn = MachineLap::fly(&frame, begin, machine.period()? * f64::from(periods))?.derivative?;
+        let time = frame.time(periods, self.cycle.period);
+        let turn = MachineLap::fly(&frame, begin, time)?.derivative?;
         let direction = towards(&turn)?;
         let values = frame.shape.values(begin);
         let size = self.cycle.sizes.0.max(self.cycle.sizes.1);
@@ -38,9 +39,7 @@ impl MachinePoint {
                     let step = along * by.sqrt() * size;
                     let moved: Vec<f64> = values.iter().zip(&direction).map(|(x, d)| x + step * d).collect();
                     let guess = frame.shape.with_values(begin, &moved);
-                    if let Some(cycle) = MachineCycle::near(&frame, &guess, 2 * periods)
-                        && cycle.label.periods == 2 * periods
-                    {
+                    if let Some(cycle) = MachineCycle::lasting(&frame, &guess, (2 * periods, 2.0 * time)) {
                         return Some((value, cycle));
                     }
                 }

@@ -6,6 +6,7 @@
 
 use super::change::Difference;
 use super::closest::closest;
+use super::joined::SHORT;
 use super::problem::{Judged, MachineProblem, MachineSolution};
 use crate::continuation::trace::tracer::{Solution, Step, Tracer};
 use crate::orbit::{MachineFrame, MachineRing};
@@ -14,12 +15,15 @@ use crate::regime::GuardKind;
 /// The first distance of the secant method, and the largest one from the last admissible solution, in parts of the step.
 const FIRST: f64 = 1e-6;
 const MOST: f64 = 0.1;
+/// An impact of a lower speed, relative to the largest velocity, grazes.
+const SLOW: f64 = 1e-3;
 /// The largest number of its steps.
 const STEPS: u32 = 12;
 
 /// The same difference with the event that grazes. If several impacts in a row are on the same stop, their order does not
 /// tell which of them is missing, or on which flight there is a new one: it is that with the lowest speed, or with the
-/// smallest gap.
+/// smallest gap. An impact that grazes in one of several parts of a cycle that are nearly equal can happen in another part
+/// beyond, so two events have changed their order which do not happen at the same time.
 pub(super) fn grazing(tracer: &Tracer<MachineProblem>, at: &MachineSolution, found: Difference) -> Difference {
     let Some((machine, ring)) = tracer.problem.equations.split(&at.w) else { return found };
     let (frame, m) = (MachineFrame::new(&machine), ring.len());
@@ -34,6 +38,20 @@ pub(super) fn grazing(tracer: &Tracer<MachineProblem>, at: &MachineSolution, fou
             let flights = (0..m).filter_map(|leg| Some((leg, closest(&frame, &ring, (leg, GuardKind::Gap(stop)))?.0)));
             let nearest = lowest(&mut flights.into_iter());
             nearest.map_or(found, |(leg, _)| Difference::Appears { at: (leg + 1) % m, stop })
+        }
+        Difference::Corner { first, second } => {
+            let stops = machine.stops().len();
+            let of = |k: usize| ring.events[k % m].guard.place(stops);
+            let both = |k: usize| [(first, second), (second, first)].contains(&(of(k), of(k + 1)));
+            if (0..m).any(|k| both(k) && ring.theta(k + 1) - ring.theta(k) < SHORT) {
+                return found;
+            }
+            let slow = SLOW * at.known.cycle.as_ref().map_or(0.0, |cycle| cycle.sizes.1);
+            let struck =
+                |k: &usize| matches!(ring.events[*k].guard, GuardKind::Gap(stop) if stop == first || stop == second);
+            let weakest = lowest(&mut (0..m).filter(struck).map(|k| (k, speed_after(&frame, &ring, k, of(k)).abs())));
+            let grazes = weakest.filter(|(_, speed)| *speed < slow);
+            grazes.map_or(found, |(at, _)| Difference::Disappears { at, stop: of(at) })
         }
         other => other,
     }

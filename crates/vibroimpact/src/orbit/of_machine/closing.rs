@@ -17,6 +17,8 @@ const CLOSED: f64 = 1e-10;
 /// A multiplier besides that along the motion that is this near to 1 is 1 to rounding: the cycle is one of a family, as those
 /// of machines that lose no energy.
 const FAMILY: f64 = 1e-9;
+/// A period that differs by more, relative to it, is another one.
+const OTHER: f64 = 0.25;
 /// States that differ by less, relative to the motion, are the same.
 const SAME: f64 = 1e-8;
 
@@ -57,6 +59,14 @@ impl MachineCycle {
             }
         }
         alone(&begin, &lap, residual)
+    }
+
+    /// The cycle near the motion from `from` whose smallest period is this number of forcing periods, or without forcing
+    /// close to this time; `None` if there is none.
+    pub(crate) fn lasting(frame: &MachineFrame<'_>, from: &Place, (periods, time): (u32, f64)) -> Option<Self> {
+        let cycle = Self::returning(frame, from, frame.time(periods, time))?;
+        let alike = !frame.unforced() || (cycle.period / time - 1.0).abs() < OTHER;
+        (cycle.label.periods == periods && alike).then_some(cycle)
     }
 
     /// The cycle whose motion over `n` periods is `lap`, over its smallest period.

@@ -3,6 +3,7 @@
 use super::border::on_border;
 use super::cycle::MachineCycle;
 use super::frame::MachineFrame;
+use super::near_returns::near_returns;
 use crate::events::{MachineLimits, MachineMotion, MachineStart};
 use crate::machine::Machine;
 use crate::orbit::Label;
@@ -21,7 +22,7 @@ const BETWEEN: usize = 4;
 /// last; stopped when `go_on` returns false, and then `None`. A start that is not allowed is passed over.
 ///
 /// Further guesses lie on the border between the motions that lead to two stable orbits of as many forcing periods, whatever
-/// their number of impacts. An orbit to which no guess leads is not found.
+/// their number of impacts. Without forcing the guesses are motions that come close to an earlier state. An orbit to which no guess leads is not found.
 #[must_use]
 pub fn find_machine_while(
     machine: &Machine,
@@ -32,7 +33,17 @@ pub fn find_machine_while(
     let frame = MachineFrame::new(machine);
     // of all labels of as many periods
     let mut known: Vec<MachineCycle> = Vec::new();
-    let Some(period) = machine.period() else { return Some(known) };
+    let Some(period) = machine.period() else {
+        for start in starts {
+            for (guess, time) in near_returns(&frame, &start, label.impacts) {
+                if !go_on() {
+                    return None;
+                }
+                learn(&mut known, MachineCycle::returning(&frame, &guess, time));
+            }
+        }
+        return Some(of_label(known, label));
+    };
     for start in starts {
         let Ok(mut motion) = MachineMotion::new(machine, &start, MachineLimits::default()) else { continue };
         let mut seen = 0;
@@ -56,9 +67,14 @@ pub fn find_machine_while(
             learn(&mut known, MachineCycle::near(&frame, &guess, label.periods));
         }
     }
+    Some(of_label(known, label))
+}
+
+/// The cycles with a label, the fastest last.
+fn of_label(known: Vec<MachineCycle>, label: Label) -> Vec<MachineCycle> {
     let mut found: Vec<MachineCycle> = known.into_iter().filter(|cycle| cycle.label == label).collect();
     found.sort_by(|a, b| a.fastest().total_cmp(&b.fastest()));
-    Some(found)
+    found
 }
 
 /// Adds a cycle that is new.

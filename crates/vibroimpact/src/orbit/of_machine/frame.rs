@@ -142,6 +142,11 @@ impl<'a> MachineFrame<'a> {
         self.machine.parts().frequency.is_none()
     }
 
+    /// The time of so many forcing periods; without forcing the time `otherwise`.
+    pub(crate) fn time(&self, periods: u32, otherwise: f64) -> f64 {
+        self.machine.period().map_or(otherwise, |period| period * f64::from(periods))
+    }
+
     /// The rate of a state, but for a translation; `None` if its regime has no structure.
     pub(crate) fn flow(&self, place: &Place) -> Option<Vec<f64>> {
         let structure = self.structure(&place.states)?;

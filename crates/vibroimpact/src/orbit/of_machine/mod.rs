@@ -6,6 +6,7 @@
 //! | the motion over a time, with its derivative | `lap` |
 //! | the events of a cycle as unknowns, and their equations | `ring` |
 //! | guesses of unstable ones between two that are stable | `border` |
+//! | guesses without forcing: where a motion comes close to an earlier state | `near_returns` |
 //! | all with a label, from many guesses | [`find_machine_while`] |
 //! | a cycle | [`MachineCycle`] |
 //! | the same, by Newton's method on the state between two events | `closing` |
@@ -16,6 +17,7 @@ mod cycle;
 mod find;
 mod frame;
 mod lap;
+mod near_returns;
 mod ring;
 
 pub use cycle::MachineCycle;

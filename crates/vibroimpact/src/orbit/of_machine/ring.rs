@@ -10,6 +10,10 @@
 //!
 //! In a machine with free translations the last flight closes the cycle but for one: the drift is what remains. The place
 //! of the first event along them is 0 instead, so that the solution is one.
+//!
+//! Without forcing the phases are times, in units in which the cycle that the ring was made of has the period $`2\pi`$. The
+//! cycle can begin at any time. Here it ends at the phase 0, so the phase of the first event is an unknown like the others:
+//! its negative is the period.
 
 use super::frame::MachineFrame;
 use super::lap::MachineLap;
@@ -21,7 +25,7 @@ use crate::system::phase;
 use core::f64::consts::TAU;
 use std::sync::Arc;
 
-/// Two halves of a cycle that differ by less are the same.
+/// Two parts of a cycle that differ by less are the same.
 const ALIKE: f64 = 3e-4;
 
 /// An event of a signature.
@@ -66,7 +70,10 @@ pub(crate) struct MachineRing {
     pub(crate) events: Vec<RingEvent>,
     /// The states after the events. Their phases increase along the cycle beyond 2 pi.
     pub(crate) places: Vec<Place>,
+    /// The number of forcing periods; 0 without forcing.
     pub(crate) periods: u32,
+    /// The angle in a unit of time by which phases are times without forcing.
+    pub(crate) pace: f64,
     /// An event that may come at the same time as the next one, or by rounding after it.
     pub(crate) together: Option<usize>,
 }
@@ -84,11 +91,12 @@ pub(crate) struct MachineBlock {
 }
 
 impl MachineRing {
-    /// The events of the motion from `begin`, a state between two events, over `periods` forcing periods; `None` if there
-    /// is none.
-    pub(crate) fn of(frame: &MachineFrame<'_>, begin: &Place, periods: u32) -> Option<Self> {
-        let time = frame.machine.period()? * f64::from(periods);
-        let frequency = frame.machine.parts().frequency?;
+    /// The events of the motion from `begin`, a state between two events, over `periods` forcing periods, or without
+    /// forcing over the time `period`; `None` if there is none.
+    pub(crate) fn of(frame: &MachineFrame<'_>, begin: &Place, (periods, period): (u32, f64)) -> Option<Self> {
+        let time = frame.time(periods, period);
+        let pace = TAU / time;
+        let frequency = frame.machine.parts().frequency.unwrap_or(pace);
         let lap = MachineLap::fly(frame, begin, time)?;
         let free = &frame.normal.translations;
         let (mut events, mut places) = (Vec::new(), Vec::new());
@@ -103,7 +111,11 @@ impl MachineRing {
             events.push(event);
             places.push(place);
         }
-        (!events.is_empty()).then_some(Self { events, places, periods, together: None }.centred(free))
+        if let Some(first) = places.first().filter(|_| frame.unforced()) {
+            let later = first.phase + TAU;
+            places.iter_mut().for_each(|place| place.phase -= later);
+        }
+        (!events.is_empty()).then_some(Self { events, places, periods, pace, together: None }.centred(free))
     }
 
     /// The same motion where the first event has no part along a free translation.
@@ -125,7 +137,39 @@ impl MachineRing {
     /// The phase of event `k`, not reduced to one forcing period; `k` may lie in the next period.
     pub(crate) fn theta(&self, k: usize) -> f64 {
         let m = self.len();
-        if k < m { self.places[k].phase } else { self.places[k - m].phase + TAU * f64::from(self.periods) }
+        if k < m { self.places[k].phase } else { self.places[k - m].phase + self.angle() }
+    }
+
+    /// Whether the machine has no forcing.
+    const fn unforced(&self) -> bool {
+        self.periods == 0
+    }
+
+    /// The phase of one period of the cycle.
+    pub(crate) fn angle(&self) -> f64 {
+        if self.unforced() { -self.places[0].phase } else { TAU * f64::from(self.periods) }
+    }
+
+    /// The rate of phases in time.
+    pub(crate) fn frequency(&self, machine: &Machine) -> f64 {
+        machine.parts().frequency.unwrap_or(self.pace)
+    }
+
+    /// The period of the cycle.
+    pub(crate) fn period(&self, frame: &MachineFrame<'_>) -> f64 {
+        frame.time(self.periods, self.angle() / self.pace)
+    }
+
+    /// Leaves out event `k`.
+    pub(crate) fn remove(&mut self, k: usize) {
+        let angle = self.angle();
+        self.events.remove(k);
+        self.places.remove(k);
+        if let Some(first) = self.places.first().filter(|_| k == 0 && self.unforced()) {
+            // the cycle ends at the event that is the first one now
+            let end = first.phase + angle;
+            self.places.iter_mut().for_each(|place| place.phase -= end);
+        }
     }
 
     /// All unknowns: for each event its phase and the state after it.
@@ -151,15 +195,15 @@ impl MachineRing {
         ring
     }
 
-    /// The state after event `k` with a phase in $`[0, 2\pi)`$.
+    /// The state after event `k` with a phase in $`[0, 2\pi)`$; without forcing the phase is 0.
     pub(crate) fn place(&self, k: usize) -> Place {
         let place = &self.places[k % self.len()];
-        Place { phase: phase::wrap(place.phase), ..place.clone() }
+        Place { phase: if self.unforced() { 0.0 } else { phase::wrap(place.phase) }, ..place.clone() }
     }
 
     /// The time from event `k` to the next.
-    pub(crate) fn time(&self, k: usize, frequency: f64) -> f64 {
-        (self.theta(k + 1) - self.theta(k)) / frequency
+    pub(crate) fn time(&self, k: usize, machine: &Machine) -> f64 {
+        (self.theta(k + 1) - self.theta(k)) / self.frequency(machine)
     }
 
     /// Whether a contact rests or holds from event `k` to the next one and not before and after. Such a flight may end before
@@ -178,11 +222,11 @@ impl MachineRing {
 
     /// The flight after event `k` and the event at its end; the derivatives only if `linear`.
     pub(crate) fn block(&self, frame: &MachineFrame<'_>, k: usize, linear: bool) -> Option<MachineBlock> {
-        let frequency = frame.machine.parts().frequency?;
+        let frequency = self.frequency(frame.machine);
         let (mut from, next) = (self.place(k), (k + 1) % self.len());
         frame.constrain(&mut from)?;
         let event = &self.events[next];
-        let time = self.time(k, frequency);
+        let time = self.time(k, frame.machine);
         if !((time > 0.0 || self.together == Some(k) || self.rests(k)) && time.is_finite()) {
             return None;
         }
@@ -268,19 +312,24 @@ impl MachineRing {
     }
 
     /// Writes the derivatives of all residuals into the first columns of a matrix of rows of this length. After one period
-    /// the changes of the first event are multiplied by `turn`: 1 for cycles.
+    /// the changes of the first event are multiplied by `turn`: 1 for cycles. Without forcing these end at a given phase;
+    /// other changes are those of neighbours, whose phases differ at the end too.
     pub(crate) fn fill(&self, rows: &mut [f64], length: usize, blocks: &[MachineBlock], turn: f64) {
         let m = self.len();
         for (k, block) in blocks.iter().enumerate() {
             let width = block.late.len();
-            let turn = if k + 1 == m { turn } else { 1.0 };
+            let closes = k + 1 == m;
+            let ends = closes && self.unforced() && (turn - 1.0).abs() < f64::EPSILON;
+            let turn = if closes { turn } else { 1.0 };
             let (own, next) = (k * width, ((k + 1) % m) * width);
             for i in 0..width {
                 let row = &mut rows[(k * width + i) * length..(k * width + i + 1) * length];
                 for (j, value) in block.left.row(i).iter().enumerate() {
                     row[own + j] += value;
                 }
-                row[next] += turn * block.late[i];
+                if !ends {
+                    row[next] += turn * block.late[i];
+                }
                 if i > 0 {
                     row[next + i] -= turn;
                 }
@@ -288,8 +337,9 @@ impl MachineRing {
         }
     }
 
-    /// The derivative of the state after the last event by that after the first, over one period.
-    pub(crate) fn monodromy(blocks: &[MachineBlock]) -> Option<Matrix> {
+    /// The derivative of the state after the first event over one period, for differences across cycles; `None`
+    /// where it is infinite.
+    pub(crate) fn monodromy(&self, frame: &MachineFrame<'_>, blocks: &[MachineBlock]) -> Option<Matrix> {
         let mut product: Option<Matrix> = None;
         for block in blocks {
             let step = block.step.clone()?;
@@ -298,31 +348,53 @@ impl MachineRing {
                 Some(so_far) => step.times(&so_far),
             });
         }
-        product
+        product.map(|product| frame.across_cycles(product, &self.place(0)))
     }
 
     /// Whether the second half of the events repeats the first, to within 3e-4 of the sizes of the motion.
     pub(crate) fn is_twice(&self, frame: &MachineFrame<'_>, sizes: (f64, f64)) -> bool {
-        let half = self.len() / 2;
-        self.len().is_multiple_of(2)
-            && self.periods.is_multiple_of(2)
-            && (0..half).all(|k| {
-                let (one, mut two) = (self.place(k), self.place(k + half));
-                let ahead = self.theta(k + half) - self.theta(k) - 0.5 * TAU * f64::from(self.periods);
+        self.repeats(frame, 2, sizes)
+    }
+
+    /// Whether the events repeat those of the first of so many equal parts, to within 3e-4 of the sizes of the motion.
+    fn repeats(&self, frame: &MachineFrame<'_>, parts: u32, sizes: (f64, f64)) -> bool {
+        let (count, periods) = (parts as usize, self.periods);
+        let part = self.len() / count;
+        self.len().is_multiple_of(count)
+            && periods.is_multiple_of(parts)
+            && (0..self.len() - part).all(|k| {
+                let (one, mut two) = (self.place(k), self.place(k + part));
+                let ahead = self.theta(k + part) - self.theta(k) - self.angle() / f64::from(parts);
                 two.phase = one.phase;
-                self.events[k] == self.events[k + half]
+                self.events[k] == self.events[k + part]
                     && ahead.abs() < ALIKE
                     && frame.distance(&one, &two, sizes) < ALIKE
             })
     }
 
+    /// The cycle over its smallest period, if it repeats itself after a part of its period.
+    pub(crate) fn shortest(mut self, frame: &MachineFrame<'_>, sizes: (f64, f64)) -> Self {
+        let most = u32::try_from(self.len()).unwrap_or(1);
+        if let Some(parts) = (2..=most).rev().find(|parts| self.repeats(frame, *parts, sizes)) {
+            let part = self.len() / parts as usize;
+            let end = self.theta(part);
+            self.events.truncate(part);
+            self.places.truncate(part);
+            self.periods /= parts;
+            if self.unforced() {
+                self.places.iter_mut().for_each(|place| place.phase -= end);
+            }
+        }
+        self
+    }
+
     /// A state between two events: the middle of the longest flight, with the event before it.
     pub(crate) fn middle(&self, frame: &MachineFrame<'_>) -> Option<(usize, Place)> {
-        let frequency = frame.machine.parts().frequency?;
-        let longest = (0..self.len()).max_by(|a, b| self.time(*a, frequency).total_cmp(&self.time(*b, frequency)))?;
+        let time = |k: usize| self.time(k, frame.machine);
+        let longest = (0..self.len()).max_by(|a, b| time(*a).total_cmp(&time(*b)))?;
         let mut from = self.place(longest);
         frame.constrain(&mut from)?;
         let structure: Arc<Structure> = frame.structure(&from.states)?;
-        Some((longest, frame.moved(&from, &structure, 0.5 * self.time(longest, frequency))))
+        Some((longest, frame.moved(&from, &structure, 0.5 * time(longest))))
     }
 }

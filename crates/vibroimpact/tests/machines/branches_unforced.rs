@@ -1,0 +1,204 @@
+//! Branches of limit cycles of machines without forcing.
+
+use crate::drift::{cycle, settled};
+use crate::limit_cycles::{on_belt, pair};
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+use vibroimpact::continuation::{
+    BranchOptions, Direction, MachineBranch, MachineBranchEvent, MachineFamily, MachinePoint,
+};
+use vibroimpact::events::MachineStart;
+use vibroimpact::machine::{Machine, MachineParts};
+use vibroimpact::orbit::{MachineCycle, find_machine_while};
+use vibroimpact::verdict::{Label, MachineVerdict, scattered_machine_starts};
+
+fn from(
+    machine: &Machine,
+    cycle: &MachineCycle,
+    (path, low, high): (&str, f64, f64),
+    direction: Direction,
+) -> Vec<MachinePoint> {
+    let (family, value) = MachineFamily::of_path(machine, path).unwrap();
+    let options = BranchOptions { points: 2_000, ..BranchOptions::default() };
+    MachineBranch::new((&family, value), cycle, &(low..=high), direction, options).unwrap().collect()
+}
+
+/// The branch of the motion that begins at rest on the belt.
+pub(crate) fn branch(machine: &Machine, over: (&str, f64, f64), direction: Direction) -> Vec<MachinePoint> {
+    let mut qdot = vec![0.0; machine.n()];
+    qdot[0] = machine.number("friction.belt.belt").unwrap();
+    from(machine, &cycle(machine, &MachineStart { q: vec![0.0; machine.n()], qdot, phase: 0.0 }), over, direction)
+}
+
+/// The period of stick-slip in closed form at each point, over each number.
+#[test]
+fn stick_slip_in_closed_form() {
+    let machine = on_belt((0.2, 0.4), 0.3, 0.0);
+    for over in
+        [("friction.belt.belt", 0.01, 3.0), ("friction.belt.static", 0.21, 2.0), ("friction.belt.sliding", 0.0, 0.39)]
+    {
+        let path = over.0;
+        for direction in [Direction::Up, Direction::Down] {
+            let points = branch(&machine, over, direction);
+            assert_eq!(points.last().unwrap().event, Some(MachineBranchEvent::EndOfRange), "{path}");
+            for MachinePoint { value, cycle, event } in &points {
+                assert!(event.is_none_or(|event| event.ends()), "{path} {value}: {event:?}");
+                let there = machine.with(path, *value).unwrap();
+                let of = |path| there.number(path).unwrap();
+                let (belt, jump) = (of("friction.belt.belt"), of("friction.belt.static") - of("friction.belt.sliding"));
+                let expected = 2.0 * jump / belt + PI + 2.0 * (belt / jump).atan();
+                assert!(
+                    (cycle.period - expected).abs() < 1e-12 * expected,
+                    "{path} {value}: {} {expected}",
+                    cycle.period
+                );
+                assert_eq!(cycle.label.to_string(), "0/T");
+                assert!(cycle.multipliers.len() == 1 && cycle.multipliers[0].modulus() < 1e-12);
+            }
+        }
+    }
+}
+
+/// Simulation from close to a point settles into its cycle if that is stable, and leaves it otherwise. Returns the number of
+/// points that were compared.
+fn compared(machine: &Machine, path: &str, points: &[MachinePoint]) -> (u32, u32) {
+    let mut counts = (0, 0);
+    for (k, MachinePoint { value, cycle, event }) in points.iter().enumerate() {
+        let apart = |other: &MachinePoint| other.event.is_none() || (other.value - value).abs() > 1e-4;
+        let beside = &points[k.saturating_sub(4)..(k + 5).min(points.len())];
+        let largest = cycle.multipliers[0].modulus();
+        if k % 5 > 0 || event.is_some() || !beside.iter().all(apart) || (0.97..1.03).contains(&largest) {
+            continue;
+        }
+        let there = machine.with(path, *value).unwrap();
+        let mut start = cycle.state.clone();
+        start.q[1] += 1e-8;
+        let found = settled(&there, &start);
+        let same = matches!(&found, MachineVerdict::Periodic(found) if found.same_as(cycle, 1e-6));
+        assert_eq!(same, cycle.stable(), "{path} {value}: {} {}", found.label(), cycle.label);
+        if let MachineVerdict::Periodic(found) = &found
+            && same
+        {
+            assert!((found.period - cycle.period).abs() < 1e-11 * cycle.period);
+        }
+        if same { counts.0 += 1 } else { counts.1 += 1 }
+    }
+    counts
+}
+
+/// Points of branches with a stop, through changes of their events, against simulation.
+#[test]
+fn simulation_agrees() {
+    let (mut events, mut counts) = (BTreeMap::new(), (0, 0));
+    for (belt, gap, restitution) in [(0.2, 0.9, 0.5), (0.15, 0.65, 0.9), (0.12, 0.6, 0.2)] {
+        let machine = pair(belt, gap, restitution);
+        for over in [
+            ("stop.stop.gap", 0.57, 1.2),
+            ("friction.belt.belt", 0.05, 0.4),
+            ("stop.stop.restitution", 0.0, 1.0),
+            ("stiffness.low.low", 1.2, 2.2),
+        ] {
+            for direction in [Direction::Up, Direction::Down] {
+                let points = branch(&machine, over, direction);
+                let own = compared(&machine, over.0, &points);
+                counts = (counts.0 + own.0, counts.1 + own.1);
+                for event in points.iter().filter_map(|point| point.event) {
+                    *events.entry(event.name()).or_insert(0) += 1;
+                }
+            }
+        }
+    }
+    assert!(counts.0 > 150 && counts.1 > 50, "{counts:?}");
+    for name in ["fold", "flip", "torus", "grazing", "corner", "holding begins"] {
+        assert!(events.contains_key(name), "{name} {events:?}");
+    }
+}
+
+/// Without its closing the cycle is the one of half its period, which does not depend on the stop.
+#[test]
+fn the_smallest_period_beyond_a_grazing_contact() {
+    let machine = pair(0.15, 0.65, 0.9);
+    let points = branch(&machine, ("stop.stop.gap", 0.6, 1.2), Direction::Up);
+    let at = points.iter().position(|p| matches!(p.event, Some(MachineBranchEvent::Grazing { .. }))).unwrap();
+    let (before, after) = (&points[at - 1].cycle, &points[at + 1].cycle);
+    assert_eq!((before.label.to_string().as_str(), after.label.to_string().as_str()), ("1/T", "0/T"));
+    assert!((before.period / after.period - 3.0).abs() < 1e-2, "{} {}", before.period, after.period);
+    for MachinePoint { value, cycle, .. } in &points[at + 1..] {
+        assert!((cycle.period - after.period).abs() < 1e-12 * after.period);
+        let there = machine.with("stop.stop.gap", *value).unwrap();
+        let simulated = settled(&there, &cycle.state);
+        assert!(matches!(simulated, MachineVerdict::Periodic(found) if found.same_as(cycle, 1e-9)), "{value}");
+    }
+}
+
+/// At a flip begins the branch of twice the period. It ends there too.
+#[test]
+fn a_branch_from_a_flip() {
+    let machine = pair(0.2, 0.9, 0.5);
+    let over = ("stiffness.low.low", 1.2, 3.0);
+    let points = branch(&machine, over, Direction::Down);
+    let flip = points.iter().find(|point| point.event == Some(MachineBranchEvent::Flip)).unwrap();
+    assert!((flip.cycle.multipliers[0].re + 1.0).abs() < 1e-10);
+    let (family, _) = MachineFamily::of_path(&machine, over.0).unwrap();
+    let (value, doubled) = flip.doubled(&family, 0.25 * (over.2 - over.1)).unwrap();
+    assert_eq!(doubled.label.to_string(), "2/T");
+    assert!((doubled.period / flip.cycle.period - 2.0).abs() < 1e-2);
+    let there = machine.with(over.0, value).unwrap();
+    let mut halved = false;
+    for direction in [Direction::Up, Direction::Down] {
+        let points = from(&there, &doubled, over, direction);
+        compared(&machine, over.0, &points);
+        let last = points.last().unwrap();
+        if last.event == Some(MachineBranchEvent::Halving) {
+            assert!((last.value - flip.value).abs() < 1e-7, "{} {}", last.value, flip.value);
+            halved = true;
+        }
+    }
+    assert!(halved);
+}
+
+/// A constant force pulls a carriage with drag, which pulls a block on the ground by a spring: nothing holds them in place.
+#[test]
+fn a_drifting_cycle() {
+    let parts = MachineParts::new(["carriage", "block"])
+        .with_mass(0, 20.0)
+        .with_mass(1, 1.0)
+        .with_link(&[1.0, 0.0], 0.0, 5.0)
+        .with_link(&[1.0, -1.0], 1.0, 0.02)
+        .with_constant(0, 0.9)
+        .with_joint("ground", &[0.0, 1.0], 0.3, 0.6, 0.0);
+    let machine = Machine::new(parts).unwrap();
+    let start = MachineStart { q: vec![0.0; 2], qdot: vec![0.0; 2], phase: 0.0 };
+    let cycle = cycle(&machine, &start);
+    for over in [("constant.carriage", 0.65, 1.4), ("friction.ground.sliding", 0.1, 0.5)] {
+        for direction in [Direction::Up, Direction::Down] {
+            let points = from(&machine, &cycle, over, direction);
+            assert!(compared(&machine, over.0, &points).0 > 3);
+            for MachinePoint { cycle, .. } in &points {
+                // both move on by the same
+                assert!(cycle.drift[0] > 0.1 && (cycle.drift[0] - cycle.drift[1]).abs() < 1e-12 * cycle.drift[0]);
+            }
+        }
+    }
+}
+
+/// The search from scattered starts finds the cycle of a branch where no motion settles into it, and coexisting stable ones.
+#[test]
+fn limit_cycles_with_a_label() {
+    let find = |machine: &Machine, label| {
+        let starts = (0..48).map(|k| scattered_machine_starts(machine, 1, k));
+        find_machine_while(machine, Label::unforced(label).unwrap(), starts, || true).unwrap()
+    };
+    let points = branch(&pair(0.2, 0.9, 0.5), ("stop.stop.gap", 0.7, 1.2), Direction::Down);
+    let unstable = points.last().unwrap();
+    assert_eq!((unstable.value, unstable.event), (0.7, Some(MachineBranchEvent::EndOfRange)));
+    let found = find(&pair(0.2, 0.7, 0.5), "1/T");
+    assert!(!unstable.cycle.stable() && found.iter().any(|cycle| cycle.same_as(&unstable.cycle, 1e-8)), "{found:?}");
+    let machine = pair(0.15, 0.688, 0.9);
+    let (none, one) = (find(&machine, "0/T"), find(&machine, "1/T"));
+    assert!(none.len() == 1 && one.len() > 1, "{none:?} {one:?}");
+    for cycle in none.iter().chain(&one).filter(|cycle| cycle.stable()) {
+        let simulated = settled(&machine, &cycle.state);
+        assert!(matches!(simulated, MachineVerdict::Periodic(found) if found.same_as(cycle, 1e-9)));
+    }
+}
