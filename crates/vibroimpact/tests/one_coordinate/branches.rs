@@ -8,10 +8,9 @@ use vibroimpact::verdict::{MachineVerdict, SettleOptions, Verdict, settle, settl
 /// How far the gap is changed.
 const SPAN: f64 = 0.05;
 
-/// The same events at the same gaps, on cycles without rest. Five of 64 branches of machines differ: two with restitution 0,
+/// The same events at the same gaps, on cycles without rest. Four of 64 branches of machines differ: two with restitution 0,
 /// where the branch of the oscillator ends or the change has another name; one with folds closer than 1e-6 to each other;
-/// one on which the number turns back where the cycle repeats a shorter one, found to 1e-5; and one on which two stops are
-/// struck almost at the same time.
+/// and one on which two stops are struck almost at the same time.
 #[test]
 fn the_same_branches() {
     let options = SettleOptions { chaos_over: 0, max_impacts: 2_000, ..SettleOptions::default() };
@@ -58,7 +57,7 @@ fn the_same_branches() {
         }
     }
     let summary = format!("{branches} branches, {told} events");
-    let (most, least) = if is_long() { (5, (60, 100)) } else { (2, (10, 20)) };
+    let (most, least) = if is_long() { (4, (60, 100)) } else { (2, (10, 20)) };
     assert!(differ.len() <= most, "{summary}, {} differ\n{differ:#?}", differ.len());
     assert!(branches >= least.0 && told >= least.1, "{summary}");
 }

@@ -5,7 +5,8 @@ use super::impact_branch::ImpactBranch;
 use super::options::{BranchError, BranchOptions};
 use super::point::{BranchEvent, SolutionPoint};
 use crate::continuation::equations::cycle_equations::CycleEquations;
-use crate::continuation::trace::equations::{Equations, correct};
+use crate::continuation::trace::equations::Equations;
+use crate::continuation::trace::secant;
 use crate::orbit::{Block, Floquet, Ring, blocks, solve};
 use crate::system::{Oscillator, ParameterPath};
 use core::ops::RangeInclusive;
@@ -97,33 +98,14 @@ fn carried(osc: &Oscillator, ring: &Ring, flights: &[Block], multiplier: f64) ->
 pub(crate) fn halved(equations: &CycleEquations, ring: &Ring, value: f64) -> Option<(Ring, f64)> {
     let once = ring.half();
     let equations = equations.with(&once);
-    let row = equations.parameter_row();
-    let at = |w: &[f64], value: f64| -> Option<(Vec<f64>, f64)> {
-        let (w, _) = correct(&equations, w, &row, value)?;
-        let (osc, ring, flights) = equations.flights(&w)?;
-        let test = Floquet::new(&osc, &ring, &flights).minus_one();
-        Some((w, test))
+    let minus_one = |w: &[f64]| {
+        let (osc, ring, flights) = equations.flights(w)?;
+        Some(Floquet::new(&osc, &ring, &flights).minus_one())
     };
-    // secant steps towards the zero of the test function
-    let mut before = at(&CycleEquations::join(&once, value), value)?;
-    let mut there = value + 1e-7 * (1.0 + value.abs());
-    for _ in 0..MAX_SECANTS {
-        let here = at(&before.0, there)?;
-        let from = *before.0.last()?;
-        let next = there - here.1 * (there - from) / (here.1 - before.1);
-        if !next.is_finite() || (next - there).abs() <= f64::EPSILON * there.abs() {
-            let (_, ring) = equations.split(&here.0)?;
-            return Some((ring.repeated(2), there));
-        }
-        (before, there) = (here, next);
-    }
-    let (_, ring) = equations.split(&before.0)?;
-    let value = *before.0.last()?;
-    Some((ring.repeated(2), value))
+    let w = secant::zero(&equations, &CycleEquations::join(&once, value), minus_one)?;
+    let (_, ring) = equations.split(&w)?;
+    Some((ring.repeated(2), *w.last()?))
 }
-
-/// The largest number of secant steps.
-const MAX_SECANTS: u32 = 12;
 
 /// The branch that leaves `ring` in the given direction of its impacts; the parameter does not change to first order.
 fn leave(

@@ -7,6 +7,7 @@ use super::change::{Difference, additional, difference};
 use super::edge::edge;
 use super::equations::MachineEquations;
 use super::family::MachineFamily;
+use super::halving::halved;
 use super::meeting::meeting;
 use super::point::{MachineBranchEvent, MachinePoint};
 use super::problem::{Judged, MINUS_ONE, MachineProblem, MachineSolution, PACE, PLUS_ONE, TORUS};
@@ -205,12 +206,7 @@ impl MachineBranch {
             let share = s / step.length;
             self.tracer.here.w.iter().zip(&step.there.w).map(|(a, b)| a + (b - a) * share).collect()
         });
-        let (machine, ring) = self.tracer.problem.equations.split(&w)?;
-        let cycle = self.tracer.here.known.cycle.as_ref()?;
-        ring.is_twice(&MachineFrame::new(&machine), cycle.sizes).then_some(())?;
-        let along = self.tracer.here.tangent.clone();
-        let known = Judged { cycle: Some(cycle.clone()), ..self.tracer.here.known.clone() };
-        Some(MachineSolution { w, tangent: along, values: self.tracer.here.values.clone(), known })
+        halved(&self.tracer.problem, &self.tracer.here, &w)
     }
 
     /// An inadmissible solution within a step.

@@ -16,7 +16,7 @@
 //! | the solution at which a rest begins or ends, to rounding | `at_rest` |
 //! | two events that come so close that no further step converges | `meeting` |
 //! | the branch beyond such a change | `beyond` |
-//! | the cycle of twice the period beside a flip | `switch` |
+//! | the cycle of twice the period beside a flip, and where it is the other one repeated | `switch`, `halving` |
 //! | the branch | [`MachineBranch`] |
 
 mod at_rest;
@@ -28,6 +28,7 @@ mod closest;
 mod edge;
 mod equations;
 mod family;
+mod halving;
 mod joined;
 mod linear;
 mod meeting;

@@ -376,16 +376,28 @@ impl MachineRing {
     pub(crate) fn shortest(mut self, frame: &MachineFrame<'_>, sizes: (f64, f64)) -> Self {
         let most = u32::try_from(self.len()).unwrap_or(1);
         if let Some(parts) = (2..=most).rev().find(|parts| self.repeats(frame, *parts, sizes)) {
-            let part = self.len() / parts as usize;
-            let end = self.theta(part);
-            self.events.truncate(part);
-            self.places.truncate(part);
-            self.periods /= parts;
-            if self.unforced() {
-                self.places.iter_mut().for_each(|place| place.phase -= end);
-            }
+            self.keep_one_of(parts);
         }
         self
+    }
+
+    /// The first half of the events as a cycle.
+    pub(crate) fn half(mut self) -> Self {
+        self.keep_one_of(2);
+        self
+    }
+
+    /// Keeps the first of so many equal parts as a cycle.
+    fn keep_one_of(&mut self, parts: u32) {
+        let part = self.len() / parts as usize;
+        let end = self.theta(part);
+        self.events.truncate(part);
+        self.places.truncate(part);
+        self.periods /= parts;
+        self.together = None;
+        if self.unforced() {
+            self.places.iter_mut().for_each(|place| place.phase -= end);
+        }
     }
 
     /// A state between two events: the middle of the longest flight, with the event before it.
