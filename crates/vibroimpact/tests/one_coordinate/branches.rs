@@ -1,9 +1,12 @@
 //! The branches of both over the gap.
 
-use crate::{is_long, some};
-use vibroimpact::Parameter;
-use vibroimpact::continuation::{Branch, BranchOptions, Direction, MachineBranch, MachineFamily};
+use crate::{System, is_long, some};
+use vibroimpact::continuation::{
+    Branch, BranchEvent, BranchOptions, Direction, MachineBranch, MachineBranchEvent, MachineFamily,
+};
+use vibroimpact::orbit::one_impact;
 use vibroimpact::verdict::{MachineVerdict, SettleOptions, Verdict, settle, settle_machine};
+use vibroimpact::{Oscillator, Parameter, Start};
 
 /// How far the gap is changed.
 const SPAN: f64 = 0.05;
@@ -60,4 +63,36 @@ fn the_same_branches() {
     let (most, least) = if is_long() { (4, (60, 100)) } else { (2, (10, 20)) };
     assert!(differ.len() <= most, "{summary}, {} differ\n{differ:#?}", differ.len());
     assert!(branches >= least.0 && told >= least.1, "{summary}");
+}
+
+/// Where 2/2 becomes 1/1 repeated twice, 1/1 has its flip.
+#[test]
+fn a_halving_is_the_flip_of_the_half() {
+    let oscillator = Oscillator::from_inverse_beta(1.11, 1.83, 0.5).unwrap();
+    let system = System { oscillator, start: Start::at_rest(&oscillator), text: String::new() };
+    let machine = system.machine();
+    let options = SettleOptions::default();
+    let MachineVerdict::Periodic(cycle) = settle_machine(&machine, &system.machine_start(), &options).unwrap().verdict
+    else {
+        panic!()
+    };
+    assert_eq!(cycle.label.to_string(), "2/2");
+    let (family, value) = MachineFamily::of_path(&machine, "stop.upper.gap").unwrap();
+    let branch = BranchOptions::default();
+    let found = [Direction::Up, Direction::Down].into_iter().find_map(|direction| {
+        let points = MachineBranch::new((&family, value), &cycle, &(1.6..=2.2), direction, branch).unwrap();
+        points.last().filter(|point| point.event == Some(MachineBranchEvent::Halving))
+    });
+    let halving = found.unwrap();
+    // the other cycle, from where it is stable
+    let osc = Oscillator::from_inverse_beta(1.11, 1.65, 0.5).unwrap();
+    let orbits = one_impact(&osc, 1);
+    let once = &orbits.iter().find(|orbit| orbit.physical && orbit.cycle.stable()).unwrap().cycle;
+    let mut points = Branch::new(&osc, once, Parameter::Gap, 1.6..=2.2, Direction::Up, branch).unwrap();
+    let flip = points.find(|point| point.event == Some(BranchEvent::Flip)).unwrap();
+    assert!((halving.value - flip.value).abs() < 1e-12, "{} {}", halving.value, flip.value);
+    let twice = halving.cycle;
+    assert!(twice.label.to_string() == "2/2" && twice.residual < 1e-11, "{} {}", twice.label, twice.residual);
+    let speeds: Vec<f64> = twice.events.iter().map(|event| event.speed).collect();
+    assert!(speeds.iter().all(|speed| (speed - flip.cycle.points[0].state.velocity).abs() < 1e-9), "{speeds:?}");
 }
