@@ -7,9 +7,10 @@ use std::f64::consts::PI;
 use vibroimpact::continuation::{
     BranchOptions, Direction, MachineBranch, MachineBranchEvent, MachineFamily, MachinePoint,
 };
-use vibroimpact::events::MachineStart;
-use vibroimpact::machine::{Machine, MachineParts};
+use vibroimpact::events::{MachineLimits, MachineSamples, MachineStart};
+use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::orbit::{MachineCycle, find_machine_while};
+use vibroimpact::regime::ContactState;
 use vibroimpact::verdict::{Label, MachineVerdict, scattered_machine_starts};
 
 fn from(
@@ -201,4 +202,49 @@ fn limit_cycles_with_a_label() {
         let simulated = settled(&machine, &cycle.state);
         assert!(matches!(simulated, MachineVerdict::Periodic(found) if found.same_as(cycle, 1e-9)));
     }
+}
+
+/// Where the velocity of the sliding mass reaches that of the belt, it is held from there on, and all that follows is another
+/// motion, in which the stop closes once more. The branch ends, and says why.
+#[test]
+fn the_begin_of_a_hold_that_changes_all_that_follows() {
+    let soft = StopLaw::Compliant { stiffness: 20.0, damping: 0.0, preload: 0.0, opening: Opening::Force };
+    let parts = MachineParts::new(["a", "b"])
+        .with_mass(0, 1.0)
+        .with_mass(1, 0.978_470_655)
+        .with_link(&[1.0, 0.0], 1.429_642_21, 0.009_955_438_9)
+        .with_link(&[1.0, -1.0], 0.726_226_645, 0.023_784_187_8)
+        .with_stop("stop", &[0.0, 1.0], 0.697_548_818, soft)
+        .with_joint("belt", &[1.0, 0.0], 0.174_757_666, 0.492_439_166, 0.106_863_861);
+    let machine = Machine::new(parts).unwrap();
+    let points = branch(&machine, ("friction.belt.belt", 0.1, 0.5), Direction::Up);
+    let events: Vec<_> = points.iter().filter_map(|point| Some((point.event?, point.value))).collect();
+    let [(MachineBranchEvent::Holding { joint: 1, begins: true }, value), (MachineBranchEvent::NoConvergence, _)] =
+        events[..]
+    else {
+        panic!("{events:?}")
+    };
+    // before, the velocity of the sliding mass comes ever closer to that of the belt
+    let nearest = |belt: f64, cycle: &MachineCycle| {
+        let there = machine.with("friction.belt.belt", belt).unwrap();
+        let times = (cycle.period, cycle.period / 20_000.0);
+        let samples = MachineSamples::new(&there, &cycle.state, MachineLimits::default(), times).unwrap();
+        let rates: Vec<f64> = samples
+            .map(|sample| if sample.states[1] == ContactState::Holding { 0.0 } else { sample.qdot[0] - belt })
+            .collect();
+        let highest = rates.windows(3).filter(|rates| rates[1] < 0.0 && rates[0] < rates[1] && rates[2] < rates[1]);
+        highest.map(|rates| rates[1]).fold(f64::NEG_INFINITY, f64::max)
+    };
+    let at = points.iter().position(|point| point.event.is_some()).unwrap();
+    let [(early, rate), (late, slower)] =
+        [&points[at - 2], &points[at - 1]].map(|point| (point.value, nearest(point.value, &point.cycle)));
+    assert!(rate < slower && slower < 0.0, "{rate} {slower}");
+    let zero = late - slower * (late - early) / (slower - rate);
+    assert!((zero - value).abs() < 2e-2 * (value - late), "{zero} {value} {late}");
+    let before = &points[at - 1];
+    // beyond, no motion with these events is left
+    let beyond = settled(&machine.with("friction.belt.belt", value + 1e-6).unwrap(), &before.cycle.state);
+    assert!(
+        !matches!(beyond, MachineVerdict::Periodic(found) if (found.period / before.cycle.period - 1.0).abs() < 1e-2)
+    );
 }

@@ -229,10 +229,27 @@ impl MachineBranch {
         let rest = matches!(found, Difference::Rest { .. });
         let found = if rest { additional(ring, &beyond).unwrap_or(found) } else { found };
         let found = grazing(&self.tracer, &inside, found);
+        if let Some((at, found)) = self.interrupted(&inside, &found) {
+            return Some((s, at, found));
+        }
         // a curve of the loss of contact begins with a cycle that has the impact
         let exact = self.lost(&inside, &found).is_none().then(|| touching(&self.tracer, step, (s, &inside), &found));
         let (s, at) = exact.flatten().unwrap_or((s, inside));
         Some((s, at, found))
+    }
+
+    /// The solution at which a rest or a hold begins or ends, if this explains a change of the events that shows elsewhere:
+    /// a hold that is interrupted changes all that follows.
+    fn interrupted(&self, inside: &MachineSolution, found: &Difference) -> Option<(MachineSolution, Difference)> {
+        matches!(found, Difference::Other { .. }).then_some(())?;
+        let equations = &self.tracer.problem.equations;
+        let machine = equations.family.at(last(&inside.w))?;
+        let stops = machine.stops().len();
+        let here = |at: &MachineSolution| (last(&at.w) - last(&inside.w)).abs() <= HERE * equations.scale;
+        (0..stops + machine.joints().len()).find_map(|place| {
+            let rest = Difference::Rest { place, joint: place >= stops, begins: false };
+            at_rest(&self.tracer, inside, &rest).filter(|(at, _)| here(at))
+        })
     }
 
     /// The stop of the only impact of a cycle, if this impact disappears.
@@ -274,6 +291,8 @@ impl MachineBranch {
     }
 }
 
+/// Values of the number that differ by less, in its scale, are those of one event.
+const HERE: f64 = 1e-7;
 /// The distance, in parts of a step, from a grazing solution to that at which the signs of test functions are compared
 /// with those at the beginning.
 const ASIDE: f64 = 1e-6;

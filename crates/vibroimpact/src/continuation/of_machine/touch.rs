@@ -15,6 +15,8 @@ use crate::regime::GuardKind;
 /// The first distance of the secant method, and the largest one from the last admissible solution, in parts of the step.
 const FIRST: f64 = 1e-6;
 const MOST: f64 = 0.1;
+/// A gap that is larger, relative to the largest coordinate, is not that of a grazing contact.
+const NEAR: f64 = 1e-3;
 /// An impact of a lower speed, relative to the largest velocity, grazes.
 const SLOW: f64 = 1e-3;
 /// The largest number of its steps.
@@ -23,7 +25,8 @@ const STEPS: u32 = 12;
 /// The same difference with the event that grazes. If several impacts in a row are on the same stop, their order does not
 /// tell which of them is missing, or on which flight there is a new one: it is that with the lowest speed, or with the
 /// smallest gap. An impact that grazes in one of several parts of a cycle that are nearly equal can happen in another part
-/// beyond, so two events have changed their order which do not happen at the same time.
+/// beyond, so two events have changed their order which do not happen at the same time. Where no flight comes close to the
+/// stop of a new closing, the motion has changed before.
 pub(super) fn grazing(tracer: &Tracer<MachineProblem>, at: &MachineSolution, found: Difference) -> Difference {
     let Some((machine, ring)) = tracer.problem.equations.split(&at.w) else { return found };
     let (frame, m) = (MachineFrame::new(&machine), ring.len());
@@ -37,7 +40,14 @@ pub(super) fn grazing(tracer: &Tracer<MachineProblem>, at: &MachineSolution, fou
         Difference::Appears { stop, .. } => {
             let flights = (0..m).filter_map(|leg| Some((leg, closest(&frame, &ring, (leg, GuardKind::Gap(stop)))?.0)));
             let nearest = lowest(&mut flights.into_iter());
-            nearest.map_or(found, |(leg, _)| Difference::Appears { at: (leg + 1) % m, stop })
+            let size = NEAR * at.known.cycle.as_ref().map_or(f64::INFINITY, |cycle| cycle.sizes.0);
+            nearest.map_or(found, |(leg, gap)| {
+                if gap.abs() > size {
+                    Difference::Other { place: Some(stop) }
+                } else {
+                    Difference::Appears { at: (leg + 1) % m, stop }
+                }
+            })
         }
         Difference::Corner { first, second } => {
             let stops = machine.stops().len();
