@@ -14,8 +14,8 @@ pub(super) fn closing_columns(machine: &Machine) -> impl Iterator<Item = String>
 }
 
 /// One row a point: number of the branch, the numbers that vary, label, whether it is admissible and stable, event, stop of the
-/// event, fastest closing, multipliers, the drift of a machine that can be translated, of each closing the phase, speed and stop, and without
-/// forcing the period.
+/// event, fastest closing, multipliers, the drift of a machine that can be translated, of each closing the phase, speed and stop,
+/// and without forcing the period.
 pub(crate) fn table<'a>(machine: &'a Machine, cut: &MachineCut, found: &'a MachineBranched) -> Table<'a> {
     let own = ["label", "physical", "stable", "event", "stop", "fastest"];
     let heads = core::iter::once("branch").chain(cut.paths()).chain(own).map(str::to_owned);

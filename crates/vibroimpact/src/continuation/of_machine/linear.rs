@@ -9,8 +9,8 @@ use core::f64::consts::TAU;
 /// The step of differences by a number, relative to its scale.
 const STEP: f64 = 1e-3;
 
-/// Adapts the weights of the unknowns of a ring, the first of `w`, to the period: without forcing a change of all times by a part of the
-/// period has the same length for each period. Returns whether there is no forcing.
+/// Adapts the weights of the unknowns of a ring, the first of `w`, to the period: without forcing a change of all times by a
+/// part of the period has the same length for each period. Returns whether there is no forcing.
 pub(crate) fn weigh(weights: &mut [f64], ring: &MachineRing, w: &[f64]) -> bool {
     if ring.periods > 0 {
         return false;

@@ -22,7 +22,8 @@ const BETWEEN: usize = 4;
 /// last; stopped when `go_on` returns false, and then `None`. A start that is not allowed is passed over.
 ///
 /// Further guesses lie on the border between the motions that lead to two stable orbits of as many forcing periods, whatever
-/// their number of impacts. Without forcing the guesses are motions that come close to an earlier state. An orbit to which no guess leads is not found.
+/// their number of impacts. Without forcing the guesses are motions that come close to an earlier state. An orbit to which no
+/// guess leads is not found.
 #[must_use]
 pub fn find_machine_while(
     machine: &Machine,

@@ -337,8 +337,8 @@ impl MachineRing {
         }
     }
 
-    /// The derivative of the state after the first event over one period, for differences across cycles; `None`
-    /// where it is infinite.
+    /// The derivative of the state after the first event over one period, for differences across cycles; `None` where it is
+    /// infinite.
     pub(crate) fn monodromy(&self, frame: &MachineFrame<'_>, blocks: &[MachineBlock]) -> Option<Matrix> {
         let mut product: Option<Matrix> = None;
         for block in blocks {
