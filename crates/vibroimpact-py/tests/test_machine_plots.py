@@ -41,6 +41,18 @@ def test_shares_and_exponents() -> None:
     np.testing.assert_array_equal(line.get_ydata(), [one.value for one in measured.exponents])
 
 
+def test_a_branch_without_stops_shows_a_displacement() -> None:
+    branch = vi.Machine.named("stick-slip").branch("V", 0.5)
+    assert branch.quantity == "q.mass.displacement_max" and branch.value is not None
+    # it swings about x = f = 0.2 from x = fs = 0.4 with the velocity of the belt
+    assert np.allclose(branch.value, 0.2 + np.hypot(0.2, branch.parameter), rtol=0, atol=1e-12)
+    ax = branch.plot(diagram=False)
+    assert ax.get_ylabel() == branch.quantity
+    drawn = np.concatenate([np.asarray(line.get_ydata()) for line in ax.lines if len(np.asarray(line.get_xdata())) > 1])
+    assert np.isfinite(drawn).any() and np.nanmax(drawn) > 0.7
+    assert vi.Machine.named("two-mass-hammer").branch("frequency", 1.01).quantity is None
+
+
 def test_orbits_branches_and_curves() -> None:
     found = HAMMER.orbit("1/1")
     ax = found.plot()

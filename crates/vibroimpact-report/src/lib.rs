@@ -7,6 +7,7 @@
 //! |---|---|
 //! | a plan, its result, and everything that is reported of it | [`answer()`], [`Answer`], [`Shown`] |
 //! | the same for a plan of a machine | [`machine_answer()`], [`MachineAnswer`] |
+//! | what stands for a cycle on a branch of a machine without stops | `branch_quantity` |
 //! | the system of a question, and the units of results | [`Asked`], [`Units`] |
 //! | the JSON objects of the commands, one file for each | [`json`] |
 //! | the tables | [`Table`], [`table`] |
@@ -17,6 +18,7 @@
 //! | the errors of figures and tables | [`ReportError`] |
 
 pub mod answer;
+mod branch_quantity;
 mod error;
 pub mod figure;
 pub mod json;

@@ -1,6 +1,7 @@
 //! A plan of a machine, its result, and everything that is reported of it: the JSON object, the table and the figure.
 
 use crate::AnswerError;
+use crate::branch_quantity::BranchQuantity;
 use crate::figure::coloured;
 use crate::scene::{self, View};
 use crate::{ReportError, Shown, Table, figure, table};
@@ -105,8 +106,11 @@ impl MachineAnswer {
             }
             MachineResults::Branch(found) => {
                 let MachineTask::Branch(plan) = &self.plan.task else { return Ok(None) };
-                let behind = if shown.diagram { self.behind(plan, control)? } else { None };
-                figure::branch::of_machine(found, &plan.cut(&self.plan.machine)?, behind.as_ref(), title)
+                let cut = plan.cut(&self.plan.machine)?;
+                let quantity = BranchQuantity::of(&self.machine, &self.plan.machine, &cut, found);
+                let path = quantity.as_ref().map(|quantity| quantity.path.as_str());
+                let behind = if shown.diagram { self.behind(plan, path, control)? } else { None };
+                figure::branch::of_machine(found, &cut, (quantity.as_ref(), behind.as_ref()), title)
             }
             MachineResults::Curve(found) => {
                 let MachineTask::Curve(plan) = &self.plan.task else { return Ok(None) };
@@ -123,9 +127,19 @@ impl MachineAnswer {
         }))
     }
 
-    /// The orbit diagram over the range of a branch; `None` if there is no machine at one end, where no branch can come either.
-    fn behind(&self, plan: &MachineBranchPlan, control: &Control<'_>) -> Result<Option<MachineDiagram>, AnswerError> {
-        let task = MachineTask::Diagram(plan.diagram(&self.plan.machine)?);
+    /// The orbit diagram over the range of a branch, of closings or of a quantity; `None` if there is no machine at one end,
+    /// where no branch can come either.
+    fn behind(
+        &self,
+        plan: &MachineBranchPlan,
+        quantity: Option<&str>,
+        control: &Control<'_>,
+    ) -> Result<Option<MachineDiagram>, AnswerError> {
+        let mut diagram = plan.diagram(&self.plan.machine)?;
+        if let Some(path) = quantity {
+            path.clone_into(&mut diagram.show);
+        }
+        let task = MachineTask::Diagram(diagram);
         let plan = MachinePlan { task, ..self.plan.clone() };
         if plan.check().is_err() {
             return Ok(None);

@@ -528,6 +528,11 @@ class MachineBranch(Result):
         Whether the orbit is stable.
     speed : ndarray
         The largest speed of a closing at each point.
+    quantity : str or None
+        Of a machine without stops the path of the quantity that the figure shows: the largest displacement of the first coordinate,
+        or its largest velocity where the displacement is not defined.
+    value : ndarray or None
+        Its value at each point.
     multipliers : ndarray of complex128, points x (two for each coordinate)
         Floquet multipliers, without the 1 of each free translation.
     drift : ndarray, points x coordinates
@@ -557,6 +562,8 @@ class MachineBranch(Result):
     period: _Floats
     stable: NDArray[np.bool_]
     speed: _Floats
+    quantity: str | None
+    value: _Floats | None
     multipliers: NDArray[np.complex128]
     drift: _Floats
     cycles: tuple[MachineCycle, ...]
@@ -595,15 +602,16 @@ class MachineBranch(Result):
     def _table(self) -> dict[str, Any]:
         """One row for each point."""
         second = {} if self.also is None or self.second is None else {self.also[0]: self.second}
+        shown = {} if self.quantity is None or self.value is None else {self.quantity: self.value}
         modulus = np.abs(self.multipliers).max(axis=1) if len(self) else np.empty(0)
         return {
             self.vary: self.parameter, **second, "label": self.label, "period": self.period, "stable": self.stable,
-            "speed": self.speed, "multiplier": modulus,
+            "speed": self.speed, **shown, "multiplier": modulus,
         }
 
     def plot(self, ax: "Axes | None" = None, *, diagram: bool = True) -> "Axes":
-        """Draw the speeds of the closings of stops, of this branch and of those that begin on it: solid if stable, dashed if
-        unstable, with the events.
+        """Draw the speeds of the closings of stops, of this branch and of those that begin on it, or without stops the `quantity`:
+        solid if stable, dashed if unstable, with the events.
 
         Parameters
         ----------
@@ -620,6 +628,8 @@ class MachineBranch(Result):
             task: dict[str, Any] = {"vary": self.vary, "over": f"{ends[0]!r}:{ends[1]!r}:{_tracks.VALUES}"}
             if self.also is not None:
                 task["also"] = dict(zip(("path", "from", "to"), self.also))
+            if self.quantity is not None:
+                task["show"] = self.quantity
             # the sweeps use all cores
             behind = answered(self._machine._file, self._machine.start_of(), {"diagram": task}, threads=0)["diagram"]
         return _machine_plots.branch(self, ax, ends, behind)
@@ -662,6 +672,9 @@ def _branch(
 
     drift = [list(point["drift"].values()) if "drift" in point else [0.0] * width for point in points]
     second = np.array([point["values"][1] for point in points if "values" in point], dtype=np.float64)
+    shown = [point["quantities"] for point in points if "quantities" in point]
+    quantity = next(iter(shown[0])) if shown else None
+    value = None if quantity is None else np.array([of[quantity] for of in shown], dtype=np.float64)
     return MachineBranch(
         **whole_answer,
         parameter=np.array([point["parameter"] for point in points], dtype=np.float64),
@@ -672,6 +685,8 @@ def _branch(
         period=np.array([point["period"] for point in points], dtype=np.float64),
         stable=np.array([point["stable"] for point in points], dtype=np.bool_),
         speed=np.array([closing(point) for point in points], dtype=np.float64),
+        quantity=quantity,
+        value=value,
         multipliers=_multipliers(points, width),
         drift=np.array(drift, dtype=np.float64).reshape(len(points), width),
         cycles=tuple(_cycle(point["cycle"], width) for point in points),

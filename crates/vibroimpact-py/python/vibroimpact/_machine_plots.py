@@ -129,8 +129,12 @@ class _Branch:
     """A branch of a machine, as the figure of a branch of an oscillator needs it."""
 
     def __init__(self, of: Any) -> None:
-        closing = [np.isin(cycle.kind, ("impact", "close")) for cycle in of.cycles]
-        self.cycles = [_Closings(cycle.phase[at], cycle.speed[at]) for cycle, at in zip(of.cycles, closing)]
+        if of.value is None:
+            closing = [np.isin(cycle.kind, ("impact", "close")) for cycle in of.cycles]
+            self.cycles = [_Closings(cycle.phase[at], cycle.speed[at]) for cycle, at in zip(of.cycles, closing)]
+        else:
+            # one value of each cycle, as if it were a closing
+            self.cycles = [_Closings(np.zeros(1), value) for value in of.value.reshape(-1, 1)]
         self.parameter, self.multipliers = of.parameter, of.multipliers
         self.label = of.label.tolist()
         # a branch of a machine ends where its orbit ceases to be admissible
@@ -145,15 +149,15 @@ class _Branch:
 def branch(
     of: Any, ax: "Axes | None", ends: tuple[float, float], diagram: Mapping[str, NDArray[Any]] | None
 ) -> "Axes":
-    """Draw the speeds of all closings: solid if stable, dashed if unstable, with the events. `diagram` has the columns of the orbit
-    diagram behind."""
+    """Draw the speeds of all closings, or the quantity of a machine without stops: solid if stable, dashed if unstable, with the
+    events. `diagram` has the columns of the orbit diagram behind."""
     ax = new_axes(ax, (7.6, 4.8))
     if diagram is not None:
         _tracks.behind(ax, diagram["parameter"], diagram["speed"], diagram["repeats"])
     _tracks.draw([_Branch(one) for one in (of, *of.followed)], ax)
     ax.set_xlim(*sorted(ends))
     ax.set_xlabel(along(of.vary, ends, of.also))
-    ax.set_ylabel("speed of closing")
+    ax.set_ylabel(of.quantity or "speed of closing")
     ax.set_title(title(of.plan))
     legend(ax)
     return ax

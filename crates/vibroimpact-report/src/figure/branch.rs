@@ -1,6 +1,7 @@
 //! The bifurcation diagram: impact velocities of orbits over the parameter, or their positions at phase 0. Stable
 //! orbits are solid and unstable ones dashed. Events are marked, and the orbit diagram from simulation is behind.
 
+use crate::branch_quantity::BranchQuantity;
 use crate::figure::diagram::{backdrop, backdrop_of_machine, ordinate};
 use crate::figure::styles::{BRANCH_MARKS, MACHINE_BRANCH_MARKS};
 use crate::figure::tracks::{Followed as What, Look, Track, TrackPoint};
@@ -9,9 +10,10 @@ use crate::units::shown;
 use crate::{Asked, ReportError};
 use std::collections::BTreeMap;
 use vibroimpact_plot::{
-    Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, Shape, Stroke, class_style, legend_group,
+    Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, Shape, Stroke, class_style, legend_group, plain,
 };
 use vibroimpact_study::diagram::{Diagram, Show};
+
 use vibroimpact_study::{Cut, Followed, MachineBranched, MachineCut, MachineDiagram, counted};
 
 /// Colour of the orbit diagram from simulation.
@@ -78,17 +80,27 @@ pub fn figure(
         .legend(legend))
 }
 
-/// The figure of `vibro branch --machine`: the speeds of the closings of all stops along a line, with the orbit diagram from
-/// simulation behind, if it is given.
+/// The figure of `vibro branch --machine`: the speeds of the closings of all stops along a line, or a [quantity](BranchQuantity)
+/// of each cycle, with the orbit diagram of the same from simulation behind, if it is given.
 #[must_use]
-pub fn of_machine(found: &MachineBranched, cut: &MachineCut, behind: Option<&MachineDiagram>, title: String) -> Figure {
+pub fn of_machine(
+    found: &MachineBranched,
+    cut: &MachineCut,
+    (quantity, behind): (Option<&BranchQuantity<'_>>, Option<&MachineDiagram>),
+    title: String,
+) -> Figure {
     let (from, to) = cut.ends;
     let abscissa = FigureAxis::new(along_machine(cut)).range(from.min(to), from.max(to));
-    let mut panel = Panel::new(abscissa, FigureAxis::new("speed of closing"));
+    let ordinate = quantity.map_or_else(|| "speed of closing".to_owned(), |quantity| plain(&quantity.path));
+    let mut panel = Panel::new(abscissa, FigureAxis::new(ordinate));
     for dots in behind.into_iter().flat_map(|diagram| backdrop_of_machine(diagram, GREY)) {
         panel.add(dots);
     }
-    let tracks: Vec<Track> = found.all().map(Track::of_machine).collect();
+    let track = |points| match quantity {
+        None => Track::of_machine(points),
+        Some(quantity) => Track::of_quantity(points, |point| quantity.at(point)),
+    };
+    let tracks: Vec<Track> = found.all().map(track).collect();
     let legend = draw(&mut panel, &tracks, false, (1.0, &|_| 1.0));
     let legend = if behind.is_some() { with_simulation(legend) } else { legend };
     Figure::new(panel).size(680.0, 520.0).title(title).legend(legend)

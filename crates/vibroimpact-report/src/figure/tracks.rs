@@ -126,6 +126,18 @@ impl Track {
         Self { points: points.iter().map(TrackPoint::of_machine).collect(), positions: false }
     }
 
+    /// The same, with one value of each cycle.
+    pub(crate) fn of_quantity(points: &[MachinePoint], value: impl Fn(&MachinePoint) -> f64) -> Self {
+        let one = |point: &MachinePoint| TrackPoint {
+            list: vec![(0.0, value(point))],
+            places: vec![(0, 0)],
+            turns: true,
+            changes: false,
+            ..TrackPoint::of_machine(point)
+        };
+        Self { points: points.iter().map(one).collect(), positions: true }
+    }
+
     /// The square of the distance between two impacts or states.
     fn apart(&self, a: &(f64, f64), b: &(f64, f64)) -> f64 {
         let first = if self.positions { a.0 - b.0 } else { phase::difference(a.0, b.0) };

@@ -6,7 +6,9 @@ use super::diagram::{Counts, machine_counts};
 use super::machine_curve::curved;
 use super::machine_event::{EventObject, event_object};
 use super::machine_motion::{Estimate, MotionObject, cycle, drift, estimates, motion, multipliers};
+use crate::branch_quantity::BranchQuantity;
 use crate::{MachineAnswer, PROGRAM};
+use core::iter::once;
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
@@ -111,6 +113,9 @@ struct PointObject<'a> {
     multipliers: Vec<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     drift: Option<Map<String, Value>>,
+    /// The quantity that the figure shows, of a machine without stops.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    quantities: Option<Map<String, Value>>,
     stable: bool,
     physical: bool,
 }
@@ -240,12 +245,13 @@ impl Serialize for MachineAnswer {
                     return Err(serde::ser::Error::custom("the plan is that of another task"));
                 };
                 let cut = plan.cut(&self.plan.machine).map_err(serde::ser::Error::custom)?;
-                let followed = found.followed.iter().map(|followed| FollowedObject {
-                    flip: followed.flip,
-                    branch: self.points(&followed.points, &cut),
-                });
-                let followed = followed.collect();
-                let (orbit, main) = (ChosenObject::of_machine(found.among), self.points(&found.points, &cut));
+                let quantity = BranchQuantity::of(machine, &self.plan.machine, &cut, found);
+                let points = |points| self.points(points, &cut, quantity.as_ref());
+                let followed = found.followed.iter();
+                let followed = followed
+                    .map(|followed| FollowedObject { flip: followed.flip, branch: points(&followed.points) })
+                    .collect();
+                let (orbit, main) = (ChosenObject::of_machine(found.among), points(&found.points));
                 self.document(Branched { vary: &cut.vary, also: cut.also.as_ref(), orbit, main, followed }, to)
             }
             MachineResults::Curve(found) => {
@@ -294,7 +300,12 @@ impl MachineAnswer {
         Document { machine: name, coordinates, start, result, plan, program: PROGRAM }.serialize(to)
     }
 
-    fn points<'a>(&'a self, points: &'a [MachinePoint], cut: &MachineCut) -> PointsObject<'a> {
+    fn points<'a>(
+        &'a self,
+        points: &'a [MachinePoint],
+        cut: &MachineCut,
+        quantity: Option<&BranchQuantity<'_>>,
+    ) -> PointsObject<'a> {
         let machine = &self.machine;
         let values = |value: f64| cut.values(value).nth(1).map(|second| [value, second]);
         let events = points.iter().enumerate().filter_map(|(k, point)| {
@@ -322,6 +333,7 @@ impl MachineAnswer {
             cycle: point.cycle.events.iter().map(|event| event_object(machine, event)).collect(),
             multipliers: multipliers(&point.cycle.multipliers),
             drift: drift(machine, &point.cycle),
+            quantities: quantity.map(|quantity| once((quantity.path.clone(), quantity.at(point).into())).collect()),
             stable: point.cycle.stable(),
             physical: true,
         };
