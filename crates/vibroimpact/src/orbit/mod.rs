@@ -40,7 +40,7 @@ pub use find::{FindOptions, find, find_while};
 pub use free::without_impacts;
 pub use label::{Count, Label, LabelError};
 pub use of_machine::{MachineCycle, find_machine_while};
-pub(crate) use of_machine::{MachineFrame, MachineLap, MachineRing, RingEvent};
+pub(crate) use of_machine::{MachineFrame, MachineLap, MachineRing, RingEvent, crossing};
 pub use one_impact::{OneImpact, one_impact};
 pub use physical::{EarlierContact, Orbit, earlier_contact};
 pub use refine::refine;

@@ -183,7 +183,8 @@ fn a_drifting_cycle() {
     }
 }
 
-/// The search from scattered starts finds the cycle of a branch where no motion settles into it, and coexisting stable ones.
+/// The search from scattered starts finds the cycle of a branch where no motion settles into it, coexisting stable ones, and an
+/// unstable one on the border of their basins.
 #[test]
 fn limit_cycles_with_a_label() {
     let find = |machine: &Machine, label| {
@@ -198,6 +199,14 @@ fn limit_cycles_with_a_label() {
     let machine = pair(0.15, 0.688, 0.9);
     let (none, one) = (find(&machine, "0/T"), find(&machine, "1/T"));
     assert!(none.len() == 1 && one.len() > 1, "{none:?} {one:?}");
+    // the unstable one and a stable one meet at a fold
+    let fold = |cycle: &MachineCycle| {
+        let points = from(&machine, cycle, ("stop.stop.gap", 0.6, 0.9), Direction::Up);
+        points.iter().find(|point| point.event == Some(MachineBranchEvent::Fold)).map(|point| point.value)
+    };
+    let unstable = one.iter().find(|cycle| !cycle.stable()).and_then(fold).unwrap();
+    let mut stable = one.iter().filter(|cycle| cycle.stable()).filter_map(fold);
+    assert!(stable.any(|value| (value - unstable).abs() < 1e-10), "{unstable}");
     for cycle in none.iter().chain(&one).filter(|cycle| cycle.stable()) {
         let simulated = settled(&machine, &cycle.state);
         assert!(matches!(simulated, MachineVerdict::Periodic(found) if found.same_as(cycle, 1e-9)));

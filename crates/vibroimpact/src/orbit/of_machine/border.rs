@@ -5,6 +5,7 @@
 //! E. Ott, J. A. Yorke and E. D. Yorke, "Multiple coexisting attractors, basin boundaries and basic sets", Physica D 32 (1988)
 //! 296-305).
 
+use super::crossing::crossing;
 use super::cycle::MachineCycle;
 use super::frame::MachineFrame;
 use super::lap::MachineLap;
@@ -34,11 +35,12 @@ fn find(
     (a, b): (&MachineCycle, &MachineCycle),
     go_on: impl Fn() -> bool,
 ) -> Option<Vec<Place>> {
-    let time = frame.machine.period()? * f64::from(a.label.periods.max(b.label.periods));
+    let time = frame.time(a.label.periods.max(b.label.periods), a.period.max(b.period));
     let (from, other) = (a.strobes.first()?, b.strobes.first()?);
     // the states of the second orbit at the phase of the first one
-    let ahead = phase::wrap(from.phase - other.phase) / frame.machine.parts().frequency?;
-    let moved = |place: &Place| Some(MachineLap::fly(frame, place, ahead)?.end);
+    let ahead = frame.machine.parts().frequency.map(|frequency| phase::wrap(from.phase - other.phase) / frequency);
+    let moved =
+        |place: &Place| ahead.map_or_else(|| Some(place.clone()), |s| Some(MachineLap::fly(frame, place, s)?.end));
     let others: Vec<Place> = b.strobes.iter().map(moved).collect::<Option<_>>()?;
     let to = others.first()?;
     if from.states != to.states {
@@ -49,14 +51,19 @@ fn find(
         let mixed: Vec<f64> = x.iter().zip(&y).map(|(x, y)| x + part * (y - x)).collect();
         frame.shape.with_values(from, &mixed)
     };
-    let close = |strobes: &[Place], place: &Place| strobes.iter().any(|one| frame.distance(one, place, a.sizes) < NEAR);
+    let close = |(cycle, strobes): (&MachineCycle, &[Place]), place: &Place| {
+        // without forcing the motion passes the state of the orbit at any time
+        let passing = frame.unforced().then(|| crossing(frame, place, cycle)).flatten();
+        let place = passing.as_ref().unwrap_or(place);
+        strobes.iter().any(|one| frame.distance(one, place, a.sizes) < NEAR)
+    };
     // whether the motion leads to the first orbit
     let first = |mut place: Place| {
         for _ in 0..LAPS {
-            if close(&a.strobes, &place) {
+            if close((a, &a.strobes), &place) {
                 return Some(true);
             }
-            if close(&others, &place) || !go_on() {
+            if close((b, &others), &place) || !go_on() {
                 return Some(false);
             }
             place = MachineLap::fly(frame, &place, time)?.end;

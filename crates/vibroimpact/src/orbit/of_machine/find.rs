@@ -22,8 +22,8 @@ const BETWEEN: usize = 4;
 /// last; stopped when `go_on` returns false, and then `None`. A start that is not allowed is passed over.
 ///
 /// Further guesses lie on the border between the motions that lead to two stable orbits of as many forcing periods, whatever
-/// their number of impacts. Without forcing the guesses are motions that come close to an earlier state. An orbit to which no
-/// guess leads is not found.
+/// their number of impacts. Without forcing the guesses are motions that come close to an earlier state, also those
+/// on the border. An orbit to which no guess leads is not found.
 #[must_use]
 pub fn find_machine_while(
     machine: &Machine,
@@ -34,17 +34,7 @@ pub fn find_machine_while(
     let frame = MachineFrame::new(machine);
     // of all labels of as many periods
     let mut known: Vec<MachineCycle> = Vec::new();
-    let Some(period) = machine.period() else {
-        for start in starts {
-            for (guess, time) in near_returns(&frame, &start, label.impacts) {
-                if !go_on() {
-                    return None;
-                }
-                learn(&mut known, MachineCycle::returning(&frame, &guess, time));
-            }
-        }
-        return Some(of_label(known, label));
-    };
+    let Some(period) = machine.period() else { return unforced(&frame, label, starts, go_on) };
     for start in starts {
         let Ok(mut motion) = MachineMotion::new(machine, &start, MachineLimits::default()) else { continue };
         let mut seen = 0;
@@ -66,6 +56,34 @@ pub fn find_machine_while(
                 return None;
             }
             learn(&mut known, MachineCycle::near(&frame, &guess, label.periods));
+        }
+    }
+    Some(of_label(known, label))
+}
+
+/// The same without forcing.
+fn unforced(
+    frame: &MachineFrame<'_>,
+    label: Label,
+    starts: impl IntoIterator<Item = MachineStart>,
+    go_on: impl Fn() -> bool,
+) -> Option<Vec<MachineCycle>> {
+    let mut known: Vec<MachineCycle> = Vec::new();
+    let from = |known: &mut Vec<MachineCycle>, motion: MachineMotion<'_>| {
+        for (guess, time) in near_returns(frame, motion, label.impacts) {
+            go_on().then_some(())?;
+            learn(known, MachineCycle::returning(frame, &guess, time));
+        }
+        Some(())
+    };
+    for start in starts {
+        let Ok(motion) = MachineMotion::new(frame.machine, &start, MachineLimits::default()) else { continue };
+        from(&mut known, motion)?;
+    }
+    let stable: Vec<MachineCycle> = known.iter().filter(|cycle| cycle.stable()).take(BETWEEN).cloned().collect();
+    for (i, j) in (0..stable.len()).flat_map(|i| (0..i).map(move |j| (i, j))) {
+        if let Some(place) = on_border(frame, (&stable[i], &stable[j]), &go_on).into_iter().next() {
+            from(&mut known, frame.resume(place))?;
         }
     }
     Some(of_label(known, label))

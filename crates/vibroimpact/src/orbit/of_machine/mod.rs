@@ -5,6 +5,7 @@
 //! | a machine and the structures of its regimes | `frame` |
 //! | the motion over a time, with its derivative | `lap` |
 //! | the events of a cycle as unknowns, and their equations | `ring` |
+//! | without forcing, where a motion passes the state of a cycle | `crossing` |
 //! | guesses of unstable ones between two that are stable | `border` |
 //! | guesses without forcing: where a motion comes close to an earlier state | `near_returns` |
 //! | all with a label, from many guesses | [`find_machine_while`] |
@@ -13,6 +14,7 @@
 
 mod border;
 mod closing;
+mod crossing;
 mod cycle;
 mod find;
 mod frame;
@@ -20,6 +22,7 @@ mod lap;
 mod near_returns;
 mod ring;
 
+pub(crate) use crossing::crossing;
 pub use cycle::MachineCycle;
 pub use find::find_machine_while;
 pub(crate) use frame::MachineFrame;

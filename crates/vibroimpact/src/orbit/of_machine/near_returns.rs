@@ -5,7 +5,7 @@
 
 use super::frame::MachineFrame;
 use super::ring::RingEvent;
-use crate::events::{MachineLimits, MachineMotion, MachineStart, Place};
+use crate::events::{MachineMotion, Place};
 use crate::orbit::Count;
 
 /// The events of a motion after which its returns are looked for.
@@ -25,18 +25,19 @@ struct Passed {
     chatters: usize,
 }
 
-/// States of the motion from a start with the time after which it comes close to them again, the same event having happened
-/// and so many closings; none if the start is not allowed.
-pub(super) fn near_returns(frame: &MachineFrame<'_>, start: &MachineStart, impacts: Count) -> Vec<(Place, f64)> {
-    let passed = events(frame, start);
+/// States of a motion with the time after which it comes close to them again, the same event having happened and so many
+/// closings, but any number after the last of these states.
+pub(super) fn near_returns(frame: &MachineFrame<'_>, motion: MachineMotion<'_>, impacts: Count) -> Vec<(Place, f64)> {
+    let passed = events(motion);
     let mut guesses = Vec::new();
+    let last = AFTER.into_iter().rfind(|k| k + 1 < passed.len());
     for (k, from) in AFTER.into_iter().filter_map(|k| Some((k, passed.get(k)?))) {
         let returns = |to: &&Passed| {
             let closed = match impacts {
                 Count::Finite(m) => to.chatters == from.chatters && to.closings - from.closings == m as usize,
                 Count::Infinite => to.chatters > from.chatters,
             };
-            closed && to.event == from.event
+            (closed || Some(k) == last) && to.event == from.event
         };
         let window = &passed[k + 1..passed.len().min(k + 1 + LONGEST)];
         let sizes = window
@@ -51,10 +52,9 @@ pub(super) fn near_returns(frame: &MachineFrame<'_>, start: &MachineStart, impac
     guesses
 }
 
-/// The events of the motion from a start, as many as are compared.
-fn events(frame: &MachineFrame<'_>, start: &MachineStart) -> Vec<Passed> {
+/// The events of a motion, as many as are compared.
+fn events(mut motion: MachineMotion<'_>) -> Vec<Passed> {
     let mut passed: Vec<Passed> = Vec::new();
-    let Ok(mut motion) = MachineMotion::new(frame.machine, start, MachineLimits::default()) else { return passed };
     let (mut closings, mut chatters) = (0, 0);
     let most = AFTER.iter().max().map_or(0, |last| last + LONGEST);
     while passed.len() <= most

@@ -3,7 +3,7 @@
 use super::super::recurring::{Diverging, Recurring};
 use crate::events::{MachineEvent, MachineMotion, Passage, Place, step_derivative};
 use crate::lyapunov::{MachineMeasure, MachineSpectrum};
-use crate::orbit::{MachineCycle, MachineFrame, MachineLap};
+use crate::orbit::{MachineCycle, MachineFrame, MachineLap, crossing};
 use crate::regime::GuardKind;
 use core::cell::Cell;
 use std::sync::Arc;
@@ -170,39 +170,6 @@ impl Recorded<'_> {
         Some(left_over <= 0.3 * (1.0 - rate) * largest(&|i| before[i]) + 1e-12)
     }
 }
-
-/// The state in which the motion from `place` crosses the plane across the flow at the state of a cycle, within a period of
-/// that, nearest to that state.
-fn crossing(frame: &MachineFrame<'_>, place: &Place, cycle: &MachineCycle) -> Option<Place> {
-    let (state, period) = (cycle.strobes.first()?, cycle.period);
-    let ((size, speed), n) = (cycle.sizes, frame.shape.n);
-    // products of differences relative to the sizes of coordinates and velocities
-    let scale = |i: usize| if (n..2 * n).contains(&i) { 1.0 / (speed * speed) } else { 1.0 / (size * size) };
-    let flow = frame.flow(state)?;
-    let along = |of: &[f64]| flow.iter().zip(of).enumerate().map(|(i, (f, x))| f * x * scale(i)).sum::<f64>();
-    let lap = MachineLap::fly(frame, place, period)?;
-    let flights = lap.steps.iter().filter(|(_, begin, _)| begin.states == state.states);
-    let crossings = flights.filter_map(|(_, begin, passage)| {
-        let whole = passage.duration.min(period);
-        let mut s = 0.5 * whole;
-        for _ in 0..CROSSING_STEPS {
-            let there = frame.moved(begin, &passage.structure, s);
-            let change = along(&frame.apart(&there, state)) / along(&frame.flow(&there)?);
-            let next = (s - change).clamp(0.0, whole);
-            let moved = (next - s).abs();
-            s = next;
-            if moved <= f64::EPSILON * whole {
-                break;
-            }
-        }
-        Some(frame.moved(begin, &passage.structure, s))
-    });
-    let apart = |of: &Place| frame.distance(of, state, cycle.sizes);
-    crossings.min_by(|a, b| apart(a).total_cmp(&apart(b)))
-}
-
-/// The largest number of steps of Newton's method to the plane.
-const CROSSING_STEPS: u32 = 20;
 
 impl Diverging for MachineSpectrum {
     fn diverges(&self) -> bool {

@@ -1,0 +1,39 @@
+//! Where a motion of a machine without forcing passes the state of a cycle: in the plane across the flow there.
+
+use super::cycle::MachineCycle;
+use super::frame::MachineFrame;
+use super::lap::MachineLap;
+use crate::events::Place;
+
+/// The largest number of steps of Newton's method to the plane.
+const CROSSING_STEPS: u32 = 20;
+
+/// The state in which the motion from `place` crosses the plane across the flow at the state of a cycle, within a period of
+/// that, nearest to that state.
+pub(crate) fn crossing(frame: &MachineFrame<'_>, place: &Place, cycle: &MachineCycle) -> Option<Place> {
+    let (state, period) = (cycle.strobes.first()?, cycle.period);
+    let ((size, speed), n) = (cycle.sizes, frame.shape.n);
+    // products of differences relative to the sizes of coordinates and velocities
+    let scale = |i: usize| if (n..2 * n).contains(&i) { 1.0 / (speed * speed) } else { 1.0 / (size * size) };
+    let flow = frame.flow(state)?;
+    let along = |of: &[f64]| flow.iter().zip(of).enumerate().map(|(i, (f, x))| f * x * scale(i)).sum::<f64>();
+    let lap = MachineLap::fly(frame, place, period)?;
+    let flights = lap.steps.iter().filter(|(_, begin, _)| begin.states == state.states);
+    let crossings = flights.filter_map(|(_, begin, passage)| {
+        let whole = passage.duration.min(period);
+        let mut s = 0.5 * whole;
+        for _ in 0..CROSSING_STEPS {
+            let there = frame.moved(begin, &passage.structure, s);
+            let change = along(&frame.apart(&there, state)) / along(&frame.flow(&there)?);
+            let next = (s - change).clamp(0.0, whole);
+            let moved = (next - s).abs();
+            s = next;
+            if moved <= f64::EPSILON * whole {
+                break;
+            }
+        }
+        Some(frame.moved(begin, &passage.structure, s))
+    });
+    let apart = |of: &Place| frame.distance(of, state, cycle.sizes);
+    crossings.min_by(|a, b| apart(a).total_cmp(&apart(b)))
+}
