@@ -10,7 +10,8 @@ use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use vibroimpact::Scales;
 use vibroimpact_study::{
-    Parameter, Plan, Quantities, Quantity, ResponseBranch, ResponsePlan, Results, SweptMotion, Task, unknown_quantity,
+    Parameter, Plan, Quantities, Quantity, ResponseBranch, ResponsePlan, Results, SweptMotion, Task, Values,
+    unknown_quantity,
 };
 
 /// The fields of a `ResponseCurve`.
@@ -74,19 +75,31 @@ impl<'py> Fields<'py> {
     }
 }
 
+/// The values of a parameter: a range as text, or a list.
+#[derive(FromPyObject)]
+pub(crate) enum Over {
+    Range(String),
+    List(Vec<f64>),
+}
+
 /// Computes both sweeps and the branches.
 #[pyfunction]
+#[allow(clippy::needless_pass_by_value)] // arguments from Python
 pub(crate) fn response<'py>(
     py: Python<'py>,
     osc: Oscillator,
     vary: &str,
-    over: &str,
+    over: Over,
     quantity: &str,
     impacts: Option<u32>,
     progress: Option<Py<PyAny>>,
 ) -> Result<Found<'py>, Trouble> {
     let quantity = Quantity::from_name(quantity).ok_or_else(|| Trouble::question(unknown_quantity(quantity)))?;
-    let task = ResponsePlan { quantity, impacts, ..ResponsePlan::new(parameter(vary)?, over.parse()?) };
+    let over = match over {
+        Over::Range(text) => Values::Span(text.parse()?),
+        Over::List(list) => Values::Listed(list),
+    };
+    let task = ResponsePlan { quantity, impacts, ..ResponsePlan::new(parameter(vary)?, over) };
     let plan = Plan::new(osc.plan, Task::Response(task));
     let total = plan.work().map_or(1, |(motions, _)| motions);
     let watch = Watch::one("computing a response", total, progress);

@@ -75,7 +75,7 @@ def test_oscillators_in_the_words_of_the_command(
         (lambda osc: vi.orbit_diagram(osc, "gap", (0.1, 1, 3, "log")), "is a tuple, which may be a list or a range"),
         (lambda osc: vi.orbit_diagram(osc, "gap", np.array([0, 3, 1])), "the values of a diagram rise or fall"),
         (lambda osc: vi.orbit_diagram(osc, "gap", [0.5, 0.5]), "none of them twice, not 0.5"),
-        (lambda osc: vi.response(osc, "gap", np.array([0, 1, 3])), "not evenly spaced"),
+        (lambda osc: vi.response(osc, "gap", np.array([0, 1, 1, 3])), "none of them twice, not 1"),
         (lambda osc: vi.orbit_diagram(osc, "gap", np.zeros((2, 2))), "an axis of shape"),
         (lambda osc: vi.orbit_diagram(osc, "gap", "0:1:3", direction="left"), "direction = `left` is none of up, down, both, scatter"),
         (lambda osc: vi.orbit_diagram(osc, "gap", "0:1:3", show="all"), "show = `all` is none of velocity, strobe"),

@@ -91,3 +91,5 @@ def test_a_response() -> None:
     assert found.to_dict()["sweeps"][0]["points"][0]["label"] == "2/1"
     with pytest.raises(vi.QuestionError, match="no quantity"):
         found.plot(quantity="speed")
+    listed = vi.response(osc, "gap", [0.5, 1.5, 0.75, 1.0])
+    assert listed.up.parameter.tolist() == [0.5, 0.75, 1.0, 1.5] and listed.down.parameter.tolist() == [1.5, 1.0, 0.75, 0.5]

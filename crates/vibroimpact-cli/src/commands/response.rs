@@ -8,13 +8,13 @@ use crate::session::Session;
 use clap::Args;
 use std::path::PathBuf;
 use vibroimpact_report::{Asked, Shown};
-use vibroimpact_study::{Coordinate, Plan, Quantity, ResponsePlan, Task, Values};
+use vibroimpact_study::{Coordinate, Plan, Quantity, ResponsePlan, Task};
 
 /// The response over a parameter, such as the frequency: a quantity of all motions, from branches and sweeps
 ///
-/// One parameter takes a range A:B:N. A sweep with rising values and one with falling values settle the motion at each
-/// value from the state of the motion at the value before. The branch of each cycle that they find is followed over the
-/// range through its folds and grazing impacts, stable or not. Orbits on branches that no sweep meets are not found.
+/// One parameter takes a range A:B:N or a list of values. A sweep with rising values and one with falling values settle the
+/// motion at each value from the state of the motion at the value before. The branch of each cycle that they find is followed
+/// over the range through its folds and grazing impacts, stable or not. Orbits on branches that no sweep meets are not found.
 #[derive(Clone, Debug, Args)]
 #[command(
     override_usage = "vibro response --beta A:B:N --gap D --restitution E [OPTIONS]",
@@ -62,10 +62,10 @@ pub(super) fn run(args: &Response, session: &Session) -> Result<(), Failure> {
             axes.len()
         )));
     };
-    let (Coordinate::Parameter(vary), Values::Span(over)) = (axis.vary, &axis.over) else {
-        return Err(Failure::bad("a response is over a range A:B:N, and a list is given\nhint: --beta 0.5:1.5:201"));
+    let Coordinate::Parameter(vary) = axis.vary else {
+        return Err(Failure::bad("a response is over a parameter of the system\nhint: --beta 0.5:1.5:201"));
     };
-    let task = ResponsePlan::new(vary, *over);
+    let task = ResponsePlan::new(vary, axis.over.clone());
     let task = ResponsePlan { quantity: args.quantity.unwrap_or(task.quantity), impacts: args.impacts, ..task };
     let plan = Plan::new(system, Task::Response(task));
     plan.check()?;

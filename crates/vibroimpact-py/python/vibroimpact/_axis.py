@@ -62,16 +62,6 @@ def numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
     return np.asarray(array, dtype=np.float64, order="C")
 
 
-def even(over: Axis) -> str:
-    """A range as the text in a plan; an array must be evenly spaced."""
-    given = sweep(over)
-    if isinstance(given, str):
-        return given
-    raise _core.QuestionError(
-        f"the values from {given[0]} to {given[-1]} are not evenly spaced\nhint: numpy.linspace(a, b, n)"
-    )
-
-
 def sweep(over: Axis) -> str | list[float]:
     """Values of a sweep in the form of a plan: a range as text if an array is evenly spaced to rounding, or else a list."""
     given = values(over)

@@ -239,7 +239,8 @@ def region(
     osc: Oscillator, label: str, across: _Stretch, up: _Stretch, grid: int, threads: int, progress: _Progress
 ) -> tuple[_Part, _Part, bool, str]: ...
 def response(
-    osc: Oscillator, vary: str, over: str, quantity: str, impacts: int | None, progress: _Progress
+    osc: Oscillator, vary: str, over: str | list[float], quantity: str, impacts: int | None,
+    progress: _Progress,
 ) -> _Fields: ...
 def contains(polygons: list[tuple[_Array, bool]], p: _Array, q: _Array) -> NDArray[np.bool_]: ...
 def lyapunov(

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact import _core
-from vibroimpact._axis import Axis, even
+from vibroimpact._axis import Axis, sweep
 from vibroimpact._core import Oscillator
 from vibroimpact._cycle import finite
 from vibroimpact._figure import Scale, legend, named, new_axes, title
@@ -195,7 +195,7 @@ def response(
         from `Oscillator.from_units` also a number of the machine, such as "frequency_hz", "force_n", "mass_kg" or "gap_m".
         Over a number of the machine the quantities are in SI units.
     over : str or array
-        Its values: a range ("0.5:1.5:201" has 201 values) or an evenly spaced array.
+        Its values: a range ("0.5:1.5:201" has 201 values) or an array.
     quantity : str
         The quantity that is drawn; all are computed. `Motion.quantities` has the names.
     impacts : int
@@ -213,7 +213,7 @@ def response(
     """
     budget = maybe("impacts", impacts, BUDGET)
     with watched(progress, "motions") as tell:
-        found = _core.response(osc, vary, even(over), quantity.replace("-", "_"), budget, tell)
+        found = _core.response(osc, vary, sweep(over), quantity.replace("-", "_"), budget, tell)
 
     def curve(fields: dict[str, Any]) -> ResponseCurve:
         values = fields["values"]

@@ -1,6 +1,6 @@
 //! The response over a parameter: the motions of two sweeps, and the branches on which they lie.
 
-use super::{Document, Range};
+use super::{Document, Place};
 use crate::{Asked, Units};
 use serde::Serialize;
 use vibroimpact::Oscillator;
@@ -11,7 +11,7 @@ use vibroimpact_study::{Plan, ResponseBranch, ResponseCurves, ResponsePlan, Swep
 #[derive(Serialize)]
 struct ResponseFields {
     vary: &'static str,
-    over: Range,
+    over: Place,
     quantity: &'static str,
     sweeps: [SweepObject; 2],
     branches: Vec<BranchObject>,
@@ -64,7 +64,7 @@ pub fn document<'a>(
     };
     let answer = ResponseFields {
         vary: units.name_of(task.vary),
-        over: Range::new(&task.over, units.of(task.vary)),
+        over: Place::over(&task.over, units.of(task.vary)),
         quantity: task.quantity.name(),
         sweeps: [sweep("up", &found.up), sweep("down", &found.down)],
         branches: found.branches.iter().map(|branch| object(branch, task, units)).collect(),

@@ -48,7 +48,7 @@ pub fn command(plan: &Plan) -> Option<Vec<String>> {
         Task::Curve(task) => curve(system, task),
         Task::Region(task) => region(system, task),
         Task::Response(task) => {
-            let line = Line::new("response").system(system, &[(task.vary, Some(task.over.to_string()))]);
+            let line = Line::new("response").system(system, &[(task.vary, Some(values(&task.over)?))]);
             line.unless_amplitude(task.quantity).given("impacts", task.impacts)
         }
         Task::Margins(task) => margins(system, task, units),

@@ -58,7 +58,7 @@ pub fn python(plan: &Plan) -> Option<String> {
             ("region", call.unless("grid", task.grid, DEFAULT_GRID))
         }
         Task::Response(task) => {
-            let call = Call::new("response").then(text(task.vary.name())).then(text(&task.over.to_string()));
+            let call = Call::new("response").then(text(task.vary.name())).then(values(&task.over));
             let usual = task.quantity == Quantity::DisplacementAmplitude;
             let call = call.given("quantity", (!usual).then(|| text(task.quantity.name())));
             ("found", call.given("impacts", task.impacts))

@@ -48,20 +48,20 @@ pub(crate) fn response(
     if control.stopping() {
         return Err(stopped(done).into());
     }
-    Ok(ResponseCurves { plan: *plan, up, down, branches })
+    Ok(ResponseCurves { plan: plan.clone(), up, down, branches })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Parameter, Plan, Quantity};
+    use crate::{Parameter, Plan, Quantity, Span, Task, Values};
 
     /// A damped oscillator with a wide gap has the classical response of a linear oscillator.
     #[test]
     fn a_linear_oscillator() {
         let system =
             SystemPlan { beta: Some(0.5), gap: 20.0, restitution: 0.5, damping: 0.05, ..SystemPlan::default() };
-        let plan = ResponsePlan::new(Parameter::Beta, "0.5:1.5:11".parse().unwrap());
+        let plan = ResponsePlan::new(Parameter::Beta, "0.5:1.5:11".parse::<Span>().unwrap());
         let found = response(&system, &plan, &Control::default()).unwrap();
         let exact = |beta: f64| 1.0 / (1.0 - beta * beta).hypot(0.1 * beta);
         for motion in found.up.iter().chain(&found.down) {
@@ -74,6 +74,24 @@ mod tests {
             let value = point.quantities.unwrap().get(Quantity::DisplacementAmplitude);
             assert!((value - exact(point.solution.value)).abs() < 1e-12);
         }
+    }
+
+    /// Listed values in any order are swept as they rise and fall, and the plan is the same when it is written and read.
+    #[test]
+    fn listed_values() {
+        let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.5, restitution: 0.5, ..SystemPlan::default() };
+        let listed = ResponsePlan::new(Parameter::Gap, Values::Listed(vec![0.5, 1.5, 0.75, 1.0]));
+        let found = response(&system, &listed, &Control::default()).unwrap();
+        let values = |list: &[SweptMotion]| list.iter().map(|motion| motion.value).collect::<Vec<_>>();
+        assert_eq!(values(&found.up), [0.5, 0.75, 1.0, 1.5]);
+        assert_eq!(values(&found.down), [1.5, 1.0, 0.75, 0.5]);
+        let even = ResponsePlan::new(Parameter::Gap, "0.5:1.5:5".parse::<Span>().unwrap());
+        let ranged = response(&system, &even, &Control::default()).unwrap();
+        assert_eq!(found.up[2].label, ranged.up[2].label);
+        let plan = Plan::new(system, Task::Response(listed));
+        assert_eq!((Plan::from_text(&plan.to_toml()).unwrap(), plan.check()), (plan.clone(), Ok(())));
+        let twice = ResponsePlan::new(Parameter::Gap, Values::Listed(vec![0.5, 0.5]));
+        assert!(twice.check(&system).unwrap_err().to_string().contains("0.5"));
     }
 
     /// The parameter that varies need not be in the system, and the plan is the same when it is written and read.
@@ -95,7 +113,7 @@ mod tests {
     #[test]
     fn sweeps_lie_on_branches() {
         let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.5, restitution: 0.5, ..SystemPlan::default() };
-        let plan = ResponsePlan::new(Parameter::Gap, "0.5:1.5:21".parse().unwrap());
+        let plan = ResponsePlan::new(Parameter::Gap, "0.5:1.5:21".parse::<Span>().unwrap());
         let found = response(&system, &plan, &Control::default()).unwrap();
         let at = |list: &[SweptMotion]| list.iter().find(|m| (m.value - 0.75).abs() < 1e-12).unwrap().label.clone();
         assert_eq!((at(&found.up), at(&found.down)), ("2/1".to_owned(), "1/1".to_owned()));

@@ -2,19 +2,19 @@
 
 use crate::map::check_impacts;
 use crate::quantity::Quantity;
-use crate::{Cut, Parameter, PlanError, Span, SystemPlan};
+use crate::{Cut, Parameter, PlanError, SystemPlan, Values};
 use serde::{Deserialize, Serialize};
 
 /// A quantity of all motions over the values of one parameter.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ResponsePlan {
     /// The parameter that varies; its value in the system counts for nothing.
     #[serde(with = "crate::parameter")]
     #[schemars(with = "crate::parameter::Name")]
     pub vary: Parameter,
-    /// Its values.
-    pub over: Span,
+    /// Its values, in any order.
+    pub over: Values,
     /// The quantity that is reported.
     #[serde(default = "amplitude", with = "crate::quantity::one")]
     #[schemars(with = "crate::quantity::Name")]
@@ -34,21 +34,20 @@ const MOST_VALUES: u32 = 100_000;
 impl ResponsePlan {
     /// The displacement amplitude over a parameter.
     #[must_use]
-    pub const fn new(vary: Parameter, over: Span) -> Self {
-        Self { vary, over, quantity: amplitude(), impacts: None }
+    pub fn new(vary: Parameter, over: impl Into<Values>) -> Self {
+        Self { vary, over: over.into(), quantity: amplitude(), impacts: None }
     }
 
     /// The line over which the parameter varies, from the smaller to the larger end.
     #[must_use]
     pub fn cut(&self) -> Cut {
-        let (a, b) = self.over.ends();
-        Cut { vary: self.vary, ends: (a.min(b), a.max(b)), also: None }
+        Cut { vary: self.vary, ends: self.over.extent(), also: None }
     }
 
     /// The number of motions of both sweeps.
     #[must_use]
     pub fn motions(&self) -> u64 {
-        2 * u64::from(self.over.count())
+        2 * self.over.count() as u64
     }
 
     /// Checks everything that can be checked without running the plan.
@@ -56,12 +55,14 @@ impl ResponsePlan {
     /// # Errors
     /// [`PlanError`] names the first invalid value.
     pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
+        self.over.check()?;
         let cut = self.cut();
         if cut.ends.0 == cut.ends.1 {
             return Err(PlanError::Nowhere { name: self.vary.name(), value: cut.ends.0 });
         }
-        if self.over.count() > MOST_VALUES {
-            return Err(PlanError::Values { given: self.over.count(), most: MOST_VALUES });
+        let count = u32::try_from(self.over.count()).unwrap_or(u32::MAX);
+        if count > MOST_VALUES {
+            return Err(PlanError::Values { given: count, most: MOST_VALUES });
         }
         check_impacts(self.impacts)?;
         cut.check(system)

@@ -31,7 +31,7 @@ pub(super) fn sweep(
     control: &Control<'_>,
 ) -> Result<Vec<SweptMotion>, RunError> {
     let cut = plan.cut();
-    let mut values: Vec<f64> = plan.over.values().collect();
+    let mut values: Vec<f64> = plan.over.all();
     values.sort_by(f64::total_cmp);
     if !rising {
         values.reverse();
