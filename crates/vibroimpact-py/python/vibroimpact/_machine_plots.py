@@ -166,8 +166,9 @@ def branch(
 def curve(of: Any, ax: "Axes | None") -> "Axes":
     """Draw the curve in its plane, with its points of codimension two."""
     ax = new_axes(ax, (7.2, 4.8))
-    ax.plot(of.values[:, 0], of.values[:, 1], color=EVENT_COLOURS.get(of.kind, SERIES[3]), linewidth=1.8,
-            label=f"{of.kind} of {named(of.label)}")
+    # a motion with friction only has no impact that could name it
+    name = of.kind if of.label == "0" else f"{of.kind} of {named(of.label)}"
+    ax.plot(of.values[:, 0], of.values[:, 1], color=EVENT_COLOURS.get(of.kind, SERIES[3]), linewidth=1.8, label=name)
     for k, kind in enumerate(kind for kind in dict.fromkeys(of.event_kind.tolist()) if not kind.startswith("end")):
         points = of.event_point[of.event_kind == kind]
         ax.plot(of.values[points, 0], of.values[points, 1], CURVE_MARKS.get(kind, "osD^v"[k % 5]), color="white",

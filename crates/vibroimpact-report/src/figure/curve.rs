@@ -48,7 +48,9 @@ pub fn of_machine(found: &MachineEventCurve, plan: &MachineCurvePlan, title: Str
             (name, shape)
         }),
     });
-    let name = format!("{} of {}", plan.kind.name(), label(&found.label.to_string()));
+    let of = found.label.to_string();
+    // a motion with friction only has no impact that could name it
+    let name = if of == "0" { plan.kind.name().to_owned() } else { format!("{} of {}", plan.kind.name(), label(&of)) };
     let colour = colour.map_or(Colour::BLACK, |(_, colour)| *colour);
     let axes = (axis(&plan.vary), axis(&plan.and));
     picture(axes, &drawn.collect::<Vec<_>>(), (colour, &name), found.begin).title(title)
