@@ -7,7 +7,7 @@
 //! |---|---|
 //! | a plan, its result, and everything that is reported of it | [`answer()`], [`Answer`], [`Shown`] |
 //! | the same for a plan of a machine | [`machine_answer()`], [`MachineAnswer`] |
-//! | what stands for a cycle on a branch of a machine without stops | `branch_quantity` |
+//! | what stands for a cycle on a branch of a machine without stops | [`BranchQuantity`] |
 //! | the system of a question, and the units of results | [`Asked`], [`Units`] |
 //! | the JSON objects of the commands, one file for each | [`json`] |
 //! | the tables | [`Table`], [`table`] |
@@ -30,6 +30,7 @@ pub mod table;
 mod units;
 
 pub use answer::{Answer, Shown, answer};
+pub use branch_quantity::BranchQuantity;
 pub use error::{AnswerError, ReportError};
 pub use machine_answer::{MachineAnswer, machine_answer};
 pub use table::Table;
