@@ -172,6 +172,12 @@ fn powers_balance() {
         // displacements depend on where the machine is
         let name = &machine.parts().coordinates[0];
         assert!(of(&format!("q.{name}.displacement_mean")).is_nan() && of(&format!("q.{name}.velocity_rms")) > 0.0);
+        // all coordinates move on at the same mean velocity, that of the drift
+        let drift = cycle(&machine, &MachineStart::default()).drift_velocity();
+        for (name, drift) in machine.parts().coordinates.iter().zip(drift) {
+            let mean = of(&format!("q.{name}.velocity_mean"));
+            assert!((mean - drift).abs() < 1e-13, "{mean} {drift}");
+        }
     }
 }
 

@@ -64,10 +64,15 @@ impl MachineQuantities {
     /// Those of a motion whose sums over its blocks are these; `exact` if it is a whole motion.
     fn of(machine: &Machine, tally: &MachineTally<'_>, blocks: &[MachineSums], exact: bool) -> Self {
         let period = machine.period().unwrap_or(f64::NAN);
+        // no free translation moves it, so over a cycle it comes back
+        let returns = |part| matches!(part, MachinePart::Coordinate(i) if !tally.moves_freely(i));
         Self::from_fn(machine, |part, quantity| {
             let placeless = matches!(part, MachinePart::Coordinate(i) if tally.moves_freely(i) && quantity.of_place());
             if placeless || tally.skipped && !quantity.of_events() {
                 return Measured { value: f64::NAN, error: f64::NAN };
+            }
+            if exact && quantity == MachineQuantity::VelocityMean && returns(part) {
+                return Measured::default();
             }
             let extreme = || Measured { value: tally.extremes.get(part, quantity), error: f64::NAN };
             let Measured { value, error } = mean(blocks, (part, quantity), period).unwrap_or_else(extreme);

@@ -27,6 +27,9 @@ pub enum MachineQuantity {
     FrictionLossPerPeriod,
     /// The power lost by sliding.
     FrictionPower,
+    /// The mean velocity of a coordinate: by how much it moves on in a unit of time, and 0 over a cycle where no free
+    /// translation moves it.
+    VelocityMean,
 }
 
 /// What a quantity refers to. Stops, joints and coordinates are counted as in the machine.
@@ -46,7 +49,7 @@ pub enum MachinePart {
 
 use MachineQuantity::{
     Common, ContactFraction, ContactLossPerPeriod, ContactPower, ForceMax, FrictionLossPerPeriod, FrictionPower,
-    HoldingFraction, MomentumPerPeriod,
+    HoldingFraction, MomentumPerPeriod, VelocityMean,
 };
 
 const WHOLE: [MachineQuantity; 13] = [
@@ -80,13 +83,14 @@ const STOP: [MachineQuantity; 12] = [
 ];
 const JOINT: [MachineQuantity; 5] =
     [MomentumPerPeriod, ForceMax, HoldingFraction, FrictionLossPerPeriod, Common(Quantity::WorkPerPeriod)];
-const COORDINATE: [MachineQuantity; 8] = [
+const COORDINATE: [MachineQuantity; 9] = [
     Common(Quantity::DisplacementMin),
     Common(Quantity::DisplacementMax),
     Common(Quantity::DisplacementAmplitude),
     Common(Quantity::DisplacementMean),
     Common(Quantity::DisplacementRms),
     Common(Quantity::VelocityMax),
+    VelocityMean,
     Common(Quantity::VelocityRms),
     Common(Quantity::AccelerationMax),
 ];
@@ -105,6 +109,7 @@ impl MachineQuantity {
             ContactPower => "contact_power",
             FrictionLossPerPeriod => "friction_loss_per_period",
             FrictionPower => "friction_power",
+            VelocityMean => "velocity_mean",
         }
     }
 
@@ -137,6 +142,7 @@ impl MachineQuantity {
             (ContactPower, _) => "power lost in the dampers of stops",
             (FrictionLossPerPeriod, _) => "energy lost in friction per forcing period",
             (FrictionPower, _) => "power lost in friction",
+            (VelocityMean, _) => "mean velocity",
         }
     }
 

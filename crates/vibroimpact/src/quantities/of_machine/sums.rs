@@ -54,6 +54,7 @@ pub(super) struct JointSums {
 pub(super) struct CoordinateSums {
     pub(super) x: f64,
     pub(super) x_squared: f64,
+    pub(super) v: f64,
     pub(super) v_squared: f64,
 }
 
@@ -144,6 +145,7 @@ impl MachineSums {
                 Some(match quantity {
                     M::Common(Quantity::DisplacementMean) => coordinate.x,
                     M::Common(Quantity::DisplacementRms) => coordinate.x_squared,
+                    M::VelocityMean => coordinate.v,
                     M::Common(Quantity::VelocityRms) => coordinate.v_squared,
                     _ => return None,
                 })

@@ -187,6 +187,7 @@ impl<'a> MachineTally<'a> {
                 let (q, qdot) = (all[0][k], all[1][k]);
                 sums.x += half * weight * q;
                 sums.x_squared += half * weight * q * q;
+                sums.v += half * weight * qdot;
                 sums.v_squared += half * weight * qdot * qdot;
             }
         }
