@@ -274,7 +274,7 @@ mod tests {
         let parts = parts.with_force(0, 3, 1.0, 0.0).with_rigid_stop("wall", &[1.0, 0.0], 1.0, 0.5);
         let machine = Machine::new(parts.with_joint("guide", &[0.0, 1.0], 0.1, 0.2, 0.0)).unwrap();
         let paths = machine_quantity_paths(&machine);
-        assert_eq!(paths.len(), 13 + 1 + 12 + 5 + 2 * 8);
+        assert_eq!(paths.len(), 13 + 1 + 12 + 5 + 2 * 9);
         for path in &paths {
             let (part, quantity) = machine_quantity(&machine, path).unwrap();
             assert_eq!(part.path(&machine, quantity), *path);
