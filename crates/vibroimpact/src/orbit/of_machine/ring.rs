@@ -99,7 +99,7 @@ impl MachineRing {
         let frequency = frame.machine.parts().frequency.unwrap_or(pace);
         let lap = MachineLap::fly(frame, begin, time)?;
         let free = &frame.normal.translations;
-        let (mut events, mut places) = (Vec::new(), Vec::new());
+        let (mut events, mut places): (Vec<RingEvent>, Vec<Place>) = Default::default();
         for (k, (time, _, passage)) in lap.steps.iter().enumerate() {
             // the last step is the flight to the end
             if k + 1 == lap.steps.len() {
@@ -111,11 +111,10 @@ impl MachineRing {
             events.push(event);
             places.push(place);
         }
-        if let Some(first) = places.first().filter(|_| frame.unforced()) {
-            let later = first.phase + TAU;
-            places.iter_mut().for_each(|place| place.phase -= later);
-        }
-        (!events.is_empty()).then_some(Self { events, places, periods, pace, together: None }.centred(free))
+        let first = places.first()?.phase;
+        let mut ring = Self { events, places, periods, pace, together: None };
+        ring.end_at(first + TAU);
+        Some(ring.centred(free))
     }
 
     /// The same motion where the first event has no part along a free translation.
@@ -165,10 +164,9 @@ impl MachineRing {
         let angle = self.angle();
         self.events.remove(k);
         self.places.remove(k);
-        if let Some(first) = self.places.first().filter(|_| k == 0 && self.unforced()) {
+        if let Some(first) = self.places.first().filter(|_| k == 0) {
             // the cycle ends at the event that is the first one now
-            let end = first.phase + angle;
-            self.places.iter_mut().for_each(|place| place.phase -= end);
+            self.end_at(first.phase + angle);
         }
     }
 
@@ -395,8 +393,13 @@ impl MachineRing {
         self.places.truncate(part);
         self.periods /= parts;
         self.together = None;
+        self.end_at(end);
+    }
+
+    /// Without forcing: counts the phases so that the cycle, which ends at this phase, ends at 0.
+    fn end_at(&mut self, phase: f64) {
         if self.unforced() {
-            self.places.iter_mut().for_each(|place| place.phase -= end);
+            self.places.iter_mut().for_each(|place| place.phase -= phase);
         }
     }
 
