@@ -272,9 +272,10 @@ impl Store {
         Ok(array.decode(&place, bytes).as_ref() == Ok(&self.layout.all_done(tile)))
     }
 
-    /// Whether a tile is complete, that is, its status exists and is undamaged, or it waits for its shard.
+    /// Whether a tile is complete, that is, it waits for its shard, or its status exists and is undamaged. In this order,
+    /// because the status is written before the tile that waits is removed.
     fn done(&self, tile: u64) -> Result<bool, StoreError> {
-        Ok(self.stated(tile)? || self.waiting(tile)?.is_some())
+        Ok(self.waiting(tile)?.is_some() || self.stated(tile)?)
     }
 
     /// Computes a tile and writes it, with its status last. Writes nothing if stopped.
@@ -325,6 +326,9 @@ impl Store {
     }
 
     /// The chunk of a field in a tile, and its column, if it exists and is undamaged.
+    ///
+    /// Another process may complete the shard of a tile that waits. It writes the shard, then the status, and removes the
+    /// tile last, so a tile that is neither in the shard nor waits has moved if the shard has it now.
     fn sound(&self, tile: u64, field: usize) -> Result<Option<(Vec<u8>, Column)>, StoreError> {
         let both = |chunk: Vec<u8>| Some((chunk.clone(), self.decoded(tile, field, chunk)?));
         let Some(shards) = &self.layout.shards else {
@@ -333,7 +337,10 @@ impl Store {
         if let Some(found) = self.in_shard(shards, tile, field)?.and_then(both) {
             return Ok(Some(found));
         }
-        Ok(self.waiting(tile)?.and_then(|chunks| chunks.into_iter().nth(field)).and_then(both))
+        match self.waiting(tile)?.and_then(|chunks| chunks.into_iter().nth(field)).and_then(both) {
+            None => Ok(self.in_shard(shards, tile, field)?.and_then(both)),
+            found => Ok(found),
+        }
     }
 
     /// The column of a field in a tile, if it exists and is undamaged.

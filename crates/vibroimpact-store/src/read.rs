@@ -61,16 +61,15 @@ impl Store {
         Ok(whole)
     }
 
-    /// Whether a tile is said to be complete, by its status or by its object, even if they are damaged.
+    /// Whether a tile is said to be complete, by its object or by its status, even if they are damaged. In this order,
+    /// because the status is written before the object is removed.
     pub(crate) fn claimed(&self, tile: u64) -> Result<bool, StoreError> {
-        let status = self.layout.status.key(&self.layout.status_place(tile));
-        if self.get(&status)?.is_some() {
+        if let Some(shards) = &self.layout.shards
+            && self.get(&shards.loose_key(tile))?.is_some()
+        {
             return Ok(true);
         }
-        match &self.layout.shards {
-            Some(shards) => Ok(self.get(&shards.loose_key(tile))?.is_some()),
-            None => Ok(false),
-        }
+        Ok(self.get(&self.layout.status.key(&self.layout.status_place(tile)))?.is_some())
     }
 
     /// The column of a field in a tile; `None` if the tile is not complete.

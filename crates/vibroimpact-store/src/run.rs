@@ -224,10 +224,14 @@ impl Store {
     /// Number of complete tiles.
     pub(crate) fn count_done(&self) -> Result<u64, StoreError> {
         let list = |prefix: &str| self.shelf.list(prefix).map_err(|error| self.unread(prefix, error));
-        let stated = list(&self.layout.status.chunk_prefix())?;
+        let stated = || list(&self.layout.status.chunk_prefix());
         match &self.layout.shards {
-            None => Ok(stated.len() as u64),
-            Some(shards) => Ok(self.count_in_shards(shards, &stated, &list(LOOSE)?)),
+            None => Ok(stated()?.len() as u64),
+            Some(shards) => {
+                // first those that wait: the status of their shard is written before they are removed
+                let waiting = list(LOOSE)?;
+                Ok(self.count_in_shards(shards, &stated()?, &waiting))
+            }
         }
     }
 }

@@ -93,7 +93,16 @@ impl Store {
         {
             return Ok(State::Whole);
         }
-        Ok(if self.claimed(tile)? { State::Damaged } else { State::Open })
+        if !self.claimed(tile)? {
+            return Ok(State::Open);
+        }
+        // another process may have moved the tile since its shard was read
+        for field in torn {
+            if self.read(tile, field)?.is_none() {
+                return Ok(State::Damaged);
+            }
+        }
+        Ok(State::Whole)
     }
 
     /// Number of tiles whose shard is complete, or that wait for it; `stated` and `waiting` are the objects of both.
@@ -139,12 +148,12 @@ impl Store {
         if waiting.len() < tiles.iter().flatten().count() && !there {
             return Ok(false);
         }
-        let exact = |field| Ok(self.shard_chunks(shards, shard, field)?.1);
-        let fields = 0..self.layout.fields.len();
-        if waiting.is_empty()
-            && self.stated(first)?
-            && fields.map(exact).collect::<Result<Vec<_>, StoreError>>()?.into_iter().all(|exact| exact)
-        {
+        let complete = || -> Result<bool, StoreError> {
+            let exact = |field| Ok(self.shard_chunks(shards, shard, field)?.1);
+            let all = (0..self.layout.fields.len()).map(exact).collect::<Result<Vec<_>, StoreError>>()?;
+            Ok(all.into_iter().all(|exact| exact) && self.stated(first)?)
+        };
+        if waiting.is_empty() && complete()? {
             return Ok(true);
         }
         let waits: BTreeSet<&str> = waiting.iter().map(|item| item.key.as_str()).collect();
@@ -162,7 +171,8 @@ impl Store {
                     old.filter(|old| shards::sealed(old))
                 });
                 if chunk.is_none() {
-                    return Ok(false);
+                    // there is none, or another process has just completed the shard and removed the tile
+                    return complete();
                 }
             }
             let bytes = shards::assemble(&chunks);

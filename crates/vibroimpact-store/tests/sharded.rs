@@ -5,14 +5,14 @@
 
 mod common;
 
-use common::{basin, control, files, map, open, whole};
+use common::{S, basin, control, files, map, open, whole};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 use std::{fs, io};
 use vibroimpact_store::{Folder, Item, Part, Shelf, Store, StoreError};
-use vibroimpact_study::Plan;
+use vibroimpact_study::{BasinPlan, Plan, Task};
 
 /// The plans of 20 and 12 tiles, with shards of 2 by 2 and 3 by 3 tiles.
 fn plans() -> [Plan; 2] {
@@ -113,6 +113,108 @@ impl Shelf for Dying {
     }
     fn name(&self) -> String {
         self.0.name()
+    }
+}
+
+/// A folder in which another process does something just before this process reads or changes it.
+struct Meanwhile {
+    folder: Folder,
+    /// Number of accesses before it.
+    left: AtomicU64,
+    what: Box<dyn Fn() + Send + Sync>,
+}
+
+impl Meanwhile {
+    fn access(&self) {
+        if self.left.fetch_sub(1, Ordering::Relaxed) == 0 {
+            (self.what)();
+        }
+    }
+}
+
+impl Shelf for Meanwhile {
+    fn get(&self, key: &str) -> io::Result<Option<Vec<u8>>> {
+        self.access();
+        self.folder.get(key)
+    }
+    fn tail(&self, key: &str, count: usize) -> io::Result<Option<(Vec<u8>, u64)>> {
+        self.access();
+        self.folder.tail(key, count)
+    }
+    fn range(&self, key: &str, from: u64, count: u64) -> io::Result<Option<Vec<u8>>> {
+        self.access();
+        self.folder.range(key, from, count)
+    }
+    fn put(&self, key: &str, bytes: &[u8]) -> io::Result<()> {
+        self.access();
+        self.folder.put(key, bytes)
+    }
+    fn remove(&self, key: &str) -> io::Result<()> {
+        self.access();
+        self.folder.remove(key)
+    }
+    fn list(&self, prefix: &str) -> io::Result<Vec<Item>> {
+        self.access();
+        self.folder.list(prefix)
+    }
+    fn sweep(&self) -> io::Result<()> {
+        self.folder.sweep()
+    }
+    fn name(&self) -> String {
+        self.folder.name()
+    }
+}
+
+/// Tiles that wait move to their shards, and the last process writes the final numbers. A process that works at the
+/// same time, in any order of both, finds every tile.
+#[test]
+fn tiles_that_move_while_they_are_read_are_found() {
+    let basin = BasinPlan::plane("-4:0.75:12".parse().unwrap(), "-4:4:8".parse().unwrap(), 0.0);
+    let plan = Plan { shard: Some(2), tile: Some(4), ..Plan::new(S, Task::Basin(basin)) };
+    let (kept, want) = whole(&plan);
+    let complete = again(kept.path());
+    let study = complete.study();
+    let tiles: Vec<_> = (0..study.grid().tiles()).map(|tile| study.tile(tile, &|| false).unwrap()).collect();
+    type Act = fn(&Store) -> Result<u64, StoreError>;
+    let acts: [(&str, Act); 5] = [
+        ("conclude", |store| store.conclude_if_done().map(u64::from)),
+        ("run", |store| store.run(Part::ALL, &control(1)).map(|ran| ran.computed)),
+        ("read", |store| store.column(0).map(|_| 0)),
+        ("find", |store| store.to_do(&control(1)).map(|(open, damaged)| open.len() as u64 + damaged)),
+        // the whole store changes while it is verified, but no tile is damaged or open
+        ("verify", |store| {
+            let found = store.verify(0, 0, &control(1))?;
+            Ok(found.open + found.damage.iter().filter(|damage| damage.tile.is_some()).count() as u64)
+        }),
+    ];
+    for (name, act) in acts {
+        for before in 0.. {
+            let folder = tempfile::tempdir().unwrap();
+            let place = folder.path().to_owned();
+            // all tiles wait
+            let store = open(&place, &plan);
+            (0..).zip(&tiles).for_each(|(tile, columns)| store.write_tile(tile, columns).unwrap());
+            let there = place.clone();
+            let other = Meanwhile {
+                folder: Folder::new(&place),
+                left: AtomicU64::new(u64::MAX),
+                what: Box::new(move || assert!(again(&there).conclude_if_done().unwrap())),
+            };
+            let other = Arc::new(other);
+            let store = Store::open(Arc::<Meanwhile>::clone(&other)).unwrap();
+            other.left.store(before, Ordering::Relaxed);
+            let found = act(&store).unwrap_or_else(|error| panic!("{name}, after {before} accesses: {error}"));
+            let moved = other.left.load(Ordering::Relaxed) > before;
+            assert_eq!(found, u64::from(name == "conclude"), "{name}, after {before} accesses");
+            if name == "read" {
+                assert!(store.column(0).unwrap() == complete.column(0).unwrap());
+            }
+            if !moved {
+                assert!(before >= 10, "{name}: {before}");
+                break;
+            }
+            assert!(files(&place) == want, "{name}, after {before} accesses");
+        }
     }
 }
 
