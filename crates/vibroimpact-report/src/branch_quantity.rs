@@ -24,9 +24,15 @@ impl<'a> BranchQuantity<'a> {
             return None;
         }
         let (name, first) = (machine.parts().coordinates.first()?, found.points.first()?);
-        let of = |quantity: Quantity| Self { path: format!("q.{name}.{}", quantity.name()), source, cut: cut.clone() };
+        let of = |quantity: Quantity| Self::at_path(format!("q.{name}.{}", quantity.name()), source, cut);
         let displacement = of(Quantity::DisplacementMax);
         Some(if displacement.at(first).is_finite() { displacement } else { of(Quantity::VelocityMax) })
+    }
+
+    /// The quantity at a path.
+    #[must_use]
+    pub fn at_path(path: String, source: &'a MachineSource, cut: &MachineCut) -> Self {
+        Self { path, source, cut: cut.clone() }
     }
 
     /// Its value at a point; `NaN` if it is not defined there.

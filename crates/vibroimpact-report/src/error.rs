@@ -44,6 +44,16 @@ pub enum ReportError {
         /// The quantities that the plan asks for.
         there: Vec<String>,
     },
+    /// A bifurcation diagram of something that branches of machines do not have.
+    #[error(
+        "branches of a machine have speeds of closings, if it has stops, and quantities, not `{show}`\nhint: a quantity, such as --show q.{coordinate}.displacement_max"
+    )]
+    NoBranchValue {
+        /// What was to be shown.
+        show: String,
+        /// The name of a coordinate of the machine.
+        coordinate: String,
+    },
     /// A colour by a quantity in a figure without cells or motions.
     #[error("only maps and basins have colours by a quantity")]
     NoColours,

@@ -110,7 +110,7 @@ impl MachineAnswer {
                 let quantity = BranchQuantity::of(&self.machine, &self.plan.machine, &cut, found);
                 let path = quantity.as_ref().map(|quantity| quantity.path.as_str());
                 let behind = if shown.diagram { self.behind(plan, path, control)? } else { None };
-                figure::branch::of_machine(found, &cut, (quantity.as_ref(), behind.as_ref()), title)
+                figure::branch::of_machine(found.all(), &cut, (quantity.as_ref(), behind.as_ref()), title)
             }
             MachineResults::Curve(found) => {
                 let MachineTask::Curve(plan) = &self.plan.task else { return Ok(None) };

@@ -94,8 +94,9 @@ pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
 pub use machine_plan::{
     MachineAxis, MachineBasin, MachineBasinPlan, MachineBranchPlan, MachineBranched, MachineCurvePlan, MachineCut,
     MachineDiagram, MachineDiagramPlan, MachineDiagramPoint, MachineDiagramStep, MachineEventCurve, MachineFollowed,
-    MachineFollowedEvent, MachineMap, MachineMapPlan, MachinePlan, MachineResults, MachineSection, MachineShare,
-    MachineSimulated, MachineStretch, MachineTarget, MachineTask, is_machine_plan, run_machine,
+    MachineFollowedEvent, MachineLine, MachineMap, MachineMapPlan, MachineOrigin, MachinePlan, MachineResults,
+    MachineSection, MachineShare, MachineSimulated, MachineStretch, MachineTarget, MachineTask, is_machine_plan,
+    run_machine,
 };
 pub use map::{MapPlan, MapPoint, RegionMap, Share};
 pub use margins::{

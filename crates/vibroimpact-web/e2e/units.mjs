@@ -54,6 +54,8 @@ export async function a_machine_has_axes_in_its_units({ open }) {
   await page.locator("#axis-x").selectOption("restitution");
   const slider = page.locator(".parameter:not([hidden])", { hasText: "frequency of the force, Hz" }).locator("input[type=text]");
   await until("the field of the frequency", async () => (await slider.inputValue()) === "15");
+  // the legend above grows with each tile, and the button would move away under a click
+  await sharp(page);
   await page.locator("#machine").click();
   await until("nondimensional again", async () => (await page.locator("#range-3").inputValue()) === "5");
 }

@@ -11,10 +11,12 @@ use crate::session::Session;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use vibroimpact_report::number::short;
-use vibroimpact_report::scene::bifurcation;
+use vibroimpact_report::scene::{BifurcationEvent, bifurcation, machine_bifurcation};
 use vibroimpact_report::{Asked, Shown};
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
-use vibroimpact_study::{DiagramPlan, MachineDiagramPlan, MachineTask, Plan, PlanError, Stretch, Task, Values};
+use vibroimpact_study::{
+    DiagramPlan, MachineDiagramPlan, MachinePlan, MachineTask, Plan, PlanError, Stretch, Task, Values,
+};
 
 /// The orbit diagram: impacts or states after the transient, over one parameter or along a line through two
 ///
@@ -43,7 +45,7 @@ use vibroimpact_study::{DiagramPlan, MachineDiagramPlan, MachineTask, Plan, Plan
         --show strobe --csv strobe.csv\n  \
         vibro diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 0:3:301 --show impact-speed-max --plot speed.png\n  \
         vibro diagram --restitution 0.5 --vary inverse-beta --over 1.05:1.15:401 --also gap=1.5:3 --plot line.png\n  \
-        vibro diagram --machine two-mass-hammer --vary frequency --over 0.7:1.3:301 --plot hammer.png"
+        vibro diagram --machine two-mass-hammer --vary frequency --over 0.7:1.3:301 --branches --plot hammer.png"
 )]
 pub(crate) struct Diagram {
     #[command(flatten)]
@@ -100,7 +102,7 @@ pub(crate) struct Diagram {
 
     /// Follow the periodic motions on the line through their folds, flips and grazing impacts too: their branches are drawn over
     /// the diagram, and in the table. Labels, separated by commas [default: those found on the line]
-    #[arg(long, value_name = "LABELS", num_args = 0..=1, value_delimiter = ',', default_missing_value = "", conflicts_with_all = ["store", "json", "machine"], help_heading = "Sweep")]
+    #[arg(long, value_name = "LABELS", num_args = 0..=1, value_delimiter = ',', default_missing_value = "", conflicts_with_all = ["store", "json"], help_heading = "Sweep")]
     branches: Option<Vec<String>>,
 
     #[command(flatten)]
@@ -158,21 +160,33 @@ impl Diagram {
             Way::Scatter => SweepDirection::Scatter { starts: self.starts.unwrap_or(8), seed: self.seed.unwrap_or(1) },
         })
     }
+
+    /// The task of a machine.
+    fn of_machine(&self) -> Result<MachineTask, Failure> {
+        Ok(MachineTask::Diagram(MachineDiagramPlan {
+            vary: self.vary.path(),
+            over: self.over.clone(),
+            also: self.also.as_ref().map(VariedNamed::<Ends>::stretch),
+            show: self.show.clone().unwrap_or_else(|| "speed".to_owned()),
+            direction: self.direction()?,
+            transient: self.transient,
+            keep: self.keep,
+        }))
+    }
+}
+
+/// The labels of `--branches`; `None` for those found on the line.
+fn given(labels: &[String]) -> Option<Vec<String>> {
+    let given: Vec<String> = labels.iter().filter(|label| !label.is_empty()).cloned().collect();
+    (!given.is_empty()).then_some(given)
 }
 
 pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
+    if let (Some(name), Some(labels)) = (&args.machine.machine, &args.branches) {
+        return machine_with_branches(args, name, labels, session);
+    }
     let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
-    let task = || {
-        Ok(MachineTask::Diagram(MachineDiagramPlan {
-            vary: args.vary.path(),
-            over: args.over.clone(),
-            also: args.also.as_ref().map(VariedNamed::<Ends>::stretch),
-            show: args.show.clone().unwrap_or_else(|| "speed".to_owned()),
-            direction: args.direction()?,
-            transient: args.transient,
-            keep: args.keep,
-        }))
-    };
+    let task = || args.of_machine();
     let start = Some((&args.of_machine, args.phase));
     if let Some(answer) =
         of_machine::asked(&args.machine, start, task, files, (Some(&args.store), |_| Ok(Shown::default())), session)
@@ -220,9 +234,8 @@ fn with_branches(
         return Err(Failure::bad("--branches has speeds or positions\nhint: --show velocity or --show strobe"));
     }
     task.check(&asked.system)?;
-    let given: Vec<String> = labels.iter().filter(|label| !label.is_empty()).cloned().collect();
-    let named = (!given.is_empty()).then_some(given.as_slice());
-    let found = session.watched(None, |control| bifurcation(asked, task, named, control));
+    let given = given(labels);
+    let found = session.watched(None, |control| bifurcation(asked, task, given.as_deref(), control));
     let found = found.map_err(|error| respond::stopped(error, None))?;
     let silent = outputs.any();
     outputs.write(session, || Ok(found.table()?), || Ok(found.figure()?))?;
@@ -236,5 +249,25 @@ fn with_branches(
         })
         .collect();
     session.print(&rows.concat())?;
+    Ok(())
+}
+
+/// The diagram of a machine with the branches of these labels; without labels of those found on the line.
+fn machine_with_branches(args: &Diagram, name: &str, labels: &[String], session: &Session) -> Result<(), Failure> {
+    let start = Some((&args.of_machine, args.phase));
+    let plan = MachinePlan::new(args.machine.source(start)?, args.of_machine()?);
+    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), false, session)?;
+    let given = given(labels);
+    let found = session.watched(None, |control| machine_bifurcation(name, &plan, given.as_deref(), control));
+    let found = found.map_err(|error| respond::stopped(error, None))?;
+    let silent = outputs.any();
+    outputs.write(session, || Ok(found.table()), || Ok(found.figure()))?;
+    if silent {
+        return Ok(());
+    }
+    let row = |event: &BifurcationEvent| {
+        format!("{} of {} at {} = {}\n", event.kind, event.label, found.behind.plan.vary, short(event.value))
+    };
+    session.print(&found.events().iter().map(row).collect::<String>())?;
     Ok(())
 }

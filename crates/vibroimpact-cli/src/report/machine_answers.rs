@@ -63,7 +63,7 @@ pub(crate) fn text(answer: &MachineAnswer) -> String {
             }
             text.push_str(&branch(machine, &found.points));
             for followed in &found.followed {
-                let _ = writeln!(text, "from the flip at {}:", short(followed.flip));
+                let _ = writeln!(text, "from the {} at {}:", followed.event.name(), short(followed.at));
                 text.push_str(&branch(machine, &followed.points));
             }
         }

@@ -450,7 +450,7 @@ class Machine:
         orbit : int
             Number of the orbit, counted from 1 in the order of `orbit`. Default: the stable one, or else the fastest.
         follow : int
-            Maximum number of branches of twice the period, 0 to 100, to follow from flips.
+            Maximum number of branches, 0 to 100, to follow from flips, with twice the period, and from branch points.
         points : int
             The largest number of points of each branch, 2 to 100 000.
         q, qdot, phase : array, array, float

@@ -544,10 +544,11 @@ class MachineBranch(Result):
         there, and the stop or joint, if there is one.
     event_parameter, event_point : ndarray
         Value of the number at each event, and the index of the point.
-    flip : float or None
-        The value of the number at the flip at which it begins; None for the branch of the orbit that was asked for.
+    flip, branch_point : float or None
+        The value of the number at the flip or at the branch point at which it begins; both None for the branch of the orbit that
+        was asked for.
     followed : list of MachineBranch
-        The branches of twice the period that begin at flips.
+        The branches that begin at flips, with twice the period, and at branch points.
     orbit : (int, int) or None
         The number of the orbit at which it begins, and the number of orbits with its label; None for the motion from the start.
     plan : str
@@ -573,6 +574,7 @@ class MachineBranch(Result):
     event_label: NDArray[np.str_]
     event_stop: NDArray[np.str_]
     flip: float | None
+    branch_point: float | None
     followed: "list[MachineBranch]"
     orbit: tuple[int, int] | None
     plan: str
@@ -596,6 +598,7 @@ class MachineBranch(Result):
             "points": [dict(zip(table, row)) for row in zip(*table.values())],
             "events": [dict(zip(events, row)) for row in columns],
             **({} if self.flip is None else {"flip": self.flip}),
+            **({} if self.branch_point is None else {"branch_point": self.branch_point}),
             "followed": [branch.to_dict() for branch in self.followed],
         }
 
@@ -680,6 +683,7 @@ def _branch(
         parameter=np.array([point["parameter"] for point in points], dtype=np.float64),
         second=None if whole_answer["also"] is None else second,
         flip=found.get("flip"),
+        branch_point=found.get("branch_point"),
         followed=followed,
         label=words(points, "label"),
         period=np.array([point["period"] for point in points], dtype=np.float64),

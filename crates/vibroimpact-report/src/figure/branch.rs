@@ -9,12 +9,13 @@ use crate::figure::{along, along_machine, label, series, title_without, variant}
 use crate::units::shown;
 use crate::{Asked, ReportError};
 use std::collections::BTreeMap;
+use vibroimpact::continuation::MachinePoint;
 use vibroimpact_plot::{
     Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, Shape, Stroke, class_style, legend_group, plain,
 };
 use vibroimpact_study::diagram::{Diagram, Show};
 
-use vibroimpact_study::{Cut, Followed, MachineBranched, MachineCut, MachineDiagram, counted};
+use vibroimpact_study::{Cut, Followed, MachineCut, MachineDiagram, counted};
 
 /// Colour of the orbit diagram from simulation.
 const GREY: Colour = Colour::hex(0xb0_b0b0);
@@ -83,8 +84,8 @@ pub fn figure(
 /// The figure of `vibro branch --machine`: the speeds of the closings of all stops along a line, or a [quantity](BranchQuantity)
 /// of each cycle, with the orbit diagram of the same from simulation behind, if it is given.
 #[must_use]
-pub fn of_machine(
-    found: &MachineBranched,
+pub fn of_machine<'a>(
+    branches: impl Iterator<Item = &'a [MachinePoint]>,
     cut: &MachineCut,
     (quantity, behind): (Option<&BranchQuantity<'_>>, Option<&MachineDiagram>),
     title: String,
@@ -100,7 +101,7 @@ pub fn of_machine(
         None => Track::of_machine(points),
         Some(quantity) => Track::of_quantity(points, |point| quantity.at(point)),
     };
-    let tracks: Vec<Track> = found.all().map(track).collect();
+    let tracks: Vec<Track> = branches.map(track).collect();
     let legend = draw(&mut panel, &tracks, false, (1.0, &|_| 1.0));
     let legend = if behind.is_some() { with_simulation(legend) } else { legend };
     Figure::new(panel).size(680.0, 520.0).title(title).legend(legend)

@@ -17,8 +17,8 @@ use vibroimpact::continuation::{MachineBranchEvent, MachinePoint};
 use vibroimpact::events::{MachineEvent, MachineStart};
 use vibroimpact::machine::Machine;
 use vibroimpact_study::{
-    MachineAxis, MachineCut, MachineDiagramPlan, MachinePlan, MachineResults, MachineSimulated, MachineStretch,
-    MachineTask, Values,
+    MachineAxis, MachineCut, MachineDiagramPlan, MachineFollowed, MachinePlan, MachineResults, MachineSimulated,
+    MachineStretch, MachineTask, Values,
 };
 
 /// The object that a command prints: the machine, the start, the fields of the command, and the plan.
@@ -147,7 +147,7 @@ struct Branched<'a> {
     orbit: Option<ChosenObject>,
     #[serde(flatten)]
     main: PointsObject<'a>,
-    /// The branches of twice the period that begin at flips.
+    /// The branches that begin at flips and branch points.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     followed: Vec<FollowedObject<'a>>,
 }
@@ -160,7 +160,11 @@ struct PointsObject<'a> {
 
 #[derive(Serialize)]
 struct FollowedObject<'a> {
-    flip: f64,
+    /// The value of the number at the flip or branch point at which it begins.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    flip: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    branch_point: Option<f64>,
     #[serde(flatten)]
     branch: PointsObject<'a>,
 }
@@ -248,8 +252,13 @@ impl Serialize for MachineAnswer {
                 let quantity = BranchQuantity::of(machine, &self.plan.machine, &cut, found);
                 let points = |points| self.points(points, &cut, quantity.as_ref());
                 let followed = found.followed.iter();
+                let at = |followed: &MachineFollowed, event| (followed.event == event).then_some(followed.at);
                 let followed = followed
-                    .map(|followed| FollowedObject { flip: followed.flip, branch: points(&followed.points) })
+                    .map(|followed| FollowedObject {
+                        flip: at(followed, MachineBranchEvent::Flip),
+                        branch_point: at(followed, MachineBranchEvent::BranchPoint),
+                        branch: points(&followed.points),
+                    })
                     .collect();
                 let (orbit, main) = (ChosenObject::of_machine(found.among), points(&found.points));
                 self.document(Branched { vary: &cut.vary, also: cut.also.as_ref(), orbit, main, followed }, to)

@@ -15,21 +15,21 @@ use vibroimpact_study::{
 };
 
 /// Number of values along the line at which motions are searched, if no labels are given.
-const SAMPLES: u32 = 24;
+pub(super) const SAMPLES: u32 = 24;
 /// Number of motions whose branches are followed then: those of most starts.
-const MOST_LABELS: usize = 6;
+pub(super) const MOST_LABELS: usize = 6;
 /// Number of values at which orbits of a label are searched.
-const LOOKS: u32 = 25;
+pub(super) const LOOKS: u32 = 25;
 /// Maximum number of further branches from each orbit.
-const FOLLOW: u32 = 3;
+pub(super) const FOLLOW: u32 = 3;
 /// Maximum number of points of each branch.
-const POINTS: u32 = 3_000;
+pub(super) const POINTS: u32 = 3_000;
 /// Number of starts at each value, to find the labels that occur.
-const STARTS: u64 = 4;
+pub(super) const STARTS: u64 = 4;
 /// Seed of the sequence of starts.
-const SEED: u64 = 1;
+pub(super) const SEED: u64 = 1;
 /// A value belongs to a branch if it is closer to it than this fraction of the range.
-const NEAR: f64 = 1e-9;
+pub(super) const NEAR: f64 = 1e-9;
 
 /// An event on an admissible branch.
 #[derive(Clone, Debug, PartialEq)]
@@ -114,16 +114,21 @@ pub fn bifurcation(
 
 /// The events on branches, each once.
 fn events(followed: &[Followed], (from, to): (f64, f64)) -> Vec<BifurcationEvent> {
-    let near = NEAR * (to - from).abs();
-    let mut events: Vec<BifurcationEvent> = Vec::new();
-    for point in followed.iter().flat_map(|branch| &branch.points).filter(|point| point.physical) {
+    let points = followed.iter().flat_map(|branch| &branch.points).filter(|point| point.physical);
+    let events = points.filter_map(|point| {
         // where the search for a branch ends nothing happens to the motion
-        let Some(event) = point.event.filter(|event| {
+        let event = point.event.filter(|event| {
             !matches!(event, E::Closed | E::EndOfRange | E::StepLimit | E::ImpactLimit | E::NoConvergence)
-        }) else {
-            continue;
-        };
-        let event = BifurcationEvent { label: point.cycle.label.to_string(), kind: event.name(), value: point.value };
+        })?;
+        Some(BifurcationEvent { label: point.cycle.label.to_string(), kind: event.name(), value: point.value })
+    });
+    distinct(events, NEAR * (to - from).abs())
+}
+
+/// Events in the order of their values, those that are nearer to each other than `near` once.
+pub(super) fn distinct(all: impl Iterator<Item = BifurcationEvent>, near: f64) -> Vec<BifurcationEvent> {
+    let mut events: Vec<BifurcationEvent> = Vec::new();
+    for event in all {
         let same = |other: &BifurcationEvent| {
             other.kind == event.kind && other.label == event.label && (other.value - event.value).abs() <= near
         };

@@ -2,11 +2,14 @@
 
 use super::{Table, diagram};
 use crate::Asked;
+use crate::branch_quantity::BranchQuantity;
 use crate::figure::tracks::Followed as What;
 use crate::json::motion::side;
 use crate::number::Number;
+use vibroimpact::continuation::MachinePoint;
+use vibroimpact::machine::Machine;
 use vibroimpact_study::diagram::{Diagram, Show};
-use vibroimpact_study::{Followed, PlanError};
+use vibroimpact_study::{Followed, MachineDiagram, PlanError};
 
 /// The table of `vibro diagram --branches`: the columns of the orbit diagram, and the label and the event of points of branches,
 /// which are empty for points from simulation. Of branches, `sweep` has the number, and `kind` is `stable` or `unstable`.
@@ -46,4 +49,37 @@ pub fn table(behind: &Diagram, followed: &[Followed], asked: &Asked) -> Result<T
         }
     }
     Ok(Table::new(header, rows.into_iter()))
+}
+
+/// The table of `vibro diagram --machine --branches`, in the same way: one row for each closing of each point of a branch, or for
+/// the quantity that is shown.
+#[must_use]
+pub fn of_machine(
+    behind: &MachineDiagram,
+    branches: &[Vec<MachinePoint>],
+    machine: &Machine,
+    quantity: Option<&BranchQuantity<'_>>,
+) -> Table<'static> {
+    let simulated = diagram::of_machine(behind, machine);
+    let header = format!("{},label,event", simulated.header);
+    let mut rows: Vec<String> = simulated.rows.map(|row| format!("{row},,")).collect();
+    let cut = behind.plan.cut();
+    for (number, points) in branches.iter().enumerate() {
+        for point in points {
+            let values: String = cut.values(point.value).map(|value| format!("{},", Number(value))).collect();
+            let kind = if point.cycle.stable() { "stable" } else { "unstable" };
+            let head = format!("{values}branch {},{kind}", number + 1);
+            let tail = format!("{},{}", point.cycle.label, point.event.map_or("", |event| event.name()));
+            match quantity {
+                Some(quantity) => rows.push(format!("{head},{},{tail}", Number(quantity.at(point)))),
+                None => {
+                    for event in point.cycle.events.iter().filter(|event| event.closes()) {
+                        let (stop, phase) = (machine.name_of(event.place), Number(event.phase));
+                        rows.push(format!("{head},{stop},{phase},{},{tail}", Number(event.speed)));
+                    }
+                }
+            }
+        }
+    }
+    Table::new(header, rows.into_iter())
 }

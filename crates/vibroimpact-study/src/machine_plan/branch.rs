@@ -1,4 +1,5 @@
-//! Branches of a machine in one number or along a line through two, and the branches that begin at their flips.
+//! Branches of a machine in one number or along a line through two, and the branches that begin at their flips and branch
+//! points.
 
 use super::cut::{MachineCut, MachineStretch, MachineTarget};
 use super::diagram::MachineDiagramPlan;
@@ -7,6 +8,7 @@ use crate::branch::{DIAGRAM_VALUES, MOST_FOLLOWED};
 use crate::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, SweepDirection};
 use crate::machine::MachineSource;
 use crate::{Control, PlanError, RunError, Span, Stopped, limits};
+use core::ops::RangeInclusive;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
@@ -37,7 +39,7 @@ pub struct MachineBranchPlan {
     /// The largest number of points of each branch: 2 to 100000.
     #[serde(default = "crate::branch::points")]
     pub points: u32,
-    /// How many of the branches of twice the period that begin at flips are followed: 0 to 100.
+    /// How many of the branches that begin at flips and branch points are followed: 0 to 100.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub follow: u32,
 }
@@ -55,16 +57,18 @@ pub struct MachineBranched {
     pub among: Option<(u32, u32)>,
     /// The points in order.
     pub points: Vec<MachinePoint>,
-    /// The branches of twice the period that begin at flips.
+    /// The branches that begin at flips and branch points.
     pub followed: Vec<MachineFollowed>,
 }
 
-/// A branch of twice the period that begins at a flip.
+/// A branch that begins at a flip, where it has twice the period, or at a branch point.
 #[derive(Clone, Debug)]
 pub struct MachineFollowed {
-    /// The value of the number at the flip.
-    pub flip: f64,
-    /// The points in order, away from the flip.
+    /// The event at which it begins: a flip or a branch point.
+    pub event: MachineBranchEvent,
+    /// The value of the number at this event.
+    pub at: f64,
+    /// The points in order, away from the event.
     pub points: Vec<MachinePoint>,
 }
 
@@ -124,47 +128,109 @@ pub(super) fn branch(
     plan: &MachineBranchPlan,
     control: &Control<'_>,
 ) -> Result<MachineBranched, RunError> {
-    let (cut, points) = (plan.cut(source)?, plan.points);
+    let cut = plan.cut(source)?;
     let (from, to) = cut.ends;
     let ChosenCycle { cycle, among } = orbits::chosen(problem, (plan.label.as_deref(), plan.orbit), control)?;
-    let source = source.clone();
-    let family = MachineFamily::new(move |value| cut.source(&source, value).ok()?.machine().ok());
-    let range = from.min(to)..=from.max(to);
+    let line = MachineLine::new(source, cut, plan.points);
     let direction = if to > from { Direction::Up } else { Direction::Down };
-    let options = BranchOptions { points, ..BranchOptions::default() };
-    let trace = |value: f64, cycle: &MachineCycle, direction: Direction| {
-        let mut branch = MachineBranch::new((&family, value), cycle, &range, direction, options)
+    let points = line.trace((from, &cycle), direction, control)?;
+    let followed = line.beginning_on(&points, plan.follow as usize, &mut Vec::new(), control)?;
+    Ok(MachineBranched { among, points, followed })
+}
+
+/// A line through numbers of a machine along which orbits are followed.
+pub struct MachineLine {
+    family: MachineFamily,
+    range: RangeInclusive<f64>,
+    options: BranchOptions,
+}
+
+/// The label and the value of the number at an event at which branches begin.
+pub type MachineOrigin = (String, f64);
+
+/// Two values of the number are the same event if they differ by less than this, relative to the range.
+const SAME: f64 = 1e-7;
+
+impl MachineLine {
+    /// A line, and the largest number of points of each branch.
+    #[must_use]
+    pub fn new(source: &MachineSource, cut: MachineCut, points: u32) -> Self {
+        let (from, to) = cut.ends;
+        let source = source.clone();
+        let family = MachineFamily::new(move |value| cut.source(&source, value).ok()?.machine().ok());
+        let options = BranchOptions { points, ..BranchOptions::default() };
+        Self { family, range: from.min(to)..=from.max(to), options }
+    }
+
+    /// The branch of a cycle at a value of the number in one direction.
+    ///
+    /// # Errors
+    /// [`PlanError::MachineBranch`] if the cycle is not there, [`Stopped`] when stopped.
+    pub fn trace(
+        &self,
+        (value, cycle): (f64, &MachineCycle),
+        direction: Direction,
+        control: &Control<'_>,
+    ) -> Result<Vec<MachinePoint>, RunError> {
+        let mut branch = MachineBranch::new((&self.family, value), cycle, &self.range, direction, self.options)
             .map_err(|error| PlanError::MachineBranch(error.to_string()))?;
         let mut found = Vec::new();
         while !control.stopping() {
             let Some(point) = branch.next() else { return Ok(found) };
             found.push(point);
         }
-        Err(RunError::from(Stopped { done: found.len() as u64, total: u64::from(points) }))
-    };
-    let main = trace(from, &cycle, direction)?;
-    // flips of branches that begin at flips are followed in turn
-    let mut waiting: VecDeque<MachinePoint> = flips(&main);
-    let mut followed = Vec::new();
-    while let (Some(flip), true) = (waiting.pop_front(), followed.len() < plan.follow as usize) {
-        let scale = 0.25 * (range.end() - range.start());
-        let Some((value, doubled)) = flip.doubled(&family, scale).filter(|(value, _)| range.contains(value)) else {
-            continue;
-        };
-        let away = if value > flip.value { Direction::Up } else { Direction::Down };
-        let Ok(points) = trace(value, &doubled, away) else { continue };
-        waiting.extend(flips(&points));
-        followed.push(MachineFollowed { flip: flip.value, points });
+        Err(Stopped { done: found.len() as u64, total: u64::from(self.options.points) }.into())
     }
-    if control.stopping() {
-        return Err(Stopped { done: main.len() as u64, total: u64::from(points) }.into());
+
+    /// At most so many of the branches that begin at flips and branch points of a branch, and of these branches in turn. Events
+    /// in `seen` are left out, and those that are passed are added to it.
+    ///
+    /// # Errors
+    /// [`Stopped`] when stopped.
+    pub fn beginning_on(
+        &self,
+        points: &[MachinePoint],
+        most: usize,
+        seen: &mut Vec<MachineOrigin>,
+        control: &Control<'_>,
+    ) -> Result<Vec<MachineFollowed>, RunError> {
+        let scale = 0.25 * (self.range.end() - self.range.start());
+        let mut waiting: VecDeque<MachinePoint> = origins(points).collect();
+        let mut followed = Vec::new();
+        while let (Some(origin), true) = (waiting.pop_front(), followed.len() < most) {
+            let Some(event) = origin.event else { continue };
+            let label = origin.cycle.label.to_string();
+            let known =
+                |(of, value): &MachineOrigin| *of == label && (value - origin.value).abs() <= 4.0 * SAME * scale;
+            if seen.iter().any(known) {
+                continue;
+            }
+            seen.push((label, origin.value));
+            for (value, cycle) in origin.leaving(&self.family, scale) {
+                if !self.range.contains(&value) || followed.len() >= most {
+                    continue;
+                }
+                let away = if value > origin.value { Direction::Up } else { Direction::Down };
+                match self.trace((value, &cycle), away, control) {
+                    Ok(points) => {
+                        waiting.extend(origins(&points));
+                        followed.push(MachineFollowed { event, at: origin.value, points });
+                    }
+                    Err(RunError::Stopped(stopped)) => return Err(stopped.into()),
+                    // a cycle that ceases to exist at once has no branch
+                    Err(RunError::Plan(_)) => {}
+                }
+            }
+        }
+        Ok(followed)
     }
-    Ok(MachineBranched { among, points: main, followed })
 }
 
-/// The flips among some points.
-fn flips(points: &[MachinePoint]) -> VecDeque<MachinePoint> {
-    points.iter().filter(|point| point.event == Some(MachineBranchEvent::Flip)).cloned().collect()
+/// The points at which other branches begin.
+fn origins(points: &[MachinePoint]) -> impl Iterator<Item = MachinePoint> + '_ {
+    let begins =
+        |point: &&MachinePoint| matches!(point.event, Some(MachineBranchEvent::Flip | MachineBranchEvent::BranchPoint));
+    points.iter().filter(begins).cloned()
 }
 
 #[cfg(test)]

@@ -32,7 +32,7 @@ mod text;
 mod verdicts;
 
 pub use axis::MachineAxis;
-pub use branch::{MachineBranchPlan, MachineBranched, MachineFollowed};
+pub use branch::{MachineBranchPlan, MachineBranched, MachineFollowed, MachineLine, MachineOrigin};
 pub use curve::{MachineCurvePlan, MachineEventCurve, MachineFollowedEvent};
 pub use cut::{MachineCut, MachineStretch, MachineTarget};
 pub(crate) use diagram::step as diagram_step;

@@ -1,12 +1,13 @@
 //! Branches of machines of one coordinate against those of the oscillator.
 
 use vibroimpact::continuation::{
-    Branch, BranchEvent, BranchOptions, Direction, MachineBranch, MachineBranchEvent, MachineFamily,
+    Branch, BranchEvent, BranchOptions, Direction, MachineBranch, MachineBranchEvent, MachineFamily, SolutionPoint,
 };
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
-use vibroimpact::verdict::{MachineVerdict, SettleOptions, Verdict, settle, settle_machine};
-use vibroimpact::{Oscillator, Parameter, Start};
+use vibroimpact::orbit::{FindOptions, MachineCycle, find, find_machine_while};
+use vibroimpact::verdict::{MachineVerdict, SettleOptions, Verdict, scattered_machine_starts, settle, settle_machine};
+use vibroimpact::{Label, Oscillator, Parameter, Side, Start};
 
 pub(crate) fn of(osc: &Oscillator) -> Machine {
     let parts = MachineParts::new(["mass"])
@@ -152,7 +153,7 @@ fn doubled_beside_a_flip() {
     let mut branch =
         MachineBranch::new((&family, gap), &cycle, &range, Direction::Up, BranchOptions::default()).unwrap();
     let flip = branch.find(|point| point.event == Some(MachineBranchEvent::Flip)).unwrap();
-    let (value, doubled) = flip.doubled(&family, 0.5).unwrap();
+    let (value, doubled) = flip.leaving(&family, 0.5).pop().unwrap();
     assert_eq!(doubled.label.to_string(), "2/2");
     assert!(doubled.stable() && value > flip.value && doubled.residual < 1e-11);
     // followed back, it ends on the branch from which it came
@@ -162,6 +163,51 @@ fn doubled_beside_a_flip() {
     let end = back.last().unwrap();
     assert_eq!(end.event, Some(MachineBranchEvent::Halving));
     assert!((end.value - flip.value).abs() < 1e-7, "{} {}", end.value, flip.value);
+}
+
+/// Where the symmetric cycle between two stops alike loses its symmetry, two cycles that are mirror images of each other begin:
+/// those of the oscillator.
+#[test]
+fn both_cycles_beside_a_branch_point() {
+    let osc = Oscillator::new(2.0, 0.4, 0.8).unwrap().with_damping(0.02).unwrap().with_second_stop(0.4, 0.8).unwrap();
+    let parts = of(&osc).parts().clone().with_rigid_stop("below", &[-1.0], 0.4, 0.8);
+    let machine = Machine::new(parts).unwrap();
+    let label = Label::new(2, 1);
+    let orbits = find(&osc, label, FindOptions::default());
+    let orbit = &orbits.iter().find(|orbit| orbit.physical && orbit.cycle.stable()).unwrap().cycle;
+    let (range, options) = (1.5..=2.0, BranchOptions::default());
+    let branch = Branch::new(&osc, orbit, Parameter::Beta, range.clone(), Direction::Down, options).unwrap();
+    let expected = branch.into_iter().find(|point| point.event == Some(BranchEvent::BranchPoint)).unwrap();
+    let starts = (0..16).map(|k| scattered_machine_starts(&machine, 1, k));
+    let cycles = find_machine_while(&machine, label, starts, || true).unwrap();
+    let cycle = cycles.iter().find(|cycle| cycle.stable()).unwrap();
+    let (family, beta) = MachineFamily::of_path(&machine, "frequency").unwrap();
+    let mut branch = MachineBranch::new((&family, beta), cycle, &range, Direction::Down, options).unwrap();
+    let point = branch.find(|point| point.event == Some(MachineBranchEvent::BranchPoint)).unwrap();
+    assert!((point.value - expected.value).abs() < 1e-9, "{} {}", point.value, expected.value);
+    let leaving = point.leaving(&family, 0.125);
+    let [one, other] = leaving.as_slice() else { panic!("{} cycles", leaving.len()) };
+    let speeds = |(_, cycle): &(f64, MachineCycle)| {
+        [0, 1].map(|stop| cycle.events.iter().find(|event| event.closes() && event.place == stop).unwrap().speed)
+    };
+    let ([above, below], mirrored) = (speeds(one), speeds(other));
+    assert!((above - below).abs() > 1e-4 && one.0 == other.0, "{above} {below}");
+    assert!((above - mirrored[1]).abs() < 1e-9 && (below - mirrored[0]).abs() < 1e-9, "{mirrored:?}");
+    // a branch of the oscillator passes through them
+    let there = Branch::from_branch_point(&osc, &expected, Parameter::Beta, range, options).unwrap();
+    let upper = |point: &SolutionPoint| {
+        point.cycle.points.iter().find(|impact| impact.state.side == Side::Upper).unwrap().state.velocity
+    };
+    let met = there.into_iter().any(|branch| {
+        let points: Vec<SolutionPoint> = branch.take(40).collect();
+        points.windows(2).any(|pair| {
+            let [a, b] = [&pair[0], &pair[1]].map(|point| (point.value, upper(point)));
+            // the speed changes with the square root of the number beside the branch point, so it is between both
+            let between = |x: f64, a: f64, b: f64| x >= a.min(b) && x <= a.max(b);
+            between(one.0, a.0, b.0) && between(above, a.1, b.1)
+        })
+    });
+    assert!(met, "{above} at {}", one.0);
 }
 
 /// Between two torus bifurcations a pair of complex multipliers lies outside the unit circle, and motions that begin close

@@ -141,7 +141,7 @@ fn a_branch_from_a_flip() {
     let flip = points.iter().find(|point| point.event == Some(MachineBranchEvent::Flip)).unwrap();
     assert!((flip.cycle.multipliers[0].re + 1.0).abs() < 1e-10);
     let (family, _) = MachineFamily::of_path(&machine, over.0).unwrap();
-    let (value, doubled) = flip.doubled(&family, 0.25 * (over.2 - over.1)).unwrap();
+    let (value, doubled) = flip.leaving(&family, 0.25 * (over.2 - over.1)).pop().unwrap();
     assert_eq!(doubled.label.to_string(), "2/T");
     assert!((doubled.period / flip.cycle.period - 2.0).abs() < 1e-2);
     let there = machine.with(over.0, value).unwrap();

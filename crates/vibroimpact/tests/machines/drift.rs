@@ -241,7 +241,7 @@ fn a_flip_doubles_the_drift() {
     let branch = MachineBranch::new((&family, value), &found, &(1.05..=1.6), Direction::Down, BranchOptions::default());
     let flip = branch.unwrap().find(|point| point.event == Some(MachineBranchEvent::Flip)).unwrap();
     assert!((flip.cycle.multipliers[0].re + 1.0).abs() < 1e-6);
-    let (at, doubled) = flip.doubled(&family, 0.1).unwrap();
+    let (at, doubled) = flip.leaving(&family, 0.1).pop().unwrap();
     assert_eq!(doubled.label.to_string(), "6/4");
     assert!(
         (doubled.drift[0] - 2.0 * flip.cycle.drift[0]).abs() < 0.05 * doubled.drift[0].abs(),

@@ -13,7 +13,7 @@ use super::point::{MachineBranchEvent, MachinePoint};
 use super::problem::{Judged, MINUS_ONE, MachineProblem, MachineSolution, PACE, PLUS_ONE, TORUS};
 use super::touch::{grazing, touching};
 use crate::continuation::branches::{BranchOptions, Direction};
-use crate::continuation::trace::tracer::{Crossing, Step, Tracer};
+use crate::continuation::trace::tracer::{Crossing, Problem, Step, Tracer};
 use crate::orbit::{MachineCycle, MachineFrame, MachineRing};
 use core::ops::RangeInclusive;
 use std::collections::VecDeque;
@@ -176,10 +176,18 @@ impl MachineBranch {
             };
             // where another curve of solutions crosses, the equations are singular, and rounding decides whether they can be
             // solved there; then the event is reported beside its place
+            let s = if event == MachineBranchEvent::BranchPoint { self.branch_point(&step, *s) } else { *s };
+            let beside = |share: f64| self.tracer.between(&step, (s + share * step.length).clamp(0.0, step.length));
             let solved = |share: f64| {
-                let w = self.tracer.between(&step, (s + share * step.length).clamp(0.0, step.length))?;
-                let along = self.tracer.tangent_at(&w).unwrap_or_else(|| self.tracer.here.tangent.clone());
-                self.tracer.solution_along(w, along)
+                let one = beside(share)?;
+                let along = self.tracer.tangent_at(&one).unwrap_or_else(|| self.tracer.here.tangent.clone());
+                // half way between the solutions on both sides
+                let other = if share == 0.0 { None } else { beside(-share) };
+                let middle = |other: Vec<f64>| {
+                    let w = one.iter().zip(&other).map(|(a, b)| 0.5 * (a + b)).collect();
+                    self.tracer.solution_along(w, along.clone())
+                };
+                other.and_then(middle).or_else(|| self.tracer.solution_along(one, along))
             };
             let Some(at) = BESIDE.into_iter().find_map(solved) else { continue };
             // two real multipliers whose product is 1 are no torus bifurcation
@@ -198,6 +206,17 @@ impl MachineBranch {
         self.add(&step.there, closed.then_some(MachineBranchEvent::Closed));
         self.tracer.take(step.there);
         self.over |= closed;
+    }
+
+    /// The distance along a step of a branch point close to `s`. Around it the equations are nearly singular, so that it was only
+    /// located within a small distance; to both sides of this the test function is linear to about its square.
+    fn branch_point(&self, step: &Step<Judged>, s: f64) -> f64 {
+        let by = 1e-4 * step.length;
+        let test = |s: f64| self.tracer.problem.test(PLUS_ONE, &self.tracer.between(step, s)?, || None);
+        match (test(s - by), test(s + by)) {
+            (Some(a), Some(b)) if a * b < 0.0 => s + by * (a + b) / (a - b),
+            _ => s,
+        }
     }
 
     /// The solution at which the number turns back and a cycle repeats itself after half its period.

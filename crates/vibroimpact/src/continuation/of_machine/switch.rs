@@ -1,7 +1,9 @@
-//! The cycle of twice the period beside a flip.
+//! The cycles of the branches that begin at a flip or leave at a branch point.
 //!
 //! A little beyond a flip, on one of its sides, a cycle of twice the period lies at a distance of about the square root of
-//! the change of the number, in the direction that one period multiplies by -1. It is found by Newton's method from there.
+//! the change of the number, in the direction that one period multiplies by -1. Beside a branch point, where a branch with a
+//! symmetry loses it, two cycles lie in the direction that one period multiplies by +1, one to either side. They are found by
+//! Newton's method from there.
 
 use super::family::MachineFamily;
 use super::point::{MachineBranchEvent, MachinePoint};
@@ -12,34 +14,74 @@ use crate::orbit::{MachineCycle, MachineFrame, MachineLap};
 const BESIDE: [f64; 4] = [1e-4, 1e-3, 1e-5, 5e-3];
 /// Distances along the direction, in units of the square root of the change and of the size of the motion.
 const ALONG: [f64; 4] = [1.0, 0.3, 3.0, 0.1];
+/// Two cycles beside a branch point that are apart by less than this part of the step along the direction are the same.
+const MOVED: f64 = 0.1;
 
 impl MachinePoint {
-    /// The cycle of twice the period that begins at this flip, with the value of the number at which it was found, on a
-    /// branch over a range of four times `scale`; `None` if this is no flip, or none was found.
+    /// The cycles of the branches that begin here, each with the value of the number at which it was found, on a branch over a
+    /// range of four times `scale`.
+    ///
+    /// At a [flip](MachineBranchEvent::Flip) it is a cycle of twice the period. At a [branch
+    /// point](MachineBranchEvent::BranchPoint) of a machine with forcing there are up to two, one to either side; without
+    /// forcing none is looked for. At other points there is none.
     #[must_use]
-    pub fn doubled(&self, family: &MachineFamily, scale: f64) -> Option<(f64, MachineCycle)> {
-        if self.event != Some(MachineBranchEvent::Flip) {
-            return None;
+    pub fn leaving(&self, family: &MachineFamily, scale: f64) -> Vec<(f64, MachineCycle)> {
+        let (multiplier, sides): (f64, &[f64]) = match self.event {
+            Some(MachineBranchEvent::Flip) => (-1.0, &[1.0]),
+            Some(MachineBranchEvent::BranchPoint) => (1.0, &[1.0, -1.0]),
+            _ => return Vec::new(),
+        };
+        let carried = family.at(self.value).and_then(|machine| {
+            let frame = MachineFrame::new(&machine);
+            if multiplier > 0.0 && machine.period().is_none() {
+                return None;
+            }
+            let time = frame.time(self.cycle.label.periods, self.cycle.period);
+            let turn = MachineLap::fly(&frame, self.cycle.strobes.first()?, time)?.derivative?;
+            // one period multiplies translations by +1 too
+            let turn = if multiplier > 0.0 { frame.within_shapes(&turn) } else { turn };
+            carried(&turn, multiplier)
+        });
+        let Some(direction) = carried else { return Vec::new() };
+        let turns = if multiplier < 0.0 { 2 } else { 1 };
+        let mut found: Vec<(f64, MachineCycle)> = Vec::new();
+        for side in sides {
+            let known = found.first().map(|(_, cycle)| cycle);
+            found.extend(self.beside(family, scale, (turns, *side, &direction), known));
         }
-        let machine = family.at(self.value)?;
-        let frame = MachineFrame::new(&machine);
+        found
+    }
+
+    /// The cycle of another branch beside this point, which takes `turns` times as long, on a side of the direction. It is neither
+    /// the cycle that goes on here nor the one that is known.
+    fn beside(
+        &self,
+        family: &MachineFamily,
+        scale: f64,
+        (turns, sign, direction): (u32, f64, &[f64]),
+        known: Option<&MachineCycle>,
+    ) -> Option<(f64, MachineCycle)> {
         let begin = self.cycle.strobes.first()?;
-        let periods = self.cycle.label.periods;
-        let time = frame.time(periods, self.cycle.period);
-        let turn = MachineLap::fly(&frame, begin, time)?.derivative?;
-        let direction = towards(&turn)?;
-        let values = frame.shape.values(begin);
         let size = self.cycle.sizes.0.max(self.cycle.sizes.1);
         for by in BESIDE {
             for side in [1.0, -1.0] {
                 let value = self.value + side * by * scale;
                 let Some(beside) = family.at(value) else { continue };
                 let frame = MachineFrame::new(&beside);
+                let values = frame.shape.values(begin);
+                let periods = turns * self.cycle.label.periods;
+                let time = f64::from(turns) * frame.time(self.cycle.label.periods, self.cycle.period);
+                // one of twice the period is never the one that goes on
+                let onward = if turns == 1 { MachineCycle::lasting(&frame, begin, (periods, time)) } else { None };
                 for along in ALONG {
-                    let step = along * by.sqrt() * size;
-                    let moved: Vec<f64> = values.iter().zip(&direction).map(|(x, d)| x + step * d).collect();
-                    let guess = frame.shape.with_values(begin, &moved);
-                    if let Some(cycle) = MachineCycle::lasting(&frame, &guess, (2 * periods, 2.0 * time)) {
+                    let step = along * by.sqrt();
+                    let guess = values.iter().zip(direction).map(|(x, d)| x + sign * step * size * d);
+                    let guess = frame.shape.with_values(begin, &guess.collect::<Vec<_>>());
+                    let cycle = MachineCycle::lasting(&frame, &guess, (periods, time));
+                    let other = |cycle: &MachineCycle| {
+                        [onward.as_ref(), known].into_iter().flatten().all(|one| !cycle.same_as(one, MOVED * step))
+                    };
+                    if let Some(cycle) = cycle.filter(other) {
                         return Some((value, cycle));
                     }
                 }
@@ -49,13 +91,13 @@ impl MachinePoint {
     }
 }
 
-/// The direction that a matrix multiplies by -1, of length 1, by inverse iteration.
-fn towards(turn: &Matrix) -> Option<Vec<f64>> {
+/// The direction that a matrix multiplies by this eigenvalue, of length 1, by inverse iteration.
+fn carried(turn: &Matrix, multiplier: f64) -> Option<Vec<f64>> {
     let size = turn.rows();
     let mut shifted = turn.clone();
     for i in 0..size {
         // beside the eigenvalue, so that the matrix is not singular
-        shifted[(i, i)] += 1.0 + 1e-9;
+        shifted[(i, i)] -= multiplier * (1.0 + 1e-9);
     }
     let lu = Lu::new(shifted.values().to_vec(), size)?;
     let mut vector: Vec<f64> = (0..size).map(|i| if i % 2 == 0 { 1.0 } else { 0.7 }).collect();

@@ -1,0 +1,321 @@
+//! The bifurcation diagram of a machine along a line through one or two of its numbers: the branches of several labels over
+//! the orbit diagram from simulation.
+
+use super::bifurcation::{BifurcationEvent, FOLLOW, LOOKS, MOST_LABELS, NEAR, POINTS, SAMPLES, SEED, STARTS, distinct};
+use crate::branch_quantity::BranchQuantity;
+use crate::machine_answer::machine_title;
+use crate::table::{Table, bifurcation as bifurcation_table};
+use crate::{AnswerError, ReportError, figure};
+use std::collections::BTreeMap;
+use vibroimpact::Label;
+use vibroimpact::continuation::{Direction, MachineBranchEvent as E, MachinePoint};
+use vibroimpact::machine::Machine;
+use vibroimpact::orbit::{MachineCycle, find_machine_while};
+use vibroimpact::verdict::{
+    Census, CountedMotion, MachineVerdict, SettleOptions, scattered_machine_starts, settle_machine_while,
+};
+use vibroimpact_plot::Figure;
+use vibroimpact_study::machine::MachineSource;
+use vibroimpact_study::{
+    Control, MachineCut, MachineDiagram, MachineDiagramPlan, MachineLine, MachineOrigin, MachinePlan, MachineResults,
+    MachineTask, RunError, Span, run_machine, tiles,
+};
+
+/// Starts from which orbits of a given label are searched at each value.
+const ORBIT_STARTS: u64 = 16;
+/// A cycle lies on a branch if its speed and its period are between those of the points before and after it, up to this part
+/// of their size.
+const CLOSE: f64 = 1e-3;
+
+/// The bifurcation diagram of a machine along a line.
+#[derive(Clone, Debug)]
+pub struct MachineBifurcation {
+    /// The orbit diagram behind the branches.
+    pub behind: MachineDiagram,
+    /// The points of each branch, in order.
+    pub branches: Vec<Vec<MachinePoint>>,
+    name: String,
+    source: MachineSource,
+    machine: Machine,
+}
+
+impl MachineBifurcation {
+    /// The quantity of each cycle that is shown; `None` for the speeds of closings.
+    fn quantity(&self) -> Option<BranchQuantity<'_>> {
+        let plan = &self.behind.plan;
+        (!plan.shows_closings()).then(|| BranchQuantity::at_path(plan.show.clone(), &self.source, &plan.cut()))
+    }
+
+    /// Its figure: stable orbits are solid and unstable ones dashed.
+    #[must_use]
+    pub fn figure(&self) -> Figure {
+        let title = machine_title(&self.source, &self.name);
+        let shown = (self.quantity(), Some(&self.behind));
+        let branches = self.branches.iter().map(Vec::as_slice);
+        figure::branch::of_machine(branches, &self.behind.plan.cut(), (shown.0.as_ref(), shown.1), title)
+    }
+
+    /// Its table: the points from simulation, then those of the branches.
+    #[must_use]
+    pub fn table(&self) -> Table<'_> {
+        bifurcation_table::of_machine(&self.behind, &self.branches, &self.machine, self.quantity().as_ref())
+    }
+
+    /// The events on the branches, in the order of their values.
+    #[must_use]
+    pub fn events(&self) -> Vec<BifurcationEvent> {
+        let events = self.branches.iter().flatten().filter_map(|point| {
+            // where the search for a branch ends nothing happens to the motion
+            let ends = |event: &E| matches!(event, E::Closed | E::EndOfRange | E::StepLimit | E::NoConvergence);
+            let event = point.event.filter(|event| !ends(event))?;
+            Some(BifurcationEvent { label: point.cycle.label.to_string(), kind: event.name(), value: point.value })
+        });
+        let (from, to) = self.behind.plan.over.ends();
+        distinct(events, NEAR * (to - from).abs())
+    }
+}
+
+/// The branches of some labels over the orbit diagram of a plan, between the ends of its values. The plan also determines
+/// whether the speeds of closings or a quantity are shown. Without labels they are those of the motions on the line with most
+/// starts. Each cycle found at a grid of values is followed in both directions to the ends of the range, through its events. Of
+/// the branches that begin at flips and branch points, those that reach one of the labels are there too.
+///
+/// Orbits to which neither a value of the grid nor such an event leads are missed.
+///
+/// # Errors
+/// [`AnswerError`] for an invalid plan or label, for a coordinate at phase 0, which branches do not have, or when stopped.
+pub fn machine_bifurcation(
+    name: &str,
+    plan: &MachinePlan,
+    named: Option<&[String]>,
+    control: &Control<'_>,
+) -> Result<MachineBifurcation, AnswerError> {
+    plan.check()?;
+    let MachineTask::Diagram(diagram) = &plan.task else {
+        // the command asks for no other task
+        return Err(ReportError::NoLabels.into());
+    };
+    let (machine, _) = plan.described()?;
+    if diagram.shows_states() || (diagram.shows_closings() && machine.stops().is_empty()) {
+        let coordinate = machine.parts().coordinates.first().cloned().unwrap_or_default();
+        return Err(ReportError::NoBranchValue { show: diagram.show.clone(), coordinate }.into());
+    }
+    let (cut, given) = (diagram.cut(), named.map(|labels| parsed(plan, &machine, labels)).transpose()?);
+    let mut seeds = match &given {
+        Some(labels) => orbits(plan, &cut, labels, control)?,
+        None => motions(plan, &cut, diagram, control)?,
+    };
+    let labels: Vec<String> = match named {
+        Some(labels) => labels.to_vec(),
+        None => common(&seeds),
+    };
+    let known = |label: Label| labels.contains(&label.to_string());
+    seeds.iter_mut().for_each(|(_, cycles)| cycles.retain(|(cycle, _)| known(cycle.label)));
+    let MachineResults::Diagram(behind) = run_machine(plan, control)? else {
+        // the task of this plan has no other result
+        return Err(ReportError::NoLabels.into());
+    };
+    let line = MachineLine::new(&plan.machine, cut, POINTS);
+    let mut branches: Vec<Vec<MachinePoint>> = Vec::new();
+    let mut seen: Vec<MachineOrigin> = Vec::new();
+    for (value, cycle) in seeds.iter().flat_map(|(value, cycles)| cycles.iter().map(move |(cycle, _)| (*value, cycle)))
+    {
+        if branches.iter().any(|branch| passes(branch, cycle, value)) {
+            continue;
+        }
+        for direction in [Direction::Up, Direction::Down] {
+            let points = match line.trace((value, cycle), direction, control) {
+                Ok(points) => points,
+                Err(RunError::Stopped(stopped)) => return Err(stopped.into()),
+                // at the end of the range, or where the cycle ceases to exist, there is no branch in this direction
+                Err(RunError::Plan(_)) => continue,
+            };
+            let further = line.beginning_on(&points, FOLLOW as usize, &mut seen, control)?;
+            branches.push(points);
+            branches.extend(further.into_iter().map(|followed| followed.points));
+        }
+    }
+    branches.retain(|points| points.iter().any(|point| known(point.cycle.label)));
+    Ok(MachineBifurcation { behind, branches, name: name.to_owned(), source: plan.machine.clone(), machine })
+}
+
+/// Cycles at a value of the number, and for how many starts each stands.
+type Seeds = Vec<(f64, Vec<(MachineCycle, u64)>)>;
+
+/// The labels as they are written.
+fn parsed(plan: &MachinePlan, machine: &Machine, labels: &[String]) -> Result<Vec<Label>, AnswerError> {
+    let one = |text: &String| {
+        let task = MachineTask::Orbit { label: text.clone() };
+        MachinePlan { task, ..plan.clone() }.check()?;
+        let label = if machine.period().is_none() { Label::unforced(text) } else { text.parse().ok() };
+        label.ok_or_else(|| ReportError::NoLabels.into())
+    };
+    labels.iter().map(one).collect()
+}
+
+/// `count` values along a line, with what is found at each.
+fn along(
+    plan: &MachinePlan,
+    (cut, count): (&MachineCut, u32),
+    control: &Control<'_>,
+    find: impl Fn(&Machine) -> Vec<(MachineCycle, u64)> + Sync,
+) -> Result<Seeds, AnswerError> {
+    let (from, to) = cut.ends;
+    let over = Span::new(from, to, if from == to { 1 } else { count.max(2) })?;
+    let found = tiles(u64::from(over.count()), 1, control, |range, tick| {
+        let mut found = Vec::new();
+        for value in range.filter_map(|k| u32::try_from(k).ok()).map(|k| over.at(k)) {
+            // a value at which there is no machine has no cycles
+            let machine = cut.source(&plan.machine, value).and_then(|source| Ok(source.machine()?));
+            found.push((value, machine.map_or_else(|_| Vec::new(), |machine| find(&machine))));
+            if tick() {
+                break;
+            }
+        }
+        found
+    })?;
+    Ok(found.into_iter().flatten().collect())
+}
+
+/// The orbits with these labels along a line.
+fn orbits(plan: &MachinePlan, cut: &MachineCut, labels: &[Label], control: &Control<'_>) -> Result<Seeds, AnswerError> {
+    along(plan, (cut, LOOKS), control, |machine| {
+        let starts = || (0..ORBIT_STARTS).map(|k| scattered_machine_starts(machine, SEED, k));
+        let of = |label: &Label| find_machine_while(machine, *label, starts(), || !control.stopping());
+        labels.iter().flat_map(|label| of(label).unwrap_or_default()).map(|cycle| (cycle, 1)).collect()
+    })
+}
+
+/// The cycles into which a few starts settle along a line. Those without closings have no speeds to be shown.
+fn motions(
+    plan: &MachinePlan,
+    cut: &MachineCut,
+    diagram: &MachineDiagramPlan,
+    control: &Control<'_>,
+) -> Result<Seeds, AnswerError> {
+    let options = SettleOptions::default();
+    along(plan, (cut, SAMPLES), control, |machine| {
+        let mut census = Census::default();
+        for k in 0..STARTS {
+            let start = scattered_machine_starts(machine, SEED, k);
+            let settled = settle_machine_while(machine, &start, &options, || !control.stopping());
+            if let Some(settled) = settled.ok().flatten() {
+                census.add(&settled.verdict);
+            }
+        }
+        let cycle = |motion: &CountedMotion<MachineVerdict>| match &motion.verdict {
+            MachineVerdict::Periodic(cycle) => Some((cycle.clone(), motion.count)),
+            _ => None,
+        };
+        let shown = |(cycle, _): &(MachineCycle, u64)| !diagram.shows_closings() || cycle.fastest() > 0.0;
+        census.motions().iter().filter_map(cycle).filter(shown).collect()
+    })
+}
+
+/// The labels of the cycles of most starts.
+fn common(seeds: &Seeds) -> Vec<String> {
+    let mut counts: BTreeMap<String, u64> = BTreeMap::new();
+    for (cycle, count) in seeds.iter().flat_map(|(_, cycles)| cycles) {
+        *counts.entry(cycle.label.to_string()).or_default() += count;
+    }
+    let mut list: Vec<(String, u64)> = counts.into_iter().collect();
+    list.sort_by_key(|(_, count)| core::cmp::Reverse(*count));
+    list.into_iter().take(MOST_LABELS).map(|(label, _)| label).collect()
+}
+
+/// Whether a branch passes through a cycle at a value of the number.
+fn passes(branch: &[MachinePoint], cycle: &MachineCycle, value: f64) -> bool {
+    let between = |a: f64, b: f64, x: f64| {
+        let room = (a - b).abs() + CLOSE * x.abs();
+        x >= a.min(b) - room && x <= a.max(b) + room
+    };
+    branch.windows(2).any(|pair| {
+        let (a, b) = (&pair[0], &pair[1]);
+        a.cycle.label == cycle.label
+            && b.cycle.label == cycle.label
+            && a.value.min(b.value) <= value
+            && value <= a.value.max(b.value)
+            && between(a.cycle.fastest(), b.cycle.fastest(), cycle.fastest())
+            && between(a.cycle.period, b.cycle.period, cycle.period)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plan(name: &str, task: &str) -> MachinePlan {
+        MachinePlan::new(MachineSource::open(name).unwrap(), serde_json::from_str(task).unwrap())
+    }
+
+    /// The values of events of a kind and a label.
+    fn events(found: &MachineBifurcation, kind: &str, label: &str) -> Vec<f64> {
+        let all = found.events();
+        all.iter().filter(|event| event.kind == kind && event.label == label).map(|event| event.value).collect()
+    }
+
+    #[test]
+    fn the_branches_of_the_motions_on_a_line() {
+        let control = Control::default();
+        let over = r#"{"diagram":{"vary":"frequency","over":"0.95:1.2:26"}}"#;
+        let found = machine_bifurcation("hammer", &plan("two-mass-hammer", over), None, &control).unwrap();
+        // docs/machines.md: 1/1 ends at a grazing, and comes back from a fold as 2/1
+        for (kind, label, value) in [("fold", "2/1", 1.070_61), ("grazing", "2/1", 1.055)] {
+            let at = events(&found, kind, label);
+            assert!(at.len() == 1 && (at[0] - value).abs() < 1e-3, "{kind} {at:?}");
+        }
+        assert!(found.events().is_sorted_by(|a, b| a.value <= b.value));
+        let svg = found.figure().to_svg();
+        for word in [">1/1<", ">2/1<", ">stable<", ">unstable<", ">fold<", ">grazing<", ">simulation<"] {
+            assert!(svg.contains(word), "{word}");
+        }
+        let mut table = Vec::new();
+        found.table().write(&mut table).unwrap();
+        let table = String::from_utf8(table).unwrap();
+        assert!(table.starts_with("frequency,sweep,kind,stop,phase,speed,label,event\n"), "{}", &table[..80]);
+        let fold = table.lines().find(|row| row.ends_with(",2/1,fold")).unwrap();
+        let value: f64 = fold.split(',').next().unwrap().parse().unwrap();
+        assert!((value - events(&found, "fold", "2/1")[0]).abs() < 1e-12);
+        let widths: Vec<usize> = table.lines().map(|row| row.split(',').count()).collect();
+        assert!(widths.iter().all(|width| *width == 8), "{widths:?}");
+        // from 1/1 alone the branch is followed through the grazing as well
+        let named = |label: &str| {
+            machine_bifurcation("hammer", &plan("two-mass-hammer", over), Some(&[label.to_owned()]), &control)
+        };
+        let one = named("1/1").unwrap();
+        assert_eq!((events(&one, "grazing", "1/1").len(), events(&one, "fold", "2/1").len()), (1, 1));
+        assert!(named("7/1").unwrap().branches.is_empty());
+        let bad = named("1/0");
+        assert!(matches!(bad, Err(AnswerError::Plan(_))), "{bad:?}");
+    }
+
+    /// A quantity stands for each cycle, also without stops: where the mass ceases to be held its branch has an event.
+    #[test]
+    fn the_branches_of_a_quantity() {
+        let control = Control::default();
+        let task = r#"{"diagram":{"vary":"frequency","over":"0.45:0.6:16","show":"q.mass.displacement_max"}}"#;
+        let found = machine_bifurcation("den-hartog", &plan("den-hartog", task), None, &control).unwrap();
+        assert!(!events(&found, "holding ends", "0").is_empty(), "{:?}", found.events());
+        // the drawn values are those of simulation
+        let quantity = found.quantity().unwrap();
+        let mut compared = 0;
+        for (step, value) in found.behind.steps.iter().filter_map(|step| Some((step, step.points.first()?.value))) {
+            let at = found.behind.plan.over.at(step.index as usize);
+            let around = |pair: &&[MachinePoint]| {
+                let (a, b) = (pair[0].value, pair[1].value);
+                a.min(b) <= at && at <= a.max(b)
+            };
+            let Some(pair) = found.branches.iter().flat_map(|points| points.windows(2)).find(around) else { continue };
+            let (a, b) = (quantity.at(&pair[0]), quantity.at(&pair[1]));
+            assert!(value >= a.min(b) - 1e-3 && value <= a.max(b) + 1e-3, "{at}: {value} {a} {b}");
+            compared += 1;
+        }
+        assert!(compared > 20, "{compared}");
+        for show in ["speed", "q.mass"] {
+            let task = task.replace("q.mass.displacement_max", show);
+            let refused = machine_bifurcation("den-hartog", &plan("den-hartog", &task), None, &control);
+            let said = refused.unwrap_err().to_string();
+            assert!(said.contains(&format!("not `{show}`")) && said.contains("q.mass.displacement_max"), "{said}");
+        }
+    }
+}
