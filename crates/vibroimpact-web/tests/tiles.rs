@@ -152,7 +152,9 @@ async fn every_point_of_a_whole_tile_is_that_of_the_command_without_refinement()
         (r#","starts":16,"seed":1,"fields":["power"]"#, [60, 200], 0),
     ] {
         let (mut parts, mut filled) = (0, 0);
-        for window in windows([0.375, 2.025, 0.005, 5.0]) {
+        // two windows of different sizes, or with `VIBROIMPACT_LONG=1` all
+        let long = std::env::var("VIBROIMPACT_LONG").is_ok_and(|value| value == "1");
+        for window in windows([0.375, 2.025, 0.005, 5.0]).step_by(if long { 1 } else { 3 }) {
             let explorer = Explorer::new(PORT, 2);
             let text = |impacts: u32, refine: &str| {
                 plan_of("map", names, window, ([side, side], &format!("{more}{refine}")))

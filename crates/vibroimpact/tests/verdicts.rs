@@ -369,7 +369,7 @@ fn refuted(name: &str, count: u64, system: Family) -> (u64, u64, u64) {
 /// stand in README.md.
 #[test]
 fn f01_no_verdict_is_refuted_by_its_own_motion() {
-    let counts: [u64; 3] = if long() { [1040, 1200, 2760] } else { [100, 300, 100] };
+    let counts: [u64; 3] = if long() { [1040, 1200, 2760] } else { [60, 150, 60] };
     let families: [(&str, Family); 3] =
         [("preloaded", preloaded), ("undamped above |f|", above_the_free_amplitude), ("anything", anything)];
     for ((name, system), count) in families.into_iter().zip(counts) {

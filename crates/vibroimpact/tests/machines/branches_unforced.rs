@@ -64,11 +64,12 @@ fn stick_slip_in_closed_form() {
 /// points that were compared.
 fn compared(machine: &Machine, path: &str, points: &[MachinePoint]) -> (u32, u32) {
     let mut counts = (0, 0);
+    let step = if std::env::var("VIBROIMPACT_LONG").is_ok_and(|value| value == "1") { 5 } else { 15 };
     for (k, MachinePoint { value, cycle, event }) in points.iter().enumerate() {
         let apart = |other: &MachinePoint| other.event.is_none() || (other.value - value).abs() > 1e-4;
         let beside = &points[k.saturating_sub(4)..(k + 5).min(points.len())];
         let largest = cycle.multipliers[0].modulus();
-        if k % 5 > 0 || event.is_some() || !beside.iter().all(apart) || (0.97..1.03).contains(&largest) {
+        if k % step > 0 || event.is_some() || !beside.iter().all(apart) || (0.97..1.03).contains(&largest) {
             continue;
         }
         let there = machine.with(path, *value).unwrap();
@@ -87,7 +88,8 @@ fn compared(machine: &Machine, path: &str, points: &[MachinePoint]) -> (u32, u32
     counts
 }
 
-/// Points of branches with a stop, through changes of their events, against simulation.
+/// Points of branches with a stop, through changes of their events, against simulation: every fifteenth, or with
+/// `VIBROIMPACT_LONG=1` every fifth.
 #[test]
 fn simulation_agrees() {
     let (mut events, mut counts) = (BTreeMap::new(), (0, 0));
@@ -109,7 +111,7 @@ fn simulation_agrees() {
             }
         }
     }
-    assert!(counts.0 > 150 && counts.1 > 50, "{counts:?}");
+    assert!(counts.0 > 50 && counts.1 > 15, "{counts:?}");
     for name in ["fold", "flip", "torus", "grazing", "corner", "holding begins"] {
         assert!(events.contains_key(name), "{name} {events:?}");
     }

@@ -1,4 +1,4 @@
-//! Flights aimed at grazing: a tangency is planted, then missed by a chosen depth. An ordinary run asks four thousand;
+//! Flights aimed at grazing: a tangency is planted, then missed by a chosen depth. An ordinary run asks two thousand;
 //! `VIBROIMPACT_LONG=1` asks ten thousand, the same ones among them.
 //!
 //! From the stop the speed of departure is solved for, so that the highest point of a later arch comes back to the stop
@@ -21,7 +21,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use vibroimpact::Side;
 use vibroimpact::flight::SearchLimits;
 
-const AIMED: u64 = 4000;
+const AIMED: u64 = 2000;
 const AIMED_LONG: u64 = 10_000;
 const FINEST: u64 = 1000;
 
