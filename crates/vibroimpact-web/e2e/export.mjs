@@ -5,7 +5,7 @@ import { execFile } from "node:child_process";
 import { mkdtemp, readFile, readlink, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { promisify } from "node:util";
-import { drawn, pictures, until, verdict } from "./page.mjs";
+import { drawn, pictures, sharp, until, verdict } from "./page.mjs";
 
 async function saved(page, format) {
   const [download] = await Promise.all([page.waitForEvent("download"), page.locator(`#export [data-format=${format}]`).click()]);
@@ -119,6 +119,8 @@ export async function figures_of_quantities_and_machines_are_those_of_their_comm
       const { page } = await open(hash, { acceptDownloads: true, viewport: { width: 800, height: 600 } });
       await page.waitForSelector("#plane[data-picture]");
       if (hash.includes("colour")) await page.waitForSelector("#legend .bar-colours[data-range]");
+      // the range of the colours in the command is that of the tiles that are there, so it changes until all are
+      await sharp(page);
       await page.locator("#export-button").click();
       await page.locator("#export-points").selectOption(String(points));
       const text = page.locator("#export pre").first();
