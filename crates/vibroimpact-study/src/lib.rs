@@ -96,7 +96,7 @@ pub use machine_plan::{
     MachineDiagram, MachineDiagramPlan, MachineDiagramPoint, MachineDiagramStep, MachineEventCurve, MachineFollowed,
     MachineFollowedEvent, MachineLine, MachineMap, MachineMapPlan, MachineOrigin, MachinePlan, MachineResults,
     MachineSection, MachineShare, MachineSimulated, MachineStretch, MachineTarget, MachineTask, is_machine_plan,
-    run_machine,
+    machine_label, run_machine,
 };
 pub use map::{MapPlan, MapPoint, RegionMap, Share};
 pub use margins::{

@@ -181,6 +181,14 @@ fn given(labels: &[String]) -> Option<Vec<String>> {
     (!given.is_empty()).then_some(given)
 }
 
+/// A line for each event, with the column of what varies and its unit.
+fn listed(events: &[BifurcationEvent], (column, unit): (&str, f64)) -> String {
+    let row = |event: &BifurcationEvent| {
+        format!("{} of {} at {column} = {}\n", event.kind, event.label, short(event.value * unit))
+    };
+    events.iter().map(row).collect()
+}
+
 pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
     if let (Some(name), Some(labels)) = (&args.machine.machine, &args.branches) {
         return machine_with_branches(args, name, labels, session);
@@ -242,13 +250,8 @@ fn with_branches(
     if silent {
         return Ok(());
     }
-    let rows: Vec<String> = (found.events().iter())
-        .map(|event| {
-            let value = short(event.value * asked.units.of(task.vary));
-            format!("{} of {} at {} = {value}\n", event.kind, event.label, asked.units.column_of(task.vary))
-        })
-        .collect();
-    session.print(&rows.concat())?;
+    let axis = (asked.units.column_of(task.vary), asked.units.of(task.vary));
+    session.print(&listed(&found.events(), axis))?;
     Ok(())
 }
 
@@ -265,9 +268,6 @@ fn machine_with_branches(args: &Diagram, name: &str, labels: &[String], session:
     if silent {
         return Ok(());
     }
-    let row = |event: &BifurcationEvent| {
-        format!("{} of {} at {} = {}\n", event.kind, event.label, found.behind.plan.vary, short(event.value))
-    };
-    session.print(&found.events().iter().map(row).collect::<String>())?;
+    session.print(&listed(&found.events(), (&found.behind.plan.vary, 1.0)))?;
     Ok(())
 }

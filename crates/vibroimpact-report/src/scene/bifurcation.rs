@@ -222,9 +222,14 @@ pub fn labels(
             }
         }
     }
+    Ok(most_first(counts))
+}
+
+/// Labels with their numbers of starts: those of most starts first.
+pub(super) fn most_first(counts: BTreeMap<String, u64>) -> Vec<String> {
     let mut list: Vec<(String, u64)> = counts.into_iter().collect();
     list.sort_by_key(|(_, count)| core::cmp::Reverse(*count));
-    Ok(list.into_iter().map(|(label, _)| label).collect())
+    list.into_iter().map(|(label, _)| label).collect()
 }
 
 #[cfg(test)]

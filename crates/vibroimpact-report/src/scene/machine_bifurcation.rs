@@ -1,7 +1,9 @@
 //! The bifurcation diagram of a machine along a line through one or two of its numbers: the branches of several labels over
 //! the orbit diagram from simulation.
 
-use super::bifurcation::{BifurcationEvent, FOLLOW, LOOKS, MOST_LABELS, NEAR, POINTS, SAMPLES, SEED, STARTS, distinct};
+use super::bifurcation::{
+    BifurcationEvent, FOLLOW, LOOKS, MOST_LABELS, NEAR, POINTS, SAMPLES, SEED, STARTS, distinct, most_first,
+};
 use crate::branch_quantity::BranchQuantity;
 use crate::machine_answer::machine_title;
 use crate::table::{Table, bifurcation as bifurcation_table};
@@ -18,7 +20,7 @@ use vibroimpact_plot::Figure;
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{
     Control, MachineCut, MachineDiagram, MachineDiagramPlan, MachineLine, MachineOrigin, MachinePlan, MachineResults,
-    MachineTask, RunError, Span, run_machine, tiles,
+    MachineTask, RunError, Span, machine_label, run_machine, tiles,
 };
 
 /// Starts from which orbits of a given label are searched at each value.
@@ -50,9 +52,9 @@ impl MachineBifurcation {
     #[must_use]
     pub fn figure(&self) -> Figure {
         let title = machine_title(&self.source, &self.name);
-        let shown = (self.quantity(), Some(&self.behind));
         let branches = self.branches.iter().map(Vec::as_slice);
-        figure::branch::of_machine(branches, &self.behind.plan.cut(), (shown.0.as_ref(), shown.1), title)
+        let quantity = self.quantity();
+        figure::branch::of_machine(branches, &self.behind.plan.cut(), (quantity.as_ref(), Some(&self.behind)), title)
     }
 
     /// Its table: the points from simulation, then those of the branches.
@@ -100,7 +102,9 @@ pub fn machine_bifurcation(
         let coordinate = machine.parts().coordinates.first().cloned().unwrap_or_default();
         return Err(ReportError::NoBranchValue { show: diagram.show.clone(), coordinate }.into());
     }
-    let (cut, given) = (diagram.cut(), named.map(|labels| parsed(plan, &machine, labels)).transpose()?);
+    let parsed = |labels: &[String]| labels.iter().map(|text| machine_label(&machine, text)).collect();
+    let given: Option<Vec<Label>> = named.map(parsed).transpose()?;
+    let cut = diagram.cut();
     let mut seeds = match &given {
         Some(labels) => orbits(plan, &cut, labels, control)?,
         None => motions(plan, &cut, diagram, control)?,
@@ -141,17 +145,6 @@ pub fn machine_bifurcation(
 
 /// Cycles at a value of the number, and for how many starts each stands.
 type Seeds = Vec<(f64, Vec<(MachineCycle, u64)>)>;
-
-/// The labels as they are written.
-fn parsed(plan: &MachinePlan, machine: &Machine, labels: &[String]) -> Result<Vec<Label>, AnswerError> {
-    let one = |text: &String| {
-        let task = MachineTask::Orbit { label: text.clone() };
-        MachinePlan { task, ..plan.clone() }.check()?;
-        let label = if machine.period().is_none() { Label::unforced(text) } else { text.parse().ok() };
-        label.ok_or_else(|| ReportError::NoLabels.into())
-    };
-    labels.iter().map(one).collect()
-}
 
 /// `count` values along a line, with what is found at each.
 fn along(
@@ -218,9 +211,9 @@ fn common(seeds: &Seeds) -> Vec<String> {
     for (cycle, count) in seeds.iter().flat_map(|(_, cycles)| cycles) {
         *counts.entry(cycle.label.to_string()).or_default() += count;
     }
-    let mut list: Vec<(String, u64)> = counts.into_iter().collect();
-    list.sort_by_key(|(_, count)| core::cmp::Reverse(*count));
-    list.into_iter().take(MOST_LABELS).map(|(label, _)| label).collect()
+    let mut labels = most_first(counts);
+    labels.truncate(MOST_LABELS);
+    labels
 }
 
 /// Whether a branch passes through a cycle at a value of the number.

@@ -39,6 +39,7 @@ pub(crate) use diagram::step as diagram_step;
 pub use diagram::{MachineDiagram, MachineDiagramPlan, MachineDiagramPoint, MachineDiagramStep};
 pub use grid::{MachineBasin, MachineBasinPlan, MachineMap, MachineMapPlan, MachineShare};
 pub(crate) use grid::{StartAxis, check_memory, values_of};
+pub use orbits::label as machine_label;
 pub use plan::{MachinePlan, MachineTask};
 pub use run::{MachineResults, run_machine};
 pub use section::MachineSection;

@@ -20,8 +20,11 @@ pub(super) struct ChosenCycle {
     pub(super) among: Option<(u32, u32)>,
 }
 
-/// The label of a task: m/n with forcing, m/T without.
-pub(super) fn label(machine: &Machine, text: &str) -> Result<Label, PlanError> {
+/// The label of an orbit of a machine: m/n with forcing, m/T without.
+///
+/// # Errors
+/// [`PlanError`] for a text that is no such label.
+pub fn label(machine: &Machine, text: &str) -> Result<Label, PlanError> {
     let given = || text.chars().take(40).collect();
     match (machine.period().is_some(), Label::unforced(text)) {
         (false, label) => label.ok_or_else(|| PlanError::LabelUnforced(given())),

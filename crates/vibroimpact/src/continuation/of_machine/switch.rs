@@ -31,7 +31,7 @@ impl MachinePoint {
             Some(MachineBranchEvent::BranchPoint) => (1.0, &[1.0, -1.0]),
             _ => return Vec::new(),
         };
-        let carried = family.at(self.value).and_then(|machine| {
+        let direction = family.at(self.value).and_then(|machine| {
             let frame = MachineFrame::new(&machine);
             if multiplier > 0.0 && machine.period().is_none() {
                 return None;
@@ -39,10 +39,10 @@ impl MachinePoint {
             let time = frame.time(self.cycle.label.periods, self.cycle.period);
             let turn = MachineLap::fly(&frame, self.cycle.strobes.first()?, time)?.derivative?;
             // one period multiplies translations by +1 too
-            let turn = if multiplier > 0.0 { frame.within_shapes(&turn) } else { turn };
+            let turn = if multiplier > 0.0 { frame.within_shapes(turn) } else { turn };
             carried(&turn, multiplier)
         });
-        let Some(direction) = carried else { return Vec::new() };
+        let Some(direction) = direction else { return Vec::new() };
         let turns = if multiplier < 0.0 { 2 } else { 1 };
         let mut found: Vec<(f64, MachineCycle)> = Vec::new();
         for side in sides {

@@ -138,19 +138,13 @@ impl<'a> MachineFrame<'a> {
     }
 
     /// A derivative of states by states of which translations are no part, as many rows and columns as before.
-    pub(crate) fn within_shapes(&self, derivative: &Matrix) -> Matrix {
+    pub(crate) fn within_shapes(&self, derivative: Matrix) -> Matrix {
         let free = &self.normal.translations;
-        let size = self.shape.size();
-        let mut within = Matrix::zeros(size, size);
-        for j in 0..size {
-            let mut column = vec![0.0; size];
-            column[j] = 1.0;
-            free.remove(&mut column);
-            let mut column = derivative.apply(&column);
-            free.remove(&mut column);
-            (0..size).for_each(|i| within[(i, j)] = column[i]);
+        if free.is_empty() {
+            return derivative;
         }
-        within
+        let others = free.others(self.shape.size());
+        others.times(&self.without_translations(derivative).times(&others.transposed()))
     }
 
     /// Whether motions have no phase: then each is a motion again at any later time.
