@@ -5,10 +5,12 @@ use crate::error::Trouble;
 use crate::oscillator::Oscillator;
 use crate::points::column;
 use crate::simulate::{StartArgument, start_plan};
-use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 use vibroimpact::motion::{Level, Strobes, states_at};
-use vibroimpact_study::{Control, END_REASONS, EventColumns, PlanError, PointsPlan, StartPlan, SystemPlan};
+use vibroimpact_study::{
+    Control, END_REASONS, EventColumns, PlanError, PointsPlan, StartPlan, SystemPlan, real_numbers,
+};
 
 /// The columns that vary, and the numbers of all other parameters and coordinates of starts.
 type Over<'py> = Vec<(String, PyReadonlyArray1<'py, f64>)>;
@@ -68,10 +70,8 @@ pub(crate) struct ManyFields<'py> {
     width: usize,
     kind: Bound<'py, PyArray1<i8>>,
     side: Bound<'py, PyArray1<i8>>,
-    time: Bound<'py, PyArray1<f64>>,
-    phase: Bound<'py, PyArray1<f64>>,
-    velocity_before: Bound<'py, PyArray1<f64>>,
-    velocity_after: Bound<'py, PyArray1<f64>>,
+    /// Times, phases, and velocities before and after, one after another.
+    real: Bound<'py, PyArray1<f64>>,
     count: Bound<'py, PyArray1<i32>>,
     end: Bound<'py, PyArray1<i8>>,
     end_time: Bound<'py, PyArray1<f64>>,
@@ -97,20 +97,20 @@ pub(crate) fn simulate_points<'py>(
 ) -> Result<ManyFields<'py>, Trouble> {
     let Asked { points, system, start } = Asked::new(osc, &over, start)?;
     let watch = Watch { what: "following motions", total: points.count(), progress, threads };
-    let found = door::run(py, watch, move |control| {
-        Ok(vibroimpact_study::simulate_points(&points, (&system, &start), limits, control)?)
+    let real = PyArray1::zeros(py, real_numbers(&points, limits), false);
+    let mut borrowed = real.readwrite();
+    let memory = borrowed.as_slice_mut().map_err(|_| Trouble::Defect("borrowing new memory"))?;
+    let found = door::run_borrowing(py, watch, move |control| {
+        Ok(vibroimpact_study::simulate_points(&points, (&system, &start), limits, memory, control)?)
     })?;
-    let EventColumns { room, width, kind, side, time, phase, velocity_before, velocity_after, count, end, end_time } =
-        found;
+    drop(borrowed);
+    let EventColumns { room, width, kind, side, refitted, count, end, end_time } = found;
     Ok(ManyFields {
         room,
         width,
         kind: kind.into_pyarray(py),
         side: side.into_pyarray(py),
-        time: time.into_pyarray(py),
-        phase: phase.into_pyarray(py),
-        velocity_before: velocity_before.into_pyarray(py),
-        velocity_after: velocity_after.into_pyarray(py),
+        real: refitted.map_or(real, |refitted| refitted.into_pyarray(py)),
         count: count.into_pyarray(py),
         end: end.into_pyarray(py),
         end_time: end_time.into_pyarray(py),

@@ -48,6 +48,21 @@ def test_plans_of_machines_are_plans(tmp_path: Path) -> None:
     assert open(tmp_path / "m.zarr").attrs["plan_hash"] == plan.hash
 
 
+def test_exponents_of_machines(tmp_path: Path) -> None:
+    plan = Plan.lyapunov(HAMMER, {"frequency": "0.8:1.2:3", "qdot.head": [0, 1]}, q=[0.1, 0], impacts=500, tile=2)
+    run(plan, tmp_path / "l.zarr")
+    ds = open(tmp_path / "l.zarr").load()
+    assert ds["exponent"].dims == ("qdot.head", "frequency", "direction") and ds.sizes["direction"] == 4
+    alone = HAMMER.set({"frequency": 1.2}).lyapunov(q=[0.1, 0], qdot=[0, 1], impacts=500)
+    here = ds.isel({"frequency": 2, "qdot.head": 1})
+    assert here["exponent"].values.tolist() == [of.value for of in alone.exponents]
+    assert here["impacts_per_period"].item() == 1 and here.vibro.labels("grounds").item() == "exact"
+    with pytest.raises(QuestionError, match="x is no part of the start"):
+        Plan.lyapunov(HAMMER, {"frequency": "0.8:1.2:3"}, x=1)
+    with pytest.raises(QuestionError, match="q.tail"):
+        Plan.lyapunov(HAMMER, {"q.tail": "0:1:3"})
+
+
 def test_diagrams_of_machines(tmp_path: Path) -> None:
     ds = orbit_diagram(HAMMER, "frequency", "1:1.2:5", transient=100)
     assert ds["speed"].sel(sweep=1, frequency=1.0).dropna("point").size == 2

@@ -71,11 +71,15 @@ def test_listings_run_as_typed(root: Path, tmp_path: Path, monkeypatch: pytest.M
 
 
 TOOLS = [["mypy.stubtest", "vibroimpact._core"], ["mypy"], ["mypy", "--python-version", "3.10"]]
+#: Those of the long run only: what holds for the oldest Python hardly ever fails for a newer one.
+LONG = ["mypy"]
 
 
 @pytest.mark.parametrize("tool", TOOLS, ids=["stubs", "types", "oldest"])
 def test_types_are_true(root: Path, tool: list[str]) -> None:
     pytest.importorskip("mypy")
+    if tool == LONG and os.environ.get("VIBROIMPACT_LONG") != "1":
+        pytest.skip("as with the oldest Python; VIBROIMPACT_LONG=1 runs it")
     done = subprocess.run([sys.executable, "-m", *tool], cwd=root, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
 

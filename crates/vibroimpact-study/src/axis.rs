@@ -342,7 +342,7 @@ pub(crate) fn check(
     }
     for axis in axes {
         if !allowed(axis.vary) {
-            return Err(PlanError::WrongAxis { task, name: axis.vary.name(), known });
+            return Err(PlanError::WrongAxis { task, name: axis.vary.name().into(), known });
         }
         axis.over.check()?;
     }

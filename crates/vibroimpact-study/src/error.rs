@@ -3,6 +3,7 @@
 use crate::control::Stopped;
 use crate::counted;
 use crate::machine::MachineTextError;
+use std::borrow::Cow;
 use thiserror::Error;
 use vibroimpact::continuation::BranchError;
 use vibroimpact::verdict::LabelError;
@@ -281,7 +282,7 @@ pub enum PlanError {
         /// The name of the task.
         task: &'static str,
         /// The quantity that varies on the axis.
-        name: &'static str,
+        name: Cow<'static, str>,
         /// The quantities that may vary.
         known: &'static str,
     },
@@ -297,7 +298,7 @@ pub enum PlanError {
     NoStudy(&'static str),
     /// A task of a machine without a grid, which cannot be stored as a study.
     #[error(
-        "a plan of a machine that asks to {0} fills no grid, so there is nothing to store\nhint: tasks of machines for a store are map, basin and diagram"
+        "a plan of a machine that asks to {0} fills no grid, so there is nothing to store\nhint: tasks of machines for a store are map, basin, diagram, and lyapunov over axes"
     )]
     NoMachineStudy(&'static str),
     /// A diagram of a quantity, which has no store.

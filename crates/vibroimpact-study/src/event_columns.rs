@@ -6,7 +6,9 @@ use vibroimpact::motion::{Event, EventKind};
 /// The reasons for which lists of events end, in the order of their codes.
 pub const END_REASONS: [&str; 5] = ["impact_limit", "time_limit", "no_more_impacts", "stuck", "search_limit"];
 
-/// The events of many motions: a row for each motion, with room for `room` events.
+/// The events of many motions: a row for each motion, with room for `room` events. Their real numbers are in memory of the
+/// caller, because that of numpy comes in large pages: the first access to each small one takes a third of the time of the
+/// events on it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EventColumns {
     /// The number of cells of each row.
@@ -17,14 +19,8 @@ pub struct EventColumns {
     pub kind: Vec<i8>,
     /// 1 for the first stop, -1 for the second; 0 after the last event.
     pub side: Vec<i8>,
-    /// Time since the start; nan after the last event.
-    pub time: Vec<f64>,
-    /// Phase of the force.
-    pub phase: Vec<f64>,
-    /// The velocity towards the stop before an impact; nan for other events.
-    pub velocity_before: Vec<f64>,
-    /// The velocity towards the stop after an impact; nan for other events.
-    pub velocity_after: Vec<f64>,
+    /// The [real numbers](REAL_COLUMNS) instead of those of the caller, if the rows had too little room or far too much.
+    pub refitted: Option<Vec<f64>>,
     /// The number of events of each motion.
     pub count: Vec<i32>,
     /// Why the list of each motion ends: a place in [`END_REASONS`].
@@ -33,11 +29,15 @@ pub struct EventColumns {
     pub end_time: Vec<f64>,
 }
 
+/// The number of real columns, one after another: time since the start, phase of the force, and the velocity towards the stop
+/// before and after an impact, which are nan for other events. All are nan after the last event.
+pub const REAL_COLUMNS: usize = 4;
+
 /// Some rows, which one thread fills. Events for which the rows have no room are kept aside, each with its row.
 pub(crate) struct Rows<'a> {
     room: usize,
     small: [&'a mut [i8]; 2],
-    real: [&'a mut [f64]; 4],
+    real: [&'a mut [f64]; REAL_COLUMNS],
     count: &'a mut [i32],
     end: &'a mut [i8],
     end_time: &'a mut [f64],
@@ -49,7 +49,7 @@ pub(crate) struct Rows<'a> {
 }
 
 /// An event as it is written: kind and stop; time, phase and velocities.
-pub(crate) type Numbers = ([i8; 2], [f64; 4]);
+pub(crate) type Numbers = ([i8; 2], [f64; REAL_COLUMNS]);
 
 /// The number of events that are written at once: as many numbers as a line of the cache has.
 const AT_ONCE: usize = 8;
@@ -65,7 +65,7 @@ struct Last {
 /// The numbers of the last events of a motion, which are not yet written.
 #[derive(Clone, Copy, Default)]
 #[repr(align(64))]
-struct Kept([[f64; 4]; AT_ONCE]);
+struct Kept([[f64; REAL_COLUMNS]; AT_ONCE]);
 
 /// The numbers of an event.
 #[inline]
@@ -84,7 +84,7 @@ fn numbers(event: &Event) -> Numbers {
 }
 
 /// What is written after the last event of a motion.
-const NOTHING: Numbers = ([-1, 0], [f64::NAN; 4]);
+const NOTHING: Numbers = ([-1, 0], [f64::NAN; REAL_COLUMNS]);
 
 impl Rows<'_> {
     /// Makes the rows ready for events.
@@ -147,28 +147,28 @@ impl EventColumns {
     /// Columns with this number of rows, with room for `room` events each, which is at least 1. They must be
     /// [filled](Rows::filled).
     pub(crate) fn open(rows: usize, room: usize) -> Self {
-        let (small, real) = (|| vec![0; rows * room], || vec![0.0; rows * room]);
         Self {
             room,
             width: 0,
-            kind: small(),
-            side: small(),
-            time: real(),
-            phase: real(),
-            velocity_before: real(),
-            velocity_after: real(),
+            kind: vec![0; rows * room],
+            side: vec![0; rows * room],
+            refitted: None,
             count: vec![0; rows],
             end: vec![0; rows],
             end_time: vec![0.0; rows],
         }
     }
 
-    /// The rows in parts of `part` rows each.
-    pub(crate) fn parts(&mut self, part: usize) -> Vec<Rows<'_>> {
+    /// The rows in parts of `part` rows each, with the real columns, which are all of the same length.
+    pub(crate) fn parts<'a>(&'a mut self, real: &'a mut [f64], part: usize) -> Vec<Rows<'a>> {
         let (room, cells) = (self.room, part * self.room);
+        let (times, velocities) = real.split_at_mut(2 * self.kind.len());
+        let pairs = |of: &'a mut [f64]| {
+            let (one, other) = of.split_at_mut(of.len() / 2);
+            one.chunks_mut(cells).zip(other.chunks_mut(cells))
+        };
         let small = self.kind.chunks_mut(cells).zip(self.side.chunks_mut(cells));
-        let times = self.time.chunks_mut(cells).zip(self.phase.chunks_mut(cells));
-        let velocities = self.velocity_before.chunks_mut(cells).zip(self.velocity_after.chunks_mut(cells));
+        let (times, velocities) = (pairs(times), pairs(velocities));
         let ends = self.count.chunks_mut(part).zip(self.end.chunks_mut(part)).zip(self.end_time.chunks_mut(part));
         let all = small.zip(times.zip(velocities)).zip(ends);
         all.map(|(((kind, side), ((time, phase), (before, after))), ((count, end), end_time))| Rows {
@@ -187,46 +187,37 @@ impl EventColumns {
 
     /// The columns with room for the events of the longest row. `aside` are the events that the rows had no room for, in
     /// their order.
-    pub(crate) fn fitted(mut self, aside: impl Iterator<Item = (usize, Numbers)>) -> Self {
+    pub(crate) fn fitted(mut self, real: &[f64], aside: impl Iterator<Item = (usize, Numbers)>) -> Self {
         self.width = self.count.iter().max().map_or(0, |count| usize::try_from(*count).unwrap_or(0));
         let (old, new, rows) = (self.room, self.width, self.count.len());
         // a copy of all events takes longer than a few empty cells are worth
         if (old - old / 4..=old).contains(&new) {
             return self;
         }
-        for (column, nothing) in [&mut self.kind, &mut self.side].into_iter().zip(NOTHING.0) {
-            refit(column, rows, (old, new), nothing);
-        }
-        let real = [&mut self.time, &mut self.phase, &mut self.velocity_before, &mut self.velocity_after];
-        for (column, nothing) in real.into_iter().zip(NOTHING.1) {
-            refit(column, rows, (old, new), nothing);
-        }
+        let small = [&mut self.kind, &mut self.side];
+        small.into_iter().zip(NOTHING.0).for_each(|(column, nothing)| *column = refit(column, (old, new), nothing));
+        let mut refitted: Vec<f64> = Vec::with_capacity(REAL_COLUMNS * rows * new);
+        let columns = real.chunks((rows * old).max(1)).zip(NOTHING.1);
+        columns.for_each(|(column, nothing)| refitted.extend(refit(column, (old, new), nothing)));
         self.room = new;
         let mut next = vec![old; rows];
-        for (row, event) in aside {
-            let (at, ([kind, side], [time, phase, before, after])) = (row * new + next[row], event);
+        for (row, ([kind, side], numbers)) in aside {
+            let at = row * new + next[row];
             next[row] += 1;
-            (self.kind[at], self.side[at], self.time[at], self.phase[at]) = (kind, side, time, phase);
-            (self.velocity_before[at], self.velocity_after[at]) = (before, after);
+            (self.kind[at], self.side[at]) = (kind, side);
+            numbers.into_iter().enumerate().for_each(|(k, number)| refitted[k * rows * new + at] = number);
         }
+        self.refitted = Some(refitted);
         self
     }
 }
 
 /// Rows with room for so many cells as rows with other room.
-fn refit<T: Copy>(column: &mut Vec<T>, rows: usize, (old, new): (usize, usize), nothing: T) {
-    if new < old {
-        for row in 0..rows {
-            column.copy_within(row * old..row * old + new, row * new);
-        }
-        column.truncate(rows * new);
-        column.shrink_to_fit();
-        return;
-    }
-    let mut wider = Vec::with_capacity(rows * new);
+fn refit<T: Copy>(column: &[T], (old, new): (usize, usize), nothing: T) -> Vec<T> {
+    let mut fitted = Vec::with_capacity(column.len() / old * new);
     for (row, values) in column.chunks(old).enumerate() {
-        wider.extend_from_slice(values);
-        wider.resize((row + 1) * new, nothing);
+        fitted.extend_from_slice(&values[..old.min(new)]);
+        fitted.resize((row + 1) * new, nothing);
     }
-    *column = wider;
+    fitted
 }

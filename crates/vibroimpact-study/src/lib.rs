@@ -85,7 +85,7 @@ pub use curve::{CurvePlan, EventCurve, FollowedEvent};
 pub use cut::{Cut, Target};
 pub use diagram::{Diagram, DiagramPlan};
 pub use error::{PlanError, RunError};
-pub use event_columns::{END_REASONS, EventColumns};
+pub use event_columns::{END_REASONS, EventColumns, REAL_COLUMNS};
 pub use event_record::EventRecord;
 pub use field::{Column, Extra, Field, NumberType};
 pub use grid::{Block, Dimension, Grid, number, place};
@@ -94,9 +94,9 @@ pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
 pub use machine_plan::{
     MachineAxis, MachineBasin, MachineBasinPlan, MachineBranchPlan, MachineBranched, MachineCurvePlan, MachineCut,
     MachineDiagram, MachineDiagramPlan, MachineDiagramPoint, MachineDiagramStep, MachineEventCurve, MachineFollowed,
-    MachineFollowedEvent, MachineLine, MachineMap, MachineMapPlan, MachineOrigin, MachinePlan, MachineResults,
-    MachineSection, MachineShare, MachineSimulated, MachineStretch, MachineTarget, MachineTask, is_machine_plan,
-    machine_label, run_machine,
+    MachineFollowedEvent, MachineLine, MachineLyapunovPlan, MachineMap, MachineMapPlan, MachineOrigin, MachinePlan,
+    MachineResults, MachineSection, MachineShare, MachineSimulated, MachineStretch, MachineTarget, MachineTask,
+    is_machine_plan, machine_label, run_machine,
 };
 pub use map::{MapPlan, MapPoint, RegionMap, Share};
 pub use margins::{
@@ -112,7 +112,7 @@ pub use region::{DEFAULT_GRID, RegionPlan, Regions, stability_regions};
 pub use response::{ResponseBranch, ResponseCurves, ResponsePlan, ResponsePoint, SweptMotion};
 pub use run::{Results, run};
 pub use simulate::{Simulated, simulate};
-pub use simulate_many::simulate_points;
+pub use simulate_many::{real_numbers, simulate_points};
 pub use span::Span;
 pub use stretch::Stretch;
 pub use study::{Study, StudyPlan};

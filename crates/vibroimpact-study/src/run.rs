@@ -108,7 +108,7 @@ pub fn run(plan: &Plan, control: &Control<'_>) -> Result<Results, RunError> {
         Task::Lyapunov(task) => {
             if let Some(axis) = task.axes.first() {
                 let (task, known) = ("measurement of one motion", "none: over axes it is a study");
-                return Err(PlanError::WrongAxis { task, name: axis.vary.name(), known }.into());
+                return Err(PlanError::WrongAxis { task, name: axis.vary.name().into(), known }.into());
             }
             let start = task.start.start(&osc)?;
             let section = match task.points {

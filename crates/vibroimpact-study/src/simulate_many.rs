@@ -1,6 +1,6 @@
 //! The events of the motions at many points, by several threads.
 
-use crate::event_columns::Rows;
+use crate::event_columns::{REAL_COLUMNS, Rows};
 use crate::simulate::{Bounds, SoFar};
 use crate::{Control, EventColumns, PlanError, PointsPlan, RunError, StartPlan, SystemPlan, tiles};
 use std::sync::Mutex;
@@ -16,24 +16,41 @@ const MOST_CELLS: usize = 1 << 25;
 /// The number of events for which there is room if only the time is limited.
 const ROOM: u64 = 64;
 
+/// The number of real numbers for which [`simulate_points`] needs memory.
+#[must_use]
+pub fn real_numbers(points: &PointsPlan, limits: (Option<u64>, Option<f64>)) -> usize {
+    let rows = rows(points);
+    REAL_COLUMNS * rows * room(rows, limits)
+}
+
+fn rows(points: &PointsPlan) -> usize {
+    usize::try_from(points.count()).unwrap_or(usize::MAX)
+}
+
 /// Follows the motion at each point event by event, up to the given number of impacts and of forcing periods, as
-/// [`simulate`](crate::simulate()) does. The motions of one system are followed side by side.
+/// [`simulate`](crate::simulate()) does. The motions of one system are followed side by side. The [real numbers](REAL_COLUMNS) of the
+/// events are written to `real`, which has room for [so many](real_numbers), unless the columns are refitted.
 ///
 /// # Errors
 /// [`RunError`] for the first invalid point, or when stopped.
+///
+/// # Panics
+/// If `real` has another length.
 pub fn simulate_points(
     points: &PointsPlan,
     (system, start): (&SystemPlan, &StartPlan),
     limits: (Option<u64>, Option<f64>),
+    real: &mut [f64],
     control: &Control<'_>,
 ) -> Result<EventColumns, RunError> {
+    assert_eq!(real.len(), real_numbers(points, limits), "real numbers");
     points.check(system, start, |there, start| start.start(&there.oscillator()?).map(|_| ()))?;
     let one = if points.one_system() { Some(system.oscillator()?) } else { None };
     let tile = TILES[usize::from(one.is_none())];
-    let total = usize::try_from(points.count()).unwrap_or(usize::MAX);
+    let total = rows(points);
     let mut columns = EventColumns::open(total, room(total, limits));
     let parts: Vec<Mutex<Option<Rows<'_>>>> =
-        columns.parts(tile).into_iter().map(|rows| Mutex::new(Some(rows))).collect();
+        columns.parts(real, tile).into_iter().map(|rows| Mutex::new(Some(rows))).collect();
     let aside = tiles(total as u64, tile as u64, control, |range, tick| {
         let [first, last] = [range.start, range.end].map(|k| usize::try_from(k).unwrap_or(usize::MAX));
         let rows = parts[first / tile].lock().ok().and_then(|mut rows| rows.take());
@@ -56,7 +73,7 @@ pub fn simulate_points(
     })?;
     drop(parts);
     let aside = aside.into_iter().collect::<Result<Vec<Vec<_>>, PlanError>>()?;
-    Ok(columns.fitted(aside.into_iter().flatten()))
+    Ok(columns.fitted(real, aside.into_iter().flatten()))
 }
 
 /// The number of events for which each row has room at first: most motions have one for each impact, and a few others.
@@ -137,10 +154,11 @@ mod tests {
         PointsPlan::Listed(columns.iter().map(column).collect())
     }
 
-    /// The columns from the events of each motion alone.
-    fn expected(all: &[Simulated]) -> EventColumns {
+    /// The columns from the events of each motion alone, and their real numbers.
+    fn expected(all: &[Simulated]) -> (EventColumns, Vec<f64>) {
         let width = all.iter().map(|one| one.events.len()).max().unwrap();
         let mut columns = EventColumns { room: width, width, ..EventColumns::default() };
+        let mut real = [(); REAL_COLUMNS].map(|()| Vec::new());
         for one in all {
             for k in 0..width {
                 let event = one.events.get(k);
@@ -152,29 +170,29 @@ mod tests {
                     EventKind::Release => 3,
                 }));
                 columns.side.push(event.map_or(0, |event| if event.side == Side::Upper { 1 } else { -1 }));
-                columns.time.push(event.map_or(f64::NAN, |event| event.time));
-                columns.phase.push(event.map_or(f64::NAN, |event| event.phase));
+                real[0].push(event.map_or(f64::NAN, |event| event.time));
+                real[1].push(event.map_or(f64::NAN, |event| event.phase));
                 let (before, after) = match kind {
                     Some(EventKind::Impact { velocity_before, velocity_after }) => (velocity_before, velocity_after),
                     _ => (f64::NAN, f64::NAN),
                 };
-                columns.velocity_before.push(before);
-                columns.velocity_after.push(after);
+                real[2].push(before);
+                real[3].push(after);
             }
             columns.count.push(i32::try_from(one.events.len()).unwrap());
             columns.end.push(END_REASONS.iter().position(|reason| *reason == one.reason).unwrap().try_into().unwrap());
             columns.end_time.push(one.time);
         }
-        columns
+        (columns, real.concat())
     }
 
     /// All numbers as bits, so that nan equals nan, without the cells that hold no events in any row.
-    fn bits(of: &EventColumns) -> (usize, Vec<i8>, Vec<i32>, Vec<u64>) {
+    fn bits((of, real): &(EventColumns, Vec<f64>)) -> (usize, Vec<i8>, Vec<i32>, Vec<u64>) {
         fn used<T: Copy>(column: &[T], of: &EventColumns) -> Vec<T> {
             column.chunks(of.room.max(1)).flat_map(|row| row[..of.width].to_vec()).collect()
         }
-        let real = [&of.time, &of.phase, &of.velocity_before, &of.velocity_after].map(|column| used(column, of));
-        let real = real.iter().flatten().chain(&of.end_time).map(|value| value.to_bits()).collect();
+        let real = used(of.refitted.as_ref().unwrap_or(real), of);
+        let real = real.iter().chain(&of.end_time).map(|value| value.to_bits()).collect();
         (of.width, [used(&of.kind, of), used(&of.side, of), of.end.clone()].concat(), of.count.clone(), real)
     }
 
@@ -211,7 +229,9 @@ mod tests {
                 let expected = expected(&alone);
                 for threads in [1, 2] {
                     let control = Control { threads, ..Control::default() };
-                    let got = simulate_points(&points, (&system, &start), limits, &control).unwrap();
+                    let mut real = vec![0.0; real_numbers(&points, limits)];
+                    let got = simulate_points(&points, (&system, &start), limits, &mut real, &control).unwrap();
+                    let got = (got, real);
                     assert!(bits(&got) == bits(&expected), "{system:?} {limits:?}");
                 }
             }
@@ -228,10 +248,14 @@ mod tests {
         };
         let control = Control { stop: &stop, progress: &tell, threads: 1 };
         let start = StartPlan::default();
-        let stopped = simulate_points(&points, (&system, &start), (Some(1000), None), &control);
+        let ask = |limits| {
+            let mut real = vec![0.0; real_numbers(&points, limits)];
+            simulate_points(&points, (&system, &start), limits, &mut real, &control)
+        };
+        let stopped = ask((Some(1000), None));
         assert!(matches!(stopped, Err(RunError::Stopped(of)) if of.done < 40), "{stopped:?}");
         stop.store(true, Ordering::Relaxed);
-        let stopped = simulate_points(&points, (&system, &start), (Some(10_000_000), None), &control);
+        let stopped = ask((Some(10_000_000), None));
         assert!(matches!(stopped, Err(RunError::Stopped(of)) if of.done == 0), "{stopped:?}");
     }
 }

@@ -92,6 +92,8 @@ export async function axe_finds_no_serious_fault({ open }) {
     await drawn(page);
     await figures(page);
     await faults(page, colorScheme);
+    // the dialogs have the colours of the page
+    if (colorScheme === "dark") continue;
     for (const [key, dialog] of [["?", "#keys"], ["e", "#export"], ["s", "#symbols"]]) {
       await page.keyboard.press(key);
       await page.locator(dialog).waitFor();

@@ -209,7 +209,7 @@ export async function tiles_have_hardly_more_points_than_pixels({ open }) {
 }
 
 export async function what_was_seen_is_not_asked_again({ open }) {
-  const { page } = await open("#view=1.05,1.15,2.2,2.5&impacts=200", { viewport: { width: 800, height: 600 } });
+  const { page } = await open("#view=1.05,1.15,2.2,2.5&impacts=200", { viewport: { width: 480, height: 400 } });
   // a tile that is sharp may still be asked for, to compute its filled points
   await complete(page);
   const asked = [];

@@ -8,7 +8,7 @@ const PID = process.env.VIBRO_PID;
 /** Clock ticks of /proc in a second, on Linux. */
 const TICKS = 100;
 /** Seconds of zooming and clicking; more in the long run. */
-const SECONDS = process.env.VIBROIMPACT_LONG === "1" ? 60 : 10;
+const SECONDS = process.env.VIBROIMPACT_LONG === "1" ? 60 : 6;
 
 /** Processor time that the server has used, in seconds. */
 async function used() {

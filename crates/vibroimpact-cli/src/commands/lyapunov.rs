@@ -9,7 +9,7 @@ use clap::Args;
 use std::path::PathBuf;
 use vibroimpact::chaos::{DEFAULT_IMPACTS, DEFAULT_TRANSIENT};
 use vibroimpact_report::Shown;
-use vibroimpact_study::{DEFAULT_POINTS, LyapunovPlan, MachineTask, Plan, Task};
+use vibroimpact_study::{DEFAULT_POINTS, LyapunovPlan, MachineLyapunovPlan, MachineTask, Plan, Task};
 
 /// The Lyapunov exponents of the motion from a start, with error bars, and the dimension of its attractor
 ///
@@ -80,7 +80,8 @@ pub(super) fn run(args: &Lyapunov, session: &Session) -> Result<(), Failure> {
     let points = shown.then(|| args.points.unwrap_or(DEFAULT_POINTS));
     let task = || {
         let count = |given: Option<u64>| given.map(|given| u32::try_from(given).unwrap_or(u32::MAX));
-        Ok(MachineTask::Lyapunov { impacts: count(args.impacts), transient: count(args.transient), points })
+        let (impacts, transient) = (count(args.impacts), count(args.transient));
+        Ok(MachineTask::Lyapunov(MachineLyapunovPlan { axes: Vec::new(), impacts, transient, points }))
     };
     if let Some(answer) = of_machine::asked(&args.machine, start, task, files, (None, of_machine::usual), session) {
         return answer;

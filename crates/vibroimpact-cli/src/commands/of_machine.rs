@@ -71,16 +71,16 @@ pub(super) fn run(
     let none = |what: &str| Failure::bad(format!("of a machine this command has no {what} yet"));
     // before the computation
     drawable(plan, &outputs)?;
-    match &plan.task {
-        MachineTask::Attractors { .. } | MachineTask::Orbit { .. } | MachineTask::Lyapunov { points: None, .. }
-            if outputs.drawn() =>
-        {
-            return Err(none("figure"));
-        }
-        MachineTask::Orbit { .. } | MachineTask::Lyapunov { points: None, .. } if outputs.tabled() => {
-            return Err(none("table"));
-        }
-        _ => {}
+    let bare = match &plan.task {
+        MachineTask::Orbit { .. } => true,
+        MachineTask::Lyapunov(lyapunov) => lyapunov.points.is_none(),
+        _ => false,
+    };
+    if outputs.drawn() && (bare || matches!(plan.task, MachineTask::Attractors { .. })) {
+        return Err(none("figure"));
+    }
+    if outputs.tabled() && bare {
+        return Err(none("table"));
     }
     let work = plan.work();
     let answer = session.watched(work, |control| machine_answer(name, plan, control));

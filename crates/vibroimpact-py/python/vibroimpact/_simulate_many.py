@@ -154,14 +154,15 @@ def _events(points: Over, found: dict[str, Any]) -> "xr.Dataset":
     from vibroimpact import _many
 
     event = ("event", found["room"])
+    time, phase, before, after = found["real"].reshape(4, -1)
     ends = {name: code for code, name in enumerate(_core.end_reasons())}
     variables = {
-        "time": _variable(points, found["time"], event, "time of the event", _TIME),
+        "time": _variable(points, time, event, "time of the event", _TIME),
         "kind": _variable(points, found["kind"], event, "kind of the event", "", **_flags(_KINDS)),
-        "event_phase": _variable(points, found["phase"], event, "phase of the force at the event", "", "rad"),
+        "event_phase": _variable(points, phase, event, "phase of the force at the event", "", "rad"),
         "side": _variable(points, found["side"], event, "1 for the first stop, -1 for the second", ""),
-        "velocity_before": _variable(points, found["velocity_before"], event, "velocity before the impact", _VELOCITY),
-        "velocity_after": _variable(points, found["velocity_after"], event, "velocity after the impact", _VELOCITY),
+        "velocity_before": _variable(points, before, event, "velocity before the impact", _VELOCITY),
+        "velocity_after": _variable(points, after, event, "velocity after the impact", _VELOCITY),
         "count": _variable(points, found["count"], None, "number of events", ""),
         "end": _variable(points, found["end"], None, "why the list ends", "", **_flags(ends)),
         "end_time": _variable(points, found["end_time"], None, "time at which the list ends", _TIME),

@@ -13,8 +13,8 @@ use vibroimpact_study::study::{
     NOT_COMPUTED, REFUSED, StudyArrays, StudyPlan, diagram_of, label_of, machine_diagram_of,
 };
 use vibroimpact_study::{
-    BasinPlan, Column, Control, LyapunovPlan, MachineBasinPlan, MachineMapPlan, MachinePlan, MachineTask, MapPlan,
-    Plan, Task,
+    BasinPlan, Column, Control, LyapunovPlan, MachineBasinPlan, MachineLyapunovPlan, MachineMapPlan, MachinePlan,
+    MachineTask, MapPlan, Plan, Task, Values,
 };
 
 /// Draws the figure of a study; that of a map or basin in the colours of a quantity, if one is given, and that of a map
@@ -76,7 +76,14 @@ fn of_task<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
         Task::Basin(plan) => {
             of_basin(store, &Sides::of(&plan.axes, &asked.units)?, title_without(asked, &varied(&plan.axes)))
         }
-        Task::Lyapunov(plan) => of_exponents(store, plan, asked),
+        Task::Lyapunov(LyapunovPlan { axes, .. }) => {
+            let axis = if let [axis] = axes.as_slice() {
+                Some((PlaneAxis::of(axis, &Units::default())?, &axis.over))
+            } else {
+                None
+            };
+            of_exponents(store, axis, title_without(asked, &varied(axes)))
+        }
         Task::Diagram(plan) => Ok(diagram::figure(&diagram_of(plan, &columns::<A, E>(store)?), asked)?),
         _ => Err(ReportError::Scattered.into()),
     }
@@ -113,6 +120,11 @@ fn of_machine<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
         MachineTask::Basin(basin) => of_basin(store, &Sides::of_machine(&basin.axes)?, title),
         MachineTask::Diagram(diagram) => {
             Ok(diagram::of_machine(&machine_diagram_of(diagram, &columns::<A, E>(store)?), title)?)
+        }
+        MachineTask::Lyapunov(MachineLyapunovPlan { axes, .. }) => {
+            let axis =
+                if let [axis] = axes.as_slice() { Some((PlaneAxis::of_machine(axis)?, &axis.over)) } else { None };
+            of_exponents(store, axis, title)
         }
         _ => Err(ReportError::Scattered.into()),
     }
@@ -223,27 +235,23 @@ fn of_basin<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     Ok(basin::draw(sides, &list.into_iter().map(motion).collect::<Vec<_>>(), cells, title)?)
 }
 
-/// Both exponents over one axis, with the line of zero.
+/// All exponents over one axis, with the line of zero; `None` for an axis that is one of several.
 fn of_exponents<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     store: &A,
-    plan: &LyapunovPlan,
-    asked: &Asked,
+    axis: Option<(PlaneAxis, &Values)>,
+    title: String,
 ) -> Result<Figure, E> {
-    let ([axis], Some(field)) = (plan.axes.as_slice(), store.field_number("exponent")) else {
+    let (Some((side, values)), Some(field)) = (axis, store.field_number("exponent")) else {
         return Err(ReportError::Exponents.into());
     };
-    let column = store.array(field)?;
-    let side = PlaneAxis::of(axis, &Units::default())?;
-    let values = axis.over.all();
-    let of = |which: usize, colour: Colour| {
-        let points = values.iter().zip(column.real().chunks(2)).map(|(x, both)| (*x, both[which]));
-        let (xs, ys): (Vec<f64>, Vec<f64>) = points.filter(|(_, y)| y.is_finite()).unzip();
-        Line::new(xs, ys, colour)
-    };
+    let (column, directions) = (store.array(field)?, store.study().fields()[field].width());
+    let values = values.all();
     let zero = Line::new(vec![values[0], values[values.len() - 1]], vec![0.0, 0.0], Colour::hex(0x80_8080));
-    let panel = Panel::new(side.axis(), FigureAxis::new("Lyapunov exponents per unit time"))
-        .with(zero)
-        .with(of(0, SERIES[0]))
-        .with(of(1, SERIES[1]));
-    Ok(Figure::new(panel).title(title_without(asked, &varied(&plan.axes))))
+    let mut panel = Panel::new(side.axis(), FigureAxis::new("Lyapunov exponents per unit time")).with(zero);
+    for which in 0..directions {
+        let points = values.iter().zip(column.real().chunks(directions)).map(|(x, all)| (*x, all[which]));
+        let (xs, ys): (Vec<f64>, Vec<f64>) = points.filter(|(_, y)| y.is_finite()).unzip();
+        panel = panel.with(Line::new(xs, ys, SERIES[which % SERIES.len()]));
+    }
+    Ok(Figure::new(panel).title(title))
 }

@@ -23,11 +23,11 @@ fn in_tiles(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>, tile: 
     plan.check(system)?;
     let (osc, total) = (&system.oscillator()?, plan.starts());
     if let Some(axis) = plan.axes.iter().find(|axis| !axis.vary.is_start()) {
-        let (task, name) = ("basin of one system", axis.vary.name());
+        let (task, name) = ("basin of one system", axis.vary.name().into());
         return Err(PlanError::WrongAxis { task, name, known: "x, v and phase" }.into());
     }
     if plan.points.is_some() {
-        let (task, name) = ("basin of one system", "point");
+        let (task, name) = ("basin of one system", "point".into());
         return Err(PlanError::WrongAxis { task, name, known: "x, v and phase" }.into());
     }
     if total > MOST_CELLS {

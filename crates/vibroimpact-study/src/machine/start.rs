@@ -6,6 +6,7 @@ use super::number::NumberText;
 use super::shapes::VectorText;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use vibroimpact::events::MachineStart;
 
 /// The table `[start]`: coordinates, velocities and phase of the forcing at time 0, each 0 when absent.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -88,6 +89,12 @@ impl StartText {
 
 fn wrong(path: &str, what: String) -> MachineTextError {
     MachineTextError::new(path, MachineProblem::Text(what))
+}
+
+impl From<StartNumbers> for MachineStart {
+    fn from(StartNumbers { q, qdot, phase }: StartNumbers) -> Self {
+        Self { q, qdot, phase }
+    }
 }
 
 impl From<&StartNumbers> for StartText {

@@ -1,6 +1,7 @@
 //! An axis of a grid over a machine: a number by its path, or a part of the start.
 
-use crate::Values;
+use crate::machine::MachineSource;
+use crate::{PlanError, Values};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -24,6 +25,18 @@ impl MachineAxis {
             None if self.vary == "phase" => "phase of the forcing at the start".to_owned(),
             _ => format!("{} of the machine", self.vary),
         }
+    }
+
+    /// The description of a machine with these values of numbers.
+    ///
+    /// # Errors
+    /// [`PlanError::Machine`] for a number that the machine does not have.
+    pub(crate) fn with_values<'a>(
+        source: &MachineSource,
+        values: impl IntoIterator<Item = (&'a Self, f64)>,
+    ) -> Result<MachineSource, PlanError> {
+        let one = |source: MachineSource, (axis, value): (&Self, f64)| source.with(&axis.vary, value);
+        Ok(values.into_iter().try_fold(source.clone(), one)?)
     }
 
     /// The number of points of the grid over some axes.

@@ -161,10 +161,7 @@ pub(crate) fn step(
             scattered_machine_starts(&machine, seed, k).within_stops(&machine)
         }
         (_, _, Some(left)) => left.within_stops(&machine),
-        (_, _, None) => {
-            let start = source.start()?;
-            MachineStart { q: start.q, qdot: start.qdot, phase: start.phase }.within_stops(&machine)
-        }
+        (_, _, None) => MachineStart::from(source.start()?).within_stops(&machine),
     };
     let length = (plan.transient, plan.keep);
     let Followed { kind, points, last } = match plan.shown(&machine)? {

@@ -166,6 +166,11 @@ impl StartAxis {
         found.ok_or_else(|| PlanError::MachineStartAxis { given: vary.to_owned(), coordinates: names.join(", ") })
     }
 
+    /// Whether a path is meant to be part of a start.
+    pub(super) fn looks_like(vary: &str) -> bool {
+        vary.starts_with("q.") || vary.starts_with("qdot.") || vary == "phase"
+    }
+
     /// Puts a value there.
     pub(crate) fn set(&self, start: &mut MachineStart, value: f64) {
         match self {
@@ -176,7 +181,7 @@ impl StartAxis {
     }
 }
 
-fn check_axes(axes: &[MachineAxis]) -> Result<(), PlanError> {
+pub(super) fn check_axes(axes: &[MachineAxis]) -> Result<(), PlanError> {
     if axes.is_empty() || axes.len() > 4 {
         return Err(PlanError::MachineAxes(axes.len()));
     }

@@ -5,7 +5,8 @@
 //! | a plan, its checks | [`MachinePlan`], [`MachineTask`], `plan` |
 //! | a plan as TOML and JSON | `text` |
 //! | the function that turns a plan into its result | [`run_machine`], [`MachineResults`], `run` |
-//! | what motions settle into, their exponents | `verdicts` |
+//! | what motions settle into | `verdicts` |
+//! | Lyapunov exponents | [`MachineLyapunovPlan`], `lyapunov` |
 //! | points of an attractor in two sections | [`MachineSection`], `section` |
 //! | orbits, and the one at which a branch begins | `orbits` |
 //! | a line through one number or two | [`MachineCut`], [`MachineStretch`], [`MachineTarget`], `cut` |
@@ -23,6 +24,7 @@ mod curve;
 mod cut;
 mod diagram;
 mod grid;
+mod lyapunov;
 mod orbits;
 mod plan;
 mod run;
@@ -39,6 +41,7 @@ pub(crate) use diagram::step as diagram_step;
 pub use diagram::{MachineDiagram, MachineDiagramPlan, MachineDiagramPoint, MachineDiagramStep};
 pub use grid::{MachineBasin, MachineBasinPlan, MachineMap, MachineMapPlan, MachineShare};
 pub(crate) use grid::{StartAxis, check_memory, values_of};
+pub use lyapunov::MachineLyapunovPlan;
 pub use orbits::label as machine_label;
 pub use plan::{MachinePlan, MachineTask};
 pub use run::{MachineResults, run_machine};

@@ -5,12 +5,13 @@ use super::branch::MachineBranchPlan;
 use super::curve::MachineCurvePlan;
 use super::diagram::MachineDiagramPlan;
 use super::grid::{MachineBasinPlan, MachineMapPlan};
+use super::lyapunov::MachineLyapunovPlan;
 use super::simulate::{check, most_events};
 use super::{orbits, verdicts};
-use crate::machine::{MachineSource, NumberText, StartNumbers, StartText, VectorText};
+use crate::machine::{MachineSource, NumberText, StartText, VectorText};
 use crate::map::check_impacts;
 use crate::plan::{check_shard, check_tile, hash_of};
-use crate::{PLAN_VERSION, PlanError, limits};
+use crate::{PLAN_VERSION, PlanError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vibroimpact::events::{MachineLimits, MachineMotion, MachineStart};
@@ -82,18 +83,8 @@ pub enum MachineTask {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         impacts: Option<u32>,
     },
-    /// All Lyapunov exponents of the motion.
-    Lyapunov {
-        /// Events to measure over: 25 to 10000000. 20000 when absent.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        impacts: Option<u32>,
-        /// Events to pass before: up to 1000000. 1000 when absent.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        transient: Option<u32>,
-        /// Points to show of each section of the attractor: 1 to 100000; none when absent.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        points: Option<u64>,
-    },
+    /// All Lyapunov exponents of the motion, or at each point of a grid.
+    Lyapunov(MachineLyapunovPlan),
     /// The orbits with a label, stable or not, from many guesses.
     Orbit {
         /// The label m/n.
@@ -150,6 +141,9 @@ impl MachinePlan {
             MachineTask::Basin(basin) => format!("motions that starts lead to over {}: {name}", over(&basin.axes)),
             MachineTask::Diagram(diagram) => format!("orbit diagram over {}: {name}", diagram.vary),
             MachineTask::Map(map) => format!("motions over {}: {name}", over(&map.axes)),
+            MachineTask::Lyapunov(MachineLyapunovPlan { axes, .. }) if !axes.is_empty() => {
+                format!("Lyapunov exponents over {}: {name}", over(axes))
+            }
             _ => name.to_owned(),
         }
     }
@@ -161,6 +155,10 @@ impl MachinePlan {
             MachineTask::Attractors { starts, .. } => Some((*starts, "starts")),
             MachineTask::Basin(basin) => Some((MachineAxis::points(&basin.axes), "starts")),
             MachineTask::Map(map) => Some((MachineAxis::points(&map.axes), "points")),
+            MachineTask::Lyapunov(lyapunov) => match lyapunov.axes.as_slice() {
+                [] => None,
+                axes => Some((MachineAxis::points(axes), "points")),
+            },
             MachineTask::Diagram(diagram) => {
                 Some(((diagram.over.count() as u64).saturating_mul(diagram.direction.runs()), "motions"))
             }
@@ -190,7 +188,11 @@ impl MachinePlan {
     /// Whether the task fills a grid, which a store keeps.
     #[must_use]
     pub const fn fills_a_grid(&self) -> bool {
-        matches!(self.task, MachineTask::Basin(_) | MachineTask::Map(_) | MachineTask::Diagram(_))
+        match &self.task {
+            MachineTask::Basin(_) | MachineTask::Map(_) | MachineTask::Diagram(_) => true,
+            MachineTask::Lyapunov(lyapunov) => !lyapunov.axes.is_empty(),
+            _ => false,
+        }
     }
 
     /// The plan as JSON.
@@ -205,8 +207,7 @@ impl MachinePlan {
     /// # Errors
     /// [`PlanError::Machine`] with the path of the first number that has no meaning.
     pub fn start(&self) -> Result<MachineStart, PlanError> {
-        let StartNumbers { q, qdot, phase } = self.machine.start()?;
-        Ok(MachineStart { q, qdot, phase })
+        Ok(self.machine.start()?.into())
     }
 
     /// The machine, checked, and the start, which may lie beyond a rigid stop. The tasks that vary a number have their own
@@ -241,23 +242,15 @@ impl MachinePlan {
         check_shard(self.shard)?;
         let (machine, _) = match &self.task {
             MachineTask::Map(_) | MachineTask::Diagram(_) => self.described()?,
+            // each point has its own start
+            MachineTask::Lyapunov(MachineLyapunovPlan { axes, .. }) if !axes.is_empty() => self.described()?,
             _ => self.problem()?,
         };
         match &self.task {
             MachineTask::Simulate { impacts, periods } => check(&machine, (*impacts, *periods)),
             MachineTask::Settle { impacts } => check_impacts(*impacts),
             MachineTask::Attractors { starts, impacts, .. } => verdicts::check_starts(*starts, *impacts),
-            MachineTask::Lyapunov { impacts, transient, points } => {
-                if points.is_some() && machine.period().is_none() {
-                    return Err(PlanError::UnforcedSection);
-                }
-                limits::section(*points)?;
-                let most = impacts.unwrap_or(1_000).max(transient.unwrap_or(0));
-                if impacts.is_some_and(|impacts| impacts < 25) || most > 10_000_000 {
-                    return Err(PlanError::Impacts(u64::from(most.min(impacts.unwrap_or(most)))));
-                }
-                Ok(())
-            }
+            MachineTask::Lyapunov(lyapunov) => lyapunov.check(&self.machine, &machine),
             MachineTask::Orbit { label } => orbits::label(&machine, label).map(|_| ()),
             MachineTask::Branch(branch) => branch.check(&self.machine, &machine),
             MachineTask::Curve(curve) => curve.check(&self.machine, &machine),

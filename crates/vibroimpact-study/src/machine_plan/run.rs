@@ -9,7 +9,7 @@ use super::section::{self, MachineSection};
 use super::simulate::{MachineSimulated, simulate};
 use super::{orbits, verdicts};
 use crate::{Control, RunError, in_memory};
-use vibroimpact::chaos::{DEFAULT_MACHINE_TRANSIENT, MachineExponents};
+use vibroimpact::chaos::MachineExponents;
 use vibroimpact::orbit::MachineCycle;
 use vibroimpact::verdict::{Census, MachineSettled, MachineVerdict};
 
@@ -56,12 +56,11 @@ pub fn run_machine(plan: &MachinePlan, control: &Control<'_>) -> Result<MachineR
         MachineTask::Attractors { starts, seed, impacts } => {
             MachineResults::Attractors(verdicts::attractors(&machine, (*starts, *seed, *impacts), control)?)
         }
-        MachineTask::Lyapunov { impacts, transient, points } => {
-            let before = u64::from(transient.unwrap_or(DEFAULT_MACHINE_TRANSIENT));
-            let points =
-                points.map(|points| section::section(&machine, &start, (before, points), control)).transpose()?;
-            let found = verdicts::lyapunov(&machine, &start, (*impacts, *transient), control)?;
-            MachineResults::Lyapunov(found, points)
+        MachineTask::Lyapunov(lyapunov) => {
+            let found = lyapunov.run(&machine, &start, control)?;
+            let before = u64::from(lyapunov.lengths().1);
+            let section = |points| section::section(&machine, &start, (before, points), control);
+            MachineResults::Lyapunov(found, lyapunov.points.map(section).transpose()?)
         }
         MachineTask::Orbit { label } => {
             MachineResults::Orbit(orbits::orbits(&machine, orbits::label(&machine, label)?, control)?)

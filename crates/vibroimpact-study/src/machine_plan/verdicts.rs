@@ -2,7 +2,6 @@
 
 use crate::map::{check_impacts, options};
 use crate::{Control, PlanError, RunError, Stopped, limits, tiles};
-use vibroimpact::chaos::{DEFAULT_EVENTS, DEFAULT_MACHINE_TRANSIENT, MachineExponents, machine_exponents_while};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::{Machine, MachineError};
 use vibroimpact::verdict::{Census, MachineSettled, MachineVerdict, scattered_machine_starts, settle_machine_while};
@@ -68,16 +67,4 @@ pub(super) fn attractors(
         census.add(verdict);
     }
     Ok(census)
-}
-
-/// All exponents of a motion.
-pub(super) fn lyapunov(
-    machine: &Machine,
-    start: &MachineStart,
-    (impacts, transient): (Option<u32>, Option<u32>),
-    control: &Control<'_>,
-) -> Result<MachineExponents, RunError> {
-    let length = (impacts.unwrap_or(DEFAULT_EVENTS), transient.unwrap_or(DEFAULT_MACHINE_TRANSIENT));
-    let found = machine_exponents_while(machine, start, length, || !control.stopping()).map_err(refused)?;
-    found.ok_or_else(|| Stopped { done: 0, total: 1 }.into())
 }

@@ -1,4 +1,4 @@
-//! The tiles of a study of Lyapunov exponents: at each point both exponents and the kind of the motion.
+//! The tiles of a study of Lyapunov exponents: at each point all exponents and where they come from.
 
 use super::fill::{Along, Fill, along, grid_of, on_axis};
 use super::map::side;
@@ -8,18 +8,58 @@ use crate::{Block, Grid, LyapunovPlan, SystemPlan, Unit};
 use vibroimpact::chaos::{Grounds, Measured, exponents};
 
 /// Default number of points of a tile along each of two axes; a tile takes some seconds.
-const TILE: usize = 8;
+pub(super) const TILE: usize = 8;
 
-pub(super) struct LyapunovFill {
-    system: SystemPlan,
-    plan: LyapunovPlan,
+/// Systems over the points of a grid, of which exponents are measured.
+pub(super) trait Spectra: Send + Sync {
+    /// The unit of the exponents.
+    const RATE: Unit;
+    /// The code of a point at which there is no such system or start.
+    const REFUSED: i8;
+
+    /// The coordinate values of the axes.
+    fn coordinates(&self) -> Vec<Along>;
+    /// The number of exponents at each point.
+    fn directions(&self) -> usize;
+    /// The names and descriptions of the further numbers of a [`Spectrum`].
+    fn further(&self) -> &'static [(&'static str, &'static str)];
+    /// The codes of the reasons why there are these exponents, and their names.
+    fn grounds(&self) -> &'static [(i32, &'static str)];
+    /// The exponents at a point; `None` where there is no such system or start.
+    fn at(&self, index: &[usize]) -> Option<Spectrum>;
+}
+
+/// What is measured at a point.
+pub(super) struct Spectrum {
+    /// Per unit time, the largest first.
+    pub(super) exponents: Vec<Measured>,
+    /// The numbers that [`Spectra::further`] names.
+    pub(super) further: Vec<f64>,
+    /// One of the codes of [`Spectra::grounds`].
+    pub(super) grounds: i8,
+}
+
+pub(super) struct LyapunovFill<S> {
+    of: S,
     grid: Grid,
 }
 
-impl LyapunovFill {
+impl<S> LyapunovFill<S> {
+    pub(super) fn over(of: S, grid: Grid) -> Self {
+        Self { of, grid }
+    }
+}
+
+/// Oscillators and their starts over axes.
+pub(super) struct Oscillators {
+    system: SystemPlan,
+    plan: LyapunovPlan,
+}
+
+impl LyapunovFill<Oscillators> {
     pub(super) fn new(system: &SystemPlan, plan: &LyapunovPlan, tile: Option<u32>) -> Self {
         let grid = grid_of(&plan.axes, tile, side(TILE, plan.axes.len()));
-        Self { system: *system, plan: plan.clone(), grid }
+        Self::over(Oscillators { system: *system, plan: plan.clone() }, grid)
     }
 }
 
@@ -44,7 +84,46 @@ const fn grounds(of: &Grounds) -> i8 {
     }
 }
 
-impl Fill for LyapunovFill {
+impl Spectra for Oscillators {
+    const RATE: Unit = Unit::RATE;
+    const REFUSED: i8 = 0;
+
+    fn coordinates(&self) -> Vec<Along> {
+        along(&self.plan.axes)
+    }
+
+    fn directions(&self) -> usize {
+        2
+    }
+
+    fn further(&self) -> &'static [(&'static str, &'static str)] {
+        &[
+            ("impacts_per_period", "impacts per forcing period"),
+            ("impacts_per_period_error", "three standard errors of the impacts per period"),
+            ("dimension", "Kaplan-Yorke dimension of the stroboscopic section"),
+        ]
+    }
+
+    fn grounds(&self) -> &'static [(i32, &'static str)] {
+        &GROUNDS
+    }
+
+    fn at(&self, index: &[usize]) -> Option<Spectrum> {
+        let (place, axes) = (|axis: usize| on_axis(index, axis), &self.plan.axes);
+        let there = axis::system_at(&self.system, axes, place).ok()?;
+        let osc = there.oscillator().ok()?;
+        let start = axis::start_at((&self.system, &there), &self.plan.start, axes, place).start(&osc).ok()?;
+        let found = exponents(&osc, start, &self.plan.options());
+        let impacts = found.impacts_per_period;
+        Some(Spectrum {
+            exponents: found.exponents.to_vec(),
+            further: vec![impacts.value, impacts.error, found.section_dimension.map_or(f64::NAN, |d| d.value)],
+            grounds: grounds(&found.grounds),
+        })
+    }
+}
+
+impl<S: Spectra> Fill for LyapunovFill<S> {
     type Tile = Vec<Column>;
 
     fn grid(&self) -> &Grid {
@@ -52,7 +131,7 @@ impl Fill for LyapunovFill {
     }
 
     fn coordinates(&self) -> Vec<Along> {
-        along(&self.plan.axes)
+        self.of.coordinates()
     }
 
     fn fields(&self) -> Vec<Field> {
@@ -66,52 +145,42 @@ impl Fill for LyapunovFill {
             flags: Vec::new(),
             comment: "",
         };
-        let both = [Extra { name: "direction", count: 2 }];
+        let each = [Extra { name: "direction", count: self.of.directions() }];
         let mut fields = vec![
-            real("exponent", "Lyapunov exponents per unit time, the larger first", Unit::RATE, &both),
-            real("exponent_error", "three standard errors of the exponents", Unit::RATE, &both),
-            real("impacts_per_period", "impacts per forcing period", Unit::NUMBER, &[]),
-            real("impacts_per_period_error", "three standard errors of the impacts per period", Unit::NUMBER, &[]),
-            real("dimension", "Kaplan-Yorke dimension of the stroboscopic section", Unit::NUMBER, &[]),
+            real("exponent", "Lyapunov exponents per unit time, the larger first", S::RATE, &each),
+            real("exponent_error", "three standard errors of the exponents", S::RATE, &each),
         ];
+        fields.extend(self.of.further().iter().map(|(name, long_name)| real(name, long_name, Unit::NUMBER, &[])));
         fields.push(Field {
             kind: NumberType::I8,
             fill: -1,
-            flags: GROUNDS.to_vec(),
+            flags: self.of.grounds().to_vec(),
             ..real("grounds", "where the exponents come from", Unit::NUMBER, &[])
         });
         fields
     }
 
     fn compute(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
-        let points = block.points();
-        let mut numbers = [2, 2, 1, 1, 1].map(|width| vec![f64::NAN; width * points]);
-        let mut why = vec![0_i8; points];
+        let (points, directions) = (block.points(), self.of.directions());
+        let mut exponents = [(); 2].map(|()| vec![f64::NAN; directions * points]);
+        let mut further = vec![vec![f64::NAN; points]; self.of.further().len()];
+        let mut why = vec![S::REFUSED; points];
         for (k, why) in why.iter_mut().enumerate() {
-            let index = block.index(k);
-            let (place, axes) = (|axis: usize| on_axis(&index, axis), &self.plan.axes);
             // the corners are valid; a point between them that is not has no result
-            let question = axis::system_at(&self.system, axes, place).and_then(|there| {
-                let osc = there.oscillator()?;
-                Ok((osc, axis::start_at((&self.system, &there), &self.plan.start, axes, place).start(&osc)?))
-            });
-            if let Ok((osc, start)) = question {
-                let found = exponents(&osc, start, &self.plan.options());
-                let mut put = |array: usize, at: usize, value: f64| numbers[array][at] = value;
-                for (i, Measured { value, error }) in found.exponents.into_iter().enumerate() {
-                    put(0, 2 * k + i, value);
-                    put(1, 2 * k + i, error);
+            if let Some(found) = self.of.at(&block.index(k)) {
+                for (i, Measured { value, error }) in found.exponents.into_iter().take(directions).enumerate() {
+                    exponents[0][directions * k + i] = value;
+                    exponents[1][directions * k + i] = error;
                 }
-                put(2, k, found.impacts_per_period.value);
-                put(3, k, found.impacts_per_period.error);
-                put(4, k, found.section_dimension.map_or(f64::NAN, |d| d.value));
-                *why = grounds(&found.grounds);
+                further.iter_mut().zip(found.further).for_each(|(column, value)| column[k] = value);
+                *why = found.grounds;
             }
             if tick() {
                 return None;
             }
         }
-        Some(numbers.into_iter().map(Column::F64).chain([Column::I8(why)]).collect())
+        let real = exponents.into_iter().chain(further).map(Column::F64);
+        Some(real.chain([Column::I8(why)]).collect())
     }
 
     fn columns(&self, _: &Block, tile: Vec<Column>) -> Vec<Column> {

@@ -9,7 +9,7 @@ use crate::grid::Index;
 use crate::machine::MachineSource;
 use crate::machine_plan::{MachineMapPlan, MachineShare, values_of};
 use crate::map::options;
-use crate::{PlanError, Unit};
+use crate::{MachineAxis, PlanError, Unit};
 use vibroimpact::verdict::{
     Census, CountedMotion, MachineVerdict, SettleOptions, scattered_machine_starts, settle_machine,
 };
@@ -34,13 +34,9 @@ impl MapFill<MachinesOver> {
 
 impl MachinesOver {
     /// The description of the machine at a point.
-    fn source(&self, index: &[usize]) -> Result<MachineSource, PlanError> {
-        let mut source = self.source.clone();
-        for (k, axis) in self.plan.axes.iter().enumerate() {
-            let value = axis.over.at(on_axis(index, k));
-            source = source.with(&axis.vary, value)?;
-        }
-        Ok(source)
+    fn source<'a>(&'a self, index: &[usize]) -> Result<MachineSource, PlanError> {
+        let value = |(k, axis): (usize, &'a MachineAxis)| (axis, axis.over.at(on_axis(index, k)));
+        MachineAxis::with_values(&self.source, self.plan.axes.iter().enumerate().map(value))
     }
 
     /// The motions at a point, the most frequent first.

@@ -12,6 +12,7 @@ mod fill;
 mod lyapunov;
 mod machine_basin;
 mod machine_diagram;
+mod machine_lyapunov;
 mod machine_map;
 mod map;
 mod memory;
@@ -44,6 +45,7 @@ pub(crate) use {basin::BasinFill, machine_basin::MachineBasinFill, map::MapFill}
 use crate::diagram::Show;
 use crate::map::options;
 use crate::{Block, Column, DiagramPlan, Field, Grid, MachinePlan, MachineTask, Plan, PlanError, Task};
+use lyapunov::LyapunovFill;
 
 /// A plan that fills a grid.
 pub struct Study {
@@ -73,10 +75,13 @@ impl Study {
             }
             MachineTask::Map(map) => Box::new(MapFill::of_machine(&plan.machine, map, plan.tile)),
             MachineTask::Diagram(diagram) => Box::new(SweepFill::of_machine(&plan.machine, diagram, plan.tile)),
+            MachineTask::Lyapunov(lyapunov) if !lyapunov.axes.is_empty() => {
+                Box::new(LyapunovFill::of_machine(&plan.machine, lyapunov, plan.tile)?)
+            }
+            MachineTask::Lyapunov(_) => return none("measure the exponents of one motion"),
             MachineTask::Simulate { .. } => return none("simulate"),
             MachineTask::Settle { .. } => return none("settle"),
             MachineTask::Attractors { .. } => return none("find attractors"),
-            MachineTask::Lyapunov { .. } => return none("measure exponents"),
             MachineTask::Orbit { .. } => return none("find orbits"),
             MachineTask::Branch(_) => return none("follow a branch"),
             MachineTask::Curve(_) => return none("follow a curve"),
@@ -92,7 +97,7 @@ impl Study {
             Task::Attractors { starts, seed, impacts } => {
                 Box::new(BasinFill::scattered(&plan.system, (*starts, *seed), &options(*impacts), tile)?)
             }
-            Task::Lyapunov(lyapunov) => Box::new(lyapunov::LyapunovFill::new(&plan.system, lyapunov, tile)),
+            Task::Lyapunov(lyapunov) => Box::new(LyapunovFill::new(&plan.system, lyapunov, tile)),
             Task::Diagram(DiagramPlan { show: Show::Quantity(_), .. }) => return Err(PlanError::NoStoredQuantity),
             Task::Diagram(diagram) => Box::new(SweepFill::new(&plan.system, diagram, tile)),
             Task::Simulate { .. } => return Err(PlanError::NoStudy("simulate")),

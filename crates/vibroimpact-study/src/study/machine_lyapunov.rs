@@ -1,0 +1,168 @@
+//! What the tiles of a study of Lyapunov exponents of a machine hold: all exponents at each point.
+
+use super::fill::{Along, along_machine, machine_grid, on_axis};
+use super::lyapunov::{LyapunovFill, Spectra, Spectrum, TILE};
+use super::map::side;
+use crate::machine::MachineSource;
+use crate::machine_plan::{MachineLyapunovPlan, StartAxis};
+use crate::{MachineAxis, PlanError, Unit};
+use vibroimpact::chaos::machine_exponents_while;
+use vibroimpact::events::MachineStart;
+use vibroimpact::machine::Machine;
+
+/// A machine and its start over axes.
+pub(super) struct Machines {
+    source: MachineSource,
+    plan: MachineLyapunovPlan,
+    /// For each axis where it stands in a start; `None` for a number of the machine.
+    places: Vec<Option<StartAxis>>,
+    directions: usize,
+}
+
+impl LyapunovFill<Machines> {
+    pub(super) fn of_machine(
+        source: &MachineSource,
+        plan: &MachineLyapunovPlan,
+        tile: Option<u32>,
+    ) -> Result<Self, PlanError> {
+        let machine = source.machine()?;
+        let grid = machine_grid(&plan.axes, tile, side(TILE, plan.axes.len()));
+        let places = plan.axes.iter().map(|axis| StartAxis::of(&machine, &axis.vary).ok()).collect();
+        let of = Machines { source: source.clone(), plan: plan.clone(), places, directions: 2 * machine.n() };
+        Ok(Self::over(of, grid))
+    }
+}
+
+impl Machines {
+    /// The machine and the start at a point.
+    fn problem(&self, index: &[usize]) -> Result<(Machine, MachineStart), PlanError> {
+        let values = || self.plan.axes.iter().zip(&self.places).enumerate();
+        let at = |k: usize, axis: &MachineAxis| axis.over.at(on_axis(index, k));
+        let numbers = values().filter(|(_, (_, place))| place.is_none()).map(|(k, (axis, _))| (axis, at(k, axis)));
+        let source = MachineAxis::with_values(&self.source, numbers)?;
+        let (machine, mut start) = (source.machine()?, MachineStart::from(source.start()?));
+        start.q.resize(machine.n(), 0.0);
+        start.qdot.resize(machine.n(), 0.0);
+        for (k, (axis, place)) in values() {
+            if let Some(place) = place {
+                place.set(&mut start, at(k, axis));
+            }
+        }
+        Ok((machine, start))
+    }
+}
+
+const GROUNDS: [(i32, &str); 5] =
+    [(-1, "not_computed"), (0, "undecided"), (1, "measured"), (2, "exact"), (3, "refused")];
+
+impl Spectra for Machines {
+    const RATE: Unit = Unit::CONSISTENT;
+    const REFUSED: i8 = 3;
+
+    fn coordinates(&self) -> Vec<Along> {
+        along_machine(&self.plan.axes)
+    }
+
+    fn directions(&self) -> usize {
+        self.directions
+    }
+
+    fn further(&self) -> &'static [(&'static str, &'static str)] {
+        &[
+            ("impacts_per_period", "closings of stops per forcing period"),
+            ("impacts_per_period_error", "three standard errors of the closings per forcing period"),
+        ]
+    }
+
+    fn grounds(&self) -> &'static [(i32, &'static str)] {
+        &GROUNDS
+    }
+
+    fn at(&self, index: &[usize]) -> Option<Spectrum> {
+        let (machine, start) = self.problem(index).ok()?;
+        let found = machine_exponents_while(&machine, &start, self.plan.lengths(), || true).ok()??;
+        let Some(spectrum) = found.spectrum else {
+            return Some(Spectrum { exponents: Vec::new(), further: vec![f64::NAN; 2], grounds: 0 });
+        };
+        let period = machine.period().unwrap_or(f64::NAN);
+        Some(Spectrum {
+            further: [spectrum.closings.value, spectrum.closings.error].map(|rate| rate * period).to_vec(),
+            exponents: spectrum.exponents,
+            grounds: if found.exact { 2 } else { 1 },
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::machine::no_files;
+    use crate::study::{Sheet, Study, in_memory};
+    use crate::{Control, MachinePlan, MachineResults, MachineTask, PlanError, RunError, run_machine};
+
+    /// A forced mass with a stop at a gap of 0.3; `start` and the axes are written into it.
+    fn plan(start: &str, axes: &str) -> MachinePlan {
+        let text = format!(
+            "version = 1\ntile = 2\nstart = {{ q = {{ mass = {start} }} }}\n[machine]\nbodies = {{ mass = 1 }}\nfrequency = 0.9\n\
+             link = [{{ between = [\"ground\", \"mass\"], stiffness = 1, damping = 0.05 }}]\n\
+             force = [{{ at = \"mass\", sin = 1 }}]\n\
+             stop = [{{ name = \"wall\", at = \"mass\", gap = 0.3, restitution = 0.6 }}]\n\
+             [task.lyapunov]\nimpacts = 400\ntransient = 100\n{axes}"
+        );
+        MachinePlan::from_text(&text, no_files).unwrap()
+    }
+
+    fn numbers<'a>(sheet: &'a Sheet, name: &str) -> &'a [f64] {
+        sheet.columns[sheet.fields.iter().position(|field| field.name == name).unwrap()].real()
+    }
+
+    #[test]
+    fn each_point_has_the_exponents_of_its_own_plan() {
+        let axes =
+            "axes = [{ vary = \"q.mass\", over = \"-0.5:1:4\" }, { vary = \"stop.wall.gap\", over = [0.6, 0.2, 0.0] }]";
+        let whole = plan("0", axes);
+        whole.check().unwrap();
+        let study = || Study::new(&whole).unwrap();
+        let found = in_memory(study(), &Control::default()).unwrap();
+        assert_eq!(found.columns, in_memory(study(), &Control { threads: 1, ..Control::default() }).unwrap().columns);
+        let grounds = found.columns.last().unwrap().flags();
+        let (mut measured, mut refused) = (0, 0);
+        for (k, grounds) in grounds.iter().enumerate() {
+            let (x, gap) = ([-0.5, 0.0, 0.5, 1.0][k % 4], [0.6, 0.2, 0.0][k / 4]);
+            let exponents = &numbers(&found, "exponent")[2 * k..2 * k + 2];
+            let mut alone = plan(&x.to_string(), "");
+            alone.machine = alone.machine.with("stop.wall.gap", gap).unwrap();
+            if x > gap {
+                refused += 1;
+                assert!(*grounds == 3 && exponents.iter().all(|value| value.is_nan()), "{x} {gap}");
+                assert!(alone.check().is_err());
+                continue;
+            }
+            let MachineResults::Lyapunov(direct, None) = run_machine(&alone, &Control::default()).unwrap() else {
+                panic!()
+            };
+            let spectrum = direct.spectrum.unwrap();
+            assert_eq!(exponents, spectrum.exponents.iter().map(|found| found.value).collect::<Vec<_>>());
+            let rate = numbers(&found, "impacts_per_period")[k];
+            assert!((rate - spectrum.closings.value * core::f64::consts::TAU / 0.9).abs() < 1e-12);
+            assert_eq!(*grounds, if direct.exact { 2 } else { 1 });
+            measured += 1;
+        }
+        assert_eq!((measured, refused), (7, 5));
+    }
+
+    #[test]
+    fn axes_are_checked_and_one_motion_has_none() {
+        let axis = |vary: &str| plan("0", &format!("axes = [{{ vary = \"{vary}\", over = \"0:1:3\" }}]"));
+        for (vary, told) in [("q.other", "q.other"), ("stop.floor.gap", "stop.floor.gap")] {
+            let error = axis(vary).check().unwrap_err().to_string();
+            assert!(error.contains(told), "{error}");
+        }
+        let refused = run_machine(&axis("phase"), &Control::default());
+        assert!(matches!(refused, Err(RunError::Plan(PlanError::WrongAxis { .. }))), "{refused:?}");
+        assert_eq!(
+            Study::new(&plan("0", "")).err().unwrap(),
+            PlanError::NoMachineStudy("measure the exponents of one motion")
+        );
+        assert!(matches!(axis("phase").task, MachineTask::Lyapunov(plan) if plan.axes.len() == 1));
+    }
+}
