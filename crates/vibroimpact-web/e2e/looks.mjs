@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { createRequire } from "node:module";
 import { readFile } from "node:fs/promises";
-import { drawn, pictures, sharp, until } from "./page.mjs";
+import { drawn, pictures, until } from "./page.mjs";
 
 const S = "#point=1&inverse_beta=1.3&gap=0.75";
 const axe = await readFile(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
@@ -20,7 +20,6 @@ async function shown({ open, folder }, name, viewport, options = {}, hash = S) {
   const { page } = await open(hash, { viewport, ...options });
   await drawn(page);
   await figures(page);
-  if (viewport.width < 2000) await sharp(page);
   await page.waitForTimeout(500);
   await fits(page, viewport.width);
   await page.screenshot({ path: `${folder}/${name}.png` });

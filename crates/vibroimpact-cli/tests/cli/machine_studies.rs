@@ -85,7 +85,10 @@ fn attractors_of_machines_have_no_store() {
     fs::write(folder.path().join("a.json"), plan.to_string()).unwrap();
     let said = vibro("run a.json --store a.zarr").current_dir(folder.path()).output().unwrap();
     let complaint = String::from_utf8(said.stderr).unwrap();
-    assert!(said.status.code() == Some(2) && complaint.contains("map, basin and diagram"), "{complaint}");
+    assert!(
+        said.status.code() == Some(2) && complaint.contains("map, basin, diagram, and lyapunov over axes"),
+        "{complaint}"
+    );
 }
 
 /// Two jobs with a part each fill the same store as one, byte by byte; a tile that is damaged is computed again.

@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use vibroimpact::continuation::{
     BranchOptions, Direction, MachineBranch, MachineBranchEvent, MachineFamily, MachinePoint,
 };
-use vibroimpact::events::{MachineLimits, MachineSamples, MachineStart};
+use vibroimpact::events::{MachineLimits, MachineMotion, MachineSamples, MachineStart};
 use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::orbit::{MachineCycle, find_machine_while};
 use vibroimpact::regime::ContactState;
@@ -164,6 +164,45 @@ fn a_branch_from_a_flip() {
         }
     }
     assert!(halved);
+}
+
+/// A mass between two belts that move in opposite directions, with another one between two stops: the cycle that is its own
+/// mirror image loses this symmetry, and two cycles begin that are mirror images of each other.
+#[test]
+fn both_cycles_beside_a_branch_point() {
+    let parts = MachineParts::new(["low", "high"])
+        .with_mass(0, 1.0)
+        .with_mass(1, 0.54)
+        .with_link(&[1.0, 0.0], 1.0, 0.01)
+        .with_link(&[1.0, -1.0], 1.12, 0.09)
+        .with_rigid_stop("right", &[0.0, 1.0], 0.53, 0.74)
+        .with_rigid_stop("left", &[0.0, -1.0], 0.53, 0.74)
+        .with_joint("up", &[1.0, 0.0], 0.3, 0.83, 0.1)
+        .with_joint("down", &[1.0, 0.0], 0.3, 0.83, -0.1);
+    let machine = Machine::new(parts).unwrap();
+    let symmetric = cycle(&machine, &MachineStart { q: vec![0.3, 0.1], qdot: vec![0.1, 0.3], phase: 0.0 });
+    let speeds = |cycle: &MachineCycle| {
+        [0, 1].map(|stop| cycle.events.iter().find(|event| event.closes() && event.place == stop).unwrap().speed)
+    };
+    let [right, left] = speeds(&symmetric);
+    assert!((right - left).abs() < 1e-9 && symmetric.stable(), "{right} {left}");
+    let over = ("stiffness.high.high", 0.9, 1.2);
+    let points = from(&machine, &symmetric, over, Direction::Down);
+    let point = points.iter().find(|point| point.event == Some(MachineBranchEvent::BranchPoint)).unwrap();
+    let (family, _) = MachineFamily::of_path(&machine, over.0).unwrap();
+    let leaving = point.leaving(&family, 0.25 * (over.2 - over.1));
+    let [one, other] = leaving.as_slice() else { panic!("{} cycles at {}", leaving.len(), point.value) };
+    let ([right, left], mirrored) = (speeds(&one.1), speeds(&other.1));
+    assert!((right - left).abs() > 1e-4 && one.0 == other.0, "{right} {left}");
+    assert!((right - mirrored[1]).abs() < 1e-9 && (left - mirrored[0]).abs() < 1e-9, "{right} {left} {mirrored:?}");
+    let there = machine.with(over.0, one.0).unwrap();
+    for (_, cycle) in &leaving {
+        // the motion from its state returns there after one period
+        let motion = MachineMotion::new(&there, &cycle.state, MachineLimits::default()).unwrap();
+        let events: Vec<_> = motion.into_iter().take(2 * cycle.events.len()).collect();
+        let (first, last) = (&events[cycle.events.len() - 1], events.last().unwrap());
+        assert!((last.time - first.time - cycle.period).abs() < 1e-8, "{} {}", last.time - first.time, cycle.period);
+    }
 }
 
 /// A constant force pulls a carriage with drag, which pulls a block on the ground by a spring: nothing holds them in place.

@@ -22,8 +22,7 @@ impl MachinePoint {
     /// range of four times `scale`.
     ///
     /// At a [flip](MachineBranchEvent::Flip) it is a cycle of twice the period. At a [branch
-    /// point](MachineBranchEvent::BranchPoint) of a machine with forcing there are up to two, one to either side; without
-    /// forcing none is looked for. At other points there is none.
+    /// point](MachineBranchEvent::BranchPoint) there are up to two, one to either side. At other points there is none.
     #[must_use]
     pub fn leaving(&self, family: &MachineFamily, scale: f64) -> Vec<(f64, MachineCycle)> {
         let (multiplier, sides): (f64, &[f64]) = match self.event {
@@ -33,13 +32,11 @@ impl MachinePoint {
         };
         let direction = family.at(self.value).and_then(|machine| {
             let frame = MachineFrame::new(&machine);
-            if multiplier > 0.0 && machine.period().is_none() {
-                return None;
-            }
             let time = frame.time(self.cycle.label.periods, self.cycle.period);
-            let turn = MachineLap::fly(&frame, self.cycle.strobes.first()?, time)?.derivative?;
-            // one period multiplies translations by +1 too
-            let turn = if multiplier > 0.0 { frame.within_shapes(turn) } else { turn };
+            let begin = self.cycle.strobes.first()?;
+            let turn = MachineLap::fly(&frame, begin, time)?.derivative?;
+            // one period multiplies translations, and without forcing the direction along the motion, by +1 too
+            let turn = if multiplier > 0.0 { frame.within_cycles(turn, begin) } else { turn };
             carried(&turn, multiplier)
         });
         let Some(direction) = direction else { return Vec::new() };

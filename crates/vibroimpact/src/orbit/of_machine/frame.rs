@@ -177,6 +177,15 @@ impl<'a> MachineFrame<'a> {
         across.transposed().times(&reduced.times(&across))
     }
 
+    /// The same with as many rows and columns as before, where those differences are 0.
+    pub(crate) fn within_cycles(&self, derivative: Matrix, at: &Place) -> Matrix {
+        let within = self.within_shapes(derivative);
+        let flow = self.unforced().then(|| self.flow(at)).flatten();
+        let Some(across) = flow.and_then(|flow| complement(&flow)) else { return within };
+        let reduced = across.transposed().times(&within.times(&across));
+        across.times(&reduced.times(&across.transposed()))
+    }
+
     /// The number of multipliers of a cycle: two for each coordinate, less one for each translation, and one less without
     /// forcing.
     pub(crate) const fn multipliers(&self) -> usize {
