@@ -311,10 +311,9 @@ class Plan:
         For a machine it is over paths of numbers, "q.COORDINATE", "qdot.COORDINATE" and "phase". They are measured over
         100 000 impacts of an oscillator and 20 000 events of a machine, if nothing else is given.
         """
-        machine = isinstance(osc, Machine)
         task = {
             "axes": axes(over),
-            "impacts": maybe("impacts", impacts, SIMULATED if machine else MEASURED),
+            "impacts": maybe("impacts", impacts, SIMULATED if isinstance(osc, Machine) else MEASURED),
             "transient": whole("transient", transient, TRANSIENT),
         }
         if isinstance(osc, Machine):

@@ -14,7 +14,7 @@ use vibroimpact_study::study::{
 };
 use vibroimpact_study::{
     BasinPlan, Column, Control, LyapunovPlan, MachineBasinPlan, MachineLyapunovPlan, MachineMapPlan, MachinePlan,
-    MachineTask, MapPlan, Plan, Task, Values,
+    MachineTask, MapPlan, Plan, Task,
 };
 
 /// Draws the figure of a study; that of a map or basin in the colours of a quantity, if one is given, and that of a map
@@ -77,12 +77,8 @@ fn of_task<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
             of_basin(store, &Sides::of(&plan.axes, &asked.units)?, title_without(asked, &varied(&plan.axes)))
         }
         Task::Lyapunov(LyapunovPlan { axes, .. }) => {
-            let axis = if let [axis] = axes.as_slice() {
-                Some((PlaneAxis::of(axis, &Units::default())?, &axis.over))
-            } else {
-                None
-            };
-            of_exponents(store, axis, title_without(asked, &varied(axes)))
+            let [axis] = axes.as_slice() else { return Err(ReportError::Exponents.into()) };
+            of_exponents(store, &PlaneAxis::of(axis, &Units::default())?, title_without(asked, &varied(axes)))
         }
         Task::Diagram(plan) => Ok(diagram::figure(&diagram_of(plan, &columns::<A, E>(store)?), asked)?),
         _ => Err(ReportError::Scattered.into()),
@@ -122,9 +118,8 @@ fn of_machine<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
             Ok(diagram::of_machine(&machine_diagram_of(diagram, &columns::<A, E>(store)?), title)?)
         }
         MachineTask::Lyapunov(MachineLyapunovPlan { axes, .. }) => {
-            let axis =
-                if let [axis] = axes.as_slice() { Some((PlaneAxis::of_machine(axis)?, &axis.over)) } else { None };
-            of_exponents(store, axis, title)
+            let [axis] = axes.as_slice() else { return Err(ReportError::Exponents.into()) };
+            of_exponents(store, &PlaneAxis::of_machine(axis)?, title)
         }
         _ => Err(ReportError::Scattered.into()),
     }
@@ -235,17 +230,15 @@ fn of_basin<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     Ok(basin::draw(sides, &list.into_iter().map(motion).collect::<Vec<_>>(), cells, title)?)
 }
 
-/// All exponents over one axis, with the line of zero; `None` for an axis that is one of several.
+/// All exponents over one axis, with the line of zero.
 fn of_exponents<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     store: &A,
-    axis: Option<(PlaneAxis, &Values)>,
+    side: &PlaneAxis,
     title: String,
 ) -> Result<Figure, E> {
-    let (Some((side, values)), Some(field)) = (axis, store.field_number("exponent")) else {
-        return Err(ReportError::Exponents.into());
-    };
+    let Some(field) = store.field_number("exponent") else { return Err(ReportError::Exponents.into()) };
     let (column, directions) = (store.array(field)?, store.study().fields()[field].width());
-    let values = values.all();
+    let values: Vec<f64> = (0..side.count()).map(|k| side.at(k)).collect();
     let zero = Line::new(vec![values[0], values[values.len() - 1]], vec![0.0, 0.0], Colour::hex(0x80_8080));
     let mut panel = Panel::new(side.axis(), FigureAxis::new("Lyapunov exponents per unit time")).with(zero);
     for which in 0..directions {

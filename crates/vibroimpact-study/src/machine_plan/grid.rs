@@ -155,20 +155,29 @@ impl StartAxis {
     /// # Errors
     /// [`PlanError::MachineStartAxis`] if it is no part of a start of the machine.
     pub(crate) fn of(machine: &Machine, vary: &str) -> Result<Self, PlanError> {
-        let names = &machine.parts().coordinates;
-        let of = |name: &str| names.iter().position(|known| known == name);
-        let found = match vary.split_once('.') {
-            Some(("q", name)) => of(name).map(Self::Q),
-            Some(("qdot", name)) => of(name).map(Self::Qdot),
-            None if vary == "phase" => Some(Self::Phase),
-            _ => None,
-        };
-        found.ok_or_else(|| PlanError::MachineStartAxis { given: vary.to_owned(), coordinates: names.join(", ") })
+        Self::found(machine, vary)?.ok_or_else(|| Self::unknown(machine, vary))
     }
 
-    /// Whether a path is meant to be part of a start.
-    pub(super) fn looks_like(vary: &str) -> bool {
-        vary.starts_with("q.") || vary.starts_with("qdot.") || vary == "phase"
+    /// The place with this name; `None` for the path of something else.
+    ///
+    /// # Errors
+    /// [`PlanError::MachineStartAxis`] for a coordinate or velocity that the machine does not have.
+    pub(crate) fn found(machine: &Machine, vary: &str) -> Result<Option<Self>, PlanError> {
+        let names = &machine.parts().coordinates;
+        let of = |name: &str| {
+            let place = names.iter().position(|known| known == name);
+            place.ok_or_else(|| Self::unknown(machine, vary))
+        };
+        Ok(match vary.split_once('.') {
+            Some(("q", name)) => Some(Self::Q(of(name)?)),
+            Some(("qdot", name)) => Some(Self::Qdot(of(name)?)),
+            None if vary == "phase" => Some(Self::Phase),
+            _ => None,
+        })
+    }
+
+    fn unknown(machine: &Machine, vary: &str) -> PlanError {
+        PlanError::MachineStartAxis { given: vary.to_owned(), coordinates: machine.parts().coordinates.join(", ") }
     }
 
     /// Puts a value there.

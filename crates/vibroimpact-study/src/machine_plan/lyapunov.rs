@@ -54,10 +54,8 @@ impl MachineLyapunovPlan {
         }
         check_axes(&self.axes)?;
         for axis in &self.axes {
-            match StartAxis::of(machine, &axis.vary) {
-                Err(error) if StartAxis::looks_like(&axis.vary) => return Err(error),
-                Err(_) => drop(source.number(&axis.vary)?),
-                Ok(_) => {}
+            if StartAxis::found(machine, &axis.vary)?.is_none() {
+                source.number(&axis.vary)?;
             }
         }
         Ok(())

@@ -27,7 +27,7 @@ impl LyapunovFill<Machines> {
     ) -> Result<Self, PlanError> {
         let machine = source.machine()?;
         let grid = machine_grid(&plan.axes, tile, side(TILE, plan.axes.len()));
-        let places = plan.axes.iter().map(|axis| StartAxis::of(&machine, &axis.vary).ok()).collect();
+        let places = plan.axes.iter().map(|axis| StartAxis::found(&machine, &axis.vary)).collect::<Result<_, _>>()?;
         let of = Machines { source: source.clone(), plan: plan.clone(), places, directions: 2 * machine.n() };
         Ok(Self::over(of, grid))
     }
@@ -41,8 +41,6 @@ impl Machines {
         let numbers = values().filter(|(_, (_, place))| place.is_none()).map(|(k, (axis, _))| (axis, at(k, axis)));
         let source = MachineAxis::with_values(&self.source, numbers)?;
         let (machine, mut start) = (source.machine()?, MachineStart::from(source.start()?));
-        start.q.resize(machine.n(), 0.0);
-        start.qdot.resize(machine.n(), 0.0);
         for (k, (axis, place)) in values() {
             if let Some(place) = place {
                 place.set(&mut start, at(k, axis));
