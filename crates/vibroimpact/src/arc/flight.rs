@@ -3,7 +3,7 @@
 use super::dense::{Dense, Steps};
 use super::drive::Drive;
 use crate::math::{dot, fit};
-use crate::regime::{GuardKind, Mode, Observable, RestBuffers, Signal, Structure, Turned};
+use crate::regime::{ClosedStop, GuardKind, Mode, Observable, RestBuffers, Signal, Structure, Turned};
 use std::sync::Arc;
 
 /// How the surface of a damped stop comes back after it has opened by force: $`s = a\,e^{-\kappa t} - b`$.
@@ -27,6 +27,17 @@ pub(crate) struct Begin<'a> {
     pub(crate) set: &'a [f64],
     /// Sine and cosine of each harmonic.
     pub(crate) turns: &'a [(f64, f64)],
+}
+
+/// A closed stop at the beginning of a flight.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ClosedGap {
+    /// Its gap.
+    pub(crate) gap: f64,
+    /// How far its wall is from its mean place.
+    pub(crate) swing: f64,
+    /// Whether the gap has more digits than the difference of wall and coordinates.
+    pub(crate) sharp: bool,
 }
 
 /// What a guard is at the beginning of a flight.
@@ -57,6 +68,8 @@ pub(crate) struct MachineFlight {
     rate: Vec<f64>,
     pub(super) drive: Drive,
     pub(super) guards: Vec<GuardStart>,
+    /// The closed stops at the beginning, in the order of the structure.
+    gaps: Vec<ClosedGap>,
     /// The amplitudes of the harmonics of the guards, turned to the phase of the beginning, guard after guard.
     harmonics: Vec<(f64, f64)>,
     /// The set points of joints that hold.
@@ -88,12 +101,12 @@ const SHORT_REACH: f64 = 0.25;
 
 impl MachineFlight {
     /// The flight from a mass-normalised state. `set` are the set points of joints, `turns` sine and cosine of each
-    /// harmonic at the beginning, `gap` is the gap of a closed stop with its wall at its mean place, and `known` tells how
+    /// harmonic at the beginning, `gap` tells of the gap of a closed stop, and `known` how
     /// many derivatives of a guard are zero, and how its surface recovers.
     pub(crate) fn new(
         structure: Arc<Structure>,
         begin: Begin<'_>,
-        gap: impl Fn(usize) -> f64,
+        gap: impl Fn(usize) -> ClosedGap,
         known: impl Fn(GuardKind) -> (usize, Option<Recovery>),
     ) -> Self {
         let mut flight = Self {
@@ -104,6 +117,7 @@ impl MachineFlight {
             x: Vec::new(),
             rate: Vec::new(),
             guards: Vec::new(),
+            gaps: Vec::new(),
             harmonics: Vec::new(),
             set: Vec::new(),
             turns: Vec::new(),
@@ -118,7 +132,7 @@ impl MachineFlight {
         &mut self,
         structure: Option<Arc<Structure>>,
         begin: Begin<'_>,
-        gap: impl Fn(usize) -> f64,
+        gap: impl Fn(usize) -> ClosedGap,
         known: impl Fn(GuardKind) -> (usize, Option<Recovery>),
     ) {
         if let Some(structure) = structure {
@@ -131,13 +145,15 @@ impl MachineFlight {
     fn begin(
         &mut self,
         Begin { x, v: rate, set, turns }: Begin<'_>,
-        gap: impl Fn(usize) -> f64,
+        gap: impl Fn(usize) -> ClosedGap,
         known: impl Fn(GuardKind) -> (usize, Option<Recovery>),
     ) {
         let structure = &self.structure;
-        let value = |signal: &Signal| signal.steady(set) + signal.swing(turns);
-        structure.modal(x, rate, value, &mut self.origin, &mut self.v);
+        let value_of = |signal: &Signal| signal.steady(set) + signal.swing(turns);
+        structure.modal(x, rate, value_of, &mut self.rest, (&mut self.origin, &mut self.v));
         let (y, v) = (&self.origin, &self.v);
+        self.gaps.clear();
+        self.gaps.extend(structure.closed.iter().map(|closed| gap(closed.place)));
         self.guards.clear();
         self.harmonics.clear();
         for guard in &structure.guards {
@@ -158,11 +174,23 @@ impl MachineFlight {
                 size += a.abs() + b.abs();
                 self.harmonics.push((a, b));
             }
+            if known == 0
+                && let GuardKind::Depth(j) | GuardKind::Force(j) = guard.kind
+                && let Some(at) = structure.closed.iter().position(|closed| closed.place == j)
+                && self.gaps[at].sharp
+            {
+                let ClosedStop { law: (stiffness, damping, preload), rate, .. } = &structure.closed[at];
+                let depth = -self.gaps[at].gap;
+                let rate = || dot(&rate.position, y) + dot(&rate.velocity, v) + value_of(&rate.signal);
+                let is_force = matches!(guard.kind, GuardKind::Force(_));
+                sum = if is_force { preload + stiffness * depth - damping * rate() } else { depth };
+            }
             let value = if known > 0 { 0.0 } else { sum };
             self.guards.push(GuardStart { value, size, constant: value - moving, known, recovery });
         }
         let drive = &mut self.drive;
-        structure.rest_force(x, rate, turns, gap, &mut self.rest, &mut drive.steady);
+        let gaps = self.gaps.iter().map(|closed| closed.gap - closed.swing);
+        structure.rest_force(x, rate, turns, gaps, &mut self.rest, &mut drive.steady);
         drive.harmonics.clear();
         for signal in &structure.drive {
             drive.harmonics.extend(signal.turned(turns));
@@ -205,10 +233,10 @@ impl MachineFlight {
         (time[0], time[1]) = (0.0, 1.0);
     }
 
-    /// Turns the harmonics of modes at a time, if coordinates depend on them.
+    /// Turns the harmonics of modes at a time, if coordinates or gaps of closed stops depend on them.
     pub(super) fn turn(&self, s: f64, modes: &mut Modes) {
         modes.turned.clear();
-        if self.structure.carries {
+        if self.structure.swings {
             modes.turned.extend(self.structure.rates.iter().map(|rate| Turned::of(rate * s)));
         }
     }
@@ -449,19 +477,28 @@ impl MachineFlight {
         }
         let evaluate = |all: &[Observable], begin: &[f64], to: &mut Vec<f64>| {
             to.clear();
-            to.extend(all.iter().zip(begin).map(|(of, begin)| {
-                let mut moved = of.signal.ramp * modes.s;
-                for ((a, b), turned) in of.signal.turned(&self.turns).zip(&modes.turned) {
-                    moved += b * turned.sin - a * turned.versine;
-                }
-                for i in 0..modes.moved.len() {
-                    moved += of.position[i] * modes.moved[i] + of.velocity[i] * (modes.v[i] - self.v[i]);
-                }
-                begin + moved
-            }));
+            to.extend(all.iter().zip(begin).map(|(of, begin)| begin + self.moved(of, modes)));
         };
         evaluate(&self.structure.x, &self.x, x);
         evaluate(&self.structure.v, &self.rate, v);
+    }
+
+    /// The gaps of the closed stops at a time, from the modes there: each stop with its gap.
+    pub(crate) fn closed_gaps(&self, modes: &Modes) -> impl Iterator<Item = (usize, f64)> {
+        let closed = self.structure.closed.iter().zip(&self.gaps);
+        closed.map(|(closed, begin)| (closed.place, begin.gap + self.moved(&closed.gap, modes)))
+    }
+
+    /// How much a linear function of the state has changed since the beginning, from the modes now.
+    fn moved(&self, of: &Observable, modes: &Modes) -> f64 {
+        let mut moved = of.signal.ramp * modes.s;
+        for ((a, b), turned) in of.signal.turned(&self.turns).zip(&modes.turned) {
+            moved += b * turned.sin - a * turned.versine;
+        }
+        for i in 0..modes.moved.len() {
+            moved += of.position[i] * modes.moved[i] + of.velocity[i] * (modes.v[i] - self.v[i]);
+        }
+        moved
     }
 
     /// Mass-normalised accelerations at a time, from the modes there; `own` receives those of the modes.

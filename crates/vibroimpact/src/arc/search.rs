@@ -233,7 +233,7 @@ mod tests {
             let turns = [phase.sin_cos(), (2.0 * phase).sin_cos()];
             let begin = Begin { x: &x, v: &v, set: &[], turns: &turns };
             let known = |kind| (usize::from(on_stop && kind == GuardKind::Gap(0)), None);
-            let flight = MachineFlight::new(structure.clone(), begin, |_| 0.0, known);
+            let flight = MachineFlight::new(structure.clone(), begin, |_| unreachable!("no stop is closed"), known);
             let mut buffers = Buffers::default();
             let crossing = plain_crossing(&flight, 30.0, 100, &mut buffers.sampling, &mut buffers.modes);
             let modes = buffers.modes.clone();

@@ -48,11 +48,9 @@ impl MachineMotion<'_> {
                         }
                     }
                     StopLaw::Compliant { .. } => {
-                        if self.place.surfaces[j].take().is_none() {
+                        if self.place.close(j) {
                             add_scaled(&mut self.place.x, gap / square, w);
-                            self.place.note(GuardKind::Depth(j), 1);
                         }
-                        self.place.states[j] = ContactState::Closed;
                         self.record(&[]);
                         self.announce(MachineEventKind::Close, j, speed, Vec::new());
                     }

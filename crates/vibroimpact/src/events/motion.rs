@@ -8,7 +8,7 @@ use super::rounds::{SLOW, SlowImpacts};
 use super::stretch::{Stretch, follow};
 use crate::arc::{Buffers, Found, MachineFlight, Touch, first_event};
 use crate::machine::{Machine, MachineError, MachineFault, Opening, StopLaw};
-use crate::math::{Sum, add_scaled, dot};
+use crate::math::{Wide, add_scaled, dot};
 use crate::regime::{ContactState, GuardKind, Normal, compliant};
 use crate::system::phase;
 use std::collections::VecDeque;
@@ -35,7 +35,7 @@ pub struct MachineMotion<'a> {
     pub(super) normal: Normal,
     pub(super) structures: Structures,
     pub(super) place: Place,
-    time: Sum,
+    time: Wide,
     pub(super) limits: MachineLimits,
     pending: VecDeque<MachineEvent>,
     end: Option<MachineEnd>,
@@ -97,6 +97,7 @@ impl<'a> MachineMotion<'a> {
             states: vec![ContactState::Open; stops + joints],
             surfaces: vec![None; stops],
             known: Vec::new(),
+            gaps: Vec::new(),
         };
         let mut motion = Self { limits, ..Self::within(machine, normal, place) };
         motion.begin()?;
@@ -208,11 +209,7 @@ impl<'a> MachineMotion<'a> {
             }));
         }
         for j in compliant {
-            self.place.states[j] = ContactState::Closed;
-            // on a surface that has not come back the stop is deep already
-            if self.place.surfaces[j].take().is_none() {
-                self.place.note(GuardKind::Depth(j), 1);
-            }
+            self.place.close(j);
         }
         // a force that jumps can end any rest
         for (at, state) in self.place.states.iter().enumerate() {
@@ -313,7 +310,7 @@ impl<'a> MachineMotion<'a> {
         let modes = self.buffers.modes_at(flight, s);
         self.place.move_along(flight, (modes, s), self.machine.parts().frequency);
         let before = self.time.value();
-        self.time.add(s);
+        self.time += s;
         if self.time.value() > before {
             self.crowd = 0;
         }
@@ -346,7 +343,7 @@ impl<'a> MachineMotion<'a> {
             normal,
             structures: Structures::default(),
             place,
-            time: Sum::default(),
+            time: Wide::default(),
             limits: MachineLimits::default(),
             pending: VecDeque::new(),
             end: None,

@@ -1,6 +1,6 @@
 //! Where a machine is: state, phase, and what its stops and joints do.
 
-use crate::arc::{Begin, MachineFlight, Modes, Recovery};
+use crate::arc::{Begin, ClosedGap, MachineFlight, Modes, Recovery};
 use crate::machine::{Machine, StopLaw};
 use crate::math::{dot, fit, sin_cos};
 use crate::regime::{ContactState, GuardKind, Normal, Structure, compliant};
@@ -88,6 +88,9 @@ pub(crate) struct Place {
     pub(crate) surfaces: Vec<Option<Recovery>>,
     /// How many derivatives of a guard are zero now.
     pub(crate) known: Vec<(GuardKind, usize)>,
+    /// The gaps of stops that were closed in the last flight, or have closed on their surface. They have more digits than the coordinates leave: a stiff stop
+    /// is closed by little, and its force is as accurate as its gap.
+    pub(crate) gaps: Vec<(usize, f64)>,
 }
 
 impl Place {
@@ -125,7 +128,7 @@ impl Place {
         &self,
         normal: &Normal,
         scratch: &mut Scratch,
-        begun: impl FnOnce(Begin<'_>, &dyn Fn(usize) -> f64, &dyn Fn(GuardKind) -> (usize, Option<Recovery>)) -> T,
+        begun: impl FnOnce(Begin<'_>, &dyn Fn(usize) -> ClosedGap, &dyn Fn(GuardKind) -> (usize, Option<Recovery>)) -> T,
     ) -> T {
         // the time restarts with each flight, and the set points of joints that hold on a moving belt with it
         let stops = self.surfaces.len();
@@ -138,8 +141,9 @@ impl Place {
         }
         let gap = |stop: usize| {
             let at_zero = self.known.iter().any(|(kind, _)| *kind == GuardKind::Depth(stop));
-            let gap = if at_zero { 0.0 } else { self.gap_and_rate(normal, turns, stop).0 };
-            gap - normal.walls[stop].swing(turns)
+            let sharp = if at_zero { Some(0.0) } else { self.sharp_gap(stop) };
+            let gap = sharp.unwrap_or_else(|| self.gap_and_rate(normal, turns, stop).0);
+            ClosedGap { gap, swing: normal.walls[stop].swing(turns), sharp: sharp.is_some() }
         };
         let known = |kind| {
             let known = self.known.iter().find(|(of, _)| *of == kind).map_or(0, |(_, count)| *count);
@@ -153,6 +157,8 @@ impl Place {
     /// of the forcing.
     pub(crate) fn move_along(&mut self, flight: &MachineFlight, (modes, s): (&Modes, f64), frequency: Option<f64>) {
         flight.state(modes, &mut self.x, &mut self.v);
+        self.gaps.clear();
+        self.gaps.extend(flight.closed_gaps(modes));
         for surface in &mut self.surfaces {
             if let Some(Recovery { size, rate, .. }) = surface {
                 *size *= crate::system::decay(*rate * s).0;
@@ -180,7 +186,7 @@ impl Place {
         self.states[j] = ContactState::Open;
         let mut known = 1;
         if let GuardKind::Force(_) = kind {
-            let depth = -self.gap_and_rate(normal, turns, j).0;
+            let depth = -self.sharp_gap(j).unwrap_or_else(|| self.gap_and_rate(normal, turns, j).0);
             if depth > 0.0 {
                 self.surfaces[j] = standing_back(law, depth);
                 // the surface leaves the body with the velocity of the body
@@ -188,6 +194,26 @@ impl Place {
             }
         }
         self.note(GuardKind::Gap(j), known);
+    }
+
+    /// Closes a compliant stop which the body has reached; `false` if it has reached the surface that has not come back.
+    pub(super) fn close(&mut self, j: usize) -> bool {
+        self.states[j] = ContactState::Closed;
+        let surface = self.surfaces[j].take();
+        match surface {
+            // the stop is deep already
+            Some(Recovery { size, offset, .. }) => {
+                self.gaps.retain(|(of, _)| *of != j);
+                self.gaps.push((j, offset - size));
+            }
+            None => self.note(GuardKind::Depth(j), 1),
+        }
+        surface.is_none()
+    }
+
+    /// The gap of a stop that was closed in the last flight, or that has closed on its surface.
+    fn sharp_gap(&self, stop: usize) -> Option<f64> {
+        self.gaps.iter().find(|(of, _)| *of == stop).map(|(_, gap)| *gap)
     }
 
     /// Notes how many derivatives of a guard are zero now.

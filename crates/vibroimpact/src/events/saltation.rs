@@ -44,7 +44,7 @@ impl StateShape {
 
     /// The state with these components, in the same regime and at the same phase, between events.
     pub(crate) fn with_values(&self, place: &Place, values: &[f64]) -> Place {
-        let mut other = Place { known: Vec::new(), ..place.clone() };
+        let mut other = Place { known: Vec::new(), gaps: Vec::new(), ..place.clone() };
         other.x.copy_from_slice(&values[..self.n]);
         other.v.copy_from_slice(&values[self.n..2 * self.n]);
         for (k, j) in self.surfaces.iter().enumerate() {

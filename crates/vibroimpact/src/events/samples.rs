@@ -158,7 +158,7 @@ impl Iterator for MachineSamples<'_> {
         };
         let begin = stretch.begin.value();
         let mut end = stretch.begin;
-        end.add(stretch.duration);
+        end += stretch.duration;
         let last = end.value() >= self.until;
         let end = end.value().min(self.until);
         let due = self.due();
@@ -178,7 +178,7 @@ impl Iterator for MachineSamples<'_> {
         let time = if even { due } else { end };
         self.done = last && time >= end;
         let mut gone = stretch.begin;
-        gone.add(-time);
+        gone += -time;
         let s = if !even && !last { stretch.duration } else { (-gone.value()).clamp(0.0, stretch.duration) };
         let sample = self.sample(&stretch, s, (time, even));
         if even {

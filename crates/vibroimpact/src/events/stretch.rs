@@ -2,13 +2,13 @@
 
 use super::place::Place;
 use crate::arc::MachineFlight;
-use crate::math::Sum;
+use crate::math::Wide;
 
 /// A flight and how long it lasted.
 #[derive(Clone, Debug)]
 pub(super) struct Stretch {
     /// The time of its beginning.
-    pub(super) begin: Sum,
+    pub(super) begin: Wide,
     /// Its duration, positive.
     pub(super) duration: f64,
     /// The state at its beginning.

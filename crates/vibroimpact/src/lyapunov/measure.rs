@@ -7,7 +7,7 @@
 
 use super::Tail;
 use crate::flight::SearchLimits;
-use crate::math::{Matrix2, Sum, ln};
+use crate::math::{Matrix2, Wide, ln};
 use crate::motion::{ABREAST, ImpactMap, ImpactState, Mapped, derivatives};
 use crate::system::Oscillator;
 
@@ -105,7 +105,7 @@ pub(crate) struct Measure {
     before: ImpactState,
     /// The number of impacts of the current block.
     count: u32,
-    time: Sum,
+    time: Wide,
     one: LogSum,
     two: LogSum,
     /// For each block: the means of both exponents and of the number of impacts per unit of time, and the time.
@@ -126,7 +126,7 @@ impl Measure {
             pending: Vec::with_capacity(ABREAST),
             before: from,
             count: 0,
-            time: Sum::default(),
+            time: Wide::default(),
             one: LogSum::default(),
             two: LogSum::default(),
             blocks: Vec::with_capacity(BLOCKS as usize),
@@ -176,13 +176,13 @@ impl Measure {
         self.w = [-self.u[1], self.u[0]];
         self.one.multiply(along);
         self.two.multiply(across);
-        self.time.add(interval);
+        self.time += interval;
         self.count += 1;
         if self.count == self.per_block {
             let t = self.time.value();
             let means = [self.one.value() / t, self.two.value() / t, f64::from(self.per_block) / t];
             self.blocks.push((means, t));
-            (self.count, self.time) = (0, Sum::default());
+            (self.count, self.time) = (0, Wide::default());
             (self.one, self.two) = (LogSum::default(), LogSum::default());
         }
     }
@@ -231,12 +231,12 @@ impl Measure {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LogSum {
     product: f64,
-    sum: Sum,
+    sum: Wide,
 }
 
 impl Default for LogSum {
     fn default() -> Self {
-        Self { product: 1.0, sum: Sum::default() }
+        Self { product: 1.0, sum: Wide::default() }
     }
 }
 
@@ -247,18 +247,18 @@ impl LogSum {
         if (1e-100..=1e100).contains(&product) {
             self.product = product;
         } else {
-            self.sum.add(ln(self.product));
+            self.sum += ln(self.product);
             self.product = factor;
         }
     }
 
     /// Adds a factor given by its logarithm.
     pub(crate) fn add(&mut self, logarithm: f64) {
-        self.sum.add(logarithm);
+        self.sum += logarithm;
     }
 
     pub(crate) fn value(mut self) -> f64 {
-        self.sum.add(ln(self.product));
+        self.sum += ln(self.product);
         self.sum.value()
     }
 }

@@ -6,7 +6,7 @@
 
 use super::measure::{LogSum, mean};
 use super::{Measured, TRANSIENT};
-use crate::math::{Matrix, Sum, add_scaled, dot};
+use crate::math::{Matrix, Wide, add_scaled, dot};
 
 /// The Lyapunov exponents of a motion of a machine.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,7 +50,7 @@ pub(crate) struct MachineMeasure {
     per_block: u32,
     count: u32,
     closings: f64,
-    time: Sum,
+    time: Wide,
     blocks: Vec<Block>,
 }
 
@@ -74,7 +74,7 @@ impl MachineMeasure {
             per_block: (steps / 25).max(1),
             count: 0,
             closings: 0.0,
-            time: Sum::default(),
+            time: Wide::default(),
             blocks: Vec::new(),
         }
     }
@@ -116,7 +116,7 @@ impl MachineMeasure {
             let vector = self.any();
             self.frame.push(vector);
         }
-        self.time.add(time);
+        self.time += time;
         self.closings += closings;
         self.count += 1;
         if self.count == self.per_block {
@@ -125,7 +125,7 @@ impl MachineMeasure {
             let value = |(log, lost): (LogSum, bool)| if lost { f64::NEG_INFINITY } else { log.value() };
             let logs = logs.into_iter().zip(lost).map(value).collect();
             self.blocks.push(Block { logs, closings: self.closings, time: self.time.value() });
-            (self.count, self.closings, self.time) = (0, 0.0, Sum::default());
+            (self.count, self.closings, self.time) = (0, 0.0, Wide::default());
         }
     }
 

@@ -20,7 +20,7 @@ mod trig;
 pub(crate) use complex::Complex;
 pub use dense::Matrix;
 pub(crate) use dense::{add_scaled, dot, fit};
-pub(crate) use exact::{Sum, two_prod, two_sum};
+pub(crate) use exact::{Wide, two_prod, two_sum};
 pub(crate) use gauss::{Gauss, POINTS, RULE};
 pub(crate) use general::general_eigenvalues;
 pub(crate) use lane::{Lane, Mask, Numbers, Single, turned};

@@ -7,7 +7,7 @@ use super::{End, Event, EventKind, ImpactState};
 use crate::contact::{chatter, landing, sticking};
 use crate::flight::{Contact, Flight, SearchLimits};
 use crate::lanes::{self, PropagatorCache, Stride};
-use crate::math::Sum;
+use crate::math::Wide;
 use crate::system::{Oscillator, Side, Start, phase};
 
 /// The motion of the mass between two events.
@@ -74,7 +74,7 @@ pub struct Motion<'a> {
     osc: &'a Oscillator,
     stride: Option<Stride>,
     limits: SearchLimits,
-    time: Sum,
+    time: Wide,
     mode: Mode,
     last: Option<Leg>,
     steps: u64,
@@ -125,7 +125,7 @@ impl<'a> Motion<'a> {
     pub(super) fn restart(&mut self, state: &ImpactState) {
         let rebound = self.osc.stop(state.side).map_or(0.0, |stop| stop.rebound(state.velocity));
         self.mode = self.after_impact(state.side, state.phase, rebound);
-        (self.time, self.last, self.steps) = (Sum::default(), None, 0);
+        (self.time, self.last, self.steps) = (Wide::default(), None, 0);
     }
 
     /// The motion after a release from the stop on `side`. It ends at once, without an event, if that stop never
@@ -140,16 +140,16 @@ impl<'a> Motion<'a> {
     }
 
     fn begin(osc: &'a Oscillator, limits: SearchLimits, mode: Mode) -> Self {
-        Self { osc, stride: Stride::new(osc), limits, time: Sum::default(), mode, last: None, steps: 0 }
+        Self { osc, stride: Stride::new(osc), limits, time: Wide::default(), mode, last: None, steps: 0 }
     }
 
     /// The same motion, begun at this time of a longer one.
-    pub(crate) fn begun(self, time: Sum) -> Self {
+    pub(crate) fn begun(self, time: Wide) -> Self {
         Self { time, ..self }
     }
 
     /// The time of the last event.
-    pub(crate) const fn time(&self) -> Sum {
+    pub(crate) const fn time(&self) -> Wide {
         self.time
     }
 
@@ -176,7 +176,7 @@ impl<'a> Motion<'a> {
     }
 
     fn event(&mut self, leg: Leg, phase: f64, side: Side, kind: EventKind) -> Event {
-        self.time.add(leg.duration);
+        self.time += leg.duration;
         self.last = Some(leg);
         Event { time: self.time.value(), phase, side, kind }
     }

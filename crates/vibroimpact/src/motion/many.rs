@@ -5,7 +5,7 @@ use super::{End, Event, EventKind, Motion};
 use crate::contact::ImpactState;
 use crate::flight::SearchLimits;
 use crate::lanes::{Batch, PropagatorCache, Width};
-use crate::math::Sum;
+use crate::math::Wide;
 use crate::system::{Oscillator, Start};
 
 /// Takes the events of many motions. Those of one motion come in their order; those of different motions are mixed.
@@ -64,7 +64,7 @@ pub fn record_events(
         None => {
             let cache = PropagatorCache::new();
             for (number, start) in starts.iter().enumerate() {
-                let mut track = Track { number, time: Sum::default() };
+                let mut track = Track { number, time: Wide::default() };
                 let motion = Motion::with_limits(osc, *start, limits);
                 events.alone(&mut track, osc, (motion, Some(&cache)), |_| false);
                 if events.stopping() {
@@ -85,19 +85,19 @@ struct Events<'a, R> {
 /// The number of a motion, and the time of its last event.
 struct Track {
     number: usize,
-    time: Sum,
+    time: Wide,
 }
 
 impl<R: EventRecorder> Recorder for Events<'_, R> {
     type Track = Track;
 
     fn track(&self) -> Track {
-        Track { number: 0, time: Sum::default() }
+        Track { number: 0, time: Wide::default() }
     }
 
     fn next(&mut self, track: &mut Track) -> Option<Launched> {
         let start = *self.starts.get(self.next)?;
-        *track = Track { number: self.next, time: Sum::default() };
+        *track = Track { number: self.next, time: Wide::default() };
         self.next += 1;
         Some(Launched { system: 0, start })
     }
@@ -107,7 +107,7 @@ impl<R: EventRecorder> Recorder for Events<'_, R> {
     }
 
     fn impact(&mut self, track: &mut Track, osc: &Oscillator, state: ImpactState, (interval, _): (f64, u64)) -> bool {
-        track.time.add(interval);
+        track.time += interval;
         let ImpactState { phase, velocity, side } = state;
         let rebound = osc.stop(side).map_or(0.0, |stop| stop.rebound(velocity));
         let kind = EventKind::Impact { velocity_before: velocity, velocity_after: -rebound };

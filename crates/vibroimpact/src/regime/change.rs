@@ -6,6 +6,7 @@
 
 use super::contact_state::ContactState;
 use super::normal::Normal;
+use super::rest_force::RestBuffers;
 use super::signal::{Observable, Signal};
 use super::structure::Structure;
 use crate::math::dot;
@@ -30,7 +31,7 @@ impl Structure {
             .collect();
         let by_set = |signal: &Signal| dot(&signal.set, &set);
         let (mut y, mut rate) = (Vec::new(), Vec::new());
-        self.modal(x, v, by_set, &mut y, &mut rate);
+        self.modal(x, v, by_set, &mut RestBuffers::default(), (&mut y, &mut rate));
         let push = self.drive.iter().map(by_set).collect();
         ModalChange { y, v: rate, push, set }
     }

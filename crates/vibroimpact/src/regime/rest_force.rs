@@ -33,12 +33,13 @@ pub(crate) struct RestBuffers {
     pulled: Vec<f64>,
     on_free: Vec<f64>,
     drift: Vec<f64>,
+    /// Coordinates and velocities in the free directions.
+    pub(super) free: [Vec<f64>; 2],
 }
 
-/// A closed stop: its place, stiffness, constant force at gap 0, direction, and the force on each mode per unit of its force.
+/// A closed stop: its stiffness, constant force at gap 0, direction, and the force on each mode per unit of its force.
 #[derive(Clone, Debug)]
 pub(super) struct RestContact {
-    pub(super) place: usize,
     pub(super) stiffness: f64,
     pub(super) force: f64,
     pub(super) direction: Vec<f64>,
@@ -47,7 +48,7 @@ pub(super) struct RestContact {
 
 impl RestForce {
     /// The force on each mode at the position `x`, into `push`, and the displacement of each mode that belongs to the
-    /// velocities `v` alone, or none. `gap` is the gap of a closed stop with its wall at its mean place. Harmonics of walls
+    /// velocities `v` alone, or none. `gaps` are those of the closed stops with their walls at their mean places. Harmonics of walls
     /// and of what they carry along are counted from their mean, as they are in what drives the modes; `turns` are their
     /// sines and cosines.
     #[inline]
@@ -56,11 +57,11 @@ impl RestForce {
         x: &[f64],
         v: &[f64],
         turns: &[(f64, f64)],
-        gap: impl Fn(usize) -> f64,
+        gaps: impl Iterator<Item = f64>,
         buffers: &'a mut RestBuffers,
         push: &mut Vec<f64>,
     ) -> &'a [f64] {
-        let RestBuffers { swung, mean, pulled, on_free, drift } = buffers;
+        let RestBuffers { swung, mean, pulled, on_free, drift, .. } = buffers;
         let mean = if self.carries {
             swung.resize(x.len(), 0.0);
             for (swung, signal) in swung.iter_mut().zip(&self.carried) {
@@ -77,8 +78,7 @@ impl RestForce {
             *pulled = force - dot(self.stiffness.row(i), mean);
         }
         self.push_of_force.apply_into(pulled, push);
-        for contact in &self.contacts {
-            let mut gap = gap(contact.place);
+        for (contact, mut gap) in self.contacts.iter().zip(gaps) {
             if self.carries {
                 gap += dot(&contact.direction, swung);
             }

@@ -50,6 +50,17 @@ pub(crate) struct Guard {
     pub(crate) function: Observable,
 }
 
+/// A closed stop.
+#[derive(Clone, Debug)]
+pub(crate) struct ClosedStop {
+    pub(crate) place: usize,
+    /// Its stiffness, damping and preload.
+    pub(crate) law: (f64, f64, f64),
+    /// Its gap, and the rate of this.
+    pub(crate) gap: Observable,
+    pub(crate) rate: Observable,
+}
+
 /// The structure in one regime.
 #[derive(Clone, Debug)]
 pub(crate) struct Structure {
@@ -70,9 +81,15 @@ pub(crate) struct Structure {
     /// Modes from the mass-normalised state: $`y = A_1x + A_2\dot x + `$ a signal, and $`z`$ alike.
     pub(super) to_y: [Matrix; 2],
     pub(super) to_z: [Matrix; 2],
+    /// The same maps from coordinates and velocities in the free directions, which are the product of this matrix with those
+    /// of the machine.
+    back: Matrix,
+    from_free: [[Matrix; 2]; 2],
     pub(super) to_y_signal: Vec<Signal>,
     pub(super) to_z_signal: Vec<Signal>,
     pub(crate) guards: Vec<Guard>,
+    /// The closed stops.
+    pub(crate) closed: Vec<ClosedStop>,
     /// The places of the constraints: stops and, after them, joints.
     pub(crate) held: Vec<usize>,
     /// Their reactions.
@@ -95,6 +112,8 @@ pub(crate) struct Structure {
     pub(crate) sampled: Option<Sampled>,
     /// Whether coordinates and velocities have prescribed parts.
     pub(crate) carries: bool,
+    /// Whether these have or gaps of closed stops.
+    pub(crate) swings: bool,
     /// The fastest rate of the free motion and of the forcing.
     fastest: f64,
 }
@@ -274,7 +293,6 @@ impl Structure {
                 .map(|(contact, share)| {
                     let along = contact.direction.iter().zip(&carried_rate).map(|(w, rate)| w * rate.constant);
                     RestContact {
-                        place: contact.place,
                         stiffness: contact.k,
                         force: -contact.p - contact.c * along.sum::<f64>(),
                         direction: contact.direction.to_vec(),
@@ -289,6 +307,30 @@ impl Structure {
             drifts: basis.a[1].largest() > 0.0,
         };
         let (to_y_signal, to_z_signal) = (offset(&to_y), offset(&to_z));
+        let closed_stops = closed.iter().zip(&shares).map(|(contact, share)| {
+            let (wall, direction) = (&normal.walls[contact.place], contact.direction);
+            // the share has exact zeros, so the little that soft modes move a stiff stop keeps its digits
+            let along = |from: &[Matrix; 2], wall: &Signal, carried: &[Signal]| {
+                let (position, velocity) = (from[0].apply_transposed(share), from[1].apply_transposed(share));
+                let mut signal = wall.clone();
+                for (factor, carried) in direction.iter().zip(carried) {
+                    signal.add(-factor, carried);
+                }
+                for (factor, slip) in velocity.iter().zip(&slip) {
+                    signal.add(*factor, slip);
+                }
+                let mut along = Observable { position, velocity, signal: zero() }.scaled(-1.0);
+                along.signal = signal;
+                along
+            };
+            ClosedStop {
+                place: contact.place,
+                law: (contact.k, contact.c, contact.p),
+                gap: along(&basis.e, wall, &carried),
+                rate: along(&basis.v, &wall.derivative(rates), &carried_rate),
+            }
+        });
+        let closed_stops: Vec<ClosedStop> = closed_stops.collect();
 
         // reactions: G^-1 (W' (F - K x - C x') - wanted'')
         let reactions: Vec<Observable> = across
@@ -335,9 +377,12 @@ impl Structure {
             v,
             to_y,
             to_z,
+            back,
+            from_free: [basis.a, basis.b],
             to_y_signal,
             to_z_signal,
             guards: Vec::new(),
+            closed: closed_stops,
             held,
             reactions,
             mobility: across
@@ -360,6 +405,7 @@ impl Structure {
             windows: Vec::new(),
             sampled: None,
             carries: false,
+            swings: false,
             fastest: 0.0,
         };
         let still = |signals: &[Signal]| signals.iter().all(Signal::is_zero);
@@ -369,6 +415,7 @@ impl Structure {
             && still(&structure.to_z_signal)
             && still(&structure.slip);
         structure.carries = structure.x.iter().chain(&structure.v).any(|of| of.signal.moves());
+        structure.swings = structure.carries || structure.closed.iter().any(|closed| closed.gap.signal.moves());
         structure.pressing = structure.reactions.iter().map(|reaction| structure.pressing(reaction)).collect();
         structure.fastest =
             structure.modes.iter().map(|mode| mode.rate).fold(rates.last().copied().unwrap_or(0.0), f64::max);
@@ -410,6 +457,9 @@ impl Structure {
 
     /// The gap of a stop, and its rate.
     pub(crate) fn gap(&self, normal: &Normal, stop: usize) -> (Observable, Observable) {
+        if let Some(closed) = self.closed.iter().find(|closed| closed.place == stop) {
+            return (closed.gap.clone(), closed.rate.clone());
+        }
         let (place, rate) = self.along(&normal.directions[stop]);
         let wall = &normal.walls[stop];
         let difference = |signal: &Signal, of: &Observable| {
@@ -494,18 +544,18 @@ impl Structure {
     }
 
     /// The constant force on each mode at the position `x`, less that of its own stiffness there: the force that remains if
-    /// modal displacements are counted from there. `gap` is the gap of a closed stop with its wall at its mean place,
+    /// modal displacements are counted from there. `gaps` are those of the closed stops,
     /// `turns` are sine and cosine of the harmonics there.
     pub(crate) fn rest_force(
         &self,
         x: &[f64],
         v: &[f64],
         turns: &[(f64, f64)],
-        gap: impl Fn(usize) -> f64,
+        gaps: impl Iterator<Item = f64>,
         buffers: &mut RestBuffers,
         force: &mut Vec<f64>,
     ) {
-        let drift = self.rest.at(x, v, turns, gap, buffers, force);
+        let drift = self.rest.at(x, v, turns, gaps, buffers, force);
         if self.dense.is_none() {
             if !self.plain {
                 for (push, slip) in force.iter_mut().zip(&self.slip) {
@@ -526,22 +576,27 @@ impl Structure {
         x: &[f64],
         v: &[f64],
         at: impl Fn(&Signal) -> f64,
-        y: &mut Vec<f64>,
-        rate: &mut Vec<f64>,
+        buffers: &mut RestBuffers,
+        (y, rate): (&mut Vec<f64>, &mut Vec<f64>),
     ) {
         if self.plain {
             self.to_y[0].apply_into(x, y);
             self.to_z[1].apply_into(v, rate);
             return;
         }
+        // both from the same velocities in the free directions as the constant force of `rest_force`: where they have rounding
+        // errors, it is as if the machine had these velocities, and no force is left that a stiff damper would make of them
+        let [free, free_rate] = &mut buffers.free;
+        self.back.apply_into(x, free);
+        self.back.apply_into(v, free_rate);
+        let of = |maps: &[Matrix; 2], signals: &[Signal], i: usize| {
+            dot(maps[0].row(i), free) + dot(maps[1].row(i), free_rate) - at(&signals[i])
+        };
         y.clear();
         rate.clear();
         let modes = 0..self.modes.len();
-        let of = |maps: &[Matrix; 2], signals: &[Signal], i: usize| {
-            dot(maps[0].row(i), x) + dot(maps[1].row(i), v) - at(&signals[i])
-        };
-        y.extend(modes.clone().map(|i| of(&self.to_y, &self.to_y_signal, i)));
-        rate.extend(modes.map(|i| of(&self.to_z, &self.to_z_signal, i) + at(&self.slip[i])));
+        y.extend(modes.clone().map(|i| of(&self.from_free[0], &self.to_y_signal, i)));
+        rate.extend(modes.map(|i| of(&self.from_free[1], &self.to_z_signal, i) + at(&self.slip[i])));
     }
 
     /// A linear function of the modes as one of the mass-normalised state.

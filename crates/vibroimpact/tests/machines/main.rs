@@ -30,22 +30,9 @@ mod verdicts;
 use case::{Case, cases};
 use std::fmt::Write as _;
 use vibroimpact::events::{MachineEvent, MachineEventKind, MachineLimits, MachineMotion};
-use vibroimpact::machine::StopLaw;
 
-/// Roundings of the time and of its condition that are allowed: 50. A stop that is much stiffer than the structure takes
-/// digits from the soft modes, because the modes of the closed contact are rounded as parts of its stiffness: four machines
-/// need 52 to 116, and stops that are 1e4 to 1e8 times stiffer lose up to three digits.
-fn roundings(case: &Case) -> f64 {
-    let parts = case.machine.parts();
-    let n = case.machine.n();
-    let own = (0..n).map(|i| parts.stiffness[(i, i)]).fold(0.0, f64::max);
-    let stiffest = parts.stops.iter().map(|stop| match stop.law {
-        StopLaw::Compliant { stiffness, .. } => stiffness,
-        StopLaw::Rigid { .. } => 0.0,
-    });
-    let ratio = stiffest.fold(0.0, f64::max) / own.max(1.0);
-    50.0 + (0.2 * ratio).min(2000.0)
-}
+/// Roundings of the time and of its condition that are allowed.
+const ROUNDINGS: f64 = 50.0;
 
 /// What differs first, with its event.
 fn difference(case: &Case) -> Option<String> {
@@ -65,7 +52,7 @@ fn difference(case: &Case) -> Option<String> {
         if (event.kind.name(), name) != (want.kind.as_str(), want.stop.as_str()) {
             return Some(format!("event {k}: {} {name} at {:e}, {want:?} wanted", event.kind.name(), event.time));
         }
-        let allowed = roundings(case) * f64::EPSILON * (want.condition + want.time);
+        let allowed = ROUNDINGS * f64::EPSILON * (want.condition + want.time);
         if (event.time - want.time).abs() > allowed {
             let error = (event.time - want.time) / (f64::EPSILON * (want.condition + want.time));
             return Some(format!(
@@ -79,7 +66,7 @@ fn difference(case: &Case) -> Option<String> {
             return Some(format!("event {k}: speed {:e}, {want:?} wanted", event.speed));
         }
         if let Some(wrong) =
-            case.states.iter().find(|state| state.event == k).and_then(|state| state.differs(&event, roundings(case)))
+            case.states.iter().find(|state| state.event == k).and_then(|state| state.differs(&event, ROUNDINGS))
         {
             return Some(format!("event {k}: {wrong}"));
         }
@@ -107,7 +94,7 @@ fn after_chatter(case: &Case) -> Option<String> {
         }
         let name = case.machine.name_of(event.place);
         // the sum has an error of 1e-11 of what is summed
-        let allowed = 1e-10 * (1.0 + want.condition) + roundings(case) * f64::EPSILON * (want.condition + want.time);
+        let allowed = 1e-10 * (1.0 + want.condition) + ROUNDINGS * f64::EPSILON * (want.condition + want.time);
         if (event.kind.name(), name) != (want.kind.as_str(), want.stop.as_str())
             || (event.time - want.time).abs() > allowed
         {

@@ -1,14 +1,27 @@
 //! The verdicts on both.
 
-use crate::{is_long, some};
+use crate::{System, is_long, some};
+use vibroimpact::Start;
 use vibroimpact::verdict::{MachineVerdict, NoImpact, SettleOptions, Verdict, settle, settle_machine};
 
+/// The labels of the motions of the oscillator from starts with a velocity that is wrong by up to 100 roundings.
+fn beside<'a>(system: &'a System, options: &'a SettleOptions) -> impl Iterator<Item = String> + 'a {
+    (1..=100).flat_map(move |k| {
+        let by = f64::from(k) * f64::EPSILON;
+        [1.0 + by, 1.0 - by].map(|factor| {
+            let start = Start { v: factor * system.start.v, ..system.start };
+            settle(&system.oscillator, start, options).verdict.label().to_string()
+        })
+    })
+}
+
 /// The same labels, cycles and multipliers, and exponents within their error bars. What one of them leaves undecided is not
-/// compared.
+/// compared. Where a chaotic transient ends in one of several motions, rounding errors of the start can decide which.
 #[test]
 fn the_same_motions() {
     let options = SettleOptions::default();
     let (mut periodic, mut chaotic, mut others, mut undecided, mut differ) = (0, 0, 0, 0, Vec::new());
+    let mut sensitive = 0;
     for system in some() {
         let expected = settle(&system.oscillator, system.start, &options).verdict;
         let found = settle_machine(&system.machine(), &system.machine_start(), &options).unwrap().verdict;
@@ -42,11 +55,14 @@ fn the_same_motions() {
             // after a long flight without impact the oscillator claims nothing beyond
             (Verdict::NoImpact(NoImpact::ForPeriods(_)) | Verdict::Undecided(_), _)
             | (_, MachineVerdict::Undecided { .. }) => undecided += 1,
+            _ if beside(&system, &options).any(|label| label == found.label()) => sensitive += 1,
             _ => fault("labels".to_owned()),
         }
     }
-    let summary = format!("{periodic} periodic, {chaotic} chaotic, {others} others, {undecided} undecided");
-    assert!(differ.is_empty(), "{summary}\n{differ:#?}");
+    let summary = format!(
+        "{periodic} periodic, {chaotic} chaotic, {others} others, {undecided} undecided, {sensitive} sensitive"
+    );
+    assert!(differ.is_empty() && sensitive <= 2, "{summary}\n{differ:#?}");
     let least = if is_long() { (150, 250, 20) } else { (30, 50, 4) };
     assert!(periodic > least.0 && others > least.1 && chaotic >= least.2, "{summary}");
 }

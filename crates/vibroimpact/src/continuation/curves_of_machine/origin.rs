@@ -38,9 +38,9 @@ fn begin(
     let ring_at = |machine: &Machine| {
         MachineRing::of(&MachineFrame::new(machine), begin, (point.cycle.label.periods, point.cycle.period))
     };
-    // rounding can let a motion end at a limit
+    // rounding can let a motion end at a limit, or miss a stop that it grazes
     let beside = |by: f64| ring_at(&plane.at((values.0 + by * plane.scales().0, values.1))?);
-    let mut ring = ring_at(machine).or_else(|| beside(BESIDE)).or_else(|| beside(-BESIDE))?;
+    let mut ring = ring_at(machine).or_else(|| BESIDE.into_iter().find_map(|by| beside(by).or_else(|| beside(-by))))?;
     let touch = |at: usize| Condition::Touch { at, size: sizes.1, contact: None, speed: sizes.1 };
     let (kind, condition) = match event {
         MachineBranchEvent::Fold => (MachineCurveKind::Fold, None),
@@ -115,8 +115,8 @@ fn begin(
     Some(Ok((CurveProblem::new(equations, kind, (sizes.1, rigid)), w)))
 }
 
-/// The change of the number at which the motion is followed instead, in its scale.
-const BESIDE: f64 = 1e-9;
+/// The changes of the number at which the motion is followed instead, in its scale.
+const BESIDE: [f64; 4] = [1e-9, 1e-8, 1e-7, 1e-6];
 
 /// A gap or a speed that is larger, relative to the motion, is not that of a grazing contact.
 const NEAR: f64 = 1e-3;

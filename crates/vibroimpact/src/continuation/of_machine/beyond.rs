@@ -10,6 +10,8 @@ use super::change::Difference;
 use super::closest::closest;
 use super::equations::MachineEquations;
 use super::problem::{MachineProblem, MachineSolution};
+use super::summed::{same_but_for_sums, same_in_turn};
+use super::touch::speed_before;
 use crate::continuation::branches::BranchOptions;
 use crate::continuation::trace::equations::{Equations, correct, tangent};
 use crate::continuation::trace::tracer::Tracer;
@@ -122,6 +124,9 @@ fn appearing(
     first_step(&problem, &w, &[along], options)
 }
 
+/// Impacts of lower speeds, relative to the largest velocity, have speed zero where another one has.
+const AT_ONCE: f64 = 1e-9;
+
 /// Without the impact `gone`, whose speed is zero. What is left can be several times a shorter cycle.
 fn disappearing(
     tracer: &Tracer<MachineProblem>,
@@ -130,10 +135,21 @@ fn disappearing(
     gone: usize,
     options: &BranchOptions,
 ) -> Option<Tracer<MachineProblem>> {
-    let mut next = ring.clone();
-    next.remove(gone);
     let sizes = at.known.cycle.as_ref()?.sizes;
-    let next = next.shortest(&MachineFrame::new(machine), sizes);
+    let frame = MachineFrame::new(machine);
+    // all that graze at once, as in the equal parts of a cycle
+    let grazes = |k: usize| match ring.events[k].guard {
+        GuardKind::Gap(stop) => speed_before(&frame, ring, k, stop).abs() <= AT_ONCE * sizes.1,
+        _ => false,
+    };
+    let mut next = ring.clone();
+    for k in (0..ring.len()).rev().filter(|k| *k == gone || grazes(*k)) {
+        next.remove(k);
+    }
+    if next.len() == 0 {
+        return None;
+    }
+    let next = next.shortest(&frame, sizes);
     let problem = with_ring(tracer, machine, next, sizes);
     let w = MachineEquations::join(machine, &problem.equations.ring, last(&at.w));
     let mut row = vec![0.0; w.len()];
@@ -143,8 +159,10 @@ fn disappearing(
     first_step(&problem, &w, &[along, back], options)
 }
 
-/// How far beyond a change the motion is followed, in the scale of the number.
+/// How far beyond a change the motion is followed, in the scale of the number, at a change of the events and at one of the
+/// number of impacts of a chatter that are followed, which can come one soon after another.
 const BESIDE: [f64; 5] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-2];
+const SOON: [f64; 6] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4];
 
 /// The cycle a little beyond, from the last one. Beyond a `corner` its events may be the same in cyclic order.
 pub(super) fn replayed(
@@ -152,42 +170,47 @@ pub(super) fn replayed(
     at: &MachineSolution,
     (options, corner): (&BranchOptions, bool),
 ) -> Option<Tracer<MachineProblem>> {
+    let ring = &tracer.problem.equations.ring;
+    let forward = if last(&at.tangent) < 0.0 { -1.0 } else { 1.0 };
+    let steps = [forward, -forward].into_iter().flat_map(|up| BESIDE.map(|by| up * by));
+    steps.into_iter().find_map(|by| {
+        let other = |next: &MachineRing| !same_in_turn(&next.events, &ring.events) || corner && by * forward > 0.0;
+        beside(tracer, at, (by, options), other)
+    })
+}
+
+/// The same cycle a little beyond, with another number of impacts before the sum of a chatter.
+pub(super) fn resummed(
+    tracer: &Tracer<MachineProblem>,
+    at: &MachineSolution,
+    options: &BranchOptions,
+) -> Option<Tracer<MachineProblem>> {
+    let ring = &tracer.problem.equations.ring;
+    let forward = if last(&at.tangent) < 0.0 { -1.0 } else { 1.0 };
+    let same = |next: &MachineRing| !same_in_turn(&next.events, &ring.events) && same_but_for_sums(ring, next);
+    SOON.into_iter().find_map(|by| beside(tracer, at, (forward * by, options), same))
+}
+
+/// The cycle at a number that differs by `by` in its scale, from the last one; `None` if it is not `wanted`.
+fn beside(
+    tracer: &Tracer<MachineProblem>,
+    at: &MachineSolution,
+    (by, options): (f64, &BranchOptions),
+    wanted: impl Fn(&MachineRing) -> bool,
+) -> Option<Tracer<MachineProblem>> {
     let equations = &tracer.problem.equations;
     let (machine, ring) = equations.split(&at.w)?;
-    let value = last(&at.w);
-    let forward = if last(&at.tangent) < 0.0 { -1.0 } else { 1.0 };
     let frame = MachineFrame::new(&machine);
     let (begin, period) = (ring.middle(&frame)?.1, ring.period(&frame));
     let (low, high) = tracer.problem.range;
-    for up in [forward, -forward] {
-        for by in BESIDE {
-            let there = value + up * by * equations.scale;
-            if there < low || there > high {
-                continue;
-            }
-            let Some(moved) = equations.family.at(there) else { continue };
-            let frame = MachineFrame::new(&moved);
-            let lasting = (ring.periods, period);
-            let Some(cycle) = MachineCycle::lasting(&frame, &begin, lasting) else { continue };
-            let lasting = (ring.periods, cycle.period);
-            let Some(next) = MachineRing::of(&frame, cycle.strobes.first()?, lasting) else { continue };
-            if same_signature(&next, &ring) && !(corner && up == forward) {
-                continue;
-            }
-            let w = MachineEquations::join(&moved, &next, there);
-            let problem = with_ring(tracer, &moved, next, cycle.sizes);
-            if let Some(tracer) = begun(problem, &w, there, up, *options)
-                && tracer.here.known.physical()
-            {
-                return Some(tracer);
-            }
-        }
-    }
-    None
-}
-
-/// Whether two rings have the same events in the same cyclic order.
-fn same_signature(a: &MachineRing, b: &MachineRing) -> bool {
-    let m = a.len();
-    m == b.len() && (0..m).any(|shift| (0..m).all(|k| a.events[k] == b.events[(k + shift) % m]))
+    let there = last(&at.w) + by * equations.scale;
+    (low..=high).contains(&there).then_some(())?;
+    let moved = equations.family.at(there)?;
+    let frame = MachineFrame::new(&moved);
+    let cycle = MachineCycle::lasting(&frame, &begin, (ring.periods, period))?;
+    let next = MachineRing::of(&frame, cycle.strobes.first()?, (ring.periods, cycle.period))?;
+    wanted(&next).then_some(())?;
+    let w = MachineEquations::join(&moved, &next, there);
+    let problem = with_ring(tracer, &moved, next, cycle.sizes);
+    begun(problem, &w, there, by.signum(), *options).filter(|tracer| tracer.here.known.physical())
 }

@@ -2,7 +2,7 @@
 
 use super::at_rest::at_rest;
 use super::beginning::{begun, last};
-use super::beyond::{beyond, replayed};
+use super::beyond::{beyond, replayed, resummed};
 use super::change::{Difference, additional, difference};
 use super::edge::edge;
 use super::equations::MachineEquations;
@@ -11,9 +11,11 @@ use super::halving::halved;
 use super::meeting::meeting;
 use super::point::{MachineBranchEvent, MachinePoint};
 use super::problem::{Judged, MINUS_ONE, MachineProblem, MachineSolution, PACE, PLUS_ONE, TORUS};
+use super::summed::{Grazes, grazes, is_summed, limit, sums};
 use super::touch::{grazing, touching};
 use crate::continuation::branches::{BranchOptions, Direction};
 use crate::continuation::trace::tracer::{Crossing, Problem, Step, Tracer};
+use crate::math::Multiplier;
 use crate::orbit::{MachineCycle, MachineFrame, MachineRing};
 use core::ops::RangeInclusive;
 use std::collections::VecDeque;
@@ -50,6 +52,8 @@ pub struct MachineBranch {
     /// The changes of the events so far, with the number of unknowns and the direction; at the second one of a kind the
     /// branch is closed.
     passed: Vec<(f64, usize, bool, MachineBranchEvent)>,
+    /// The values at which the number of impacts changes that are followed before a chatter is summed, since the last event.
+    counted: Vec<f64>,
     count: u32,
     pending: VecDeque<MachinePoint>,
     over: bool,
@@ -85,7 +89,16 @@ impl MachineBranch {
         let tracer = begun(problem, &w, value, up, options).ok_or(MachineBranchError::NoCycle)?;
         let first = Self::point(&tracer.here, None).ok_or(MachineBranchError::NoCycle)?;
         let begin = Some(tracer.here.clone());
-        Ok(Self { options, tracer, begin, passed: Vec::new(), count: 1, pending: VecDeque::from([first]), over: false })
+        Ok(Self {
+            options,
+            tracer,
+            begin,
+            passed: Vec::new(),
+            counted: Vec::new(),
+            count: 1,
+            pending: VecDeque::from([first]),
+            over: false,
+        })
     }
 
     fn point(at: &MachineSolution, event: Option<MachineBranchEvent>) -> Option<MachinePoint> {
@@ -190,9 +203,17 @@ impl MachineBranch {
                 other.and_then(middle).or_else(|| self.tracer.solution_along(one, along))
             };
             let Some(at) = BESIDE.into_iter().find_map(solved) else { continue };
-            // two real multipliers whose product is 1 are no torus bifurcation
-            let complex = at.known.multipliers.iter().any(|m| m.im.abs() > 1e-6 && (m.modulus() - 1.0).abs() < 1e-6);
-            if what != &Some(TORUS) || complex {
+            let any = |test: &dyn Fn(&Multiplier) -> bool| at.known.multipliers.iter().any(test);
+            let near = |value: f64| any(&|m| (m.re - value).abs() + m.im.abs() < NEARBY);
+            let real = match event {
+                // two real multipliers whose product is 1 are no torus bifurcation
+                MachineBranchEvent::Torus => any(&|m| m.im.abs() > 1e-6 && (m.modulus() - 1.0).abs() < 1e-6),
+                // beside a grazing contact one multiplier is so large that rounding decides the sign of the determinants
+                MachineBranchEvent::BranchPoint => near(1.0),
+                MachineBranchEvent::Flip => near(-1.0),
+                _ => true,
+            };
+            if real {
                 self.add(&at, Some(event));
             }
         }
@@ -245,16 +266,41 @@ impl MachineBranch {
         if let Some((at, found)) = at_rest(&self.tracer, &inside, &found) {
             return Some((s, at, found));
         }
-        let rest = matches!(found, Difference::Rest { .. });
-        let found = if rest { additional(ring, &beyond).unwrap_or(found) } else { found };
+        let found = match found {
+            // one more impact of a chatter before it is summed is no other event
+            Difference::Rest { place, .. } => additional(ring, &beyond)
+                .filter(|more| !matches!(*more, Difference::Appears { stop, .. } if stop == place && sums(ring, stop)))
+                .unwrap_or(found),
+            _ => found,
+        };
         let found = grazing(&self.tracer, &inside, found);
+        let found = self.of_chatter(&inside, found);
         if let Some((at, found)) = self.interrupted(&inside, &found) {
             return Some((s, at, found));
         }
-        // a curve of the loss of contact begins with a cycle that has the impact
-        let exact = self.lost(&inside, &found).is_none().then(|| touching(&self.tracer, step, (s, &inside), &found));
-        let (s, at) = exact.flatten().unwrap_or((s, inside));
+        let (s, at) = touching(&self.tracer, step, (s, &inside), &found).unwrap_or((s, inside));
         Some((s, at, found))
+    }
+
+    /// The same difference, but for chatters: a grazing contact that changes the number of their impacts, or a change only of the
+    /// number of those that are followed before the sum.
+    fn of_chatter(&self, inside: &MachineSolution, found: Difference) -> Difference {
+        let (Difference::Rest { place: stop, joint: false, .. } | Difference::Disappears { stop, .. }) = found else {
+            return found;
+        };
+        let Some((machine, ring)) = self.tracer.problem.equations.split(&inside.w) else { return found };
+        let Some(cycle) = inside.known.cycle.as_ref().filter(|_| sums(&ring, stop)) else { return found };
+        match grazes(&MachineFrame::new(&machine), &ring, stop, cycle.sizes) {
+            Some(Grazes::Flight(leg)) => Difference::Appears { at: (leg + 1) % ring.len(), stop },
+            Some(Grazes::Impact(at)) => Difference::Disappears { at, stop },
+            None => match found {
+                // the last impacts of a chatter are so slow that rounding decides which of them happen
+                Difference::Disappears { at, .. } if is_summed(&ring, at) => {
+                    Difference::Rest { place: stop, joint: false, begins: false }
+                }
+                _ => found,
+            },
+        }
     }
 
     /// The solution at which a rest or a hold begins or ends, if this explains a change of the events that shows elsewhere:
@@ -283,12 +329,56 @@ impl MachineBranch {
         if let Some(stop) = self.lost(at, found) {
             return self.end(at, MachineBranchEvent::LossOfContact { stop });
         }
+        let sum = match *found {
+            Difference::Rest { place, joint: false, .. } => {
+                Some(place).filter(|stop| sums(&self.tracer.problem.equations.ring, *stop))
+            }
+            _ => None,
+        };
+        if let Some(next) = sum.and_then(|_| resummed(&self.tracer, at, &self.options)) {
+            self.counted.push(last(&at.w));
+            return self.take(next);
+        }
         let Some(next) = beyond(&self.tracer, at, found, &self.options) else {
             self.add(at, Some(found.event(false)));
             return self.end(&at.clone(), MachineBranchEvent::NoConvergence);
         };
         let turns = last(&next.here.tangent) * last(&at.tangent) < 0.0;
-        self.go_on(at, found.event(turns), next);
+        let (ring, other) = (&self.tracer.problem.equations.ring, &next.problem.equations.ring);
+        let infinite = match *found {
+            Difference::Appears { stop, .. } if sums(other, stop) && !sums(ring, stop) => Some((stop, true)),
+            _ => sum.filter(|stop| !sums(other, *stop)).map(|stop| (stop, false)),
+        };
+        let Some((stop, begins)) = infinite else { return self.go_on(at, found.event(turns), next) };
+        let mut there = at.clone();
+        if let Some(number) = there.w.last_mut() {
+            *number = self.last_count((stop, begins), *number);
+        }
+        self.go_on(&there, MachineBranchEvent::Sticking { stop, begins }, next);
+    }
+
+    /// The value at which the number of impacts of a chatter becomes infinite, after that at `here`: the limit of the values at
+    /// which impacts appear, or at which the number of those that are followed before the sum changes.
+    fn last_count(&self, (stop, begins): (usize, bool), here: f64) -> f64 {
+        let appeared = self.passed.iter().rev().map_while(|(value, .., event)| match event {
+            MachineBranchEvent::Grazing { stop: of, appears: true, .. } => (*of == stop).then_some(*value),
+            _ => None,
+        });
+        let counted = self.counted.iter().rev().copied();
+        // where the last count changes, the last impacts are rounding errors
+        let mut values: Vec<f64> =
+            if begins { core::iter::once(here).chain(appeared).take(5).collect() } else { counted.take(5).collect() };
+        values.reverse();
+        let near = |last: &f64| (last - here).abs() < COUNTS * self.tracer.problem.equations.scale;
+        limit(values).filter(near).unwrap_or(here)
+    }
+
+    /// Goes on with another tracer.
+    fn take(&mut self, next: Tracer<MachineProblem>) {
+        self.tracer = next;
+        self.begin = None;
+        let here = self.tracer.here.clone();
+        self.add(&here, None);
     }
 
     /// Reports an event and goes on with another tracer. The branch is closed if the same event was there before.
@@ -302,16 +392,18 @@ impl MachineBranch {
             return self.end(at, MachineBranchEvent::Closed);
         }
         self.passed.push(here);
+        self.counted.clear();
         self.add(at, Some(event));
-        self.tracer = next;
-        self.begin = None;
-        let here = self.tracer.here.clone();
-        self.add(&here, None);
+        self.take(next);
     }
 }
 
+/// How far from 1 or -1 a multiplier is at most at a bifurcation, which is located to rounding.
+const NEARBY: f64 = 0.1;
 /// Values of the number that differ by less, in its scale, are those of one event.
 const HERE: f64 = 1e-7;
+/// The same for the last of many changes of the number of impacts of a chatter.
+const COUNTS: f64 = 1e-3;
 /// The distance, in parts of a step, from a grazing solution to that at which the signs of test functions are compared
 /// with those at the beginning.
 const ASIDE: f64 = 1e-6;

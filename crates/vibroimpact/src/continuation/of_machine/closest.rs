@@ -4,8 +4,11 @@ use crate::events::{EventLaw, Place};
 use crate::orbit::{MachineFrame, MachineRing};
 use crate::regime::GuardKind;
 
-/// The number of parts of a flight in which one minimum of the guard is looked for.
+/// The number of equal parts of a flight in which one minimum of the guard is looked for. The first is divided further, each
+/// part shorter than the next, because after an impact of a chatter the stop is close by soon.
 const PARTS: u32 = 400;
+const EARLY: usize = 60;
+const SHORTER: f64 = 1.25;
 
 /// The smallest of the minima of a guard on the flight after event `leg`, and the state there, with a phase that continues
 /// those of the ring. The gap of a stop whose surface stands back is that of the surface. `None` if the guard has no
@@ -26,8 +29,11 @@ pub(crate) fn closest(
         let (value, rate) = law.value_and_rate(&frame.normal, &place);
         (value, rate, place)
     };
-    let steps: Vec<(f64, f64)> =
-        (0..=PARTS).map(|k| time * f64::from(k) / f64::from(PARTS)).map(|s| (s, at(s).1)).collect();
+    let part = time / f64::from(PARTS);
+    let mut early: Vec<f64> = core::iter::successors(Some(part), |s| Some(s / SHORTER)).take(EARLY).collect();
+    early.reverse();
+    let times = core::iter::once(0.0).chain(early).chain((2..=PARTS).map(|k| part * f64::from(k)));
+    let steps: Vec<(f64, f64)> = times.map(|s| (s, at(s).1)).collect();
     // at an event of the same contact, or in contact with a surface that stands back, the guard begins at zero
     let stops = frame.machine.stops().len();
     let own = kind.place(stops);

@@ -14,6 +14,7 @@
 //! | where a rest on a stop, or the hold of a joint, begins or ends | `rest` |
 //! | a signature without flights that take no time where a rest begins or ends | `joined` |
 //! | the solution at which a rest begins or ends, to rounding | `at_rest` |
+//! | how many impacts of a chatter are followed before it is summed, and where they become infinitely many | `summed` |
 //! | two events that come so close that no further step converges | `meeting` |
 //! | the branch beyond such a change | `beyond` |
 //! | the cycle of twice the period beside a flip, and where it is the other one repeated | `switch`, `halving` |
@@ -35,6 +36,7 @@ mod meeting;
 mod point;
 mod problem;
 mod rest;
+mod summed;
 mod switch;
 mod touch;
 

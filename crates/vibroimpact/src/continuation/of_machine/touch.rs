@@ -2,13 +2,14 @@
 //!
 //! The motion is followed to decide which solutions are admissible, and it takes an impact of a very small speed for a
 //! grazing contact, and a very small gap for a contact. So the last admissible solution lies a little before or beyond the
-//! grazing one. There the smallest gap of the flight is zero, or the speed after the impact.
+//! grazing one. There the smallest gap of the flight is zero, or the speed of the impact.
 
 use super::change::Difference;
 use super::closest::closest;
 use super::joined::SHORT;
 use super::problem::{Judged, MachineProblem, MachineSolution};
 use crate::continuation::trace::tracer::{Solution, Step, Tracer};
+use crate::events::Place;
 use crate::orbit::{MachineFrame, MachineRing};
 use crate::regime::GuardKind;
 
@@ -31,10 +32,19 @@ pub(super) fn grazing(tracer: &Tracer<MachineProblem>, at: &MachineSolution, fou
     let Some((machine, ring)) = tracer.problem.equations.split(&at.w) else { return found };
     let (frame, m) = (MachineFrame::new(&machine), ring.len());
     let lowest = |sizes: &mut dyn Iterator<Item = (usize, f64)>| sizes.min_by(|a, b| a.1.total_cmp(&b.1));
+    let struck = |k: &usize| matches!(ring.events[*k].guard, GuardKind::Gap(_));
+    let slow = SLOW * at.known.cycle.as_ref().map_or(0.0, |cycle| cycle.sizes.1);
     match found {
+        // beside a grazing contact rounding decides how a motion returns that has the events of the cycle
+        Difference::Other { place: None } => {
+            let of = |k: usize| ring.events[k].guard.place(ring.events[k].back.len());
+            let weakest = lowest(&mut (0..m).filter(struck).map(|k| (k, speed_before(&frame, &ring, k, of(k)).abs())));
+            let grazes = weakest.filter(|(_, speed)| *speed < slow);
+            grazes.map_or(found, |(at, _)| Difference::Disappears { at, stop: of(at) })
+        }
         Difference::Disappears { stop, .. } => {
             let of_stop = (0..m).filter(|k| ring.events[*k].guard == GuardKind::Gap(stop));
-            let weakest = lowest(&mut of_stop.map(|k| (k, speed_after(&frame, &ring, k, stop).abs())));
+            let weakest = lowest(&mut of_stop.map(|k| (k, speed_before(&frame, &ring, k, stop).abs())));
             weakest.map_or(found, |(at, _)| Difference::Disappears { at, stop })
         }
         Difference::Appears { stop, .. } => {
@@ -56,10 +66,9 @@ pub(super) fn grazing(tracer: &Tracer<MachineProblem>, at: &MachineSolution, fou
             if (0..m).any(|k| both(k) && ring.theta(k + 1) - ring.theta(k) < SHORT) {
                 return found;
             }
-            let slow = SLOW * at.known.cycle.as_ref().map_or(0.0, |cycle| cycle.sizes.1);
             let struck =
                 |k: &usize| matches!(ring.events[*k].guard, GuardKind::Gap(stop) if stop == first || stop == second);
-            let weakest = lowest(&mut (0..m).filter(struck).map(|k| (k, speed_after(&frame, &ring, k, of(k)).abs())));
+            let weakest = lowest(&mut (0..m).filter(struck).map(|k| (k, speed_before(&frame, &ring, k, of(k)).abs())));
             let grazes = weakest.filter(|(_, speed)| *speed < slow);
             grazes.map_or(found, |(at, _)| Difference::Disappears { at, stop: of(at) })
         }
@@ -67,10 +76,15 @@ pub(super) fn grazing(tracer: &Tracer<MachineProblem>, at: &MachineSolution, fou
     }
 }
 
-/// The speed away from a stop after an event.
-fn speed_after(frame: &MachineFrame<'_>, ring: &MachineRing, event: usize, stop: usize) -> f64 {
-    let after = ring.place(event);
-    after.gap(&frame.normal, &after.turns(&frame.normal), stop).1
+/// The speed towards a stop before an event; infinite if there is no flight before it.
+pub(super) fn speed_before(frame: &MachineFrame<'_>, ring: &MachineRing, event: usize, stop: usize) -> f64 {
+    let before = (event + ring.len() - 1) % ring.len();
+    let moved = |mut from: Place| {
+        frame.constrain(&mut from)?;
+        let structure = frame.structure(&from.states)?;
+        Some(frame.moved(&from, &structure, ring.time(before, frame.machine)))
+    };
+    moved(ring.place(before)).map_or(f64::INFINITY, |at| -at.gap(&frame.normal, &at.turns(&frame.normal), stop).1)
 }
 
 /// The grazing solution near the last admissible one `inside` at the distance `s` along a step, beyond which the events
@@ -90,7 +104,7 @@ pub(super) fn touching(
             Difference::Appears { at, stop } => {
                 Some(closest(&frame, &ring, ((at + m - 1) % m, GuardKind::Gap(stop)))?.0)
             }
-            Difference::Disappears { at, stop } => Some(speed_after(&frame, &ring, at, stop)),
+            Difference::Disappears { at, stop } => Some(speed_before(&frame, &ring, at, stop)),
             _ => None,
         }
     };

@@ -2,6 +2,7 @@
 
 use super::frame::MachineFrame;
 use crate::events::{MachineEnd, MachineEvent, Passage, Place, step_derivative};
+use crate::machine::{MachineStop, StopLaw};
 use crate::math::Matrix;
 
 /// The motion over a time.
@@ -45,6 +46,9 @@ impl MachineLap {
         let mut steps: Vec<(f64, Place, Passage)> = Vec::new();
         let mut events = Vec::new();
         let mut sizes = frame.sizes(begin);
+        // at the events of a joint, and after impacts with restitution 0, the velocity can be zero
+        let dead = |stop: &MachineStop| matches!(stop.law, StopLaw::Rigid { restitution } if restitution == 0.0);
+        let stops_dead = !frame.machine.joints().is_empty() || frame.machine.stops().iter().any(dead);
         let mut end = None;
         while end.is_none() {
             let (now, from) = (motion.time(), motion.place().clone());
@@ -52,8 +56,7 @@ impl MachineLap {
             sizes = (sizes.0.max(x), sizes.1.max(v));
             let left = time - now;
             let passage = motion.step()?;
-            if !frame.machine.joints().is_empty() {
-                // at the events of a joint the velocity can be zero
+            if stops_dead {
                 let middle = frame.moved(&from, &passage.structure, 0.5 * passage.duration.min(left));
                 let (x, v) = frame.sizes(&middle);
                 sizes = (sizes.0.max(x), sizes.1.max(v));
