@@ -7,7 +7,6 @@
 //! $`\ddot y + 2d\dot y + ky = 0`$. See F. Tisseur and K. Meerbergen, "The quadratic eigenvalue problem", SIAM Review 43
 //! (2001) 235-286, doi:10.1137/S0036144500381988.
 
-use super::refined::refined;
 use crate::math::{Complex, Lu, Matrix, dot, general_eigenvalues, symmetric_eigen};
 
 /// The modes, and the maps between them and the state: $`\xi = E_1y + E_2z`$, $`\dot\xi = V_1y + V_2z`$, where $`z`$ is
@@ -81,9 +80,7 @@ impl Basis {
                 basis.couple(&group, &values, &c, &phi)?;
             }
         }
-        // without coupling the shapes come from rotations, which keep the digits of small components
-        let refined = if basis.coupled { refined(&basis, stiffness, damping) } else { None };
-        Some(refined.unwrap_or(basis))
+        Some(basis)
     }
 
     /// The directions themselves, with bounds of the rates of all motions in the place of the rates of modes.

@@ -6,6 +6,7 @@ use super::contact_state::ContactState;
 use super::mode::Mode;
 use super::normal::{Normal, compliant};
 use super::pass::Moved;
+use super::refined::refined;
 use super::rest_force::{RestBuffers, RestContact, RestForce};
 use super::sampled::Sampled;
 use super::signal::{Observable, Signal};
@@ -228,7 +229,11 @@ impl Structure {
                 signal.add(*factor, &pushed);
             }
         }
-        let basis = Basis::new(&own_stiffness, &own_damping);
+        let basis = Basis::new(&own_stiffness, &own_damping).map(|basis| {
+            // without coupling the shapes come from rotations, which keep the digits of small components
+            let refined = if basis.coupled { refined(&basis, &own_stiffness, &own_damping) } else { None };
+            refined.unwrap_or(basis)
+        });
         let dense = basis.is_none().then(|| (own_stiffness.clone(), own_damping.clone()));
         let basis = basis.unwrap_or_else(|| Basis::identity(&own_stiffness, &own_damping));
         let applied = |matrix: &Matrix, signals: &[Signal]| -> Vec<Signal> {
