@@ -27,7 +27,7 @@ pub(crate) use colour::ColourArgs;
 pub(crate) use fields::{FieldName, FieldsArgs, quantity};
 pub(crate) use figure::{FigureArgs, Format};
 pub(crate) use numbers::{number, whole, within};
-pub(crate) use of_machine::{MachineArgs, MachineAxesArgs, StartOfMachineArgs};
+pub(crate) use of_machine::{MachineArgs, MachineAxesArgs, StartOfMachineArgs, StudyAxesArgs};
 pub(crate) use output::Globals;
 pub(crate) use overlay::OverlayArgs;
 pub(crate) use parameter_flag::{ParameterFlag, Varied, parameter, varied};

@@ -6,8 +6,8 @@ use crate::failure::Failure;
 use crate::machine_file;
 use clap::Args;
 use core::str::FromStr;
-use vibroimpact_study::MachineAxis;
 use vibroimpact_study::machine::{MachineSource, NumberText, StartText, VectorText};
+use vibroimpact_study::{Axis, Coordinate, MachineAxis};
 
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Machine")]
@@ -39,6 +39,40 @@ pub(crate) struct MachineAxesArgs {
     /// values from A to B, A:B:N:log is N values in equal ratios, and A,B,C is a list
     #[arg(long, value_name = "PATH=A:B:N", allow_hyphen_values = true, requires = "machine")]
     axis: Vec<AxisFlag>,
+}
+
+/// The axes of a study of exponents, of an oscillator or of a machine.
+#[derive(Clone, Debug, Args)]
+#[command(next_help_heading = "Axes")]
+pub(crate) struct StudyAxesArgs {
+    /// What varies, once for each axis: a parameter, or x, v and phase of the start; of a machine the path of a number, or q.NAME,
+    /// qdot.NAME and phase. A:B:N is N values from A to B, A:B:N:log is N values in equal ratios, and A,B,C is a list
+    #[arg(long, value_name = "NAME=A:B:N", allow_hyphen_values = true)]
+    axis: Vec<AxisFlag>,
+}
+
+impl StudyAxesArgs {
+    pub(crate) fn is_empty(&self) -> bool {
+        self.axis.is_empty()
+    }
+
+    /// As axes of a machine.
+    pub(crate) fn of_machine(&self) -> Vec<MachineAxis> {
+        self.axis.iter().map(|AxisFlag(axis)| axis.clone()).collect()
+    }
+
+    /// As axes of an oscillator.
+    pub(crate) fn of_oscillator(&self) -> Result<Vec<Axis>, Failure> {
+        let axis = |AxisFlag(MachineAxis { vary, over }): &AxisFlag| {
+            let vary = Coordinate::named(&vary.replace('-', "_")).ok_or_else(|| {
+                Failure::bad(format!(
+                    "`{vary}` cannot vary\nhint: a parameter, such as gap or inverse-beta, or x, v or phase"
+                ))
+            })?;
+            Ok(Axis { vary, over: over.clone() })
+        };
+        self.axis.iter().map(axis).collect()
+    }
 }
 
 /// An axis as it is typed.

@@ -1,15 +1,19 @@
 //! `vibro lyapunov`: the Lyapunov exponents of a motion, and sections of its attractor.
 
-use crate::args::{FigureArgs, MachineArgs, StartArgs, StartOfMachineArgs, SystemArgs, whole};
+use crate::args::{
+    FigureArgs, MachineArgs, StartArgs, StartOfMachineArgs, StoreArgs, StudyAxesArgs, SystemArgs, whole,
+};
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, respond};
+use crate::commands::{of_machine, respond, stored};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use std::path::PathBuf;
 use vibroimpact::chaos::{DEFAULT_IMPACTS, DEFAULT_TRANSIENT};
 use vibroimpact_report::Shown;
-use vibroimpact_study::{DEFAULT_POINTS, LyapunovPlan, MachineLyapunovPlan, MachineTask, Plan, Task};
+use vibroimpact_study::{
+    Coordinate, DEFAULT_POINTS, LyapunovPlan, MachineLyapunovPlan, MachineTask, Plan, StudyPlan, Task,
+};
 
 /// The Lyapunov exponents of the motion from a start, with error bars, and the dimension of its attractor
 ///
@@ -18,14 +22,16 @@ use vibroimpact_study::{DEFAULT_POINTS, LyapunovPlan, MachineLyapunovPlan, Machi
 /// ln(eps) times the rate of impacts minus 2 zeta. A motion without impacts has the exponents of its flight. After
 /// sticking all neighbours are one motion, so both exponents are minus infinity; with restitution 0 one of them is. A
 /// motion that only grazes the stop has no exponents. In JSON such a value is null, and "why" is minus_infinity or
-/// undefined; "grounds" says how the values were found.
+/// undefined; "grounds" says how the values were found. Over axes, the exponents of each point are a study, with a table and a
+/// figure of its own.
 #[derive(Clone, Debug, Args)]
 #[command(
     override_usage = "vibro lyapunov --beta B --gap D --restitution E [--x X --v V --phase P] [OPTIONS]\n       \
         vibro lyapunov --machine NAME|FILE [--set PATH=VALUE] [--q A,B --qdot A,B --phase P] [OPTIONS]",
     after_help = "Examples:\n  \
         vibro lyapunov --inverse-beta 1.11 --gap 3 --restitution 0.5\n  \
-        vibro lyapunov --inverse-beta 1.11 --gap 3 --restitution 0.5 --section section.csv --plot section.png"
+        vibro lyapunov --inverse-beta 1.11 --gap 3 --restitution 0.5 --section section.csv --plot section.png\n  \
+        vibro lyapunov --inverse-beta 1.11 --gap 3 --restitution 0.5 --axis gap=2.5:3.5:101 --impacts 20000 --plot gap.png"
 )]
 pub(crate) struct Lyapunov {
     #[command(flatten)]
@@ -36,6 +42,9 @@ pub(crate) struct Lyapunov {
     machine: MachineArgs,
     #[command(flatten)]
     of_machine: StartOfMachineArgs,
+
+    #[command(flatten)]
+    axes: StudyAxesArgs,
 
     /// Impacts to measure over, 1000 to 10000000 [default: 100000]; of a machine events [default: 20000]
     #[arg(long, value_parser = whole::<u64>, value_name = "N", allow_hyphen_values = true, help_heading = "Length")]
@@ -52,16 +61,19 @@ pub(crate) struct Lyapunov {
 
     /// Write the points of both sections of the attractor to this file; - for stdout. Columns: section (impact, or strobe
     /// for the states at phase 0), side, phase, x, v; at an impact v is the velocity of arrival. Of a machine: section (closing or
-    /// strobe), stop, phase, speed of the closing, all coordinates and velocities, which at a closing are those after it
+    /// strobe), stop, phase, speed of the closing, all coordinates and velocities, which at a closing are those after it. Over axes
+    /// one row for each exponent of a point
     #[arg(long, visible_alias = "csv", value_name = "FILE", help_heading = "Output")]
     section: Option<PathBuf>,
 
-    /// Draw both sections into this file, .svg, .png or .pdf
+    /// Draw both sections into this file, .svg, .png or .pdf; over axes the exponents
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
 
     #[command(flatten)]
     figure: FigureArgs,
+    #[command(flatten)]
+    store: StoreArgs,
 
     /// Print one JSON object instead of text
     #[arg(long, help_heading = "Output")]
@@ -71,31 +83,50 @@ pub(crate) struct Lyapunov {
 pub(super) fn run(args: &Lyapunov, session: &Session) -> Result<(), Failure> {
     let files = (args.section.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
     let start = Some((&args.of_machine, args.start.phase));
-    let shown = args.section.is_some() || args.plot.is_some();
-    if args.points.is_some() && !shown {
+    let study = !args.axes.is_empty();
+    if !study && args.store.store.is_some() {
+        return Err(Failure::bad("one motion needs no store\nhint: --axis gap=0:5:41 for the exponents over an axis"));
+    }
+    if study && args.store.store.is_none() && args.section.is_none() && args.plot.is_none() && !args.json {
         return Err(Failure::bad(
-            "--points says how much of the sections is shown\nhint: --section FILE or --plot FILE",
+            "the exponents of the points would be lost\nhint: --csv FILE, --plot FILE or --store DIR",
         ));
+    }
+    let shown = !study && (args.section.is_some() || args.plot.is_some());
+    if args.points.is_some() && !shown {
+        return Err(Failure::bad(if study {
+            "--points says how much of the sections is shown; they are of one motion, without --axis"
+        } else {
+            "--points says how much of the sections is shown\nhint: --section FILE or --plot FILE"
+        }));
     }
     let points = shown.then(|| args.points.unwrap_or(DEFAULT_POINTS));
     let task = || {
         let count = |given: Option<u64>| given.map(|given| u32::try_from(given).unwrap_or(u32::MAX));
         let (impacts, transient) = (count(args.impacts), count(args.transient));
-        Ok(MachineTask::Lyapunov(MachineLyapunovPlan { axes: Vec::new(), impacts, transient, points }))
+        Ok(MachineTask::Lyapunov(MachineLyapunovPlan { axes: args.axes.of_machine(), impacts, transient, points }))
     };
-    if let Some(answer) = of_machine::asked(&args.machine, start, task, files, (None, of_machine::usual), session) {
+    let store = study.then_some(&args.store);
+    if let Some(answer) = of_machine::asked(&args.machine, start, task, files, (store, of_machine::usual), session) {
         return answer;
     }
     let asked = args.system.asked()?;
     let task = LyapunovPlan {
-        axes: Vec::new(),
+        axes: args.axes.of_oscillator()?,
         start: args.start.plan(&asked.units),
         impacts: args.impacts.unwrap_or(DEFAULT_IMPACTS),
         transient: args.transient.unwrap_or(DEFAULT_TRANSIENT),
         points,
     };
-    let plan = Plan::new(asked.system, Task::Lyapunov(task));
-    plan.check()?;
+    if asked.units.plan().is_some() && task.axes.iter().any(|axis| matches!(axis.vary, Coordinate::X | Coordinate::V)) {
+        return Err(Failure::bad("an axis of x or v is nondimensional\nhint: without --units si"));
+    }
+    let axes = task.axes.clone();
+    let plan = args.store.tiled(Plan::new(asked.system, Task::Lyapunov(task)))?;
     let outputs = Outputs::reserve(args.section.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
-    respond::run(&plan, asked.units, (outputs, Shown::default()), None, session)
+    if !study {
+        return respond::run(&plan, asked.units, (outputs, Shown::default()), None, session);
+    }
+    outputs.drawable(&axes, 1)?;
+    stored::filled(&StudyPlan::from(&plan), args.store.filling(), (outputs, Shown::default()), session)
 }

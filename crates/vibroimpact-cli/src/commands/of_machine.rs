@@ -39,11 +39,13 @@ pub(super) fn asked(
         plan.check()?;
         let outputs = Outputs::reserve(csv, plot, json, session)?;
         let shown = shown(outputs.drawn())?;
-        let Some(filling) = store.and_then(StoreArgs::filling) else {
+        let filling = store.and_then(StoreArgs::filling);
+        // exponents over axes are a study, with a store or in memory
+        if filling.is_none() && !matches!(plan.task, MachineTask::Lyapunov(_) if plan.fills_a_grid()) {
             return run(name, &plan, (outputs, shown), session);
-        };
+        }
         drawable(&plan, &outputs)?;
-        stored::run(&StudyPlan::from(&plan), &filling, (outputs, shown), session)
+        stored::filled(&StudyPlan::from(&plan), filling, (outputs, shown), session)
     };
     Some(answer())
 }

@@ -220,10 +220,7 @@ pub(super) fn run(args: &SettleMany, session: &Session) -> Result<(), Failure> {
     let plan = Plan { units: asked.units.plan(), ..Plan::new(asked.system, Task::Basin(task)) };
     let plan = StudyPlan::from(&args.store.tiled(plan)?);
     let outputs = Outputs::reserve(args.csv.as_deref(), (None, &FigureArgs::default()), args.json, session)?;
-    match args.store.filling() {
-        Some(filling) => stored::run(&plan, &filling, (outputs, Shown::default()), session),
-        None => stored::run_in_memory(&plan, (outputs, Shown::default()), session),
-    }
+    stored::filled(&plan, args.store.filling(), (outputs, Shown::default()), session)
 }
 
 #[cfg(test)]

@@ -112,12 +112,21 @@ pub(super) fn run(
     tell(&store, Some(filled), (outputs, shown), session)
 }
 
-/// Computes a study in memory, and writes the requested outputs.
-pub(super) fn run_in_memory(
+/// Computes a study, in a store if one is named, and writes the requested outputs.
+pub(super) fn filled(
     plan: &StudyPlan,
-    (outputs, shown): (Outputs, Shown),
+    filling: Option<Filling<'_>>,
+    outputs: (Outputs, Shown),
     session: &Session,
 ) -> Result<(), Failure> {
+    match filling {
+        Some(filling) => run(plan, &filling, outputs, session),
+        None => run_in_memory(plan, outputs, session),
+    }
+}
+
+/// Computes a study in memory, and writes the requested outputs.
+fn run_in_memory(plan: &StudyPlan, (outputs, shown): (Outputs, Shown), session: &Session) -> Result<(), Failure> {
     // before anything is allocated
     check_memory(&Study::new(plan)?)?;
     let store = Store::create(Arc::new(Memory::default()), plan)?;

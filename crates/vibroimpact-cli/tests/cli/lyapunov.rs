@@ -126,3 +126,44 @@ fn text_for_people() {
         "{sticks}"
     );
 }
+
+/// Over axes, each row has the exponents of its point alone; of a machine likewise.
+#[test]
+fn exponents_over_axes_are_those_of_each_point() {
+    let rows = |line: &str| -> Vec<Vec<String>> {
+        let output = vibro(line).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let text = String::from_utf8(output.stdout).unwrap();
+        text.lines().map(|row| row.split(',').map(str::to_owned).collect()).collect()
+    };
+    let length = "--impacts 1000 --transient 100";
+    for (study, alone, axis, last) in [
+        (format!("lyapunov {U} --axis gap=2.9,3 {length} --csv -"), format!("lyapunov {U} {length}"), "gap", "3"),
+        (
+            format!("lyapunov --machine impact-pair --axis stop.right.gap=0.45,0.5 {length} --csv -"),
+            format!("lyapunov --machine impact-pair {length}"),
+            "stop.right.gap",
+            "0.5",
+        ),
+    ] {
+        let table = rows(&study);
+        // a row for each exponent of a point, the second point last
+        let exponents = json(&alone)["exponents"].as_array().unwrap().clone();
+        let names = [axis, "direction", "exponent", "exponent_error"];
+        assert_eq!((table.len(), &table[0][..4]), (1 + 2 * exponents.len(), &names.map(str::to_owned)[..]));
+        for (row, of) in table[1 + exponents.len()..].iter().zip(&exponents) {
+            let (value, error) = measured(of);
+            assert_eq!((row[0].as_str(), row[2].parse(), row[3].parse()), (last, Ok(value), Ok(error)), "{row:?}");
+        }
+    }
+    for (line, said) in [
+        (format!("lyapunov {U} --axis size=0:1:3 --csv -"), "`size` cannot vary"),
+        (format!("lyapunov {U} --axis gap=0:1:3"), "would be lost"),
+        (format!("lyapunov {U} --store s.zarr"), "one motion needs no store"),
+        (format!("lyapunov {U} --axis gap=1:2:3 --points 5 --plot a.png"), "without --axis"),
+    ] {
+        let output = vibro(&line).output().unwrap();
+        let text = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.code() == Some(2) && text.contains(said), "{line}: {text}");
+    }
+}

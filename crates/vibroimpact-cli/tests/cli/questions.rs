@@ -48,6 +48,8 @@ fn of_every_task() {
         json!({ "diagram": { "vary": "inverse_beta", "over": [1.2, 1.15, 1.0], "keep": 3 } }),
         json!({ "lyapunov": { "start": { "phase": 3.0 }, "impacts": 1000, "transient": 5 } }),
         json!({ "lyapunov": { "impacts": 1000, "points": 20 } }),
+        json!({ "lyapunov": { "axes": [{ "vary": "gap", "over": "1:2:2" }, { "vary": "x", "over": [-0.5, 0.25] }],
+                              "start": { "v": 0.5 }, "impacts": 1000, "transient": 20 } }),
         json!({ "margins": { "start": { "v": -1.0 }, "lines": 3 } }),
     ] {
         for system in [&one, &two] {
@@ -193,12 +195,13 @@ fn stores_and_plans_in_files() {
     for task in [
         json!({ "attractors": { "starts": 4, "seed": 1 } }),
         json!({ "diagram": { "vary": "gap", "over": "0:1:2", "transient": 10, "keep": 3 } }),
+        json!({ "lyapunov": { "axes": [{ "vary": "gap", "over": "1:2:3" }], "start": {}, "impacts": 1000, "transient": 20 } }),
     ] {
         let tiled = Plan { tile: Some(2), ..plan(&one, &task) };
         assert_eq!(asked(&tiled), tiled);
     }
     let axes = |axes: Value| json!({ "axes": axes, "starts": 1 });
-    let gap = json!({ "vary": "gap", "over": "1:2:2" });
+    let gap = json!({ "vary": "gap", "over": [1.0] });
     for task in [
         json!({ "map": axes(json!([{ "vary": "gap", "over": [1.0] }])) }),
         json!({ "basin": { "axes": [{ "vary": "x", "over": [0.0, 0.5] }, { "vary": "v", "over": "0:1:2" }] } }),

@@ -58,6 +58,7 @@ pub fn command(plan: &Plan) -> Option<Vec<String>> {
         Task::Basin(task) => (task.refine, "basin.zarr"),
         Task::Attractors { .. } => (None, "attractors.zarr"),
         Task::Diagram(_) => (None, "diagram.zarr"),
+        Task::Lyapunov(task) if !task.axes.is_empty() => (None, "lyapunov.zarr"),
         // the other tasks have no store
         _ => return plan.tile.is_none().then_some(line.words),
     };
@@ -259,11 +260,16 @@ fn diagram(system: &SystemPlan, task: &DiagramPlan) -> Option<Line> {
 }
 
 fn lyapunov(system: &SystemPlan, task: &LyapunovPlan, units: &Units) -> Option<Line> {
-    if !task.axes.is_empty() {
+    let usual = LyapunovPlan::default();
+    let mut line = Line::new("lyapunov").system(system, &[]).start(&task.start, units);
+    // the command takes these nondimensional only
+    let measured = |axis: &Axis| matches!(axis.vary, Coordinate::X | Coordinate::V);
+    if units.plan().is_some() && task.axes.iter().any(measured) {
         return None;
     }
-    let usual = LyapunovPlan::default();
-    let line = Line::new("lyapunov").system(system, &[]).start(&task.start, units);
+    for axis in &task.axes {
+        line = line.flag("axis", format!("{}={}", axis.vary.name().replace('_', "-"), values(&axis.over)?));
+    }
     let line = line.unless("impacts", task.impacts, usual.impacts).unless("transient", task.transient, usual.transient);
     Some(match task.points {
         Some(points) => line.flag("points", points).flag("plot", "attractor.svg"),

@@ -90,7 +90,7 @@ mod tests {
 
     #[test]
     fn a_study_without_flags_is_run_from_its_plan() {
-        let text = r#"{"version":1,"system":{"inverse_beta":1.3,"gap":1.0,"restitution":0.5,"damping":0.0},"task":{"lyapunov":{"axes":[{"vary":"gap","over":"1:2:3"}],"start":{"v":0.0,"phase":0.0},"impacts":1000,"transient":100}}}"#;
+        let text = r#"{"version":1,"system":{"inverse_beta":1.3,"gap":1.0,"restitution":0.5,"damping":0.0},"task":{"lyapunov":{"axes":[{"vary":"gap","over":[1.0]}],"start":{"v":0.0,"phase":0.0},"impacts":1000,"transient":100}}}"#;
         let plan: Plan = serde_json::from_str(text).unwrap();
         assert_eq!(shell_line(&plan).unwrap(), format!("echo '{text}' > plan.json && vibro run plan.json"));
     }

@@ -7,9 +7,11 @@
 //! | prescribed functions of time, linear functions of the state | `signal` |
 //! | one mode in closed form | `mode` |
 //! | the modes of a structure with any damping | `basis` |
+//! | these modes to the last digit | `refined` |
 //! | the directions in which it is free | `complement` |
 //! | the directions along which the whole machine can be moved | `translations` |
 //! | the constant force on its modes at a position | `rest_force` |
+//! | the gap of a closed stop as a function of its modes | `closed_stop` |
 //! | the structure in one regime, its guards | `structure` |
 //! | small changes of its state, and the gradients of guards | `change` |
 //! | polynomials in Bernstein's form | `bernstein` |
@@ -20,6 +22,7 @@
 mod basis;
 mod bernstein;
 mod change;
+mod closed_stop;
 mod complement;
 mod contact_state;
 mod mode;
@@ -35,12 +38,13 @@ mod window;
 
 pub(crate) use bernstein::{TERMS, bernstein};
 pub(crate) use change::ModalChange;
+pub(crate) use closed_stop::ClosedStop;
 pub use contact_state::ContactState;
 pub(crate) use mode::{Mode, Turned};
 pub(crate) use normal::{Normal, compliant};
 pub(crate) use rest_force::RestBuffers;
 pub(crate) use sampled::{POWERS, REST, SAMPLES, Sampled, Span};
 pub(crate) use signal::{Observable, Signal, turned};
-pub(crate) use structure::{ClosedStop, GuardKind, Structure};
+pub(crate) use structure::{GuardKind, Structure};
 pub(crate) use translations::Translations;
 pub(crate) use window::{ALL, REACH, Window, add_harmonic, derivative_bounds};

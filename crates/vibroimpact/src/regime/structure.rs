@@ -1,6 +1,7 @@
 //! The linear structure in one regime: its modes, what drives them, and its guards.
 
 use super::basis::{Basis, inverse};
+use super::closed_stop::{ClosedStop, less_motion};
 use super::complement::complement;
 use super::contact_state::ContactState;
 use super::mode::Mode;
@@ -49,17 +50,6 @@ impl GuardKind {
 pub(crate) struct Guard {
     pub(crate) kind: GuardKind,
     pub(crate) function: Observable,
-}
-
-/// A closed stop.
-#[derive(Clone, Debug)]
-pub(crate) struct ClosedStop {
-    pub(crate) place: usize,
-    /// Its stiffness, damping and preload.
-    pub(crate) law: (f64, f64, f64),
-    /// Its gap, and the rate of this.
-    pub(crate) gap: Observable,
-    pub(crate) rate: Observable,
 }
 
 /// The structure in one regime.
@@ -313,26 +303,21 @@ impl Structure {
         };
         let (to_y_signal, to_z_signal) = (offset(&to_y), offset(&to_z));
         let closed_stops = closed.iter().zip(&shares).map(|(contact, share)| {
-            let (wall, direction) = (&normal.walls[contact.place], contact.direction);
-            // the share has exact zeros, so the little that soft modes move a stiff stop keeps its digits
-            let along = |from: &[Matrix; 2], wall: &Signal, carried: &[Signal]| {
-                let (position, velocity) = (from[0].apply_transposed(share), from[1].apply_transposed(share));
+            // the wall, without what the constraints carry along
+            let prescribed = |wall: &Signal, carried: &[Signal]| {
                 let mut signal = wall.clone();
-                for (factor, carried) in direction.iter().zip(carried) {
+                for (factor, carried) in contact.direction.iter().zip(carried) {
                     signal.add(-factor, carried);
                 }
-                for (factor, slip) in velocity.iter().zip(&slip) {
-                    signal.add(*factor, slip);
-                }
-                let mut along = Observable { position, velocity, signal: zero() }.scaled(-1.0);
-                along.signal = signal;
-                along
+                signal
             };
+            let wall = &normal.walls[contact.place];
+            let (place, rate) = (prescribed(wall, &carried), prescribed(&wall.derivative(rates), &carried_rate));
             ClosedStop {
                 place: contact.place,
                 law: (contact.k, contact.c, contact.p),
-                gap: along(&basis.e, wall, &carried),
-                rate: along(&basis.v, &wall.derivative(rates), &carried_rate),
+                gap: less_motion(place, share, &basis.e, &slip),
+                rate: less_motion(rate, share, &basis.v, &slip),
             }
         });
         let closed_stops: Vec<ClosedStop> = closed_stops.collect();

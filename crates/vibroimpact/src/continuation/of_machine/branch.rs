@@ -11,7 +11,7 @@ use super::halving::halved;
 use super::meeting::meeting;
 use super::point::{MachineBranchEvent, MachinePoint};
 use super::problem::{Judged, MINUS_ONE, MachineProblem, MachineSolution, PACE, PLUS_ONE, TORUS};
-use super::summed::{Grazes, grazes, is_summed, limit, sums};
+use super::summed::{limit, of_chatter, sums};
 use super::touch::{grazing, touching};
 use crate::continuation::branches::{BranchOptions, Direction};
 use crate::continuation::trace::tracer::{Crossing, Problem, Step, Tracer};
@@ -274,33 +274,12 @@ impl MachineBranch {
             _ => found,
         };
         let found = grazing(&self.tracer, &inside, found);
-        let found = self.of_chatter(&inside, found);
+        let found = of_chatter(&self.tracer, &inside, found);
         if let Some((at, found)) = self.interrupted(&inside, &found) {
             return Some((s, at, found));
         }
         let (s, at) = touching(&self.tracer, step, (s, &inside), &found).unwrap_or((s, inside));
         Some((s, at, found))
-    }
-
-    /// The same difference, but for chatters: a grazing contact that changes the number of their impacts, or a change only of the
-    /// number of those that are followed before the sum.
-    fn of_chatter(&self, inside: &MachineSolution, found: Difference) -> Difference {
-        let (Difference::Rest { place: stop, joint: false, .. } | Difference::Disappears { stop, .. }) = found else {
-            return found;
-        };
-        let Some((machine, ring)) = self.tracer.problem.equations.split(&inside.w) else { return found };
-        let Some(cycle) = inside.known.cycle.as_ref().filter(|_| sums(&ring, stop)) else { return found };
-        match grazes(&MachineFrame::new(&machine), &ring, stop, cycle.sizes) {
-            Some(Grazes::Flight(leg)) => Difference::Appears { at: (leg + 1) % ring.len(), stop },
-            Some(Grazes::Impact(at)) => Difference::Disappears { at, stop },
-            None => match found {
-                // the last impacts of a chatter are so slow that rounding decides which of them happen
-                Difference::Disappears { at, .. } if is_summed(&ring, at) => {
-                    Difference::Rest { place: stop, joint: false, begins: false }
-                }
-                _ => found,
-            },
-        }
     }
 
     /// The solution at which a rest or a hold begins or ends, if this explains a change of the events that shows elsewhere:

@@ -1,8 +1,11 @@
 //! Chatters on branches: a change of the number of impacts that are followed before the rest of a chatter is summed is no
 //! event, and the value at which the number of impacts becomes infinite.
 
+use super::change::Difference;
 use super::closest::closest;
+use super::problem::{MachineProblem, MachineSolution};
 use super::touch::speed_before;
+use crate::continuation::trace::tracer::Tracer;
 use crate::orbit::{MachineFrame, MachineRing, RingEvent};
 use crate::regime::GuardKind;
 
@@ -15,7 +18,7 @@ fn struck(event: &RingEvent) -> Option<usize> {
 }
 
 /// Whether impact `k` belongs to a chatter on its stop that is summed after this impact or a later one.
-pub(super) fn is_summed(ring: &MachineRing, k: usize) -> bool {
+fn is_summed(ring: &MachineRing, k: usize) -> bool {
     let m = ring.len();
     let stop = struck(&ring.events[k]);
     let own = (k..k + m).map(|i| &ring.events[i % m]).take_while(|event| stop.is_some() && struck(event) == stop);
@@ -54,15 +57,9 @@ pub(super) fn same_but_for_sums(a: &MachineRing, b: &MachineRing) -> bool {
 const NEAR: f64 = 1e-8;
 const SLOWER: f64 = 1e-3;
 
-/// What grazes among the impacts of a chatter: the flight that touches the stop, or the impact of speed zero, which is slower
-/// than the next one.
-pub(super) enum Grazes {
-    Flight(usize),
-    Impact(usize),
-}
-
-/// The grazing contact of a cycle with a chatter on `stop`; `sizes` are those of its coordinates and velocities.
-pub(super) fn grazes(frame: &MachineFrame<'_>, ring: &MachineRing, stop: usize, sizes: (f64, f64)) -> Option<Grazes> {
+/// The grazing contact of a cycle with a chatter on `stop`: a flight that touches the stop, or an impact of speed zero, which is
+/// slower than the next one. `sizes` are those of its coordinates and velocities.
+fn grazes(frame: &MachineFrame<'_>, ring: &MachineRing, stop: usize, sizes: (f64, f64)) -> Option<Difference> {
     let m = ring.len();
     let near = |leg: &usize| {
         closest(frame, ring, (*leg, GuardKind::Gap(stop))).is_some_and(|(gap, _)| gap.abs() < NEAR * sizes.0)
@@ -73,8 +70,25 @@ pub(super) fn grazes(frame: &MachineFrame<'_>, ring: &MachineRing, stop: usize, 
         let next = (k + 1) % m;
         own(*k) && own(next) && speed(*k).abs() < (NEAR * sizes.1).min(SLOWER * speed(next))
     };
-    let flight = (0..m).find(near).map(Grazes::Flight);
-    flight.or_else(|| (0..m).find(slow).map(Grazes::Impact))
+    let flight = (0..m).find(near).map(|leg| Difference::Appears { at: (leg + 1) % m, stop });
+    flight.or_else(|| (0..m).find(slow).map(|at| Difference::Disappears { at, stop }))
+}
+
+/// The same difference, but for chatters: a grazing contact that changes the number of their impacts, or a change only of the
+/// number of those that are followed before the sum.
+pub(super) fn of_chatter(tracer: &Tracer<MachineProblem>, inside: &MachineSolution, found: Difference) -> Difference {
+    let (Difference::Rest { place: stop, joint: false, .. } | Difference::Disappears { stop, .. }) = found else {
+        return found;
+    };
+    let Some((machine, ring)) = tracer.problem.equations.split(&inside.w) else { return found };
+    let Some(cycle) = inside.known.cycle.as_ref().filter(|_| sums(&ring, stop)) else { return found };
+    grazes(&MachineFrame::new(&machine), &ring, stop, cycle.sizes).unwrap_or(match found {
+        // the last impacts of a chatter are so slow that rounding decides which of them happen
+        Difference::Disappears { at, .. } if is_summed(&ring, at) => {
+            Difference::Rest { place: stop, joint: false, begins: false }
+        }
+        _ => found,
+    })
 }
 
 /// The largest ratio of successive distances from which a limit is extrapolated.
