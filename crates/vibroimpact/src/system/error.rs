@@ -32,9 +32,9 @@ pub enum SystemError {
     /// The restitution is outside [0, 1].
     #[error("restitution eps = {0} lies outside 0 <= eps <= 1\nhint: eps is the ratio of velocities, not of energies")]
     Restitution(f64),
-    /// The damping ratio is not a number in [0, 1e15].
+    /// The damping ratio is neither 0 nor a number in [1e-100, 1e15].
     #[error(
-        "damping ratio zeta = {} lies outside 0 <= zeta <= 1e15\nhint: zeta = c / (2 sqrt(k m))",
+        "damping ratio zeta = {} lies outside 0 <= zeta <= 1e15 or between 0 and 1e-100\nhint: zeta = c / (2 sqrt(k m))",
         written(*.0)
     )]
     Damping(f64),

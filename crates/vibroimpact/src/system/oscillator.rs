@@ -67,6 +67,8 @@ impl Stop {
 /// radian for each radian of natural time; at a smaller one the same holds for the natural phase in one radian of the
 /// force.
 const RATIOS: core::ops::RangeInclusive<f64> = 1.0 / phase::LARGEST..=phase::LARGEST;
+/// The smallest damping ratio besides 0.
+const LEAST_DAMPING: f64 = 1e-100;
 
 /// The range of gaps, and of positions and velocities of starts. Their squares, and their products with the largest
 /// ratios, are finite.
@@ -115,12 +117,13 @@ impl Oscillator {
         Self::new(1.0 / inverse_beta, gap, restitution)
     }
 
-    /// The same oscillator with viscous damping $`0 \le \zeta \le 10^{15}`$; 1 is critical.
+    /// The same oscillator with viscous damping $`\zeta = 0`$ or $`10^{-100} \le \zeta \le 10^{15}`$; 1 is critical. The square of the
+    /// amplitude at resonance, $`1/2\zeta`$, must be a number.
     ///
     /// # Errors
     /// [`SystemError::Damping`] for any other `damping`.
     pub fn with_damping(self, damping: f64) -> Result<Self, SystemError> {
-        if !(0.0..=*RATIOS.end()).contains(&damping) {
+        if damping != 0.0 && !(LEAST_DAMPING..=*RATIOS.end()).contains(&damping) {
             return Err(SystemError::Damping(damping));
         }
         Ok(Self { response: Response::new(self.beta(), damping), ..self })
@@ -259,6 +262,10 @@ mod tests {
         let osc = Oscillator::new(1.0, 1.0, 0.5).unwrap();
         assert_eq!(osc.with_damping(-0.1), Err(SystemError::Damping(-0.1)));
         assert!(osc.with_damping(1e155).is_err() && osc.with_damping(1e15).is_ok());
+        assert!(
+            osc.with_damping(1e-101).is_err() && osc.with_damping(1e-100).is_ok() && osc.with_damping(-0.0).is_ok()
+        );
+        assert!(osc.with_damping(f64::NAN).is_err());
         for beta in [1e-15, 1e15] {
             assert!(Oscillator::new(beta, 1.0, 0.5).is_ok() && Oscillator::from_inverse_beta(beta, 1.0, 0.5).is_ok());
         }
