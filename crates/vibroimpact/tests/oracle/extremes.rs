@@ -46,7 +46,7 @@ fn legal_and_absurd() {
     let (mut asked, mut wrong) = (0_u32, Vec::new());
     let speeds = [0.0, -5e-324, -1e-300, -1e-12, 1e-12, -1.0, 1.0, -1e9, 1e9];
     for beta in [1e-6, 1e-3, 1.0 - f64::EPSILON, 1.0, 1.0 + f64::EPSILON, 1e3, 1e6] {
-        for zeta in [0.0, 5e-324, 1e-12, 0.5, 1.0, 1e3, 1e9] {
+        for zeta in [0.0, 1e-100, 1e-12, 0.5, 1.0, 1e3, 1e9] {
             for gap in [0.0, 5e-324, -5e-324, 1e-300, 1.0, -1.0, 1e6, 1e12, -1e12] {
                 for second in [None, Some(1e-9), Some(1e12)] {
                     for depth in [0.0, 5e-324, 1e-9, 1.0, 1e9] {
