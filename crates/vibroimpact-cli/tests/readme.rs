@@ -157,8 +157,9 @@ fn the_gallery_of_machines_runs() {
     for name in files.iter().filter_map(|file| file.strip_suffix(".md")).filter(|name| *name != "README") {
         let folder = tempfile::tempdir().unwrap();
         let (page, picture) = (format!("papers/machines/{name}.md"), format!("{name}.png"));
-        // one page has a script instead of commands
-        let script = self::page(&page).contains(&format!("$ python {name}.py"));
+        // a page that is not in the catalogue can have a script instead of commands
+        let known = vibroimpact_study::machine::CATALOGUE.iter().any(|entry| entry.name == name);
+        let script = !known && self::page(&page).contains(&format!("$ python {name}.py"));
         assert!(script || runs(&page, folder.path()) >= 2, "{name}");
         let drawn = script || folder.path().join(&picture).exists();
         assert!(drawn && files.contains(&picture), "{name} draws no figure");

@@ -52,13 +52,13 @@ pub(crate) struct StudyAxesArgs {
 }
 
 impl StudyAxesArgs {
-    pub(crate) fn is_empty(&self) -> bool {
-        self.axis.is_empty()
+    pub(crate) fn count(&self) -> usize {
+        self.axis.len()
     }
 
     /// As axes of a machine.
     pub(crate) fn of_machine(&self) -> Vec<MachineAxis> {
-        self.axis.iter().map(|AxisFlag(axis)| axis.clone()).collect()
+        typed(&self.axis)
     }
 
     /// As axes of an oscillator.
@@ -89,9 +89,13 @@ impl FromStr for AxisFlag {
     }
 }
 
+fn typed(flags: &[AxisFlag]) -> Vec<MachineAxis> {
+    flags.iter().map(|AxisFlag(axis)| axis.clone()).collect()
+}
+
 impl MachineAxesArgs {
     pub(crate) fn axes(&self) -> Vec<MachineAxis> {
-        self.axis.iter().map(|AxisFlag(axis)| axis.clone()).collect()
+        typed(&self.axis)
     }
 }
 

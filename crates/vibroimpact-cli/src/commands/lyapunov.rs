@@ -10,7 +10,7 @@ use crate::session::Session;
 use clap::Args;
 use std::path::PathBuf;
 use vibroimpact::chaos::{DEFAULT_IMPACTS, DEFAULT_TRANSIENT};
-use vibroimpact_report::Shown;
+use vibroimpact_report::{ReportError, Shown};
 use vibroimpact_study::{
     Coordinate, DEFAULT_POINTS, LyapunovPlan, MachineLyapunovPlan, MachineTask, Plan, StudyPlan, Task,
 };
@@ -83,7 +83,7 @@ pub(crate) struct Lyapunov {
 pub(super) fn run(args: &Lyapunov, session: &Session) -> Result<(), Failure> {
     let files = (args.section.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
     let start = Some((&args.of_machine, args.start.phase));
-    let study = !args.axes.is_empty();
+    let study = args.axes.count() > 0;
     if !study && args.store.store.is_some() {
         return Err(Failure::bad("one motion needs no store\nhint: --axis gap=0:5:41 for the exponents over an axis"));
     }
@@ -91,6 +91,9 @@ pub(super) fn run(args: &Lyapunov, session: &Session) -> Result<(), Failure> {
         return Err(Failure::bad(
             "the exponents of the points would be lost\nhint: --csv FILE, --plot FILE or --store DIR",
         ));
+    }
+    if args.axes.count() > 1 && args.plot.is_some() {
+        return Err(ReportError::Exponents.into());
     }
     let shown = !study && (args.section.is_some() || args.plot.is_some());
     if args.points.is_some() && !shown {
@@ -122,7 +125,8 @@ pub(super) fn run(args: &Lyapunov, session: &Session) -> Result<(), Failure> {
         return Err(Failure::bad("an axis of x or v is nondimensional\nhint: without --units si"));
     }
     let axes = task.axes.clone();
-    let plan = args.store.tiled(Plan::new(asked.system, Task::Lyapunov(task)))?;
+    let plan = Plan { units: asked.units.plan(), ..Plan::new(asked.system, Task::Lyapunov(task)) };
+    let plan = args.store.tiled(plan)?;
     let outputs = Outputs::reserve(args.section.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
     if !study {
         return respond::run(&plan, asked.units, (outputs, Shown::default()), None, session);

@@ -7,10 +7,10 @@ use crate::failure::Failure;
 use crate::report::{machine_answers, machine_events};
 use crate::session::Session;
 use std::path::Path;
-use vibroimpact_report::figure::plane::Sides;
+use vibroimpact_report::figure::plane::{PlaneAxis, Sides};
 use vibroimpact_report::{Shown, machine_answer};
 use vibroimpact_study::{
-    Control, MachineBasinPlan, MachineMapPlan, MachinePlan, MachineResults, MachineTask, StudyPlan,
+    Control, MachineBasinPlan, MachineLyapunovPlan, MachineMapPlan, MachinePlan, MachineResults, MachineTask, StudyPlan,
 };
 
 /// The files of a command: its table, its figure, and whether it prints JSON.
@@ -57,6 +57,9 @@ fn drawable(plan: &MachinePlan, outputs: &Outputs) -> Result<(), Failure> {
             if outputs.drawn() =>
         {
             Sides::of_machine(axes)?;
+        }
+        MachineTask::Lyapunov(MachineLyapunovPlan { axes, .. }) if outputs.drawn() => {
+            axes.iter().try_for_each(|axis| PlaneAxis::of_machine(axis).map(drop))?;
         }
         _ => {}
     }

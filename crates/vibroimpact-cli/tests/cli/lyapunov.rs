@@ -156,7 +156,14 @@ fn exponents_over_axes_are_those_of_each_point() {
             assert_eq!((row[0].as_str(), row[2].parse(), row[3].parse()), (last, Ok(value), Ok(error)), "{row:?}");
         }
     }
+    // in SI units per second, as of one motion
+    let si = "lyapunov --mass-kg 2 --stiffness-n-per-m 800 --force-n 4 --frequency-hz 4 --gap-m 0.01 --restitution 0.5 --damping-ns-per-m 1 \
+              --units si --impacts 1000";
+    let (table, alone) = (rows(&format!("{si} --axis gap-m=0.01,0.011 --csv -")), json(si));
+    assert_eq!((table[0][0].as_str(), table[0][2].as_str()), ("gap_m", "exponent_per_s"));
+    assert_eq!(table[1][2].parse::<f64>().unwrap(), measured(&alone["exponents"][0]).0);
     for (line, said) in [
+        (format!("lyapunov {U} --axis gap=1:2:3 --axis x=0,0.5 --plot a.png"), "drawn over one axis"),
         (format!("lyapunov {U} --axis size=0:1:3 --csv -"), "`size` cannot vary"),
         (format!("lyapunov {U} --axis gap=0:1:3"), "would be lost"),
         (format!("lyapunov {U} --store s.zarr"), "one motion needs no store"),

@@ -13,7 +13,6 @@ use crate::math::{Matrix, Wide};
 const STEPS: u32 = 2;
 /// Two modes whose equations differ by less than this part are not told apart further.
 const ALIKE: f64 = 1e-14;
-
 /// From farther away the method need not converge.
 const FAR: f64 = 1e-3;
 
@@ -64,12 +63,13 @@ impl WideMatrix {
         }
     }
 
-    /// `sum` less the product with `other`, rounded.
-    fn missing(&self, other: &Self, sum: impl Fn(usize, usize) -> f64) -> Matrix {
+    /// The identity less the product with `other`, rounded.
+    fn missing(&self, other: &Self) -> Matrix {
         let n = self.size;
         let mut result = Matrix::zeros(n, n);
         for i in 0..n {
-            let mut row: Vec<Wide> = (0..n).map(|j| Wide::from(-sum(i, j))).collect();
+            let mut row = vec![Wide::default(); n];
+            row[i] = Wide::from(-1.0);
             for k in 0..n {
                 let factor = self.at(i, k);
                 for (sum, value) in row.iter_mut().zip(&other.values[k * n..]) {
@@ -99,7 +99,7 @@ pub(super) fn refined(basis: &Basis, stiffness: &Matrix, damping: &Matrix) -> Op
         let moved = columns.rounded().times(&change);
         columns.add(&moved);
         for _ in 0..2 {
-            let missing = columns.missing(&inverse, |i, j| if i == j { 1.0 } else { 0.0 });
+            let missing = columns.missing(&inverse);
             let moved = inverse.rounded().times(&missing);
             inverse.add(&moved);
         }

@@ -15,6 +15,7 @@ use super::touch::speed_before;
 use crate::continuation::branches::BranchOptions;
 use crate::continuation::trace::equations::{Equations, correct, tangent};
 use crate::continuation::trace::tracer::Tracer;
+use crate::events::Place;
 use crate::machine::{Machine, StopLaw};
 use crate::orbit::{MachineCycle, MachineFrame, MachineRing, RingEvent};
 use crate::regime::GuardKind;
@@ -170,12 +171,12 @@ pub(super) fn replayed(
     at: &MachineSolution,
     (options, corner): (&BranchOptions, bool),
 ) -> Option<Tracer<MachineProblem>> {
-    let ring = &tracer.problem.equations.ring;
-    let forward = if last(&at.tangent) < 0.0 { -1.0 } else { 1.0 };
+    let (ring, forward) = (&tracer.problem.equations.ring, forward(at));
+    let motion = LastMotion::of(tracer, at)?;
     let steps = [forward, -forward].into_iter().flat_map(|up| BESIDE.map(|by| up * by));
     steps.into_iter().find_map(|by| {
         let other = |next: &MachineRing| !same_in_turn(&next.events, &ring.events) || corner && by * forward > 0.0;
-        beside(tracer, at, (by, options), other)
+        motion.beside(tracer, (by, options), other)
     })
 }
 
@@ -185,32 +186,52 @@ pub(super) fn resummed(
     at: &MachineSolution,
     options: &BranchOptions,
 ) -> Option<Tracer<MachineProblem>> {
-    let ring = &tracer.problem.equations.ring;
-    let forward = if last(&at.tangent) < 0.0 { -1.0 } else { 1.0 };
+    let (ring, forward) = (&tracer.problem.equations.ring, forward(at));
+    let motion = LastMotion::of(tracer, at)?;
     let same = |next: &MachineRing| !same_in_turn(&next.events, &ring.events) && same_but_for_sums(ring, next);
-    SOON.into_iter().find_map(|by| beside(tracer, at, (forward * by, options), same))
+    SOON.into_iter().find_map(|by| motion.beside(tracer, (forward * by, options), same))
 }
 
-/// The cycle at a number that differs by `by` in its scale, from the last one; `None` if it is not `wanted`.
-fn beside(
-    tracer: &Tracer<MachineProblem>,
-    at: &MachineSolution,
-    (by, options): (f64, &BranchOptions),
-    wanted: impl Fn(&MachineRing) -> bool,
-) -> Option<Tracer<MachineProblem>> {
-    let equations = &tracer.problem.equations;
-    let (machine, ring) = equations.split(&at.w)?;
-    let frame = MachineFrame::new(&machine);
-    let (begin, period) = (ring.middle(&frame)?.1, ring.period(&frame));
-    let (low, high) = tracer.problem.range;
-    let there = last(&at.w) + by * equations.scale;
-    (low..=high).contains(&there).then_some(())?;
-    let moved = equations.family.at(there)?;
-    let frame = MachineFrame::new(&moved);
-    let cycle = MachineCycle::lasting(&frame, &begin, (ring.periods, period))?;
-    let next = MachineRing::of(&frame, cycle.strobes.first()?, (ring.periods, cycle.period))?;
-    wanted(&next).then_some(())?;
-    let w = MachineEquations::join(&moved, &next, there);
-    let problem = with_ring(tracer, &moved, next, cycle.sizes);
-    begun(problem, &w, there, by.signum(), *options).filter(|tracer| tracer.here.known.physical())
+/// The direction of the number along the branch.
+fn forward(at: &MachineSolution) -> f64 {
+    if last(&at.tangent) < 0.0 { -1.0 } else { 1.0 }
+}
+
+/// The motion at the last solution.
+struct LastMotion {
+    number: f64,
+    /// A state between two events.
+    begin: Place,
+    periods: u32,
+    period: f64,
+}
+
+impl LastMotion {
+    fn of(tracer: &Tracer<MachineProblem>, at: &MachineSolution) -> Option<Self> {
+        let (machine, ring) = tracer.problem.equations.split(&at.w)?;
+        let frame = MachineFrame::new(&machine);
+        let begin = ring.middle(&frame)?.1;
+        Some(Self { number: last(&at.w), begin, periods: ring.periods, period: ring.period(&frame) })
+    }
+
+    /// The cycle close to it at a number that differs by `by` in its scale; `None` if it is not `wanted`.
+    fn beside(
+        &self,
+        tracer: &Tracer<MachineProblem>,
+        (by, options): (f64, &BranchOptions),
+        wanted: impl Fn(&MachineRing) -> bool,
+    ) -> Option<Tracer<MachineProblem>> {
+        let equations = &tracer.problem.equations;
+        let (low, high) = tracer.problem.range;
+        let there = self.number + by * equations.scale;
+        (low..=high).contains(&there).then_some(())?;
+        let moved = equations.family.at(there)?;
+        let frame = MachineFrame::new(&moved);
+        let cycle = MachineCycle::lasting(&frame, &self.begin, (self.periods, self.period))?;
+        let next = MachineRing::of(&frame, cycle.strobes.first()?, (self.periods, cycle.period))?;
+        wanted(&next).then_some(())?;
+        let w = MachineEquations::join(&moved, &next, there);
+        let problem = with_ring(tracer, &moved, next, cycle.sizes);
+        begun(problem, &w, there, by.signum(), *options).filter(|tracer| tracer.here.known.physical())
+    }
 }

@@ -21,8 +21,8 @@ fn struck(event: &RingEvent) -> Option<usize> {
 fn is_summed(ring: &MachineRing, k: usize) -> bool {
     let m = ring.len();
     let stop = struck(&ring.events[k]);
-    let own = (k..k + m).map(|i| &ring.events[i % m]).take_while(|event| stop.is_some() && struck(event) == stop);
-    own.into_iter().any(|event| event.pushed[0].1)
+    let mut own = (k..k + m).map(|i| &ring.events[i % m]).take_while(|event| stop.is_some() && struck(event) == stop);
+    own.any(|event| event.pushed[0].1)
 }
 
 /// Whether a chatter on this stop is summed.

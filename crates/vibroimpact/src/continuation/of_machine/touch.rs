@@ -32,19 +32,22 @@ pub(super) fn grazing(tracer: &Tracer<MachineProblem>, at: &MachineSolution, fou
     let Some((machine, ring)) = tracer.problem.equations.split(&at.w) else { return found };
     let (frame, m) = (MachineFrame::new(&machine), ring.len());
     let lowest = |sizes: &mut dyn Iterator<Item = (usize, f64)>| sizes.min_by(|a, b| a.1.total_cmp(&b.1));
-    let struck = |k: &usize| matches!(ring.events[*k].guard, GuardKind::Gap(_));
+    let stops = machine.stops().len();
+    let of = |k: usize| ring.events[k % m].guard.place(stops);
+    let speed = |k: usize| (k, speed_before(&frame, &ring, k, of(k)).abs());
     let slow = SLOW * at.known.cycle.as_ref().map_or(0.0, |cycle| cycle.sizes.1);
+    // the slowest of these impacts disappears, if it grazes
+    let slowest = |struck: &dyn Fn(usize) -> bool| {
+        let impacts = (0..m).filter(|k| matches!(ring.events[*k].guard, GuardKind::Gap(stop) if struck(stop)));
+        let grazes = lowest(&mut impacts.map(speed)).filter(|(_, speed)| *speed < slow);
+        grazes.map_or(found, |(at, _)| Difference::Disappears { at, stop: of(at) })
+    };
     match found {
         // beside a grazing contact rounding decides how a motion returns that has the events of the cycle
-        Difference::Other { place: None } => {
-            let of = |k: usize| ring.events[k].guard.place(ring.events[k].back.len());
-            let weakest = lowest(&mut (0..m).filter(struck).map(|k| (k, speed_before(&frame, &ring, k, of(k)).abs())));
-            let grazes = weakest.filter(|(_, speed)| *speed < slow);
-            grazes.map_or(found, |(at, _)| Difference::Disappears { at, stop: of(at) })
-        }
+        Difference::Other { place: None } => slowest(&|_| true),
         Difference::Disappears { stop, .. } => {
             let of_stop = (0..m).filter(|k| ring.events[*k].guard == GuardKind::Gap(stop));
-            let weakest = lowest(&mut of_stop.map(|k| (k, speed_before(&frame, &ring, k, stop).abs())));
+            let weakest = lowest(&mut of_stop.map(speed));
             weakest.map_or(found, |(at, _)| Difference::Disappears { at, stop })
         }
         Difference::Appears { stop, .. } => {
@@ -60,17 +63,11 @@ pub(super) fn grazing(tracer: &Tracer<MachineProblem>, at: &MachineSolution, fou
             })
         }
         Difference::Corner { first, second } => {
-            let stops = machine.stops().len();
-            let of = |k: usize| ring.events[k % m].guard.place(stops);
             let both = |k: usize| [(first, second), (second, first)].contains(&(of(k), of(k + 1)));
             if (0..m).any(|k| both(k) && ring.theta(k + 1) - ring.theta(k) < SHORT) {
                 return found;
             }
-            let struck =
-                |k: &usize| matches!(ring.events[*k].guard, GuardKind::Gap(stop) if stop == first || stop == second);
-            let weakest = lowest(&mut (0..m).filter(struck).map(|k| (k, speed_before(&frame, &ring, k, of(k)).abs())));
-            let grazes = weakest.filter(|(_, speed)| *speed < slow);
-            grazes.map_or(found, |(at, _)| Difference::Disappears { at, stop: of(at) })
+            slowest(&|stop| stop == first || stop == second)
         }
         other => other,
     }

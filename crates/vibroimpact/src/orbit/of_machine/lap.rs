@@ -47,8 +47,8 @@ impl MachineLap {
         let mut events = Vec::new();
         let mut sizes = frame.sizes(begin);
         // at the events of a joint, and after impacts with restitution 0, the velocity can be zero
-        let dead = |stop: &MachineStop| matches!(stop.law, StopLaw::Rigid { restitution } if restitution == 0.0);
-        let stops_dead = !frame.machine.joints().is_empty() || frame.machine.stops().iter().any(dead);
+        let plastic = |stop: &MachineStop| matches!(stop.law, StopLaw::Rigid { restitution } if restitution == 0.0);
+        let can_be_still = !frame.machine.joints().is_empty() || frame.machine.stops().iter().any(plastic);
         let mut end = None;
         while end.is_none() {
             let (now, from) = (motion.time(), motion.place().clone());
@@ -56,7 +56,7 @@ impl MachineLap {
             sizes = (sizes.0.max(x), sizes.1.max(v));
             let left = time - now;
             let passage = motion.step()?;
-            if stops_dead {
+            if can_be_still {
                 let middle = frame.moved(&from, &passage.structure, 0.5 * passage.duration.min(left));
                 let (x, v) = frame.sizes(&middle);
                 sizes = (sizes.0.max(x), sizes.1.max(v));
