@@ -290,3 +290,73 @@ fn curves_between_branches() {
     }
     assert!(ends > 28, "{ends}");
 }
+
+/// The first value at which a chatter begins or ends to be complete, on a branch over the gap upwards, and the points of its
+/// curve over the gap and another number.
+fn curve_of_chatter(
+    make: impl Fn(f64, f64) -> Option<Machine> + Copy + Send + Sync + 'static,
+    (gap, other): (f64, f64),
+    others: (f64, f64),
+) -> Vec<MachineCurvePoint> {
+    let start = MachineStart::default();
+    let cycle = settled(&make(gap, other).unwrap(), &start);
+    let family = MachineFamily::new(move |gap| make(gap, other));
+    let options = BranchOptions::default();
+    let mut branch = MachineBranch::new((&family, gap), &cycle, &(0.7..=1.1), Direction::Up, options).unwrap();
+    let point = branch.find(|point| matches!(point.event, Some(MachineBranchEvent::Sticking { .. }))).unwrap();
+    let (kind, points) = curve(make, (point.value, other), ((0.2, 1.4), others), &point);
+    assert_eq!(kind, MachineCurveKind::Sticking { stop: 0 });
+    for point in &points {
+        assert_eq!(point.cycle.label.to_string(), "inf/1", "{:?}", point.values);
+    }
+    for end in [&points[0], &points[points.len() - 1]] {
+        assert_eq!(end.event, Some(MachineCurveEvent::EndOfBox), "{:?}", end.values);
+    }
+    points
+}
+
+/// Of two bodies, one of which strikes a stop: over the stiffness between them a chatter is complete below the curve, and not above.
+#[test]
+fn the_curve_of_a_complete_chatter() {
+    let make = |gap: f64, stiffness: f64| {
+        let parts = MachineParts::new(["a", "b"])
+            .with_mass(0, 1.0)
+            .with_mass(1, 0.8)
+            .with_link(&[1.0, -1.0], stiffness, 0.12)
+            .with_link(&[0.0, 1.0], 0.9, 0.1)
+            .with_frequency(0.2)
+            .with_force(1, 1, 0.0, 0.9)
+            .with_rigid_stop("stop", &[1.0, 0.0], gap, 0.5);
+        Machine::new(parts).ok()
+    };
+    let points = curve_of_chatter(make, (0.9, 1.1), (0.6, 1.6));
+    for point in points.iter().step_by(points.len() / 6) {
+        let (gap, stiffness) = point.values;
+        let complete = [-1e-3, 1e-3].map(|by| {
+            let cycle = settled(&make(gap + by, stiffness).unwrap(), &point.cycle.state);
+            cycle.label.to_string() == "inf/1"
+        });
+        assert_eq!(complete, [true, false], "{:?}", point.values);
+    }
+}
+
+/// Of a body between two stops: both chatters of a symmetric cycle are complete at once. The curve is the same from two of its
+/// points.
+#[test]
+fn the_curve_of_two_complete_chatters() {
+    let make = |gap: f64, e: f64| {
+        let parts = MachineParts::new(["a"])
+            .with_mass(0, 1.0)
+            .with_link(&[1.0], 1.0, 0.0)
+            .with_frequency(0.2)
+            .with_force(0, 1, 0.0, 1.0)
+            .with_rigid_stop("up", &[1.0], gap, e)
+            .with_rigid_stop("down", &[-1.0], gap, e);
+        Machine::new(parts).ok()
+    };
+    let [one, two] = [0.3, 0.4].map(|e| curve_of_chatter(make, (0.9, e), (0.1, 0.7)));
+    for end in [0, 1] {
+        let [a, b] = [&one, &two].map(|points| points[end * (points.len() - 1)].values);
+        assert!(a.1 == b.1 && (a.0 - b.0).abs() < 1e-11, "{a:?} {b:?}");
+    }
+}

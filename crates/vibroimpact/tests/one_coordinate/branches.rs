@@ -2,8 +2,10 @@
 
 use crate::{System, is_long, some};
 use vibroimpact::continuation::{
-    Branch, BranchEvent, BranchOptions, Direction, MachineBranch, MachineBranchEvent, MachineFamily,
+    Branch, BranchEvent, BranchOptions, CurveOptions, Direction, MachineBranch, MachineBranchEvent, MachineCurve,
+    MachineCurveKind, MachineFamily, MachinePlane, MachinePoint,
 };
+use vibroimpact::events::MachineStart;
 use vibroimpact::orbit::one_impact;
 use vibroimpact::verdict::{MachineVerdict, SettleOptions, Verdict, settle, settle_machine};
 use vibroimpact::{Oscillator, Parameter, Start};
@@ -129,7 +131,8 @@ fn a_chatter_begins_and_ends_at_its_limit() {
     let Verdict::Periodic(cycle) = once.verdict else { panic!("{}", once.verdict.label()) };
     let branch = Branch::new(&oscillator, &cycle, Parameter::Gap, 0.95..=1.0, Direction::Down, options).unwrap();
     let chatter = branch.into_iter().find(|point| matches!(point.event, Some(BranchEvent::Chatter { .. }))).unwrap();
-    for (from, direction, begins, close) in [(1.0, Direction::Down, true, 1e-10), (0.951, Direction::Up, false, 1e-8)] {
+    for (from, direction, begins, close) in [(1.0, Direction::Down, true, 1e-12), (0.951, Direction::Up, false, 1e-12)]
+    {
         let machine = at(from).machine();
         let settled = settle_machine(&machine, &at(from).machine_start(), &SettleOptions::default()).unwrap();
         let MachineVerdict::Periodic(cycle) = settled.verdict else { panic!("{}", settled.verdict.label()) };
@@ -146,4 +149,49 @@ fn a_chatter_begins_and_ends_at_its_limit() {
         assert!(inside.iter().all(|event| event.0 == MachineBranchEvent::EndOfRange), "{inside:?}");
         assert_eq!(inside.len(), usize::from(begins));
     }
+}
+
+/// The curve of complete chatters over gap and restitution, against bisections with the oscillator.
+#[test]
+fn a_curve_of_complete_chatters() {
+    let of = |gap: f64, e: f64| {
+        let oscillator = Oscillator::new(0.187_812_295_714_788_97, gap, e).ok()?;
+        Some(System { oscillator, start: Start::at_rest(&oscillator), text: String::new() })
+    };
+    let make = move |gap: f64, e: f64| Some(of(gap, e)?.machine());
+    let machine = make(1.0, 0.35).unwrap();
+    let settled = settle_machine(&machine, &MachineStart::default(), &SettleOptions::default()).unwrap();
+    let MachineVerdict::Periodic(cycle) = settled.verdict else { panic!("{}", settled.verdict.label()) };
+    let (family, value) = MachineFamily::of_path(&machine, "stop.upper.gap").unwrap();
+    let options = BranchOptions::default();
+    let mut branch = MachineBranch::new((&family, value), &cycle, &(0.95..=1.0), Direction::Down, options).unwrap();
+    let limit = |point: &MachinePoint| matches!(point.event, Some(MachineBranchEvent::Sticking { .. }));
+    let point = branch.find(limit).unwrap();
+    let plane = MachinePlane::new(make, (0.5..=1.5, 0.05..=0.9));
+    let options = CurveOptions { longest: 0.1, points: 400 };
+    let [forth, back] = MachineCurve::through(&plane, (point.value, 0.35), &point, options).unwrap();
+    assert_eq!(forth.kind(), MachineCurveKind::Sticking { stop: 0 });
+    let (forth, back): (Vec<_>, Vec<_>) = (forth.collect(), back.collect());
+    let ends: Vec<f64> = [&forth, &back].map(|points| points.last().unwrap().values.1).to_vec();
+    assert_eq!(ends, [0.05, 0.9]);
+    let mut compared = 0;
+    for point in forth.iter().chain(&back).step_by(6) {
+        assert_eq!(point.cycle.label.to_string(), "inf/1");
+        let (gap, e) = point.values;
+        let oscillator = of(gap + 0.02, e).unwrap().oscillator;
+        let settled = settle(&oscillator, Start::at_rest(&oscillator), &SettleOptions::default());
+        let Verdict::Periodic(cycle) = settled.verdict else { continue };
+        let range = gap - 0.01..=gap + 0.03;
+        let Ok(mut branch) =
+            Branch::new(&oscillator, &cycle, Parameter::Gap, range, Direction::Down, BranchOptions::default())
+        else {
+            continue;
+        };
+        let Some(limit) = branch.find(|point| matches!(point.event, Some(BranchEvent::Chatter { .. }))) else {
+            continue;
+        };
+        assert!((limit.value - gap).abs() < 1e-11, "{e}: {gap} {}", limit.value);
+        compared += 1;
+    }
+    assert!(compared >= 8, "{compared}");
 }

@@ -2,7 +2,7 @@
 
 use super::borders::Borders;
 use super::moment::Moment;
-use crate::continuation::of_machine::{Limit, limits, touches};
+use crate::continuation::of_machine::{CompleteChatter, Limit, limits, touches};
 use crate::math::{Matrix, Multiplier, general_eigenvalues, hypot};
 use crate::orbit::{MachineFrame, MachineRing};
 
@@ -18,6 +18,8 @@ pub(super) enum Condition {
     Touch { at: usize, size: f64, contact: Option<usize>, speed: f64 },
     /// A limit of a contact is zero, at which a rest would take no time; values are divided by `size`.
     Limit { limit: Limit, contact: usize, size: f64 },
+    /// A chatter is complete exactly at its release.
+    Chatter(CompleteChatter),
     /// This event and the next one have the same phase.
     Together { at: usize },
 }
@@ -67,6 +69,7 @@ impl Condition {
                 Some(ring.block(frame, before, true)?.late[0] * ring.frequency(frame.machine) / size)
             }
             Self::Limit { limit, size, .. } => Some(limit.of(frame, ring)?.value / size),
+            Self::Chatter(chatter) => chatter.value(frame, ring),
             Self::Together { at } => Some(ring.theta(at + 1) - ring.theta(*at)),
         }
     }
@@ -115,8 +118,23 @@ impl Condition {
                 moments.dedup();
                 moments
             }
+            Self::Chatter(chatter) => {
+                let ends = chatter.ends(frame, ring).into_iter();
+                ends.map(|(first, last)| Moment::Events(first, last)).collect()
+            }
             Self::Together { at } => vec![Moment::Events(*at, (at + 1) % m)],
             _ => Vec::new(),
+        }
+    }
+
+    /// The events after which the flights begin that the value depends on; `None` if it can depend on all.
+    pub(super) fn events(&self, ring: &MachineRing) -> Option<Vec<usize>> {
+        match self {
+            Self::Touch { at, .. } => Some(vec![(at + ring.len() - 1) % ring.len(), *at]),
+            Self::Limit { limit, .. } => Some(vec![limit.at]),
+            Self::Chatter(chatter) => chatter.last(ring),
+            Self::Together { at } => Some(vec![*at, (at + 1) % ring.len()]),
+            Self::Singular { .. } | Self::Pair { .. } => None,
         }
     }
 

@@ -177,6 +177,23 @@ impl MachineCurve {
         self.tracer.take(step.there.clone());
         self.emit(&step.there, closed.then_some(MachineCurveEvent::Closed));
         self.over |= closed;
+        self.adapt();
+    }
+
+    /// Changes the number of impacts of a chatter in the signature to the time that is left after them.
+    fn adapt(&mut self) {
+        while let Some((problem, w)) = self.tracer.problem.adapted(&self.tracer.here) {
+            let way = self.tracer.problem.equations.course(&self.tracer.here.tangent);
+            let length = w.len();
+            let (at, by) = if way.0.abs() > way.1.abs() { (length - 2, way.0) } else { (length - 1, way.1) };
+            let mut row = vec![0.0; length];
+            row[at] = by.signum();
+            let Some((w, _)) = correct(&problem, &w, &row, by.signum() * w[at]) else { break };
+            let step = self.tracer.step;
+            let next = tangent(&problem, &w, &row).and_then(|along| Tracer::new(problem, w, along, step));
+            let Some(tracer) = next.filter(|tracer| tracer.here.known.physical()) else { break };
+            self.tracer = tracer;
+        }
     }
 
     /// Whether the two numbers change in opposite directions at both ends of a step.

@@ -18,11 +18,10 @@ pub(super) fn reason(problem: &CurveProblem, here: &CurveSolution) -> Option<Mac
     let (m, stops) = (ring.len(), machine.stops().len());
     let period = machine.period().unwrap_or_else(|| ring.period(&MachineFrame::new(&machine)));
     let own = problem.equations.condition.moments(&MachineFrame::new(&machine), &ring);
-    let corner = |k: usize| {
-        own.iter().any(|moment| matches!(moment, Moment::Events(first, last) if first != last && k == *first))
-    };
+    let within =
+        |k: usize| own.iter().any(|moment| moment.has(k, m) && matches!(moment, Moment::Events(_, last) if k != *last));
     let shortest =
-        (0..m).filter(|k| !corner(*k)).min_by(|a, b| ring.time(*a, &machine).total_cmp(&ring.time(*b, &machine)))?;
+        (0..m).filter(|k| !within(*k)).min_by(|a, b| ring.time(*a, &machine).total_cmp(&ring.time(*b, &machine)))?;
     if m > 1 && ring.time(shortest, &machine) < SHORT * period {
         let (first, second) =
             (ring.events[shortest].guard.place(stops), ring.events[(shortest + 1) % m].guard.place(stops));

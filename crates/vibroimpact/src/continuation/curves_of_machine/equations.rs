@@ -102,7 +102,9 @@ impl CurveEquations {
         };
         let mut moved = w.to_vec();
         let mut row = vec![0.0; w.len()];
-        for (i, slope) in row.iter_mut().enumerate() {
+        let (events, width) = (self.condition.events(&self.ring), count / self.ring.len());
+        let matters = |i: usize| i >= count || events.as_ref().is_none_or(|events| events.contains(&(i / width)));
+        for (i, slope) in row.iter_mut().enumerate().filter(|(i, _)| matters(*i)) {
             let h = DIFFERENCE / self.weights[i].sqrt();
             let mut at = |x: f64| {
                 moved[i] = x;

@@ -6,7 +6,7 @@ use crate::orbit::MachineRing;
 /// A moment: events that happen at once, or a touch on a flight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Moment {
-    /// The first and the last event.
+    /// The events from the first one to the last one.
     Events(usize, usize),
     /// A flight, by the event before it, and the phase on it.
     Flight(usize, f64),
@@ -16,9 +16,9 @@ pub(super) enum Moment {
 pub(super) type OnFlight = (usize, f64);
 
 impl Moment {
-    /// Whether an event belongs to it.
-    pub(super) fn has(&self, event: usize) -> bool {
-        matches!(*self, Self::Events(first, last) if event == first || event == last)
+    /// Whether one of `m` events belongs to it.
+    pub(super) fn has(&self, event: usize, m: usize) -> bool {
+        matches!(*self, Self::Events(first, last) if (event + m - first) % m <= (last + m - first) % m)
     }
 
     /// Its phase, beside those of the ring.

@@ -6,7 +6,7 @@ use super::origin_at_rest;
 use super::plane::{MachineCurveError, MachinePlane};
 use super::point::MachineCurveKind;
 use super::problem::CurveProblem;
-use crate::continuation::of_machine::{MachineBranchEvent, MachinePoint, closest};
+use crate::continuation::of_machine::{CompleteChatter, MachineBranchEvent, MachinePoint, closest};
 use crate::events::standing_back;
 use crate::machine::Machine;
 use crate::orbit::{MachineFrame, MachineRing, RingEvent};
@@ -40,7 +40,8 @@ fn begin(
     };
     // rounding can let a motion end at a limit, or miss a stop that it grazes
     let beside = |by: f64| ring_at(&plane.at((values.0 + by * plane.scales().0, values.1))?);
-    let mut ring = ring_at(machine).or_else(|| BESIDE.into_iter().find_map(|by| beside(by).or_else(|| beside(-by))))?;
+    let both_sides = || BESIDE.into_iter().flat_map(|by| [by, -by]);
+    let mut ring = ring_at(machine).or_else(|| both_sides().find_map(beside))?;
     let touch = |at: usize| Condition::Touch { at, size: sizes.1, contact: None, speed: sizes.1 };
     let (kind, condition) = match event {
         MachineBranchEvent::Fold => (MachineCurveKind::Fold, None),
@@ -62,8 +63,7 @@ fn begin(
                 return Some(Err(MachineCurveError::NotThere));
             }
             let back = place.surfaces.iter().map(Option::is_some).collect();
-            ring.events.insert(leg + 1, RingEvent::touch(GuardKind::Gap(stop), &place.states, back));
-            ring.places.insert(leg + 1, place);
+            ring.insert(leg + 1, RingEvent::touch(GuardKind::Gap(stop), &place.states, back), place);
             (MachineCurveKind::Grazing { stop }, Some(touch(leg + 1)))
         }
         MachineBranchEvent::Grazing { stop, .. } | MachineBranchEvent::LossOfContact { stop } => {
@@ -87,7 +87,18 @@ fn begin(
             (kind, Some(Condition::Together { at }))
         }
         MachineBranchEvent::Sticking { stop: contact, .. } | MachineBranchEvent::Holding { joint: contact, .. } => {
-            let Some(condition) = origin_at_rest::condition(&frame, &mut ring, (contact, sizes.1)) else {
+            // a chatter that is complete at its release is so before it on one side
+            let chatter = |by: f64| {
+                let mut ring = beside(by)?;
+                Some((CompleteChatter::shortened(&frame, &mut ring, contact)?, ring))
+            };
+            let farther = FARTHER.into_iter().flat_map(|by| [by, -by]);
+            let condition = if let Some((chatter, complete)) = both_sides().chain(farther).find_map(chatter) {
+                ring = complete;
+                Condition::Chatter(chatter)
+            } else if let Some(condition) = origin_at_rest::condition(&frame, &mut ring, (contact, sizes.1)) {
+                condition
+            } else {
                 return Some(Err(MachineCurveError::NotThere));
             };
             let kind = if contact < machine.stops().len() {
@@ -117,6 +128,8 @@ fn begin(
 
 /// The changes of the number at which the motion is followed instead, in its scale.
 const BESIDE: [f64; 4] = [1e-9, 1e-8, 1e-7, 1e-6];
+/// The same for a chatter that becomes complete: the cycle of the point can be that with the last impact that appeared.
+const FARTHER: [f64; 4] = [1e-5, 1e-4, 1e-3, 1e-2];
 
 /// A gap or a speed that is larger, relative to the motion, is not that of a grazing contact.
 const NEAR: f64 = 1e-3;

@@ -25,8 +25,7 @@ pub(super) fn condition(
             let (_, place) = closest(frame, ring, (touch.leg, touch.guard))?;
             let size = ring.frequency(frame.machine) * size(frame, &place, touch.guard, speed);
             let back = place.surfaces.iter().map(Option::is_some).collect();
-            ring.events.insert(touch.leg + 1, RingEvent::touch(touch.guard, &place.states, back));
-            ring.places.insert(touch.leg + 1, place);
+            ring.insert(touch.leg + 1, RingEvent::touch(touch.guard, &place.states, back), place);
             Some(Condition::Touch { at: touch.leg + 1, size, contact: Some(contact), speed })
         }
     }

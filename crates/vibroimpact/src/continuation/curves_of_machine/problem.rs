@@ -67,7 +67,7 @@ impl CurveProblem {
                 watched.extend([Watched::Pull].into_iter().chain(rigid.then_some(Watched::Trace)).chain(others));
             }
             MachineCurveKind::Sticking { .. } | MachineCurveKind::Holding { .. }
-                if matches!(equations.condition, Condition::Limit { .. }) =>
+                if matches!(equations.condition, Condition::Limit { .. } | Condition::Chatter(_)) =>
             {
                 watched.push(Watched::Release);
             }
@@ -85,6 +85,20 @@ impl CurveProblem {
         if let Some(condition) = renewed {
             self.equations.condition = condition;
         }
+    }
+
+    /// The same problem where a chatter has another number of impacts in the signature, and the solution there; `None` if
+    /// its number fits.
+    pub(super) fn adapted(&self, at: &CurveSolution) -> Option<(Self, Vec<f64>)> {
+        let Condition::Chatter(chatter) = &self.equations.condition else { return None };
+        let (machine, mut ring) = self.equations.split(&at.w)?;
+        let chatter = chatter.adapted(&MachineFrame::new(&machine), &mut ring)?;
+        let (plane, values) = (self.equations.plane.clone(), CurveEquations::values(&at.w));
+        let sizes = at.known.cycle.as_ref()?.sizes;
+        let w = CurveEquations::join(&machine, &ring, values);
+        let condition = Condition::Chatter(chatter);
+        let equations = CurveEquations::new((&machine, plane), ring, sizes, condition);
+        Some((Self { equations, ..self.clone() }, w))
     }
 
     /// Whether a stop is rigid and pushes back.
@@ -156,6 +170,9 @@ impl CurveProblem {
             Watched::Release => match &self.equations.condition {
                 Condition::Limit { limit, size, .. } => {
                     Some(limit.of(frame, ring)?.rate / (size * ring.frequency(frame.machine)))
+                }
+                Condition::Chatter(chatter) => {
+                    Some(chatter.jerk(frame, ring)? / (self.speed * ring.frequency(frame.machine).powi(2)))
                 }
                 _ => None,
             },
@@ -244,7 +261,7 @@ impl Problem for CurveProblem {
         // every guard must fall to zero at its event
         let rising = (0..ring.len()).find_map(|k| {
             let event = (k + 1) % ring.len();
-            let own = moments.iter().any(|moment| moment.has(event));
+            let own = moments.iter().any(|moment| moment.has(event, ring.len()));
             (!own && ring.block(&frame, k, true).is_none_or(|block| block.late[0] >= 0.0)).then_some(event)
         });
         let all = at.map_or_else(Vec::new, |(_, all)| all);

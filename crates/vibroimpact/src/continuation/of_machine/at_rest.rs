@@ -12,7 +12,7 @@ use super::problem::{MachineProblem, MachineSolution};
 use super::rest::{RestZero, rest_zero};
 use crate::continuation::trace::equations::{Equations, correct, tangent};
 use crate::continuation::trace::tracer::Tracer;
-use crate::orbit::MachineFrame;
+use crate::orbit::{MachineFrame, MachineRing};
 
 /// The first step of the secant method along the curve, and the largest distance from the solution at which it begins.
 const FIRST: f64 = 1e-7;
@@ -45,22 +45,37 @@ pub(super) fn at_rest(
     let number = last(&inside.w);
     let guess = MachineEquations::join(&machine, &ring, number);
     let equations = MachineEquations::new((&machine, old.family.clone()), ring, sizes, old.scale);
+    let value = |frame: &MachineFrame<'_>, ring: &MachineRing| match &zero {
+        RestZero::Limit(limit) => Some(limit.of(frame, ring)?.value),
+        RestZero::Touch(touch) => Some(closest(frame, ring, (touch.leg, touch.guard))?.0),
+    };
+    let w = zero_near(&equations, &guess, MOST, value)?;
+    let mut found = inside.clone();
+    *found.w.last_mut()? = last(&w);
+    let joint = contact >= machine.stops().len();
+    Some((found, Difference::Rest { place: contact, joint, begins }))
+}
+
+/// The solution near `guess` at which a function of the machine and its cycle is zero, by the secant method along the curve of
+/// solutions. `None` if it is none or farther away than `most`.
+pub(super) fn zero_near(
+    equations: &MachineEquations,
+    guess: &[f64],
+    most: f64,
+    value: impl Fn(&MachineFrame<'_>, &MachineRing) -> Option<f64>,
+) -> Option<Vec<f64>> {
     let mut row = vec![0.0; guess.len()];
     *row.last_mut()? = 1.0;
-    let (from, _) = correct(&equations, &guess, &row, number)?;
-    let along = tangent(&equations, &from, &row)?;
+    let (from, _) = correct(equations, guess, &row, last(guess))?;
+    let along = tangent(equations, &from, &row)?;
     let (row, level) = (equations.row(&along), equations.dot(&along, &from));
     let at = |s: f64| {
         let guess: Vec<f64> = from.iter().zip(&along).map(|(w, t)| w + s * t).collect();
-        Some(correct(&equations, &guess, &row, level + s)?.0)
+        Some(correct(equations, &guess, &row, level + s)?.0)
     };
     let value = |s: f64| {
         let (machine, ring) = equations.split(&at(s)?)?;
-        let frame = MachineFrame::new(&machine);
-        match &zero {
-            RestZero::Limit(limit) => Some(limit.of(&frame, &ring)?.value),
-            RestZero::Touch(touch) => Some(closest(&frame, &ring, (touch.leg, touch.guard))?.0),
-        }
+        value(&MachineFrame::new(&machine), &ring)
     };
     let (mut before, mut at_before, mut now) = (0.0, value(0.0)?, FIRST);
     for _ in 0..STEPS {
@@ -69,11 +84,8 @@ pub(super) fn at_rest(
             break;
         }
         let next = now - at_now * (now - before) / (at_now - at_before);
-        (next.abs() <= MOST).then_some(())?;
+        (next.abs() <= most).then_some(())?;
         (before, at_before, now) = (now, at_now, next);
     }
-    let mut found = inside.clone();
-    *found.w.last_mut()? = last(&at(now)?);
-    let joint = contact >= machine.stops().len();
-    Some((found, Difference::Rest { place: contact, joint, begins }))
+    at(now)
 }

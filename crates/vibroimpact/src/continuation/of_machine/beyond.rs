@@ -10,7 +10,7 @@ use super::change::Difference;
 use super::closest::closest;
 use super::equations::MachineEquations;
 use super::problem::{MachineProblem, MachineSolution};
-use super::summed::{same_but_for_sums, same_in_turn};
+use super::summed::same_in_turn;
 use super::touch::speed_before;
 use crate::continuation::branches::BranchOptions;
 use crate::continuation::trace::equations::{Equations, correct, tangent};
@@ -45,7 +45,7 @@ pub(super) fn beyond(
 }
 
 /// The problem with another ring at the same machine.
-fn with_ring(
+pub(super) fn with_ring(
     tracer: &Tracer<MachineProblem>,
     machine: &Machine,
     ring: MachineRing,
@@ -110,8 +110,7 @@ fn appearing(
     };
     let mut next = ring.clone();
     let index = leg + 1;
-    next.events.insert(index, event);
-    next.places.insert(index, place);
+    next.insert(index, event, place);
     let sizes = at.known.cycle.as_ref()?.sizes;
     let problem = with_ring(tracer, machine, next, sizes);
     let w = MachineEquations::join(machine, &problem.equations.ring, last(&at.w));
@@ -160,10 +159,8 @@ fn disappearing(
     first_step(&problem, &w, &[along, back], options)
 }
 
-/// How far beyond a change the motion is followed, in the scale of the number, at a change of the events and at one of the
-/// number of impacts of a chatter that are followed, which can come one soon after another.
+/// How far beyond a change the motion is followed, in the scale of the number.
 const BESIDE: [f64; 5] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-2];
-const SOON: [f64; 6] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4];
 
 /// The cycle a little beyond, from the last one. Beyond a `corner` its events may be the same in cyclic order.
 pub(super) fn replayed(
@@ -178,18 +175,6 @@ pub(super) fn replayed(
         let other = |next: &MachineRing| !same_in_turn(&next.events, &ring.events) || corner && by * forward > 0.0;
         motion.beside(tracer, (by, options), other)
     })
-}
-
-/// The same cycle a little beyond, with another number of impacts before the sum of a chatter.
-pub(super) fn resummed(
-    tracer: &Tracer<MachineProblem>,
-    at: &MachineSolution,
-    options: &BranchOptions,
-) -> Option<Tracer<MachineProblem>> {
-    let (ring, forward) = (&tracer.problem.equations.ring, forward(at));
-    let motion = LastMotion::of(tracer, at)?;
-    let same = |next: &MachineRing| !same_in_turn(&next.events, &ring.events) && same_but_for_sums(ring, next);
-    SOON.into_iter().find_map(|by| motion.beside(tracer, (forward * by, options), same))
 }
 
 /// The direction of the number along the branch.

@@ -2,8 +2,9 @@
 
 use super::at_rest::at_rest;
 use super::beginning::{begun, last};
-use super::beyond::{beyond, replayed, resummed};
+use super::beyond::{beyond, replayed, with_ring};
 use super::change::{Difference, additional, difference};
+use super::complete_chatter::CompleteChatter;
 use super::edge::edge;
 use super::equations::MachineEquations;
 use super::family::MachineFamily;
@@ -11,12 +12,12 @@ use super::halving::halved;
 use super::meeting::meeting;
 use super::point::{MachineBranchEvent, MachinePoint};
 use super::problem::{Judged, MINUS_ONE, MachineProblem, MachineSolution, PACE, PLUS_ONE, TORUS};
-use super::summed::{limit, of_chatter, sums};
+use super::summed::{of_chatter, sums};
 use super::touch::{grazing, touching};
 use crate::continuation::branches::{BranchOptions, Direction};
 use crate::continuation::trace::tracer::{Crossing, Problem, Step, Tracer};
 use crate::math::Multiplier;
-use crate::orbit::{MachineCycle, MachineFrame, MachineRing};
+use crate::orbit::{Chatter, MachineCycle, MachineFrame, MachineRing};
 use core::ops::RangeInclusive;
 use std::collections::VecDeque;
 use thiserror::Error;
@@ -52,8 +53,6 @@ pub struct MachineBranch {
     /// The changes of the events so far, with the number of unknowns and the direction; at the second one of a kind the
     /// branch is closed.
     passed: Vec<(f64, usize, bool, MachineBranchEvent)>,
-    /// The values at which the number of impacts changes that are followed before a chatter is summed, since the last event.
-    counted: Vec<f64>,
     count: u32,
     pending: VecDeque<MachinePoint>,
     over: bool,
@@ -89,16 +88,7 @@ impl MachineBranch {
         let tracer = begun(problem, &w, value, up, options).ok_or(MachineBranchError::NoCycle)?;
         let first = Self::point(&tracer.here, None).ok_or(MachineBranchError::NoCycle)?;
         let begin = Some(tracer.here.clone());
-        Ok(Self {
-            options,
-            tracer,
-            begin,
-            passed: Vec::new(),
-            counted: Vec::new(),
-            count: 1,
-            pending: VecDeque::from([first]),
-            over: false,
-        })
+        Ok(Self { options, tracer, begin, passed: Vec::new(), count: 1, pending: VecDeque::from([first]), over: false })
     }
 
     fn point(at: &MachineSolution, event: Option<MachineBranchEvent>) -> Option<MachinePoint> {
@@ -227,6 +217,7 @@ impl MachineBranch {
         self.add(&step.there, closed.then_some(MachineBranchEvent::Closed));
         self.tracer.take(step.there);
         self.over |= closed;
+        self.adapt();
     }
 
     /// The distance along a step of a branch point close to `s`. Around it the equations are nearly singular, so that it was only
@@ -308,48 +299,51 @@ impl MachineBranch {
         if let Some(stop) = self.lost(at, found) {
             return self.end(at, MachineBranchEvent::LossOfContact { stop });
         }
-        let sum = match *found {
-            Difference::Rest { place, joint: false, .. } => {
-                Some(place).filter(|stop| sums(&self.tracer.problem.equations.ring, *stop))
-            }
-            _ => None,
-        };
-        if let Some(next) = sum.and_then(|_| resummed(&self.tracer, at, &self.options)) {
-            self.counted.push(last(&at.w));
-            return self.take(next);
-        }
         let Some(next) = beyond(&self.tracer, at, found, &self.options) else {
             self.add(at, Some(found.event(false)));
             return self.end(&at.clone(), MachineBranchEvent::NoConvergence);
         };
         let turns = last(&next.here.tangent) * last(&at.tangent) < 0.0;
         let (ring, other) = (&self.tracer.problem.equations.ring, &next.problem.equations.ring);
-        let infinite = match *found {
-            Difference::Appears { stop, .. } if sums(other, stop) && !sums(ring, stop) => Some((stop, true)),
-            _ => sum.filter(|stop| !sums(other, *stop)).map(|stop| (stop, false)),
+        // a chatter that is complete on one side only
+        let chatters = |ring: &MachineRing, stop| Chatter::all(ring).iter().filter(|own| own.stop == stop).count();
+        let event = match *found {
+            Difference::Rest { place, joint: false, .. }
+                if chatters(ring, place) > 0 && chatters(ring, place) == chatters(other, place) =>
+            {
+                MachineBranchEvent::Change { place: Some(place) }
+            }
+            _ => found.event(turns),
         };
-        let Some((stop, begins)) = infinite else { return self.go_on(at, found.event(turns), next) };
-        let mut there = at.clone();
-        if let Some(number) = there.w.last_mut() {
-            *number = self.last_count((stop, begins), *number);
-        }
-        self.go_on(&there, MachineBranchEvent::Sticking { stop, begins }, next);
+        let complete = (0..ring.events.first().map_or(0, |event| event.back.len())).find_map(|stop| {
+            let (here, there) = (chatters(ring, stop), chatters(other, stop));
+            let begins = here < there;
+            let (equations, complete) =
+                if begins { (&next.problem.equations, &next.here) } else { (&self.tracer.problem.equations, at) };
+            let value = (here != there).then(|| CompleteChatter::value_of_number(equations, complete, stop))??;
+            let mut at = at.clone();
+            *at.w.last_mut()? = value;
+            Some((at, MachineBranchEvent::Sticking { stop, begins }))
+        });
+        let (at, event) = complete.unwrap_or_else(|| (at.clone(), event));
+        self.go_on(&at, event, next);
     }
 
-    /// The value at which the number of impacts of a chatter becomes infinite, after that at `here`: the limit of the values at
-    /// which impacts appear, or at which the number of those that are followed before the sum changes.
-    fn last_count(&self, (stop, begins): (usize, bool), here: f64) -> f64 {
-        let appeared = self.passed.iter().rev().map_while(|(value, .., event)| match event {
-            MachineBranchEvent::Grazing { stop: of, appears: true, .. } => (*of == stop).then_some(*value),
-            _ => None,
-        });
-        let counted = self.counted.iter().rev().copied();
-        // where the last count changes, the last impacts are rounding errors
-        let mut values: Vec<f64> =
-            if begins { core::iter::once(here).chain(appeared).take(5).collect() } else { counted.take(5).collect() };
-        values.reverse();
-        let near = |last: &f64| (last - here).abs() < COUNTS * self.tracer.problem.equations.scale;
-        limit(values).filter(near).unwrap_or(here)
+    /// Changes the number of impacts of chatters in the signature where too much of them is left out, or too little.
+    fn adapt(&mut self) {
+        let other = |tracer: &Tracer<MachineProblem>| {
+            let (machine, mut ring) = tracer.problem.equations.split(&tracer.here.w)?;
+            Chatter::adapt(&MachineFrame::new(&machine), &mut ring)?;
+            let problem = with_ring(tracer, &machine, ring, tracer.here.known.cycle.as_ref()?.sizes);
+            let number = last(&tracer.here.w);
+            let w = MachineEquations::join(&machine, &problem.equations.ring, number);
+            let mut next = begun(problem, &w, number, last(&tracer.here.tangent).signum(), self.options)?;
+            next.step = tracer.step;
+            next.here.known.physical().then_some(next)
+        };
+        while let Some(next) = other(&self.tracer) {
+            self.tracer = next;
+        }
     }
 
     /// Goes on with another tracer.
@@ -371,7 +365,6 @@ impl MachineBranch {
             return self.end(at, MachineBranchEvent::Closed);
         }
         self.passed.push(here);
-        self.counted.clear();
         self.add(at, Some(event));
         self.take(next);
     }
@@ -381,8 +374,6 @@ impl MachineBranch {
 const NEARBY: f64 = 0.1;
 /// Values of the number that differ by less, in its scale, are those of one event.
 const HERE: f64 = 1e-7;
-/// The same for the last of many changes of the number of impacts of a chatter.
-const COUNTS: f64 = 1e-3;
 /// The distance, in parts of a step, from a grazing solution to that at which the signs of test functions are compared
 /// with those at the beginning.
 const ASIDE: f64 = 1e-6;

@@ -14,7 +14,8 @@
 //! | where a rest on a stop, or the hold of a joint, begins or ends | `rest` |
 //! | a signature without flights that take no time where a rest begins or ends | `joined` |
 //! | the solution at which a rest begins or ends, to rounding | `at_rest` |
-//! | how many impacts of a chatter are followed before it is summed, and where they become infinitely many | `summed` |
+//! | how many impacts of a chatter are followed before it is summed | `summed` |
+//! | where they become infinitely many | `complete_chatter` |
 //! | two events that come so close that no further step converges | `meeting` |
 //! | the branch beyond such a change | `beyond` |
 //! | the cycle of twice the period beside a flip, and where it is the other one repeated | `switch`, `halving` |
@@ -26,6 +27,7 @@ mod beyond;
 mod branch;
 mod change;
 mod closest;
+mod complete_chatter;
 mod edge;
 mod equations;
 mod family;
@@ -43,10 +45,12 @@ mod touch;
 pub use branch::{MachineBranch, MachineBranchError};
 pub(crate) use change::{Difference, difference};
 pub(crate) use closest::closest;
+pub(crate) use complete_chatter::CompleteChatter;
 pub(crate) use edge::edge;
 pub use family::MachineFamily;
 pub(crate) use joined::join;
 pub(crate) use linear::{by_number, linearised, weigh, weights};
 pub use point::{MachineBranchEvent, MachinePoint};
-pub(crate) use problem::{CLOSED, Judged, judge, over_pairs};
+pub(crate) use problem::{CLOSED, Judged, judge, over_pairs, seen_on};
 pub(crate) use rest::{Limit, RestZero, limits, rest_zero, size, touches};
+pub(crate) use summed::matched;

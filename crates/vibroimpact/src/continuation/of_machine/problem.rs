@@ -2,6 +2,7 @@
 //! bifurcations. Whether a solution is admissible is decided by following the motion over one period.
 
 use super::equations::MachineEquations;
+use super::summed::matched;
 use crate::continuation::branches::{COARSE, RULES};
 use crate::continuation::trace::equations::Equations;
 use crate::continuation::trace::tracer::{Problem, Solution, StepRules};
@@ -102,6 +103,14 @@ impl MachineProblem {
     }
 }
 
+/// The events of a motion, with the phases since its beginning.
+pub(crate) fn seen_on(lap: &MachineLap, frequency: f64) -> Vec<(f64, RingEvent)> {
+    let steps = lap.steps[..lap.steps.len() - 1].iter();
+    steps
+        .filter_map(|(time, _, passage)| Some((frequency * (time + passage.duration), RingEvent::of(passage)?)))
+        .collect()
+}
+
 /// The motion from the middle of the longest flight over one period, and the cycle if its events are those of the
 /// ring.
 pub(crate) fn judge(
@@ -112,9 +121,11 @@ pub(crate) fn judge(
     let nothing = |multipliers| Judged { cycle: None, multipliers, seen: Vec::new(), from: 0, rising };
     let Some((from, begin)) = ring.middle(frame) else { return nothing(multipliers) };
     let Some(lap) = MachineLap::fly(frame, &begin, ring.period(frame)) else { return nothing(multipliers) };
-    let seen: Vec<RingEvent> =
-        lap.steps[..lap.steps.len() - 1].iter().filter_map(|step| RingEvent::of(&step.2)).collect();
     let m = ring.len();
+    let middle = 0.5 * (ring.theta(from) + ring.theta(from + 1));
+    let wanted: Vec<(f64, &RingEvent)> =
+        (1..=m).map(|i| (ring.theta(from + i) - middle, &ring.events[(from + i) % m])).collect();
+    let seen = matched(&wanted, &seen_on(&lap, ring.frequency(frame.machine)));
     let alike = seen.len() == m && (0..m).all(|i| seen[i] == ring.events[(from + 1 + i) % m]);
     let residual = frame.distance(&begin, &lap.end, lap.sizes);
     let cycle = (alike && rising.is_none() && residual < CLOSED).then(|| MachineCycle {

@@ -1,5 +1,4 @@
-//! Chatters on branches: a change of the number of impacts that are followed before the rest of a chatter is summed is no
-//! event, and the value at which the number of impacts becomes infinite.
+//! Chatters on branches: how many of their impacts are followed before the rest is no property of a cycle.
 
 use super::change::Difference;
 use super::closest::closest;
@@ -9,36 +8,17 @@ use crate::continuation::trace::tracer::Tracer;
 use crate::orbit::{MachineFrame, MachineRing, RingEvent};
 use crate::regime::GuardKind;
 
-/// The stop of an impact on this stop alone.
-fn struck(event: &RingEvent) -> Option<usize> {
-    match (event.guard, &event.pushed[..]) {
-        (GuardKind::Gap(stop), [(pushed, _)]) if *pushed == stop => Some(stop),
-        _ => None,
-    }
-}
-
 /// Whether impact `k` belongs to a chatter on its stop that is summed after this impact or a later one.
 fn is_summed(ring: &MachineRing, k: usize) -> bool {
     let m = ring.len();
-    let stop = struck(&ring.events[k]);
-    let mut own = (k..k + m).map(|i| &ring.events[i % m]).take_while(|event| stop.is_some() && struck(event) == stop);
+    let stop = ring.events[k].struck();
+    let mut own = (k..k + m).map(|i| &ring.events[i % m]).take_while(|event| stop.is_some() && event.struck() == stop);
     own.any(|event| event.pushed[0].1)
 }
 
 /// Whether a chatter on this stop is summed.
 pub(super) fn sums(ring: &MachineRing, stop: usize) -> bool {
-    ring.events.iter().any(|event| struck(event) == Some(stop) && event.pushed[0].1)
-}
-
-/// The signature with one impact for each chatter.
-fn collapsed(ring: &MachineRing) -> Vec<&RingEvent> {
-    let m = ring.len();
-    let goes_on = |k: usize| {
-        is_summed(ring, k)
-            && !ring.events[k].pushed[0].1
-            && struck(&ring.events[k]) == struck(&ring.events[(k + 1) % m])
-    };
-    (0..m).filter(|k| !goes_on(*k)).map(|k| &ring.events[k]).collect()
+    ring.events.iter().any(|event| event.rests_on() == Some(stop))
 }
 
 /// Whether two lists are the same in cyclic order.
@@ -47,9 +27,54 @@ pub(super) fn same_in_turn<T: PartialEq>(a: &[T], b: &[T]) -> bool {
     m == b.len() && (0..m).any(|shift| (0..m).all(|k| a[k] == b[(k + shift) % m]))
 }
 
-/// Whether two signatures differ only in how many impacts of chatters are followed.
-pub(super) fn same_but_for_sums(a: &MachineRing, b: &MachineRing) -> bool {
-    same_in_turn(&collapsed(a), &collapsed(b))
+/// The rest after a chatter at the beginning of a list of events: its place, and the stop.
+fn rest_in<'a>(events: impl Iterator<Item = &'a RingEvent>) -> Option<(usize, usize)> {
+    let mut own = None;
+    for (i, event) in events.enumerate() {
+        let stop = event.struck().filter(|stop| own.is_none_or(|own| own == *stop))?;
+        if event.rests_on().is_some() {
+            return Some((i, stop));
+        }
+        own = Some(stop);
+    }
+    None
+}
+
+/// The longest flight, as a phase, between impacts that are left out.
+const SOON: f64 = 0.05;
+
+/// The events of a motion, where a chatter has as many impacts as in the signature if it has all those before the rest of the
+/// signature begins. Events are given with their phases since the beginning of the motion.
+pub(crate) fn matched(wanted: &[(f64, &RingEvent)], seen: &[(f64, RingEvent)]) -> Vec<RingEvent> {
+    let mut events: Vec<RingEvent> = Vec::with_capacity(seen.len());
+    let (mut i, mut j) = (0, 0);
+    while j < seen.len() {
+        let own = wanted.get(i..).and_then(|wanted| rest_in(wanted.iter().map(|(_, event)| *event)));
+        let other = rest_in(seen[j..].iter().map(|(_, event)| event));
+        match (own, other) {
+            (Some((impacts, stop)), Some((followed, same))) if stop == same => {
+                let rest = i + impacts;
+                let before = if rest > 0 { wanted[rest - 1].0 } else { 0.0 };
+                let until = 0.5 * (before + wanted[rest].0);
+                let early = seen[j..j + followed].iter().filter(|(phase, _)| *phase < until).count();
+                let soon = seen[j + early..=j + followed].windows(2).all(|pair| pair[1].0 - pair[0].0 < SOON);
+                // the motion itself can have gone over to its rest before
+                if early == impacts && soon || followed < impacts && seen[j + followed].0 < until {
+                    events.extend(wanted[i..=rest].iter().map(|(_, event)| (*event).clone()));
+                } else {
+                    let own = j..j + if early == impacts { followed } else { early };
+                    events.extend(seen[own].iter().map(|(_, event)| event.clone()));
+                    events.push(seen[j + followed].1.clone());
+                }
+                (i, j) = (rest + 1, j + followed + 1);
+            }
+            _ => {
+                events.push(seen[j].1.clone());
+                (i, j) = (i + 1, j + 1);
+            }
+        }
+    }
+    events
 }
 
 /// A gap or a speed that is larger, relative to the motion, is not that of a grazing contact; and an impact that grazes is slower
@@ -65,7 +90,7 @@ fn grazes(frame: &MachineFrame<'_>, ring: &MachineRing, stop: usize, sizes: (f64
         closest(frame, ring, (*leg, GuardKind::Gap(stop))).is_some_and(|(gap, _)| gap.abs() < NEAR * sizes.0)
     };
     let speed = |k: usize| speed_before(frame, ring, k, stop);
-    let own = |k: usize| struck(&ring.events[k]) == Some(stop);
+    let own = |k: usize| ring.events[k].struck() == Some(stop);
     let slow = |k: &usize| {
         let next = (k + 1) % m;
         own(*k) && own(next) && speed(*k).abs() < (NEAR * sizes.1).min(SLOWER * speed(next))
@@ -89,39 +114,4 @@ pub(super) fn of_chatter(tracer: &Tracer<MachineProblem>, inside: &MachineSoluti
         }
         _ => found,
     })
-}
-
-/// The largest ratio of successive distances from which a limit is extrapolated.
-const SLOWEST: f64 = 0.95;
-
-/// The limit of a sequence whose distances to it decrease by a nearly constant factor, by Aitken's transformation, repeated for
-/// the sequence of limits (A. C. Aitken, Proc. Roy. Soc. Edinburgh 46 (1927) 289-305). `None` if they do not decrease so.
-pub(super) fn limit(mut values: Vec<f64>) -> Option<f64> {
-    let mut last = None;
-    while values.len() >= 3 {
-        let next = |of: &[f64]| {
-            let ratio = (of[2] - of[1]) / (of[1] - of[0]);
-            (0.0..SLOWEST).contains(&ratio).then(|| of[2] + (of[2] - of[1]) * ratio / (1.0 - ratio))
-        };
-        let Some(limits) = values.windows(3).map(next).collect::<Option<Vec<f64>>>() else { break };
-        last = limits.last().copied();
-        values = limits;
-    }
-    last
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn limits_of_sums() {
-        let values =
-            |count: i32| (1..=count).map(|k| 1.0 - 0.5_f64.powi(k) + 0.1 * 0.2_f64.powi(k)).collect::<Vec<f64>>();
-        let error = |count| (limit(values(count)).unwrap() - 1.0).abs();
-        // the second factor is left after the first transformation
-        assert!(error(3) < 1e-2 && error(5) < 1e-4, "{} {}", error(3), error(5));
-        assert_eq!(limit(vec![1.0, 2.0]), None);
-        assert_eq!(limit(vec![1.0, 2.0, 4.0]), None);
-    }
 }

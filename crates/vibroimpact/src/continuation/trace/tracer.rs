@@ -306,6 +306,10 @@ impl<P: Problem> Tracer<P> {
             off[..self.problem.phases()].iter_mut().step_by(2).for_each(|theta| *theta -= turns);
             (self.problem.dot(&off, &begin.tangent), self.problem.length(&off))
         };
+        // the numbers of unknowns can differ: then these are other equations
+        if begin.w.len() != there.w.len() {
+            return false;
+        }
         let ((before, _), (after, away)) = (ahead(&self.here), ahead(there));
         before < 0.0 && after >= 0.0 && away < 2.0 * self.step.longest
     }

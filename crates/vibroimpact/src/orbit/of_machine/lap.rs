@@ -39,6 +39,16 @@ impl MachineLap {
         self.steps.iter().map(of).max().unwrap_or(0)
     }
 
+    /// This motion and the one that follows it. The step at the end of this one is a part of a flight.
+    pub(crate) fn then(mut self, next: Self) -> Self {
+        self.derivative = self.derivative.zip(next.derivative).map(|(so_far, own)| own.times(&so_far));
+        let time = self.time;
+        self.steps.extend(next.steps.into_iter().map(|(begin, from, passage)| (time + begin, from, passage)));
+        self.events.extend(next.events.into_iter().map(|event| MachineEvent { time: time + event.time, ..event }));
+        self.sizes = (self.sizes.0.max(next.sizes.0), self.sizes.1.max(next.sizes.1));
+        Self { time: time + next.time, end: next.end, ..self }
+    }
+
     /// The motion from `begin` over a time. `None` if it ends before.
     pub(crate) fn fly(frame: &MachineFrame<'_>, begin: &Place, time: f64) -> Option<Self> {
         let mut motion = frame.resume(begin.clone()).limited(BEYOND * time);

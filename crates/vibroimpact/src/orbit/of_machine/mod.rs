@@ -5,6 +5,7 @@
 //! | a machine and the structures of its regimes | `frame` |
 //! | the motion over a time, with its derivative | `lap` |
 //! | the events of a cycle as unknowns, and their equations | `ring` |
+//! | how many impacts of a chatter are among them | `chatters` |
 //! | without forcing, where a motion passes the state of a cycle | `crossing` |
 //! | guesses of unstable ones between two that are stable | `border` |
 //! | guesses without forcing: where a motion comes close to an earlier state | `near_returns` |
@@ -13,6 +14,7 @@
 //! | the same, by Newton's method on the state between two events | `closing` |
 
 mod border;
+mod chatters;
 mod closing;
 mod crossing;
 mod cycle;
@@ -22,6 +24,7 @@ mod lap;
 mod near_returns;
 mod ring;
 
+pub(crate) use chatters::{Chatter, Rebound};
 pub(crate) use crossing::crossing;
 pub use cycle::MachineCycle;
 pub use find::find_machine_while;

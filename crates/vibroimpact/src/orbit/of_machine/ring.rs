@@ -15,6 +15,7 @@
 //! cycle can begin at any time. Here it ends at the phase 0, so the phase of the first event is an unknown like the others:
 //! its negative is the period.
 
+use super::chatters::Chatter;
 use super::frame::MachineFrame;
 use super::lap::MachineLap;
 use crate::events::{EventLaw, LinearEvent, Passage, Place, StateShape, standing_back};
@@ -114,6 +115,7 @@ impl MachineRing {
         let first = places.first()?.phase;
         let mut ring = Self { events, places, periods, pace, together: None };
         ring.end_at(first + TAU);
+        Chatter::shorten(frame, &mut ring)?;
         Some(ring.centred(free))
     }
 
@@ -157,6 +159,12 @@ impl MachineRing {
     /// The period of the cycle.
     pub(crate) fn period(&self, frame: &MachineFrame<'_>) -> f64 {
         frame.time(self.periods, self.angle() / self.pace)
+    }
+
+    /// Adds an event before event `k`, with the state after it.
+    pub(crate) fn insert(&mut self, k: usize, event: RingEvent, place: Place) {
+        self.events.insert(k, event);
+        self.places.insert(k, place);
     }
 
     /// Leaves out event `k`.

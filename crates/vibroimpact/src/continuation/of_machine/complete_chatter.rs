@@ -1,0 +1,231 @@
+//! Where a chatter on a rigid stop is complete exactly at the release: the value at which the number of its impacts becomes
+//! infinite.
+//!
+//! Close to a release the stop is pressed with the acceleration $`k s`$, where s is the time left. The gap that opens at
+//! s with the speed v closes again after the time $`x s`$ with
+//!
+//! $$`v = k s^2\Bigl(\frac{x}{2} - \frac{x^2}{6}\Bigr), \qquad v_- = k s^2\Bigl(\frac{x}{2} - \frac{x^2}{3}\Bigr)`$$
+//!
+//! and opens with the speed $`\varepsilon v_-`$ at $`\lambda s`$, where $`\lambda = 1 - x`$. All flights take the same part x
+//! of the time left if
+//!
+//! $$`(2 + \lambda)\lambda^2 = \varepsilon(1 + 2\lambda).`$$
+//!
+//! Such a chatter is complete at the release. After shorter flights it is complete before, and a rest follows; after longer ones
+//! it is never complete. The ratio $`v k/(ks)^2`$ tells one from the other: from impact to impact its distance to
+//! $`x/2 - x^2/6`$ grows by a factor. The terms that are left out change it by a power series in the times left, which
+//! decrease by the factor $`\lambda`$; the first powers are eliminated.
+
+use super::at_rest::zero_near;
+use super::beginning::last;
+use super::equations::MachineEquations;
+use super::problem::MachineSolution;
+use crate::machine::{Machine, StopLaw};
+use crate::orbit::{Chatter, MachineFrame, MachineRing, Rebound};
+use crate::regime::GuardKind;
+
+/// The powers of the time left that are eliminated.
+const POWERS: usize = 3;
+/// The time left, in the fastest rate of the machine, after which the rest begins in the signature, and the factor by which it may
+/// differ along a curve. With less time the gaps between impacts are closer to rounding errors, with more the powers that are left
+/// out are larger.
+const LEFT: f64 = 5e-3;
+const SLACK: f64 = 2.0;
+/// The largest relative distance of a ratio from its limit, and the most time left, in a chatter that is nearly complete at its
+/// release.
+const NEAR: f64 = 0.3;
+const SOON: f64 = 0.3;
+/// The largest distance from the solution at which the search for the limit begins.
+const MOST: f64 = 2e-2;
+/// A chatter whose function is smaller is complete at its release, too.
+const TOGETHER: f64 = 1e-4;
+/// The most impacts that are added to a signature.
+const ADDED: usize = 500;
+
+/// The factor by which the time left decreases from impact to impact of a chatter that is complete at its release.
+fn decrease(restitution: f64) -> f64 {
+    // convex and positive at 1: Newton's method decreases towards the zero
+    let mut l = 1.0;
+    for _ in 0..60 {
+        let next =
+            l - ((2.0 + l) * l * l - restitution * (1.0 + 2.0 * l)) / (4.0 * l + 3.0 * l * l - 2.0 * restitution);
+        if next.is_nan() || next >= l {
+            break;
+        }
+        l = next;
+    }
+    l
+}
+
+/// The ratio of all impacts of such a chatter.
+fn limit(decrease: f64) -> f64 {
+    let x = 1.0 - decrease;
+    0.5 * x - x * x / 6.0
+}
+
+/// The restitution of a stop on which a chatter is possible.
+fn restitution(machine: &Machine, stop: usize) -> Option<f64> {
+    match machine.stops()[stop].law {
+        StopLaw::Rigid { restitution } if restitution > 0.0 && restitution < 1.0 => Some(restitution),
+        _ => None,
+    }
+}
+
+/// The ratio at a rebound.
+fn ratio(rebound: Rebound) -> f64 {
+    rebound.speed * rebound.jerk / (rebound.a * rebound.a)
+}
+
+/// The time left at the rebound at impact `k`, in the fastest rate of the machine.
+fn left(frame: &MachineFrame<'_>, ring: &MachineRing, (rebound, k): (Rebound, usize)) -> Option<f64> {
+    let fastest = frame.structure(&ring.events[k].after)?.fastest().max(ring.frequency(frame.machine));
+    Some(fastest * rebound.a / rebound.jerk)
+}
+
+/// A chatter that is complete at its release.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct CompleteChatter {
+    chatter: Chatter,
+}
+
+impl CompleteChatter {
+    /// The chatter on a stop that is most nearly complete at its release. In `ring` all such chatters, on any stop, lose the
+    /// impacts that have little time left. `None` if there is none on this stop.
+    pub(crate) fn shortened(frame: &MachineFrame<'_>, ring: &mut MachineRing, stop: usize) -> Option<Self> {
+        // the last impact of those that are nearly complete, with the time left
+        let last = |ring: &MachineRing, chatter: Chatter| {
+            let limit = limit(decrease(restitution(frame.machine, chatter.stop)?));
+            let near = |k: &usize| {
+                let rebound = chatter.rebound(frame, ring, *k)?;
+                let left = left(frame, ring, (rebound, *k))?;
+                let near = (ratio(rebound) / limit - 1.0).abs() < NEAR && (0.0..SOON).contains(&left);
+                near.then_some((left, *k))
+            };
+            let nearly: Vec<(f64, usize)> = chatter.impacts(ring).iter().skip(POWERS).filter_map(near).collect();
+            nearly.iter().find(|(left, _)| *left < LEFT).or(nearly.last()).copied()
+        };
+        let too_long = |ring: &MachineRing, chatter: Chatter| {
+            let (_, k) = last(ring, chatter)?;
+            let next = (k + 1) % ring.len();
+            (next != chatter.rest).then_some((chatter, next))
+        };
+        let mut other = ring.clone();
+        while let Some((chatter, next)) = Chatter::all(&other).into_iter().find_map(|chatter| too_long(&other, chatter))
+        {
+            chatter.cut(frame, &mut other, next)?;
+        }
+        let own = Chatter::all(&other).into_iter().filter(|chatter| chatter.stop == stop);
+        let nearly = own.filter_map(|chatter| Some((last(&other, chatter)?.0, chatter)));
+        let (_, chatter) = nearly.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        *ring = other;
+        Some(Self { chatter })
+    }
+
+    /// The last impacts with a rebound, one more than powers are eliminated.
+    pub(crate) fn last(&self, ring: &MachineRing) -> Option<Vec<usize>> {
+        let impacts = self.chatter.impacts(ring);
+        Some(impacts.get(impacts.len().checked_sub(POWERS + 1)?..)?.to_vec())
+    }
+
+    /// Zero where the chatter is complete at its release.
+    pub(crate) fn value(&self, frame: &MachineFrame<'_>, ring: &MachineRing) -> Option<f64> {
+        let decrease = decrease(restitution(frame.machine, self.chatter.stop)?);
+        let apart = |k: usize| Some(ratio(self.chatter.rebound(frame, ring, k)?) - limit(decrease));
+        let mut apart = self.last(ring)?.into_iter().map(apart).collect::<Option<Vec<f64>>>()?;
+        let mut power = 1.0;
+        for _ in 0..POWERS {
+            power *= decrease;
+            apart = apart.windows(2).map(|pair| pair[1] - power * pair[0]).collect();
+        }
+        apart.first().copied()
+    }
+
+    /// The rate by which the stop is pressed less at the last impact, as the jerk of the gap.
+    pub(crate) fn jerk(&self, frame: &MachineFrame<'_>, ring: &MachineRing) -> Option<f64> {
+        Some(self.chatter.rebound(frame, ring, *self.last(ring)?.last()?)?.jerk)
+    }
+
+    /// This chatter and others that are complete at their releases where it is, as that in the other half of a symmetric cycle, in
+    /// the order of the ring.
+    fn together(&self, frame: &MachineFrame<'_>, ring: &MachineRing) -> Vec<Self> {
+        let all = Chatter::all(ring).into_iter().map(|chatter| Self { chatter });
+        all.filter(|other| other == self || other.value(frame, ring).is_some_and(|value| value.abs() < TOGETHER))
+            .collect()
+    }
+
+    /// The first event that rounding can change, and the release: of all chatters that are complete at their releases.
+    pub(crate) fn ends(&self, frame: &MachineFrame<'_>, ring: &MachineRing) -> Vec<(usize, usize)> {
+        let m = ring.len();
+        let ends = |Self { chatter: Chatter { stop, rest }, .. }: &Self, first: Option<&usize>| {
+            let of_stop = |k: &usize| ring.events[*k].guard == GuardKind::Reaction(*stop);
+            Some((*first?, (1..m).map(|i| (rest + i) % m).find(of_stop)?))
+        };
+        self.together(frame, ring).iter().filter_map(|own| ends(own, own.last(ring)?.first())).collect()
+    }
+
+    /// The same where a chatter has one impact more or less, if the time left after the last one has become too long or too short
+    /// along a curve. `None` if it fits, or if there is no other signature.
+    pub(crate) fn adapted(&self, frame: &MachineFrame<'_>, ring: &mut MachineRing) -> Option<Self> {
+        let phase = ring.places[self.chatter.rest].phase;
+        for own in self.together(frame, ring) {
+            let impacts = own.chatter.impacts(ring);
+            let last = *impacts.last()?;
+            let left = left(frame, ring, (own.chatter.rebound(frame, ring, last)?, last))?;
+            let decrease = decrease(restitution(frame.machine, own.chatter.stop)?);
+            let other = if left > SLACK * LEFT {
+                own.chatter.longer(frame, ring)?
+            } else if impacts.len() > POWERS + 1 && left < LEFT / SLACK * decrease {
+                own.chatter.cut(frame, ring, last)?
+            } else {
+                continue;
+            };
+            if own == *self {
+                return Some(Self { chatter: other });
+            }
+            let place = |chatter: &Chatter| ring.places[chatter.rest].phase == phase;
+            return Chatter::all(ring).into_iter().find(place).map(|chatter| Self { chatter });
+        }
+        None
+    }
+
+    /// The value, near that of a solution with a rest after the chatter, at which a chatter on a stop is complete at its release.
+    /// `None` if there is none close by.
+    pub(super) fn value_of_number(old: &MachineEquations, at: &MachineSolution, stop: usize) -> Option<f64> {
+        let (mut machine, mut ring) = old.split(&at.w)?;
+        let sizes = at.known.cycle.as_ref()?.sizes;
+        let mut number = last(&at.w);
+        let mut own = Self::shortened(&MachineFrame::new(&machine), &mut ring, stop)?;
+        for _ in 0..ADDED {
+            let guess = MachineEquations::join(&machine, &ring, number);
+            let equations = MachineEquations::new((&machine, old.family.clone()), ring, sizes, old.scale);
+            let w = zero_near(&equations, &guess, MOST, |frame, ring| own.value(frame, ring))?;
+            number = last(&w);
+            (machine, ring) = equations.split(&w)?;
+            let frame = MachineFrame::new(&machine);
+            let k = *own.last(&ring)?.last()?;
+            if left(&frame, &ring, (own.chatter.rebound(&frame, &ring, k)?, k))? < LEFT {
+                return Some(number);
+            }
+            own.chatter = own.chatter.longer(&frame, &mut ring)?;
+        }
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of self-similar chatters the impacts of the cubic force.
+    #[test]
+    fn the_decrease_of_the_time_left() {
+        assert!(decrease(1.0) == 1.0 && decrease(1e-30) < 1e-14);
+        for e in [1e-6, 0.1, 0.5, 0.9, 0.999] {
+            let l = decrease(e);
+            let x = 1.0 - l;
+            // the speeds of an impact before the rebound, and of the next one after it
+            let (before, after) = (0.5 * x - x * x / 3.0, l * l * limit(l));
+            assert!((e * before - after).abs() < 1e-15, "{e} {l}");
+        }
+    }
+}
