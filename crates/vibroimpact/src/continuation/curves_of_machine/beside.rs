@@ -95,7 +95,7 @@ fn through(
 }
 
 /// Changes of the velocities, in the largest one.
-const NUDGES: [f64; 6] = [1e-12, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6];
+const NUDGES: [f64; 7] = [1e-12, 1e-10, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4];
 
 /// What is known of a solution with these moments in order. The events seen are those after the first of them.
 pub(super) fn judge_beside(

@@ -63,7 +63,8 @@ pub struct MachineCurvePoint {
     pub cycle: MachineCycle,
     /// By how much the condition fails: the distance of a multiplier from +1 or -1, or of its modulus from 1; the speed at
     /// the touch divided by the largest velocity; the difference of both phases at a corner; of
-    /// sticking or holding what is missing to the limit, divided by the size of its terms, or the rate of what is touched.
+    /// sticking or holding what is missing to the limit, divided by the size of its terms, or the rate of what is touched, or of a
+    /// chatter that is complete at its release by how much the ratio of speed and acceleration of its last impacts fails.
     pub residual: f64,
     /// The phase of the touch on a curve of grazing of a machine with forcing.
     pub touch: Option<f64>,

@@ -172,7 +172,8 @@ impl CurveProblem {
                     Some(limit.of(frame, ring)?.rate / (size * ring.frequency(frame.machine)))
                 }
                 Condition::Chatter(chatter) => {
-                    Some(chatter.jerk(frame, ring)? / (self.speed * ring.frequency(frame.machine).powi(2)))
+                    let frequency = ring.frequency(frame.machine);
+                    Some(chatter.jerk(frame, ring)? / (self.speed * frequency * frequency))
                 }
                 _ => None,
             },

@@ -14,8 +14,9 @@
 //! | where a rest on a stop, or the hold of a joint, begins or ends | `rest` |
 //! | a signature without flights that take no time where a rest begins or ends | `joined` |
 //! | the solution at which a rest begins or ends, to rounding | `at_rest` |
-//! | how many impacts of a chatter are followed before it is summed | `summed` |
-//! | where they become infinitely many | `complete_chatter` |
+//! | the events of a motion, with as many impacts of a chatter as a signature has | `matched` |
+//! | how the events of a cycle with a complete chatter change | `summed` |
+//! | where the impacts of a chatter become infinitely many | `complete_chatter` |
 //! | two events that come so close that no further step converges | `meeting` |
 //! | the branch beyond such a change | `beyond` |
 //! | the cycle of twice the period beside a flip, and where it is the other one repeated | `switch`, `halving` |
@@ -34,6 +35,7 @@ mod family;
 mod halving;
 mod joined;
 mod linear;
+mod matched;
 mod meeting;
 mod point;
 mod problem;
@@ -50,7 +52,7 @@ pub(crate) use edge::edge;
 pub use family::MachineFamily;
 pub(crate) use joined::join;
 pub(crate) use linear::{by_number, linearised, weigh, weights};
+pub(crate) use matched::matched;
 pub use point::{MachineBranchEvent, MachinePoint};
 pub(crate) use problem::{CLOSED, Judged, judge, over_pairs, seen_on};
 pub(crate) use rest::{Limit, RestZero, limits, rest_zero, size, touches};
-pub(crate) use summed::matched;

@@ -43,8 +43,8 @@ pub enum MachineBranchEvent {
         /// The other.
         second: usize,
     },
-    /// A rest on a stop begins or ends to be a part of the cycle. For a stop with a restitution above 0 the rest follows a complete
-    /// chatter, and the value is the limit of those at which its impacts appear: to about 1e-10 if it begins, 1e-8 if it ends.
+    /// A rest on a stop begins or ends to be a part of the cycle. For a stop with a restitution above 0 the rest follows a chatter
+    /// that is complete exactly at the release here, to about 1e-11.
     Sticking {
         /// The stop.
         stop: usize,

@@ -2,7 +2,7 @@
 //! bifurcations. Whether a solution is admissible is decided by following the motion over one period.
 
 use super::equations::MachineEquations;
-use super::summed::matched;
+use super::matched::matched;
 use crate::continuation::branches::{COARSE, RULES};
 use crate::continuation::trace::equations::Equations;
 use crate::continuation::trace::tracer::{Problem, Solution, StepRules};

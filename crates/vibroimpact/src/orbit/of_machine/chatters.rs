@@ -102,7 +102,7 @@ impl Chatter {
         };
         let (size, fastest) = frame.sizes(&ring.place(k));
         let frequency = ring.frequency(frame.machine);
-        speed.powi(3) / (a * a) * frequency / size.max(fastest / frequency)
+        speed * speed * speed / (a * a) * frequency / size.max(fastest / frequency)
     }
 
     /// Leaves out the impacts of all chatters that do not matter.

@@ -6,6 +6,7 @@
 //! | the motion over a time, with its derivative | `lap` |
 //! | the events of a cycle as unknowns, and their equations | `ring` |
 //! | how many impacts of a chatter are among them | `chatters` |
+//! | the events of a motion | `of_motion` |
 //! | without forcing, where a motion passes the state of a cycle | `crossing` |
 //! | guesses of unstable ones between two that are stable | `border` |
 //! | guesses without forcing: where a motion comes close to an earlier state | `near_returns` |
@@ -22,6 +23,7 @@ mod find;
 mod frame;
 mod lap;
 mod near_returns;
+mod of_motion;
 mod ring;
 
 pub(crate) use chatters::{Chatter, Rebound};

@@ -15,9 +15,7 @@
 //! cycle can begin at any time. Here it ends at the phase 0, so the phase of the first event is an unknown like the others:
 //! its negative is the period.
 
-use super::chatters::Chatter;
 use super::frame::MachineFrame;
-use super::lap::MachineLap;
 use crate::events::{EventLaw, LinearEvent, Passage, Place, StateShape, standing_back};
 use crate::machine::{Machine, StopLaw};
 use crate::math::{Matrix, add_scaled};
@@ -92,33 +90,6 @@ pub(crate) struct MachineBlock {
 }
 
 impl MachineRing {
-    /// The events of the motion from `begin`, a state between two events, over `periods` forcing periods, or without
-    /// forcing over the time `period`; `None` if there is none.
-    pub(crate) fn of(frame: &MachineFrame<'_>, begin: &Place, (periods, period): (u32, f64)) -> Option<Self> {
-        let time = frame.time(periods, period);
-        let pace = TAU / time;
-        let frequency = frame.machine.parts().frequency.unwrap_or(pace);
-        let lap = MachineLap::fly(frame, begin, time)?;
-        let free = &frame.normal.translations;
-        let (mut events, mut places): (Vec<RingEvent>, Vec<Place>) = Default::default();
-        for (k, (time, _, passage)) in lap.steps.iter().enumerate() {
-            // the last step is the flight to the end
-            if k + 1 == lap.steps.len() {
-                break;
-            }
-            let Some(event) = RingEvent::of(passage) else { continue };
-            let mut place = passage.after.clone()?;
-            place.phase = begin.phase + frequency * (time + passage.duration);
-            events.push(event);
-            places.push(place);
-        }
-        let first = places.first()?.phase;
-        let mut ring = Self { events, places, periods, pace, together: None };
-        ring.end_at(first + TAU);
-        Chatter::shorten(frame, &mut ring)?;
-        Some(ring.centred(free))
-    }
-
     /// The same motion where the first event has no part along a free translation.
     pub(crate) fn centred(mut self, free: &Translations) -> Self {
         if !free.is_empty() {
@@ -405,7 +376,7 @@ impl MachineRing {
     }
 
     /// Without forcing: counts the phases so that the cycle, which ends at this phase, ends at 0.
-    fn end_at(&mut self, phase: f64) {
+    pub(super) fn end_at(&mut self, phase: f64) {
         if self.unforced() {
             self.places.iter_mut().for_each(|place| place.phase -= phase);
         }

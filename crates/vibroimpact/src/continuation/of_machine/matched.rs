@@ -1,0 +1,97 @@
+//! The events of a motion beside those of a signature: how many impacts of a chatter are followed before the rest is no property of
+//! a cycle.
+
+use crate::orbit::RingEvent;
+
+/// The rest after a chatter at the beginning of a list of events: its place, and the stop.
+fn rest_in<'a>(events: impl Iterator<Item = &'a RingEvent>) -> Option<(usize, usize)> {
+    let mut own = None;
+    for (i, event) in events.enumerate() {
+        let stop = event.struck().filter(|stop| own.is_none_or(|own| own == *stop))?;
+        if event.rests_on().is_some() {
+            return Some((i, stop));
+        }
+        own = Some(stop);
+    }
+    None
+}
+
+/// The longest flight, as a phase, between impacts that are left out.
+const SOON: f64 = 0.05;
+
+/// The events of a motion, where a chatter has as many impacts as in the signature if it has all those before the rest of the
+/// signature begins. Events are given with their phases since the beginning of the motion.
+pub(crate) fn matched(wanted: &[(f64, &RingEvent)], seen: &[(f64, RingEvent)]) -> Vec<RingEvent> {
+    let mut events: Vec<RingEvent> = Vec::with_capacity(seen.len());
+    let (mut i, mut j) = (0, 0);
+    while j < seen.len() {
+        let own = wanted.get(i..).and_then(|wanted| rest_in(wanted.iter().map(|(_, event)| *event)));
+        let other = rest_in(seen[j..].iter().map(|(_, event)| event));
+        match (own, other) {
+            (Some((impacts, stop)), Some((followed, same))) if stop == same => {
+                let rest = i + impacts;
+                let before = if rest > 0 { wanted[rest - 1].0 } else { 0.0 };
+                let until = 0.5 * (before + wanted[rest].0);
+                let early = seen[j..j + followed].iter().filter(|(phase, _)| *phase < until).count();
+                let soon = seen[j + early..=j + followed].windows(2).all(|pair| pair[1].0 - pair[0].0 < SOON);
+                // the motion itself can have gone over to its rest before
+                if early == impacts && soon || followed < impacts && seen[j + followed].0 < until {
+                    events.extend(wanted[i..=rest].iter().map(|(_, event)| (*event).clone()));
+                } else {
+                    let own = j..j + if early == impacts { followed } else { early };
+                    events.extend(seen[own].iter().map(|(_, event)| event.clone()));
+                    events.push(seen[j + followed].1.clone());
+                }
+                (i, j) = (rest + 1, j + followed + 1);
+            }
+            _ => {
+                events.push(seen[j].1.clone());
+                (i, j) = (i + 1, j + 1);
+            }
+        }
+    }
+    events
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::regime::{ContactState, GuardKind};
+
+    fn impact(still: bool) -> RingEvent {
+        let after = vec![if still { ContactState::Resting } else { ContactState::Open }];
+        RingEvent { guard: GuardKind::Gap(0), after, pushed: vec![(0, still)], back: vec![false] }
+    }
+
+    fn release() -> RingEvent {
+        RingEvent {
+            guard: GuardKind::Reaction(0),
+            after: vec![ContactState::Open],
+            pushed: Vec::new(),
+            back: vec![false],
+        }
+    }
+
+    /// A motion whose chatter has impacts at these phases, the last of which begins its rest, until the release at 3.
+    fn motion(phases: &[f64]) -> Vec<(f64, RingEvent)> {
+        let last = phases.len() - 1;
+        let impacts = phases.iter().enumerate().map(|(k, phase)| (*phase, impact(k == last)));
+        impacts.chain([(3.0, release())]).collect()
+    }
+
+    #[test]
+    fn how_many_impacts_are_followed_does_not_matter() {
+        let ring = motion(&[1.0, 1.5, 1.52, 1.525]);
+        let wanted: Vec<(f64, &RingEvent)> = ring.iter().map(|(phase, event)| (*phase, event)).collect();
+        let alike = |phases: &[f64]| {
+            let events = matched(&wanted, &motion(phases));
+            events.iter().eq(wanted.iter().map(|(_, event)| *event))
+        };
+        assert!(
+            alike(&[1.0, 1.5, 1.52, 1.525]) && alike(&[1.0, 1.5, 1.52, 1.525, 1.526, 1.5265]) && alike(&[1.0, 1.5])
+        );
+        // an impact between the first ones, one that is missing, and impacts that go on for long
+        assert!(!alike(&[1.0, 1.2, 1.5, 1.52, 1.525]) && !alike(&[1.5, 1.52, 1.525]));
+        assert!(!alike(&[1.0, 1.5, 1.52, 1.525, 1.8, 1.9]));
+    }
+}
