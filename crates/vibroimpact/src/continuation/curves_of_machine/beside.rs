@@ -73,6 +73,8 @@ fn through(
     parts: &[Part],
     (speed, since): (f64, impl Fn(usize) -> f64),
 ) -> Option<MachineLap> {
+    // a chatter that rounding keeps from its end can have very many impacts
+    let most = 100 + 10 * ring.len();
     let mut whole: Option<MachineLap> = None;
     for (i, part) in parts.iter().enumerate() {
         let until = parts.get(i + 1).map_or(parts[0].since + ring.angle(), |next| next.since);
@@ -82,7 +84,7 @@ fn through(
             let mut begin = part.begin.clone();
             begin.v.iter_mut().for_each(|v| *v += by * speed);
             frame.constrain(&mut begin)?;
-            MachineLap::fly(frame, &begin, (until - part.since) / ring.frequency(frame.machine))
+            MachineLap::fly_in(frame, &begin, (until - part.since) / ring.frequency(frame.machine), most)
         };
         let alike =
             |lap: &MachineLap| lap.steps.iter().filter(|(.., passage)| passage.rest.is_some()).count() == chatters;

@@ -24,6 +24,9 @@ pub(super) enum Condition {
     Together { at: usize },
 }
 
+/// Half the width of a difference by a term, relative to it.
+const PART: f64 = 1e-5;
+
 /// A limit that is smaller, relative to its terms, is reached but for rounding.
 const AT_LIMIT: f64 = 1e-8;
 
@@ -125,6 +128,27 @@ impl Condition {
             Self::Together { at } => vec![Moment::Events(*at, (at + 1) % m)],
             _ => Vec::new(),
         }
+    }
+
+    /// Quantities of which the value is a function that is nowhere steep in relation to them.
+    pub(super) fn terms(&self, frame: &MachineFrame<'_>, ring: &MachineRing) -> Option<Vec<f64>> {
+        match self {
+            Self::Chatter(chatter) => chatter.terms(frame, ring),
+            _ => Some(vec![self.value(frame, ring)?]),
+        }
+    }
+
+    /// The derivatives of the value by these.
+    pub(super) fn by_terms(&self, terms: &[f64]) -> Vec<f64> {
+        let Self::Chatter(_) = self else { return vec![1.0] };
+        let mut moved = terms.to_vec();
+        let mut at = |i: usize, part: f64| {
+            moved[i] = terms[i] * (1.0 + part);
+            let value = CompleteChatter::of_terms(&moved);
+            moved[i] = terms[i];
+            value
+        };
+        (0..terms.len()).map(|i| (at(i, PART) - at(i, -PART)) / (2.0 * PART * terms[i])).collect()
     }
 
     /// The events after which the flights begin that the value depends on; `None` if it can depend on all.

@@ -31,6 +31,8 @@ pub struct MachineCurve {
 const SLOWEST: f64 = 1e-9;
 /// The distance, in parts of a step, before a limit whose rate is zero at which solutions can be judged inadmissible.
 const INEXACT: f64 = 1e-2;
+/// The most impacts of a chatter by which a signature changes at once.
+const ADAPTED: usize = 200;
 /// A curve with no further step that is closer to an edge of the frame than this, in quarters of the range, ends there.
 const AT_EDGE: f64 = 1e-7;
 
@@ -182,7 +184,8 @@ impl MachineCurve {
 
     /// Changes the number of impacts of a chatter in the signature to the time that is left after them.
     fn adapt(&mut self) {
-        while let Some((problem, w)) = self.tracer.problem.adapted(&self.tracer.here) {
+        for _ in 0..ADAPTED {
+            let Some((problem, w)) = self.tracer.problem.adapted(&self.tracer.here) else { break };
             let way = self.tracer.problem.equations.course(&self.tracer.here.tangent);
             let length = w.len();
             let (at, by) = if way.0.abs() > way.1.abs() { (length - 2, way.0) } else { (length - 1, way.1) };

@@ -7,7 +7,7 @@ use super::moment::Moment;
 use super::point::{MachineCurveEvent, MachineCurveKind};
 use super::problem::{CurveProblem, CurveSolution};
 
-use crate::orbit::MachineFrame;
+use crate::orbit::{Chatter, MachineFrame};
 
 /// A flight that is shorter than this, in forcing periods or without forcing in periods of the cycle, takes no time.
 const SHORT: f64 = 1e-3;
@@ -18,8 +18,12 @@ pub(super) fn reason(problem: &CurveProblem, here: &CurveSolution) -> Option<Mac
     let (m, stops) = (ring.len(), machine.stops().len());
     let period = machine.period().unwrap_or_else(|| ring.period(&MachineFrame::new(&machine)));
     let own = problem.equations.condition.moments(&MachineFrame::new(&machine), &ring);
-    let within =
-        |k: usize| own.iter().any(|moment| moment.has(k, m) && matches!(moment, Moment::Events(_, last) if k != *last));
+    // flights between impacts of a chatter are short, and those of a moment
+    let bounces: Vec<usize> = Chatter::all(&ring).iter().flat_map(|chatter| chatter.impacts(&ring)).collect();
+    let within = |k: usize| {
+        let of = |moment: &Moment| moment.has(k, m) && matches!(moment, Moment::Events(_, last) if k != *last);
+        bounces.contains(&k) || own.iter().any(of)
+    };
     let shortest =
         (0..m).filter(|k| !within(*k)).min_by(|a, b| ring.time(*a, &machine).total_cmp(&ring.time(*b, &machine)))?;
     if m > 1 && ring.time(shortest, &machine) < SHORT * period {

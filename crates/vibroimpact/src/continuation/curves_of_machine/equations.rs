@@ -89,17 +89,20 @@ impl CurveEquations {
         (p / scales.0, q / scales.1)
     }
 
-    /// The gradient of the function of the condition, by central differences; one-sided at the end of the allowed numbers.
-    fn gradient(&self, frame: &MachineFrame<'_>, w: &[f64], here: f64) -> Option<Vec<f64>> {
+    /// The gradient of the function of the condition, by central differences of its terms; one-sided at the end of the allowed
+    /// numbers.
+    fn gradient(&self, frame: &MachineFrame<'_>, w: &[f64], ring: &MachineRing) -> Option<Vec<f64>> {
         let count = w.len() - 2;
-        let value = |moved: &[f64], i: usize| {
+        let terms = |moved: &[f64], i: usize| {
             if i < count {
-                self.condition.value(frame, &self.ring(frame.machine, &moved[..count]))
+                self.condition.terms(frame, &self.ring(frame.machine, &moved[..count]))
             } else {
                 let (machine, ring) = self.split(moved)?;
-                self.condition.value(&MachineFrame::new(&machine), &ring)
+                self.condition.terms(&MachineFrame::new(&machine), &ring)
             }
         };
+        let here = self.condition.terms(frame, ring)?;
+        let by_terms = self.condition.by_terms(&here);
         let mut moved = w.to_vec();
         let mut row = vec![0.0; w.len()];
         let (events, width) = (self.condition.events(&self.ring), count / self.ring.len());
@@ -108,16 +111,15 @@ impl CurveEquations {
             let h = DIFFERENCE / self.weights[i].sqrt();
             let mut at = |x: f64| {
                 moved[i] = x;
-                let value = value(&moved, i);
+                let terms = terms(&moved, i);
                 moved[i] = w[i];
-                value
+                terms
             };
-            *slope = match (at(w[i] + h), at(w[i] - h)) {
-                (Some(up), Some(down)) => (up - down) / (2.0 * h),
-                (Some(up), None) => (up - here) / h,
-                (None, Some(down)) => (here - down) / h,
-                (None, None) => return None,
-            };
+            let (up, down) = (at(w[i] + h), at(w[i] - h));
+            let width = h * f64::from(u8::from(up.is_some()) + u8::from(down.is_some()));
+            let (up, down) = (up.as_ref().unwrap_or(&here), down.as_ref().unwrap_or(&here));
+            (width > 0.0).then_some(())?;
+            *slope = by_terms.iter().zip(up.iter().zip(down)).map(|(by, (up, down))| by * (up - down) / width).sum();
         }
         Some(row)
     }
@@ -164,7 +166,7 @@ impl Equations for CurveEquations {
         }
         let here = self.condition.value(&frame, &ring)?;
         let last = (length - 2) * length;
-        rows[last..last + length].copy_from_slice(&self.gradient(&frame, w, here)?);
+        rows[last..last + length].copy_from_slice(&self.gradient(&frame, w, &ring)?);
         miss.push(here);
         Some((miss, rows))
     }

@@ -341,7 +341,8 @@ impl MachineBranch {
             next.step = tracer.step;
             next.here.known.physical().then_some(next)
         };
-        while let Some(next) = other(&self.tracer) {
+        for _ in 0..ADAPTED {
+            let Some(next) = other(&self.tracer) else { break };
             self.tracer = next;
         }
     }
@@ -374,6 +375,8 @@ impl MachineBranch {
 const NEARBY: f64 = 0.1;
 /// Values of the number that differ by less, in its scale, are those of one event.
 const HERE: f64 = 1e-7;
+/// The most impacts by which a signature changes at once.
+const ADAPTED: usize = 200;
 /// The distance, in parts of a step, from a grazing solution to that at which the signs of test functions are compared
 /// with those at the beginning.
 const ASIDE: f64 = 1e-6;

@@ -24,13 +24,12 @@ use crate::machine::{Machine, StopLaw};
 use crate::orbit::{Chatter, MachineFrame, MachineRing, Rebound};
 use crate::regime::GuardKind;
 
-/// The powers of the time left that are eliminated.
+/// The most powers of the time left that are eliminated.
 const POWERS: usize = 3;
-/// The time left, in the fastest rate of the machine, after which the rest begins in the signature, and the factor by which it may
-/// differ along a curve. With less time the gaps between impacts are closer to rounding errors, with more the powers that are left
-/// out are larger.
-const LEFT: f64 = 5e-3;
-const SLACK: f64 = 2.0;
+/// The rest begins in the signature where the powers that are left out matter less than rounding (see [`error`]), and along a curve
+/// between these factors of that.
+const ROUNDING: f64 = 1e-16;
+const SLACK: (f64, f64) = (10.0, 1e3);
 /// The largest relative distance of a ratio from its limit, and the most time left, in a chatter that is nearly complete at its
 /// release.
 const NEAR: f64 = 0.3;
@@ -82,30 +81,51 @@ fn left(frame: &MachineFrame<'_>, ring: &MachineRing, (rebound, k): (Rebound, us
     Some(fastest * rebound.a / rebound.jerk)
 }
 
+/// The times left at the impacts of a chatter.
+fn lefts(frame: &MachineFrame<'_>, ring: &MachineRing, chatter: Chatter) -> Option<Vec<f64>> {
+    let at = |k: usize| left(frame, ring, (chatter.rebound(frame, ring, k)?, k));
+    chatter.impacts(ring).into_iter().map(at).collect()
+}
+
+/// The last impact, of those of a chatter that is nearly complete at its release, after which the rest may begin in the signature,
+/// and the times left until then. `None` if the chatter is not nearly complete.
+fn nearly(frame: &MachineFrame<'_>, ring: &MachineRing, chatter: Chatter) -> Option<(usize, Vec<f64>)> {
+    let decrease = decrease(restitution(frame.machine, chatter.stop)?);
+    let limit = limit(decrease);
+    let lefts = lefts(frame, ring, chatter)?;
+    let impacts = chatter.impacts(ring);
+    let near = |i: &usize| {
+        let ratio = chatter.rebound(frame, ring, impacts[*i]).map(ratio);
+        ratio.is_some_and(|ratio| (ratio / limit - 1.0).abs() < NEAR) && (0.0..SOON).contains(&lefts[*i])
+    };
+    let nearly: Vec<usize> = (0..impacts.len()).filter(near).collect();
+    let last = *nearly.iter().find(|i| error(&lefts[..=**i], decrease) < ROUNDING).or(nearly.last())?;
+    Some((impacts[last], lefts[..=last].to_vec()))
+}
+
+/// The error by the powers left out times the size of the gaps, for the times left at the last impacts of a chatter with this
+/// decrease. The first power left out is the product of these times, and the gaps are as the cube of the last one and the square of
+/// a flight.
+fn error(lefts: &[f64], decrease: f64) -> f64 {
+    let lefts = &lefts[lefts.len().saturating_sub(POWERS + 1)..];
+    let flight = lefts.last().map_or(1.0, |left| left * left * left) * (1.0 - decrease) * (1.0 - decrease);
+    (lefts.iter().product::<f64>() * flight).abs()
+}
+
 /// A chatter that is complete at its release.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct CompleteChatter {
     chatter: Chatter,
+    /// How many powers of the time left are eliminated.
+    powers: usize,
 }
 
 impl CompleteChatter {
     /// The chatter on a stop that is most nearly complete at its release. In `ring` all such chatters, on any stop, lose the
     /// impacts that have little time left. `None` if there is none on this stop.
     pub(crate) fn shortened(frame: &MachineFrame<'_>, ring: &mut MachineRing, stop: usize) -> Option<Self> {
-        // the last impact of those that are nearly complete, with the time left
-        let last = |ring: &MachineRing, chatter: Chatter| {
-            let limit = limit(decrease(restitution(frame.machine, chatter.stop)?));
-            let near = |k: &usize| {
-                let rebound = chatter.rebound(frame, ring, *k)?;
-                let left = left(frame, ring, (rebound, *k))?;
-                let near = (ratio(rebound) / limit - 1.0).abs() < NEAR && (0.0..SOON).contains(&left);
-                near.then_some((left, *k))
-            };
-            let nearly: Vec<(f64, usize)> = chatter.impacts(ring).iter().skip(POWERS).filter_map(near).collect();
-            nearly.iter().find(|(left, _)| *left < LEFT).or(nearly.last()).copied()
-        };
         let too_long = |ring: &MachineRing, chatter: Chatter| {
-            let (_, k) = last(ring, chatter)?;
+            let (k, _) = nearly(frame, ring, chatter)?;
             let next = (k + 1) % ring.len();
             (next != chatter.rest).then_some((chatter, next))
         };
@@ -115,29 +135,52 @@ impl CompleteChatter {
             chatter.cut(frame, &mut other, next)?;
         }
         let own = Chatter::all(&other).into_iter().filter(|chatter| chatter.stop == stop);
-        let nearly = own.filter_map(|chatter| Some((last(&other, chatter)?.0, chatter)));
+        let nearly = own.filter_map(|chatter| Some((*nearly(frame, &other, chatter)?.1.last()?, chatter)));
         let (_, chatter) = nearly.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let own = Self::of(frame, &other, chatter)?;
         *ring = other;
-        Some(Self { chatter })
+        Some(own)
+    }
+
+    /// With as many powers as there are impacts with little time left.
+    fn of(frame: &MachineFrame<'_>, ring: &MachineRing, chatter: Chatter) -> Option<Self> {
+        let lefts = lefts(frame, ring, chatter)?;
+        let soon = lefts.iter().rev().take_while(|left| (0.0..SOON).contains(*left)).count();
+        Some(Self { chatter, powers: soon.checked_sub(1)?.min(POWERS) })
     }
 
     /// The last impacts with a rebound, one more than powers are eliminated.
     pub(crate) fn last(&self, ring: &MachineRing) -> Option<Vec<usize>> {
         let impacts = self.chatter.impacts(ring);
-        Some(impacts.get(impacts.len().checked_sub(POWERS + 1)?..)?.to_vec())
+        Some(impacts.get(impacts.len().checked_sub(self.powers + 1)?..)?.to_vec())
     }
 
-    /// Zero where the chatter is complete at its release.
-    pub(crate) fn value(&self, frame: &MachineFrame<'_>, ring: &MachineRing) -> Option<f64> {
-        let decrease = decrease(restitution(frame.machine, self.chatter.stop)?);
-        let apart = |k: usize| Some(ratio(self.chatter.rebound(frame, ring, k)?) - limit(decrease));
-        let mut apart = self.last(ring)?.into_iter().map(apart).collect::<Option<Vec<f64>>>()?;
+    /// What tells whether the chatter is complete at its release: the decrease, and speed, acceleration and jerk at its last rebounds.
+    pub(crate) fn terms(&self, frame: &MachineFrame<'_>, ring: &MachineRing) -> Option<Vec<f64>> {
+        let mut terms = vec![decrease(restitution(frame.machine, self.chatter.stop)?)];
+        for k in self.last(ring)? {
+            let Rebound { speed, a, jerk } = self.chatter.rebound(frame, ring, k)?;
+            terms.extend([speed, a, jerk]);
+        }
+        Some(terms)
+    }
+
+    /// A function of these terms that is zero where the chatter is complete at its release.
+    pub(crate) fn of_terms(terms: &[f64]) -> f64 {
+        let decrease = terms[0];
+        let rebounds = terms[1..].chunks_exact(3).map(|own| Rebound { speed: own[0], a: own[1], jerk: own[2] });
+        let mut apart: Vec<f64> = rebounds.map(|rebound| ratio(rebound) - limit(decrease)).collect();
         let mut power = 1.0;
-        for _ in 0..POWERS {
+        while apart.len() > 1 {
             power *= decrease;
             apart = apart.windows(2).map(|pair| pair[1] - power * pair[0]).collect();
         }
-        apart.first().copied()
+        apart[0]
+    }
+
+    /// The function.
+    pub(crate) fn value(&self, frame: &MachineFrame<'_>, ring: &MachineRing) -> Option<f64> {
+        Some(Self::of_terms(&self.terms(frame, ring)?))
     }
 
     /// The rate by which the stop is pressed less at the last impact, as the jerk of the gap.
@@ -148,7 +191,11 @@ impl CompleteChatter {
     /// This chatter and others that are complete at their releases where it is, as that in the other half of a symmetric cycle, in
     /// the order of the ring.
     fn together(&self, frame: &MachineFrame<'_>, ring: &MachineRing) -> Vec<Self> {
-        let all = Chatter::all(ring).into_iter().map(|chatter| Self { chatter });
+        let all = Chatter::all(ring).into_iter();
+        let all =
+            all.filter_map(
+                |chatter| if chatter == self.chatter { Some(self.clone()) } else { Self::of(frame, ring, chatter) },
+            );
         all.filter(|other| other == self || other.value(frame, ring).is_some_and(|value| value.abs() < TOGETHER))
             .collect()
     }
@@ -168,22 +215,19 @@ impl CompleteChatter {
     pub(crate) fn adapted(&self, frame: &MachineFrame<'_>, ring: &mut MachineRing) -> Option<Self> {
         let phase = ring.places[self.chatter.rest].phase;
         for own in self.together(frame, ring) {
-            let impacts = own.chatter.impacts(ring);
-            let last = *impacts.last()?;
-            let left = left(frame, ring, (own.chatter.rebound(frame, ring, last)?, last))?;
+            let lefts = lefts(frame, ring, own.chatter)?;
             let decrease = decrease(restitution(frame.machine, own.chatter.stop)?);
-            let other = if left > SLACK * LEFT {
+            let error = |but: usize| error(&lefts[..lefts.len() - but], decrease);
+            let other = if error(0) > ROUNDING * SLACK.1 {
                 own.chatter.longer(frame, ring)?
-            } else if impacts.len() > POWERS + 1 && left < LEFT / SLACK * decrease {
-                own.chatter.cut(frame, ring, last)?
+            } else if lefts.len() > 1 && error(1) < ROUNDING * SLACK.0 {
+                own.chatter.cut(frame, ring, *own.chatter.impacts(ring).last()?)?
             } else {
                 continue;
             };
-            if own == *self {
-                return Some(Self { chatter: other });
-            }
             let place = |chatter: &Chatter| ring.places[chatter.rest].phase == phase;
-            return Chatter::all(ring).into_iter().find(place).map(|chatter| Self { chatter });
+            let chatter = if own == *self { Some(other) } else { Chatter::all(ring).into_iter().find(place) };
+            return Self::of(frame, ring, chatter?);
         }
         None
     }
@@ -202,11 +246,12 @@ impl CompleteChatter {
             number = last(&w);
             (machine, ring) = equations.split(&w)?;
             let frame = MachineFrame::new(&machine);
-            let k = *own.last(&ring)?.last()?;
-            if left(&frame, &ring, (own.chatter.rebound(&frame, &ring, k)?, k))? < LEFT {
+            let decrease = decrease(restitution(&machine, stop)?);
+            if error(&lefts(&frame, &ring, own.chatter)?, decrease) < ROUNDING {
                 return Some(number);
             }
-            own.chatter = own.chatter.longer(&frame, &mut ring)?;
+            let chatter = own.chatter.longer(&frame, &mut ring)?;
+            own = Self::of(&frame, &ring, chatter)?;
         }
         None
     }

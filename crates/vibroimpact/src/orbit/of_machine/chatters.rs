@@ -121,11 +121,15 @@ impl Chatter {
     /// is no such chatter.
     pub(crate) fn adapt(frame: &MachineFrame<'_>, ring: &mut MachineRing) -> Option<Self> {
         Self::all(ring).into_iter().find_map(|chatter| {
-            let last = *chatter.impacts(ring).last()?;
-            let left_out = chatter.left_out(frame, ring, last);
-            if left_out > LONGEST {
+            let impacts = chatter.impacts(ring);
+            let last = *impacts.last()?;
+            let left_out = |k: usize| chatter.left_out(frame, ring, k);
+            // without this impact the one before is the last one
+            let too_long =
+                || left_out(last) < SHORTEST && impacts.iter().rev().nth(1).is_none_or(|k| left_out(*k) < LONGEST);
+            if left_out(last) > LONGEST {
                 chatter.longer(frame, ring)
-            } else if left_out < SHORTEST {
+            } else if too_long() {
                 chatter.cut(frame, ring, last)
             } else {
                 None

@@ -51,6 +51,11 @@ impl MachineLap {
 
     /// The motion from `begin` over a time. `None` if it ends before.
     pub(crate) fn fly(frame: &MachineFrame<'_>, begin: &Place, time: f64) -> Option<Self> {
+        Self::fly_in(frame, begin, time, STEPS)
+    }
+
+    /// The same; `None` if it has more than so many steps.
+    pub(crate) fn fly_in(frame: &MachineFrame<'_>, begin: &Place, time: f64, most: usize) -> Option<Self> {
         let mut motion = frame.resume(begin.clone()).limited(BEYOND * time);
         let mut derivative = Some(Matrix::identity(frame.shape.size()));
         let mut steps: Vec<(f64, Place, Passage)> = Vec::new();
@@ -76,7 +81,7 @@ impl MachineLap {
                 end = Some(frame.moved(&from, &passage.structure, left));
                 Some(frame.shape.transition(&passage.structure, &frame.normal, &from, left))
             } else {
-                if steps.len() >= STEPS || motion.end().is_some() {
+                if steps.len() >= most || motion.end().is_some() {
                     return None;
                 }
                 events.extend(motion.take_events());
