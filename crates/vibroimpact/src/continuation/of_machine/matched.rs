@@ -3,17 +3,19 @@
 
 use crate::orbit::RingEvent;
 
-/// The rest after a chatter at the beginning of a list of events: its place, and the stop.
-fn rest_in<'a>(events: impl Iterator<Item = &'a RingEvent>) -> Option<(usize, usize)> {
-    let mut own = None;
-    for (i, event) in events.enumerate() {
-        let stop = event.struck().filter(|stop| own.is_none_or(|own| own == *stop))?;
-        if event.rests_on().is_some() {
-            return Some((i, stop));
-        }
-        own = Some(stop);
+/// For each of these events the rest after the chatter to which it belongs: its place, and the stop.
+fn rests<'a>(
+    events: impl DoubleEndedIterator<Item = &'a RingEvent> + ExactSizeIterator,
+) -> Vec<Option<(usize, usize)>> {
+    let mut next = None;
+    let mut rests: Vec<Option<(usize, usize)>> = Vec::with_capacity(events.len());
+    for (i, event) in events.enumerate().rev() {
+        let own = event.rests_on().map(|stop| (i, stop));
+        next = own.or(next.filter(|(_, stop)| event.struck() == Some(*stop)));
+        rests.push(next);
     }
-    None
+    rests.reverse();
+    rests
 }
 
 /// The longest flight, as a phase, between impacts that are left out.
@@ -23,13 +25,13 @@ const SOON: f64 = 0.05;
 /// signature begins. Events are given with their phases since the beginning of the motion.
 pub(crate) fn matched(wanted: &[(f64, &RingEvent)], seen: &[(f64, RingEvent)]) -> Vec<RingEvent> {
     let mut events: Vec<RingEvent> = Vec::with_capacity(seen.len());
+    let (wanted_rests, seen_rests) =
+        (rests(wanted.iter().map(|(_, event)| *event)), rests(seen.iter().map(|(_, event)| event)));
     let (mut i, mut j) = (0, 0);
     while j < seen.len() {
-        let own = wanted.get(i..).and_then(|wanted| rest_in(wanted.iter().map(|(_, event)| *event)));
-        let other = rest_in(seen[j..].iter().map(|(_, event)| event));
-        match (own, other) {
-            (Some((impacts, stop)), Some((followed, same))) if stop == same => {
-                let rest = i + impacts;
+        match (wanted_rests.get(i).copied().flatten(), seen_rests[j]) {
+            (Some((rest, stop)), Some((end, same))) if stop == same => {
+                let (impacts, followed) = (rest - i, end - j);
                 let before = if rest > 0 { wanted[rest - 1].0 } else { 0.0 };
                 let until = 0.5 * (before + wanted[rest].0);
                 let early = seen[j..j + followed].iter().filter(|(phase, _)| *phase < until).count();

@@ -48,6 +48,20 @@ pub struct MachineCycle {
 /// What rounding leaves of no drift, relative to the motion.
 const ROUNDED: f64 = 1e-12;
 
+/// The events without the impacts of complete chatters that follow an impact on the same stop: the first ones tell them.
+fn without_chatters(events: Vec<MachineEvent>) -> Vec<MachineEvent> {
+    let m = events.len();
+    let impact = |k: usize, stop: usize| events[k].closes() && events[k].place == stop;
+    let follows = |k: usize| {
+        let stop = events[k].place;
+        let end = (k..k + m).map(|i| i % m).find(|i| !impact(*i, stop));
+        let stuck = end.is_some_and(|end| events[end].kind == MachineEventKind::Stick && events[end].place == stop);
+        stuck && impact(k, stop) && impact((k + m - 1) % m, stop)
+    };
+    let kept: Vec<bool> = (0..m).map(|k| !follows(k)).collect();
+    events.into_iter().zip(kept).filter_map(|(event, kept)| kept.then_some(event)).collect()
+}
+
 impl MachineCycle {
     /// Whether the cycle attracts its neighbourhood: all multipliers lie inside the unit circle.
     #[must_use]
@@ -80,12 +94,13 @@ impl MachineCycle {
     /// states equal to within `tolerance` of the size of the motion.
     #[must_use]
     pub fn same_as(&self, other: &Self, tolerance: f64) -> bool {
-        // a touch within rounding may be told or not
+        // a touch within rounding may be told or not, and a chatter may be followed for more or fewer impacts
         let told = |cycle: &Self| -> Vec<MachineEvent> {
-            cycle.events.iter().filter(|event| event.kind != MachineEventKind::Graze).cloned().collect()
+            let told = cycle.events.iter().filter(|event| event.kind != MachineEventKind::Graze);
+            without_chatters(told.cloned().collect())
         };
         let (a, b) = (told(self), told(other));
-        if self.label != other.label || self.counts != other.counts {
+        if self.label != other.label || self.label.impacts != Count::Infinite && self.counts != other.counts {
             return false;
         }
         if a.len() != b.len() || a.is_empty() {
