@@ -10,10 +10,11 @@
 use super::frame::MachineFrame;
 use super::ring::{MachineRing, RingEvent};
 use crate::events::Place;
+use crate::machine::StopLaw;
 use crate::regime::{ContactState, GuardKind};
 
-/// What is left out, in the size of the motion and the time of a radian: less when a ring is made, and while it is followed
-/// between these.
+/// What is left out, in the size of the motion and the time of a radian: less than the first when a ring is made, and at most
+/// the second while it is followed; another impact is left out where this is less than the third.
 const TAIL: f64 = 1e-13;
 const LONGEST: f64 = 1e-11;
 const SHORTEST: f64 = 1e-18;
@@ -95,9 +96,21 @@ impl Chatter {
         Some(Rebound { speed, a: force * mobility, jerk: -rate * mobility })
     }
 
-    /// What is left out if the rest begins at impact `k`.
+    /// The rebound at the event at which the rest begins, which is left out.
+    fn rebound_at_rest(&self, frame: &MachineFrame<'_>, ring: &MachineRing) -> Option<Rebound> {
+        let StopLaw::Rigid { restitution } = frame.machine.stops()[self.stop].law else { return None };
+        let before = (self.rest + ring.len() - 1) % ring.len();
+        let mut from = ring.place(before);
+        frame.constrain(&mut from)?;
+        let arrival = frame.moved(&from, &frame.structure(&from.states)?, ring.time(before, frame.machine));
+        let closing = arrival.gap(&frame.normal, &arrival.turns(&frame.normal), self.stop).1;
+        Some(Rebound { speed: -restitution * closing, ..self.rebound(frame, ring, self.rest)? })
+    }
+
+    /// What is left out if the rest begins at event `k`.
     fn left_out(&self, frame: &MachineFrame<'_>, ring: &MachineRing, k: usize) -> f64 {
-        let Some(Rebound { speed, a, .. }) = self.rebound(frame, ring, k).filter(|rebound| rebound.a > 0.0) else {
+        let rebound = if k == self.rest { self.rebound_at_rest(frame, ring) } else { self.rebound(frame, ring, k) };
+        let Some(Rebound { speed, a, .. }) = rebound.filter(|rebound| rebound.a > 0.0) else {
             return f64::INFINITY;
         };
         let (size, fastest) = frame.sizes(&ring.place(k));
@@ -121,18 +134,13 @@ impl Chatter {
     /// is no such chatter.
     pub(crate) fn adapt(frame: &MachineFrame<'_>, ring: &mut MachineRing) -> Option<Self> {
         Self::all(ring).into_iter().find_map(|chatter| {
-            let impacts = chatter.impacts(ring);
-            let last = *impacts.last()?;
             let left_out = |k: usize| chatter.left_out(frame, ring, k);
-            // without this impact the one before is the last one
-            let too_long =
-                || left_out(last) < SHORTEST && impacts.iter().rev().nth(1).is_none_or(|k| left_out(*k) < LONGEST);
-            if left_out(last) > LONGEST {
+            let last = chatter.impacts(ring).last().copied();
+            if left_out(chatter.rest) > LONGEST {
                 chatter.longer(frame, ring)
-            } else if too_long() {
-                chatter.cut(frame, ring, last)
             } else {
-                None
+                let last = last.filter(|last| left_out(*last) < SHORTEST)?;
+                chatter.cut(frame, ring, last)
             }
         })
     }
