@@ -362,3 +362,13 @@ fn the_curve_of_two_complete_chatters() {
         assert!(a.1 == b.1 && (a.0 - b.0).abs() < 1e-11, "{a:?} {b:?}");
     }
 }
+
+/// At small restitutions the rebounds are soon lower than the rounding error of the gap: the chatter is complete all the same.
+#[test]
+fn small_restitutions() {
+    for (gamma, e) in [(3.2713, 1e-4), (3.22, 1e-3), (2.0, 1e-9)] {
+        let start = MachineStart { q: vec![gamma + 0.1], qdot: vec![0.0], phase: 0.0 };
+        let cycle = settled(&ball(gamma, e), &start);
+        assert_eq!(cycle.label.to_string(), "inf/1", "{gamma} {e}");
+    }
+}
