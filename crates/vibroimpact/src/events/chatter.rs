@@ -59,15 +59,14 @@ impl MachineMotion<'_> {
         let duration = first * (1.0 + second);
         let mut touches = Vec::new();
         // the rebound ends on this stop again, so all later ones, which are smaller, do
-        let speed = rebound;
-        let rebound = self.place.flight(&self.normal, free.clone());
-        let next = first_event(&rebound, duration, self.limits.steps, &mut self.buffers, &mut touches);
+        let bounce = self.place.flight(&self.normal, free.clone());
+        let next = first_event(&bounce, duration, self.limits.steps, &mut self.buffers, &mut touches);
         let again = |guards: &[usize]| matches!(guards, [g] if free.guards[*g].kind == GuardKind::Gap(j));
         let ends = matches!(next, Found::Zero { ref guards, .. } if again(guards));
         // the time of a rebound whose height is a rounding error of the gap is one too
-        let size = self.place.gap(&self.normal, turns, j).2;
-        let flat = speed * speed < 2.0 * f64::EPSILON * a * size && matches!(next, Found::NoneBefore(_));
-        if !(ends || flat) {
+        let height = 0.5 * rebound * rebound / a;
+        let flat = || height < f64::EPSILON * self.place.gap(&self.normal, turns, j).2;
+        if !(ends || matches!(next, Found::NoneBefore(_)) && flat()) {
             return;
         }
         self.rest_after(there, &flight, duration, (MachineEventKind::Stick, &[j]));

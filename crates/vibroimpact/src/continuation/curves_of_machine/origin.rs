@@ -93,7 +93,9 @@ fn begin(
                 Some((CompleteChatter::shortened(&frame, &mut ring, contact)?, ring))
             };
             let farther = FARTHER.into_iter().flat_map(|by| [by, -by]);
-            let condition = if let Some((chatter, complete)) = both_sides().chain(farther).find_map(chatter) {
+            let bounces = machine.stops().get(contact).is_some_and(|stop| CurveProblem::rigid(&stop.law));
+            let complete = bounces.then(|| both_sides().chain(farther).find_map(chatter)).flatten();
+            let condition = if let Some((chatter, complete)) = complete {
                 ring = complete;
                 Condition::Chatter(chatter)
             } else if let Some(condition) = origin_at_rest::condition(&frame, &mut ring, (contact, sizes.1)) {

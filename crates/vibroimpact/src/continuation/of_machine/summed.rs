@@ -5,15 +5,12 @@ use super::closest::closest;
 use super::problem::{MachineProblem, MachineSolution};
 use super::touch::speed_before;
 use crate::continuation::trace::tracer::Tracer;
-use crate::orbit::{MachineFrame, MachineRing};
+use crate::orbit::{Chatter, MachineFrame, MachineRing};
 use crate::regime::GuardKind;
 
 /// Whether impact `k` belongs to a chatter on its stop that is summed after this impact or a later one.
 fn is_summed(ring: &MachineRing, k: usize) -> bool {
-    let m = ring.len();
-    let stop = ring.events[k].struck();
-    let mut own = (k..k + m).map(|i| &ring.events[i % m]).take_while(|event| stop.is_some() && event.struck() == stop);
-    own.any(|event| event.pushed[0].1)
+    Chatter::all(ring).iter().any(|chatter| chatter.rest == k || chatter.impacts(ring).contains(&k))
 }
 
 /// Whether a chatter on this stop is summed.
