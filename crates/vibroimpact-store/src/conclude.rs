@@ -15,6 +15,10 @@ impl Tiles for &Store {
         Store::read(self, tile, field)?.ok_or_else(|| self.defect(&key(), "its check sum is wrong".into()))
     }
 
+    fn counts(&mut self, _: u64, field: usize, each: &mut dyn FnMut(u64, &[(i32, u64)])) -> Result<(), StoreError> {
+        self.count(field, each)
+    }
+
     fn write(&mut self, tile: u64, field: usize, column: &Column) -> Result<(), StoreError> {
         let chunk = self.encoded(tile, field, column)?;
         self.put(&self.layout.key(tile, field), &chunk)
@@ -34,6 +38,10 @@ impl Tiles for InShards<'_> {
 
     fn read(&mut self, tile: u64, field: usize) -> Result<Column, StoreError> {
         Tiles::read(&mut &*self.store, tile, field)
+    }
+
+    fn counts(&mut self, _: u64, field: usize, each: &mut dyn FnMut(u64, &[(i32, u64)])) -> Result<(), StoreError> {
+        self.store.count(field, each)
     }
 
     fn write(&mut self, tile: u64, field: usize, column: &Column) -> Result<(), StoreError> {
@@ -90,17 +98,7 @@ impl Store {
     /// The labels m/n that occur, with their codes.
     fn labels(&self, field: usize) -> Result<Vec<(i32, String)>, StoreError> {
         let mut codes = BTreeSet::new();
-        let mut tiles = self;
-        for tile in 0..self.layout.grid.tiles() {
-            let column = Tiles::read(&mut tiles, tile, field)?;
-            let mut last = None;
-            for code in column.whole() {
-                if last != Some(*code) {
-                    codes.insert(*code);
-                    last = Some(*code);
-                }
-            }
-        }
+        self.count(field, &mut |_, counts| codes.extend(counts.iter().map(|(code, _)| *code)))?;
         Ok(codes.into_iter().filter(|code| *code > 0).filter_map(|code| Some((code, meaning_of(code)?))).collect())
     }
 }

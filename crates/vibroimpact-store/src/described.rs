@@ -153,7 +153,11 @@ impl Tiles for Untouched<'_> {
         Tiles::read(&mut store, tile, field)
     }
 
-    /// Discards the values: each tile is read only once, so they are not needed.
+    fn counts(&mut self, _: u64, field: usize, each: &mut dyn FnMut(u64, &[(i32, u64)])) -> Result<(), StoreError> {
+        self.0.count(field, each)
+    }
+
+    /// Discards the values: no tile is read after it is written.
     fn write(&mut self, _: u64, _: usize, _: &Column) -> Result<(), StoreError> {
         Ok(())
     }

@@ -37,6 +37,7 @@
 //! | which tiles come first | `order.rs` |
 //! | the processor time of each tile, beside the store | `costs.rs`, `clock.rs`, `tile_costs.rs` |
 //! | the final tables | `conclude.rs` |
+//! | how often each number occurs in a field | `count.rs` |
 //! | what a study will cost | `estimate.rs` |
 //! | progress and verification | `check.rs` |
 //! | verification of the metadata | `described.rs` |
@@ -49,6 +50,7 @@ mod chunk;
 mod clock;
 mod conclude;
 mod costs;
+mod count;
 mod described;
 mod error;
 mod estimate;

@@ -73,7 +73,7 @@ impl Store {
     }
 
     /// The column of a field in a tile; `None` if the tile is not complete.
-    fn kept(&self, tile: u64, field: usize) -> Result<Option<Column>, StoreError> {
+    pub(crate) fn kept(&self, tile: u64, field: usize) -> Result<Option<Column>, StoreError> {
         let found = self.read(tile, field)?;
         if found.is_some() || !self.claimed(tile)? {
             return Ok(found);

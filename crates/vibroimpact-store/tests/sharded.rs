@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::{S, basin, control, files, map, open, whole};
+use common::{S, basin, control, files, map, open, rare, whole};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -223,27 +223,48 @@ fn tiles_that_move_while_they_are_read_are_found() {
 /// A run that dies at any of its changes is completed to the same bytes, and what it left is not damaged.
 #[test]
 fn killed_at_every_change() {
-    let plan = Plan { shard: Some(2), tile: Some(20), ..basin() };
-    let (_kept, want) = whole(&plan);
-    let mut changes = 0;
-    loop {
-        let folder = tempfile::tempdir().unwrap();
-        let dying = Arc::new(Dying(Folder::new(folder.path()), AtomicU64::new(changes)));
-        let died = Store::create(dying, &plan).and_then(|store| store.run(Part::ALL, &control(1)));
-        if let Ok(store) = Store::open(Arc::new(Folder::new(folder.path()))) {
-            let found = store.verify(0, 0, &control(1)).unwrap();
-            let of_tile: Vec<_> = found.damage.iter().filter(|damage| damage.tile.is_some()).collect();
-            assert!(of_tile.is_empty(), "{changes}: {of_tile:?}");
+    for plan in [
+        Plan { shard: Some(2), tile: Some(20), ..basin() },
+        Plan { shard: Some(2), ..rare() },
+        Plan { tile: Some(12), ..rare() },
+    ] {
+        let (_kept, want) = whole(&plan);
+        let mut changes = 0;
+        loop {
+            let folder = tempfile::tempdir().unwrap();
+            let dying = Arc::new(Dying(Folder::new(folder.path()), AtomicU64::new(changes)));
+            let died = Store::create(dying, &plan).and_then(|store| store.run(Part::ALL, &control(1)));
+            if let Ok(store) = Store::open(Arc::new(Folder::new(folder.path()))) {
+                let found = store.verify(0, 0, &control(1)).unwrap();
+                let of_tile: Vec<_> = found.damage.iter().filter(|damage| damage.tile.is_some()).collect();
+                assert!(of_tile.is_empty(), "{changes}: {of_tile:?}");
+            }
+            open(folder.path(), &plan).run(Part::ALL, &control(1)).unwrap();
+            assert!(files(folder.path()) == want, "{changes}");
+            match died {
+                Ok(_) => break,
+                Err(StoreError::Write { .. } | StoreError::Begin { .. }) => changes += 1,
+                Err(other) => panic!("{other}"),
+            }
         }
-        open(folder.path(), &plan).run(Part::ALL, &control(1)).unwrap();
-        assert!(files(folder.path()) == want, "{changes}");
-        match died {
-            Ok(_) => break,
-            Err(StoreError::Write { .. } | StoreError::Begin { .. }) => changes += 1,
-            Err(other) => panic!("{other}"),
-        }
+        assert!(changes > 30, "{changes}");
     }
-    assert!(changes > 30, "{changes}");
+}
+
+/// Cycles that the survey has not found are in the tables, also after a further run of the complete store.
+#[test]
+fn further_runs_keep_the_cycles_that_the_survey_missed() {
+    for plan in [rare(), Plan { shard: Some(2), ..rare() }] {
+        let (folder, want) = whole(&plan);
+        let store = again(folder.path());
+        assert_eq!(store.verify(9, 0, &control(2)).unwrap().damage, vec![]);
+        store.run(Part::ALL, &control(2)).unwrap();
+        assert!(files(folder.path()) == want);
+        let first = "cycle/c/0/0";
+        fs::remove_file(folder.path().join(first)).unwrap();
+        store.run(Part::ALL, &control(2)).unwrap();
+        assert!(files(folder.path()) == want);
+    }
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use crate::unit::Unit;
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 
 /// The type of the numbers of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -117,6 +118,25 @@ impl Column {
         }
     }
 
+    /// How often each number occurs in a column of integers, the smallest number first; empty for real numbers.
+    #[must_use]
+    pub fn counts(&self) -> Vec<(i32, u64)> {
+        /// Neighbours mostly have the same number.
+        fn of<T: Copy + PartialEq + Into<i32>>(values: &[T]) -> BTreeMap<i32, u64> {
+            let mut counts = BTreeMap::new();
+            for run in values.chunk_by(|a, b| a == b) {
+                *counts.entry(run[0].into()).or_default() += run.len() as u64;
+            }
+            counts
+        }
+        let counts = match self {
+            Self::I8(values) => of(values),
+            Self::I32(values) => of(values),
+            Self::F64(_) => BTreeMap::new(),
+        };
+        counts.into_iter().collect()
+    }
+
     /// The values of a column of 32-bit integers; empty for other types.
     #[must_use]
     pub fn whole(&self) -> &[i32] {
@@ -159,5 +179,12 @@ mod tests {
         some.copy(1, &Column::F64(vec![1.0, 2.0]), 1, 1);
         assert_eq!(some.real()[1], 2.0);
         assert_ne!(some, real.empty(1));
+    }
+
+    #[test]
+    fn numbers_are_counted() {
+        assert_eq!(Column::I32(vec![4, 4, -1, 4, -1]).counts(), [(-1, 2), (4, 3)]);
+        assert_eq!(Column::I8(vec![2, 1, 2, 2]).counts(), [(1, 1), (2, 3)]);
+        assert!(Column::I32(Vec::new()).counts().is_empty() && Column::F64(vec![1.0]).counts().is_empty());
     }
 }

@@ -63,34 +63,32 @@ fn labels(store: &Store) -> Result<Vec<LabelCount>, Failure> {
     let mut counts: BTreeMap<i32, (u64, f64)> = BTreeMap::new();
     let mut total = 0_u64;
     let is_motion = |code: i32| ![NO_MOTION, NOT_COMPUTED, REFUSED].contains(&code);
-    for tile in 0..store.study().grid().tiles() {
-        let codes = store.tile_field(tile, label)?;
-        let Some(share) = share else {
-            // one motion at each point; neighbours mostly have the same label
-            for run in codes.whole().chunk_by(|a, b| a == b).filter(|run| is_motion(run[0])) {
-                let entry = counts.entry(run[0]).or_default();
-                entry.0 += run.len() as u64;
-                total += run.len() as u64;
-            }
-            continue;
-        };
-        let shares = store.tile_field(tile, share)?;
-        for (k, point) in codes.whole().chunks(width).enumerate() {
-            let mut seen = Vec::new();
-            for (i, code) in point.iter().enumerate().filter(|(_, code)| is_motion(**code)) {
-                let entry = counts.entry(*code).or_default();
-                entry.1 += shares.real()[k * width + i];
-                if !seen.contains(code) {
-                    seen.push(*code);
-                    entry.0 += 1;
+    if let Some(share) = share {
+        for tile in 0..store.study().grid().tiles() {
+            let (codes, shares) = (store.tile_field(tile, label)?, store.tile_field(tile, share)?);
+            for (k, point) in codes.whole().chunks(width).enumerate() {
+                let mut seen = Vec::new();
+                for (i, code) in point.iter().enumerate().filter(|(_, code)| is_motion(**code)) {
+                    let entry = counts.entry(*code).or_default();
+                    entry.1 += shares.real()[k * width + i];
+                    if !seen.contains(code) {
+                        seen.push(*code);
+                        entry.0 += 1;
+                    }
                 }
+                total += u64::from(!seen.is_empty());
             }
-            total += u64::from(!seen.is_empty());
         }
-    }
-    if share.is_none() {
+    } else {
+        // one motion at each point
         #[allow(clippy::cast_precision_loss)] // counts below 2^53
-        counts.values_mut().for_each(|(points, share)| *share = *points as f64);
+        store.count(label, &mut |_, own| {
+            for (code, count) in own.iter().filter(|(code, _)| is_motion(*code)) {
+                let entry = counts.entry(*code).or_default();
+                *entry = (entry.0 + count, entry.1 + *count as f64);
+                total += count;
+            }
+        })?;
     }
     #[allow(clippy::cast_precision_loss)] // counts below 2^53
     let count = |(code, (points, share)): (i32, (u64, f64))| LabelCount {

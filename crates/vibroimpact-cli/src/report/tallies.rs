@@ -3,7 +3,6 @@
 use crate::failure::Failure;
 use crate::session::Session;
 use vibroimpact_store::Store;
-use vibroimpact_study::Column;
 use vibroimpact_study::study::UNDECIDED;
 
 /// Number of points of a store up to which its labels are read for its status; each tile of a larger one takes time, above all in a
@@ -22,12 +21,9 @@ pub(crate) fn damaged(store: &Store, session: &Session) -> Result<Option<u64>, F
 pub(crate) fn computed(store: &Store) -> Result<Option<u64>, Failure> {
     let Some(field) = store.field("computed") else { return Ok(None) };
     let mut count = 0;
-    for tile in 0..store.study().grid().tiles() {
-        let (_, columns) = store.tile(tile)?;
-        if let Column::I8(values) = &columns[field] {
-            count += values.iter().filter(|value| **value == 1).count() as u64;
-        }
-    }
+    store.count(field, &mut |_, counts| {
+        count += counts.iter().filter(|(value, _)| *value == 1).map(|(_, count)| count).sum::<u64>();
+    })?;
     Ok(Some(count))
 }
 
@@ -41,8 +37,8 @@ pub(crate) fn undecided(store: &Store) -> Result<Option<u64>, Failure> {
     let width = store.study().fields()[label].width();
     let mut count = 0;
     for tile in 0..store.study().grid().tiles() {
-        let (_, columns) = store.tile(tile)?;
-        count += columns[label].whole().chunks(width).filter(|point| point.contains(&UNDECIDED)).count() as u64;
+        let codes = store.tile_field(tile, label)?;
+        count += codes.whole().chunks(width).filter(|point| point.contains(&UNDECIDED)).count() as u64;
     }
     Ok(Some(count))
 }

@@ -10,6 +10,7 @@ use super::tables::{Cells, StudyTable, Tiles};
 use crate::Unit;
 use crate::field::{Column, Field};
 use crate::grid::Grid;
+use std::collections::BTreeMap;
 use vibroimpact::verdict::{Census, CountedMotion, MachineVerdict, Verdict};
 
 /// Number of a motion that is no cycle.
@@ -89,47 +90,56 @@ pub(crate) struct Numbering<'a, V> {
 impl<V: StoredMotion> Numbering<'_, V> {
     fn conclude<T: Tiles>(&self, grid: &Grid, tiles: &mut T) -> Result<Vec<StudyTable>, T::Error> {
         let mut cycles: Vec<V> = self.known.to_vec();
-        let mut starts = vec![0_i64; cycles.len()];
-        let mut beyond = 0;
-        for k in 0..grid.tiles() {
-            let column = tiles.read(k, self.field)?;
-            let mut numbers = column.whole().to_vec();
-            if numbers.iter().copied().any(preliminary) {
-                let met = (self.unknown)(k);
-                let renumbered: Vec<usize> = met
-                    .motions()
-                    .iter()
-                    .map(|found| {
-                        let same = cycles.iter().position(|other| other.same_as(&found.verdict, SAME));
-                        same.unwrap_or_else(|| {
-                            cycles.push(found.verdict.clone());
-                            starts.push(0);
-                            cycles.len() - 1
-                        })
-                    })
-                    .collect();
-                for n in numbers.iter_mut().filter(|n| preliminary(**n)) {
-                    let place = usize::try_from(UNKNOWN - *n).unwrap_or(usize::MAX);
-                    *n = renumbered.get(place).and_then(|n| i32::try_from(*n).ok()).unwrap_or(NONE);
-                }
-                tiles.write(k, self.field, &Column::I32(numbers.clone()))?;
+        let mut counts: BTreeMap<i32, u64> = BTreeMap::new();
+        let mut add = |own: &[(i32, u64)]| own.iter().for_each(|(n, count)| *counts.entry(*n).or_default() += count);
+        // the tiles with cycles that the survey has not found
+        let mut further: BTreeMap<u64, Vec<(i32, u64)>> = BTreeMap::new();
+        let surveyed = |n: i32| !preliminary(n) && usize::try_from(n).map_or(true, |n| n < self.known.len());
+        tiles.counts(grid.tiles(), self.field, &mut |k, own| {
+            if own.iter().all(|(n, _)| surveyed(*n)) {
+                add(own);
+            } else {
+                further.insert(k, own.to_vec());
             }
-            beyond += numbers.iter().filter(|n| **n == BEYOND).count() as u64;
-            // neighbours mostly have the same number
-            for run in numbers.chunk_by(|a, b| a == b) {
-                if let Some(count) = usize::try_from(run[0]).ok().and_then(|n| starts.get_mut(n)) {
-                    *count += run.len() as i64;
+        })?;
+        for (k, own) in further {
+            // Some of these tiles may have their final numbers already, if a conclusion was killed or a tile was mended. Such a
+            // tile is computed again if it was the first with one of its cycles, so that all conclusions are the same.
+            let renumbers = own.iter().any(|(n, _)| preliminary(*n));
+            let first = own.iter().any(|(n, _)| usize::try_from(*n).is_ok_and(|n| n >= cycles.len()));
+            let mut renumbered = Vec::new();
+            if renumbers || first {
+                for found in (self.unknown)(k).motions() {
+                    let same = cycles.iter().position(|other| other.same_as(&found.verdict, SAME));
+                    renumbered.push(same.unwrap_or_else(|| {
+                        cycles.push(found.verdict.clone());
+                        cycles.len() - 1
+                    }));
                 }
             }
+            if !renumbers {
+                add(&own);
+                continue;
+            }
+            let mut numbers = tiles.read(k, self.field)?.whole().to_vec();
+            for n in numbers.iter_mut().filter(|n| preliminary(**n)) {
+                let place = usize::try_from(UNKNOWN - *n).unwrap_or(usize::MAX);
+                *n = renumbered.get(place).and_then(|n| i32::try_from(*n).ok()).unwrap_or(NONE);
+            }
+            let column = Column::I32(numbers);
+            tiles.write(k, self.field, &column)?;
+            add(&column.counts());
         }
+        let count = |n: i32| counts.get(&n).copied().unwrap_or(0);
+        let starts: Vec<u64> = (0..cycles.len()).map(|n| i32::try_from(n).map_or(0, count)).collect();
         let cycles: Vec<StoredCycle> = cycles.iter().filter_map(StoredMotion::stored_cycle).collect();
-        Ok(tables(&cycles, &starts, (grid.points() - beyond, V::UNITS)))
+        Ok(tables(&cycles, &starts, (grid.points() - count(BEYOND), V::UNITS)))
     }
 }
 
 /// The tables of the cycles: labels, numbers of starts that lead to each, stability, and impacts.
 #[allow(clippy::cast_precision_loss)] // counts below 2^53
-fn tables(cycles: &[StoredCycle], starts: &[i64], (total, units): (u64, [Unit; 2])) -> Vec<StudyTable> {
+fn tables(cycles: &[StoredCycle], starts: &[u64], (total, units): (u64, [Unit; 2])) -> Vec<StudyTable> {
     let longest = cycles.iter().map(|cycle| cycle.points.len()).max().unwrap_or(0);
     let count = cycles.len();
     let table = |name, long_name, unit, values| StudyTable {

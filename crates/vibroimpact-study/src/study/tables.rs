@@ -37,6 +37,23 @@ pub trait Tiles {
     /// If it cannot be read.
     fn read(&mut self, tile: u64, field: usize) -> Result<Column, Self::Error>;
 
+    /// Calls `each` for each of the `tiles` tiles, in any order, with its number and the [counts](Column::counts) of a field
+    /// of integers.
+    ///
+    /// # Errors
+    /// If one cannot be read.
+    fn counts(
+        &mut self,
+        tiles: u64,
+        field: usize,
+        each: &mut dyn FnMut(u64, &[(i32, u64)]),
+    ) -> Result<(), Self::Error> {
+        for tile in 0..tiles {
+            each(tile, &self.read(tile, field)?.counts());
+        }
+        Ok(())
+    }
+
     /// Replaces field number `field` of tile number `tile`.
     ///
     /// # Errors

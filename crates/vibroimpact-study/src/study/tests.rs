@@ -78,6 +78,53 @@ fn cycles_that_nobody_knew_of_are_numbered_at_the_end() {
     assert!(a.iter().zip(b).all(|(a, b)| (a == b) != swapped));
 }
 
+/// Tiles in memory.
+struct Kept(Vec<Vec<Column>>);
+
+impl Tiles for Kept {
+    type Error = core::convert::Infallible;
+
+    fn read(&mut self, tile: u64, field: usize) -> Result<Column, Self::Error> {
+        Ok(self.0[usize::try_from(tile).unwrap()][field].clone())
+    }
+
+    fn write(&mut self, tile: u64, field: usize, column: &Column) -> Result<(), Self::Error> {
+        self.0[usize::try_from(tile).unwrap()][field] = column.clone();
+        Ok(())
+    }
+}
+
+/// A conclusion may be repeated, or follow one that was killed, or that a mended tile makes necessary.
+#[test]
+fn every_conclusion_is_the_same() {
+    let weak = SystemPlan { beta: Some(2.8), inverse_beta: None, gap: 0.1, restitution: 0.97, damping: 0.01, ..S };
+    for (system, basin) in [
+        (S, BasinPlan::plane(span("-4:0.75:20"), span("-4:4:20"), 0.0)),
+        (weak, BasinPlan::plane(span("-0.6:-0.4:24"), span("-4:4:24"), 0.0)),
+    ] {
+        let study = Study { fill: Box::new(BasinFill::plane(&system, &basin, Some(8)).unwrap().forgetful()) };
+        let count = study.grid().tiles();
+        let begun: Vec<Vec<Column>> = (0..count).map(|tile| study.tile(tile, &|| false).unwrap()).collect();
+        let mut kept = Kept(begun.clone());
+        let tables = study.conclude(&mut kept).unwrap();
+        let Cells::Text(labels) = &tables[0].values else { panic!() };
+        assert!(labels.len() > 1);
+        let done = kept.0.clone();
+        for again in 0..3 * count {
+            let tile = usize::try_from(again % count).unwrap();
+            kept.0 = match again / count {
+                0 => done.clone(),
+                // killed after this tile
+                1 => done[..=tile].iter().chain(&begun[tile + 1..]).cloned().collect(),
+                // mended
+                _ => (0..done.len()).map(|k| if k == tile { &begun[k] } else { &done[k] }).cloned().collect(),
+            };
+            assert_eq!(study.conclude(&mut kept).unwrap(), tables, "{again}");
+            assert!(kept.0 == done, "{again}");
+        }
+    }
+}
+
 #[test]
 fn a_map_is_that_of_its_points() {
     let system = SystemPlan { inverse_beta: Some(1.0), gap: 0.0, ..S };
