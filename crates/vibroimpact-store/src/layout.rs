@@ -1,8 +1,10 @@
 //! The arrays of a study in a store: one for each field, its coordinates, and the status of its tiles.
 
 use crate::chunk::{Chunked, Defect, Description, Holds};
+use crate::recent::Recent;
 use crate::shards::Shards;
 use serde_json::{Map, Value, json};
+use std::borrow::Cow;
 use vibroimpact_study::Grid;
 use vibroimpact_study::study::{Cells, Study, StudyTable};
 use vibroimpact_study::{Column, Field, NumberType, Unit};
@@ -20,6 +22,8 @@ pub(crate) struct Layout {
     pub(crate) fields: Vec<Field>,
     /// The arrays of the fields, in their order.
     pub(crate) arrays: Vec<Chunked>,
+    /// The last chunks of each.
+    pub(crate) recent: Vec<Recent>,
     pub(crate) status: Chunked,
     pub(crate) coordinates: Vec<(Chunked, Cells)>,
 }
@@ -97,6 +101,7 @@ impl Layout {
         let (grid, fields) = (study.grid().clone(), study.fields());
         let array = |field| array_of(field, (&grid, shards.as_ref()), &[]);
         let arrays = fields.iter().map(array).collect::<Result<_, _>>()?;
+        let recent = fields.iter().map(|_| Recent::default()).collect();
         // the status of all tiles of a shard is one chunk
         let side = shards.as_ref().map_or_else(|| vec![1; grid.dimensions.len()], |shards| shards.side.clone());
         let tiles = grid.dimensions.iter().zip(grid.tiles_along());
@@ -122,7 +127,7 @@ impl Layout {
             Ok((array, Cells::Numbers(Column::F64(along.values))))
         };
         let coordinates = study.coordinates().into_iter().map(coordinate).collect::<Result<_, Defect>>()?;
-        Ok(Self { grid, shards, fields, arrays, status, coordinates })
+        Ok(Self { grid, shards, fields, arrays, recent, status, coordinates })
     }
 
     /// The indices of the chunk of a tile in the array of a field.
@@ -169,14 +174,14 @@ impl Layout {
     }
 
     /// The chunk of a tile: its column, padded to the size of a chunk.
-    pub(crate) fn padded(&self, tile: u64, field: usize, column: &Column) -> Column {
+    pub(crate) fn padded<'a>(&self, tile: u64, field: usize, column: &'a Column) -> Cow<'a, Column> {
         let (full, field) = (self.grid.full_tile(tile), &self.fields[field]);
         if self.grid.tile(tile) == full {
-            return column.clone();
+            return Cow::Borrowed(column);
         }
         let mut chunk = field.empty(full.points());
         self.grid.tile(tile).rows(&full, field.width(), |at, from, len| chunk.copy(at, column, from, len));
-        chunk
+        Cow::Owned(chunk)
     }
 
     /// The column of a tile: its chunk without the padding.

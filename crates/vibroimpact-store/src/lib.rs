@@ -38,6 +38,7 @@
 //! | the processor time of each tile, beside the store | `costs.rs`, `clock.rs`, `tile_costs.rs` |
 //! | the final tables | `conclude.rs` |
 //! | how often each number occurs in a field | `count.rs` |
+//! | equal chunks, which are compressed once | `recent.rs` |
 //! | what a study will cost | `estimate.rs` |
 //! | progress and verification | `check.rs` |
 //! | verification of the metadata | `described.rs` |
@@ -59,6 +60,7 @@ mod layout;
 mod memory;
 mod order;
 mod read;
+mod recent;
 mod root;
 mod run;
 mod sharded;
@@ -315,8 +317,9 @@ impl Store {
     /// The chunk of a tile in the array of a field.
     fn encoded(&self, tile: u64, field: usize, column: &Column) -> Result<Vec<u8>, StoreError> {
         let array = &self.layout.arrays[field];
-        let chunk = Cells::Numbers(self.layout.padded(tile, field, column));
-        array.encode(&self.layout.place(tile, field), chunk).map_err(|why| self.defect(&array.name, why))
+        let encode = |chunk| array.encode(&self.layout.place(tile, field), Cells::Numbers(chunk));
+        let bytes = self.layout.recent[field].bytes(&self.layout.padded(tile, field, column), encode);
+        bytes.map_err(|why| self.defect(&array.name, why))
     }
 
     /// The column of a field in a tile from its chunk, unless it is damaged.

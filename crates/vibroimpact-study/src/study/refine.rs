@@ -14,7 +14,7 @@ pub(crate) enum Cell<T> {
     /// The point was computed.
     Computed(T),
     /// The point is given the result of a corner of its box, which is the point with this number.
-    Like(usize),
+    Like(u32),
 }
 
 impl<T> Cell<T> {
@@ -22,7 +22,7 @@ impl<T> Cell<T> {
     pub(super) fn result<'a>(&'a self, cells: &'a [Self]) -> Option<(&'a T, bool)> {
         match self {
             Self::Computed(result) => Some((result, true)),
-            Self::Like(corner) => match &cells[*corner] {
+            Self::Like(corner) => match &cells[*corner as usize] {
                 Self::Computed(result) => Some((result, false)),
                 // a corner is always computed
                 Self::Like(_) => None,
@@ -64,10 +64,11 @@ pub(super) fn fill<T>(
             let result = |k: usize| if let Some(Cell::Computed(result)) = &cells[k] { Some(result) } else { None };
             let first = result(corners[0])?;
             if corners.iter().all(|k| result(*k).is_some_and(|other| same(first, other))) {
+                let like = u32::try_from(corners[0]).ok()?;
                 each_row(cuboid, |first, length| {
                     let from = number(first);
                     for cell in &mut cells[from..from + length] {
-                        cell.get_or_insert(Cell::Like(corners[0]));
+                        cell.get_or_insert(Cell::Like(like));
                     }
                 });
             } else {
@@ -161,7 +162,7 @@ mod tests {
         for (k, cell) in cells.iter().enumerate() {
             let value = match cell {
                 Cell::Computed(value) => *value,
-                Cell::Like(corner) => disc(&block, *corner),
+                Cell::Like(corner) => disc(&block, *corner as usize),
             };
             // a disc of radius 11 has no feature finer than 8 points
             assert_eq!(value, disc(&block, k), "{k}");

@@ -81,9 +81,10 @@ impl BasinFill {
         let of = |cell: &Cell<u32>| {
             cell.result(cells).map_or((UNDECIDED, cycles::NONE), |(number, _)| leads[*number as usize])
         };
-        let mut columns = vec![Column::I32(cells.iter().map(|cell| of(cell).0).collect())];
+        let (labels, numbers) = cells.iter().map(of).unzip();
+        let mut columns = vec![Column::I32(labels)];
         if self.one.is_some() {
-            columns.push(Column::I32(cells.iter().map(|cell| of(cell).1).collect()));
+            columns.push(Column::I32(numbers));
         }
         columns.extend(self.quantities(tile));
         columns.extend(self.details(tile));
