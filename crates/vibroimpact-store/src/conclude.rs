@@ -5,7 +5,7 @@ use crate::root::Conclusion;
 use crate::{Store, StoreError};
 use std::collections::{BTreeMap, BTreeSet};
 use vibroimpact_study::Column;
-use vibroimpact_study::study::{StudyTable, Tiles, meaning_of};
+use vibroimpact_study::study::{EachCount, StudyTable, Tiles, meaning_of};
 
 impl Tiles for &Store {
     type Error = StoreError;
@@ -15,7 +15,7 @@ impl Tiles for &Store {
         Store::read(self, tile, field)?.ok_or_else(|| self.defect(&key(), "its check sum is wrong".into()))
     }
 
-    fn counts(&mut self, _: u64, field: usize, each: &mut dyn FnMut(u64, &[(i32, u64)])) -> Result<(), StoreError> {
+    fn counts(&mut self, _: u64, field: usize, each: EachCount<'_>) -> Result<(), StoreError> {
         self.count(field, each)
     }
 
@@ -40,7 +40,7 @@ impl Tiles for InShards<'_> {
         Tiles::read(&mut &*self.store, tile, field)
     }
 
-    fn counts(&mut self, _: u64, field: usize, each: &mut dyn FnMut(u64, &[(i32, u64)])) -> Result<(), StoreError> {
+    fn counts(&mut self, _: u64, field: usize, each: EachCount<'_>) -> Result<(), StoreError> {
         self.store.count(field, each)
     }
 

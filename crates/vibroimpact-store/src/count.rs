@@ -4,6 +4,7 @@
 use crate::shards::{self, Chunks};
 use crate::{Store, StoreError};
 use std::collections::HashMap;
+use vibroimpact_study::study::EachCount;
 
 /// Number of different chunks that are known at the same time.
 const KNOWN: usize = 256;
@@ -14,7 +15,7 @@ impl Store {
     ///
     /// # Errors
     /// [`StoreError`] if the place cannot be read, or if a tile is damaged.
-    pub fn count(&self, field: usize, each: &mut dyn FnMut(u64, &[(i32, u64)])) -> Result<(), StoreError> {
+    pub fn count(&self, field: usize, each: EachCount<'_>) -> Result<(), StoreError> {
         let mut known: HashMap<Vec<u8>, Vec<(i32, u64)>> = HashMap::new();
         let mut of_tile = |tile: u64, chunk: Option<Vec<u8>>| -> Result<(), StoreError> {
             let grid = &self.layout.grid;

@@ -7,7 +7,7 @@ use crate::{Store, StoreError, chunk};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 use vibroimpact_study::Column;
-use vibroimpact_study::study::Tiles;
+use vibroimpact_study::study::{EachCount, Tiles};
 
 /// The end of the keys of metadata.
 const DESCRIPTION: &str = "/zarr.json";
@@ -153,7 +153,7 @@ impl Tiles for Untouched<'_> {
         Tiles::read(&mut store, tile, field)
     }
 
-    fn counts(&mut self, _: u64, field: usize, each: &mut dyn FnMut(u64, &[(i32, u64)])) -> Result<(), StoreError> {
+    fn counts(&mut self, _: u64, field: usize, each: EachCount<'_>) -> Result<(), StoreError> {
         self.0.count(field, each)
     }
 

@@ -5,12 +5,16 @@ use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 use vibroimpact_study::Column;
 
-/// Number of chunks that are kept.
+/// Number of chunks that are kept, and the most values of one, so that they need little memory.
 const KEPT: usize = 4;
+const LARGEST: usize = 1 << 18;
+
+/// A chunk and its bytes.
+type Known = Arc<(Column, Vec<u8>)>;
 
 /// The last different chunks.
 #[derive(Default)]
-pub(crate) struct Recent(Mutex<VecDeque<Arc<(Column, Vec<u8>)>>>);
+pub(crate) struct Recent(Mutex<VecDeque<Known>>);
 
 impl Recent {
     /// The bytes of a chunk, from `encode` unless they are known.
@@ -19,12 +23,12 @@ impl Recent {
         chunk: &Column,
         encode: impl FnOnce(Column) -> Result<Vec<u8>, E>,
     ) -> Result<Vec<u8>, E> {
-        if let Column::F64(_) = chunk {
-            // real numbers are hardly ever the same
+        // real numbers are hardly ever the same
+        if matches!(chunk, Column::F64(_)) || chunk.len() > LARGEST {
             return encode(chunk.clone());
         }
         // compared without the lock, for the other threads
-        let known: Vec<_> = self.0.lock().unwrap_or_else(PoisonError::into_inner).iter().cloned().collect();
+        let known: Vec<Known> = self.0.lock().unwrap_or_else(PoisonError::into_inner).iter().cloned().collect();
         if let Some(same) = known.iter().find(|known| known.0 == *chunk) {
             return Ok(same.1.clone());
         }

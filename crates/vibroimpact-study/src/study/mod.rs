@@ -39,7 +39,7 @@ pub use plan::StudyPlan;
 pub(crate) use refine::Cell;
 pub use some_points::{PointColumns, points_until};
 pub(crate) use sweeps::{SweepFill, Swept};
-pub use tables::{Cells, StudyTable, Tiles};
+pub use tables::{Cells, EachCount, StudyTable, Tiles};
 pub(crate) use {basin::BasinFill, machine_basin::MachineBasinFill, map::MapFill};
 
 use crate::diagram::Show;

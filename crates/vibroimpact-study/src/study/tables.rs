@@ -26,6 +26,9 @@ pub enum Cells {
     Text(Vec<String>),
 }
 
+/// Called with the number of a tile and the [counts](Column::counts) of a field in it.
+pub type EachCount<'a> = &'a mut dyn FnMut(u64, &[(i32, u64)]);
+
 /// Access to the complete tiles of a study, independent of where they are stored.
 pub trait Tiles {
     /// The error of a failed read or write.
@@ -37,17 +40,11 @@ pub trait Tiles {
     /// If it cannot be read.
     fn read(&mut self, tile: u64, field: usize) -> Result<Column, Self::Error>;
 
-    /// Calls `each` for each of the `tiles` tiles, in any order, with its number and the [counts](Column::counts) of a field
-    /// of integers.
+    /// Calls `each` for each of the `tiles` tiles, in any order, with the counts of a field of integers.
     ///
     /// # Errors
     /// If one cannot be read.
-    fn counts(
-        &mut self,
-        tiles: u64,
-        field: usize,
-        each: &mut dyn FnMut(u64, &[(i32, u64)]),
-    ) -> Result<(), Self::Error> {
+    fn counts(&mut self, tiles: u64, field: usize, each: EachCount<'_>) -> Result<(), Self::Error> {
         for tile in 0..tiles {
             each(tile, &self.read(tile, field)?.counts());
         }
