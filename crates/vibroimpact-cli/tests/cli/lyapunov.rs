@@ -162,6 +162,13 @@ fn exponents_over_axes_are_those_of_each_point() {
     let (table, alone) = (rows(&format!("{si} --axis gap-m=0.01,0.011 --csv -")), json(si));
     assert_eq!((table[0][0].as_str(), table[0][2].as_str()), ("gap_m", "exponent_per_s"));
     assert_eq!(table[1][2].parse::<f64>().unwrap(), measured(&alone["exponents"][0]).0);
+    // and the figure: the smaller exponent at gap 0 is -5.03 per second, -0.25 per unit of nondimensional time
+    let folder = tempfile::tempdir().expect("a folder");
+    let drawn = vibro(&format!("{si} --axis gap-m=0:0.02:3 --plot a.svg")).current_dir(folder.path()).output().unwrap();
+    let svg = std::fs::read_to_string(folder.path().join("a.svg")).unwrap_or_default();
+    for text in ["gap (m)<", "Lyapunov exponents (1/s)<", ">\u{2212}5<"] {
+        assert!(svg.contains(text), "{text}: {}", String::from_utf8_lossy(&drawn.stderr));
+    }
     for (line, said) in [
         (format!("lyapunov {U} --axis gap=1:2:3 --axis x=0,0.5 --plot a.png"), "drawn over one axis"),
         (format!("lyapunov {U} --axis size=0:1:3 --csv -"), "`size` cannot vary"),

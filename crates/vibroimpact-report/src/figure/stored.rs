@@ -8,6 +8,7 @@ use crate::figure::{basin, diagram, map, quantity_name, shares, title_without};
 use crate::machine_answer::machine_title;
 use crate::{AnswerError, Asked, ReportError, Units};
 use std::collections::BTreeMap;
+use vibroimpact::QuantityKind;
 use vibroimpact_plot::{Colour, Figure, FigureAxis, Line, Panel, SERIES, plain};
 use vibroimpact_study::study::{
     NOT_COMPUTED, REFUSED, StudyArrays, StudyPlan, diagram_of, label_of, machine_diagram_of,
@@ -78,7 +79,11 @@ fn of_task<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
         }
         Task::Lyapunov(LyapunovPlan { axes, .. }) => {
             let [axis] = axes.as_slice() else { return Err(ReportError::Exponents.into()) };
-            of_exponents(store, &PlaneAxis::of(axis, &Units::default())?, title_without(asked, &varied(axes)))
+            let unit = |point: usize| asked.units.at_point(axes, point).of_kind(QuantityKind::Rate);
+            let in_si = asked.units.named("Lyapunov exponents", QuantityKind::Rate.unit());
+            let name = if asked.units.si { in_si.as_str() } else { PER_TIME };
+            let side = PlaneAxis::of(axis, &asked.units)?;
+            of_exponents(store, &side, (name, &unit), title_without(asked, &varied(axes)))
         }
         Task::Diagram(plan) => Ok(diagram::figure(&diagram_of(plan, &columns::<A, E>(store)?), asked)?),
         _ => Err(ReportError::Scattered.into()),
@@ -119,7 +124,7 @@ fn of_machine<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
         }
         MachineTask::Lyapunov(MachineLyapunovPlan { axes, .. }) => {
             let [axis] = axes.as_slice() else { return Err(ReportError::Exponents.into()) };
-            of_exponents(store, &PlaneAxis::of_machine(axis)?, title)
+            of_exponents(store, &PlaneAxis::of_machine(axis)?, (PER_TIME, &|_| 1.0), title)
         }
         _ => Err(ReportError::Scattered.into()),
     }
@@ -230,19 +235,24 @@ fn of_basin<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     Ok(basin::draw(sides, &list.into_iter().map(motion).collect::<Vec<_>>(), cells, title)?)
 }
 
-/// All exponents over one axis, with the line of zero.
+/// The name of nondimensional exponents, and of those of a machine, which are in its own unit of time.
+const PER_TIME: &str = "Lyapunov exponents per unit time";
+
+/// All exponents over one axis, with the line of zero; `unit` is their unit at each point.
 fn of_exponents<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     store: &A,
     side: &PlaneAxis,
+    (name, unit): (&str, &dyn Fn(usize) -> f64),
     title: String,
 ) -> Result<Figure, E> {
     let Some(field) = store.field_number("exponent") else { return Err(ReportError::Exponents.into()) };
     let (column, directions) = (store.array(field)?, store.study().fields()[field].width());
     let values: Vec<f64> = (0..side.count()).map(|k| side.at(k)).collect();
     let zero = Line::new(vec![values[0], values[values.len() - 1]], vec![0.0, 0.0], Colour::hex(0x80_8080));
-    let mut panel = Panel::new(side.axis(), FigureAxis::new("Lyapunov exponents per unit time")).with(zero);
+    let mut panel = Panel::new(side.axis(), FigureAxis::new(name)).with(zero);
     for which in 0..directions {
-        let points = values.iter().zip(column.real().chunks(directions)).map(|(x, all)| (*x, all[which]));
+        let all = values.iter().zip(column.real().chunks(directions)).enumerate();
+        let points = all.map(|(k, (x, all))| (*x, all[which] * unit(k)));
         let (xs, ys): (Vec<f64>, Vec<f64>) = points.filter(|(_, y)| y.is_finite()).unzip();
         panel = panel.with(Line::new(xs, ys, SERIES[which % SERIES.len()]));
     }
