@@ -9,7 +9,7 @@ use super::point::{MachineCurveEvent, MachineCurveKind, MachineCurvePoint};
 use super::problem::{CurveProblem, CurveSolution, Watched};
 use crate::continuation::curves::CurveOptions;
 use crate::continuation::equations::plane_tracer::first_step;
-use crate::continuation::of_machine::{Difference, Judged, MachinePoint, difference, edge};
+use crate::continuation::of_machine::{ADAPTED, Difference, Judged, MachinePoint, difference, edge};
 use crate::continuation::trace::equations::{Equations, correct, tangent};
 use crate::continuation::trace::tracer::{Step, Tracer};
 use crate::orbit::MachineFrame;
@@ -31,8 +31,6 @@ pub struct MachineCurve {
 const SLOWEST: f64 = 1e-9;
 /// The distance, in parts of a step, before a limit whose rate is zero at which solutions can be judged inadmissible.
 const INEXACT: f64 = 1e-2;
-/// The most impacts of a chatter by which a signature changes at once.
-const ADAPTED: usize = 200;
 /// A curve with no further step that is closer to an edge of the frame than this, in quarters of the range, ends there.
 const AT_EDGE: f64 = 1e-7;
 

@@ -4,7 +4,7 @@ use super::at_rest::at_rest;
 use super::beginning::{begun, last};
 use super::beyond::{beyond, replayed, with_ring};
 use super::change::{Difference, additional, difference};
-use super::complete_chatter::CompleteChatter;
+use super::complete_chatter::{ADAPTED, CompleteChatter};
 use super::edge::edge;
 use super::equations::MachineEquations;
 use super::family::MachineFamily;
@@ -375,8 +375,6 @@ impl MachineBranch {
 const NEARBY: f64 = 0.1;
 /// Values of the number that differ by less, in its scale, are those of one event.
 const HERE: f64 = 1e-7;
-/// The most impacts by which a signature changes at once.
-const ADAPTED: usize = 200;
 /// The distance, in parts of a step, from a grazing solution to that at which the signs of test functions are compared
 /// with those at the beginning.
 const ASIDE: f64 = 1e-6;

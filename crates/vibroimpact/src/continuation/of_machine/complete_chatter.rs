@@ -40,6 +40,8 @@ const MOST: f64 = 2e-2;
 const TOGETHER: f64 = 1e-4;
 /// The most impacts that are added to a signature.
 const ADDED: usize = 500;
+/// The most impacts of a chatter by which a signature changes at once.
+pub(crate) const ADAPTED: usize = 200;
 
 /// The factor by which the time left decreases from impact to impact of a chatter that is complete at its release.
 fn decrease(restitution: f64) -> f64 {

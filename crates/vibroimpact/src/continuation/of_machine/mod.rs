@@ -47,7 +47,7 @@ mod touch;
 pub use branch::{MachineBranch, MachineBranchError};
 pub(crate) use change::{Difference, difference};
 pub(crate) use closest::closest;
-pub(crate) use complete_chatter::CompleteChatter;
+pub(crate) use complete_chatter::{ADAPTED, CompleteChatter};
 pub(crate) use edge::edge;
 pub use family::MachineFamily;
 pub(crate) use joined::join;
