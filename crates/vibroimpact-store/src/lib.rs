@@ -32,6 +32,7 @@
 //! | the metadata of the store | `root.rs` |
 //! | which tiles are in which shard, the bytes of a shard | `shards.rs` |
 //! | tiles that wait for their shard, and its completion | `sharded.rs` |
+//! | tiles in memory until their shard is complete | `held.rs` |
 //! | parts of tiles that are computed point after point | `begun.rs` |
 //! | filling tiles by several threads until all are complete, or the time is spent | `run.rs` |
 //! | which tiles come first | `order.rs` |
@@ -56,6 +57,7 @@ mod described;
 mod error;
 mod estimate;
 mod handle;
+mod held;
 mod layout;
 mod memory;
 mod order;
@@ -296,12 +298,12 @@ impl Store {
     /// # Errors
     /// [`StoreError`] if the place cannot be written.
     pub fn write_tile(&self, tile: u64, columns: &[Column]) -> Result<(), StoreError> {
-        let chunks = columns.iter().enumerate().map(|(field, column)| self.encoded(tile, field, column));
+        let chunks = self.chunks(tile, columns)?;
         if let Some(shards) = &self.layout.shards {
-            return self.put(&shards.loose_key(tile), &shards::bundle(&chunks.collect::<Result<Vec<_>, _>>()?));
+            return self.put(&shards.loose_key(tile), &shards::bundle(&chunks));
         }
-        for (field, chunk) in chunks.enumerate() {
-            self.put(&self.layout.key(tile, field), &chunk?)?;
+        for (field, chunk) in chunks.iter().enumerate() {
+            self.put(&self.layout.key(tile, field), chunk)?;
         }
         let (key, bytes) = self.status_object(tile)?;
         self.put(&key, &bytes)
@@ -312,6 +314,11 @@ impl Store {
         let (array, place) = (&self.layout.status, self.layout.status_place(tile));
         let bytes = array.encode(&place, self.layout.all_done(tile)).map_err(|why| self.defect(&array.name, why))?;
         Ok((array.key(&place), bytes))
+    }
+
+    /// The chunks of a tile in the arrays of all fields.
+    fn chunks(&self, tile: u64, columns: &[Column]) -> Result<Vec<Vec<u8>>, StoreError> {
+        columns.iter().enumerate().map(|(field, column)| self.encoded(tile, field, column)).collect()
     }
 
     /// The chunk of a tile in the array of a field.

@@ -157,9 +157,13 @@ impl Store {
             let before = thread_time();
             // a tile that can be continued is not finished if there is no time
             let late = || self.study.continues() && until.is_some_and(|until| Instant::now() >= until);
-            if self.fill(tile, &|| part.tick() || failed.load(Ordering::Relaxed) || late())? {
+            let tick = || part.tick() || failed.load(Ordering::Relaxed) || late();
+            if let Some(columns) = self.continued(tile, &tick)? {
+                let cost = thread_time().saturating_sub(before);
+                self.hold(&unfinished.held, tile, &columns, cost)?;
+                self.forget_begun(tile)?;
                 if let Some(costs) = &self.costs {
-                    costs.add(tile, thread_time().saturating_sub(before));
+                    costs.add(tile, cost);
                 }
                 computed.fetch_add(1, Ordering::Relaxed);
                 mended.fetch_add(u64::from(damaged(tile)), Ordering::Relaxed);
@@ -180,9 +184,11 @@ impl Store {
                 }
             }
         });
+        let written = self.write_held(&unfinished.held);
         if let Some(error) = failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
             return Err(error);
         }
+        written?;
         let [computed, mended, elsewhere] = [computed, mended, elsewhere].map(AtomicU64::into_inner);
         let rest = open.len() as u64 - computed - elsewhere;
         if rest > 0 && control.stopping() {

@@ -1,6 +1,7 @@
 //! Stores with shards: tiles that wait for their shard, its completion when all are there, and its verification.
 
 use crate::check::Damage;
+use crate::held::Held;
 use crate::run::State;
 use crate::shards::{self, Chunks, LOOSE, Shards, loose_prefix};
 use crate::shelf::Item;
@@ -12,6 +13,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// The shards of a run, and how many of its tiles are missing in each.
 pub(crate) struct Unfinished {
     missing: HashMap<u64, AtomicU64>,
+    /// The tiles that are complete and not written yet.
+    pub(crate) held: Held,
     /// The shards of which no tile of this run is missing.
     pub(crate) closed: Vec<u64>,
 }
@@ -119,13 +122,15 @@ impl Store {
     /// The shards of the tiles of a run, of which `open` are missing or damaged.
     pub(crate) fn unfinished_shards(&self, mine: &[u64], open: &[u64]) -> Unfinished {
         let mut missing: HashMap<u64, AtomicU64> = HashMap::new();
-        let Some(shards) = &self.layout.shards else { return Unfinished { missing, closed: Vec::new() } };
+        let Some(shards) = &self.layout.shards else {
+            return Unfinished { missing, held: Held::default(), closed: Vec::new() };
+        };
         for tile in open {
             *missing.entry(shards.of_tile(*tile)).or_default().get_mut() += 1;
         }
         let closed: BTreeSet<u64> =
             mine.iter().map(|tile| shards.of_tile(*tile)).filter(|shard| !missing.contains_key(shard)).collect();
-        Unfinished { missing, closed: closed.into_iter().collect() }
+        Unfinished { missing, held: Held::default(), closed: closed.into_iter().collect() }
     }
 
     /// Completes the shard of a tile if the tile was the last one that this run had to add to it.
@@ -133,7 +138,7 @@ impl Store {
         let Some(shards) = &self.layout.shards else { return Ok(()) };
         let shard = shards.of_tile(tile);
         let last = unfinished.missing.get(&shard).is_some_and(|left| left.fetch_sub(1, Ordering::AcqRel) == 1);
-        if last { self.complete_shard(shard).map(drop) } else { Ok(()) }
+        if last { self.complete_held(&unfinished.held, shard) } else { Ok(()) }
     }
 
     /// Writes a shard and its status if all its tiles are there, and removes their objects. Returns whether it is complete.

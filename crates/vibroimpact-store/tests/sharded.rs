@@ -220,34 +220,91 @@ fn tiles_that_move_while_they_are_read_are_found() {
     }
 }
 
+/// All tiles in one run, which holds those of a shard until it can write the shard; or each tile in a run of its own, after
+/// which it waits for its shard.
+fn all_tiles(store: &Store, alone: bool) -> Result<(), StoreError> {
+    if !alone {
+        return store.run(Part::ALL, &control(1)).map(drop);
+    }
+    for tile in 0..store.study().grid().tiles() {
+        store.run_tiles(&[tile], &control(1))?;
+    }
+    store.conclude_if_done().map(drop)
+}
+
 /// A run that dies at any of its changes is completed to the same bytes, and what it left is not damaged.
 #[test]
 fn killed_at_every_change() {
-    for plan in [
-        Plan { shard: Some(2), tile: Some(20), ..basin() },
-        Plan { shard: Some(2), ..rare() },
-        Plan { tile: Some(12), ..rare() },
-    ] {
-        let (_kept, want) = whole(&plan);
+    let sharded = [Plan { shard: Some(2), tile: Some(20), ..basin() }, Plan { shard: Some(2), ..rare() }];
+    let plain = Plan { tile: Some(12), ..rare() };
+    for (plan, alone, least) in
+        [(&sharded[0], false, 25), (&sharded[0], true, 35), (&sharded[1], true, 50), (&plain, false, 30)]
+    {
+        let (_kept, want) = whole(plan);
         let mut changes = 0;
         loop {
             let folder = tempfile::tempdir().unwrap();
             let dying = Arc::new(Dying(Folder::new(folder.path()), AtomicU64::new(changes)));
-            let died = Store::create(dying, &plan).and_then(|store| store.run(Part::ALL, &control(1)));
+            let died = Store::create(dying, plan).and_then(|store| all_tiles(&store, alone));
             if let Ok(store) = Store::open(Arc::new(Folder::new(folder.path()))) {
                 let found = store.verify(0, 0, &control(1)).unwrap();
                 let of_tile: Vec<_> = found.damage.iter().filter(|damage| damage.tile.is_some()).collect();
                 assert!(of_tile.is_empty(), "{changes}: {of_tile:?}");
             }
-            open(folder.path(), &plan).run(Part::ALL, &control(1)).unwrap();
+            open(folder.path(), plan).run(Part::ALL, &control(1)).unwrap();
             assert!(files(folder.path()) == want, "{changes}");
             match died {
-                Ok(_) => break,
+                Ok(()) => break,
                 Err(StoreError::Write { .. } | StoreError::Begin { .. }) => changes += 1,
                 Err(other) => panic!("{other}"),
             }
         }
-        assert!(changes > 30, "{changes}");
+        assert!(changes > least, "{changes}");
+    }
+}
+
+/// A folder that counts the tiles that were written to wait for their shard.
+struct Counting(Folder, AtomicU64);
+
+impl Shelf for Counting {
+    fn get(&self, key: &str) -> io::Result<Option<Vec<u8>>> {
+        self.0.get(key)
+    }
+    fn put(&self, key: &str, bytes: &[u8]) -> io::Result<()> {
+        self.1.fetch_add(u64::from(key.starts_with(".tiles/")), Ordering::Relaxed);
+        self.0.put(key, bytes)
+    }
+    fn remove(&self, key: &str) -> io::Result<()> {
+        self.0.remove(key)
+    }
+    fn list(&self, prefix: &str) -> io::Result<Vec<Item>> {
+        self.0.list(prefix)
+    }
+    fn sweep(&self) -> io::Result<()> {
+        self.0.sweep()
+    }
+    fn name(&self) -> String {
+        self.0.name()
+    }
+}
+
+/// Tiles that take little time are not written until their shard is, unless the run ends before.
+#[test]
+fn quick_tiles_are_written_with_their_shard() {
+    for plan in plans() {
+        let (_kept, want) = whole(&plan);
+        for threads in [1, 3] {
+            let folder = tempfile::tempdir().unwrap();
+            let counting = Arc::new(Counting(Folder::new(folder.path()), AtomicU64::new(0)));
+            let store = Store::create(Arc::<Counting>::clone(&counting), &plan).unwrap();
+            store.run_until(Part::ALL, Some(Instant::now()), &control(1)).unwrap();
+            assert_eq!((counting.1.load(Ordering::Relaxed), store.progress().unwrap().done), (1, 1));
+            store.run(Part::ALL, &control(threads)).unwrap();
+            // the others of the shard of that tile
+            let waited = counting.1.load(Ordering::Relaxed);
+            assert!(waited <= store.shard().unwrap().iter().product::<usize>() as u64, "{waited}");
+            assert!(files(folder.path()) == want);
+        }
     }
 }
 
