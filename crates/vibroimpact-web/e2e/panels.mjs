@@ -37,8 +37,11 @@ export async function panels_enlarge_zoom_and_return({ open, folder }) {
   assert.ok(Math.abs(part - 2) < 0.05, `twice as wide: ${part}`);
   await page.keyboard.press("Escape");
   // the waveform zooms along the time, about the cursor
+  const ticksIn = async (where) => (await page.$$eval(`${where} .plot .number`, (texts) => texts.map((text) => text.textContent))).join();
+  const small = await ticksIn("#point [data-name=motion]");
   await enlarge(page, "motion");
-  const ticks = async () => (await page.$$eval("#large .plot .number", (texts) => texts.map((text) => text.textContent))).join();
+  const ticks = () => ticksIn("#large");
+  await until("it is drawn in the new size", async () => ![small, ""].includes(await ticks()));
   const whole = await ticks();
   await page.locator("#large .zoom").nth(1).click();
   assert.notEqual(await ticks(), whole);
