@@ -84,10 +84,15 @@ fn parts_threads_and_budgets_give_the_same_bytes() {
     }
 }
 
-/// A folder that fails from a given change on, as for a process that is killed then.
-struct Dying(Folder, AtomicU64);
+/// A folder that fails from a given change on, as for a process that is killed then. It counts the tiles that are written to
+/// wait for their shard.
+struct Dying(Folder, AtomicU64, AtomicU64);
 
 impl Dying {
+    fn after(folder: &Path, changes: u64) -> Arc<Self> {
+        Arc::new(Self(Folder::new(folder), AtomicU64::new(changes), AtomicU64::new(0)))
+    }
+
     fn change(&self) -> io::Result<()> {
         let left = self.1.load(Ordering::Relaxed);
         self.1.store(left.saturating_sub(1), Ordering::Relaxed);
@@ -100,6 +105,7 @@ impl Shelf for Dying {
         self.0.get(key)
     }
     fn put(&self, key: &str, bytes: &[u8]) -> io::Result<()> {
+        self.2.fetch_add(u64::from(key.starts_with(".tiles/")), Ordering::Relaxed);
         self.change().and_then(|()| self.0.put(key, bytes))
     }
     fn remove(&self, key: &str) -> io::Result<()> {
@@ -244,7 +250,7 @@ fn killed_at_every_change() {
         let mut changes = 0;
         loop {
             let folder = tempfile::tempdir().unwrap();
-            let dying = Arc::new(Dying(Folder::new(folder.path()), AtomicU64::new(changes)));
+            let dying = Dying::after(folder.path(), changes);
             let died = Store::create(dying, plan).and_then(|store| all_tiles(&store, alone));
             if let Ok(store) = Store::open(Arc::new(Folder::new(folder.path()))) {
                 let found = store.verify(0, 0, &control(1)).unwrap();
@@ -263,31 +269,6 @@ fn killed_at_every_change() {
     }
 }
 
-/// A folder that counts the tiles that were written to wait for their shard.
-struct Counting(Folder, AtomicU64);
-
-impl Shelf for Counting {
-    fn get(&self, key: &str) -> io::Result<Option<Vec<u8>>> {
-        self.0.get(key)
-    }
-    fn put(&self, key: &str, bytes: &[u8]) -> io::Result<()> {
-        self.1.fetch_add(u64::from(key.starts_with(".tiles/")), Ordering::Relaxed);
-        self.0.put(key, bytes)
-    }
-    fn remove(&self, key: &str) -> io::Result<()> {
-        self.0.remove(key)
-    }
-    fn list(&self, prefix: &str) -> io::Result<Vec<Item>> {
-        self.0.list(prefix)
-    }
-    fn sweep(&self) -> io::Result<()> {
-        self.0.sweep()
-    }
-    fn name(&self) -> String {
-        self.0.name()
-    }
-}
-
 /// Tiles that take little time are not written until their shard is, unless the run ends before.
 #[test]
 fn quick_tiles_are_written_with_their_shard() {
@@ -295,13 +276,13 @@ fn quick_tiles_are_written_with_their_shard() {
         let (_kept, want) = whole(&plan);
         for threads in [1, 3] {
             let folder = tempfile::tempdir().unwrap();
-            let counting = Arc::new(Counting(Folder::new(folder.path()), AtomicU64::new(0)));
-            let store = Store::create(Arc::<Counting>::clone(&counting), &plan).unwrap();
+            let counting = Dying::after(folder.path(), u64::MAX);
+            let store = Store::create(Arc::<Dying>::clone(&counting), &plan).unwrap();
             store.run_until(Part::ALL, Some(Instant::now()), &control(1)).unwrap();
-            assert_eq!((counting.1.load(Ordering::Relaxed), store.progress().unwrap().done), (1, 1));
+            assert_eq!((counting.2.load(Ordering::Relaxed), store.progress().unwrap().done), (1, 1));
             store.run(Part::ALL, &control(threads)).unwrap();
             // the others of the shard of that tile
-            let waited = counting.1.load(Ordering::Relaxed);
+            let waited = counting.2.load(Ordering::Relaxed);
             assert!(waited <= store.shard().unwrap().iter().product::<usize>() as u64, "{waited}");
             assert!(files(folder.path()) == want);
         }
