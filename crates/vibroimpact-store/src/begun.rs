@@ -36,10 +36,9 @@ impl Store {
     }
 
     fn keep(&self, tile: u64, part: &BegunTile) -> Result<(), StoreError> {
-        let chunks = part.columns.iter().enumerate().map(|(field, column)| self.encoded(tile, field, column));
-        let all: Result<Vec<Vec<u8>>, StoreError> =
-            [Ok(write_state(part.done, &part.left))].into_iter().chain(chunks).collect();
-        self.put(&Self::begun_key(tile), &bundle(&all?))
+        let mut all = vec![write_state(part.done, &part.left)];
+        all.extend(self.chunks(tile, &part.columns)?);
+        self.put(&Self::begun_key(tile), &bundle(&all))
     }
 
     /// The columns of a tile, from the part that is there; `None` if stopped.

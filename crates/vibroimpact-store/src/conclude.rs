@@ -7,37 +7,21 @@ use std::collections::{BTreeMap, BTreeSet};
 use vibroimpact_study::Column;
 use vibroimpact_study::study::{EachCount, StudyTable, Tiles, meaning_of};
 
-impl Tiles for &Store {
-    type Error = StoreError;
+/// What is done with a column of a tile, by the number of its field, whose cycles have got their final numbers.
+type Renumbered<'a> = &'a mut dyn FnMut(u64, usize, &Column) -> Result<(), StoreError>;
 
-    fn read(&mut self, tile: u64, field: usize) -> Result<Column, StoreError> {
-        let key = || self.layout.key(tile, field);
-        Store::read(self, tile, field)?.ok_or_else(|| self.defect(&key(), "its check sum is wrong".into()))
-    }
-
-    fn counts(&mut self, _: u64, field: usize, each: EachCount<'_>) -> Result<(), StoreError> {
-        self.count(field, each)
-    }
-
-    fn write(&mut self, tile: u64, field: usize, column: &Column) -> Result<(), StoreError> {
-        let chunk = self.encoded(tile, field, column)?;
-        self.put(&self.layout.key(tile, field), &chunk)
-    }
-}
-
-/// Access to the tiles of a store with shards. The chunks of a shard are replaced all at once, so a shard has either its
-/// preliminary or its final form, whatever other processes do.
-struct InShards<'a> {
+/// The complete tiles of a store.
+struct Complete<'a> {
     store: &'a Store,
-    /// The new chunks of each shard and field.
-    new: BTreeMap<(u64, usize), BTreeMap<u64, Vec<u8>>>,
+    write: Renumbered<'a>,
 }
 
-impl Tiles for InShards<'_> {
+impl Tiles for Complete<'_> {
     type Error = StoreError;
 
     fn read(&mut self, tile: u64, field: usize) -> Result<Column, StoreError> {
-        Tiles::read(&mut &*self.store, tile, field)
+        let key = || self.store.layout.key(tile, field);
+        self.store.read(tile, field)?.ok_or_else(|| self.store.defect(&key(), "its check sum is wrong".into()))
     }
 
     fn counts(&mut self, _: u64, field: usize, each: EachCount<'_>) -> Result<(), StoreError> {
@@ -45,10 +29,7 @@ impl Tiles for InShards<'_> {
     }
 
     fn write(&mut self, tile: u64, field: usize, column: &Column) -> Result<(), StoreError> {
-        let Some(shards) = &self.store.layout.shards else { return Ok(()) };
-        let chunk = self.store.encoded(tile, field, column)?;
-        self.new.entry((shards.of_tile(tile), field)).or_default().insert(tile, chunk);
-        Ok(())
+        (self.write)(tile, field, column)
     }
 }
 
@@ -61,28 +42,30 @@ impl Store {
             return Ok(());
         }
         self.complete_shards()?;
-        let conclusion = if self.layout.shards.is_some() {
-            let mut tiles = InShards { store: self, new: BTreeMap::new() };
-            let conclusion = self.conclusion(&mut tiles)?;
-            for ((shard, field), new) in tiles.new {
-                self.replace_chunks(shard, field, new)?;
-            }
-            conclusion
-        } else {
-            let mut tiles = self;
-            self.conclusion(&mut tiles)?
-        };
+        // The chunks of a shard are replaced all at once, so that a shard has either its preliminary or its final form,
+        // whatever other processes do.
+        let mut of_shards: BTreeMap<(u64, usize), BTreeMap<u64, Vec<u8>>> = BTreeMap::new();
+        let conclusion = self.conclusion(&mut |tile, field, column| {
+            let chunk = self.encoded(tile, field, column)?;
+            let Some(shards) = &self.layout.shards else { return self.put(&self.layout.key(tile, field), &chunk) };
+            of_shards.entry((shards.of_tile(tile), field)).or_default().insert(tile, chunk);
+            Ok(())
+        })?;
+        for ((shard, field), new) in of_shards {
+            self.replace_chunks(shard, field, new)?;
+        }
         self.settle_all(&self.descriptions(Some(&conclusion))?)?;
         self.sweep_waiting()?;
         self.sweep_begun()?;
         self.shelf.sweep().map_err(|error| self.unread("", error))
     }
 
-    /// The final tables, computed from complete tiles. Tiles are written again as described at [`Study::conclude`].
+    /// The final tables, computed from complete tiles. `write` is called as described at [`Study::conclude`]; no column is
+    /// read after it.
     ///
     /// [`Study::conclude`]: vibroimpact_study::Study::conclude
-    pub(crate) fn conclusion(&self, tiles: &mut impl Tiles<Error = StoreError>) -> Result<Conclusion, StoreError> {
-        let tables = self.study.conclude(tiles)?;
+    pub(crate) fn conclusion(&self, write: Renumbered<'_>) -> Result<Conclusion, StoreError> {
+        let tables = self.study.conclude(&mut Complete { store: self, write })?;
         let mut labelled = Vec::new();
         for (number, field) in self.layout.fields.iter().enumerate().filter(|(_, field)| field.name == "label") {
             let array = array_of(field, (&self.layout.grid, self.layout.shards.as_ref()), &self.labels(number)?);

@@ -18,25 +18,25 @@ impl Store {
     pub fn count(&self, field: usize, each: EachCount<'_>) -> Result<(), StoreError> {
         let mut known: HashMap<Vec<u8>, Vec<(i32, u64)>> = HashMap::new();
         let mut of_tile = |tile: u64, chunk: Option<Vec<u8>>| -> Result<(), StoreError> {
-            let grid = &self.layout.grid;
             // a chunk at the edge of the grid has padding, which is not counted
-            let Some(chunk) = chunk.filter(|_| grid.tile(tile) == grid.full_tile(tile)) else {
-                if let Some(column) = self.kept(tile, field)? {
-                    each(tile, &column.counts());
-                }
-                return Ok(());
-            };
-            if let Some(counts) = known.get(&chunk) {
+            let full = self.layout.grid.tile(tile) == self.layout.grid.full_tile(tile);
+            if let Some(counts) = chunk.as_ref().filter(|_| full).and_then(|chunk| known.get(chunk)) {
                 each(tile, counts);
-            } else if let Some(column) = self.decoded(tile, field, chunk.clone()) {
+                return Ok(());
+            }
+            if let Some(chunk) = chunk
+                && let Some(column) = self.decoded(tile, field, chunk.clone())
+            {
                 let counts = column.counts();
                 each(tile, &counts);
                 if known.len() == KNOWN {
                     known.clear();
                 }
-                known.insert(chunk, counts);
+                if full {
+                    known.insert(chunk, counts);
+                }
             } else if let Some(column) = self.kept(tile, field)? {
-                // the tile was damaged in its shard, and waits with a new chunk
+                // it waits for its shard, where it is missing or damaged
                 each(tile, &column.counts());
             }
             Ok(())

@@ -55,7 +55,7 @@ impl Store {
 
     /// Writes tiles as tiles that wait for their shard.
     fn write_waiting(&self, shards: &Shards, tiles: &TileChunks) -> Result<(), StoreError> {
-        tiles.iter().try_for_each(|(tile, chunks)| self.put(&shards.loose_key(*tile), &shards::bundle(chunks)))
+        tiles.iter().try_for_each(|(tile, chunks)| self.put_waiting(shards, *tile, chunks))
     }
 
     /// Writes all tiles that are held.
@@ -80,9 +80,7 @@ impl Store {
             let chunks: Vec<Option<Vec<u8>>> = order.iter().map(chunk).collect();
             self.put(&self.layout.key(first, field), &shards::assemble(&chunks))?;
         }
-        let (key, bytes) = self.status_object(first)?;
-        self.put(&key, &bytes)?;
         let prefix = loose_prefix(shard);
-        self.remove(&self.shelf.list(&prefix).map_err(|error| self.unread(&prefix, error))?)
+        self.close_shard(first, &self.shelf.list(&prefix).map_err(|error| self.unread(&prefix, error))?)
     }
 }

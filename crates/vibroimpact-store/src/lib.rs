@@ -300,7 +300,7 @@ impl Store {
     pub fn write_tile(&self, tile: u64, columns: &[Column]) -> Result<(), StoreError> {
         let chunks = self.chunks(tile, columns)?;
         if let Some(shards) = &self.layout.shards {
-            return self.put(&shards.loose_key(tile), &shards::bundle(&chunks));
+            return self.put_waiting(shards, tile, &chunks);
         }
         for (field, chunk) in chunks.iter().enumerate() {
             self.put(&self.layout.key(tile, field), chunk)?;

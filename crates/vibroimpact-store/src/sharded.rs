@@ -11,6 +11,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The shards of a run, and how many of its tiles are missing in each.
+#[derive(Default)]
 pub(crate) struct Unfinished {
     missing: HashMap<u64, AtomicU64>,
     /// The tiles that are complete and not written yet.
@@ -122,15 +123,13 @@ impl Store {
     /// The shards of the tiles of a run, of which `open` are missing or damaged.
     pub(crate) fn unfinished_shards(&self, mine: &[u64], open: &[u64]) -> Unfinished {
         let mut missing: HashMap<u64, AtomicU64> = HashMap::new();
-        let Some(shards) = &self.layout.shards else {
-            return Unfinished { missing, held: Held::default(), closed: Vec::new() };
-        };
+        let Some(shards) = &self.layout.shards else { return Unfinished::default() };
         for tile in open {
             *missing.entry(shards.of_tile(*tile)).or_default().get_mut() += 1;
         }
         let closed: BTreeSet<u64> =
             mine.iter().map(|tile| shards.of_tile(*tile)).filter(|shard| !missing.contains_key(shard)).collect();
-        Unfinished { missing, held: Held::default(), closed: closed.into_iter().collect() }
+        Unfinished { missing, closed: closed.into_iter().collect(), ..Unfinished::default() }
     }
 
     /// Completes the shard of a tile if the tile was the last one that this run had to add to it.
@@ -186,10 +185,20 @@ impl Store {
                 self.put(&key, &bytes)?;
             }
         }
-        let (key, bytes) = self.status_object(first)?;
-        self.settle(&key, &bytes)?;
-        self.remove(&waiting)?;
+        self.close_shard(first, &waiting)?;
         Ok(true)
+    }
+
+    /// Writes the status of the shard of a tile, when its chunks are written, and removes the tiles that waited for it.
+    pub(crate) fn close_shard(&self, tile: u64, waiting: &[Item]) -> Result<(), StoreError> {
+        let (key, bytes) = self.status_object(tile)?;
+        self.settle(&key, &bytes)?;
+        self.remove(waiting)
+    }
+
+    /// Writes a tile as one object that waits for the others of its shard.
+    pub(crate) fn put_waiting(&self, shards: &Shards, tile: u64, chunks: &[Vec<u8>]) -> Result<(), StoreError> {
+        self.put(&shards.loose_key(tile), &shards::bundle(chunks))
     }
 
     /// Completes all shards.
