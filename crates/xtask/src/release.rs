@@ -8,7 +8,7 @@ use std::path::Path;
 use crate::command;
 
 /// Packs all published crates, and builds each from its archive.
-const PACK: &str = "cargo package --workspace --exclude xtask --exclude vibroimpact-fuzz --exclude vibroimpact-py";
+const PACK: &str = "cargo package --workspace --exclude xtask --exclude vibroimpact-cases --exclude vibroimpact-fuzz --exclude vibroimpact-py";
 
 /// Runs both checks.
 ///

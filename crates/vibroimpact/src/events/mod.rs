@@ -12,9 +12,9 @@
 //! | which stops rest and which joints hold | `resolve` |
 //! | one step of a motion, and its derivative by the state | `passage`, `saltation` |
 //! | the motion as an iterator over its events | [`MachineMotion`] |
-//! | what it does between two events | `stretch` |
+//! | what it does between two events | [`MachineStretches`], `stretch` |
 //! | the forces of stops and joints during a flight | `contact_force` |
-//! | states, gaps and forces at equal steps | [`MachineSamples`], `samples` |
+//! | states, gaps and forces at one time, at equal steps | [`MachineSample`], [`MachineSamples`] |
 
 mod alone;
 mod chatter;
@@ -28,8 +28,10 @@ mod place;
 mod resolve;
 mod rounds;
 mod saltation;
+mod sample;
 mod samples;
 mod stretch;
+mod stretches;
 mod strike;
 mod within;
 
@@ -39,4 +41,6 @@ pub use motion::MachineMotion;
 pub(crate) use passage::Passage;
 pub(crate) use place::{Place, Structures, standing_back};
 pub(crate) use saltation::{EventLaw, LinearEvent, StateShape, step_derivative};
-pub use samples::{MachineSample, MachineSamples};
+pub use sample::MachineSample;
+pub use samples::MachineSamples;
+pub use stretches::MachineStretches;

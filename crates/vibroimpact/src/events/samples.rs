@@ -1,37 +1,10 @@
 //! A motion between its events: states, gaps and contact forces at equal steps of time. The events do not depend on
 //! them.
 
-use super::contact_force::contact_forces;
 use super::event::{MachineLimits, MachineStart};
-use super::motion::MachineMotion;
-use super::stretch::Stretch;
-use crate::arc::Buffers;
+use super::sample::MachineSample;
+use super::stretches::MachineStretches;
 use crate::machine::{Machine, MachineError};
-use crate::regime::{ContactState, GuardKind};
-use std::collections::VecDeque;
-
-/// A machine at one time.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MachineSample {
-    /// Time since the start.
-    pub time: f64,
-    /// Whether it is one of the equal steps. Others are the two sides of each event, and the end.
-    pub even: bool,
-    /// Phase of the forcing, in $`[0, 2\pi)`$.
-    pub phase: f64,
-    /// Coordinates.
-    pub q: Vec<f64>,
-    /// Velocities.
-    pub qdot: Vec<f64>,
-    /// The gap $`d - w\cdot q - r(t)`$ of each stop: exactly 0 at rest on it, negative where a compliant stop is pushed in.
-    pub gaps: Vec<f64>,
-    /// The force of each stop, against its direction: the contact force of a compliant one, the reaction of one at rest.
-    /// 0 when it is open. Forces of impacts are infinite and are not told. After the stops, the friction force of each
-    /// joint: positive against positive relative velocity.
-    pub forces: Vec<f64>,
-    /// What each stop and, after them, each joint does.
-    pub states: Vec<ContactState>,
-}
 
 /// The states of a machine from its start until a time: at `0, step, 2 step, ...`, on both sides of each event, and at
 /// the end. At an event the equal step is the state after it. While a chatter that is summed lasts, the structure is at
@@ -53,17 +26,14 @@ pub struct MachineSample {
 /// ```
 #[derive(Clone, Debug)]
 pub struct MachineSamples<'a> {
-    machine: &'a Machine,
-    motion: MachineMotion<'a>,
+    stretches: MachineStretches<'a>,
     until: f64,
     step: f64,
     /// The number of the next equal step.
     count: f64,
-    trail: VecDeque<Stretch>,
-    /// Whether the first point of the first stretch has been told.
+    /// Whether the first point of the present stretch has been told.
     entered: bool,
     done: bool,
-    buffers: Buffers,
 }
 
 impl<'a> MachineSamples<'a> {
@@ -77,71 +47,15 @@ impl<'a> MachineSamples<'a> {
         limits: MachineLimits,
         (until, step): (f64, f64),
     ) -> Result<Self, MachineError> {
-        let motion = MachineMotion::new(machine, start, limits)?.trailed();
-        Ok(Self {
-            machine,
-            motion,
-            until,
-            step,
-            count: 0.0,
-            trail: VecDeque::new(),
-            entered: false,
-            done: !(until >= 0.0 && step > 0.0),
-            buffers: Buffers::default(),
-        })
-    }
-
-    /// Takes the first stretch that is not passed; `None` at the end of the motion.
-    fn stretch(&mut self) -> Option<Stretch> {
-        while self.trail.is_empty() {
-            let more = self.motion.next().is_some();
-            self.trail.extend(self.motion.trail());
-            if !more && self.trail.is_empty() {
-                return None;
-            }
-        }
-        self.trail.pop_front()
+        let mut stretches = MachineStretches::new(machine, start, limits)?;
+        let done = !(until >= 0.0 && step > 0.0) || !stretches.advance();
+        Ok(Self { stretches, until, step, count: 0.0, entered: false, done })
     }
 
     /// The time of the next equal step; the end exactly, where it is one within rounding.
     fn due(&self) -> f64 {
         let time = self.count * self.step;
         if (time - self.until).abs() < 4.0 * f64::EPSILON * self.until { self.until } else { time }
-    }
-
-    /// The state a time `s` after the beginning of a stretch.
-    fn sample(&mut self, stretch: &Stretch, s: f64, (time, even): (f64, bool)) -> MachineSample {
-        let (machine, normal) = (self.machine, self.motion.normal());
-        let Stretch { flight, place, .. } = stretch;
-        let mut here = place.clone();
-        flight.at(s, &mut self.buffers.modes);
-        if s > 0.0 {
-            here.move_along(flight, (&self.buffers.modes, s), machine.parts().frequency);
-        }
-        let turns = here.turns(normal);
-        let stops = machine.stops().len();
-        let mut gaps: Vec<f64> = (0..stops).map(|j| here.gap(normal, &turns, j).0).collect();
-        // guards are counted from where they are zero exactly
-        for (g, guard) in flight.structure.guards.iter().enumerate() {
-            match guard.kind {
-                GuardKind::Gap(j) if place.surfaces[j].is_none() => gaps[j] = flight.guard(g, &self.buffers.modes).0,
-                GuardKind::Depth(j) => gaps[j] = 0.0 - flight.guard(g, &self.buffers.modes).0,
-                GuardKind::Reaction(j) => gaps[j] = 0.0,
-                _ => {}
-            }
-        }
-        let mut forces = Vec::new();
-        contact_forces(machine, &place.states, (flight, &self.buffers.modes), &mut forces);
-        MachineSample {
-            time,
-            even,
-            phase: here.phase,
-            q: normal.to_machine(&here.x),
-            qdot: normal.to_machine(&here.v),
-            gaps,
-            forces,
-            states: here.states,
-        }
     }
 }
 
@@ -152,15 +66,10 @@ impl Iterator for MachineSamples<'_> {
         if self.done {
             return None;
         }
-        let Some(stretch) = self.stretch() else {
-            self.done = true;
-            return None;
-        };
-        let begin = stretch.begin.value();
-        let mut end = stretch.begin;
-        end += stretch.duration;
-        let last = end.value() >= self.until;
-        let end = end.value().min(self.until);
+        let begin = self.stretches.begin();
+        let end = self.stretches.end();
+        let last = end >= self.until;
+        let end = end.min(self.until);
         let due = self.due();
         // an equal step at an event belongs to what follows it
         let even = due < end || last && due <= end;
@@ -169,20 +78,16 @@ impl Iterator for MachineSamples<'_> {
             let first = due <= begin && even;
             self.count += f64::from(u8::from(first));
             self.done = last && end <= begin;
-            let sample = self.sample(&stretch, 0.0, (begin, first));
-            self.trail.push_front(stretch);
-            return Some(sample);
+            return self.stretches.at(0.0).map(|sample| MachineSample { even: first, ..sample });
         }
         self.count += f64::from(u8::from(even));
         self.entered = even;
         let time = if even { due } else { end };
         self.done = last && time >= end;
-        let mut gone = stretch.begin;
-        gone += -time;
-        let s = if !even && !last { stretch.duration } else { (-gone.value()).clamp(0.0, stretch.duration) };
-        let sample = self.sample(&stretch, s, (time, even));
-        if even {
-            self.trail.push_front(stretch);
+        let s = if !even && !last { self.stretches.duration() } else { self.stretches.since_begin(time) };
+        let sample = MachineSample { time, even, ..self.stretches.at(s)? };
+        if !even && !self.done {
+            self.done = !self.stretches.advance();
         }
         Some(sample)
     }
@@ -192,6 +97,7 @@ impl Iterator for MachineSamples<'_> {
 mod tests {
     use super::*;
     use crate::machine::{MachineParts, Opening, StopLaw};
+    use crate::regime::ContactState;
 
     fn wave(machine: &Machine, start: &MachineStart, span: (f64, f64)) -> Vec<MachineSample> {
         MachineSamples::new(machine, start, MachineLimits::default(), span).unwrap().collect()

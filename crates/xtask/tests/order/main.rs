@@ -32,8 +32,9 @@ const ORDER: [&str; 17] = [
 ];
 
 /// The crates.
-const CRATES: [&str; 10] = [
+const CRATES: [&str; 11] = [
     "crates/vibroimpact/src/lib.rs",
+    "crates/vibroimpact-cases/src/lib.rs",
     "crates/vibroimpact-study/src/lib.rs",
     "crates/vibroimpact-store/src/lib.rs",
     "crates/vibroimpact-plot/src/lib.rs",

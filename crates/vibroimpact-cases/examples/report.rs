@@ -1,0 +1,53 @@
+//! How many machines of each family break which rule: `cargo run -p vibroimpact-cases --example report [COUNT] [FAMILY]`.
+//!
+//! With a family, all its faults are listed. With `show FAMILY SEED` the numbers and the start of a machine are printed.
+#![allow(clippy::print_stdout, reason = "it is a report")]
+
+use std::collections::BTreeMap;
+use std::panic::catch_unwind;
+use vibroimpact_cases::{Budget, FAMILIES, Family, Rule, faults};
+
+fn main() {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    if let ["show", family, seed] = words.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        let (Some(family), Ok(seed)) = (Family::named(family), seed.parse()) else { return println!("no such case") };
+        let case = family.case(seed);
+        println!("{:#?}\n{:?}", case.machine.parts(), case.start);
+        for fault in faults(&case, Budget::default()) {
+            println!("{fault}");
+        }
+        return;
+    }
+    let count: u64 = words.first().and_then(|word| word.parse().ok()).unwrap_or(50);
+    let only = words.get(1);
+    println!("{:12} {:>5} {:>5}  rules broken: machines (first seeds)", "family", "all", "bad");
+    for family in FAMILIES.iter().filter(|family| only.is_none_or(|name| name == family.name)) {
+        let begin = std::time::Instant::now();
+        let mut broken: BTreeMap<String, Vec<u64>> = BTreeMap::new();
+        let mut bad = 0;
+        for seed in 0..count {
+            let found = catch_unwind(|| faults(&family.case(seed), Budget::default()));
+            let names: Vec<String> = match &found {
+                Ok(faults) => faults.iter().map(|fault| format!("{:?}", fault.rule)).collect(),
+                Err(_) => vec!["panic".to_owned()],
+            };
+            bad += u32::from(!names.is_empty());
+            if only.is_some() {
+                for fault in found.iter().flatten() {
+                    println!("  {seed}: {fault}");
+                }
+            }
+            for name in names {
+                broken.entry(name).or_default().push(seed);
+            }
+        }
+        let order = |name: &str| Rule::ALL.iter().position(|rule| format!("{rule:?}") == name);
+        let mut rows: Vec<_> = broken.iter().collect();
+        rows.sort_by_key(|(name, _)| order(name));
+        let text: Vec<String> = rows
+            .iter()
+            .map(|(name, seeds)| format!("{name}: {} {:?}", seeds.len(), &seeds[..seeds.len().min(4)]))
+            .collect();
+        println!("{:12} {count:5} {bad:5}  {}  [{:.1} s]", family.name, text.join("; "), begin.elapsed().as_secs_f64());
+    }
+}

@@ -1,0 +1,110 @@
+//! A case: a machine, a start, and what is known of its motion without computing it.
+
+use vibroimpact::events::MachineStart;
+use vibroimpact::machine::{Machine, MachineParts, StopLaw};
+
+/// A map of a machine onto itself: coordinate `i` of the image is `signs[i] * q[from[i]]`, and what stop or joint `k` does
+/// in a motion, `places[k]` does in its image. Joints are counted after the stops.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Symmetry {
+    /// The coordinate that each coordinate of the image is.
+    pub from: Vec<usize>,
+    /// Its sign.
+    pub signs: Vec<f64>,
+    /// The stop or joint that each of them becomes.
+    pub places: Vec<usize>,
+}
+
+impl Symmetry {
+    /// The image of a vector of coordinates, velocities, forces, or a direction.
+    #[must_use]
+    pub fn image(&self, vector: &[f64]) -> Vec<f64> {
+        self.from.iter().zip(&self.signs).map(|(from, sign)| sign * vector[*from]).collect()
+    }
+}
+
+/// What a family draws.
+#[derive(Clone, Debug)]
+pub struct Drawn {
+    /// The numbers of the machine.
+    pub parts: MachineParts,
+    /// The start.
+    pub start: MachineStart,
+    /// Maps of machine and start onto themselves: the motion is its own image.
+    pub symmetries: Vec<Symmetry>,
+    /// Pairs of coordinates that stay equal.
+    pub equal: Vec<(usize, usize)>,
+    /// A machine of the same coordinates that moves in the same way.
+    pub same_as: Option<MachineParts>,
+}
+
+impl Drawn {
+    /// A machine and a start of which nothing more is known.
+    #[must_use]
+    pub const fn new(parts: MachineParts, start: MachineStart) -> Self {
+        Self { parts, start, symmetries: Vec::new(), equal: Vec::new(), same_as: None }
+    }
+
+    /// The same, with a map onto itself.
+    #[must_use]
+    pub fn symmetric(mut self, symmetry: Symmetry) -> Self {
+        self.symmetries.push(symmetry);
+        self
+    }
+
+    /// The same; all coordinates stay equal.
+    #[must_use]
+    pub fn together(mut self) -> Self {
+        self.equal = (1..self.parts.n()).map(|i| (0, i)).collect();
+        self
+    }
+}
+
+/// A machine, a start, and what is known of its motion.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// The name of its family.
+    pub family: &'static str,
+    /// Its seed in the family.
+    pub seed: u64,
+    /// The machine.
+    pub machine: Machine,
+    /// The start.
+    pub start: MachineStart,
+    /// Maps of machine and start onto themselves.
+    pub symmetries: Vec<Symmetry>,
+    /// Pairs of coordinates that stay equal.
+    pub equal: Vec<(usize, usize)>,
+    /// A machine that moves in the same way.
+    pub same_as: Option<Machine>,
+}
+
+impl Case {
+    /// Whether any stop is rigid.
+    #[must_use]
+    pub fn has_rigid_stop(&self) -> bool {
+        self.machine.stops().iter().any(|stop| matches!(stop.law, StopLaw::Rigid { .. }))
+    }
+
+    /// Whether nothing drives it: no harmonic force, no stop and no belt that moves. Its energy never grows.
+    #[must_use]
+    pub fn is_unforced(&self) -> bool {
+        let parts = self.machine.parts();
+        parts.forces.iter().all(|force| force.cos.iter().chain(&force.sin).all(|value| *value == 0.0))
+            && parts.stops.iter().all(|stop| stop.motion.is_empty())
+            && parts.joints.iter().all(|joint| joint.belt == 0.0)
+    }
+
+    /// Whether it is unforced and nothing takes energy from it: no damper, no friction, restitution 1.
+    #[must_use]
+    pub fn is_conservative(&self) -> bool {
+        let parts = self.machine.parts();
+        self.is_unforced()
+            && parts.joints.iter().all(|joint| joint.limit == 0.0)
+            && parts.damping.largest() == 0.0
+            && parts.stops.iter().all(|stop| match stop.law {
+                StopLaw::Rigid { restitution } => restitution == 1.0,
+                StopLaw::Compliant { damping, .. } => damping == 0.0,
+            })
+    }
+}

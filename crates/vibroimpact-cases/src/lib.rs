@@ -1,0 +1,34 @@
+//! Degenerate machines, drawn by family and seed: what random numbers do not draw and engineers build every day.
+//!
+//! Equal bodies, symmetric structures, bodies that touch, gaps of zero, stops that depend on each other, stops without a
+//! load, friction beside stops. A [`Case`] is a machine, a start and what is known of its motion; it depends on the
+//! family and the seed alone, so it is named by both.
+//!
+//! | idea | file |
+//! |---|---|
+//! | numbers drawn from a seed | [`Draw`] |
+//! | a machine, a start, and facts about the motion | [`Case`], [`Drawn`], [`Symmetry`] |
+//! | the families, one a file | [`FAMILIES`], `families` |
+//! | the same machine written in another way | [`changed`], [`Change`] |
+//! | gaps, forces and energies from the numbers of a machine alone | `quantities` |
+//! | what must hold of every motion | [`faults`], [`Rule`] |
+//!
+//! ```
+//! use vibroimpact_cases::{FAMILIES, Family};
+//! let case = Family::named("twins").unwrap().case(3);
+//! assert_eq!(case.machine, Family::named("twins").unwrap().case(3).machine);
+//! assert!(FAMILIES.len() > 15);
+//! ```
+
+mod case;
+mod changes;
+mod draw;
+mod families;
+mod quantities;
+mod rules;
+
+pub use case::{Case, Drawn, Symmetry};
+pub use changes::{Change, Changed, changed};
+pub use draw::Draw;
+pub use families::{FAMILIES, Family};
+pub use rules::{Budget, Fault, Rule, faults};
