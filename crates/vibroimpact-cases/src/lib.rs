@@ -10,6 +10,7 @@
 //! | a machine, a start, and facts about the motion | [`Case`], [`Drawn`], [`Symmetry`] |
 //! | the families, one a file | [`FAMILIES`], `families` |
 //! | the same machine written in another way | [`changed`], [`Change`] |
+//! | events that do not depend on how a machine is written | [`Standard`] |
 //! | gaps, forces and energies from the numbers of a machine alone | `quantities` |
 //! | what must hold of every motion | [`faults`], [`Rule`] |
 //!
@@ -24,6 +25,7 @@ mod case;
 mod changes;
 mod draw;
 mod families;
+mod invariance;
 mod quantities;
 mod rules;
 
@@ -31,4 +33,5 @@ pub use case::{Case, Drawn, Symmetry};
 pub use changes::{Change, Changed, changed};
 pub use draw::Draw;
 pub use families::{FAMILIES, Family};
+pub use invariance::Standard;
 pub use rules::{Budget, Fault, Rule, faults};
