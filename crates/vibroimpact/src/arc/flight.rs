@@ -3,7 +3,7 @@
 use super::dense::{Dense, Steps};
 use super::drive::Drive;
 use crate::math::{dot, fit};
-use crate::regime::{ClosedStop, GuardKind, Mode, Observable, RestBuffers, Signal, Structure, Turned};
+use crate::regime::{ClosedStop, GuardKind, Mode, Normal, Observable, RestBuffers, Signal, Structure, Turned};
 use std::sync::Arc;
 
 /// How the surface of a damped stop comes back after it has opened by force: $`s = a\,e^{-\kappa t} - b`$.
@@ -92,6 +92,10 @@ pub(crate) struct Modes {
     steps: Steps,
 }
 
+/// The number of Taylor coefficients that decide what a contact without velocity does.
+pub(crate) const ORDERS: usize = 5;
+/// What is below this part of the terms that it is a sum of is zero within rounding errors.
+const SILENT: f64 = 1e-12;
 const HALF_ULP: f64 = 0.5 * f64::EPSILON;
 /// The largest number of terms of the Taylor series of a mode, and up to which turn it suffices.
 const LONG_TERMS: usize = 34;
@@ -439,25 +443,124 @@ impl MachineFlight {
         (value, rate)
     }
 
+    /// The Taylor coefficients of a linear function of the state at the beginning, each with the size of its terms.
+    pub(crate) fn taylor(&self, of: &Observable) -> [(f64, f64); ORDERS] {
+        let mut result = [(0.0, 0.0); ORDERS];
+        let mut dense = Vec::new();
+        if let Some(equations) = self.dense() {
+            equations.coefficients(&vec![0.0; self.v.len()], &self.v, 0.0, ORDERS + 1, &mut dense);
+        }
+        let real = |k: usize| f64::from(u32::try_from(k).unwrap_or(0));
+        for i in 0..self.v.len() {
+            let (alpha, beta) = (of.position[i], of.velocity[i]);
+            let mut c = [0.0; ORDERS + 1];
+            if dense.is_empty() {
+                self.coefficients(i, 0.0, self.v[i], 0.0, self.drive.of(i), &mut c);
+            } else {
+                c.copy_from_slice(&dense[i * (ORDERS + 1)..(i + 1) * (ORDERS + 1)]);
+            }
+            c[0] = self.origin[i];
+            // bounds of the derivatives: forces that cancel in equilibrium have rounding errors of their sizes
+            let (rate, push) =
+                (self.rate_of(i), self.push_size(i) + (self.structure.modes[i].k * self.origin[i]).abs());
+            let mut size = [0.0; ORDERS + 1];
+            (size[0], size[1]) = (c[0].abs(), self.v[i].abs());
+            let mut derivative = rate * size[1] + push;
+            let mut factorial = 1.0;
+            for (k, size) in size.iter_mut().enumerate().skip(2) {
+                factorial *= real(k);
+                *size = derivative / factorial;
+                derivative *= rate;
+            }
+            for (k, (value, sum)) in result.iter_mut().enumerate() {
+                let next = beta * real(k + 1);
+                *value += alpha * c[k] + next * c[k + 1];
+                *sum += alpha.abs() * size[k] + next.abs() * size[k + 1];
+            }
+        }
+        let signal = &of.signal;
+        result[0].0 += signal.steady(&self.set);
+        result[0].1 += signal.steady(&self.set).abs();
+        result[1].0 += signal.ramp;
+        result[1].1 += signal.ramp.abs();
+        for ((a, b), w) in signal.turned(&self.turns).zip(&self.structure.rates) {
+            let (mut now, mut next, mut size) = (a, w * b, a.abs() + b.abs());
+            for (k, sum) in result.iter_mut().enumerate() {
+                sum.0 += now;
+                sum.1 += size;
+                (now, next) = (next, -w * w * now / (real(k + 1) * real(k + 2)));
+                size *= w / real(k + 1);
+            }
+        }
+        result
+    }
+
+    /// The fastest rate of a mode and of what drives it.
+    fn rate_of(&self, i: usize) -> f64 {
+        let own = if self.structure.dense.is_some() { self.structure.fastest() } else { self.structure.modes[i].rate };
+        self.structure.rates.last().map_or(own, |last| own.max(*last))
+    }
+
+    /// The size of the forces that move a mode.
+    fn push_size(&self, i: usize) -> f64 {
+        self.drive.of(i).iter().map(|(a, b)| a.abs() + b.abs()).sum::<f64>() + self.drive.steady[i].abs()
+    }
+
+    /// The slowest time of the structure: the longest time in which a mode or a harmonic turns by a radian.
+    fn slowest(&self) -> f64 {
+        let modes = self.structure.modes.iter().map(|mode| mode.omega);
+        let rates = modes.chain(self.structure.rates.iter().copied()).filter(|rate| *rate > 0.0);
+        1.0 / rates.fold(f64::INFINITY, f64::min).min(1e150)
+    }
+
+    /// How far a mode moves in the slowest time, nearly.
+    fn swing_size(&self, i: usize, time: f64) -> f64 {
+        (self.v[i].abs() + self.push_size(i) * time + self.drive.ramp[i].abs() * time * time) * time
+    }
+
+    /// By how much a linear function of the state changes, nearly.
+    fn change_size(&self, of: &Observable) -> f64 {
+        let time = self.slowest();
+        let signal = of.signal.harmonics.iter().map(|(a, b)| a.abs() + b.abs()).sum::<f64>();
+        let modes = (0..self.v.len()).map(|i| {
+            let swing = self.swing_size(i, time);
+            of.position[i].abs() * swing + of.velocity[i].abs() * swing / time
+        });
+        signal + of.signal.ramp.abs() * time + modes.sum::<f64>()
+    }
+
+    /// Whether the reaction of a constraint is zero for the whole flight, within rounding errors of the forces on the machine.
+    pub(crate) fn presses_never(&self, normal: &Normal, held: usize) -> bool {
+        let reaction = &self.structure.reactions[held];
+        let (x, v) = (dot(&self.x, &self.x).sqrt(), dot(&self.rate, &self.rate).sqrt());
+        let time = self.slowest();
+        let moved: f64 = (0..self.v.len()).map(|i| self.swing_size(i, time)).sum();
+        let of = |signal: &Signal| {
+            signal.constant.abs() + signal.harmonics.iter().map(|(a, b)| a.abs() + b.abs()).sum::<f64>()
+        };
+        let forces = normal.force.iter().map(of).sum::<f64>()
+            + normal.stiffness.largest() * (x + moved)
+            + normal.damping.largest() * (v + moved / time);
+        let column = &self.structure.across[held];
+        let size = SILENT * forces * dot(column, column).sqrt();
+        self.first(reaction).0.abs() <= size && self.change_size(reaction) <= size
+    }
+
+    /// Whether a gap keeps its value for the whole flight, within rounding errors of the motion.
+    pub(crate) fn opens_never(&self, normal: &Normal, stop: usize) -> bool {
+        let (gap, _) = self.structure.gap(normal, stop);
+        let (w, time) = (&normal.directions[stop], self.slowest());
+        let moved: f64 = (0..self.v.len()).map(|i| self.swing_size(i, time)).sum();
+        let walls = normal.walls.iter().flat_map(|wall| &wall.harmonics).map(|(a, b)| a.abs() + b.abs()).sum::<f64>();
+        self.change_size(&gap) <= SILENT * (dot(w, w).sqrt() * moved + walls)
+    }
+
     /// The size of the terms of a linear function of the state at the beginning.
     pub(crate) fn size(&self, of: &Observable) -> f64 {
         let signal = of.signal.harmonics.iter().map(|(a, b)| a.abs() + b.abs()).sum::<f64>();
         let modes =
             (0..self.v.len()).map(|i| (of.position[i] * self.origin[i]).abs() + (of.velocity[i] * self.v[i]).abs());
         of.signal.steady(&self.set).abs() + signal + modes.sum::<f64>()
-    }
-
-    /// The size of the terms of its rate.
-    pub(crate) fn size_of_rate(&self, of: &Observable) -> f64 {
-        let harmonics = of.signal.harmonics.iter().zip(&self.structure.rates);
-        let signal = harmonics.map(|((a, b), w)| (a.abs() + b.abs()) * w).sum::<f64>();
-        let modes = (0..self.v.len()).map(|i| {
-            let mode = &self.structure.modes[i];
-            let push = self.drive.of(i).iter().map(|(a, _)| a.abs()).sum::<f64>() + self.drive.steady[i].abs();
-            let a = push + (2.0 * mode.d * self.v[i]).abs() + (mode.k * self.origin[i]).abs();
-            (of.position[i] * self.v[i]).abs() + of.velocity[i].abs() * a
-        });
-        of.signal.ramp.abs() + signal + modes.sum::<f64>()
     }
 
     /// Mass-normalised coordinates and velocities at a time, from the modes there.

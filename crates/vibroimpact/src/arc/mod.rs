@@ -29,6 +29,6 @@ mod track;
 mod transition;
 mod zero;
 
-pub(crate) use flight::{Begin, ClosedGap, MachineFlight, Modes, Recovery};
+pub(crate) use flight::{Begin, ClosedGap, MachineFlight, Modes, ORDERS, Recovery};
 pub(crate) use found::{Buffers, Found, Touch};
 pub(crate) use search::first_event;

@@ -55,10 +55,44 @@ fn by_windows(
     touched.clear();
     touched.extend(flight.guards.iter().map(|guard| guard.known > 0));
     buffers.fresh = false;
-    let found = search(flight, until, steps, buffers, touches, &mut known, &mut touched);
+    let mut found = search(flight, until, steps, buffers, touches, &mut known, &mut touched);
     (buffers.known, buffers.touched) = (known, touched);
-    buffers.fresh = matches!(found, Found::Zero { s, .. } if s == buffers.modes.s);
+    if let Found::Zero { s, guards } = &mut found {
+        buffers.fresh = *s == buffers.modes.s;
+        if flight.guards.len() > guards.len() {
+            together(flight, *s, guards, buffers);
+        }
+    }
     found
+}
+
+/// How many rounding errors of their values and of the time may lie between zeros of guards at one time.
+const TOGETHER: f64 = 32.0;
+
+/// Adds the guards that are zero at the same time within rounding errors.
+fn together(flight: &MachineFlight, s: f64, guards: &mut Guards, buffers: &mut Buffers) {
+    if !core::mem::replace(&mut buffers.fresh, true) {
+        flight.at(s, &mut buffers.modes);
+    }
+    // by how much time the zero of a guard is uncertain
+    let uncertain = |g: usize| {
+        let (value, rate, error) = flight.guard(g, &buffers.modes);
+        let rounding = error + f64::EPSILON * if flight.guards[g].known > 0 { 0.0 } else { flight.guards[g].size };
+        (value, rate, rounding / rate.abs())
+    };
+    // that of a guard that grazes is no measure for others
+    let most = 1e3 * f64::EPSILON * (s + 1.0 / flight.structure.fastest().max(1e-300));
+    let of_first = guards.iter().map(|g| uncertain(*g).2).fold(f64::EPSILON * s, f64::max).min(most);
+    let also = |g: &usize| {
+        let (value, rate, own) = uncertain(*g);
+        rate < 0.0 && value <= TOGETHER * (own.min(most) + of_first) * -rate
+    };
+    let others: Vec<usize> = (0..flight.guards.len()).filter(|g| !guards.contains(g)).filter(also).collect();
+    if !others.is_empty() {
+        let mut all = [&guards[..], &others].concat();
+        all.sort_unstable();
+        *guards = Guards::Several(all);
+    }
 }
 
 fn search(

@@ -21,6 +21,7 @@ pub(crate) fn contact_forces(
         ContactState::Backward => -joint.sliding,
         _ => 0.0,
     }));
+    let shared = |place: usize| flight.structure.reaction(place).map_or(0.0, |(_, shared)| shared);
     for (g, guard) in flight.structure.guards.iter().enumerate() {
         let value = || flight.guard(g, modes);
         match guard.kind {
@@ -30,8 +31,14 @@ pub(crate) fn contact_forces(
                     forces[j] = k * depth + c * rate + p;
                 }
             }
-            GuardKind::Force(j) | GuardKind::Reaction(j) => forces[j] = value().0,
-            GuardKind::LimitForward(j) => forces[stops + j] = machine.joints()[j].limit - value().0,
+            GuardKind::Force(j) => forces[j] = value().0,
+            // joints that hold along with a constraint bear what a stop does not, and of a joint their share
+            GuardKind::Reaction(j) => forces[j] = (value().0 - shared(j)).max(0.0),
+            GuardKind::LimitForward(j) => {
+                let limit = machine.joints()[j].limit;
+                let whole = limit + shared(stops + j);
+                forces[stops + j] = (whole - value().0) * if whole > limit { limit / whole } else { 1.0 };
+            }
             _ => {}
         }
     }

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | an event, a start, the end of a motion | [`MachineEvent`], [`MachineStart`], [`MachineEnd`] |
 //! | a start put onto the stops that it lies beyond | [`MachineStart::within_stops`], `within` |
-//! | the law of impact, impacts | `impulses`, `strike` |
+//! | the laws of impact at one stop and at several, impacts | `impulses`, `collision`, `strike` |
 //! | the end of a chatter | `chatter` |
 //! | rounds of impacts on several stops in turn, their end | `rounds`, `collapse` |
 //! | events that change one stop alone | `alone` |
@@ -19,6 +19,7 @@
 mod alone;
 mod chatter;
 mod collapse;
+mod collision;
 mod contact_force;
 mod event;
 mod impulses;

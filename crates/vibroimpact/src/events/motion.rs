@@ -3,7 +3,7 @@
 use super::event::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
 use super::passage::Passage;
 use super::place::{Place, Scratch, Structures, standing_back};
-use super::resolve::resolve;
+use super::resolve::{Resolution, Resolved};
 use super::rounds::{SLOW, SlowImpacts};
 use super::stretch::{Stretch, follow};
 use crate::arc::{Buffers, Found, MachineFlight, Touch, first_event};
@@ -175,25 +175,19 @@ impl<'a> MachineMotion<'a> {
             .iter()
             .map(|state| if *state == ContactState::Holding { ContactState::Open } else { *state })
             .collect();
-        self.change(&before, &closing, candidates, &[]);
+        self.change(&before, &closing, candidates);
         Ok(())
     }
 
-    /// Changes the contacts at this time: impacts on the stops `closing`, then the states of the candidates. `fixed` are
-    /// contacts whose new state is known. The motion ends if no state of the contacts is consistent.
-    fn change(&mut self, before: &[ContactState], closing: &[usize], candidates: Vec<usize>, fixed: &[usize]) {
-        if self.changed(before, closing, candidates, fixed).is_none() {
+    /// Changes the contacts at this time, all at once: impacts on the stops `closing`, then the states of the candidates,
+    /// which are closed without velocity. The motion ends if no state of the contacts is consistent.
+    fn change(&mut self, before: &[ContactState], closing: &[usize], candidates: Vec<usize>) {
+        if self.changed(before, closing, candidates).is_none() {
             self.end = Some(MachineEnd::Inconsistent);
         }
     }
 
-    fn changed(
-        &mut self,
-        before: &[ContactState],
-        closing: &[usize],
-        mut candidates: Vec<usize>,
-        fixed: &[usize],
-    ) -> Option<()> {
+    fn changed(&mut self, before: &[ContactState], closing: &[usize], mut candidates: Vec<usize>) -> Option<()> {
         let turns = self.place.turns(&self.normal);
         let speed = |place: &Place, stop: usize| (-place.gap(&self.normal, &turns, stop).1).max(0.0);
         let speeds: Vec<f64> = (0..self.machine.stops().len()).map(|j| speed(&self.place, j)).collect();
@@ -202,28 +196,28 @@ impl<'a> MachineMotion<'a> {
         let mut events: Vec<(MachineEventKind, usize, f64, Vec<usize>)> = Vec::new();
         if !rigid.is_empty() {
             self.largest_impact = rigid.iter().fold(self.largest_impact, |most, j| most.max(speeds[*j]));
-            let pushed = self.strike(&rigid, &speeds, &mut candidates, fixed)?;
-            events.extend(rigid.iter().map(|j| {
-                let with = pushed.iter().copied().filter(|other| other != j).collect();
-                (MachineEventKind::Impact, *j, speeds[*j], with)
-            }));
+            let pushed = self.strike(&rigid, &speeds, &mut candidates)?;
+            for j in self.distinct(&rigid, &pushed) {
+                let others = rigid.iter().chain(pushed.iter().filter(|other| !rigid.contains(other)));
+                let with = others.copied().filter(|other| *other != j).collect();
+                events.push((MachineEventKind::Impact, j, speeds[j], with));
+            }
         }
-        for j in compliant {
-            self.place.close(j);
-        }
+        self.meet(&compliant, before, !rigid.is_empty(), &turns, &mut candidates);
         // a force that jumps can end any rest
         for (at, state) in self.place.states.iter().enumerate() {
-            if state.constrains() && !candidates.contains(&at) && !fixed.contains(&at) {
+            if state.constrains() && !candidates.contains(&at) {
                 candidates.push(at);
             }
         }
         candidates.sort_unstable();
         if !candidates.is_empty() {
-            self.place.states = resolve(self.machine, &self.normal, &mut self.structures, &self.place, &candidates)?;
-            for at in candidates {
-                if let Some((kind, count)) = self.begun(at) {
-                    self.place.note(kind, count);
-                }
+            let (machine, normal, place) = (self.machine, &self.normal, &self.place);
+            let all = Resolution { machine, normal, structures: &mut self.structures, place, candidates: &candidates };
+            let Resolved { states, known } = all.resolve()?;
+            self.place.states = states;
+            for (kind, count) in known {
+                self.place.note(kind, count);
             }
         }
         for (at, was) in before.iter().enumerate() {
@@ -232,8 +226,13 @@ impl<'a> MachineMotion<'a> {
                 continue;
             }
             let kind = match (was, now) {
-                (_, ContactState::Resting) => MachineEventKind::Stick,
-                (ContactState::Resting, ContactState::Open) => MachineEventKind::Release,
+                // a contact without force at the start has nothing to announce
+                (ContactState::Open, ContactState::Touching) if !closing.contains(&at) => continue,
+                (ContactState::Open | ContactState::Touching, ContactState::Resting)
+                | (ContactState::Closed, ContactState::Resting | ContactState::Touching)
+                | (ContactState::Open, ContactState::Touching) => MachineEventKind::Stick,
+                (ContactState::Resting | ContactState::Touching, ContactState::Open)
+                | (ContactState::Resting, ContactState::Touching) => MachineEventKind::Release,
                 (_, ContactState::Closed) => MachineEventKind::Close,
                 (ContactState::Closed, ContactState::Open) => MachineEventKind::Open,
                 (_, ContactState::Holding) => MachineEventKind::Hold,
@@ -266,18 +265,6 @@ impl<'a> MachineMotion<'a> {
             }
         }
         Some(())
-    }
-
-    /// How many derivatives of a guard are zero after a contact without velocity has got its state.
-    fn begun(&self, at: usize) -> Option<(GuardKind, usize)> {
-        match self.place.states[at] {
-            ContactState::Open => Some((GuardKind::Gap(at), 2)),
-            ContactState::Closed => Some((GuardKind::Depth(at), 2)),
-            ContactState::Forward | ContactState::Backward => {
-                Some((GuardKind::Sliding(at - self.machine.stops().len()), 1))
-            }
-            ContactState::Resting | ContactState::Holding => None,
-        }
     }
 
     /// Records the state after an event and the rigid stops that push, with their restitution.
@@ -492,7 +479,7 @@ impl<'a> MachineMotion<'a> {
         let stops = self.machine.stops().len();
         let before = self.place.states.clone();
         let turns = self.place.turns(&self.normal);
-        let (mut closing, mut candidates, mut fixed) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut closing, mut candidates) = (Vec::new(), Vec::new());
         for kind in kinds {
             match *kind {
                 GuardKind::Gap(j) => {
@@ -505,21 +492,9 @@ impl<'a> MachineMotion<'a> {
                     closing.push(j);
                 }
                 GuardKind::Depth(j) | GuardKind::Force(j) => {
-                    if self.place.states[j] != ContactState::Closed {
-                        continue;
+                    if self.place.states[j] == ContactState::Closed {
+                        self.place.open(&self.normal, &self.machine.stops()[j].law, *kind, j, &turns);
                     }
-                    self.place.open(&self.normal, &self.machine.stops()[j].law, *kind, j, &turns);
-                    fixed.push(j);
-                }
-                GuardKind::Reaction(j) => {
-                    self.place.states[j] = ContactState::Open;
-                    self.place.note(GuardKind::Gap(j), 3);
-                    fixed.push(j);
-                }
-                GuardKind::Preload(j) => {
-                    self.place.states[j] = ContactState::Closed;
-                    self.place.note(GuardKind::Depth(j), 3);
-                    fixed.push(j);
                 }
                 GuardKind::Sliding(joint) => {
                     let (speed, _) = self.place.sliding(self.machine, &self.normal, joint);
@@ -527,17 +502,14 @@ impl<'a> MachineMotion<'a> {
                     add_scaled(&mut self.place.v, -speed / dot(w, w), w);
                     candidates.push(stops + joint);
                 }
-                GuardKind::LimitForward(joint) | GuardKind::LimitBackward(joint) => {
-                    let forward = matches!(kind, GuardKind::LimitForward(_));
-                    self.place.states[stops + joint] =
-                        if forward { ContactState::Forward } else { ContactState::Backward };
-                    let equal = self.machine.joints()[joint].limit == self.machine.joints()[joint].sliding;
-                    self.place.note(GuardKind::Sliding(joint), if equal { 2 } else { 1 });
-                    fixed.push(stops + joint);
-                }
+                // the force of a constraint has reached its limit: what follows is decided with all others
+                GuardKind::Reaction(_)
+                | GuardKind::Preload(_)
+                | GuardKind::LimitForward(_)
+                | GuardKind::LimitBackward(_) => {}
             }
         }
-        self.change(&before, &closing, candidates, &fixed);
+        self.change(&before, &closing, candidates);
     }
 }
 

@@ -28,6 +28,8 @@ pub(crate) struct Passage {
     pub(crate) before: Option<Place>,
     /// The rigid stops that pushed, with their restitution.
     pub(crate) pushed: Vec<(usize, f64)>,
+    /// The number of these in each round of impacts in turn; empty if all push together.
+    pub(crate) rounds: Vec<usize>,
     /// The impulses of rigid stops, without those of a chatter that was summed.
     pub(crate) blows: Vec<Blow>,
     /// The state after the event.
@@ -44,6 +46,7 @@ impl Passage {
             guards: Vec::new(),
             before: None,
             pushed: Vec::new(),
+            rounds: Vec::new(),
             blows: Vec::new(),
             after: None,
             rest: None,

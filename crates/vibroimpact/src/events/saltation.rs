@@ -7,12 +7,18 @@
 //! between the flows $`F_-`$ and $`F_+`$ before and after it (M. di Bernardo, C. J. Budd, A. R. Champneys and P. Kowalczyk,
 //! *Piecewise-smooth Dynamical Systems*, Springer 2008, section 2.5, doi:10.1007/978-1-84628-708-4). A chatter that is
 //! summed has the derivative of an impact without rebound.
+//!
+//! Several guards that are zero at one time each change the state by a part of $`F_+ - DR\,F_- - R_t`$, and neighbours reach
+//! each of them at a time of its own, so the second term is a sum over the guards. The parts are those of each guard alone.
+//! If events do not act on each other, this is exact. If they do, as two stops under one rigid bar, neighbours that reach
+//! them one after another can end anywhere, and the derivative is that of the motions which keep them together: what
+//! is left over is divided equally.
 
 use super::passage::Passage;
 use super::place::{Place, Structures};
 use crate::machine::{Machine, Opening, StopLaw};
 use crate::math::{Lu, Matrix, add_scaled, dot};
-use crate::regime::{GuardKind, Normal, Structure};
+use crate::regime::{ContactState, GuardKind, Normal, Structure};
 use std::sync::Arc;
 
 /// What the state of a machine consists of: mass-normalised coordinates, velocities, and the surfaces of damped stops that
@@ -78,29 +84,39 @@ impl StateShape {
     }
 }
 
-/// An event to first order.
+/// A guard that is zero at an event, and its part of the change of the flow, to first order.
 #[derive(Clone, Debug)]
-pub(crate) struct LinearEvent {
+pub(crate) struct LinearGuard {
     /// The gradient of the guard before the event.
     pub(crate) gradient: Vec<f64>,
     /// The rate of the guard along the flow before the event.
     pub(crate) rate: f64,
+    /// Its part of $`F_+ - DR\,F_- - R_t`$: the change of the state after the event per unit of time by which it is later.
+    jump: Vec<f64>,
+}
+
+/// An event to first order.
+#[derive(Clone, Debug)]
+pub(crate) struct LinearEvent {
+    /// The guards that are zero.
+    pub(crate) guards: Vec<LinearGuard>,
     /// $`DR`$ and $`R_t`$.
     pub(crate) reset: Matrix,
     pub(crate) reset_rate: Vec<f64>,
-    /// $`F_-`$ and $`F_+`$.
+    /// $`F_-`$.
     pub(crate) flow_before: Vec<f64>,
-    pub(crate) flow_after: Vec<f64>,
 }
 
 /// What happens at an event, apart from the states on both sides.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EventLaw<'a> {
-    /// The structure before it, and the guard of it that is zero.
+    /// The structure before it, and the guards of it that are zero; the first one times the event.
     pub(crate) structure: &'a Arc<Structure>,
-    pub(crate) guard: usize,
+    pub(crate) guards: &'a [usize],
     /// The rigid stops that push, with their restitution.
     pub(crate) pushed: &'a [(usize, f64)],
+    /// The number of these in each round of impacts in turn; empty if all push together.
+    pub(crate) rounds: &'a [usize],
 }
 
 impl EventLaw<'_> {
@@ -111,7 +127,11 @@ impl EventLaw<'_> {
 
     /// The value of the guard at a state, and its rate along the flow there.
     pub(crate) fn value_and_rate(&self, normal: &Normal, at: &Place) -> (f64, f64) {
-        let guard = &self.structure.guards[self.guard];
+        self.value_and_rate_of(self.guards[0], normal, at)
+    }
+
+    fn value_and_rate_of(&self, guard: usize, normal: &Normal, at: &Place) -> (f64, f64) {
+        let guard = &self.structure.guards[guard];
         let (value, rate) = at.flight(normal, self.structure.clone()).first(&guard.function);
         match guard.kind {
             GuardKind::Gap(j) => at.surfaces[j].map_or((value, rate), |surface| {
@@ -123,13 +143,27 @@ impl EventLaw<'_> {
 
     /// The velocities after the event.
     pub(crate) fn rebound(&self, normal: &Normal, before: &Place) -> Option<Vec<f64>> {
-        let mut after = before.v.clone();
+        let mut after = before.clone();
         let turns = before.turns(normal);
-        for (push, j) in pushes(normal, self.pushed)? {
-            let rate = before.gap(normal, &turns, j).1;
-            add_scaled(&mut after, rate, &push);
+        for round in self.in_rounds() {
+            let rate = |j: usize| after.gap(normal, &turns, j).1;
+            let pushes: Vec<(Vec<f64>, f64)> =
+                pushes(normal, round)?.into_iter().map(|(push, j)| (push, rate(j))).collect();
+            pushes.iter().for_each(|(push, rate)| add_scaled(&mut after.v, *rate, push));
         }
-        Some(after)
+        Some(after.v)
+    }
+
+    /// The stops that push, round after round.
+    fn in_rounds(&self) -> impl Iterator<Item = &[(usize, f64)]> {
+        let all = [self.pushed.len()];
+        let counts = if self.rounds.is_empty() { all.to_vec() } else { self.rounds.to_vec() };
+        let mut left = self.pushed;
+        counts.into_iter().map(move |count| {
+            let (round, others) = left.split_at(count.min(left.len()));
+            left = others;
+            round
+        })
     }
 }
 
@@ -172,81 +206,166 @@ impl LinearEvent {
             Some((rest, _)) => rest.clone(),
             None => structures.get(machine, normal, &after.states)?,
         };
-        let law = EventLaw { structure: &passage.structure, guard: *passage.guards.first()?, pushed: &passage.pushed };
-        Self::at(shape, normal, &law, before, (after, &next))
+        let law = EventLaw {
+            structure: &passage.structure,
+            guards: &passage.guards,
+            pushed: &passage.pushed,
+            rounds: &passage.rounds,
+        };
+        let mut structure = |states: &[ContactState]| structures.get(machine, normal, states);
+        Self::at(shape, normal, &law, before, (after, &next), &mut structure)
     }
 
-    /// The event with this law between two states, the second one in the regime of `next`.
+    /// The event with this law between two states, the second one in the regime of `next`. `structure` is that of other
+    /// states of the contacts.
     pub(crate) fn at(
         shape: &StateShape,
         normal: &Normal,
         law: &EventLaw<'_>,
         before: &Place,
         (after, next): (&Place, &Arc<Structure>),
+        structure: &mut dyn FnMut(&[ContactState]) -> Option<Arc<Structure>>,
     ) -> Option<Self> {
-        let guard = law.structure.guards.get(law.guard)?;
-        let mut gradient = law.structure.gradient(normal, &guard.function);
-        gradient.resize(shape.size(), 0.0);
-        let (_, rate) = law.value_and_rate(normal, before);
-        if let GuardKind::Gap(j) = guard.kind
-            && before.surfaces[j].is_some()
-            && let Some(k) = shape.surfaces.iter().position(|of| *of == j)
-        {
-            gradient[2 * shape.n + k] = 1.0;
+        let (reset, reset_rate) = law.reset(shape, normal, before, after)?;
+        let flow_before = shape.flow(law.structure, normal, before);
+        let jump = jump((&reset, &reset_rate), &flow_before, &shape.flow(next, normal, after));
+        let jumps = if law.guards.len() < 2 {
+            vec![jump]
+        } else {
+            law.shares(shape, normal, (before, after), (&flow_before, &jump), structure)?
+        };
+        let mut guards = Vec::with_capacity(law.guards.len());
+        for (g, jump) in law.guards.iter().zip(jumps) {
+            let guard = law.structure.guards.get(*g)?;
+            let mut gradient = law.structure.gradient(normal, &guard.function);
+            gradient.resize(shape.size(), 0.0);
+            let (_, rate) = law.value_and_rate_of(*g, normal, before);
+            if let GuardKind::Gap(j) = guard.kind
+                && before.surfaces[j].is_some()
+                && let Some(k) = shape.surfaces.iter().position(|of| *of == j)
+            {
+                gradient[2 * shape.n + k] = 1.0;
+            }
+            guards.push(LinearGuard { gradient, rate, jump });
         }
-        let (reset, reset_rate) = reset(shape, normal, law.pushed, before, after)?;
-        Some(Self {
-            gradient,
-            rate,
-            reset,
-            reset_rate,
-            flow_before: shape.flow(law.structure, normal, before),
-            flow_after: shape.flow(next, normal, after),
-        })
+        Some(Self { guards, reset, reset_rate, flow_before })
     }
 
-    /// $`F_+ - DR\,F_- - R_t`$: the change of the state after the event per unit of time by which the event is later.
-    pub(crate) fn jump(&self) -> Vec<f64> {
-        let carried = self.reset.apply(&self.flow_before);
-        let after = self.flow_after.iter().zip(carried.iter().zip(&self.reset_rate));
-        after.map(|(after, (carried, rate))| after - carried - rate).collect()
-    }
-
-    /// The derivative of the state after the event; `None` where the guard is only touched.
+    /// The derivative of the state after the event; `None` where a guard is only touched.
     pub(crate) fn saltation(&self) -> Option<Matrix> {
-        if self.rate == 0.0 || !self.rate.is_finite() {
-            return None;
-        }
         let mut result = self.reset.clone();
-        result.add_outer(1.0 / self.rate, &self.jump(), &self.gradient);
+        for guard in &self.guards {
+            if guard.rate == 0.0 || !guard.rate.is_finite() {
+                return None;
+            }
+            result.add_outer(1.0 / guard.rate, &guard.jump, &guard.gradient);
+        }
         Some(result)
     }
 }
 
-/// $`DR`$ and $`R_t`$.
-fn reset(
-    shape: &StateShape,
-    normal: &Normal,
-    pushed: &[(usize, f64)],
-    before: &Place,
-    after: &Place,
-) -> Option<(Matrix, Vec<f64>)> {
-    let (n, size) = (shape.n, shape.size());
-    let turns = before.turns(normal);
-    let mut reset = Matrix::identity(size);
-    let mut rate = vec![0.0; size];
-    if !pushed.is_empty() {
-        // v+ = v + W G^-1 (1 + e) (wall' - W' v)
-        for (push, j) in pushes(normal, pushed)? {
-            let wall = normal.walls[j].derivative(&normal.rates).derivative(&normal.rates).swing(&turns);
-            for row in 0..n {
-                for (k, own) in normal.directions[j].iter().enumerate() {
-                    reset[(n + row, n + k)] -= push[row] * own;
+/// $`F_+ - DR\,F_- - R_t`$.
+fn jump((reset, reset_rate): (&Matrix, &[f64]), flow_before: &[f64], flow_after: &[f64]) -> Vec<f64> {
+    let carried = reset.apply(flow_before);
+    let after = flow_after.iter().zip(carried.iter().zip(reset_rate));
+    after.map(|(after, (carried, rate))| after - carried - rate).collect()
+}
+
+impl EventLaw<'_> {
+    /// The parts of several guards of the change of the flow, whose sum is `jump`: what each of them does alone, and an
+    /// equal part of the rest.
+    fn shares(
+        &self,
+        shape: &StateShape,
+        normal: &Normal,
+        (before, after): (&Place, &Place),
+        (flow_before, jump_of_all): (&[f64], &[f64]),
+        structure: &mut dyn FnMut(&[ContactState]) -> Option<Arc<Structure>>,
+    ) -> Option<Vec<Vec<f64>>> {
+        let stops = before.surfaces.len();
+        let contacts: Vec<usize> = self.guards.iter().map(|g| self.structure.guards[*g].kind.place(stops)).collect();
+        let mut left = jump_of_all.to_vec();
+        let mut shares = Vec::with_capacity(contacts.len());
+        for (g, contact) in self.guards.iter().zip(&contacts) {
+            let others = |j: usize| contacts.contains(&j) && j != *contact;
+            let pushed: Vec<(usize, f64)> = self.pushed.iter().copied().filter(|(j, _)| !others(*j)).collect();
+            let alone = EventLaw { structure: self.structure, guards: &[*g], pushed: &pushed, rounds: &[] };
+            let mut reached = before.clone();
+            reached.v = alone.rebound(normal, before)?;
+            reached.states[*contact] = after.states[*contact];
+            if *contact < stops {
+                reached.surfaces[*contact] = after.surfaces[*contact];
+            }
+            let share = match structure(&reached.states) {
+                Some(next) => {
+                    let (reset, rate) = alone.reset(shape, normal, before, &reached)?;
+                    jump((&reset, &rate), flow_before, &shape.flow(&next, normal, &reached))
                 }
-                rate[n + row] += push[row] * wall;
+                None => vec![0.0; left.len()],
+            };
+            add_scaled(&mut left, -1.0, &share);
+            shares.push(share);
+        }
+        let mut part = 1.0;
+        shares.iter().skip(1).for_each(|_| part += 1.0);
+        shares.iter_mut().for_each(|share| add_scaled(share, 1.0 / part, &left));
+        Some(shares)
+    }
+}
+
+impl EventLaw<'_> {
+    /// $`DR`$ and $`R_t`$.
+    fn reset(&self, shape: &StateShape, normal: &Normal, before: &Place, after: &Place) -> Option<(Matrix, Vec<f64>)> {
+        let mut reset = Matrix::identity(shape.size());
+        let mut rate = vec![0.0; shape.size()];
+        let turns = before.turns(normal);
+        for round in self.in_rounds() {
+            self.push_all(round, normal, &turns, (&mut reset, &mut rate))?;
+        }
+        back_surfaces(shape, normal, (before, after), &turns, (&mut reset, &mut rate));
+        Some((reset, rate))
+    }
+
+    /// One round: $`v_+ = v + WG^{-1}(1 + e)(r' - W^Tv)`$.
+    fn push_all(
+        &self,
+        round: &[(usize, f64)],
+        normal: &Normal,
+        turns: &[(f64, f64)],
+        (reset, rate): (&mut Matrix, &mut [f64]),
+    ) -> Option<()> {
+        let n = normal.n;
+        let pushes = pushes(normal, round)?;
+        let along = |j: usize, reset: &Matrix, rate: &[f64]| {
+            let wall = normal.walls[j].derivative(&normal.rates).derivative(&normal.rates).swing(turns);
+            let mut row = vec![0.0; reset.columns()];
+            let mut late = wall;
+            for (k, own) in normal.directions[j].iter().enumerate() {
+                add_scaled(&mut row, *own, reset.row(n + k));
+                late -= own * rate[n + k];
+            }
+            (row, late)
+        };
+        let before: Vec<(Vec<f64>, f64)> = pushes.iter().map(|(_, j)| along(*j, reset, rate)).collect();
+        for ((push, _), (row, late)) in pushes.iter().zip(before) {
+            for (k, push) in push.iter().enumerate() {
+                add_scaled(reset.row_mut(n + k), -push, &row);
+                rate[n + k] += push * late;
             }
         }
+        Some(())
     }
+}
+
+/// What an event does to the surfaces of stops that open by force.
+fn back_surfaces(
+    shape: &StateShape,
+    normal: &Normal,
+    (before, after): (&Place, &Place),
+    turns: &[(f64, f64)],
+    (reset, rate): (&mut Matrix, &mut [f64]),
+) {
+    let n = shape.n;
     for (k, j) in shape.surfaces.iter().enumerate() {
         let row = 2 * n + k;
         match (before.surfaces[*j], after.surfaces[*j]) {
@@ -254,13 +373,12 @@ fn reset(
             (None, Some(_)) => {
                 reset.row_mut(row)[..n].copy_from_slice(&normal.directions[*j]);
                 reset[(row, row)] = 0.0;
-                rate[row] = -normal.walls[*j].derivative(&normal.rates).swing(&turns);
+                rate[row] = -normal.walls[*j].derivative(&normal.rates).swing(turns);
             }
             (_, None) => reset[(row, row)] = 0.0,
             _ => {}
         }
     }
-    Some((reset, rate))
 }
 
 /// The derivative of the state at the end of a step by the state at `begin`, its beginning; `None` where a guard is only

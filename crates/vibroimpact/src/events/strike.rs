@@ -1,12 +1,12 @@
 //! Impacts on rigid stops, and what they do to all contacts.
 
-use super::impulses::impulses;
+use super::collision::{Collision, collide};
 use super::motion::MachineMotion;
 use super::passage::Blow;
 use super::place::Place;
 use crate::machine::StopLaw;
 use crate::math::{add_scaled, dot};
-use crate::regime::{ContactState, GuardKind, compliant};
+use crate::regime::{ContactState, GuardKind, compliant, independent};
 
 impl MachineMotion<'_> {
     /// The impacts on the rigid stops `struck`, together with the rigid ones at rest: new velocities, the states of
@@ -17,15 +17,12 @@ impl MachineMotion<'_> {
         struck: &[usize],
         speeds: &[f64],
         candidates: &mut Vec<usize>,
-        fixed: &[usize],
     ) -> Option<Vec<usize>> {
         let stops = self.machine.stops();
         let turns = self.place.turns(&self.normal);
         // closed without velocity: at rest, or at the start not yet known to be
         let closed = candidates.clone();
-        let resting = |place: &Place, j: usize| {
-            (place.states[j] == ContactState::Resting || closed.contains(&j)) && !fixed.contains(&j)
-        };
+        let resting = |place: &Place, j: usize| place.states[j].constrains() || closed.contains(&j);
         let restitution = |j: usize| match stops[j].law {
             StopLaw::Rigid { restitution } => Some(restitution),
             StopLaw::Compliant { .. } => None,
@@ -40,18 +37,18 @@ impl MachineMotion<'_> {
             .collect();
         let directions: Vec<&[f64]> = set.iter().map(|(j, ..)| self.normal.directions[*j].as_slice()).collect();
         let (rates, restitutions): (Vec<f64>, Vec<f64>) = set.iter().map(|(_, rate, e)| (*rate, *e)).unzip();
-        let found = impulses(&directions, &rates, &restitutions)?;
-        let mut after = self.place.v.clone();
-        for (direction, impulse) in directions.iter().zip(&found) {
-            add_scaled(&mut after, -impulse, direction);
-        }
+        let law = self.machine.parts().impacts;
+        let Collision { v: mut after, impulses: found, rounds } =
+            collide(law, &directions, &self.place.v, &rates, &restitutions)?;
         self.place.jolt();
         let size = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
+        // with the velocities of the law; in rounds a stop may be struck again and open more slowly than after its own impact
+        let alone = rounds.len() == 1;
         for ((j, before, e), (w, impulse)) in set.iter().zip(directions.iter().zip(&found)) {
             let rate = before - (dot(w, &after) - dot(w, &self.place.v));
             candidates.retain(|candidate| candidate != j);
             // a stop that was pushed opens with the velocity of the law, exactly 0 without restitution
-            let opens = if *impulse > 0.0 {
+            let opens = if *impulse > 0.0 && alone {
                 e * before < 0.0
             } else {
                 let terms = w.iter().zip(&after).map(|(w, v)| (w * v).abs()).sum::<f64>();
@@ -69,7 +66,9 @@ impl MachineMotion<'_> {
         self.place.v = after;
         if let Some(passage) = &mut self.passage {
             let pushing = set.iter().zip(&found).filter(|(_, impulse)| **impulse > 0.0);
-            passage.pushed = pushing.clone().map(|((j, _, e), _)| (*j, *e)).collect();
+            let push = |k: &usize| (set[*k].0, set[*k].2);
+            passage.pushed = rounds.iter().flatten().map(push).collect();
+            passage.rounds = if alone { Vec::new() } else { rounds.iter().map(Vec::len).collect() };
             passage.blows = pushing
                 .map(|((j, rate, _), impulse)| Blow { stop: *j, speed: (-rate).max(0.0), impulse: *impulse })
                 .collect();
@@ -103,5 +102,58 @@ impl MachineMotion<'_> {
             }
         }
         Some(set.iter().zip(&found).filter(|(_, impulse)| **impulse > 0.0).map(|((j, ..), _)| *j).collect())
+    }
+
+    /// The stops among `struck` that have an impact of their own: of stops at one place, only the one that pushes.
+    pub(super) fn distinct(&self, struck: &[usize], pushed: &[usize]) -> Vec<usize> {
+        let (push, other): (Vec<usize>, Vec<usize>) = struck.iter().partition(|j| pushed.contains(j));
+        let mut own = push;
+        for j in other {
+            let w = &self.normal.directions[j];
+            let at_one_place = |i: &usize| {
+                let pair = [self.normal.directions[*i].as_slice(), w.as_slice()];
+                independent(pair.into_iter()).len() == 1 && dot(pair[0], pair[1]) > 0.0
+            };
+            if !own.iter().any(at_one_place) {
+                own.push(j);
+            }
+        }
+        own.sort_unstable();
+        own
+    }
+
+    /// Closes the compliant stops that the structure has reached. After impacts at the same time it may move away from them,
+    /// or back to those that have just opened.
+    pub(super) fn meet(
+        &mut self,
+        reached: &[usize],
+        before: &[ContactState],
+        struck: bool,
+        turns: &[(f64, f64)],
+        candidates: &mut Vec<usize>,
+    ) {
+        if !struck {
+            for j in reached {
+                self.place.close(*j);
+            }
+            return;
+        }
+        for j in 0..self.machine.stops().len() {
+            let opened = before[j] == ContactState::Closed && self.place.states[j] == ContactState::Open;
+            if !(opened || reached.contains(&j)) {
+                continue;
+            }
+            let (_, mut rate, _, size) = self.place.gap(&self.normal, turns, j);
+            if let Some(surface) = self.place.surfaces[j] {
+                rate -= surface.rate * surface.size;
+            }
+            if rate < -64.0 * f64::EPSILON * size {
+                self.place.close(j);
+            } else if rate > 64.0 * f64::EPSILON * size || self.place.surfaces[j].is_some() {
+                self.place.note(GuardKind::Gap(j), 1);
+            } else {
+                candidates.push(j);
+            }
+        }
     }
 }

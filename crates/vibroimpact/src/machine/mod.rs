@@ -16,5 +16,5 @@ mod value;
 
 pub use error::{MachineError, MachineFault};
 pub use modal::modal_damping;
-pub use parts::{FrictionJoint, HarmonicForce, HarmonicMotion, MachineParts, MachineStop, Opening, StopLaw};
+pub use parts::{FrictionJoint, HarmonicForce, HarmonicMotion, ImpactLaw, MachineParts, MachineStop, Opening, StopLaw};
 pub use value::Machine;

@@ -28,6 +28,21 @@ pub struct MachineParts {
     pub stops: Vec<MachineStop>,
     /// The friction joints.
     pub joints: Vec<FrictionJoint>,
+    /// How impacts on several rigid stops at one time act.
+    pub impacts: ImpactLaw,
+}
+
+/// The law of impacts on several rigid stops at one time, or on one while others are closed. Newton's restitution does not
+/// say what happens then: three equal elastic balls in contact, the first one at speed 1, go on with -1/3, 2/3, 2/3
+/// together, and with 0, 0, 1 in turn. Both keep the momentum; neither gains energy, and both keep it at restitution 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ImpactLaw {
+    /// All at once, by Moreau's law: each stop that pushes opens with its restitution times its own closing speed.
+    #[default]
+    Together,
+    /// In turn, as in a cradle: the stops that close push, without the ones at rest; those that they make close then push,
+    /// until none closes.
+    InTurn,
 }
 
 /// One harmonic of the force: $`a\cos h\theta + b\sin h\theta`$.

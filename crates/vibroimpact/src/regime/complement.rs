@@ -2,38 +2,60 @@
 
 use crate::math::{Matrix, add_scaled, dot};
 
+/// A direction of whose length less than this part is left beside other directions depends on them.
+const DEPENDENT: f64 = 1e-9;
+
+/// Takes from `vector` what lies along the orthonormal directions `basis`, twice, so that the result is orthogonal to
+/// rounding. Returns the length of what is left.
+fn project(basis: &[Vec<f64>], vector: &mut [f64]) -> f64 {
+    for _ in 0..2 {
+        for known in basis {
+            let part = dot(known, vector);
+            add_scaled(vector, -part, known);
+        }
+    }
+    dot(vector, vector).sqrt()
+}
+
+fn scaled(vector: &[f64], size: f64) -> Vec<f64> {
+    vector.iter().map(|x| x / size).collect()
+}
+
+/// The places of those directions that do not depend on the ones before them.
+pub(crate) fn independent<'a>(directions: impl Iterator<Item = &'a [f64]>) -> Vec<usize> {
+    let (mut basis, mut places): (Vec<Vec<f64>>, Vec<usize>) = Default::default();
+    for (place, direction) in directions.enumerate() {
+        let mut vector = scaled(direction, dot(direction, direction).sqrt());
+        let rest = project(&basis, &mut vector);
+        if rest >= DEPENDENT {
+            basis.push(scaled(&vector, rest));
+            places.push(place);
+        }
+    }
+    places
+}
+
 /// An orthonormal basis of what is orthogonal to all directions `held`, as columns, the first of them along the
 /// directions `along`; and the components of these directions in it, with exact zeros. `None` if the directions `held`
 /// depend on each other.
 pub(super) fn complement(held: &[Vec<f64>], along: &[&[f64]], n: usize) -> Option<(Matrix, Vec<Vec<f64>>)> {
     let mut basis: Vec<Vec<f64>> = Vec::with_capacity(n);
-    // twice, so that the result is orthogonal to rounding
-    let project = |basis: &[Vec<f64>], vector: &mut Vec<f64>| {
-        for _ in 0..2 {
-            for known in basis {
-                let part = dot(known, vector);
-                add_scaled(vector, -part, known);
-            }
-        }
-        dot(vector, vector).sqrt()
-    };
-    let unit = |vector: &[f64], size: f64| -> Vec<f64> { vector.iter().map(|x| x / size).collect() };
     for direction in held {
-        let mut vector = unit(direction, dot(direction, direction).sqrt());
+        let mut vector = scaled(direction, dot(direction, direction).sqrt());
         let rest = project(&basis, &mut vector);
-        if rest < 1e-9 {
+        if rest < DEPENDENT {
             return None;
         }
-        basis.push(unit(&vector, rest));
+        basis.push(scaled(&vector, rest));
     }
     let first = basis.len();
     let mut reached = Vec::with_capacity(along.len());
     for direction in along {
         let size = dot(direction, direction).sqrt();
-        let mut vector = unit(direction, size);
+        let mut vector = scaled(direction, size);
         let rest = project(&basis, &mut vector);
         if rest > 1e-12 && basis.len() < n {
-            basis.push(unit(&vector, rest));
+            basis.push(scaled(&vector, rest));
         }
         reached.push(basis.len());
     }
@@ -50,7 +72,7 @@ pub(super) fn complement(held: &[Vec<f64>], along: &[&[f64]], n: usize) -> Optio
             }
         }
         left.remove(best.1);
-        basis.push(unit(&best.2, best.0));
+        basis.push(scaled(&best.2, best.0));
     }
     let mut columns = Matrix::zeros(n, n - first);
     for (j, vector) in basis[first..].iter().enumerate() {

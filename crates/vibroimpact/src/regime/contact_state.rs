@@ -9,6 +9,9 @@ pub enum ContactState {
     Closed,
     /// A stop on which the structure rests: a rigid one, or a compliant one whose preload is not overcome.
     Resting,
+    /// A stop that is closed without force: its gap stays zero by itself, as between equal bodies under equal forces, or
+    /// because other contacts hold it. It has no guard; it is decided anew at each event.
+    Touching,
     /// A joint that slides with positive relative velocity.
     Forward,
     /// A joint that slides with negative relative velocity.
@@ -18,8 +21,8 @@ pub enum ContactState {
 }
 
 impl ContactState {
-    /// Whether it takes a degree of freedom away.
+    /// Whether it takes a degree of freedom away, or lies where another contact does so already.
     pub(crate) const fn constrains(self) -> bool {
-        matches!(self, Self::Resting | Self::Holding)
+        matches!(self, Self::Resting | Self::Touching | Self::Holding)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::basis::{Basis, inverse};
 use super::closed_stop::{ClosedStop, less_motion};
-use super::complement::complement;
+use super::complement::{complement, independent};
 use super::contact_state::ContactState;
 use super::mode::Mode;
 use super::normal::{Normal, compliant};
@@ -81,12 +81,14 @@ pub(crate) struct Structure {
     pub(crate) guards: Vec<Guard>,
     /// The closed stops.
     pub(crate) closed: Vec<ClosedStop>,
-    /// The places of the constraints: stops and, after them, joints.
+    /// The places of the constraints that do not depend on those before them: stops and, after them, joints.
     pub(crate) held: Vec<usize>,
     /// Their reactions.
     pub(crate) reactions: Vec<Observable>,
     /// The impulse of each constraint that changes its own velocity by 1 and those of the others by nothing.
     pub(crate) across: Vec<Vec<f64>>,
+    /// The limits of joints that hold along with each constraint, in units of its reaction.
+    pub(crate) shared: Vec<f64>,
     /// Acceleration per unit of reaction, and rate of the damping, along each of these.
     pub(crate) mobility: Vec<(f64, f64)>,
     pub(crate) rates: Vec<f64>,
@@ -148,8 +150,22 @@ impl Structure {
         closed.sort_by(|one, other| weight(other).total_cmp(&weight(one)));
 
         // constraints w.x = wall(t), or the set point and the way of the belt: x = x_c(t) + N eta
-        let held: Vec<usize> = (0..states.len()).filter(|place| states[*place].constrains()).collect();
+        let constraints: Vec<usize> = (0..states.len()).filter(|place| states[*place].constrains()).collect();
+        let bearing = independent(constraints.iter().map(|place| normal.directions[*place].as_slice()));
+        let held: Vec<usize> = bearing.iter().map(|at| constraints[*at]).collect();
         let directions: Vec<Vec<f64>> = held.iter().map(|place| normal.directions[*place].clone()).collect();
+        // joints that hold along with another constraint share its load: their limits add to its range
+        let mut shared = vec![0.0; held.len()];
+        for place in constraints.iter().filter(|place| !held.contains(place)) {
+            if states[*place] == ContactState::Resting {
+                return None;
+            }
+            if states[*place] == ContactState::Holding
+                && let Some((at, ratio)) = parallel(&directions, &normal.directions[*place])
+            {
+                shared[at] += ratio * machine.joints()[*place - stops].limit;
+            }
+        }
         let along: Vec<&[f64]> = closed.iter().map(|contact| contact.direction).collect();
         let (free, shares) = complement(&directions, &along, n)?;
         let mut gram = Matrix::zeros(held.len(), held.len());
@@ -388,6 +404,7 @@ impl Structure {
                 })
                 .collect(),
             across,
+            shared,
             rates: rates.clone(),
             rest,
             plain: false,
@@ -417,6 +434,11 @@ impl Structure {
             structure.sampled = Sampled::new(moved, &guards);
         }
         Some(structure)
+    }
+
+    /// The states of stops and, after them, joints in it.
+    pub(crate) fn states(&self) -> &[ContactState] {
+        &self.states
     }
 
     /// Whether stops and joints have these states in it.
@@ -477,8 +499,10 @@ impl Structure {
         rate
     }
 
-    fn reaction(&self, place: usize) -> Option<&Observable> {
-        self.held.iter().position(|held| *held == place).map(|at| &self.reactions[at])
+    /// The reaction of a constraint, and what joints that hold along with it can bear besides; `None` if other
+    /// constraints bear its load.
+    pub(crate) fn reaction(&self, place: usize) -> Option<(&Observable, f64)> {
+        self.held.iter().position(|held| *held == place).map(|at| (&self.reactions[at], self.shared[at]))
     }
 
     fn all_guards(&self, machine: &Machine, normal: &Normal) -> Vec<Guard> {
@@ -504,13 +528,14 @@ impl Structure {
                     }
                 }
                 (ContactState::Resting, law) => {
-                    if let Some(reaction) = self.reaction(j) {
-                        add(GuardKind::Reaction(j), reaction.clone());
+                    if let Some((reaction, shared)) = self.reaction(j) {
+                        add(GuardKind::Reaction(j), missing(shared, reaction.clone()));
                         if let StopLaw::Compliant { preload, .. } = law {
-                            add(GuardKind::Preload(j), missing(*preload, reaction.scaled(-1.0)));
+                            add(GuardKind::Preload(j), missing(*preload + shared, reaction.scaled(-1.0)));
                         }
                     }
                 }
+                (ContactState::Touching, _) => {}
                 _ => add(GuardKind::Gap(j), self.gap(normal, j).0),
             }
         }
@@ -522,10 +547,10 @@ impl Structure {
                     add(GuardKind::Sliding(j), self.sliding(machine, normal, j).scaled(-1.0));
                 }
                 _ => {
-                    if let Some(reaction) = self.reaction(place) {
+                    if let Some((reaction, shared)) = self.reaction(place) {
                         // a positive force holds it against sliding forward
-                        add(GuardKind::LimitForward(j), missing(joint.limit, reaction.scaled(-1.0)));
-                        add(GuardKind::LimitBackward(j), missing(joint.limit, reaction.clone()));
+                        add(GuardKind::LimitForward(j), missing(joint.limit + shared, reaction.scaled(-1.0)));
+                        add(GuardKind::LimitBackward(j), missing(joint.limit + shared, reaction.clone()));
                     }
                 }
             }
@@ -612,6 +637,15 @@ impl Structure {
         let Pressing { x: by_x, v: by_v, signal } = &self.pressing[held];
         signal.constant + signal.swing(turns) + dot(by_x, x) + dot(by_v, v)
     }
+}
+
+/// The direction to which another one is parallel, and the ratio of their lengths.
+fn parallel(directions: &[Vec<f64>], other: &[f64]) -> Option<(usize, f64)> {
+    directions.iter().enumerate().find_map(|(at, direction)| {
+        let one = core::iter::once(direction.as_slice());
+        let depends = independent(one.chain(core::iter::once(other))).len() == 1;
+        depends.then(|| (at, (dot(other, other) / dot(direction, direction)).sqrt()))
+    })
 }
 
 /// A linear function of the mass-normalised state.

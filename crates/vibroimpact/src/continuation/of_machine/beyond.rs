@@ -103,6 +103,8 @@ fn appearing(
     let leg = (before + m - 1) % m;
     let (_, place) = closest(&frame, ring, (leg, GuardKind::Gap(stop)))?;
     let event = RingEvent {
+        with: Vec::new(),
+        rounds: Vec::new(),
         guard: GuardKind::Gap(stop),
         after: place.states.clone(),
         pushed: vec![(stop, false)],

@@ -22,7 +22,7 @@ pub(crate) fn closest(
     frame.constrain(&mut from)?;
     let structure = frame.structure(&from.states)?;
     let guard = structure.guards.iter().position(|guard| guard.kind == kind)?;
-    let law = EventLaw { structure: &structure, guard, pushed: &[] };
+    let law = EventLaw { structure: &structure, guards: &[guard], pushed: &[], rounds: &[] };
     let time = ring.time(leg, frame.machine);
     let at = |s: f64| {
         let place = frame.moved(&from, &structure, s);

@@ -62,11 +62,20 @@ mod tests {
 
     fn impact(still: bool) -> RingEvent {
         let after = vec![if still { ContactState::Resting } else { ContactState::Open }];
-        RingEvent { guard: GuardKind::Gap(0), after, pushed: vec![(0, still)], back: vec![false] }
+        RingEvent {
+            guard: GuardKind::Gap(0),
+            with: Vec::new(),
+            rounds: Vec::new(),
+            after,
+            pushed: vec![(0, still)],
+            back: vec![false],
+        }
     }
 
     fn release() -> RingEvent {
         RingEvent {
+            with: Vec::new(),
+            rounds: Vec::new(),
             guard: GuardKind::Reaction(0),
             after: vec![ContactState::Open],
             pushed: Vec::new(),

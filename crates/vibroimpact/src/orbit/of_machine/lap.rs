@@ -32,9 +32,8 @@ impl MachineLap {
     /// The number of directions of the state, at least, in which differences of neighbours vanish: two where the structure rests
     /// on a stop, whose gap and its rate are known, and one where a joint holds, whose velocity is.
     pub(crate) fn forgotten(&self, stops: usize) -> usize {
-        let of = |(_, place, _): &(f64, Place, Passage)| {
-            let constrained = place.states.iter().enumerate().filter(|(_, state)| state.constrains());
-            constrained.map(|(place, _)| if place < stops { 2 } else { 1 }).sum()
+        let of = |(_, _, passage): &(f64, Place, Passage)| {
+            passage.structure.held.iter().map(|place| if *place < stops { 2 } else { 1 }).sum()
         };
         self.steps.iter().map(of).max().unwrap_or(0)
     }

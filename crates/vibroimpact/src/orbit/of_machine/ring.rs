@@ -32,10 +32,14 @@ const ALIKE: f64 = 3e-4;
 pub(crate) struct RingEvent {
     /// The guard that is zero.
     pub(crate) guard: GuardKind,
+    /// Other guards that are zero at the same time.
+    pub(crate) with: Vec<GuardKind>,
     /// The states of all stops and joints after it.
     pub(crate) after: Vec<ContactState>,
     /// The rigid stops that push, and whether the rebound is taken away because a chatter is summed.
     pub(crate) pushed: Vec<(usize, bool)>,
+    /// The number of these in each round of impacts in turn; empty if all push together.
+    pub(crate) rounds: Vec<usize>,
     /// The stops whose surfaces stand back after it.
     pub(crate) back: Vec<bool>,
 }
@@ -43,7 +47,7 @@ pub(crate) struct RingEvent {
 impl RingEvent {
     /// A touch of a guard at which the motion goes on as if the guard were not there; `after` are the states on both sides.
     pub(crate) fn touch(guard: GuardKind, after: &[ContactState], back: Vec<bool>) -> Self {
-        Self { guard, after: after.to_vec(), pushed: Vec::new(), back }
+        Self { guard, with: Vec::new(), after: after.to_vec(), pushed: Vec::new(), rounds: Vec::new(), back }
     }
 
     /// Whether nothing happens at it, where `before` are the states before.
@@ -54,10 +58,14 @@ impl RingEvent {
     /// The event at the end of a step; `None` if there is none.
     pub(crate) fn of(passage: &Passage) -> Option<Self> {
         let after = passage.after.as_ref()?;
+        let kind = |guard: &usize| passage.structure.guards.get(*guard).map(|guard| guard.kind);
+        let (first, others) = passage.guards.split_first()?;
         Some(Self {
-            guard: passage.structure.guards.get(*passage.guards.first()?)?.kind,
+            guard: kind(first)?,
+            with: others.iter().filter_map(kind).collect(),
             after: after.states.clone(),
             pushed: passage.pushed.iter().map(|(j, _)| (*j, passage.rest.is_some())).collect(),
+            rounds: passage.rounds.clone(),
             back: after.surfaces.iter().map(Option::is_some).collect(),
         })
     }
@@ -209,14 +217,15 @@ impl MachineRing {
         }
         let structure = frame.structure(&from.states)?;
         let before = frame.moved(&from, &structure, time);
-        let guard = structure.guards.iter().position(|guard| guard.kind == event.guard)?;
+        let of = |kind: &GuardKind| structure.guards.iter().position(|guard| guard.kind == *kind);
+        let guards: Vec<usize> = core::iter::once(&event.guard).chain(&event.with).map(of).collect::<Option<_>>()?;
         let restitution = |j: usize| match frame.machine.stops()[j].law {
             StopLaw::Rigid { restitution } => restitution,
             StopLaw::Compliant { .. } => 0.0,
         };
         let pushed: Vec<(usize, f64)> =
             event.pushed.iter().map(|(j, still)| (*j, if *still { 0.0 } else { restitution(*j) })).collect();
-        let law = EventLaw { structure: &structure, guard, pushed: &pushed };
+        let law = EventLaw { structure: &structure, guards: &guards, pushed: &pushed, rounds: &event.rounds };
         let mut arrived = before.clone();
         arrived.v = law.rebound(&frame.normal, &before)?;
         arrived.states.clone_from(&event.after);
@@ -247,18 +256,20 @@ impl MachineRing {
             return Some(MachineBlock { miss, left: Matrix::zeros(0, 0), late: Vec::new(), step: None });
         }
         let after = frame.structure(&event.after)?;
-        let linear = LinearEvent::at(&frame.shape, &frame.normal, &law, &before, (&arrived, &after))?;
+        let mut other = |states: &[ContactState]| frame.structure(states);
+        let linear = LinearEvent::at(&frame.shape, &frame.normal, &law, &before, (&arrived, &after), &mut other)?;
+        let first = linear.guards.first()?;
         let transition = frame.shape.transition(&structure, &frame.normal, &from, time);
         let start = frame.shape.flow(&structure, &frame.normal, &from);
         let through = linear.reset.times(&transition);
-        let guarded = transition.apply_transposed(&linear.gradient);
+        let guarded = transition.apply_transposed(&first.gradient);
         let mut left = Matrix::zeros(size + 1, size + 1);
         // an earlier beginning at the same state: the flow at the beginning, carried to the end
         left[(0, 0)] = -crate::math::dot(&guarded, &start) / frequency;
         left.row_mut(0)[1..].copy_from_slice(&guarded);
         let carried = through.apply(&start);
         let ended = linear.reset.apply(&linear.flow_before);
-        let mut late = vec![linear.rate / frequency];
+        let mut late = vec![first.rate / frequency];
         for i in 0..size {
             left[(i + 1, 0)] = -carried[i] / frequency;
             left.row_mut(i + 1)[1..].copy_from_slice(through.row(i));

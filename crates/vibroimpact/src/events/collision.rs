@@ -1,0 +1,152 @@
+//! What impacts do to the velocities, by the law of several impacts of the machine.
+//!
+//! | | together | in turn |
+//! |---|---|---|
+//! | 3 equal balls in contact, e = 1, the first one at speed 1 | -1/3, 2/3, 2/3 | 0, 0, 1 |
+//! | 5 of them | -3/5, 2/5, 2/5, 2/5, 2/5 | 0, 0, 0, 0, 1 |
+//! | bar on two feet, dropped flat | both feet rebound by e | the same |
+//! | bar that rests on a foot and strikes with the other one | the foot at rest pushes so that it does not close | the foot at rest is struck next if the first impact makes it close, and rebounds by e |
+//!
+//! In turn, the impacts of one round are those of all stops that close, together; so a symmetric structure stays symmetric.
+//! Each round is an impact by Moreau's law, which gains no energy, and the speeds of rounds fall unless the collision ends.
+
+use super::impulses::impulses;
+use crate::machine::ImpactLaw;
+use crate::math::add_scaled;
+
+/// The largest number of rounds; what closes after them stays closed.
+const ROUNDS: usize = 1000;
+/// Closing speeds below this number of roundings of their terms are none.
+const ROUNDINGS: f64 = 16.0;
+
+/// The outcome of impacts.
+pub(super) struct Collision {
+    /// The velocities after them.
+    pub(super) v: Vec<f64>,
+    /// The impulse of each stop.
+    pub(super) impulses: Vec<f64>,
+    /// The stops that push in each round.
+    pub(super) rounds: Vec<Vec<usize>>,
+}
+
+/// The impacts on stops with these directions and restitutions, whose gaps have these velocities; `v` are the velocities of
+/// the structure. `None` if stops close on it from two sides.
+pub(super) fn collide(
+    law: ImpactLaw,
+    directions: &[&[f64]],
+    v: &[f64],
+    rates: &[f64],
+    restitutions: &[f64],
+) -> Option<Collision> {
+    let mut collision = Collision { v: v.to_vec(), impulses: vec![0.0; rates.len()], rounds: Vec::new() };
+    let all: Vec<usize> = (0..rates.len()).collect();
+    if law == ImpactLaw::Together {
+        collision.round(directions, rates, restitutions, &all)?;
+        return Some(collision);
+    }
+    let size = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
+    let mut now = rates.to_vec();
+    for _ in 0..ROUNDS {
+        let closing: Vec<usize> = all
+            .iter()
+            .copied()
+            .filter(|k| {
+                let terms = directions[*k].iter().zip(&collision.v).map(|(w, v)| (w * v).abs()).sum::<f64>();
+                now[*k] < -ROUNDINGS * f64::EPSILON * (size + terms)
+            })
+            .collect();
+        if closing.is_empty() {
+            return Some(collision);
+        }
+        collision.round(directions, &now, restitutions, &closing)?;
+        for (now, (w, rate)) in now.iter_mut().zip(directions.iter().zip(rates)) {
+            let gained = collision.v.iter().zip(v).map(|(after, before)| after - before);
+            *now = rate - w.iter().zip(gained).map(|(w, gained)| w * gained).sum::<f64>();
+        }
+    }
+    collision.round(directions, &now, &vec![0.0; rates.len()], &all)?;
+    Some(collision)
+}
+
+impl Collision {
+    /// The impacts on some of the stops, together.
+    fn round(&mut self, directions: &[&[f64]], rates: &[f64], restitutions: &[f64], stops: &[usize]) -> Option<()> {
+        let of = |all: &[f64]| stops.iter().map(|k| all[*k]).collect::<Vec<f64>>();
+        let along: Vec<&[f64]> = stops.iter().map(|k| directions[*k]).collect();
+        let found = impulses(&along, &of(rates), &of(restitutions))?;
+        let mut pushing = Vec::new();
+        for (k, impulse) in stops.iter().zip(found).filter(|(_, impulse)| *impulse > 0.0) {
+            add_scaled(&mut self.v, -impulse, directions[*k]);
+            self.impulses[*k] += impulse;
+            pushing.push(*k);
+        }
+        self.rounds.push(pushing);
+        Some(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::dot;
+
+    /// A row of equal balls in contact, the first one at speed 1: the velocities after, for both laws.
+    fn row(count: usize, e: f64, law: ImpactLaw) -> Vec<f64> {
+        let unit = |i: usize, sign: f64| {
+            (0..count).map(move |k| {
+                if k == i {
+                    sign
+                } else if k == i + 1 {
+                    -sign
+                } else {
+                    0.0
+                }
+            })
+        };
+        let contacts: Vec<Vec<f64>> = (0..count - 1).map(|i| unit(i, 1.0).collect()).collect();
+        let directions: Vec<&[f64]> = contacts.iter().map(Vec::as_slice).collect();
+        let mut v = vec![0.0; count];
+        v[0] = 1.0;
+        let mut rates = vec![0.0; count - 1];
+        rates[0] = -1.0;
+        let after = collide(law, &directions, &v, &rates, &vec![e; count - 1]).unwrap();
+        let sum = |v: &[f64]| (v.iter().sum::<f64>(), dot(v, v));
+        assert!((sum(&after.v).0 - 1.0).abs() < 1e-14, "momentum");
+        assert!(sum(&after.v).1 <= 1.0 + 1e-14 && (e < 1.0 || sum(&after.v).1 > 1.0 - 1e-14), "energy");
+        after.v
+    }
+
+    #[test]
+    fn rows_of_balls() {
+        let close = |found: Vec<f64>, want: &[f64]| {
+            assert!(found.iter().zip(want).all(|(a, b)| (a - b).abs() < 1e-14), "{found:?} {want:?}");
+        };
+        close(row(3, 1.0, ImpactLaw::Together), &[-1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0]);
+        close(row(5, 1.0, ImpactLaw::Together), &[-0.6, 0.4, 0.4, 0.4, 0.4]);
+        close(row(3, 1.0, ImpactLaw::InTurn), &[0.0, 0.0, 1.0]);
+        close(row(5, 1.0, ImpactLaw::InTurn), &[0.0, 0.0, 0.0, 0.0, 1.0]);
+        // restitution 1/2: binary impacts 1/4, 3/4, and again, until none closes
+        let found = row(3, 0.5, ImpactLaw::InTurn);
+        close(found, &[0.203_125, 0.234_375, 0.562_5]);
+    }
+
+    /// A bar on two feet: dropped flat it rebounds flat by both laws; with one foot at rest the laws differ.
+    #[test]
+    fn bar_on_two_feet() {
+        let feet: [&[f64]; 2] = [&[-1.0, 1.0], &[-1.0, -1.0]];
+        for law in [ImpactLaw::Together, ImpactLaw::InTurn] {
+            let flat = collide(law, &feet, &[-1.0, 0.0], &[-1.0, -1.0], &[0.5, 0.5]).unwrap();
+            assert_eq!(flat.v, [0.5, 0.0]);
+        }
+        // it turns about the left foot, and the right one strikes; slim bars have a moment of inertia below one
+        let inertia = 0.6_f64.sqrt();
+        let feet: [&[f64]; 2] = [&[-1.0, 1.0 / inertia], &[-1.0, -1.0 / inertia]];
+        let v = [-0.5, 0.5 * inertia * -1.0];
+        let rates: Vec<f64> = feet.iter().map(|w| -dot(w, &v)).collect();
+        let of = |law| collide(law, &feet, &v, &rates, &[0.5, 0.5]).unwrap();
+        let (together, turn) = (of(ImpactLaw::Together), of(ImpactLaw::InTurn));
+        for found in [&together, &turn] {
+            assert!(feet.iter().all(|w| -dot(w, &found.v) > -1e-15) && dot(&found.v, &found.v) <= dot(&v, &v));
+        }
+    }
+}
