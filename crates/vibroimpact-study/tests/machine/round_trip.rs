@@ -92,6 +92,7 @@ fn machine() -> impl Strategy<Value = Machine> {
                     damping,
                     stiffness,
                     constant,
+                    impacts: vibroimpact::machine::ImpactLaw::Together,
                     frequency: Some(frequency),
                     forces: forces.map(|((cos, sin), order)| HarmonicForce { order, cos, sin }).collect(),
                     stops: (stops.into_iter().enumerate())
