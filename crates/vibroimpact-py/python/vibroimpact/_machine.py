@@ -308,7 +308,8 @@ class Machine:
             fields = _core.simulate_machine(self._file, start, maybe("impacts", impacts, SIMULATED), periods, tell)
         kind, stop = (np.array(fields.pop(name), dtype=np.str_) for name in ("kind", "stop"))
         with_ = tuple(tuple(names) for names in fields.pop("with_"))
-        return MachineSimulation(machine=self, start=start, kind=kind, stop=stop, with_=with_, **fields)
+        tie = tuple(fields.pop("tie"))
+        return MachineSimulation(machine=self, start=start, kind=kind, stop=stop, with_=with_, tie=tie, **fields)
 
     def start_of(
         self, q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None
@@ -617,6 +618,8 @@ class MachineSimulation(Result):
         Coordinates, and velocities after the event.
     with_ : tuple of tuples of str
         Other stops that take part at the same time.
+    tie : tuple of bool
+        Whether impacts at one time would lead elsewhere if one of the stops were struck first.
     end : str
         Why the list ends: "event_limit", "time_limit", "no_more_impacts", "stuck", "search_limit", "inconsistent" or
         "collapse".
@@ -638,6 +641,7 @@ class MachineSimulation(Result):
     q: _Floats
     qdot: _Floats
     with_: tuple[tuple[str, ...], ...]
+    tie: tuple[bool, ...]
     end: str
     end_time: float
     shown_until: float
@@ -676,14 +680,16 @@ class MachineSimulation(Result):
         """The fields "events" and "end" of the JSON of the command."""
         forced = self.machine.period is not None
         names = ("kind", "stop", "time", "phase", "speed", "q", "qdot")
-        rows = zip(*(getattr(self, name).tolist() for name in names), self.with_)
+        rows = zip(*(getattr(self, name).tolist() for name in names), self.with_, self.tie)
         events = []
-        for *values, others in rows:
+        for *values, others, tie in rows:
             event: dict[str, Any] = dict(zip(names, values))
             if not forced:
                 del event["phase"]
             if others:
                 event["with"] = list(others)
+            if tie:
+                event["tie"] = True
             events.append(event)
         return {"events": events, "end": {"reason": self.end, "time": self.end_time}}
 

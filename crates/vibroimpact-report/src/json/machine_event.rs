@@ -18,6 +18,9 @@ pub(super) struct EventObject<'a> {
     /// Other stops that take part at the same time.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     with: Vec<&'a str>,
+    /// Whether the impacts would lead elsewhere if one of the stops were struck first.
+    #[serde(skip_serializing_if = "core::ops::Not::not")]
+    tie: bool,
 }
 
 /// The object of an event.
@@ -31,5 +34,6 @@ pub(super) fn event_object<'a>(machine: &'a Machine, event: &'a MachineEvent) ->
         q: &event.q,
         qdot: &event.qdot,
         with: event.with.iter().map(|place| machine.name_of(*place)).collect(),
+        tie: event.tie,
     }
 }

@@ -2,8 +2,8 @@
 
 use super::number::NumberText;
 use super::shapes::{MatrixText, VectorText};
-use super::text::{ForceText, FrictionText, MachineText, MotionText, OpeningText, StopText};
-use vibroimpact::machine::{FrictionJoint, HarmonicForce, MachineParts, MachineStop, Opening, StopLaw};
+use super::text::{ForceText, FrictionText, ImpactsText, MachineText, MotionText, OpeningText, StopText};
+use vibroimpact::machine::{FrictionJoint, HarmonicForce, ImpactLaw, MachineParts, MachineStop, Opening, StopLaw};
 use vibroimpact::math::Matrix;
 
 /// A positive zero, which is what an absent number stands for.
@@ -46,6 +46,7 @@ impl From<&MachineParts> for MachineText {
             force: parts.forces.iter().map(force).collect(),
             stop: parts.stops.iter().map(stop).collect(),
             friction: parts.joints.iter().map(friction).collect(),
+            impacts: (parts.impacts == ImpactLaw::InTurn).then_some(ImpactsText::InTurn),
             ..Self::default()
         }
     }

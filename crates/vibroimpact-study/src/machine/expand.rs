@@ -6,8 +6,10 @@ use super::number::NumberText;
 use super::places::{Places, check_name};
 use super::shapes::VectorText;
 use super::structure::{frequency, places, structure};
-use super::text::{ForceText, FrictionText, MachineText, MotionText, OpeningText, StopText};
-use vibroimpact::machine::{FrictionJoint, HarmonicForce, HarmonicMotion, MachineParts, MachineStop, Opening, StopLaw};
+use super::text::{ForceText, FrictionText, ImpactsText, MachineText, MotionText, OpeningText, StopText};
+use vibroimpact::machine::{
+    FrictionJoint, HarmonicForce, HarmonicMotion, ImpactLaw, MachineParts, MachineStop, Opening, StopLaw,
+};
 
 /// The expansion. The sizes of all its vectors and matrices are right; the rest is checked by the machine.
 pub(super) fn expand(text: &MachineText, parameters: &Named<f64>) -> Result<MachineParts, MachineTextError> {
@@ -19,6 +21,10 @@ pub(super) fn expand(text: &MachineText, parameters: &Named<f64>) -> Result<Mach
     parts.frequency = frequency("", text.frequency.as_ref(), text.frequency_hz.as_ref(), &places)?;
     forces(&mut parts.forces, &text.force, &places)?;
     parts.stops = text.stop.iter().map(|stop| expand_stop(stop, &places)).collect::<Result<_, _>>()?;
+    parts.impacts = match text.impacts.unwrap_or_default() {
+        ImpactsText::Together => ImpactLaw::Together,
+        ImpactsText::InTurn => ImpactLaw::InTurn,
+    };
     parts.joints = text.friction.iter().map(|joint| expand_joint(joint, &places)).collect::<Result<_, _>>()?;
     Ok(parts)
 }

@@ -47,5 +47,7 @@ pub use read::no_files;
 pub use shapes::{MatrixText, VectorText};
 pub use source::MachineSource;
 pub use start::{StartNumbers, StartText};
-pub use text::{ForceText, FrictionText, LinkText, MachineText, ModeText, MotionText, OpeningText, StopText};
+pub use text::{
+    ForceText, FrictionText, ImpactsText, LinkText, MachineText, ModeText, MotionText, OpeningText, StopText,
+};
 pub(crate) use write::headed_toml;

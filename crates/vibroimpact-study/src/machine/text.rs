@@ -44,6 +44,9 @@ pub struct MachineText {
     /// Frequency of the forcing in periods per unit of time; instead of `frequency`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frequency_hz: Option<NumberText>,
+    /// How impacts on several rigid stops at one time act; `together` when absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub impacts: Option<ImpactsText>,
     /// Modes of vibration.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub mode: Vec<ModeText>,
@@ -59,6 +62,17 @@ pub struct MachineText {
     /// Friction joints.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub friction: Vec<FrictionText>,
+}
+
+/// The law of impacts on several rigid stops at one time, or on one while others are closed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ImpactsText {
+    /// All at once, by Moreau's law.
+    #[default]
+    Together,
+    /// In turn, as in a cradle: stops that close push first, then those that they make close.
+    InTurn,
 }
 
 /// A mode of vibration. Its amplitude is a coordinate.

@@ -506,21 +506,20 @@ impl MachineFlight {
         self.drive.of(i).iter().map(|(a, b)| a.abs() + b.abs()).sum::<f64>() + self.drive.steady[i].abs()
     }
 
-    /// The slowest time of the structure: the longest time in which a mode or a harmonic turns by a radian.
-    fn slowest(&self) -> f64 {
-        let modes = self.structure.modes.iter().map(|mode| mode.omega);
-        let rates = modes.chain(self.structure.rates.iter().copied()).filter(|rate| *rate > 0.0);
-        1.0 / rates.fold(f64::INFINITY, f64::min).min(1e150)
+    /// The time in which the fastest motion turns by a radian; any time without one.
+    fn shortest(&self) -> f64 {
+        let rate = self.structure.fastest();
+        if rate > 0.0 { 1.0 / rate } else { 1.0 }
     }
 
-    /// How far a mode moves in the slowest time, nearly.
+    /// How far a mode moves in a time, nearly.
     fn swing_size(&self, i: usize, time: f64) -> f64 {
         (self.v[i].abs() + self.push_size(i) * time + self.drive.ramp[i].abs() * time * time) * time
     }
 
     /// By how much a linear function of the state changes, nearly.
     fn change_size(&self, of: &Observable) -> f64 {
-        let time = self.slowest();
+        let time = self.shortest();
         let signal = of.signal.harmonics.iter().map(|(a, b)| a.abs() + b.abs()).sum::<f64>();
         let modes = (0..self.v.len()).map(|i| {
             let swing = self.swing_size(i, time);
@@ -533,7 +532,7 @@ impl MachineFlight {
     pub(crate) fn presses_never(&self, normal: &Normal, held: usize) -> bool {
         let reaction = &self.structure.reactions[held];
         let (x, v) = (dot(&self.x, &self.x).sqrt(), dot(&self.rate, &self.rate).sqrt());
-        let time = self.slowest();
+        let time = self.shortest();
         let moved: f64 = (0..self.v.len()).map(|i| self.swing_size(i, time)).sum();
         let of = |signal: &Signal| {
             signal.constant.abs() + signal.harmonics.iter().map(|(a, b)| a.abs() + b.abs()).sum::<f64>()
@@ -549,7 +548,7 @@ impl MachineFlight {
     /// Whether a gap keeps its value for the whole flight, within rounding errors of the motion.
     pub(crate) fn opens_never(&self, normal: &Normal, stop: usize) -> bool {
         let (gap, _) = self.structure.gap(normal, stop);
-        let (w, time) = (&normal.directions[stop], self.slowest());
+        let (w, time) = (&normal.directions[stop], self.shortest());
         let moved: f64 = (0..self.v.len()).map(|i| self.swing_size(i, time)).sum();
         let walls = normal.walls.iter().flat_map(|wall| &wall.harmonics).map(|(a, b)| a.abs() + b.abs()).sum::<f64>();
         self.change_size(&gap) <= SILENT * (dot(w, w).sqrt() * moved + walls)

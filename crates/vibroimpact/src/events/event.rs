@@ -62,6 +62,9 @@ pub struct MachineEvent {
     pub qdot: Vec<f64>,
     /// Other stops that take part at the same time: struck too, at rest and pushed through, or of the same collapse.
     pub with: Vec<usize>,
+    /// Of impacts on several stops: whether they would lead elsewhere if one of the stops were struck before the others by
+    /// however little. What follows then holds for impacts at exactly one time, as of a symmetric structure.
+    pub tie: bool,
 }
 
 impl MachineEvent {

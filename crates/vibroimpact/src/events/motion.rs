@@ -44,6 +44,8 @@ pub struct MachineMotion<'a> {
     /// The last flights in two regimes, between which most motions alternate: their memory is used again.
     spare: [Option<Box<MachineFlight>>; 2],
     pub(super) scratch: Scratch,
+    /// Whether the outcome of the last impacts depends on an order that is below rounding.
+    pub(super) tie: bool,
     /// Events since the time last advanced.
     crowd: u32,
     /// Events since the beginning.
@@ -253,6 +255,7 @@ impl<'a> MachineMotion<'a> {
         for (kind, at, speed, with) in events {
             self.announce(kind, at, speed, with);
         }
+        self.tie = false;
         if let Some(passage) = &mut self.passage {
             passage.after = Some(self.place.clone());
         }
@@ -285,6 +288,7 @@ impl<'a> MachineMotion<'a> {
             q: self.normal.to_machine(&self.place.x),
             qdot: self.normal.to_machine(&self.place.v),
             with,
+            tie: self.tie && kind == MachineEventKind::Impact,
         });
     }
 
@@ -338,6 +342,7 @@ impl<'a> MachineMotion<'a> {
             touches: Vec::new(),
             spare: [None, None],
             scratch: Scratch::default(),
+            tie: false,
             crowd: 0,
             count: 0,
             slow: SlowImpacts::default(),

@@ -1,6 +1,6 @@
 //! Impacts on rigid stops, and what they do to all contacts.
 
-use super::collision::{Collision, collide};
+use super::collision::{Collision, collide, depends_on_order};
 use super::motion::MachineMotion;
 use super::passage::Blow;
 use super::place::Place;
@@ -38,8 +38,9 @@ impl MachineMotion<'_> {
         let directions: Vec<&[f64]> = set.iter().map(|(j, ..)| self.normal.directions[*j].as_slice()).collect();
         let (rates, restitutions): (Vec<f64>, Vec<f64>) = set.iter().map(|(_, rate, e)| (*rate, *e)).unzip();
         let law = self.machine.parts().impacts;
-        let Collision { v: mut after, impulses: found, rounds } =
-            collide(law, &directions, &self.place.v, &rates, &restitutions)?;
+        let outcome = collide(law, &directions, &self.place.v, &rates, &restitutions)?;
+        self.tie = depends_on_order(&outcome, &directions, &self.place.v, &rates, &restitutions, struck.len());
+        let Collision { v: mut after, impulses: found, rounds } = outcome;
         self.place.jolt();
         let size = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
         // with the velocities of the law; in rounds a stop may be struck again and open more slowly than after its own impact

@@ -19,6 +19,8 @@ mod drift;
 #[cfg(test)]
 mod limit_cycles;
 #[cfg(test)]
+mod one_instant;
+#[cfg(test)]
 mod quantities;
 #[cfg(test)]
 mod samples;
