@@ -32,14 +32,35 @@ pub(crate) fn contact_forces(
                 }
             }
             GuardKind::Force(j) => forces[j] = value().0,
-            // joints that hold along with a constraint bear what a stop does not, and of a joint their share
-            GuardKind::Reaction(j) => forces[j] = (value().0 - shared(j)).max(0.0),
+            GuardKind::Reaction(j) => forces[j] = value().0 - shared(j),
             GuardKind::LimitForward(j) => {
-                let limit = machine.joints()[j].limit;
-                let whole = limit + shared(stops + j);
-                forces[stops + j] = (whole - value().0) * if whole > limit { limit / whole } else { 1.0 };
+                forces[stops + j] = machine.joints()[j].limit + shared(stops + j) - value().0;
             }
             _ => {}
+        }
+    }
+    let structure = &flight.structure;
+    for sharing in &structure.sharing {
+        // a stop bears what it can, and the joints along with it the rest in proportion to their limits; joints share all
+        let (place, limits) = (structure.held[sharing.held], structure.shared[sharing.held]);
+        let whole = structure.sharing.iter().filter(|other| other.held == sharing.held);
+        if whole.clone().next().is_some_and(|first| first.place == sharing.place) {
+            let load = forces[place];
+            let (own, rest) = match machine.stops().get(place).map(|stop| compliant(&stop.law)) {
+                Some(law) => {
+                    let own = load.clamp(0.0, law.map_or(f64::INFINITY, |(_, _, preload)| preload));
+                    (own, if limits > 0.0 { (load - own) / limits } else { 0.0 })
+                }
+                None => {
+                    let limit = machine.joints()[place - stops].limit;
+                    let part = if limit + limits > 0.0 { load / (limit + limits) } else { 0.0 };
+                    (part * limit, part)
+                }
+            };
+            forces[place] = own;
+            for other in whole {
+                forces[other.place] = other.side * rest * machine.joints()[other.place - stops].limit;
+            }
         }
     }
 }

@@ -153,13 +153,27 @@ impl Resolution<'_> {
                 }
             }
             ContactState::Holding => {
-                let Some((reaction, shared)) = structure.reaction(at) else { return (ORDERS, None) };
+                let Some((reaction, shared)) = structure.reaction(at) else {
+                    // other constraints move it, and it holds only if they do not
+                    let sliding = structure.sliding(self.machine, self.normal, joint);
+                    let forward = condition(&sliding, (-1.0, 0.0), 1, ContactState::Forward);
+                    return two(forward, condition(&sliding, (1.0, 0.0), 1, ContactState::Backward));
+                };
                 let limit = self.machine.joints()[joint].limit + shared;
                 let forward = condition(reaction, (-1.0, limit), 0, ContactState::Forward);
                 two(forward, condition(reaction, (1.0, limit), 0, ContactState::Backward))
             }
-            ContactState::Touching => (ORDERS, None),
-            ContactState::Open | ContactState::Closed if flight.opens_never(self.normal, at) => (ORDERS, None),
+            ContactState::Open | ContactState::Closed | ContactState::Touching
+                if flight.opens_never(self.normal, at) =>
+            {
+                (ORDERS, None)
+            }
+            // other constraints move it, and it stays closed only if they do not
+            ContactState::Touching => {
+                let (gap, _) = structure.gap(self.normal, at);
+                let opens = condition(&gap, (-1.0, 0.0), 2, ContactState::Open);
+                two(opens, condition(&gap, (1.0, 0.0), 2, ContactState::Open))
+            }
             ContactState::Open => {
                 let preloaded = compliant(&self.machine.stops()[at].law).is_none_or(|(_, _, preload)| preload > 0.0);
                 let instead = if preloaded { ContactState::Resting } else { ContactState::Closed };

@@ -52,6 +52,17 @@ pub(crate) struct Guard {
     pub(crate) function: Observable,
 }
 
+/// A joint that holds along with a constraint and shares its load.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sharing {
+    /// The joint, counted after the stops.
+    pub(crate) place: usize,
+    /// The constraint.
+    pub(crate) held: usize,
+    /// Whether its direction is that of the constraint, 1, or the opposite one, -1.
+    pub(crate) side: f64,
+}
+
 /// The structure in one regime.
 #[derive(Clone, Debug)]
 pub(crate) struct Structure {
@@ -89,6 +100,8 @@ pub(crate) struct Structure {
     pub(crate) across: Vec<Vec<f64>>,
     /// The limits of joints that hold along with each constraint, in units of its reaction.
     pub(crate) shared: Vec<f64>,
+    /// These joints.
+    pub(crate) sharing: Vec<Sharing>,
     /// Acceleration per unit of reaction, and rate of the damping, along each of these.
     pub(crate) mobility: Vec<(f64, f64)>,
     pub(crate) rates: Vec<f64>,
@@ -155,7 +168,7 @@ impl Structure {
         let held: Vec<usize> = bearing.iter().map(|at| constraints[*at]).collect();
         let directions: Vec<Vec<f64>> = held.iter().map(|place| normal.directions[*place].clone()).collect();
         // joints that hold along with another constraint share its load: their limits add to its range
-        let mut shared = vec![0.0; held.len()];
+        let (mut shared, mut sharing) = (vec![0.0; held.len()], Vec::new());
         for place in constraints.iter().filter(|place| !held.contains(place)) {
             if states[*place] == ContactState::Resting {
                 return None;
@@ -163,7 +176,8 @@ impl Structure {
             if states[*place] == ContactState::Holding
                 && let Some((at, ratio)) = parallel(&directions, &normal.directions[*place])
             {
-                shared[at] += ratio * machine.joints()[*place - stops].limit;
+                shared[at] += ratio.abs() * machine.joints()[*place - stops].limit;
+                sharing.push(Sharing { place: *place, held: at, side: ratio.signum() });
             }
         }
         let along: Vec<&[f64]> = closed.iter().map(|contact| contact.direction).collect();
@@ -405,6 +419,7 @@ impl Structure {
                 .collect(),
             across,
             shared,
+            sharing,
             rates: rates.clone(),
             rest,
             plain: false,
@@ -639,12 +654,12 @@ impl Structure {
     }
 }
 
-/// The direction to which another one is parallel, and the ratio of their lengths.
+/// The direction to which another one is parallel, and its multiple of it.
 fn parallel(directions: &[Vec<f64>], other: &[f64]) -> Option<(usize, f64)> {
     directions.iter().enumerate().find_map(|(at, direction)| {
         let one = core::iter::once(direction.as_slice());
         let depends = independent(one.chain(core::iter::once(other))).len() == 1;
-        depends.then(|| (at, (dot(other, other) / dot(direction, direction)).sqrt()))
+        depends.then(|| (at, dot(other, direction) / dot(direction, direction)))
     })
 }
 

@@ -245,3 +245,23 @@ fn f42i_an_oscillator_beside_itself() {
         assert!(same, "{k}: {own:?} {all:?}");
     }
 }
+
+/// A body that rides on a moving stop beside a joint to the ground slides on it, also where the stop turns.
+#[test]
+fn f42j_a_moving_stop_moves_a_joint() {
+    let mut parts = MachineParts::new(["x"])
+        .with_mass(0, 1.0)
+        .with_constant(0, -1.0)
+        .with_frequency(0.5)
+        .with_rigid_stop("table", &[-1.0], 0.0, 0.0)
+        .with_joint("guide", &[1.0], 0.1, 0.2, 0.0);
+    parts.stops[0].motion.push(HarmonicMotion { order: 1, cos: 0.0, sin: 1.0 });
+    let (found, _) = events(&parts, &MachineStart::default(), 8);
+    let slips: Vec<&MachineEvent> = found.iter().filter(|event| event.kind == MachineEventKind::Slip).collect();
+    assert!(found.iter().all(|event| event.kind != MachineEventKind::Hold), "{found:?}");
+    // the table turns at odd multiples of a quarter of its period
+    for (k, slip) in slips.iter().take(4).enumerate() {
+        assert!((slip.time - PI * (2.0 * k as f64 + 1.0)).abs() < 1e-12, "{slip:?}");
+    }
+    assert!(slips.len() > 3);
+}
