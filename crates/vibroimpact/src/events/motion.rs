@@ -177,19 +177,25 @@ impl<'a> MachineMotion<'a> {
             .iter()
             .map(|state| if *state == ContactState::Holding { ContactState::Open } else { *state })
             .collect();
-        self.change(&before, &closing, candidates);
+        self.change(&before, &closing, candidates, &[]);
         Ok(())
     }
 
     /// Changes the contacts at this time, all at once: impacts on the stops `closing`, then the states of the candidates,
-    /// which are closed without velocity. The motion ends if no state of the contacts is consistent.
-    fn change(&mut self, before: &[ContactState], closing: &[usize], candidates: Vec<usize>) {
-        if self.changed(before, closing, candidates).is_none() {
+    /// which are closed without velocity; the forces of those in `ended` have reached their limits. The motion ends if no state of the contacts is consistent.
+    fn change(&mut self, before: &[ContactState], closing: &[usize], candidates: Vec<usize>, ended: &[usize]) {
+        if self.changed(before, closing, candidates, ended).is_none() {
             self.end = Some(MachineEnd::Inconsistent);
         }
     }
 
-    fn changed(&mut self, before: &[ContactState], closing: &[usize], mut candidates: Vec<usize>) -> Option<()> {
+    fn changed(
+        &mut self,
+        before: &[ContactState],
+        closing: &[usize],
+        mut candidates: Vec<usize>,
+        ended: &[usize],
+    ) -> Option<()> {
         let turns = self.place.turns(&self.normal);
         let speed = |place: &Place, stop: usize| (-place.gap(&self.normal, &turns, stop).1).max(0.0);
         let speeds: Vec<f64> = (0..self.machine.stops().len()).map(|j| speed(&self.place, j)).collect();
@@ -215,7 +221,8 @@ impl<'a> MachineMotion<'a> {
         candidates.sort_unstable();
         if !candidates.is_empty() {
             let (machine, normal, place) = (self.machine, &self.normal, &self.place);
-            let all = Resolution { machine, normal, structures: &mut self.structures, place, candidates: &candidates };
+            let all =
+                Resolution { machine, normal, structures: &mut self.structures, place, candidates: &candidates, ended };
             let Resolved { states, known } = all.resolve()?;
             self.place.states = states;
             for (kind, count) in known {
@@ -484,7 +491,7 @@ impl<'a> MachineMotion<'a> {
         let stops = self.machine.stops().len();
         let before = self.place.states.clone();
         let turns = self.place.turns(&self.normal);
-        let (mut closing, mut candidates) = (Vec::new(), Vec::new());
+        let (mut closing, mut candidates, mut ended) = (Vec::new(), Vec::new(), Vec::new());
         for kind in kinds {
             match *kind {
                 GuardKind::Gap(j) => {
@@ -511,10 +518,10 @@ impl<'a> MachineMotion<'a> {
                 GuardKind::Reaction(_)
                 | GuardKind::Preload(_)
                 | GuardKind::LimitForward(_)
-                | GuardKind::LimitBackward(_) => {}
+                | GuardKind::LimitBackward(_) => ended.push(kind.place(stops)),
             }
         }
-        self.change(&before, &closing, candidates);
+        self.change(&before, &closing, candidates, &ended);
     }
 }
 

@@ -49,6 +49,8 @@ pub(super) struct Resolution<'a> {
     pub(super) structures: &'a mut Structures,
     pub(super) place: &'a Place,
     pub(super) candidates: &'a [usize],
+    /// Those of them whose force has just reached its limit: they go on only if it comes back.
+    pub(super) ended: &'a [usize],
 }
 
 /// What a combination of states of the candidates amounts to.
@@ -132,6 +134,9 @@ impl Resolution<'_> {
         // at least zero: a multiple of a function and a constant
         let condition = |of: &Observable, (sign, constant): (f64, f64), from: usize, instead: ContactState| {
             let (order, value) = first_derivative(flight, of, (sign, constant), from);
+            // a force that begins at its limit ends with an event of its own
+            let begins = from == 0 && order > 0 && !self.ended.contains(&at);
+            let value = if begins { value.max(0.0) } else { value };
             (order, (value < 0.0).then_some(Violation { order, amount: -value, instead }))
         };
         let two = |one: (usize, Option<Violation>), other: (usize, Option<Violation>)| {
