@@ -92,8 +92,10 @@ pub(crate) struct Modes {
     steps: Steps,
 }
 
-/// The number of Taylor coefficients that decide what a contact without velocity does.
-pub(crate) const ORDERS: usize = 5;
+/// The number of Taylor coefficients that decide what a contact without velocity does: a push passes through a row of eight
+/// bodies in contact within them. Nearly always the first few do.
+pub(crate) const ORDERS: usize = 18;
+pub(crate) const FIRST_ORDERS: usize = 4;
 /// What is below this part of the terms that it is a sum of is zero within rounding errors.
 const SILENT: f64 = 1e-12;
 const HALF_ULP: f64 = 0.5 * f64::EPSILON;
@@ -444,26 +446,27 @@ impl MachineFlight {
     }
 
     /// The Taylor coefficients of a linear function of the state at the beginning, each with the size of its terms.
-    pub(crate) fn taylor(&self, of: &Observable) -> [(f64, f64); ORDERS] {
-        let mut result = [(0.0, 0.0); ORDERS];
+    pub(crate) fn taylor<const N: usize>(&self, of: &Observable) -> [(f64, f64); N] {
+        let mut result = [(0.0, 0.0); N];
+        let (mut c, mut size) = (vec![0.0; N + 1], vec![0.0; N + 1]);
         let mut dense = Vec::new();
         if let Some(equations) = self.dense() {
-            equations.coefficients(&vec![0.0; self.v.len()], &self.v, 0.0, ORDERS + 1, &mut dense);
+            equations.coefficients(&vec![0.0; self.v.len()], &self.v, 0.0, N + 1, &mut dense);
         }
         let real = |k: usize| f64::from(u32::try_from(k).unwrap_or(0));
         for i in 0..self.v.len() {
             let (alpha, beta) = (of.position[i], of.velocity[i]);
-            let mut c = [0.0; ORDERS + 1];
+            c.fill(0.0);
             if dense.is_empty() {
                 self.coefficients(i, 0.0, self.v[i], 0.0, self.drive.of(i), &mut c);
             } else {
-                c.copy_from_slice(&dense[i * (ORDERS + 1)..(i + 1) * (ORDERS + 1)]);
+                c.copy_from_slice(&dense[i * (N + 1)..(i + 1) * (N + 1)]);
             }
             c[0] = self.origin[i];
             // bounds of the derivatives: forces that cancel in equilibrium have rounding errors of their sizes
             let (rate, push) =
                 (self.rate_of(i), self.push_size(i) + (self.structure.modes[i].k * self.origin[i]).abs());
-            let mut size = [0.0; ORDERS + 1];
+            size.fill(0.0);
             (size[0], size[1]) = (c[0].abs(), self.v[i].abs());
             let mut derivative = rate * size[1] + push;
             let mut factorial = 1.0;

@@ -24,7 +24,8 @@ pub(super) struct GuardPolynomial {
 
 impl GuardPolynomial {
     pub(super) fn new(p: [f64; TERMS], known: usize, error: f64, size: f64) -> Self {
-        let mut of = Self { p, known, error, size, from: None };
+        // higher zeros are zero within rounding over a window in which only these are divided out
+        let mut of = Self { p, known: known.min(4), error, size, from: None };
         // contacts on which the flight begins are divided out; a derivative that is zero within rounding is zero, and the
         // next one decides
         while of.known > 0 && of.known < 4 && of.p[of.known] <= 0.0 && -of.p[of.known] <= 64.0 * f64::EPSILON * of.size
@@ -32,6 +33,13 @@ impl GuardPolynomial {
             of.known += 1;
         }
         of
+    }
+
+    /// One that is positive.
+    pub(super) fn passed() -> Self {
+        let mut p = [0.0; TERMS];
+        p[0] = 1.0;
+        Self { p, known: 0, error: 0.0, size: 1.0, from: None }
     }
 
     /// Whether it is positive over the window, by a quick test; `false` may be wrong.

@@ -29,6 +29,6 @@ mod track;
 mod transition;
 mod zero;
 
-pub(crate) use flight::{Begin, ClosedGap, MachineFlight, Modes, ORDERS, Recovery};
+pub(crate) use flight::{Begin, ClosedGap, FIRST_ORDERS, MachineFlight, Modes, ORDERS, Recovery};
 pub(crate) use found::{Buffers, Found, Touch};
 pub(crate) use search::first_event;

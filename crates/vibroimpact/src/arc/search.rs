@@ -66,6 +66,9 @@ fn by_windows(
     found
 }
 
+/// A guard whose terms are all below this number of its rounding errors over a window decides nothing there.
+const FLAT: f64 = 8.0;
+
 /// How many rounding errors of their values and of the time may lie between zeros of guards at one time.
 const TOGETHER: f64 = 32.0;
 
@@ -178,7 +181,9 @@ fn search(
             if s > 0.0 && of.p[0] > 4.0 * of.error {
                 touched[g] = false;
             }
-            buffers.polynomials.push(of);
+            // a contact that is only just left, by a power of the time, is zero within rounding for a while
+            let stays = touched[g] && of.p.iter().map(|c| c.abs()).sum::<f64>() <= FLAT * of.error;
+            buffers.polynomials.push(if stays { GuardPolynomial::passed() } else { of });
         }
         let Some((near, g)) = first_of(&mut buffers.polynomials) else {
             s += window;

@@ -21,6 +21,12 @@ pub(crate) fn contact_forces(
         ContactState::Backward => -joint.sliding,
         _ => 0.0,
     }));
+    // a closed stop whose gap constraints hold has no guard
+    for (j, gap) in flight.closed_gaps(modes) {
+        if let Some((k, _, p)) = compliant(&machine.stops()[j].law) {
+            forces[j] = p - k * gap;
+        }
+    }
     let shared = |place: usize| flight.structure.reaction(place).map_or(0.0, |(_, shared)| shared);
     for (g, guard) in flight.structure.guards.iter().enumerate() {
         let value = || flight.guard(g, modes);

@@ -60,6 +60,8 @@ pub struct MachineMotion<'a> {
     trail: Option<Vec<Stretch>>,
 }
 
+/// A gap or a rate below this part of its terms is zero within rounding.
+const ROUNDED: f64 = 64.0 * f64::EPSILON;
 /// More events than this at one time are a collapse.
 const CROWD: u32 = 10_000;
 /// The number of windows of a flight after which it is asked whether there is an event at all.
@@ -199,7 +201,7 @@ impl<'a> MachineMotion<'a> {
         let turns = self.place.turns(&self.normal);
         let speed = |place: &Place, stop: usize| (-place.gap(&self.normal, &turns, stop).1).max(0.0);
         let speeds: Vec<f64> = (0..self.machine.stops().len()).map(|j| speed(&self.place, j)).collect();
-        let (rigid, compliant): (Vec<usize>, Vec<usize>) =
+        let (rigid, soft): (Vec<usize>, Vec<usize>) =
             closing.iter().partition(|j| compliant(&self.machine.stops()[**j].law).is_none());
         let mut events: Vec<(MachineEventKind, usize, f64, Vec<usize>)> = Vec::new();
         if !rigid.is_empty() {
@@ -211,11 +213,24 @@ impl<'a> MachineMotion<'a> {
                 events.push((MachineEventKind::Impact, j, speeds[j], with));
             }
         }
-        self.meet(&compliant, before, !rigid.is_empty(), &turns, &mut candidates);
+        self.meet(&soft, before, !rigid.is_empty(), &turns, &mut candidates);
         // a force that jumps can end any rest
         for (at, state) in self.place.states.iter().enumerate() {
             if state.constrains() && !candidates.contains(&at) {
                 candidates.push(at);
+            }
+        }
+        // a preload that presses at depth zero is no constraint, and ends like one
+        for (j, stop) in self.machine.stops().iter().enumerate() {
+            if self.place.states[j] == ContactState::Closed
+                && compliant(&stop.law).is_some_and(|(_, _, preload)| preload > 0.0)
+                && !candidates.contains(&j)
+            {
+                let (gap, rate, size, rate_size) = self.place.gap(&self.normal, &turns, j);
+                if gap.abs() <= ROUNDED * size && rate.abs() <= ROUNDED * rate_size && before[j] == ContactState::Closed
+                {
+                    candidates.push(j);
+                }
             }
         }
         candidates.sort_unstable();

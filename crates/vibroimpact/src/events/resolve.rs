@@ -11,7 +11,7 @@
 //! a third support of a bar has nothing to bear. It has no condition, so that rounding errors of zero decide nothing.
 
 use super::place::{Place, Structures};
-use crate::arc::{MachineFlight, ORDERS};
+use crate::arc::{FIRST_ORDERS, MachineFlight, ORDERS};
 use crate::machine::Machine;
 use crate::regime::{ContactState, GuardKind, Normal, Observable, compliant, independent};
 
@@ -49,7 +49,7 @@ pub(super) struct Resolution<'a> {
     pub(super) structures: &'a mut Structures,
     pub(super) place: &'a Place,
     pub(super) candidates: &'a [usize],
-    /// Those of them whose force has just reached its limit: they go on only if it comes back.
+    /// Those of them whose force has just reached its limit.
     pub(super) ended: &'a [usize],
 }
 
@@ -60,6 +60,8 @@ struct Trial {
     worst: Option<(Violation, usize)>,
     /// For each candidate the order of the first derivative that is not zero.
     orders: Vec<usize>,
+    /// The forces of constraints that begin at a limit, with this order.
+    limits: Vec<(GuardKind, usize)>,
 }
 
 impl Resolution<'_> {
@@ -114,9 +116,9 @@ impl Resolution<'_> {
         let structure = self.structures.get(self.machine, self.normal, &states)?;
         let there = Place { states, known: Vec::new(), ..self.place.clone() };
         let flight = there.flight(self.normal, structure);
-        let (mut worst, mut orders) = (None, Vec::with_capacity(of.len()));
+        let (mut worst, mut orders, mut limits) = (None, Vec::with_capacity(of.len()), Vec::new());
         for (k, at) in self.candidates.iter().enumerate() {
-            let (order, violation) = self.check(&flight, *at, there.states[*at]);
+            let (order, violation) = self.check(&flight, *at, there.states[*at], &mut limits);
             orders.push(order);
             if let Some(violation) = violation
                 && worst.as_ref().is_none_or(|(other, _)| violation.exceeds(other))
@@ -124,20 +126,33 @@ impl Resolution<'_> {
                 worst = Some((violation, k));
             }
         }
-        Some(Trial { flight, worst, orders })
+        Some(Trial { flight, worst, orders, limits })
     }
 
     /// The order of the first derivative that is not zero of the condition of a contact, and its violation.
-    fn check(&self, flight: &MachineFlight, at: usize, state: ContactState) -> (usize, Option<Violation>) {
+    /// `limits` receives the forces that begin at a limit.
+    fn check(
+        &self,
+        flight: &MachineFlight,
+        at: usize,
+        state: ContactState,
+        limits: &mut Vec<(GuardKind, usize)>,
+    ) -> (usize, Option<Violation>) {
         let structure = &flight.structure;
         let joint = at.wrapping_sub(self.machine.stops().len());
         // at least zero: a multiple of a function and a constant
         let condition = |of: &Observable, (sign, constant): (f64, f64), from: usize, instead: ContactState| {
             let (order, value) = first_derivative(flight, of, (sign, constant), from);
-            // a force that begins at its limit ends with an event of its own
-            let begins = from == 0 && order > 0 && !self.ended.contains(&at);
+            // a force that begins at its limit ends with an event of its own, but where others end it does not begin
+            let begins = from == 0 && order > 0 && self.ended.is_empty();
             let value = if begins { value.max(0.0) } else { value };
             (order, (value < 0.0).then_some(Violation { order, amount: -value, instead }))
+        };
+        let mut limit = |kind: GuardKind, of: (usize, Option<Violation>)| {
+            if of.0 > 0 && of.0 < ORDERS {
+                limits.push((kind, of.0));
+            }
+            of
         };
         let two = |one: (usize, Option<Violation>), other: (usize, Option<Violation>)| {
             if one.1.is_some() { one } else { (one.0.min(other.0), other.1) }
@@ -149,10 +164,11 @@ impl Resolution<'_> {
                     return (ORDERS, None);
                 }
                 let (reaction, shared) = (&structure.reactions[held], structure.shared[held]);
-                let pushes = condition(reaction, (1.0, shared), 0, ContactState::Open);
+                let pushes = limit(GuardKind::Reaction(at), condition(reaction, (1.0, shared), 0, ContactState::Open));
                 match compliant(&self.machine.stops()[at].law) {
                     Some((_, _, preload)) => {
-                        two(pushes, condition(reaction, (-1.0, preload + shared), 0, ContactState::Closed))
+                        let yields = condition(reaction, (-1.0, preload + shared), 0, ContactState::Closed);
+                        two(pushes, limit(GuardKind::Preload(at), yields))
                     }
                     None => pushes,
                 }
@@ -164,9 +180,10 @@ impl Resolution<'_> {
                     let forward = condition(&sliding, (-1.0, 0.0), 1, ContactState::Forward);
                     return two(forward, condition(&sliding, (1.0, 0.0), 1, ContactState::Backward));
                 };
-                let limit = self.machine.joints()[joint].limit + shared;
-                let forward = condition(reaction, (-1.0, limit), 0, ContactState::Forward);
-                two(forward, condition(reaction, (1.0, limit), 0, ContactState::Backward))
+                let most = self.machine.joints()[joint].limit + shared;
+                let forward = condition(reaction, (-1.0, most), 0, ContactState::Forward);
+                let backward = condition(reaction, (1.0, most), 0, ContactState::Backward);
+                two(limit(GuardKind::LimitForward(joint), forward), limit(GuardKind::LimitBackward(joint), backward))
             }
             ContactState::Open | ContactState::Closed | ContactState::Touching
                 if flight.opens_never(self.normal, at) =>
@@ -261,7 +278,7 @@ impl Resolution<'_> {
             }
         }
         let mut all = trial.flight.structure.states().to_vec();
-        let mut known = Vec::new();
+        let mut known = trial.limits.clone();
         for (k, at) in self.candidates.iter().enumerate() {
             let order = trial.orders[k];
             match all[*at] {
@@ -271,13 +288,17 @@ impl Resolution<'_> {
                         all[*at] = ContactState::Touching;
                     }
                 }
-                ContactState::Open | ContactState::Closed
-                    if order == ORDERS && trial.flight.opens_never(self.normal, *at) =>
-                {
+                ContactState::Open if order == ORDERS && trial.flight.opens_never(self.normal, *at) => {
                     all[*at] = ContactState::Touching;
                 }
                 ContactState::Open => known.push((GuardKind::Gap(*at), order)),
-                ContactState::Closed => known.push((GuardKind::Depth(*at), order)),
+                ContactState::Closed => {
+                    known.push((GuardKind::Depth(*at), order));
+                    // the force of a damper begins with the velocity; a preload presses at once
+                    if compliant(&self.machine.stops()[*at].law).is_some_and(|(_, _, preload)| preload == 0.0) {
+                        known.push((GuardKind::Force(*at), order.saturating_sub(1)));
+                    }
+                }
                 ContactState::Forward | ContactState::Backward => {
                     known.push((GuardKind::Sliding(*at - stops), order));
                 }
@@ -302,11 +323,9 @@ fn first_derivative(
             return (0, value / size);
         }
     }
-    let terms = flight.taylor(of);
-    for (k, (value, size)) in terms.iter().enumerate().skip(from.max(1)) {
-        if value.abs() > SMALL * size {
-            return (k, sign * value / size);
-        }
-    }
-    (ORDERS, 0.0)
+    let first = |terms: &[(f64, f64)]| {
+        let mut all = terms.iter().enumerate().skip(from.max(1));
+        all.find(|(_, (value, size))| value.abs() > SMALL * size).map(|(k, (value, size))| (k, sign * value / size))
+    };
+    first(&flight.taylor::<FIRST_ORDERS>(of)).or_else(|| first(&flight.taylor::<ORDERS>(of))).unwrap_or((ORDERS, 0.0))
 }

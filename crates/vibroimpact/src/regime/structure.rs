@@ -15,6 +15,9 @@ use super::window::{Window, windows};
 use crate::machine::{Machine, Opening, StopLaw};
 use crate::math::{Matrix, add_scaled, dot};
 
+/// A gap that changes by less than this part of the motion along its direction does not change.
+const STILL: f64 = 1e-12;
+
 /// What a guard is; the number is the place of the stop, or of the joint among the joints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum GuardKind {
@@ -163,7 +166,9 @@ impl Structure {
         closed.sort_by(|one, other| weight(other).total_cmp(&weight(one)));
 
         // constraints w.x = wall(t), or the set point and the way of the belt: x = x_c(t) + N eta
-        let constraints: Vec<usize> = (0..states.len()).filter(|place| states[*place].constrains()).collect();
+        // those that bear a load come first, and contacts without force only where they are free
+        let mut constraints: Vec<usize> = (0..states.len()).filter(|place| states[*place].constrains()).collect();
+        constraints.sort_by_key(|place| states[*place] == ContactState::Touching);
         let bearing = independent(constraints.iter().map(|place| normal.directions[*place].as_slice()));
         let held: Vec<usize> = bearing.iter().map(|at| constraints[*at]).collect();
         let directions: Vec<Vec<f64>> = held.iter().map(|place| normal.directions[*place].clone()).collect();
@@ -520,6 +525,16 @@ impl Structure {
         self.held.iter().position(|held| *held == place).map(|at| (&self.reactions[at], self.shared[at]))
     }
 
+    /// Whether the gap of a stop can change beyond rounding errors: not where constraints hold it already.
+    fn moves(&self, normal: &Normal, stop: usize) -> bool {
+        let (gap, _) = self.gap(normal, stop);
+        let (w, wall) = (&normal.directions[stop], &normal.walls[stop]);
+        let still = |of: &[f64]| of.iter().all(|factor| factor.abs() <= STILL * dot(w, w).sqrt());
+        let size = |signal: &Signal| signal.harmonics.iter().map(|(a, b)| a.abs() + b.abs()).sum::<f64>();
+        let swing = size(wall) + dot(w, w).sqrt() * self.x.iter().map(|x| size(&x.signal)).sum::<f64>();
+        !(still(&gap.position) && still(&gap.velocity) && gap.signal.ramp == 0.0 && size(&gap.signal) <= STILL * swing)
+    }
+
     fn all_guards(&self, machine: &Machine, normal: &Normal) -> Vec<Guard> {
         let mut guards = Vec::new();
         let mut add = |kind, function| guards.push(Guard { kind, function });
@@ -532,7 +547,8 @@ impl Structure {
             match (self.states[j], &stop.law) {
                 (ContactState::Closed, StopLaw::Compliant { opening, damping, preload, .. }) => {
                     // without damper and preload both are zero together
-                    if *opening == Opening::Position || *preload > 0.0 || *damping == 0.0 {
+                    let depth = *opening == Opening::Position || *preload > 0.0 || *damping == 0.0;
+                    if depth && self.moves(normal, j) {
                         add(GuardKind::Depth(j), self.gap(normal, j).0.scaled(-1.0));
                     }
                     if *opening == Opening::Force
@@ -551,6 +567,7 @@ impl Structure {
                     }
                 }
                 (ContactState::Touching, _) => {}
+                _ if !self.moves(normal, j) => {}
                 _ => add(GuardKind::Gap(j), self.gap(normal, j).0),
             }
         }
