@@ -32,4 +32,5 @@ pub use cycle::MachineCycle;
 pub use find::find_machine_while;
 pub(crate) use frame::MachineFrame;
 pub(crate) use lap::MachineLap;
+pub(crate) use of_motion::events_of;
 pub(crate) use ring::{MachineRing, RingEvent};
