@@ -317,8 +317,8 @@ impl MachineBranch {
         if let Some(stop) = self.lost(at, found) {
             return self.end(at, MachineBranchEvent::LossOfContact { stop });
         }
-        // how many impacts of a chatter are followed is no property of the cycle, nor which of its slowest impacts happen
-        if !matches!(found, Difference::Appears { .. } | Difference::Corner { .. })
+        // how many impacts of a chatter are followed is no property of the cycle
+        if matches!(found, Difference::Rest { joint: false, .. } | Difference::Other { .. })
             && let Some(next) = same_beyond(&self.tracer, at, &self.options)
         {
             self.tracer = next;

@@ -34,6 +34,9 @@ const ALIKE: f64 = 3e-4;
 /// A contact that vanishes may last for a negative time, as a phase up to this: its solutions are not admissible then.
 const BRIEF: f64 = 0.05;
 
+/// The least depth at an opening by force, for contacts that vanish, and the size below which a surface has come back.
+const LEAST: (f64, f64) = (1e-12, 1e-300);
+
 /// An event of a signature.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct RingEvent {
@@ -241,7 +244,7 @@ impl MachineRing {
         let m = self.len();
         for k in (0..m).filter(|k| self.events[*k].guard == GuardKind::Force(stop)).collect::<Vec<_>>() {
             let place = self.place(k);
-            let depth = -place.gap(&frame.normal, &place.turns(&frame.normal), stop).0;
+            let depth = (-place.gap(&frame.normal, &place.turns(&frame.normal), stop).0).max(LEAST.0);
             let surface = standing_back(&frame.machine.stops()[stop].law, depth)?;
             let later = |time: f64| Recovery { size: surface.size * decay(surface.rate * time).0, ..surface };
             let mut stands = vec![(k, surface)];
@@ -250,7 +253,7 @@ impl MachineRing {
                 stands.push((i, later(time)));
                 time += self.time(i, frame.machine);
             }
-            if later(time).size > surface.offset {
+            if later(time).size > surface.offset.max(LEAST.1) {
                 for (i, surface) in stands {
                     self.events[i].back[stop] = true;
                     self.places[i].surfaces[stop] = Some(surface);
