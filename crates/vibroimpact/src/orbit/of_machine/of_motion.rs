@@ -25,7 +25,10 @@ pub(crate) fn events_of(lap: &MachineLap) -> Vec<(f64, RingEvent, Place)> {
     }
     let m = events.len();
     for (k, stop) in on_holder.into_iter().enumerate().filter_map(|(k, stop)| Some((k, stop?))) {
-        let before = (1..m).map(|i| (k + m - i) % m);
+        // where the lap is not closed, what is at its end is not what was at its beginning
+        let stands = |place: &Place| place.surfaces[stop].is_some();
+        let closes = lap.steps.first().is_some_and(|(_, begin, _)| stands(begin) == stands(&lap.end));
+        let before = (1..m).take_while(|i| *i <= k || closes).map(|i| (k + m - i) % m);
         for i in before {
             if !core::mem::take(&mut events[i].1.back[stop]) {
                 break;
