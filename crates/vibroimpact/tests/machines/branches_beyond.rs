@@ -98,74 +98,84 @@ fn f42j_a_hold_that_vanishes() {
         settled(&with_static_friction(mass).0, &from.cycle.state).unwrap().label.to_string()
     };
     let beside = points.iter().find(|point| point.event == Some(MachineBranchEvent::Jump)).unwrap();
-    assert_eq!([1.07595, 1.0755, 1.0745, 1.0734].map(|mass| label(mass, beside)), ["3/1", "9/3", "6/2", "3/1"]);
-    // the same from the other side
-    let cycle = settled(&with_static_friction(1.0).0, &points.last().unwrap().cycle.state).unwrap();
-    let machine = with_static_friction(1.0).0;
-    let points = traced((&machine, "mass.x1"), &cycle, (0.918, 1.2), Direction::Up);
-    let back = self::events(&points);
-    let at = back.iter().position(|(event, _)| *event == MachineBranchEvent::Jump).unwrap();
-    assert!(back[at - 1].0 == MachineBranchEvent::Holding { joint: 2, begins: true }, "{back:?}");
-    assert!(
-        (back[at - 1].1 - events.iter().find(|(event, _)| *event == MachineBranchEvent::Jump).unwrap().1).abs() < 1e-7
-    );
-    assert!((back[at].1 - value).abs() < 1e-6, "{back:?}");
-    assert!(matches!(back.last(), Some((MachineBranchEvent::EndOfRange, _))), "{back:?}");
+    assert_eq!([1.07595, 1.0755, 1.0745, 1.0734].map(|mass| label(mass, beside)), ["3/1", "6/2", "6/2", "3/1"]);
 }
 
-/// One or two masses that strike a preloaded, damped stop.
-fn preloaded(opening: Opening, (preload, damping): (f64, f64), gap: f64, two: bool) -> Machine {
-    let law = StopLaw::Compliant { stiffness: 25.0, damping, preload, opening };
-    let parts = if two {
-        MachineParts::new(["a", "b"])
-            .with_mass(0, 1.0)
-            .with_mass(1, 0.8)
-            .with_link(&[1.0, -1.0], 1.1, 0.12)
-            .with_link(&[0.0, 1.0], 0.9, 0.1)
-            .with_frequency(0.8)
-            .with_force(1, 1, 0.0, 0.9)
-            .with_stop("stop", &[1.0, 0.0], gap, law)
-    } else {
-        MachineParts::new(["a"])
-            .with_mass(0, 1.0)
-            .with_link(&[1.0], 1.0, 0.15)
-            .with_frequency(0.45)
-            .with_force(0, 1, 0.0, 1.0)
-            .with_stop("stop", &[1.0], gap, law)
-    };
+/// One mass that strikes a preloaded, damped stop twice in a period.
+fn preloaded_mass() -> Machine {
+    let law = StopLaw::Compliant { stiffness: 40.5863, damping: 0.4704, preload: 0.1317, opening: Opening::Position };
+    let parts = MachineParts::new(["x"])
+        .with_mass(0, 0.597)
+        .with_link(&[1.0], 0.5406, 0.1628)
+        .with_frequency(0.7198)
+        .with_force(0, 1, 0.191, 1.3297)
+        .with_stop("stop", &[1.0], 0.3605, law);
     Machine::new(parts).unwrap()
 }
 
-/// Where a contact of a preloaded or damped stop begins or ceases to be a part of the cycle, the branch goes on with a grazing
-/// event, and back from there the event is at the same place.
+/// Three masses, two of which strike each other on a preloaded, damped stop.
+fn preloaded_chain() -> Machine {
+    let law = StopLaw::Compliant { stiffness: 35.4867, damping: 2.9538, preload: 0.1956, opening: Opening::Position };
+    let parts = MachineParts::new(["a", "b", "c"])
+        .with_mass(0, 1.2581)
+        .with_mass(1, 1.1805)
+        .with_mass(2, 1.1011)
+        .with_link(&[1.0, 0.0, 0.0], 0.6526, 0.2383)
+        .with_link(&[-1.0, 1.0, 0.0], 1.4186, 0.1529)
+        .with_link(&[0.0, -1.0, 1.0], 0.811, 0.0746)
+        .with_frequency(1.0164)
+        .with_force(1, 1, 0.4735, 0.9277)
+        .with_stop("stop", &[0.0, 1.0, -1.0], 0.5733, law);
+    Machine::new(parts).unwrap()
+}
+
+/// Where a contact of a preloaded, damped stop begins or ceases to be a part of the cycle, the branch goes on with a grazing event.
+/// There the multiplier is without limit, and the number turns back.
 #[test]
-fn f42k_preloaded_and_damped_contacts_that_graze() {
-    let (mut grazing, mut compared) = (0, 0);
-    for opening in [Opening::Force, Opening::Position] {
-        for law in [(0.0, 0.0), (0.3, 0.0), (0.0, 1.5), (0.1, 0.8), (0.4, 2.5)] {
-            for two in [false, true] {
-                let machine = preloaded(opening, law, 0.4, two);
-                let Some(cycle) = settled(&machine, &MachineStart::default()) else { continue };
-                for direction in [Direction::Down, Direction::Up] {
-                    let range = (-0.3, 1.4);
-                    let points = traced((&machine, "stop.stop.gap"), &cycle, range, direction);
-                    let found = events(&points);
-                    let case = format!("{opening:?} {law:?} {two} {direction:?}: {found:?}");
-                    assert!(
-                        found.iter().all(|(event, _)| !matches!(
-                            event,
-                            MachineBranchEvent::NoConvergence | MachineBranchEvent::Change { .. }
-                        )),
-                        "{case}"
-                    );
-                    grazing +=
-                        found.iter().filter(|(event, _)| matches!(event, MachineBranchEvent::Grazing { .. })).count();
-                    compared += agrees_with_simulation((&machine, "stop.stop.gap"), &points);
-                }
-            }
+fn f42k_preloaded_contacts_that_graze() {
+    let grazing = |appears| MachineBranchEvent::Grazing { stop: 0, appears, turns: true };
+    let (fold, flip, end) = (MachineBranchEvent::Fold, MachineBranchEvent::Flip, MachineBranchEvent::EndOfRange);
+    let lost = MachineBranchEvent::LossOfContact { stop: 0 };
+    let (mass, chain) = (preloaded_mass(), preloaded_chain());
+    for (machine, path, range, direction, want) in [
+        (
+            &mass,
+            "frequency",
+            (0.53985, 0.93574),
+            Direction::Down,
+            vec![(grazing(true), 0.570_747_424), (fold, 0.578_750_564), (end, 0.53985)],
+        ),
+        (
+            &mass,
+            "frequency",
+            (0.53985, 0.93574),
+            Direction::Up,
+            vec![(fold, 0.819_535_091), (grazing(false), 0.811_413_849), (end, 0.93574)],
+        ),
+        (
+            &chain,
+            "frequency",
+            (0.7623, 1.32132),
+            Direction::Up,
+            vec![(fold, 1.224_270_718), (flip, 1.206_562_463), (lost, 1.206_189_790)],
+        ),
+        (
+            &chain,
+            "stop.stop.gap",
+            (0.1733, 1.3733),
+            Direction::Down,
+            vec![(grazing(true), 0.266_724_676), (fold, 0.275_504_284), (end, 0.1733)],
+        ),
+    ] {
+        let cycle = settled(machine, &MachineStart::default()).unwrap();
+        let points = traced((machine, path), &cycle, range, direction);
+        let found = events(&points);
+        assert_eq!(found.len(), want.len(), "{path} {direction:?}: {found:?}");
+        for ((event, value), (expected, at)) in found.iter().zip(&want) {
+            assert!(event == expected && (value - at).abs() < 1e-8, "{path} {direction:?}: {found:?}");
         }
+        assert!(agrees_with_simulation((machine, path), &points) > 5);
     }
-    assert!(grazing > 20 && compared > 100, "{grazing} {compared}");
 }
 
 /// A stop on which the structure rests while another one is struck is pushed and does not close: it is not counted.

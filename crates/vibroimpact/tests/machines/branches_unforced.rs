@@ -275,7 +275,7 @@ fn the_begin_of_a_hold_that_changes_all_that_follows() {
     let machine = Machine::new(parts).unwrap();
     let points = branch(&machine, ("friction.belt.belt", 0.1, 0.5), Direction::Up);
     let events: Vec<_> = points.iter().filter_map(|point| Some((point.event?, point.value))).collect();
-    let [(MachineBranchEvent::Holding { joint: 1, begins: true }, value), (MachineBranchEvent::NoConvergence, _)] =
+    let [(MachineBranchEvent::Holding { joint: 1, begins: true }, value), (MachineBranchEvent::Discontinuity, _)] =
         events[..]
     else {
         panic!("{events:?}")

@@ -133,6 +133,10 @@ pub(crate) fn difference(ring: &MachineRing, judged: &Judged) -> Difference {
         }
         let changed = (0..found.after.len()).find(|j| found.after[*j] != expected.after[*j]);
         let rests = |state: ContactState| state.constrains();
+        let one_sided = |kind: &&GuardKind| found.with.contains(kind) != expected.with.contains(kind);
+        if let Some(kind) = found.with.iter().chain(&expected.with).find(one_sided) {
+            return Difference::Corner { first: own, second: kind.place(stops) };
+        }
         // the surface of a stop comes back to its holder just when the stop closes
         let returned = (0..found.back.len()).find(|j| found.back[*j] != expected.back[*j]);
         return match changed {
