@@ -132,7 +132,7 @@ pub(crate) struct Fields<'py> {
 }
 
 pub(crate) fn start((q, qdot, phase): Start) -> MachineStart {
-    MachineStart { q, qdot, phase }
+    MachineStart { q, qdot, phase, ..MachineStart::default() }
 }
 
 /// Rows of `width` values each as an array; `width` may be 0.

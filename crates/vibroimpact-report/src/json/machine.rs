@@ -303,7 +303,7 @@ impl MachineAnswer {
     /// Writes the object with these fields.
     fn document<S: Serializer, T: Serialize>(&self, result: T, to: S) -> Result<S::Ok, S::Error> {
         let Self { name, plan, machine, start, .. } = self;
-        let MachineStart { q, qdot, phase } = start;
+        let MachineStart { q, qdot, phase, .. } = start;
         let coordinates = machine.parts().coordinates.as_slice();
         let start = StartObject { q, qdot, phase: *phase };
         Document { machine: name, coordinates, start, result, plan, program: PROGRAM }.serialize(to)

@@ -9,6 +9,7 @@
 //! | rounds of impacts on several stops in turn, their end | `rounds`, `collapse` |
 //! | events that change one stop alone | `alone` |
 //! | the state at one time | `place` |
+//! | a whole state as a start, and back | [`Contact`], `state` |
 //! | which stops rest and which joints hold | `resolve` |
 //! | one step of a motion, and its derivative by the state | `passage`, `saltation` |
 //! | the motion as an iterator over its events | [`MachineMotion`] |
@@ -31,13 +32,14 @@ mod rounds;
 mod saltation;
 mod sample;
 mod samples;
+mod state;
 mod stretch;
 mod stretches;
 mod strike;
 mod within;
 
 pub(crate) use contact_force::contact_forces;
-pub use event::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
+pub use event::{Contact, MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
 pub use motion::MachineMotion;
 pub(crate) use passage::Passage;
 pub(crate) use place::{Place, Structures, standing_back};

@@ -25,6 +25,10 @@ mod quantities;
 #[cfg(test)]
 mod samples;
 #[cfg(test)]
+mod small_mass;
+#[cfg(test)]
+mod state;
+#[cfg(test)]
 mod sticking;
 #[cfg(test)]
 mod verdicts;

@@ -191,11 +191,7 @@ impl MachineCycle {
             multipliers,
             residual,
             drift,
-            state: MachineStart {
-                q: frame.normal.to_machine(&begin.x),
-                qdot: frame.normal.to_machine(&begin.v),
-                phase: begin.phase,
-            },
+            state: begin.start(frame.machine, &frame.normal),
             strobes,
             sizes: lap.sizes,
             free,

@@ -285,7 +285,7 @@ mod tests {
             for (x, v) in [(0.0, 0.0), (-2.0, 0.0), (0.1, -1.0)] {
                 let start = Start { x, v, phase: 0.0 };
                 let expected = settle(&osc, start, &SettleOptions::default()).verdict;
-                let own = MachineStart { q: vec![x], qdot: vec![v], phase: 0.0 };
+                let own = MachineStart { q: vec![x], qdot: vec![v], phase: 0.0, ..MachineStart::default() };
                 let found = settle_machine(&machine, &own, &SettleOptions::default()).unwrap().verdict;
                 assert_eq!(found.label(), expected.label(), "{} from {x} {v}", point.name);
                 if let (MachineVerdict::Periodic(cycle), Verdict::Periodic(of)) = (&found, &expected) {

@@ -35,8 +35,6 @@ impl MachineTail {
 
     /// The state before them as a start.
     pub(crate) fn start(&self, machine: &Machine) -> MachineStart {
-        let normal = Normal::new(machine);
-        let Place { x, v, phase, .. } = &self.from;
-        MachineStart { q: normal.to_machine(x), qdot: normal.to_machine(v), phase: *phase }
+        self.from.start(machine, &Normal::new(machine))
     }
 }
