@@ -79,7 +79,7 @@ fn planned(file: &MachineFile, from: Start, task: &str, tile: Option<u32>) -> Re
         Trouble::question(said.rsplit_once(" at line ").map_or(said.as_str(), |(said, _)| said).to_owned())
     })?;
     // a start of the wrong size is refused by its path
-    let plan = MachinePlan { tile, ..MachinePlan::new(file.0.clone(), task) }.starting(&start(from));
+    let plan = MachinePlan { tile, ..MachinePlan::new(file.0.clone(), task) }.starting(&start(file, from)?);
     plan.check()?;
     Ok(plan)
 }

@@ -177,6 +177,12 @@ class MachineMotion(Result):
         stability = "" if self.stable is None else ", stable" if self.stable else ", unstable"
         return f"<MachineMotion {self.label}{stability}>"
 
+    @property
+    def whole_state(self) -> dict[str, Any] | None:
+        """The `state` with its contacts and all digits, which `Machine.starting` takes."""
+        state: dict[str, Any] | None = self._object.get("state")
+        return state
+
     def to_dict(self) -> dict[str, Any]:
         """The object of the motion in the JSON of the command."""
         return dict(self._object)

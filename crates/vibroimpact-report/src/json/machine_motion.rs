@@ -1,6 +1,6 @@
 //! A steady motion of a machine in JSON: label, counts of each stop, multipliers, events.
 
-use super::machine_event::{EventObject, event_object};
+use super::machine_event::{EventObject, StateObject, event_object};
 use super::machine_quantities::{errors, values};
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -51,13 +51,6 @@ pub(super) struct MotionObject<'a> {
     /// Three standard errors of the means among the quantities of a chaotic motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     quantities_error: Option<Map<String, Value>>,
-}
-
-#[derive(Serialize)]
-struct StateObject<'a> {
-    q: &'a [f64],
-    qdot: &'a [f64],
-    phase: f64,
 }
 
 /// A measured number; null where it is minus infinity.
@@ -126,7 +119,7 @@ pub(super) fn cycle<'a>(machine: &'a Machine, cycle: &'a MachineCycle) -> Motion
         drift: drift(machine, cycle),
         drift_velocity: (cycle.translations() > 0).then(|| by_coordinate(machine, &cycle.drift_velocity())),
         cycle: cycle.events.iter().map(|event| event_object(machine, event)).collect(),
-        state: Some(StateObject { q: &cycle.state.q, qdot: &cycle.state.qdot, phase: cycle.state.phase }),
+        state: Some(StateObject::of(machine, &cycle.state)),
         residual: Some(cycle.residual),
         quantities: machine_cycle_quantities(machine, cycle).map(|found| values(machine, &found)),
         ..empty("periodic", cycle.label.to_string())
