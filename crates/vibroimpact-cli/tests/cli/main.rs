@@ -19,6 +19,7 @@ mod planes;
 mod questions;
 mod refusals;
 mod same_as_library;
+mod stability;
 mod studies;
 mod summaries;
 mod units;

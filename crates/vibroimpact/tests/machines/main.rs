@@ -25,6 +25,8 @@ mod quantities;
 #[cfg(test)]
 mod samples;
 #[cfg(test)]
+mod stability;
+#[cfg(test)]
 mod sticking;
 #[cfg(test)]
 mod verdicts;
