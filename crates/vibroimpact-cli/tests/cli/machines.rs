@@ -426,7 +426,10 @@ fn branches() {
     let at = usize::try_from(grazing["point"].as_u64().unwrap()).unwrap();
     assert_eq!(points[at]["parameter"], grazing["parameter"]);
     let table = printed("branch --machine two-mass-hammer --vary frequency --to 1.05 --csv -");
-    assert!(table.starts_with("branch,frequency,label,physical,stable,event,stop,fastest,multiplier_1_re,"), "{table}");
+    assert!(
+        table.starts_with("branch,frequency,label,physical,stable,stability,event,stop,fastest,multiplier_1_re,"),
+        "{table}"
+    );
     assert!(table.lines().next().unwrap().ends_with(",multiplier_4_im,phases,speeds,stops"), "{table}");
     assert_eq!(table.lines().count(), points.len() + 1);
     let row: Vec<&str> = table.lines().nth(at + 1).unwrap().split(',').collect();

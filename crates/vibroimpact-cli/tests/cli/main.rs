@@ -20,6 +20,7 @@ mod questions;
 mod refusals;
 mod same_as_library;
 mod states;
+mod stability;
 mod studies;
 mod summaries;
 mod units;

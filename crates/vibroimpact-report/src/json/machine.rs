@@ -48,9 +48,8 @@ struct EndObject {
 #[derive(Serialize)]
 struct Settled<'a> {
     motion: MotionObject<'a>,
-    /// Events and time that were followed.
-    events: u64,
-    time: f64,
+    events_followed: u64,
+    time_followed: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     chaotic_transient: Option<Vec<Estimate>>,
 }
@@ -108,6 +107,7 @@ struct PointObject<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     quantities: Option<Map<String, Value>>,
     stable: bool,
+    stability: &'static str,
     physical: bool,
 }
 
@@ -176,6 +176,9 @@ struct Mapped<'a> {
     axes: &'a [MachineAxis],
     /// How many points have each label.
     labels: BTreeMap<String, u64>,
+    /// The smallest number of events over which chaos was seen at a point; absent without chaos.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    seen_events: Option<u64>,
     points: usize,
 }
 
@@ -200,8 +203,8 @@ impl Serialize for MachineAnswer {
             MachineResults::Settle(found) => self.document(
                 Settled {
                     motion: motion(machine, &found.verdict),
-                    events: found.events,
-                    time: found.time,
+                    events_followed: found.events,
+                    time_followed: found.time,
                     chaotic_transient: found.transient.as_ref().map(estimates),
                 },
                 to,
@@ -285,7 +288,7 @@ impl Serialize for MachineAnswer {
             }
             MachineResults::Map(found) => {
                 let (labels, points) = (found.labels(), found.cells.len());
-                self.document(Mapped { axes: &found.axes, labels, points }, to)
+                self.document(Mapped { axes: &found.axes, labels, seen_events: found.seen_events(), points }, to)
             }
         }
     }
@@ -335,6 +338,7 @@ impl MachineAnswer {
             drift: drift(machine, &point.cycle),
             quantities: quantity.map(|quantity| once((quantity.path.clone(), quantity.at(point).into())).collect()),
             stable: point.cycle.stable(),
+            stability: point.cycle.stability().name(),
             physical: true,
         };
         PointsObject { points: points.iter().map(of).collect(), events: events.collect() }

@@ -29,6 +29,8 @@ mod small_mass;
 #[cfg(test)]
 mod state;
 #[cfg(test)]
+mod stability;
+#[cfg(test)]
 mod sticking;
 #[cfg(test)]
 mod verdicts;

@@ -43,8 +43,9 @@ impl MachineCycle {
         // without events nothing says that the motion is not one of many
         let alone = |begin: &Place, lap: &MachineLap, residual| {
             let cycle = Self::of(frame, (begin, 0), lap, residual, vec![begin.clone()]);
-            let near_one = |m: &Multiplier| crate::math::hypot(m.re - 1.0, m.im) <= FAMILY;
-            (!cycle.events.is_empty() && !cycle.multipliers.iter().any(near_one)).then_some(cycle)
+            let near_one = |m: &&Multiplier| crate::math::hypot(m.re - 1.0, m.im) <= FAMILY;
+            let family = cycle.multipliers.iter().filter(near_one).count() > lap.holding().len();
+            (!cycle.events.is_empty() && !family).then_some(cycle)
         };
         // the smallest period has a whole part of the events
         let count = lap.events.len();
@@ -103,6 +104,7 @@ fn closed(frame: &MachineFrame<'_>, from: &Place, mut time: f64) -> Option<(Plac
         }
         let residual = frame.distance(&begin, &lap.end, lap.sizes);
         let (end, derivative, sizes) = (lap.end.clone(), lap.derivative.clone(), lap.sizes);
+        let holding = lap.holding();
         let improves = best.as_ref().is_none_or(|(so_far, ..)| residual < *so_far);
         if improves {
             best = Some((residual, begin.clone(), lap));
@@ -115,7 +117,7 @@ fn closed(frame: &MachineFrame<'_>, from: &Place, mut time: f64) -> Option<(Plac
         if !residual.is_finite() || step >= PATIENCE && residual > HOPELESS {
             return None;
         }
-        let (change, longer) = newton(frame, (&begin, &end), derivative?, sizes)?;
+        let (change, longer) = newton(frame, (&begin, &end), (derivative?, &holding), sizes)?;
         let next: Vec<f64> = frame.shape.values(&begin).iter().zip(&change).map(|(from, by)| from + by).collect();
         begin = frame.shape.with_values(&begin, &next);
         time += longer;
@@ -129,11 +131,11 @@ fn closed(frame: &MachineFrame<'_>, from: &Place, mut time: f64) -> Option<(Plac
 
 /// The changes of the state at the beginning and of the time that close a lap to first order:
 /// $`(I - J)\,\Delta z - f_1\,\Delta T = z_1 - z_0`$ but for a translation. Without forcing $`f_0\cdot\Delta z = 0`$, else
-/// $`\Delta T = 0`$.
+/// $`\Delta T = 0`$. Joints that hold all the time stay where they are.
 fn newton(
     frame: &MachineFrame<'_>,
     (begin, end): (&Place, &Place),
-    mut derivative: Matrix,
+    (mut derivative, holding): (Matrix, &[usize]),
     (size, speed): (f64, f64),
 ) -> Option<(Vec<f64>, f64)> {
     let mut change = frame.apart(end, begin);
@@ -144,6 +146,16 @@ fn newton(
     for i in 0..states {
         for j in 0..states {
             system[(i, j)] -= derivative[(i, j)];
+        }
+    }
+    // the gap of such a joint is the same after the lap, so a row of I - J for it is 0
+    for joint in holding {
+        let direction = &frame.normal.directions[*joint];
+        let square = dot(direction, direction);
+        for i in 0..n {
+            for j in 0..n {
+                system[(i, j)] += direction[i] * direction[j] / square;
+            }
         }
     }
     if unknowns > states {

@@ -4,7 +4,7 @@ use super::frame::{MachineFrame, distance};
 use super::lap::MachineLap;
 use crate::events::{MachineEvent, MachineEventKind, MachineStart, Place};
 use crate::math::{Multiplier, general_eigenvalues};
-use crate::orbit::{Count, Label};
+use crate::orbit::{Count, Label, Stability};
 use crate::regime::Translations;
 use crate::system::phase;
 use core::f64::consts::TAU;
@@ -41,6 +41,8 @@ pub struct MachineCycle {
     pub(crate) strobes: Vec<Place>,
     /// The largest sizes of coordinates and velocities.
     pub(crate) sizes: (f64, f64),
+    /// The rounding error of the derivative over one period, from which the multipliers come.
+    pub(crate) rounding: f64,
     /// The free translations of the machine.
     pub(crate) free: Translations,
 }
@@ -63,10 +65,22 @@ fn without_chatters(events: Vec<MachineEvent>) -> Vec<MachineEvent> {
 }
 
 impl MachineCycle {
+    /// Whether neighbours approach the cycle.
+    #[must_use]
+    pub fn stability(&self) -> Stability {
+        Stability::of(&self.multipliers, self.rounding)
+    }
+
+    /// The same for the direction of each multiplier.
+    #[must_use]
+    pub fn stabilities(&self) -> Vec<Stability> {
+        Stability::each(&self.multipliers, self.rounding).collect()
+    }
+
     /// Whether the cycle attracts its neighbourhood: all multipliers lie inside the unit circle.
     #[must_use]
     pub fn stable(&self) -> bool {
-        self.multipliers.iter().all(|multiplier| multiplier.modulus() < 1.0)
+        self.stability().is_stable()
     }
 
     /// The mean velocity of each coordinate: the drift divided by the period.
@@ -194,6 +208,7 @@ impl MachineCycle {
             state: begin.start(frame.machine, &frame.normal),
             strobes,
             sizes: lap.sizes,
+            rounding: lap.rounding(frame),
             free,
         }
     }
