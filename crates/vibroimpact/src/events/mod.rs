@@ -11,6 +11,7 @@
 //! | the state at one time | `place` |
 //! | which stops rest and which joints hold | `resolve` |
 //! | one step of a motion, and its derivative by the state | `passage`, `saltation` |
+//! | differences of neighbouring motions, and how they are stretched | `tangents` |
 //! | the motion as an iterator over its events | [`MachineMotion`] |
 //! | what it does between two events | [`MachineStretches`], `stretch` |
 //! | the forces of stops and joints during a flight | `contact_force` |
@@ -34,6 +35,7 @@ mod samples;
 mod stretch;
 mod stretches;
 mod strike;
+mod tangents;
 mod within;
 
 pub(crate) use contact_force::contact_forces;
@@ -45,3 +47,4 @@ pub(crate) use saltation::{EventLaw, LinearEvent, StateShape, step_derivative};
 pub use sample::MachineSample;
 pub use samples::MachineSamples;
 pub use stretches::MachineStretches;
+pub(crate) use tangents::{FrameChange, TangentStep, stretched, tangent_steps};
