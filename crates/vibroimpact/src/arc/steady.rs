@@ -278,7 +278,8 @@ impl SteadyWhole {
                 add_scaled(&mut by_place, -alpha / damping, drag);
             }
         }
-        let strained: f64 = self.stiff.iter().map(|(k, shape)| dot(shape, &by_place).powi(2) / k).sum();
+        let strain = |shape: &[f64]| dot(shape, &by_place);
+        let strained: f64 = self.stiff.iter().map(|(k, shape)| strain(shape) * strain(shape) / k).sum();
         outlook.transient += self.energy * (strained + dot(&by_rate, &by_rate)).sqrt();
         let along = |of: &[f64]| self.waves.iter().map(|(c, d)| (dot(of, c), dot(of, d))).collect::<Vec<_>>();
         add_waves(&mut outlook.harmonics, (1.0, 0.0), along(alpha).into_iter(), rates);

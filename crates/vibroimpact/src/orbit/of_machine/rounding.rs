@@ -40,7 +40,7 @@ pub(crate) fn rounding_decides(frame: &MachineFrame<'_>, lap: &MachineLap) -> bo
     if error <= NOTICEABLE {
         return false;
     }
-    !(error <= KNOWN) || neighbours_part(frame, lap).unwrap_or(true)
+    error.is_nan() || error > KNOWN || neighbours_part(frame, lap).unwrap_or(true)
 }
 
 /// The largest error, relative to the sizes of coordinates and velocities, on the way through these steps of a lap. `None` where a
