@@ -6,6 +6,7 @@ use crate::report::machine_curve;
 use core::fmt::Write;
 use vibroimpact::chaos::MachineSpectrum;
 use vibroimpact::continuation::MachinePoint;
+use vibroimpact::events::{MachineEnd, MachineLimits};
 use vibroimpact::machine::{Machine, StopLaw};
 use vibroimpact::orbit::MachineCycle;
 use vibroimpact::quantities::{MachinePart, MachineQuantity, Quantity, machine_quantities};
@@ -139,6 +140,10 @@ fn motion(machine: &Machine, verdict: &MachineVerdict) -> String {
                 MachineUndecided::Unconfirmed => {
                     "it is periodic, as it returns to a release from rest, but rounding errors decide its period"
                         .to_owned()
+                }
+                MachineUndecided::Ended(MachineEnd::NoEventWithin) => {
+                    let time = short(MachineLimits::default().time);
+                    format!("no event within a time of {time} after the last one, and none is excluded later")
                 }
                 why => undecided(*why).replace('_', " "),
             };

@@ -12,6 +12,7 @@
 //! | a whole state as a start, and back | [`Contact`], `state` |
 //! | which stops rest and which joints hold | `resolve` |
 //! | one step of a motion, and its derivative by the state | `passage`, `saltation` |
+//! | differences of neighbouring motions, and how they are stretched | `tangents` |
 //! | the motion as an iterator over its events | [`MachineMotion`] |
 //! | what it does between two events | [`MachineStretches`], `stretch` |
 //! | the forces of stops and joints during a flight | `contact_force` |
@@ -36,6 +37,7 @@ mod state;
 mod stretch;
 mod stretches;
 mod strike;
+mod tangents;
 mod within;
 
 pub(crate) use contact_force::contact_forces;
@@ -47,3 +49,4 @@ pub(crate) use saltation::{EventLaw, LinearEvent, StateShape, step_derivative};
 pub use sample::MachineSample;
 pub use samples::MachineSamples;
 pub use stretches::MachineStretches;
+pub(crate) use tangents::{FrameChange, TangentStep, stretched, tangent_steps};

@@ -501,12 +501,12 @@ impl<'a> MachineMotion<'a> {
         let mut never = false;
         if let Found::NoneBefore(s) = found {
             // a long flight: is there an event at all?
-            never = !recovered.is_finite() && flight.never_after(s, &mut self.buffers.modes);
+            never = !recovered.is_finite() && flight.never_after(s, &self.normal, &mut self.buffers.modes);
             if !never && s < until && self.limits.steps > PATIENCE {
                 self.touches.clear();
                 found = first_event(&flight, until, self.limits.steps, &mut self.buffers, &mut self.touches);
                 if let Found::NoneBefore(s) = found {
-                    never = !recovered.is_finite() && flight.never_after(s, &mut self.buffers.modes);
+                    never = !recovered.is_finite() && flight.never_after(s, &self.normal, &mut self.buffers.modes);
                 }
             }
         }

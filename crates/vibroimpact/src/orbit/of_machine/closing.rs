@@ -4,6 +4,7 @@
 use super::cycle::MachineCycle;
 use super::frame::MachineFrame;
 use super::lap::MachineLap;
+use super::rounding::rounding_decides;
 use crate::events::Place;
 use crate::math::{Lu, Matrix, Multiplier, dot};
 
@@ -24,7 +25,8 @@ const SAME: f64 = 1e-8;
 
 impl MachineCycle {
     /// The cycle of `n` forcing periods near the motion from `from`, by Newton's method on the state between two events,
-    /// which a free translation leaves as it is; `None` if it does not converge, or without forcing.
+    /// which a free translation leaves as it is; `None` if it does not converge, if it rests and rounding errors decide its period,
+    /// or without forcing.
     pub(crate) fn near(frame: &MachineFrame<'_>, from: &Place, n: u32) -> Option<Self> {
         let time = frame.machine.period()? * f64::from(n);
         let (begin, lap, residual) = closed(frame, from, time)?;
@@ -42,6 +44,9 @@ impl MachineCycle {
         let (begin, lap, residual) = closed(frame, from, time)?;
         // without events nothing says that the motion is not one of many
         let alone = |begin: &Place, lap: &MachineLap, residual| {
+            if rounding_decides(frame, lap) {
+                return None;
+            }
             let cycle = Self::of(frame, (begin, 0), lap, residual, vec![begin.clone()]);
             let near_one = |m: &&Multiplier| crate::math::hypot(m.re - 1.0, m.im) <= FAMILY;
             let family = cycle.multipliers.iter().filter(near_one).count() > lap.holding().len();
@@ -73,6 +78,7 @@ impl MachineCycle {
     /// The cycle whose motion over `n` periods is `lap`, over its smallest period.
     fn shortest(frame: &MachineFrame<'_>, (begin, n): (&Place, u32), lap: &MachineLap, residual: f64) -> Option<Self> {
         let one = frame.machine.period()?;
+        let known = |lap: &MachineLap| !rounding_decides(frame, lap);
         let mut strobes = vec![begin.clone()];
         for k in 1..n {
             let last = strobes.last()?;
@@ -80,11 +86,11 @@ impl MachineCycle {
             if n.is_multiple_of(k) && frame.distance(begin, &next, lap.sizes) <= SAME {
                 let lap = MachineLap::fly(frame, begin, one * f64::from(k))?;
                 let residual = frame.distance(begin, &lap.end, lap.sizes);
-                return Some(Self::of(frame, (begin, k), &lap, residual, strobes));
+                return known(&lap).then(|| Self::of(frame, (begin, k), &lap, residual, strobes));
             }
             strobes.push(next);
         }
-        Some(Self::of(frame, (begin, n), lap, residual, strobes))
+        known(lap).then(|| Self::of(frame, (begin, n), lap, residual, strobes))
     }
 }
 

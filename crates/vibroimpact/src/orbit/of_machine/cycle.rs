@@ -2,8 +2,9 @@
 
 use super::frame::{MachineFrame, distance};
 use super::lap::MachineLap;
+use super::multipliers::multipliers;
 use crate::events::{MachineEvent, MachineEventKind, MachineStart, Place};
-use crate::math::{Multiplier, general_eigenvalues};
+use crate::math::Multiplier;
 use crate::orbit::{Count, Label, Stability};
 use crate::regime::Translations;
 use crate::system::phase;
@@ -39,6 +40,8 @@ pub struct MachineCycle {
     pub state: MachineStart,
     /// The states at the phase of `state`, one for each forcing period; without forcing `state` alone.
     pub(crate) strobes: Vec<Place>,
+    /// The logarithms of the moduli of the multipliers; minus infinity for those that are 0.
+    pub(crate) logs: Vec<f64>,
     /// The largest sizes of coordinates and velocities.
     pub(crate) sizes: (f64, f64),
     /// The rounding error of the derivative over one period, from which the multipliers come.
@@ -87,15 +90,6 @@ impl MachineCycle {
     #[must_use]
     pub fn drift_velocity(&self) -> Vec<f64> {
         self.drift.iter().map(|drift| drift / self.period).collect()
-    }
-
-    /// The number of its multipliers, at least, that are 0, because the motion forgets these directions while the structure
-    /// rests or a joint holds.
-    pub(crate) fn forgotten(&self, frame: &MachineFrame<'_>) -> usize {
-        let lap = self.strobes.first().and_then(|begin| MachineLap::fly(frame, begin, self.period));
-        let forgotten = lap.map_or(0, |lap| lap.forgotten(frame.machine.stops().len()));
-        // surfaces that stand back are directions too, and may not be forgotten
-        forgotten.saturating_sub(frame.shape.size() - 2 * frame.shape.n)
     }
 
     /// The number of free translations of the machine.
@@ -185,12 +179,14 @@ impl MachineCycle {
             .collect();
         let chatter = lap.steps.iter().any(|(_, _, passage)| passage.rest.is_some());
         let impacts = if chatter { Count::Infinite } else { Count::Finite(counts.iter().sum()) };
-        let derivative = lap.derivative.clone().map(|derivative| frame.across_cycles(derivative, begin));
-        let mut multipliers = derivative
+        let stretchings = multipliers(frame, begin, lap);
+        let logs = stretchings
             .as_ref()
-            .and_then(general_eigenvalues)
-            .unwrap_or_else(|| vec![Multiplier { re: f64::INFINITY, im: 0.0 }; frame.multipliers()]);
-        multipliers.truncate(frame.multipliers());
+            .map_or_else(|| vec![f64::INFINITY; frame.multipliers()], |all| all.iter().map(|of| of.log).collect());
+        let multipliers = stretchings.map_or_else(
+            || vec![Multiplier { re: f64::INFINITY, im: 0.0 }; frame.multipliers()],
+            |all| all.into_iter().map(|of| of.multiplier).collect(),
+        );
         let free = frame.normal.translations.clone();
         let moved: Vec<f64> = lap.end.x.iter().zip(&begin.x).map(|(end, begin)| end - begin).collect();
         let mut drift = frame.normal.to_machine(&free.part(&moved));
@@ -203,6 +199,7 @@ impl MachineCycle {
             events,
             period,
             multipliers,
+            logs,
             residual,
             drift,
             state: begin.start(frame.machine, &frame.normal),

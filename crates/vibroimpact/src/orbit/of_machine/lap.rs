@@ -30,15 +30,6 @@ const STEPS: usize = 100_000;
 const BEYOND: f64 = 1.25;
 
 impl MachineLap {
-    /// The number of directions of the state, at least, in which differences of neighbours vanish: two where the structure rests
-    /// on a stop, whose gap and its rate are known, and one where a joint holds, whose velocity is.
-    pub(crate) fn forgotten(&self, stops: usize) -> usize {
-        let of = |(_, _, passage): &(f64, Place, Passage)| {
-            passage.structure.held.iter().map(|place| if *place < stops { 2 } else { 1 }).sum()
-        };
-        self.steps.iter().map(of).max().unwrap_or(0)
-    }
-
     /// The joints that hold all the time, by their places. Each keeps where it is: beside the motion there are others in which it
     /// is elsewhere.
     pub(crate) fn holding(&self) -> Vec<usize> {

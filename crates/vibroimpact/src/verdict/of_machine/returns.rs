@@ -1,10 +1,10 @@
 //! What the record of a motion needs to know of a machine: its returns are its steps from event to event.
 
 use super::super::recurring::{Diverging, Recurring};
-use crate::events::{MachineEvent, MachineMotion, Passage, Place, step_derivative};
+use crate::events::{MachineEvent, MachineMotion, Passage, Place, stretched, tangent_steps};
 use crate::lyapunov::{MachineMeasure, MachineSpectrum};
 use crate::math::dot;
-use crate::orbit::{MachineCycle, MachineFrame, MachineLap, Stability, crossing};
+use crate::orbit::{MachineCycle, MachineFrame, MachineLap, Stability, crossing, rounding_decides};
 use crate::regime::GuardKind;
 use core::cell::Cell;
 use std::sync::Arc;
@@ -93,12 +93,13 @@ impl Recurring for Recorded<'_> {
 
     fn add(&self, measure: &mut MachineMeasure, next: &Arc<Step>, interval: f64) -> bool {
         let frame = &self.frame;
-        let derivative = frame.with(|structures| {
-            step_derivative(&frame.shape, frame.machine, &frame.normal, structures, &next.begin, &next.passage)
+        let steps = frame.with(|structures| {
+            tangent_steps(&frame.shape, frame.machine, &frame.normal, structures, (&next.begin, &next.passage))
         });
         // a grazing contact has no derivative and is passed over
-        if let Some(derivative) = derivative {
-            measure.add(&derivative, interval, f64::from(next.closings));
+        if let Some(steps) = steps {
+            let carry = |vectors: &mut Vec<Vec<f64>>| stretched(&frame.shape, &frame.normal, &steps, vectors);
+            measure.add(carry, interval, f64::from(next.closings));
         }
         measure.complete()
     }
@@ -120,6 +121,11 @@ impl Recorded<'_> {
         }
         let cycle = MachineCycle::returning(&self.frame, &step.end, after)?;
         self.captured(step, &cycle).then_some(cycle)
+    }
+
+    /// Whether rounding errors decide how the motion that returns to a state after a time goes on from it.
+    pub(crate) fn rounding_decides(&self, step: &Step, after: f64) -> bool {
+        MachineLap::fly(&self.frame, &step.end, after).is_some_and(|lap| rounding_decides(&self.frame, &lap))
     }
 
     /// Whether the motion from `place` is captured by a cycle that is not unstable: it is on it to rounding, or all its

@@ -256,6 +256,12 @@ fn settle_in<'a>(
                 if let Some(cycle) = system.same(&step, time - then) {
                     return settled(MachineVerdict::Periodic(cycle), events, time, &record);
                 }
+                if system.rounding_decides(&step, time - then) {
+                    // from this release the motion is always the same, and no longer run tells more of it
+                    let why = MachineUndecided::Unconfirmed;
+                    let verdict = MachineVerdict::Undecided { why, spectrum: record.latest(&system), events };
+                    return settled(verdict, events, time, &record);
+                }
                 unconfirmed |= step.was_still();
             }
             if step.was_still() {
