@@ -1,7 +1,7 @@
 //! Numbers drawn from a seed, the same on every platform.
 
 use core::ops::RangeInclusive;
-use vibroimpact::machine::{Opening, StopLaw};
+use vibroimpact::machine::{ImpactLaw, Opening, StopLaw};
 
 /// A sequence of numbers (splitmix64) that depends on a name and a seed.
 #[derive(Clone, Debug)]
@@ -83,6 +83,11 @@ impl Draw {
         let preload = if self.chance(0.3) { self.number(0.05, 1.0) } else { 0.0 };
         let opening = self.pick(&[Opening::Force, Opening::Force, Opening::Position]);
         StopLaw::Compliant { stiffness, damping, preload, opening }
+    }
+
+    /// The law of impacts on several stops at one time.
+    pub fn impacts(&mut self) -> ImpactLaw {
+        if self.chance(0.3) { ImpactLaw::InTurn } else { ImpactLaw::Together }
     }
 
     /// A rigid or a compliant stop.

@@ -2,7 +2,7 @@
 
 use core::fmt::Write;
 use vibroimpact::events::MachineStart;
-use vibroimpact::machine::{MachineParts, Opening, StopLaw};
+use vibroimpact::machine::{ImpactLaw, MachineParts, Opening, StopLaw};
 use vibroimpact::math::Matrix;
 
 /// The file of a machine and its start, for `vibro --machine`.
@@ -19,6 +19,9 @@ pub(crate) fn text(parts: &MachineParts, start: &MachineStart) -> String {
     line(format_args!("constant = {:?}", parts.constant));
     if let Some(frequency) = parts.frequency {
         line(format_args!("frequency = {frequency:?}"));
+    }
+    if parts.impacts == ImpactLaw::InTurn {
+        line(format_args!("impacts = \"in_turn\""));
     }
     for force in &parts.forces {
         line(format_args!("[[machine.force]]\norder = {}\ncos = {:?}\nsin = {:?}", force.order, force.cos, force.sin));
