@@ -42,7 +42,7 @@ pub use find::{FindOptions, find, find_while};
 pub use free::without_impacts;
 pub use label::{Count, Label, LabelError};
 pub(crate) use of_machine::{
-    Chatter, MachineFrame, MachineLap, MachineRing, Rebound, RingEvent, crossing, rounding_decides,
+    Chatter, MachineFrame, MachineLap, MachineRing, Rebound, RingEvent, crossing, events_of, rounding_decides,
 };
 pub use of_machine::{MachineCycle, find_machine_while};
 pub use one_impact::{OneImpact, one_impact};

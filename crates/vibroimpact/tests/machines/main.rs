@@ -3,6 +3,8 @@
 #[cfg(test)]
 mod branches;
 #[cfg(test)]
+mod branches_beyond;
+#[cfg(test)]
 mod branches_unforced;
 #[cfg(test)]
 mod case;

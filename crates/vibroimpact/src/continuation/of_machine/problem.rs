@@ -7,7 +7,7 @@ use crate::continuation::branches::{COARSE, RULES};
 use crate::continuation::trace::equations::Equations;
 use crate::continuation::trace::tracer::{Problem, Solution, StepRules};
 use crate::math::{Lu, Matrix, Multiplier, general_eigenvalues};
-use crate::orbit::{MachineCycle, MachineFrame, MachineLap, MachineRing, RingEvent};
+use crate::orbit::{MachineCycle, MachineFrame, MachineLap, MachineRing, RingEvent, events_of};
 
 /// The equations of a branch with the range of the number.
 #[derive(Clone, Debug)]
@@ -110,10 +110,7 @@ impl MachineProblem {
 
 /// The events of a motion, with the phases since its beginning.
 pub(crate) fn seen_on(lap: &MachineLap, frequency: f64) -> Vec<(f64, RingEvent)> {
-    let steps = lap.steps[..lap.steps.len() - 1].iter();
-    steps
-        .filter_map(|(time, _, passage)| Some((frequency * (time + passage.duration), RingEvent::of(passage)?)))
-        .collect()
+    events_of(lap).into_iter().map(|(time, event, _)| (frequency * time, event)).collect()
 }
 
 /// The motion from the middle of the longest flight over one period, and the cycle if its events are those of the

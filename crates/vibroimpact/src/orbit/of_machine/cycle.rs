@@ -168,12 +168,9 @@ impl MachineCycle {
         }
         let counts: Vec<u32> = (0..frame.machine.stops().len())
             .map(|j| {
-                // stops that are struck at the same time have an event each
-                let own = |event: &&MachineEvent| {
-                    let struck = |other: &MachineEvent| other.closes() && other.place == j && other.time == event.time;
-                    event.closes() && (event.place == j || event.with.contains(&j) && !lap.events.iter().any(struck))
-                };
-                let own = lap.events.iter().filter(own);
+                // stops that are struck at the same time have an event each; one on which the structure rests is pushed, and
+                // does not close
+                let own = lap.events.iter().filter(|event| event.closes() && event.place == j);
                 u32::try_from(own.count()).unwrap_or(u32::MAX)
             })
             .collect();
