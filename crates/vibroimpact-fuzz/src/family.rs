@@ -21,8 +21,7 @@ pub enum Family {
 
 impl Family {
     /// All families.
-    pub const ALL: [Self; 6] =
-        [Self::Commands, Self::Plans, Self::Stores, Self::Page, Self::Verdicts, Self::Machines];
+    pub const ALL: [Self; 6] = [Self::Commands, Self::Plans, Self::Stores, Self::Page, Self::Verdicts, Self::Machines];
 
     /// Its name on the command line.
     #[must_use]

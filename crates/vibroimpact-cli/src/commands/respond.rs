@@ -71,7 +71,7 @@ pub(super) fn tell(answer: &Answer, (outputs, shown): (Outputs, Shown), session:
         }
     }
     match &answer.results {
-        Results::Simulate(found) if found.reason == SEARCH_LIMIT => Err(search_limit()),
+        Results::Simulate(_, found) if found.reason == SEARCH_LIMIT => Err(search_limit()),
         _ => Ok(()),
     }
 }

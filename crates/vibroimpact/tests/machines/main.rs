@@ -35,9 +35,9 @@ mod samples;
 #[cfg(test)]
 mod small_mass;
 #[cfg(test)]
-mod state;
-#[cfg(test)]
 mod stability;
+#[cfg(test)]
+mod state;
 #[cfg(test)]
 mod sticking;
 #[cfg(test)]

@@ -16,7 +16,7 @@ fn ball(amplitude: f64, restitution: f64) -> Machine {
 }
 
 fn settled(machine: &Machine, q: f64, qdot: f64) -> MachineVerdict {
-    let start = MachineStart { q: vec![q], qdot: vec![qdot], phase: 0.0 };
+    let start = MachineStart { q: vec![q], qdot: vec![qdot], phase: 0.0, ..MachineStart::default() };
     settle_machine(machine, &start, &SettleOptions::default()).unwrap().verdict
 }
 
@@ -50,7 +50,7 @@ fn short_ways() {
 #[test]
 fn no_orbit_is_found() {
     let machine = ball(1.72, 0.5);
-    let start = MachineStart { q: vec![3.0], qdot: vec![1.0], phase: 0.0 };
+    let start = MachineStart { q: vec![3.0], qdot: vec![1.0], phase: 0.0, ..MachineStart::default() };
     for periods in [29, 30, 38, 49] {
         let label = Label { impacts: Count::Infinite, periods };
         let found = find_machine_while(&machine, label, [start.clone()], || true).unwrap();

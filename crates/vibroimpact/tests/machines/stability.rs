@@ -29,7 +29,7 @@ fn fermi(eps: f64) -> Machine {
 /// the walls at phase 0. The trace of its derivative is 2 - 4 pi^2 eps / (1 + eps).
 fn on_orbit(eps: f64) -> MachineStart {
     let length = 1.0 + eps;
-    MachineStart { q: vec![0.5 * length], qdot: vec![length / PI], phase: 0.0 }
+    MachineStart { q: vec![0.5 * length], qdot: vec![length / PI], phase: 0.0, ..MachineStart::default() }
 }
 
 /// 42.5: the multipliers lie on the unit circle until they meet at -1, where pi^2 eps = 1 + eps.
@@ -184,7 +184,10 @@ fn rests_on_different_stops() {
     let machine = slider();
     let mut census = Census::default();
     let from = |slider: f64, hammer: f64| {
-        settled(&machine, &MachineStart { q: vec![slider, hammer], qdot: vec![0.0; 2], phase: 0.0 })
+        settled(
+            &machine,
+            &MachineStart { q: vec![slider, hammer], qdot: vec![0.0; 2], phase: 0.0, ..MachineStart::default() },
+        )
     };
     for (slider, stop) in [(3.0, 0), (2.0, 0), (-3.0, 1), (-2.0, 1), (2.5, 0)] {
         let verdict = from(slider, 0.3);
@@ -203,7 +206,7 @@ fn cycles_beside_a_joint_that_holds() {
     let machine = slider();
     let mut fastest = Vec::new();
     for (slider, stop) in [(1.0, 0), (1.2, 0), (-1.0, 1)] {
-        let start = MachineStart { q: vec![slider, 0.0], qdot: vec![0.0; 2], phase: 0.0 };
+        let start = MachineStart { q: vec![slider, 0.0], qdot: vec![0.0; 2], phase: 0.0, ..MachineStart::default() };
         let MachineVerdict::Periodic(cycle) = settled(&machine, &start) else { panic!("{slider}") };
         assert_eq!(cycle.stability(), Stability::Neutral, "{:?}", cycle.multipliers);
         assert!(cycle.events.iter().all(|event| event.place == stop && (event.q[0] - slider).abs() < 1e-12));
@@ -226,7 +229,12 @@ fn contacts_with_different_compliant_stops() {
         .with_stop("left", &[0.0, -1.0], 1.0, soft)
         .with_joint("ground", &[1.0, 0.0], 5.0, 5.0, 0.0);
     let machine = Machine::new(parts).unwrap();
-    let from = |slider: f64| settled(&machine, &MachineStart { q: vec![slider, 0.0], qdot: vec![0.0; 2], phase: 0.0 });
+    let from = |slider: f64| {
+        settled(
+            &machine,
+            &MachineStart { q: vec![slider, 0.0], qdot: vec![0.0; 2], phase: 0.0, ..MachineStart::default() },
+        )
+    };
     let (right, left) = (from(3.0), from(-3.0));
     assert_eq!((right.label().as_str(), right.closed(), left.closed()), ("0", vec![0], vec![1]));
     assert!(!right.same_as(&left, 1.0) && right.same_as(&from(2.8), 1.0));
@@ -259,7 +267,12 @@ fn long_transient() -> (Machine, MachineStart) {
     let damping = [[0.13005, -0.01095, 0.0], [-0.01095, 0.02223, -0.01128], [0.0, -0.01128, 0.07717]];
     rows(stiffness, &mut parts.stiffness);
     rows(damping, &mut parts.damping);
-    let start = MachineStart { q: vec![-0.1479, -0.0759, 0.2969], qdot: vec![-0.4201, 0.976, -0.0398], phase: 2.1116 };
+    let start = MachineStart {
+        q: vec![-0.1479, -0.0759, 0.2969],
+        qdot: vec![-0.4201, 0.976, -0.0398],
+        phase: 2.1116,
+        ..MachineStart::default()
+    };
     (Machine::new(parts).unwrap(), start)
 }
 
