@@ -10,7 +10,7 @@ use clap::{Args, Subcommand};
 use serde::Serialize;
 use std::path::PathBuf;
 use vibroimpact_report::figure::machine::figure;
-use vibroimpact_study::machine::{CATALOGUE, MachineSource, MachineText, Named};
+use vibroimpact_study::machine::{CATALOGUE, MachineText, Named};
 
 /// List the machines of the catalogue, and show a machine: its numbers, its matrices and its schematic
 #[derive(Clone, Debug, Args)]
