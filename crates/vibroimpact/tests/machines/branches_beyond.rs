@@ -74,7 +74,8 @@ fn with_static_friction(mass: f64) -> (Machine, MachineStart) {
         .with_rigid_stop("s0", &[1.0, -1.0], 0.0, 0.7199)
         .with_stop("s1", &[0.0, -1.0], 0.4182, law)
         .with_joint("f0", &[1.0, 0.0], 0.194, 0.291, 0.0);
-    let start = MachineStart { q: vec![-0.4459, 0.3194], qdot: vec![-0.6075, 0.2837], phase: 1.938 };
+    let start =
+        MachineStart { q: vec![-0.4459, 0.3194], qdot: vec![-0.6075, 0.2837], phase: 1.938, ..MachineStart::default() };
     (Machine::new(parts).unwrap(), start)
 }
 
@@ -193,7 +194,7 @@ fn f42l_labels_count_closings_only() {
         .with_rigid_stop("wall", &[1.0, 0.0], 0.1, 0.0)
         .with_rigid_stop("head", &[-1.0, 1.0], 0.3, 0.5);
     let machine = Machine::new(parts).unwrap();
-    let start = MachineStart { q: vec![0.1, 0.0], qdot: vec![0.0, 0.0], phase: 0.0 };
+    let start = MachineStart { q: vec![0.1, 0.0], qdot: vec![0.0, 0.0], phase: 0.0, ..MachineStart::default() };
     let cycle = settled(&machine, &start).unwrap();
     let closings = |place| cycle.events.iter().filter(|event| event.closes() && event.place == place).count();
     assert!(cycle.events.iter().any(|event| event.closes() && event.place == 1 && event.with == [0]), "{cycle:?}");

@@ -407,6 +407,15 @@ impl MachineRing {
         product.map(|product| frame.across_cycles(product, &self.place(0)))
     }
 
+    /// The rounding error of the monodromy matrix, in units of the largest coordinates and velocities at the events.
+    pub(crate) fn rounding(&self, frame: &MachineFrame<'_>, monodromy: &Matrix) -> f64 {
+        let largest = |(x, v): (f64, f64), k| {
+            let (size, speed) = frame.sizes(&self.place(k));
+            (x.max(size), v.max(speed))
+        };
+        frame.rounding(monodromy, self.len(), (0..self.len()).fold((0.0, 0.0), largest))
+    }
+
     /// Whether the second half of the events repeats the first, to within 3e-4 of the sizes of the motion.
     pub(crate) fn is_twice(&self, frame: &MachineFrame<'_>, sizes: (f64, f64)) -> bool {
         self.repeats(frame, 2, sizes)
