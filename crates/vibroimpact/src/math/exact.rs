@@ -49,6 +49,12 @@ impl Wide {
     pub(crate) fn value(self) -> f64 {
         self.hi + self.lo
     }
+
+    /// The difference to another number, exact where the two are close.
+    #[inline]
+    pub(crate) fn since(self, other: Self) -> f64 {
+        (self.hi - other.hi) + (self.lo - other.lo)
+    }
 }
 
 impl From<f64> for Wide {
