@@ -1,6 +1,6 @@
 //! How many machines of each family break which rule: `cargo run -p vibroimpact-cases --example report [COUNT] [FAMILY]`.
 //!
-//! With a family, all its faults are listed. With `show FAMILY SEED` the file of a machine is printed, and its faults as comments.
+//! With a family, all its faults are listed. With `show FAMILY SEED` the numbers and the start of a machine are printed.
 #![allow(clippy::print_stdout, reason = "it is a report")]
 
 use std::collections::BTreeMap;
@@ -12,9 +12,9 @@ fn main() {
     if let ["show", family, seed] = words.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         let (Some(family), Ok(seed)) = (Family::named(family), seed.parse()) else { return println!("no such case") };
         let case = family.case(seed);
-        println!("{}", case.toml());
+        println!("{:#?}\n{:?}", case.machine.parts(), case.start);
         for fault in faults(&case, Budget::default()) {
-            println!("# {fault}");
+            println!("{fault}");
         }
         return;
     }

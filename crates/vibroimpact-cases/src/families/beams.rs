@@ -24,7 +24,7 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
             .with_mass(k, 0.5)
             .with_link(&direction, 0.5 * frequency * frequency, damping * frequency)
             // at the middle; the even orders have a node there
-            .with_force(k, 1, 0.0, if k.is_multiple_of(2) { force * shape(k, 0.5) } else { 0.0 });
+            .with_force(k, 1, 0.0, if k % 2 == 0 { force * shape(k, 0.5) } else { 0.0 });
     }
     let law = draw.law();
     let (gap, above): (f64, bool) = (draw.pick(&[0.0, 0.05, 0.2]), draw.chance(0.4));
@@ -34,7 +34,7 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
     for pair in 0..draw.count(1..=2) {
         let x = draw.pick(&[0.2, 0.25, 0.3, 0.4, 1.0 / 3.0]) * if pair == 0 { 1.0 } else { 0.5 };
         let here: Vec<f64> = (0..n).map(|k| shape(k, x)).collect();
-        let mirrored = |k: usize| if k.is_multiple_of(2) { here[k] } else { -here[k] };
+        let mirrored = |k: usize| if k % 2 == 0 { here[k] } else { -here[k] };
         let there: Vec<f64> = (0..n).map(|k| if exact { mirrored(k) } else { shape(k, 1.0 - x) }).collect();
         for (side, name) in [(-1.0, "below"), (1.0, "above")].into_iter().take(if above { 2 } else { 1 }) {
             for (direction, end) in [(&here, "a"), (&there, "b")] {
@@ -46,7 +46,7 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
             }
         }
     }
-    let sign = |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 };
+    let sign = |k: usize| if k % 2 == 0 { 1.0 } else { -1.0 };
     let symmetry = Symmetry { from: (0..n).collect(), signs: (0..n).map(sign).collect(), places };
     Drawn::new(parts, MachineStart::default()).symmetric(symmetry)
 }

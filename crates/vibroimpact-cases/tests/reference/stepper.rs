@@ -163,8 +163,8 @@ impl<'a> Stepper<'a> {
         for harmonic in &parts.forces {
             let angle = f64::from(harmonic.order) * (rate * (self.time() + 0.5 * h) + self.phase);
             let (sin, cos) = angle.sin_cos();
-            for (force, (a, b)) in force.iter_mut().zip(harmonic.cos.iter().zip(&harmonic.sin)) {
-                *force += a * cos + b * sin;
+            for i in 0..n {
+                force[i] += harmonic.cos[i] * cos + harmonic.sin[i] * sin;
             }
         }
         let (elastic, viscous) = (self.system.stiffness.apply(&middle), self.system.damping.apply(&self.v));

@@ -36,9 +36,7 @@ impl MachineMotion<'_> {
                         if let Some(passage) = &mut self.passage {
                             passage.blows.push(Blow { stop: j, speed, impulse });
                         }
-                        self.struck = Some((j, speed));
                         self.announce(MachineEventKind::Impact, j, speed, Vec::new());
-                        self.struck = None;
                         let open = self.place.states.iter().all(|state| *state == ContactState::Open);
                         let turns = self.scratch.turns_at(&self.place, &self.normal);
                         if !(open && is_far_from_an_end(&self.place, &self.normal, (j, restitution), fastest, turns)) {
@@ -59,10 +57,9 @@ impl MachineMotion<'_> {
                 }
             }
             GuardKind::Depth(j) | GuardKind::Force(j) if self.place.states[j] == ContactState::Closed => {
-                let speed = self.place.gap_and_rate(&self.normal, turns, j).1.max(0.0);
                 self.place.open(&self.normal, &self.machine.stops()[j].law, kind, j, turns);
                 self.record(&[]);
-                self.announce(MachineEventKind::Open, j, speed, Vec::new());
+                self.announce(MachineEventKind::Open, j, 0.0, Vec::new());
             }
             _ => return false,
         }

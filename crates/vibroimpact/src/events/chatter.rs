@@ -93,12 +93,8 @@ impl MachineMotion<'_> {
             passage.rest = Some((flight.structure.clone(), duration));
         }
         self.move_to(flight, duration);
-        self.largest_impact = 0.0;
-        if kind == MachineEventKind::Collapse {
-            self.slow.clear();
-        }
-        self.struck = None;
         self.announce(kind, stops[0], 0.0, stops[1..].to_vec());
+        self.largest_impact = 0.0;
         Some(())
     }
 

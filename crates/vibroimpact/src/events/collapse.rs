@@ -24,13 +24,14 @@ impl MachineMotion<'_> {
         if speed > SLOWEST * self.largest_impact {
             return;
         }
-        if let Some((stops, left)) = self.slow.round() {
-            self.collapse(&stops, left);
+        if let Some((stops, left)) = self.slow.round()
+            && self.collapse(&stops, left).is_some()
+        {
+            self.slow.clear();
         }
     }
 
-    /// Brings the structure to rest on these stops after a time; `None` if it does not stay there. The impacts are forgotten
-    /// then.
+    /// Brings the structure to rest on these stops after a time; `None` if it does not stay there.
     fn collapse(&mut self, stops: &[usize], left: f64) -> Option<()> {
         let mut there = self.place.clone();
         stops.iter().for_each(|j| there.states[*j] = ContactState::Resting);

@@ -39,35 +39,12 @@ impl SlowImpacts {
         self.0.clear();
     }
 
-    /// The same, counted from a time and a number of events.
-    pub(super) fn since(&self, time: f64, count: u64) -> Self {
-        let since = |slow: &Slow| Slow { time: slow.time - time, count: slow.count.wrapping_sub(count), ..*slow };
-        Self(self.0.iter().map(since).collect())
-    }
-
-    /// The impacts as numbers: stop, speed, time and number of the event of each.
-    #[allow(clippy::cast_precision_loss, clippy::cast_possible_wrap)] // counted from an event that follows soon
-    pub(super) fn numbers(&self) -> Vec<f64> {
-        self.0.iter().flat_map(|slow| [slow.stop as f64, slow.speed, slow.time, slow.count as i64 as f64]).collect()
-    }
-
-    /// The impacts of such numbers; `None` if they are none.
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // checked
-    pub(super) fn of_numbers(numbers: &[f64], stops: usize) -> Option<Self> {
-        let (impacts, rest) = numbers.as_chunks::<4>();
-        let of = |[stop, speed, time, count]: &[f64; 4]| {
-            let stop = (0..stops).find(|j| *j as f64 == *stop)?;
-            Some(Slow { stop, speed: *speed, time: *time, count: *count as i64 as u64 })
-        };
-        rest.is_empty().then(|| impacts.iter().map(of).collect::<Option<_>>().map(Self))?
-    }
-
     /// The stops of the shortest round of several stops that repeats at the end, and the time that is left.
     pub(super) fn round(&self) -> Option<(Vec<usize>, f64)> {
         let all: Vec<&Slow> = self.0.iter().rev().collect();
         let of = |period: usize| {
             let last = all.get(..ROUNDS * period + 1)?;
-            let consecutive = last.windows(2).all(|pair| pair[0].count == pair[1].count.wrapping_add(1));
+            let consecutive = last.windows(2).all(|pair| pair[0].count == pair[1].count + 1);
             let again = (0..last.len() - period).all(|k| last[k].stop == last[k + period].stop);
             if !consecutive || !again {
                 return None;

@@ -156,42 +156,33 @@ fn numbers_of_stop(stop: &MachineStop) -> Vec<String> {
     law.iter().map(|&name| name.to_owned()).chain(stop.motion.iter().flat_map(motion)).collect()
 }
 
-/// All numbers that are not zero, and those that every stop, joint and diagonal has, with their paths.
-pub(super) fn all(parts: &MachineParts) -> Vec<(String, f64)> {
+/// The paths of all numbers that are not zero, and of those that every stop, joint and diagonal has.
+pub(super) fn all(parts: &MachineParts) -> Vec<String> {
     let names = &parts.coordinates;
-    let mut all = Vec::new();
+    let mut paths = Vec::new();
     for (kind, matrix) in [("mass", &parts.mass), ("damping", &parts.damping), ("stiffness", &parts.stiffness)] {
         for (i, one) in names.iter().enumerate() {
-            let row = matrix.row(i);
-            all.push((format!("{kind}.{one}"), row[i]));
-            let others = names.iter().zip(row).skip(i + 1).filter(|(_, value)| **value != 0.0);
-            all.extend(others.map(|(other, value)| (format!("{kind}.{one}.{other}"), *value)));
+            paths.push(format!("{kind}.{one}"));
+            let others = names.iter().enumerate().skip(i + 1).filter(|(j, _)| matrix[(i, *j)] != 0.0);
+            paths.extend(others.map(|(_, other)| format!("{kind}.{one}.{other}")));
         }
     }
-    let of = |path: &str, values: &[f64]| -> Vec<(String, f64)> {
-        let values = names.iter().zip(values).filter(|(_, value)| **value != 0.0);
-        values.map(|(name, value)| (format!("{path}.{name}"), *value)).collect()
+    let of = |path: &str, values: &[f64]| -> Vec<String> {
+        names.iter().zip(values).filter(|(_, value)| **value != 0.0).map(|(name, _)| format!("{path}.{name}")).collect()
     };
-    all.extend(of("constant", &parts.constant));
-    all.extend(parts.frequency.map(|frequency| ("frequency".to_owned(), frequency)));
+    paths.extend(of("constant", &parts.constant));
+    paths.extend(parts.frequency.map(|_| "frequency".to_owned()));
     for HarmonicForce { order, cos, sin } in &parts.forces {
-        all.extend(of(&format!("force.{order}.cos"), cos));
-        all.extend(of(&format!("force.{order}.sin"), sin));
+        paths.extend(of(&format!("force.{order}.cos"), cos));
+        paths.extend(of(&format!("force.{order}.sin"), sin));
     }
     for stop in &parts.stops {
-        let mut copy = stop.clone();
-        let numbers = numbers_of_stop(stop).into_iter().filter_map(|number| {
-            let words: Vec<&str> = number.split('.').collect();
-            let value = *in_stop(&mut copy, &words)?;
-            Some((format!("stop.{}.{number}", stop.name), value))
-        });
-        all.extend(numbers.collect::<Vec<_>>());
+        paths.extend(numbers_of_stop(stop).into_iter().map(|number| format!("stop.{}.{number}", stop.name)));
     }
-    for FrictionJoint { name, sliding, limit, belt, .. } in &parts.joints {
-        let numbers = [("sliding", sliding), ("static", limit), ("belt", belt)];
-        all.extend(numbers.map(|(number, value)| (format!("friction.{name}.{number}"), *value)));
+    for FrictionJoint { name, .. } in &parts.joints {
+        paths.extend(["sliding", "static", "belt"].map(|number| format!("friction.{name}.{number}")));
     }
-    all
+    paths
 }
 
 #[cfg(test)]

@@ -3,8 +3,6 @@
 #[cfg(test)]
 mod branches;
 #[cfg(test)]
-mod branches_beyond;
-#[cfg(test)]
 mod branches_unforced;
 #[cfg(test)]
 mod case;
@@ -19,25 +17,13 @@ mod curves_unforced;
 #[cfg(test)]
 mod drift;
 #[cfg(test)]
-mod exponents;
-#[cfg(test)]
 mod limit_cycles;
-#[cfg(test)]
-mod no_impact;
 #[cfg(test)]
 mod one_instant;
 #[cfg(test)]
 mod quantities;
 #[cfg(test)]
-mod rounding;
-#[cfg(test)]
 mod samples;
-#[cfg(test)]
-mod small_mass;
-#[cfg(test)]
-mod stability;
-#[cfg(test)]
-mod state;
 #[cfg(test)]
 mod sticking;
 #[cfg(test)]

@@ -98,11 +98,6 @@ impl System {
     }
 
     fn machine_start(&self) -> MachineStart {
-        MachineStart {
-            q: vec![self.start.x],
-            qdot: vec![self.start.v],
-            phase: self.start.phase,
-            ..MachineStart::default()
-        }
+        MachineStart { q: vec![self.start.x], qdot: vec![self.start.v], phase: self.start.phase }
     }
 }

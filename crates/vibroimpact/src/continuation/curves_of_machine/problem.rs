@@ -154,10 +154,7 @@ impl CurveProblem {
             },
             Watched::PlusOne => product(1.0),
             Watched::MinusOne => product(-1.0),
-            Watched::Pair => {
-                let (turn, all) = at.as_ref()?;
-                Some(over_pairs(&self.others(all), ring.rounding(frame, turn)))
-            }
+            Watched::Pair => Some(over_pairs(&self.others(all()?))),
             Watched::Pull => {
                 let touch = self.equations.condition.touch()?;
                 let MachineCurveKind::Grazing { stop } = self.kind else { return None };
