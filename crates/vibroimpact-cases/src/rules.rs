@@ -161,7 +161,7 @@ impl<'a> Follower<'a> {
         let mut fastest = largest(&start.qdot);
         let (mut time, mut crowd) = (0.0, 0);
         let mut count = 0;
-        while let Some(event) = motion.next() {
+        for event in motion.by_ref() {
             count += 1;
             fastest = fastest.max(largest(&event.qdot));
             if event.kind == MachineEventKind::Impact && event.speed <= FAINT * fastest {
@@ -220,7 +220,7 @@ impl<'a> Follower<'a> {
             if let Some(before) = &last {
                 self.jump((before, held), &first);
             }
-            last = self.stretch(&mut stretches, first, duration);
+            last = self.stretch(&mut stretches, &first, duration);
         }
     }
 
@@ -303,7 +303,7 @@ impl<'a> Follower<'a> {
     fn stretch(
         &mut self,
         stretches: &mut MachineStretches<'_>,
-        first: MachineSample,
+        first: &MachineSample,
         duration: f64,
     ) -> Option<MachineSample> {
         let wanted = (duration * self.fastest / 0.7).ceil().max(1.0);
@@ -327,7 +327,7 @@ impl<'a> Follower<'a> {
         self.point(&last);
         self.between(stretches, &before, (duration, &last));
         if wanted <= INTERVALS {
-            let change = energy(self.machine, &last, 0.0).0 - energy(self.machine, &first, 0.0).0;
+            let change = energy(self.machine, &last, 0.0).0 - energy(self.machine, first, 0.0).0;
             let size = self.sizes.energy.max(work.abs());
             if (change - work).abs() > 1e-9 * size {
                 self.fault(Rule::Balance, first.time, || {

@@ -34,7 +34,7 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
     for pair in 0..draw.count(1..=2) {
         let x = draw.pick(&[0.2, 0.25, 0.3, 0.4, 1.0 / 3.0]) * if pair == 0 { 1.0 } else { 0.5 };
         let here: Vec<f64> = (0..n).map(|k| shape(k, x)).collect();
-        let mirrored = |k: usize| if k % 2 == 0 { here[k] } else { -here[k] };
+        let mirrored = |k: usize| if k.is_multiple_of(2) { here[k] } else { -here[k] };
         let there: Vec<f64> = (0..n).map(|k| if exact { mirrored(k) } else { shape(k, 1.0 - x) }).collect();
         for (side, name) in [(-1.0, "below"), (1.0, "above")].into_iter().take(if above { 2 } else { 1 }) {
             for (direction, end) in [(&here, "a"), (&there, "b")] {
@@ -46,7 +46,7 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
             }
         }
     }
-    let sign = |k: usize| if k % 2 == 0 { 1.0 } else { -1.0 };
+    let sign = |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 };
     let symmetry = Symmetry { from: (0..n).collect(), signs: (0..n).map(sign).collect(), places };
     Drawn::new(parts, MachineStart::default()).symmetric(symmetry)
 }

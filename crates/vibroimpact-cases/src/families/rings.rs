@@ -22,7 +22,7 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
         parts = parts.with_stop(&format!("s{}", i + 1), &direction, gap, law);
     }
     // a pattern of waves around the ring: 1 repeats at each body, 2 at every other one
-    let step = if n % 2 == 0 && draw.chance(0.5) { 2 } else { 1 };
+    let step = if n.is_multiple_of(2) && draw.chance(0.5) { 2 } else { 1 };
     let (forces, speeds) = (draw.numbers(step, -1.0, 1.0), draw.numbers(step, -0.4, 0.0));
     for i in 0..n {
         parts = parts.with_force(i, 1, 0.0, forces[i % step]);

@@ -48,7 +48,7 @@ impl<'a> MachineSamples<'a> {
         (until, step): (f64, f64),
     ) -> Result<Self, MachineError> {
         let mut stretches = MachineStretches::new(machine, start, limits)?;
-        let done = !(until >= 0.0 && step > 0.0) || !stretches.advance();
+        let done = !(until >= 0.0 && step > 0.0 && stretches.advance());
         Ok(Self { stretches, until, step, count: 0.0, entered: false, done })
     }
 
