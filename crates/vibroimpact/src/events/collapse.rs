@@ -75,11 +75,10 @@ impl MachineMotion<'_> {
             return true;
         }
         let free = self.structures.get(self.machine, &self.normal, &self.place.states);
-        let soon = free.is_some_and(|free| {
+        free.is_some_and(|free| {
             let fastest = free.fastest();
             if fastest > 0.0 { round.left * fastest < SOON } else { round.speed < SLOW * self.largest_impact }
-        });
-        soon
+        })
     }
 
     /// Whether these gaps are so small that closing them moves nothing.
