@@ -5,7 +5,6 @@ use super::chatter::is_far_from_an_end;
 use super::event::MachineEventKind;
 use super::motion::MachineMotion;
 use super::passage::Blow;
-use super::rounds::SLOW;
 use crate::machine::StopLaw;
 use crate::math::{add_scaled, dot};
 use crate::regime::{ContactState, GuardKind};
@@ -36,17 +35,17 @@ impl MachineMotion<'_> {
                         if let Some(passage) = &mut self.passage {
                             passage.blows.push(Blow { stop: j, speed, impulse });
                         }
-                        self.struck = Some((j, speed));
+                        self.instants.keep(MachineEventKind::Impact, j, speed);
+                        self.struck.push((j, speed));
                         self.announce(MachineEventKind::Impact, j, speed, Vec::new());
-                        self.struck = None;
+                        self.struck.clear();
                         let open = self.place.states.iter().all(|state| *state == ContactState::Open);
                         let turns = self.scratch.turns_at(&self.place, &self.normal);
                         if !(open && is_far_from_an_end(&self.place, &self.normal, (j, restitution), fastest, turns)) {
                             let turns = turns.to_vec();
-                            self.complete(j, &turns);
-                        }
-                        if speed < SLOW * self.largest_impact {
-                            self.slow_impact(j, speed);
+                            self.end_chatter(&[(j, speed)], &turns);
+                        } else if self.instants.are_close() {
+                            self.accumulate();
                         }
                     }
                     StopLaw::Compliant { .. } => {
@@ -54,6 +53,7 @@ impl MachineMotion<'_> {
                             add_scaled(&mut self.place.x, gap / square, w);
                         }
                         self.record(&[]);
+                        self.instants.keep(MachineEventKind::Close, j, speed);
                         self.announce(MachineEventKind::Close, j, speed, Vec::new());
                     }
                 }
@@ -62,6 +62,7 @@ impl MachineMotion<'_> {
                 let speed = self.place.gap_and_rate(&self.normal, turns, j).1.max(0.0);
                 self.place.open(&self.normal, &self.machine.stops()[j].law, kind, j, turns);
                 self.record(&[]);
+                self.instants.keep(MachineEventKind::Open, j, speed);
                 self.announce(MachineEventKind::Open, j, speed, Vec::new());
             }
             _ => return false,

@@ -1,10 +1,10 @@
 //! The motion of a machine as an iterator over its events.
 
 use super::event::{Contact, MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
+use super::instants::Instants;
 use super::passage::Passage;
 use super::place::{Place, Scratch, Structures, standing_back};
 use super::resolve::{Resolution, Resolved};
-use super::rounds::{SLOW, SlowImpacts};
 use super::state::{Beginning, ImpactHistory, check_contacts, fingerprint};
 use super::stretch::{Stretch, follow};
 use crate::arc::{Buffers, Found, MachineFlight, Touch, first_event};
@@ -47,16 +47,14 @@ pub struct MachineMotion<'a> {
     /// Whether the outcome of the last impacts depends on an order that is below rounding.
     pub(super) tie: bool,
     /// Events since the time last advanced.
-    crowd: u32,
-    /// Events since the beginning.
-    pub(super) count: u64,
-    pub(super) slow: SlowImpacts,
+    pub(super) crowd: u32,
+    pub(super) instants: Instants,
     /// The largest speed of an impact since the structure last came to rest by a chatter.
     pub(super) largest_impact: f64,
     /// The number of the machine, if events have whole states.
     fingerprint: Option<f64>,
-    /// The rigid stop whose impact is announced, if it may be one of a chatter, and the speed.
-    pub(super) struck: Option<(usize, f64)>,
+    /// The rigid stops whose impacts are announced, if they may be those of a chatter, and the speeds.
+    pub(super) struck: Vec<(usize, f64)>,
     /// The last step, if steps are recorded.
     pub(super) passage: Option<Passage>,
     recording: bool,
@@ -131,27 +129,25 @@ impl<'a> MachineMotion<'a> {
     /// The whole state here, if the motion keeps states.
     fn state(&self) -> Option<Box<MachineStart>> {
         let fingerprint = self.fingerprint?;
-        let slow = self.slow.since(self.time(), self.count);
-        let history = ImpactHistory { largest: self.largest_impact, slow, last: self.struck };
+        let (instants, last) = (self.instants.clone(), self.struck.clone());
+        let history = ImpactHistory { largest: self.largest_impact, instants, last };
         Some(Box::new(self.place.start_after(self.machine, &self.normal, (fingerprint, &history))))
     }
 
     /// Goes on from a state with all its digits.
     fn go_on(&mut self, place: Place, history: ImpactHistory) {
         self.place = place;
-        (self.largest_impact, self.slow) = (history.largest, history.slow);
-        if let Some((stop, speed)) = history.last {
-            self.after_impact(stop, speed);
+        (self.largest_impact, self.instants, self.struck) = (history.largest, history.instants, history.last);
+        if !self.struck.is_empty() {
+            let turns = self.place.turns(&self.normal);
+            self.after_impacts(&turns);
         }
     }
 
-    /// Sums the chatter or the collapse to which an impact on a stop that has opened again belongs, if there is one.
-    fn after_impact(&mut self, stop: usize, speed: f64) {
-        let turns = self.place.turns(&self.normal);
-        self.complete(stop, &turns);
-        if speed < SLOW * self.largest_impact {
-            self.slow_impact(stop, speed);
-        }
+    /// Sums the impacts to which those belong that have just happened, if they accumulate.
+    fn after_impacts(&mut self, turns: &[(f64, f64)]) {
+        let struck = core::mem::take(&mut self.struck);
+        self.end_chatter(&struck, turns);
     }
 
     /// Why there is no further event; `None` while there may be one.
@@ -343,10 +339,11 @@ impl<'a> MachineMotion<'a> {
             };
             events.push((kind, at, speed, Vec::new()));
         }
-        self.struck = match rigid[..] {
-            [j] if self.place.states[j] == ContactState::Open => Some((j, speeds[j])),
-            _ => None,
-        };
+        let open = |j: &usize| self.place.states[*j] == ContactState::Open;
+        self.struck = rigid.into_iter().filter(open).map(|j| (j, speeds[j])).collect();
+        for (kind, at, speed, _) in &events {
+            self.instants.keep(*kind, *at, *speed);
+        }
         for (kind, at, speed, with) in events {
             self.announce(kind, at, speed, with);
         }
@@ -354,8 +351,8 @@ impl<'a> MachineMotion<'a> {
         if let Some(passage) = &mut self.passage {
             passage.after = Some(self.place.clone());
         }
-        if let Some((j, speed)) = self.struck.take() {
-            self.after_impact(j, speed);
+        if !self.struck.is_empty() {
+            self.after_impacts(&turns);
         }
         Some(())
     }
@@ -364,6 +361,7 @@ impl<'a> MachineMotion<'a> {
     pub(super) fn record(&mut self, pushed: &[(usize, f64)]) {
         if let Some(passage) = &mut self.passage {
             passage.pushed = pushed.to_vec();
+            passage.rounds.clear();
             passage.after = Some(self.place.clone());
         }
     }
@@ -436,11 +434,10 @@ impl<'a> MachineMotion<'a> {
             scratch: Scratch::default(),
             tie: false,
             crowd: 0,
-            count: 0,
-            slow: SlowImpacts::default(),
+            instants: Instants::default(),
             largest_impact: 0.0,
             fingerprint: None,
-            struck: None,
+            struck: Vec::new(),
             passage: None,
             recording: false,
             trail: None,
@@ -536,6 +533,7 @@ impl<'a> MachineMotion<'a> {
         match &found {
             Found::NoneBefore(s) if *s >= until && recovered <= self.limits.time => {
                 self.move_to(&flight, recovered);
+                self.instants.pass(recovered);
             }
             Found::NoneBefore(s) => {
                 self.move_to(&flight, *s);
@@ -549,7 +547,8 @@ impl<'a> MachineMotion<'a> {
             Found::Zero { s, guards } => {
                 self.move_to(&flight, *s);
                 self.crowd += 1;
-                self.count += 1;
+                self.instants.pass(*s);
+                self.instants.land();
                 if self.crowd > CROWD {
                     return self.end = Some(MachineEnd::Collapse);
                 }

@@ -5,9 +5,9 @@
 //! coordinates, a flight that begins on a guard begins exactly there, and a chatter is summed by the impacts before it.
 
 use super::event::{Contact, MachineStart};
+use super::instants::Instants;
 use super::motion::MachineMotion;
 use super::place::{Place, standing_back};
-use super::rounds::SlowImpacts;
 use crate::arc::Recovery;
 use crate::machine::{Machine, MachineError, MachineFault, Opening, StopLaw};
 use crate::math::{add_scaled, dot};
@@ -24,10 +24,10 @@ const ROUNDED: f64 = 4.0 * f64::EPSILON;
 pub(super) struct ImpactHistory {
     /// The largest speed of an impact since the structure last came to rest by a chatter.
     pub(super) largest: f64,
-    /// The latest slow impacts; times and numbers of events are counted from the state.
-    pub(super) slow: SlowImpacts,
-    /// The rigid stop that was struck to come to the state, and the speed.
-    pub(super) last: Option<(usize, f64)>,
+    /// The latest changes.
+    pub(super) instants: Instants,
+    /// The rigid stops that were struck to come to the state and have opened, and the speeds.
+    pub(super) last: Vec<(usize, f64)>,
 }
 
 const ZEROS: [&str; 8] = ["gap", "depth", "force", "reaction", "preload", "sliding", "forward", "backward"];
@@ -116,15 +116,15 @@ impl Place {
             // at most a few derivatives
             add(format!("zero.{}.{name}", name_of(*kind)), vec![f64::from(u32::try_from(*count).unwrap_or(u32::MAX))]);
         }
-        if let Some((stop, speed)) = history.last {
-            add(format!("impact.{}", machine.name_of(stop)), vec![speed]);
+        for (stop, speed) in &history.last {
+            add(format!("impact.{}", machine.name_of(*stop)), vec![*speed]);
         }
         if history.largest > 0.0 {
             add("largest_impact".to_owned(), vec![history.largest]);
         }
-        let slow = history.slow.numbers();
-        if !slow.is_empty() {
-            add("slow_impacts".to_owned(), slow);
+        let instants = history.instants.numbers();
+        if !instants.is_empty() {
+            add("instants".to_owned(), instants);
         }
         start
     }
@@ -194,8 +194,8 @@ impl Place {
                 ("x", x) if x.len() == normal.n => place.x.copy_from_slice(x),
                 ("v", v) if v.len() == normal.n => place.v.copy_from_slice(v),
                 ("largest_impact", [speed]) => history.largest = *speed,
-                ("slow_impacts", numbers) => match SlowImpacts::of_numbers(numbers, stops) {
-                    Some(slow) => history.slow = slow,
+                ("instants", numbers) => match Instants::of_numbers(numbers, place.states.len()) {
+                    Some(instants) => history.instants = instants,
                     None => return wrong("this is no list of impacts"),
                 },
                 ("zero", [count]) => {
@@ -213,7 +213,7 @@ impl Place {
                         ("spring", Some(surface)) => surface.size = *value,
                         ("spring", None) => return Ok(None),
                         ("gap", _) => place.gaps.push((stop, *value)),
-                        _ => history.last = Some((stop, *value)),
+                        _ => history.last.push((stop, *value)),
                     }
                 }
                 _ => return wrong("this is no part of a state"),
