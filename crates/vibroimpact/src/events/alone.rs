@@ -5,7 +5,6 @@ use super::chatter::is_far_from_an_end;
 use super::event::MachineEventKind;
 use super::motion::MachineMotion;
 use super::passage::Blow;
-use super::rounds::SLOW;
 use crate::machine::StopLaw;
 use crate::math::{add_scaled, dot};
 use crate::regime::{ContactState, GuardKind};
@@ -41,10 +40,9 @@ impl MachineMotion<'_> {
                         let turns = self.scratch.turns_at(&self.place, &self.normal);
                         if !(open && is_far_from_an_end(&self.place, &self.normal, (j, restitution), fastest, turns)) {
                             let turns = turns.to_vec();
-                            self.complete(j, &turns);
-                        }
-                        if speed < SLOW * self.largest_impact {
-                            self.slow_impact(j, speed);
+                            self.end_chatter(&[(j, speed)], &turns);
+                        } else if self.instants.are_close() {
+                            self.accumulate();
                         }
                     }
                     StopLaw::Compliant { .. } => {

@@ -1,58 +1,218 @@
-//! The end of a collapse: impacts on several stops in turn that accumulate, as those of a heavy body on a light one on a
-//! table.
+//! The end of impacts that accumulate, as rounds of several stops or of stops and joints, or without any order.
 //!
-//! When the same stops are struck in the same order again and again and all speeds fall by one factor in each round, so do
-//! the rounds themselves last shorter by a factor. The rest of the time is the geometric sum, and the structure is then at
-//! rest on all of these stops, if all of them push. Velocities of the gaps that are left are taken away as by impacts
-//! without rebound.
+//! The time of rounds that repeat themselves is a geometric sum. Without such a round the gaps are followed by themselves: they
+//! are known to all their digits then, however small they become, and under accelerations that do not change in so short a
+//! time each next impact has a closed form.
+//!
+//! The velocities of the gaps that are left when a sum is taken are taken away as by impacts without rebound, those of the
+//! joints that change within the round with them: they go to zero with the round. What rests, holds or slides then is
+//! resolved as at any instant, with the forces at rest: over a round that is short the impulses act as their mean force,
+//! so a joint that slips at each impact and holds in between holds at the end if the force at rest is within its limit.
 
 use super::event::MachineEventKind;
+use super::instants::Round;
 use super::motion::MachineMotion;
-use super::rounds::Slow;
-use crate::math::add_scaled;
-use crate::regime::{ContactState, GuardKind};
+use super::place::Place;
+use super::resolve::{Resolution, Resolved};
+use crate::machine::StopLaw;
+use crate::math::{add_scaled, dot};
+use crate::regime::{ContactState, GuardKind, Orthonormal};
+use std::collections::VecDeque;
 
-/// A collapse is summed when its impacts are below this part of the largest one.
-const SLOWEST: f64 = 1e-8;
-/// A sum is taken if the fastest mode moves by no more than this angle; what it leaves out is of the square.
-const SHORT: f64 = 1e-7;
+/// A sum is taken when its error is no more than so many rounding errors of the time.
+const ROUNDINGS: f64 = 32.0;
+/// A sum whose impacts are at one time without a joint is left to the closed form as long as this can be taken: while the
+/// fastest mode turns by more than this angle; of free bodies while impacts are faster than this part of the largest one.
+const SOON: f64 = 1e-7;
+const SLOW: f64 = 1e-8;
+/// A gap below so many rounding errors of the motion is closed; where impacts have no order, below so many, long before rounding
+/// errors of the gaps could change what happens.
+const CLOSED: f64 = 512.0;
+const CROWDED: f64 = 65_536.0;
+/// The most impacts of a collapse that are followed by gaps alone, and for how many on each stop no time may pass at the end.
+const STEPS: usize = 20_000;
+const LAST: usize = 16;
+/// After so many events at one time gaps are closed, whatever they are.
+const MANY: u32 = 256;
 
 impl MachineMotion<'_> {
-    /// Notes a slow impact on a stop that has opened again, and sums the collapse that it belongs to, if there is one.
-    pub(super) fn slow_impact(&mut self, stop: usize, speed: f64) {
-        self.slow.push(Slow { stop, speed, time: self.time(), count: self.count });
-        if speed > SLOWEST * self.largest_impact {
+    /// Sums the impacts of which the last one has just happened, if they accumulate and the sum is exact to rounding.
+    pub(super) fn accumulate(&mut self) {
+        if let Some(round) = self.instants.round()
+            && self.is_exact(&round)
+            && self.come_to_rest(&round.places, round.in_turn, round.left).is_some()
+        {
             return;
         }
-        if let Some((stops, left)) = self.slow.round()
-            && self.collapse(&stops, left).is_some()
-        {
-            self.slow.clear();
+        if let Some(mut stops) = self.instants.crowd() {
+            stops.retain(|j| self.place.states[*j] == ContactState::Open);
+            let left = if self.crowd > MANY { Some(0.0) } else { self.collapse_time(&stops) };
+            if let Some(left) = left.filter(|_| self.crowd > MANY || self.are_close(&stops, CROWDED)) {
+                self.come_to_rest(&stops, true, left);
+            }
         }
     }
 
-    /// Brings the structure to rest on these stops after a time; `None` if it does not stay there.
-    fn collapse(&mut self, stops: &[usize], left: f64) -> Option<()> {
-        let mut there = self.place.clone();
-        stops.iter().for_each(|j| there.states[*j] = ContactState::Resting);
-        let structure = self.structures.get(self.machine, &self.normal, &there.states)?;
-        if left * structure.fastest() > SHORT {
-            return None;
+    /// Whether the error of a sum is a rounding error: of the flights, of the place of a stop at the speed of the impacts, and of
+    /// these speeds.
+    fn is_exact(&mut self, round: &Round) -> bool {
+        let stops = self.machine.stops().len();
+        let turns = self.place.turns(&self.normal);
+        let (mut size, mut rate_size) = (0.0_f64, 0.0_f64);
+        for j in round.places.iter().filter(|at| **at < stops) {
+            let (_, _, of_gap, of_rate) = self.place.gap(&self.normal, &turns, *j);
+            (size, rate_size) = (size.max(of_gap), rate_size.max(of_rate));
         }
-        let turns = there.turns(&self.normal);
-        for j in stops {
-            let held = structure.held.iter().position(|place| place == j)?;
+        let rounding = self.instants.longest() + (size + round.left * rate_size) / round.speed;
+        if round.error > ROUNDINGS * f64::EPSILON * rounding {
+            return false;
+        }
+        let struck: Vec<usize> = round.places.iter().copied().filter(|at| *at < stops).collect();
+        if !self.are_close(&struck, CLOSED) {
+            return false;
+        }
+        if round.in_turn || struck.len() < round.places.len() {
+            return true;
+        }
+        let free = self.structures.get(self.machine, &self.normal, &self.place.states);
+        free.is_some_and(|free| {
+            let fastest = free.fastest();
+            if fastest > 0.0 { round.left * fastest < SOON } else { round.speed < SLOW * self.largest_impact }
+        })
+    }
+
+    /// Whether these gaps are so small that closing them moves nothing.
+    fn are_close(&self, stops: &[usize], roundings: f64) -> bool {
+        let turns = self.place.turns(&self.normal);
+        let way = self.instants.longest() * self.largest_impact;
+        stops.iter().all(|j| {
+            let (gap, _, size, _) = self.place.gap(&self.normal, &turns, *j);
+            gap.abs() <= roundings * f64::EPSILON * size.max(way)
+        })
+    }
+
+    /// The time after which impacts on these stops have accumulated, one after another, if they do so soon. Their gaps are
+    /// followed by themselves under the accelerations here: so they have all digits, however small they become.
+    fn collapse_time(&mut self, stops: &[usize]) -> Option<f64> {
+        let free = self.structures.get(self.machine, &self.normal, &self.place.states)?;
+        let flight = self.place.flight(&self.normal, free.clone());
+        let turns = self.place.turns(&self.normal);
+        let mut kept = Orthonormal::default();
+        free.held.iter().for_each(|place| {
+            kept.add(&self.normal.directions[*place]);
+        });
+        let along: Vec<Vec<f64>> = stops.iter().map(|j| kept.beside(&self.normal.directions[*j]).0).collect();
+        let gaps = stops.iter().map(|j| {
+            let StopLaw::Rigid { restitution } = self.machine.stops()[*j].law else { return None };
             let (gap, rate) = self.place.gap_and_rate(&self.normal, &turns, *j);
-            add_scaled(&mut there.x, gap, &structure.across[held]);
-            add_scaled(&mut there.v, rate, &structure.across[held]);
+            let struck = self.place.known.iter().any(|(kind, _)| *kind == GuardKind::Gap(*j));
+            let acceleration = flight.first(&free.gap(&self.normal, *j).1).1;
+            Some(FreeGap { gap: if struck { 0.0 } else { gap.max(0.0) }, rate, acceleration, restitution })
+        });
+        let mut gaps: Vec<FreeGap> = gaps.collect::<Option<_>>()?;
+        let limit = if free.fastest() > 0.0 { SOON / free.fastest() } else { f64::INFINITY };
+        let rounding = 1e-3 * f64::EPSILON * self.instants.longest();
+        let last = LAST * stops.len();
+        let (mut time, mut recent) = (0.0, VecDeque::from(vec![0.0; last]));
+        for step in 0..STEPS {
+            let (k, s) = gaps
+                .iter()
+                .enumerate()
+                .filter_map(|(k, own)| Some((k, own.closes_after()?)))
+                .min_by(|one, other| one.1.total_cmp(&other.1))?;
+            time += s;
+            gaps.iter_mut().for_each(|own| own.advance(s));
+            let own = &mut gaps[k];
+            own.gap = 0.0;
+            let change = -(1.0 + own.restitution) * own.rate;
+            let square = dot(&along[k], &along[k]);
+            for (own, w) in gaps.iter_mut().zip(&along) {
+                own.rate += dot(w, &along[k]) / square * change;
+            }
+            recent.push_back(time);
+            let before = recent.pop_front()?;
+            if time > limit {
+                return None;
+            }
+            if step > last && time - before <= rounding.max(1e-3 * f64::EPSILON * time) {
+                return Some(time);
+            }
         }
-        there.known.retain(|(kind, _)| !matches!(kind, GuardKind::Gap(j) if stops.contains(j)));
-        let flight = there.flight(&self.normal, structure.clone());
-        let mut held = structure.held.iter().zip(&structure.reactions);
-        let all = self.machine.stops().len();
-        if held.any(|(place, reaction)| *place < all && flight.first(reaction).0 <= 0.0) {
-            return None;
+        None
+    }
+
+    /// Brings the structure to rest on these stops, and these joints to rest, after a time; `None` if it does not stay on
+    /// one of the stops, or if something else happens before.
+    pub(super) fn come_to_rest(&mut self, places: &[usize], in_turn: bool, left: f64) -> Option<()> {
+        let there = self.at_rest(places)?;
+        let structure = self.structures.get(self.machine, &self.normal, &there.states)?;
+        let flight = there.flight(&self.normal, structure);
+        let stops: Vec<usize> = places.iter().copied().filter(|at| *at < self.machine.stops().len()).collect();
+        let kind = if in_turn && stops.len() > 1 { MachineEventKind::Collapse } else { MachineEventKind::Stick };
+        self.rest_after(there, &flight, left, (kind, &stops))
+    }
+
+    /// The state without the velocities of the gaps of these stops and of these joints, and with what rests and holds then.
+    /// `None` if a stop opens.
+    pub(super) fn at_rest(&mut self, places: &[usize]) -> Option<Place> {
+        let stops = self.machine.stops().len();
+        let mut there = self.place.clone();
+        let turns = there.turns(&self.normal);
+        let mut candidates: Vec<usize> = (0..there.states.len()).filter(|at| there.states[*at].constrains()).collect();
+        // along each direction only what leaves the velocities along those before it
+        let mut kept = Orthonormal::default();
+        for at in candidates.iter().filter(|at| !places.contains(at)) {
+            kept.add(&self.normal.directions[*at]);
         }
-        self.rest_after(there, &flight, left, (MachineEventKind::Collapse, stops))
+        for at in places {
+            let w = &self.normal.directions[*at];
+            let (along, size) = kept.beside(w);
+            if kept.add(w) {
+                let (gap, rate) = if *at < stops {
+                    there.gap_and_rate(&self.normal, &turns, *at)
+                } else {
+                    (0.0, -there.sliding(self.machine, &self.normal, at - stops).0)
+                };
+                add_scaled(&mut there.x, gap / (size * size), &along);
+                add_scaled(&mut there.v, rate / (size * size), &along);
+            }
+        }
+        there.known.retain(|(kind, _)| !places.contains(&kind.place(stops)));
+        candidates.extend(places);
+        candidates.sort_unstable();
+        candidates.dedup();
+        let (machine, normal, structures) = (self.machine, &self.normal, &mut self.structures);
+        let Resolved { states, known } =
+            Resolution { machine, normal, structures, place: &there, candidates: &candidates, ended: &[] }.resolve()?;
+        there.states = states;
+        for (kind, count) in known {
+            there.note(kind, count);
+        }
+        let opens = |at: &usize| *at < stops && there.states[*at] == ContactState::Open;
+        (!places.iter().any(opens)).then_some(there)
+    }
+}
+
+/// A gap that moves freely under a constant acceleration.
+#[derive(Clone, Copy, Debug)]
+struct FreeGap {
+    gap: f64,
+    rate: f64,
+    acceleration: f64,
+    restitution: f64,
+}
+
+impl FreeGap {
+    /// The time after which it closes.
+    fn closes_after(&self) -> Option<f64> {
+        let Self { gap, rate, acceleration: a, .. } = *self;
+        let root = (rate * rate - 2.0 * a * gap).sqrt();
+        let time = if rate > 0.0 { (rate + root) / -a } else { 2.0 * gap / (root - rate) };
+        (time >= 0.0 && time.is_finite()).then_some(time)
+    }
+
+    fn advance(&mut self, s: f64) {
+        self.gap = (self.gap + s * (self.rate + 0.5 * self.acceleration * s)).max(0.0);
+        self.rate += self.acceleration * s;
     }
 }

@@ -5,8 +5,8 @@
 //! | an event, a start, the end of a motion | [`MachineEvent`], [`MachineStart`], [`MachineEnd`] |
 //! | a start put onto the stops that it lies beyond | [`MachineStart::within_stops`], `within` |
 //! | the laws of impact at one stop and at several, impacts | `impulses`, `collision`, `strike` |
-//! | the end of a chatter | `chatter` |
-//! | rounds of impacts on several stops in turn, their end | `rounds`, `collapse` |
+//! | the end of a chatter on stops that are struck at the same times | `chatter` |
+//! | rounds of impacts on several stops in turn, or with joints; their end | `instants`, `collapse` |
 //! | events that change one stop alone | `alone` |
 //! | the state at one time | `place` |
 //! | which stops rest and which joints hold | `resolve` |
@@ -23,11 +23,11 @@ mod collision;
 mod contact_force;
 mod event;
 mod impulses;
+mod instants;
 mod motion;
 mod passage;
 mod place;
 mod resolve;
-mod rounds;
 mod saltation;
 mod sample;
 mod samples;

@@ -1,10 +1,10 @@
 //! The motion of a machine as an iterator over its events.
 
 use super::event::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
+use super::instants::Instants;
 use super::passage::Passage;
 use super::place::{Place, Scratch, Structures, standing_back};
 use super::resolve::{Resolution, Resolved};
-use super::rounds::{SLOW, SlowImpacts};
 use super::stretch::{Stretch, follow};
 use crate::arc::{Buffers, Found, MachineFlight, Touch, first_event};
 use crate::machine::{Machine, MachineError, MachineFault, Opening, StopLaw};
@@ -47,10 +47,8 @@ pub struct MachineMotion<'a> {
     /// Whether the outcome of the last impacts depends on an order that is below rounding.
     pub(super) tie: bool,
     /// Events since the time last advanced.
-    crowd: u32,
-    /// Events since the beginning.
-    pub(super) count: u64,
-    pub(super) slow: SlowImpacts,
+    pub(super) crowd: u32,
+    pub(super) instants: Instants,
     /// The largest speed of an impact since the structure last came to rest by a chatter.
     pub(super) largest_impact: f64,
     /// The last step, if steps are recorded.
@@ -282,13 +280,10 @@ impl<'a> MachineMotion<'a> {
         if let Some(passage) = &mut self.passage {
             passage.after = Some(self.place.clone());
         }
-        if let [j] = rigid[..]
-            && self.place.states[j] == ContactState::Open
-        {
-            self.complete(j, &turns);
-            if speeds[j] < SLOW * self.largest_impact {
-                self.slow_impact(j, speeds[j]);
-            }
+        if !rigid.is_empty() {
+            let open = |j: &usize| self.place.states[*j] == ContactState::Open;
+            let opened: Vec<(usize, f64)> = rigid.into_iter().filter(open).map(|j| (j, speeds[j])).collect();
+            self.end_chatter(&opened, &turns);
         }
         Some(())
     }
@@ -297,11 +292,15 @@ impl<'a> MachineMotion<'a> {
     pub(super) fn record(&mut self, pushed: &[(usize, f64)]) {
         if let Some(passage) = &mut self.passage {
             passage.pushed = pushed.to_vec();
+            passage.rounds.clear();
             passage.after = Some(self.place.clone());
         }
     }
 
     pub(super) fn announce(&mut self, kind: MachineEventKind, place: usize, speed: f64, with: Vec<usize>) {
+        if kind != MachineEventKind::Graze {
+            self.instants.keep(kind, place, speed);
+        }
         self.pending.push_back(MachineEvent {
             kind,
             place,
@@ -367,8 +366,7 @@ impl<'a> MachineMotion<'a> {
             scratch: Scratch::default(),
             tie: false,
             crowd: 0,
-            count: 0,
-            slow: SlowImpacts::default(),
+            instants: Instants::default(),
             largest_impact: 0.0,
             passage: None,
             recording: false,
@@ -463,6 +461,7 @@ impl<'a> MachineMotion<'a> {
         match &found {
             Found::NoneBefore(s) if *s >= until && recovered <= self.limits.time => {
                 self.move_to(&flight, recovered);
+                self.instants.pass(recovered);
             }
             Found::NoneBefore(s) => {
                 self.move_to(&flight, *s);
@@ -476,7 +475,8 @@ impl<'a> MachineMotion<'a> {
             Found::Zero { s, guards } => {
                 self.move_to(&flight, *s);
                 self.crowd += 1;
-                self.count += 1;
+                self.instants.pass(*s);
+                self.instants.land();
                 if self.crowd > CROWD {
                     return self.end = Some(MachineEnd::Collapse);
                 }

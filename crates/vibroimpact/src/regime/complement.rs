@@ -21,6 +21,29 @@ fn scaled(vector: &[f64], size: f64) -> Vec<f64> {
     vector.iter().map(|x| x / size).collect()
 }
 
+/// Orthonormal directions, to which more are added.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Orthonormal(Vec<Vec<f64>>);
+
+impl Orthonormal {
+    /// What is left of a direction beside these, and its length.
+    pub(crate) fn beside(&self, direction: &[f64]) -> (Vec<f64>, f64) {
+        let mut left = direction.to_vec();
+        let size = project(&self.0, &mut left);
+        (left, size)
+    }
+
+    /// Adds a direction; `false` if it depends on these.
+    pub(crate) fn add(&mut self, direction: &[f64]) -> bool {
+        let (left, size) = self.beside(direction);
+        let new = size >= DEPENDENT * dot(direction, direction).sqrt();
+        if new {
+            self.0.push(scaled(&left, size));
+        }
+        new
+    }
+}
+
 /// The places of those directions that do not depend on the ones before them.
 pub(crate) fn independent<'a>(directions: impl Iterator<Item = &'a [f64]>) -> Vec<usize> {
     let (mut basis, mut places): (Vec<Vec<f64>>, Vec<usize>) = Default::default();

@@ -39,7 +39,7 @@ mod window;
 pub(crate) use bernstein::{TERMS, bernstein};
 pub(crate) use change::ModalChange;
 pub(crate) use closed_stop::ClosedStop;
-pub(crate) use complement::independent;
+pub(crate) use complement::{Orthonormal, independent};
 pub use contact_state::ContactState;
 pub(crate) use mode::{Mode, Turned};
 pub(crate) use normal::{Normal, compliant};

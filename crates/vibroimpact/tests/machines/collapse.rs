@@ -59,13 +59,13 @@ fn a_stack_collapses() {
         assert!((last.time - expected).abs() < 1e-12, "{masses:?} {restitution}: {} {expected}", last.time);
         assert!(last.q.iter().chain(&last.qdot).all(|x| x.abs() < 1e-15), "{last:?}");
         let impacts: Vec<usize> = seen.iter().filter(|event| event.closes()).map(|event| event.place).collect();
-        assert!(impacts.len() > 20 && impacts.windows(2).rev().take(10).all(|pair| pair[0] != pair[1]), "{impacts:?}");
+        assert!(impacts.len() > 10 && impacts.windows(2).rev().take(10).all(|pair| pair[0] != pair[1]), "{impacts:?}");
     }
 }
 
-/// Bodies without a force that presses them together fly on together: nothing rests.
+/// Bodies without a force that presses them together come to rest on each other too, and fly on together.
 #[test]
-fn free_bodies_do_not_rest() {
+fn free_bodies_fly_on_together() {
     let parts = MachineParts::new(["a", "b", "c"])
         .with_mass(0, 1.0)
         .with_mass(1, 1.0)
@@ -74,7 +74,12 @@ fn free_bodies_do_not_rest() {
         .with_rigid_stop("bc", &[0.0, 1.0, -1.0], 0.5, 0.05);
     let start = MachineStart { q: vec![0.0; 3], qdot: vec![1.0, 0.0, -0.7], phase: 0.0 };
     let (seen, end) = events(&Machine::new(parts).unwrap(), &start);
-    assert!(end == Some(MachineEnd::Never) && seen.iter().all(|event| event.kind != MachineEventKind::Collapse));
+    let last = seen.last().unwrap();
+    assert_eq!(
+        (end, last.kind, last.place, &last.with[..]),
+        (Some(MachineEnd::Never), MachineEventKind::Collapse, 0, &[1][..])
+    );
+    assert!(seen.len() < 40, "{}", seen.len());
     let together = &seen.last().unwrap().qdot;
     assert!(together.iter().all(|v| (v - 0.1).abs() < 1e-14), "{together:?}");
 }

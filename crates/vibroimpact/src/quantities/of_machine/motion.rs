@@ -135,10 +135,10 @@ fn over_time(frame: &MachineFrame<'_>, from: &Place, time: f64) -> Option<Machin
         let passage = motion.step()?;
         let for_ever = matches!(motion.end(), Some(MachineEnd::Never | MachineEnd::Stuck));
         if left <= passage.duration || for_ever {
-            tally.flight(&begin, &passage.structure, left, None);
+            tally.flight(&begin, &passage.structure, left, &[]);
             break;
         }
-        tally.flight(&begin, &passage.structure, passage.duration, None);
+        tally.flight(&begin, &passage.structure, passage.duration, &[]);
         tally.event(&passage, &motion.take_events());
         tally.chatter(&passage, left - passage.duration);
         if left <= passage.time() {
@@ -215,7 +215,7 @@ fn measured(machine: &Machine, tail: &MachineTail) -> Option<MachineQuantities> 
         if motion.end().is_some() {
             return None;
         }
-        tally.flight(&begin, &passage.structure, passage.duration, None);
+        tally.flight(&begin, &passage.structure, passage.duration, &[]);
         tally.event(&passage, &motion.take_events());
         tally.chatter(&passage, f64::INFINITY);
         // block k ends with step number (k + 1) n / wanted

@@ -64,8 +64,8 @@ struct Point {
 struct Leg<'b> {
     states: &'b [ContactState],
     flight: &'b MachineFlight,
-    /// The stop of the chatter that is summed over it.
-    chatter: Option<usize>,
+    /// The stops of the chatter that is summed over it.
+    chatter: &'b [usize],
 }
 
 impl<'a> MachineTally<'a> {
@@ -97,9 +97,9 @@ impl<'a> MachineTally<'a> {
         core::mem::replace(&mut self.sums, MachineSums::new(self.frame.machine))
     }
 
-    /// Adds a flight from a state over a time. A chatter on the stop `chatter` is summed over it: then the reaction at rest
+    /// Adds a flight from a state over a time. A chatter on the stops `chatter` is summed over it: then the reaction at rest
     /// there is that of its impacts.
-    pub(super) fn flight(&mut self, from: &Place, structure: &Arc<Structure>, duration: f64, chatter: Option<usize>) {
+    pub(super) fn flight(&mut self, from: &Place, structure: &Arc<Structure>, duration: f64, chatter: &[usize]) {
         if duration <= 0.0 {
             return;
         }
@@ -137,12 +137,12 @@ impl<'a> MachineTally<'a> {
     /// What a flight adds that needs no integral: times in contact, and the energy that surfaces lose which stand back. At
     /// the depth $`s = ae^{-\kappa t} - b`$ the spring of a stop holds $`\tfrac k2 s^2 + ps`$, which is $`\tfrac k2 a^2
     /// e^{-2\kappa t}`$ and a constant, and its own damper takes what it loses.
-    fn stand_still(&mut self, from: &Place, duration: f64, chatter: Option<usize>) {
+    fn stand_still(&mut self, from: &Place, duration: f64, chatter: &[usize]) {
         let (machine, stops) = (self.frame.machine, self.sums.stops.len());
         for (j, sums) in self.sums.stops.iter_mut().enumerate() {
             match from.states[j] {
                 ContactState::Closed => sums.closed += duration,
-                ContactState::Resting if chatter != Some(j) => sums.resting += duration,
+                ContactState::Resting if !chatter.contains(&j) => sums.resting += duration,
                 _ => {}
             }
             if let (Some(surface), Some((k, ..))) = (from.surfaces[j], compliant(&machine.stops()[j].law)) {
@@ -200,7 +200,7 @@ impl<'a> MachineTally<'a> {
         }
         for (at, range) in self.extremes.forces.iter_mut().enumerate() {
             let acts = matches!(leg.states[at], ContactState::Closed | ContactState::Resting | ContactState::Holding);
-            if acts && leg.chatter != Some(at) {
+            if acts && !leg.chatter.contains(&at) {
                 self.gauss.widen(&self.values[3 * n + at], self.ends[3 * n + at], range);
             } else if !acts {
                 range.1 = range.1.max(self.point.forces[at].abs());
@@ -245,7 +245,7 @@ impl<'a> MachineTally<'a> {
                         sums.contact_loss += weight * c * rate * rate;
                     }
                 }
-                ContactState::Resting if leg.chatter == Some(j) => sums.impulse += force,
+                ContactState::Resting if leg.chatter.contains(&j) => sums.impulse += force,
                 ContactState::Resting => sums.rest_impulse += force,
                 _ => continue,
             }
@@ -304,25 +304,24 @@ impl<'a> MachineTally<'a> {
     }
 
     /// Adds what follows the event at the end of a step if a chatter is summed: the jump to rest, and the motion at rest on
-    /// its stop for its time, or for the part of it up to `most`.
+    /// its stops for its time, or for the part of it up to `most`.
     pub(super) fn chatter(&mut self, passage: &Passage, most: f64) {
-        let (Some((rest, duration)), Some(after), Some((j, _))) =
-            (&passage.rest, &passage.after, passage.pushed.first())
-        else {
+        let (Some((rest, duration)), Some(after)) = (&passage.rest, &passage.after) else {
             return;
         };
+        let stops: Vec<usize> = passage.pushed.iter().map(|(j, _)| *j).collect();
         let duration = duration.min(most);
-        self.jump(passage, rest, after, *j);
-        self.flight(after, rest, duration, Some(*j));
-        // between its impacts the machine moves as it does when the stop is open
-        self.accelerate(after, *j);
-        self.accelerate(&self.frame.moved(after, rest, duration), *j);
+        self.jump(passage, rest, after, &stops);
+        self.flight(after, rest, duration, &stops);
+        // between its impacts the machine moves as it does when the stops are open
+        self.accelerate(after, &stops);
+        self.accelerate(&self.frame.moved(after, rest, duration), &stops);
     }
 
-    /// Includes the accelerations at a state with the stop `j` open.
-    fn accelerate(&mut self, at: &Place, j: usize) {
+    /// Includes the accelerations at a state with these stops open.
+    fn accelerate(&mut self, at: &Place, stops: &[usize]) {
         let mut free = at.clone();
-        free.states[j] = ContactState::Open;
+        stops.iter().for_each(|j| free.states[*j] = ContactState::Open);
         let Some(structure) = self.frame.structure(&free.states) else { return };
         let flight = free.flight(&self.frame.normal, structure);
         let Point { modes, own, a, .. } = &mut self.point;
@@ -333,11 +332,11 @@ impl<'a> MachineTally<'a> {
         }
     }
 
-    /// A chatter on the stop `j` that is summed: from the velocities after the impact to those at rest, at once. The impulses
-    /// along the stop and along what holds beside it do this. They are those of all impacts less the integral of the
+    /// A chatter on stops that is summed: from the velocities after the impact to those at rest, at once. The impulses
+    /// along the stops and along what holds beside them do this. They are those of all impacts less the integral of the
     /// reaction at rest over the time of the chatter, which the flight over this time adds: to leading order the mass is
     /// above the stop for as long as the rebounds take, and what is left out is smaller by $`10^{-10}`$.
-    fn jump(&mut self, passage: &Passage, rest: &Structure, after: &Place, j: usize) {
+    fn jump(&mut self, passage: &Passage, rest: &Structure, after: &Place, chatter: &[usize]) {
         let (machine, normal) = (self.frame.machine, &self.frame.normal);
         let (stops, turns) = (machine.stops().len(), after.turns(normal));
         let mut before = passage.before.as_ref().map_or_else(|| after.v.clone(), |before| before.v.clone());
@@ -348,7 +347,7 @@ impl<'a> MachineTally<'a> {
             range[1] = (range[1].0.min(v), range[1].1.max(v));
         }
         let change: Vec<f64> = after.v.iter().zip(&before).map(|(after, before)| after - before).collect();
-        for ((held, across), (mobility, _)) in rest.held.iter().zip(&rest.across).zip(&rest.mobility) {
+        for (held, across) in rest.held.iter().zip(&rest.across) {
             let impulse = -dot(across, &change);
             if *held >= stops {
                 let joint = &mut self.sums.joints[*held - stops];
@@ -359,11 +358,11 @@ impl<'a> MachineTally<'a> {
             let sums = &mut self.sums.stops[*held];
             let moves = self.walls[*held].swing(&turns);
             sums.work -= impulse * moves;
-            if *held == j {
+            if chatter.contains(held) {
                 sums.closings = f64::INFINITY;
                 sums.impulse += impulse;
-                let rebound = moves - dot(&normal.directions[j], &before);
-                sums.impact_loss += 0.5 * rebound * rebound / mobility;
+                let rebound = moves - dot(&normal.directions[*held], &before);
+                sums.impact_loss -= 0.5 * rebound * impulse;
             } else {
                 sums.rest_impulse += impulse;
             }

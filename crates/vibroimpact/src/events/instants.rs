@@ -1,0 +1,199 @@
+//! What happens after ever shorter flights: the latest changes of contacts, and the round of changes that repeats itself at
+//! their end.
+//!
+//! Impacts that accumulate come after ever shorter flights, whatever else they do: several stops at the same times or in
+//! turn, with joints that slip, hold and reverse in between. Where the same contacts change in the same order again and
+//! again, all speeds fall by one factor in each round, and the rounds last shorter by a factor $`q < 1`$, the time that is
+//! left is the geometric sum of the rounds that follow, $`Rq/(1 - q)`$ after a round of length R.
+//!
+//! Some accumulate without a round that repeats itself, as those of a column of bodies. Then all that can be said is which
+//! stops are struck again and again, ever more slowly.
+
+use super::event::MachineEventKind;
+use std::collections::VecDeque;
+
+/// Flights below this part of the longest one are short.
+const SHORT: f64 = 1e-2;
+/// A long flight is forgotten by this factor with each event.
+const FORGOTTEN: f64 = 0.9995;
+/// The longest round, in changes, and the number of changes that are kept: three rounds and the change before them.
+const LONGEST: usize = 32;
+const KEPT: usize = 3 * LONGEST + 1;
+/// Factors that differ by less than this part of them are equal.
+const EQUAL: f64 = 1e-2;
+/// Speeds and rounds fall if their factor is less than 1 by more than this.
+const FALLS: f64 = 1e-4;
+/// Impacts of a round that are apart by no more than this part of it are at the same time.
+const TOGETHER: f64 = 1e-6;
+/// A stop is struck again and again if it is at least so often among the changes kept.
+const OFTEN: usize = 4;
+/// The part of the changes kept, at both ends, whose speeds are compared, and the factor by which they have fallen.
+const END: usize = KEPT / 4;
+const SLOWER: f64 = 0.5;
+/// In how many changes it is asked once whether a collapse without rounds is near.
+const EVERY: usize = 8;
+
+/// A change of the state of a contact, or an impact.
+#[derive(Clone, Copy, Debug)]
+struct Change {
+    kind: MachineEventKind,
+    place: usize,
+    speed: f64,
+    /// The time since the change before it.
+    after: f64,
+}
+
+impl Change {
+    /// Whether it does the same as another one.
+    fn repeats(&self, other: &Self) -> bool {
+        // of a slip the speed is its direction
+        self.kind == other.kind
+            && self.place == other.place
+            && (self.kind != MachineEventKind::Slip || self.speed == other.speed)
+    }
+
+    fn is_impact(&self) -> bool {
+        self.kind == MachineEventKind::Impact
+    }
+}
+
+/// A round of changes that repeats itself.
+#[derive(Clone, Debug)]
+pub(super) struct Round {
+    /// The stops, and the joints counted after them, that change in it.
+    pub(super) places: Vec<usize>,
+    /// Whether it has impacts at different times.
+    pub(super) in_turn: bool,
+    /// The time of all rounds that follow, and its error.
+    pub(super) left: f64,
+    pub(super) error: f64,
+    /// The largest speed of its impacts.
+    pub(super) speed: f64,
+}
+
+/// The latest changes, as long as flights are short.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Instants {
+    /// The longest flight of late.
+    longest: f64,
+    short: bool,
+    /// How many changes have been kept since the last long flight.
+    count: usize,
+    /// The time since the last change.
+    passed: f64,
+    /// The last one first.
+    latest: VecDeque<Change>,
+}
+
+impl Instants {
+    /// Notes that time has passed in a flight.
+    #[inline]
+    pub(super) fn pass(&mut self, s: f64) {
+        self.passed += s;
+    }
+
+    /// Notes that a flight has ended.
+    #[inline]
+    pub(super) fn land(&mut self) {
+        self.longest *= FORGOTTEN;
+        self.short = self.passed < SHORT * self.longest;
+        if !self.short {
+            self.longest = self.longest.max(self.passed);
+            self.count = 0;
+            self.passed = 0.0;
+            self.latest.clear();
+        }
+    }
+
+    /// Whether the last flight was short.
+    #[inline]
+    pub(super) const fn are_close(&self) -> bool {
+        self.short
+    }
+
+    /// The longest flight of late.
+    pub(super) const fn longest(&self) -> f64 {
+        self.longest
+    }
+
+    /// Keeps a change after a short flight.
+    #[inline]
+    pub(super) fn keep(&mut self, kind: MachineEventKind, place: usize, speed: f64) {
+        if self.short {
+            let after = core::mem::take(&mut self.passed);
+            self.latest.push_front(Change { kind, place, speed, after });
+            self.latest.truncate(KEPT);
+            self.count += 1;
+        }
+    }
+
+    /// Forgets all flights and changes, because the structure has come to rest.
+    pub(super) fn clear(&mut self) {
+        *self = Self::default();
+    }
+
+    /// The shortest round that repeats itself at the end.
+    pub(super) fn round(&self) -> Option<Round> {
+        (1..=LONGEST).find_map(|period| self.round_of(period))
+    }
+
+    /// A round of so many changes.
+    fn round_of(&self, period: usize) -> Option<Round> {
+        let all = &self.latest;
+        let repeated = |k: usize| all.get(k + period).is_some_and(|before| all[k].repeats(before));
+        if !(0..=period).all(repeated) {
+            return None;
+        }
+        let falls = |factor: f64| (0.0..1.0 - FALLS).contains(&factor);
+        let length = |k: usize| (k..k + period).map(|i| all[i].after).sum::<f64>();
+        let factor = length(0) / length(period);
+        let slower = |k: usize| all[k].speed / all[k + period].speed;
+        let impacts = |until: usize| (0..until).filter(|k| all[*k].is_impact());
+        let first = slower(impacts(period).next()?);
+        let one = |until: usize| impacts(until).all(|k| (slower(k) - first).abs() <= EQUAL * first);
+        if !falls(factor) || !falls(first) || !one(period + 1) {
+            return None;
+        }
+        let left = length(0) * factor / (1.0 - factor);
+        // the factor of three rounds tells how much it still changes
+        let third = (period + 1..=2 * period).all(repeated) && one(2 * period);
+        let error = if third {
+            let before = length(period) / length(2 * period);
+            length(0) * (factor - before).abs() / ((1.0 - factor) * (1.0 - factor))
+        } else {
+            left
+        };
+        let times = impacts(period).map(|k| (0..k).map(|i| all[i].after).sum::<f64>());
+        let (least, most) = times.fold((f64::INFINITY, 0.0_f64), |(a, b), time| (a.min(time), b.max(time)));
+        let mut places: Vec<usize> = all.iter().take(period).map(|change| change.place).collect();
+        places.sort_unstable();
+        places.dedup();
+        Some(Round {
+            places,
+            in_turn: most - least > TOGETHER * length(0),
+            left,
+            error,
+            speed: impacts(period).map(|k| all[k].speed).fold(0.0, f64::max),
+        })
+    }
+
+    /// Several stops that are struck again and again, ever more slowly, without a round that repeats itself; asked once in some
+    /// changes.
+    pub(super) fn crowd(&self) -> Option<Vec<usize>> {
+        if self.latest.len() < KEPT || !self.count.is_multiple_of(EVERY) {
+            return None;
+        }
+        let faster = |most: f64, change: &Change| if change.is_impact() { most.max(change.speed) } else { most };
+        let late = self.latest.iter().take(END).fold(0.0, faster);
+        let early = self.latest.iter().rev().take(END).fold(0.0, faster);
+        if late > SLOWER * early {
+            return None;
+        }
+        let impacts = self.latest.iter().filter(|change| change.is_impact());
+        let mut struck: Vec<usize> = impacts.map(|one| one.place).collect();
+        struck.sort_unstable();
+        let often = struck.chunk_by(|a, b| a == b).filter(|own| own.len() >= OFTEN);
+        let stops: Vec<usize> = often.map(|own| own[0]).collect();
+        (stops.len() > 1).then_some(stops)
+    }
+}
