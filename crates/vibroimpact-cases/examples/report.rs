@@ -5,12 +5,14 @@
 
 use std::collections::BTreeMap;
 use std::panic::catch_unwind;
-use vibroimpact_cases::{Budget, FAMILIES, Family, Rule, faults};
+use vibroimpact_cases::{Budget, FAMILIES, MachineFamily, Rule, faults};
 
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).collect();
     if let ["show", family, seed] = words.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        let (Some(family), Ok(seed)) = (Family::named(family), seed.parse()) else { return println!("no such case") };
+        let (Some(family), Ok(seed)) = (MachineFamily::named(family), seed.parse()) else {
+            return println!("no such case");
+        };
         let case = family.case(seed);
         println!("{}", case.toml());
         for fault in faults(&case, Budget::default()) {

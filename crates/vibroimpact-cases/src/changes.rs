@@ -8,7 +8,7 @@ use vibroimpact::math::Matrix;
 
 /// A way to write a machine again.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Change {
+pub enum Rewriting {
     /// Other names, whose alphabetical order is another too.
     Names,
     /// Another order of coordinates, stops, joints and harmonics.
@@ -23,7 +23,7 @@ pub enum Change {
     Twice,
 }
 
-impl Change {
+impl Rewriting {
     /// One of each kind, units by powers of two and by other factors.
     pub const ALL: [Self; 8] = [
         Self::Names,
@@ -66,7 +66,7 @@ struct Writing {
 /// # Panics
 /// If the result is no machine, which is a fault of this function.
 #[must_use]
-pub fn changed(case: &Case, change: Change) -> Changed {
+pub fn changed(case: &Case, change: Rewriting) -> Changed {
     let parts = case.machine.parts();
     let (n, stops, joints) = (parts.n(), parts.stops.len(), parts.joints.len());
     let mut draw = Draw::new(case.family, case.seed);
@@ -77,23 +77,23 @@ pub fn changed(case: &Case, change: Change) -> Changed {
         units: (1.0, 1.0, 1.0),
     };
     match change {
-        Change::Names => {}
-        Change::Order => {
+        Rewriting::Names => {}
+        Rewriting::Order => {
             shuffle(&mut writing.coordinates, &mut draw);
             shuffle(&mut writing.stops, &mut draw);
             shuffle(&mut writing.joints, &mut draw);
         }
-        Change::Units(mass, length, time) => writing.units = (mass, length, time),
-        Change::Signs => writing.coordinates.iter_mut().for_each(|(_, sign)| *sign = draw.pick(&[1.0, -1.0])),
-        Change::Mirror => writing.coordinates.iter_mut().for_each(|(_, sign)| *sign = -1.0),
-        Change::Twice => {
+        Rewriting::Units(mass, length, time) => writing.units = (mass, length, time),
+        Rewriting::Signs => writing.coordinates.iter_mut().for_each(|(_, sign)| *sign = draw.pick(&[1.0, -1.0])),
+        Rewriting::Mirror => writing.coordinates.iter_mut().for_each(|(_, sign)| *sign = -1.0),
+        Rewriting::Twice => {
             writing.coordinates = [&writing.coordinates[..], &writing.coordinates].concat();
             writing.stops = [&writing.stops[..], &writing.stops].concat();
             writing.joints = [&writing.joints[..], &writing.joints].concat();
         }
     }
     let mut parts = writing.parts(parts);
-    if change == Change::Names {
+    if change == Rewriting::Names {
         let renamed = |name: &mut String, k: usize, all: usize| *name = format!("n{:03}-{name}", all - k);
         parts.coordinates.iter_mut().enumerate().for_each(|(k, name)| renamed(name, k, n));
         parts.stops.iter_mut().enumerate().for_each(|(k, stop)| renamed(&mut stop.name, k, stops));

@@ -5,7 +5,7 @@
 //! may move an event, and the comparison ends where they change which events there are.
 
 use crate::case::Case;
-use crate::changes::{Change, Changed, changed};
+use crate::changes::{Changed, Rewriting, changed};
 use crate::quantities::largest;
 use crate::rules::Budget;
 use std::collections::BTreeSet;
@@ -196,7 +196,7 @@ impl Standard {
     ///
     /// # Errors
     /// The first difference.
-    pub fn same_written(&self, case: &Case, change: Change, budget: Budget) -> Result<usize, String> {
+    pub fn same_written(&self, case: &Case, change: Rewriting, budget: Budget) -> Result<usize, String> {
         let back = changed(case, change);
         self.same(&back.machine, &back.start, Some(&back), budget).map_err(|what| format!("{change:?}: {what}"))
     }

@@ -9,19 +9,20 @@
 //! | numbers drawn from a seed | [`Draw`] |
 //! | a machine, a start, and facts about the motion | [`Case`], [`Drawn`], [`Symmetry`] |
 //! | the families, one a file | [`FAMILIES`], `families` |
-//! | the same machine written in another way | [`changed`], [`Change`] |
+//! | the same machine written in another way | [`changed`], [`Rewriting`] |
 //! | events that do not depend on how a machine is written | [`Standard`] |
 //! | a case as a machine file | [`Case::toml`], `toml` |
 //! | gaps, forces and energies from the numbers of a machine alone | `quantities` |
 //! | what must hold of every motion | [`faults`], [`Rule`] |
 //!
 //! ```
-//! use vibroimpact_cases::{FAMILIES, Family};
-//! let case = Family::named("twins").unwrap().case(3);
-//! assert_eq!(case.machine, Family::named("twins").unwrap().case(3).machine);
+//! use vibroimpact_cases::{FAMILIES, MachineFamily};
+//! let case = MachineFamily::named("twins").unwrap().case(3);
+//! assert_eq!(case.machine, MachineFamily::named("twins").unwrap().case(3).machine);
 //! assert!(FAMILIES.len() > 15);
 //! ```
 
+mod bodies;
 mod case;
 mod changes;
 mod draw;
@@ -32,8 +33,8 @@ mod rules;
 mod toml;
 
 pub use case::{Case, Drawn, Symmetry};
-pub use changes::{Change, Changed, changed};
+pub use changes::{Changed, Rewriting, changed};
 pub use draw::Draw;
-pub use families::{FAMILIES, Family};
+pub use families::{FAMILIES, MachineFamily};
 pub use invariance::Standard;
-pub use rules::{Budget, Fault, Rule, faults};
+pub use rules::{BrokenRule, Budget, Rule, faults};

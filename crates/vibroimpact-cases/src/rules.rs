@@ -49,7 +49,7 @@ impl Rule {
 
 /// A rule that a motion breaks for the first time.
 #[derive(Clone, Debug)]
-pub struct Fault {
+pub struct BrokenRule {
     /// The rule.
     pub rule: Rule,
     /// The time.
@@ -58,7 +58,7 @@ pub struct Fault {
     pub what: String,
 }
 
-impl fmt::Display for Fault {
+impl fmt::Display for BrokenRule {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:?} at {}: {}", self.rule, self.time, self.what)
     }
@@ -107,7 +107,7 @@ const NODES: [(f64, f64); 4] = [
 /// # Panics
 /// If the start is invalid, which is a fault of the family.
 #[must_use]
-pub fn faults(case: &Case, budget: Budget) -> Vec<Fault> {
+pub fn faults(case: &Case, budget: Budget) -> Vec<BrokenRule> {
     let mut follower = Follower::new(case);
     follower.events(budget);
     follower.stretches(budget);
@@ -120,7 +120,7 @@ struct Follower<'a> {
     case: &'a Case,
     machine: &'a Machine,
     fastest: f64,
-    faults: Vec<Fault>,
+    faults: Vec<BrokenRule>,
     /// The largest coordinate, velocity, force and energy so far.
     sizes: Sizes,
     /// The time at which the surface of a stop was left by the body, and how deep it was.
@@ -151,7 +151,7 @@ impl<'a> Follower<'a> {
 
     fn fault(&mut self, rule: Rule, time: f64, what: impl FnOnce() -> String) {
         if self.faults.iter().all(|fault| fault.rule != rule) {
-            self.faults.push(Fault { rule, time, what: what() });
+            self.faults.push(BrokenRule { rule, time, what: what() });
         }
     }
 

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 use vibroimpact::verdict::{SettleOptions, settle_machine};
-use vibroimpact_cases::{Budget, Case, Change, FAMILIES, Standard, changed};
+use vibroimpact_cases::{Budget, Case, Rewriting, FAMILIES, Standard, changed};
 
 fn long() -> bool {
     std::env::var("VIBROIMPACT_LONG").is_ok()
@@ -17,7 +17,7 @@ fn events_do_not_depend_on_names_order_units_and_signs() {
         for seed in 0..if long() { 60 } else { 1 } {
             let case = family.case(seed);
             let standard = Standard::new(&case, budget);
-            for change in Change::ALL {
+            for change in Rewriting::ALL {
                 match standard.same_written(&case, change, budget) {
                     Ok(count) => instants += count,
                     Err(what) => wrong.push(format!("{} {seed} {what}", family.name)),
@@ -33,7 +33,7 @@ fn events_do_not_depend_on_names_order_units_and_signs() {
 #[test]
 fn duplicates_move_as_originals() {
     let budget = Budget { stretches: 40, time: 25.0 };
-    let family = vibroimpact_cases::Family::named("duplicates").unwrap();
+    let family = vibroimpact_cases::MachineFamily::named("duplicates").unwrap();
     let mut wrong = Vec::new();
     for seed in 0..if long() { 200 } else { 20 } {
         let case = family.case(seed);
@@ -64,10 +64,10 @@ fn verdicts_do_not_depend_on_names_order_units_and_signs() {
         for seed in 0..if long() { 60 } else { 1 } {
             let case = family.case(seed);
             let standard = settle_machine(&case.machine, &case.start, &options).unwrap().verdict.label();
-            for change in Change::ALL {
+            for change in Rewriting::ALL {
                 let again = changed(&case, change);
                 let verdict = settle_machine(&again.machine, &again.start, &options).unwrap().verdict.label();
-                if label(&verdict, change == Change::Twice) != standard {
+                if label(&verdict, change == Rewriting::Twice) != standard {
                     wrong.push(format!("{} {seed} {change:?}: {verdict} instead of {standard}", family.name));
                 }
             }

@@ -1,6 +1,6 @@
 //! Free bodies without any force between walls: impacts alone change their velocities.
 
-use super::{along, between, bodies};
+use crate::bodies::{along, between, bodies};
 use crate::case::{Drawn, Symmetry};
 use crate::draw::Draw;
 use vibroimpact::events::MachineStart;

@@ -1,6 +1,6 @@
 //! Mirror-symmetric chains of equal bodies along a line: springs and gaps between neighbours, walls at both ends.
 
-use super::{along, between, bodies};
+use crate::bodies::{along, between, bodies};
 use crate::case::{Drawn, Symmetry};
 use crate::draw::Draw;
 use vibroimpact::events::MachineStart;

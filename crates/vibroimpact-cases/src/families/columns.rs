@@ -1,6 +1,6 @@
 //! Bodies with equal gaps, one above the other, that fall on a floor.
 
-use super::{along, between, bodies};
+use crate::bodies::{along, between, bodies};
 use crate::case::Drawn;
 use crate::draw::Draw;
 use vibroimpact::events::MachineStart;

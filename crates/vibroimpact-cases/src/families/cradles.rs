@@ -1,6 +1,6 @@
 //! Balls on equal springs that touch, as in a cradle: the first ones are drawn back and strike the others.
 
-use super::{along, between, bodies};
+use crate::bodies::{along, between, bodies};
 use crate::case::Drawn;
 use crate::draw::Draw;
 use vibroimpact::events::MachineStart;

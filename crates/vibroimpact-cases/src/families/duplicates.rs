@@ -1,7 +1,7 @@
 //! Constraints that depend on each other: the same stop twice, a rigid and a compliant one at one gap, a stop whose
 //! direction is scaled, two joints on one coordinate. The machine without the second one moves in the same way.
 
-use super::{along, bodies};
+use crate::bodies::{along, between, bodies};
 use crate::case::Drawn;
 use crate::draw::Draw;
 use vibroimpact::events::MachineStart;
@@ -14,7 +14,7 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
         parts = parts.with_mass(i, 1.0).with_link(&along(n, i, 1.0), draw.number(0.5, 2.0), draw.number(0.02, 0.2));
     }
     for i in 1..n {
-        parts = parts.with_link(&super::between(n, i - 1, i), draw.number(0.2, 1.0), 0.02);
+        parts = parts.with_link(&between(n, i - 1, i), draw.number(0.2, 1.0), 0.02);
     }
     parts = parts.with_force(0, 1, 0.0, draw.number(0.5, 1.5));
     let (gap, rigid) = (draw.pick(&[0.0, 0.2, 0.5]), draw.rigid());

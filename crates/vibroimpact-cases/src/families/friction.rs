@@ -1,6 +1,6 @@
 //! Friction joints beside stops: on the body that strikes, on its neighbour, or between both.
 
-use super::{along, between, bodies};
+use crate::bodies::{along, between, bodies};
 use crate::case::Drawn;
 use crate::draw::Draw;
 use vibroimpact::events::MachineStart;

@@ -1,6 +1,6 @@
 //! Bodies between two stops at equal gaps: one driven body, or a ball in a frame that is driven, from rest in the middle.
 
-use super::{along, between, bodies};
+use crate::bodies::{along, between, bodies};
 use crate::case::Drawn;
 use crate::draw::Draw;
 use vibroimpact::events::MachineStart;

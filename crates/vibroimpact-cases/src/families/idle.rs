@@ -1,6 +1,6 @@
 //! Bodies at rest on stops that carry nothing, beside others that move, with or without a spring between them.
 
-use super::{along, between, bodies};
+use crate::bodies::{along, between, bodies};
 use crate::case::Drawn;
 use crate::draw::Draw;
 use vibroimpact::events::MachineStart;

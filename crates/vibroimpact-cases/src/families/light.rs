@@ -1,6 +1,6 @@
 //! A very light body, as a node without mass is modelled, between a heavy one and a stop.
 
-use super::{along, between, bodies};
+use crate::bodies::{along, between, bodies};
 use crate::case::Drawn;
 use crate::draw::Draw;
 use vibroimpact::events::MachineStart;

@@ -1,6 +1,6 @@
 //! Bodies without any room between two walls, so that none of them can move, beside others that do.
 
-use super::{along, between, bodies};
+use crate::bodies::{along, between, bodies};
 use crate::case::Drawn;
 use crate::draw::Draw;
 use vibroimpact::events::MachineStart;

@@ -26,7 +26,7 @@ use vibroimpact::machine::{Machine, MachineParts};
 
 /// A family of machines.
 #[derive(Clone, Copy)]
-pub struct Family {
+pub struct MachineFamily {
     /// Its name.
     pub name: &'static str,
     /// What is degenerate in it.
@@ -34,18 +34,18 @@ pub struct Family {
     draw: fn(&mut Draw) -> Drawn,
 }
 
-impl fmt::Debug for Family {
+impl fmt::Debug for MachineFamily {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name)
     }
 }
 
-const fn family(name: &'static str, about: &'static str, draw: fn(&mut Draw) -> Drawn) -> Family {
-    Family { name, about, draw }
+const fn family(name: &'static str, about: &'static str, draw: fn(&mut Draw) -> Drawn) -> MachineFamily {
+    MachineFamily { name, about, draw }
 }
 
 /// All families.
-pub const FAMILIES: &[Family] = &[
+pub const FAMILIES: &[MachineFamily] = &[
     family("twins", "equal oscillators that touch, under equal forces", twins::draw),
     family("cradles", "balls on equal springs that touch; the first ones strike", cradles::draw),
     family("stacks", "bodies one on the other, on a table that is still or shakes", stacks::draw),
@@ -66,7 +66,7 @@ pub const FAMILIES: &[Family] = &[
     family("locked", "bodies without any room between two walls, beside others that move", locked::draw),
 ];
 
-impl Family {
+impl MachineFamily {
     /// The family of a name.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
@@ -86,23 +86,4 @@ impl Family {
         let (machine, same_as) = (machine(parts), same_as.map(machine));
         Case { family: self.name, seed, machine, start, symmetries, equal, same_as }
     }
-}
-
-/// The direction of a stop between two bodies, the first of which strikes the second.
-fn between(n: usize, first: usize, second: usize) -> Vec<f64> {
-    let mut direction = along(n, first, 1.0);
-    direction[second] -= 1.0;
-    direction
-}
-
-/// The direction of one coordinate, times a number.
-fn along(n: usize, coordinate: usize, sign: f64) -> Vec<f64> {
-    let mut direction = vec![0.0; n];
-    direction[coordinate] = sign;
-    direction
-}
-
-/// Coordinates without mass, springs and stops, named by a letter.
-fn bodies(letter: char, n: usize) -> MachineParts {
-    MachineParts::new((1..=n).map(|i| format!("{letter}{i}")))
 }

@@ -1,6 +1,6 @@
 //! Compliant stops with a preload that touch: loads below the preload leave them at rest, larger ones push them in.
 
-use super::{along, between, bodies};
+use crate::bodies::{along, between, bodies};
 use crate::case::Drawn;
 use crate::draw::Draw;
 use vibroimpact::events::MachineStart;

@@ -1,6 +1,6 @@
 //! Equal bodies in a ring, coupled to the next: each above a stop of its own, or each beside the next.
 
-use super::{along, between, bodies};
+use crate::bodies::{along, between, bodies};
 use crate::case::{Drawn, Symmetry};
 use crate::draw::Draw;
 use vibroimpact::events::MachineStart;

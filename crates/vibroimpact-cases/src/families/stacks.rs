@@ -1,6 +1,6 @@
 //! Bodies one on the other, on a table that is still or shakes; gravity is all that acts between them.
 
-use super::{along, between, bodies};
+use crate::bodies::{along, between, bodies};
 use crate::case::Drawn;
 use crate::draw::Draw;
 use vibroimpact::events::MachineStart;

@@ -1,6 +1,6 @@
 //! Mirror-symmetric chains of bodies that move across the line of the chain, as beads on a string above a floor.
 
-use super::{along, between, bodies};
+use crate::bodies::{along, between, bodies};
 use crate::case::{Drawn, Symmetry};
 use crate::draw::Draw;
 use vibroimpact::events::MachineStart;

@@ -1,6 +1,6 @@
 //! Equal oscillators that touch, under equal forces: they press on each other with a force that is always zero.
 
-use super::{along, between, bodies};
+use crate::bodies::{along, between, bodies};
 use crate::case::Drawn;
 use crate::draw::Draw;
 use vibroimpact::events::MachineStart;

@@ -37,7 +37,7 @@ impl Return {
         let first = 2.0 * k / r;
         let second = -2.0 * (jerk / a * k + 0.5 * drag * k) / (3.0 * r);
         let small = second.abs() <= SMALL && first * fastest.max(drag) <= 10.0 * SMALL;
-        small.then(|| first * (1.0 + second))
+        small.then_some(first * (1.0 + second))
     }
 }
 

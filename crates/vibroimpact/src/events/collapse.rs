@@ -25,8 +25,10 @@ const ROUNDINGS: f64 = 32.0;
 /// fastest mode turns by more than this angle; of free bodies while impacts are faster than this part of the largest one.
 const SOON: f64 = 1e-7;
 const SLOW: f64 = 1e-8;
-/// A gap below so many rounding errors of the motion is closed.
+/// A gap below so many rounding errors of the motion is closed; where impacts have no order, below so many, long before rounding
+/// errors of the gaps could change what happens.
 const CLOSED: f64 = 512.0;
+const CROWDED: f64 = 65_536.0;
 /// The most impacts of a collapse that are followed by gaps alone, and for how many on each stop no time may pass at the end.
 const STEPS: usize = 20_000;
 const LAST: usize = 16;
@@ -45,7 +47,7 @@ impl MachineMotion<'_> {
         if let Some(mut stops) = self.instants.crowd() {
             stops.retain(|j| self.place.states[*j] == ContactState::Open);
             let left = if self.crowd > MANY { Some(0.0) } else { self.collapse_time(&stops) };
-            if let Some(left) = left.filter(|_| self.crowd > MANY || self.are_close(&stops)) {
+            if let Some(left) = left.filter(|_| self.crowd > MANY || self.are_close(&stops, CROWDED)) {
                 self.come_to_rest(&stops, true, left);
             }
         }
@@ -66,27 +68,26 @@ impl MachineMotion<'_> {
             return false;
         }
         let struck: Vec<usize> = round.places.iter().copied().filter(|at| *at < stops).collect();
-        if !self.are_close(&struck) {
+        if !self.are_close(&struck, CLOSED) {
             return false;
         }
         if round.in_turn || struck.len() < round.places.len() {
             return true;
         }
         let free = self.structures.get(self.machine, &self.normal, &self.place.states);
-        let soon = free.is_some_and(|free| {
+        free.is_some_and(|free| {
             let fastest = free.fastest();
             if fastest > 0.0 { round.left * fastest < SOON } else { round.speed < SLOW * self.largest_impact }
-        });
-        soon
+        })
     }
 
     /// Whether these gaps are so small that closing them moves nothing.
-    fn are_close(&self, stops: &[usize]) -> bool {
+    fn are_close(&self, stops: &[usize], roundings: f64) -> bool {
         let turns = self.place.turns(&self.normal);
         let way = self.instants.longest() * self.largest_impact;
         stops.iter().all(|j| {
             let (gap, _, size, _) = self.place.gap(&self.normal, &turns, *j);
-            gap.abs() <= CLOSED * f64::EPSILON * size.max(way)
+            gap.abs() <= roundings * f64::EPSILON * size.max(way)
         })
     }
 

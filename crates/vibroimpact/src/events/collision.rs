@@ -182,7 +182,7 @@ mod tests {
         // it turns about the left foot, and the right one strikes; slim bars have a moment of inertia below one
         let inertia = 0.6_f64.sqrt();
         let feet: [&[f64]; 2] = [&[-1.0, 1.0 / inertia], &[-1.0, -1.0 / inertia]];
-        let v = [-0.5, 0.5 * inertia * -1.0];
+        let v = [-0.5, -0.5 * inertia];
         let rates: Vec<f64> = feet.iter().map(|w| -dot(w, &v)).collect();
         let of = |law| collide(law, &feet, &v, &rates, &[0.5, 0.5]).unwrap();
         let (together, turn) = (of(ImpactLaw::Together), of(ImpactLaw::InTurn));

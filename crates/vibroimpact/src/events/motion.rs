@@ -246,7 +246,8 @@ impl<'a> MachineMotion<'a> {
     }
 
     /// Changes the contacts at this time, all at once: impacts on the stops `closing`, then the states of the candidates,
-    /// which are closed without velocity; the forces of those in `ended` have reached their limits. The motion ends if no state of the contacts is consistent.
+    /// which are closed without velocity; the forces of those in `ended` have reached their limits. The motion ends if no
+    /// state of the contacts is consistent.
     fn change(&mut self, before: &[ContactState], closing: &[usize], candidates: Vec<usize>, ended: &[usize]) {
         if self.changed(before, closing, candidates, ended).is_none() {
             self.end = Some(MachineEnd::Inconsistent);

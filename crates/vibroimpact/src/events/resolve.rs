@@ -91,10 +91,8 @@ impl Resolution<'_> {
         if at >= self.machine.stops().len() {
             return ContactState::Holding;
         }
-        match compliant(&self.machine.stops()[at].law) {
-            Some((_, _, preload)) if preload == 0.0 => ContactState::Open,
-            _ => ContactState::Resting,
-        }
+        let soft = compliant(&self.machine.stops()[at].law).is_some_and(|(_, _, preload)| preload == 0.0);
+        if soft { ContactState::Open } else { ContactState::Resting }
     }
 
     /// All contacts with these states of the candidates. Stops at rest that others hold already touch.

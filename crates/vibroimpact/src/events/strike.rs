@@ -139,8 +139,8 @@ impl MachineMotion<'_> {
             }
             return;
         }
-        for j in 0..self.machine.stops().len() {
-            let opened = before[j] == ContactState::Closed && self.place.states[j] == ContactState::Open;
+        for (j, was) in before.iter().enumerate().take(self.machine.stops().len()) {
+            let opened = *was == ContactState::Closed && self.place.states[j] == ContactState::Open;
             if !(opened || reached.contains(&j)) {
                 continue;
             }
