@@ -132,7 +132,7 @@ fn graded(
             back.push(unit);
         }
     }
-    let factors = rows.factors();
+    let factors = rows.factors(frame.len());
     let there: Vec<usize> = (0..frame.len()).filter(|j| factors.scales[*j] > f64::NEG_INFINITY).collect();
     let vectors = there.iter().map(|j| combined(&back, &factors.lower[*j])).collect();
     let FrameChange { left, kept, .. } = orthonormal(frame, (vectors, remove), 0.0);

@@ -30,9 +30,9 @@ impl Graded {
     }
 
     /// Its factors, by elimination in which the largest element of a column, with the size of its row, is the pivot. Each
-    /// column has the digits that its own size allows, however small its row is beside others.
-    pub(crate) fn factors(mut self) -> GradedFactors {
-        let columns = self.rows.first().map_or(0, Vec::len);
+    /// column has the digits that its own size allows, however small its row is beside others. A matrix without rows has so
+    /// many columns of zeros.
+    pub(crate) fn factors(mut self, columns: usize) -> GradedFactors {
         let mut left: Vec<usize> = (0..self.rows.len()).collect();
         let mut factors = GradedFactors {
             lower: Vec::with_capacity(columns),
@@ -77,7 +77,7 @@ mod tests {
     #[test]
     fn factors_of_rows_of_any_size() {
         let rows = vec![vec![0.3, -1.0, 0.7], vec![1.1, 0.4, -0.2], vec![-0.6, 0.9, 1.3]];
-        let of = |scales: [f64; 3]| Graded { rows: rows.clone(), scales: scales.to_vec() }.factors();
+        let of = |scales: [f64; 3]| Graded { rows: rows.clone(), scales: scales.to_vec() }.factors(3);
         let factors = of([0.0, 1.0, -2.0]);
         for (i, (row, scale)) in rows.iter().zip([0.0_f64, 1.0, -2.0]).enumerate() {
             for (j, value) in row.iter().enumerate() {
@@ -101,7 +101,9 @@ mod tests {
 
     #[test]
     fn dependent_columns() {
-        let factors = Graded { rows: vec![vec![1.0, 2.0, 0.5]], scales: vec![-3.0] }.factors();
+        let factors = Graded { rows: vec![vec![1.0, 2.0, 0.5]], scales: vec![-3.0] }.factors(3);
         assert_eq!(factors.scales, vec![-3.0, f64::NEG_INFINITY, f64::NEG_INFINITY]);
+        // all directions are held
+        assert_eq!(Graded::default().factors(2).scales, vec![f64::NEG_INFINITY; 2]);
     }
 }

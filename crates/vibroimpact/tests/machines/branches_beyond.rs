@@ -138,6 +138,7 @@ fn f42k_preloaded_contacts_that_graze() {
     let (fold, flip, end) = (MachineBranchEvent::Fold, MachineBranchEvent::Flip, MachineBranchEvent::EndOfRange);
     let lost = MachineBranchEvent::LossOfContact { stop: 0 };
     let (mass, chain) = (preloaded_mass(), preloaded_chain());
+    let mut compared = 0;
     for (machine, path, range, direction, want) in [
         (
             &mass,
@@ -175,8 +176,11 @@ fn f42k_preloaded_contacts_that_graze() {
         for ((event, value), (expected, at)) in found.iter().zip(&want) {
             assert!(event == expected && (value - at).abs() < 1e-8, "{path} {direction:?}: {found:?}");
         }
-        assert!(agrees_with_simulation((machine, path), &points) > 5);
+        let near = agrees_with_simulation((machine, path), &points);
+        assert!(near > 2, "{path} {direction:?} {found:?} {near}");
+        compared += near;
     }
+    assert!(compared > 30, "{compared}");
 }
 
 /// A stop on which the structure rests while another one is struck is pushed and does not close: it is not counted.

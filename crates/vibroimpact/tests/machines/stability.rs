@@ -205,9 +205,10 @@ fn rests_on_different_stops() {
 fn cycles_beside_a_joint_that_holds() {
     let machine = slider();
     let mut fastest = Vec::new();
-    for (slider, stop) in [(1.0, 0), (1.2, 0), (-1.0, 1)] {
+    for (slider, stop) in [(1.0, 0), (1.02, 0), (-1.0, 1)] {
         let start = MachineStart { q: vec![slider, 0.0], qdot: vec![0.0; 2], phase: 0.0, ..MachineStart::default() };
-        let MachineVerdict::Periodic(cycle) = settled(&machine, &start) else { panic!("{slider}") };
+        let verdict = settled(&machine, &start);
+        let MachineVerdict::Periodic(cycle) = verdict else { panic!("{slider} {verdict:?}") };
         assert_eq!(cycle.stability(), Stability::Neutral, "{:?}", cycle.multipliers);
         assert!(cycle.events.iter().all(|event| event.place == stop && (event.q[0] - slider).abs() < 1e-12));
         let one = cycle.multipliers.iter().filter(|m| (m.re - 1.0).abs() < 1e-12 && m.im == 0.0).count();

@@ -258,7 +258,7 @@ impl MachineBranch {
         let (s, inside, beyond) = edge(&self.tracer, step, outside, Judged::physical)?;
         let ring = &self.tracer.problem.equations.ring;
         let found = difference(ring, &beyond);
-        if let Some(place) = self.ceases(&beyond) {
+        if let Some(place) = self.ceases(&inside, &beyond) {
             return Some((s, inside, Difference::Rest { place, joint: true, begins: false }));
         }
         if let Some((at, found)) = at_rest(&self.tracer, &inside, &found) {
@@ -280,14 +280,17 @@ impl MachineBranch {
         Some((s, at, found))
     }
 
-    /// The joint of a hold that lasts for some time and is missing beyond. The velocity of its joint only touches zero at its
-    /// beginning.
-    fn ceases(&self, beyond: &Judged) -> Option<usize> {
+    /// The joint of a hold that lasts for some time and is missing beyond, because the velocity of its joint only touches zero at
+    /// its beginning. Then it slips on only if its static limit exceeds its sliding force: otherwise a hold begins
+    /// and ends with no length.
+    fn ceases(&self, inside: &MachineSolution, beyond: &Judged) -> Option<usize> {
         let ring = &self.tracer.problem.equations.ring;
         let event = beyond.rising.or_else(|| missing_hold(ring, beyond))?;
-        let RingEvent { guard, after, back, .. } = &ring.events[event];
-        let place = guard.place(back.len());
-        let holds = matches!(guard, GuardKind::Sliding(_)) && after[place].constrains();
+        let RingEvent { guard: GuardKind::Sliding(joint), after, back, .. } = &ring.events[event] else { return None };
+        let place = back.len() + joint;
+        let (machine, _) = self.tracer.problem.equations.split(&inside.w)?;
+        let sticks = &machine.joints()[*joint];
+        let holds = after[place].constrains() && sticks.limit > sticks.sliding;
         (holds && ring.theta(event + 1) - ring.theta(event) > SHORT).then_some(place)
     }
 
