@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 use vibroimpact::verdict::{SettleOptions, settle_machine};
-use vibroimpact_cases::{Budget, Case, Rewriting, FAMILIES, Standard, changed};
+use vibroimpact_cases::{Budget, Case, FAMILIES, Rewriting, Standard, changed};
 
 fn long() -> bool {
     std::env::var("VIBROIMPACT_LONG").is_ok()

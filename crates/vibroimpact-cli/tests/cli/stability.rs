@@ -100,9 +100,9 @@ opening = "position"
 
 /// A folder with a machine file, and the way to it.
 fn file(machine: &str) -> (tempfile::TempDir, PathBuf) {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("machine.toml");
-    fs::write(&path, machine).unwrap();
+    fs::write(&path, machine).expect("it can be written");
     (folder, path)
 }
 
@@ -115,12 +115,12 @@ fn printed(line: &str) -> String {
 /// The cells of a column of a table.
 fn column(table: &str, name: &str) -> Vec<String> {
     let mut rows = table.lines().map(|row| row.split(','));
-    let at = rows.next().unwrap().position(|head| head == name).unwrap_or_else(|| panic!("{name}: {table}"));
-    rows.map(|mut row| row.nth(at).unwrap().to_owned()).collect()
+    let at = rows.next().expect("a head").position(|head| head == name).unwrap_or_else(|| panic!("{name}: {table}"));
+    rows.map(|mut row| row.nth(at).expect("a cell").to_owned()).collect()
 }
 
 fn kinds(branch: &Value) -> Vec<&str> {
-    branch["events"].as_array().unwrap().iter().map(|event| event["kind"].as_str().unwrap()).collect()
+    branch["events"].as_array().expect("a list").iter().map(|event| event["kind"].as_str().expect("a text")).collect()
 }
 
 /// 42.5: of 87 points of this branch 33 were called stable, with torus events between them.
@@ -129,13 +129,14 @@ fn an_elliptic_family_is_neutral() {
     let (folder, path) = file(BALL);
     let line = format!("--machine {}", path.display());
     let orbits = json(&format!("orbit {line} --label 2/1"));
-    let words: Vec<_> = orbits["orbits"].as_array().unwrap().iter().map(|orbit| orbit["stability"].clone()).collect();
+    let words: Vec<_> =
+        orbits["orbits"].as_array().expect("a list").iter().map(|orbit| orbit["stability"].clone()).collect();
     assert_eq!(words, ["unstable", "neutral"]);
     assert_eq!(orbits["orbits"][1]["stable"], false);
     assert!(printed(&format!("orbit {line} --label 2/1")).contains("2/1, neutral, period"));
     let branch = format!("branch {line} --label 2/1 --orbit 2 --vary eps --to 0.001");
     let answer = json(&branch);
-    let points = answer["points"].as_array().unwrap();
+    let points = answer["points"].as_array().expect("a list");
     assert!(
         points.len() > 20 && points.iter().all(|point| point["stability"] == "neutral" && point["stable"] == false)
     );
@@ -157,9 +158,9 @@ fn an_elastic_oscillator_is_neutral_or_unstable() {
     let mut words = Vec::new();
     for label in ["1/1", "2/1", "1/2", "2/2"] {
         let orbits = json(&format!("orbit {system} --label {label}"));
-        for orbit in orbits["orbits"].as_array().unwrap() {
+        for orbit in orbits["orbits"].as_array().expect("a list") {
             assert_eq!(orbit["stable"], false);
-            words.push(orbit["stability"].as_str().unwrap().to_owned());
+            words.push(orbit["stability"].as_str().expect("a text").to_owned());
         }
     }
     assert!(words.iter().any(|word| word == "neutral") && words.iter().all(|word| word != "stable"), "{words:?}");
@@ -187,9 +188,9 @@ fn rests_name_their_stops() {
     assert!(printed(&format!("settle {line} --q=3,0")).contains("at rest on right, for ever"));
     let basin = format!("basin {line} --axis q.slider=-3:3:7 --axis q.hammer=-0.5:0.5:3");
     let answer = json(&basin);
-    let motions = answer["motions"].as_array().unwrap();
+    let motions = answer["motions"].as_array().expect("a list");
     let stuck: Vec<_> = motions.iter().filter(|motion| motion["label"] == "stuck").collect();
-    let stops: Vec<_> = stuck.iter().map(|motion| motion["stop"].as_str().unwrap()).collect();
+    let stops: Vec<_> = stuck.iter().map(|motion| motion["stop"].as_str().expect("a text")).collect();
     assert_eq!(stops, ["left", "right"]);
     let shares: f64 = stuck.iter().map(|motion| motion["share"].as_f64().unwrap()).sum();
     assert!((shares - 12.0 / 21.0).abs() < 1e-12, "{shares}");

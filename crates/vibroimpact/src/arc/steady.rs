@@ -229,14 +229,14 @@ impl SteadyWhole {
             undamped.push(Free { place: 0.0, drift: 0.0, acceleration, shape });
         }
         let mut damped: Vec<DampedFree> = Vec::new();
-        for k in resting..count {
+        for (k, damping_along) in drags.iter().enumerate().take(count).skip(resting) {
             let shape = turned(k);
             let drag = damping.apply(&shape);
-            let drift = dot(&shape, push) / drags[k];
+            let drift = dot(&shape, push) / damping_along;
             add_scaled(&mut remaining, -drift, &drag);
             add_scaled(&mut v, -drift, &shape);
             let free = Free { place: 0.0, drift, acceleration: 0.0, shape };
-            damped.push(DampedFree { free, damping: drags[k], drag });
+            damped.push(DampedFree { free, damping: *damping_along, drag });
         }
         let mut middle = vec![0.0; m];
         for (k, shape) in &stiff {

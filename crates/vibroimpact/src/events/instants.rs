@@ -161,7 +161,7 @@ impl Instants {
         };
         let latest: VecDeque<Change> = changes.iter().map(change).collect::<Option<_>>()?;
         let whole = rest.is_empty() && latest.len() <= KEPT && *longest > 0.0 && (0.0..1e15).contains(count);
-        whole.then(|| Self {
+        whole.then_some(Self {
             longest: *longest,
             short: !latest.is_empty(),
             count: *count as usize,

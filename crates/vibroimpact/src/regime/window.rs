@@ -403,8 +403,7 @@ impl Faint {
         let Some((slow, fast)) = self.decays else { return };
         let harmonics = rows.len() - 2 - 2 * self.rates.len();
         let mut c = (a - b * slow) / (fast - slow);
-        let mut k = 1.0;
-        for order in 0..ORDER {
+        for (order, k) in (0..ORDER).zip(1_u32..) {
             rows[3 * self.mode][order] += c * fast;
             rows[3 * self.mode + 1][order] += c;
             rows[3 * self.mode + 2][order] -= c * fast / self.k;
@@ -412,8 +411,7 @@ impl Faint {
                 rows[harmonics + 2 * h][order] -= c * (fast * x + w * y);
                 rows[harmonics + 2 * h + 1][order] -= c * (fast * y - w * x);
             }
-            c *= -slow * length / k;
-            k += 1.0;
+            c *= -slow * length / f64::from(k);
         }
     }
 

@@ -13,7 +13,8 @@ use core::f64::consts::TAU;
 pub(crate) fn events_of(lap: &MachineLap) -> Vec<(f64, RingEvent, Place)> {
     // the last step is the flight to the end
     let passages = lap.steps[..lap.steps.len() - 1].iter();
-    let (mut events, mut on_holder): (Vec<(f64, RingEvent, Place)>, Vec<Option<usize>>) = Default::default();
+    let mut events: Vec<(f64, RingEvent, Place)> = Vec::new();
+    let mut on_holder: Vec<Option<usize>> = Vec::new();
     for (time, _, passage) in passages {
         let Some((event, place)) = RingEvent::of(passage).zip(passage.after.clone()) else { continue };
         let stood_back = |stop: usize| passage.before.as_ref().is_some_and(|before| before.surfaces[stop].is_some());
