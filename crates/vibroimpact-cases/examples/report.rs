@@ -1,6 +1,6 @@
 //! How many machines of each family break which rule: `cargo run -p vibroimpact-cases --example report [COUNT] [FAMILY]`.
 //!
-//! With a family, all its faults are listed. With `show FAMILY SEED` the numbers and the start of a machine are printed.
+//! With a family, all its faults are listed. With `show FAMILY SEED` the file of a machine is printed, and its faults as comments.
 #![allow(clippy::print_stdout, reason = "it is a report")]
 
 use std::collections::BTreeMap;
@@ -14,9 +14,9 @@ fn main() {
             return println!("no such case");
         };
         let case = family.case(seed);
-        println!("{:#?}\n{:?}", case.machine.parts(), case.start);
+        println!("{}", case.toml());
         for fault in faults(&case, Budget::default()) {
-            println!("{fault}");
+            println!("# {fault}");
         }
         return;
     }

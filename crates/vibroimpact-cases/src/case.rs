@@ -1,5 +1,6 @@
 //! A case: a machine, a start, and what is known of its motion without computing it.
 
+use crate::toml;
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::{Machine, MachineParts, StopLaw};
 
@@ -80,6 +81,12 @@ pub struct Case {
 }
 
 impl Case {
+    /// The machine file of it, for `vibro`.
+    #[must_use]
+    pub fn toml(&self) -> String {
+        toml::text(self.machine.parts(), &self.start)
+    }
+
     /// Whether any stop is rigid.
     #[must_use]
     pub fn has_rigid_stop(&self) -> bool {

@@ -164,6 +164,7 @@ impl Writing {
             stiffness: self.matrix(&of.stiffness, stiffness),
             constant: self.vector(&of.constant).iter().map(|value| force * value).collect(),
             frequency: of.frequency.map(|frequency| frequency / time),
+            impacts: of.impacts,
             ..MachineParts::new(coordinates)
         };
         let scaled = |vector: &[f64]| self.vector(vector).iter().map(|value| force * value).collect::<Vec<f64>>();

@@ -1,7 +1,7 @@
 //! Numbers drawn from a seed, the same on every platform.
 
 use core::ops::RangeInclusive;
-use vibroimpact::machine::{Opening, StopLaw};
+use vibroimpact::machine::{ImpactLaw, Opening, StopLaw};
 
 /// A sequence of numbers (splitmix64) that depends on a name and a seed.
 #[derive(Clone, Debug)]
@@ -85,6 +85,11 @@ impl Draw {
         StopLaw::Compliant { stiffness, damping, preload, opening }
     }
 
+    /// The law of impacts on several stops at one time.
+    pub fn impacts(&mut self) -> ImpactLaw {
+        if self.chance(0.3) { ImpactLaw::InTurn } else { ImpactLaw::Together }
+    }
+
     /// A rigid or a compliant stop.
     pub fn law(&mut self) -> StopLaw {
         if self.chance(0.5) { self.rigid() } else { self.compliant() }
@@ -109,6 +114,10 @@ mod tests {
         assert!((2..=4).all(|n| counts.contains(&n)) && counts.iter().all(|n| (2..=4).contains(n)));
         assert!((0..1000).all(|_| (0.3..=0.7).contains(&draw.number(0.3, 0.7))));
         let restitutions: Vec<f64> = (0..200).map(|_| draw.restitution()).collect();
-        assert!(restitutions.contains(&0.0) && restitutions.contains(&1.0) && restitutions.contains(&0.5));
+        assert!(
+            restitutions.contains(&0.0)
+                && restitutions.contains(&1.0)
+                && restitutions.iter().any(|e| (0.1..0.9).contains(e))
+        );
     }
 }

@@ -142,11 +142,18 @@ impl Standard {
         Self { instants, conditions, size }
     }
 
-    /// The number of instants at which another machine does the same, if it does as long as their conditions allow.
+    /// The number of instants at which another machine of the same coordinates moves in the same way, whatever its stops
+    /// and joints are named and how many there are of each.
     ///
     /// # Errors
     /// The first difference.
-    pub fn same(
+    pub fn same_motion(&self, machine: &Machine, start: &MachineStart, budget: Budget) -> Result<usize, String> {
+        self.same(machine, start, None, budget)
+    }
+
+    /// The number of instants at which another machine does the same, if it does as long as their conditions allow. Without
+    /// a way back the events are not compared, only their times and the coordinates.
+    fn same(
         &self,
         machine: &Machine,
         start: &MachineStart,
@@ -164,7 +171,7 @@ impl Standard {
                 // the number of events that are followed is limited
                 return if others.len() * 2 > self.instants.len() { Ok(k) } else { Err(format!("no event at {time}")) };
             };
-            if other.events != instant.events {
+            if back.is_some() && other.events != instant.events {
                 return Err(format!(
                     "{:?} at {} instead of {:?} at {time} (event {k})",
                     other.events, other.time, instant.events

@@ -82,14 +82,18 @@ impl Default for Budget {
 /// Rounding errors, relative to the largest terms so far. Motions of some dozens of events have errors of some hundred
 /// units in the last place; what is wrong is wrong by far more.
 const ROUNDING: f64 = 1e-11;
-/// Asymmetries grow with each impact if the symmetric motion is unstable.
+/// An asymmetry of more than this part of coordinates or velocities breaks a symmetry, if it is not grown from rounding
+/// errors by many events.
 const ASYMMETRY: f64 = 1e-9;
+/// Asymmetries below this part are rounding errors. Where the symmetric motion is unstable they grow with each event, and
+/// it is not followed further.
+const SYMMETRIC: f64 = 1e-13;
 /// Speeds of impacts below this part of the largest velocity are rounding errors.
 const FAINT: f64 = 1e-14;
 /// So many stretches at one time are a motion that does not advance.
 const STALLED: u32 = 100;
 /// The largest number of intervals of the quadrature over one stretch.
-const INTERVALS: f64 = 64.0;
+const INTERVALS: f64 = 100.0;
 /// Nodes and weights of Gauss and Legendre on [0, 1].
 const NODES: [(f64, f64); 4] = [
     (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
@@ -121,6 +125,8 @@ struct Follower<'a> {
     sizes: Sizes,
     /// The time at which the surface of a stop was left by the body, and how deep it was.
     surfaces: Vec<Option<(f64, f64)>>,
+    /// The largest asymmetry so far, and that before the present event.
+    asymmetry: (f64, f64),
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -140,7 +146,7 @@ impl<'a> Follower<'a> {
         let harmonics = parts.forces.iter().flat_map(|force| force.cos.iter().chain(&force.sin));
         let force = harmonics.chain(&parts.constant).fold(0.0_f64, |most, value| most.max(value.abs()));
         let sizes = Sizes { force, ..Sizes::default() };
-        Self { case, machine, fastest: fastest(machine), faults: Vec::new(), sizes, surfaces }
+        Self { case, machine, fastest: fastest(machine), faults: Vec::new(), sizes, surfaces, asymmetry: (0.0, 0.0) }
     }
 
     fn fault(&mut self, rule: Rule, time: f64, what: impl FnOnce() -> String) {
@@ -164,6 +170,7 @@ impl<'a> Follower<'a> {
         for event in motion.by_ref() {
             count += 1;
             fastest = fastest.max(largest(&event.qdot));
+            self.sizes.q = self.sizes.q.max(largest(&event.q));
             if event.kind == MachineEventKind::Impact && event.speed <= FAINT * fastest {
                 let (name, speed) = (self.name(event.place), event.speed);
                 self.fault(Rule::Faint, event.time, || format!("an impact on {name} with {speed:e}"));
@@ -179,9 +186,10 @@ impl<'a> Follower<'a> {
                 return;
             }
             if time > budget.time || count > 4 * budget.stretches {
-                return;
+                break;
             }
         }
+        self.sizes.v = self.sizes.v.max(fastest);
         let rigid = self.case.has_rigid_stop();
         match motion.end() {
             Some(end @ (MachineEnd::SearchLimit | MachineEnd::Inconsistent)) => {
@@ -215,6 +223,7 @@ impl<'a> Follower<'a> {
             }
             let Some(first) = stretches.at(0.0) else { return };
             self.grow(&first);
+            self.asymmetry.1 = self.asymmetry.0;
             let held = last.as_ref().map_or(0.0, |before| self.held(before));
             self.surfaces_at(&first, last.as_ref());
             if let Some(before) = &last {
@@ -306,7 +315,7 @@ impl<'a> Follower<'a> {
         first: &MachineSample,
         duration: f64,
     ) -> Option<MachineSample> {
-        let wanted = (duration * self.fastest / 0.7).ceil().max(1.0);
+        let wanted = (duration * self.fastest / 0.35).ceil().max(1.0);
         let intervals = wanted.min(INTERVALS);
         let step = duration / intervals;
         let mut work = 0.0;
@@ -424,25 +433,29 @@ impl<'a> Follower<'a> {
         }
     }
 
+    /// Symmetry is lost if an event, or what is before the next one, makes an asymmetry from rounding errors.
     fn symmetry(&mut self, sample: &MachineSample) {
+        if self.asymmetry.1 > SYMMETRIC {
+            return;
+        }
         let case = self.case;
-        let (q, v) = (self.sizes.q, self.sizes.v);
+        let (q, v) = (self.sizes.q.max(f64::MIN_POSITIVE), self.sizes.v.max(f64::MIN_POSITIVE));
+        let mut worst = 0.0_f64;
         for symmetry in &case.symmetries {
-            for (vector, size, name) in [(&sample.q, q, "coordinates"), (&sample.qdot, v, "velocities")] {
+            for (vector, size) in [(&sample.q, q), (&sample.qdot, v)] {
                 let image = symmetry.image(vector);
-                let apart = image.iter().zip(vector).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-                if apart > ASYMMETRY * size {
-                    self.fault(Rule::Symmetry, sample.time, || {
-                        format!("{name} differ from their image by {apart:e} of {size:e}")
-                    });
-                }
+                worst = image.iter().zip(vector).fold(worst, |worst, (a, b)| worst.max((a - b).abs() / size));
             }
         }
         for (a, b) in &case.equal {
-            let apart = (sample.q[*a] - sample.q[*b]).abs();
-            if apart > ASYMMETRY * q {
-                self.fault(Rule::Symmetry, sample.time, || format!("equal coordinates differ by {apart:e} of {q:e}"));
-            }
+            worst = worst.max((sample.q[*a] - sample.q[*b]).abs() / q);
+        }
+        self.asymmetry.0 = self.asymmetry.0.max(worst);
+        if worst > ASYMMETRY {
+            let before = self.asymmetry.1;
+            self.fault(Rule::Symmetry, sample.time, || {
+                format!("an asymmetry of {worst:e}, {before:e} before the event")
+            });
         }
     }
 }

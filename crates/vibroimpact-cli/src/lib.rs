@@ -20,6 +20,7 @@ mod progress;
 mod report;
 mod session;
 mod signal;
+mod state_file;
 mod unit_table;
 mod units_typed;
 

@@ -15,11 +15,13 @@ pub enum Family {
     Page,
     /// Starts, settled alone and in batches.
     Verdicts,
+    /// Degenerate machines.
+    Machines,
 }
 
 impl Family {
     /// All families.
-    pub const ALL: [Self; 5] = [Self::Commands, Self::Plans, Self::Stores, Self::Page, Self::Verdicts];
+    pub const ALL: [Self; 6] = [Self::Commands, Self::Plans, Self::Stores, Self::Page, Self::Verdicts, Self::Machines];
 
     /// Its name on the command line.
     #[must_use]
@@ -30,6 +32,7 @@ impl Family {
             Self::Stores => "stores",
             Self::Page => "page",
             Self::Verdicts => "verdicts",
+            Self::Machines => "machines",
         }
     }
 
@@ -44,14 +47,13 @@ impl Family {
     pub const fn weight(self) -> u32 {
         match self {
             Self::Commands => 4,
-            Self::Plans => 2,
+            Self::Plans | Self::Verdicts | Self::Machines => 2,
             Self::Stores | Self::Page => 1,
-            Self::Verdicts => 2,
         }
     }
 
     /// The sum of all weights.
-    pub const TOTAL: u32 = 10;
+    pub const TOTAL: u32 = 12;
 }
 
 impl fmt::Display for Family {

@@ -7,6 +7,7 @@
 //! | stores | stores with damaged bytes, read and repaired by `vibro` | [`store`] |
 //! | page | requests to the explorer, without a socket | [`page`] |
 //! | verdicts | starts settled alone and in batches | [`verdicts`] |
+//! | machines | degenerate machines of `vibroimpact-cases`, their motions and answers about them | [`machines`] |
 //!
 //! Case number `k` of a family depends only on the seed, the family and `k`, so a case can be run again by its number.
 //! Each family runs in a worker, a process of its own with a memory limit. If a worker aborts or hangs, this is a fault
@@ -18,6 +19,7 @@ pub mod command;
 pub mod driver;
 pub mod family;
 pub mod limits;
+pub mod machines;
 pub mod options;
 pub mod page;
 pub mod plan;

@@ -9,7 +9,7 @@ usage: cargo xtask fuzz [--seconds N] [--seed S] [--only FAMILY] [--cases N] [--
 
   --seconds N    about how long, 1 to 86400; 60 by default
   --seed S       which cases; drawn from the clock and printed by default
-  --only FAMILY  one family: commands, plans, stores, page or verdicts
+  --only FAMILY  one family: commands, plans, stores, page, verdicts or machines
   --cases N      at most N cases of each family
   --case K       case K alone, with --seed and --only as a fault was printed
   --jobs N       workers at a time; one per processor by default

@@ -1,7 +1,7 @@
 //! A worker: runs the cases of one family one after another, and reports each to the driver on a line.
 
 use crate::case::{self, Fault, Property};
-use crate::{Family, command, page, plan, store, verdicts};
+use crate::{Family, command, machines, page, plan, store, verdicts};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::io::{self, Write};
@@ -63,6 +63,7 @@ pub fn work(task: &Job, out: &mut impl Write) -> io::Result<()> {
         Family::Stores => all(&mut store::Stores::new(vibro)?, task, out),
         Family::Page => all(&mut page::Page::new()?, task, out),
         Family::Verdicts => all(&mut verdicts::Verdicts, task, out),
+        Family::Machines => all(&mut machines::Machines, task, out),
     }
 }
 

@@ -48,6 +48,7 @@ pub(crate) struct Fields<'py> {
     second: Option<Bound<'py, PyArray1<f64>>>,
     label: Vec<String>,
     stable: Bound<'py, PyArray1<bool>>,
+    stability: Vec<&'static str>,
     physical: Bound<'py, PyArray1<bool>>,
     cycles: Cycles<'py>,
     events: Vec<Event>,
@@ -104,6 +105,7 @@ impl<'py> Fields<'py> {
             second: cut.also.map(|_| column(py, points().filter_map(|point| second(cut, point)))),
             label: points().map(|point| point.cycle.label.to_string()).collect(),
             stable: column(py, points().map(SolutionPoint::stable)),
+            stability: points().map(|point| point.stability().name()).collect(),
             physical: column(py, points().map(|point| point.physical)),
             cycles: Cycles::new(py, &points().map(|point| &point.cycle))?,
             events: points()

@@ -47,7 +47,7 @@ mod _core {
     #[pymodule_export]
     use crate::lyapunov::lyapunov;
     #[pymodule_export]
-    use crate::machine::{MachineFile, machine_names, machine_waveform, simulate_machine};
+    use crate::machine::{MachineFile, machine_names, machine_state, machine_waveform, simulate_machine};
     #[pymodule_export]
     use crate::machine_answers::{machine_answer, machine_plan};
     #[pymodule_export]

@@ -7,8 +7,8 @@ use numpy::{Element, IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use vibroimpact::events::{MachineLimits, MachineSample, MachineSamples, MachineStart};
 use vibroimpact::regime::ContactState;
-use vibroimpact_study::machine::{CATALOGUE, MachineProblem, MachineSource, MachineTextError};
-use vibroimpact_study::{MachinePlan, MachineResults, MachineTask, PlanError, run_machine};
+use vibroimpact_study::machine::{CATALOGUE, MachineProblem, MachineSource, MachineTextError, StartText};
+use vibroimpact_study::{MachinePlan, MachineResults, MachineTask, PlanError, events_with_states, run_machine};
 
 /// A machine file that describes a machine.
 #[pyclass(frozen, module = "vibroimpact._core")]
@@ -67,6 +67,16 @@ impl MachineFile {
             source = source.with(path, *value)?;
         }
         checked(source)
+    }
+
+    /// The same with the start of a state, which is JSON.
+    fn starting(&self, state: &str) -> Result<Self, Trouble> {
+        let state: StartText = serde_json::from_str(state).map_err(|error| {
+            // JSON is written by this package, so a position in it does not help the user
+            let said = error.to_string();
+            Trouble::question(said.rsplit_once(" at line ").map_or(said.as_str(), |(said, _)| said).to_owned())
+        })?;
+        checked(MachineSource { start: Some(state), ..self.0.clone() })
     }
 
     fn number(&self, path: &str) -> Result<f64, Trouble> {
@@ -131,8 +141,29 @@ pub(crate) struct Fields<'py> {
     plan: String,
 }
 
-pub(crate) fn start((q, qdot, phase): Start) -> MachineStart {
-    MachineStart { q, qdot, phase }
+/// The start with these coordinates, velocities and phase. That of the file has its contacts too.
+pub(crate) fn start(file: &MachineFile, (q, qdot, phase): Start) -> Result<MachineStart, Trouble> {
+    let own = MachineStart::from(file.0.start()?);
+    let same = (&own.q, &own.qdot) == (&q, &qdot) && own.phase.to_bits() == phase.to_bits();
+    Ok(if same { own } else { MachineStart { q, qdot, phase, ..MachineStart::default() } })
+}
+
+/// The state, as JSON, from which a motion goes on after event number `event` of the simulation of a plan, which is JSON.
+#[pyfunction]
+pub(crate) fn machine_state(py: Python<'_>, plan: &str, event: usize) -> Result<String, Trouble> {
+    let plan: MachinePlan = serde_json::from_str(plan)
+        .map_err(|error| Trouble::question(format!("this is no plan of a machine: {error}")))?;
+    let MachineTask::Simulate { periods, .. } = plan.task else {
+        return Err(PlanError::NoStudy("simulate").into());
+    };
+    let (machine, start) = plan.problem()?;
+    door::run(py, Watch::alone("following a machine"), move |control| {
+        let mut events = events_with_states(&machine, &start, periods)?.take_while(|_| !control.stopping());
+        let state = events.nth(event).and_then(|event| event.state);
+        let text = state.map(|state| StartText::of(&state, machine.parts()));
+        // finite numbers and texts can always be written as JSON
+        Ok(text.and_then(|text| serde_json::to_string(&text).ok()).unwrap_or_default())
+    })
 }
 
 /// Rows of `width` values each as an array; `width` may be 0.
@@ -156,7 +187,8 @@ pub(crate) fn simulate_machine<'py>(
     progress: Option<Py<PyAny>>,
 ) -> Result<Fields<'py>, Trouble> {
     // a start of the wrong size is refused by its path
-    let plan = MachinePlan::new(file.0.clone(), MachineTask::Simulate { impacts, periods }).starting(&start(from));
+    let plan =
+        MachinePlan::new(file.0.clone(), MachineTask::Simulate { impacts, periods }).starting(&start(file, from)?);
     plan.check()?;
     let (machine, text) = (plan.machine.machine()?, plan.json());
     let watch = Watch::one("following a machine", plan.most_events().unwrap_or(1), progress);
@@ -215,7 +247,7 @@ pub(crate) fn machine_waveform<'py>(
     }
     let machine = file.0.machine()?;
     let (n, stops, joints) = (machine.n(), machine.stops().len(), machine.joints().len());
-    let start = start(from);
+    let start = start(file, from)?;
     let wave: Vec<MachineSample> = door::run(py, Watch::alone("drawing a waveform"), move |control| {
         let limits = MachineLimits::default();
         let limits = MachineLimits { time: limits.time.max(until), ..limits };

@@ -10,8 +10,8 @@ use vibroimpact_study::{
     MachineDiagram, MachineDiagramStep, MachinePlan, MachineResults, MachineSection, MachineShare, MachineTask,
 };
 
-/// The labels and the shares at each point of a map.
-type Cells = Vec<Vec<(String, f64)>>;
+/// The labels, the shares and the stops that stay closed at each point of a map.
+type Cells = Vec<Vec<(String, f64, String)>>;
 
 /// The points of both sections of an attractor: at the closings of stops, and at phase 0.
 #[derive(IntoPyObject)]
@@ -79,7 +79,7 @@ fn planned(file: &MachineFile, from: Start, task: &str, tile: Option<u32>) -> Re
         Trouble::question(said.rsplit_once(" at line ").map_or(said.as_str(), |(said, _)| said).to_owned())
     })?;
     // a start of the wrong size is refused by its path
-    let plan = MachinePlan { tile, ..MachinePlan::new(file.0.clone(), task) }.starting(&start(from));
+    let plan = MachinePlan { tile, ..MachinePlan::new(file.0.clone(), task) }.starting(&start(file, from)?);
     plan.check()?;
     Ok(plan)
 }
@@ -109,7 +109,10 @@ pub(crate) fn machine_answer<'py>(
         let answer = vibroimpact_report::machine_answer("", &plan, control)?;
         Ok((answer.json(), answer.machine, answer.results))
     })?;
-    let row = |cell: Vec<MachineShare>| cell.into_iter().map(|motion| (motion.label(), motion.share)).collect();
+    let stops =
+        |motion: &MachineShare| motion.stops.iter().map(|stop| machine.name_of(*stop)).collect::<Vec<_>>().join(" ");
+    let row =
+        |cell: Vec<MachineShare>| cell.iter().map(|motion| (motion.label(), motion.share, stops(motion))).collect();
     let mut answer = AnswerFields { json, cells: None, section: None, diagram: None };
     match results {
         MachineResults::Map(found) => answer.cells = Some(found.cells.into_iter().map(row).collect()),

@@ -8,7 +8,7 @@ use vibroimpact::chaos::Measured;
 use vibroimpact::flight::Horizon;
 use vibroimpact::orbit::Cycle;
 use vibroimpact::quantities::{errors_of_verdict, of_verdict};
-use vibroimpact::verdict::{Chaos, Count, NoImpact, Undecided, Verdict};
+use vibroimpact::verdict::{Chaos, Count, NoImpact, Stability, Undecided, Verdict};
 use vibroimpact_study::ImpactsByStop;
 
 /// The fields of a motion.
@@ -24,6 +24,7 @@ pub(crate) struct Fields<'py> {
     periods: Option<u32>,
     sticks: Option<usize>,
     stable: Option<bool>,
+    stability: Option<&'static str>,
     multipliers: Option<Bound<'py, PyArray1<Complex64>>>,
     cycle: Impacts<'py>,
     rests: Vec<Rest>,
@@ -98,6 +99,7 @@ const fn pair(of: Measured) -> (f64, f64) {
 impl<'py> Fields<'py> {
     pub(crate) fn new(py: Python<'py>, verdict: &Verdict, osc: &Oscillator) -> Self {
         let by_stop = ImpactsByStop::of(osc, verdict);
+        let stability = verdict.stability(osc);
         let bare = Self {
             kind: "undecided",
             label: verdict.label().into_owned(),
@@ -107,7 +109,8 @@ impl<'py> Fields<'py> {
             impacts_lower: by_stop.and_then(|by| by.lower),
             periods: None,
             sticks: None,
-            stable: verdict.stable(osc),
+            stable: stability.map(Stability::is_stable),
+            stability: stability.map(Stability::name),
             multipliers: verdict.multipliers(osc).map(|both| column(py, complex(both).into_iter())),
             cycle: Impacts::new(py, &core::iter::empty()),
             rests: Vec::new(),

@@ -9,6 +9,7 @@ use crate::simulate::text;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use vibroimpact::Scales;
+use vibroimpact::verdict::Stability;
 use vibroimpact_study::{
     Parameter, Plan, Quantities, Quantity, ResponseBranch, ResponsePlan, Results, SweptMotion, Task, Values,
     unknown_quantity,
@@ -20,6 +21,7 @@ pub(crate) struct Fields<'py> {
     parameter: Bound<'py, PyArray1<f64>>,
     label: Vec<String>,
     stable: Bound<'py, PyArray1<bool>>,
+    stability: Vec<&'static str>,
     physical: Bound<'py, PyArray1<bool>>,
     /// One row for each point, one column for each quantity.
     values: Bound<'py, PyArray2<f64>>,
@@ -50,6 +52,7 @@ impl<'py> Fields<'py> {
             parameter: column(py, motions.iter().map(|motion| motion.value)),
             label: motions.iter().map(|motion| motion.label.clone()).collect(),
             stable: column(py, motions.iter().map(|_| true)),
+            stability: motions.iter().map(|_| Stability::Stable.name()).collect(),
             physical: column(py, motions.iter().map(|_| true)),
             values: grid(
                 py,
@@ -65,6 +68,7 @@ impl<'py> Fields<'py> {
             parameter: column(py, points().map(|point| point.solution.value)),
             label: points().map(|point| point.solution.cycle.label.to_string()).collect(),
             stable: column(py, points().map(|point| point.solution.stable())),
+            stability: points().map(|point| point.solution.stability().name()).collect(),
             physical: column(py, points().map(|point| point.solution.physical)),
             values: grid(
                 py,

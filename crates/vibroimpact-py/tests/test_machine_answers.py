@@ -267,3 +267,42 @@ def test_quantities_by_path() -> None:
     assert chaotic.kind == "chaotic" and chaotic.quantities is not None and chaotic.quantities_error is not None
     assert 0 < chaotic.quantities_error["power"] < 0.05 * chaotic.quantities["power"]
     assert "stop.wall.impact_speed_max" not in chaotic.quantities_error
+
+
+SLIDER = """
+[machine]
+coordinates = ["slider", "hammer"]
+mass = [1, 1]
+stiffness = [[1, -1], [-1, 1]]
+damping = [[0.2, -0.2], [-0.2, 0.2]]
+frequency = 1.0
+[[machine.force]]
+order = 1
+cos = [0, 0.05]
+sin = [0, 0]
+[[machine.stop]]
+name = "right"
+direction = [0, 1]
+gap = 1.0
+restitution = 0.5
+[[machine.stop]]
+name = "left"
+direction = [0, -1]
+gap = 1.0
+restitution = 0.5
+[[machine.friction]]
+name = "ground"
+direction = [1, 0]
+sliding = 5
+static = 5
+"""
+
+
+def test_rests_name_their_stops() -> None:
+    """42.8: rests on different stops are different motions."""
+    machine = vi.Machine.from_toml(SLIDER)
+    basin = machine.basin({"q.slider": "-3:3:3", "q.hammer": "0:0.5:2"})
+    stuck = [motion for motion in basin.motions if motion.kind == "stuck"]
+    assert [motion.stops for motion in stuck] == [("left",), ("right",)]
+    assert {motion.stability for motion in stuck} == {"neutral"} and not stuck[0].stable
+    assert repr(stuck[0]) == "<MachineMotion stuck on left, neutral>"

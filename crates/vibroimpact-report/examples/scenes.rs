@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         save(&format!("{name}-steady"), &scene::phase_portrait(&asked, &osc, start, span))?;
         save(&format!("{name}-sections"), &Viewed::new(View::Sections, (&osc, start), &settled, &asked)?.figure())?;
         if let Verdict::Periodic(cycle) = &settled.verdict {
-            save(&format!("{name}-multipliers"), &scene::multipliers(&cycle.multipliers))?;
+            save(&format!("{name}-multipliers"), &scene::multipliers(&cycle.multipliers, &cycle.stabilities()))?;
         }
     }
     for (name, system, task, few) in [

@@ -98,7 +98,7 @@ impl MachineAnswer {
                     (View::Waveform, _) => self.waveform(&from, time, title)?,
                     (View::Phase, _) => scene::portrait(&self.machine, (&from, time), title)?,
                     (View::Multipliers, MachineVerdict::Periodic(cycle)) => {
-                        scene::multipliers(&cycle.multipliers).title(title)
+                        scene::multipliers(&cycle.multipliers, &cycle.stabilities()).title(title)
                     }
                     (View::Multipliers, other) => return Err(ReportError::NoMultipliers(other.label()).into()),
                     (View::Sections, _) => return Err(ReportError::MachineSections.into()),
@@ -202,8 +202,8 @@ impl MachineAnswer {
                 let MachineTask::Curve(plan) = &self.plan.task else { return Ok(None) };
                 table::machine_curve::table(&self.machine, plan, found)
             }
-            MachineResults::Basin(found) => table::machine_tables::basin(found),
-            MachineResults::Map(found) => table::machine_tables::map(found),
+            MachineResults::Basin(found) => table::machine_tables::basin(&self.machine, found),
+            MachineResults::Map(found) => table::machine_tables::map(&self.machine, found),
             MachineResults::Diagram(found) => table::diagram::of_machine(found, &self.machine),
             MachineResults::Lyapunov(_, Some(points)) => table::machine_section::table(&self.machine, points),
             MachineResults::Orbit(_) | MachineResults::Lyapunov(..) => return Ok(None),

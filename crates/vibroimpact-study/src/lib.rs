@@ -96,7 +96,7 @@ pub use machine_plan::{
     MachineDiagram, MachineDiagramPlan, MachineDiagramPoint, MachineDiagramStep, MachineEventCurve, MachineFollowed,
     MachineFollowedEvent, MachineLine, MachineLyapunovPlan, MachineMap, MachineMapPlan, MachineOrigin, MachinePlan,
     MachineResults, MachineSection, MachineShare, MachineSimulated, MachineStretch, MachineTarget, MachineTask,
-    is_machine_plan, machine_label, run_machine,
+    events_with_states, is_machine_plan, machine_label, run_machine,
 };
 pub use map::{MapPlan, MapPoint, RegionMap, Share};
 pub use margins::{
@@ -111,7 +111,7 @@ pub use quantity::{Quantities, Quantity, unknown as unknown_quantity};
 pub use region::{DEFAULT_GRID, RegionPlan, Regions, stability_regions};
 pub use response::{ResponseBranch, ResponseCurves, ResponsePlan, ResponsePoint, SweptMotion};
 pub use run::{Results, run};
-pub use simulate::{Simulated, simulate};
+pub use simulate::{SEARCH_LIMIT, Simulated, simulate};
 pub use simulate_many::{real_numbers, simulate_points};
 pub use span::Span;
 pub use stretch::Stretch;

@@ -14,6 +14,9 @@ const MOST_IMPACTS: u64 = 1_000_000;
 /// further.
 const IDLE: u32 = 1000;
 
+/// The reason of a list of events that ends because the search for the next one used all its steps.
+pub const SEARCH_LIMIT: &str = "search_limit";
+
 /// Number of impacts or events between two reports of progress.
 pub(crate) const TELL: u64 = 1024;
 
@@ -142,9 +145,9 @@ fn ended(end: Option<End>, last: f64, until: f64, period: f64) -> Ended {
             let periods = (time / period).floor();
             let horizon = Some(NoImpact::ForPeriods(periods));
             // 999 or more: the search reached its horizon; otherwise it used up its steps before
-            if periods >= 999.0 { ("no_more_impacts", last, horizon) } else { ("search_limit", last, horizon) }
+            if periods >= 999.0 { ("no_more_impacts", last, horizon) } else { (SEARCH_LIMIT, last, horizon) }
         }
-        None => ("search_limit", last, None),
+        None => (SEARCH_LIMIT, last, None),
     }
 }
 

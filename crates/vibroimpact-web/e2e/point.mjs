@@ -145,3 +145,26 @@ export async function f10_positions_on_a_line_are_positions({ open, folder }) {
   assert.ok(!answers.at(-1).includes("arrival velocity"));
   await page.screenshot({ path: `${folder}/line-strobe.png` });
 }
+
+/** 42.13: which tile came first decided which of two cycles was "(2nd)", and had the second colour. */
+export async function names_of_cycles_do_not_depend_on_the_order_of_tiles({ open }) {
+  const { page } = await open(S);
+  const looks = await page.evaluate(async () => {
+    const { Cycles } = await import(new URL("cycles.js", document.baseURI).href);
+    const colour = "#336699";
+    const found = [
+      { label: "2/1", phase: 1.2, velocity: 2, colour }, { label: "2/1", phase: 0.7, velocity: 1.5, colour },
+      { label: "2/1", phase: 0.7034, velocity: 1.1, colour }, { label: "1/1", phase: 0, velocity: 1, colour },
+    ];
+    return [[0, 1, 2, 3], [3, 2, 1, 0], [1, 3, 0, 2]].map((order) => {
+      const cycles = new Cycles();
+      // another tile has the same cycles but for rounding
+      for (const k of order) cycles.number({ ...found[k], phase: found[k].phase * (1 + 1e-13) });
+      return found.map((cycle) => cycles.look(cycles.number(cycle)));
+    });
+  });
+  const [first] = looks;
+  for (const other of looks) assert.deepEqual(other, first);
+  assert.deepEqual(first.map(({ remark }) => remark), ["phase 1.20", "phase 0.700", "phase 0.703", ""]);
+  assert.equal(new Set(first.map(({ name, colour }) => `${name} ${colour}`)).size, 4);
+}

@@ -1,5 +1,6 @@
 /** The basin of the chosen point: the motion to which each start leads. The chosen start can be dragged. */
 
+import { CYCLES, Cycles } from "./cycles.js";
 import { START } from "./parameters.js";
 import { basinPlan, room, startOf, systemOf } from "./plans.js";
 import { budgets } from "./state.js";
@@ -14,41 +15,6 @@ import { legendText, placeText, valueText } from "./words.js";
  */
 const STEP = 2;
 const BRIEF = 1000;
-
-/** Numbers of cycles begin here, above all codes of labels. */
-const CYCLES = 2_000_000_000;
-
-/** The colour of the k-th cycle of a label, as in figures: alternately darker and lighter. */
-function shade(colour, k) {
-  const towards = k % 2 ? 0 : 255;
-  const part = 1 - 0.6 ** Math.ceil(k / 2);
-  const rgb = [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));
-  return `#${rgb.map((v) => Math.round(v + part * (towards - v)).toString(16).padStart(2, "0")).join("")}`;
-}
-
-/** The cycles found so far, numbered in the order of their appearance. */
-class Cycles {
-  constructor() {
-    this.list = [];
-  }
-
-  number({ label, phase, velocity, colour }) {
-    const same = (a, b) => Math.abs(a - b) <= 1e-6 * Math.max(1, Math.abs(a));
-    const alike = (c) => c.label === label && same(c.velocity, velocity) && same(Math.cos(c.phase), Math.cos(phase))
-      && same(Math.sin(c.phase), Math.sin(phase));
-    let at = this.list.findIndex(alike);
-    if (at < 0) {
-      const variant = this.list.filter((cycle) => cycle.label === label).length;
-      at = this.list.push({ label, phase, velocity, variant, colour: shade(colour, variant) }) - 1;
-    }
-    return CYCLES + at;
-  }
-
-  look(id) {
-    const { label, variant, colour } = this.list[id - CYCLES];
-    return { name: label, variant, colour };
-  }
-}
 
 /** @param {import("./state.js").State} state @returns {number[]} the initial window of the basin */
 export function basinWindow(state) {

@@ -123,10 +123,9 @@ export class Legend {
   }
 
   /** @returns {Row} */
-  single({ id, name, variant, share, colour }) {
+  single({ id, name, remark, share, colour }) {
     const open = this.view.progress.done < this.view.progress.all;
-    const number = variant ? ` (${variant + 1}${["st", "nd", "rd"][variant] ?? "th"})` : "";
-    const text = legendText(name, open ? null : this.view.source.impacts) + number;
+    const text = legendText(name, open ? null : this.view.source.impacts) + (remark ? `, ${remark}` : "");
     const pattern = name === "undecided" ? "undecided" : "";
     return { key: String(id), ids: new Set([id]), name: text, title: "", share, colours: [colour], pattern };
   }

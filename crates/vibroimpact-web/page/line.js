@@ -46,7 +46,7 @@ export class LineTool {
     this.events = element("section", { class: "events", "aria-label": "Events on the branches", hidden: true });
     byId("line").append(this.told, this.beginnings(), this.ends.box, element("label", { class: "row" }, element("span", { text: "shown" }), this.show),
       this.progress, this.figure.box, this.events,
-      element("p", { class: "note", text: "Points: what simulation finds, swept up and down. Lines: branches of orbits, stable solid, unstable dashed." }));
+      element("p", { class: "note", text: "Points: what simulation finds, swept up and down. Lines: branches of orbits, stable solid, neutral dashed and dotted, unstable dashed." }));
     this.asked = new Latest((state, signal) => this.fetch(state, signal), (error) => this.refused(error, failed));
     plane.view.grab = (px, xy) => (this.active ? this.hold(px, xy) : null);
     plane.view.painters.push((context, viewport) => this.paint(context, viewport));

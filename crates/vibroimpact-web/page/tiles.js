@@ -58,7 +58,7 @@ const edged = (pixel) => {
 export class Tile {
   constructor({ source, look, impacts, key, level, shape, x0, y0, hx, hy, columns, rows, phase, slant }) {
     Object.assign(this, { source, look, impacts, key, level, shape, x0, y0, hx, hy, columns, rows, phase, slant });
-    Object.assign(this, { classes: null, shares: null, per: 1, pictures: new Map(), undecided: new Set(), filled: false });
+    Object.assign(this, { classes: null, shares: null, per: 1, pictures: new Map(), ids: [], undecided: new Set(), filled: false });
   }
 
   /** Takes the answer of the server, whose cells may be larger. @param {[number, number]} shape numbers of its rows and columns */
@@ -102,7 +102,8 @@ export class Tile {
 
   examine() {
     this.filled = this.own?.some((how) => how !== 1) ?? false;
-    this.undecided = new Set([...new Set(this.classes)].filter((id) => id !== -1 && this.look(id).name === "undecided"));
+    this.ids = [...new Set(this.classes)].filter((id) => id !== -1);
+    this.undecided = new Set(this.ids.filter((id) => this.look(id).name === "undecided"));
   }
 
   /** The motions of a point with the values of the quantity, as for `shownOf`. */
@@ -173,13 +174,14 @@ export class Tile {
   }
 
   /**
-   * The tile as a picture. It is painted only when the look has changed.
+   * The tile as a picture. It is painted only when the look has changed, or the colour of a motion, because others with its label
+   * were found.
    * @param {Look} look
    * @param {boolean} [open] whether undecided points are transparent, so that what is below is seen
    * @returns {HTMLCanvasElement}
    */
   picture(look, open = false) {
-    const how = JSON.stringify([look.only ? [...look.only] : null, look.stripes, look.boundaries, look.density, look.scale, this.foldFor(look)]);
+    const how = JSON.stringify([look.only ? [...look.only] : null, look.stripes, look.boundaries, look.density, look.scale, this.foldFor(look), this.ids.map((id) => this.look(id).colour)]);
     let picture = this.pictures.get(open);
     if (picture?.how !== how) {
       const [{ columns, rows }, fold] = [this, this.foldFor(look)];

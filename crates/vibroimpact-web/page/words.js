@@ -54,8 +54,8 @@ export function meaning(motion) {
     if (horizon?.why === "grazing") return "It touches the stop without impact.";
     return "No more impacts, ever.";
   }
-  if (kind === "chaotic") return "Impacts that never repeat.";
-  if (kind === "stuck") return "At rest on the stop for ever.";
+  if (kind === "chaotic") return motion.seen_impacts ? `No repetition in ${grouped(motion.seen_impacts)} impacts.` : "Impacts that do not repeat.";
+  if (kind === "stuck") return `At rest on the ${motion.stop === "lower" ? "second stop" : "stop"} for ever.`;
   return "Nothing could be shown within the budget of impacts.";
 }
 
@@ -74,8 +74,7 @@ export function stability(motion) {
   const [re, im] = list[0];
   const told = pair ? `${short(re)} ± ${short(Math.abs(im))} i (modulus ${short(Math.hypot(re, im))})`
     : list.map(complex).join(", ");
-  const word = motion.stable === true ? "Stable" : motion.stable === false ? "Unstable" : "Neutral";
-  return `${word}; multipliers ${told}.`;
+  return `${capital(motion.stability)}; multipliers ${told}.`;
 }
 
 /**

@@ -67,7 +67,7 @@ fn starts(problem: &Problem, count: usize, grazing: bool) {
             let rate = |i: usize| if problem.name == "beam" { stiffness[(i, i)].sqrt() } else { 1.0 };
             let q: Vec<f64> = (0..n).map(|i| q * (2.0 * unit() - 1.0) / rate(i)).collect();
             let qdot = (0..n).map(|_| v * (2.0 * unit() - 1.0)).collect();
-            MachineStart { q, qdot, phase: 0.0 }
+            MachineStart { q, qdot, phase: 0.0, ..MachineStart::default() }
         };
         let (q, v) = if problem.name == "beam" { (0.1, 0.1) } else { (0.5, 1.0) };
         let mut start = draw(q, v);
@@ -108,7 +108,12 @@ fn toward_a_touch(problem: &Problem, one: &MachineStart, other: &MachineStart) -
     open(problem, other)?;
     let between = |part: f64| {
         let mix = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a + part * (b - a)).collect();
-        MachineStart { q: mix(&one.q, &other.q), qdot: mix(&one.qdot, &other.qdot), phase: 0.0 }
+        MachineStart {
+            q: mix(&one.q, &other.q),
+            qdot: mix(&one.qdot, &other.qdot),
+            phase: 0.0,
+            ..MachineStart::default()
+        }
     };
     let first = |part: f64| motion(problem, &between(part)).next().map(|event| (event.time, event.speed));
     let (mut low, mut high) = (0.0, 1.0);

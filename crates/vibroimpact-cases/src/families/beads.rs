@@ -29,6 +29,7 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
             _ => -half[n - 1 - i],
         })
         .collect();
+    parts.impacts = draw.impacts();
     let start = MachineStart { qdot, ..MachineStart::default() };
     Drawn::new(parts, start).symmetric(Symmetry {
         from: (0..n).rev().collect(),

@@ -24,7 +24,7 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
             .with_mass(k, 0.5)
             .with_link(&direction, 0.5 * frequency * frequency, damping * frequency)
             // at the middle; the even orders have a node there
-            .with_force(k, 1, 0.0, if k % 2 == 0 { force * shape(k, 0.5) } else { 0.0 });
+            .with_force(k, 1, 0.0, if k.is_multiple_of(2) { force * shape(k, 0.5) } else { 0.0 });
     }
     let law = draw.law();
     let (gap, above): (f64, bool) = (draw.pick(&[0.0, 0.05, 0.2]), draw.chance(0.4));

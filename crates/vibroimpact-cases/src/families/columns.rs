@@ -18,5 +18,6 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
     for i in 1..n {
         parts = parts.with_stop(&format!("c{i}"), &between(n, i - 1, i), gap, law);
     }
+    parts.impacts = draw.impacts();
     Drawn::new(parts, MachineStart::default())
 }

@@ -23,5 +23,6 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let raised = draw.count(1..=n - 1);
     let height = draw.number(0.2, 1.0);
     let q = (0..n).map(|i| if i < raised { -height } else { 0.0 }).collect();
+    parts.impacts = draw.impacts();
     Drawn::new(parts, MachineStart { q, ..MachineStart::default() })
 }

@@ -18,7 +18,10 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
     parts = parts.with_frequency(draw.number(0.5, 1.8)).with_force(0, 1, draw.number(-1.0, 1.0), draw.number(0.3, 1.0));
     let (law, gap) = (draw.law(), draw.pick(&[0.0, 0.1, 0.4]));
     let mut places = Vec::new();
-    for pair in 0..draw.count(1..=2) {
+    let pairs = draw.count(1..=2);
+    // two pairs are a cage, which needs room
+    let gap = if pairs == 2 { f64::max(gap, 0.05) } else { gap };
+    for pair in 0..pairs {
         let (sin, cos) = sin_cos(draw.number(0.1, 1.4) + if pair == 0 { 0.0 } else { 1.6 });
         for (end, sign) in [("a", 1.0), ("b", -1.0)] {
             parts = parts.with_stop(&format!("s{pair}{end}"), &[cos, sign * sin, 0.0][..n], gap, law);

@@ -3,7 +3,7 @@
 use super::ranged::axis_values;
 use super::{SetArgs, number};
 use crate::failure::Failure;
-use crate::machine_file;
+use crate::{machine_file, state_file};
 use clap::Args;
 use core::str::FromStr;
 use vibroimpact_study::machine::{MachineSource, NumberText, StartText, VectorText};
@@ -30,6 +30,11 @@ pub(crate) struct StartOfMachineArgs {
     /// Velocities at the start, one for each coordinate [default: likewise]
     #[arg(long, value_parser = number, value_delimiter = ',', value_name = "A,B,...", allow_hyphen_values = true, requires = "machine")]
     qdot: Vec<f64>,
+
+    /// A state that `vibro simulate --json` or `vibro settle --json` wrote, with its contacts: that of the last event, or of the
+    /// motion; FILE#/events/2 is the state of the third event
+    #[arg(long, value_name = "FILE", requires = "machine", conflicts_with_all = ["q", "qdot"])]
+    start: Option<String>,
 }
 
 #[derive(Clone, Debug, Args)]
@@ -106,7 +111,14 @@ impl MachineArgs {
         let mut source = self.set.apply(machine_file::read(name)?)?;
         let Some((given, phase)) = start else { return Ok(source) };
         let numbers = |given: &[f64]| VectorText::List(given.iter().map(|value| NumberText::Value(*value)).collect());
+        if let Some(file) = &given.start {
+            source.start = Some(state_file::read(file)?);
+        }
         let start = source.start.get_or_insert_default();
+        if !given.q.is_empty() || !given.qdot.is_empty() {
+            // contacts belong to the coordinates and velocities with which they came
+            (start.contacts, start.exact) = Default::default();
+        }
         if !given.q.is_empty() {
             start.q = Some(numbers(&given.q));
         }

@@ -46,7 +46,7 @@ pub(crate) struct Lyapunov {
     #[command(flatten)]
     axes: StudyAxesArgs,
 
-    /// Impacts to measure over, 1000 to 10000000 [default: 100000]; of a machine events [default: 20000]
+    /// Impacts to measure over, 1000 to 10000000 [default: 100000]; of a machine events, 25 to 10000000 [default: 20000]
     #[arg(long, value_parser = whole::<u64>, value_name = "N", allow_hyphen_values = true, help_heading = "Length")]
     impacts: Option<u64>,
 

@@ -10,7 +10,7 @@ use clap::{Args, Subcommand};
 use serde::Serialize;
 use std::path::PathBuf;
 use vibroimpact_report::figure::machine::figure;
-use vibroimpact_study::machine::{CATALOGUE, MachineSource, MachineText, Named};
+use vibroimpact_study::machine::{CATALOGUE, MachineText, Named};
 
 /// List the machines of the catalogue, and show a machine: its numbers, its matrices and its schematic
 #[derive(Clone, Debug, Args)]
@@ -125,16 +125,6 @@ fn list(args: List, session: &Session) -> Result<(), Failure> {
     session.print(&text::list(titles))
 }
 
-/// All numbers of a machine, in the order of their paths.
-fn numbers(source: &MachineSource) -> Result<Named<f64>, Failure> {
-    let mut numbers = Named::default();
-    for path in source.paths()? {
-        let value = source.number(&path)?;
-        numbers.0.push((path, value));
-    }
-    Ok(numbers)
-}
-
 fn show(args: &Show, session: &Session) -> Result<(), Failure> {
     if args.figure.is_none() && args.look.any() {
         return Err(Failure::bad("the look of a figure is given, and no figure\nhint: --figure FILE.svg"));
@@ -148,7 +138,7 @@ fn show(args: &Show, session: &Session) -> Result<(), Failure> {
             source: source.source.clone(),
             summary: source.summary.clone(),
             parameters: source.parameters.clone(),
-            numbers: numbers(&source)?,
+            numbers: source.numbers()?,
             machine: expansion.machine,
         })?;
     } else if args.toml {
@@ -156,7 +146,7 @@ fn show(args: &Show, session: &Session) -> Result<(), Failure> {
     } else if args.written {
         session.print(&source.to_toml())?;
     } else {
-        session.print(&text::machine(&args.machine, &source, &numbers(&source)?, &expansion))?;
+        session.print(&text::machine(&args.machine, &source, &source.numbers()?, &expansion))?;
     }
     if let Some((picture, path)) = picture.zip(args.figure.as_ref()) {
         picture.write(figure(&source)?)?;

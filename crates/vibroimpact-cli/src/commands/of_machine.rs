@@ -7,10 +7,13 @@ use crate::failure::Failure;
 use crate::report::{machine_answers, machine_events};
 use crate::session::Session;
 use std::path::Path;
+use vibroimpact::events::MachineEnd;
+use vibroimpact::verdict::{MachineUndecided, MachineVerdict};
 use vibroimpact_report::figure::plane::{PlaneAxis, Sides};
 use vibroimpact_report::{Shown, machine_answer};
 use vibroimpact_study::{
-    Control, MachineBasinPlan, MachineLyapunovPlan, MachineMapPlan, MachinePlan, MachineResults, MachineTask, StudyPlan,
+    Control, MachineBasinPlan, MachineLyapunovPlan, MachineMapPlan, MachinePlan, MachineResults, MachineTask,
+    SEARCH_LIMIT, StudyPlan,
 };
 
 /// The files of a command: its table, its figure, and whether it prints JSON.
@@ -99,13 +102,22 @@ pub(super) fn run(
         || session.watched(None, behind)?.ok_or_else(|| none("figure")),
     )?;
     if json {
-        return session.print_json(&answer);
+        session.print_json(&answer)?;
+    } else if !(table || files && plan.fills_a_grid()) {
+        match &answer.results {
+            MachineResults::Simulate(found) => session.print(&machine_events::events(&answer.machine, found))?,
+            _ => session.print(&machine_answers::text(&answer))?,
+        }
     }
-    if table || files && plan.fills_a_grid() {
-        return Ok(());
-    }
-    match &answer.results {
-        MachineResults::Simulate(found) => session.print(&machine_events::events(&answer.machine, found)),
-        _ => session.print(&machine_answers::text(&answer)),
-    }
+    let search_limit = match &answer.results {
+        MachineResults::Simulate(found) => found.reason == SEARCH_LIMIT,
+        MachineResults::Settle(found) => ended_by_search(&found.verdict),
+        MachineResults::Lyapunov(found, _) => ended_by_search(&found.motion),
+        _ => false,
+    };
+    if search_limit { Err(respond::search_limit()) } else { Ok(()) }
+}
+
+fn ended_by_search(verdict: &MachineVerdict) -> bool {
+    matches!(verdict, MachineVerdict::Undecided { why: MachineUndecided::Ended(MachineEnd::SearchLimit), .. })
 }

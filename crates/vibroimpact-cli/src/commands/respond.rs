@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::report;
 use crate::session::Session;
 use vibroimpact_report::{Answer, AnswerError, Shown, Units, answer};
-use vibroimpact_study::{Control, Plan, Results, Stopped, StudyPlan};
+use vibroimpact_study::{Control, Plan, Results, SEARCH_LIMIT, Stopped, StudyPlan};
 
 /// Computes the answer of a plan and reports it. With --store, the plan fills the store instead.
 pub(super) fn run(
@@ -63,14 +63,23 @@ pub(super) fn tell(answer: &Answer, (outputs, shown): (Outputs, Shown), session:
         || session.watched(None, behind)?.ok_or_else(|| none("figure")),
     )?;
     if json {
-        return session.print_json(answer);
+        session.print_json(answer)?;
+    } else if !(table || (grid && files)) {
+        session.print(&report::text(answer)?)?;
+        for hint in report::hints(answer) {
+            session.note(&format!("hint: {hint}"));
+        }
     }
-    if table || (grid && files) {
-        return Ok(());
+    match &answer.results {
+        Results::Simulate(_, found) if found.reason == SEARCH_LIMIT => Err(search_limit()),
+        _ => Ok(()),
     }
-    session.print(&report::text(answer)?)?;
-    for hint in report::hints(answer) {
-        session.note(&format!("hint: {hint}"));
-    }
-    Ok(())
+}
+
+/// The failure of a motion whose next event was not found. What was found before it is printed.
+pub(super) fn search_limit() -> Failure {
+    Failure::Failed(
+        "the search for the next event used all its steps: the motion is not known after the last event\nhint: numbers that lie many orders of magnitude apart make the search long; what is printed before is right"
+            .to_owned(),
+    )
 }

@@ -26,12 +26,8 @@ pub(crate) fn named(parameter: Parameter, units: &Units) -> String {
 /// The number of the orbit, if there are several.
 pub(crate) fn chosen(chosen: &Chosen) -> String {
     let which = if chosen.count > 1 { format!("orbit {} of {}, ", chosen.number, chosen.count) } else { String::new() };
-    let stable = match (chosen.orbit.physical, chosen.orbit.cycle.stable()) {
-        (false, _) => "inadmissible",
-        (true, true) => "stable",
-        (true, false) => "unstable",
-    };
-    format!("{which}{stable} there")
+    let stability = if chosen.orbit.physical { chosen.orbit.cycle.stability().name() } else { "inadmissible" };
+    format!("{which}{stability} there")
 }
 
 /// The text of all branches, each with its events and its end.
@@ -132,11 +128,7 @@ const fn plain(point: &SolutionPoint) -> bool {
 
 /// The state at a point, such as `1/1 stable`.
 fn state(point: &SolutionPoint) -> String {
-    let stability = match (point.physical, point.stable()) {
-        (false, _) => "inadmissible",
-        (true, true) => "stable",
-        (true, false) => "unstable",
-    };
+    let stability = if point.physical { point.stability().name() } else { "inadmissible" };
     format!("{} {stability}", point.cycle.label)
 }
 

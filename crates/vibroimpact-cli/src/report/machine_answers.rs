@@ -6,10 +6,11 @@ use crate::report::machine_curve;
 use core::fmt::Write;
 use vibroimpact::chaos::MachineSpectrum;
 use vibroimpact::continuation::MachinePoint;
+use vibroimpact::events::{MachineEnd, MachineLimits};
 use vibroimpact::machine::{Machine, StopLaw};
 use vibroimpact::orbit::MachineCycle;
 use vibroimpact::quantities::{MachinePart, MachineQuantity, Quantity, machine_quantities};
-use vibroimpact::verdict::{MachineUndecided, MachineVerdict};
+use vibroimpact::verdict::{MachineUndecided, MachineVerdict, Stability};
 use vibroimpact_report::MachineAnswer;
 use vibroimpact_report::json::undecided;
 use vibroimpact_report::number::short;
@@ -55,7 +56,9 @@ pub(crate) fn text(answer: &MachineAnswer) -> String {
                 None => text.push_str("no exponents: the motion ended before\n"),
             }
             let how = if found.exact { "exact" } else { "measured" };
-            let _ = writeln!(text, "  {how}; the motion is {}", found.motion.label());
+            let seen = found.motion.seen_events();
+            let seen = seen.map_or_else(String::new, |events| format!(", seen over {}", counted(events, "event")));
+            let _ = writeln!(text, "  {how}; the motion is {}{seen}", found.motion.label());
         }
         MachineResults::Branch(found) => {
             if let Some((number, count)) = found.among.filter(|(_, count)| *count > 1) {
@@ -80,7 +83,10 @@ pub(crate) fn text(answer: &MachineAnswer) -> String {
         MachineResults::Diagram(found) => text.push_str(&diagram::of_machine(found)),
         MachineResults::Map(found) => {
             for (label, count) in found.labels() {
-                let _ = writeln!(text, "{label:>10}  at {}", counted(count, "point"));
+                let seen = found.seen_events().filter(|_| label == "chaotic");
+                let seen = seen
+                    .map_or_else(String::new, |events| format!(", seen over at least {}", counted(events, "event")));
+                let _ = writeln!(text, "{label:>10}  at {}{seen}", counted(count, "point"));
             }
         }
     }
@@ -100,16 +106,31 @@ fn branch(machine: &Machine, points: &[MachinePoint]) -> String {
             if machine.period().is_some() { String::new() } else { format!(", period {}", short(cycle.period)) };
         let _ = writeln!(text, "{:>16}  {event}{at}, {}{period}", short(point.value), cycle.label);
     }
-    let stable = points.iter().filter(|point| point.cycle.stable()).count();
-    let _ = writeln!(text, "{}, {stable} of them stable", counted(points.len() as u64, "point"));
+    let of = |stability| points.iter().filter(|point| point.cycle.stability() == stability).count();
+    let (stable, neutral) = (of(Stability::Stable), of(Stability::Neutral));
+    let neutral = if neutral > 0 { format!(", {neutral} neutral") } else { String::new() };
+    let _ = writeln!(text, "{}, {stable} of them stable{neutral}", counted(points.len() as u64, "point"));
     text
 }
 
+/// The names of the stops that stay closed for ever.
+fn closed(machine: &Machine, verdict: &MachineVerdict) -> String {
+    let names = verdict.closed().into_iter().map(|stop| machine.name_of(stop));
+    names.collect::<Vec<_>>().join(", ")
+}
+
 fn motion(machine: &Machine, verdict: &MachineVerdict) -> String {
+    let stability = verdict.stability(machine).map_or_else(String::new, |stability| format!(", {stability}"));
     match verdict {
         MachineVerdict::Periodic(cycle) => described(machine, cycle),
-        MachineVerdict::NoImpact(_) => "0: no further event, for ever\n".to_owned(),
-        MachineVerdict::Stuck(_) => "stuck: at rest on a stop, for ever\n".to_owned(),
+        MachineVerdict::NoImpact(_) => {
+            let closed = closed(machine, verdict);
+            let closed = if closed.is_empty() { closed } else { format!(", in contact with {closed}") };
+            format!("0{stability}: no further event, for ever{closed}\n")
+        }
+        MachineVerdict::Stuck(_) => {
+            format!("stuck{stability}: at rest on {}, for ever\n", closed(machine, verdict))
+        }
         MachineVerdict::Chaotic { spectrum, events, .. } => {
             format!("chaotic, seen over {}\n{}", counted(*events, "event"), exponents(spectrum))
         }
@@ -119,6 +140,10 @@ fn motion(machine: &Machine, verdict: &MachineVerdict) -> String {
                 MachineUndecided::Unconfirmed => {
                     "it is periodic, as it returns to a release from rest, but rounding errors decide its period"
                         .to_owned()
+                }
+                MachineUndecided::Ended(MachineEnd::NoEventWithin) => {
+                    let time = short(MachineLimits::default().time);
+                    format!("no event within a time of {time} after the last one, and none is excluded later")
                 }
                 why => undecided(*why).replace('_', " "),
             };
@@ -161,8 +186,7 @@ fn quantities(machine: &Machine, verdict: &MachineVerdict) -> String {
 }
 
 fn described(machine: &Machine, cycle: &MachineCycle) -> String {
-    let stable = if cycle.stable() { "stable" } else { "unstable" };
-    let mut text = format!("{}, {stable}, period {}\n", cycle.label, short(cycle.period));
+    let mut text = format!("{}, {}, period {}\n", cycle.label, cycle.stability(), short(cycle.period));
     let counts = machine.stops().iter().zip(&cycle.counts).map(|(stop, count)| format!("{} {count}", stop.name));
     if !cycle.counts.is_empty() {
         let _ = writeln!(text, "  closings: {}", counts.collect::<Vec<_>>().join(", "));

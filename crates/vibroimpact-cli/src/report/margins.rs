@@ -11,12 +11,7 @@ use vibroimpact_study::{EventRecord, Loss, MarginEnd, MotionBox, MotionMargins, 
 
 /// The motion, its nearest events in each parameter, and its box.
 pub(crate) fn text(found: &MotionMargins, osc: &Oscillator, units: &Units) -> String {
-    let stable = found.motion.stable(osc);
-    let stable = match stable {
-        Some(true) => ", stable",
-        Some(false) => ", unstable",
-        None => "",
-    };
+    let stable = found.motion.stability(osc).map_or_else(String::new, |stability| format!(", {stability}"));
     let label = found.motion.label();
     let mut text = format!("{label}{}: {}{stable}\n", by_stop(&found.motion, osc), meaning(&found.motion));
     if found.parameters.is_empty() {
@@ -38,7 +33,10 @@ pub(crate) fn text(found: &MotionMargins, osc: &Oscillator, units: &Units) -> St
     }
     match &found.motion_box {
         Some(found_box) => text.push_str(&of_box(found_box, &found.parameters, &label, units)),
-        None => text.push_str("\nno box: the motion is unstable\n"),
+        None => {
+            let stability = found.motion.stability(osc).map_or("undecided", |stability| stability.name());
+            let _ = writeln!(text, "\nno box: the motion is {stability}");
+        }
     }
     text
 }

@@ -26,7 +26,7 @@ pub(crate) fn text(found: &Regions, plan: &RegionPlan, Asked { system, units }: 
         let none = match (region.polygons.is_empty(), name) {
             (false, _) => "",
             (true, "stability") if plan.neutral(system) => {
-                ": none, the motion is neutrally stable where it exists: without damping and losses at impacts nothing attracts"
+                ": none, the motion is neutral where it exists: without damping and losses at impacts nothing attracts"
             }
             // over parameters of the oscillator this region is known in closed form
             (true, _) if plan.clears() && ![plan.across, plan.up].iter().any(of_machine) => {

@@ -6,7 +6,7 @@ use vibroimpact::flight::Horizon;
 use vibroimpact::math::Multiplier;
 use vibroimpact::orbit::Cycle;
 use vibroimpact::quantities::{Quantities, Quantity, of_verdict};
-use vibroimpact::verdict::{Count, NoImpact, Undecided, Verdict};
+use vibroimpact::verdict::{Count, NoImpact, Stability, Undecided, Verdict};
 use vibroimpact::{Oscillator, Side, Start};
 use vibroimpact_report::json::motion::side;
 use vibroimpact_report::number::short;
@@ -150,12 +150,11 @@ pub(crate) const fn stop_name(side: Side) -> &'static str {
     }
 }
 
-const fn stability(stable: Option<bool>, verdict: &Verdict) -> &'static str {
-    match (stable, verdict) {
-        (Some(true), _) => "stable",
-        (Some(false), Verdict::Chaotic(_)) => "every single motion in it is unstable",
-        (Some(false), _) => "unstable",
-        (None, Verdict::NoImpact(_)) => "neutrally stable (no damping)",
+const fn in_words(stability: Option<Stability>, verdict: &Verdict) -> &'static str {
+    match (stability, verdict) {
+        (Some(Stability::Neutral), Verdict::NoImpact(_)) => "neutral (no damping)",
+        (Some(_), Verdict::Chaotic(_)) => "every single motion in it is unstable",
+        (Some(stability), _) => stability.name(),
         (None, _) => "open",
     }
 }
@@ -234,13 +233,13 @@ pub(crate) fn motion(verdict: &Verdict, osc: &Oscillator, units: &Units) -> Stri
     if let Verdict::Periodic(cycle) = verdict {
         text.push_str(&impacts(cycle, osc, units));
     }
-    let stable = verdict.stable(osc);
-    let verdict_of = stability(stable, verdict);
+    let stability = verdict.stability(osc);
+    let verdict_of = in_words(stability, verdict);
     match verdict.multipliers(osc) {
         Some(m) => {
             let _ = writeln!(text, "  {verdict_of}; multipliers {}", multipliers(m));
         }
-        None if stable.is_some() => {
+        None if stability.is_some() => {
             let _ = writeln!(text, "  {verdict_of}");
         }
         None => {}

@@ -59,7 +59,7 @@ fn other_kinds_of_motion() {
     let free = &json("settle --inverse-beta 0.7 --gap 4 --restitution 0.5")["motion"];
     assert_eq!((&free["kind"], &free["label"]), (&"no_impact".into(), &"0".into()));
     assert_eq!((&free["impacts"], &free["periods"]), (&0.into(), &1.into()));
-    assert_eq!((&free["stable"], &free["horizon"]["kind"]), (&Value::Null, &"forever".into()));
+    assert_eq!((&free["stability"], &free["horizon"]["kind"]), (&"neutral".into(), &"forever".into()));
 
     let stuck = &json("settle --beta 0.9 --gap -1.5 --restitution 0.5 --x -3")["motion"];
     assert_eq!((&stuck["kind"], &stuck["label"]), (&"stuck".into(), &"stuck".into()));

@@ -265,8 +265,8 @@ fn a_settled_motion_is_shown() {
     let hammer = "settle --machine two-mass-hammer --set frequency=1.06";
     let table = printed(&format!("{hammer} --csv -"));
     let rows: Vec<Vec<f64>> =
-        table.lines().skip(1).map(|row| row.split(',').map(|cell| cell.parse().unwrap()).collect()).collect();
-    assert!(table.starts_with("time,q.frame,q.head,qdot.frame,qdot.head,gap.anvil,force.anvil\n"));
+        table.lines().skip(1).map(|row| row.split(',').take(7).map(|cell| cell.parse().unwrap()).collect()).collect();
+    assert!(table.starts_with("time,q.frame,q.head,qdot.frame,qdot.head,gap.anvil,force.anvil,state.anvil\n"));
     let (first, last) = (&rows[0], &rows[rows.len() - 1]);
     assert!((last[0] - core::f64::consts::TAU / 1.06).abs() < 1e-12, "{last:?}");
     assert!((1..5).all(|k| (first[k] - last[k]).abs() < 1e-9), "{first:?} {last:?}");
@@ -426,7 +426,10 @@ fn branches() {
     let at = usize::try_from(grazing["point"].as_u64().unwrap()).unwrap();
     assert_eq!(points[at]["parameter"], grazing["parameter"]);
     let table = printed("branch --machine two-mass-hammer --vary frequency --to 1.05 --csv -");
-    assert!(table.starts_with("branch,frequency,label,physical,stable,event,stop,fastest,multiplier_1_re,"), "{table}");
+    assert!(
+        table.starts_with("branch,frequency,label,physical,stable,stability,event,stop,fastest,multiplier_1_re,"),
+        "{table}"
+    );
     assert!(table.lines().next().unwrap().ends_with(",multiplier_4_im,phases,speeds,stops"), "{table}");
     assert_eq!(table.lines().count(), points.len() + 1);
     let row: Vec<&str> = table.lines().nth(at + 1).unwrap().split(',').collect();

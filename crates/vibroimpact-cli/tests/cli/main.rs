@@ -19,6 +19,8 @@ mod planes;
 mod questions;
 mod refusals;
 mod same_as_library;
+mod stability;
+mod states;
 mod studies;
 mod summaries;
 mod units;

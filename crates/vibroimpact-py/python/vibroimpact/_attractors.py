@@ -89,7 +89,7 @@ class Attractors(Result):
 
     def _table(self) -> dict[str, Any]:
         """One row for each motion."""
-        names = ("label", "kind", "stable", "impacts", "periods", "share", "count")
+        names = ("label", "kind", "stable", "stability", "impacts", "periods", "share", "count")
         return {name: [getattr(motion, name) for motion in self] for name in names}
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":

@@ -88,6 +88,8 @@ class Branch(Result):
         m/n at each point.
     stable, physical : ndarray of bool
         Whether the orbit is stable; whether it is admissible.
+    stability : ndarray of str
+        "stable", "neutral" (a multiplier on the unit circle to rounding and none outside) or "unstable".
     multipliers : ndarray of complex128, shape (points, 2)
         Floquet multipliers; infinite at a grazing impact.
     speed : ndarray
@@ -114,6 +116,7 @@ class Branch(Result):
     second: NDArray[np.float64] | None
     label: list[str]
     stable: NDArray[np.bool_]
+    stability: NDArray[np.str_]
     physical: NDArray[np.bool_]
     cycles: Cycles
     events: list[BranchEvent]
@@ -148,7 +151,7 @@ class Branch(Result):
     def plot(
         self, ax: "Axes | None" = None, *, diagram: bool = True, virtual: bool = False, si: bool = False
     ) -> "Axes":
-        """Draw the bifurcation diagram: speeds before impacts (solid if stable, dashed if unstable) and events.
+        """Draw the bifurcation diagram: speeds before impacts (solid if stable, dashed and dotted if neutral, dashed if unstable) and events.
 
         Parameters
         ----------
@@ -180,7 +183,8 @@ class Branch(Result):
         second = {} if self.also is None or self.second is None else {self.also[0]: self.second}
         modulus = np.abs(self.multipliers).max(axis=1) if len(self) else np.empty(0)
         return {
-            self.vary: self.parameter, **second, "label": self.label, "stable": self.stable, "physical": self.physical,
+            self.vary: self.parameter, **second, "label": self.label, "stable": self.stable, "stability": self.stability,
+            "physical": self.physical,
             "speed": self.speed, "multiplier": modulus,
         }
 
@@ -195,6 +199,7 @@ class Branch(Result):
                 **({"rests": rests[k]} if rests[k] else {}),
                 "multipliers": pairs(self.multipliers[k]),
                 "stable": bool(self.stable[k]),
+                "stability": str(self.stability[k]),
                 "physical": bool(self.physical[k]),
             }
             for k, cycle in enumerate(self.cycles)
@@ -281,6 +286,7 @@ def branch(
             second=fields["second"],
             label=fields["label"],
             stable=fields["stable"],
+            stability=np.array(fields["stability"], dtype=np.str_),
             physical=fields["physical"],
             cycles=Cycles.of(fields["cycles"]),
             events=[BranchEvent(**event) for event in fields["events"]],

@@ -114,7 +114,7 @@ class Machine:
     parameters : dict of float
         Numbers that expressions use.
     start : dict
-        Where motions start if nothing else is asked: `{"q": [...], "qdot": [...], "phase": 0}`.
+        Where motions start if nothing else is asked: `{"q": [...], "qdot": [...], "phase": 0}`, or a whole state.
     title : str
         A title in a few words.
 
@@ -203,6 +203,22 @@ class Machine:
         """
         given = {**(changes or {}), **parameters}
         return self._of(self._file.with_numbers([(path, float(value)) for path, value in given.items()]))
+
+    def starting(self, state: Mapping[str, Any]) -> "Machine":
+        """The same machine with another start: a state with its contacts, such as `MachineSimulation.state` and
+        `MachineMotion.whole_state` return. A motion that goes on from the state of an event is the motion, to the last bit.
+
+        Examples
+        --------
+        >>> import vibroimpact as vi
+        >>> machine = vi.Machine.named("two-mass-hammer")
+        >>> motion = machine.simulate(impacts=6)
+        >>> again = machine.starting(motion.state(2)).simulate(impacts=3)
+        >>> bool((again.q == motion.q[3:]).all() and (again.qdot == motion.qdot[3:]).all())
+        True
+        """
+        fields = ("q", "qdot", "phase", "contacts", "exact")
+        return self._of(self._file.starting(json.dumps({name: state[name] for name in fields if name in state})))
 
     def number(self, path: str) -> float:
         """The number at a path, such as "stop.wall.gap"."""
@@ -613,7 +629,7 @@ class MachineSimulation(Result):
     time, phase : ndarray
         Time and phase of each event; phases in radians in [0, 2 pi).
     speed : ndarray
-        Speed of closing before the event; of a slip the direction, 1 or -1.
+        Speed of closing before the event; of an opening that of separation; of a slip the direction, 1 or -1.
     q, qdot : ndarray, events x coordinates
         Coordinates, and velocities after the event.
     with_ : tuple of tuples of str
@@ -652,6 +668,19 @@ class MachineSimulation(Result):
 
     def __len__(self) -> int:
         return len(self.time)
+
+    def state(self, event: int = -1) -> dict[str, Any]:
+        """The state from which the motion goes on after an event, the last by default: `q`, `qdot`, `phase`, what stops and
+        joints do (`contacts`), and the digits that these leave out (`exact`). `Machine.starting` takes it.
+
+        Parameters
+        ----------
+        event : int
+            Number of the event, counted from 0, or from the end if it is negative.
+        """
+        number = range(len(self))[event]
+        found: dict[str, Any] = json.loads(_core.machine_state(self.plan, number))
+        return found
 
     def waveform(self, step: float | None = None, *, events: bool = False) -> "MachineWaveform":
         """The motion at equal steps of time, up to `shown_until`.

@@ -124,6 +124,13 @@ class MachineMotion(Result):
         "periodic", "no_impact", "stuck", "chaotic" or "undecided".
     stable : bool or None
         Whether small changes of the start die out; None if that is not known.
+    stability : str or None
+        "stable", "neutral" (a multiplier on the unit circle to rounding and none outside) or "unstable"; None if that is not
+        known.
+    stops : tuple of str
+        The stops that stay closed for ever, of a motion without a further event. Where it is stuck it rests on one of them.
+    seen_events : int or None
+        For a chaotic or undecided motion: the events that were followed. Chaos may be a longer transient.
     impacts, periods, sticks : int or None
         Closings, forcing periods, and rests and holds of a cycle.
     period : float or None
@@ -156,6 +163,9 @@ class MachineMotion(Result):
     label: str
     kind: str
     stable: bool | None
+    stability: str | None
+    stops: tuple[str, ...]
+    seen_events: int | None
     impacts: int | None
     periods: int | None
     sticks: int | None
@@ -174,8 +184,20 @@ class MachineMotion(Result):
     _machine: Any
 
     def __repr__(self) -> str:
-        stability = "" if self.stable is None else ", stable" if self.stable else ", unstable"
-        return f"<MachineMotion {self.label}{stability}>"
+        return f"<MachineMotion {self._words()}>"
+
+    def _words(self) -> str:
+        """The label, and what it does not say: the stops of a rest, for how long chaos was seen, the stability."""
+        stops = f" on {', '.join(self.stops)}" if self.stops else ""
+        if self.kind == "chaotic":
+            return f"chaotic, seen over {self.seen_events} events"
+        return f"{self.label}{stops}" + ("" if self.stability is None else f", {self.stability}")
+
+    @property
+    def whole_state(self) -> dict[str, Any] | None:
+        """The `state` with its contacts and all digits, which `Machine.starting` takes."""
+        state: dict[str, Any] | None = self._object.get("state")
+        return state
 
     def to_dict(self) -> dict[str, Any]:
         """The object of the motion in the JSON of the command."""
@@ -193,6 +215,11 @@ class MachineMotion(Result):
         from vibroimpact import _machine_plots
 
         return _machine_plots.motion(self, axes)
+
+
+def _remarked(motion: MachineMotion) -> str:
+    """Its label with what shares need to tell motions apart."""
+    return motion._words() if motion.stops or motion.kind == "chaotic" else motion.label
 
 
 #: What the paths of the parts of a machine begin with.
@@ -213,7 +240,9 @@ def _by_path(given: Mapping[str, Any] | None) -> dict[str, float] | None:
 def _motion(given: dict[str, Any], width: int, machine: Any) -> MachineMotion:
     state = given.get("state")
     return MachineMotion(
-        **{name: given[name] for name in ("label", "kind", "stable", "impacts", "periods", "sticks")},
+        **{name: given[name] for name in ("label", "kind", "stable", "stability", "impacts", "periods", "sticks")},
+        stops=tuple(given.get("stops", ())),
+        seen_events=given.get("seen_events"),
         period=given.get("period"),
         counts=given.get("counts", {}),
         multipliers=_complex(given["multipliers"] or []),
@@ -257,7 +286,7 @@ class MachineSettled(Result):
 
     def to_dict(self) -> dict[str, Any]:
         """The motion, and how far it was followed."""
-        return {"motion": self.motion.to_dict(), "events": self.events, "time": self.time}
+        return {"motion": self.motion.to_dict(), "events_followed": self.events, "time_followed": self.time}
 
     def _table(self) -> dict[str, Any]:
         """One row for each event of the cycle."""
@@ -272,7 +301,7 @@ def settled(found: Mapping[str, Any], machine: Any) -> MachineSettled:
     """Of the JSON object."""
     plan = json.dumps(found["plan"])
     return MachineSettled(
-        _motion(found["motion"], len(found["coordinates"]), machine), found["events"], found["time"],
+        _motion(found["motion"], len(found["coordinates"]), machine), found["events_followed"], found["time_followed"],
         _all_measured(found.get("chaotic_transient")), plan,
     )
 
@@ -306,7 +335,7 @@ class MachineAttractors(Result):
     plan: str
 
     def __repr__(self) -> str:
-        shares = ", ".join(f"{m.label} {100 * share:.3g} %" for m, share in zip(self.motions, self.share))
+        shares = ", ".join(f"{_remarked(m)} {100 * share:.3g} %" for m, share in zip(self.motions, self.share))
         return f"<MachineAttractors of {self.starts} starts: {shares}>"
 
     def __iter__(self) -> Iterator[MachineMotion]:
@@ -330,8 +359,8 @@ class MachineAttractors(Result):
 
     def _table(self) -> dict[str, Any]:
         """One row for each motion."""
-        names = ("label", "kind", "stable", "impacts", "periods")
-        return {**{name: [getattr(of, name) for of in self] for name in names}, "share": self.share, "count": self.count}
+        names = ("label", "kind", "stable", "stability", "seen_events", "impacts", "periods")
+        return {**{name: [getattr(of, name) for of in self] for name in names}, "stop": [" ".join(of.stops) for of in self], "share": self.share, "count": self.count}
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
         """Draw the shares as bars."""
@@ -526,6 +555,8 @@ class MachineBranch(Result):
         The time of one period at each point.
     stable : ndarray of bool
         Whether the orbit is stable.
+    stability : ndarray of str
+        "stable", "neutral" (a multiplier on the unit circle to rounding and none outside) or "unstable".
     speed : ndarray
         The largest speed of a closing at each point.
     quantity : str or None
@@ -562,6 +593,7 @@ class MachineBranch(Result):
     label: NDArray[np.str_]
     period: _Floats
     stable: NDArray[np.bool_]
+    stability: NDArray[np.str_]
     speed: _Floats
     quantity: str | None
     value: _Floats | None
@@ -609,12 +641,12 @@ class MachineBranch(Result):
         modulus = np.abs(self.multipliers).max(axis=1) if len(self) else np.empty(0)
         return {
             self.vary: self.parameter, **second, "label": self.label, "period": self.period, "stable": self.stable,
-            "speed": self.speed, **shown, "multiplier": modulus,
+            "stability": self.stability, "speed": self.speed, **shown, "multiplier": modulus,
         }
 
     def plot(self, ax: "Axes | None" = None, *, diagram: bool = True) -> "Axes":
         """Draw the speeds of the closings of stops, of this branch and of those that begin on it, or without stops the `quantity`:
-        solid if stable, dashed if unstable, with the events.
+        solid if stable, dashed and dotted if neutral, dashed if unstable, with the events.
 
         Parameters
         ----------
@@ -688,6 +720,7 @@ def _branch(
         label=words(points, "label"),
         period=np.array([point["period"] for point in points], dtype=np.float64),
         stable=np.array([point["stable"] for point in points], dtype=np.bool_),
+        stability=words(points, "stability"),
         speed=np.array([closing(point) for point in points], dtype=np.float64),
         quantity=quantity,
         value=value,
@@ -914,6 +947,10 @@ class MachineMap(Result):
         Labels at each point, the most frequent first; empty texts after the last one.
     share : ndarray, of the same shape
         Share of the starts that lead to each; NaN after the last one.
+    stop : ndarray of str, of the same shape
+        The stops that stay closed for ever in each motion; empty where there are none.
+    seen_events : int or None
+        The smallest number of events over which chaos was seen at a point; None without chaos.
     plan : str
         The plan as JSON.
     """
@@ -921,24 +958,28 @@ class MachineMap(Result):
     axes: dict[str, _Floats]
     labels: NDArray[np.str_]
     share: _Floats
+    stop: NDArray[np.str_]
+    seen_events: int | None
     plan: str
 
     def __repr__(self) -> str:
         shape = " x ".join(str(n) for n in self.labels.shape[:-1])
-        return f"<MachineMap of {shape} points over {', '.join(self.axes)}>"
+        seen = "" if self.seen_events is None else f", chaos seen over at least {self.seen_events} events"
+        return f"<MachineMap of {shape} points over {', '.join(self.axes)}{seen}>"
 
     def xarray(self) -> "xr.Dataset":
         """`label` and `share` as a Dataset whose coordinates are the paths."""
         import xarray as xr
 
         dims = [*self.axes, "motion"]
-        variables = {"label": (dims, self.labels), "share": (dims, self.share)}
+        variables = {"label": (dims, self.labels), "share": (dims, self.share), "stop": (dims, self.stop)}
         return xr.Dataset(variables, coords=self.axes, attrs={"plan": self.plan})
 
     def to_dict(self) -> dict[str, Any]:
         """The labels and shares at each point."""
         axes = {path: of.tolist() for path, of in self.axes.items()}
-        return {"axes": axes, "labels": self.labels.tolist(), "share": self.share.tolist()}
+        columns = {"labels": self.labels.tolist(), "share": self.share.tolist(), "stop": self.stop.tolist()}
+        return {"axes": axes, **columns, "seen_events": self.seen_events}
 
     def _table(self) -> dict[str, Any]:
         """One row for each motion at each point."""
@@ -946,7 +987,8 @@ class MachineMap(Result):
         places = np.meshgrid(*self.axes.values(), count, indexing="ij")
         there = self.labels.ravel() != ""
         columns = {path: of.ravel()[there] for path, of in zip(self.axes, places)}
-        return {**columns, "label": self.labels.ravel()[there], "share": self.share.ravel()[there]}
+        own = {"label": self.labels, "share": self.share, "stop": self.stop}
+        return {**columns, **{name: of.ravel()[there] for name, of in own.items()}}
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
         """Draw the motions over two numbers, in colours, or their shares over one."""
@@ -955,10 +997,13 @@ class MachineMap(Result):
         return _machine_plots.cells(self.axes, self.labels, self.plan, ax, share=self.share)
 
 
-def mapped(found: Mapping[str, Any], cells: list[list[tuple[str, float]]]) -> MachineMap:
+def mapped(found: Mapping[str, Any], cells: list[list[tuple[str, float, str]]]) -> MachineMap:
     """Of the JSON object, and the points."""
     axes, most = _coordinates(found), max((len(cell) for cell in cells), default=0)
-    rows = [cell + [("", math.nan)] * (most - len(cell)) for cell in cells]
-    labels = np.array([[label for label, _ in row] for row in rows], dtype=np.str_).reshape(len(cells), most)
-    share = np.array([[share for _, share in row] for row in rows], dtype=np.float64).reshape(len(cells), most)
-    return MachineMap(axes, _in_axes(labels, axes), _in_axes(share, axes), json.dumps(found["plan"]))
+    rows = [cell + [("", math.nan, "")] * (most - len(cell)) for cell in cells]
+
+    def column(k: int, kind: Any) -> NDArray[Any]:
+        return _in_axes(np.array([[motion[k] for motion in row] for row in rows], dtype=kind).reshape(len(cells), most), axes)
+
+    labels, share, stop = column(0, np.str_), column(1, np.float64), column(2, np.str_)
+    return MachineMap(axes, labels, share, stop, found.get("seen_events"), json.dumps(found["plan"]))

@@ -65,10 +65,10 @@ def orbits(of: Any, ax: "Axes | None") -> "Axes":
         raise QuestionError("there are no orbits to draw")
     ax = new_axes(ax, (6.4, 4.2))
     for k, one in enumerate(of):
-        at, words = _of_closings(one), "stable" if one.stable else "unstable"
+        at = _of_closings(one)
         colour = SERIES[k % _USABLE]
         ax.plot(one.cycle.phase[at], one.cycle.speed[at], "o" if one.stable else "s", color=colour, markersize=7,
-                markerfacecolor=colour if one.stable else "white", label=f"{named(one.label)}, no. {k + 1}, {words}")
+                markerfacecolor=colour if one.stable else "white", label=f"{named(one.label)}, no. {k + 1}, {one.stability}")
     ax.set_xlim(0, 2 * np.pi)
     ax.set_xlabel("phase of the forcing")
     ax.set_ylabel("speed of closing")
@@ -135,7 +135,7 @@ class _Branch:
         else:
             # one value of each cycle, as if it were a closing
             self.cycles = [_Closings(np.zeros(1), value) for value in of.value.reshape(-1, 1)]
-        self.parameter, self.multipliers = of.parameter, of.multipliers
+        self.parameter, self.stability = of.parameter, of.stability
         self.label = of.label.tolist()
         # a branch of a machine ends where its orbit ceases to be admissible
         self.physical = np.ones(len(of), dtype=np.bool_)
@@ -149,8 +149,8 @@ class _Branch:
 def branch(
     of: Any, ax: "Axes | None", ends: tuple[float, float], diagram: Mapping[str, NDArray[Any]] | None
 ) -> "Axes":
-    """Draw the speeds of all closings, or the quantity of a machine without stops: solid if stable, dashed if unstable, with the
-    events. `diagram` has the columns of the orbit diagram behind."""
+    """Draw the speeds of all closings, or the quantity of a machine without stops: solid if stable, dashed and dotted if
+    neutral, dashed if unstable, with the events. `diagram` has the columns of the orbit diagram behind."""
     ax = new_axes(ax, (7.6, 4.8))
     if diagram is not None:
         _tracks.behind(ax, diagram["parameter"], diagram["speed"], diagram["repeats"])

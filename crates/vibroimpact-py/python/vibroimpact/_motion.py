@@ -41,6 +41,9 @@ class Motion(Result):
         Number of phases of sticking in each period of the motion.
     stable : bool or None
         Whether it is stable; None if this is not decided.
+    stability : str or None
+        "stable", "neutral" (a multiplier on the unit circle to rounding and none outside, as of every elastic motion) or
+        "unstable"; None if this is not decided.
     multipliers : ndarray of complex128 or None
         Floquet multipliers, the larger first.
     cycle : Cycle
@@ -58,7 +61,7 @@ class Motion(Result):
         Chaos before the motion settled: the number of the impact by which it had ended, and the exponent with its error.
     horizon : dict or None
         Why there are no more impacts, and for how many periods (None: for ever).
-    side : str or None
+    side, stop : str or None
         For a stuck motion: the stop, "upper" or "lower".
     tried : dict or None
         For an undecided motion: the budget used and the measurements made.
@@ -89,6 +92,7 @@ class Motion(Result):
     periods: int | None
     sticks: int | None
     stable: bool | None
+    stability: str | None
     multipliers: NDArray[np.complex128] | None
     cycle: Cycle
     rests: list[dict[str, Any]]
@@ -103,9 +107,13 @@ class Motion(Result):
     quantities_error: dict[str, float] | None
 
     def __repr__(self) -> str:
-        words = {True: ", stable", False: ", unstable", None: ""}
-        stable = "" if self.kind in ("chaotic", "stuck") else words[self.stable]
-        return f"<{type(self).__name__} {self.label}{stable}{self._remark()}>"
+        stability = "" if self.kind in ("chaotic", "stuck") or self.stability is None else f", {self.stability}"
+        return f"<{type(self).__name__} {self.label}{stability}{self._remark()}>"
+
+    @property
+    def stop(self) -> str | None:
+        """The stop of a stuck motion."""
+        return self.side
 
     def _remark(self) -> str:
         return ""
@@ -120,6 +128,7 @@ class Motion(Result):
             "periods": self.periods,
             "sticks": self.sticks,
             "stable": self.stable,
+            "stability": self.stability,
             "multipliers": None if self.multipliers is None else pairs(self.multipliers),
             "cycle": self.cycle.to_list(),
         }
@@ -140,7 +149,7 @@ class Motion(Result):
         if self.residual is not None:
             fields["residual"] = finite(self.residual)
         if self.side is not None:
-            fields["side"] = self.side
+            fields |= {"side": self.side, "stop": self.side, "stops": [self.side]}
         if self.tried is not None:
             tried = {name: value for name, value in self.tried.items() if value is not None}
             if "lyapunov" in tried:

@@ -158,7 +158,7 @@ def _draw(of: Region, ax: "Axes | None") -> "Axes":
     """Draw both regions. The colour of an edge shows its kind; edges of the sheet above are thin."""
     ax = new_axes(ax, (7.2, 5.2))
     name = named(of.label)
-    exists = "exists, neutrally stable" if of.neutrally_stable else "exists, unstable"
+    exists = "exists, neutral" if of.neutrally_stable else "exists, unstable"
     fills = ((of.existence, "#ececec", exists), (of.stability, class_colour(of.label), "stable"))
     for part, colour, words in fills[: 1 if of.neutrally_stable else 2]:
         _fill(ax, part, colour)

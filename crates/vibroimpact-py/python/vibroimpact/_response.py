@@ -15,6 +15,7 @@ from vibroimpact._figure import Scale, legend, named, new_axes, title
 from vibroimpact._palette import SERIES
 from vibroimpact._progress import Progress, watched
 from vibroimpact._result import Result
+from vibroimpact._tracks import LOOKS
 from vibroimpact._whole import BUDGET, maybe
 
 if TYPE_CHECKING:
@@ -36,6 +37,8 @@ class ResponseCurve(Result):
         The label of each motion.
     stable, physical : ndarray of bool
         Whether it is stable; whether it is admissible. Motions of a sweep are both.
+    stability : ndarray of str
+        "stable", "neutral" or "unstable".
     quantities : dict of ndarray
         All quantities by name; nan where one is not defined.
     """
@@ -43,6 +46,7 @@ class ResponseCurve(Result):
     parameter: NDArray[np.float64]
     label: NDArray[np.str_]
     stable: NDArray[np.bool_]
+    stability: NDArray[np.str_]
     physical: NDArray[np.bool_]
     quantities: dict[str, NDArray[np.float64]]
 
@@ -51,7 +55,7 @@ class ResponseCurve(Result):
 
     def _table(self) -> dict[str, Any]:
         """One row for each motion."""
-        names = ("parameter", "label", "stable", "physical")
+        names = ("parameter", "label", "stable", "stability", "physical")
         return {**{name: getattr(self, name) for name in names}, **self.quantities}
 
     def __repr__(self) -> str:
@@ -104,12 +108,10 @@ class Response(Result):
 
         def points(of: ResponseCurve, branch: bool) -> list[dict[str, Any]]:
             values = of.quantities[self.quantity].tolist()
-            rows = zip(of.parameter.tolist(), of.label.tolist(), values, of.stable.tolist(), of.physical.tolist(), strict=True)
-            return [
-                {"parameter": at, "label": label, "value": finite(value)}
-                | ({"stable": stable, "physical": physical} if branch else {})
-                for at, label, value, stable, physical in rows
-            ]
+            own = [{"stable": stable, "stability": word, "physical": physical} if branch else {}
+                   for stable, word, physical in zip(of.stable.tolist(), of.stability.tolist(), of.physical.tolist(), strict=True)]
+            rows = zip(of.parameter.tolist(), of.label.tolist(), values, own, strict=True)
+            return [{"parameter": at, "label": label, "value": finite(value)} | more for at, label, value, more in rows]
 
         sweeps = (("up", self.up), ("down", self.down))
         return {
@@ -121,7 +123,7 @@ class Response(Result):
         }
 
     def plot(self, ax: "Axes | None" = None, *, quantity: str | None = None) -> "Axes":
-        """Draw a quantity over the parameter: stable branches solid, unstable ones dashed, the motions of the sweeps as dots.
+        """Draw a quantity over the parameter: stable branches solid, neutral ones dashed and dotted, unstable ones dashed, the motions of the sweeps as dots.
 
         Parameters
         ----------
@@ -140,14 +142,15 @@ class Response(Result):
         colours: dict[str, str] = {}
         for branch in self.branches:
             for begin, end in _runs(branch):
-                label, stable = str(branch.label[end]), bool(branch.stable[end])
+                label, stability = str(branch.label[end]), str(branch.stability[end])
                 if label not in colours:
                     colours[label] = SERIES[len(colours) % _USABLE]
                     ax.plot([], [], color=colours[label], linewidth=1.8, label=named(label))
                 xs, ys = branch.parameter[begin : end + 1], branch.quantities[quantity][begin : end + 1]
-                ax.plot(xs, ys, "-" if stable else "--", color=colours[label], linewidth=1.8)
-        if any(not branch.stable[branch.physical].all() for branch in self.branches):
-            ax.plot([], [], "--", color="black", linewidth=1.8, label="unstable")
+                ax.plot(xs, ys, LOOKS[stability], color=colours[label], linewidth=1.8)
+        for word in ("neutral", "unstable"):
+            if any((branch.stability[branch.physical] == word).any() for branch in self.branches):
+                ax.plot([], [], LOOKS[word], color="black", linewidth=1.8, label=word)
         ax.set_xlabel(Scale(self.osc, False).axis(self.vary))
         unit = self.units[quantity] if self.vary in _core.machine_parameters() else ""
         ax.set_ylabel(quantity.replace("_", " ") + (f" ({unit})" if unit else ""))
@@ -164,7 +167,7 @@ def _runs(branch: ResponseCurve) -> list[tuple[int, int]]:
             continue
         last = runs[-1] if runs else None
         same = last is not None and last[1] == k - 1 and branch.label[k] == branch.label[k - 1]
-        if same and branch.stable[k] == branch.stable[k - 1] and last is not None:
+        if same and branch.stability[k] == branch.stability[k - 1] and last is not None:
             runs[-1] = (last[0], k)
         else:
             runs.append((k - 1, k))
@@ -219,7 +222,8 @@ def response(
         values = fields["values"]
         quantities = {name: values[:, k] for k, name in enumerate(found["names"])}
         label = np.array(fields["label"], dtype=np.str_)
-        return ResponseCurve(fields["parameter"], label, fields["stable"], fields["physical"], quantities)
+        stability = np.array(fields["stability"], dtype=np.str_)
+        return ResponseCurve(fields["parameter"], label, fields["stable"], stability, fields["physical"], quantities)
 
     return Response(
         osc=osc,

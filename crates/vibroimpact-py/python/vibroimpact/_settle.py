@@ -74,7 +74,7 @@ class Settlement(Result):
 
     def _table(self) -> dict[str, Any]:
         """One row for each motion."""
-        names = ("label", "kind", "stable", "impacts", "periods", "share", "count")
+        names = ("label", "kind", "stable", "stability", "impacts", "periods", "share", "count")
         return {name: [getattr(motion, name) for motion in self.motions] for name in names}
 
     def to_dict(self) -> dict[str, Any]:

@@ -55,7 +55,7 @@ class Curves(Protocol):
     @property
     def physical(self) -> NDArray[np.bool_]: ...
     @property
-    def multipliers(self) -> NDArray[np.complex128]: ...
+    def stability(self) -> NDArray[np.str_]: ...
     @property
     def cycles(self) -> "Cycles": ...
     @property
@@ -81,11 +81,11 @@ class Followed(Curves, Protocol):
 VALUES = 401
 #: Maximum number of labels with a colour of their own.
 _NAMED = 12
-_LOOKS = {"stable": "-", "unstable": "--", "inadmissible": ":"}
+LOOKS = {"stable": "-", "neutral": "-.", "unstable": "--", "inadmissible": ":"}
 
 
 def plot(branch: Followed, ax: "Axes | None", diagram: "xr.Dataset | None", virtual: bool, si: bool) -> "Axes":
-    """Draw the speeds before impacts over the parameter: solid if stable, dashed if unstable. `diagram` is the orbit diagram
+    """Draw the speeds before impacts over the parameter: solid if stable, dashed and dotted if neutral, dashed if unstable. `diagram` is the orbit diagram
     behind."""
     scale = Scale(branch.osc, si)
     unit, speed = scale.of(branch.vary), scale.velocity
@@ -114,11 +114,11 @@ def draw(branches: "Sequence[Curves]", ax: "Axes", virtual: bool = False, unit: 
             if look not in looks:
                 looks.append(look)
             width = 1.0 if look == "inadmissible" else 1.8
-            ax.plot(xs * unit, ys * speed, _LOOKS[look], color=colour, alpha=alpha, linewidth=width)
+            ax.plot(xs * unit, ys * speed, LOOKS[look], color=colour, alpha=alpha, linewidth=width)
     for label, (colour, alpha) in list(colours.items())[:_NAMED]:
         ax.plot([], [], color=colour, alpha=alpha, linewidth=1.8, label=named(label))
-    for look in (look for look in _LOOKS if look in looks):
-        ax.plot([], [], _LOOKS[look], color="black", label=look)
+    for look in (look for look in LOOKS if look in looks):
+        ax.plot([], [], LOOKS[look], color="black", label=look)
     _events(branches, ax, virtual, unit, speed)
 
 
@@ -180,8 +180,7 @@ def _runs(branch: Curves, begin: int, end: int) -> Iterator[tuple[str, slice]]:
     before, first = None, begin
     for k in range(begin, end - 1):
         at = k if k + 1 in events and k not in events else k + 1
-        inside = bool(np.all(np.abs(branch.multipliers[at]) < 1))
-        look = "inadmissible" if not branch.physical[at] else "stable" if inside else "unstable"
+        look = str(branch.stability[at]) if branch.physical[at] else "inadmissible"
         if before is not None and look != before:
             yield before, slice(first, k + 1)
             first = k

@@ -1,5 +1,5 @@
 //! The bifurcation diagram: impact velocities of orbits over the parameter, or their positions at phase 0. Stable
-//! orbits are solid and unstable ones dashed. Events are marked, and the orbit diagram from simulation is behind.
+//! orbits are solid, neutral ones dashed and dotted, and unstable ones dashed. Events are marked, and the orbit diagram from simulation is behind.
 
 use crate::branch_quantity::BranchQuantity;
 use crate::figure::diagram::{backdrop, backdrop_of_machine, ordinate};
@@ -150,6 +150,7 @@ fn draw(panel: &mut Panel, tracks: &[Track], show_virtual: bool, (unit, size): (
     for look in looks {
         let name = match look {
             Look::Stable => "stable",
+            Look::Neutral => "neutral",
             Look::Unstable => "unstable",
             Look::Virtual => "inadmissible",
         };
@@ -166,6 +167,7 @@ fn draw(panel: &mut Panel, tracks: &[Track], show_virtual: bool, (unit, size): (
 const fn pen(look: Look) -> (f64, Dash) {
     match look {
         Look::Stable => (WIDTH, Dash::Solid),
+        Look::Neutral => (WIDTH, Dash::DashDot),
         Look::Unstable => (WIDTH, Dash::Dashed),
         Look::Virtual => (1.4, Dash::Dotted),
     }

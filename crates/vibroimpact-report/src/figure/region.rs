@@ -37,7 +37,7 @@ pub fn figure(found: &Regions, plan: &RegionPlan, asked: &Asked) -> Figure {
     let mut legend = Legend::below();
     let name = label(plan.label.trim());
     let neutral = plan.neutral(&asked.system);
-    let exists = if neutral { "exists, neutrally stable" } else { "exists, unstable" };
+    let exists = if neutral { "exists, neutral" } else { "exists, unstable" };
     for (region, colour, what) in [(&found.existence, EXISTS, exists), (&found.stability, stable, "stable")] {
         for area in areas(region) {
             panel.add(area.fill(colour));

@@ -1,8 +1,9 @@
-//! The figure of a response: branches as curves, stable solid and unstable dashed, and the motions of both sweeps.
+//! The figure of a response: branches as curves, stable solid, neutral dashed and dotted and unstable dashed, and the motions of both sweeps.
 
 use crate::figure::{label, named, quantity_name, title_without, variant};
 use crate::json::response::value;
 use crate::{Asked, ReportError};
+use vibroimpact::verdict::Stability;
 use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, SERIES, Stroke};
 use vibroimpact_study::{ResponseCurves, ResponsePoint, SweptMotion};
 
@@ -16,8 +17,12 @@ const DARK: Colour = Colour::hex(0x60_6060);
 /// Colours of branches: without black and yellow, which is too light for a line.
 const USABLE: usize = 6;
 
-/// The parts of all branches with one label that are stable, or unstable, separated by `NaN`.
-type BranchLine = ((String, bool), Vec<f64>, Vec<f64>);
+/// How the parts with each stability are drawn.
+const DASHES: [(Stability, Dash); 3] =
+    [(Stability::Stable, Dash::Solid), (Stability::Neutral, Dash::DashDot), (Stability::Unstable, Dash::Dashed)];
+
+/// The parts of all branches with one label with one stability, separated by `NaN`.
+type BranchLine = ((String, Stability), Vec<f64>, Vec<f64>);
 
 /// The figure of `vibro response`. Inadmissible solutions are left out.
 ///
@@ -57,7 +62,7 @@ pub fn figure(found: &ResponseCurves, asked: &Asked) -> Result<Figure, ReportErr
                 let at = point.solution.value;
                 (at * unit, value(point.quantities, quantity, &units.at(plan.vary, at)))
             };
-            let key = (one.solution.cycle.label.to_string(), one.solution.stable());
+            let key = (one.solution.cycle.label.to_string(), one.solution.stability());
             let at = lines.iter().position(|(other, ..)| *other == key).unwrap_or_else(|| {
                 lines.push((key, Vec::new(), Vec::new()));
                 lines.len() - 1
@@ -80,17 +85,18 @@ pub fn figure(found: &ResponseCurves, asked: &Asked) -> Result<Figure, ReportErr
     }
     for (k, name) in labels.iter().enumerate() {
         let colour = variant(SERIES[k % USABLE], k / USABLE);
-        for (_, xs, ys) in lines.iter().filter(|((other, stable), ..)| other == name && *stable) {
-            panel.add(Line { xs: xs.clone(), ys: ys.clone(), stroke: Stroke::new(colour).width(WIDTH) });
-        }
-        for (_, xs, ys) in lines.iter().filter(|((other, stable), ..)| other == name && !*stable) {
-            let stroke = Stroke::new(colour).width(WIDTH).dash(Dash::Dashed);
-            panel.add(Line { xs: xs.clone(), ys: ys.clone(), stroke });
+        for (stability, dash) in DASHES {
+            for (_, xs, ys) in lines.iter().filter(|((other, own), ..)| other == name && *own == stability) {
+                let stroke = Stroke::new(colour).width(WIDTH).dash(dash);
+                panel.add(Line { xs: xs.clone(), ys: ys.clone(), stroke });
+            }
         }
         legend = legend.line(Stroke::new(colour).width(WIDTH), label(name));
     }
-    if lines.iter().any(|((_, stable), ..)| !*stable) {
-        legend = legend.line(Stroke::new(Colour::BLACK).width(WIDTH).dash(Dash::Dashed), "unstable");
+    for (stability, dash) in DASHES {
+        if stability != Stability::Stable && lines.iter().any(|((_, own), ..)| *own == stability) {
+            legend = legend.line(Stroke::new(Colour::BLACK).width(WIDTH).dash(dash), stability.name());
+        }
     }
     for (name, _, size, colour) in sweeps {
         legend = legend.points(&Points::new([], [], colour).size(size), name);

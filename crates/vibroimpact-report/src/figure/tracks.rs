@@ -6,16 +6,27 @@ use vibroimpact::Oscillator;
 use vibroimpact::continuation::{BranchEvent, MachineBranchEvent, MachinePoint, SolutionPoint};
 use vibroimpact::events::MachineEventKind;
 use vibroimpact::motion::Strobes;
-use vibroimpact::orbit::{Cycle, RestSpan};
+use vibroimpact::orbit::{Cycle, RestSpan, Stability};
 use vibroimpact::system::phase;
 
 /// The look of a part of a branch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Look {
     Stable,
+    Neutral,
     Unstable,
     /// An inadmissible solution.
     Virtual,
+}
+
+impl Look {
+    const fn of(stability: Stability) -> Self {
+        match stability {
+            Stability::Stable => Self::Stable,
+            Stability::Neutral => Self::Neutral,
+            Stability::Unstable => Self::Unstable,
+        }
+    }
 }
 
 /// The curves with each label and look: abscissae and ordinates, separated by `NaN`.
@@ -64,11 +75,7 @@ impl TrackPoint {
         Self {
             value: point.value,
             label: point.cycle.label.to_string(),
-            look: match (point.physical, point.cycle.stable()) {
-                (false, _) => Look::Virtual,
-                (true, true) => Look::Stable,
-                (true, false) => Look::Unstable,
-            },
+            look: if point.physical { Look::of(point.cycle.stability()) } else { Look::Virtual },
             event: point.event.map(|event| event.name()),
             list,
             places,
@@ -104,7 +111,7 @@ impl TrackPoint {
         Self {
             value: point.value,
             label: point.cycle.label.to_string(),
-            look: if point.cycle.stable() { Look::Stable } else { Look::Unstable },
+            look: Look::of(point.cycle.stability()),
             event: point.event.map(|event| event.name()),
             list,
             places,

@@ -42,6 +42,7 @@ struct PointObject {
     rests: Vec<Rest>,
     multipliers: [[f64; 2]; 2],
     stable: bool,
+    stability: &'static str,
     physical: bool,
 }
 
@@ -167,6 +168,7 @@ impl PointObject {
             rests: rests(&point.cycle),
             multipliers: pairs(point.cycle.multipliers),
             stable: point.stable(),
+            stability: point.stability().name(),
             physical: point.physical,
         }
     }

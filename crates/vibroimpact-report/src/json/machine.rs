@@ -4,7 +4,7 @@ use super::branch::ChosenObject;
 use super::certainty::Certainty;
 use super::diagram::{Counts, machine_counts};
 use super::machine_curve::curved;
-use super::machine_event::{EventObject, event_object};
+use super::machine_event::{EventObject, EventOf, StateObject, event_object};
 use super::machine_motion::{Estimate, MotionObject, cycle, drift, estimates, motion, multipliers};
 use crate::branch_quantity::BranchQuantity;
 use crate::{MachineAnswer, PROGRAM};
@@ -14,11 +14,9 @@ use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 use vibroimpact::chaos::Measured;
 use vibroimpact::continuation::{MachineBranchEvent, MachinePoint};
-use vibroimpact::events::{MachineEvent, MachineStart};
-use vibroimpact::machine::Machine;
 use vibroimpact_study::{
     MachineAxis, MachineCut, MachineDiagramPlan, MachineFollowed, MachinePlan, MachineResults, MachineSimulated,
-    MachineStretch, MachineTask, Values,
+    MachineStretch, MachineTask, Values, events_with_states,
 };
 
 /// The object that a command prints: the machine, the start, the fields of the command, and the plan.
@@ -26,25 +24,18 @@ use vibroimpact_study::{
 struct Document<'a, T> {
     machine: &'a str,
     coordinates: &'a [String],
-    start: StartObject<'a>,
+    start: StateObject<'a>,
     #[serde(flatten)]
     result: T,
     plan: &'a MachinePlan,
     program: &'static str,
 }
 
-#[derive(Serialize)]
-struct StartObject<'a> {
-    q: &'a [f64],
-    qdot: &'a [f64],
-    phase: f64,
-}
-
 /// The fields of `vibro simulate --machine`. Events are converted while they are written.
 #[derive(Serialize)]
 struct Simulation<'a> {
     #[serde(serialize_with = "each_event")]
-    events: (&'a [MachineEvent], &'a Machine),
+    events: (&'a MachineAnswer, usize),
     end: EndObject,
 }
 
@@ -57,9 +48,8 @@ struct EndObject {
 #[derive(Serialize)]
 struct Settled<'a> {
     motion: MotionObject<'a>,
-    /// Events and time that were followed.
-    events: u64,
-    time: f64,
+    events_followed: u64,
+    time_followed: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     chaotic_transient: Option<Vec<Estimate>>,
 }
@@ -117,6 +107,7 @@ struct PointObject<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     quantities: Option<Map<String, Value>>,
     stable: bool,
+    stability: &'static str,
     physical: bool,
 }
 
@@ -185,6 +176,9 @@ struct Mapped<'a> {
     axes: &'a [MachineAxis],
     /// How many points have each label.
     labels: BTreeMap<String, u64>,
+    /// The smallest number of events over which chaos was seen at a point; absent without chaos.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    seen_events: Option<u64>,
     points: usize,
 }
 
@@ -203,13 +197,14 @@ impl Serialize for MachineAnswer {
         let Self { machine, results, .. } = self;
         match results {
             MachineResults::Simulate(MachineSimulated { events, reason, time, .. }) => {
-                self.document(Simulation { events: (events, machine), end: EndObject { reason, time: *time } }, to)
+                let end = EndObject { reason, time: *time };
+                self.document(Simulation { events: (self, events.len()), end }, to)
             }
             MachineResults::Settle(found) => self.document(
                 Settled {
                     motion: motion(machine, &found.verdict),
-                    events: found.events,
-                    time: found.time,
+                    events_followed: found.events,
+                    time_followed: found.time,
                     chaotic_transient: found.transient.as_ref().map(estimates),
                 },
                 to,
@@ -293,7 +288,7 @@ impl Serialize for MachineAnswer {
             }
             MachineResults::Map(found) => {
                 let (labels, points) = (found.labels(), found.cells.len());
-                self.document(Mapped { axes: &found.axes, labels, points }, to)
+                self.document(Mapped { axes: &found.axes, labels, seen_events: found.seen_events(), points }, to)
             }
         }
     }
@@ -303,9 +298,8 @@ impl MachineAnswer {
     /// Writes the object with these fields.
     fn document<S: Serializer, T: Serialize>(&self, result: T, to: S) -> Result<S::Ok, S::Error> {
         let Self { name, plan, machine, start, .. } = self;
-        let MachineStart { q, qdot, phase } = start;
         let coordinates = machine.parts().coordinates.as_slice();
-        let start = StartObject { q, qdot, phase: *phase };
+        let start = StateObject::of(machine, start);
         Document { machine: name, coordinates, start, result, plan, program: PROGRAM }.serialize(to)
     }
 
@@ -344,15 +338,19 @@ impl MachineAnswer {
             drift: drift(machine, &point.cycle),
             quantities: quantity.map(|quantity| once((quantity.path.clone(), quantity.at(point).into())).collect()),
             stable: point.cycle.stable(),
+            stability: point.cycle.stability().name(),
             physical: true,
         };
         PointsObject { points: points.iter().map(of).collect(), events: events.collect() }
     }
 }
 
-fn each_event<S: Serializer>(
-    (events, machine): &(&[MachineEvent], &Machine),
-    serializer: S,
-) -> Result<S::Ok, S::Error> {
-    serializer.collect_seq(events.iter().map(|event| event_object(machine, event)))
+/// The events with their states.
+fn each_event<S: Serializer>((answer, count): &(&MachineAnswer, usize), serializer: S) -> Result<S::Ok, S::Error> {
+    let MachineAnswer { plan, machine, start, .. } = answer;
+    let MachineTask::Simulate { periods, .. } = plan.task else {
+        return Err(serde::ser::Error::custom("the plan is that of another task"));
+    };
+    let events = events_with_states(machine, start, periods).map_err(serde::ser::Error::custom)?;
+    serializer.collect_seq(events.take(*count).map(|event| EventOf(machine, event)))
 }

@@ -1,6 +1,6 @@
 //! A steady motion of a machine in JSON: label, counts of each stop, multipliers, events.
 
-use super::machine_event::{EventObject, event_object};
+use super::machine_event::{EventObject, StateObject, event_object};
 use super::machine_quantities::{errors, values};
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -10,7 +10,7 @@ use vibroimpact::machine::Machine;
 use vibroimpact::math::Multiplier;
 use vibroimpact::orbit::MachineCycle;
 use vibroimpact::quantities::{machine_cycle_quantities, machine_quantities};
-use vibroimpact::verdict::{Count, MachineUndecided, MachineVerdict};
+use vibroimpact::verdict::{Count, MachineUndecided, MachineVerdict, Stability};
 
 /// The JSON object of a motion.
 #[derive(Serialize)]
@@ -25,6 +25,7 @@ pub(super) struct MotionObject<'a> {
     /// Rests on stops, and holds of joints, in one period.
     sticks: Option<usize>,
     stable: Option<bool>,
+    stability: Option<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     counts: Option<Map<String, Value>>,
     multipliers: Option<Vec<[f64; 2]>>,
@@ -34,6 +35,12 @@ pub(super) struct MotionObject<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     drift_velocity: Option<Map<String, Value>>,
     cycle: Vec<EventObject<'a>>,
+    /// The first stop that stays closed for ever, where the structure rests, and all of them, which compliant ones can be
+    /// without a rest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stop: Option<&'a str>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    stops: Vec<&'a str>,
     /// A state between two events from which the motion can be started.
     #[serde(skip_serializing_if = "Option::is_none")]
     state: Option<StateObject<'a>>,
@@ -51,13 +58,6 @@ pub(super) struct MotionObject<'a> {
     /// Three standard errors of the means among the quantities of a chaotic motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     quantities_error: Option<Map<String, Value>>,
-}
-
-#[derive(Serialize)]
-struct StateObject<'a> {
-    q: &'a [f64],
-    qdot: &'a [f64],
-    phase: f64,
 }
 
 /// A measured number; null where it is minus infinity.
@@ -90,11 +90,14 @@ fn empty<'a>(kind: &'static str, label: String) -> MotionObject<'a> {
         period: None,
         sticks: None,
         stable: None,
+        stability: None,
         counts: None,
         multipliers: None,
         drift: None,
         drift_velocity: None,
         cycle: Vec::new(),
+        stop: None,
+        stops: Vec::new(),
         state: None,
         residual: None,
         lyapunov: None,
@@ -121,12 +124,13 @@ pub(super) fn cycle<'a>(machine: &'a Machine, cycle: &'a MachineCycle) -> Motion
         period: Some(cycle.period),
         sticks: Some(sticks),
         stable: Some(cycle.stable()),
+        stability: Some(cycle.stability().name()),
         counts: Some(counts.map(|(stop, count)| (stop.name.clone(), Value::from(*count))).collect()),
         multipliers: Some(multipliers(&cycle.multipliers)),
         drift: drift(machine, cycle),
         drift_velocity: (cycle.translations() > 0).then(|| by_coordinate(machine, &cycle.drift_velocity())),
         cycle: cycle.events.iter().map(|event| event_object(machine, event)).collect(),
-        state: Some(StateObject { q: &cycle.state.q, qdot: &cycle.state.qdot, phase: cycle.state.phase }),
+        state: Some(StateObject::of(machine, &cycle.state)),
         residual: Some(cycle.residual),
         quantities: machine_cycle_quantities(machine, cycle).map(|found| values(machine, &found)),
         ..empty("periodic", cycle.label.to_string())
@@ -150,28 +154,33 @@ pub(super) fn multipliers(of: &[Multiplier]) -> Vec<[f64; 2]> {
 
 /// The motion of a verdict.
 pub(super) fn motion<'a>(machine: &'a Machine, verdict: &'a MachineVerdict) -> MotionObject<'a> {
-    let label = verdict.label();
     let found =
         if matches!(verdict, MachineVerdict::Periodic(_)) { None } else { machine_quantities(machine, verdict) };
     let quantities = found.as_ref().map(|found| values(machine, found));
+    let stops = verdict.closed().into_iter().map(|stop| machine.name_of(stop)).collect();
+    let stability = verdict.stability(machine);
+    let plain = |kind| MotionObject {
+        stable: stability.map(Stability::is_stable),
+        stability: stability.map(Stability::name),
+        ..empty(kind, verdict.label())
+    };
     match verdict {
         MachineVerdict::Periodic(found) => cycle(machine, found),
-        MachineVerdict::NoImpact(_) => MotionObject { stable: Some(true), quantities, ..empty("no_impact", label) },
-        MachineVerdict::Stuck(_) => MotionObject { stable: Some(true), quantities, ..empty("stuck", label) },
+        MachineVerdict::NoImpact(_) => MotionObject { stops, quantities, ..plain("no_impact") },
+        MachineVerdict::Stuck(_) => MotionObject { stop: stops.first().copied(), stops, quantities, ..plain("stuck") },
         MachineVerdict::Chaotic { spectrum, events, .. } => MotionObject {
             quantities,
             quantities_error: found.map(|found| errors(machine, &found)),
-            stable: Some(false),
             lyapunov: spectrum.exponents.first().map(|first| Estimate::from(*first)),
             exponents: Some(estimates(spectrum)),
             seen_events: Some(*events),
-            ..empty("chaotic", label)
+            ..plain("chaotic")
         },
         MachineVerdict::Undecided { why, spectrum, events } => MotionObject {
             exponents: spectrum.as_ref().map(estimates),
             seen_events: Some(*events),
             why: Some(undecided(*why)),
-            ..empty("undecided", label)
+            ..plain("undecided")
         },
     }
 }

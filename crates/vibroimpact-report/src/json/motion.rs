@@ -8,7 +8,7 @@ use vibroimpact::flight::Horizon;
 use vibroimpact::math::Multiplier;
 use vibroimpact::orbit::Cycle;
 use vibroimpact::quantities::{errors_of_verdict, of_verdict};
-use vibroimpact::verdict::{Chaos, Count, NoImpact, Undecided, Verdict};
+use vibroimpact::verdict::{Chaos, Count, NoImpact, Stability, Undecided, Verdict};
 use vibroimpact::{Oscillator, Side};
 use vibroimpact_study::ImpactsByStop;
 
@@ -35,6 +35,7 @@ pub struct MotionFields {
     periods: Option<u32>,
     sticks: Option<usize>,
     stable: Option<bool>,
+    stability: Option<&'static str>,
     multipliers: Option<[[f64; 2]; 2]>,
     cycle: Vec<CyclePoint>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -57,6 +58,11 @@ pub struct MotionFields {
     residual: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     side: Option<&'static str>,
+    /// The stop on which a stuck motion rests; also as a list, as that of a machine that rests on several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stop: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stops: Option<[&'static str; 1]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     tried: Option<Tried>,
     quantities: Option<QuantityFields>,
@@ -150,6 +156,7 @@ impl MotionFields {
     #[must_use]
     pub fn new(verdict: &Verdict, osc: &Oscillator, units: &Units) -> Self {
         let by_stop = ImpactsByStop::of(osc, verdict);
+        let stability = verdict.stability(osc);
         let bare = Self {
             kind: "undecided",
             label: verdict.label().into_owned(),
@@ -158,7 +165,8 @@ impl MotionFields {
             impacts_lower: by_stop.map(|by| by.lower),
             periods: None,
             sticks: None,
-            stable: verdict.stable(osc),
+            stable: stability.map(Stability::is_stable),
+            stability: stability.map(Stability::name),
             multipliers: verdict.multipliers(osc).map(pairs),
             cycle: Vec::new(),
             chatter_end: None,
@@ -170,6 +178,8 @@ impl MotionFields {
             horizon: None,
             residual: None,
             side: None,
+            stop: None,
+            stops: None,
             tried: None,
             quantities: of_verdict(osc, verdict).map(|values| QuantityFields::new(values, units)),
             quantities_error: errors_of_verdict(osc, verdict).map(|errors| QuantityErrors::new(errors, units)),
@@ -196,6 +206,8 @@ impl MotionFields {
                 periods: Some(1),
                 sticks: Some(1),
                 side: Some(side(*at)),
+                stop: Some(side(*at)),
+                stops: Some([side(*at)]),
                 ..bare
             },
             Verdict::Undecided(Undecided::Impacts { impacts, spectrum }) => Self {

@@ -44,6 +44,7 @@ struct PointObject {
     label: String,
     value: f64,
     stable: bool,
+    stability: &'static str,
     physical: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     event: Option<&'static str>,
@@ -86,6 +87,7 @@ fn object(branch: &ResponseBranch, task: &ResponsePlan, units: &Units) -> Branch
         label: point.solution.cycle.label.to_string(),
         value: value(point.quantities, task.quantity, &units.at(task.vary, point.solution.value)),
         stable: point.solution.stable(),
+        stability: point.solution.stability().name(),
         physical: point.solution.physical,
         event: point.solution.event.map(|event| event.name()),
     };

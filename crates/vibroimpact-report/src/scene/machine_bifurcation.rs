@@ -68,7 +68,9 @@ impl MachineBifurcation {
     pub fn events(&self) -> Vec<BifurcationEvent> {
         let events = self.branches.iter().flatten().filter_map(|point| {
             // where the search for a branch ends nothing happens to the motion
-            let ends = |event: &E| matches!(event, E::Closed | E::EndOfRange | E::StepLimit | E::NoConvergence);
+            let ends = |event: &E| {
+                matches!(event, E::Closed | E::EndOfRange | E::StepLimit | E::Discontinuity | E::NoConvergence)
+            };
             let event = point.event.filter(|event| !ends(event))?;
             Some(BifurcationEvent { label: point.cycle.label.to_string(), kind: event.name(), value: point.value })
         });

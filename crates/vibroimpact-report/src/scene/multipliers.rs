@@ -1,8 +1,10 @@
-//! The Floquet multipliers of a cycle in the complex plane. A cycle is stable if they lie within the unit circle.
+//! The Floquet multipliers of a cycle in the complex plane. A cycle is stable if they lie within the unit circle, and neutral if
+//! one lies on it to rounding and none outside.
 
 use crate::number::short;
 use core::f64::consts::TAU;
 use vibroimpact::math::Multiplier;
+use vibroimpact::verdict::Stability;
 use vibroimpact_plot::{Colour, Figure, FigureAxis, HLine, Legend, Line, Panel, Points, SERIES, Stroke, Tick, VLine};
 
 /// Number of points of the circle.
@@ -10,9 +12,9 @@ const CORNERS: u32 = 360;
 /// Width, and the height with which the frame is a square.
 const SIZE: (f64, f64) = (480.0, 502.0);
 
-/// Draws the unit circle and all multipliers, at a scale that shows all of them.
+/// Draws the unit circle and all multipliers, each with the stability of its direction, at a scale that shows all of them.
 #[must_use]
-pub fn multipliers(all: &[Multiplier]) -> Figure {
+pub fn multipliers(all: &[Multiplier], each: &[Stability]) -> Figure {
     let largest = all.iter().map(|m| m.modulus()).filter(|r| r.is_finite()).fold(1.0, f64::max);
     let range = 1.2 * largest;
     let end = tick(largest);
@@ -28,12 +30,14 @@ pub fn multipliers(all: &[Multiplier]) -> Figure {
     let mut legend = Legend::below().line(circle.stroke, "|*μ*| = 1");
     let mut panel =
         Panel::new(axis("Re *μ*"), axis("Im *μ*")).with(HLine::new(0.0, thin)).with(VLine::new(0.0, thin)).with(circle);
-    for (inside, colour, name) in [(true, SERIES[0], "stable"), (false, SERIES[1], "unstable")] {
-        let some = all.iter().filter(|m| (m.modulus() < 1.0) == inside);
-        let (xs, ys): (Vec<f64>, Vec<f64>) = some.map(|m| (m.re, m.im)).unzip();
+    for (stability, colour) in
+        [(Stability::Stable, SERIES[0]), (Stability::Neutral, SERIES[2]), (Stability::Unstable, SERIES[1])]
+    {
+        let some = all.iter().zip(each).filter(|(_, own)| **own == stability);
+        let (xs, ys): (Vec<f64>, Vec<f64>) = some.map(|(m, _)| (m.re, m.im)).unzip();
         if !xs.is_empty() {
             let points = Points::new(xs, ys, colour).size(14.0).rim(Colour::WHITE);
-            legend = legend.points(&points, name);
+            legend = legend.points(&points, stability.name());
             panel.add(points);
         }
     }
@@ -74,7 +78,7 @@ mod tests {
             [of(f64::INFINITY, 0.0), of(0.0, 0.0)],
             [of(f64::NAN, 0.0), of(1e300, 0.0)],
         ] {
-            let svg = multipliers(&both).to_svg();
+            let svg = multipliers(&both, &[Stability::Stable, Stability::Neutral]).to_svg();
             assert!(svg.contains("Re ") && !svg.contains("NaN"), "{both:?}");
         }
         assert_eq!([1.0, 1.9, 2.0, 7.0, 31.0].map(tick), [1.0, 1.0, 2.0, 5.0, 20.0]);

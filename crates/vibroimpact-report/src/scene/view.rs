@@ -89,7 +89,7 @@ impl<'a> Viewed<'a> {
                 let (_, (from, shown)) = settle::steady(osc, start, settled);
                 phase_portrait(asked, osc, start, (from, from + shown))
             }
-            (View::Multipliers, Some(both)) => multipliers(both),
+            (View::Multipliers, Some(both)) => multipliers(both, &settled.verdict.stabilities(osc).unwrap_or_default()),
             (View::Sections, _) => section::figure(&self.section, osc, asked),
             (View::Waveform | View::Multipliers, _) => settle::figure(osc, start, settled, asked),
         }

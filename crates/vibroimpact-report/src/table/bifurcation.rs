@@ -12,7 +12,7 @@ use vibroimpact_study::diagram::{Diagram, Show};
 use vibroimpact_study::{Followed, MachineDiagram, PlanError};
 
 /// The table of `vibro diagram --branches`: the columns of the orbit diagram, and the label and the event of points of branches,
-/// which are empty for points from simulation. Of branches, `sweep` has the number, and `kind` is `stable` or `unstable`.
+/// which are empty for points from simulation. Of branches, `sweep` has the number, and `kind` is `stable`, `neutral` or `unstable`.
 /// Solutions that are not admissible are left out.
 ///
 /// # Errors
@@ -28,7 +28,7 @@ pub fn table(behind: &Diagram, followed: &[Followed], asked: &Asked) -> Result<T
             let units = asked.units.at(cut.vary, point.value);
             let values = cut.values(point.value).map(|(parameter, value)| Number(value * asked.units.of(parameter)));
             let values = values.map(|value| value.to_string()).collect::<Vec<_>>().join(",");
-            let kind = if point.cycle.stable() { "stable" } else { "unstable" };
+            let kind = point.cycle.stability();
             let head = format!("{values},branch {},{kind}", number + 1);
             let tail = format!("{},{}", point.cycle.label, point.event.map_or("", |event| event.name()));
             match behind.plan.show {
@@ -67,7 +67,7 @@ pub fn of_machine(
     for (number, points) in branches.iter().enumerate() {
         for point in points {
             let values: String = cut.values(point.value).map(|value| format!("{},", Number(value))).collect();
-            let kind = if point.cycle.stable() { "stable" } else { "unstable" };
+            let kind = point.cycle.stability();
             let head = format!("{values}branch {},{kind}", number + 1);
             let tail = format!("{},{}", point.cycle.label, point.event.map_or("", |event| event.name()));
             match quantity {

@@ -18,7 +18,7 @@ pub fn table<'a>(found: &'a Branches, cut: &Cut, units: &'a Units) -> Table<'a> 
 fn columns(cut: &Cut, units: &Units) -> String {
     let names: Vec<&str> = cut.parameters().map(|parameter| units.column_of(parameter)).collect();
     let velocities = units.column("velocities", QuantityKind::Velocity);
-    format!("branch,{},label,physical,stable,event,re_1,im_1,re_2,im_2,phases,{velocities}", names.join(","))
+    format!("branch,{},label,physical,stable,stability,event,re_1,im_1,re_2,im_2,phases,{velocities}", names.join(","))
 }
 
 /// One row for each point. Phases and velocities are lists separated by blanks.
@@ -27,12 +27,13 @@ fn rows<'a>(found: &'a Branches, cut: Cut, units: &'a Units) -> impl Iterator<It
         branch.points.iter().map(move |point| {
             let event = point.event.map_or("", |event| event.name());
             format!(
-                "{},{},{},{},{},{event},{}",
+                "{},{},{},{},{},{},{event},{}",
                 k + 1,
                 values(&cut, point.value, units),
                 point.cycle.label,
                 point.physical,
                 point.stable(),
+                point.stability(),
                 cells(&point.cycle, &units.at(cut.vary, point.value))
             )
         })

@@ -13,11 +13,11 @@ pub(super) fn closing_columns(machine: &Machine) -> impl Iterator<Item = String>
     ["phases", "speeds", "stops"].into_iter().chain(period).map(str::to_owned)
 }
 
-/// One row a point: number of the branch, the numbers that vary, label, whether it is admissible and stable, event, stop of the
-/// event, fastest closing, multipliers, the drift of a machine that can be translated, of each closing the phase, speed and stop,
+/// One row a point: number of the branch, the numbers that vary, label, whether it is admissible and stable, its stability, event,
+/// stop of the event, fastest closing, multipliers, the drift of a machine that can be translated, of each closing the phase, speed and stop,
 /// and without forcing the period.
 pub(crate) fn table<'a>(machine: &'a Machine, cut: &MachineCut, found: &'a MachineBranched) -> Table<'a> {
-    let own = ["label", "physical", "stable", "event", "stop", "fastest"];
+    let own = ["label", "physical", "stable", "stability", "event", "stop", "fastest"];
     let heads = core::iter::once("branch").chain(cut.paths()).chain(own).map(str::to_owned);
     let drifting = found.all().flatten().any(|point| point.cycle.translations() > 0);
     let header = heads
@@ -34,8 +34,8 @@ pub(crate) fn table<'a>(machine: &'a Machine, cut: &MachineCut, found: &'a Machi
         let cycle = &point.cycle;
         let values: String = cut.values(point.value).map(|value| format!("{},", Number(value))).collect();
         // a branch ends where its orbit ceases to be admissible
-        let (stable, physical, fastest) = (cycle.stable(), true, Number(cycle.fastest()));
-        let mut row = format!("{number},{values}{},{physical},{stable},{event},{stop},{fastest}", cycle.label);
+        let (stable, stability, fastest) = (cycle.stable(), cycle.stability(), Number(cycle.fastest()));
+        let mut row = format!("{number},{values}{},true,{stable},{stability},{event},{stop},{fastest}", cycle.label);
         push(&mut row, Some(&cycle.multipliers), machine.n());
         if drifting {
             push_drift(&mut row, Some(cycle), machine.n());

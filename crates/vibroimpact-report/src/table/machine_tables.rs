@@ -9,6 +9,50 @@ use vibroimpact::quantities::{machine_quantities, machine_quantity_paths};
 use vibroimpact::verdict::{Census, MachineVerdict};
 use vibroimpact_study::{MachineAxis, MachineBasin, MachineMap, MachineShare};
 
+/// The names of stops with blanks between, after a comma.
+fn stops_of(machine: &Machine, stops: &[usize]) -> String {
+    format!(",{}", stops.iter().map(|stop| machine.name_of(*stop)).collect::<Vec<_>>().join(" "))
+}
+
+/// The columns that say more of some labels than the label, where such motions are in a table: the stops that stay closed for ever,
+/// and the number of events over which chaos was seen.
+#[derive(Clone, Copy)]
+struct Remarks {
+    stops: bool,
+    events: bool,
+}
+
+impl Remarks {
+    fn of<'a>(motions: impl Iterator<Item = (&'a [usize], Option<u64>)>) -> Self {
+        motions.fold(Self { stops: false, events: false }, |so_far, (stops, events)| Self {
+            stops: so_far.stops || !stops.is_empty(),
+            events: so_far.events || events.is_some(),
+        })
+    }
+
+    fn heads(self) -> impl Iterator<Item = &'static str> {
+        [("stop", self.stops), ("seen_events", self.events)].into_iter().filter_map(|(name, here)| here.then_some(name))
+    }
+
+    /// The cells of a motion, each after a comma.
+    fn cells(self, machine: &Machine, stops: &[usize], events: Option<u64>) -> String {
+        let mut cells = String::new();
+        if self.stops {
+            cells.push_str(&stops_of(machine, stops));
+        }
+        if self.events {
+            cells.push_str(&events.map_or_else(|| ",".to_owned(), |events| format!(",{events}")));
+        }
+        cells
+    }
+}
+
+/// The remarks on the motions of a table of verdicts.
+fn remarks<'a>(verdicts: impl Iterator<Item = &'a MachineVerdict>) -> Remarks {
+    let closed: Vec<(Vec<usize>, Option<u64>)> = verdicts.map(|one| (one.closed(), one.seen_events())).collect();
+    Remarks::of(closed.iter().map(|(stops, events)| (stops.as_slice(), *events)))
+}
+
 /// One row a motion: label, share, starts, counts of each stop, real and imaginary part of all multipliers, the drift of a
 /// machine that can be translated, all quantities by path.
 pub(crate) fn attractors<'a>(machine: &'a Machine, census: &'a Census<MachineVerdict>) -> Table<'a> {
@@ -18,7 +62,9 @@ pub(crate) fn attractors<'a>(machine: &'a Machine, census: &'a Census<MachineVer
     let header = ["label", "share", "starts"].into_iter().map(str::to_owned).chain(stops).chain(numbered(machine));
     let drifting =
         census.motions().iter().any(|found| cycle_of(&found.verdict).is_some_and(|cycle| cycle.translations() > 0));
-    let header = header.chain(drifts(machine, drifting)).chain(paths).collect::<Vec<_>>().join(",");
+    let remarks = remarks(census.motions().iter().map(|found| &found.verdict));
+    let header = header.chain(drifts(machine, drifting)).chain(remarks.heads().map(str::to_owned));
+    let header = header.chain(paths).collect::<Vec<_>>().join(",");
     let rows = census.by_share().into_iter().map(move |found| {
         let mut row = format!("{},{},{}", found.verdict.label(), Number(census.share(found)), found.count);
         let cycle = cycle_of(&found.verdict);
@@ -30,6 +76,7 @@ pub(crate) fn attractors<'a>(machine: &'a Machine, census: &'a Census<MachineVer
         if drifting {
             push_drift(&mut row, cycle, machine.n());
         }
+        row.push_str(&remarks.cells(machine, &found.verdict.closed(), found.verdict.seen_events()));
         let values = machine_quantities(machine, &found.verdict)
             .map_or_else(|| undefined.clone(), |found| found.iter().map(|(.., measured)| measured.value).collect());
         row.push_str(&quantities(&values));
@@ -91,24 +138,33 @@ fn header<'a>(axes: &'a [MachineAxis], own: &[&'a str], fields: &'a [String]) ->
     heads(axes).into_iter().chain(own.iter().copied()).chain(fields).collect::<Vec<_>>().join(",")
 }
 
-/// One row a start: what varies, the label, and quantities; `refused` beyond a rigid stop.
-pub(crate) fn basin(found: &MachineBasin) -> Table<'_> {
-    let rows = found.cells.iter().enumerate().map(|(k, cell)| {
-        let label = cell.map_or_else(|| "refused".to_owned(), |cell| found.motions[cell].label());
+/// One row a start: what varies, the label, what stops and events say more of it, and quantities; `refused` beyond a rigid stop.
+pub(crate) fn basin<'a>(machine: &'a Machine, found: &'a MachineBasin) -> Table<'a> {
+    let remarks = remarks(found.motions.iter());
+    let rows = found.cells.iter().enumerate().map(move |(k, cell)| {
+        let motion = cell.map(|cell| &found.motions[cell]);
+        let label = motion.map_or_else(|| "refused".to_owned(), MachineVerdict::label);
+        let closed = motion.map_or_else(Vec::new, MachineVerdict::closed);
+        let remarks = remarks.cells(machine, &closed, motion.and_then(MachineVerdict::seen_events));
         let values = cell.map_or_else(|| ",".repeat(found.fields.len()), |cell| quantities(&found.quantities[cell]));
-        format!("{}{label}{values}", self::values(&found.axes, k))
+        format!("{}{label}{remarks}{values}", self::values(&found.axes, k))
     });
-    Table::new(header(&found.axes, &["label"], &found.fields), rows)
+    let own: Vec<&str> = core::iter::once("label").chain(remarks.heads()).collect();
+    Table::new(header(&found.axes, &own, &found.fields), rows)
 }
 
-/// One row a motion at a point: what varies, label, share, and quantities.
-pub(crate) fn map(found: &MachineMap) -> Table<'_> {
-    let rows = found.cells.iter().enumerate().flat_map(|(k, cell)| {
+/// One row a motion at a point: what varies, label, share, what stops and events say more of the label, and quantities.
+pub(crate) fn map<'a>(machine: &'a Machine, found: &'a MachineMap) -> Table<'a> {
+    let motions = found.cells.iter().flatten();
+    let remarks = Remarks::of(motions.map(|motion| (motion.stops.as_slice(), motion.seen_events)));
+    let rows = found.cells.iter().enumerate().flat_map(move |(k, cell)| {
         let at = values(&found.axes, k);
         let row = move |motion: &MachineShare| {
-            format!("{at}{},{}{}", motion.label(), Number(motion.share), quantities(&motion.quantities))
+            let remarks = remarks.cells(machine, &motion.stops, motion.seen_events);
+            format!("{at}{},{}{remarks}{}", motion.label(), Number(motion.share), quantities(&motion.quantities))
         };
         cell.iter().map(row)
     });
-    Table::new(header(&found.axes, &["label", "share"], &found.fields), rows)
+    let own: Vec<&str> = ["label", "share"].into_iter().chain(remarks.heads()).collect();
+    Table::new(header(&found.axes, &own, &found.fields), rows)
 }

@@ -4,8 +4,9 @@ use super::Table;
 use crate::ReportError;
 use crate::number::Number;
 use vibroimpact::events::{MachineLimits, MachineSamples, MachineStart};
-use vibroimpact::machine::Machine;
+use vibroimpact::machine::{Machine, Opening, StopLaw};
 use vibroimpact_study::PlanError;
+use vibroimpact_study::machine::contact_word;
 
 /// Maximum number of points at equal steps.
 const MOST_POINTS: f64 = 1e7;
@@ -29,15 +30,23 @@ pub fn samples<'a>(
         .map_err(|error| ReportError::Plan(PlanError::Machine(error.into())))
 }
 
-/// The table of `vibro simulate --machine`: time, coordinates, velocities, gaps of the stops, forces of stops and joints.
+/// The table of `vibro simulate --machine`: time, coordinates, velocities, gaps of the stops, forces of stops and joints, how far
+/// the surfaces of damped stops stand back, and what stops and joints do.
 ///
 /// # Errors
 /// As [`samples`].
 pub fn table<'a>(machine: &'a Machine, start: &MachineStart, span: (f64, f64)) -> Result<Table<'a>, ReportError> {
-    let rows = samples(machine, start, span)?.map(|sample| {
+    let surfaces = recovering(machine);
+    let rows = samples(machine, start, span)?.map(move |sample| {
         let mut row = Number(sample.time).to_string();
         for value in sample.q.iter().chain(&sample.qdot).chain(&sample.gaps).chain(&sample.forces) {
             row.push_str(&format!(",{}", Number(*value)));
+        }
+        for stop in &surfaces {
+            row.push_str(&format!(",{}", Number(sample.surfaces[*stop])));
+        }
+        for state in &sample.states {
+            row.push_str(&format!(",{}", contact_word(*state)));
         }
         row
     });
@@ -51,6 +60,18 @@ pub fn columns(machine: &Machine) -> Vec<String> {
     let gaps = machine.stops().iter().map(|stop| format!("gap.{}", stop.name));
     let contacts = machine.stops().len() + machine.joints().len();
     let forces = (0..contacts).map(|place| format!("force.{}", machine.name_of(place)));
+    let surfaces = recovering(machine);
+    let surfaces = surfaces.iter().map(|stop| format!("surface.{}", machine.name_of(*stop)));
+    let states = (0..contacts).map(|place| format!("state.{}", machine.name_of(place)));
     let time = core::iter::once("time".to_owned());
-    time.chain(coordinates("q")).chain(coordinates("qdot")).chain(gaps).chain(forces).collect()
+    let motion = time.chain(coordinates("q")).chain(coordinates("qdot")).chain(gaps).chain(forces);
+    motion.chain(surfaces).chain(states).collect()
+}
+
+/// The stops whose surfaces can stand back.
+fn recovering(machine: &Machine) -> Vec<usize> {
+    let stops = machine.stops().iter().enumerate();
+    let recovers =
+        |law: &StopLaw| matches!(law, StopLaw::Compliant { damping, opening: Opening::Force, .. } if *damping > 0.0);
+    stops.filter(|(_, stop)| recovers(&stop.law)).map(|(j, _)| j).collect()
 }

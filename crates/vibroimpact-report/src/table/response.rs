@@ -14,7 +14,7 @@ pub fn table<'a>(found: &'a ResponseCurves, units: &'a Units) -> Table<'a> {
     let swept = move |name: &'static str, motions: &'a [SweptMotion]| {
         motions.iter().map(move |motion| {
             let own = cells(&Quantity::ALL, motion.quantities, &units.at(vary, motion.value));
-            format!("{name},{},{},true,{own}", Number(motion.value * unit), motion.label)
+            format!("{name},{},{},true,,{own}", Number(motion.value * unit), motion.label)
         })
     };
     let branches = found.branches.iter().enumerate().flat_map(move |(k, branch)| {
@@ -22,16 +22,20 @@ pub fn table<'a>(found: &'a ResponseCurves, units: &'a Units) -> Table<'a> {
             let solution = &point.solution;
             let own = cells(&Quantity::ALL, point.quantities, &units.at(vary, solution.value));
             format!(
-                "{},{},{},{},{}{own}",
+                "{},{},{},{},{},{}{own}",
                 k + 1,
                 Number(solution.value * unit),
                 solution.cycle.label,
                 solution.physical,
-                solution.stable()
+                solution.stable(),
+                solution.stability()
             )
         })
     });
-    let header =
-        format!("curve,{},label,physical,stable{}", units.column_of(found.plan.vary), columns(&Quantity::ALL, units));
+    let header = format!(
+        "curve,{},label,physical,stable,stability{}",
+        units.column_of(found.plan.vary),
+        columns(&Quantity::ALL, units)
+    );
     Table::new(header, swept("up", &found.up).chain(swept("down", &found.down)).chain(branches))
 }

@@ -46,7 +46,7 @@ pub(crate) use read::from_either;
 pub use read::no_files;
 pub use shapes::{MatrixText, VectorText};
 pub use source::MachineSource;
-pub use start::{StartNumbers, StartText};
+pub use start::{ContactText, ContactWord, StartNumbers, StartText, contact_word};
 pub use text::{
     ForceText, FrictionText, ImpactsText, LinkText, MachineText, ModeText, MotionText, OpeningText, StopText,
 };

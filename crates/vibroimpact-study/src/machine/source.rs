@@ -10,6 +10,7 @@ use super::text::MachineText;
 use super::written::{listed_path, numbers};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 use vibroimpact::machine::{Machine, MachineError, MachineParts};
 
 /// A machine file: the table `[machine]`, and optionally a title, the source, parameters and changed numbers.
@@ -102,7 +103,7 @@ impl MachineSource {
     }
 
     fn start_of(&self, parts: &MachineParts) -> Result<StartNumbers, MachineTextError> {
-        self.start.clone().unwrap_or_default().numbers(&parts.coordinates, &self.parameters)
+        self.start.clone().unwrap_or_default().numbers(parts, &self.parameters)
     }
 
     /// The number at a path: of a parameter, of the file, or else of its expansion.
@@ -155,19 +156,34 @@ impl MachineSource {
     /// # Errors
     /// [`MachineTextError`] if the file describes no machine.
     pub fn paths(&self) -> Result<Vec<String>, MachineTextError> {
-        let expansion = self.machine()?.paths();
-        let mut paths: Vec<String> = self.parameters.names().into_iter().map(str::to_owned).collect();
+        Ok(self.numbers()?.0.into_iter().map(|(path, _)| path).collect())
+    }
+
+    /// The same paths with their numbers.
+    ///
+    /// # Errors
+    /// As [`Self::paths`].
+    pub fn numbers(&self) -> Result<Named<f64>, MachineTextError> {
+        let machine = self.machine()?;
+        let mut all = self.parameters.clone();
+        let mut known: BTreeSet<String> = all.names().into_iter().map(str::to_owned).collect();
         let mut copy = self.machine.clone();
         for (path, number) in numbers(&mut copy) {
             // the zeros of a matrix that is written as rows are not listed
             let inside = path.matches('.').count() == 2 && path.starts_with(['m', 'd', 's']);
             let inside = inside && ["mass.", "damping.", "stiffness."].iter().any(|kind| path.starts_with(kind));
-            if !(paths.contains(&path) || inside && *number == NumberText::Value(0.0)) {
-                paths.push(path);
+            if inside && *number == NumberText::Value(0.0) || known.contains(&path) {
+                continue;
             }
+            let value = match self.set.get(&path) {
+                Some(_) => machine.number(&path).map_err(|error| self.explained(error.into()))?,
+                None => number.value(&self.parameters).map_err(|error| MachineTextError::new(&path, error))?,
+            };
+            known.insert(path.clone());
+            all.0.push((path, value));
         }
-        paths.extend(expansion.into_iter().filter(|path| !paths.contains(path)).collect::<Vec<_>>());
-        Ok(paths)
+        all.0.extend(machine.numbers().into_iter().filter(|(path, _)| !known.contains(path)));
+        Ok(all)
     }
 
     /// The expansion as a source: it has matrices and directions only, and no parameters.
@@ -175,10 +191,12 @@ impl MachineSource {
     /// # Errors
     /// As [`Self::machine`].
     pub fn expansion(&self) -> Result<Self, MachineTextError> {
-        let machine = MachineText::from(self.machine()?.parts());
+        let machine = self.machine()?;
         let (title, source, summary) = (self.title.clone(), self.source.clone(), self.summary.clone());
         let start = self.start.is_some().then(|| self.start()).transpose()?;
-        let start = start.as_ref().map(StartText::from).filter(|start| *start != StartText::default());
+        let start = start.map(|start| StartText::of_numbers(&start, machine.parts()));
+        let start = start.filter(|start| *start != StartText::default());
+        let machine = MachineText::from(machine.parts());
         Ok(Self { title, source, summary, start, machine, ..Self::default() })
     }
 

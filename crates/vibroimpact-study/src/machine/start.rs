@@ -6,9 +6,76 @@ use super::number::NumberText;
 use super::shapes::VectorText;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::{Contact, MachineStart};
+use vibroimpact::machine::MachineParts;
+use vibroimpact::regime::ContactState;
 
-/// The table `[start]`: coordinates, velocities and phase of the forcing at time 0, each 0 when absent.
+/// What a stop or a friction joint does at the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum ContactWord {
+    /// A stop that is open.
+    #[default]
+    Open,
+    /// A compliant stop that is closed.
+    Closed,
+    /// A stop on which the structure rests.
+    Resting,
+    /// A stop that is closed without force.
+    Touching,
+    /// A joint that slides with positive relative velocity.
+    Forward,
+    /// A joint that slides with negative relative velocity.
+    Backward,
+    /// A joint that holds.
+    Holding,
+}
+
+const WORDS: [(ContactWord, ContactState, &str); 7] = [
+    (ContactWord::Open, ContactState::Open, "open"),
+    (ContactWord::Closed, ContactState::Closed, "closed"),
+    (ContactWord::Resting, ContactState::Resting, "resting"),
+    (ContactWord::Touching, ContactState::Touching, "touching"),
+    (ContactWord::Forward, ContactState::Forward, "forward"),
+    (ContactWord::Backward, ContactState::Backward, "backward"),
+    (ContactWord::Holding, ContactState::Holding, "holding"),
+];
+
+/// The word for what a stop or a joint does.
+#[must_use]
+pub fn contact_word(state: ContactState) -> &'static str {
+    WORDS.iter().find(|(_, of, _)| *of == state).map_or("open", |(.., word)| word)
+}
+
+/// A stop or a friction joint at the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ContactText {
+    /// What it does; open if absent.
+    pub state: ContactWord,
+    /// How far the surface of a damped stop stands back that has opened by force; 0 if absent.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub surface: f64,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref)] // serde passes a reference
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
+impl ContactText {
+    fn of(contact: &Contact) -> Self {
+        let word = WORDS.iter().find(|(_, of, _)| *of == contact.state).map(|(word, ..)| *word);
+        Self { state: word.unwrap_or_default(), surface: contact.surface }
+    }
+
+    fn contact(self, place: usize) -> Contact {
+        let state = WORDS.iter().find(|(word, ..)| *word == self.state).map(|(_, state, _)| *state);
+        Contact { place, state: state.unwrap_or(ContactState::Open), surface: self.surface }
+    }
+}
+
+/// The table `[start]`: coordinates, velocities and phase of the forcing at time 0, each 0 when absent, and contacts.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct StartText {
@@ -21,6 +88,14 @@ pub struct StartText {
     /// The phase of the forcing, in radians.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub phase: Option<NumberText>,
+    /// What stops and joints do, by name: `{ stop = { state = "open", surface = 0.01 } }`. What the others do follows from
+    /// coordinates and velocities.
+    #[serde(skip_serializing_if = "Named::is_empty")]
+    pub contacts: Named<ContactText>,
+    /// The digits that coordinates, velocities and contacts leave out, as a printed state has them. They count only together
+    /// with the numbers with which they were printed, and for the same machine.
+    #[serde(skip_serializing_if = "Named::is_empty")]
+    pub exact: Named<Vec<f64>>,
 }
 
 /// The numbers of a start.
@@ -32,15 +107,57 @@ pub struct StartNumbers {
     pub qdot: Vec<f64>,
     /// The phase of the forcing, in radians.
     pub phase: f64,
+    /// What stops and joints do.
+    pub contacts: Vec<Contact>,
+    /// The digits that these numbers leave out.
+    pub exact: Vec<(String, Vec<f64>)>,
+}
+
+fn names(parts: &MachineParts) -> impl Iterator<Item = &String> {
+    parts.stops.iter().map(|stop| &stop.name).chain(parts.joints.iter().map(|joint| &joint.name))
 }
 
 impl StartText {
-    /// The numbers, for these coordinates.
+    /// The table of a state of a machine, with all coordinates and velocities.
+    #[must_use]
+    pub fn of(start: &MachineStart, parts: &MachineParts) -> Self {
+        let numbers = StartNumbers {
+            q: start.q.clone(),
+            qdot: start.qdot.clone(),
+            phase: start.phase,
+            contacts: start.contacts.clone(),
+            exact: start.exact.clone(),
+        };
+        let list =
+            |values: &[f64]| Some(VectorText::List(values.iter().map(|value| NumberText::Value(*value)).collect()));
+        Self { q: list(&start.q), qdot: list(&start.qdot), ..Self::of_numbers(&numbers, parts) }
+    }
+
+    /// The table of these numbers.
+    pub(super) fn of_numbers(numbers: &StartNumbers, parts: &MachineParts) -> Self {
+        let zero = |value: &f64| value.to_bits() == 0;
+        let list = |values: &[f64]| {
+            let list = values.iter().map(|value| NumberText::Value(*value)).collect();
+            (!values.iter().all(zero)).then_some(VectorText::List(list))
+        };
+        let all: Vec<&String> = names(parts).collect();
+        let contact = |contact: &Contact| Some(((*all.get(contact.place)?).clone(), ContactText::of(contact)));
+        Self {
+            q: list(&numbers.q),
+            qdot: list(&numbers.qdot),
+            phase: (!zero(&numbers.phase)).then_some(NumberText::Value(numbers.phase)),
+            contacts: numbers.contacts.iter().filter_map(contact).collect(),
+            exact: Named(numbers.exact.clone()),
+        }
+    }
+
+    /// The numbers, for a machine of these parts.
     pub(super) fn numbers(
         &self,
-        coordinates: &[String],
+        parts: &MachineParts,
         parameters: &Named<f64>,
     ) -> Result<StartNumbers, MachineTextError> {
+        let coordinates = parts.coordinates.as_slice();
         let value = |path: &str, number: &NumberText| {
             let value = number.value(parameters).map_err(|error| MachineTextError::new(path, error))?;
             let finite = value.is_finite().then_some(value);
@@ -79,10 +196,20 @@ impl StartText {
             }
             Ok(values)
         };
+        let contact = |(name, contact): &(String, ContactText)| {
+            let place = names(parts).position(|known| known == name).ok_or_else(|| {
+                let known = names(parts).map(String::as_str).collect::<Vec<_>>().join(", ");
+                let problem = MachineProblem::Unknown { name: name.clone(), known };
+                MachineTextError::new(format!("start.contacts.{name}"), problem)
+            })?;
+            Ok(contact.contact(place))
+        };
         Ok(StartNumbers {
             q: vector("start.q", self.q.as_ref())?,
             qdot: vector("start.qdot", self.qdot.as_ref())?,
             phase: self.phase.as_ref().map_or(Ok(0.0), |number| value("start.phase", number))?,
+            contacts: self.contacts.0.iter().map(contact).collect::<Result<_, MachineTextError>>()?,
+            exact: self.exact.0.clone(),
         })
     }
 }
@@ -92,22 +219,7 @@ fn wrong(path: &str, what: String) -> MachineTextError {
 }
 
 impl From<StartNumbers> for MachineStart {
-    fn from(StartNumbers { q, qdot, phase }: StartNumbers) -> Self {
-        Self { q, qdot, phase }
-    }
-}
-
-impl From<&StartNumbers> for StartText {
-    fn from(numbers: &StartNumbers) -> Self {
-        let zero = |value: &f64| value.to_bits() == 0;
-        let list = |values: &[f64]| {
-            let list = values.iter().map(|value| NumberText::Value(*value)).collect();
-            (!values.iter().all(zero)).then_some(VectorText::List(list))
-        };
-        Self {
-            q: list(&numbers.q),
-            qdot: list(&numbers.qdot),
-            phase: (!zero(&numbers.phase)).then_some(NumberText::Value(numbers.phase)),
-        }
+    fn from(StartNumbers { q, qdot, phase, contacts, exact }: StartNumbers) -> Self {
+        Self { q, qdot, phase, contacts, exact }
     }
 }

@@ -7,7 +7,7 @@ use super::places::{Places, check_name, check_place, name_of_mode};
 use super::shapes::MatrixText;
 use super::text::{LinkText, MachineText, ModeText};
 use core::f64::consts::TAU;
-use vibroimpact::machine::{MachineParts, modal_damping};
+use vibroimpact::machine::{MOST_COORDINATES, MachineFault, MachineParts, modal_damping};
 use vibroimpact::math::Matrix;
 
 /// The names, and what they stand for.
@@ -34,6 +34,10 @@ pub(super) fn places<'a>(text: &MachineText, parameters: &'a Named<f64>) -> Resu
         }
         None => own,
     };
+    // before any matrix is made
+    if coordinates.len() > MOST_COORDINATES {
+        return Err(MachineTextError::new("coordinates", MachineFault::TooLarge(coordinates.len())));
+    }
     for name in &coordinates {
         check_place("coordinates", name)?;
     }
@@ -213,6 +217,9 @@ fn links(text: &MachineText, places: &Places<'_>) -> Result<Vec<Link>, MachineTe
         if seen.contains(&name) {
             return Err(MachineTextError::new(path, MachineProblem::Twice));
         }
+        if link.stiffness.is_none() && link.damping.is_none() {
+            return Err(MachineTextError::new(path, MachineProblem::Missing { needed: "a stiffness or a damping" }));
+        }
         let stiffness = places.value_or(&format!("{path}.stiffness"), link.stiffness.as_ref(), 0.0)?;
         let damping = places.value_or(&format!("{path}.damping"), link.damping.as_ref(), 0.0)?;
         for (field, value) in [("stiffness", stiffness), ("damping", damping)] {
@@ -229,9 +236,10 @@ fn links(text: &MachineText, places: &Places<'_>) -> Result<Vec<Link>, MachineTe
 
 /// Adds `factor * direction * direction^T`, symmetric to the last bit.
 fn add_outer(matrix: &mut Matrix, factor: f64, direction: &[f64]) {
-    for (i, one) in direction.iter().enumerate() {
-        for (j, other) in direction.iter().enumerate() {
-            matrix[(i, j)] += factor * (one * other);
+    let moved: Vec<(usize, f64)> = direction.iter().copied().enumerate().filter(|(_, value)| *value != 0.0).collect();
+    for (i, one) in &moved {
+        for (j, other) in &moved {
+            matrix[(*i, *j)] += factor * (one * other);
         }
     }
 }

@@ -6,9 +6,7 @@ use crate::PlanError;
 use crate::diagram::{MotionKind, SAME};
 use crate::map::options;
 use core::f64::consts::TAU;
-use vibroimpact::events::{
-    MachineEnd, MachineEvent, MachineLimits, MachineMotion, MachineSample, MachineSamples, MachineStart,
-};
+use vibroimpact::events::{MachineEnd, MachineLimits, MachineMotion, MachineSample, MachineSamples, MachineStart};
 use vibroimpact::machine::Machine;
 use vibroimpact::regime::ContactState;
 use vibroimpact::system::phase;
@@ -38,10 +36,6 @@ pub(super) const EVENTS_EACH: u64 = 1000;
 /// The number of closings for which a motion may have events in advance.
 const BEFORE: u64 = 10;
 
-fn state(event: &MachineEvent) -> MachineStart {
-    MachineStart { q: event.q.clone(), qdot: event.qdot.clone(), phase: event.phase }
-}
-
 fn near(a: f64, b: f64) -> bool {
     (a - b).abs() <= SAME * (1.0 + a.abs())
 }
@@ -67,7 +61,7 @@ pub(super) fn closings(
     }
     let mut motion = MachineMotion::new(machine, start, MachineLimits::default()).map_err(refused)?;
     let mut points: Vec<MachineDiagramPoint> = Vec::new();
-    let (mut count, mut events, mut last) = (0, 0, start.clone());
+    let (mut count, mut events) = (0, 0);
     // a motion may have many events before its first closing, but one that closes no more is not followed for ever
     while events < EVENTS_EACH * (count + BEFORE) {
         events += 1;
@@ -77,10 +71,10 @@ pub(super) fn closings(
                 Some(MachineEnd::Stuck) => MotionKind::Stuck,
                 _ => MotionKind::Undecided,
             };
+            let last = motion.reached();
             let last = if kind == MotionKind::Undecided { last } else { onwards(last)? };
             return Ok(Followed { kind, points: Vec::new(), last });
         };
-        last = state(&event);
         if !event.closes() {
             continue;
         }
@@ -103,17 +97,13 @@ pub(super) fn closings(
         }
     }
     let kind = if points.is_empty() { MotionKind::Undecided } else { MotionKind::Impacts };
-    Ok(Followed { kind, points, last })
+    Ok(Followed { kind, points, last: motion.reached() })
 }
 
 /// The state a time after a start without events.
 fn after(machine: &Machine, start: &MachineStart, time: f64) -> Result<MachineStart, PlanError> {
     let samples = MachineSamples::new(machine, start, limits(time), (time, time)).map_err(refused)?;
-    Ok(samples.last().map_or_else(|| start.clone(), |sample| sampled(&sample)))
-}
-
-pub(super) fn sampled(sample: &MachineSample) -> MachineStart {
-    MachineStart { q: sample.q.clone(), qdot: sample.qdot.clone(), phase: sample.phase }
+    Ok(samples.last().map_or_else(|| start.clone(), |sample| sample.start()))
 }
 
 /// A motion from its first state at phase 0 of the forcing: that state, and the states at phase 0 over so many forcing periods,
@@ -156,7 +146,7 @@ pub(super) fn strobes(
             continue;
         }
         number += 1;
-        last = sampled(&sample);
+        last = sample.start();
         last.phase = 0.0;
         if number <= transient {
             continue;
@@ -206,7 +196,7 @@ mod tests {
     #[test]
     fn without_stops_there_are_no_closings() {
         let machine = MachineSource::open("den-hartog").unwrap().machine().unwrap();
-        let start = MachineStart { q: vec![0.0], qdot: vec![0.0], phase: 0.0 };
+        let start = MachineStart { q: vec![0.0], qdot: vec![0.0], phase: 0.0, ..MachineStart::default() };
         let Followed { kind, points, last } = closings(&machine, &start, (500, 100)).unwrap();
         assert!(kind == MotionKind::NoImpact && points.is_empty() && last != start);
     }

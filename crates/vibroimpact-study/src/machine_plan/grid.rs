@@ -98,6 +98,10 @@ pub struct MachineShare {
     pub speed: f64,
     /// The largest modulus of the multipliers; not-a-number unless it is a cycle.
     pub multiplier: f64,
+    /// The stops that stay closed for ever, by their numbers from 0.
+    pub stops: Vec<usize>,
+    /// The number of events over which chaos was seen; `None` unless it is chaotic.
+    pub seen_events: Option<u64>,
     /// A value of each field of the plan; not-a-number where it is not defined.
     pub quantities: Vec<f64>,
 }
@@ -129,6 +133,12 @@ impl MachineBasin {
 }
 
 impl MachineMap {
+    /// The smallest number of events over which chaos was seen at a point; `None` if it was seen at none.
+    #[must_use]
+    pub fn seen_events(&self) -> Option<u64> {
+        self.cells.iter().flatten().filter_map(|motion| motion.seen_events).min()
+    }
+
     /// The number of points at which each label occurs.
     #[must_use]
     pub fn labels(&self) -> BTreeMap<String, u64> {

@@ -30,6 +30,11 @@ pub struct MachineLyapunovPlan {
     pub points: Option<u64>,
 }
 
+/// The smallest and the largest number of events of a measurement, and the longest transient.
+const LEAST_IMPACTS: u64 = 25;
+const MOST_IMPACTS: u64 = 10_000_000;
+const MOST_TRANSIENT: u64 = 1_000_000;
+
 impl MachineLyapunovPlan {
     /// The numbers of events of the measurement and of the transient.
     pub(crate) fn lengths(&self) -> (u32, u32) {
@@ -45,9 +50,12 @@ impl MachineLyapunovPlan {
             return Err(PlanError::UnforcedSection);
         }
         limits::section(self.points)?;
-        let most = self.impacts.unwrap_or(1_000).max(self.transient.unwrap_or(0));
-        if self.impacts.is_some_and(|impacts| impacts < 25) || most > 10_000_000 {
-            return Err(PlanError::Impacts(u64::from(most.min(self.impacts.unwrap_or(most)))));
+        let (least, most) = (LEAST_IMPACTS, MOST_IMPACTS);
+        if let Some(given) = self.impacts.map(u64::from).filter(|given| !(least..=most).contains(given)) {
+            return Err(PlanError::Measured { given, least, most });
+        }
+        if let Some(given) = self.transient.map(u64::from).filter(|given| *given > MOST_TRANSIENT) {
+            return Err(PlanError::Transient { given, most: MOST_TRANSIENT });
         }
         if self.axes.is_empty() {
             return Ok(());

@@ -46,5 +46,5 @@ pub use orbits::label as machine_label;
 pub use plan::{MachinePlan, MachineTask};
 pub use run::{MachineResults, run_machine};
 pub use section::MachineSection;
-pub use simulate::MachineSimulated;
+pub use simulate::{MachineSimulated, events_with_states};
 pub use text::is_machine_plan;

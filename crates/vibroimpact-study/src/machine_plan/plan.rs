@@ -8,7 +8,7 @@ use super::grid::{MachineBasinPlan, MachineMapPlan};
 use super::lyapunov::MachineLyapunovPlan;
 use super::simulate::{check, most_events};
 use super::{orbits, verdicts};
-use crate::machine::{MachineSource, NumberText, StartText, VectorText};
+use crate::machine::{MachineSource, Named, NumberText, StartText, VectorText};
 use crate::map::check_impacts;
 use crate::plan::{check_shard, check_tile, hash_of};
 use crate::{PLAN_VERSION, PlanError};
@@ -121,7 +121,11 @@ impl MachinePlan {
             (!values.is_empty()).then_some(VectorText::List(list))
         };
         let phase = (start.phase != 0.0).then_some(NumberText::Value(start.phase));
-        let text = StartText { q: vector(&start.q), qdot: vector(&start.qdot), phase };
+        // contacts have names in a machine only; another file is refused later
+        let contacts = if start.contacts.is_empty() { None } else { self.machine.parts().ok() };
+        let contacts = contacts.map(|parts| StartText::of(start, &parts).contacts).unwrap_or_default();
+        let exact = Named(start.exact.clone());
+        let text = StartText { q: vector(&start.q), qdot: vector(&start.qdot), phase, contacts, exact };
         self.machine.start = (text != StartText::default()).then_some(text);
         self
     }

@@ -1,8 +1,8 @@
 //! Points of the attractor of a machine: its closings of stops, and its states once in every forcing period.
 
-use super::after_transient::{EVENTS_EACH, at_phase_zero, refused, sampled};
+use super::after_transient::{EVENTS_EACH, at_phase_zero, refused};
 use crate::{Control, RunError, Stopped};
-use vibroimpact::events::{MachineEvent, MachineLimits, MachineMotion, MachineStart};
+use vibroimpact::events::{MachineEvent, MachineLimits, MachineMotion, MachineSample, MachineStart};
 use vibroimpact::machine::Machine;
 
 /// The points of a motion of a machine in two sections, in the order of time.
@@ -28,7 +28,7 @@ pub(super) fn section(
     let closings = events.filter(MachineEvent::closes).skip(whole(transient)).take(whole(points)).collect();
     let (_, samples) = at_phase_zero(machine, start, transient + points)?;
     let states = samples.take_while(|_| !control.stopping()).filter(|sample| sample.even);
-    let state = |sample| MachineStart { phase: 0.0, ..sampled(&sample) };
+    let state = |sample: MachineSample| MachineStart { phase: 0.0, ..sample.start() };
     let strobes = states.skip(whole(transient)).take(whole(points)).map(state).collect();
     if control.stopping() {
         return Err(Stopped { done: 0, total: 1 }.into());
@@ -53,7 +53,7 @@ mod tests {
         let machine = Machine::new(parts).unwrap();
         let (transient, points) = (300, 20);
         let rest = Start::at_rest(&osc);
-        let start = MachineStart { q: vec![rest.x], qdot: vec![rest.v], phase: rest.phase };
+        let start = MachineStart { q: vec![rest.x], qdot: vec![rest.v], phase: rest.phase, ..MachineStart::default() };
         let found = section(&machine, &start, (transient, points), &Control::default()).unwrap();
         let expected = of_oscillator(&osc, rest, transient, points);
         assert_eq!((found.closings.len(), found.strobes.len()), (20, 20));

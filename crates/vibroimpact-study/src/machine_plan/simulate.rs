@@ -1,6 +1,6 @@
 //! The events of a motion of a machine, up to a number of events or forcing periods, and the reason why the list ends.
 
-use crate::simulate::TELL;
+use crate::simulate::{SEARCH_LIMIT, TELL};
 use crate::{Control, PlanError, RunError, Stopped};
 use vibroimpact::events::{MachineEnd, MachineEvent, MachineLimits, MachineMotion, MachineStart};
 use vibroimpact::machine::Machine;
@@ -85,6 +85,20 @@ pub(super) fn simulate(
     Ok(MachineSimulated { shown_until, events, reason, time })
 }
 
+/// The events of a motion again, each with the state from which the motion goes on after it. They are followed anew, so that
+/// the states of a long motion need no memory.
+///
+/// # Errors
+/// [`PlanError`] for an invalid start.
+pub fn events_with_states<'a>(
+    machine: &'a Machine,
+    start: &MachineStart,
+    periods: Option<f64>,
+) -> Result<MachineMotion<'a>, PlanError> {
+    let until = periods.zip(machine.period()).map_or(f64::INFINITY, |(periods, period)| periods * period);
+    MachineMotion::with_states(machine, start, limits(until)).map_err(|error| PlanError::Machine(error.into()))
+}
+
 /// The limits of a search for events until a time.
 pub(super) fn limits(until: f64) -> MachineLimits {
     let limits = MachineLimits::default();
@@ -102,7 +116,7 @@ const fn name(end: Option<MachineEnd>) -> &'static str {
     match end {
         Some(MachineEnd::Never) => "no_more_impacts",
         Some(MachineEnd::Stuck) => "stuck",
-        None | Some(MachineEnd::SearchLimit) => "search_limit",
+        None | Some(MachineEnd::SearchLimit) => SEARCH_LIMIT,
         Some(MachineEnd::NoEventWithin) => "time_limit",
         Some(MachineEnd::Inconsistent) => "inconsistent",
         Some(MachineEnd::Collapse) => "collapse",

@@ -121,6 +121,7 @@ mod tests {
                 q: vec![0.1 + 0.2; n],
                 qdot: vec![-1e-300; n],
                 phase: 1.0,
+                ..MachineStart::default()
             });
             let (toml, json) = (plan.to_toml(), serde_json::to_string(&plan).unwrap());
             assert_eq!(MachinePlan::from_text(&toml, no_files), Ok(plan.clone()), "{toml}");

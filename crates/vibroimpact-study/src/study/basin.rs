@@ -237,7 +237,7 @@ impl Fill for BasinFill {
             let tile = self.compute(&self.grid.tile(k), &|| false);
             tile.map(|tile| self.leads(&tile).1).unwrap_or_default()
         };
-        let numbering = Numbering { field: 1, known: self.cycles(one), unknown: Box::new(unknown) };
+        let numbering = Numbering { field: 1, known: self.cycles(one), stops: Vec::new(), unknown: Box::new(unknown) };
         Some(Numbered::Oscillator(numbering))
     }
 }

@@ -1,6 +1,6 @@
-//! Numbers for the cycles of one system, the same in all tiles.
+//! Numbers for the cycles of one system, the same in all tiles, and for the rests of a machine, which may be on different stops.
 //!
-//! Two different motions may have the same label, such as 1/1. A survey before the first tile, which every tile repeats
+//! Two different motions may have the same label, such as 1/1 or stuck. A survey before the first tile, which every tile repeats
 //! with the same result, numbers the cycles that it finds. A tile that finds another cycle gives it a preliminary
 //! number below [`NONE`]. When all tiles are complete, these few cycles are computed again and numbered in the order of
 //! the tiles.
@@ -13,7 +13,7 @@ use crate::grid::Grid;
 use std::collections::BTreeMap;
 use vibroimpact::verdict::{Census, CountedMotion, MachineVerdict, Verdict};
 
-/// Number of a motion that is no cycle.
+/// Number of a motion that has none.
 pub(super) const NONE: i32 = -1;
 /// Number of the cycle of a start that lies beyond a rigid stop, which counts for no share.
 pub(super) const BEYOND: i32 = i32::MIN + 1;
@@ -34,7 +34,7 @@ pub(super) fn field(label: Field) -> Field {
 
 /// The number of a motion in a tile. Cycles that the survey has not found are added to `unknown`.
 pub(super) fn number<V: StoredMotion>(known: &[V], unknown: &mut Census<V>, found: &CountedMotion<V>) -> i32 {
-    if !found.verdict.is_cycle() {
+    if !found.verdict.is_numbered() {
         return NONE;
     }
     let whole = |n: usize| i32::try_from(n).unwrap_or(i32::MAX / 2);
@@ -54,12 +54,12 @@ const SAME: f64 = 1e-6;
 
 /// Whether two verdicts are the same cycle.
 pub(super) fn same<V: StoredMotion>(a: &V, b: &V) -> bool {
-    a.is_cycle() && a.same_as(b, SAME)
+    a.is_numbered() && a.same_as(b, SAME)
 }
 
 /// The cycles found by a survey.
 pub(super) fn survey<V: StoredMotion>(found: &Census<V>) -> Vec<V> {
-    found.motions().iter().filter(|found| found.verdict.is_cycle()).map(|found| found.verdict.clone()).collect()
+    found.motions().iter().filter(|found| found.verdict.is_numbered()).map(|found| found.verdict.clone()).collect()
 }
 
 /// The numbers of the cycles of an oscillator, or of a machine.
@@ -83,6 +83,8 @@ pub(crate) struct Numbering<'a, V> {
     pub(super) field: usize,
     /// The cycles of the survey.
     pub(super) known: &'a [V],
+    /// The names of the stops of a machine.
+    pub(super) stops: Vec<String>,
     /// The cycles that only the given tile has found, in the order of their preliminary numbers.
     pub(super) unknown: Box<dyn Fn(u64) -> Census<V> + 'a>,
 }
@@ -133,13 +135,17 @@ impl<V: StoredMotion> Numbering<'_, V> {
         let count = |n: i32| counts.get(&n).copied().unwrap_or(0);
         let starts: Vec<u64> = (0..cycles.len()).map(|n| i32::try_from(n).map_or(0, count)).collect();
         let cycles: Vec<StoredCycle> = cycles.iter().filter_map(StoredMotion::stored_cycle).collect();
-        Ok(tables(&cycles, &starts, (grid.points() - count(BEYOND), V::UNITS)))
+        Ok(tables(&cycles, (&self.stops, &starts), (grid.points() - count(BEYOND), V::UNITS)))
     }
 }
 
 /// The tables of the cycles: labels, numbers of starts that lead to each, stability, and impacts.
 #[allow(clippy::cast_precision_loss)] // counts below 2^53
-fn tables(cycles: &[StoredCycle], starts: &[u64], (total, units): (u64, [Unit; 2])) -> Vec<StudyTable> {
+fn tables(
+    cycles: &[StoredCycle],
+    (stops, starts): (&[String], &[u64]),
+    (total, units): (u64, [Unit; 2]),
+) -> Vec<StudyTable> {
     let longest = cycles.iter().map(|cycle| cycle.points.len()).max().unwrap_or(0);
     let count = cycles.len();
     let table = |name, long_name, unit, values| StudyTable {
@@ -158,6 +164,12 @@ fn tables(cycles: &[StoredCycle], starts: &[u64], (total, units): (u64, [Unit; 2
         table("cycle_share", "share of the starts that lead to the cycle", Unit::NUMBER, shares),
         table("cycle_multiplier", "largest modulus of the Floquet multipliers", Unit::NUMBER, largest),
     ];
+    if cycles.iter().any(|cycle| !cycle.stops.is_empty()) {
+        let name = |stop: &usize| stops.get(*stop).map_or("", String::as_str);
+        let names = |cycle: &StoredCycle| cycle.stops.iter().map(name).collect::<Vec<_>>().join(" ");
+        let names = Cells::Text(cycles.iter().map(names).collect());
+        tables.push(table("cycle_stop", "stops that stay closed for ever", Unit::NUMBER, names));
+    }
     if longest > 0 {
         let each = |name, long_name, unit, k: usize| {
             let padded = cycles.iter().flat_map(|cycle| {

@@ -96,15 +96,6 @@ impl MachineBasinFill {
             |found: &CountedMotion<MachineVerdict>| (found.verdict.code(), cycles::number(known, &mut unknown, found));
         (tile.met.motions().iter().map(leads).collect(), unknown)
     }
-
-    /// Whether two starts lead to the same motion, or to two motions with the same label that are no cycles.
-    fn alike(met: &Census<MachineVerdict>, a: Option<u32>, b: Option<u32>) -> bool {
-        let plain = |number: Option<u32>| {
-            let verdict = &met.motions().get(number? as usize)?.verdict;
-            (!verdict.is_cycle()).then(|| verdict.code())
-        };
-        a == b || plain(a).is_some() && plain(a) == plain(b)
-    }
 }
 
 impl Fill for MachineBasinFill {
@@ -146,7 +137,7 @@ impl Fill for MachineBasinFill {
         let points = |wanted: &[usize]| wanted.iter().map(one).collect::<Option<Vec<_>>>();
         let cells = match self.plan.refine {
             None => points(&(0..block.points()).collect::<Vec<_>>())?.into_iter().map(Cell::Computed).collect(),
-            Some(step) => refine::fill(block, step as usize, points, |a, b| Self::alike(&met.borrow(), *a, *b))?,
+            Some(step) => refine::fill(block, step as usize, points, |a, b| a == b)?,
         };
         Some(MachineBasinTile { met: met.into_inner(), cells })
     }
@@ -186,6 +177,7 @@ impl Fill for MachineBasinFill {
             let tile = self.compute(&self.grid.tile(k), &|| false);
             tile.map(|tile| self.leads(&tile).1).unwrap_or_default()
         };
-        Some(Numbered::Machine(Numbering { field: 1, known: self.survey(), unknown: Box::new(unknown) }))
+        let stops = self.machine.stops().iter().map(|stop| stop.name.clone()).collect();
+        Some(Numbered::Machine(Numbering { field: 1, known: self.survey(), stops, unknown: Box::new(unknown) }))
     }
 }

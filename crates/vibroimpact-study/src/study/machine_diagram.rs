@@ -7,7 +7,8 @@ use crate::field::{Column, Extra, Field, NumberType};
 use crate::machine::MachineSource;
 use crate::machine_plan::{MachineDiagram, MachineDiagramPlan, MachineDiagramPoint, MachineDiagramStep, diagram_step};
 use crate::{MachineAxis, PlanError, Unit, Values};
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::{Contact, MachineStart};
+use vibroimpact::regime::ContactState;
 
 /// Machines over a number.
 pub(crate) struct MachineSweep {
@@ -95,13 +96,33 @@ impl Swept for MachineSweep {
     }
 
     fn numbers(left: &MachineStart) -> Vec<f64> {
-        left.q.iter().chain(&left.qdot).copied().chain([left.phase]).collect()
+        // surfaces of stops that stand back, with the numbers of their stops
+        let back = left.contacts.iter().filter(|contact| contact.surface > 0.0);
+        let back =
+            back.flat_map(|contact| [f64::from(u32::try_from(contact.place).unwrap_or(u32::MAX)), contact.surface]);
+        left.q.iter().chain(&left.qdot).copied().chain([left.phase]).chain(back).collect()
     }
 
     fn left(&self, _: u32, numbers: &[f64]) -> Option<MachineStart> {
-        let (phase, state) = numbers.split_last()?;
-        let (q, qdot) = state.split_at(state.len() / 2);
-        (q.len() == qdot.len()).then(|| MachineStart { q: q.to_vec(), qdot: qdot.to_vec(), phase: *phase })
+        let n = self.source.parts().ok()?.coordinates.len();
+        let (q, rest) = numbers.split_at_checked(n)?;
+        let (qdot, rest) = rest.split_at_checked(n)?;
+        let (phase, back) = rest.split_first()?;
+        let (back, rest) = back.as_chunks::<2>();
+        // the numbers of stops are small
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let contact = |[place, surface]: &[f64; 2]| Contact {
+            place: *place as usize,
+            state: ContactState::Open,
+            surface: *surface,
+        };
+        rest.is_empty().then(|| MachineStart {
+            q: q.to_vec(),
+            qdot: qdot.to_vec(),
+            phase: *phase,
+            contacts: back.iter().map(contact).collect(),
+            ..MachineStart::default()
+        })
     }
 
     fn columns(&self, points: usize, steps: &[(usize, &MachineDiagramStep)]) -> Vec<Column> {

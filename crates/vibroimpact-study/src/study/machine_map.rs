@@ -59,6 +59,8 @@ impl MachinesOver {
                 share: census.share(found),
                 speed: fastest,
                 multiplier: cycle.map_or(f64::NAN, |cycle| cycle.multiplier),
+                stops: verdict.closed(),
+                seen_events: verdict.seen_events(),
                 quantities: values_of(&machine, verdict, &self.plan.fields),
             }
         };

@@ -12,18 +12,21 @@ pub(crate) trait StoredMotion: SteadyMotion {
     /// The code of its label.
     fn code(&self) -> i32;
 
-    /// Whether it is a cycle, which is numbered.
-    fn is_cycle(&self) -> bool;
-
-    /// What the tables of cycles contain; `None` unless it is a cycle.
+    /// What the tables of numbered motions contain; `None` for a motion that its label names: all but cycles, and rests of a
+    /// machine that has several stops.
     fn stored_cycle(&self) -> Option<StoredCycle>;
+
+    /// Whether it is numbered.
+    fn is_numbered(&self) -> bool;
 }
 
-/// A cycle in the tables of a study.
+/// A cycle, or a rest, in the tables of a study.
 pub(crate) struct StoredCycle {
     /// The label m/n.
     pub(super) label: String,
-    /// The largest modulus of the multipliers.
+    /// The stops that stay closed for ever, by their numbers from 0.
+    pub(super) stops: Vec<usize>,
+    /// The largest modulus of the multipliers; not-a-number for a rest.
     pub(super) multiplier: f64,
     /// For each impact, or each event of a machine, the phase, the speed of arrival, and the time to the next one.
     pub(super) points: Vec<[f64; 3]>,
@@ -36,7 +39,7 @@ impl StoredMotion for Verdict {
         code(self)
     }
 
-    fn is_cycle(&self) -> bool {
+    fn is_numbered(&self) -> bool {
         matches!(self, Self::Periodic(_))
     }
 
@@ -45,6 +48,7 @@ impl StoredMotion for Verdict {
         let [a, b] = cycle.multipliers;
         Some(StoredCycle {
             label: cycle.label.to_string(),
+            stops: Vec::new(),
             multiplier: a.modulus().max(b.modulus()),
             points: cycle.points.iter().map(|p| [p.state.phase, p.state.velocity, p.interval]).collect(),
         })
@@ -58,16 +62,20 @@ impl StoredMotion for MachineVerdict {
         code::of_machine(self)
     }
 
-    fn is_cycle(&self) -> bool {
-        matches!(self, Self::Periodic(_))
+    fn is_numbered(&self) -> bool {
+        matches!(self, Self::Periodic(_)) || !self.closed().is_empty()
     }
 
     fn stored_cycle(&self) -> Option<StoredCycle> {
-        let Self::Periodic(cycle) = self else { return None };
+        let Self::Periodic(cycle) = self else {
+            let rest = |stops| StoredCycle { label: self.label(), stops, multiplier: f64::NAN, points: Vec::new() };
+            return Some(self.closed()).filter(|stops| !stops.is_empty()).map(rest);
+        };
         let ends = cycle.events.iter().skip(1).map(|event| event.time).chain([cycle.period]);
         let points = cycle.events.iter().zip(ends).map(|(event, next)| [event.phase, event.speed, next - event.time]);
         Some(StoredCycle {
             label: cycle.label.to_string(),
+            stops: Vec::new(),
             multiplier: cycle.multipliers.iter().map(|one| one.modulus()).fold(0.0, f64::max),
             points: points.collect(),
         })

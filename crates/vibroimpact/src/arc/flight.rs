@@ -211,6 +211,11 @@ impl MachineFlight {
         self.turns.extend_from_slice(turns);
     }
 
+    /// A guard at the beginning, and the size of its terms.
+    pub(crate) fn start_of_guard(&self, guard: usize) -> (f64, f64) {
+        (self.guards[guard].value, self.guards[guard].size)
+    }
+
     /// The amplitudes of the harmonics of a guard, turned to the phase of the beginning.
     pub(super) fn harmonics(&self, guard: usize) -> &[(f64, f64)] {
         let count = self.drive.rates.len();

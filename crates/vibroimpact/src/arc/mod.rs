@@ -6,7 +6,10 @@
 //! | what drives the modes | `drive` |
 //! | the same where there are no modes | `dense`, `dense_series` |
 //! | whether a flight ends at all | `never` |
+//! | what becomes of it in the long run | `steady` |
+//! | whether a sum of harmonics stays above a level | `harmonic_sum` |
 //! | how small changes of the state move | `transition` |
+//! | the same with the digits of those that decay | `graded_flight` |
 //! | plain crossings, by samples of the guards | `crossing` |
 //! | guards as polynomials over a window | `guard_polynomial` |
 //! | windows that are passed without the closed form | `track` |
@@ -21,14 +24,18 @@ mod dense_series;
 mod drive;
 mod flight;
 mod found;
+mod graded_flight;
 mod guard_polynomial;
+mod harmonic_sum;
 mod never;
 mod polynomial;
 mod search;
+mod steady;
 mod track;
 mod transition;
 mod zero;
 
 pub(crate) use flight::{Begin, ClosedGap, FIRST_ORDERS, MachineFlight, Modes, ORDERS, Recovery};
 pub(crate) use found::{Buffers, Found, Touch};
+pub(crate) use graded_flight::combined;
 pub(crate) use search::first_event;

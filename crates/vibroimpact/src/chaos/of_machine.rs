@@ -3,7 +3,6 @@
 use crate::events::{MachineLimits, MachineMotion, MachineStart};
 use crate::lyapunov::{MEASURED_IMPACTS, MachineMeasure, MachineSpectrum, Measured};
 use crate::machine::{Machine, MachineError};
-use crate::math::{general_eigenvalues, ln};
 use crate::orbit::MachineFrame;
 use crate::verdict::{MachineTail, MachineVerdict, Recorded, Recurring, SettleOptions, Step, settle_machine_while};
 use std::sync::Arc;
@@ -47,15 +46,11 @@ pub fn machine_exponents_while(
     };
     match &settled.verdict {
         MachineVerdict::Periodic(cycle) => {
-            let own = cycle.multipliers.iter().map(|multiplier| ln(multiplier.modulus()) / cycle.period);
+            let own = cycle.logs.iter().map(|log| log / cycle.period);
             // a neighbour that is moved along a free translation stays as far away, and without forcing one that is ahead
             let kept = cycle.translations() + if machine.period().is_none() { 1 } else { 0 };
             let mut rates: Vec<f64> = own.chain((0..kept).map(|_| 0.0)).collect();
             rates.sort_by(|a, b| b.total_cmp(a));
-            // their multipliers are 0, and what is computed of them is a rounding error
-            let forgotten = cycle.forgotten(&MachineFrame::new(machine)).min(rates.len());
-            let kept = rates.len() - forgotten;
-            rates[kept..].fill(f64::NEG_INFINITY);
             let closings = f64::from(cycle.counts.iter().sum::<u32>()) / cycle.period;
             let spectrum = Some(exact(rates, closings));
             return Ok(Some(MachineExponents { spectrum, motion: settled.verdict, exact: true }));
@@ -71,11 +66,8 @@ pub fn machine_exponents_while(
             }
             let frame = MachineFrame::new(machine);
             let place = motion.place();
-            let spectrum = frame.structure(&place.states).and_then(|structure| {
-                let time = core::f64::consts::TAU / structure.fastest().max(1e-300);
-                let values = general_eigenvalues(&structure.transition(&frame.normal, time))?;
-                Some(exact(values.iter().map(|value| ln(value.modulus()) / time).collect(), 0.0))
-            });
+            let rates = frame.structure(&place.states).and_then(|structure| structure.growth(machine.n()));
+            let spectrum = rates.map(|rates| exact(rates, 0.0));
             return Ok(Some(MachineExponents { spectrum, motion: settled.verdict, exact: true }));
         }
         _ => {}

@@ -35,7 +35,10 @@ impl MachineMotion<'_> {
                         if let Some(passage) = &mut self.passage {
                             passage.blows.push(Blow { stop: j, speed, impulse });
                         }
+                        self.instants.keep(MachineEventKind::Impact, j, speed);
+                        self.struck.push((j, speed));
                         self.announce(MachineEventKind::Impact, j, speed, Vec::new());
+                        self.struck.clear();
                         let open = self.place.states.iter().all(|state| *state == ContactState::Open);
                         let turns = self.scratch.turns_at(&self.place, &self.normal);
                         if !(open && is_far_from_an_end(&self.place, &self.normal, (j, restitution), fastest, turns)) {
@@ -50,14 +53,17 @@ impl MachineMotion<'_> {
                             add_scaled(&mut self.place.x, gap / square, w);
                         }
                         self.record(&[]);
+                        self.instants.keep(MachineEventKind::Close, j, speed);
                         self.announce(MachineEventKind::Close, j, speed, Vec::new());
                     }
                 }
             }
             GuardKind::Depth(j) | GuardKind::Force(j) if self.place.states[j] == ContactState::Closed => {
+                let speed = self.place.gap_and_rate(&self.normal, turns, j).1.max(0.0);
                 self.place.open(&self.normal, &self.machine.stops()[j].law, kind, j, turns);
                 self.record(&[]);
-                self.announce(MachineEventKind::Open, j, 0.0, Vec::new());
+                self.instants.keep(MachineEventKind::Open, j, speed);
+                self.announce(MachineEventKind::Open, j, speed, Vec::new());
             }
             _ => return false,
         }

@@ -216,6 +216,7 @@ impl MachineMotion<'_> {
         self.move_to(flight, duration);
         self.largest_impact = 0.0;
         self.instants.clear();
+        self.struck.clear();
         if kind == MachineEventKind::Collapse {
             self.announce(kind, stops[0], 0.0, stops[1..].to_vec());
         } else {

@@ -1,5 +1,7 @@
 //! An event of a machine, and the start of a motion.
 
+use crate::regime::ContactState;
+
 /// What happens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MachineEventKind {
@@ -54,7 +56,8 @@ pub struct MachineEvent {
     pub time: f64,
     /// Phase of the forcing, in $`[0, 2\pi)`$.
     pub phase: f64,
-    /// Speed of closing before the event, $`-\dot g \ge 0`$; of a slip the direction, 1 or -1.
+    /// Speed of closing before the event, $`-\dot g \ge 0`$; of an opening that of separation, $`\dot g \ge 0`$; of a slip
+    /// the direction, 1 or -1. A release and a hold begin without speed.
     pub speed: f64,
     /// Coordinates.
     pub q: Vec<f64>,
@@ -65,6 +68,9 @@ pub struct MachineEvent {
     /// Of impacts on several stops: whether they would lead elsewhere if one of the stops were struck before the others by
     /// however little. What follows then holds for impacts at exactly one time, as of a symmetric structure.
     pub tie: bool,
+    /// The state from which the motion goes on, if it was asked to [keep states](super::MachineMotion::with_states). Events
+    /// that happen together have one state.
+    pub state: Option<Box<MachineStart>>,
 }
 
 impl MachineEvent {
@@ -73,6 +79,19 @@ impl MachineEvent {
     pub const fn closes(&self) -> bool {
         matches!(self.kind, MachineEventKind::Impact | MachineEventKind::Close)
     }
+}
+
+/// What a stop or a friction joint does at a state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// The stop, or the joint, which are counted after the stops.
+    pub place: usize,
+    /// What it does.
+    pub state: ContactState,
+    /// How far the surface of a damped stop stands back that has opened by force, and that recovers by
+    /// $`c\dot s + ks = 0`$ (with a preload $`p`$: $`c\dot s + ks + p = 0`$, until $`s = 0`$). The stop closes on its surface,
+    /// at the gap $`-s`$. 0 of any other stop.
+    pub surface: f64,
 }
 
 /// The state from which a motion starts, at time 0.
@@ -84,6 +103,12 @@ pub struct MachineStart {
     pub qdot: Vec<f64>,
     /// Phase of the forcing in radians.
     pub phase: f64,
+    /// What stops and joints do. What those that are absent do follows from coordinates and velocities, with surfaces that
+    /// do not stand back.
+    pub contacts: Vec<Contact>,
+    /// The digits that coordinates, velocities and contacts leave out, by name. With them a motion goes on from a state of
+    /// another motion to the last bit. They count only together with the numbers with which they came, and may be left out.
+    pub exact: Vec<(String, Vec<f64>)>,
 }
 
 /// Why a motion has no further event.

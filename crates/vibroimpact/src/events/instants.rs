@@ -33,6 +33,17 @@ const SLOWER: f64 = 0.5;
 /// In how many changes it is asked once whether a collapse without rounds is near.
 const EVERY: usize = 8;
 
+/// The kinds of changes, in the order of their numbers.
+const KINDS: [MachineEventKind; 7] = [
+    MachineEventKind::Impact,
+    MachineEventKind::Close,
+    MachineEventKind::Open,
+    MachineEventKind::Stick,
+    MachineEventKind::Release,
+    MachineEventKind::Slip,
+    MachineEventKind::Hold,
+];
+
 /// A change of the state of a contact, or an impact.
 #[derive(Clone, Copy, Debug)]
 struct Change {
@@ -125,6 +136,38 @@ impl Instants {
             self.latest.truncate(KEPT);
             self.count += 1;
         }
+    }
+
+    /// All of it as numbers: the longest flight, the number of changes, and each change. None if there was no flight.
+    #[allow(clippy::cast_precision_loss)] // counts of changes
+    pub(super) fn numbers(&self) -> Vec<f64> {
+        if self.longest == 0.0 {
+            return Vec::new();
+        }
+        let kind = |kind| KINDS.iter().position(|known| *known == kind).unwrap_or(0) as f64;
+        let change = |change: &Change| [kind(change.kind), change.place as f64, change.speed, change.after];
+        [self.longest, self.count as f64].into_iter().chain(self.latest.iter().flat_map(change)).collect()
+    }
+
+    /// What has these numbers; `None` if they are none.
+    #[allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, clippy::cast_sign_loss)] // checked
+    pub(super) fn of_numbers(numbers: &[f64], places: usize) -> Option<Self> {
+        let ([longest, count], changes) = numbers.split_first_chunk()?;
+        let (changes, rest) = changes.as_chunks::<4>();
+        let change = |[kind, place, speed, after]: &[f64; 4]| {
+            let kind = (0..KINDS.len()).find(|k| *k as f64 == *kind).map(|k| KINDS[k])?;
+            let place = (0..places).find(|at| *at as f64 == *place)?;
+            Some(Change { kind, place, speed: *speed, after: *after })
+        };
+        let latest: VecDeque<Change> = changes.iter().map(change).collect::<Option<_>>()?;
+        let whole = rest.is_empty() && latest.len() <= KEPT && *longest > 0.0 && (0.0..1e15).contains(count);
+        whole.then_some(Self {
+            longest: *longest,
+            short: !latest.is_empty(),
+            count: *count as usize,
+            passed: 0.0,
+            latest,
+        })
     }
 
     /// Forgets all flights and changes, because the structure has come to rest.

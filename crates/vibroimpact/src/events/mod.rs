@@ -9,8 +9,10 @@
 //! | rounds of impacts on several stops in turn, or with joints; their end | `instants`, `collapse` |
 //! | events that change one stop alone | `alone` |
 //! | the state at one time | `place` |
+//! | a whole state as a start, and back | [`Contact`], `state` |
 //! | which stops rest and which joints hold | `resolve` |
 //! | one step of a motion, and its derivative by the state | `passage`, `saltation` |
+//! | differences of neighbouring motions, and how they are stretched | `tangents` |
 //! | the motion as an iterator over its events | [`MachineMotion`] |
 //! | what it does between two events | [`MachineStretches`], `stretch` |
 //! | the forces of stops and joints during a flight | `contact_force` |
@@ -31,13 +33,15 @@ mod resolve;
 mod saltation;
 mod sample;
 mod samples;
+mod state;
 mod stretch;
 mod stretches;
 mod strike;
+mod tangents;
 mod within;
 
 pub(crate) use contact_force::contact_forces;
-pub use event::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
+pub use event::{Contact, MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
 pub use motion::MachineMotion;
 pub(crate) use passage::Passage;
 pub(crate) use place::{Place, Structures, standing_back};
@@ -45,3 +49,4 @@ pub(crate) use saltation::{EventLaw, LinearEvent, StateShape, step_derivative};
 pub use sample::MachineSample;
 pub use samples::MachineSamples;
 pub use stretches::MachineStretches;
+pub(crate) use tangents::{FrameChange, TangentStep, stretched, tangent_steps};

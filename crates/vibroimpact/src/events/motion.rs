@@ -1,16 +1,16 @@
 //! The motion of a machine as an iterator over its events.
 
-use super::event::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
+use super::event::{Contact, MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
 use super::instants::Instants;
 use super::passage::Passage;
 use super::place::{Place, Scratch, Structures, standing_back};
 use super::resolve::{Resolution, Resolved};
+use super::state::{Beginning, ImpactHistory, check_contacts, fingerprint};
 use super::stretch::{Stretch, follow};
 use crate::arc::{Buffers, Found, MachineFlight, Touch, first_event};
 use crate::machine::{Machine, MachineError, MachineFault, Opening, StopLaw};
 use crate::math::{Wide, add_scaled, dot};
 use crate::regime::{ContactState, GuardKind, Normal, compliant};
-use crate::system::phase;
 use std::collections::VecDeque;
 
 /// The events of a machine from a start, in order.
@@ -51,6 +51,10 @@ pub struct MachineMotion<'a> {
     pub(super) instants: Instants,
     /// The largest speed of an impact since the structure last came to rest by a chatter.
     pub(super) largest_impact: f64,
+    /// The number of the machine, if events have whole states.
+    fingerprint: Option<f64>,
+    /// The rigid stops whose impacts are announced, if they may be those of a chatter, and the speeds.
+    pub(super) struck: Vec<(usize, f64)>,
     /// The last step, if steps are recorded.
     pub(super) passage: Option<Passage>,
     recording: bool,
@@ -72,38 +76,78 @@ impl<'a> MachineMotion<'a> {
     /// [`MachineError`] if the start has another number of coordinates, a number that is not finite, or lies beyond a
     /// rigid stop.
     pub fn new(machine: &'a Machine, start: &MachineStart, limits: MachineLimits) -> Result<Self, MachineError> {
+        Self::starting(machine, start, limits, None)
+    }
+
+    /// The same, with the [state](MachineEvent::state) in each event from which the motion goes on after it.
+    ///
+    /// ```
+    /// use vibroimpact::events::{MachineLimits, MachineMotion, MachineStart};
+    /// use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
+    /// // a damped stop that has opened by force recovers: where it is, is a part of the state
+    /// let law = StopLaw::Compliant { stiffness: 3.0, damping: 2.0, preload: 0.0, opening: Opening::Force };
+    /// let parts = MachineParts::new(["x"]).with_mass(0, 2.0).with_link(&[1.0], 1.0, 0.0).with_frequency(0.7);
+    /// let machine = Machine::new(parts.with_force(0, 1, 0.0, 1.0).with_stop("soft", &[1.0], 0.1, law))?;
+    /// let limits = MachineLimits::default();
+    /// let events: Vec<_> = MachineMotion::with_states(&machine, &MachineStart::default(), limits)?.take(9).collect();
+    /// let state = events[1].state.as_deref().unwrap();
+    /// assert!(state.contacts[0].surface > 0.0);
+    /// for (again, event) in MachineMotion::new(&machine, state, limits)?.zip(&events[2..]) {
+    ///     assert_eq!((again.q, again.qdot, again.phase), (event.q.clone(), event.qdot.clone(), event.phase));
+    /// }
+    /// # Ok::<(), vibroimpact::machine::MachineError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_states(
+        machine: &'a Machine,
+        start: &MachineStart,
+        limits: MachineLimits,
+    ) -> Result<Self, MachineError> {
+        Self::starting(machine, start, limits, Some(fingerprint(machine)))
+    }
+
+    fn starting(
+        machine: &'a Machine,
+        start: &MachineStart,
+        limits: MachineLimits,
+        fingerprint: Option<f64>,
+    ) -> Result<Self, MachineError> {
         let normal = Normal::new(machine);
-        let n = machine.n();
-        let vector = |path: &str, values: &[f64]| -> Result<Vec<f64>, MachineError> {
-            if values.is_empty() {
-                return Ok(vec![0.0; n]);
-            }
-            if values.len() != n {
-                let given = format!("{} numbers", values.len());
-                return Err(MachineError::new(path, MachineFault::Size { given, n }));
-            }
-            match values.iter().find(|value| !value.is_finite()) {
-                Some(value) => Err(MachineError::new(path, MachineFault::NotFinite(*value))),
-                None => Ok(normal.to_normal(values)),
-            }
-        };
-        let (x, v) = (vector("q", &start.q)?, vector("qdot", &start.qdot)?);
-        if !(start.phase.is_finite() && start.phase.abs() <= phase::LARGEST) {
-            return Err(MachineError::new("phase", MachineFault::NotFinite(start.phase)));
+        check_contacts(machine, &start.contacts)?;
+        let place = Place::at(machine, &normal, start)?;
+        let exact = place.with_all_digits(machine, &normal, start)?;
+        let mut motion = Self { limits, fingerprint, ..Self::within(machine, normal, place) };
+        match exact {
+            Some((place, history)) => motion.go_on(place, history),
+            None => motion.begin(&start.contacts)?,
         }
-        let (stops, joints) = (machine.stops().len(), machine.joints().len());
-        let place = Place {
-            x,
-            v,
-            phase: phase::wrap(start.phase),
-            states: vec![ContactState::Open; stops + joints],
-            surfaces: vec![None; stops],
-            known: Vec::new(),
-            gaps: Vec::new(),
-        };
-        let mut motion = Self { limits, ..Self::within(machine, normal, place) };
-        motion.begin()?;
         Ok(motion)
+    }
+
+    /// The whole state here, if the motion keeps states.
+    fn state(&self) -> Option<Box<MachineStart>> {
+        let fingerprint = self.fingerprint?;
+        let (instants, last) = (self.instants.clone(), self.struck.clone());
+        let history = ImpactHistory { largest: self.largest_impact, instants, last };
+        Some(Box::new(self.place.start_after(self.machine, &self.normal, (fingerprint, &history))))
+    }
+
+    /// Goes on from a state with all its digits.
+    fn go_on(&mut self, place: Place, history: ImpactHistory) {
+        self.place = place;
+        (self.largest_impact, self.instants, self.struck) = (history.largest, history.instants, history.last);
+        if !self.struck.is_empty() {
+            let turns = self.place.turns(&self.normal);
+            self.after_impacts(&turns);
+        }
+    }
+
+    /// Sums the impacts to which those belong that have just happened, if they accumulate.
+    fn after_impacts(&mut self, turns: &[(f64, f64)]) {
+        let struck = core::mem::take(&mut self.struck);
+        self.end_chatter(&struck, turns);
     }
 
     /// Why there is no further event; `None` while there may be one.
@@ -116,6 +160,13 @@ impl<'a> MachineMotion<'a> {
     #[must_use]
     pub fn time(&self) -> f64 {
         self.time.value()
+    }
+
+    /// The state up to which the motion is known, after the events that belong to it, without the digits that go on to the last
+    /// bit: for a motion of another machine that goes on from there.
+    #[must_use]
+    pub fn reached(&self) -> MachineStart {
+        self.place.numbers(&self.normal)
     }
 
     /// The same, with its stretches kept.
@@ -134,10 +185,20 @@ impl<'a> MachineMotion<'a> {
     }
 
     /// Finds out what the stops and joints do at the start.
-    fn begin(&mut self) -> Result<(), MachineError> {
+    fn begin(&mut self, contacts: &[Contact]) -> Result<(), MachineError> {
         let (mut closing, mut candidates) = (Vec::new(), Vec::new());
         let turns = self.place.turns(&self.normal);
-        for (j, stop) in self.machine.stops().iter().enumerate() {
+        let mut given = Vec::new();
+        for contact in contacts {
+            match self.give_state(contact, &turns)? {
+                Beginning::Unknown => continue,
+                Beginning::Closing => closing.push(contact.place),
+                Beginning::Done => {}
+            }
+            given.push(contact.place);
+        }
+        let absent = |at: usize| !given.contains(&at);
+        for (j, stop) in self.machine.stops().iter().enumerate().filter(|(j, _)| absent(*j)) {
             let (gap, rate, size, rate_size) = self.place.gap(&self.normal, &turns, j);
             let on = gap.abs() <= 4.0 * f64::EPSILON * size;
             let approaching = rate < -4.0 * f64::EPSILON * rate_size;
@@ -161,8 +222,11 @@ impl<'a> MachineMotion<'a> {
             }
         }
         for joint in 0..self.machine.joints().len() {
-            let (speed, size) = self.place.sliding(self.machine, &self.normal, joint);
             let at = self.machine.stops().len() + joint;
+            if !absent(at) {
+                continue;
+            }
+            let (speed, size) = self.place.sliding(self.machine, &self.normal, joint);
             if speed.abs() <= 4.0 * f64::EPSILON * size {
                 candidates.push(at);
                 self.place.states[at] = ContactState::Holding;
@@ -170,15 +234,15 @@ impl<'a> MachineMotion<'a> {
                 self.place.states[at] = if speed > 0.0 { ContactState::Forward } else { ContactState::Backward };
             }
         }
-        // a joint that holds from the start is announced
-        let before: Vec<ContactState> = self
-            .place
-            .states
-            .iter()
-            .map(|state| if *state == ContactState::Holding { ContactState::Open } else { *state })
-            .collect();
+        // a joint that holds from the start is announced, unless the start says so
+        let before = |(at, state): (usize, &ContactState)| match state {
+            ContactState::Holding if absent(at) => ContactState::Open,
+            _ => *state,
+        };
+        let before: Vec<ContactState> = self.place.states.iter().enumerate().map(before).collect();
         self.change(&before, &closing, candidates, &[]);
-        Ok(())
+        let checked = !given.is_empty() && closing.is_empty() && self.end.is_none();
+        if checked { self.check_guards() } else { Ok(()) }
     }
 
     /// Changes the contacts at this time, all at once: impacts on the stops `closing`, then the states of the candidates,
@@ -267,11 +331,19 @@ impl<'a> MachineMotion<'a> {
                 ContactState::Closed if closing.contains(&at) => speeds[at],
                 // a stop that was not about to close is pushed shut by an impact elsewhere
                 ContactState::Closed => (-self.place.gap(&self.normal, &turns, at).1).max(0.0),
+                ContactState::Open if kind == MachineEventKind::Open => {
+                    self.place.gap(&self.normal, &turns, at).1.max(0.0)
+                }
                 ContactState::Forward => 1.0,
                 ContactState::Backward => -1.0,
                 _ => 0.0,
             };
             events.push((kind, at, speed, Vec::new()));
+        }
+        let open = |j: &usize| self.place.states[*j] == ContactState::Open;
+        self.struck = rigid.into_iter().filter(open).map(|j| (j, speeds[j])).collect();
+        for (kind, at, speed, _) in &events {
+            self.instants.keep(*kind, *at, *speed);
         }
         for (kind, at, speed, with) in events {
             self.announce(kind, at, speed, with);
@@ -280,10 +352,8 @@ impl<'a> MachineMotion<'a> {
         if let Some(passage) = &mut self.passage {
             passage.after = Some(self.place.clone());
         }
-        if !rigid.is_empty() {
-            let open = |j: &usize| self.place.states[*j] == ContactState::Open;
-            let opened: Vec<(usize, f64)> = rigid.into_iter().filter(open).map(|j| (j, speeds[j])).collect();
-            self.end_chatter(&opened, &turns);
+        if !self.struck.is_empty() {
+            self.after_impacts(&turns);
         }
         Some(())
     }
@@ -298,9 +368,7 @@ impl<'a> MachineMotion<'a> {
     }
 
     pub(super) fn announce(&mut self, kind: MachineEventKind, place: usize, speed: f64, with: Vec<usize>) {
-        if kind != MachineEventKind::Graze {
-            self.instants.keep(kind, place, speed);
-        }
+        let state = self.state();
         self.pending.push_back(MachineEvent {
             kind,
             place,
@@ -311,6 +379,7 @@ impl<'a> MachineMotion<'a> {
             qdot: self.normal.to_machine(&self.place.v),
             with,
             tie: self.tie && kind == MachineEventKind::Impact,
+            state,
         });
     }
 
@@ -368,6 +437,8 @@ impl<'a> MachineMotion<'a> {
             crowd: 0,
             instants: Instants::default(),
             largest_impact: 0.0,
+            fingerprint: None,
+            struck: Vec::new(),
             passage: None,
             recording: false,
             trail: None,
@@ -428,12 +499,12 @@ impl<'a> MachineMotion<'a> {
         let mut never = false;
         if let Found::NoneBefore(s) = found {
             // a long flight: is there an event at all?
-            never = !recovered.is_finite() && flight.never_after(s, &mut self.buffers.modes);
+            never = !recovered.is_finite() && flight.never_after(s, &self.normal, &mut self.buffers.modes);
             if !never && s < until && self.limits.steps > PATIENCE {
                 self.touches.clear();
                 found = first_event(&flight, until, self.limits.steps, &mut self.buffers, &mut self.touches);
                 if let Found::NoneBefore(s) = found {
-                    never = !recovered.is_finite() && flight.never_after(s, &mut self.buffers.modes);
+                    never = !recovered.is_finite() && flight.never_after(s, &self.normal, &mut self.buffers.modes);
                 }
             }
         }
@@ -446,6 +517,8 @@ impl<'a> MachineMotion<'a> {
             if let GuardKind::Gap(j) = structure.guards[touch.guard].kind {
                 let (place, time) = (self.place.clone(), self.time);
                 self.move_to(&flight, touch.s);
+                // the flight of the motion goes on; one that begins here begins on the stop without speed
+                self.place.note(GuardKind::Gap(j), 2);
                 self.announce(MachineEventKind::Graze, j, 0.0, Vec::new());
                 (self.place, self.time) = (place, time);
             }

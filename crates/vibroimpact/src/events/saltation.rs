@@ -472,6 +472,7 @@ mod tests {
                 q: vec![0.1 - 0.002 * shift + change[0], -0.05 + change[1]],
                 qdot: vec![0.01 * shift + change[2], 0.1 + change[3]],
                 phase: 0.1 * shift,
+                ..MachineStart::default()
             };
             let until = 3.0 + 0.21 * shift;
             let Some((_, derivative, kinds)) = flown(&machine, &start(&[0.0; 4]), until) else { continue };
@@ -516,7 +517,7 @@ mod tests {
     #[test]
     fn volumes() {
         let machine = machine(0);
-        let start = MachineStart { q: vec![0.1, 0.0], qdot: vec![0.3, -0.2], phase: 0.4 };
+        let start = MachineStart { q: vec![0.1, 0.0], qdot: vec![0.3, -0.2], phase: 0.4, ..MachineStart::default() };
         let shape = StateShape::of(&machine);
         let mut motion = MachineMotion::new(&machine, &start, MachineLimits::default()).unwrap();
         let normal = motion.normal().clone();

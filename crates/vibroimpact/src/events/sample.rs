@@ -1,5 +1,6 @@
 //! The state of a machine at one time, as it is seen between events.
 
+use super::event::{Contact, MachineStart};
 use crate::regime::ContactState;
 
 /// A machine at one time.
@@ -23,4 +24,26 @@ pub struct MachineSample {
     pub forces: Vec<f64>,
     /// What each stop and, after them, each joint does.
     pub states: Vec<ContactState>,
+    /// How far the surface of each stop stands back: see [`Contact`].
+    pub surfaces: Vec<f64>,
+}
+
+impl MachineSample {
+    /// The state as a start. A motion goes on from it up to rounding: a flight that begins between two events is not rounded
+    /// as one that began at an event.
+    #[must_use]
+    pub fn start(&self) -> MachineStart {
+        let contact = |(place, state): (usize, &ContactState)| Contact {
+            place,
+            state: *state,
+            surface: self.surfaces.get(place).copied().unwrap_or_default(),
+        };
+        MachineStart {
+            q: self.q.clone(),
+            qdot: self.qdot.clone(),
+            phase: self.phase,
+            contacts: self.states.iter().enumerate().map(contact).collect(),
+            exact: Vec::new(),
+        }
+    }
 }

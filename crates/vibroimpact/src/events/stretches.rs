@@ -132,6 +132,7 @@ impl<'a> MachineStretches<'a> {
             qdot: normal.to_machine(&here.v),
             gaps,
             forces,
+            surfaces: here.surfaces.iter().map(|surface| surface.map_or(0.0, |of| of.size - of.offset)).collect(),
             states: here.states,
         })
     }

@@ -13,6 +13,9 @@ impl MachineStart {
     /// stop $`w`$ moves the coordinates along $`M^{-1}w`$, as its impulse would, until its gap is 0. If stops contradict
     /// each other, the result lies beyond one of them and is no valid start.
     ///
+    /// The state may be that of another machine: what stops and joints do follows from coordinates and velocities. Surfaces that
+    /// stand back are kept.
+    ///
     /// ```
     /// use vibroimpact::events::MachineStart;
     /// use vibroimpact::machine::{Machine, MachineParts};
@@ -27,6 +30,8 @@ impl MachineStart {
     pub fn within_stops(&self, machine: &Machine) -> Self {
         let mut start = self.clone();
         start.q.resize(machine.n(), 0.0);
+        start.contacts.retain(|contact| contact.surface > 0.0);
+        start.exact.clear();
         // the mass is positive definite, as `Machine::new` has checked
         let Some(mass) = machine.parts().mass.cholesky() else { return start };
         for _ in 0..ROUNDS {
@@ -68,7 +73,7 @@ mod tests {
         for k in 0..200 {
             let x = f64::from(k);
             let q = vec![3.0 * (0.7 * x).sin(), 2.0 * (1.3 * x).cos()];
-            let start = MachineStart { q, qdot: vec![0.1, -0.2], phase: 0.4 };
+            let start = MachineStart { q, qdot: vec![0.1, -0.2], phase: 0.4, ..MachineStart::default() };
             let within = start.within_stops(&machine);
             let valid = |start: &MachineStart| MachineMotion::new(&machine, start, MachineLimits::default()).is_ok();
             assert!(valid(&within), "{start:?} {within:?}");

@@ -6,7 +6,7 @@
 
 use super::measure::{LogSum, mean};
 use super::{Measured, TRANSIENT};
-use crate::math::{Matrix, Wide, add_scaled, dot};
+use crate::math::{Wide, add_scaled, dot};
 
 /// The Lyapunov exponents of a motion of a machine.
 #[derive(Clone, Debug, PartialEq)]
@@ -90,20 +90,16 @@ impl MachineMeasure {
         self.blocks.len() >= BLOCKS
     }
 
-    /// Adds a step with this derivative, time and number of closings.
-    pub(crate) fn add(&mut self, derivative: &Matrix, time: f64, closings: f64) {
-        let moved: Vec<Vec<f64>> = self.frame.iter().map(|vector| derivative.apply(vector)).collect();
-        self.frame.clear();
-        for (k, mut vector) in moved.into_iter().enumerate() {
-            let before = dot(&vector, &vector).sqrt();
-            let length = self.orthonormal(&mut vector);
-            // what rounding leaves of a vector that lies in the span of those before is nothing
-            if length > 1e-13 * before && length > 0.0 {
-                let last = self.frame.len();
-                self.logs[k].multiply(length);
+    /// Adds a step with this time and number of closings. `carry` moves the frame of tangent vectors and says by how much each
+    /// is stretched; it leaves out those that vanish, whose logarithms are minus infinity.
+    pub(crate) fn add(&mut self, carry: impl FnOnce(&mut Vec<Vec<f64>>) -> Vec<f64>, time: f64, closings: f64) {
+        let mut last = 0;
+        for (k, log) in carry(&mut self.frame).into_iter().enumerate() {
+            if log > f64::NEG_INFINITY {
+                self.logs[k].add(log);
                 self.logs.swap(last, k);
                 self.lost.swap(last, k);
-                self.frame.push(vector);
+                last += 1;
             }
         }
         // neighbours in these directions have become the same motion: their stretches, also those before, are minus

@@ -4,11 +4,19 @@ use super::parts::{MachineParts, MachineStop, StopLaw};
 use super::{MachineError, MachineFault};
 use crate::math::{Matrix, dot, symmetric_eigen};
 
+/// The largest number of coordinates.
+pub const MOST_COORDINATES: usize = 1000;
+/// An eigenvalue that is negative by less than this part of the largest element is a rounding error.
+const NEGATIVE: f64 = 1e-12;
+
 /// Checks all numbers; the first fault is returned, with its path.
 pub(super) fn check(parts: &MachineParts) -> Result<(), MachineError> {
     let n = parts.n();
     if n == 0 {
         return Err(MachineError::new("coordinates", MachineFault::NoCoordinates));
+    }
+    if n > MOST_COORDINATES {
+        return Err(MachineError::new("coordinates", MachineFault::TooLarge(n)));
     }
     names("coordinates", parts.coordinates.iter())?;
     names("stop", parts.stops.iter().map(|stop| &stop.name).chain(parts.joints.iter().map(|joint| &joint.name)))?;
@@ -136,8 +144,13 @@ fn matrix(path: &str, values: &Matrix, n: usize) -> Result<(), MachineError> {
         for j in 0..n {
             let (one, other) = (values[(i, j)], values[(j, i)]);
             finite(path, one)?;
-            // matrices computed elsewhere are symmetric to rounding
-            if (one - other).abs() > 1e-12 * (one.abs() + other.abs()) {
+            // matrices computed elsewhere are symmetric to rounding of their own elements, or of those beside which they are
+            // computed
+            let beside =
+                || values.row(i).iter().chain(values.row(j)).fold(0.0_f64, |most, value| most.max(value.abs()));
+            if (one - other).abs() > 1e-12 * (one.abs() + other.abs())
+                && (one - other).abs() > 4.0 * f64::EPSILON * beside()
+            {
                 let fault = MachineFault::NotSymmetric { row: i + 1, column: j + 1, one, other };
                 return Err(MachineError::new(path, fault));
             }
@@ -147,9 +160,17 @@ fn matrix(path: &str, values: &Matrix, n: usize) -> Result<(), MachineError> {
 }
 
 fn semidefinite(path: &str, values: &Matrix) -> Result<(), MachineError> {
+    // a factor of the matrix with its largest rounding error on the diagonal says so at less cost than the eigenvalues
+    let mut shifted = values.clone();
+    for i in 0..shifted.rows() {
+        shifted[(i, i)] += NEGATIVE * values.largest();
+    }
+    if shifted.cholesky().is_some() {
+        return Ok(());
+    }
     let (eigenvalues, _) = symmetric_eigen(values);
     match eigenvalues.first() {
-        Some(least) if *least < -1e-12 * values.largest() => {
+        Some(least) if *least < -NEGATIVE * values.largest() => {
             Err(MachineError::new(path, MachineFault::Negative(*least)))
         }
         _ => Ok(()),

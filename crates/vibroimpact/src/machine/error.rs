@@ -19,6 +19,12 @@ pub enum MachineFault {
     /// No coordinates.
     #[error("a machine needs at least one coordinate")]
     NoCoordinates,
+    /// More coordinates than a machine can have.
+    #[error(
+        "a machine has at most {most} coordinates, and this one has {0}\nhint: describe a large structure by its lowest modes",
+        most = super::MOST_COORDINATES
+    )]
+    TooLarge(usize),
     /// A name that cannot be a part of a path.
     #[error("{0:?} is not a name\nhint: letters, digits, _ and -, at least one")]
     Name(String),
@@ -84,6 +90,9 @@ pub enum MachineFault {
     /// A start of another size, or beyond a stop.
     #[error("the start lies {0} beyond the stop\nhint: give a start with --q that leaves the gap open")]
     Beyond(f64),
+    /// A contact of a start that does not agree with its coordinates and velocities, or a part of it that is not one.
+    #[error("{0}\nhint: a contact that is left out follows from coordinates and velocities")]
+    Contact(String),
 }
 
 impl MachineError {

@@ -14,6 +14,7 @@ mod parts;
 mod path;
 mod value;
 
+pub use checks::MOST_COORDINATES;
 pub use error::{MachineError, MachineFault};
 pub use modal::modal_damping;
 pub use parts::{FrictionJoint, HarmonicForce, HarmonicMotion, ImpactLaw, MachineParts, MachineStop, Opening, StopLaw};

@@ -156,33 +156,42 @@ fn numbers_of_stop(stop: &MachineStop) -> Vec<String> {
     law.iter().map(|&name| name.to_owned()).chain(stop.motion.iter().flat_map(motion)).collect()
 }
 
-/// The paths of all numbers that are not zero, and of those that every stop, joint and diagonal has.
-pub(super) fn all(parts: &MachineParts) -> Vec<String> {
+/// All numbers that are not zero, and those that every stop, joint and diagonal has, with their paths.
+pub(super) fn all(parts: &MachineParts) -> Vec<(String, f64)> {
     let names = &parts.coordinates;
-    let mut paths = Vec::new();
+    let mut all = Vec::new();
     for (kind, matrix) in [("mass", &parts.mass), ("damping", &parts.damping), ("stiffness", &parts.stiffness)] {
         for (i, one) in names.iter().enumerate() {
-            paths.push(format!("{kind}.{one}"));
-            let others = names.iter().enumerate().skip(i + 1).filter(|(j, _)| matrix[(i, *j)] != 0.0);
-            paths.extend(others.map(|(_, other)| format!("{kind}.{one}.{other}")));
+            let row = matrix.row(i);
+            all.push((format!("{kind}.{one}"), row[i]));
+            let others = names.iter().zip(row).skip(i + 1).filter(|(_, value)| **value != 0.0);
+            all.extend(others.map(|(other, value)| (format!("{kind}.{one}.{other}"), *value)));
         }
     }
-    let of = |path: &str, values: &[f64]| -> Vec<String> {
-        names.iter().zip(values).filter(|(_, value)| **value != 0.0).map(|(name, _)| format!("{path}.{name}")).collect()
+    let of = |path: &str, values: &[f64]| -> Vec<(String, f64)> {
+        let values = names.iter().zip(values).filter(|(_, value)| **value != 0.0);
+        values.map(|(name, value)| (format!("{path}.{name}"), *value)).collect()
     };
-    paths.extend(of("constant", &parts.constant));
-    paths.extend(parts.frequency.map(|_| "frequency".to_owned()));
+    all.extend(of("constant", &parts.constant));
+    all.extend(parts.frequency.map(|frequency| ("frequency".to_owned(), frequency)));
     for HarmonicForce { order, cos, sin } in &parts.forces {
-        paths.extend(of(&format!("force.{order}.cos"), cos));
-        paths.extend(of(&format!("force.{order}.sin"), sin));
+        all.extend(of(&format!("force.{order}.cos"), cos));
+        all.extend(of(&format!("force.{order}.sin"), sin));
     }
     for stop in &parts.stops {
-        paths.extend(numbers_of_stop(stop).into_iter().map(|number| format!("stop.{}.{number}", stop.name)));
+        let mut copy = stop.clone();
+        let numbers = numbers_of_stop(stop).into_iter().filter_map(|number| {
+            let words: Vec<&str> = number.split('.').collect();
+            let value = *in_stop(&mut copy, &words)?;
+            Some((format!("stop.{}.{number}", stop.name), value))
+        });
+        all.extend(numbers.collect::<Vec<_>>());
     }
-    for FrictionJoint { name, .. } in &parts.joints {
-        paths.extend(["sliding", "static", "belt"].map(|number| format!("friction.{name}.{number}")));
+    for FrictionJoint { name, sliding, limit, belt, .. } in &parts.joints {
+        let numbers = [("sliding", sliding), ("static", limit), ("belt", belt)];
+        all.extend(numbers.map(|(number, value)| (format!("friction.{name}.{number}"), *value)));
     }
-    paths
+    all
 }
 
 #[cfg(test)]

@@ -38,6 +38,10 @@ impl Machine {
     /// [`MachineError`] with the path of the first number that is not allowed.
     pub fn new(parts: MachineParts) -> Result<Self, MachineError> {
         checks::check(&parts)?;
+        let mut parts = parts;
+        for matrix in [&mut parts.mass, &mut parts.damping, &mut parts.stiffness] {
+            matrix.symmetrise();
+        }
         let factor =
             parts.mass.cholesky().ok_or_else(|| MachineError::new("mass", MachineFault::NotPositiveDefinite))?;
         Ok(Self { parts, factor })
@@ -106,6 +110,12 @@ impl Machine {
     /// The paths of all numbers that are written or not zero, in the order of the description.
     #[must_use]
     pub fn paths(&self) -> Vec<String> {
+        self.numbers().into_iter().map(|(path, _)| path).collect()
+    }
+
+    /// The same paths with their numbers.
+    #[must_use]
+    pub fn numbers(&self) -> Vec<(String, f64)> {
         path::all(&self.parts)
     }
 }

@@ -149,13 +149,21 @@ impl Matrix {
     #[must_use]
     pub(crate) fn symmetrised(&self) -> Self {
         let mut even = self.clone();
+        even.symmetrise();
+        even
+    }
+
+    /// Makes a square matrix exactly symmetric, by the means of the elements that differ.
+    pub(crate) fn symmetrise(&mut self) {
         for i in 0..self.rows {
             for j in 0..i {
-                let mean = 0.5 * (self[(i, j)] + self[(j, i)]);
-                (even[(i, j)], even[(j, i)]) = (mean, mean);
+                let (one, other) = (self[(i, j)], self[(j, i)]);
+                if one != other {
+                    let mean = 0.5 * (one + other);
+                    (self[(i, j)], self[(j, i)]) = (mean, mean);
+                }
             }
         }
-        even
     }
 
     /// $`L^{-1}AL^{-T}`$ of a symmetric matrix $`A`$, exactly symmetric, for a lower triangular matrix $`L`$.
@@ -183,9 +191,13 @@ impl Matrix {
     #[must_use]
     pub fn cholesky(&self) -> Option<Self> {
         let mut factor = Self::zeros(self.rows, self.rows);
+        // rows of the factor are 0 where those of the matrix begin with zeros
+        let mut first = vec![0; self.rows];
         for i in 0..self.rows {
-            for j in 0..=i {
-                let sum = self[(i, j)] - dot(&factor.row(i)[..j], &factor.row(j)[..j]);
+            first[i] = (0..i).find(|j| self[(i, *j)] != 0.0).unwrap_or(i);
+            for j in first[i]..=i {
+                let from = first[i].max(first[j]).min(j);
+                let sum = self[(i, j)] - dot(&factor.row(i)[from..j], &factor.row(j)[from..j]);
                 if i == j {
                     if !(sum > 8.0 * f64::EPSILON * self[(i, i)] && sum.is_finite()) {
                         return None;

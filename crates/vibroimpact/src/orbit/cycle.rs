@@ -1,6 +1,7 @@
 //! A periodic motion: its impacts over the smallest period, its label and its Floquet multipliers.
 
 use super::label::Label;
+use super::stability::{Stability, rounding};
 use crate::math::Multiplier;
 use crate::motion::ImpactState;
 use crate::system::{Side, phase};
@@ -47,10 +48,28 @@ pub struct Cycle {
 }
 
 impl Cycle {
+    /// Whether neighbours approach the cycle. The product of its multipliers is exact, and their sum has the rounding error of
+    /// the impacts.
+    #[must_use]
+    pub fn stability(&self) -> Stability {
+        Stability::of(&self.multipliers, self.rounding())
+    }
+
+    /// The same for the direction of each multiplier.
+    #[must_use]
+    pub fn stabilities(&self) -> Vec<Stability> {
+        Stability::each(&self.multipliers, self.rounding()).collect()
+    }
+
+    fn rounding(&self) -> f64 {
+        let sum = self.multipliers[0].re + self.multipliers[1].re;
+        rounding(self.points.len(), sum.abs())
+    }
+
     /// Whether the cycle attracts its neighbourhood: both multipliers lie inside the unit circle.
     #[must_use]
     pub fn stable(&self) -> bool {
-        self.multipliers[0].modulus() < 1.0 && self.multipliers[1].modulus() < 1.0
+        self.stability().is_stable()
     }
 
     /// Whether `other` is the same motion: the same label and the same impacts in the same cyclic order, with phases

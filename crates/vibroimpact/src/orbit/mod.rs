@@ -4,6 +4,7 @@
 //! |---|---|
 //! | a periodic motion: its impacts, label, multipliers | [`Cycle`] |
 //! | its label m/n | [`Label`] |
+//! | stable, neutral or unstable | [`Stability`] |
 //! | one impact in n forcing periods, in closed form | [`one_impact`] |
 //! | Newton's method on the m-fold impact map | [`shoot`] |
 //! | cycles that stick, from their release | [`from_release`] |
@@ -33,19 +34,23 @@ mod refine;
 mod release;
 mod ring;
 mod shooting;
+mod stability;
 
 pub use cycle::{Cycle, CyclePoint, RestSpan};
 pub(crate) use find::struck;
 pub use find::{FindOptions, find, find_while};
 pub use free::without_impacts;
 pub use label::{Count, Label, LabelError};
-pub(crate) use of_machine::{Chatter, MachineFrame, MachineLap, MachineRing, Rebound, RingEvent, crossing};
+pub(crate) use of_machine::{
+    Chatter, MachineFrame, MachineLap, MachineRing, Rebound, RingEvent, crossing, events_of, rounding_decides,
+};
 pub use of_machine::{MachineCycle, find_machine_while};
 pub use one_impact::{OneImpact, one_impact};
 pub use physical::{EarlierContact, Orbit, earlier_contact};
 pub use refine::refine;
 pub use release::{DEFAULT_EVENTS, from_release};
 pub use shooting::{ShootingError, shoot};
+pub use stability::Stability;
 
 pub(crate) use clearance::{closest, turning_near};
 pub(crate) use cycle::distance as cycle_distance;
@@ -56,3 +61,4 @@ pub(crate) use newton::{cycle as ring_cycle, solve};
 pub(crate) use release::{Excursion, Stretch};
 pub(crate) use ring::Ring;
 pub(crate) use shooting::{Lap, flight_limits, shoot_stable};
+pub(crate) use stability::rounding;

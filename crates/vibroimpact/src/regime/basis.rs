@@ -196,9 +196,12 @@ fn planes(stiffness: &[f64], damping: &Matrix) -> Option<Vec<Plane>> {
             companion[(p + i, p + j)] = -damping[(i, j)];
         }
     }
-    let mut real: Vec<(f64, Vec<f64>)> = Vec::new();
+    // a rigid mode is exactly rigid: its eigenvalue is 0, which is the smallest, and its shape is known
+    let rigid: Vec<usize> = (0..p).filter(|i| stiffness[*i] == 0.0).collect();
+    let unit = |i: usize| (0..p).map(|k| if k == i { 1.0 } else { 0.0 }).collect();
+    let mut real: Vec<(f64, Vec<f64>)> = rigid.iter().map(|i| (0.0, unit(*i))).collect();
     let mut found = Vec::new();
-    for value in general_eigenvalues(&companion)? {
+    for value in general_eigenvalues(&companion)?.into_iter().take(2 * p - rigid.len()) {
         if value.im < 0.0 {
             continue;
         }

@@ -16,13 +16,18 @@ pub(crate) struct ModalChange {
     pub(crate) y: Vec<f64>,
     pub(crate) v: Vec<f64>,
     pub(crate) push: Vec<f64>,
-    set: Vec<f64>,
+    pub(crate) set: Vec<f64>,
 }
 
 impl Structure {
+    /// The number of stops, after which joints are counted.
+    pub(crate) const fn stops(&self) -> usize {
+        self.states.len() - self.joints
+    }
+
     /// The change of the modes that belongs to a change of the state.
-    fn modal_change(&self, normal: &Normal, x: &[f64], v: &[f64]) -> ModalChange {
-        let stops = self.states.len() - self.joints;
+    pub(crate) fn modal_change(&self, normal: &Normal, x: &[f64], v: &[f64]) -> ModalChange {
+        let stops = self.stops();
         let set: Vec<f64> = (0..self.joints)
             .map(|joint| match self.states[stops + joint] {
                 ContactState::Holding => dot(&normal.directions[stops + joint], x),

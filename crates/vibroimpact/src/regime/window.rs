@@ -7,6 +7,10 @@
 //! **Faint modes.** In a long window the fast modes are not expanded. Such a mode is the sum of its steady response to the
 //! forcing, which is as slow as the forcing, and of a free part whose energy does not grow: an interval, by which the
 //! guard may be lower.
+//!
+//! Of a mode far beyond critical damping, as that of a small mass between a spring and a damper, the free part is the sum of a
+//! slow and of a fast decay, $`u = U_1 e^{-\lambda_1 s} + U_2 e^{-\lambda_2 s}`$. Only the fast one is faint: the slow one is
+//! expanded.
 
 use super::bernstein::{TERMS, bernstein};
 use super::mode::Mode;
@@ -26,6 +30,10 @@ pub(crate) const REACH: f64 = 1.6;
 const SLOWER: f64 = 0.7;
 /// A faint mode is so many times faster than all harmonics, at least.
 const FAR: f64 = 2.0;
+/// The two decays of a mode are apart if $`d^2`$ is above $`k`$ by this factor: the fast one is 62 times faster then.
+const APART: f64 = 16.0;
+/// From one window to the next the length grows by no more than this factor, where a fast decay is faint.
+const LONGER: f64 = 8.0;
 
 /// A structure over windows of one length.
 #[derive(Clone, Debug)]
@@ -73,6 +81,72 @@ pub(crate) struct Faint {
     rates: Vec<f64>,
     /// Its steady response to each harmonic, as factors of cosine and sine.
     response: Vec<(f64, f64)>,
+    /// The slow and the fast decay, if only the fast one is faint.
+    decays: Option<(f64, f64)>,
+}
+
+/// The slow and the fast decay of a mode far beyond critical damping.
+fn decays(mode: &Mode) -> Option<(f64, f64)> {
+    let apart = mode.k > 0.0 && mode.d * mode.d > APART * mode.k;
+    apart.then(|| {
+        let fast = mode.d + (mode.d * mode.d - mode.k).sqrt();
+        (mode.k / fast, fast)
+    })
+}
+
+/// What is faint in windows of one length: whole modes, and the fast decays of modes; and the fastest rate of the others and of
+/// the forcing.
+struct Level {
+    faint: Vec<usize>,
+    decaying: Vec<usize>,
+    rate: f64,
+}
+
+/// The levels of windows of all useful lengths.
+fn window_levels(of: Moved<'_>) -> Vec<Level> {
+    // rate, mode, whether only its fast decay is left out
+    let mut parts: Vec<(f64, usize, bool)> = Vec::new();
+    for (i, mode) in of.modes.iter().enumerate() {
+        match decays(mode).filter(|(_, fast)| *fast >= FAR * of.rate() && of.drive[i].ramp == 0.0) {
+            Some((slow, _)) => parts.extend([(mode.rate, i, true), (slow, i, false)]),
+            None => parts.push((mode.rate, i, false)),
+        }
+    }
+    if !parts.iter().any(|(.., decaying)| *decaying) {
+        return levels(of).into_iter().map(|(faint, rate)| Level { faint, decaying: Vec::new(), rate }).collect();
+    }
+    parts.sort_by(|one, other| one.0.total_cmp(&other.0));
+    let mut all: Vec<Level> = Vec::new();
+    let mut level = Level { faint: Vec::new(), decaying: Vec::new(), rate: 0.0 };
+    loop {
+        let rate = parts.last().map_or(0.0, |(rate, ..)| *rate).max(of.rate());
+        let last = all.last().map_or(f64::INFINITY, |level| level.rate);
+        if all.is_empty() || (rate > 0.0 && rate <= SLOWER * last) {
+            // not to fall from a long window to a very short one before each event
+            let mut between = last / LONGER;
+            while between.is_finite() && between > SLOWER * LONGER * rate {
+                let (faint, decaying) = (level.faint.clone(), level.decaying.clone());
+                all.push(Level { faint, decaying, rate: between });
+                between /= LONGER;
+            }
+            let (faint, decaying) = (level.faint.clone(), level.decaying.clone());
+            all.push(Level { faint, decaying, rate });
+        }
+        let Some((_, i, decaying)) = parts.pop() else { break };
+        let mode = &of.modes[i];
+        if decaying {
+            level.decaying.push(i);
+        } else if level.decaying.contains(&i)
+            || mode.k <= 0.0
+            || mode.omega < FAR * of.rate()
+            || of.drive[i].ramp != 0.0
+        {
+            break;
+        } else {
+            level.faint.push(i);
+        }
+    }
+    all
 }
 
 impl Moved<'_> {
@@ -104,7 +178,7 @@ impl Moved<'_> {
 
 /// Windows of all useful lengths, the shortest first, in which no mode is faint.
 pub(crate) fn windows(of: Moved<'_>, guards: &[&Observable]) -> Vec<Window> {
-    levels(of).into_iter().map(|(faint, rate)| Window::new(of, guards, &faint, rate)).collect()
+    window_levels(of).iter().map(|level| Window::new(of, guards, level)).collect()
 }
 
 /// The modes that are faint, and the fastest rate of the others and of the forcing, in windows of all useful lengths.
@@ -130,10 +204,12 @@ pub(super) fn levels(of: Moved<'_>) -> Vec<(Vec<usize>, f64)> {
 }
 
 impl Window {
-    fn new(of: Moved<'_>, guards: &[&Observable], faint: &[usize], rate: f64) -> Self {
+    fn new(of: Moved<'_>, guards: &[&Observable], level: &Level) -> Self {
         // without any rate the guards are polynomials of low order; a window must still be finite
-        let length = if rate > 0.0 { REACH / rate } else { 1.0 };
-        let faint: Vec<Faint> = faint.iter().map(|i| Faint::new(of, *i)).collect();
+        let length = if level.rate > 0.0 { REACH / level.rate } else { 1.0 };
+        let whole = level.faint.iter().map(|i| Faint::new(of, *i, None));
+        let decaying = level.decaying.iter().map(|i| Faint::new(of, *i, decays(&of.modes[*i])));
+        let faint: Vec<Faint> = whole.chain(decaying).collect();
         Self {
             length,
             pass: Pass::new(of, length),
@@ -182,6 +258,13 @@ impl GuardSeries {
                     let size = hypot(a * x, a * y) + w * hypot(b * x, b * y);
                     constant += size * power(w * length);
                 }
+                if let Some((slow, fast)) = faint.decays {
+                    // the ninth power of the slow decay, by the energy and by the steady response
+                    let ninth = (a - b * slow).abs() * power(slow * length) / (fast - slow);
+                    weights[i].energy = ninth * (1.0 + fast / mode.omega);
+                    let steady = faint.response.iter().zip(of.rates).map(|((x, y), w)| (w + fast) * hypot(*x, *y));
+                    constant += ninth * steady.sum::<f64>();
+                }
                 continue;
             }
             (row[3 * i], row[3 * i + 1]) = (a, b);
@@ -193,8 +276,11 @@ impl GuardSeries {
             constant += sum(bounds.constant);
         }
         for faint in faint {
-            let (a, b) = (guard.position[faint.mode].abs(), guard.velocity[faint.mode].abs());
-            lost.push(a / faint.k.sqrt() + b);
+            let (a, b) = (guard.position[faint.mode], guard.velocity[faint.mode]);
+            lost.push(match faint.decays {
+                Some((_, fast)) => (a - b * fast).abs(),
+                None => a.abs() / faint.k.sqrt() + b.abs(),
+            });
         }
         let mut rows = vec![[0.0; TERMS]; row.len()];
         let (mut size, mut k) = (1.0, 1.0);
@@ -213,6 +299,9 @@ impl GuardSeries {
             row = of.derivative(&row);
             size *= length / k;
             k += 1.0;
+        }
+        for faint in faint {
+            faint.add_slow(&mut rows, (guard.position[faint.mode], guard.velocity[faint.mode]), length);
         }
         // prescribed functions of time are rare: their elements are the last
         let used = rows.iter().rposition(|row| row.iter().any(|value| *value != 0.0)).map_or(0, |last| last + 1);
@@ -302,13 +391,31 @@ fn power(x: f64) -> f64 {
 }
 
 impl Faint {
-    fn new(of: Moved<'_>, mode: usize) -> Self {
+    fn new(of: Moved<'_>, mode: usize, decays: Option<(f64, f64)>) -> Self {
         let own = &of.modes[mode];
         let response = of.drive[mode].harmonics.iter().zip(of.rates).map(|(amplitudes, w)| own.steady(*w, *amplitudes));
-        Self { mode, k: own.k, rates: of.rates.to_vec(), response: response.collect() }
+        Self { mode, k: own.k, rates: of.rates.to_vec(), response: response.collect(), decays }
     }
 
-    /// $`\sqrt{\dot u^2 + ku^2}`$ of the free part $`u`$ at a state.
+    /// Adds the series of the slow decay of a mode with these factors of displacement and velocity, if only the fast one is
+    /// faint: $`U_1 = (\dot u + \lambda_2u)/(\lambda_2 - \lambda_1)`$.
+    fn add_slow(&self, rows: &mut [[f64; TERMS]], (a, b): (f64, f64), length: f64) {
+        let Some((slow, fast)) = self.decays else { return };
+        let harmonics = rows.len() - 2 - 2 * self.rates.len();
+        let mut c = (a - b * slow) / (fast - slow);
+        for (order, k) in (0..ORDER).zip(1_u32..) {
+            rows[3 * self.mode][order] += c * fast;
+            rows[3 * self.mode + 1][order] += c;
+            rows[3 * self.mode + 2][order] -= c * fast / self.k;
+            for (h, ((x, y), w)) in self.response.iter().zip(&self.rates).enumerate() {
+                rows[harmonics + 2 * h][order] -= c * (fast * x + w * y);
+                rows[harmonics + 2 * h + 1][order] -= c * (fast * y - w * x);
+            }
+            c *= -slow * length / f64::from(k);
+        }
+    }
+
+    /// $`\sqrt{\dot u^2 + ku^2}`$ of the free part $`u`$ at a state; $`|U_2|`$ if only the fast decay is faint.
     pub(crate) fn energy(&self, z: &[f64]) -> f64 {
         let harmonics = &z[z.len() - 2 - 2 * self.rates.len()..];
         let (mut u, mut rate) = (z[3 * self.mode] - z[3 * self.mode + 2] / self.k, z[3 * self.mode + 1]);
@@ -317,7 +424,10 @@ impl Faint {
             u -= x * cos + y * sin;
             rate -= self.rates[h] * (y * cos - x * sin);
         }
-        (rate * rate + self.k * u * u).sqrt()
+        match self.decays {
+            Some((slow, fast)) => (rate + slow * u).abs() / (fast - slow),
+            None => (rate * rate + self.k * u * u).sqrt(),
+        }
     }
 }
 
@@ -384,6 +494,39 @@ pub(crate) fn derivative_bounds(mode: &Mode, window: f64, energy: f64, push: f64
 mod tests {
     use super::*;
     use crate::regime::Signal;
+
+    /// The slow decay of a mode far beyond critical damping is expanded in long windows, and the fast one lowers the guard by no
+    /// less than it moves.
+    #[test]
+    fn fast_decays_are_faint() {
+        let rates = [0.7, 1.4];
+        let mut drive = Signal::zero(0, 2);
+        drive.harmonics = vec![(4e6, -1e6), (2e5, 1e5)];
+        let modes = [Mode::new(5e6, 3.5e5, &rates), Mode::new(1.0, 0.05, &rates)];
+        let mut gentle = drive.clone();
+        gentle.harmonics = vec![(0.4, -0.1), (0.02, 0.1)];
+        let drive = [drive, gentle];
+        let mut guard = Observable::zero(2, 0, 2);
+        (guard.position, guard.velocity) = (vec![0.8, -0.5], vec![1e-4, 0.1]);
+        let of = Moved { modes: &modes, drive: &drive, rates: &rates };
+        let all = windows(of, &[&guard]);
+        let long = all.last().unwrap();
+        assert!(all.len() > 5 && long.length > 0.1 && long.faint.len() == 1, "{} {}", all.len(), long.length);
+        let mut z = vec![0.4, -0.3, 2e6, -0.2, 0.5, 0.3, 0.6, 0.8, 0.28, -0.96, 0.9, 1.0];
+        // at first, and after the fast decay
+        for k in 0..12 {
+            let mut end = z.clone();
+            long.pass(&mut end);
+            let value = all[0].guards[0].at(&end)[0];
+            let sum: f64 = long.guards[0].at(&z).iter().sum();
+            let lowered = long.guards[0].lowered(&[long.faint[0].energy(&z)]);
+            let at_end = long.guards[0].lowered(&[long.faint[0].energy(&end)]);
+            // the ninth power is left out
+            assert!((sum - value).abs() <= at_end + 1e-4, "{k}: {sum} {value} {at_end}");
+            assert!((long.guards[0].at(&z)[0] - all[0].guards[0].at(&z)[0]).abs() <= lowered * (1.0 + 1e-9) + 1e-12);
+            z = end;
+        }
+    }
 
     /// The series of a guard at one state, summed at the end of the window, is its value at the state there; and faint modes
     /// lower it by no less than they move.

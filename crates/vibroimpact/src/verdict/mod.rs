@@ -32,7 +32,7 @@ mod settle;
 mod settlement;
 mod trapping_region;
 
-pub use crate::orbit::{Count, Label, LabelError};
+pub use crate::orbit::{Count, Label, LabelError, Stability};
 pub use attractors::{Census, CountedMotion, StartBox, SteadyMotion, attractors, scattered_starts};
 pub use each::{Counted, settle_each};
 pub(crate) use follow::{Follow, Releases, ended};

@@ -50,7 +50,8 @@ impl Default for SettleOptions {
 impl SettleOptions {
     /// A budget of this number of impacts. A budget below the default has search steps for that number of ordinary
     /// flights. Chaos is decided at the same numbers of impacts as with the default, the first of which is 5000. So a
-    /// smaller budget leaves more starts undecided and changes no other verdict.
+    /// smaller budget leaves more starts undecided and changes no other verdict of an oscillator. A machine is called chaotic at
+    /// the end of its budget, if this is 5000 events or more; with a larger one its chaos may have ended.
     #[must_use]
     pub fn at_most(impacts: u32) -> Self {
         let usual = Self::default();

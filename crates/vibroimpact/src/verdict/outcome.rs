@@ -3,7 +3,7 @@
 use crate::flight::Horizon;
 use crate::lyapunov::Spectrum;
 use crate::math::Multiplier;
-use crate::orbit::Cycle;
+use crate::orbit::{Cycle, Stability, rounding};
 use crate::system::{Oscillator, Side};
 use core::f64::consts::TAU;
 use std::borrow::Cow;
@@ -205,17 +205,24 @@ impl Verdict {
         }
     }
 
-    /// Whether the motion attracts its neighbourhood; `None` if this is undecided, or if the motion is neutrally stable
-    /// (motions without impacts and without damping).
+    /// Whether neighbours approach the motion; `None` if it is undecided. Motions without impacts and without damping are
+    /// neutral.
     #[must_use]
-    pub fn stable(&self, osc: &Oscillator) -> Option<bool> {
+    pub fn stability(&self, osc: &Oscillator) -> Option<Stability> {
         match self {
-            Self::Periodic(cycle) => Some(cycle.stable()),
-            Self::NoImpact(NoImpact::Landing { .. }) => Some(true),
-            Self::NoImpact(_) => (osc.damping() > 0.0).then_some(true),
-            Self::Chaotic(_) => Some(false),
-            Self::Stuck(_) => Some(true),
+            Self::Periodic(cycle) => Some(cycle.stability()),
+            Self::NoImpact(_) | Self::Stuck(_) => self.stabilities(osc).and_then(|each| each.into_iter().max()),
+            Self::Chaotic(_) => Some(Stability::Unstable),
             Self::Undecided(_) => None,
+        }
+    }
+
+    /// The same for the direction of each of its [multipliers](Self::multipliers).
+    #[must_use]
+    pub fn stabilities(&self, osc: &Oscillator) -> Option<Vec<Stability>> {
+        match self {
+            Self::Periodic(cycle) => Some(cycle.stabilities()),
+            _ => self.multipliers(osc).map(|all| Stability::each(&all, rounding(1, 1.0)).collect()),
         }
     }
 

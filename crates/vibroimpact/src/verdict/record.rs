@@ -25,6 +25,8 @@ pub(crate) struct Record<R: Recurring> {
     /// The number of measurements completed since then, and the exponents of the latest one.
     windows: usize,
     spectrum: Option<R::Spectrum>,
+    /// Whether the latest one showed chaos.
+    chaotic: bool,
 }
 
 impl<R: Recurring> Default for Record<R> {
@@ -39,6 +41,7 @@ impl<R: Recurring> Default for Record<R> {
             measure: None,
             windows: 0,
             spectrum: None,
+            chaotic: false,
         }
     }
 }
@@ -79,6 +82,7 @@ impl<R: Recurring> Record<R> {
     /// Whether a measurement goes on that began because the one before diverged too little for a decision.
     pub(super) fn undecided_measurement(&self) -> bool {
         self.windows + 1 == WINDOWS.len()
+            && !self.chaotic
             && self.measure.is_some()
             && self.spectrum.as_ref().is_some_and(Diverging::diverges)
     }
@@ -143,7 +147,8 @@ impl<R: Recurring> Record<R> {
         let (spectrum, chaotic) = system.chaos(&*self.measure.take()?).unzip();
         self.windows += 1;
         self.spectrum.clone_from(&spectrum);
-        let chaos = spectrum.filter(|_| chaotic == Some(true));
+        self.chaotic = chaotic == Some(true);
+        let chaos = spectrum.filter(|_| self.chaotic);
         if chaos.is_none() {
             self.measure = Some(Box::new(system.measure(state, window(options, self.windows))));
         }
@@ -165,6 +170,14 @@ impl<R: Recurring> Record<R> {
         self.so_far(system).into_iter().chain(self.spectrum.clone()).find(Diverging::chaotic)
     }
 
+    /// The exponents of the measurement in progress, or else of the last one, if they show chaos.
+    pub(super) fn chaos(&self, system: &R) -> Option<R::Spectrum> {
+        match self.measure.as_ref().and_then(|measure| system.chaos(measure)) {
+            Some((spectrum, chaotic)) => chaotic.then_some(spectrum),
+            None => self.spectrum.clone().filter(|_| self.chaotic),
+        }
+    }
+
     /// The motion from here on does not depend on what was before: chaos is measured anew, from here.
     pub(super) fn forget(&mut self) {
         self.forgotten = self.count();
@@ -173,7 +186,7 @@ impl<R: Recurring> Record<R> {
 
     /// Forgets all measurements.
     pub(super) fn unmeasured(&mut self) {
-        (self.measure, self.spectrum, self.windows) = (None, None, 0);
+        (self.measure, self.spectrum, self.windows, self.chaotic) = (None, None, 0, false);
     }
 
     /// Searches for a recurrence, and confirms the cycle by Newton's method and the test whether it captures the

@@ -3,7 +3,7 @@
 use super::recurring::{Diverging, Recurring};
 use crate::lyapunov::{Measure, Spectrum};
 use crate::motion::ImpactState;
-use crate::orbit::{Cycle, Lap, cycle_distance, flight_limits, shoot_stable};
+use crate::orbit::{Cycle, Lap, Stability, cycle_distance, flight_limits, shoot_stable};
 use crate::system::Oscillator;
 use core::f64::consts::TAU;
 
@@ -42,14 +42,16 @@ pub(super) fn candidates<R: Recurring>(
     })
 }
 
-/// Whether a motion that arrives at `state` is captured by the stable `cycle`: it is near, and its next period follows
+/// Whether a motion that arrives at `state` is captured by `cycle`: it is on it to rounding and the cycle is not unstable, or
+/// the cycle is stable, and the motion is near and its next period follows
 /// the linear law of the cycle so closely that the remainder cannot undo the contraction of the multipliers.
 pub(super) fn captured(osc: &Oscillator, state: &ImpactState, cycle: &Cycle) -> bool {
     let nearest =
         cycle.points.iter().min_by(|a, b| cycle_distance(&a.state, state).total_cmp(&cycle_distance(&b.state, state)));
     let Some(nearest) = nearest else { return false };
     let apart = cycle_distance(&nearest.state, state);
-    if apart > NEAR || !cycle.stable() {
+    let stability = cycle.stability();
+    if apart > NEAR || stability == Stability::Unstable {
         return false;
     }
     let m = u32::try_from(cycle.points.len()).unwrap_or(u32::MAX);
@@ -59,6 +61,9 @@ pub(super) fn captured(osc: &Oscillator, state: &ImpactState, cycle: &Cycle) -> 
     };
     if apart <= AT_ROUNDING {
         return true;
+    }
+    if !stability.is_stable() {
+        return false;
     }
     let offset = |a: &ImpactState, b: &ImpactState| {
         [crate::system::phase::difference(a.phase, b.phase), a.velocity - b.velocity]

@@ -32,7 +32,7 @@ fn the_same_events() {
         let options = SettleOptions::default();
         let Verdict::Periodic(cycle) = settle(&osc, Start { x, v, phase: 0.0 }, &options).verdict else { panic!() };
         let machine = of(&osc);
-        let own = MachineStart { q: vec![x], qdot: vec![v], phase: 0.0 };
+        let own = MachineStart { q: vec![x], qdot: vec![v], phase: 0.0, ..MachineStart::default() };
         let MachineVerdict::Periodic(found) = settle_machine(&machine, &own, &options).unwrap().verdict else {
             panic!()
         };

@@ -33,7 +33,12 @@ fn from(
 pub(crate) fn branch(machine: &Machine, over: (&str, f64, f64), direction: Direction) -> Vec<MachinePoint> {
     let mut qdot = vec![0.0; machine.n()];
     qdot[0] = machine.number("friction.belt.belt").unwrap();
-    from(machine, &cycle(machine, &MachineStart { q: vec![0.0; machine.n()], qdot, phase: 0.0 }), over, direction)
+    from(
+        machine,
+        &cycle(machine, &MachineStart { q: vec![0.0; machine.n()], qdot, phase: 0.0, ..MachineStart::default() }),
+        over,
+        direction,
+    )
 }
 
 /// The period of stick-slip in closed form at each point, over each number.
@@ -180,7 +185,10 @@ fn both_cycles_beside_a_branch_point() {
         .with_joint("up", &[1.0, 0.0], 0.3, 0.83, 0.1)
         .with_joint("down", &[1.0, 0.0], 0.3, 0.83, -0.1);
     let machine = Machine::new(parts).unwrap();
-    let symmetric = cycle(&machine, &MachineStart { q: vec![0.3, 0.1], qdot: vec![0.1, 0.3], phase: 0.0 });
+    let symmetric = cycle(
+        &machine,
+        &MachineStart { q: vec![0.3, 0.1], qdot: vec![0.1, 0.3], phase: 0.0, ..MachineStart::default() },
+    );
     let speeds = |cycle: &MachineCycle| {
         [0, 1].map(|stop| cycle.events.iter().find(|event| event.closes() && event.place == stop).unwrap().speed)
     };
@@ -216,7 +224,7 @@ fn a_drifting_cycle() {
         .with_constant(0, 0.9)
         .with_joint("ground", &[0.0, 1.0], 0.3, 0.6, 0.0);
     let machine = Machine::new(parts).unwrap();
-    let start = MachineStart { q: vec![0.0; 2], qdot: vec![0.0; 2], phase: 0.0 };
+    let start = MachineStart { q: vec![0.0; 2], qdot: vec![0.0; 2], phase: 0.0, ..MachineStart::default() };
     let cycle = cycle(&machine, &start);
     for over in [("constant.carriage", 0.65, 1.4), ("friction.ground.sliding", 0.1, 0.5)] {
         for direction in [Direction::Up, Direction::Down] {
@@ -275,7 +283,7 @@ fn the_begin_of_a_hold_that_changes_all_that_follows() {
     let machine = Machine::new(parts).unwrap();
     let points = branch(&machine, ("friction.belt.belt", 0.1, 0.5), Direction::Up);
     let events: Vec<_> = points.iter().filter_map(|point| Some((point.event?, point.value))).collect();
-    let [(MachineBranchEvent::Holding { joint: 1, begins: true }, value), (MachineBranchEvent::NoConvergence, _)] =
+    let [(MachineBranchEvent::Holding { joint: 1, begins: true }, value), (MachineBranchEvent::Discontinuity, _)] =
         events[..]
     else {
         panic!("{events:?}")

@@ -160,8 +160,12 @@ fn case(value: &Value) -> Case {
     let name = text(&value["name"]);
     let machine = Machine::new(parts).unwrap_or_else(|error| panic!("{name}: {error}"));
     let start = &value["start"];
-    let start =
-        MachineStart { q: numbers(&start["q"]), qdot: numbers(&start["qdot"]), phase: number(&start["phase"], 0.0) };
+    let start = MachineStart {
+        q: numbers(&start["q"]),
+        qdot: numbers(&start["qdot"]),
+        phase: number(&start["phase"], 0.0),
+        ..MachineStart::default()
+    };
     let states = list(&value["states"]).iter().map(|row| State {
         event: usize::try_from(row[0].as_u64().unwrap()).unwrap(),
         q: numbers(&row[1]),

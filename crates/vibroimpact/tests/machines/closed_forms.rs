@@ -40,7 +40,12 @@ fn ball_on_a_table() {
             .find_map(|k| {
                 let phase = 2.0 * PI * f64::from(k) / 48.0;
                 let (height, rate) = (between * phase.sin(), between * phase.cos());
-                let start = MachineStart { q: vec![height + 1e-9], qdot: vec![rate + n * PI], phase };
+                let start = MachineStart {
+                    q: vec![height + 1e-9],
+                    qdot: vec![rate + n * PI],
+                    phase,
+                    ..MachineStart::default()
+                };
                 let settled = settle_machine(&machine, &start, &SettleOptions::default()).unwrap();
                 match settled.verdict {
                     MachineVerdict::Periodic(cycle) if cycle.label.to_string() == format!("1/{n}") => Some(cycle),
@@ -91,7 +96,7 @@ fn digits_of_pi() {
             .with_rigid_stop("wall", &[-1.0, 0.0], 0.0, 1.0)
             .with_rigid_stop("balls", &[1.0, -1.0], 0.0, 1.0);
         let machine = Machine::new(parts).unwrap();
-        let start = MachineStart { q: vec![1.0, 2.0], qdot: vec![0.0, -1.0], phase: 0.0 };
+        let start = MachineStart { q: vec![1.0, 2.0], qdot: vec![0.0, -1.0], phase: 0.0, ..MachineStart::default() };
         let count = events(&machine, &start).filter(|event| event.kind == MachineEventKind::Impact).count();
         assert_eq!(count, expected, "mass 100^{k}");
     }

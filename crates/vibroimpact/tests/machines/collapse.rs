@@ -50,7 +50,7 @@ fn ends_at((low, high): (f64, f64), e: f64) -> f64 {
 fn a_stack_collapses() {
     for (masses, restitution) in [((0.2, 1.0), 0.3), ((0.2, 1.0), 0.2), ((0.1, 1.0), 0.35), ((0.05, 1.0), 0.5)] {
         let machine = stack(masses, restitution);
-        let start = MachineStart { q: vec![1.0, 2.0], qdot: vec![0.0; 2], phase: 0.0 };
+        let start = MachineStart { q: vec![1.0, 2.0], qdot: vec![0.0; 2], phase: 0.0, ..MachineStart::default() };
         let (seen, end) = events(&machine, &start);
         let last = seen.last().unwrap();
         assert_eq!(end, Some(MachineEnd::Stuck), "{masses:?} {restitution} {last:?}");
@@ -72,7 +72,7 @@ fn free_bodies_fly_on_together() {
         .with_mass(2, 1.0)
         .with_rigid_stop("ab", &[1.0, -1.0, 0.0], 0.5, 0.05)
         .with_rigid_stop("bc", &[0.0, 1.0, -1.0], 0.5, 0.05);
-    let start = MachineStart { q: vec![0.0; 3], qdot: vec![1.0, 0.0, -0.7], phase: 0.0 };
+    let start = MachineStart { q: vec![0.0; 3], qdot: vec![1.0, 0.0, -0.7], phase: 0.0, ..MachineStart::default() };
     let (seen, end) = events(&Machine::new(parts).unwrap(), &start);
     let last = seen.last().unwrap();
     assert_eq!(
@@ -97,7 +97,7 @@ fn a_start_on_several_stops() {
             .with_rigid_stop("table", &[-1.0, 0.0], 0.0, e);
         let machine = Machine::new(parts).unwrap();
         // the stop of the table is struck because the body comes down on it
-        let start = MachineStart { q: vec![0.0, 0.0], qdot: vec![-1.8, -1.8], phase: 0.0 };
+        let start = MachineStart { q: vec![0.0, 0.0], qdot: vec![-1.8, -1.8], phase: 0.0, ..MachineStart::default() };
         let (seen, _) = events(&machine, &start);
         let first = &seen[0];
         assert_eq!((first.kind, machine.name_of(first.place), first.time), (MachineEventKind::Impact, "table", 0.0));

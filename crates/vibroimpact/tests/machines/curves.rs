@@ -59,7 +59,7 @@ fn ball_on_a_table() {
     let found = (0..48).find_map(|k| {
         let phase = 2.0 * PI * f64::from(k) / 48.0;
         let (height, rate) = (between * phase.sin(), between * phase.cos());
-        let start = MachineStart { q: vec![height + 1e-9], qdot: vec![rate + PI], phase };
+        let start = MachineStart { q: vec![height + 1e-9], qdot: vec![rate + PI], phase, ..MachineStart::default() };
         match settled(&machine, &start) {
             MachineVerdict::Periodic(cycle) if cycle.label.to_string() == "1/1" => Some(cycle),
             _ => None,

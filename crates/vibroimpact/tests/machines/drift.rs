@@ -107,6 +107,7 @@ fn multipliers_by_differences() {
                 q: vec![state.q[0] + change[0], state.q[1] + change[1]],
                 qdot: vec![state.qdot[0] + change[2], state.qdot[1] + change[3]],
                 phase: state.phase,
+                ..MachineStart::default()
             };
             let (q, v) = at(&machine, &start, found.period);
             [q, v].concat()

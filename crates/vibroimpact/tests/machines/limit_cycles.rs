@@ -20,7 +20,7 @@ pub(crate) fn on_belt((sliding, limit): (f64, f64), belt: f64, damping: f64) -> 
 #[test]
 fn stick_slip_in_closed_form() {
     for (sliding, limit, belt) in [(0.2, 0.4, 0.1), (0.5, 0.6, 0.02), (0.0, 1.0, 0.7), (1.0, 1.5, 2.5)] {
-        let start = MachineStart { q: vec![0.0], qdot: vec![belt], phase: 0.0 };
+        let start = MachineStart { q: vec![0.0], qdot: vec![belt], phase: 0.0, ..MachineStart::default() };
         let cycle = cycle(&on_belt((sliding, limit), belt, 0.0), &start);
         let jump = limit - sliding;
         let expected = 2.0 * jump / belt + PI + 2.0 * (belt / jump).atan();
@@ -44,7 +44,7 @@ pub(crate) fn pair(belt: f64, gap: f64, restitution: f64) -> Machine {
 
 /// The state at the next hold of the first mass after one from this state; its velocity is that of the belt.
 fn next_hold(machine: &Machine, belt: f64, [low, high, rate]: [f64; 3]) -> [f64; 3] {
-    let start = MachineStart { q: vec![low, high], qdot: vec![belt, rate], phase: 0.0 };
+    let start = MachineStart { q: vec![low, high], qdot: vec![belt, rate], phase: 0.0, ..MachineStart::default() };
     let motion = MachineMotion::new(machine, &start, MachineLimits::default()).unwrap();
     let hold = motion.into_iter().find(|event| event.time > 0.0 && event.kind == MachineEventKind::Hold).unwrap();
     [hold.q[0], hold.q[1], hold.qdot[1]]
@@ -56,7 +56,7 @@ fn multipliers_are_those_of_the_return_map() {
     let mut labels = Vec::new();
     for (belt, gap, restitution) in [(0.2, 10.0, 0.5), (0.1, 0.7, 0.6), (0.15, 0.65, 0.9), (0.12, 0.6, 0.2)] {
         let machine = pair(belt, gap, restitution);
-        let start = MachineStart { q: vec![0.0; 2], qdot: vec![belt, 0.0], phase: 0.0 };
+        let start = MachineStart { q: vec![0.0; 2], qdot: vec![belt, 0.0], phase: 0.0, ..MachineStart::default() };
         let cycle = cycle(&machine, &start);
         labels.push(cycle.label.to_string());
         let holds: Vec<_> = cycle.events.iter().filter(|event| event.kind == MachineEventKind::Hold).collect();
@@ -99,7 +99,10 @@ fn one_cycle_from_many_starts() {
     let first = cycle(&machine, &MachineStart::default());
     for k in 0..8 {
         let q = vec![-0.3 + 0.1 * f64::from(k), 0.1 - 0.05 * f64::from(k)];
-        let other = cycle(&machine, &MachineStart { q, qdot: vec![0.3, -0.2 * f64::from(k)], phase: 0.0 });
+        let other = cycle(
+            &machine,
+            &MachineStart { q, qdot: vec![0.3, -0.2 * f64::from(k)], phase: 0.0, ..MachineStart::default() },
+        );
         assert!(first.same_as(&other, 1e-8), "{k}: {} {}", first.period, other.period);
     }
     let motion = MachineMotion::new(&machine, &first.state, MachineLimits::default()).unwrap();
@@ -133,6 +136,6 @@ fn what_is_no_limit_cycle() {
     assert_eq!(settled(&on_belt((0.2, 0.4), 5.0, 0.3), &MachineStart::default()).label(), "0");
     let parts = MachineParts::new(["mass"]).with_mass(0, 1.0).with_link(&[1.0], 1.0, 0.0);
     let elastic = Machine::new(parts.with_rigid_stop("stop", &[1.0], 0.3, 1.0)).unwrap();
-    let start = MachineStart { q: vec![0.0], qdot: vec![1.0], phase: 0.0 };
+    let start = MachineStart { q: vec![0.0], qdot: vec![1.0], phase: 0.0, ..MachineStart::default() };
     assert_eq!(settled(&elastic, &start).label(), "undecided");
 }

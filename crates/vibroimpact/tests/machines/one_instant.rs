@@ -13,7 +13,7 @@ fn events(parts: &MachineParts, start: &MachineStart, count: usize) -> (Vec<Mach
 }
 
 fn start(q: &[f64], qdot: &[f64]) -> MachineStart {
-    MachineStart { q: q.to_vec(), qdot: qdot.to_vec(), phase: 0.0 }
+    MachineStart { q: q.to_vec(), qdot: qdot.to_vec(), ..MachineStart::default() }
 }
 
 fn label(parts: &MachineParts, start: &MachineStart) -> String {

@@ -48,7 +48,7 @@ fn a_ball_without_rebound() {
     let make = |gamma: f64| ball(gamma, 0.0);
     let expected = (1.0 + PI * PI).sqrt();
     for (from, direction, begins) in [(2.0, Direction::Up, false), (3.5, Direction::Down, true)] {
-        let start = MachineStart { q: vec![from + 0.1], qdot: vec![0.0], phase: 0.0 };
+        let start = MachineStart { q: vec![from + 0.1], qdot: vec![0.0], phase: 0.0, ..MachineStart::default() };
         let point = first_event(make, (from, &start), ((0.5, 6.0), direction));
         assert_eq!(point.event, Some(MachineBranchEvent::Sticking { stop: 0, begins }), "{}", point.value);
         assert!((point.value - expected).abs() < 1e-12, "{} {expected}", point.value);
@@ -156,7 +156,7 @@ fn the_curve_of_a_ball_without_rebound() {
         Machine::new(parts).ok()
     };
     for (from, direction) in [(2.0, Direction::Up), (3.5, Direction::Down)] {
-        let start = MachineStart { q: vec![from + 0.1], qdot: vec![0.0], phase: 0.0 };
+        let start = MachineStart { q: vec![from + 0.1], qdot: vec![0.0], phase: 0.0, ..MachineStart::default() };
         let point = first_event(|gamma| ball(gamma, 0.0), (from, &start), ((0.5, 6.0), direction));
         let (kind, points) = curve(make, (point.value, 1.0), ((0.5, 6.0), (0.4, 1.6)), &point);
         assert_eq!(kind, MachineCurveKind::Sticking { stop: 0 });
@@ -176,7 +176,7 @@ fn the_curve_of_a_ball_without_rebound() {
 /// over the restitution.
 #[test]
 fn no_curve_over_the_restitution() {
-    let start = MachineStart { q: vec![3.6], qdot: vec![0.0], phase: 0.0 };
+    let start = MachineStart { q: vec![3.6], qdot: vec![0.0], phase: 0.0, ..MachineStart::default() };
     let point = first_event(|gamma| ball(gamma, 0.0), (3.5, &start), ((0.5, 6.0), Direction::Down));
     let make = |gamma, e| (0.0..=1.0).contains(&e).then(|| ball(gamma, e));
     let plane = MachinePlane::new(make, (0.5..=6.0, 0.0..=0.5));
@@ -367,7 +367,7 @@ fn the_curve_of_two_complete_chatters() {
 #[test]
 fn small_restitutions() {
     for (gamma, e) in [(3.2713, 1e-4), (3.22, 1e-3), (2.0, 1e-9)] {
-        let start = MachineStart { q: vec![gamma + 0.1], qdot: vec![0.0], phase: 0.0 };
+        let start = MachineStart { q: vec![gamma + 0.1], qdot: vec![0.0], phase: 0.0, ..MachineStart::default() };
         let cycle = settled(&ball(gamma, e), &start);
         assert_eq!(cycle.label.to_string(), "inf/1", "{gamma} {e}");
     }

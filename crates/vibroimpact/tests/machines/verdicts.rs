@@ -81,7 +81,7 @@ fn energy_and_momentum() {
         .with_rigid_stop("left", &[-1.0, 0.0], 1.0, 1.0)
         .with_rigid_stop("right", &[0.0, 1.0], 1.0, 1.0);
     let machine = Machine::new(parts).unwrap();
-    let start = MachineStart { q: vec![-0.3, 0.4], qdot: vec![0.7, -0.2], phase: 0.0 };
+    let start = MachineStart { q: vec![-0.3, 0.4], qdot: vec![0.7, -0.2], phase: 0.0, ..MachineStart::default() };
     let (mut v, mut seen) = (start.qdot.clone(), 0_u32);
     let energy = |v: &[f64]| 0.5 * (v[0] * v[0] + 1.618 * v[1] * v[1]);
     let before = energy(&v);

@@ -98,6 +98,11 @@ impl System {
     }
 
     fn machine_start(&self) -> MachineStart {
-        MachineStart { q: vec![self.start.x], qdot: vec![self.start.v], phase: self.start.phase }
+        MachineStart {
+            q: vec![self.start.x],
+            qdot: vec![self.start.v],
+            phase: self.start.phase,
+            ..MachineStart::default()
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! A point of a branch, and the events that are possible there.
 
-use crate::orbit::Cycle;
+use crate::orbit::{Cycle, Stability};
 use crate::system::Side;
 use crate::verdict::Label;
 
@@ -19,6 +19,12 @@ pub struct SolutionPoint {
 }
 
 impl SolutionPoint {
+    /// Whether neighbours approach the cycle, even if it is inadmissible.
+    #[must_use]
+    pub fn stability(&self) -> Stability {
+        self.cycle.stability()
+    }
+
     /// Whether the cycle is admissible and attracts its neighbourhood.
     #[must_use]
     pub fn stable(&self) -> bool {

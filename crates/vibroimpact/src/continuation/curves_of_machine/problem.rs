@@ -154,7 +154,10 @@ impl CurveProblem {
             },
             Watched::PlusOne => product(1.0),
             Watched::MinusOne => product(-1.0),
-            Watched::Pair => Some(over_pairs(&self.others(all()?))),
+            Watched::Pair => {
+                let (turn, all) = at.as_ref()?;
+                Some(over_pairs(&self.others(all), ring.rounding(frame, turn)))
+            }
             Watched::Pull => {
                 let touch = self.equations.condition.touch()?;
                 let MachineCurveKind::Grazing { stop } = self.kind else { return None };

@@ -1,9 +1,10 @@
 //! The branch beyond a change of the events of its cycle.
 //!
-//! Where a rigid stop is grazed, the cycle with an impact of speed zero and the cycle without it are the same motion and
-//! solve both systems of equations; the branch goes on along the curve of the other one, in the direction in which the
-//! impact gains speed or the gap opens. At any other change the motion is continuous, and the cycle beyond is found by
-//! Newton's method from the last one at a number a little beyond, or before if the branch turns back.
+//! Where a stop is grazed, the cycle with an impact of speed zero, or with a contact that lasts for no time, and the cycle
+//! without it are the same motion and solve both systems of equations; the branch goes on along the curve of the other one, in
+//! the direction in which the impact gains speed, the contact lasts longer or the gap opens. At most other changes the motion is
+//! continuous, and the cycle beyond is found by Newton's method from the last one at a number a little beyond, or before if the
+//! branch turns back. Else the cycles with the events beyond are followed, although they are not admissible here, until they are.
 
 use super::beginning::{begun, last, traced};
 use super::change::Difference;
@@ -16,9 +17,9 @@ use crate::continuation::branches::BranchOptions;
 use crate::continuation::trace::equations::{Equations, correct, tangent};
 use crate::continuation::trace::tracer::Tracer;
 use crate::events::Place;
-use crate::machine::{Machine, StopLaw};
-use crate::orbit::{MachineCycle, MachineFrame, MachineRing, RingEvent};
-use crate::regime::GuardKind;
+use crate::machine::{Machine, Opening, StopLaw};
+use crate::orbit::{Chatter, MachineCycle, MachineFrame, MachineRing, RingEvent};
+use crate::regime::{ContactState, GuardKind};
 
 /// The tracer on the other side of a change at `at`; `None` if no cycle is found there.
 pub(super) fn beyond(
@@ -28,20 +29,18 @@ pub(super) fn beyond(
     options: &BranchOptions,
 ) -> Option<Tracer<MachineProblem>> {
     let (machine, ring) = tracer.problem.equations.split(&at.w)?;
-    let rigid = |stop: usize| match machine.stops()[stop].law {
-        StopLaw::Rigid { restitution } => restitution > 0.0,
-        StopLaw::Compliant { .. } => false,
-    };
+    let rebounds =
+        |stop: usize| !matches!(machine.stops()[stop].law, StopLaw::Rigid { restitution } if restitution == 0.0);
     let through_grazing = match *found {
-        Difference::Appears { at: before, stop } if rigid(stop) => {
+        Difference::Appears { at: before, stop } if rebounds(stop) => {
             appearing(tracer, at, (&machine, &ring), (before, stop), options)
         }
-        Difference::Disappears { at: gone, stop } if rigid(stop) && ring.len() > 1 => {
+        Difference::Disappears { at: gone, stop } if rebounds(stop) && ring.len() > 1 => {
             disappearing(tracer, at, (&machine, &ring), gone, options)
         }
         _ => None,
     };
-    through_grazing.or_else(|| replayed(tracer, at, (options, false)))
+    through_grazing.or_else(|| replayed(tracer, at, (options, found)))
 }
 
 /// The problem with another ring at the same machine.
@@ -90,7 +89,10 @@ fn first_step(
     None
 }
 
-/// With a new impact of speed zero before event `before`.
+/// The phase of a contact that lasts for no time, to rounding: its equation is divided by its duration.
+const INSTANT: f64 = 1e-6;
+
+/// With a new impact of speed zero, or a contact that lasts for no time, before event `before`.
 fn appearing(
     tracer: &Tracer<MachineProblem>,
     at: &MachineSolution,
@@ -102,25 +104,41 @@ fn appearing(
     let m = ring.len();
     let leg = (before + m - 1) % m;
     let (_, place) = closest(&frame, ring, (leg, GuardKind::Gap(stop)))?;
-    let event = RingEvent {
-        with: Vec::new(),
-        rounds: Vec::new(),
-        guard: GuardKind::Gap(stop),
-        after: place.states.clone(),
-        pushed: vec![(stop, false)],
-        back: place.surfaces.iter().map(Option::is_some).collect(),
-    };
+    let back: Vec<bool> = place.surfaces.iter().map(Option::is_some).collect();
     let mut next = ring.clone();
     let index = leg + 1;
-    next.insert(index, event, place);
+    let open = place.states.clone();
+    if let StopLaw::Compliant { opening, damping, preload, .. } = machine.stops()[stop].law {
+        let by_position = opening == Opening::Position || damping == 0.0 || preload > 0.0 && !back[stop];
+        let mut closed = Place { known: Vec::new(), gaps: Vec::new(), ..place.clone() };
+        closed.states[stop] = ContactState::Closed;
+        closed.surfaces[stop] = None;
+        let mut end = frame.moved(&closed, &frame.structure(&closed.states)?, INSTANT / ring.frequency(machine));
+        end.phase = closed.phase + INSTANT;
+        end.states.clone_from(&open);
+        let guard = if by_position { GuardKind::Depth(stop) } else { GuardKind::Force(stop) };
+        next.insert(index, RingEvent::touch(guard, &open, back.clone()), end);
+        next.insert(index, RingEvent::touch(GuardKind::Gap(stop), &closed.states, back), closed);
+        next.set_surface(&frame, stop)?;
+    } else {
+        let event = RingEvent::touch(GuardKind::Gap(stop), &open, back);
+        next.insert(index, RingEvent { pushed: vec![(stop, false)], ..event }, place);
+    }
+    let contact = next.contact(index).is_some();
     let sizes = at.known.cycle.as_ref()?.sizes;
     let problem = with_ring(tracer, machine, next, sizes);
     let w = MachineEquations::join(machine, &problem.equations.ring, last(&at.w));
-    // towards a larger velocity away from the stop
     let width = frame.shape.size() + 1;
     let mut row = vec![0.0; w.len()];
-    for (i, direction) in frame.normal.directions[stop].iter().enumerate() {
-        row[index * width + 1 + machine.n() + i] = -direction;
+    if contact {
+        // towards a longer contact
+        row[index * width] = -1.0;
+        row[(index + 1) * width] = 1.0;
+    } else {
+        // towards a larger velocity away from the stop
+        for (i, direction) in frame.normal.directions[stop].iter().enumerate() {
+            row[index * width + 1 + machine.n() + i] = -direction;
+        }
     }
     let along = tangent(&problem, &w, &row)?;
     first_step(&problem, &w, &[along], options)
@@ -129,7 +147,7 @@ fn appearing(
 /// Impacts of lower speeds, relative to the largest velocity, have speed zero where another one has.
 const AT_ONCE: f64 = 1e-9;
 
-/// Without the impact `gone`, whose speed is zero. What is left can be several times a shorter cycle.
+/// Without the impact or the contact `gone`, whose speed is zero. What is left can be several times a shorter cycle.
 fn disappearing(
     tracer: &Tracer<MachineProblem>,
     at: &MachineSolution,
@@ -144,12 +162,19 @@ fn disappearing(
         GuardKind::Gap(stop) => speed_before(&frame, ring, k, stop).abs() <= AT_ONCE * sizes.1,
         _ => false,
     };
-    let mut next = ring.clone();
-    for k in (0..ring.len()).rev().filter(|k| *k == gone || grazes(*k)) {
-        next.remove(k);
-    }
-    if next.len() == 0 {
+    let m = ring.len();
+    let mut gone: Vec<usize> = (0..m).filter(|k| *k == gone || grazes(*k)).collect();
+    let stops: Vec<usize> = gone.iter().filter_map(|k| ring.contact(*k)).collect();
+    let openings: Vec<usize> = gone.iter().filter(|k| ring.contact(**k).is_some()).map(|k| (k + 1) % m).collect();
+    gone.extend(openings);
+    gone.sort_unstable();
+    if gone.len() >= m {
         return None;
+    }
+    let mut next = ring.clone();
+    gone.iter().rev().for_each(|k| next.remove(*k));
+    for stop in stops {
+        next.set_surface(&frame, stop)?;
     }
     let next = next.shortest(&frame, sizes);
     let problem = with_ring(tracer, machine, next, sizes);
@@ -161,22 +186,126 @@ fn disappearing(
     first_step(&problem, &w, &[along, back], options)
 }
 
-/// How far beyond a change the motion is followed, in the scale of the number.
-const BESIDE: [f64; 5] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-2];
+/// How far beyond a change the motion is followed, in the scale of the number: little, so that no other event lies between.
+const BESIDE: [f64; 5] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2];
+/// The same where a rest on a stop begins or ends: the numbers at which a chatter gets one more impact accumulate there.
+const BESIDE_REST: [f64; 5] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-2];
 
-/// The cycle a little beyond, from the last one. Beyond a `corner` its events may be the same in cyclic order.
+/// The cycle a little beyond, from the last one. Beyond a corner its events may be the same in cyclic order.
 pub(super) fn replayed(
     tracer: &Tracer<MachineProblem>,
     at: &MachineSolution,
-    (options, corner): (&BranchOptions, bool),
+    (options, found): (&BranchOptions, &Difference),
 ) -> Option<Tracer<MachineProblem>> {
     let (ring, forward) = (&tracer.problem.equations.ring, forward(at));
+    let corner = matches!(found, Difference::Corner { .. });
+    let beside = if matches!(found, Difference::Rest { joint: false, .. }) { BESIDE_REST } else { BESIDE };
     let motion = LastMotion::of(tracer, at)?;
-    let steps = [forward, -forward].into_iter().flat_map(|up| BESIDE.map(|by| up * by));
+    let steps = [forward, -forward].into_iter().flat_map(|up| beside.map(|by| up * by));
     steps.into_iter().find_map(|by| {
         let other = |next: &MachineRing| !same_in_turn(&next.events, &ring.events) || corner && by * forward > 0.0;
         motion.beside(tracer, (by, options), other)
     })
+}
+
+/// How far beyond a change the motion is followed for its events only.
+const A_LITTLE: [f64; 3] = [1e-7, 1e-5, 1e-3];
+/// The most steps along cycles that are not admissible, and the largest change of the number on them, in its scale.
+const INADMISSIBLE: usize = 200;
+const FAR: f64 = 0.4;
+/// Cycles whose unknowns differ by less from the motion beside the change continue it.
+const CONTINUOUS: f64 = 1e-4;
+
+/// The cycle with the events of the motion a little beyond, which may exist elsewhere only, and whether it continues the motion.
+/// It is followed to where it becomes admissible.
+pub(super) fn across(
+    tracer: &Tracer<MachineProblem>,
+    at: &MachineSolution,
+    options: &BranchOptions,
+) -> Option<(Tracer<MachineProblem>, bool)> {
+    let MachineEquations { ring, scale, family, .. } = &tracer.problem.equations;
+    let (low, high) = tracer.problem.range;
+    let motion = LastMotion::of(tracer, at)?;
+    let sizes = at.known.cycle.as_ref()?.sizes;
+    let beside = A_LITTLE.into_iter().map(|by| motion.number + by * forward(at) * scale);
+    beside.filter(|there| (low..=high).contains(there)).find_map(|there| {
+        let machine = family.at(there)?;
+        let frame = MachineFrame::new(&machine);
+        let next = MachineRing::of(&frame, &motion.begin, (motion.periods, motion.period))?;
+        (!same_in_turn(&next.events, &ring.events)).then_some(())?;
+        let problem = with_ring(tracer, &machine, next, sizes);
+        let guess = MachineEquations::join(&machine, &problem.equations.ring, there);
+        // at this number, or where one of the new events is where it was first
+        let events = &problem.equations.ring.events;
+        let width = frame.shape.size() + 1;
+        let new = (0..events.len()).filter(|k| !ring.events.contains(&events[*k])).map(|k| k * width);
+        let solved = core::iter::once(guess.len() - 1).chain(new).find_map(|fixed| {
+            let mut row = vec![0.0; guess.len()];
+            row[fixed] = 1.0;
+            let (w, _) = correct(&problem, &guess, &row, guess[fixed])?;
+            Some((tangent(&problem, &w, &row)?, w))
+        });
+        let (along, w) = solved?;
+        let moved: Vec<f64> = w.iter().zip(&guess).map(|(w, guess)| w - guess).collect();
+        let continues = problem.length(&moved) < CONTINUOUS;
+        let back = along.iter().map(|t| -t).collect();
+        let onward = if last(&along) * forward(at) < 0.0 { [back, along] } else { [along, back] };
+        let ways = onward.into_iter().filter_map(|along| {
+            let begun = traced(problem.clone(), w.clone(), along, *options)?;
+            admissible(begun)
+        });
+        let far = |next: &Tracer<MachineProblem>| (last(&next.here.w) - motion.number).abs();
+        let next = ways.min_by(|a, b| far(a).total_cmp(&far(b)))?;
+        Some((next, continues))
+    })
+}
+
+/// Follows cycles that are not admissible to the first one that is.
+fn admissible(mut tracer: Tracer<MachineProblem>) -> Option<Tracer<MachineProblem>> {
+    let begin = last(&tracer.here.w);
+    for _ in 0..INADMISSIBLE {
+        if tracer.here.known.physical() {
+            return Some(tracer);
+        }
+        let step = tracer.step()?;
+        if (last(&step.there.w) - begin).abs() > FAR * tracer.problem.equations.scale {
+            return None;
+        }
+        let mut there = step.there.clone();
+        if there.known.physical() {
+            let (mut low, mut high) = (0.0, step.length);
+            while high - low > 1e-12 * step.length {
+                let middle = 0.5 * (low + high);
+                match tracer.between(&step, middle).and_then(|w| tracer.solution(w)) {
+                    Some(at) if at.known.physical() => (high, there) = (middle, at),
+                    _ => low = middle,
+                }
+            }
+        } else if step.on_end {
+            return None;
+        }
+        tracer.take(there);
+    }
+    None
+}
+
+/// How far beyond a solution its cycle with a complete chatter is looked for, and by how much it may differ there.
+const SAME: f64 = 1e-7;
+const ALIKE: f64 = 1e-4;
+
+/// The same cycle with a complete chatter right beyond a solution, where the signature has other impacts before the rest begins.
+pub(super) fn same_beyond(
+    tracer: &Tracer<MachineProblem>,
+    at: &MachineSolution,
+    options: &BranchOptions,
+) -> Option<Tracer<MachineProblem>> {
+    let ring = &tracer.problem.equations.ring;
+    let cycle = at.known.cycle.as_ref()?;
+    let chatters = Chatter::all(ring).len();
+    (chatters > 0).then_some(())?;
+    let other = |next: &MachineRing| next.events != ring.events && Chatter::all(next).len() == chatters;
+    let next = LastMotion::of(tracer, at)?.beside(tracer, (SAME * forward(at), options), other)?;
+    next.here.known.cycle.as_ref().is_some_and(|next| next.same_as(cycle, ALIKE)).then_some(next)
 }
 
 /// The direction of the number along the branch.

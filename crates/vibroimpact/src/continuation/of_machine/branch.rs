@@ -2,13 +2,14 @@
 
 use super::at_rest::at_rest;
 use super::beginning::{begun, last};
-use super::beyond::{beyond, replayed, with_ring};
-use super::change::{Difference, additional, difference};
+use super::beyond::{across, beyond, replayed, same_beyond, with_ring};
+use super::change::{Difference, additional, difference, missing_hold};
 use super::complete_chatter::{ADAPTED, CompleteChatter};
 use super::edge::edge;
 use super::equations::MachineEquations;
 use super::family::MachineFamily;
 use super::halving::halved;
+use super::joined::SHORT;
 use super::meeting::meeting;
 use super::point::{MachineBranchEvent, MachinePoint};
 use super::problem::{Judged, MINUS_ONE, MachineProblem, MachineSolution, PACE, PLUS_ONE, TORUS};
@@ -17,7 +18,8 @@ use super::touch::{grazing, touching};
 use crate::continuation::branches::{BranchOptions, Direction};
 use crate::continuation::trace::tracer::{Crossing, Problem, Step, Tracer};
 use crate::math::Multiplier;
-use crate::orbit::{Chatter, MachineCycle, MachineFrame, MachineRing};
+use crate::orbit::{Chatter, MachineCycle, MachineFrame, MachineRing, RingEvent};
+use crate::regime::GuardKind;
 use core::ops::RangeInclusive;
 use std::collections::VecDeque;
 use thiserror::Error;
@@ -124,10 +126,12 @@ impl MachineBranch {
             None => {
                 // the events change so close by that no step ends before
                 let (at, found) = meeting(&self.tracer).unwrap_or((here, Difference::Other { place: None }));
-                let corner = matches!(found, Difference::Corner { .. });
-                match replayed(&self.tracer, &at, (&self.options, corner)) {
-                    Some(next) => self.go_on(&at, found.event(false), next),
-                    None => self.end(&at, MachineBranchEvent::NoConvergence),
+                match replayed(&self.tracer, &at, (&self.options, &found)) {
+                    Some(next) => self.go_on(&at, found.event(false), (next, None)),
+                    None => match across(&self.tracer, &at, &self.options) {
+                        Some(next) => self.jump(&at, &found, Some(next)),
+                        None => self.end(&at, MachineBranchEvent::NoConvergence),
+                    },
                 }
             }
         }
@@ -254,6 +258,9 @@ impl MachineBranch {
         let (s, inside, beyond) = edge(&self.tracer, step, outside, Judged::physical)?;
         let ring = &self.tracer.problem.equations.ring;
         let found = difference(ring, &beyond);
+        if let Some(place) = self.ceases(&inside, &beyond) {
+            return Some((s, inside, Difference::Rest { place, joint: true, begins: false }));
+        }
         if let Some((at, found)) = at_rest(&self.tracer, &inside, &found) {
             return Some((s, at, found));
         }
@@ -271,6 +278,20 @@ impl MachineBranch {
         }
         let (s, at) = touching(&self.tracer, step, (s, &inside), &found).unwrap_or((s, inside));
         Some((s, at, found))
+    }
+
+    /// The joint of a hold that lasts for some time and is missing beyond, because the velocity of its joint only touches zero at
+    /// its beginning. Then it slips on only if its static limit exceeds its sliding force: otherwise a hold begins
+    /// and ends with no length.
+    fn ceases(&self, inside: &MachineSolution, beyond: &Judged) -> Option<usize> {
+        let ring = &self.tracer.problem.equations.ring;
+        let event = beyond.rising.or_else(|| missing_hold(ring, beyond))?;
+        let RingEvent { guard: GuardKind::Sliding(joint), after, back, .. } = &ring.events[event] else { return None };
+        let place = back.len() + joint;
+        let (machine, _) = self.tracer.problem.equations.split(&inside.w)?;
+        let sticks = &machine.joints()[*joint];
+        let holds = after[place].constrains() && sticks.limit > sticks.sliding;
+        (holds && ring.theta(event + 1) - ring.theta(event) > SHORT).then_some(place)
     }
 
     /// The solution at which a rest or a hold begins or ends, if this explains a change of the events that shows elsewhere:
@@ -299,9 +320,17 @@ impl MachineBranch {
         if let Some(stop) = self.lost(at, found) {
             return self.end(at, MachineBranchEvent::LossOfContact { stop });
         }
+        // how many impacts of a chatter are followed is no property of the cycle
+        if matches!(found, Difference::Rest { joint: false, .. } | Difference::Other { .. })
+            && let Some(next) = same_beyond(&self.tracer, at, &self.options)
+        {
+            self.tracer = next;
+            self.begin = None;
+            return;
+        }
         let Some(next) = beyond(&self.tracer, at, found, &self.options) else {
-            self.add(at, Some(found.event(false)));
-            return self.end(&at.clone(), MachineBranchEvent::NoConvergence);
+            let next = across(&self.tracer, at, &self.options);
+            return self.jump(at, found, next);
         };
         let turns = last(&next.here.tangent) * last(&at.tangent) < 0.0;
         let (ring, other) = (&self.tracer.problem.equations.ring, &next.problem.equations.ring);
@@ -326,7 +355,7 @@ impl MachineBranch {
             Some((at, MachineBranchEvent::Sticking { stop, begins }))
         });
         let (at, event) = complete.unwrap_or_else(|| (at.clone(), event));
-        self.go_on(&at, event, next);
+        self.go_on(&at, event, (next, None));
     }
 
     /// Changes the number of impacts of chatters in the signature where too much of them is left out, or too little.
@@ -347,16 +376,27 @@ impl MachineBranch {
         }
     }
 
-    /// Goes on with another tracer.
-    fn take(&mut self, next: Tracer<MachineProblem>) {
-        self.tracer = next;
-        self.begin = None;
-        let here = self.tracer.here.clone();
-        self.add(&here, None);
+    /// Reports an event and goes on with the cycles beyond, which may not continue those before.
+    fn jump(&mut self, at: &MachineSolution, found: &Difference, next: Option<(Tracer<MachineProblem>, bool)>) {
+        let Some((next, continues)) = next else {
+            self.add(at, Some(found.event(false)));
+            let end = match found {
+                Difference::Rest { joint: true, .. } => MachineBranchEvent::Discontinuity,
+                _ => MachineBranchEvent::NoConvergence,
+            };
+            return self.end(at, end);
+        };
+        let event = found.event(last(&next.here.tangent) * last(&at.tangent) < 0.0);
+        self.go_on(at, event, (next, (!continues).then_some(MachineBranchEvent::Jump)));
     }
 
     /// Reports an event and goes on with another tracer. The branch is closed if the same event was there before.
-    fn go_on(&mut self, at: &MachineSolution, event: MachineBranchEvent, next: Tracer<MachineProblem>) {
+    fn go_on(
+        &mut self,
+        at: &MachineSolution,
+        event: MachineBranchEvent,
+        (next, landing): (Tracer<MachineProblem>, Option<MachineBranchEvent>),
+    ) {
         let here = (last(&at.w), at.w.len(), last(&at.tangent) > 0.0, event);
         let near = 1e-9 * self.tracer.problem.equations.scale;
         let before = |known: &(f64, usize, bool, MachineBranchEvent)| {
@@ -367,7 +407,10 @@ impl MachineBranch {
         }
         self.passed.push(here);
         self.add(at, Some(event));
-        self.take(next);
+        self.tracer = next;
+        self.begin = None;
+        let here = self.tracer.here.clone();
+        self.add(&here, landing);
     }
 }
 

@@ -12,7 +12,8 @@ pub(crate) enum Difference {
     Appears { at: usize, stop: usize },
     /// Event `at` of the signature, the closing of a stop, does not happen.
     Disappears { at: usize, stop: usize },
-    /// Two events change their order, or happen together.
+    /// Two events change their order, or happen together; of one stop, if its force and its depth are zero at once, or if its
+    /// surface comes back just when it closes.
     Corner { first: usize, second: usize },
     /// A stop rests or a joint holds after an event where it did not, or the other way round.
     Rest { place: usize, joint: bool, begins: bool },
@@ -57,6 +58,38 @@ pub(super) fn additional(ring: &MachineRing, judged: &Judged) -> Option<Differen
     }
 }
 
+/// The first of two events in a row that the first list has and the second has not; only such a `pair` is looked for.
+fn pair_of(events: &[&RingEvent], others: &[&RingEvent], pair: impl Fn(GuardKind, GuardKind) -> bool) -> Option<usize> {
+    let more = events.len().checked_sub(2).filter(|fewer| *fewer == others.len())?;
+    let guards = |events: &[&RingEvent]| events.iter().map(|event| event.guard).collect::<Vec<_>>();
+    let (events, others) = (guards(events), guards(others));
+    (0..=more)
+        .find(|k| pair(events[*k], events[k + 1]) && events[..*k] == others[..*k] && events[k + 2..] == others[*k..])
+}
+
+/// Whether these are the guards of the closing of a compliant stop and of its opening.
+fn is_contact(first: GuardKind, second: GuardKind) -> bool {
+    matches!((first, second), (GuardKind::Gap(stop), GuardKind::Depth(same) | GuardKind::Force(same)) if stop == same)
+}
+
+/// Whether these are the guards of the beginning and of the end of a hold.
+fn is_hold(first: GuardKind, second: GuardKind) -> bool {
+    let ends = |joint: usize| [GuardKind::LimitForward(joint), GuardKind::LimitBackward(joint)].contains(&second);
+    matches!(first, GuardKind::Sliding(joint) if ends(joint))
+}
+
+/// The events of a motion, and those of a signature in the same order.
+fn both<'a>(ring: &'a MachineRing, judged: &'a Judged) -> (Vec<&'a RingEvent>, Vec<&'a RingEvent>) {
+    let m = ring.len();
+    (judged.seen.iter().collect(), (0..m).map(|i| &ring.events[(judged.from + 1 + i) % m]).collect())
+}
+
+/// The event of a signature at which a hold begins that is missing in the motion, while all else happens.
+pub(super) fn missing_hold(ring: &MachineRing, judged: &Judged) -> Option<usize> {
+    let (seen, expected) = both(ring, judged);
+    Some((judged.from + 1 + pair_of(&expected, &seen, is_hold)?) % ring.len())
+}
+
 /// The first difference between a signature and the events of the motion from one of its solutions.
 pub(crate) fn difference(ring: &MachineRing, judged: &Judged) -> Difference {
     let m = ring.len();
@@ -74,6 +107,14 @@ pub(crate) fn difference(ring: &MachineRing, judged: &Judged) -> Difference {
         };
     }
     let wanted = |i: usize| (judged.from + 1 + i) % m;
+    let (seen, signature) = both(ring, judged);
+    let stop = |event: &RingEvent| event.guard.place(stops);
+    if let Some(k) = pair_of(&seen, &signature, is_contact) {
+        return Difference::Appears { at: wanted(k), stop: stop(seen[k]) };
+    }
+    if let Some(k) = pair_of(&signature, &seen, is_contact) {
+        return Difference::Disappears { at: wanted(k), stop: stop(signature[k]) };
+    }
     let at = (0..m.max(judged.seen.len())).find(|i| *i >= m || judged.seen.get(*i) != Some(&ring.events[wanted(*i)]));
     let Some(i) = at else { return Difference::Other { place: None } };
     let expected: &RingEvent = &ring.events[wanted(i % m)];
@@ -92,7 +133,17 @@ pub(crate) fn difference(ring: &MachineRing, judged: &Judged) -> Difference {
         }
         let changed = (0..found.after.len()).find(|j| found.after[*j] != expected.after[*j]);
         let rests = |state: ContactState| state.constrains();
+        let one_sided = |kind: &&GuardKind| found.with.contains(kind) != expected.with.contains(kind);
+        if let Some(kind) = found.with.iter().chain(&expected.with).find(one_sided) {
+            return Difference::Corner { first: own, second: kind.place(stops) };
+        }
+        // the surface of a stop comes back to its holder just when the stop closes
+        let returned = (0..found.back.len()).find(|j| found.back[*j] != expected.back[*j]);
         return match changed {
+            None if returned.is_some() => {
+                let stop = returned.unwrap_or(own);
+                Difference::Corner { first: stop, second: stop }
+            }
             Some(place) if rests(found.after[place]) != rests(expected.after[place]) => {
                 Difference::Rest { place, joint: place >= stops, begins: rests(found.after[place]) }
             }
@@ -109,6 +160,12 @@ pub(crate) fn difference(ring: &MachineRing, judged: &Judged) -> Difference {
     let early = i < m && later(&mut (1..m.min(4)).map(|k| &ring.events[wanted(i + k)]), found.guard);
     let new = || rest(found.guard, stops, found.after[other].constrains());
     match (found.guard, expected.guard) {
+        // a closed stop opens by its force instead of its position, or the other way round
+        (GuardKind::Depth(stop), GuardKind::Force(same)) | (GuardKind::Force(stop), GuardKind::Depth(same))
+            if stop == same && judged.seen.len() == m =>
+        {
+            Difference::Corner { first: stop, second: stop }
+        }
         _ if delayed && early && judged.seen.len() == m => Difference::Corner { first: own, second: other },
         // only one of both explains the difference
         (_, guard) if early && !delayed && rest(guard, stops, false).is_some() => {

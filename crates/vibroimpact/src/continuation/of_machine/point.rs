@@ -36,7 +36,9 @@ pub enum MachineBranchEvent {
         /// Whether the number turns back here.
         turns: bool,
     },
-    /// Two events happen at the same time and change their order or act together beyond.
+    /// Two events happen at the same time and change their order or act together beyond. With one stop for both, the force and the
+    /// position of a compliant stop are zero at once at its opening, or the surface of a damped stop comes back to its place just
+    /// when the stop closes.
     Corner {
         /// The one that came first.
         first: usize,
@@ -58,6 +60,11 @@ pub enum MachineBranchEvent {
         /// Whether it begins.
         begins: bool,
     },
+    /// The motion is not continuous at the event before, as where a joint whose static limit exceeds its sliding force begins or
+    /// ceases to hold. The branch goes on here, where a cycle with the events beyond begins to exist.
+    Jump,
+    /// The motion is not continuous at the event before, and no cycle with the events beyond exists close by.
+    Discontinuity,
     /// Another change of the sequence of events.
     Change {
         /// The stop or joint at which the sequence first differs, if it is known.
@@ -95,6 +102,8 @@ impl MachineBranchEvent {
             Self::Sticking { .. } => "sticking ends",
             Self::Holding { begins: true, .. } => "holding begins",
             Self::Holding { .. } => "holding ends",
+            Self::Jump => "jump",
+            Self::Discontinuity => "discontinuity",
             Self::Change { .. } => "change",
             Self::Closed => "closed",
             Self::EndOfRange => "end of range",
@@ -121,6 +130,7 @@ impl MachineBranchEvent {
         matches!(
             self,
             Self::Halving
+                | Self::Discontinuity
                 | Self::LossOfContact { .. }
                 | Self::Closed
                 | Self::EndOfRange

@@ -7,7 +7,7 @@ use crate::continuation::branches::{COARSE, RULES};
 use crate::continuation::trace::equations::Equations;
 use crate::continuation::trace::tracer::{Problem, Solution, StepRules};
 use crate::math::{Lu, Matrix, Multiplier, general_eigenvalues};
-use crate::orbit::{MachineCycle, MachineFrame, MachineLap, MachineRing, RingEvent};
+use crate::orbit::{MachineCycle, MachineFrame, MachineLap, MachineRing, RingEvent, events_of};
 
 /// The equations of a branch with the range of the number.
 #[derive(Clone, Debug)]
@@ -67,11 +67,16 @@ fn shifted_determinant(matrix: &Matrix, shift: f64) -> f64 {
 }
 
 /// The product over all pairs of multipliers of their product less 1: it changes its sign where a product of two is 1.
-pub(crate) fn over_pairs(multipliers: &[Multiplier]) -> f64 {
+/// Without losses the multipliers are pairs whose product is 1 everywhere, and the sign of the computed difference is that of
+/// its rounding error; so a pair whose product is 1 to within `rounding`, the error of the multipliers, is left out.
+pub(crate) fn over_pairs(multipliers: &[Multiplier], rounding: f64) -> f64 {
     let mut torus = 1.0;
     for (i, a) in multipliers.iter().enumerate() {
         for b in &multipliers[i + 1..] {
             let (re, im) = (a.re * b.re - a.im * b.im - 1.0, a.re * b.im + a.im * b.re);
+            if crate::math::hypot(re, im) <= rounding * (a.modulus() + b.modulus()) {
+                continue;
+            }
             // two factors that are conjugate are positive together
             let conjugate = a.im != 0.0 && b.im != 0.0 && !(a.re == b.re && a.im == -b.im);
             let factor = if im == 0.0 && !conjugate { re } else { crate::math::hypot(re, im) };
@@ -95,7 +100,7 @@ impl MachineProblem {
         let turn = ring.monodromy(frame, &blocks)?;
         let mut multipliers = general_eigenvalues(&turn)?;
         let even = if turn.rows().is_multiple_of(2) { 1.0 } else { -1.0 };
-        let torus = over_pairs(&multipliers);
+        let torus = over_pairs(&multipliers, ring.rounding(frame, &turn));
         let pace = tangent.last().map_or(0.0, |last| last / self.equations.scale);
         let values = vec![pace, even * shifted_determinant(&turn, -1.0), shifted_determinant(&turn, 1.0), torus];
         multipliers.truncate(frame.multipliers());
@@ -105,10 +110,7 @@ impl MachineProblem {
 
 /// The events of a motion, with the phases since its beginning.
 pub(crate) fn seen_on(lap: &MachineLap, frequency: f64) -> Vec<(f64, RingEvent)> {
-    let steps = lap.steps[..lap.steps.len() - 1].iter();
-    steps
-        .filter_map(|(time, _, passage)| Some((frequency * (time + passage.duration), RingEvent::of(passage)?)))
-        .collect()
+    events_of(lap).into_iter().map(|(time, event, _)| (frequency * time, event)).collect()
 }
 
 /// The motion from the middle of the longest flight over one period, and the cycle if its events are those of the

@@ -62,7 +62,7 @@ pub(super) fn grazing(tracer: &Tracer<MachineProblem>, at: &MachineSolution, fou
                 }
             })
         }
-        Difference::Corner { first, second } => {
+        Difference::Corner { first, second } if first != second => {
             let both = |k: usize| [(first, second), (second, first)].contains(&(of(k), of(k + 1)));
             if (0..m).any(|k| both(k) && ring.theta(k + 1) - ring.theta(k) < SHORT) {
                 return found;
@@ -73,7 +73,8 @@ pub(super) fn grazing(tracer: &Tracer<MachineProblem>, at: &MachineSolution, fou
     }
 }
 
-/// The speed towards a stop before an event; infinite if there is no flight before it.
+/// The speed towards a stop, or towards its surface if that stands back, before an event; infinite if there is no flight before
+/// it.
 pub(super) fn speed_before(frame: &MachineFrame<'_>, ring: &MachineRing, event: usize, stop: usize) -> f64 {
     let before = (event + ring.len() - 1) % ring.len();
     let moved = |mut from: Place| {
@@ -81,7 +82,10 @@ pub(super) fn speed_before(frame: &MachineFrame<'_>, ring: &MachineRing, event: 
         let structure = frame.structure(&from.states)?;
         Some(frame.moved(&from, &structure, ring.time(before, frame.machine)))
     };
-    moved(ring.place(before)).map_or(f64::INFINITY, |at| -at.gap(&frame.normal, &at.turns(&frame.normal), stop).1)
+    moved(ring.place(before)).map_or(f64::INFINITY, |at| {
+        let rate = at.gap(&frame.normal, &at.turns(&frame.normal), stop).1;
+        at.surfaces[stop].map_or(0.0, |surface| surface.rate * surface.size) - rate
+    })
 }
 
 /// The grazing solution near the last admissible one `inside` at the distance `s` along a step, beyond which the events

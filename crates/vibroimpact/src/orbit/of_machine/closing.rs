@@ -4,6 +4,7 @@
 use super::cycle::MachineCycle;
 use super::frame::MachineFrame;
 use super::lap::MachineLap;
+use super::rounding::rounding_decides;
 use crate::events::Place;
 use crate::math::{Lu, Matrix, Multiplier, dot};
 
@@ -24,7 +25,8 @@ const SAME: f64 = 1e-8;
 
 impl MachineCycle {
     /// The cycle of `n` forcing periods near the motion from `from`, by Newton's method on the state between two events,
-    /// which a free translation leaves as it is; `None` if it does not converge, or without forcing.
+    /// which a free translation leaves as it is; `None` if it does not converge, if it rests and rounding errors decide its period,
+    /// or without forcing.
     pub(crate) fn near(frame: &MachineFrame<'_>, from: &Place, n: u32) -> Option<Self> {
         let time = frame.machine.period()? * f64::from(n);
         let (begin, lap, residual) = closed(frame, from, time)?;
@@ -42,9 +44,13 @@ impl MachineCycle {
         let (begin, lap, residual) = closed(frame, from, time)?;
         // without events nothing says that the motion is not one of many
         let alone = |begin: &Place, lap: &MachineLap, residual| {
+            if rounding_decides(frame, lap) {
+                return None;
+            }
             let cycle = Self::of(frame, (begin, 0), lap, residual, vec![begin.clone()]);
-            let near_one = |m: &Multiplier| crate::math::hypot(m.re - 1.0, m.im) <= FAMILY;
-            (!cycle.events.is_empty() && !cycle.multipliers.iter().any(near_one)).then_some(cycle)
+            let near_one = |m: &&Multiplier| crate::math::hypot(m.re - 1.0, m.im) <= FAMILY;
+            let family = cycle.multipliers.iter().filter(near_one).count() > lap.holding().len();
+            (!cycle.events.is_empty() && !family).then_some(cycle)
         };
         // the smallest period has a whole part of the events
         let count = lap.events.len();
@@ -72,6 +78,7 @@ impl MachineCycle {
     /// The cycle whose motion over `n` periods is `lap`, over its smallest period.
     fn shortest(frame: &MachineFrame<'_>, (begin, n): (&Place, u32), lap: &MachineLap, residual: f64) -> Option<Self> {
         let one = frame.machine.period()?;
+        let known = |lap: &MachineLap| !rounding_decides(frame, lap);
         let mut strobes = vec![begin.clone()];
         for k in 1..n {
             let last = strobes.last()?;
@@ -79,11 +86,11 @@ impl MachineCycle {
             if n.is_multiple_of(k) && frame.distance(begin, &next, lap.sizes) <= SAME {
                 let lap = MachineLap::fly(frame, begin, one * f64::from(k))?;
                 let residual = frame.distance(begin, &lap.end, lap.sizes);
-                return Some(Self::of(frame, (begin, k), &lap, residual, strobes));
+                return known(&lap).then(|| Self::of(frame, (begin, k), &lap, residual, strobes));
             }
             strobes.push(next);
         }
-        Some(Self::of(frame, (begin, n), lap, residual, strobes))
+        known(lap).then(|| Self::of(frame, (begin, n), lap, residual, strobes))
     }
 }
 
@@ -103,6 +110,7 @@ fn closed(frame: &MachineFrame<'_>, from: &Place, mut time: f64) -> Option<(Plac
         }
         let residual = frame.distance(&begin, &lap.end, lap.sizes);
         let (end, derivative, sizes) = (lap.end.clone(), lap.derivative.clone(), lap.sizes);
+        let holding = lap.holding();
         let improves = best.as_ref().is_none_or(|(so_far, ..)| residual < *so_far);
         if improves {
             best = Some((residual, begin.clone(), lap));
@@ -115,7 +123,7 @@ fn closed(frame: &MachineFrame<'_>, from: &Place, mut time: f64) -> Option<(Plac
         if !residual.is_finite() || step >= PATIENCE && residual > HOPELESS {
             return None;
         }
-        let (change, longer) = newton(frame, (&begin, &end), derivative?, sizes)?;
+        let (change, longer) = newton(frame, (&begin, &end), (derivative?, &holding), sizes)?;
         let next: Vec<f64> = frame.shape.values(&begin).iter().zip(&change).map(|(from, by)| from + by).collect();
         begin = frame.shape.with_values(&begin, &next);
         time += longer;
@@ -129,11 +137,11 @@ fn closed(frame: &MachineFrame<'_>, from: &Place, mut time: f64) -> Option<(Plac
 
 /// The changes of the state at the beginning and of the time that close a lap to first order:
 /// $`(I - J)\,\Delta z - f_1\,\Delta T = z_1 - z_0`$ but for a translation. Without forcing $`f_0\cdot\Delta z = 0`$, else
-/// $`\Delta T = 0`$.
+/// $`\Delta T = 0`$. Joints that hold all the time stay where they are.
 fn newton(
     frame: &MachineFrame<'_>,
     (begin, end): (&Place, &Place),
-    mut derivative: Matrix,
+    (mut derivative, holding): (Matrix, &[usize]),
     (size, speed): (f64, f64),
 ) -> Option<(Vec<f64>, f64)> {
     let mut change = frame.apart(end, begin);
@@ -144,6 +152,16 @@ fn newton(
     for i in 0..states {
         for j in 0..states {
             system[(i, j)] -= derivative[(i, j)];
+        }
+    }
+    // the gap of such a joint is the same after the lap, so a row of I - J for it is 0
+    for joint in holding {
+        let direction = &frame.normal.directions[*joint];
+        let square = dot(direction, direction);
+        for i in 0..n {
+            for j in 0..n {
+                system[(i, j)] += direction[i] * direction[j] / square;
+            }
         }
     }
     if unknowns > states {

@@ -2,9 +2,10 @@
 
 use super::frame::{MachineFrame, distance};
 use super::lap::MachineLap;
+use super::multipliers::multipliers;
 use crate::events::{MachineEvent, MachineEventKind, MachineStart, Place};
-use crate::math::{Multiplier, general_eigenvalues};
-use crate::orbit::{Count, Label};
+use crate::math::Multiplier;
+use crate::orbit::{Count, Label, Stability};
 use crate::regime::Translations;
 use crate::system::phase;
 use core::f64::consts::TAU;
@@ -39,8 +40,12 @@ pub struct MachineCycle {
     pub state: MachineStart,
     /// The states at the phase of `state`, one for each forcing period; without forcing `state` alone.
     pub(crate) strobes: Vec<Place>,
+    /// The logarithms of the moduli of the multipliers; minus infinity for those that are 0.
+    pub(crate) logs: Vec<f64>,
     /// The largest sizes of coordinates and velocities.
     pub(crate) sizes: (f64, f64),
+    /// The rounding error of the derivative over one period, from which the multipliers come.
+    pub(crate) rounding: f64,
     /// The free translations of the machine.
     pub(crate) free: Translations,
 }
@@ -63,25 +68,28 @@ fn without_chatters(events: Vec<MachineEvent>) -> Vec<MachineEvent> {
 }
 
 impl MachineCycle {
+    /// Whether neighbours approach the cycle.
+    #[must_use]
+    pub fn stability(&self) -> Stability {
+        Stability::of(&self.multipliers, self.rounding)
+    }
+
+    /// The same for the direction of each multiplier.
+    #[must_use]
+    pub fn stabilities(&self) -> Vec<Stability> {
+        Stability::each(&self.multipliers, self.rounding).collect()
+    }
+
     /// Whether the cycle attracts its neighbourhood: all multipliers lie inside the unit circle.
     #[must_use]
     pub fn stable(&self) -> bool {
-        self.multipliers.iter().all(|multiplier| multiplier.modulus() < 1.0)
+        self.stability().is_stable()
     }
 
     /// The mean velocity of each coordinate: the drift divided by the period.
     #[must_use]
     pub fn drift_velocity(&self) -> Vec<f64> {
         self.drift.iter().map(|drift| drift / self.period).collect()
-    }
-
-    /// The number of its multipliers, at least, that are 0, because the motion forgets these directions while the structure
-    /// rests or a joint holds.
-    pub(crate) fn forgotten(&self, frame: &MachineFrame<'_>) -> usize {
-        let lap = self.strobes.first().and_then(|begin| MachineLap::fly(frame, begin, self.period));
-        let forgotten = lap.map_or(0, |lap| lap.forgotten(frame.machine.stops().len()));
-        // surfaces that stand back are directions too, and may not be forgotten
-        forgotten.saturating_sub(frame.shape.size() - 2 * frame.shape.n)
     }
 
     /// The number of free translations of the machine.
@@ -160,23 +168,22 @@ impl MachineCycle {
         }
         let counts: Vec<u32> = (0..frame.machine.stops().len())
             .map(|j| {
-                // stops that are struck at the same time have an event each
-                let own = |event: &&MachineEvent| {
-                    let struck = |other: &MachineEvent| other.closes() && other.place == j && other.time == event.time;
-                    event.closes() && (event.place == j || event.with.contains(&j) && !lap.events.iter().any(struck))
-                };
-                let own = lap.events.iter().filter(own);
+                // stops that are struck at the same time have an event each; one on which the structure rests is pushed, and
+                // does not close
+                let own = lap.events.iter().filter(|event| event.closes() && event.place == j);
                 u32::try_from(own.count()).unwrap_or(u32::MAX)
             })
             .collect();
         let chatter = lap.steps.iter().any(|(_, _, passage)| passage.rest.is_some());
         let impacts = if chatter { Count::Infinite } else { Count::Finite(counts.iter().sum()) };
-        let derivative = lap.derivative.clone().map(|derivative| frame.across_cycles(derivative, begin));
-        let mut multipliers = derivative
+        let stretchings = multipliers(frame, begin, lap);
+        let logs = stretchings
             .as_ref()
-            .and_then(general_eigenvalues)
-            .unwrap_or_else(|| vec![Multiplier { re: f64::INFINITY, im: 0.0 }; frame.multipliers()]);
-        multipliers.truncate(frame.multipliers());
+            .map_or_else(|| vec![f64::INFINITY; frame.multipliers()], |all| all.iter().map(|of| of.log).collect());
+        let multipliers = stretchings.map_or_else(
+            || vec![Multiplier { re: f64::INFINITY, im: 0.0 }; frame.multipliers()],
+            |all| all.into_iter().map(|of| of.multiplier).collect(),
+        );
         let free = frame.normal.translations.clone();
         let moved: Vec<f64> = lap.end.x.iter().zip(&begin.x).map(|(end, begin)| end - begin).collect();
         let mut drift = frame.normal.to_machine(&free.part(&moved));
@@ -189,15 +196,13 @@ impl MachineCycle {
             events,
             period,
             multipliers,
+            logs,
             residual,
             drift,
-            state: MachineStart {
-                q: frame.normal.to_machine(&begin.x),
-                qdot: frame.normal.to_machine(&begin.v),
-                phase: begin.phase,
-            },
+            state: begin.start(frame.machine, &frame.normal),
             strobes,
             sizes: lap.sizes,
+            rounding: lap.rounding(frame),
             free,
         }
     }

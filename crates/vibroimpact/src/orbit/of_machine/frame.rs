@@ -5,6 +5,7 @@ use crate::arc::Modes;
 use crate::events::{MachineMotion, Place, StateShape, Structures};
 use crate::machine::Machine;
 use crate::math::{Matrix, add_scaled, dot};
+use crate::orbit::rounding;
 use crate::regime::{ContactState, Normal, Structure, Translations};
 use crate::system::phase;
 use core::cell::RefCell;
@@ -120,6 +121,23 @@ impl<'a> MachineFrame<'a> {
         let mut apart: Vec<f64> = self.shape.values(a).iter().zip(self.shape.values(b)).map(|(a, b)| a - b).collect();
         self.normal.translations.remove(&mut apart);
         apart
+    }
+
+    /// The rounding error of a derivative of states by states over so many steps, in units of the sizes of coordinates and
+    /// velocities. Without some directions it has other coordinates, and is taken as it is.
+    pub(crate) fn rounding(&self, derivative: &Matrix, steps: usize, (size, speed): (f64, f64)) -> f64 {
+        let (n, complete) = (self.shape.n, derivative.rows() == self.shape.size());
+        let unit = |i: usize| if complete && (n..2 * n).contains(&i) { speed / size } else { 1.0 };
+        let mut sum = 0.0;
+        for i in 0..derivative.rows() {
+            for j in 0..derivative.rows() {
+                let share = derivative[(i, j)] * unit(j) / unit(i);
+                if share.is_finite() {
+                    sum += share * share;
+                }
+            }
+        }
+        rounding(steps, sum.sqrt())
     }
 
     /// Moves a state by a translation, so that it has no part along one.

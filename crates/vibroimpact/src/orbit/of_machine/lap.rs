@@ -4,6 +4,7 @@ use super::frame::MachineFrame;
 use crate::events::{MachineEnd, MachineEvent, Passage, Place, step_derivative};
 use crate::machine::{MachineStop, StopLaw};
 use crate::math::Matrix;
+use crate::regime::ContactState;
 
 /// The motion over a time.
 #[derive(Clone, Debug)]
@@ -29,13 +30,17 @@ const STEPS: usize = 100_000;
 const BEYOND: f64 = 1.25;
 
 impl MachineLap {
-    /// The number of directions of the state, at least, in which differences of neighbours vanish: two where the structure rests
-    /// on a stop, whose gap and its rate are known, and one where a joint holds, whose velocity is.
-    pub(crate) fn forgotten(&self, stops: usize) -> usize {
-        let of = |(_, _, passage): &(f64, Place, Passage)| {
-            passage.structure.held.iter().map(|place| if *place < stops { 2 } else { 1 }).sum()
-        };
-        self.steps.iter().map(of).max().unwrap_or(0)
+    /// The joints that hold all the time, by their places. Each keeps where it is: beside the motion there are others in which it
+    /// is elsewhere.
+    pub(crate) fn holding(&self) -> Vec<usize> {
+        let places = self.steps.first().map_or(0, |(_, first, _)| first.states.len());
+        let holds = |k: &usize| self.steps.iter().all(|(_, place, _)| place.states[*k] == ContactState::Holding);
+        (0..places).filter(holds).collect()
+    }
+
+    /// The rounding error of the derivative, in units of the sizes of coordinates and velocities.
+    pub(crate) fn rounding(&self, frame: &MachineFrame<'_>) -> f64 {
+        self.derivative.as_ref().map_or(0.0, |derivative| frame.rounding(derivative, self.steps.len(), self.sizes))
     }
 
     /// This motion and the one that follows it. The step at the end of this one is a part of a flight.

@@ -4,6 +4,8 @@
 //! |---|---|
 //! | a machine and the structures of its regimes | `frame` |
 //! | the motion over a time, with its derivative | `lap` |
+//! | the multipliers of a cycle | `multipliers` |
+//! | whether rounding errors decide the period of one that rests | `rounding` |
 //! | the events of a cycle as unknowns, and their equations | `ring` |
 //! | how many impacts of a chatter are among them | `chatters` |
 //! | the events of a motion | `of_motion` |
@@ -22,9 +24,11 @@ mod cycle;
 mod find;
 mod frame;
 mod lap;
+mod multipliers;
 mod near_returns;
 mod of_motion;
 mod ring;
+mod rounding;
 
 pub(crate) use chatters::{Chatter, Rebound};
 pub(crate) use crossing::crossing;
@@ -32,4 +36,6 @@ pub use cycle::MachineCycle;
 pub use find::find_machine_while;
 pub(crate) use frame::MachineFrame;
 pub(crate) use lap::MachineLap;
+pub(crate) use of_motion::events_of;
 pub(crate) use ring::{MachineRing, RingEvent};
+pub(crate) use rounding::rounding_decides;

@@ -5,7 +5,40 @@ use super::frame::MachineFrame;
 use super::lap::MachineLap;
 use super::ring::{MachineRing, RingEvent};
 use crate::events::Place;
+use crate::regime::GuardKind;
 use core::f64::consts::TAU;
+
+/// The events of a lap, each with its time and the state after it. A surface that comes back to its holder before its stop
+/// closes again decides nothing, wherever this happens: it is left out.
+pub(crate) fn events_of(lap: &MachineLap) -> Vec<(f64, RingEvent, Place)> {
+    // the last step is the flight to the end
+    let passages = lap.steps[..lap.steps.len() - 1].iter();
+    let mut events: Vec<(f64, RingEvent, Place)> = Vec::new();
+    let mut on_holder: Vec<Option<usize>> = Vec::new();
+    for (time, _, passage) in passages {
+        let Some((event, place)) = RingEvent::of(passage).zip(passage.after.clone()) else { continue };
+        let stood_back = |stop: usize| passage.before.as_ref().is_some_and(|before| before.surfaces[stop].is_some());
+        on_holder.push(match event.guard {
+            GuardKind::Gap(stop) if !stood_back(stop) => Some(stop),
+            _ => None,
+        });
+        events.push((time + passage.duration, event, place));
+    }
+    let m = events.len();
+    for (k, stop) in on_holder.into_iter().enumerate().filter_map(|(k, stop)| Some((k, stop?))) {
+        // where the lap is not closed, what is at its end is not what was at its beginning
+        let stands = |place: &Place| place.surfaces[stop].is_some();
+        let closes = lap.steps.first().is_some_and(|(_, begin, _)| stands(begin) == stands(&lap.end));
+        let before = (1..m).take_while(|i| *i <= k || closes).map(|i| (k + m - i) % m);
+        for i in before {
+            if !core::mem::take(&mut events[i].1.back[stop]) {
+                break;
+            }
+            events[i].2.surfaces[stop] = None;
+        }
+    }
+    events
+}
 
 impl MachineRing {
     /// The events of the motion from `begin`, a state between two events, over `periods` forcing periods, or without
@@ -17,14 +50,8 @@ impl MachineRing {
         let lap = MachineLap::fly(frame, begin, time)?;
         let free = &frame.normal.translations;
         let (mut events, mut places): (Vec<RingEvent>, Vec<Place>) = Default::default();
-        for (k, (time, _, passage)) in lap.steps.iter().enumerate() {
-            // the last step is the flight to the end
-            if k + 1 == lap.steps.len() {
-                break;
-            }
-            let Some(event) = RingEvent::of(passage) else { continue };
-            let mut place = passage.after.clone()?;
-            place.phase = begin.phase + frequency * (time + passage.duration);
+        for (time, event, mut place) in events_of(&lap) {
+            place.phase = begin.phase + frequency * time;
             events.push(event);
             places.push(place);
         }

@@ -7,6 +7,9 @@
 //! $$`h_{k+1}(z_-, \theta_{k+1}) = 0, \qquad R_{k+1}(z_-, \theta_{k+1}) = z_{k+1}`$$
 //!
 //! with the guard $`h`$ and the reset $`R`$. No first zero is searched for, so the equations are smooth through grazing.
+//! Where a compliant stop is grazed, a contact lasts for no time. The depth is zero at its beginning and at its end, so the
+//! equation of its end is divided by its duration: it is smooth there too, and goes on to contacts of negative duration, which
+//! are not admissible.
 //!
 //! In a machine with free translations the last flight closes the cycle but for one: the drift is what remains. The place
 //! of the first event along them is 0 instead, so that the solution is one.
@@ -16,16 +19,23 @@
 //! its negative is the period.
 
 use super::frame::MachineFrame;
+use crate::arc::Recovery;
 use crate::events::{EventLaw, LinearEvent, Passage, Place, StateShape, standing_back};
 use crate::machine::{Machine, StopLaw};
 use crate::math::{Matrix, add_scaled};
 use crate::regime::{ContactState, GuardKind, Structure, Translations};
-use crate::system::phase;
+use crate::system::{decay, phase};
 use core::f64::consts::TAU;
 use std::sync::Arc;
 
 /// Two parts of a cycle that differ by less are the same.
 const ALIKE: f64 = 3e-4;
+
+/// A contact that vanishes may last for a negative time, as a phase up to this: its solutions are not admissible then.
+const BRIEF: f64 = 0.05;
+
+/// The least depth at an opening by force, for contacts that vanish, and the size below which a surface has come back.
+const LEAST: (f64, f64) = (1e-12, 1e-300);
 
 /// An event of a signature.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,7 +55,8 @@ pub(crate) struct RingEvent {
 }
 
 impl RingEvent {
-    /// A touch of a guard at which the motion goes on as if the guard were not there; `after` are the states on both sides.
+    /// An event at a guard without an impulse; a touch, at which the motion goes on as if the guard were not there, if `after` are
+    /// the states before it too.
     pub(crate) fn touch(guard: GuardKind, after: &[ContactState], back: Vec<bool>) -> Self {
         Self { guard, with: Vec::new(), after: after.to_vec(), pushed: Vec::new(), rounds: Vec::new(), back }
     }
@@ -205,6 +216,53 @@ impl MachineRing {
             && !next[j].constrains()
     }
 
+    /// The compliant stop that closes at event `k` and opens at the next one.
+    pub(crate) fn contact(&self, k: usize) -> Option<usize> {
+        match (self.events[k].guard, self.events[(k + 1) % self.len()].guard) {
+            (GuardKind::Gap(stop), GuardKind::Depth(same) | GuardKind::Force(same)) if stop == same => Some(stop),
+            _ => None,
+        }
+    }
+
+    /// Whether the contact after event `k` begins and ends at the depth zero.
+    fn is_between_zeros(&self, k: usize) -> bool {
+        let m = self.len();
+        let ends = matches!(self.events[(k + 1) % m].guard, GuardKind::Depth(_));
+        self.contact(k).is_some_and(|stop| ends && !self.events[(k + m - 1) % m].back[stop])
+    }
+
+    /// Lets the surface of a damped stop stand back from each opening by force until it closes next, if the surface has not come
+    /// back to its holder by then.
+    pub(crate) fn set_surface(&mut self, frame: &MachineFrame<'_>, stop: usize) -> Option<()> {
+        if !frame.shape.surfaces.contains(&stop) {
+            return Some(());
+        }
+        for (event, place) in self.events.iter_mut().zip(&mut self.places) {
+            event.back[stop] = false;
+            place.surfaces[stop] = None;
+        }
+        let m = self.len();
+        for k in (0..m).filter(|k| self.events[*k].guard == GuardKind::Force(stop)).collect::<Vec<_>>() {
+            let place = self.place(k);
+            let depth = (-place.gap(&frame.normal, &place.turns(&frame.normal), stop).0).max(LEAST.0);
+            let surface = standing_back(&frame.machine.stops()[stop].law, depth)?;
+            let later = |time: f64| Recovery { size: surface.size * decay(surface.rate * time).0, ..surface };
+            let mut stands = vec![(k, surface)];
+            let mut time = self.time(k, frame.machine);
+            for i in (1..m).map(|i| (k + i) % m).take_while(|i| self.events[*i].guard != GuardKind::Gap(stop)) {
+                stands.push((i, later(time)));
+                time += self.time(i, frame.machine);
+            }
+            if later(time).size > surface.offset.max(LEAST.1) {
+                for (i, surface) in stands {
+                    self.events[i].back[stop] = true;
+                    self.places[i].surfaces[stop] = Some(surface);
+                }
+            }
+        }
+        Some(())
+    }
+
     /// The flight after event `k` and the event at its end; the derivatives only if `linear`.
     pub(crate) fn block(&self, frame: &MachineFrame<'_>, k: usize, linear: bool) -> Option<MachineBlock> {
         let frequency = self.frequency(frame.machine);
@@ -212,7 +270,12 @@ impl MachineRing {
         frame.constrain(&mut from)?;
         let event = &self.events[next];
         let time = self.time(k, frame.machine);
-        if !((time > 0.0 || self.together == Some(k) || self.rests(k)) && time.is_finite()) {
+        let brief = self.contact(k).is_some() && time * frequency > -BRIEF;
+        if !((time > 0.0 || self.together == Some(k) || self.rests(k) || brief) && time.is_finite()) {
+            return None;
+        }
+        let divisor = if self.is_between_zeros(k) { time } else { 1.0 };
+        if divisor == 0.0 {
             return None;
         }
         let structure = frame.structure(&from.states)?;
@@ -244,7 +307,7 @@ impl MachineRing {
         let (reached, wanted) = (frame.shape.values(&arrived), frame.shape.values(&to));
         let free = &frame.normal.translations;
         let closes = next == 0 && !free.is_empty();
-        let mut miss = vec![law.value(&frame.normal, &before)];
+        let mut miss = vec![law.value(&frame.normal, &before) / divisor];
         miss.extend(reached.iter().zip(&wanted).map(|(reached, wanted)| reached - wanted));
         if closes {
             free.remove(&mut miss[1..]);
@@ -274,6 +337,11 @@ impl MachineRing {
             left[(i + 1, 0)] = -carried[i] / frequency;
             left.row_mut(i + 1)[1..].copy_from_slice(through.row(i));
             late.push((ended[i] + linear.reset_rate[i]) / frequency);
+        }
+        if self.is_between_zeros(k) {
+            left.row_mut(0).iter_mut().chain(&mut late[..1]).for_each(|value| *value /= time);
+            left[(0, 0)] += miss[0] / (time * frequency);
+            late[0] -= miss[0] / (time * frequency);
         }
         if closes {
             free.remove_from_columns(&mut left, 1);
@@ -337,6 +405,15 @@ impl MachineRing {
             });
         }
         product.map(|product| frame.across_cycles(product, &self.place(0)))
+    }
+
+    /// The rounding error of the monodromy matrix, in units of the largest coordinates and velocities at the events.
+    pub(crate) fn rounding(&self, frame: &MachineFrame<'_>, monodromy: &Matrix) -> f64 {
+        let largest = |(x, v): (f64, f64), k| {
+            let (size, speed) = frame.sizes(&self.place(k));
+            (x.max(size), v.max(speed))
+        };
+        frame.rounding(monodromy, self.len(), (0..self.len()).fold((0.0, 0.0), largest))
     }
 
     /// Whether the second half of the events repeats the first, to within 3e-4 of the sizes of the motion.

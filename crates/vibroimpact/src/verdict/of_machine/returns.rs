@@ -1,9 +1,10 @@
 //! What the record of a motion needs to know of a machine: its returns are its steps from event to event.
 
 use super::super::recurring::{Diverging, Recurring};
-use crate::events::{MachineEvent, MachineMotion, Passage, Place, step_derivative};
+use crate::events::{MachineEvent, MachineMotion, Passage, Place, stretched, tangent_steps};
 use crate::lyapunov::{MachineMeasure, MachineSpectrum};
-use crate::orbit::{MachineCycle, MachineFrame, MachineLap, crossing};
+use crate::math::dot;
+use crate::orbit::{MachineCycle, MachineFrame, MachineLap, Stability, crossing, rounding_decides};
 use crate::regime::GuardKind;
 use core::cell::Cell;
 use std::sync::Arc;
@@ -92,12 +93,13 @@ impl Recurring for Recorded<'_> {
 
     fn add(&self, measure: &mut MachineMeasure, next: &Arc<Step>, interval: f64) -> bool {
         let frame = &self.frame;
-        let derivative = frame.with(|structures| {
-            step_derivative(&frame.shape, frame.machine, &frame.normal, structures, &next.begin, &next.passage)
+        let steps = frame.with(|structures| {
+            tangent_steps(&frame.shape, frame.machine, &frame.normal, structures, (&next.begin, &next.passage))
         });
         // a grazing contact has no derivative and is passed over
-        if let Some(derivative) = derivative {
-            measure.add(&derivative, interval, f64::from(next.closings));
+        if let Some(steps) = steps {
+            let carry = |vectors: &mut Vec<Vec<f64>>| stretched(&frame.shape, &frame.normal, &steps, vectors);
+            measure.add(carry, interval, f64::from(next.closings));
         }
         measure.complete()
     }
@@ -121,11 +123,18 @@ impl Recorded<'_> {
         self.captured(step, &cycle).then_some(cycle)
     }
 
-    /// Whether the motion from `place` is captured by a stable cycle: it is near at the phase of the states of the cycle,
+    /// Whether rounding errors decide how the motion that returns to a state after a time goes on from it.
+    pub(crate) fn rounding_decides(&self, step: &Step, after: f64) -> bool {
+        MachineLap::fly(&self.frame, &step.end, after).is_some_and(|lap| rounding_decides(&self.frame, &lap))
+    }
+
+    /// Whether the motion from `place` is captured by a cycle that is not unstable: it is on it to rounding, or all its
+    /// directions contract but for the places of joints that hold all the time, and it is near at the phase of the states of the cycle,
     /// and its next period follows the linear law of the cycle so closely that the remainder cannot undo the contraction.
     /// Without forcing it is near where it crosses the plane across the flow at the state of the cycle.
     pub(crate) fn captures(&self, place: &Place, cycle: &MachineCycle) -> Option<bool> {
-        if !cycle.stable() {
+        let stability = cycle.stability();
+        if stability == Stability::Unstable {
             return Some(false);
         }
         let frame = &self.frame;
@@ -166,7 +175,19 @@ impl Recorded<'_> {
                 .fold(0.0, f64::max)
         };
         let left_over = largest(&|i| after[i] - linear[i]);
-        let rate = cycle.multipliers.first().map_or(0.0, |first| first.modulus());
+        // joints that hold all the time keep their place, and all other directions must contract
+        let (holding, each) = (reference.holding(), cycle.stabilities());
+        let neutral = each.iter().filter(|one| **one == Stability::Neutral).count();
+        let kept = holding.iter().all(|joint| {
+            let direction = &frame.normal.directions[*joint];
+            let moved = dot(direction, &before[..n]).abs() / dot(direction, direction).sqrt();
+            moved <= AT_ROUNDING * size
+        });
+        if neutral > holding.len() || !kept {
+            return Some(false);
+        }
+        let contracting = cycle.multipliers.iter().zip(&each).filter(|(_, one)| one.is_stable());
+        let rate = contracting.map(|(multiplier, _)| multiplier.modulus()).fold(0.0, f64::max);
         Some(left_over <= 0.3 * (1.0 - rate) * largest(&|i| before[i]) + 1e-12)
     }
 }

@@ -9,23 +9,26 @@ use super::tail::MachineTail;
 use crate::events::{MachineEnd, MachineLimits, MachineMotion, MachineStart};
 use crate::lyapunov::MachineSpectrum;
 use crate::machine::{Machine, MachineError};
-use crate::orbit::{MachineCycle, MachineFrame};
+use crate::orbit::{MachineCycle, MachineFrame, Stability};
+use crate::regime::ContactState;
 use std::sync::Arc;
 
 /// What a machine settles into.
 #[derive(Clone, Debug)]
 pub enum MachineVerdict {
-    /// A stable cycle, confirmed by Newton's method, that captures the motion.
+    /// A cycle, confirmed by Newton's method, that captures the motion: a stable one, or a neutral one on which it is to
+    /// rounding.
     Periodic(MachineCycle),
     /// No further event, for ever.
     NoImpact(MachineTail),
     /// At rest on a stop, for ever.
     Stuck(MachineTail),
-    /// Chaotic by its largest Lyapunov exponent.
+    /// Chaotic by its largest Lyapunov exponent, to the end of the budget.
     Chaotic {
-        /// The exponents.
+        /// The exponents of the last measurement.
         spectrum: MachineSpectrum,
-        /// Events followed.
+        /// Events followed. Chaos can be a transient, which no finite observation excludes; this number is a lower bound of
+        /// its length.
         events: u64,
         /// The last of them.
         tail: MachineTail,
@@ -79,6 +82,36 @@ impl MachineVerdict {
         }
     }
 
+    /// Whether neighbours approach the motion; `None` if it is undecided. Of a motion that comes to no further event it is that
+    /// of the structure in its last regime, in which a joint that holds keeps its place: there are rests on both sides of it.
+    #[must_use]
+    pub fn stability(&self, machine: &Machine) -> Option<Stability> {
+        match self {
+            Self::Periodic(cycle) => Some(cycle.stability()),
+            Self::NoImpact(tail) | Self::Stuck(tail) => tail.stability(machine),
+            Self::Chaotic { .. } => Some(Stability::Unstable),
+            Self::Undecided { .. } => None,
+        }
+    }
+
+    /// The stops that stay closed for ever, if no further event follows: those on which the structure rests, and compliant ones
+    /// that push.
+    #[must_use]
+    pub fn closed(&self) -> Vec<usize> {
+        let (Self::NoImpact(tail) | Self::Stuck(tail)) = self else { return Vec::new() };
+        // stops come before joints, whose states are others
+        let states = &tail.from.states;
+        (0..states.len())
+            .filter(|k| matches!(states[*k], ContactState::Closed | ContactState::Resting | ContactState::Touching))
+            .collect()
+    }
+
+    /// The number of events over which chaos was seen; `None` unless the motion is chaotic.
+    #[must_use]
+    pub const fn seen_events(&self) -> Option<u64> {
+        if let Self::Chaotic { events, .. } = self { Some(*events) } else { None }
+    }
+
     /// A state of the motion that is reached: on the cycle, at the beginning of the last part of chaos that is measured, or
     /// after the last event; `None` for an undecided motion.
     #[must_use]
@@ -95,6 +128,8 @@ impl SteadyMotion for MachineVerdict {
     fn same_as(&self, other: &Self, tolerance: f64) -> bool {
         match (self, other) {
             (Self::Periodic(a), Self::Periodic(b)) => a.same_as(b, tolerance),
+            // they differ if other stops stay closed or other joints hold; the places in which joints hold are a continuum
+            (Self::NoImpact(a), Self::NoImpact(b)) | (Self::Stuck(a), Self::Stuck(b)) => a.from.states == b.from.states,
             _ => core::mem::discriminant(self) == core::mem::discriminant(other),
         }
     }
@@ -221,6 +256,12 @@ fn settle_in<'a>(
                 if let Some(cycle) = system.same(&step, time - then) {
                     return settled(MachineVerdict::Periodic(cycle), events, time, &record);
                 }
+                if system.rounding_decides(&step, time - then) {
+                    // from this release the motion is always the same, and no longer run tells more of it
+                    let why = MachineUndecided::Unconfirmed;
+                    let verdict = MachineVerdict::Undecided { why, spectrum: record.latest(&system), events };
+                    return settled(verdict, events, time, &record);
+                }
                 unconfirmed |= step.was_still();
             }
             if step.was_still() {
@@ -238,17 +279,21 @@ fn settle_in<'a>(
             Some(Shown::Cycle(cycle)) => {
                 return settled(MachineVerdict::Periodic(cycle), events, time, &record);
             }
+            // chaos of a machine is often a transient of thousands of events: the motion is followed to the end of the budget
             Some(Shown::Chaos(spectrum)) => {
-                let tail = MachineTail::last(&record.returns, motion.place());
-                return settled(MachineVerdict::Chaotic { spectrum, events, tail }, events, time, &record);
+                over.replace(Some(spectrum));
             }
             None => {}
         }
     }
     let last = record.returns.last().map(|(step, _)| step.clone());
-    let verdict = match last.and_then(|step| record.look(&system, options, &step)) {
-        Some(cycle) => MachineVerdict::Periodic(cycle),
-        None => {
+    let verdict = match (last.and_then(|step| record.look(&system, options, &step)), record.chaos(&system)) {
+        (Some(cycle), _) => MachineVerdict::Periodic(cycle),
+        (None, Some(spectrum)) if !unconfirmed => {
+            let tail = MachineTail::last(&record.returns, motion.place());
+            MachineVerdict::Chaotic { spectrum, events, tail }
+        }
+        (None, _) => {
             let why = if unconfirmed { MachineUndecided::Unconfirmed } else { MachineUndecided::Events };
             MachineVerdict::Undecided { why, spectrum: record.latest(&system), events }
         }
@@ -285,7 +330,7 @@ mod tests {
             for (x, v) in [(0.0, 0.0), (-2.0, 0.0), (0.1, -1.0)] {
                 let start = Start { x, v, phase: 0.0 };
                 let expected = settle(&osc, start, &SettleOptions::default()).verdict;
-                let own = MachineStart { q: vec![x], qdot: vec![v], phase: 0.0 };
+                let own = MachineStart { q: vec![x], qdot: vec![v], phase: 0.0, ..MachineStart::default() };
                 let found = settle_machine(&machine, &own, &SettleOptions::default()).unwrap().verdict;
                 assert_eq!(found.label(), expected.label(), "{} from {x} {v}", point.name);
                 if let (MachineVerdict::Periodic(cycle), Verdict::Periodic(of)) = (&found, &expected) {

@@ -46,7 +46,7 @@ fn sizes(machine: &Machine) -> (Vec<f64>, Vec<f64>) {
 #[allow(clippy::cast_precision_loss)] // 53 bits are kept on purpose
 pub fn scattered_machine_starts(machine: &Machine, seed: u64, index: u64) -> MachineStart {
     let n = machine.n();
-    let mut start = MachineStart { q: vec![0.0; n], qdot: vec![0.0; n], phase: 0.0 };
+    let mut start = MachineStart { q: vec![0.0; n], qdot: vec![0.0; n], ..MachineStart::default() };
     if index > 0 {
         let (x, v) = sizes(machine);
         let dimensions = 2 * n + 1;

@@ -4,7 +4,10 @@ use super::returns::Step;
 use crate::events::{MachineStart, Place};
 use crate::lyapunov::MEASURED_IMPACTS;
 use crate::machine::Machine;
+use crate::math::general_eigenvalues;
+use crate::orbit::{MachineFrame, Stability};
 use crate::regime::Normal;
+use core::f64::consts::TAU;
 use std::sync::Arc;
 
 /// The last steps of a motion, each to an event, over which the quantities of a chaotic motion are measured: at most
@@ -33,10 +36,20 @@ impl MachineTail {
         }
     }
 
+    /// The stability of a motion without a further event; `None` if its regime has no structure.
+    pub(crate) fn stability(&self, machine: &Machine) -> Option<Stability> {
+        let frame = MachineFrame::new(machine);
+        let structure = frame.structure(&self.from.states)?;
+        // the derivative over a time in which the slowest decay shows
+        let time = TAU / structure.fastest().max(f64::MIN_POSITIVE);
+        let derivative = frame.shape.transition(&structure, &frame.normal, &self.from, time);
+        let rounding = frame.rounding(&derivative, 1, (1.0, structure.fastest()));
+        let multipliers = general_eigenvalues(&frame.without_translations(derivative))?;
+        Some(Stability::of(&multipliers, rounding))
+    }
+
     /// The state before them as a start.
     pub(crate) fn start(&self, machine: &Machine) -> MachineStart {
-        let normal = Normal::new(machine);
-        let Place { x, v, phase, .. } = &self.from;
-        MachineStart { q: normal.to_machine(x), qdot: normal.to_machine(v), phase: *phase }
+        self.from.start(machine, &Normal::new(machine))
     }
 }

@@ -1,0 +1,77 @@
+//! Events and verdicts do not depend on how a machine is written.
+#![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+
+use vibroimpact::verdict::{SettleOptions, settle_machine};
+use vibroimpact_cases::{Budget, Case, FAMILIES, Rewriting, Standard, changed};
+
+fn long() -> bool {
+    std::env::var("VIBROIMPACT_LONG").is_ok()
+}
+
+/// Everyday one machine of each family, written in all ways; with `VIBROIMPACT_LONG=1` 60, more than a thousand together.
+#[test]
+fn events_do_not_depend_on_names_order_units_and_signs() {
+    let budget = Budget { stretches: 40, time: 25.0 };
+    let (mut instants, mut wrong) = (0, Vec::new());
+    for family in FAMILIES {
+        for seed in 0..if long() { 60 } else { 1 } {
+            let case = family.case(seed);
+            let standard = Standard::new(&case, budget);
+            for change in Rewriting::ALL {
+                match standard.same_written(&case, change, budget) {
+                    Ok(count) => instants += count,
+                    Err(what) => wrong.push(format!("{} {seed} {what}", family.name)),
+                }
+            }
+        }
+    }
+    println!("{instants} instants compared");
+    assert!(wrong.is_empty(), "{}:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+/// A machine with a stop or a joint twice moves as the one with it once.
+#[test]
+fn duplicates_move_as_originals() {
+    let budget = Budget { stretches: 40, time: 25.0 };
+    let family = vibroimpact_cases::MachineFamily::named("duplicates").unwrap();
+    let mut wrong = Vec::new();
+    for seed in 0..if long() { 200 } else { 20 } {
+        let case = family.case(seed);
+        let plain = Case { machine: case.same_as.clone().unwrap(), same_as: None, ..case.clone() };
+        if let Err(what) = Standard::new(&plain, budget).same_motion(&case.machine, &case.start, budget) {
+            wrong.push(format!("{seed}: {what}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+/// The label of a verdict, with half the closings of a machine beside itself.
+fn label(verdict: &str, twice: bool) -> String {
+    match verdict.split_once('/') {
+        Some((closings, periods)) if twice => match closings.parse::<u32>() {
+            Ok(closings) if closings % 2 == 0 => format!("{}/{periods}", closings / 2),
+            _ => verdict.to_owned(),
+        },
+        _ => verdict.to_owned(),
+    }
+}
+
+#[test]
+fn verdicts_do_not_depend_on_names_order_units_and_signs() {
+    let options = SettleOptions::at_most(if long() { 4000 } else { 1000 });
+    let mut wrong = Vec::new();
+    for family in FAMILIES {
+        for seed in 0..if long() { 60 } else { 1 } {
+            let case = family.case(seed);
+            let standard = settle_machine(&case.machine, &case.start, &options).unwrap().verdict.label();
+            for change in Rewriting::ALL {
+                let again = changed(&case, change);
+                let verdict = settle_machine(&again.machine, &again.start, &options).unwrap().verdict.label();
+                if label(&verdict, change == Rewriting::Twice) != standard {
+                    wrong.push(format!("{} {seed} {change:?}: {verdict} instead of {standard}", family.name));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}:\n{}", wrong.len(), wrong.join("\n"));
+}

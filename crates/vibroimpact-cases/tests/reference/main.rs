@@ -1,0 +1,82 @@
+//! Motions compared with plain time stepping: positions at equal times, until the two step sizes separate.
+#![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+
+mod stepper;
+
+use stepper::Stepper;
+use vibroimpact::events::{MachineLimits, MachineSamples};
+use vibroimpact_cases::{Case, FAMILIES};
+
+/// How far motions are compared, and at how many times.
+const UNTIL: f64 = 6.0;
+const TIMES: u32 = 30;
+/// The larger of the two steps.
+const STEP: f64 = 1.0 / 2048.0;
+/// Two step sizes whose coordinates differ by more than this part of the largest ones are not compared further.
+const APART: f64 = 0.02;
+/// The difference from the simulator may be this many times the difference between the two step sizes, plus this part of
+/// the largest coordinates.
+const TIMES_APART: f64 = 4.0;
+const ALWAYS: f64 = 2e-3;
+
+/// Coordinates at equal times, by steps of this size.
+fn stepped(case: &Case, h: f64) -> Vec<Vec<f64>> {
+    let mut stepper = Stepper::new(&case.machine, &case.start, h);
+    let mut rows = vec![stepper.q.clone()];
+    for k in 1..=TIMES {
+        let time = UNTIL * f64::from(k) / f64::from(TIMES);
+        while stepper.time() < time - 0.5 * h {
+            stepper.step();
+        }
+        rows.push(stepper.q.clone());
+    }
+    rows
+}
+
+/// The number of times that could be compared, or the first difference.
+fn compare(case: &Case) -> Result<usize, String> {
+    let step = UNTIL / f64::from(TIMES);
+    let samples = MachineSamples::new(&case.machine, &case.start, MachineLimits::default(), (UNTIL, step)).unwrap();
+    let exact: Vec<Vec<f64>> = samples.filter(|sample| sample.even).map(|sample| sample.q).collect();
+    let (coarse, fine) = (stepped(case, STEP), stepped(case, 0.5 * STEP));
+    let largest = |row: &[f64]| row.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let (mut size, mut error) = (1e-3_f64, 0.0_f64);
+    for (k, ((exact, coarse), fine)) in exact.iter().zip(&coarse).zip(&fine).enumerate() {
+        size = size.max(largest(fine));
+        error = error.max(apart(coarse, fine));
+        if error > APART * size {
+            return Ok(k);
+        }
+        let difference = apart(exact, fine);
+        if difference > TIMES_APART * error + ALWAYS * size {
+            let time = step * k as f64;
+            return Err(format!(
+                "at {time:.2} {difference:.2e} from stepping, whose sizes differ by {error:.2e} of {size:.2e}"
+            ));
+        }
+    }
+    if exact.len() < coarse.len() {
+        Err(format!("the motion ends after {} times", exact.len()))
+    } else {
+        Ok(exact.len())
+    }
+}
+
+/// Everyday one machine of each family; with `VIBROIMPACT_LONG=1` twelve, more than 200 together.
+#[test]
+fn motions_are_those_of_time_stepping() {
+    let count = if std::env::var("VIBROIMPACT_LONG").is_ok() { 12 } else { 1 };
+    let (mut times, mut all, mut wrong) = (0, 0, Vec::new());
+    for family in FAMILIES {
+        for seed in 0..count {
+            all += 1;
+            match compare(&family.case(seed)) {
+                Ok(count) => times += count,
+                Err(what) => wrong.push(format!("{} {seed}: {what}", family.name)),
+            }
+        }
+    }
+    println!("{all} machines, {times} states compared");
+    assert!(wrong.is_empty(), "{} of {all}:\n{}", wrong.len(), wrong.join("\n"));
+}

@@ -1,0 +1,234 @@
+//! Stability in three words, rests that name their stops, and how far chaos was seen.
+
+use super::{json, vibro};
+use serde_json::Value;
+use std::fs;
+use std::path::PathBuf;
+
+/// An elastic ball between a wall and a moving wall.
+const BALL: &str = r#"
+[parameters]
+L = 1
+eps = 0.05
+[machine]
+bodies = { ball = 1 }
+frequency = 1
+[[machine.stop]]
+name = "fixed"
+between = ["ground", "ball"]
+gap = 0
+restitution = 1
+[[machine.stop]]
+name = "moving"
+at = "ball"
+gap = "L"
+restitution = 1
+motion = [{ sin = "-eps" }]
+[start]
+q = [0.5]
+qdot = [0.33]
+"#;
+
+/// A slider that friction holds, and a hammer on it between two stops.
+const SLIDER: &str = r#"
+[machine]
+coordinates = ["slider", "hammer"]
+mass = [1, 1]
+stiffness = [[1, -1], [-1, 1]]
+damping = [[0.2, -0.2], [-0.2, 0.2]]
+frequency = 1.0
+[[machine.force]]
+order = 1
+cos = [0, 0.05]
+sin = [0, 0]
+[[machine.stop]]
+name = "right"
+direction = [0, 1]
+gap = 1.0
+restitution = 0.5
+[[machine.stop]]
+name = "left"
+direction = [0, -1]
+gap = 1.0
+restitution = 0.5
+[[machine.friction]]
+name = "ground"
+direction = [1, 0]
+sliding = 5
+static = 5
+"#;
+
+/// A structure of three coordinates with stiff stops, whose chaos ends.
+const LONG: &str = r#"
+[start]
+q = [-0.1479, -0.0759, 0.2969]
+qdot = [-0.4201, 0.976, -0.0398]
+phase = 2.1116
+[machine]
+coordinates = ["x1", "x2", "x3"]
+mass = [1.151, 0.3236, 2.706]
+stiffness = [[7.08, -3.534, 0.0], [-3.534, 3.8682, -0.3342], [0.0, -0.3342, 0.3342]]
+damping = [[0.13005, -0.01095, 0.0], [-0.01095, 0.02223, -0.01128], [0.0, -0.01128, 0.07717]]
+constant = [0.0013, 0.2998, 0.3128]
+frequency = 1.743
+[[machine.force]]
+order = 1
+cos = [0.8068, 0.0, 0.4877]
+sin = [-0.0504, 0.0, 0.257]
+[[machine.stop]]
+name = "s0"
+direction = [0.5778, 0.9634, 0.82]
+gap = 0.5865
+stiffness = 389.5
+damping = 52.34
+opening = "position"
+[[machine.stop]]
+name = "s1"
+direction = [-1.0, 0.0, 1.0]
+gap = 0.1934
+stiffness = 49980.0
+damping = 23.76
+opening = "position"
+[[machine.stop]]
+name = "s2"
+direction = [1.0, 0.0, -1.0]
+gap = 0.3786
+stiffness = 1222.0
+damping = 16.39
+opening = "position"
+"#;
+
+/// A folder with a machine file, and the way to it.
+fn file(machine: &str) -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("machine.toml");
+    fs::write(&path, machine).expect("it can be written");
+    (folder, path)
+}
+
+fn printed(line: &str) -> String {
+    let output = vibro(line).output().expect("vibro runs");
+    assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).expect("text")
+}
+
+/// The cells of a column of a table.
+fn column(table: &str, name: &str) -> Vec<String> {
+    let mut rows = table.lines().map(|row| row.split(','));
+    let at = rows.next().expect("a head").position(|head| head == name).unwrap_or_else(|| panic!("{name}: {table}"));
+    rows.map(|mut row| row.nth(at).expect("a cell").to_owned()).collect()
+}
+
+fn kinds(branch: &Value) -> Vec<&str> {
+    branch["events"].as_array().expect("a list").iter().map(|event| event["kind"].as_str().expect("a text")).collect()
+}
+
+/// 42.5: of 87 points of this branch 33 were called stable, with torus events between them.
+#[test]
+fn an_elliptic_family_is_neutral() {
+    let (folder, path) = file(BALL);
+    let line = format!("--machine {}", path.display());
+    let orbits = json(&format!("orbit {line} --label 2/1"));
+    let words: Vec<_> =
+        orbits["orbits"].as_array().expect("a list").iter().map(|orbit| orbit["stability"].clone()).collect();
+    assert_eq!(words, ["unstable", "neutral"]);
+    assert_eq!(orbits["orbits"][1]["stable"], false);
+    assert!(printed(&format!("orbit {line} --label 2/1")).contains("2/1, neutral, period"));
+    let branch = format!("branch {line} --label 2/1 --orbit 2 --vary eps --to 0.001");
+    let answer = json(&branch);
+    let points = answer["points"].as_array().expect("a list");
+    assert!(
+        points.len() > 20 && points.iter().all(|point| point["stability"] == "neutral" && point["stable"] == false)
+    );
+    assert_eq!(kinds(&answer), ["end of range"]);
+    let text = printed(&branch);
+    assert!(text.contains(&format!("0 of them stable, {} neutral", points.len())), "{text}");
+    let table = folder.path().join("branch.csv");
+    let figure = folder.path().join("branch.svg");
+    printed(&format!("{branch} --csv {} --plot {}", table.display(), figure.display()));
+    assert!(column(&fs::read_to_string(table).unwrap(), "stability").iter().all(|word| word == "neutral"));
+    let figure = fs::read_to_string(figure).unwrap();
+    assert!(figure.contains(">neutral<") && !figure.contains(">stable<"));
+}
+
+/// 42.5: the same for an oscillator without losses.
+#[test]
+fn an_elastic_oscillator_is_neutral_or_unstable() {
+    let system = "--inverse-beta 1.3 --gap 0.75 --restitution 1";
+    let mut words = Vec::new();
+    for label in ["1/1", "2/1", "1/2", "2/2"] {
+        let orbits = json(&format!("orbit {system} --label {label}"));
+        for orbit in orbits["orbits"].as_array().expect("a list") {
+            assert_eq!(orbit["stable"], false);
+            words.push(orbit["stability"].as_str().expect("a text").to_owned());
+        }
+    }
+    assert!(words.iter().any(|word| word == "neutral") && words.iter().all(|word| word != "stable"), "{words:?}");
+    let free = json("settle --inverse-beta 1.3 --gap 20 --restitution 0.5");
+    assert_eq!((&free["motion"]["stability"], &free["motion"]["stable"]), (&"neutral".into(), &false.into()));
+    let damped = json("settle --inverse-beta 1.3 --gap 20 --restitution 0.5 --damping 0.1");
+    assert_eq!((&damped["motion"]["stability"], &damped["motion"]["stable"]), (&"stable".into(), &true.into()));
+    let stuck = json("settle --inverse-beta 0.5 --gap -3 --restitution 0.5");
+    assert_eq!((&stuck["motion"]["stop"], &stuck["motion"]["stops"]), (&"upper".into(), &serde_json::json!(["upper"])));
+}
+
+/// 42.8: rests on different stops were one motion.
+#[test]
+fn rests_name_their_stops() {
+    let (folder, path) = file(SLIDER);
+    let line = format!("--machine {}", path.display());
+    let settled = json(&format!("settle {line} --q=-3,0"));
+    let motion = &settled["motion"];
+    assert_eq!(
+        (&motion["label"], &motion["stop"], &motion["stability"]),
+        (&"stuck".into(), &"left".into(), &"neutral".into())
+    );
+    assert_eq!(motion["stops"], serde_json::json!(["left"]));
+    assert!(settled["events_followed"].as_u64().unwrap() > 0 && settled["time_followed"].is_number());
+    assert!(printed(&format!("settle {line} --q=3,0")).contains("at rest on right, for ever"));
+    let basin = format!("basin {line} --axis q.slider=-3:3:7 --axis q.hammer=-0.5:0.5:3");
+    let answer = json(&basin);
+    let motions = answer["motions"].as_array().expect("a list");
+    let stuck: Vec<_> = motions.iter().filter(|motion| motion["label"] == "stuck").collect();
+    let stops: Vec<_> = stuck.iter().map(|motion| motion["stop"].as_str().expect("a text")).collect();
+    assert_eq!(stops, ["left", "right"]);
+    let shares: f64 = stuck.iter().map(|motion| motion["share"].as_f64().unwrap()).sum();
+    assert!((shares - 12.0 / 21.0).abs() < 1e-12, "{shares}");
+    // the rest repeats, beside a joint that holds: none is undecided
+    assert!(motions.iter().all(|motion| motion["label"] != "undecided"), "{motions:?}");
+    let table = folder.path().join("basin.csv");
+    printed(&format!("{basin} --csv {}", table.display()));
+    let table = fs::read_to_string(table).unwrap();
+    let cells: Vec<(String, String)> = column(&table, "label").into_iter().zip(column(&table, "stop")).collect();
+    let count = |label: &str, stop: &str| cells.iter().filter(|(a, b)| a == label && b == stop).count();
+    assert_eq!((count("stuck", "left"), count("stuck", "right"), count("stuck", "")), (6, 6, 0));
+    // the same numbers in a store
+    let store = folder.path().join("basin.zarr");
+    printed(&format!("{basin} --store {}", store.display()));
+    let summary = printed(&format!("summary {}", store.display()));
+    assert_eq!(summary.matches("stuck").count(), 2, "{summary}");
+}
+
+/// 42.9: chaos is followed to the end of the budget, and how far stands beside the word.
+#[test]
+fn chaos_says_how_far_it_was_seen() {
+    let (folder, path) = file(LONG);
+    let line = format!("--machine {}", path.display());
+    let short = json(&format!("settle {line} --impacts 6000"));
+    assert_eq!(short["motion"]["label"], "chaotic");
+    let seen = short["motion"]["seen_events"].as_u64().unwrap();
+    assert!(seen >= 6000 && short["events_followed"] == seen);
+    assert!(printed(&format!("settle {line} --impacts 6000")).contains(&format!("chaotic, seen over {seen} events")));
+    let whole = json(&format!("settle {line}"));
+    assert_eq!(whole["motion"]["label"], "9/4");
+    assert!(whole["chaotic_transient"].is_array());
+    let map = format!("map {line} --axis stop.s0.gap=0.5865:0.587:2 --starts 1 --impacts 6000");
+    let answer = json(&map);
+    if answer["labels"].get("chaotic").is_some() {
+        let seen = answer["seen_events"].as_u64().unwrap();
+        assert!(seen >= 6000 && printed(&map).contains(&format!("seen over at least {seen} events")));
+        let table = folder.path().join("map.csv");
+        printed(&format!("{map} --csv {}", table.display()));
+        assert!(!column(&fs::read_to_string(table).unwrap(), "seen_events").is_empty());
+    }
+}

@@ -1,0 +1,142 @@
+//! Whole states of machines: motions go on from what a command printed; and what is refused of machines.
+
+use super::{json, vibro};
+use serde_json::Value;
+use std::fs;
+
+fn refused(line: &str) -> String {
+    let output = vibro(line).output().expect("vibro runs");
+    assert_eq!((output.status.code(), output.stdout.is_empty()), (Some(2), true), "{line}");
+    String::from_utf8(output.stderr).expect("text")
+}
+
+/// A mass, 2 kg so that coordinates are rounded, with a damped pad whose surface recovers slowly, and friction.
+const PADS: &str = r#"
+[machine]
+bodies = { mass = 2, other = 3 }
+frequency = 0.7
+link = [{ between = ["mass", "ground"], stiffness = 1, damping = 0.05 }, { between = ["mass", "other"], stiffness = 2 }]
+force = [{ at = "mass", sin = 1 }]
+stop = [
+    { name = "pad", at = "mass", gap = 0.05, stiffness = 3, damping = 9 },
+    { name = "wall", between = ["ground", "other"], gap = 0.2, restitution = 0.4 },
+]
+friction = [{ name = "guide", at = "other", sliding = 0.1, static = 0.15 }]
+"#;
+
+/// The motion from the state of each printed event has the same printed events after it, to the last digit.
+#[test]
+fn a14_motions_go_on_from_printed_states() {
+    let folder = tempfile::tempdir().unwrap();
+    let (machine, run) = (folder.path().join("pads.toml"), folder.path().join("run.json"));
+    fs::write(&machine, PADS).unwrap();
+    let simulate = format!("simulate --machine {}", machine.display());
+    let found = json(&format!("{simulate} --impacts 40"));
+    fs::write(&run, found.to_string()).unwrap();
+    let events = found["events"].as_array().unwrap();
+    let without_time = |event: &Value| {
+        let mut event = event.clone();
+        event.as_object_mut().unwrap().remove("time");
+        event
+    };
+    let mut surfaces = 0;
+    for k in (0..30).filter(|k| events[*k]["kind"] != "graze") {
+        surfaces += u32::from(events[k]["contacts"]["pad"].get("surface").is_some());
+        let again = json(&format!("{simulate} --impacts 10 --start {}#/events/{k}", run.display()));
+        let state = |event: &Value| (event["q"].clone(), event["exact"].clone());
+        let next = events[k + 1..].iter().skip_while(|next| state(next) == state(&events[k]));
+        for (again, next) in again["events"].as_array().unwrap().iter().zip(next.take(9)) {
+            let (mut again, mut next) = (without_time(again), without_time(next));
+            // times of slow impacts are counted from each state; those before it are rounded as differences of times
+            for event in [&mut again, &mut next] {
+                event["exact"].as_object_mut().unwrap().remove("instants");
+            }
+            assert_eq!(again, next, "event {k}");
+        }
+    }
+    assert!(surfaces > 5, "{surfaces}");
+    // the last event of a file is the default, and a start that is printed is whole too
+    let last = json(&format!("{simulate} --impacts 1 --start {}", run.display()));
+    assert_eq!(last["start"]["contacts"], events[39]["contacts"]);
+    assert_eq!(last["start"]["exact"], events[39]["exact"]);
+}
+
+/// The state of a settled motion is one of the motion: it has the same cycle.
+#[test]
+fn a14_settled_states_are_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let (machine, run) = (folder.path().join("pads.toml"), folder.path().join("run.json"));
+    fs::write(&machine, PADS).unwrap();
+    let found = json(&format!("settle --machine {}", machine.display()));
+    let state = &found["motion"]["state"];
+    assert!(state["contacts"]["pad"].is_object() && state["exact"].is_object(), "{state}");
+    fs::write(&run, found.to_string()).unwrap();
+    let again = json(&format!("simulate --machine {} --impacts 2 --start {}", machine.display(), run.display()));
+    let cycle = found["motion"]["cycle"].as_array().unwrap();
+    for event in again["events"].as_array().unwrap() {
+        let close = |one: &Value, other: &Value| (one.as_f64().unwrap() - other.as_f64().unwrap()).abs() < 1e-9;
+        let same = |other: &&Value| other["kind"] == event["kind"] && close(&other["phase"], &event["phase"]);
+        assert!(cycle.iter().any(|other| same(&other)), "{event} {cycle:?}");
+    }
+}
+
+/// Tables say how far surfaces stand back, and what stops and joints do.
+#[test]
+fn a14_tables_have_states() {
+    let folder = tempfile::tempdir().unwrap();
+    let machine = folder.path().join("pads.toml");
+    fs::write(&machine, PADS).unwrap();
+    let line = format!("simulate --machine {} --impacts 20 --csv -", machine.display());
+    let table = String::from_utf8(vibro(&line).output().unwrap().stdout).unwrap();
+    assert!(
+        table.lines().next().unwrap().ends_with("force.guide,surface.pad,state.pad,state.wall,state.guide"),
+        "{table}"
+    );
+    assert!(table.contains(",closed,open,") && table.contains(",forward\n"), "{table}");
+}
+
+/// Contacts that do not agree with a start, states that are none, and machines that are none.
+#[test]
+fn a13_what_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        fs::write(&path, text).unwrap();
+        path.display().to_string()
+    };
+    let closed = file("closed.toml", &format!("[start]\ncontacts = {{ pad = {{ state = \"closed\" }} }}\n{PADS}"));
+    assert!(refused(&format!("simulate --machine {closed}")).contains("contact.pad: the stop has the gap 0.05"));
+    let unknown = file("unknown.toml", &format!("[start]\ncontacts = {{ pat = {{ state = \"closed\" }} }}\n{PADS}"));
+    assert!(refused(&format!("simulate --machine {unknown}")).contains("known names are pad, wall, guide"));
+    let none = file("none.json", "{\"text\": 1}");
+    let pads = file("pads.toml", PADS);
+    assert!(refused(&format!("simulate --machine {pads} --start {none}")).contains("has no state of a machine"));
+
+    let message = refused("lyapunov --machine two-mass-hammer --impacts 10");
+    assert!(message.contains("impacts = 10 lies outside 25 <= impacts <= 10000000"), "{message}");
+    let message = refused("lyapunov --machine two-mass-hammer --transient 20000000");
+    assert!(message.contains("transient = 20000000 lies outside 0 <= transient <= 1000000"), "{message}");
+
+    let link = file("link.toml", "[machine]\nbodies = { a = 1 }\nlink = [{ between = [\"a\", \"ground\"] }]\n");
+    assert!(refused(&format!("machine show {link}")).contains("link.a-ground: a stiffness or a damping is needed"));
+    let bodies: Vec<String> = (0..3000).map(|k| format!("b{k} = 1")).collect();
+    let large = file("large.toml", &format!("[machine]\nbodies = {{ {} }}\n", bodies.join(", ")));
+    assert!(
+        refused(&format!("machine show {large}"))
+            .contains("a machine has at most 1000 coordinates, and this one has 3000")
+    );
+}
+
+/// A matrix that is symmetric but for rounding is accepted, and is exactly symmetric then.
+#[test]
+fn a13_rounded_matrices_are_made_symmetric() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("rounded.toml");
+    let text = "[machine]\ncoordinates = [\"a\", \"b\"]\nmass = [1, 1]\nstiffness = [1, 1]\n\
+                damping = [[2e-3, 1.6e-20], [0, 3e-3]]\n";
+    fs::write(&path, text).unwrap();
+    let shown = json(&format!("machine show {}", path.display()));
+    assert_eq!(shown["machine"]["damping"], serde_json::json!([[2e-3, 8e-21], [8e-21, 3e-3]]));
+    fs::write(&path, text.replace("1.6e-20", "1.6e-10")).unwrap();
+    assert!(refused(&format!("machine show {}", path.display())).contains("the matrix is not symmetric"));
+}

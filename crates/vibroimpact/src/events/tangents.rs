@@ -1,0 +1,207 @@
+//! Differences of neighbouring motions along a motion: an orthonormal frame of them, and how each is stretched.
+//!
+//! A frame $`Q`$ becomes $`AQ = Q_+R`$ with the derivative $`A`$ of a flight or of an event. The elements of the diagonal of $`R`$
+//! are the stretches. Those of a flight are found with the digits of all directions that decay (`graded_flight`), so a
+//! stretch is no rounding error however small it is. It is 0 only where neighbouring motions become the same: where the structure
+//! comes to rest, a joint holds or an impact is without restitution.
+
+use super::passage::Passage;
+use super::place::{Place, Structures};
+use super::saltation::{LinearEvent, StateShape};
+use crate::arc::combined;
+use crate::machine::Machine;
+use crate::math::{Matrix, add_scaled, dot, ln};
+use crate::regime::{Normal, Structure};
+use std::sync::Arc;
+
+/// Where neighbouring motions can become the same, a difference that becomes less than this part of what it can become has
+/// vanished: it is a rounding error.
+const VANISHED: f64 = 1e-12;
+/// A structure without modes is followed in parts of this time at the fastest rate of decay.
+const PART: f64 = 4.0;
+
+/// A part of a motion, to first order.
+#[derive(Clone, Debug)]
+pub(crate) enum TangentStep {
+    /// A flight in one regime from a state, over a time.
+    Flight(Arc<Structure>, Box<Place>, f64),
+    /// An event with its derivative, and whether neighbouring motions can become the same in it.
+    Event(Matrix, bool),
+}
+
+/// How a frame has been stretched: $`R = L\,\mathrm{diag}(e^{s})\,U`$ with upper triangular factors, for the vectors of the
+/// frame that have been kept.
+#[derive(Clone, Debug)]
+pub(crate) struct FrameChange {
+    pub(crate) left: Matrix,
+    pub(crate) scales: Vec<f64>,
+    pub(crate) right: Matrix,
+    /// The vectors of the frame before that have not vanished.
+    pub(crate) kept: Vec<usize>,
+}
+
+impl FrameChange {
+    /// The logarithm of the stretch of a vector that is kept.
+    pub(crate) fn log(&self, k: usize) -> f64 {
+        ln(self.left[(k, k)].abs()) + self.scales[k] + ln(self.right[(k, k)].abs())
+    }
+}
+
+/// The parts of a step from `begin`; `None` where a guard is only touched.
+pub(crate) fn tangent_steps(
+    shape: &StateShape,
+    machine: &Machine,
+    normal: &Normal,
+    structures: &mut Structures,
+    (begin, passage): (&Place, &Passage),
+) -> Option<Vec<TangentStep>> {
+    let flight = |structure: &Arc<Structure>, from: &Place, time| {
+        TangentStep::Flight(structure.clone(), Box::new(from.clone()), time)
+    };
+    let mut steps = vec![flight(&passage.structure, begin, passage.duration)];
+    if passage.guards.is_empty() {
+        return Some(steps);
+    }
+    let after = passage.after.as_ref()?;
+    let event = LinearEvent::of(shape, machine, normal, structures, passage)?;
+    let constrained = begin.states.iter().zip(&after.states).any(|(was, now)| now.constrains() && !was.constrains());
+    let forgets = constrained || passage.pushed.iter().any(|(_, restitution)| *restitution == 0.0);
+    steps.push(TangentStep::Event(event.saltation()?, forgets));
+    if let Some((rest, time)) = &passage.rest {
+        steps.push(flight(rest, after, *time));
+    }
+    Some(steps)
+}
+
+impl TangentStep {
+    /// Moves a frame, which is orthonormal again then, without the vectors that vanish. `remove` takes away what is no
+    /// difference of motions.
+    pub(crate) fn carry(
+        &self,
+        shape: &StateShape,
+        normal: &Normal,
+        frame: &mut Vec<Vec<f64>>,
+        remove: &impl Fn(&mut Vec<f64>),
+    ) -> Vec<FrameChange> {
+        match self {
+            Self::Event(derivative, forgets) => {
+                let vectors = frame.iter().map(|vector| derivative.apply(vector)).collect();
+                let least = if *forgets { VANISHED * derivative.largest() } else { 0.0 };
+                vec![orthonormal(frame, (vectors, remove), least)]
+            }
+            Self::Flight(structure, from, time) => {
+                if frame.is_empty() {
+                    return Vec::new();
+                }
+                if let Some(stretch) = graded(shape, normal, (structure, from, *time), frame, remove) {
+                    return vec![stretch];
+                }
+                let parts = (structure.contraction() * time / PART).ceil().max(1.0);
+                let part = shape.transition(structure, normal, from, time / parts);
+                let least = VANISHED * part.largest();
+                let mut stretches = Vec::new();
+                let mut k = 0.0;
+                while k < parts {
+                    let vectors = frame.iter().map(|vector| part.apply(vector)).collect();
+                    // only the first part can find vectors that the constraints do not allow
+                    stretches.push(orthonormal(frame, (vectors, remove), if k == 0.0 { least } else { 0.0 }));
+                    k += 1.0;
+                }
+                stretches
+            }
+        }
+    }
+}
+
+/// Moves a frame by a flight of a structure with modes.
+fn graded(
+    shape: &StateShape,
+    normal: &Normal,
+    (structure, from, time): (&Structure, &Place, f64),
+    frame: &mut Vec<Vec<f64>>,
+    remove: &impl Fn(&mut Vec<f64>),
+) -> Option<FrameChange> {
+    let (mut rows, mut back) = structure.graded(normal, time, frame)?;
+    let size = shape.size();
+    back.iter_mut().for_each(|state| state.resize(size, 0.0));
+    for (k, j) in shape.surfaces.iter().enumerate() {
+        if let Some(surface) = from.surfaces[*j] {
+            let mut unit = vec![0.0; size];
+            unit[2 * shape.n + k] = 1.0;
+            rows.push(frame.iter().map(|vector| vector[2 * shape.n + k]).collect(), -surface.rate * time);
+            back.push(unit);
+        }
+    }
+    let factors = rows.factors(frame.len());
+    let there: Vec<usize> = (0..frame.len()).filter(|j| factors.scales[*j] > f64::NEG_INFINITY).collect();
+    let vectors = there.iter().map(|j| combined(&back, &factors.lower[*j])).collect();
+    let FrameChange { left, kept, .. } = orthonormal(frame, (vectors, remove), 0.0);
+    let kept: Vec<usize> = kept.iter().map(|j| there[*j]).collect();
+    let mut right = Matrix::zeros(kept.len(), kept.len());
+    for (i, row) in kept.iter().enumerate() {
+        for (j, column) in kept.iter().enumerate().skip(i) {
+            right[(i, j)] = factors.upper[(*row, *column)];
+        }
+    }
+    Some(FrameChange { left, scales: kept.iter().map(|j| factors.scales[*j]).collect(), right, kept })
+}
+
+/// Makes vectors orthonormal, in the place of a frame. Those that are left with no more than `least` beside the ones before them
+/// have vanished.
+fn orthonormal(
+    frame: &mut Vec<Vec<f64>>,
+    (vectors, remove): (Vec<Vec<f64>>, &impl Fn(&mut Vec<f64>)),
+    least: f64,
+) -> FrameChange {
+    frame.clear();
+    let (mut rows, mut kept): (Vec<Vec<f64>>, Vec<usize>) = Default::default();
+    for (j, mut vector) in vectors.into_iter().enumerate() {
+        remove(&mut vector);
+        let mut shares = vec![0.0; frame.len()];
+        // twice, because once leaves rounding errors of the original length
+        for _ in 0..2 {
+            for (share, other) in shares.iter_mut().zip(frame.iter()) {
+                let part = dot(other, &vector);
+                add_scaled(&mut vector, -part, other);
+                *share += part;
+            }
+        }
+        let length = dot(&vector, &vector).sqrt();
+        if length > least {
+            vector.iter_mut().for_each(|x| *x /= length);
+            shares.push(length);
+            frame.push(vector);
+            rows.push(shares);
+            kept.push(j);
+        }
+    }
+    let d = kept.len();
+    let mut left = Matrix::zeros(d, d);
+    for (j, column) in rows.iter().enumerate() {
+        for (i, value) in column.iter().enumerate() {
+            left[(i, j)] = *value;
+        }
+    }
+    FrameChange { left, scales: vec![0.0; d], right: Matrix::identity(d), kept }
+}
+
+/// The logarithms of the stretches of a frame in a step, in the order of its vectors before: minus infinity for those that have
+/// vanished.
+pub(crate) fn stretched(
+    shape: &StateShape,
+    normal: &Normal,
+    steps: &[TangentStep],
+    frame: &mut Vec<Vec<f64>>,
+) -> Vec<f64> {
+    let mut logs = vec![0.0; frame.len()];
+    let mut there: Vec<usize> = (0..frame.len()).collect();
+    for step in steps {
+        for stretch in step.carry(shape, normal, frame, &|_| ()) {
+            let kept: Vec<usize> = stretch.kept.iter().map(|k| there[*k]).collect();
+            there.iter().filter(|k| !kept.contains(k)).for_each(|k| logs[*k] = f64::NEG_INFINITY);
+            kept.iter().enumerate().for_each(|(k, place)| logs[*place] += stretch.log(k));
+            there = kept;
+        }
+    }
+    logs
+}

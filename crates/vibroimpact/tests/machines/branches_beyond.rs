@@ -1,0 +1,207 @@
+//! Branches of machines through events at which the motion is not smooth, against simulation beside them.
+
+use vibroimpact::continuation::{
+    BranchOptions, Direction, MachineBranch, MachineBranchEvent, MachineFamily, MachinePoint,
+};
+use vibroimpact::events::MachineStart;
+use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
+use vibroimpact::math::Matrix;
+use vibroimpact::orbit::MachineCycle;
+use vibroimpact::verdict::{MachineVerdict, SettleOptions, settle_machine};
+
+fn settled(machine: &Machine, start: &MachineStart) -> Option<MachineCycle> {
+    match settle_machine(machine, start, &SettleOptions::default()).unwrap().verdict {
+        MachineVerdict::Periodic(cycle) => Some(cycle),
+        _ => None,
+    }
+}
+
+fn traced(
+    (machine, path): (&Machine, &str),
+    cycle: &MachineCycle,
+    range: (f64, f64),
+    direction: Direction,
+) -> Vec<MachinePoint> {
+    let (family, value) = MachineFamily::of_path(machine, path).unwrap();
+    let options = BranchOptions { points: 400, ..BranchOptions::default() };
+    MachineBranch::new((&family, value), cycle, &(range.0..=range.1), direction, options).unwrap().collect()
+}
+
+/// The events of a branch.
+fn events(points: &[MachinePoint]) -> Vec<(MachineBranchEvent, f64)> {
+    points.iter().filter_map(|point| Some((point.event?, point.value))).collect()
+}
+
+/// Beside all events, at stable points, motions that begin close to the cycle settle into it. Returns how many were compared.
+fn agrees_with_simulation((machine, path): (&Machine, &str), points: &[MachinePoint]) -> usize {
+    let mut compared = 0;
+    for (k, point) in points.iter().enumerate().filter(|(_, point)| point.event.is_some()) {
+        let others = points[..k].iter().rev().take(6).chain(points[k + 1..].iter().take(6));
+        for other in others.filter(|other| other.event.is_none() && (other.value - point.value).abs() > 1e-6) {
+            // a multiplier is without limit at a grazing contact, so the cycle attracts little of its neighbourhood
+            let near = points.iter().any(|event| event.event.is_some() && (event.value - other.value).abs() < 1e-6);
+            if near || other.cycle.multipliers[0].modulus() > 0.9 {
+                continue;
+            }
+            let there = machine.with(path, other.value).unwrap();
+            let cycle = settled(&there, &other.cycle.state).unwrap();
+            assert_eq!(cycle.label, other.cycle.label, "{path} {} beside {:?}", other.value, point.event);
+            compared += 1;
+        }
+    }
+    compared
+}
+
+/// Two masses, coupled by their inertia too, one on a joint whose static limit exceeds its sliding force.
+fn with_static_friction(mass: f64) -> (Machine, MachineStart) {
+    let pair = |a: f64, b: f64, c: f64| {
+        let mut matrix = Matrix::zeros(2, 2);
+        for (i, j, value) in [(0, 0, a), (0, 1, b), (1, 0, b), (1, 1, c)] {
+            matrix[(i, j)] = value;
+        }
+        matrix
+    };
+    let law = StopLaw::Compliant { stiffness: 92.04, damping: 5.0, preload: 0.1, opening: Opening::Force };
+    let mut parts = MachineParts::new(["x1", "x2"]);
+    parts.mass = pair(mass, 0.4576, 1.521);
+    parts.stiffness = pair(1.056, -0.5364, 0.5364);
+    parts.damping = pair(0.0701, -0.01973, 0.01973);
+    parts.constant = vec![-0.1162, -0.0942];
+    let parts = parts
+        .with_frequency(0.5291)
+        .with_force(0, 1, -0.3813, -0.836)
+        .with_force(0, 2, -0.1056, -0.8552)
+        .with_rigid_stop("s0", &[1.0, -1.0], 0.0, 0.7199)
+        .with_stop("s1", &[0.0, -1.0], 0.4182, law)
+        .with_joint("f0", &[1.0, 0.0], 0.194, 0.291, 0.0);
+    let start =
+        MachineStart { q: vec![-0.4459, 0.3194], qdot: vec![-0.6075, 0.2837], phase: 1.938, ..MachineStart::default() };
+    (Machine::new(parts).unwrap(), start)
+}
+
+/// A hold that lasts ceases where the velocity of its joint only touches zero: with a static limit above the sliding force the
+/// motion is not continuous there, and the branch goes on where the cycle without this hold begins to exist. Between both there
+/// are cycles of several periods.
+#[test]
+fn f42j_a_hold_that_vanishes() {
+    let (machine, start) = with_static_friction(1.53);
+    let cycle = settled(&machine, &start).unwrap();
+    let points = traced((&machine, "mass.x1"), &cycle, (0.918, 1.53), Direction::Down);
+    let events = events(&points);
+    let at = events.iter().position(|(event, _)| *event == MachineBranchEvent::Jump).unwrap();
+    let (last, value) = events[at - 1];
+    assert!(last == MachineBranchEvent::Holding { joint: 2, begins: false }, "{events:?}");
+    assert!((value - 1.075_901_139).abs() < 1e-8 && (events[at].1 - 1.073_511_5).abs() < 1e-6, "{events:?}");
+    assert!(matches!(events.last(), Some((MachineBranchEvent::EndOfRange, end)) if *end == 0.918), "{events:?}");
+    assert!(agrees_with_simulation((&machine, "mass.x1"), &points) > 10);
+    // simulation beside both, and between them
+    let label = |mass: f64, from: &MachinePoint| {
+        settled(&with_static_friction(mass).0, &from.cycle.state).unwrap().label.to_string()
+    };
+    let beside = points.iter().find(|point| point.event == Some(MachineBranchEvent::Jump)).unwrap();
+    assert_eq!([1.07595, 1.0755, 1.0745, 1.0734].map(|mass| label(mass, beside)), ["3/1", "6/2", "6/2", "3/1"]);
+}
+
+/// One mass that strikes a preloaded, damped stop twice in a period.
+fn preloaded_mass() -> Machine {
+    let law = StopLaw::Compliant { stiffness: 40.5863, damping: 0.4704, preload: 0.1317, opening: Opening::Position };
+    let parts = MachineParts::new(["x"])
+        .with_mass(0, 0.597)
+        .with_link(&[1.0], 0.5406, 0.1628)
+        .with_frequency(0.7198)
+        .with_force(0, 1, 0.191, 1.3297)
+        .with_stop("stop", &[1.0], 0.3605, law);
+    Machine::new(parts).unwrap()
+}
+
+/// Three masses, two of which strike each other on a preloaded, damped stop.
+fn preloaded_chain() -> Machine {
+    let law = StopLaw::Compliant { stiffness: 35.4867, damping: 2.9538, preload: 0.1956, opening: Opening::Position };
+    let parts = MachineParts::new(["a", "b", "c"])
+        .with_mass(0, 1.2581)
+        .with_mass(1, 1.1805)
+        .with_mass(2, 1.1011)
+        .with_link(&[1.0, 0.0, 0.0], 0.6526, 0.2383)
+        .with_link(&[-1.0, 1.0, 0.0], 1.4186, 0.1529)
+        .with_link(&[0.0, -1.0, 1.0], 0.811, 0.0746)
+        .with_frequency(1.0164)
+        .with_force(1, 1, 0.4735, 0.9277)
+        .with_stop("stop", &[0.0, 1.0, -1.0], 0.5733, law);
+    Machine::new(parts).unwrap()
+}
+
+/// Where a contact of a preloaded, damped stop begins or ceases to be a part of the cycle, the branch goes on with a grazing event.
+/// There the multiplier is without limit, and the number turns back.
+#[test]
+fn f42k_preloaded_contacts_that_graze() {
+    let grazing = |appears| MachineBranchEvent::Grazing { stop: 0, appears, turns: true };
+    let (fold, flip, end) = (MachineBranchEvent::Fold, MachineBranchEvent::Flip, MachineBranchEvent::EndOfRange);
+    let lost = MachineBranchEvent::LossOfContact { stop: 0 };
+    let (mass, chain) = (preloaded_mass(), preloaded_chain());
+    let mut compared = 0;
+    for (machine, path, range, direction, want) in [
+        (
+            &mass,
+            "frequency",
+            (0.53985, 0.93574),
+            Direction::Down,
+            vec![(grazing(true), 0.570_747_424), (fold, 0.578_750_564), (end, 0.53985)],
+        ),
+        (
+            &mass,
+            "frequency",
+            (0.53985, 0.93574),
+            Direction::Up,
+            vec![(fold, 0.819_535_091), (grazing(false), 0.811_413_849), (end, 0.93574)],
+        ),
+        (
+            &chain,
+            "frequency",
+            (0.7623, 1.32132),
+            Direction::Up,
+            vec![(fold, 1.224_270_718), (flip, 1.206_562_463), (lost, 1.206_189_790)],
+        ),
+        (
+            &chain,
+            "stop.stop.gap",
+            (0.1733, 1.3733),
+            Direction::Down,
+            vec![(grazing(true), 0.266_724_676), (fold, 0.275_504_284), (end, 0.1733)],
+        ),
+    ] {
+        let cycle = settled(machine, &MachineStart::default()).unwrap();
+        let points = traced((machine, path), &cycle, range, direction);
+        let found = events(&points);
+        assert_eq!(found.len(), want.len(), "{path} {direction:?}: {found:?}");
+        for ((event, value), (expected, at)) in found.iter().zip(&want) {
+            assert!(event == expected && (value - at).abs() < 1e-8, "{path} {direction:?}: {found:?}");
+        }
+        let near = agrees_with_simulation((machine, path), &points);
+        assert!(near > 2, "{path} {direction:?} {found:?} {near}");
+        compared += near;
+    }
+    assert!(compared > 30, "{compared}");
+}
+
+/// A stop on which the structure rests while another one is struck is pushed and does not close: it is not counted.
+#[test]
+fn f42l_labels_count_closings_only() {
+    // the first body is pressed on the wall; the second one strikes it from the other side
+    let parts = MachineParts::new(["anvil", "hammer"])
+        .with_mass(0, 1.0)
+        .with_mass(1, 0.5)
+        .with_link(&[1.0, 0.0], 1.0, 0.1)
+        .with_link(&[0.0, 1.0], 0.6, 0.1)
+        .with_constant(0, 30.0)
+        .with_frequency(0.9)
+        .with_force(1, 1, 0.0, 0.7)
+        .with_rigid_stop("wall", &[1.0, 0.0], 0.1, 0.0)
+        .with_rigid_stop("head", &[-1.0, 1.0], 0.3, 0.5);
+    let machine = Machine::new(parts).unwrap();
+    let start = MachineStart { q: vec![0.1, 0.0], qdot: vec![0.0, 0.0], phase: 0.0, ..MachineStart::default() };
+    let cycle = settled(&machine, &start).unwrap();
+    let closings = |place| cycle.events.iter().filter(|event| event.closes() && event.place == place).count();
+    assert!(cycle.events.iter().any(|event| event.closes() && event.place == 1 && event.with == [0]), "{cycle:?}");
+    assert_eq!(cycle.counts.iter().map(|count| *count as usize).collect::<Vec<_>>(), [closings(0), closings(1)]);
+    assert!(closings(0) == 0 && closings(1) > 0 && cycle.label.to_string().starts_with(&format!("{}/", closings(1))));
+}

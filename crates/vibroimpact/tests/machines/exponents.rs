@@ -1,0 +1,167 @@
+//! Exponents and multipliers of cycles in which something decays by many powers of ten: Liouville's sum.
+
+use vibroimpact::chaos::{MachineExponents, machine_exponents_while};
+use vibroimpact::events::{MachineEventKind, MachineStart};
+use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
+use vibroimpact::orbit::MachineCycle;
+use vibroimpact::verdict::MachineVerdict;
+
+fn found(parts: MachineParts) -> (MachineExponents, Vec<f64>) {
+    let machine = Machine::new(parts).unwrap();
+    let found = machine_exponents_while(&machine, &MachineStart::default(), (4_000, 500), || true).unwrap().unwrap();
+    let exponents = found.spectrum.as_ref().unwrap().exponents.iter().map(|exponent| exponent.value).collect();
+    (found, exponents)
+}
+
+fn cycle(found: &MachineExponents) -> &MachineCycle {
+    let MachineVerdict::Periodic(cycle) = &found.motion else { panic!("{}", found.motion.label()) };
+    cycle
+}
+
+/// The part of the period for which a stop is closed.
+fn closed(cycle: &MachineCycle, stop: usize) -> f64 {
+    let own: Vec<_> = cycle.events.iter().filter(|event| event.place == stop).collect();
+    let mut sum = 0.0;
+    for (k, event) in own.iter().enumerate().filter(|(_, event)| event.kind == MachineEventKind::Close) {
+        let next = own[(k + 1) % own.len()];
+        assert_eq!(next.kind, MachineEventKind::Open);
+        sum += (next.time - event.time).rem_euclid(cycle.period);
+    }
+    sum / cycle.period
+}
+
+fn stop(stiffness: f64, damping: f64) -> StopLaw {
+    StopLaw::Compliant { stiffness, damping, preload: 0.0, opening: Opening::Position }
+}
+
+fn overdamped(damping: f64) -> MachineParts {
+    MachineParts::new(["x"])
+        .with_mass(0, 1.0)
+        .with_link(&[1.0], 1.0, 0.1)
+        .with_frequency(0.7)
+        .with_force(0, 1, 0.0, 1.0)
+        .with_stop("s", &[1.0], 0.2, stop(100.0, damping))
+}
+
+/// 1. The sum of the exponents is minus the damping and that of the stop while it is closed, and multipliers and exponents say the
+///    same. Values with 77 digits at a damping of 20.
+#[test]
+fn overdamped_stops() {
+    for damping in [5.0, 15.0, 20.0, 30.0, 60.0, 100.0, 200.0, 1000.0] {
+        let (found, exponents) = found(overdamped(damping));
+        let cycle = cycle(&found);
+        let sum: f64 = exponents.iter().sum();
+        let wanted = -(0.1 + damping * closed(cycle, 0));
+        assert!((sum - wanted).abs() < 1e-9 * (1.0 + wanted.abs()), "{damping}: {exponents:?}, {wanted} wanted");
+        for (multiplier, exponent) in cycle.multipliers.iter().zip(&exponents) {
+            let modulus = (exponent * cycle.period).exp();
+            assert!((multiplier.modulus() - modulus).abs() <= 1e-9 * modulus, "{damping}: {multiplier:?} {exponent}");
+        }
+        if damping == 20.0 {
+            assert!((exponents[0] + 3.27243).abs() < 2e-5 && (exponents[1] + 4.49465).abs() < 2e-5, "{exponents:?}");
+        }
+        if damping == 100.0 {
+            assert!((sum + 44.933_098).abs() < 1e-5, "{sum}");
+        }
+    }
+}
+
+/// 2. Two bodies, each with a damped stop: more than one direction decays by more than rounding leaves.
+#[test]
+fn two_overdamped_stops() {
+    for (one, two) in [(30.0, 50.0), (80.0, 80.0), (300.0, 40.0)] {
+        let parts = MachineParts::new(["a", "b"])
+            .with_mass(0, 1.0)
+            .with_mass(1, 0.8)
+            .with_link(&[1.0, 0.0], 1.0, 0.1)
+            .with_link(&[1.0, -1.0], 0.6, 0.05)
+            .with_link(&[0.0, 1.0], 0.9, 0.1)
+            .with_frequency(0.6)
+            .with_force(0, 1, 0.2, 1.0)
+            .with_force(1, 1, 0.5, 0.8)
+            .with_stop("one", &[1.0, 0.0], 0.2, stop(100.0, one))
+            .with_stop("two", &[0.0, 1.0], 0.3, stop(80.0, two));
+        let (found, exponents) = found(parts);
+        let cycle = cycle(&found);
+        let sum: f64 = exponents.iter().sum();
+        let own = 0.15 + 0.15 / 0.8;
+        let wanted = -(own + one * closed(cycle, 0) + two / 0.8 * closed(cycle, 1));
+        assert!((sum - wanted).abs() < 1e-9 * wanted.abs(), "{one} {two}: {exponents:?}, {wanted} wanted");
+    }
+}
+
+/// 3. A strong damper inside a structure with a rigid stop: the restitution counts twice for each impact.
+#[test]
+fn overdamped_structures() {
+    for (damper, restitution) in [(20.0, 0.7), (60.0, 0.5), (200.0, 0.9), (60.0, 1e-3)] {
+        let parts = MachineParts::new(["a", "b"])
+            .with_mass(0, 1.0)
+            .with_mass(1, 1.0)
+            .with_link(&[1.0, 0.0], 1.0, 0.2)
+            .with_link(&[1.0, -1.0], 2.0, 0.0)
+            .with_link(&[0.0, 1.0], 1.0, damper)
+            .with_frequency(1.1)
+            .with_force(0, 1, 0.0, 1.0)
+            .with_rigid_stop("wall", &[1.0, 0.0], 0.3, restitution);
+        let (found, exponents) = found(parts);
+        let MachineVerdict::Periodic(cycle) = &found.motion else { continue };
+        if cycle.events.iter().any(|event| event.kind == MachineEventKind::Stick) {
+            continue;
+        }
+        let impacts = f64::from(cycle.counts[0]);
+        let wanted = -(0.2 + damper) + 2.0 * impacts * restitution.ln() / cycle.period;
+        let sum: f64 = exponents.iter().sum();
+        assert!((sum - wanted).abs() < 1e-9 * wanted.abs(), "{damper} {restitution}: {exponents:?}, {wanted} wanted");
+    }
+}
+
+/// 4. Minus infinity is where neighbouring motions become the same, and nowhere else: at rest on a stop two, where a joint holds and
+///    at an impact without restitution one.
+#[test]
+fn what_is_forgotten() {
+    let lost = |exponents: &[f64]| exponents.iter().filter(|value| **value == f64::NEG_INFINITY).count();
+    // a ball that comes to rest on its table
+    let mut parts = MachineParts::new(["ball"])
+        .with_mass(0, 1.0)
+        .with_frequency(1.0)
+        .with_constant(0, -1.0)
+        .with_rigid_stop("table", &[-1.0], 0.0, 0.5);
+    parts.stops[0].motion.push(vibroimpact::machine::HarmonicMotion { order: 1, cos: 0.0, sin: 1.1 });
+    let (ball, exponents) = found(parts);
+    assert_eq!((ball.motion.label().as_str(), lost(&exponents)), ("inf/1", 2));
+    assert!(cycle(&ball).multipliers.iter().all(|multiplier| multiplier.modulus() == 0.0));
+    // stuck for ever
+    let parts = MachineParts::new(["x"]).with_mass(0, 1.0).with_constant(0, 1.0).with_rigid_stop("s", &[1.0], 0.1, 0.5);
+    let (stuck, exponents) = found(parts);
+    assert_eq!((stuck.motion.label().as_str(), lost(&exponents)), ("stuck", 2));
+    // Den Hartog's block between soft stops: it holds twice a period at low frequencies
+    let mut held = 0;
+    for frequency in [0.2, 0.3, 0.4, 0.6] {
+        let parts = MachineParts::new(["x"])
+            .with_mass(0, 1.0)
+            .with_link(&[1.0], 1.0, 0.05)
+            .with_frequency(frequency)
+            .with_force(0, 1, 1.0, 0.0)
+            .with_joint("floor", &[1.0], 0.4, 0.4, 0.0)
+            .with_stop("s", &[1.0], 0.3, stop(30.0, 2.0));
+        let (block, exponents) = found(parts);
+        let MachineVerdict::Periodic(cycle) = &block.motion else { continue };
+        let holds = cycle.events.iter().any(|event| event.kind == MachineEventKind::Hold);
+        assert_eq!(lost(&exponents), usize::from(holds), "{frequency}: {exponents:?}");
+        held += usize::from(holds);
+    }
+    assert!(held > 0);
+    // without restitution, and without a rest
+    let parts = MachineParts::new(["x"])
+        .with_mass(0, 1.0)
+        .with_link(&[1.0], 1.0, 0.1)
+        .with_frequency(1.6)
+        .with_force(0, 1, 0.0, 1.0)
+        .with_rigid_stop("s", &[1.0], 0.1, 0.0);
+    let (plastic, exponents) = found(parts);
+    if let MachineVerdict::Periodic(cycle) = &plastic.motion
+        && !cycle.events.iter().any(|event| event.kind == MachineEventKind::Stick)
+    {
+        assert!(lost(&exponents) >= 1, "{exponents:?}");
+    }
+}
