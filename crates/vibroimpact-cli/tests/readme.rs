@@ -23,6 +23,17 @@ fn vibro(line: &str, folder: &Path) -> std::process::Output {
     Command::cargo_bin("vibro").expect("vibro is built").args(words).current_dir(folder).output().expect("vibro runs")
 }
 
+/// Runs a line as a shell does: with quotes, a comment, and what is printed in a file.
+fn typed(line: &str, folder: &Path) -> std::process::Output {
+    let line = line.split(" #").next().expect("a part of the line").replace('\'', "");
+    let (command, file) = line.split_once(" > ").map_or((line.as_str(), None), |(command, file)| (command, Some(file)));
+    let output = vibro(command, folder);
+    if let Some(file) = file {
+        fs::write(folder.join(file.trim()), &output.stdout).expect("a file in the folder of the test");
+    }
+    output
+}
+
 #[test]
 fn shown_output_is_real_output() {
     let mut shown = 0;
@@ -128,7 +139,7 @@ fn runs(name: &str, folder: &Path) -> usize {
         ran += 1;
     }
     for line in blocks(&text, "sh").iter().flat_map(|block| block.lines()) {
-        let output = vibro(line, folder);
+        let output = typed(line, folder);
         assert!(output.status.success(), "{name}: {line}\n{}", String::from_utf8_lossy(&output.stderr));
         ran += 1;
     }

@@ -71,7 +71,8 @@ pub(crate) struct Basin {
     #[arg(long, value_parser = whole::<u32>, value_name = "K", requires = "store", help_heading = "Store")]
     refine: Option<u32>,
 
-    /// Write one row a start, columns x, v, label and --fields, to this file; - for stdout
+    /// Write one row a start, columns x, v, label and --fields, to this file; - for stdout. Of a machine also the stops
+    /// that stay closed for ever and the events over which chaos was seen
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 

@@ -63,7 +63,8 @@ pub(crate) struct Map {
     #[arg(long, value_parser = whole::<u32>, value_name = "K", requires = "store", help_heading = "Store")]
     refine: Option<u32>,
 
-    /// Write one row a motion to this file; - for stdout. Columns: what varies, then label, share, and --fields
+    /// Write one row a motion to this file; - for stdout. Columns: what varies, then label, share, and --fields;
+    /// of a machine also the stops that stay closed for ever and the events over which chaos was seen
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 

@@ -37,11 +37,12 @@ pub(crate) struct Response {
     impacts: Option<u32>,
 
     /// Write one row for each motion of a sweep and each point of a branch to this file; - for stdout. Columns: curve (up,
-    /// down or the number of a branch), the parameter, label, physical, stable, all quantities
+    /// down or the number of a branch), the parameter, label, physical, stable, stability, all quantities
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 
-    /// Draw the response into this file, .svg, .png or .pdf: stable branches solid, unstable dashed, the sweeps as dots
+    /// Draw the response into this file, .svg, .png or .pdf: stable branches solid, neutral dashed and dotted,
+    /// unstable dashed, the sweeps as dots
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
 

@@ -47,8 +47,8 @@ pub(crate) struct Simulate {
     #[arg(long, help_heading = "Output")]
     json: bool,
 
-    /// Write the waveform, columns t, x, v, to this file; - for stdout. Of a machine: time, coordinates, velocities, gaps and
-    /// forces
+    /// Write the waveform, columns t, x, v, to this file; - for stdout. Of a machine: time, coordinates, velocities, gaps,
+    /// forces, surfaces of damped stops, and what stops and joints do
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 

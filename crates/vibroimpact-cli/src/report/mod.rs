@@ -16,6 +16,7 @@ mod map;
 mod margins;
 mod orbit;
 mod region;
+mod remarks;
 mod response;
 mod settle;
 mod simulate;

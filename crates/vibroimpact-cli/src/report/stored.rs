@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use crate::hints;
 use crate::report::leading::leading;
+use crate::report::remarks::Remarks;
 use crate::report::tallies::computed;
 use crate::report::words::table as columns_of_text;
 use serde::Serialize;
@@ -173,7 +174,10 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
             || Quantity::from_name(&field.name).is_some()
             || asked.iter().any(|path| field.name.as_ref() == path.as_str())
     };
-    let shown: Vec<usize> = (0..all.len()).filter(|k| long || !has_short(&all) || short(&all[*k])).collect();
+    // a long table has the numbers of all fields
+    let remarks = if long { Remarks::default() } else { Remarks::of(store, &all, failed)? };
+    let is_shown = |k: &usize| long || !has_short(&all) || short(&all[*k]) || remarks.has(*k);
+    let shown: Vec<usize> = (0..all.len()).filter(is_shown).collect();
     // scattered starts have no axes; their coordinates are fields; those of machines are in their own units
     let axes = plan_axes(store.plan());
     let along = study.grid().dimensions.iter().map(|d| {
@@ -204,7 +208,10 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
     };
     let numbered = extra.filter(|extra| extra.name == "direction");
     head.extend(numbered.map(|extra| extra.name.to_owned()));
-    head.extend(shown.iter().map(|k| units.column(&all[*k].name, kinds[*k])));
+    let name = |k: &usize| {
+        if remarks.is_stop(*k) { "stop".to_owned() } else { units.column(&all[*k].name, kinds[*k]) }
+    };
+    head.extend(shown.iter().map(name));
     writeln!(out, "{}", head.join(","))?;
     let width = extra.map_or(1, |extra| extra.count);
     bands(store, |block, columns| {
@@ -223,6 +230,9 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
             for i in 0..width {
                 let cell = |k: &usize| {
                     let at = p * all[*k].width() + if all[*k].width() > 1 { i } else { 0 };
+                    if remarks.is_stop(*k) {
+                        return remarks.stops(columns, at);
+                    }
                     // some quantities are not defined in the frame of the machine
                     let unit = Quantity::from_name(&all[*k].name)
                         .map_or_else(|| units.of_kind(kinds[*k]), |quantity| units.of_quantity(quantity));
@@ -289,18 +299,22 @@ fn text(field: &Field, column: &Column, at: usize, unit: f64) -> String {
     }
 }
 
+/// The error of a table of a store that cannot be read.
+fn failed(error: &StoreError) -> io::Error {
+    io::Error::other(hints::worded(error, hints::store(error)))
+}
+
 /// Calls `each` for bands of the grid in order. A band is one tile high in the slowest dimension, so the memory used
 /// does not depend on the number of bands.
 fn bands(store: &Store, mut each: impl FnMut(&Block, &[Column]) -> io::Result<()>) -> io::Result<()> {
     let (grid, fields) = (store.study().grid(), store.study().fields());
     let per_band = grid.tiles() / grid.tiles_along().first().map_or(1, |n| *n as u64);
-    let failed = |error: StoreError| io::Error::other(hints::worded(&error, hints::store(&error)));
     for first in (0..grid.tiles()).step_by(usize::try_from(per_band).unwrap_or(1)) {
         let mut whole = grid.whole();
         whole.ranges[0] = grid.tile(first).ranges[0].clone();
         let mut columns: Vec<Column> = fields.iter().map(|field| field.empty(whole.points())).collect();
         for tile in first..first + per_band {
-            let (block, parts) = store.tile(tile).map_err(failed)?;
+            let (block, parts) = store.tile(tile).map_err(|error| failed(&error))?;
             for ((field, column), part) in fields.iter().zip(&mut columns).zip(&parts) {
                 block.put(part, &whole, field.width(), column);
             }

@@ -128,11 +128,11 @@ fn text_and_table() {
     }
     let table = said(&format!("{DOUBLING} --to 2.5 --follow 1 --csv -"));
     let rows: Vec<Vec<&str>> = table.lines().map(|row| row.split(',').collect()).collect();
-    assert_eq!(rows[0][..6], ["branch", "gap", "label", "physical", "stable", "event"]);
+    assert_eq!(rows[0][..7], ["branch", "gap", "label", "physical", "stable", "stability", "event"]);
     assert!(rows.iter().all(|row| row.len() == rows[0].len()), "{table}");
     let double = rows.iter().find(|row| row[0] == "2" && row[2] == "2/2").unwrap();
-    assert_eq!((double[10].split(' ').count(), double[11].split(' ').count()), (2, 2));
-    assert!(rows.iter().any(|row| row[5] == "flip") && rows.iter().any(|row| row[0] == "2" && row[2] == "1/2"));
+    assert_eq!((double[11].split(' ').count(), double[12].split(' ').count()), (2, 2));
+    assert!(rows.iter().any(|row| row[6] == "flip") && rows.iter().any(|row| row[0] == "2" && row[2] == "1/2"));
 }
 
 /// inf/n has no equations and is followed by its release. Its phases of sticking are reported at each point.
@@ -173,7 +173,7 @@ fn a_cycle_that_rests() {
         said(&format!("{line} --csv -"))
             .lines()
             .skip(1)
-            .all(|row| row.split(',').count() == 12 && row.contains(",inf/1,true,true,"))
+            .all(|row| row.split(',').count() == 13 && row.contains(",inf/1,true,true,stable,"))
     );
     // with restitution 0 the label is m/n, and an impact follows the release
     let zero = "branch --inverse-beta 1.3 --gap 0.3 --restitution 0 --label 1/1 --vary gap --to 1";

@@ -25,9 +25,14 @@ fn branches_are_in_the_table_and_the_figure() {
         assert_eq!(row[6..], ["", ""]);
     }
     let branches = &rows[plain.len()..];
-    assert!(branches.iter().all(|row| row[1].starts_with("branch ") && ["stable", "unstable"].contains(&&*row[2])));
+    assert!(branches.iter().all(|row| row[1].starts_with("branch ")));
     let flip = branches.iter().find(|row| row[6] == "1/1" && row[7] == "flip").expect("1/1 has a flip");
-    assert!((number(&flip[0]) - 1.829).abs() < 1e-3, "{flip:?}");
+    assert!((number(&flip[0]) - 1.829).abs() < 1e-3 && flip[2] == "neutral", "{flip:?}");
+    // a multiplier is -1 at the flip, and 1 where the branch of 2/2 begins there; on both sides of it none is
+    for row in branches {
+        let (at, elsewhere) = (number(&row[0]) - number(&flip[0]), ["stable", "unstable"].contains(&&*row[2]));
+        assert!(if at.abs() < 1e-12 { row[2] == "neutral" } else { elsewhere }, "{row:?}");
+    }
     let before = branches.iter().filter(|row| row[6] == "1/1" && number(&row[0]) < 1.8);
     assert!(before.clone().count() > 1 && before.clone().all(|row| row[2] == "stable"));
     // without labels those found on the line are followed; the summary has the events

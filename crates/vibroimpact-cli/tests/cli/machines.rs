@@ -1,6 +1,7 @@
 //! Machines: the catalogue, files, changed numbers, schematics, refusals.
 
 use super::{json, vibro};
+use std::collections::BTreeSet;
 use std::fs;
 use vibroimpact_report::{Shown, machine_answer};
 use vibroimpact_study::machine::{CATALOGUE, MachineSource, no_files};
@@ -184,10 +185,16 @@ fn waveforms() {
         header.starts_with("time,q.") && header.contains(",gap.plate") && header.contains(",force.plate"),
         "{header}"
     );
+    assert!(header.ends_with(",force.plate,force.surface,state.plate,state.surface"), "{header}");
     let columns = header.split(',').count();
+    let cells: Vec<Vec<&str>> = table.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    assert!(cells.len() > 20 && cells.iter().all(|row| row.len() == columns), "{table}");
+    // the states of the stop and of the joint are words, all others are numbers
+    let states = |k: usize| cells.iter().map(|row| row[k]).collect::<BTreeSet<_>>();
+    assert_eq!(states(columns - 2), BTreeSet::from(["closed", "open"]));
+    assert_eq!(states(columns - 1), BTreeSet::from(["backward", "forward", "holding"]));
     let rows: Vec<Vec<f64>> =
-        table.lines().skip(1).map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect();
-    assert!(rows.len() > 20 && rows.iter().all(|row| row.len() == columns), "{table}");
+        cells.iter().map(|row| row[..columns - 2].iter().map(|cell| cell.parse().unwrap()).collect()).collect();
     assert!(rows.windows(2).all(|pair| pair[0][0] <= pair[1][0]));
     for (name, said, absent) in [
         ("soft-stop", "force of stop", "impact</"),
@@ -313,7 +320,7 @@ fn a_limit_cycle() {
     }
     let table = printed("branch --machine stick-slip --label 0/T --vary V --to 1 --csv -");
     let last = table.lines().last().unwrap();
-    assert!(last.starts_with("1,1,0/T,true,true,end of range,,0,0,") && last.contains(",,,,6.28839"), "{last}");
+    assert!(last.starts_with("1,1,0/T,true,true,stable,end of range,,0,0,") && last.contains(",,,,6.28839"), "{last}");
     let text = printed("branch --machine stick-slip --vary V --to 1");
     assert!(text.starts_with("               1  end of range, 0/T, period 6.28839"), "{text}");
     for command in ["orbit", "branch --vary V --to 0.2"] {
@@ -433,13 +440,13 @@ fn branches() {
     assert!(table.lines().next().unwrap().ends_with(",multiplier_4_im,phases,speeds,stops"), "{table}");
     assert_eq!(table.lines().count(), points.len() + 1);
     let row: Vec<&str> = table.lines().nth(at + 1).unwrap().split(',').collect();
-    assert_eq!((row[5], row[6]), ("grazing", "anvil"), "{row:?}");
+    assert_eq!((row[5], row[6], row[7]), ("stable", "grazing", "anvil"), "{row:?}");
     let closings = points[at]["cycle"].as_array().unwrap();
-    let speeds: Vec<f64> = row[17].split(' ').map(|speed| speed.parse().unwrap()).collect();
+    let speeds: Vec<f64> = row[18].split(' ').map(|speed| speed.parse().unwrap()).collect();
     assert!(
         speeds.len() == closings.len() && closings.iter().zip(&speeds).all(|(of, speed)| close(&of["speed"], *speed))
     );
-    assert_eq!(row[18].split(' ').collect::<Vec<_>>(), vec!["anvil"; closings.len()]);
+    assert_eq!(row[19].split(' ').collect::<Vec<_>>(), vec!["anvil"; closings.len()]);
     // a parameter of the file has no dot
     let text = printed("branch --machine two-mass-hammer --vary b --to 0.45");
     assert!(text.contains("end of range") && text.contains("stable"), "{text}");
@@ -469,7 +476,7 @@ fn all_branches_of_a_machine_are_written_and_drawn() {
     let table = printed(&format!("branch {line} --to 1.1 --also stop.anvil.gap=0.6 --csv -"));
     assert!(table.starts_with("branch,frequency,stop.anvil.gap,label,"), "{table}");
     let last: Vec<&str> = table.lines().last().unwrap().split(',').collect();
-    assert_eq!((last[1], last[2], last[6]), ("1.1", "0.6", "end of range"));
+    assert_eq!((last[1], last[2], last[6], last[7]), ("1.1", "0.6", "stable", "end of range"));
     let diagram =
         printed(&format!("diagram {line} --over 1.2:1.1:3 --also stop.anvil.gap=0.5:0.6 --direction up --csv -"));
     let rows: Vec<Vec<&str>> = diagram.lines().map(|row| row.split(',').collect()).collect();
@@ -479,7 +486,7 @@ fn all_branches_of_a_machine_are_written_and_drawn() {
         [("1.1", "0.6"), ("1.15", "0.55"), ("1.2", "0.5")]
     );
     // the sweep ends on the branch
-    let (swept, followed): (f64, f64) = (rows[1][6].parse().unwrap(), last[8].parse().unwrap());
+    let (swept, followed): (f64, f64) = (rows[1][6].parse().unwrap(), last[9].parse().unwrap());
     assert!((swept - followed).abs() < 1e-7, "{swept} {followed}");
     let object = json(&format!("branch {line} --to 1.1 --also b=0.6"));
     assert_eq!(object["also"], serde_json::json!({"path": "b", "from": 0.5, "to": 0.6}));

@@ -2,6 +2,7 @@
 
 use super::{json, vibro};
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::PathBuf;
 
@@ -202,11 +203,34 @@ fn rests_name_their_stops() {
     let cells: Vec<(String, String)> = column(&table, "label").into_iter().zip(column(&table, "stop")).collect();
     let count = |label: &str, stop: &str| cells.iter().filter(|(a, b)| a == label && b == stop).count();
     assert_eq!((count("stuck", "left"), count("stuck", "right"), count("stuck", "")), (6, 6, 0));
-    // the same numbers in a store
+    // the same table of a store, in which each rest has a number, and both count as one label
     let store = folder.path().join("basin.zarr");
-    printed(&format!("{basin} --store {}", store.display()));
-    let summary = printed(&format!("summary {}", store.display()));
-    assert_eq!(summary.matches("stuck").count(), 2, "{summary}");
+    let stored = folder.path().join("stored.csv");
+    printed(&format!("{basin} --store {} --csv {}", store.display(), stored.display()));
+    assert_eq!(fs::read_to_string(stored).unwrap(), table);
+    let long = printed(&format!("export {} --csv -", store.display()));
+    let numbered = cells.iter().zip(column(&long, "cycle").into_iter().zip(column(&long, "closed")));
+    let numbers: BTreeSet<_> = numbered.filter(|((label, _), _)| label == "stuck").collect();
+    let stops: Vec<_> = numbers.iter().map(|((_, stop), (_, closed))| (stop.as_str(), closed.as_str())).collect();
+    // right is stop 0, left is stop 1
+    assert_eq!(stops, [("left", "2"), ("right", "1")]);
+    assert!(printed(&format!("{basin} --store {}", store.display())).contains("  stuck      12           57.1 %\n"));
+}
+
+/// The rests of maps have the names of their stops in the tables of the command and of a store.
+#[test]
+fn rests_of_maps_name_their_stops() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let place = |name: &str| folder.path().join(name).display().to_string();
+    let map = "map --machine gear-rattle --axis eps=0.17:0.19:3 --starts 4";
+    printed(&format!("{map} --csv {}", place("map.csv")));
+    printed(&format!("{map} --store {} --csv {}", place("map.zarr"), place("stored.csv")));
+    let table = fs::read_to_string(place("map.csv")).unwrap();
+    assert_eq!(
+        (column(&table, "label"), column(&table, "stop")),
+        (vec!["stuck".to_owned(); 3], vec!["front".to_owned(); 3])
+    );
+    assert_eq!(fs::read_to_string(place("stored.csv")).unwrap(), table);
 }
 
 /// 42.9: chaos is followed to the end of the budget, and how far stands beside the word.

@@ -145,7 +145,7 @@ pub(crate) fn basin<'a>(machine: &'a Machine, found: &'a MachineBasin) -> Table<
         let motion = cell.map(|cell| &found.motions[cell]);
         let label = motion.map_or_else(|| "refused".to_owned(), MachineVerdict::label);
         let closed = motion.map_or_else(Vec::new, MachineVerdict::closed);
-        let remarks = remarks.cells(machine, &closed, motion.and_then(MachineVerdict::seen_events));
+        let remarks = remarks.cells(machine, &closed, found.seen_events[k]);
         let values = cell.map_or_else(|| ",".repeat(found.fields.len()), |cell| quantities(&found.quantities[cell]));
         format!("{}{label}{remarks}{values}", self::values(&found.axes, k))
     });

@@ -23,7 +23,11 @@ pub(crate) fn machine_basin(
     check_memory(&plan.axes, 1)?;
     let task = MachineBasinFill::new(problem, &MachineBasinPlan { refine: None, ..plan.clone() }, None)?;
     let whole = task.grid().whole();
+    let mut seen_events = vec![None; whole.points()];
     let parts = tiles_of(&task, control)?.into_iter().map(|(block, tile)| {
+        for (k, events) in &tile.seen {
+            seen_events[whole.number(&block.index(*k))] = Some(*events);
+        }
         // without refinement every start is settled
         let number = |cell: &Cell<Option<u32>>| if let Cell::Computed(number) = cell { *number } else { None };
         Part { block, cells: tile.cells.iter().map(number).collect(), met: tile.met }
@@ -34,7 +38,8 @@ pub(crate) fn machine_basin(
     let Joined { motions, cells } = joined(&whole, parts, first);
     let motions: Vec<MachineVerdict> = motions.into_iter().map(|found| found.verdict).collect();
     let quantities = motions.iter().map(|verdict| values_of(problem.0, verdict, &plan.fields)).collect();
-    Ok(MachineBasin { axes: plan.axes.clone(), motions, cells, fields: plan.fields.clone(), quantities })
+    let (axes, fields) = (plan.axes.clone(), plan.fields.clone());
+    Ok(MachineBasin { axes, motions, cells, seen_events, fields, quantities })
 }
 
 /// Settles scattered starts at every point of a grid of numbers, without refinement.

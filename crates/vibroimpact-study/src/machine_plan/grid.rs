@@ -69,6 +69,8 @@ pub struct MachineBasin {
     pub motions: Vec<MachineVerdict>,
     /// The motion of each start as an index; `None` where a start lies beyond a rigid stop.
     pub cells: Vec<Option<usize>>,
+    /// The number of events over which chaos was seen from each start; `None` unless its motion is chaotic.
+    pub seen_events: Vec<Option<u64>>,
     /// The paths of the quantities that the plan asks for, and the values of each motion.
     pub fields: Vec<String>,
     /// For each motion a value of each field; not-a-number where it is not defined.

@@ -5,12 +5,14 @@ use super::cycles::{self, Numbered, Numbering};
 use super::fill::{self, Along, Fill, along_machine, machine_fields, machine_grid, on_axis, spread};
 use super::map::{computed, computed_column, side};
 use super::refine::{self, Cell};
+use super::remarks;
 use super::stored_motion::StoredMotion;
 use crate::field::{Column, Field};
 use crate::machine_plan::{MachineBasinPlan, StartAxis, values_of};
 use crate::map::options;
 use crate::{Block, Grid, PlanError};
 use core::cell::RefCell;
+use std::collections::BTreeMap;
 use std::sync::OnceLock;
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
@@ -39,6 +41,8 @@ pub(crate) struct MachineBasinTile {
     pub(crate) met: Census<MachineVerdict>,
     /// For each start the index of its motion in `met`; `None` for a start beyond a rigid stop.
     pub(crate) cells: Vec<Cell<Option<u32>>>,
+    /// For each start that was computed and is chaotic, the number of events over which chaos was seen.
+    pub(crate) seen: BTreeMap<usize, u64>,
 }
 
 /// The result of a start as it is stored: the code of its label and the number of its cycle.
@@ -120,6 +124,7 @@ impl Fill for MachineBasinFill {
         let mut cycle = cycles::field(label.clone());
         cycle.flags.push((cycles::BEYOND, "beyond_a_stop"));
         let mut fields = vec![label, cycle];
+        fields.extend(remarks::fields(self.machine.stops().len(), &[]));
         fields.extend(machine_fields(&self.plan.fields, &[]));
         if self.plan.refine.is_some() {
             fields.push(computed());
@@ -128,9 +133,12 @@ impl Fill for MachineBasinFill {
     }
 
     fn compute(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<MachineBasinTile> {
-        let met = RefCell::new(Census::default());
+        let (met, seen) = (RefCell::new(Census::default()), RefCell::new(BTreeMap::new()));
         let one = |k: &usize| -> Option<Option<u32>> {
             let verdict = self.settled(&block.index(*k));
+            if let Some(events) = verdict.as_ref().and_then(MachineVerdict::seen_events) {
+                seen.borrow_mut().insert(*k, events);
+            }
             let number = verdict.map(|verdict| u32::try_from(met.borrow_mut().add(&verdict)).unwrap_or(u32::MAX));
             (!tick()).then_some(number)
         };
@@ -139,7 +147,7 @@ impl Fill for MachineBasinFill {
             None => points(&(0..block.points()).collect::<Vec<_>>())?.into_iter().map(Cell::Computed).collect(),
             Some(step) => refine::fill(block, step as usize, points, |a, b| a == b)?,
         };
-        Some(MachineBasinTile { met: met.into_inner(), cells })
+        Some(MachineBasinTile { met: met.into_inner(), cells, seen: seen.into_inner() })
     }
 
     fn columns(&self, _: &Block, tile: MachineBasinTile) -> Vec<Column> {
@@ -153,6 +161,15 @@ impl Fill for MachineBasinFill {
             Column::I32(stored.iter().map(|(label, _)| *label).collect()),
             Column::I32(stored.iter().map(|(_, cycle)| *cycle).collect()),
         ];
+        let stops = self.machine.stops().len();
+        let closed: Vec<Vec<usize>> = tile.met.motions().iter().map(|found| found.verdict.closed()).collect();
+        let mut remarked = vec![Vec::with_capacity(numbers.len()); remarks::fields(stops, &[]).len()];
+        for (k, number) in numbers.iter().enumerate() {
+            let closed = number.map_or(&[][..], |number| &closed[number as usize]);
+            let remarks = remarks::of(stops, closed, tile.seen.get(&k).copied());
+            remarked.iter_mut().zip(remarks).for_each(|(column, remark)| column.push(remark));
+        }
+        columns.extend(remarked.into_iter().map(Column::I32));
         // those of a cycle that the survey has found are those of the survey, so that they are the same in all tiles
         let same = |found: &MachineVerdict| self.survey().iter().find(|known| cycles::same(*known, found));
         let motions = tile.met.motions().iter().map(|found| same(&found.verdict).unwrap_or(&found.verdict));

@@ -3,6 +3,7 @@
 use super::code;
 use super::fill::{Along, along_machine, machine_fields, machine_grid, on_axis};
 use super::map::{MapFill, Mapped, Motions, side};
+use super::remarks;
 use super::stored_motion::StoredMotion;
 use crate::field::{Extra, Field};
 use crate::grid::Index;
@@ -22,12 +23,15 @@ pub(crate) struct MachinesOver {
     source: MachineSource,
     plan: MachineMapPlan,
     options: SettleOptions,
+    /// Number of stops.
+    stops: usize,
 }
 
 impl MapFill<MachinesOver> {
     pub(crate) fn of_machine(source: &MachineSource, plan: &MachineMapPlan, tile: Option<u32>) -> Self {
         let grid = machine_grid(&plan.axes, tile, side(TILE, plan.axes.len()));
-        let mapped = MachinesOver { source: source.clone(), plan: plan.clone(), options: options(plan.impacts) };
+        let stops = source.machine().map_or(0, |machine| machine.stops().len());
+        let mapped = MachinesOver { source: source.clone(), plan: plan.clone(), options: options(plan.impacts), stops };
         Self::of(mapped, grid, plan.starts, plan.refine)
     }
 }
@@ -82,6 +86,14 @@ impl Mapped for MachinesOver {
 
     fn label(motion: &MachineShare) -> (i32, f64) {
         (motion.code, motion.share)
+    }
+
+    fn remarks(&self, extra: &[Extra]) -> Vec<Field> {
+        remarks::fields(self.stops, extra)
+    }
+
+    fn remarked(&self, motion: &MachineShare) -> Vec<i32> {
+        remarks::of(self.stops, &motion.stops, motion.seen_events)
     }
 
     fn quantities(&self, extra: &[Extra]) -> Vec<Field> {

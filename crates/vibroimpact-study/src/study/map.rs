@@ -4,6 +4,7 @@
 use super::code;
 use super::fill::{self, Along, Fill, along, grid_of, on_axis};
 use super::refine::{self, Cell};
+use super::remarks;
 use crate::field::{Column, Extra, Field, NumberType};
 use crate::grid::Index;
 use crate::map::motions;
@@ -33,6 +34,18 @@ pub(crate) trait Mapped: Send + Sync + Sized {
 
     /// The code of the label of a motion, and the share of the starts that lead to it.
     fn label(motion: &Self::Motion) -> (i32, f64);
+
+    /// The fields of whole numbers that say more of some motions than the label.
+    fn remarks(&self, extra: &[Extra]) -> Vec<Field> {
+        let _ = extra;
+        Vec::new()
+    }
+
+    /// The numbers of a motion in these fields.
+    fn remarked(&self, motion: &Self::Motion) -> Vec<i32> {
+        let _ = motion;
+        Vec::new()
+    }
 
     /// The fields of the quantities that the plan asks for.
     fn quantities(&self, extra: &[Extra]) -> Vec<Field>;
@@ -154,6 +167,7 @@ impl<M: Mapped> MapFill<M> {
         let mut share = vec![f64::NAN; points * self.kept];
         // the largest speed, the largest multiplier, and the quantities
         let mut numbers = vec![vec![f64::NAN; points * self.kept]; 2 + self.mapped.quantities(&[]).len()];
+        let mut remarks = vec![vec![remarks::NONE; points * self.kept]; self.mapped.remarks(&[]).len()];
         for (k, cell) in cells.iter().enumerate() {
             let Some((point, own)) = cell.result(cells) else { continue };
             let kept = self.kept(point);
@@ -165,9 +179,16 @@ impl<M: Mapped> MapFill<M> {
             for (i, values) in of_motions.into_iter().enumerate() {
                 numbers.iter_mut().zip(values).for_each(|(column, value)| column[k * self.kept + i] = value);
             }
+            for (i, found) in kept.iter().enumerate().filter(|_| own) {
+                let values = self.mapped.remarked(found);
+                remarks.iter_mut().zip(values).for_each(|(column, value)| column[k * self.kept + i] = value);
+            }
         }
         let mut columns = vec![Column::I32(label), Column::F64(share)];
+        let quantities = numbers.split_off(2);
         columns.extend(numbers.into_iter().map(Column::F64));
+        columns.extend(remarks.into_iter().map(Column::I32));
+        columns.extend(quantities.into_iter().map(Column::F64));
         if self.refine.is_some() {
             columns.push(computed_column(cells));
         }
@@ -226,6 +247,7 @@ impl<M: Mapped> Fill for MapFill<M> {
             },
             Field { name: "multiplier".into(), long_name: "largest modulus of the Floquet multipliers".into(), ..real },
         ];
+        fields.extend(self.mapped.remarks(&motion));
         fields.extend(self.mapped.quantities(&motion));
         if self.refine.is_some() {
             fields.push(computed());
