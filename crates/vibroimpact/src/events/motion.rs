@@ -1,11 +1,11 @@
 //! The motion of a machine as an iterator over its events.
 
-use super::event::{Contact, MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
+use super::event::{ContactStart, MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
 use super::instants::Instants;
 use super::passage::Passage;
 use super::place::{Place, Scratch, Structures, standing_back};
 use super::resolve::{Resolution, Resolved};
-use super::state::{Beginning, ImpactHistory, check_contacts, fingerprint};
+use super::state::{ImpactHistory, check_contacts, fingerprint};
 use super::stretch::{Stretch, follow};
 use crate::arc::{Buffers, Found, MachineFlight, Touch, first_event};
 use crate::machine::{Machine, MachineError, MachineFault, Opening, StopLaw};
@@ -185,18 +185,10 @@ impl<'a> MachineMotion<'a> {
     }
 
     /// Finds out what the stops and joints do at the start.
-    fn begin(&mut self, contacts: &[Contact]) -> Result<(), MachineError> {
-        let (mut closing, mut candidates) = (Vec::new(), Vec::new());
+    fn begin(&mut self, contacts: &[ContactStart]) -> Result<(), MachineError> {
         let turns = self.place.turns(&self.normal);
-        let mut given = Vec::new();
-        for contact in contacts {
-            match self.give_state(contact, &turns)? {
-                Beginning::Unknown => continue,
-                Beginning::Closing => closing.push(contact.place),
-                Beginning::Done => {}
-            }
-            given.push(contact.place);
-        }
+        let (given, mut closing) = self.give_states(contacts, &turns)?;
+        let mut candidates = Vec::new();
         let absent = |at: usize| !given.contains(&at);
         for (j, stop) in self.machine.stops().iter().enumerate().filter(|(j, _)| absent(*j)) {
             let (gap, rate, size, rate_size) = self.place.gap(&self.normal, &turns, j);
