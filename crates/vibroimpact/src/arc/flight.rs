@@ -503,6 +503,24 @@ impl MachineFlight {
         result
     }
 
+    /// For how long all guards are positive of which more than `most` derivatives are zero at the beginning: as long as their
+    /// first term is at least twice the sum of all others. 0 if there are none.
+    pub(super) fn quiet_time(&self, most: usize) -> f64 {
+        let late = |g: &usize| self.guards[*g].known > most && self.guards[*g].recovery.is_none();
+        let times = (0..self.guards.len()).filter(late).map(|g| {
+            let known = self.guards[g].known;
+            let terms = self.taylor::<ORDERS>(&self.structure.guards[g].function);
+            let Some(first) = terms.get(known).map(|(value, _)| *value) else { return 0.0 };
+            let others = |time: f64| terms[known + 1..].iter().rev().fold(0.0, |sum, (_, size)| (sum + size) * time);
+            let mut time = self.shortest();
+            while others(time) > 0.5 * first && time > 0.0 {
+                time *= 0.5;
+            }
+            time
+        });
+        times.reduce(f64::min).unwrap_or(0.0)
+    }
+
     /// The fastest rate of a mode and of what drives it.
     fn rate_of(&self, i: usize) -> f64 {
         let own = if self.structure.dense.is_some() { self.structure.fastest() } else { self.structure.modes[i].rate };

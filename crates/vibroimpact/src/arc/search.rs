@@ -18,7 +18,7 @@
 use super::crossing::plain_crossing;
 use super::flight::MachineFlight;
 use super::found::{Buffers, Found, Guards, Touch};
-use super::guard_polynomial::{GuardPolynomial, ORDER, first_of};
+use super::guard_polynomial::{GuardPolynomial, HIGHEST, ORDER, first_of};
 use super::polynomial::{RESOLUTION, value};
 use super::zero::{certain, lowest, refine, without_remainder};
 use crate::regime::REACH;
@@ -66,7 +66,8 @@ fn by_windows(
     found
 }
 
-/// A guard whose terms are all below this number of its rounding errors over a window decides nothing there.
+/// A guard that only touches zero and goes below it by no more than this number of its rounding errors over a window decides
+/// nothing there.
 const FLAT: f64 = 8.0;
 
 /// How many rounding errors of their values and of the time may lie between zeros of guards at one time.
@@ -109,6 +110,7 @@ fn search(
 ) -> Found {
     let fastest = flight.structure.fastest();
     let series = flight.structure.windows.first();
+    let quiet = flight.quiet_time(HIGHEST);
     let mut s = 0.0;
     let mut reach = 1.0;
     let mut on_track = false;
@@ -117,10 +119,12 @@ fn search(
         if s >= until {
             return Found::NoneBefore(until);
         }
+        let is_quiet = s < 0.999 * quiet;
         let mut here = false;
         if let Some(series) = series
             && reach == 1.0
             && fastest > 0.0
+            && !is_quiet
         {
             // windows without a zero are passed without the closed form
             if !on_track {
@@ -164,7 +168,10 @@ fn search(
         let rate = surfaces
             .filter(|surface| surface.rate * s < 40.0)
             .fold(fastest, |rate, surface| rate.max(surface.rate * crate::system::decay(surface.rate * s / 9.0).0));
-        let window = (if rate > 0.0 { REACH / rate } else { 1e150 } * reach).min((until - s) * 1.001 + 1e-300);
+        let mut window = (if rate > 0.0 { REACH / rate } else { 1e150 } * reach).min((until - s) * 1.001 + 1e-300);
+        if is_quiet {
+            window = window.min(quiet - s);
+        }
         match series {
             Some(_) => {
                 buffers.track.energies(flight);
@@ -182,8 +189,8 @@ fn search(
                 touched[g] = false;
             }
             // a contact that is only just left, by a power of the time, is zero within rounding for a while
-            let stays = touched[g] && of.p.iter().map(|c| c.abs()).sum::<f64>() <= FLAT * of.error;
-            buffers.polynomials.push(if stays { GuardPolynomial::passed() } else { of });
+            let passes = is_quiet && flight.guards[g].known > HIGHEST || touched[g] && of.is_flat(FLAT);
+            buffers.polynomials.push(if passes { GuardPolynomial::passed() } else { of });
         }
         let Some((near, g)) = first_of(&mut buffers.polynomials) else {
             s += window;

@@ -141,8 +141,8 @@ impl Resolution<'_> {
         // at least zero: a multiple of a function and a constant
         let condition = |of: &Observable, (sign, constant): (f64, f64), from: usize, instead: ContactState| {
             let (order, value) = first_derivative(flight, of, (sign, constant), from);
-            // a force that begins at its limit ends with an event of its own, but where others end it does not begin
-            let begins = from == 0 && order > 0 && self.ended.is_empty();
+            // a hold that begins at its limit ends with an event of its own, but where others end it does not begin
+            let begins = from == 0 && order > 0 && self.ended.is_empty() && state == ContactState::Holding;
             let value = if begins { value.max(0.0) } else { value };
             (order, (value < 0.0).then_some(Violation { order, amount: -value, instead }))
         };

@@ -196,7 +196,7 @@ impl Place {
                     match guard {
                         // a count is small
                         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-                        Some(guard) if (1.0..=8.0).contains(count) => place.known.push((guard, *count as usize)),
+                        Some(guard) if (1.0..=32.0).contains(count) => place.known.push((guard, *count as usize)),
                         _ => return wrong("this is no zero of a contact"),
                     }
                 }
