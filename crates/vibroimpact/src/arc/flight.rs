@@ -574,10 +574,20 @@ impl MachineFlight {
     /// Whether a gap keeps its value for the whole flight, within rounding errors of the motion.
     pub(crate) fn opens_never(&self, normal: &Normal, stop: usize) -> bool {
         let (gap, _) = self.structure.gap(normal, stop);
-        let (w, time) = (&normal.directions[stop], self.shortest());
+        self.change_size(&gap) <= SILENT * self.way_size(normal, stop)
+    }
+
+    /// Whether the velocity of a joint keeps its value for the whole flight, within rounding errors of the motion.
+    pub(crate) fn slides_never(&self, normal: &Normal, (place, sliding): (usize, &Observable)) -> bool {
+        self.change_size(sliding) <= SILENT * self.way_size(normal, place) / self.shortest()
+    }
+
+    /// How far the structure moves along a stop or joint in a short time if nothing holds it, and walls move.
+    fn way_size(&self, normal: &Normal, place: usize) -> f64 {
+        let (w, time) = (&normal.directions[place], self.shortest());
         let moved: f64 = (0..self.v.len()).map(|i| self.swing_size(i, time)).sum();
         let walls = normal.walls.iter().flat_map(|wall| &wall.harmonics).map(|(a, b)| a.abs() + b.abs()).sum::<f64>();
-        self.change_size(&gap) <= SILENT * (dot(w, w).sqrt() * moved + walls)
+        dot(w, w).sqrt() * moved + walls
     }
 
     /// The size of the terms of a linear function of the state at the beginning.

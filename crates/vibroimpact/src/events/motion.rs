@@ -288,6 +288,16 @@ impl<'a> MachineMotion<'a> {
                 }
             }
         }
+        // a joint that others hold although its force is that of sliding can hold as well
+        for joint in 0..self.machine.joints().len() {
+            let at = self.machine.stops().len() + joint;
+            if !self.place.states[at].constrains() && !candidates.contains(&at) {
+                let (speed, size) = self.place.sliding(self.machine, &self.normal, joint);
+                if speed.abs() <= ROUNDED * size {
+                    candidates.push(at);
+                }
+            }
+        }
         candidates.sort_unstable();
         if !candidates.is_empty() {
             let (machine, normal, place) = (self.machine, &self.normal, &self.place);

@@ -175,6 +175,9 @@ impl Resolution<'_> {
                 let Some((reaction, shared)) = structure.reaction(at) else {
                     // other constraints move it, and it holds only if they do not
                     let sliding = structure.sliding(self.machine, self.normal, joint);
+                    if flight.slides_never(self.normal, (at, &sliding)) {
+                        return (ORDERS, None);
+                    }
                     let forward = condition(&sliding, (-1.0, 0.0), 1, ContactState::Forward);
                     return two(forward, condition(&sliding, (1.0, 0.0), 1, ContactState::Backward));
                 };
