@@ -29,11 +29,13 @@ pub(crate) struct Begin<'a> {
     pub(crate) turns: &'a [(f64, f64)],
 }
 
-/// A closed stop at the beginning of a flight.
+/// A stop at the beginning of a flight.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct ClosedGap {
+pub(crate) struct GapStart {
     /// Its gap.
     pub(crate) gap: f64,
+    /// The size of the terms of the gap, for its rounding error.
+    pub(crate) size: f64,
     /// How far its wall is from its mean place.
     pub(crate) swing: f64,
     /// Whether the gap has more digits than the difference of wall and coordinates.
@@ -69,7 +71,7 @@ pub(crate) struct MachineFlight {
     pub(super) drive: Drive,
     pub(super) guards: Vec<GuardStart>,
     /// The closed stops at the beginning, in the order of the structure.
-    gaps: Vec<ClosedGap>,
+    gaps: Vec<GapStart>,
     /// The amplitudes of the harmonics of the guards, turned to the phase of the beginning, guard after guard.
     harmonics: Vec<(f64, f64)>,
     /// The set points of joints that hold.
@@ -107,12 +109,12 @@ const SHORT_REACH: f64 = 0.25;
 
 impl MachineFlight {
     /// The flight from a mass-normalised state. `set` are the set points of joints, `turns` sine and cosine of each
-    /// harmonic at the beginning, `gap` tells of the gap of a closed stop, and `known` how
+    /// harmonic at the beginning, `gap` tells of the gap of a stop, and `known` how
     /// many derivatives of a guard are zero, and how its surface recovers.
     pub(crate) fn new(
         structure: Arc<Structure>,
         begin: Begin<'_>,
-        gap: impl Fn(usize) -> ClosedGap,
+        gap: impl Fn(usize) -> GapStart,
         known: impl Fn(GuardKind) -> (usize, Option<Recovery>),
     ) -> Self {
         let mut flight = Self {
@@ -138,7 +140,7 @@ impl MachineFlight {
         &mut self,
         structure: Option<Arc<Structure>>,
         begin: Begin<'_>,
-        gap: impl Fn(usize) -> ClosedGap,
+        gap: impl Fn(usize) -> GapStart,
         known: impl Fn(GuardKind) -> (usize, Option<Recovery>),
     ) {
         if let Some(structure) = structure {
@@ -151,7 +153,7 @@ impl MachineFlight {
     fn begin(
         &mut self,
         Begin { x, v: rate, set, turns }: Begin<'_>,
-        gap: impl Fn(usize) -> ClosedGap,
+        gap: impl Fn(usize) -> GapStart,
         known: impl Fn(GuardKind) -> (usize, Option<Recovery>),
     ) {
         let structure = &self.structure;
@@ -173,12 +175,18 @@ impl MachineFlight {
                 moving += two;
                 size += one.abs() + two.abs();
             }
-            if let Some(surface) = recovery {
-                sum += surface.size - surface.offset;
-            }
             for (a, b) in function.signal.turned(turns) {
                 size += a.abs() + b.abs();
                 self.harmonics.push((a, b));
+            }
+            if let GuardKind::Gap(j) = guard.kind {
+                // coordinates can have more digits of a small gap than modes, which share those of the whole motion
+                let start = gap(j);
+                (sum, size) = (start.gap, start.size);
+            }
+            if let Some(surface) = recovery {
+                sum += surface.size - surface.offset;
+                size += surface.size + surface.offset;
             }
             if known == 0
                 && let GuardKind::Depth(j) | GuardKind::Force(j) = guard.kind

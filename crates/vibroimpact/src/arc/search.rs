@@ -239,7 +239,7 @@ fn search(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arc::Begin;
+    use crate::arc::{Begin, GapStart};
     use crate::machine::{Machine, MachineParts};
     use crate::regime::{ContactState, GuardKind, Normal, Structure};
     use std::sync::Arc;
@@ -279,7 +279,12 @@ mod tests {
             let turns = [phase.sin_cos(), (2.0 * phase).sin_cos()];
             let begin = Begin { x: &x, v: &v, set: &[], turns: &turns };
             let known = |kind| (usize::from(on_stop && kind == GuardKind::Gap(0)), None);
-            let flight = MachineFlight::new(structure.clone(), begin, |_| unreachable!("no stop is closed"), known);
+            let gap = |j: usize| {
+                let (w, wall) = (&normal.directions[j], normal.walls[j].constant);
+                let way: f64 = w.iter().zip(&x).map(|(w, x)| w * x).sum();
+                GapStart { gap: wall - way, size: wall.abs() + way.abs(), swing: 0.0, sharp: false }
+            };
+            let flight = MachineFlight::new(structure.clone(), begin, gap, known);
             let mut buffers = Buffers::default();
             let crossing = plain_crossing(&flight, 30.0, 100, &mut buffers.sampling, &mut buffers.modes);
             let modes = buffers.modes.clone();
