@@ -217,13 +217,16 @@ fn search(
                 );
                 return Found::Zero { s: at, guards: Guards::One([g]) };
             }
-            // one touch until the guard is clearly positive again
-            if !touched[g] {
+            // one touch until the guard is clearly positive again; from there on what is flat is passed
+            let again = core::mem::replace(&mut touched[g], true);
+            if !again {
                 touches.push(Touch { s: s + touch * window, guard: g });
             }
-            touched[g] = true;
-            let next = s + (touch + after).min(1.0) * window;
-            s = if next > s { next } else { s * (1.0 + f64::EPSILON) + f64::MIN_POSITIVE };
+            let others = buffers.polynomials.iter().enumerate().filter(|(other, _)| !touched[*other]);
+            let first = others.filter_map(|(_, of)| of.from).filter(|from| *from > near).fold(1.0, f64::min);
+            let onward = if again { touch + after } else { touch };
+            let next = s + onward.min(0.999 * first) * window;
+            s = if next > s || !again { next } else { s * (1.0 + f64::EPSILON) + f64::MIN_POSITIVE };
             reach = 1.0;
         } else if near > 0.25 {
             s += near * window * (1.0 - 1e-3);

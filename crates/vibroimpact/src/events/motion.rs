@@ -62,8 +62,20 @@ pub struct MachineMotion<'a> {
     trail: Option<Vec<Stretch>>,
 }
 
+/// What a stop does whose gap is zero.
+enum Approach {
+    /// It is struck.
+    Strikes,
+    /// It is touched with a velocity that is a rounding error.
+    Touches(f64),
+    /// It is left: the gap was zero by a rounding error.
+    Leaves,
+}
+
 /// A gap or a rate below this part of its terms is zero within rounding.
 const ROUNDED: f64 = 64.0 * f64::EPSILON;
+/// An impact is none if its speed is below this part of the velocities.
+const FAINT: f64 = 32.0 * f64::EPSILON;
 /// More events than this at one time are a collapse.
 const CROWD: u32 = 10_000;
 /// The number of windows of a flight after which it is asked whether there is an event at all.
@@ -570,9 +582,27 @@ impl<'a> MachineMotion<'a> {
         self.spare[0] = Some(flight);
     }
 
+    /// How a gap that is zero closes.
+    fn approach(&self, kind: GuardKind) -> Approach {
+        let GuardKind::Gap(j) = kind else { return Approach::Strikes };
+        if self.place.surfaces[j].is_some() {
+            return Approach::Strikes;
+        }
+        let w = &self.normal.directions[j];
+        let turns = if self.normal.walls[j].moves() { self.place.turns(&self.normal) } else { Vec::new() };
+        let (_, rate) = self.place.gap_and_rate(&self.normal, &turns, j);
+        let size = FAINT * FAINT * dot(w, w) * dot(&self.place.v, &self.place.v);
+        match rate * rate <= size {
+            true if compliant(&self.machine.stops()[j].law).is_none() => Approach::Touches(rate),
+            false if rate > 0.0 => Approach::Leaves,
+            _ => Approach::Strikes,
+        }
+    }
+
     /// What follows when these guards of a structure of this rate are zero.
     fn happen(&mut self, kinds: &[GuardKind], fastest: f64) {
         if let [kind] = *kinds
+            && matches!(self.approach(kind), Approach::Strikes)
             && self.machine.joints().is_empty()
             && !self.place.states.iter().any(|state| state.constrains())
             && self.happen_alone(kind, fastest)
@@ -592,7 +622,15 @@ impl<'a> MachineMotion<'a> {
                         let w = &self.normal.directions[j];
                         add_scaled(&mut self.place.x, gap / dot(w, w), w);
                     }
-                    closing.push(j);
+                    match self.approach(*kind) {
+                        Approach::Strikes => closing.push(j),
+                        Approach::Touches(rate) => {
+                            let w = &self.normal.directions[j];
+                            add_scaled(&mut self.place.v, rate / dot(w, w), w);
+                            candidates.push(j);
+                        }
+                        Approach::Leaves => self.place.note(*kind, 1),
+                    }
                 }
                 GuardKind::Depth(j) | GuardKind::Force(j) => {
                     if self.place.states[j] == ContactState::Closed {
