@@ -5,12 +5,12 @@
 
 use std::collections::BTreeMap;
 use std::panic::catch_unwind;
-use vibroimpact_cases::{Budget, FAMILIES, MachineFamily, Rule, faults};
+use vibroimpact_cases::{Budget, DrawnFamily, FAMILIES, Rule, faults};
 
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).collect();
     if let ["show", family, seed] = words.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        let (Some(family), Ok(seed)) = (MachineFamily::named(family), seed.parse()) else {
+        let (Some(family), Ok(seed)) = (DrawnFamily::named(family), seed.parse()) else {
             return println!("no such case");
         };
         let case = family.case(seed);

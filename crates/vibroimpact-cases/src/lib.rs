@@ -16,9 +16,9 @@
 //! | what must hold of every motion | [`faults`], [`Rule`] |
 //!
 //! ```
-//! use vibroimpact_cases::{FAMILIES, MachineFamily};
-//! let case = MachineFamily::named("twins").unwrap().case(3);
-//! assert_eq!(case.machine, MachineFamily::named("twins").unwrap().case(3).machine);
+//! use vibroimpact_cases::{FAMILIES, DrawnFamily};
+//! let case = DrawnFamily::named("twins").unwrap().case(3);
+//! assert_eq!(case.machine, DrawnFamily::named("twins").unwrap().case(3).machine);
 //! assert!(FAMILIES.len() > 15);
 //! ```
 
@@ -35,6 +35,6 @@ mod toml;
 pub use case::{Case, Drawn, Symmetry};
 pub use changes::{Changed, Rewriting, changed};
 pub use draw::Draw;
-pub use families::{FAMILIES, MachineFamily};
+pub use families::{DrawnFamily, FAMILIES};
 pub use invariance::Standard;
 pub use rules::{BrokenRule, Budget, Rule, faults};

@@ -33,7 +33,7 @@ fn events_do_not_depend_on_names_order_units_and_signs() {
 #[test]
 fn duplicates_move_as_originals() {
     let budget = Budget { stretches: 40, time: 25.0 };
-    let family = vibroimpact_cases::MachineFamily::named("duplicates").unwrap();
+    let family = vibroimpact_cases::DrawnFamily::named("duplicates").unwrap();
     let mut wrong = Vec::new();
     for seed in 0..if long() { 200 } else { 20 } {
         let case = family.case(seed);

@@ -26,7 +26,7 @@ use vibroimpact::machine::{Machine, MachineParts};
 
 /// A family of machines.
 #[derive(Clone, Copy)]
-pub struct MachineFamily {
+pub struct DrawnFamily {
     /// Its name.
     pub name: &'static str,
     /// What is degenerate in it.
@@ -34,18 +34,18 @@ pub struct MachineFamily {
     draw: fn(&mut Draw) -> Drawn,
 }
 
-impl fmt::Debug for MachineFamily {
+impl fmt::Debug for DrawnFamily {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name)
     }
 }
 
-const fn family(name: &'static str, about: &'static str, draw: fn(&mut Draw) -> Drawn) -> MachineFamily {
-    MachineFamily { name, about, draw }
+const fn family(name: &'static str, about: &'static str, draw: fn(&mut Draw) -> Drawn) -> DrawnFamily {
+    DrawnFamily { name, about, draw }
 }
 
 /// All families.
-pub const FAMILIES: &[MachineFamily] = &[
+pub const FAMILIES: &[DrawnFamily] = &[
     family("twins", "equal oscillators that touch, under equal forces", twins::draw),
     family("cradles", "balls on equal springs that touch; the first ones strike", cradles::draw),
     family("stacks", "bodies one on the other, on a table that is still or shakes", stacks::draw),
@@ -66,7 +66,7 @@ pub const FAMILIES: &[MachineFamily] = &[
     family("locked", "bodies without any room between two walls, beside others that move", locked::draw),
 ];
 
-impl MachineFamily {
+impl DrawnFamily {
     /// The family of a name.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {

@@ -51,7 +51,7 @@ impl<'a> StateObject<'a> {
 }
 
 fn contacts(machine: &Machine, start: &MachineStart) -> Map<String, Value> {
-    let contact = |contact: &vibroimpact::events::Contact| {
+    let contact = |contact: &vibroimpact::events::ContactStart| {
         let mut object = Map::new();
         object.insert("state".to_owned(), contact_word(contact.state).into());
         if contact.surface > 0.0 {

@@ -6,7 +6,7 @@ use super::number::NumberText;
 use super::shapes::VectorText;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use vibroimpact::events::{Contact, MachineStart};
+use vibroimpact::events::{ContactStart, MachineStart};
 use vibroimpact::machine::MachineParts;
 use vibroimpact::regime::ContactState;
 
@@ -64,14 +64,14 @@ fn is_zero(value: &f64) -> bool {
 }
 
 impl ContactText {
-    fn of(contact: &Contact) -> Self {
+    fn of(contact: &ContactStart) -> Self {
         let word = WORDS.iter().find(|(_, of, _)| *of == contact.state).map(|(word, ..)| *word);
         Self { state: word.unwrap_or_default(), surface: contact.surface }
     }
 
-    fn contact(self, place: usize) -> Contact {
+    fn contact(self, place: usize) -> ContactStart {
         let state = WORDS.iter().find(|(word, ..)| *word == self.state).map(|(_, state, _)| *state);
-        Contact { place, state: state.unwrap_or(ContactState::Open), surface: self.surface }
+        ContactStart { place, state: state.unwrap_or(ContactState::Open), surface: self.surface }
     }
 }
 
@@ -108,7 +108,7 @@ pub struct StartNumbers {
     /// The phase of the forcing, in radians.
     pub phase: f64,
     /// What stops and joints do.
-    pub contacts: Vec<Contact>,
+    pub contacts: Vec<ContactStart>,
     /// The digits that these numbers leave out.
     pub exact: Vec<(String, Vec<f64>)>,
 }
@@ -141,7 +141,7 @@ impl StartText {
             (!values.iter().all(zero)).then_some(VectorText::List(list))
         };
         let all: Vec<&String> = names(parts).collect();
-        let contact = |contact: &Contact| Some(((*all.get(contact.place)?).clone(), ContactText::of(contact)));
+        let contact = |contact: &ContactStart| Some(((*all.get(contact.place)?).clone(), ContactText::of(contact)));
         Self {
             q: list(&numbers.q),
             qdot: list(&numbers.qdot),

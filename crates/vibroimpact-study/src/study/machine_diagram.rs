@@ -7,7 +7,7 @@ use crate::field::{Column, Extra, Field, NumberType};
 use crate::machine::MachineSource;
 use crate::machine_plan::{MachineDiagram, MachineDiagramPlan, MachineDiagramPoint, MachineDiagramStep, diagram_step};
 use crate::{MachineAxis, PlanError, Unit, Values};
-use vibroimpact::events::{Contact, MachineStart};
+use vibroimpact::events::{ContactStart, MachineStart};
 use vibroimpact::regime::ContactState;
 
 /// Machines over a number.
@@ -111,7 +111,7 @@ impl Swept for MachineSweep {
         let (back, rest) = back.as_chunks::<2>();
         // the numbers of stops are small
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-        let contact = |[place, surface]: &[f64; 2]| Contact {
+        let contact = |[place, surface]: &[f64; 2]| ContactStart {
             place: *place as usize,
             state: ContactState::Open,
             surface: *surface,

@@ -29,11 +29,13 @@ pub(crate) struct Begin<'a> {
     pub(crate) turns: &'a [(f64, f64)],
 }
 
-/// A closed stop at the beginning of a flight.
+/// A stop at the beginning of a flight.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct ClosedGap {
+pub(crate) struct GapStart {
     /// Its gap.
     pub(crate) gap: f64,
+    /// The size of the terms of the gap, for its rounding error.
+    pub(crate) size: f64,
     /// How far its wall is from its mean place.
     pub(crate) swing: f64,
     /// Whether the gap has more digits than the difference of wall and coordinates.
@@ -69,7 +71,7 @@ pub(crate) struct MachineFlight {
     pub(super) drive: Drive,
     pub(super) guards: Vec<GuardStart>,
     /// The closed stops at the beginning, in the order of the structure.
-    gaps: Vec<ClosedGap>,
+    gaps: Vec<GapStart>,
     /// The amplitudes of the harmonics of the guards, turned to the phase of the beginning, guard after guard.
     harmonics: Vec<(f64, f64)>,
     /// The set points of joints that hold.
@@ -107,12 +109,12 @@ const SHORT_REACH: f64 = 0.25;
 
 impl MachineFlight {
     /// The flight from a mass-normalised state. `set` are the set points of joints, `turns` sine and cosine of each
-    /// harmonic at the beginning, `gap` tells of the gap of a closed stop, and `known` how
+    /// harmonic at the beginning, `gap` tells of the gap of a stop, and `known` how
     /// many derivatives of a guard are zero, and how its surface recovers.
     pub(crate) fn new(
         structure: Arc<Structure>,
         begin: Begin<'_>,
-        gap: impl Fn(usize) -> ClosedGap,
+        gap: impl Fn(usize) -> GapStart,
         known: impl Fn(GuardKind) -> (usize, Option<Recovery>),
     ) -> Self {
         let mut flight = Self {
@@ -138,7 +140,7 @@ impl MachineFlight {
         &mut self,
         structure: Option<Arc<Structure>>,
         begin: Begin<'_>,
-        gap: impl Fn(usize) -> ClosedGap,
+        gap: impl Fn(usize) -> GapStart,
         known: impl Fn(GuardKind) -> (usize, Option<Recovery>),
     ) {
         if let Some(structure) = structure {
@@ -151,7 +153,7 @@ impl MachineFlight {
     fn begin(
         &mut self,
         Begin { x, v: rate, set, turns }: Begin<'_>,
-        gap: impl Fn(usize) -> ClosedGap,
+        gap: impl Fn(usize) -> GapStart,
         known: impl Fn(GuardKind) -> (usize, Option<Recovery>),
     ) {
         let structure = &self.structure;
@@ -173,12 +175,18 @@ impl MachineFlight {
                 moving += two;
                 size += one.abs() + two.abs();
             }
-            if let Some(surface) = recovery {
-                sum += surface.size - surface.offset;
-            }
             for (a, b) in function.signal.turned(turns) {
                 size += a.abs() + b.abs();
                 self.harmonics.push((a, b));
+            }
+            if let GuardKind::Gap(j) = guard.kind {
+                // coordinates can have more digits of a small gap than modes, which share those of the whole motion
+                let start = gap(j);
+                (sum, size) = (start.gap, start.size);
+            }
+            if let Some(surface) = recovery {
+                sum += surface.size - surface.offset;
+                size += surface.size + surface.offset;
             }
             if known == 0
                 && let GuardKind::Depth(j) | GuardKind::Force(j) = guard.kind
@@ -503,6 +511,24 @@ impl MachineFlight {
         result
     }
 
+    /// For how long all guards are positive of which more than `most` derivatives are zero at the beginning: as long as their
+    /// first term is at least twice the sum of all others. 0 if there are none.
+    pub(super) fn quiet_time(&self, most: usize) -> f64 {
+        let late = |g: &usize| self.guards[*g].known > most && self.guards[*g].recovery.is_none();
+        let times = (0..self.guards.len()).filter(late).map(|g| {
+            let known = self.guards[g].known;
+            let terms = self.taylor::<ORDERS>(&self.structure.guards[g].function);
+            let Some(first) = terms.get(known).map(|(value, _)| *value) else { return 0.0 };
+            let others = |time: f64| terms[known + 1..].iter().rev().fold(0.0, |sum, (_, size)| (sum + size) * time);
+            let mut time = self.shortest();
+            while others(time) > 0.5 * first && time > 0.0 {
+                time *= 0.5;
+            }
+            time
+        });
+        times.reduce(f64::min).unwrap_or(0.0)
+    }
+
     /// The fastest rate of a mode and of what drives it.
     fn rate_of(&self, i: usize) -> f64 {
         let own = if self.structure.dense.is_some() { self.structure.fastest() } else { self.structure.modes[i].rate };
@@ -556,10 +582,20 @@ impl MachineFlight {
     /// Whether a gap keeps its value for the whole flight, within rounding errors of the motion.
     pub(crate) fn opens_never(&self, normal: &Normal, stop: usize) -> bool {
         let (gap, _) = self.structure.gap(normal, stop);
-        let (w, time) = (&normal.directions[stop], self.shortest());
+        self.change_size(&gap) <= SILENT * self.way_size(normal, stop)
+    }
+
+    /// Whether the velocity of a joint keeps its value for the whole flight, within rounding errors of the motion.
+    pub(crate) fn slides_never(&self, normal: &Normal, (place, sliding): (usize, &Observable)) -> bool {
+        self.change_size(sliding) <= SILENT * self.way_size(normal, place) / self.shortest()
+    }
+
+    /// How far the structure moves along a stop or joint in a short time if nothing holds it, and walls move.
+    fn way_size(&self, normal: &Normal, place: usize) -> f64 {
+        let (w, time) = (&normal.directions[place], self.shortest());
         let moved: f64 = (0..self.v.len()).map(|i| self.swing_size(i, time)).sum();
         let walls = normal.walls.iter().flat_map(|wall| &wall.harmonics).map(|(a, b)| a.abs() + b.abs()).sum::<f64>();
-        self.change_size(&gap) <= SILENT * (dot(w, w).sqrt() * moved + walls)
+        dot(w, w).sqrt() * moved + walls
     }
 
     /// The size of the terms of a linear function of the state at the beginning.

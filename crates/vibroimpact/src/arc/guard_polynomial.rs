@@ -5,6 +5,8 @@ use crate::regime::TERMS;
 
 /// The place of the bound of the remainder.
 pub(super) const ORDER: usize = TERMS - 1;
+/// The most zeros that are divided out: the terms after them must decide over a window of some length.
+pub(super) const HIGHEST: usize = ORDER - 3;
 
 /// A guard over a window, by powers of the part of the window that has passed.
 #[derive(Clone, Copy, Debug)]
@@ -25,10 +27,13 @@ pub(super) struct GuardPolynomial {
 impl GuardPolynomial {
     pub(super) fn new(p: [f64; TERMS], known: usize, error: f64, size: f64) -> Self {
         // higher zeros are zero within rounding over a window in which only these are divided out
-        let mut of = Self { p, known: known.min(4), error, size, from: None };
+        let mut of = Self { p, known: known.min(HIGHEST), error, size, from: None };
         // contacts on which the flight begins are divided out; a derivative that is zero within rounding is zero, and the
         // next one decides
-        while of.known > 0 && of.known < 4 && of.p[of.known] <= 0.0 && -of.p[of.known] <= 64.0 * f64::EPSILON * of.size
+        while of.known > 0
+            && of.known < HIGHEST
+            && of.p[of.known] <= 0.0
+            && -of.p[of.known] <= 64.0 * f64::EPSILON * of.size
         {
             of.known += 1;
         }
@@ -40,6 +45,14 @@ impl GuardPolynomial {
         let mut p = [0.0; TERMS];
         p[0] = 1.0;
         Self { p, known: 0, error: 0.0, size: 1.0, from: None }
+    }
+
+    /// Whether it is nowhere below zero by more than so many rounding errors, over the whole window.
+    pub(super) fn is_flat(&self, roundings: f64) -> bool {
+        let mut q = self.p;
+        q[0] += roundings * self.error;
+        q[ORDER] = -q[ORDER];
+        q[0] > 0.0 && first_zero(&q).is_none()
     }
 
     /// Whether it is positive over the window, by a quick test; `false` may be wrong.

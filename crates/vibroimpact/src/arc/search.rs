@@ -18,7 +18,7 @@
 use super::crossing::plain_crossing;
 use super::flight::MachineFlight;
 use super::found::{Buffers, Found, Guards, Touch};
-use super::guard_polynomial::{GuardPolynomial, ORDER, first_of};
+use super::guard_polynomial::{GuardPolynomial, HIGHEST, ORDER, first_of};
 use super::polynomial::{RESOLUTION, value};
 use super::zero::{certain, lowest, refine, without_remainder};
 use crate::regime::REACH;
@@ -66,7 +66,8 @@ fn by_windows(
     found
 }
 
-/// A guard whose terms are all below this number of its rounding errors over a window decides nothing there.
+/// A guard that only touches zero and goes below it by no more than this number of its rounding errors over a window decides
+/// nothing there.
 const FLAT: f64 = 8.0;
 
 /// How many rounding errors of their values and of the time may lie between zeros of guards at one time.
@@ -109,6 +110,7 @@ fn search(
 ) -> Found {
     let fastest = flight.structure.fastest();
     let series = flight.structure.windows.first();
+    let quiet = flight.quiet_time(HIGHEST);
     let mut s = 0.0;
     let mut reach = 1.0;
     let mut on_track = false;
@@ -117,10 +119,12 @@ fn search(
         if s >= until {
             return Found::NoneBefore(until);
         }
+        let is_quiet = s < 0.999 * quiet;
         let mut here = false;
         if let Some(series) = series
             && reach == 1.0
             && fastest > 0.0
+            && !is_quiet
         {
             // windows without a zero are passed without the closed form
             if !on_track {
@@ -164,7 +168,10 @@ fn search(
         let rate = surfaces
             .filter(|surface| surface.rate * s < 40.0)
             .fold(fastest, |rate, surface| rate.max(surface.rate * crate::system::decay(surface.rate * s / 9.0).0));
-        let window = (if rate > 0.0 { REACH / rate } else { 1e150 } * reach).min((until - s) * 1.001 + 1e-300);
+        let mut window = (if rate > 0.0 { REACH / rate } else { 1e150 } * reach).min((until - s) * 1.001 + 1e-300);
+        if is_quiet {
+            window = window.min(quiet - s);
+        }
         match series {
             Some(_) => {
                 buffers.track.energies(flight);
@@ -182,8 +189,8 @@ fn search(
                 touched[g] = false;
             }
             // a contact that is only just left, by a power of the time, is zero within rounding for a while
-            let stays = touched[g] && of.p.iter().map(|c| c.abs()).sum::<f64>() <= FLAT * of.error;
-            buffers.polynomials.push(if stays { GuardPolynomial::passed() } else { of });
+            let passes = is_quiet && flight.guards[g].known > HIGHEST || touched[g] && of.is_flat(FLAT);
+            buffers.polynomials.push(if passes { GuardPolynomial::passed() } else { of });
         }
         let Some((near, g)) = first_of(&mut buffers.polynomials) else {
             s += window;
@@ -210,13 +217,16 @@ fn search(
                 );
                 return Found::Zero { s: at, guards: Guards::One([g]) };
             }
-            // one touch until the guard is clearly positive again
-            if !touched[g] {
+            // one touch until the guard is clearly positive again; from there on what is flat is passed
+            let again = core::mem::replace(&mut touched[g], true);
+            if !again {
                 touches.push(Touch { s: s + touch * window, guard: g });
             }
-            touched[g] = true;
-            let next = s + (touch + after).min(1.0) * window;
-            s = if next > s { next } else { s * (1.0 + f64::EPSILON) + f64::MIN_POSITIVE };
+            let others = buffers.polynomials.iter().enumerate().filter(|(other, _)| !touched[*other]);
+            let first = others.filter_map(|(_, of)| of.from).filter(|from| *from > near).fold(1.0, f64::min);
+            let onward = if again { touch + after } else { touch };
+            let next = s + onward.min(0.999 * first) * window;
+            s = if next > s || !again { next } else { s * (1.0 + f64::EPSILON) + f64::MIN_POSITIVE };
             reach = 1.0;
         } else if near > 0.25 {
             s += near * window * (1.0 - 1e-3);
@@ -232,7 +242,7 @@ fn search(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arc::Begin;
+    use crate::arc::{Begin, GapStart};
     use crate::machine::{Machine, MachineParts};
     use crate::regime::{ContactState, GuardKind, Normal, Structure};
     use std::sync::Arc;
@@ -272,7 +282,12 @@ mod tests {
             let turns = [phase.sin_cos(), (2.0 * phase).sin_cos()];
             let begin = Begin { x: &x, v: &v, set: &[], turns: &turns };
             let known = |kind| (usize::from(on_stop && kind == GuardKind::Gap(0)), None);
-            let flight = MachineFlight::new(structure.clone(), begin, |_| unreachable!("no stop is closed"), known);
+            let gap = |j: usize| {
+                let (w, wall) = (&normal.directions[j], normal.walls[j].constant);
+                let way: f64 = w.iter().zip(&x).map(|(w, x)| w * x).sum();
+                GapStart { gap: wall - way, size: wall.abs() + way.abs(), swing: 0.0, sharp: false }
+            };
+            let flight = MachineFlight::new(structure.clone(), begin, gap, known);
             let mut buffers = Buffers::default();
             let crossing = plain_crossing(&flight, 30.0, 100, &mut buffers.sampling, &mut buffers.modes);
             let modes = buffers.modes.clone();

@@ -83,7 +83,7 @@ impl MachineEvent {
 
 /// What a stop or a friction joint does at a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Contact {
+pub struct ContactStart {
     /// The stop, or the joint, which are counted after the stops.
     pub place: usize,
     /// What it does.
@@ -105,7 +105,7 @@ pub struct MachineStart {
     pub phase: f64,
     /// What stops and joints do. What those that are absent do follows from coordinates and velocities, with surfaces that
     /// do not stand back.
-    pub contacts: Vec<Contact>,
+    pub contacts: Vec<ContactStart>,
     /// The digits that coordinates, velocities and contacts leave out, by name. With them a motion goes on from a state of
     /// another motion to the last bit. They count only together with the numbers with which they came, and may be left out.
     pub exact: Vec<(String, Vec<f64>)>,

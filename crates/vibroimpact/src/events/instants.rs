@@ -27,8 +27,11 @@ const FALLS: f64 = 1e-4;
 const TOGETHER: f64 = 1e-6;
 /// A stop is struck again and again if it is at least so often among the changes kept.
 const OFTEN: usize = 4;
-/// The part of the changes kept, at both ends, whose speeds are compared, and the factor by which they have fallen.
-const END: usize = KEPT / 4;
+/// A part of the changes at both ends, whose speeds are compared, and the factor by which they have fallen: while few changes are
+/// kept, and when all are.
+const ENDS: usize = 4;
+const FEW: usize = 24;
+const MUCH_SLOWER: f64 = 1e-3;
 const SLOWER: f64 = 0.5;
 /// In how many changes it is asked once whether a collapse without rounds is near.
 const EVERY: usize = 8;
@@ -223,13 +226,15 @@ impl Instants {
     /// Several stops that are struck again and again, ever more slowly, without a round that repeats itself; asked once in some
     /// changes.
     pub(super) fn crowd(&self) -> Option<Vec<usize>> {
-        if self.latest.len() < KEPT || !self.count.is_multiple_of(EVERY) {
+        let count = self.latest.len();
+        if count < FEW || !self.count.is_multiple_of(EVERY) {
             return None;
         }
+        let factor = if count < KEPT { MUCH_SLOWER } else { SLOWER };
         let faster = |most: f64, change: &Change| if change.is_impact() { most.max(change.speed) } else { most };
-        let late = self.latest.iter().take(END).fold(0.0, faster);
-        let early = self.latest.iter().rev().take(END).fold(0.0, faster);
-        if late > SLOWER * early {
+        let late = self.latest.iter().take(count / ENDS).fold(0.0, faster);
+        let early = self.latest.iter().rev().take(count / ENDS).fold(0.0, faster);
+        if late > factor * early {
             return None;
         }
         let impacts = self.latest.iter().filter(|change| change.is_impact());

@@ -9,7 +9,7 @@
 //! | rounds of impacts on several stops in turn, or with joints; their end | `instants`, `collapse` |
 //! | events that change one stop alone | `alone` |
 //! | the state at one time | `place` |
-//! | a whole state as a start, and back | [`Contact`], `state` |
+//! | a whole state as a start, and back | [`ContactStart`], `state` |
 //! | which stops rest and which joints hold | `resolve` |
 //! | one step of a motion, and its derivative by the state | `passage`, `saltation` |
 //! | differences of neighbouring motions, and how they are stretched | `tangents` |
@@ -24,6 +24,7 @@ mod collapse;
 mod collision;
 mod contact_force;
 mod event;
+mod given;
 mod impulses;
 mod instants;
 mod motion;
@@ -41,7 +42,7 @@ mod tangents;
 mod within;
 
 pub(crate) use contact_force::contact_forces;
-pub use event::{Contact, MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
+pub use event::{ContactStart, MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
 pub use motion::MachineMotion;
 pub(crate) use passage::Passage;
 pub(crate) use place::{Place, Structures, standing_back};

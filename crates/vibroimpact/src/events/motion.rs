@@ -1,11 +1,11 @@
 //! The motion of a machine as an iterator over its events.
 
-use super::event::{Contact, MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
+use super::event::{ContactStart, MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
 use super::instants::Instants;
 use super::passage::Passage;
 use super::place::{Place, Scratch, Structures, standing_back};
 use super::resolve::{Resolution, Resolved};
-use super::state::{Beginning, ImpactHistory, check_contacts, fingerprint};
+use super::state::{ImpactHistory, check_contacts, fingerprint};
 use super::stretch::{Stretch, follow};
 use crate::arc::{Buffers, Found, MachineFlight, Touch, first_event};
 use crate::machine::{Machine, MachineError, MachineFault, Opening, StopLaw};
@@ -62,8 +62,20 @@ pub struct MachineMotion<'a> {
     trail: Option<Vec<Stretch>>,
 }
 
+/// What a stop does whose gap is zero.
+enum Approach {
+    /// It is struck.
+    Strikes,
+    /// It is touched with a velocity that is a rounding error.
+    Touches(f64),
+    /// It is left: the gap was zero by a rounding error.
+    Leaves,
+}
+
 /// A gap or a rate below this part of its terms is zero within rounding.
 const ROUNDED: f64 = 64.0 * f64::EPSILON;
+/// An impact is none if its speed is below this part of the velocities.
+const FAINT: f64 = 32.0 * f64::EPSILON;
 /// More events than this at one time are a collapse.
 const CROWD: u32 = 10_000;
 /// The number of windows of a flight after which it is asked whether there is an event at all.
@@ -185,18 +197,10 @@ impl<'a> MachineMotion<'a> {
     }
 
     /// Finds out what the stops and joints do at the start.
-    fn begin(&mut self, contacts: &[Contact]) -> Result<(), MachineError> {
-        let (mut closing, mut candidates) = (Vec::new(), Vec::new());
+    fn begin(&mut self, contacts: &[ContactStart]) -> Result<(), MachineError> {
         let turns = self.place.turns(&self.normal);
-        let mut given = Vec::new();
-        for contact in contacts {
-            match self.give_state(contact, &turns)? {
-                Beginning::Unknown => continue,
-                Beginning::Closing => closing.push(contact.place),
-                Beginning::Done => {}
-            }
-            given.push(contact.place);
-        }
+        let (given, mut closing) = self.give_states(contacts, &turns)?;
+        let mut candidates = Vec::new();
         let absent = |at: usize| !given.contains(&at);
         for (j, stop) in self.machine.stops().iter().enumerate().filter(|(j, _)| absent(*j)) {
             let (gap, rate, size, rate_size) = self.place.gap(&self.normal, &turns, j);
@@ -293,6 +297,16 @@ impl<'a> MachineMotion<'a> {
                 if gap.abs() <= ROUNDED * size && rate.abs() <= ROUNDED * rate_size && before[j] == ContactState::Closed
                 {
                     candidates.push(j);
+                }
+            }
+        }
+        // a joint that others hold although its force is that of sliding can hold as well
+        for joint in 0..self.machine.joints().len() {
+            let at = self.machine.stops().len() + joint;
+            if !self.place.states[at].constrains() && !candidates.contains(&at) {
+                let (speed, size) = self.place.sliding(self.machine, &self.normal, joint);
+                if speed.abs() <= ROUNDED * size {
+                    candidates.push(at);
                 }
             }
         }
@@ -568,9 +582,27 @@ impl<'a> MachineMotion<'a> {
         self.spare[0] = Some(flight);
     }
 
+    /// How a gap that is zero closes.
+    fn approach(&self, kind: GuardKind) -> Approach {
+        let GuardKind::Gap(j) = kind else { return Approach::Strikes };
+        if self.place.surfaces[j].is_some() {
+            return Approach::Strikes;
+        }
+        let w = &self.normal.directions[j];
+        let turns = if self.normal.walls[j].moves() { self.place.turns(&self.normal) } else { Vec::new() };
+        let (_, rate) = self.place.gap_and_rate(&self.normal, &turns, j);
+        let size = FAINT * FAINT * dot(w, w) * dot(&self.place.v, &self.place.v);
+        match rate * rate <= size {
+            true if compliant(&self.machine.stops()[j].law).is_none() => Approach::Touches(rate),
+            false if rate > 0.0 => Approach::Leaves,
+            _ => Approach::Strikes,
+        }
+    }
+
     /// What follows when these guards of a structure of this rate are zero.
     fn happen(&mut self, kinds: &[GuardKind], fastest: f64) {
         if let [kind] = *kinds
+            && matches!(self.approach(kind), Approach::Strikes)
             && self.machine.joints().is_empty()
             && !self.place.states.iter().any(|state| state.constrains())
             && self.happen_alone(kind, fastest)
@@ -590,7 +622,15 @@ impl<'a> MachineMotion<'a> {
                         let w = &self.normal.directions[j];
                         add_scaled(&mut self.place.x, gap / dot(w, w), w);
                     }
-                    closing.push(j);
+                    match self.approach(*kind) {
+                        Approach::Strikes => closing.push(j),
+                        Approach::Touches(rate) => {
+                            let w = &self.normal.directions[j];
+                            add_scaled(&mut self.place.v, rate / dot(w, w), w);
+                            candidates.push(j);
+                        }
+                        Approach::Leaves => self.place.note(*kind, 1),
+                    }
                 }
                 GuardKind::Depth(j) | GuardKind::Force(j) => {
                     if self.place.states[j] == ContactState::Closed {

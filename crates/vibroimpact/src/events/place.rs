@@ -1,6 +1,6 @@
 //! Where a machine is: state, phase, and what its stops and joints do.
 
-use crate::arc::{Begin, ClosedGap, MachineFlight, Modes, Recovery};
+use crate::arc::{Begin, GapStart, MachineFlight, Modes, Recovery};
 use crate::machine::{Machine, StopLaw};
 use crate::math::{dot, fit, sin_cos};
 use crate::regime::{ContactState, GuardKind, Normal, Structure, compliant};
@@ -128,7 +128,7 @@ impl Place {
         &self,
         normal: &Normal,
         scratch: &mut Scratch,
-        begun: impl FnOnce(Begin<'_>, &dyn Fn(usize) -> ClosedGap, &dyn Fn(GuardKind) -> (usize, Option<Recovery>)) -> T,
+        begun: impl FnOnce(Begin<'_>, &dyn Fn(usize) -> GapStart, &dyn Fn(GuardKind) -> (usize, Option<Recovery>)) -> T,
     ) -> T {
         // the time restarts with each flight, and the set points of joints that hold on a moving belt with it
         let stops = self.surfaces.len();
@@ -142,8 +142,15 @@ impl Place {
         let gap = |stop: usize| {
             let at_zero = self.known.iter().any(|(kind, _)| *kind == GuardKind::Depth(stop));
             let sharp = if at_zero { Some(0.0) } else { self.sharp_gap(stop) };
-            let gap = sharp.unwrap_or_else(|| self.gap_and_rate(normal, turns, stop).0);
-            ClosedGap { gap, swing: normal.walls[stop].swing(turns), sharp: sharp.is_some() }
+            let (w, wall) = (&normal.directions[stop], &normal.walls[stop]);
+            let swing = wall.swing(turns);
+            let (mut way, mut size) = (0.0, wall.constant.abs() + swing.abs());
+            for (w, x) in w.iter().zip(&self.x) {
+                way += w * x;
+                size += (w * x).abs();
+            }
+            let gap = sharp.unwrap_or(wall.constant + swing - way);
+            GapStart { gap, size, swing, sharp: sharp.is_some() }
         };
         let known = |kind| {
             let known = self.known.iter().find(|(of, _)| *of == kind).map_or(0, |(_, count)| *count);

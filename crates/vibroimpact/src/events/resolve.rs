@@ -141,8 +141,8 @@ impl Resolution<'_> {
         // at least zero: a multiple of a function and a constant
         let condition = |of: &Observable, (sign, constant): (f64, f64), from: usize, instead: ContactState| {
             let (order, value) = first_derivative(flight, of, (sign, constant), from);
-            // a force that begins at its limit ends with an event of its own, but where others end it does not begin
-            let begins = from == 0 && order > 0 && self.ended.is_empty();
+            // a hold that begins at its limit ends with an event of its own, but where others end it does not begin
+            let begins = from == 0 && order > 0 && self.ended.is_empty() && state == ContactState::Holding;
             let value = if begins { value.max(0.0) } else { value };
             (order, (value < 0.0).then_some(Violation { order, amount: -value, instead }))
         };
@@ -175,6 +175,9 @@ impl Resolution<'_> {
                 let Some((reaction, shared)) = structure.reaction(at) else {
                     // other constraints move it, and it holds only if they do not
                     let sliding = structure.sliding(self.machine, self.normal, joint);
+                    if flight.slides_never(self.normal, (at, &sliding)) {
+                        return (ORDERS, None);
+                    }
                     let forward = condition(&sliding, (-1.0, 0.0), 1, ContactState::Forward);
                     return two(forward, condition(&sliding, (1.0, 0.0), 1, ContactState::Backward));
                 };

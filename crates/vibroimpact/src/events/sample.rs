@@ -1,6 +1,6 @@
 //! The state of a machine at one time, as it is seen between events.
 
-use super::event::{Contact, MachineStart};
+use super::event::{ContactStart, MachineStart};
 use crate::regime::ContactState;
 
 /// A machine at one time.
@@ -24,7 +24,7 @@ pub struct MachineSample {
     pub forces: Vec<f64>,
     /// What each stop and, after them, each joint does.
     pub states: Vec<ContactState>,
-    /// How far the surface of each stop stands back: see [`Contact`].
+    /// How far the surface of each stop stands back: see [`ContactStart`].
     pub surfaces: Vec<f64>,
 }
 
@@ -33,7 +33,7 @@ impl MachineSample {
     /// as one that began at an event.
     #[must_use]
     pub fn start(&self) -> MachineStart {
-        let contact = |(place, state): (usize, &ContactState)| Contact {
+        let contact = |(place, state): (usize, &ContactState)| ContactStart {
             place,
             state: *state,
             surface: self.surfaces.get(place).copied().unwrap_or_default(),

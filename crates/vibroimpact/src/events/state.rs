@@ -4,20 +4,13 @@
 //! ones that have been transformed and rounded, a stiff stop that is closed has a gap with more digits than the
 //! coordinates, a flight that begins on a guard begins exactly there, and a chatter is summed by the impacts before it.
 
-use super::event::{Contact, MachineStart};
+use super::event::{ContactStart, MachineStart};
 use super::instants::Instants;
-use super::motion::MachineMotion;
 use super::place::{Place, standing_back};
 use crate::arc::Recovery;
 use crate::machine::{Machine, MachineError, MachineFault, Opening, StopLaw};
-use crate::math::{add_scaled, dot};
-use crate::regime::{ContactState, GuardKind, Normal, compliant};
+use crate::regime::{ContactState, GuardKind, Normal};
 use crate::system::phase;
-
-/// A contact may miss its stop, or its velocity 0, by this part of their terms: numbers may be given with few digits.
-const NEAR: f64 = 1e-6;
-/// Rounding errors of a start.
-const ROUNDED: f64 = 4.0 * f64::EPSILON;
 
 /// What a motion knows of the impacts before a state.
 #[derive(Clone, Debug, Default)]
@@ -69,7 +62,7 @@ impl Place {
     pub(super) fn numbers(&self, normal: &Normal) -> MachineStart {
         let contact = |(place, state): (usize, &ContactState)| {
             let surface = self.surfaces.get(place).copied().flatten();
-            Contact { place, state: *state, surface: surface.map_or(0.0, |surface| surface.size - surface.offset) }
+            ContactStart { place, state: *state, surface: surface.map_or(0.0, |surface| surface.size - surface.offset) }
         };
         MachineStart {
             q: normal.to_machine(&self.x),
@@ -203,7 +196,7 @@ impl Place {
                     match guard {
                         // a count is small
                         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-                        Some(guard) if (1.0..=8.0).contains(count) => place.known.push((guard, *count as usize)),
+                        Some(guard) if (1.0..=32.0).contains(count) => place.known.push((guard, *count as usize)),
                         _ => return wrong("this is no zero of a contact"),
                     }
                 }
@@ -227,7 +220,7 @@ impl Place {
         let own = self.numbers(normal);
         let same =
             |one: &[f64], other: &[f64]| one == other || other.is_empty() && one.iter().all(|value| *value == 0.0);
-        let has = |contact: &Contact| start.contacts.contains(contact);
+        let has = |contact: &ContactStart| start.contacts.contains(contact);
         same(&own.q, &start.q) && same(&own.qdot, &start.qdot) && own.contacts.iter().all(has)
     }
 }
@@ -253,10 +246,10 @@ pub(super) fn fingerprint(machine: &Machine) -> f64 {
 }
 
 /// Whether contacts of a start are those of a machine.
-pub(super) fn check_contacts(machine: &Machine, contacts: &[Contact]) -> Result<(), MachineError> {
+pub(super) fn check_contacts(machine: &Machine, contacts: &[ContactStart]) -> Result<(), MachineError> {
     let stops = machine.stops();
     for (k, contact) in contacts.iter().enumerate() {
-        let Contact { place, state, surface } = *contact;
+        let ContactStart { place, state, surface } = *contact;
         if place >= stops.len() + machine.joints().len() {
             let what = "the machine has no such stop or joint".to_owned();
             return Err(MachineError::new(format!("contact.{place}"), MachineFault::Contact(what)));
@@ -293,124 +286,6 @@ pub(super) fn check_contacts(machine: &Machine, contacts: &[Contact]) -> Result<
     Ok(())
 }
 
-fn contact_error(machine: &Machine, place: usize, what: String) -> MachineError {
+pub(super) fn contact_error(machine: &Machine, place: usize, what: String) -> MachineError {
     MachineError::new(format!("contact.{}", machine.name_of(place)), MachineFault::Contact(what))
-}
-
-/// What a contact of a start does at once.
-pub(super) enum Beginning {
-    /// Nothing: it has its state.
-    Done,
-    /// It is a stop that closes.
-    Closing,
-    /// It is a stop whose state follows from coordinates and velocities.
-    Unknown,
-}
-
-impl MachineMotion<'_> {
-    /// Gives a contact the state of the start.
-    pub(super) fn give_state(&mut self, contact: &Contact, turns: &[(f64, f64)]) -> Result<Beginning, MachineError> {
-        let Contact { place: at, state, surface } = *contact;
-        let stops = self.machine.stops();
-        let place = &mut self.place;
-        place.states[at] = state;
-        let Some(stop) = stops.get(at) else {
-            let joint = at - stops.len();
-            let (speed, size) = place.sliding(self.machine, &self.normal, joint);
-            let still = speed.abs() <= ROUNDED * size;
-            match state {
-                ContactState::Holding if speed.abs() > NEAR * size => {
-                    return Err(contact_error(
-                        self.machine,
-                        at,
-                        format!("the joint slides at {speed} and does not hold"),
-                    ));
-                }
-                ContactState::Holding => {
-                    let w = &self.normal.directions[at];
-                    add_scaled(&mut place.v, -speed / dot(w, w), w);
-                }
-                _ if still => place.note(GuardKind::Sliding(joint), 1),
-                ContactState::Forward if speed > 0.0 => {}
-                ContactState::Backward if speed < 0.0 => {}
-                _ => {
-                    return Err(contact_error(self.machine, at, format!("the joint slides the other way, at {speed}")));
-                }
-            }
-            return Ok(Beginning::Done);
-        };
-        let (gap, rate, size, rate_size) = place.gap(&self.normal, turns, at);
-        let still = rate.abs() <= ROUNDED * rate_size;
-        match state {
-            ContactState::Resting | ContactState::Touching => {
-                if gap.abs() > NEAR * size.max(stop.gap.abs()) || rate.abs() > NEAR * rate_size {
-                    let what =
-                        format!("the gap of the stop is {gap} and its rate {rate}: the structure does not rest on it");
-                    return Err(contact_error(self.machine, at, what));
-                }
-                let w = &self.normal.directions[at];
-                let square = dot(w, w);
-                add_scaled(&mut place.x, gap / square, w);
-                add_scaled(&mut place.v, rate / square, w);
-            }
-            ContactState::Closed if gap > ROUNDED * size => {
-                return Err(contact_error(self.machine, at, format!("the stop has the gap {gap} and is not closed")));
-            }
-            ContactState::Closed => {
-                if gap.abs() <= ROUNDED * size && (still || rate < 0.0) {
-                    place.note(GuardKind::Depth(at), if still { 2 } else { 1 });
-                }
-            }
-            _ => {
-                let back = standing_back(&stop.law, surface).filter(|_| surface > 0.0);
-                place.surfaces[at] = back;
-                let (distance, rate) = (gap + surface, rate - back.map_or(0.0, |back| back.rate * back.size));
-                let on = distance.abs() <= ROUNDED * (size + surface);
-                if distance < 0.0 && !on {
-                    if compliant(&stop.law).is_none() {
-                        return Err(MachineError::new(format!("stop.{}", stop.name), MachineFault::Beyond(-distance)));
-                    }
-                    // the structure pushes the surface: where this is, follows from where the structure is
-                    place.surfaces[at] = None;
-                    return Ok(Beginning::Unknown);
-                }
-                if on && !still && rate < 0.0 {
-                    return Ok(Beginning::Closing);
-                }
-                if on {
-                    place.note(GuardKind::Gap(at), if still { 2 } else { 1 });
-                }
-            }
-        }
-        Ok(Beginning::Done)
-    }
-
-    /// Whether the contacts of a start agree with it: no guard is below zero by more than rounding.
-    pub(super) fn check_guards(&mut self) -> Result<(), MachineError> {
-        let Some(structure) = self.structures.get(self.machine, &self.normal, &self.place.states) else {
-            return Ok(());
-        };
-        let flight = self.place.flight(&self.normal, structure.clone());
-        for (g, guard) in structure.guards.iter().enumerate() {
-            let (value, size) = flight.start_of_guard(g);
-            if value < -NEAR * size {
-                let at = guard.kind.place(self.machine.stops().len());
-                let what = match guard.kind {
-                    GuardKind::Gap(_) => format!("the coordinates lie {} beyond the stop, which is not open", -value),
-                    GuardKind::Depth(_) => format!("the stop has the gap {} and is not closed", -value),
-                    GuardKind::Force(_) => format!("the stop would pull with {} and is not closed", -value),
-                    GuardKind::Reaction(_) => {
-                        format!("the stop would pull with {}: the structure does not rest on it", -value)
-                    }
-                    GuardKind::Preload(_) => "the stop is pushed in: the structure does not rest on it".to_owned(),
-                    GuardKind::Sliding(_) => "the joint slides the other way".to_owned(),
-                    GuardKind::LimitForward(_) | GuardKind::LimitBackward(_) => {
-                        format!("the force on the joint is above its limit by {}: it does not hold", -value)
-                    }
-                };
-                return Err(contact_error(self.machine, at, what));
-            }
-        }
-        Ok(())
-    }
 }

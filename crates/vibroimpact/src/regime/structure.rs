@@ -525,19 +525,22 @@ impl Structure {
         self.held.iter().position(|held| *held == place).map(|at| (&self.reactions[at], self.shared[at]))
     }
 
-    /// Whether the gap of a stop can change beyond rounding errors: not where constraints hold it already.
-    fn moves(&self, normal: &Normal, stop: usize) -> bool {
-        let (gap, _) = self.gap(normal, stop);
-        let (w, wall) = (&normal.directions[stop], &normal.walls[stop]);
+    /// Whether a gap, or the velocity of a joint, can change beyond rounding errors: not where constraints hold it already. `along`
+    /// are those of the coordinates, and `wall` what else moves.
+    fn changes(&self, of: &Observable, w: &[f64], (along, wall): (&[Observable], Option<&Signal>)) -> bool {
         let still = |of: &[f64]| of.iter().all(|factor| factor.abs() <= STILL * dot(w, w).sqrt());
         let size = |signal: &Signal| signal.harmonics.iter().map(|(a, b)| a.abs() + b.abs()).sum::<f64>();
-        let swing = size(wall) + dot(w, w).sqrt() * self.x.iter().map(|x| size(&x.signal)).sum::<f64>();
-        !(still(&gap.position) && still(&gap.velocity) && gap.signal.ramp == 0.0 && size(&gap.signal) <= STILL * swing)
+        let swing = wall.map_or(0.0, size) + dot(w, w).sqrt() * along.iter().map(|of| size(&of.signal)).sum::<f64>();
+        !(still(&of.position) && still(&of.velocity) && of.signal.ramp == 0.0 && size(&of.signal) <= STILL * swing)
     }
 
     fn all_guards(&self, machine: &Machine, normal: &Normal) -> Vec<Guard> {
         let mut guards = Vec::new();
         let mut add = |kind, function| guards.push(Guard { kind, function });
+        let moves = |j: usize| {
+            let (gap, _) = self.gap(normal, j);
+            self.changes(&gap, &normal.directions[j], (&self.x, Some(&normal.walls[j])))
+        };
         let missing = |limit: f64, of: Observable| {
             let mut sum = of;
             sum.signal.constant += limit;
@@ -548,7 +551,7 @@ impl Structure {
                 (ContactState::Closed, StopLaw::Compliant { opening, damping, preload, .. }) => {
                     // without damper and preload both are zero together
                     let depth = *opening == Opening::Position || *preload > 0.0 || *damping == 0.0;
-                    if depth && self.moves(normal, j) {
+                    if depth && moves(j) {
                         add(GuardKind::Depth(j), self.gap(normal, j).0.scaled(-1.0));
                     }
                     if *opening == Opening::Force
@@ -567,16 +570,20 @@ impl Structure {
                     }
                 }
                 (ContactState::Touching, _) => {}
-                _ if !self.moves(normal, j) => {}
+                _ if !moves(j) => {}
                 _ => add(GuardKind::Gap(j), self.gap(normal, j).0),
             }
         }
         for (j, joint) in machine.joints().iter().enumerate() {
             let place = machine.stops().len() + j;
             match self.states[place] {
-                ContactState::Forward => add(GuardKind::Sliding(j), self.sliding(machine, normal, j)),
-                ContactState::Backward => {
-                    add(GuardKind::Sliding(j), self.sliding(machine, normal, j).scaled(-1.0));
+                ContactState::Forward | ContactState::Backward => {
+                    let sliding = self.sliding(machine, normal, j);
+                    // a joint that other constraints hold has the force of sliding as long as they do
+                    if self.changes(&sliding, &normal.directions[place], (&self.v, None)) {
+                        let sign = if self.states[place] == ContactState::Forward { 1.0 } else { -1.0 };
+                        add(GuardKind::Sliding(j), sliding.scaled(sign));
+                    }
                 }
                 _ => {
                     if let Some((reaction, shared)) = self.reaction(place) {

@@ -23,13 +23,8 @@ impl Random {
 /// A random machine of one to three coordinates, with damped compliant stops, rigid ones and friction joints.
 fn random_machine(random: &mut Random) -> Machine {
     let names = ["a", "b", "c"];
-    let n = if random.chance(1.0 / 3.0) {
-        1
-    } else if random.chance(0.5) {
-        2
-    } else {
-        3
-    };
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to 3")]
+    let n = 1 + (random.unit() * 3.0) as usize;
     let mut parts = MachineParts::new(names[..n].iter().copied()).with_frequency(random.within(0.5, 2.0));
     for i in 0..n {
         parts = parts.with_mass(i, random.within(0.3, 2.0));
