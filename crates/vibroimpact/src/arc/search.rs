@@ -81,7 +81,7 @@ fn together(flight: &MachineFlight, s: f64, guards: &mut Guards, buffers: &mut B
     // by how much time the zero of a guard is uncertain
     let uncertain = |g: usize| {
         let (value, rate, error) = flight.guard(g, &buffers.modes);
-        let rounding = error + f64::EPSILON * if flight.guards[g].known > 0 { 0.0 } else { flight.guards[g].size };
+        let rounding = error + f64::EPSILON * if flight.guards[g].known > 0 { 0.0 } else { flight.guards[g].motion };
         (value, rate, rounding / rate.abs())
     };
     // that of a guard that grazes is no measure for others
