@@ -85,8 +85,8 @@ fn together(flight: &MachineFlight, s: f64, guards: &mut Guards, buffers: &mut B
         (value, rate, rounding / rate.abs())
     };
     // that of a guard that grazes is no measure for others
-    let most = 1e3 * f64::EPSILON * (s + 1.0 / flight.structure.fastest().max(1e-300));
-    let of_first = guards.iter().map(|g| uncertain(*g).2).fold(f64::EPSILON * s, f64::max).min(most);
+    let most = 1e3 * f64::EPSILON * (s.max(buffers.longest) + 1.0 / flight.structure.fastest().max(1e-300));
+    let of_first = guards.iter().map(|g| uncertain(*g).2).fold(f64::EPSILON * s.max(buffers.longest), f64::max).min(most);
     let also = |g: &usize| {
         let (value, rate, own) = uncertain(*g);
         rate < 0.0 && value <= TOGETHER * (own.min(most) + of_first) * -rate

@@ -509,6 +509,7 @@ impl<'a> MachineMotion<'a> {
         let until = recovered.min(self.limits.time);
         self.touches.clear();
         let steps = self.limits.steps.min(PATIENCE);
+        self.buffers.longest = self.instants.longest();
         let mut found = first_event(&flight, until, steps, &mut self.buffers, &mut self.touches);
         let mut never = false;
         if let Found::NoneBefore(s) = found {
