@@ -21,6 +21,7 @@ use super::found::{Buffers, Found, Guards, Touch};
 use super::guard_polynomial::{GuardPolynomial, HIGHEST, ORDER, first_of};
 use super::polynomial::{RESOLUTION, value};
 use super::zero::{certain, lowest, refine, without_remainder};
+use crate::math::dot;
 use crate::regime::REACH;
 
 /// The first zero of a guard before the time `until`, in at most `steps` windows. `touches` receives what touches zero
@@ -81,12 +82,14 @@ fn together(flight: &MachineFlight, s: f64, guards: &mut Guards, buffers: &mut B
     // by how much time the zero of a guard is uncertain
     let uncertain = |g: usize| {
         let (value, rate, error) = flight.guard(g, &buffers.modes);
-        let rounding = error + f64::EPSILON * if flight.guards[g].known > 0 { 0.0 } else { flight.guards[g].motion };
+        let of = &flight.structure.guards[g].function.position;
+        let motion = flight.guards[g].motion.max(dot(of, of).sqrt() * buffers.size);
+        let rounding = error + f64::EPSILON * if flight.guards[g].known > 0 { 0.0 } else { motion };
         (value, rate, rounding / rate.abs())
     };
     // that of a guard that grazes is no measure for others
-    let most = 1e3 * f64::EPSILON * (s.max(buffers.longest) + 1.0 / flight.structure.fastest().max(1e-300));
-    let of_first = guards.iter().map(|g| uncertain(*g).2).fold(f64::EPSILON * s.max(buffers.longest), f64::max).min(most);
+    let most = 1e3 * f64::EPSILON * (s + 1.0 / flight.structure.fastest().max(1e-300));
+    let of_first = guards.iter().map(|g| uncertain(*g).2).fold(f64::EPSILON * s, f64::max).min(most);
     let also = |g: &usize| {
         let (value, rate, own) = uncertain(*g);
         rate < 0.0 && value <= TOGETHER * (own.min(most) + of_first) * -rate
