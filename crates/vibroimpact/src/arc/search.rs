@@ -84,7 +84,9 @@ fn together(flight: &MachineFlight, s: f64, guards: &mut Guards, buffers: &mut B
         let (value, rate, error) = flight.guard(g, &buffers.modes);
         let of = &flight.structure.guards[g].function.position;
         let motion = flight.guards[g].motion.max(dot(of, of).sqrt() * buffers.size);
-        let rounding = error + f64::EPSILON * if flight.guards[g].known > 0 { 0.0 } else { motion };
+        // one that is zero exactly at the beginning has these errors when the others have had time to move it
+        let share = if flight.guards[g].known > 0 { (s * flight.structure.fastest()).min(1.0) } else { 1.0 };
+        let rounding = error + f64::EPSILON * share * motion;
         (value, rate, rounding / rate.abs())
     };
     // that of a guard that grazes is no measure for others
