@@ -174,7 +174,8 @@ impl Instants {
             Some(Change { kind, place, speed: *speed, after: *after })
         };
         let latest: VecDeque<Change> = changes.iter().map(change).collect::<Option<_>>()?;
-        let whole = rest.is_empty() && latest.len() <= KEPT && *size > 0.0 && *longest >= 0.0 && (0.0..1e15).contains(count);
+        let whole =
+            rest.is_empty() && latest.len() <= KEPT && *size > 0.0 && *longest >= 0.0 && (0.0..1e15).contains(count);
         whole.then_some(Self {
             longest: *longest,
             size: *size,
