@@ -1,6 +1,7 @@
 //! Events and verdicts do not depend on how a machine is written.
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
+use vibroimpact::orbit::Stability;
 use vibroimpact::verdict::{SettleOptions, settle_machine};
 use vibroimpact_cases::{Budget, Case, FAMILIES, Rewriting, Standard, changed};
 
@@ -63,11 +64,15 @@ fn verdicts_do_not_depend_on_names_order_units_and_signs() {
     for family in FAMILIES {
         for seed in 0..if long() { 60 } else { 1 } {
             let case = family.case(seed);
-            let standard = settle_machine(&case.machine, &case.start, &options).unwrap().verdict.label();
+            let settled = settle_machine(&case.machine, &case.start, &options).unwrap().verdict;
+            // a neutral motion does not settle: rounding errors decide whether it closes within the budget
+            let neutral = settled.stability(&case.machine) == Some(Stability::Neutral);
+            let standard = settled.label();
             for change in Rewriting::ALL {
                 let again = changed(&case, change);
                 let verdict = settle_machine(&again.machine, &again.start, &options).unwrap().verdict.label();
-                if label(&verdict, change == Rewriting::Twice) != standard {
+                let undecided = neutral && verdict == "undecided";
+                if label(&verdict, change == Rewriting::Twice) != standard && !undecided {
                     wrong.push(format!("{} {seed} {change:?}: {verdict} instead of {standard}", family.name));
                 }
             }

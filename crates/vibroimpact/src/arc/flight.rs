@@ -49,6 +49,8 @@ pub(super) struct GuardStart {
     pub(super) value: f64,
     /// Size of the terms of this value, for its rounding error.
     pub(super) size: f64,
+    /// The same of the whole motion: by how much its value may differ between equal structures that move alike.
+    pub(super) motion: f64,
     /// The value less the terms of velocities and harmonics: what is added to them at any time.
     pub(super) constant: f64,
     /// How many of its derivatives, from the value on, are zero there because the flight begins on it.
@@ -179,6 +181,7 @@ impl MachineFlight {
                 size += a.abs() + b.abs();
                 self.harmonics.push((a, b));
             }
+            let motion = size;
             if let GuardKind::Gap(j) = guard.kind {
                 // coordinates can have more digits of a small gap than modes, which share those of the whole motion
                 let start = gap(j);
@@ -200,7 +203,7 @@ impl MachineFlight {
                 sum = if is_force { preload + stiffness * depth - damping * rate() } else { depth };
             }
             let value = if known > 0 { 0.0 } else { sum };
-            self.guards.push(GuardStart { value, size, constant: value - moving, known, recovery });
+            self.guards.push(GuardStart { value, size, motion, constant: value - moving, known, recovery });
         }
         let drive = &mut self.drive;
         let gaps = self.gaps.iter().map(|closed| closed.gap - closed.swing);

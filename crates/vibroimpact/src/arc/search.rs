@@ -21,6 +21,7 @@ use super::found::{Buffers, Found, Guards, Touch};
 use super::guard_polynomial::{GuardPolynomial, HIGHEST, ORDER, first_of};
 use super::polynomial::{RESOLUTION, value};
 use super::zero::{certain, lowest, refine, without_remainder};
+use crate::math::dot;
 use crate::regime::REACH;
 
 /// The first zero of a guard before the time `until`, in at most `steps` windows. `touches` receives what touches zero
@@ -78,10 +79,15 @@ fn together(flight: &MachineFlight, s: f64, guards: &mut Guards, buffers: &mut B
     if !core::mem::replace(&mut buffers.fresh, true) {
         flight.at(s, &mut buffers.modes);
     }
+    let later = (s * flight.structure.fastest()).min(1.0);
     // by how much time the zero of a guard is uncertain
     let uncertain = |g: usize| {
         let (value, rate, error) = flight.guard(g, &buffers.modes);
-        let rounding = error + f64::EPSILON * if flight.guards[g].known > 0 { 0.0 } else { flight.guards[g].size };
+        let of = &flight.structure.guards[g].function.position;
+        let motion = flight.guards[g].motion.max(dot(of, of).sqrt() * buffers.size);
+        // one that is zero exactly at the beginning has these errors when the others have had time to move it
+        let share = if flight.guards[g].known > 0 { later } else { 1.0 };
+        let rounding = error + f64::EPSILON * share * motion;
         (value, rate, rounding / rate.abs())
     };
     // that of a guard that grazes is no measure for others
@@ -89,7 +95,7 @@ fn together(flight: &MachineFlight, s: f64, guards: &mut Guards, buffers: &mut B
     let of_first = guards.iter().map(|g| uncertain(*g).2).fold(f64::EPSILON * s, f64::max).min(most);
     let also = |g: &usize| {
         let (value, rate, own) = uncertain(*g);
-        rate < 0.0 && value <= TOGETHER * (own.min(most) + of_first) * -rate
+        rate < 0.0 && value <= TOGETHER * (own.min(most.max(later * own)) + of_first) * -rate
     };
     let others: Vec<usize> = (0..flight.guards.len()).filter(|g| !guards.contains(g)).filter(also).collect();
     if !others.is_empty() {

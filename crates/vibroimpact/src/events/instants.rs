@@ -10,6 +10,7 @@
 //! stops are struck again and again, ever more slowly.
 
 use super::event::MachineEventKind;
+use crate::math::dot;
 use std::collections::VecDeque;
 
 /// Flights below this part of the longest one are short.
@@ -90,6 +91,8 @@ pub(super) struct Round {
 pub(super) struct Instants {
     /// The longest flight of late.
     longest: f64,
+    /// The largest size of the coordinates of late.
+    size: f64,
     short: bool,
     /// How many changes have been kept since the last long flight.
     count: usize,
@@ -108,7 +111,9 @@ impl Instants {
 
     /// Notes that a flight has ended.
     #[inline]
-    pub(super) fn land(&mut self) {
+    pub(super) fn land(&mut self, x: &[f64], v: &[f64]) {
+        let way = (self.passed * self.passed * dot(v, v)).max(dot(x, x));
+        self.size = (FORGOTTEN * self.size).max(way.sqrt());
         self.longest *= FORGOTTEN;
         self.short = self.passed < SHORT * self.longest;
         if !self.short {
@@ -130,6 +135,11 @@ impl Instants {
         self.longest
     }
 
+    /// The largest size of the coordinates of late.
+    pub(super) const fn size(&self) -> f64 {
+        self.size
+    }
+
     /// Keeps a change after a short flight.
     #[inline]
     pub(super) fn keep(&mut self, kind: MachineEventKind, place: usize, speed: f64) {
@@ -141,21 +151,22 @@ impl Instants {
         }
     }
 
-    /// All of it as numbers: the longest flight, the number of changes, and each change. None if there was no flight.
+    /// All of it as numbers: the size of coordinates, the longest flight, the number of changes, and each change. None if there was
+    /// no flight.
     #[allow(clippy::cast_precision_loss)] // counts of changes
     pub(super) fn numbers(&self) -> Vec<f64> {
-        if self.longest == 0.0 {
+        if self.size == 0.0 {
             return Vec::new();
         }
         let kind = |kind| KINDS.iter().position(|known| *known == kind).unwrap_or(0) as f64;
         let change = |change: &Change| [kind(change.kind), change.place as f64, change.speed, change.after];
-        [self.longest, self.count as f64].into_iter().chain(self.latest.iter().flat_map(change)).collect()
+        [self.size, self.longest, self.count as f64].into_iter().chain(self.latest.iter().flat_map(change)).collect()
     }
 
     /// What has these numbers; `None` if they are none.
     #[allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, clippy::cast_sign_loss)] // checked
     pub(super) fn of_numbers(numbers: &[f64], places: usize) -> Option<Self> {
-        let ([longest, count], changes) = numbers.split_first_chunk()?;
+        let ([size, longest, count], changes) = numbers.split_first_chunk()?;
         let (changes, rest) = changes.as_chunks::<4>();
         let change = |[kind, place, speed, after]: &[f64; 4]| {
             let kind = (0..KINDS.len()).find(|k| *k as f64 == *kind).map(|k| KINDS[k])?;
@@ -163,9 +174,11 @@ impl Instants {
             Some(Change { kind, place, speed: *speed, after: *after })
         };
         let latest: VecDeque<Change> = changes.iter().map(change).collect::<Option<_>>()?;
-        let whole = rest.is_empty() && latest.len() <= KEPT && *longest > 0.0 && (0.0..1e15).contains(count);
+        let whole =
+            rest.is_empty() && latest.len() <= KEPT && *size > 0.0 && *longest >= 0.0 && (0.0..1e15).contains(count);
         whole.then_some(Self {
             longest: *longest,
+            size: *size,
             short: !latest.is_empty(),
             count: *count as usize,
             passed: 0.0,
@@ -175,7 +188,7 @@ impl Instants {
 
     /// Forgets all flights and changes, because the structure has come to rest.
     pub(super) fn clear(&mut self) {
-        *self = Self::default();
+        *self = Self { size: self.size, ..Self::default() };
     }
 
     /// The shortest round that repeats itself at the end.

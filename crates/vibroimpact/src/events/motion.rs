@@ -509,6 +509,7 @@ impl<'a> MachineMotion<'a> {
         let until = recovered.min(self.limits.time);
         self.touches.clear();
         let steps = self.limits.steps.min(PATIENCE);
+        self.buffers.size = self.instants.size();
         let mut found = first_event(&flight, until, steps, &mut self.buffers, &mut self.touches);
         let mut never = false;
         if let Found::NoneBefore(s) = found {
@@ -563,7 +564,7 @@ impl<'a> MachineMotion<'a> {
                 self.move_to(&flight, *s);
                 self.crowd += 1;
                 self.instants.pass(*s);
-                self.instants.land();
+                self.instants.land(&self.place.x, &self.place.v);
                 if self.crowd > CROWD {
                     return self.end = Some(MachineEnd::Collapse);
                 }

@@ -13,7 +13,7 @@
 use super::place::{Place, Structures};
 use crate::arc::{FIRST_ORDERS, MachineFlight, ORDERS};
 use crate::machine::Machine;
-use crate::regime::{ContactState, GuardKind, Normal, Observable, compliant, independent};
+use crate::regime::{ContactState, GuardKind, Normal, Observable, compliant, idles, independent};
 
 /// Rounding errors of reactions, accelerations and their rates, relative to their terms.
 const SMALL: f64 = 1e-11;
@@ -99,7 +99,8 @@ impl Resolution<'_> {
     fn states(&self, of: &[ContactState]) -> Vec<ContactState> {
         let mut states = self.place.states.clone();
         self.candidates.iter().zip(of).for_each(|(at, state)| states[*at] = *state);
-        let closed: Vec<usize> = (0..states.len()).filter(|at| states[*at].constrains()).collect();
+        let mut closed: Vec<usize> = (0..states.len()).filter(|at| states[*at].constrains()).collect();
+        closed.sort_by_key(|at| idles(self.machine, *at));
         let bearing = independent(closed.iter().map(|at| self.normal.directions[*at].as_slice()));
         for (k, at) in closed.iter().enumerate() {
             if states[*at] == ContactState::Resting && !bearing.contains(&k) {

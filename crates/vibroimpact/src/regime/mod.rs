@@ -46,6 +46,6 @@ pub(crate) use normal::{Normal, compliant};
 pub(crate) use rest_force::RestBuffers;
 pub(crate) use sampled::{POWERS, REST, SAMPLES, Sampled, Span};
 pub(crate) use signal::{Observable, Signal, turned};
-pub(crate) use structure::{GuardKind, Structure};
+pub(crate) use structure::{GuardKind, Structure, idles};
 pub(crate) use translations::Translations;
 pub(crate) use window::{ALL, REACH, Window, add_harmonic, derivative_bounds};

@@ -168,7 +168,7 @@ impl Structure {
         // constraints w.x = wall(t), or the set point and the way of the belt: x = x_c(t) + N eta
         // those that bear a load come first, and contacts without force only where they are free
         let mut constraints: Vec<usize> = (0..states.len()).filter(|place| states[*place].constrains()).collect();
-        constraints.sort_by_key(|place| states[*place] == ContactState::Touching);
+        constraints.sort_by_key(|place| (states[*place] == ContactState::Touching, idles(machine, *place)));
         let bearing = independent(constraints.iter().map(|place| normal.directions[*place].as_slice()));
         let held: Vec<usize> = bearing.iter().map(|at| constraints[*at]).collect();
         let directions: Vec<Vec<f64>> = held.iter().map(|place| normal.directions[*place].clone()).collect();
@@ -704,4 +704,10 @@ struct Contact<'a> {
     /// Its force on the direction at x = 0.
     pushed: Signal,
     direction: &'a [f64],
+}
+
+/// Whether a constraint can be without load: not a preloaded stop. Of constraints that depend on each other those that cannot
+/// come first.
+pub(crate) fn idles(machine: &Machine, place: usize) -> bool {
+    machine.stops().get(place).is_none_or(|stop| compliant(&stop.law).is_none())
 }

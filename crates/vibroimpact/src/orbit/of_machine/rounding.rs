@@ -6,8 +6,9 @@
 //! $`E_+ = AEA' + D`$, where $`D`$ is that of new errors. Where the errors become as large as the differences between motions that
 //! end otherwise, numbers of these digits do not know how many periods pass until the next rest.
 //!
-//! The linear law does not see a contact that is nearly missed or nearly made. If the errors grow noticeably, neighbours at the
-//! distance of a few roundings are followed too: all must come back.
+//! The linear law does not see a contact that is nearly missed or nearly made, nor that a chatter forgets errors at its end. If the
+//! errors grow noticeably, neighbours at the distance of a few roundings are followed from the release on: all must come
+//! back.
 
 use super::frame::MachineFrame;
 use super::lap::MachineLap;
@@ -16,13 +17,10 @@ use crate::math::Matrix;
 
 /// New errors of each step, relative to the sizes of coordinates and velocities.
 const NEW: f64 = 2.0 * f64::EPSILON;
-/// The largest error for which a motion is known. In a chatter, whose last rebounds have speeds of about 1e-7, errors
-/// grow to 1e-9 without effect.
-const KNOWN: f64 = 1e-6;
 /// Errors above this are noticeable: neighbours are followed.
 const NOTICEABLE: f64 = 1e-9;
 /// The distance of these neighbours, their number, and how near they must come back.
-const BESIDE: f64 = 64.0 * f64::EPSILON;
+const BESIDE: f64 = 8.0 * f64::EPSILON;
 const NEIGHBOURS: usize = 4;
 const BACK: f64 = 1e-6;
 
@@ -37,10 +35,7 @@ pub(crate) fn rounding_decides(frame: &MachineFrame<'_>, lap: &MachineLap) -> bo
     let Some(first) = (0..count).find(|k| held(&lap.steps[*k]) == most) else { return false };
     // the largest error after any step, if it is that of new errors at the rest
     let Some(error) = largest_error(frame, lap, (0..count).map(|k| (first + k) % count)) else { return false };
-    if error <= NOTICEABLE {
-        return false;
-    }
-    error.is_nan() || error > KNOWN || neighbours_part(frame, lap).unwrap_or(true)
+    error.is_nan() || error > NOTICEABLE && neighbours_part(frame, lap, (first, most)).unwrap_or(true)
 }
 
 /// The largest error, relative to the sizes of coordinates and velocities, on the way through these steps of a lap. `None` where a
@@ -74,13 +69,13 @@ fn largest_error(frame: &MachineFrame<'_>, lap: &MachineLap, steps: impl Iterato
     Some(largest)
 }
 
-/// Whether neighbours of the motion at the distance of a few roundings, in the middle of the longest flight with the fewest
-/// constraints, do not come back to where it comes back.
-fn neighbours_part(frame: &MachineFrame<'_>, lap: &MachineLap) -> Option<bool> {
+/// Whether neighbours of the motion at the distance of a few roundings, in the middle of the first flight after its rest with the
+/// most constraints, which begins with a step, do not come back to where it comes back.
+fn neighbours_part(frame: &MachineFrame<'_>, lap: &MachineLap, (rest, most): (usize, usize)) -> Option<bool> {
     let held = |from: &Place| from.states.iter().filter(|state| state.constrains()).count();
-    let least = lap.steps.iter().map(|(_, from, _)| held(from)).min()?;
-    let flights = lap.steps.iter().filter(|(_, from, _)| held(from) == least);
-    let (_, from, passage) = flights.max_by(|a, b| a.2.duration.total_cmp(&b.2.duration))?;
+    let count = lap.steps.len();
+    let mut after = (0..count).map(|k| &lap.steps[(rest + k) % count]);
+    let (_, from, passage) = after.find(|(_, from, passage)| held(from) < most && passage.duration > 0.0)?;
     let middle = frame.moved(from, &passage.structure, 0.5 * passage.duration.min(lap.time));
     let end = MachineLap::fly(frame, &middle, lap.time)?.end;
     let (size, speed) = lap.sizes;
