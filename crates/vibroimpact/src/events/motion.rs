@@ -594,7 +594,9 @@ impl<'a> MachineMotion<'a> {
         let (_, rate) = self.place.gap_and_rate(&self.normal, &turns, j);
         let now: f64 = w.iter().zip(&self.place.v).map(|(w, v)| (w * v).abs()).sum();
         match rate.abs() <= FAINT * now.max(self.instants.speed(w)) {
-            true if compliant(&self.machine.stops()[j].law).is_none() => Approach::Touches(rate),
+            true if compliant(&self.machine.stops()[j].law).is_none_or(|(_, _, preload)| preload > 0.0) => {
+                Approach::Touches(rate)
+            }
             false if rate > 0.0 => Approach::Leaves,
             _ => Approach::Strikes,
         }
