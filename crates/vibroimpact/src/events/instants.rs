@@ -93,6 +93,8 @@ pub(super) struct Instants {
     longest: f64,
     /// The largest size of the coordinates of late.
     size: f64,
+    /// The largest velocity of each coordinate of late.
+    speeds: Vec<f64>,
     short: bool,
     /// How many changes have been kept since the last long flight.
     count: usize,
@@ -114,6 +116,10 @@ impl Instants {
     pub(super) fn land(&mut self, x: &[f64], v: &[f64]) {
         let way = (self.passed * self.passed * dot(v, v)).max(dot(x, x));
         self.size = (FORGOTTEN * self.size).max(way.sqrt());
+        self.speeds.resize(v.len(), 0.0);
+        for (speed, v) in self.speeds.iter_mut().zip(v) {
+            *speed = (FORGOTTEN * *speed).max(v.abs());
+        }
         self.longest *= FORGOTTEN;
         self.short = self.passed < SHORT * self.longest;
         if !self.short {
@@ -140,6 +146,11 @@ impl Instants {
         self.size
     }
 
+    /// The largest velocity along a direction of late.
+    pub(super) fn speed(&self, along: &[f64]) -> f64 {
+        self.speeds.iter().zip(along).map(|(speed, w)| speed * w.abs()).sum()
+    }
+
     /// Keeps a change after a short flight.
     #[inline]
     pub(super) fn keep(&mut self, kind: MachineEventKind, place: usize, speed: f64) {
@@ -151,8 +162,8 @@ impl Instants {
         }
     }
 
-    /// All of it as numbers: the size of coordinates, the longest flight, the number of changes, and each change. None if there was
-    /// no flight.
+    /// All of it as numbers: the size of coordinates, the longest flight, the number of changes, the velocities, and each change.
+    /// None if there was no flight.
     #[allow(clippy::cast_precision_loss)] // counts of changes
     pub(super) fn numbers(&self) -> Vec<f64> {
         if self.size == 0.0 {
@@ -160,13 +171,15 @@ impl Instants {
         }
         let kind = |kind| KINDS.iter().position(|known| *known == kind).unwrap_or(0) as f64;
         let change = |change: &Change| [kind(change.kind), change.place as f64, change.speed, change.after];
-        [self.size, self.longest, self.count as f64].into_iter().chain(self.latest.iter().flat_map(change)).collect()
+        let head = [self.size, self.longest, self.count as f64];
+        head.into_iter().chain(self.speeds.iter().copied()).chain(self.latest.iter().flat_map(change)).collect()
     }
 
     /// What has these numbers; `None` if they are none.
     #[allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, clippy::cast_sign_loss)] // checked
-    pub(super) fn of_numbers(numbers: &[f64], places: usize) -> Option<Self> {
-        let ([size, longest, count], changes) = numbers.split_first_chunk()?;
+    pub(super) fn of_numbers(numbers: &[f64], (coordinates, places): (usize, usize)) -> Option<Self> {
+        let ([size, longest, count], rest) = numbers.split_first_chunk()?;
+        let (speeds, changes) = rest.split_at_checked(coordinates)?;
         let (changes, rest) = changes.as_chunks::<4>();
         let change = |[kind, place, speed, after]: &[f64; 4]| {
             let kind = (0..KINDS.len()).find(|k| *k as f64 == *kind).map(|k| KINDS[k])?;
@@ -179,6 +192,7 @@ impl Instants {
         whole.then_some(Self {
             longest: *longest,
             size: *size,
+            speeds: speeds.to_vec(),
             short: !latest.is_empty(),
             count: *count as usize,
             passed: 0.0,
@@ -188,7 +202,8 @@ impl Instants {
 
     /// Forgets all flights and changes, because the structure has come to rest.
     pub(super) fn clear(&mut self) {
-        *self = Self { size: self.size, ..Self::default() };
+        let speeds = core::mem::take(&mut self.speeds);
+        *self = Self { size: self.size, speeds, ..Self::default() };
     }
 
     /// The shortest round that repeats itself at the end.

@@ -74,8 +74,8 @@ enum Approach {
 
 /// A gap or a rate below this part of its terms is zero within rounding.
 const ROUNDED: f64 = 64.0 * f64::EPSILON;
-/// An impact is none if its speed is below this part of the velocities.
-const FAINT: f64 = 32.0 * f64::EPSILON;
+/// An impact is none if its speed is below this part of the velocities of late.
+const FAINT: f64 = 64.0 * f64::EPSILON;
 /// More events than this at one time are a collapse.
 const CROWD: u32 = 10_000;
 /// The number of windows of a flight after which it is asked whether there is an event at all.
@@ -592,9 +592,11 @@ impl<'a> MachineMotion<'a> {
         let w = &self.normal.directions[j];
         let turns = if self.normal.walls[j].moves() { self.place.turns(&self.normal) } else { Vec::new() };
         let (_, rate) = self.place.gap_and_rate(&self.normal, &turns, j);
-        let size = FAINT * FAINT * dot(w, w) * dot(&self.place.v, &self.place.v);
-        match rate * rate <= size {
-            true if compliant(&self.machine.stops()[j].law).is_none() => Approach::Touches(rate),
+        let now: f64 = w.iter().zip(&self.place.v).map(|(w, v)| (w * v).abs()).sum();
+        match rate.abs() <= FAINT * now.max(self.instants.speed(w)) {
+            true if compliant(&self.machine.stops()[j].law).is_none_or(|(_, _, preload)| preload > 0.0) => {
+                Approach::Touches(rate)
+            }
             false if rate > 0.0 => Approach::Leaves,
             _ => Approach::Strikes,
         }

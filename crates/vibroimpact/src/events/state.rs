@@ -187,7 +187,7 @@ impl Place {
                 ("x", x) if x.len() == normal.n => place.x.copy_from_slice(x),
                 ("v", v) if v.len() == normal.n => place.v.copy_from_slice(v),
                 ("largest_impact", [speed]) => history.largest = *speed,
-                ("instants", numbers) => match Instants::of_numbers(numbers, place.states.len()) {
+                ("instants", numbers) => match Instants::of_numbers(numbers, (normal.n, place.states.len())) {
                     Some(instants) => history.instants = instants,
                     None => return wrong("this is no list of impacts"),
                 },
