@@ -14,6 +14,7 @@
 //! | a case as a machine file | [`Case::toml`], `toml` |
 //! | gaps, forces and energies from the numbers of a machine alone | `quantities` |
 //! | what must hold of every motion | [`faults`], [`Rule`] |
+//! | what is known to be wrong | [`OPEN`] |
 //!
 //! ```
 //! use vibroimpact_cases::{FAMILIES, DrawnFamily};
@@ -28,6 +29,7 @@ mod changes;
 mod draw;
 mod families;
 mod invariance;
+mod open;
 mod quantities;
 mod rules;
 mod toml;
@@ -37,4 +39,5 @@ pub use changes::{Changed, Rewriting, changed};
 pub use draw::Draw;
 pub use families::{DrawnFamily, FAMILIES};
 pub use invariance::Standard;
+pub use open::{OPEN, is_open};
 pub use rules::{BrokenRule, Budget, Rule, faults};

@@ -1,15 +1,11 @@
 //! The rules that every motion keeps, on machines of all families.
 
-use vibroimpact_cases::{Budget, FAMILIES, Rule, faults};
-
-/// What is known to be wrong: family, rule, and a seed that shows it. A fault that is mended is removed here.
-const OPEN: &[(&str, Rule, u64)] = &[];
+use vibroimpact_cases::{Budget, FAMILIES, OPEN, faults, is_open};
 
 /// Everyday 5 machines of each family; with `VIBROIMPACT_LONG=1` 60, more than a thousand together.
 #[test]
 fn motions_keep_all_rules() {
     let count = if std::env::var("VIBROIMPACT_LONG").is_ok() { 60 } else { 5 };
-    let is_open = |family: &str, rule: Rule| OPEN.iter().any(|(name, known, _)| *name == family && *known == rule);
     let mut wrong = Vec::new();
     for family in FAMILIES {
         for seed in 0..count {

@@ -140,6 +140,9 @@ def test_the_command_says_the_same(vibro: Callable[..., subprocess.CompletedProc
     told = json.loads(vibro("simulate", "--machine", "two-mass-hammer", "--set", "b=0.3", "--q", "0.1,0", "--phase", "1",
                             "--periods", "4", "--json").stdout)
     ours = motion.to_dict()
+    # the command tells the state after each event too; here `state` gives it
+    told["events"] = [{name: value for name, value in event.items() if name not in ("contacts", "exact")}
+                      for event in told["events"]]
     assert told["events"] == ours["events"] and told["end"] == ours["end"]
     # the plans of both run again
     for plan in (motion.plan, json.dumps(told["plan"])):

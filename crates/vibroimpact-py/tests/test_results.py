@@ -78,7 +78,7 @@ def test_other_values_are_other_results() -> None:
 
 def test_results_that_have_no_figure_show_their_text() -> None:
     silent = vi.settle(vi.Oscillator(beta=0.5, gap=9, restitution=0.5))
-    assert silent._repr_html_() == "<pre>&lt;Motion 0&gt;</pre>"
+    assert silent._repr_html_() == "<pre>&lt;Motion 0, neutral&gt;</pre>"
 
 
 def test_the_accessor_is_there_whoever_is_imported_first() -> None:

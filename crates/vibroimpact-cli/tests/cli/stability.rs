@@ -237,15 +237,21 @@ fn rests_of_maps_name_their_stops() {
 #[test]
 fn chaos_says_how_far_it_was_seen() {
     let (folder, path) = file(LONG);
-    let line = format!("--machine {}", path.display());
-    let short = json(&format!("settle {line} --impacts 6000"));
+    // how long chaos lasts from a start depends on rounding errors: one from which it lasts long
+    let starts = (0..40).map(|k| -0.1479 + 1e-3 * f64::from(k));
+    let lines = starts.map(|q| format!("--machine {} --q={q},-0.0759,0.2969", path.display()));
+    let long = |line: &String| {
+        let whole = json(&format!("settle {line}"));
+        (whole["motion"]["label"] == "9/4" && whole["events_followed"].as_u64() > Some(5000)).then_some(whole)
+    };
+    let (line, whole) = lines.into_iter().find_map(|line| long(&line).map(|whole| (line, whole))).unwrap();
+    assert!(whole["chaotic_transient"].is_array());
+    let short = json(&format!("settle {line} --impacts 2000"));
     assert_eq!(short["motion"]["label"], "chaotic");
     let seen = short["motion"]["seen_events"].as_u64().unwrap();
-    assert!(seen >= 6000 && short["events_followed"] == seen);
-    assert!(printed(&format!("settle {line} --impacts 6000")).contains(&format!("chaotic, seen over {seen} events")));
-    let whole = json(&format!("settle {line}"));
-    assert_eq!(whole["motion"]["label"], "9/4");
-    assert!(whole["chaotic_transient"].is_array());
+    assert!(seen >= 2000 && short["events_followed"] == seen);
+    assert!(printed(&format!("settle {line} --impacts 2000")).contains(&format!("chaotic, seen over {seen} events")));
+    let line = format!("--machine {}", path.display());
     let map = format!("map {line} --axis stop.s0.gap=0.5865:0.587:2 --starts 1 --impacts 6000");
     let answer = json(&map);
     if answer["labels"].get("chaotic").is_some() {

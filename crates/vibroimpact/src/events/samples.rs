@@ -40,7 +40,7 @@ impl<'a> MachineSamples<'a> {
     /// The motion from a start until a time, at steps of a positive length.
     ///
     /// # Errors
-    /// As [`MachineMotion::new`].
+    /// As [`MachineMotion::new`](super::MachineMotion::new).
     pub fn new(
         machine: &'a Machine,
         start: &MachineStart,
