@@ -11,7 +11,11 @@ pub const OPEN: &[(&str, Rule, u64)] = &[
     // rows of bodies that touch without a load, some of which come to rest on each other
     ("chains", Rule::End, 66),
     ("chains", Rule::Faint, 60),
+    ("chains", Rule::Symmetry, 153),
+    ("chains", Rule::Gap, 168),
+    ("chains", Rule::Jump, 168),
     ("cradles", Rule::End, 63),
+    ("cradles", Rule::Jump, 164),
     ("columns", Rule::Gap, 122),
     ("columns", Rule::Jump, 122),
     ("twins", Rule::Force, 100),

@@ -71,9 +71,6 @@ fn by_windows(
 /// nothing there.
 const FLAT: f64 = 8.0;
 
-/// A touch within this angle of the fastest mode is at the beginning of a window.
-const AT_ONCE: f64 = 1e-6;
-
 /// How many rounding errors of their values and of the time may lie between zeros of guards at one time.
 const TOGETHER: f64 = 32.0;
 
@@ -233,10 +230,10 @@ fn search(
             }
             let others = buffers.polynomials.iter().enumerate().filter(|(other, _)| !touched[*other]);
             let first = others.filter_map(|(_, of)| of.from).filter(|from| *from > near).fold(1.0, f64::min);
-            // at the beginning what is known of the others stays known
+            // where it is zero already the window begins again: at the beginning what is known of the others stays known
             let onward = if again {
                 touch + after
-            } else if touch * window * fastest < AT_ONCE {
+            } else if p[0] <= 4.0 * error {
                 0.0
             } else {
                 touch
