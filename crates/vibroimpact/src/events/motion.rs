@@ -76,6 +76,8 @@ enum Approach {
 const ROUNDED: f64 = 64.0 * f64::EPSILON;
 /// An impact is none if its speed is below this part of the velocities of late.
 const FAINT: f64 = 64.0 * f64::EPSILON;
+/// More events than this at one time are those of contacts that take no time.
+const SEVERAL: u32 = 2;
 /// More events than this at one time are a collapse.
 const CROWD: u32 = 10_000;
 /// The number of windows of a flight after which it is asked whether there is an event at all.
@@ -593,10 +595,13 @@ impl<'a> MachineMotion<'a> {
         let turns = if self.normal.walls[j].moves() { self.place.turns(&self.normal) } else { Vec::new() };
         let (_, rate) = self.place.gap_and_rate(&self.normal, &turns, j);
         let now: f64 = w.iter().zip(&self.place.v).map(|(w, v)| (w * v).abs()).sum();
+        // a preloaded stop is touched only where its contacts take no time
+        let touched = match compliant(&self.machine.stops()[j].law) {
+            None => true,
+            Some((_, _, preload)) => preload > 0.0 && self.crowd > SEVERAL,
+        };
         match rate.abs() <= FAINT * now.max(self.instants.speed(w)) {
-            true if compliant(&self.machine.stops()[j].law).is_none_or(|(_, _, preload)| preload > 0.0) => {
-                Approach::Touches(rate)
-            }
+            true if touched => Approach::Touches(rate),
             false if rate > 0.0 => Approach::Leaves,
             _ => Approach::Strikes,
         }
