@@ -150,7 +150,7 @@ export async function f10_positions_on_a_line_are_positions({ open, folder }) {
 export async function names_of_cycles_do_not_depend_on_the_order_of_tiles({ open }) {
   const { page } = await open(S);
   const looks = await page.evaluate(async () => {
-    const { Cycles } = await import(new URL("cycles.js", document.baseURI).href);
+    const { Cycles } = await import(new URL("/assets/cycles.js", document.baseURI).href);
     const colour = "#336699";
     const found = [
       { label: "2/1", phase: 1.2, velocity: 2, colour }, { label: "2/1", phase: 0.7, velocity: 1.5, colour },

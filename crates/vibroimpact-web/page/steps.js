@@ -64,7 +64,7 @@ export const STEPS = [
   },
   {
     group: 1, name: "Period doubling", title: "Period doubling on the line 1/β = 1.11",
-    text: ["The gap grows from left to right. At δ = 1.829 the motion 1/1 becomes unstable in a flip, and 2/2 begins. It is stable up to its fold at δ = 1.90567. The unstable 2/2 that meets it there goes back to a grazing event at δ = 1.832, at which 1/2 begins, so between the two values 2/2 and 1/2 are both stable. 1/2 is stable up to its flip at δ = 2.881, and 2/4 from there to its grazing event at δ = 2.91617. Beyond that is chaos."],
+    text: ["The gap grows from left to right. At δ = 1.829 the motion 1/1 flips to 2/2, which is stable to a fold at 1.90567 and coexists with 1/2 from 1.832 on. 1/2 flips at 2.881, and 2/4 is stable to its grazing event at 2.91617. Beyond that is chaos."],
     state: { inverse_beta: 1.11, gap: 1.87, view: [0.8, 1.6, 1, 3.6], line: [1.11, 1.6, 1.11, 3.1], panel: "line", subject: "line" },
   },
   {
