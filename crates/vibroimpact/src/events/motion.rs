@@ -586,14 +586,14 @@ impl<'a> MachineMotion<'a> {
     }
 
     /// How a gap that is zero closes.
-    fn approach(&self, kind: GuardKind) -> Approach {
+    fn approach(&mut self, kind: GuardKind) -> Approach {
         let GuardKind::Gap(j) = kind else { return Approach::Strikes };
         if self.place.surfaces[j].is_some() {
             return Approach::Strikes;
         }
         let w = &self.normal.directions[j];
-        let turns = if self.normal.walls[j].moves() { self.place.turns(&self.normal) } else { Vec::new() };
-        let (_, rate) = self.place.gap_and_rate(&self.normal, &turns, j);
+        let turns = self.scratch.turns_at(&self.place, &self.normal);
+        let (_, rate) = self.place.gap_and_rate(&self.normal, turns, j);
         let now: f64 = w.iter().zip(&self.place.v).map(|(w, v)| (w * v).abs()).sum();
         // a preloaded stop is touched only where its contacts take no time
         let touched = match compliant(&self.machine.stops()[j].law) {
