@@ -610,9 +610,9 @@ impl<'a> MachineMotion<'a> {
     /// What follows when these guards of a structure of this rate are zero.
     fn happen(&mut self, kinds: &[GuardKind], fastest: f64) {
         if let [kind] = *kinds
-            && matches!(self.approach(kind), Approach::Strikes)
             && self.machine.joints().is_empty()
             && !self.place.states.iter().any(|state| state.constrains())
+            && matches!(self.approach(kind), Approach::Strikes)
             && self.happen_alone(kind, fastest)
         {
             return;

@@ -26,10 +26,14 @@ const BACK: f64 = 1e-6;
 
 type LapStep = (f64, Place, Passage);
 
+/// The number of constraints in a step.
+fn held((_, from, _): &LapStep) -> usize {
+    from.states.iter().filter(|state| state.constrains()).count()
+}
+
 /// Whether rounding errors decide how the motion over a lap, which returns to its beginning, goes on after its longest rest.
 /// `false` for a motion that rests nowhere: that it closes is evidence then.
 pub(crate) fn rounding_decides(frame: &MachineFrame<'_>, lap: &MachineLap) -> bool {
-    let held = |(_, from, _): &LapStep| from.states.iter().filter(|state| state.constrains()).count();
     let Some(most) = lap.steps.iter().map(held).max().filter(|most| *most > 0) else { return false };
     let count = lap.steps.len();
     let Some(first) = (0..count).find(|k| held(&lap.steps[*k]) == most) else { return false };
@@ -72,10 +76,9 @@ fn largest_error(frame: &MachineFrame<'_>, lap: &MachineLap, steps: impl Iterato
 /// Whether neighbours of the motion at the distance of a few roundings, in the middle of the first flight after its rest with the
 /// most constraints, which begins with a step, do not come back to where it comes back.
 fn neighbours_part(frame: &MachineFrame<'_>, lap: &MachineLap, (rest, most): (usize, usize)) -> Option<bool> {
-    let held = |from: &Place| from.states.iter().filter(|state| state.constrains()).count();
     let count = lap.steps.len();
     let mut after = (0..count).map(|k| &lap.steps[(rest + k) % count]);
-    let (_, from, passage) = after.find(|(_, from, passage)| held(from) < most && passage.duration > 0.0)?;
+    let (_, from, passage) = after.find(|step| held(step) < most && step.2.duration > 0.0)?;
     let middle = frame.moved(from, &passage.structure, 0.5 * passage.duration.min(lap.time));
     let end = MachineLap::fly(frame, &middle, lap.time)?.end;
     let (size, speed) = lap.sizes;
