@@ -49,8 +49,6 @@ pub(super) struct GuardStart {
     pub(super) value: f64,
     /// Size of the terms of this value, for its rounding error.
     pub(super) size: f64,
-    /// The same of the whole motion: by how much its value may differ between equal structures that move alike.
-    pub(super) motion: f64,
     /// The value less the terms of velocities and harmonics: what is added to them at any time.
     pub(super) constant: f64,
     /// How many of its derivatives, from the value on, are zero there because the flight begins on it.
@@ -163,29 +161,39 @@ impl MachineFlight {
         structure.modal(x, rate, value_of, &mut self.rest, (&mut self.origin, &mut self.v));
         let (y, v) = (&self.origin, &self.v);
         self.gaps.clear();
-        self.gaps.extend(structure.closed.iter().map(|closed| gap(closed.place)));
+        for closed in &structure.closed {
+            self.gaps.push(gap(closed.place));
+        }
         self.guards.clear();
         self.harmonics.clear();
         for guard in &structure.guards {
             let (known, recovery) = known(guard.kind);
             let function = &guard.function;
             let mut moving = function.signal.swing(turns);
-            let (mut sum, mut size) = (function.signal.steady(set) + moving, function.signal.constant.abs());
-            for ((a, y), (b, v)) in function.position.iter().zip(y).zip(function.velocity.iter().zip(v)) {
-                let (one, two) = (a * y, b * v);
-                sum += one + two;
-                moving += two;
-                size += one.abs() + two.abs();
-            }
-            for (a, b) in function.signal.turned(turns) {
-                size += a.abs() + b.abs();
-                self.harmonics.push((a, b));
-            }
-            let motion = size;
+            self.harmonics.extend(function.signal.turned(turns));
+            let (mut sum, mut size);
             if let GuardKind::Gap(j) = guard.kind {
-                // coordinates can have more digits of a small gap than modes, which share those of the whole motion
-                let start = gap(j);
-                (sum, size) = (start.gap, start.size);
+                // coordinates can have more digits of a small gap than modes, which share those of the whole motion; one that is
+                // zero has all of them
+                (sum, size) = (0.0, function.signal.constant.abs() + moving.abs());
+                if known == 0 {
+                    let start = gap(j);
+                    (sum, size) = (start.gap, start.size);
+                }
+                if !structure.plain {
+                    moving += dot(&function.velocity, v);
+                }
+            } else {
+                (sum, size) = (function.signal.steady(set) + moving, function.signal.constant.abs());
+                for ((a, y), (b, v)) in function.position.iter().zip(y).zip(function.velocity.iter().zip(v)) {
+                    let (one, two) = (a * y, b * v);
+                    sum += one + two;
+                    moving += two;
+                    size += one.abs() + two.abs();
+                }
+                for (a, b) in function.signal.turned(turns) {
+                    size += a.abs() + b.abs();
+                }
             }
             if let Some(surface) = recovery {
                 sum += surface.size - surface.offset;
@@ -203,7 +211,7 @@ impl MachineFlight {
                 sum = if is_force { preload + stiffness * depth - damping * rate() } else { depth };
             }
             let value = if known > 0 { 0.0 } else { sum };
-            self.guards.push(GuardStart { value, size, motion, constant: value - moving, known, recovery });
+            self.guards.push(GuardStart { value, size, constant: value - moving, known, recovery });
         }
         let drive = &mut self.drive;
         let gaps = self.gaps.iter().map(|closed| closed.gap - closed.swing);

@@ -3,10 +3,10 @@
 
 use super::chatter::is_far_from_an_end;
 use super::event::MachineEventKind;
-use super::motion::MachineMotion;
+use super::motion::{Approach, MachineMotion};
 use super::passage::Blow;
 use crate::machine::StopLaw;
-use crate::math::{add_scaled, dot};
+use crate::math::add_scaled;
 use crate::regime::{ContactState, GuardKind};
 
 impl MachineMotion<'_> {
@@ -16,9 +16,12 @@ impl MachineMotion<'_> {
         match kind {
             GuardKind::Gap(j) => {
                 let (gap, rate) = self.place.gap_and_rate(&self.normal, turns, j);
+                if !matches!(self.approach(j, rate), Approach::Strikes) {
+                    return false;
+                }
                 let speed = (-rate).max(0.0);
                 let w = &self.normal.directions[j];
-                let square = dot(w, w);
+                let square = self.normal.squares[j];
                 match self.machine.stops()[j].law {
                     StopLaw::Rigid { restitution } => {
                         if restitution * speed <= 0.0 {
@@ -41,7 +44,7 @@ impl MachineMotion<'_> {
                         self.struck.clear();
                         let open = self.place.states.iter().all(|state| *state == ContactState::Open);
                         let turns = self.scratch.turns_at(&self.place, &self.normal);
-                        if !(open && is_far_from_an_end(&self.place, &self.normal, (j, restitution), fastest, turns)) {
+                        if !(open && is_far_from_an_end(&self.place, &self.normal, (j, restitution, restitution * speed), fastest, turns)) {
                             let turns = turns.to_vec();
                             self.end_chatter(&[(j, speed)], &turns);
                         } else if self.instants.are_close() {

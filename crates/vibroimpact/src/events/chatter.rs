@@ -272,12 +272,11 @@ impl MachineMotion<'_> {
 pub(super) fn is_far_from_an_end(
     place: &Place,
     normal: &Normal,
-    (j, restitution): (usize, f64),
+    (j, restitution, rebound): (usize, f64, f64),
     fastest: f64,
     turns: &[(f64, f64)],
 ) -> bool {
     let approach = &normal.approaches[j];
-    let rebound = place.gap_and_rate(normal, turns, j).1;
     // the velocity of the gap taken away changes the acceleration by its drag
     let a = approach.at(&place.x, &place.v, turns) - approach.drag * rebound;
     let first = 2.0 * rebound / (a * (1.0 - restitution));

@@ -10,7 +10,7 @@
 //! stops are struck again and again, ever more slowly.
 
 use super::event::MachineEventKind;
-use crate::math::dot;
+use crate::math::fit;
 use std::collections::VecDeque;
 
 /// Flights below this part of the longest one are short.
@@ -91,9 +91,10 @@ pub(super) struct Round {
 pub(super) struct Instants {
     /// The longest flight of late.
     longest: f64,
-    /// The largest size of the coordinates of late.
-    size: f64,
-    /// The largest velocity of each coordinate of late.
+    /// The square of the largest size of the coordinates of late.
+    square: f64,
+    /// The square of the largest velocity of late, and the largest of each coordinate.
+    fastest: f64,
     speeds: Vec<f64>,
     short: bool,
     /// How many changes have been kept since the last long flight.
@@ -114,12 +115,16 @@ impl Instants {
     /// Notes that a flight has ended.
     #[inline]
     pub(super) fn land(&mut self, x: &[f64], v: &[f64]) {
-        let way = (self.passed * self.passed * dot(v, v)).max(dot(x, x));
-        self.size = (FORGOTTEN * self.size).max(way.sqrt());
-        self.speeds.resize(v.len(), 0.0);
-        for (speed, v) in self.speeds.iter_mut().zip(v) {
-            *speed = (FORGOTTEN * *speed).max(v.abs());
+        fit(&mut self.speeds, v.len());
+        let (mut of_x, mut of_v) = (0.0, 0.0);
+        let larger = |one: f64, other: f64| if one > other { one } else { other };
+        for ((speed, v), x) in self.speeds.iter_mut().zip(v).zip(x) {
+            *speed = larger(FORGOTTEN * *speed, v.abs());
+            (of_x, of_v) = (of_x + x * x, of_v + v * v);
         }
+        self.fastest = larger(FORGOTTEN * FORGOTTEN * self.fastest, of_v);
+        let way = self.passed * self.passed * of_v;
+        self.square = larger(FORGOTTEN * FORGOTTEN * self.square, larger(of_x, way));
         self.longest *= FORGOTTEN;
         self.short = self.passed < SHORT * self.longest;
         if !self.short {
@@ -141,14 +146,20 @@ impl Instants {
         self.longest
     }
 
-    /// The largest size of the coordinates of late.
-    pub(super) const fn size(&self) -> f64 {
-        self.size
+    /// The square of the largest size of the coordinates of late.
+    pub(super) const fn square(&self) -> f64 {
+        self.square
     }
 
-    /// The largest velocity along a direction of late.
-    pub(super) fn speed(&self, along: &[f64]) -> f64 {
-        self.speeds.iter().zip(along).map(|(speed, w)| speed * w.abs()).sum()
+    /// Whether a velocity along a direction, of which the square of the length is known, is below this part of the largest ones of late.
+    #[inline]
+    pub(super) fn is_faint(&self, velocity: f64, (along, square): (&[f64], f64), part: f64) -> bool {
+        let square = part * part * square * self.fastest;
+        #[allow(clippy::cast_precision_loss)] // coordinates
+        let count = along.len() as f64;
+        // the sum below is no larger than this bound, which nearly always decides
+        velocity * velocity <= count * square
+            && velocity.abs() <= part * self.speeds.iter().zip(along).map(|(speed, w)| speed * w.abs()).sum::<f64>()
     }
 
     /// Keeps a change after a short flight.
@@ -162,23 +173,23 @@ impl Instants {
         }
     }
 
-    /// All of it as numbers: the size of coordinates, the longest flight, the number of changes, the velocities, and each change.
+    /// All of it as numbers: the squares of the size of coordinates and of velocities, the longest flight, the number of changes, the velocities, and each change.
     /// None if there was no flight.
     #[allow(clippy::cast_precision_loss)] // counts of changes
     pub(super) fn numbers(&self) -> Vec<f64> {
-        if self.size == 0.0 {
+        if self.square == 0.0 {
             return Vec::new();
         }
         let kind = |kind| KINDS.iter().position(|known| *known == kind).unwrap_or(0) as f64;
         let change = |change: &Change| [kind(change.kind), change.place as f64, change.speed, change.after];
-        let head = [self.size, self.longest, self.count as f64];
+        let head = [self.square, self.fastest, self.longest, self.count as f64];
         head.into_iter().chain(self.speeds.iter().copied()).chain(self.latest.iter().flat_map(change)).collect()
     }
 
     /// What has these numbers; `None` if they are none.
     #[allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, clippy::cast_sign_loss)] // checked
     pub(super) fn of_numbers(numbers: &[f64], (coordinates, places): (usize, usize)) -> Option<Self> {
-        let ([size, longest, count], rest) = numbers.split_first_chunk()?;
+        let ([square, fastest, longest, count], rest) = numbers.split_first_chunk()?;
         let (speeds, changes) = rest.split_at_checked(coordinates)?;
         let (changes, rest) = changes.as_chunks::<4>();
         let change = |[kind, place, speed, after]: &[f64; 4]| {
@@ -188,10 +199,11 @@ impl Instants {
         };
         let latest: VecDeque<Change> = changes.iter().map(change).collect::<Option<_>>()?;
         let whole =
-            rest.is_empty() && latest.len() <= KEPT && *size > 0.0 && *longest >= 0.0 && (0.0..1e15).contains(count);
+            rest.is_empty() && latest.len() <= KEPT && *square > 0.0 && *fastest >= 0.0 && *longest >= 0.0 && (0.0..1e15).contains(count);
         whole.then_some(Self {
             longest: *longest,
-            size: *size,
+            square: *square,
+            fastest: *fastest,
             speeds: speeds.to_vec(),
             short: !latest.is_empty(),
             count: *count as usize,
@@ -203,12 +215,13 @@ impl Instants {
     /// Forgets all flights and changes, because the structure has come to rest.
     pub(super) fn clear(&mut self) {
         let speeds = core::mem::take(&mut self.speeds);
-        *self = Self { size: self.size, speeds, ..Self::default() };
+        *self = Self { square: self.square, fastest: self.fastest, speeds, ..Self::default() };
     }
 
     /// The shortest round that repeats itself at the end.
     pub(super) fn round(&self) -> Option<Round> {
-        (1..=LONGEST).find_map(|period| self.round_of(period))
+        // two rounds and the change before them are compared
+        (1..=LONGEST.min(self.latest.len().saturating_sub(1) / 2)).find_map(|period| self.round_of(period))
     }
 
     /// A round of so many changes.

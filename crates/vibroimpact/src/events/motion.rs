@@ -63,7 +63,7 @@ pub struct MachineMotion<'a> {
 }
 
 /// What a stop does whose gap is zero.
-enum Approach {
+pub(super) enum Approach {
     /// It is struck.
     Strikes,
     /// It is touched with a velocity that is a rounding error.
@@ -511,7 +511,7 @@ impl<'a> MachineMotion<'a> {
         let until = recovered.min(self.limits.time);
         self.touches.clear();
         let steps = self.limits.steps.min(PATIENCE);
-        self.buffers.size = self.instants.size();
+        self.buffers.square = self.instants.square();
         let mut found = first_event(&flight, until, steps, &mut self.buffers, &mut self.touches);
         let mut never = false;
         if let Found::NoneBefore(s) = found {
@@ -585,22 +585,18 @@ impl<'a> MachineMotion<'a> {
         self.spare[0] = Some(flight);
     }
 
-    /// How a gap that is zero closes.
-    fn approach(&mut self, kind: GuardKind) -> Approach {
-        let GuardKind::Gap(j) = kind else { return Approach::Strikes };
-        if self.place.surfaces[j].is_some() {
-            return Approach::Strikes;
-        }
-        let w = &self.normal.directions[j];
-        let turns = self.scratch.turns_at(&self.place, &self.normal);
-        let (_, rate) = self.place.gap_and_rate(&self.normal, turns, j);
-        let now: f64 = w.iter().zip(&self.place.v).map(|(w, v)| (w * v).abs()).sum();
+    /// How a gap that is zero closes with this rate.
+    #[inline(always)]
+    pub(super) fn approach(&self, j: usize, rate: f64) -> Approach {
         // a preloaded stop is touched only where its contacts take no time
         let touched = match compliant(&self.machine.stops()[j].law) {
             None => true,
             Some((_, _, preload)) => preload > 0.0 && self.crowd > SEVERAL,
         };
-        match rate.abs() <= FAINT * now.max(self.instants.speed(w)) {
+        if self.place.surfaces[j].is_some() || rate < 0.0 && !touched {
+            return Approach::Strikes;
+        }
+        match self.instants.is_faint(rate, (&self.normal.directions[j], self.normal.squares[j]), FAINT) {
             true if touched => Approach::Touches(rate),
             false if rate > 0.0 => Approach::Leaves,
             _ => Approach::Strikes,
@@ -612,7 +608,6 @@ impl<'a> MachineMotion<'a> {
         if let [kind] = *kinds
             && self.machine.joints().is_empty()
             && !self.place.states.iter().any(|state| state.constrains())
-            && matches!(self.approach(kind), Approach::Strikes)
             && self.happen_alone(kind, fastest)
         {
             return;
@@ -625,12 +620,12 @@ impl<'a> MachineMotion<'a> {
             match *kind {
                 GuardKind::Gap(j) => {
                     // on the stop exactly, without the rounding error of the time
+                    let (gap, rate, ..) = self.place.gap(&self.normal, &turns, j);
                     if self.place.surfaces[j].is_none() {
-                        let (gap, ..) = self.place.gap(&self.normal, &turns, j);
                         let w = &self.normal.directions[j];
                         add_scaled(&mut self.place.x, gap / dot(w, w), w);
                     }
-                    match self.approach(*kind) {
+                    match self.approach(j, rate) {
                         Approach::Strikes => closing.push(j),
                         Approach::Touches(rate) => {
                             let w = &self.normal.directions[j];

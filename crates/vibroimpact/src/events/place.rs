@@ -110,7 +110,8 @@ impl Place {
     /// The flight from here in the regime of `structure`.
     pub(crate) fn flight(&self, normal: &Normal, structure: Arc<Structure>) -> MachineFlight {
         let mut scratch = Scratch::default();
-        self.begin(normal, &mut scratch, |begin, gap, known| MachineFlight::new(structure, begin, gap, known))
+        let (begin, gap, known) = self.begin(normal, &mut scratch);
+        MachineFlight::new(structure, begin, gap, known)
     }
 
     /// The same in the place of another flight; without a structure, in the regime of that.
@@ -121,15 +122,17 @@ impl Place {
         flight: &mut MachineFlight,
         scratch: &mut Scratch,
     ) {
-        self.begin(normal, scratch, |begin, gap, known| flight.renew(structure, begin, gap, known));
+        let (begin, gap, known) = self.begin(normal, scratch);
+        flight.renew(structure, begin, gap, known);
     }
 
-    fn begin<T>(
-        &self,
-        normal: &Normal,
-        scratch: &mut Scratch,
-        begun: impl FnOnce(Begin<'_>, &dyn Fn(usize) -> GapStart, &dyn Fn(GuardKind) -> (usize, Option<Recovery>)) -> T,
-    ) -> T {
+    /// The state here, each gap, how many derivatives of each guard are zero, and the surfaces.
+    #[inline]
+    fn begin<'a>(
+        &'a self,
+        normal: &'a Normal,
+        scratch: &'a mut Scratch,
+    ) -> (Begin<'a>, impl Fn(usize) -> GapStart + 'a, impl Fn(GuardKind) -> (usize, Option<Recovery>) + 'a) {
         // the time restarts with each flight, and the set points of joints that hold on a moving belt with it
         let stops = self.surfaces.len();
         scratch.turns_at(self, normal);
@@ -139,25 +142,28 @@ impl Place {
         for ((point, state), direction) in set.iter_mut().zip(joints).zip(&normal.directions[stops..]) {
             *point = if *state == ContactState::Holding { dot(direction, &self.x) } else { 0.0 };
         }
-        let gap = |stop: usize| {
+        let turns: &'a [(f64, f64)] = turns;
+        let gap = move |stop: usize| {
             let at_zero = self.known.iter().any(|(kind, _)| *kind == GuardKind::Depth(stop));
             let sharp = if at_zero { Some(0.0) } else { self.sharp_gap(stop) };
             let (w, wall) = (&normal.directions[stop], &normal.walls[stop]);
             let swing = wall.swing(turns);
+            if let Some(gap) = sharp {
+                return GapStart { gap, size: gap.abs(), swing, sharp: true };
+            }
             let (mut way, mut size) = (0.0, wall.constant.abs() + swing.abs());
             for (w, x) in w.iter().zip(&self.x) {
                 way += w * x;
                 size += (w * x).abs();
             }
-            let gap = sharp.unwrap_or(wall.constant + swing - way);
-            GapStart { gap, size, swing, sharp: sharp.is_some() }
+            GapStart { gap: wall.constant + swing - way, size, swing, sharp: false }
         };
-        let known = |kind| {
+        let known = move |kind| {
             let known = self.known.iter().find(|(of, _)| *of == kind).map_or(0, |(_, count)| *count);
             let surface = if let GuardKind::Gap(stop) = kind { self.surfaces[stop] } else { None };
             (known, surface)
         };
-        begun(Begin { x: &self.x, v: &self.v, set, turns }, &gap, &known)
+        (Begin { x: &self.x, v: &self.v, set, turns }, gap, known)
     }
 
     /// Moves to a time `s` after the beginning of a flight that began here, whose modes are these then; `frequency` is that

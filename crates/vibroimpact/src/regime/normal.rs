@@ -35,6 +35,8 @@ pub(crate) struct Normal {
     pub(crate) force: Vec<Signal>,
     /// The directions $`L^{-1}w`$ of stops and, after them, of joints.
     pub(crate) directions: Vec<Vec<f64>>,
+    /// The squares of their lengths.
+    pub(crate) squares: Vec<f64>,
     /// The position of each stop, $`d - r(t)`$: it is open while $`w\cdot x`$ is below.
     pub(crate) walls: Vec<Signal>,
     /// How the open machine accelerates towards each stop.
@@ -100,13 +102,16 @@ impl Normal {
         let approaches = parts.stops.iter().zip(&walls).map(approach).collect();
         let of_stops = parts.stops.iter().map(|stop| &stop.direction);
         let of_joints = parts.joints.iter().map(|joint| &joint.direction);
+        let directions: Vec<Vec<f64>> =
+            of_stops.chain(of_joints).map(|direction| factor.solve_lower(direction)).collect();
         Self {
             n,
             stiffness,
             damping,
             approaches,
             force,
-            directions: of_stops.chain(of_joints).map(|direction| factor.solve_lower(direction)).collect(),
+            squares: directions.iter().map(|w| dot(w, w)).collect(),
+            directions,
             walls,
             rates,
             orders: orders.iter().map(|order| f64::from(*order)).collect(),
