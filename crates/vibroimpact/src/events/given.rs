@@ -82,10 +82,8 @@ impl MachineMotion<'_> {
                         format!("the gap of the stop is {gap} and its rate {rate}: the structure does not rest on it");
                     return Err(contact_error(self.machine, at, what));
                 }
-                let w = &self.normal.directions[at];
-                let square = dot(w, w);
-                add_scaled(&mut place.x, gap / square, w);
-                add_scaled(&mut place.v, rate / square, w);
+                self.normal.move_by(&[(at, gap)], &mut place.x);
+                self.normal.move_by(&[(at, rate)], &mut place.v);
             }
             ContactState::Closed if gap > ROUNDED * size => {
                 return Err(contact_error(self.machine, at, format!("the stop has the gap {gap} and is not closed")));

@@ -34,6 +34,8 @@ const ENDS: usize = 4;
 const FEW: usize = 24;
 const MUCH_SLOWER: f64 = 1e-3;
 const SLOWER: f64 = 0.5;
+/// What is below so many rounding errors of the largest value of late is one.
+const NOISE: f64 = 8.0;
 /// In how many changes it is asked once whether a collapse without rounds is near.
 const EVERY: usize = 8;
 
@@ -160,6 +162,20 @@ impl Instants {
         // the sum below is no larger than this bound, which nearly always decides
         velocity * velocity <= count * square
             && velocity.abs() <= part * self.speeds.iter().zip(along).map(|(speed, w)| speed * w.abs()).sum::<f64>()
+    }
+
+    /// Takes away what rounding errors have left of coordinates and velocities that were larger of late: a structure whose bodies
+    /// stop each other exactly is at rest, and no force is left.
+    pub(super) fn silence(&self, x: &mut [f64], v: &mut [f64]) {
+        for ((x, v), speed) in x.iter_mut().zip(v).zip(&self.speeds) {
+            let least = NOISE * f64::EPSILON * speed;
+            if v.abs() <= least {
+                *v = 0.0;
+            }
+            if x.abs() <= least * self.longest {
+                *x = 0.0;
+            }
+        }
     }
 
     /// Keeps a change after a short flight.

@@ -9,7 +9,7 @@ use super::state::{ImpactHistory, check_contacts, fingerprint};
 use super::stretch::{Stretch, follow};
 use crate::arc::{Buffers, Found, MachineFlight, Touch, first_event};
 use crate::machine::{Machine, MachineError, MachineFault, Opening, StopLaw};
-use crate::math::{Wide, add_scaled, dot};
+use crate::math::Wide;
 use crate::regime::{ContactState, GuardKind, Normal, compliant};
 use std::collections::VecDeque;
 
@@ -283,6 +283,7 @@ impl<'a> MachineMotion<'a> {
             }
         }
         self.meet(&soft, before, !rigid.is_empty(), &turns, &mut candidates);
+        self.instants.silence(&mut self.place.x, &mut self.place.v);
         // a force that jumps can end any rest
         for (at, state) in self.place.states.iter().enumerate() {
             if state.constrains() && !candidates.contains(&at) {
@@ -616,20 +617,18 @@ impl<'a> MachineMotion<'a> {
         let before = self.place.states.clone();
         let turns = self.place.turns(&self.normal);
         let (mut closing, mut candidates, mut ended) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut gaps, mut rates) = (Vec::new(), Vec::new());
         for kind in kinds {
             match *kind {
                 GuardKind::Gap(j) => {
-                    // on the stop exactly, without the rounding error of the time
                     let (gap, rate, ..) = self.place.gap(&self.normal, &turns, j);
                     if self.place.surfaces[j].is_none() {
-                        let w = &self.normal.directions[j];
-                        add_scaled(&mut self.place.x, gap / dot(w, w), w);
+                        gaps.push((j, gap));
                     }
                     match self.approach(j, rate) {
                         Approach::Strikes => closing.push(j),
                         Approach::Touches(rate) => {
-                            let w = &self.normal.directions[j];
-                            add_scaled(&mut self.place.v, rate / dot(w, w), w);
+                            rates.push((j, rate));
                             candidates.push(j);
                         }
                         Approach::Leaves => self.place.note(*kind, 1),
@@ -642,8 +641,7 @@ impl<'a> MachineMotion<'a> {
                 }
                 GuardKind::Sliding(joint) => {
                     let (speed, _) = self.place.sliding(self.machine, &self.normal, joint);
-                    let w = &self.normal.directions[stops + joint];
-                    add_scaled(&mut self.place.v, -speed / dot(w, w), w);
+                    rates.push((stops + joint, -speed));
                     candidates.push(stops + joint);
                 }
                 // the force of a constraint has reached its limit: what follows is decided with all others
@@ -653,6 +651,9 @@ impl<'a> MachineMotion<'a> {
                 | GuardKind::LimitBackward(_) => ended.push(kind.place(stops)),
             }
         }
+        // on the stops exactly, without the rounding error of the time
+        self.normal.move_by(&gaps, &mut self.place.x);
+        self.normal.move_by(&rates, &mut self.place.v);
         self.change(&before, &closing, candidates, &ended);
     }
 }

@@ -3,7 +3,7 @@
 use super::signal::Signal;
 use super::translations::Translations;
 use crate::machine::{HarmonicMotion, Machine, MachineStop, StopLaw};
-use crate::math::{Matrix, dot};
+use crate::math::{Matrix, add_scaled, dot};
 
 /// The acceleration of a machine without contacts towards a stop, as a function of the mass-normalised state.
 #[derive(Clone, Debug)]
@@ -147,6 +147,16 @@ impl Normal {
             return;
         }
         self.factor.solve_lower_transposed_into(x, q);
+    }
+
+    /// Moves coordinates by an amount along the direction of each of some stops and joints, which is a rounding error: all at
+    /// once, so that a symmetric state stays one.
+    pub(crate) fn move_by(&self, amounts: &[(usize, f64)], x: &mut [f64]) {
+        for (place, amount) in amounts {
+            let w = &self.directions[*place];
+            let all: f64 = amounts.iter().map(|(other, _)| dot(w, &self.directions[*other]).abs()).sum();
+            add_scaled(x, amount / all, w);
+        }
     }
 
     /// The mass-normalised ones from coordinates or velocities.
