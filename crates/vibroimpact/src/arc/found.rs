@@ -54,6 +54,8 @@ pub(crate) struct Buffers {
     pub(super) brackets: Vec<(usize, f64, f64)>,
     /// The square of the size of the coordinates of late: rounding errors of the state at the beginning are relative to it.
     pub(crate) square: f64,
+    /// The longest flight of late.
+    pub(crate) longest: f64,
     /// Whether `modes` are those of the last flight at its first zero.
     pub(super) fresh: bool,
 }

@@ -80,7 +80,7 @@ fn together(flight: &MachineFlight, s: f64, guards: &mut Guards, buffers: &mut B
         flight.at(s, &mut buffers.modes);
     }
     let later = (s * flight.structure.fastest()).min(1.0);
-    // by how much time the zero of a guard is uncertain
+    // the rounding error of a guard, which makes the time of its zero uncertain
     let uncertain = |g: usize| {
         let (value, rate, error) = flight.guard(g, &buffers.modes);
         let of = &flight.structure.guards[g].function;
@@ -89,14 +89,24 @@ fn together(flight: &MachineFlight, s: f64, guards: &mut Guards, buffers: &mut B
         // one that is zero exactly at the beginning has these errors when the others have had time to move it
         let share = if flight.guards[g].known > 0 { later } else { 1.0 };
         let rounding = error + f64::EPSILON * share * motion;
-        (value, rate, rounding / rate.abs())
+        (value, rate, rounding)
     };
     // that of a guard that grazes is no measure for others
-    let most = 1e3 * f64::EPSILON * (s + 1.0 / flight.structure.fastest().max(1e-300));
-    let of_first = guards.iter().map(|g| uncertain(*g).2).fold(f64::EPSILON * s, f64::max).min(most);
+    let fastest = flight.structure.fastest();
+    let most = 1e3 * f64::EPSILON * (s + if fastest > 0.0 { 1.0 / fastest } else { buffers.longest });
+    let time = |g: &usize| {
+        let (_, rate, rounding) = uncertain(*g);
+        rounding / rate.abs()
+    };
+    let of_first = guards.iter().map(time).fold(f64::EPSILON * s, f64::max).min(most);
     let also = |g: &usize| {
-        let (value, rate, own) = uncertain(*g);
-        rate < 0.0 && value <= TOGETHER * (own.min(most.max(later * own)) + of_first) * -rate
+        let (value, rate, rounding) = uncertain(*g);
+        if rate >= 0.0 {
+            // a stop on which the structure has rested is not left yet
+            return flight.guards[*g].known > 1 && value <= rounding;
+        }
+        let own = rounding / -rate;
+        value <= TOGETHER * (own.min(most.max(later * own)) + of_first) * -rate
     };
     let others: Vec<usize> = (0..flight.guards.len()).filter(|g| !guards.contains(g)).filter(also).collect();
     if !others.is_empty() {

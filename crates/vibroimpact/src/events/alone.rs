@@ -62,11 +62,11 @@ impl MachineMotion<'_> {
                 }
             }
             GuardKind::Depth(j) | GuardKind::Force(j) if self.place.states[j] == ContactState::Closed => {
-                let speed = self.place.gap_and_rate(&self.normal, turns, j).1.max(0.0);
-                self.place.open(&self.normal, &self.machine.stops()[j].law, kind, j, turns);
+                let (gap, rate) = self.place.gap_and_rate(&self.normal, turns, j);
+                self.place.open(&self.machine.stops()[j].law, kind, j, (gap, rate));
                 self.record(&[]);
-                self.instants.keep(MachineEventKind::Open, j, speed);
-                self.announce(MachineEventKind::Open, j, speed, Vec::new());
+                self.instants.keep(MachineEventKind::Open, j, rate.max(0.0));
+                self.announce(MachineEventKind::Open, j, rate.max(0.0), Vec::new());
             }
             _ => return false,
         }

@@ -63,7 +63,7 @@ impl MachineMotion<'_> {
             let (_, _, of_gap, of_rate) = self.place.gap(&self.normal, &turns, *j);
             (size, rate_size) = (size.max(of_gap), rate_size.max(of_rate));
         }
-        let rounding = self.instants.longest() + (size + round.left * rate_size) / round.speed;
+        let rounding = self.time_scale() + (size + round.left * rate_size) / round.speed;
         if round.error > ROUNDINGS * f64::EPSILON * rounding {
             return false;
         }
@@ -81,10 +81,18 @@ impl MachineMotion<'_> {
         })
     }
 
+    /// The time to which rounding errors of times are relative: the longest flight of late, or that in which the fastest mode turns
+    /// by a radian.
+    fn time_scale(&mut self) -> f64 {
+        let free = self.structures.get(self.machine, &self.normal, &self.place.states);
+        let fastest = free.map_or(0.0, |free| free.fastest());
+        self.instants.longest().max(if fastest > 0.0 { 1.0 / fastest } else { 0.0 })
+    }
+
     /// Whether these gaps are so small that closing them moves nothing.
-    fn are_close(&self, stops: &[usize], roundings: f64) -> bool {
+    fn are_close(&mut self, stops: &[usize], roundings: f64) -> bool {
         let turns = self.place.turns(&self.normal);
-        let way = self.instants.longest() * self.largest_impact;
+        let way = self.time_scale() * self.largest_impact;
         stops.iter().all(|j| {
             let (gap, _, size, _) = self.place.gap(&self.normal, &turns, *j);
             gap.abs() <= roundings * f64::EPSILON * size.max(way)

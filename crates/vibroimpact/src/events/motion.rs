@@ -512,7 +512,7 @@ impl<'a> MachineMotion<'a> {
         let until = recovered.min(self.limits.time);
         self.touches.clear();
         let steps = self.limits.steps.min(PATIENCE);
-        self.buffers.square = self.instants.square();
+        (self.buffers.square, self.buffers.longest) = (self.instants.square(), self.instants.longest());
         let mut found = first_event(&flight, until, steps, &mut self.buffers, &mut self.touches);
         let mut never = false;
         if let Found::NoneBefore(s) = found {
@@ -636,7 +636,8 @@ impl<'a> MachineMotion<'a> {
                 }
                 GuardKind::Depth(j) | GuardKind::Force(j) => {
                     if self.place.states[j] == ContactState::Closed {
-                        self.place.open(&self.normal, &self.machine.stops()[j].law, *kind, j, &turns);
+                        let here = self.place.gap_and_rate(&self.normal, &turns, j);
+                        self.place.open(&self.machine.stops()[j].law, *kind, j, here);
                     }
                 }
                 GuardKind::Sliding(joint) => {

@@ -55,6 +55,9 @@ pub(crate) fn standing_back(law: &StopLaw, depth: f64) -> Option<Recovery> {
     (damping > 0.0).then(|| Recovery { size: depth + offset, rate: stiffness / damping, offset })
 }
 
+/// A surface that is slower than the body by more than this part does not leave it where their force ends.
+const TAKEN_OFF: f64 = 1e-9;
+
 /// Vectors for the beginning of a flight, which are used again.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Scratch {
@@ -194,16 +197,17 @@ impl Place {
         }
     }
 
-    /// Opens a compliant stop with this law at the zero of a guard.
-    pub(super) fn open(&mut self, normal: &Normal, law: &StopLaw, kind: GuardKind, j: usize, turns: &[(f64, f64)]) {
+    /// Opens a compliant stop with this law at the zero of a guard, where it has this gap and rate.
+    pub(super) fn open(&mut self, law: &StopLaw, kind: GuardKind, j: usize, (gap, rate): (f64, f64)) {
         self.states[j] = ContactState::Open;
         let mut known = 1;
         if let GuardKind::Force(_) = kind {
-            let depth = -self.sharp_gap(j).unwrap_or_else(|| self.gap_and_rate(normal, turns, j).0);
+            let depth = -self.sharp_gap(j).unwrap_or(gap);
             if depth > 0.0 {
                 self.surfaces[j] = standing_back(law, depth);
-                // the surface leaves the body with the velocity of the body
-                known = 2;
+                // the surface leaves the body with the velocity of the body, unless an impact elsewhere takes it off
+                let slower = |surface: Recovery| rate - surface.rate * surface.size > TAKEN_OFF * rate.abs();
+                known = if self.surfaces[j].is_some_and(slower) { 1 } else { 2 };
             }
         }
         self.note(GuardKind::Gap(j), known);
