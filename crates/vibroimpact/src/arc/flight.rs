@@ -87,8 +87,8 @@ pub(crate) struct Modes {
     /// Displacements since the beginning, and velocities.
     pub(super) moved: Vec<f64>,
     pub(super) v: Vec<f64>,
-    /// Bounds of the rounding errors of the displacements.
-    pub(super) error: Vec<f64>,
+    /// Bounds of the rounding errors of the displacements, and of the velocities.
+    pub(super) error: Vec<(f64, f64)>,
     pub(super) turned: Vec<Turned>,
     pub(super) s: f64,
     steps: Steps,
@@ -276,18 +276,18 @@ impl MachineFlight {
         modes.s = s;
         modes.turned.clear();
         modes.turned.extend(self.structure.rates.iter().map(|rate| Turned::of(rate * s)));
-        for all in [&mut modes.moved, &mut modes.v, &mut modes.error] {
-            all.clear();
-        }
+        modes.moved.clear();
+        modes.v.clear();
+        modes.error.clear();
         if let Some(dense) = self.dense() {
             let (moved, v, error) = dense.at(&self.v, s, &mut modes.steps);
-            modes.error.resize(v.len(), error);
+            modes.error.extend(self.structure.modes.iter().map(|mode| (error, error * mode.rate.max(1e-300))));
             (modes.moved, modes.v) = (moved, v);
             return;
         }
         if s == 0.0 {
             modes.moved.resize(self.v.len(), 0.0);
-            modes.error.resize(self.v.len(), 0.0);
+            modes.error.resize(self.v.len(), (0.0, 0.0));
             modes.v.extend_from_slice(&self.v);
             return;
         }
@@ -323,19 +323,20 @@ impl MachineFlight {
         self.v[i].abs() * mode.rate < 0.125 * push
     }
 
-    fn by_response(&self, i: usize, mode: &Mode, s: f64, turned: &[Turned]) -> (f64, f64, f64) {
+    fn by_response(&self, i: usize, mode: &Mode, s: f64, turned: &[Turned]) -> (f64, f64, (f64, f64)) {
         let free = mode.free(s);
         let v = self.v[i];
         let (p0, p1) = (self.drive.steady[i], self.drive.ramp[i]);
         let mut moved = v * free.s;
         let mut rate = v * free.s_rate + p0 * free.s;
-        let mut size = (v * free.s).abs();
+        let (mut size, mut size_of_rate) = ((v * free.s).abs(), (v * free.s_rate).abs() + (p0 * free.s).abs());
         let mut angle = free.angle * (v.abs() + p0.abs() * s.min(1.0 / mode.rate.max(1e-300))) * free.s.abs().min(s);
         moved += p0 * free.step;
         size += p0.abs() * free.step.abs();
         if p1 != 0.0 {
             moved += p1 * free.ramp;
             rate += p1 * free.step;
+            size_of_rate += (p1 * free.step).abs();
             size += p1.abs() * free.ramp.abs() + (p1 / mode.k.max(1e-300)).abs().min(p1.abs() * s * s) * s;
         }
         for (h, (a, b)) in self.drive.of(i).iter().enumerate() {
@@ -347,14 +348,21 @@ impl MachineFlight {
             moved += a * kc + b * ks;
             rate += a * (free.s - w * ks) + b * (w * kc);
             size += (a.abs() + b.abs()) * terms;
+            size_of_rate += (a.abs() + b.abs()) * (free.s.abs() + w * terms);
         }
         if mode.omega > 0.0 {
             angle += free.angle * v.abs() / mode.omega;
         }
-        (moved, rate, HALF_ULP * (5.0 * size + angle + moved.abs()))
+        let error = HALF_ULP * (5.0 * size + angle + moved.abs());
+        // where the fast decay has passed, a velocity is much smaller than its displacement times the fastest rate
+        let of_rate = match mode.decays {
+            Some((slow, _)) => HALF_ULP * (8.0 + slow * s) * size_of_rate,
+            None => error * mode.rate.max(1e-300),
+        };
+        (moved, rate, (error, of_rate))
     }
 
-    fn by_series(&self, i: usize, s: f64, terms: usize) -> (f64, f64, f64) {
+    fn by_series(&self, i: usize, s: f64, terms: usize) -> (f64, f64, (f64, f64)) {
         let mut c = [0.0; LONG_TERMS + 2];
         self.coefficients(i, 0.0, self.v[i], 0.0, self.drive.of(i), &mut c[..terms + 2]);
         let (mut y, mut v, mut size) = (0.0, 0.0, 0.0);
@@ -365,7 +373,8 @@ impl MachineFlight {
             v = v * s + real * c[k];
             real -= 1.0;
         }
-        (y * s, v, HALF_ULP * 4.0 * size * s)
+        let error = HALF_ULP * 4.0 * size * s;
+        (y * s, v, (error, error * self.structure.modes[i].rate.max(1e-300)))
     }
 
     /// The Taylor coefficients $`y^{(k)}/k!`$ of a mode at a state a time `s` after the beginning; `harmonics` are turned to
@@ -429,14 +438,12 @@ impl MachineFlight {
                 let moved = a * modes.moved[i];
                 value += moved;
                 rate += a * modes.v[i];
-                error += moved.abs() + (a * modes.error[i]).abs() * (1.0 / HALF_ULP);
+                error += moved.abs() + (a * modes.error[i].0).abs() * (1.0 / HALF_ULP);
             }
             if b != 0.0 {
-                let mode = &self.structure.modes[i];
                 value += b * (modes.v[i] - self.v[i]);
                 rate += b * self.acceleration(i, self.push(i, modes), &modes.moved, &modes.v);
-                error +=
-                    b.abs() * (modes.v[i].abs() + self.v[i].abs() + modes.error[i] * mode.rate.max(1e-300) / HALF_ULP);
+                error += b.abs() * (modes.v[i].abs() + self.v[i].abs() + modes.error[i].1 / HALF_ULP);
             }
         }
         for ((a, b), (turned, w)) in self.harmonics(g).iter().zip(modes.turned.iter().zip(&self.structure.rates)) {

@@ -22,7 +22,7 @@ use super::guard_polynomial::{GuardPolynomial, HIGHEST, ORDER, first_of};
 use super::polynomial::{RESOLUTION, value};
 use super::zero::{certain, lowest, refine, without_remainder};
 use crate::math::dot;
-use crate::regime::REACH;
+use crate::regime::{REACH, Window};
 
 /// The first zero of a guard before the time `until`, in at most `steps` windows. `touches` receives what touches zero
 /// before.
@@ -127,6 +127,7 @@ fn search(
 ) -> Found {
     let fastest = flight.structure.fastest();
     let series = flight.structure.windows.first();
+    let decays = flight.structure.windows.get(1).is_some_and(Window::leaves_out_decays);
     let quiet = flight.quiet_time(HIGHEST);
     let mut s = 0.0;
     let mut reach = 1.0;
@@ -139,7 +140,7 @@ fn search(
         let is_quiet = s < 0.999 * quiet;
         let mut here = false;
         if let Some(series) = series
-            && reach == 1.0
+            && (reach == 1.0 || decays)
             && fastest > 0.0
             && !is_quiet
         {
@@ -158,6 +159,16 @@ fn search(
             }
             let Some(part) = blocked else { continue };
             let standing = flight.guards.iter().any(|guard| guard.recovery.is_some());
+            if decays && (s == 0.0 || standing) {
+                if !core::mem::replace(&mut here, true) {
+                    flight.at(s, &mut buffers.modes);
+                }
+                if let Some(length) = buffers.track.long_window(flight, &buffers.modes, until - s) {
+                    s += length;
+                    touched.fill(false);
+                    continue;
+                }
+            }
             let first = first_of(&mut buffers.polynomials);
             let Some((near, _)) = first else {
                 // no zero after all

@@ -13,7 +13,8 @@ pub(super) struct Track {
     settled: f64,
     /// Windows since then.
     windows: f64,
-    energies: Vec<f64>,
+    /// The energy of each mode, and a bound of its speed.
+    energies: Vec<(f64, f64)>,
     faint: Vec<f64>,
 }
 
@@ -34,22 +35,24 @@ impl Track {
         (self.s, self.settled, self.windows) = (modes.s, modes.s, 0.0);
     }
 
-    /// The energies of all modes here, $`\sqrt{\dot y^2 + k(y - q/k)^2}`$.
-    pub(super) fn energies(&mut self, flight: &MachineFlight) -> &[f64] {
+    /// The energies of all modes here, $`\sqrt{\dot y^2 + k(y - q/k)^2}`$, which bound their speeds; those of modes far beyond
+    /// critical damping are much lower.
+    pub(super) fn energies(&mut self, flight: &MachineFlight) {
         self.energies.clear();
         self.energies.extend(flight.structure.modes.iter().zip(self.z.chunks_exact(3)).map(|(mode, z)| {
-            if mode.k > 0.0 {
-                let shifted = z[0] - z[2] / mode.k;
-                (z[1] * z[1] + mode.k * shifted * shifted).sqrt()
-            } else {
-                z[1].abs()
+            if mode.k <= 0.0 {
+                return (z[1].abs(), z[1].abs());
             }
+            let shifted = z[0] - z[2] / mode.k;
+            let energy = (z[1] * z[1] + mode.k * shifted * shifted).sqrt();
+            let decaying = || z[1].abs() + mode.k * mode.largest_response() * shifted.abs();
+            (energy, if mode.decays.is_some() { decaying() } else { energy })
         }));
-        &self.energies
     }
 
-    /// The polynomial of a guard over a time `length` from a state of the closed form, with the first window of the structure;
-    /// the energies are those here.
+    /// The polynomial of a guard over a time `length` from a state of the closed form, with a window of the structure; the
+    /// energies are those here. From a fast decay that is faint its lower bound is taken, $`-|F|(\lambda t)^n/n!`$ where the first $`n`$
+    /// derivatives of the guard are zero.
     pub(super) fn polynomial(
         &self,
         flight: &MachineFlight,
@@ -65,6 +68,9 @@ impl Track {
         let (value, _, error) = flight.guard(g, modes);
         p[0] = if known > 0 { 0.0 } else { value };
         p[ORDER] = series.bounds(&self.energies, &self.z, 0.0, 0.0).0;
+        let lowest = known.min(ORDER - 1);
+        p[..lowest].fill(0.0);
+        p[lowest] -= series.lowered_by_decays(&window.faint, &self.z, (lowest, window.length));
         let mut power = 1.0;
         for c in &mut p {
             // in a window without end there are zeros times infinity
@@ -90,6 +96,22 @@ impl Track {
             p[ORDER] += bound * surface.rate * length / k;
         }
         GuardPolynomial::new(p, known, error, size)
+    }
+
+    /// The length of the longest window from these modes on in which only fast decays are faint and all guards are positive, also
+    /// guards that are zero here and those of stops with a surface that recovers.
+    pub(super) fn long_window(&mut self, flight: &MachineFlight, modes: &Modes, until: f64) -> Option<f64> {
+        self.settle(flight, modes);
+        self.energies(flight);
+        let positive = |window: &&Window| {
+            let mut guards = flight.guards.iter().enumerate();
+            guards.all(|(g, guard)| {
+                let known = if modes.s == 0.0 { guard.known } else { 0 };
+                self.polynomial(flight, g, window, window.length, known, modes).is_positive()
+            })
+        };
+        let useful = |window: &&Window| window.leaves_out_decays() && window.length <= until;
+        flight.structure.windows.iter().rev().filter(useful).find(positive).map(|window| window.length)
     }
 
     /// What the constant terms of a guard are here, lowered by its surface and by faint modes, and bounds of its remainder and
@@ -213,6 +235,13 @@ impl Track {
             } else if level > 0 {
                 level -= 1;
                 stay = 2;
+            } else if self.s > 0.0
+                && windows.get(1).is_some_and(|next| next.leaves_out_decays() && next.length <= left)
+                && self.clear(flight, &windows[1])
+            {
+                // a fast decay that has passed has no part in the guards, but in the remainder of the shortest window
+                self.step(&windows[1]);
+                level = 1;
             } else {
                 if self.s > 0.0 && part == 1.0 {
                     self.expand(flight, window, part, all);

@@ -24,6 +24,8 @@ pub(crate) struct Mode {
     pub(crate) omega: f64,
     /// The fastest rate of the free motion, $`\sqrt k + 2d`$.
     pub(crate) rate: f64,
+    /// The rates of the slow and of the fast decay of the free motion far beyond critical damping.
+    pub(crate) decays: Option<(f64, f64)>,
     /// The free response in scaled time; `None` without stiffness.
     free: Option<FreeResponse>,
     /// How the response to each harmonic is computed.
@@ -68,6 +70,8 @@ pub(crate) struct FreeMode {
     pub(crate) angle: f64,
 }
 
+/// The two decays of a mode are apart if $`d^2`$ is above $`k`$ by this factor: the fast one is 62 times faster then.
+const APART: f64 = 16.0;
 /// Near resonance: frequency ratios in which the formula that holds through resonance is used.
 const NEAR: core::ops::RangeInclusive<f64> = 0.5..=2.0;
 
@@ -88,7 +92,17 @@ impl Mode {
             }
         });
         let forced = forced.collect();
-        Self { k, d, omega, rate: omega + 2.0 * d, free: stiff.then(|| FreeResponse::new(damping)), forced }
+        let apart = stiff && d * d > APART * k;
+        let decays = apart.then(|| {
+            let fast = d + (d * d - k).sqrt();
+            (k / fast, fast)
+        });
+        Self { k, d, omega, rate: omega + 2.0 * d, decays, free: stiff.then(|| FreeResponse::new(damping)), forced }
+    }
+
+    /// A bound of the free response to a unit velocity; with a stiffness.
+    pub(crate) fn largest_response(&self) -> f64 {
+        self.decays.map_or(1.0 / self.omega, |(slow, fast)| 1.0 / (fast - slow))
     }
 
     /// The free responses after a time `s >= 0`.

@@ -30,8 +30,6 @@ pub(crate) const REACH: f64 = 1.6;
 const SLOWER: f64 = 0.7;
 /// A faint mode is so many times faster than all harmonics, at least.
 const FAR: f64 = 2.0;
-/// The two decays of a mode are apart if $`d^2`$ is above $`k`$ by this factor: the fast one is 62 times faster then.
-const APART: f64 = 16.0;
 /// From one window to the next the length grows by no more than this factor, where a fast decay is faint.
 const LONGER: f64 = 8.0;
 
@@ -64,12 +62,13 @@ pub(crate) struct GuardSeries {
     faint: Vec<f64>,
 }
 
-/// What a mode adds to the remainder of a guard, and to the size of its terms, per energy and per force on it.
+/// What a mode adds to the remainder of a guard, and to the size of its terms, per energy, largest speed and force on it.
 #[derive(Clone, Copy, Debug, Default)]
 struct Weight {
     energy: f64,
     push: f64,
     size_of_energy: f64,
+    size_of_speed: f64,
     size_of_push: f64,
 }
 
@@ -85,15 +84,6 @@ pub(crate) struct Faint {
     decays: Option<(f64, f64)>,
 }
 
-/// The slow and the fast decay of a mode far beyond critical damping.
-fn decays(mode: &Mode) -> Option<(f64, f64)> {
-    let apart = mode.k > 0.0 && mode.d * mode.d > APART * mode.k;
-    apart.then(|| {
-        let fast = mode.d + (mode.d * mode.d - mode.k).sqrt();
-        (mode.k / fast, fast)
-    })
-}
-
 /// What is faint in windows of one length: whole modes, and the fast decays of modes; and the fastest rate of the others and of
 /// the forcing.
 struct Level {
@@ -107,7 +97,7 @@ fn window_levels(of: Moved<'_>) -> Vec<Level> {
     // rate, mode, whether only its fast decay is left out
     let mut parts: Vec<(f64, usize, bool)> = Vec::new();
     for (i, mode) in of.modes.iter().enumerate() {
-        match decays(mode).filter(|(_, fast)| *fast >= FAR * of.rate() && of.drive[i].ramp == 0.0) {
+        match mode.decays.filter(|(_, fast)| *fast >= FAR * of.rate() && of.drive[i].ramp == 0.0) {
             Some((slow, _)) => parts.extend([(mode.rate, i, true), (slow, i, false)]),
             None => parts.push((mode.rate, i, false)),
         }
@@ -208,7 +198,7 @@ impl Window {
         // without any rate the guards are polynomials of low order; a window must still be finite
         let length = if level.rate > 0.0 { REACH / level.rate } else { 1.0 };
         let whole = level.faint.iter().map(|i| Faint::new(of, *i, None));
-        let decaying = level.decaying.iter().map(|i| Faint::new(of, *i, decays(&of.modes[*i])));
+        let decaying = level.decaying.iter().map(|i| Faint::new(of, *i, of.modes[*i].decays));
         let faint: Vec<Faint> = whole.chain(decaying).collect();
         Self {
             length,
@@ -216,6 +206,11 @@ impl Window {
             guards: guards.iter().map(|guard| GuardSeries::new(of, guard, &faint, length)).collect(),
             faint,
         }
+    }
+
+    /// Whether fast decays of modes are all that is faint in it.
+    pub(crate) fn leaves_out_decays(&self) -> bool {
+        !self.faint.is_empty() && self.faint.iter().all(|faint| faint.decays.is_some())
     }
 
     /// The state at the end of a window.
@@ -244,8 +239,9 @@ impl GuardSeries {
             let (a, b) = (guard.position[i], guard.velocity[i]);
             let mode = &of.modes[i];
             if mode.k > 0.0 {
-                weights[i].size_of_energy = 2.0 * (a.abs() / mode.omega + b.abs());
-                weights[i].size_of_push = 2.0 * (a.abs() / mode.k + b.abs() / mode.omega);
+                weights[i].size_of_energy = 2.0 * a.abs() / mode.omega;
+                weights[i].size_of_speed = 2.0 * b.abs();
+                weights[i].size_of_push = 2.0 * (a.abs() / mode.k + b.abs() * mode.largest_response());
             } else {
                 loose.push((i, a.abs(), b.abs()));
             }
@@ -350,19 +346,34 @@ impl GuardSeries {
     }
 
     /// A bound of the remainder over the window, and of the rounding errors of the value at a state that has passed `windows`
-    /// windows in a time `time`; for energies of the modes.
-    pub(crate) fn bounds(&self, energies: &[f64], z: &[f64], windows: f64, time: f64) -> (f64, f64) {
+    /// windows in a time `time`; for the energies and the largest speeds of the modes.
+    pub(crate) fn bounds(&self, energies: &[(f64, f64)], z: &[f64], windows: f64, time: f64) -> (f64, f64) {
         let (mut remainder, mut size) = (self.constant, self.swing);
-        for ((weight, energy), z) in self.weights.iter().zip(energies).zip(z.chunks_exact(3)) {
+        for ((weight, (energy, speed)), z) in self.weights.iter().zip(energies).zip(z.chunks_exact(3)) {
             let push = z[2].abs();
             remainder += weight.energy * energy + weight.push * push;
-            size += weight.size_of_energy * energy + weight.size_of_push * push;
+            size += weight.size_of_energy * energy + weight.size_of_speed * speed + weight.size_of_push * push;
         }
         for (i, a, b) in &self.loose {
             let z = &z[3 * i..];
             size += a * (z[0].abs() + time * (z[1].abs() + time * z[2].abs())) + b * (z[1].abs() + time * z[2].abs());
         }
         (remainder, 32.0 * f64::EPSILON * (windows + 1.0) * size)
+    }
+
+    /// By how much fast decays can lower the guard within a window of this length, if they have no part in its first $`n`$
+    /// derivatives.
+    pub(crate) fn lowered_by_decays(&self, faint: &[Faint], z: &[f64], (n, length): (usize, f64)) -> f64 {
+        let lost = self.faint.iter().zip(faint).filter_map(|(factor, faint)| {
+            let (_, fast) = faint.decays?;
+            let (mut share, mut k) = (1.0, 1.0);
+            for _ in 0..n {
+                share *= fast * length / k;
+                k += 1.0;
+            }
+            Some(factor * faint.energy(z) * share)
+        });
+        lost.sum()
     }
 
     /// How far the free parts of faint modes can lower the guard.
