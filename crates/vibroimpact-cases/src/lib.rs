@@ -39,5 +39,5 @@ pub use changes::{Changed, Rewriting, changed};
 pub use draw::Draw;
 pub use families::{DrawnFamily, FAMILIES};
 pub use invariance::Standard;
-pub use open::{OPEN, is_open};
+pub use open::{DIFFERS, OPEN, is_open};
 pub use rules::{BrokenRule, Budget, Rule, faults};

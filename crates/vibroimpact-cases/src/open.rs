@@ -4,21 +4,8 @@ use crate::rules::Rule;
 
 /// Faults that are known: family, rule, and a seed that shows it. A fault that is mended is removed here.
 pub const OPEN: &[(&str, Rule, u64)] = &[
-    // a damped stop on a body of less than 1e-7 of the mass of the others
-    ("light", Rule::End, 25),
+    // a body of 1e-9 of the mass of the other one, which has not moved yet, leaves a rigid stop
     ("light", Rule::Faint, 64),
-    ("light", Rule::Force, 61),
-    // rows of bodies that touch without a load, some of which come to rest on each other
-    ("chains", Rule::End, 66),
-    ("chains", Rule::Faint, 60),
-    ("chains", Rule::Symmetry, 153),
-    ("chains", Rule::Gap, 168),
-    ("chains", Rule::Jump, 168),
-    ("cradles", Rule::End, 63),
-    ("cradles", Rule::Jump, 164),
-    ("columns", Rule::Gap, 122),
-    ("columns", Rule::Jump, 122),
-    ("twins", Rule::Force, 100),
 ];
 
 /// Whether a fault of a family against a rule is known.
@@ -26,3 +13,17 @@ pub const OPEN: &[(&str, Rule, u64)] = &[
 pub fn is_open(family: &str, rule: Rule) -> bool {
     OPEN.iter().any(|(name, known, _)| *name == family && *known == rule)
 }
+
+/// Machines whose events differ by more than rounding errors explain when they are written in another way: family and seed.
+pub const DIFFERS: &[(&str, u64)] = &[
+    // the number of impacts before a collapse without order, and its time to 1e-11
+    ("columns", 10),
+    ("columns", 18),
+    ("columns", 53),
+    // the time of a rest beside joints that slip and hold, to 1e-11
+    ("friction", 25),
+    ("friction", 44),
+    ("duplicates", 46),
+    // which of two joints on one coordinate slips
+    ("friction", 35),
+];

@@ -2,10 +2,10 @@
 
 use vibroimpact_cases::{Budget, FAMILIES, OPEN, faults, is_open};
 
-/// Everyday 5 machines of each family; with `VIBROIMPACT_LONG=1` 60, more than a thousand together.
+/// Everyday 10 machines of each family; with `VIBROIMPACT_LONG=1` 60, more than a thousand together.
 #[test]
 fn motions_keep_all_rules() {
-    let count = if std::env::var("VIBROIMPACT_LONG").is_ok() { 60 } else { 5 };
+    let count = if std::env::var("VIBROIMPACT_LONG").is_ok() { 60 } else { 10 };
     let mut wrong = Vec::new();
     for family in FAMILIES {
         for seed in 0..count {

@@ -118,9 +118,7 @@ fn c04_stack() {
 fn c05_cradle() {
     let case = Case::named("cradle");
     let (together, _) = case.events(4);
-    let energy = |event: &MachineEvent| {
-        event.q.iter().chain(&event.qdot).map(|x| x * x).sum::<f64>() / 2.0
-    };
+    let energy = |event: &MachineEvent| event.q.iter().chain(&event.qdot).map(|x| x * x).sum::<f64>() / 2.0;
     let first = energy(&together[0]);
     assert!(together.iter().all(|event| close(energy(event), first, 1e-14)), "{together:?}");
     let mut parts = case.machine().parts().clone();
@@ -213,7 +211,9 @@ fn c11_two_beads() {
     let (found, end) = Case::named("two-beads").with("r", 0.1).events(100_000);
     let last = found.last().unwrap();
     assert!(close(last.time, 0.852_136_674_048_54, 1e-13), "{last:?}");
-    assert!(last.qdot.iter().all(|v| v.abs() < 1e-12) && end == Some(MachineEnd::Stuck) || end == Some(MachineEnd::Never));
+    assert!(
+        last.qdot.iter().all(|v| v.abs() < 1e-12) && end == Some(MachineEnd::Stuck) || end == Some(MachineEnd::Never)
+    );
     assert!(found.iter().filter(|event| event.kind == MachineEventKind::Impact).all(|event| event.speed > 1e-15));
 }
 
@@ -338,7 +338,9 @@ fn c22_transient_chaos() {
     for budget in [4_000, 20_000] {
         let settled = settle_machine(&case.machine(), &start, &SettleOptions::at_most(budget)).unwrap();
         match &settled.verdict {
-            MachineVerdict::Chaotic { events, .. } => assert_eq!((*events, settled.events), (u64::from(budget), u64::from(budget))),
+            MachineVerdict::Chaotic { events, .. } => {
+                assert_eq!((*events, settled.events), (u64::from(budget), u64::from(budget)))
+            }
             other => assert_eq!(other.label(), "9/4"),
         }
     }
@@ -352,13 +354,13 @@ fn c23_hold_vanishes() {
     let (family, value) = MachineFamily::of_path(&machine, "mass.x1").unwrap();
     let options = BranchOptions { points: 400, ..BranchOptions::default() };
     let range = 0.918..=value;
-    let points: Vec<_> = MachineBranch::new((&family, value), &cycle, &range, Direction::Down, options).unwrap().collect();
+    let points: Vec<_> =
+        MachineBranch::new((&family, value), &cycle, &range, Direction::Down, options).unwrap().collect();
     let events: Vec<_> = points.iter().filter_map(|point| Some((point.event?, point.value))).collect();
     let holding = MachineBranchEvent::Holding { joint: 2, begins: false };
     assert!(events.iter().any(|(event, value)| *event == holding && close(*value, 1.075_901_139, 1e-8)), "{events:?}");
     assert!(matches!(events.last(), Some((MachineBranchEvent::EndOfRange, _))), "{events:?}");
 }
-
 
 /// What doubles cannot know is not claimed: with 60 digits these are inf/38 and inf/122.
 #[test]

@@ -624,6 +624,14 @@ impl MachineFlight {
         of.signal.steady(&self.set).abs() + signal + modes.sum::<f64>()
     }
 
+    /// The same, and how far it moves while the fastest mode turns by a radian: where a coordinate passes through zero, its rounding
+    /// error is relative to that.
+    pub(crate) fn size_in_motion(&self, of: &Observable) -> f64 {
+        let time = if self.structure.fastest() > 0.0 { self.shortest() } else { 0.0 };
+        let way = of.position.iter().zip(&self.v).map(|(a, v)| (a * v).abs()).sum::<f64>();
+        self.size(of) + way * time
+    }
+
     /// Mass-normalised coordinates and velocities at a time, from the modes there.
     pub(crate) fn state(&self, modes: &Modes, x: &mut Vec<f64>, v: &mut Vec<f64>) {
         if self.structure.plain && !self.structure.carries {

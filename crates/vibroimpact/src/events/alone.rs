@@ -44,7 +44,15 @@ impl MachineMotion<'_> {
                         self.struck.clear();
                         let open = self.place.states.iter().all(|state| *state == ContactState::Open);
                         let turns = self.scratch.turns_at(&self.place, &self.normal);
-                        if !(open && is_far_from_an_end(&self.place, &self.normal, (j, restitution, restitution * speed), fastest, turns)) {
+                        if !(open
+                            && is_far_from_an_end(
+                                &self.place,
+                                &self.normal,
+                                (j, restitution, restitution * speed),
+                                fastest,
+                                turns,
+                            ))
+                        {
                             let turns = turns.to_vec();
                             self.end_chatter(&[(j, speed)], &turns);
                         } else if self.instants.are_close() {

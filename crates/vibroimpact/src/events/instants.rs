@@ -214,8 +214,12 @@ impl Instants {
             Some(Change { kind, place, speed: *speed, after: *after })
         };
         let latest: VecDeque<Change> = changes.iter().map(change).collect::<Option<_>>()?;
-        let whole =
-            rest.is_empty() && latest.len() <= KEPT && *square > 0.0 && *fastest >= 0.0 && *longest >= 0.0 && (0.0..1e15).contains(count);
+        let whole = rest.is_empty()
+            && latest.len() <= KEPT
+            && *square > 0.0
+            && *fastest >= 0.0
+            && *longest >= 0.0
+            && (0.0..1e15).contains(count);
         whole.then_some(Self {
             longest: *longest,
             square: *square,

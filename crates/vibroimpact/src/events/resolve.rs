@@ -320,7 +320,7 @@ fn first_derivative(
     from: usize,
 ) -> (usize, f64) {
     if from == 0 {
-        let (value, size) = (sign * flight.first(of).0 + constant, flight.size(of) + constant);
+        let (value, size) = (sign * flight.first(of).0 + constant, flight.size_in_motion(of) + constant);
         if value.abs() > SMALL * size {
             return (0, value / size);
         }
