@@ -55,6 +55,11 @@ const fn mark(shape: Shape) -> char {
         Shape::Diamond => 'D',
         Shape::TriangleUp => '^',
         Shape::TriangleDown => 'v',
+        Shape::TriangleRight => '>',
+        Shape::TriangleLeft => '<',
+        Shape::Pentagon => 'p',
+        Shape::Star => '*',
+        Shape::Bar => 'd',
         Shape::Cross => 'X',
         Shape::Plus => 'P',
     }

@@ -1,6 +1,7 @@
 //! Separate points: impacts, Poincaré sections, named points.
 
 use std::collections::HashSet;
+use std::fmt::Write as _;
 
 use crate::canvas::{Canvas, Frame};
 use crate::colour::Colour;
@@ -25,6 +26,16 @@ pub enum Shape {
     Cross,
     /// +
     Plus,
+    /// ▶
+    TriangleRight,
+    /// ◀
+    TriangleLeft,
+    /// ⬟
+    Pentagon,
+    /// ★
+    Star,
+    /// ▮
+    Bar,
 }
 
 impl Shape {
@@ -56,6 +67,17 @@ impl Shape {
                 let (l, t, b, rt) = (N(x - h), N(y - h), N(y + h), N(x + h));
                 format!("M{l} {t}L{rt} {b}M{l} {b}L{rt} {t}")
             }
+            Self::TriangleRight | Self::TriangleLeft => {
+                let (h, s) = (r * 1.555, if self == Self::TriangleRight { 1.0 } else { -1.0 });
+                let (base, half) = (N(x - s * h / 2.0), h * 0.866);
+                format!("M{} {ny}L{base} {}L{base} {}z", N(x + s * h), N(y + half), N(y - half))
+            }
+            Self::Pentagon => around(x, y, &[r * 1.149; 5]),
+            Self::Star => around(x, y, &[r * 1.462, r * 0.731].repeat(5)),
+            Self::Bar => {
+                let (w, h) = (r * 0.62, r * 1.27);
+                format!("M{} {}h{}v{}h-{}z", N(x - w), N(y - h), N(2.0 * w), N(2.0 * h), N(2.0 * w))
+            }
             Self::Plus => format!("M{} {ny}H{}M{nx} {}V{}", N(x - r), N(x + r), N(y - r), N(y + r)),
         }
     }
@@ -63,6 +85,20 @@ impl Shape {
     fn is_open(self) -> bool {
         matches!(self, Self::Cross | Self::Plus)
     }
+}
+
+/// A closed path around a centre, through points at these distances from it and at equal angles from the top on.
+#[allow(clippy::cast_precision_loss)] // a few points
+fn around(x: f64, y: f64, distances: &[f64]) -> String {
+    let mut path = String::new();
+    let (mut angle, mut verb) = (0.0_f64, 'M');
+    for distance in distances {
+        let (sin, cos) = angle.sin_cos();
+        let _ = write!(path, "{verb}{} {}", N(x + distance * sin), N(y - distance * cos));
+        angle += core::f64::consts::TAU / distances.len() as f64;
+        verb = 'L';
+    }
+    path + "z"
 }
 
 /// The style of points.
@@ -193,8 +229,24 @@ mod tests {
 
     #[test]
     fn every_shape_has_a_path() {
-        use Shape::{Circle, Cross, Diamond, Plus, Square, TriangleDown, TriangleUp};
-        let all = [Circle, Square, Diamond, TriangleUp, TriangleDown, Cross, Plus];
+        use Shape::{
+            Bar, Circle, Cross, Diamond, Pentagon, Plus, Square, Star, TriangleDown, TriangleLeft, TriangleRight,
+            TriangleUp,
+        };
+        let all = [
+            Circle,
+            Square,
+            Diamond,
+            TriangleUp,
+            TriangleDown,
+            Cross,
+            Plus,
+            TriangleRight,
+            TriangleLeft,
+            Pentagon,
+            Star,
+            Bar,
+        ];
         let paths: HashSet<String> = all.iter().map(|s| s.path(5.0, 5.0, 10.0)).collect();
         assert_eq!(paths.len(), all.len());
     }

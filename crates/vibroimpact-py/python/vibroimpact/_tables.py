@@ -102,10 +102,11 @@ BRANCH_MARKS = {
     "chatter": ("X", True),
     "torus": ("P", False),
     "corner": ("X", False),
-    "sticking begins": ("X", False),
-    "sticking ends": ("X", False),
-    "holding begins": ("X", False),
-    "holding ends": ("X", False),
+    "sticking begins": (">", False),
+    "sticking ends": ("<", False),
+    "holding begins": ("p", False),
+    "holding ends": ("d", False),
+    "jump": ("*", False),
     "change": ("X", False),
 }
 

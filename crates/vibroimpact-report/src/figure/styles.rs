@@ -24,13 +24,14 @@ pub const BRANCH_MARKS: [(&str, Shape, bool); 9] = [
 ];
 
 /// The marks of further events along branches of machines, as [`BRANCH_MARKS`].
-pub const MACHINE_BRANCH_MARKS: [(&str, Shape, bool); 7] = [
+pub const MACHINE_BRANCH_MARKS: [(&str, Shape, bool); 8] = [
     ("torus", Shape::Plus, false),
     ("corner", Shape::Cross, false),
-    ("sticking begins", Shape::Cross, false),
-    ("sticking ends", Shape::Cross, false),
-    ("holding begins", Shape::Cross, false),
-    ("holding ends", Shape::Cross, false),
+    ("sticking begins", Shape::TriangleRight, false),
+    ("sticking ends", Shape::TriangleLeft, false),
+    ("holding begins", Shape::Pentagon, false),
+    ("holding ends", Shape::Bar, false),
+    ("jump", Shape::Star, false),
     ("change", Shape::Cross, false),
 ];
 
@@ -152,6 +153,7 @@ mod tests {
             MachineBranchEvent::Sticking { stop, begins: false },
             MachineBranchEvent::Holding { joint, begins: true },
             MachineBranchEvent::Holding { joint, begins: false },
+            MachineBranchEvent::Jump,
             MachineBranchEvent::Change { place },
         ];
         assert_eq!(MACHINE_BRANCH_MARKS.map(|(name, ..)| name), further.map(|event| event.name()));

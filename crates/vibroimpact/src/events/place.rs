@@ -131,6 +131,7 @@ impl Place {
 
     /// The state here, each gap, how many derivatives of each guard are zero, and the surfaces.
     #[inline]
+    #[allow(clippy::type_complexity)] // closures have no other name
     fn begin<'a>(
         &'a self,
         normal: &'a Normal,
