@@ -99,11 +99,12 @@ fn together(flight: &MachineFlight, s: f64, guards: &mut Guards, buffers: &mut B
         rounding / rate.abs()
     };
     let of_first = guards.iter().map(time).fold(f64::EPSILON * s, f64::max).min(most);
+    let strikes = |g: &usize| flight.structure.guards[*g].strikes;
     let also = |g: &usize| {
         let (value, rate, rounding) = uncertain(*g);
         if rate >= 0.0 {
-            // a stop on which the structure has rested is not left yet
-            return flight.guards[*g].known > 1 && value <= rounding;
+            // a rigid stop on which the structure has rested is not left yet, and pushes at an impact elsewhere
+            return strikes(g) && flight.guards[*g].known > 1 && value <= rounding && guards.iter().any(strikes);
         }
         let own = rounding / -rate;
         value <= TOGETHER * (own.min(most.max(later * own)) + of_first) * -rate

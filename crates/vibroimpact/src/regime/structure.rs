@@ -53,6 +53,8 @@ impl GuardKind {
 pub(crate) struct Guard {
     pub(crate) kind: GuardKind,
     pub(crate) function: Observable,
+    /// Whether it is the gap of a rigid stop: its zero is an impact.
+    pub(crate) strikes: bool,
 }
 
 /// A joint that holds along with a constraint and shares its load.
@@ -536,7 +538,11 @@ impl Structure {
 
     fn all_guards(&self, machine: &Machine, normal: &Normal) -> Vec<Guard> {
         let mut guards = Vec::new();
-        let mut add = |kind, function| guards.push(Guard { kind, function });
+        let rigid = |j: usize| matches!(machine.stops()[j].law, StopLaw::Rigid { .. });
+        let mut add = |kind, function| {
+            let strikes = matches!(kind, GuardKind::Gap(j) if rigid(j));
+            guards.push(Guard { kind, function, strikes });
+        };
         let moves = |j: usize| {
             let (gap, _) = self.gap(normal, j);
             self.changes(&gap, &normal.directions[j], (&self.x, Some(&normal.walls[j])))
