@@ -340,7 +340,7 @@ fn c22_transient_chaos() {
         let settled = settle_machine(&case.machine(), &start, &SettleOptions::at_most(budget)).unwrap();
         match &settled.verdict {
             MachineVerdict::Chaotic { events, .. } => {
-                assert_eq!((*events, settled.events), (u64::from(budget), u64::from(budget)))
+                assert_eq!((*events, settled.events), (u64::from(budget), u64::from(budget)));
             }
             other => assert_eq!(other.label(), "9/4"),
         }
