@@ -171,6 +171,8 @@ export async function at_most_three_tiles_are_under_way_and_those_out_of_view_ar
       count.most = Math.max(count.most, ++count.under);
       options.signal.addEventListener("abort", () => count.given++);
       try {
+        // also where a tile is computed sooner than the view changes
+        await new Promise((go) => setTimeout(go, 500));
         const response = await original(path, options);
         const bytes = await response.arrayBuffer();
         return new Response(bytes, { status: response.status, headers: response.headers });
