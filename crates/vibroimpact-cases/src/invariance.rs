@@ -84,9 +84,7 @@ fn instants_of(machine: &Machine, start: &MachineStart, back: Option<&Changed>, 
                 }
                 let events: BTreeSet<_> = own.collect();
                 if events.iter().any(|(kind, _)| matches!(*kind, "stick" | "collapse")) {
-                    let began = time - ACCUMULATING * (1.0 + time);
-                    let kept = all.iter().rposition(|last| last.time < began || !last.accumulates());
-                    all.truncate(kept.map_or(0, |last| last + 1));
+                    forget_accumulating(&mut all, time);
                 }
                 all.push(Instant { time, events, q });
             }
@@ -94,11 +92,16 @@ fn instants_of(machine: &Machine, start: &MachineStart, back: Option<&Changed>, 
     }
     // the last one may lack events, and those before it a rest that ends them
     if let Some(last) = all.pop() {
-        let began = last.time - ACCUMULATING * (1.0 + last.time);
-        let kept = all.iter().rposition(|last| last.time < began || !last.accumulates());
-        all.truncate(kept.map_or(0, |last| last + 1));
+        forget_accumulating(&mut all, last.time);
     }
     all
+}
+
+/// Takes away the last instants that can be impacts which accumulate until this time.
+fn forget_accumulating(all: &mut Vec<Instant>, until: f64) {
+    let began = until - ACCUMULATING * (1.0 + until);
+    let kept = all.iter().rposition(|last| last.time < began || !last.accumulates());
+    all.truncate(kept.map_or(0, |last| last + 1));
 }
 
 /// The largest difference of two states.

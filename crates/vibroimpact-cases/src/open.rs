@@ -6,6 +6,9 @@ use crate::rules::Rule;
 pub const OPEN: &[(&str, Rule, u64)] = &[
     // a body of 1e-9 of the mass of the other one, which has not moved yet, leaves a rigid stop
     ("light", Rule::Faint, 64),
+    // more than 100 events at one time before bodies that strike each other without order are at rest
+    ("columns", Rule::End, 170),
+    ("chains", Rule::End, 189),
 ];
 
 /// Whether a fault of a family against a rule is known.

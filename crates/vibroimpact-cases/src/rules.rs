@@ -90,9 +90,8 @@ const ASYMMETRY: f64 = 1e-9;
 const SYMMETRIC: f64 = 1e-13;
 /// Speeds of impacts below this part of the largest velocity are rounding errors.
 const FAINT: f64 = 1e-14;
-/// So many stretches at one time are a motion that does not advance: more than the events that a column without order has before it
-/// is at rest.
-const STALLED: u32 = 300;
+/// So many stretches at one time are a motion that does not advance.
+const STALLED: u32 = 100;
 /// The largest number of intervals of the quadrature over one stretch.
 const INTERVALS: f64 = 100.0;
 /// Nodes and weights of Gauss and Legendre on [0, 1].
