@@ -167,18 +167,15 @@ impl MachineMotion<'_> {
         let structure = self.structures.get(self.machine, &self.normal, &there.states)?;
         let flight = there.flight(&self.normal, structure.clone());
         // what stays held while these stops are open moves none of their gaps
-        let mut kept = Orthonormal::default();
-        for place in structure.held.iter().filter(|place| !stops.contains(place)) {
-            kept.add(&self.normal.directions[*place]);
-        }
+        let directions = &self.normal.directions;
+        let kept = structure.held.iter().filter(|at| !stops.contains(at));
+        let kept = Orthonormal::spanning(kept.map(|at| &directions[*at]));
         let (mut push, mut push_rate) = (vec![0.0; self.normal.n], vec![0.0; self.normal.n]);
-        for (place, reaction) in structure.held.iter().zip(&structure.reactions) {
-            if stops.contains(place) {
-                let (along, _) = kept.beside(&self.normal.directions[*place]);
-                let (force, rate) = flight.first(reaction);
-                add_scaled(&mut push, force, &along);
-                add_scaled(&mut push_rate, rate, &along);
-            }
+        for (at, reaction) in structure.held.iter().zip(&structure.reactions).filter(|(at, _)| stops.contains(at)) {
+            let along = kept.beside(&directions[*at])?;
+            let (force, rate) = flight.first(reaction);
+            add_scaled(&mut push, force, &along);
+            add_scaled(&mut push_rate, rate, &along);
         }
         let mut damped = self.normal.damping.apply(&push);
         for closed in &structure.closed {
@@ -186,11 +183,12 @@ impl MachineMotion<'_> {
             add_scaled(&mut damped, closed.law.1 * dot(w, &push), w);
         }
         let of = |(j, rebound): (&usize, &f64)| {
-            let (along, _) = kept.beside(&self.normal.directions[*j]);
+            let along = kept.beside(&directions[*j])?;
             let a = dot(&along, &push);
-            Return { rebound: *rebound, a, jerk: dot(&along, &push_rate), drag: dot(&along, &damped) / a }
+            Some(Return { rebound: *rebound, a, jerk: dot(&along, &push_rate), drag: dot(&along, &damped) / a })
         };
-        Some((there, flight, stops.iter().zip(rebounds).map(of).collect()))
+        let returns = stops.iter().zip(rebounds).map(of).collect::<Option<_>>()?;
+        Some((there, flight, returns))
     }
 
     /// Brings the structure to rest on stops: to the state `there`, and from it along its flight for the time that the

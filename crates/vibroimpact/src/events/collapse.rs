@@ -15,7 +15,7 @@ use super::motion::MachineMotion;
 use super::place::Place;
 use super::resolve::{Resolution, Resolved};
 use crate::machine::StopLaw;
-use crate::math::{add_scaled, dot};
+use crate::math::{change_along, dot};
 use crate::regime::{ContactState, GuardKind, Orthonormal};
 use std::collections::VecDeque;
 
@@ -105,11 +105,9 @@ impl MachineMotion<'_> {
         let free = self.structures.get(self.machine, &self.normal, &self.place.states)?;
         let flight = self.place.flight(&self.normal, free.clone());
         let turns = self.place.turns(&self.normal);
-        let mut kept = Orthonormal::default();
-        free.held.iter().for_each(|place| {
-            kept.add(&self.normal.directions[*place]);
-        });
-        let along: Vec<Vec<f64>> = stops.iter().map(|j| kept.beside(&self.normal.directions[*j]).0).collect();
+        let directions = &self.normal.directions;
+        let kept = Orthonormal::spanning(free.held.iter().map(|at| &directions[*at]));
+        let along: Vec<Vec<f64>> = stops.iter().map(|j| kept.beside(&directions[*j])).collect::<Option<_>>()?;
         let gaps = stops.iter().map(|j| {
             let StopLaw::Rigid { restitution } = self.machine.stops()[*j].law else { return None };
             let (gap, rate) = self.place.gap_and_rate(&self.normal, &turns, *j);
@@ -167,23 +165,24 @@ impl MachineMotion<'_> {
         let mut there = self.place.clone();
         let turns = there.turns(&self.normal);
         let mut candidates: Vec<usize> = (0..there.states.len()).filter(|at| there.states[*at].constrains()).collect();
-        // along each direction only what leaves the velocities along those before it
-        let mut kept = Orthonormal::default();
-        for at in candidates.iter().filter(|at| !places.contains(at)) {
-            kept.add(&self.normal.directions[*at]);
-        }
-        for at in places {
-            let w = &self.normal.directions[*at];
-            let (along, size) = kept.beside(w);
-            if kept.add(w) {
-                let (gap, rate) = if *at < stops {
-                    there.gap_and_rate(&self.normal, &turns, *at)
-                } else {
-                    (0.0, -there.sliding(self.machine, &self.normal, at - stops).0)
-                };
-                add_scaled(&mut there.x, gap / (size * size), &along);
-                add_scaled(&mut there.v, rate / (size * size), &along);
-            }
+        let own = |there: &Place, at: usize| match at.checked_sub(stops) {
+            None => there.gap_and_rate(&self.normal, &turns, at),
+            Some(joint) => (0.0, -there.sliding(self.machine, &self.normal, joint).0),
+        };
+        // along each direction only what leaves the velocities along those that are kept
+        let directions = &self.normal.directions;
+        let kept = candidates.iter().filter(|at| !places.contains(at));
+        let kept = Orthonormal::spanning(kept.map(|at| &directions[*at]));
+        let free = places.iter().filter_map(|at| Some((*at, kept.beside(&directions[*at])?)));
+        let free: Vec<(usize, Vec<f64>)> = free.collect();
+        // twice, so that directions that nearly depend on each other are followed to rounding as well
+        for _ in 0..2 {
+            let amounts: Vec<(f64, f64)> = free.iter().map(|(at, _)| own(&there, *at)).collect();
+            let along = |amount: fn(&(f64, f64)) -> f64| -> Vec<(&[f64], f64)> {
+                free.iter().zip(&amounts).map(|((_, w), amounts)| (&w[..], amount(amounts))).collect()
+            };
+            change_along(&along(|of| of.0), &mut there.x);
+            change_along(&along(|of| of.1), &mut there.v);
         }
         there.known.retain(|(kind, _)| !places.contains(&kind.place(stops)));
         candidates.extend(places);

@@ -26,21 +26,23 @@ fn scaled(vector: &[f64], size: f64) -> Vec<f64> {
 pub(crate) struct Orthonormal(Vec<Vec<f64>>);
 
 impl Orthonormal {
-    /// What is left of a direction beside these, and its length.
-    pub(crate) fn beside(&self, direction: &[f64]) -> (Vec<f64>, f64) {
-        let mut left = direction.to_vec();
-        let size = project(&self.0, &mut left);
-        (left, size)
+    /// Those that span these directions.
+    pub(crate) fn spanning<'a>(directions: impl Iterator<Item = &'a Vec<f64>>) -> Self {
+        let mut basis = Self::default();
+        for direction in directions {
+            if let Some(left) = basis.beside(direction) {
+                let size = dot(&left, &left).sqrt();
+                basis.0.push(scaled(&left, size));
+            }
+        }
+        basis
     }
 
-    /// Adds a direction; `false` if it depends on these.
-    pub(crate) fn add(&mut self, direction: &[f64]) -> bool {
-        let (left, size) = self.beside(direction);
-        let new = size >= DEPENDENT * dot(direction, direction).sqrt();
-        if new {
-            self.0.push(scaled(&left, size));
-        }
-        new
+    /// What is left of a direction beside these; `None` if it depends on these.
+    pub(crate) fn beside(&self, direction: &[f64]) -> Option<Vec<f64>> {
+        let mut left = direction.to_vec();
+        let size = project(&self.0, &mut left);
+        (size >= DEPENDENT * dot(direction, direction).sqrt()).then_some(left)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::signal::Signal;
 use super::translations::Translations;
 use crate::machine::{HarmonicMotion, Machine, MachineStop, StopLaw};
-use crate::math::{Matrix, add_scaled, dot};
+use crate::math::{Matrix, change_along, dot};
 
 /// The acceleration of a machine without contacts towards a stop, as a function of the mass-normalised state.
 #[derive(Clone, Debug)]
@@ -149,14 +149,12 @@ impl Normal {
         self.factor.solve_lower_transposed_into(x, q);
     }
 
-    /// Moves coordinates by an amount along the direction of each of some stops and joints, which is a rounding error: all at
-    /// once, so that a symmetric state stays one.
+    /// Moves coordinates so that the gap of each of some stops, or the place of a joint, changes by an amount: all at once, so
+    /// that a symmetric state stays one.
     pub(crate) fn move_by(&self, amounts: &[(usize, f64)], x: &mut [f64]) {
-        for (place, amount) in amounts {
-            let w = &self.directions[*place];
-            let all: f64 = amounts.iter().map(|(other, _)| dot(w, &self.directions[*other]).abs()).sum();
-            add_scaled(x, amount / all, w);
-        }
+        let along: Vec<(&[f64], f64)> =
+            amounts.iter().map(|(at, amount)| (&self.directions[*at][..], *amount)).collect();
+        change_along(&along, x);
     }
 
     /// The mass-normalised ones from coordinates or velocities.

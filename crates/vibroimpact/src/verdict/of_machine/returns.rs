@@ -128,15 +128,11 @@ impl Recorded<'_> {
         MachineLap::fly(&self.frame, &step.end, after).is_some_and(|lap| rounding_decides(&self.frame, &lap))
     }
 
-    /// Whether the motion from `place` is captured by a cycle that is not unstable: it is on it to rounding, or all its
+    /// Whether the motion from `place` is captured by a cycle: it is on it to rounding, and does not leave it if it is unstable, or all its
     /// directions contract but for the places of joints that hold all the time, and it is near at the phase of the states of the cycle,
     /// and its next period follows the linear law of the cycle so closely that the remainder cannot undo the contraction.
     /// Without forcing it is near where it crosses the plane across the flow at the state of the cycle.
     pub(crate) fn captures(&self, place: &Place, cycle: &MachineCycle) -> Option<bool> {
-        let stability = cycle.stability();
-        if stability == Stability::Unstable {
-            return Some(false);
-        }
         let frame = &self.frame;
         let real = match frame.machine.parts().frequency {
             Some(frequency) => {
@@ -158,7 +154,10 @@ impl Recorded<'_> {
             return Some(false);
         }
         if apart <= AT_ROUNDING {
-            return Some(true);
+            return Some(cycle.stability() != Stability::Unstable || self.stays(&real, cycle));
+        }
+        if cycle.stability() == Stability::Unstable {
+            return Some(false);
         }
         let time = cycle.period;
         let (reference, moved) = (MachineLap::fly(frame, nearest, time)?, MachineLap::fly(frame, &real, time)?);
@@ -190,6 +189,20 @@ impl Recorded<'_> {
         let rate = contracting.map(|(multiplier, _)| multiplier.modulus()).fold(0.0, f64::max);
         Some(left_over <= 0.3 * (1.0 - rate) * largest(&|i| before[i]) + 1e-12)
     }
+
+    /// Whether the motion from `real` stays on an unstable cycle for ever, as exactly symmetric ones do: for so many periods that
+    /// a rounding error across it would have grown to the distance [`NEAR`].
+    fn stays(&self, real: &Place, cycle: &MachineCycle) -> bool {
+        let growth = crate::math::ln(cycle.multipliers.iter().map(|one| one.modulus()).fold(0.0, f64::max));
+        let periods = crate::math::ln(NEAR / f64::EPSILON) / growth;
+        let mut place = real.clone();
+        (0..PERIODS).take_while(|k| f64::from(*k) < periods).all(|_| {
+            let Some(lap) = MachineLap::fly(&self.frame, &place, cycle.period) else { return false };
+            place = Place { phase: place.phase, ..lap.end };
+            let apart = |strobe| self.frame.distance(strobe, &place, cycle.sizes);
+            cycle.strobes.iter().map(apart).fold(f64::INFINITY, f64::min) <= AT_ROUNDING
+        }) && periods < f64::from(PERIODS)
+    }
 }
 
 impl Diverging for MachineSpectrum {
@@ -204,6 +217,8 @@ impl Diverging for MachineSpectrum {
 
 /// The longest period of a cycle that is searched for from a release, in forcing periods.
 const LONGEST: f64 = 10_000.0;
+/// The most periods for which a motion on an unstable cycle is followed.
+const PERIODS: u32 = 10_000;
 /// The distance from a cycle below which capture is tested.
 const NEAR: f64 = 1e-3;
 /// The distance below which the two differ only by rounding errors.

@@ -17,7 +17,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub enum MachineVerdict {
     /// A cycle, confirmed by Newton's method, that captures the motion: a stable one, or a neutral one on which it is to
-    /// rounding.
+    /// rounding, or an unstable one that it does not leave, as an exactly symmetric motion.
     Periodic(MachineCycle),
     /// No further event, for ever.
     NoImpact(MachineTail),
