@@ -14,7 +14,7 @@
 //! | a case as a machine file | [`Case::toml`], `toml` |
 //! | gaps, forces and energies from the numbers of a machine alone | `quantities` |
 //! | what must hold of every motion | [`faults`], [`Rule`] |
-//! | what is known to be wrong | [`OPEN`] |
+//! | what is known to be wrong | [`DIFFERS`] |
 //!
 //! ```
 //! use vibroimpact_cases::{FAMILIES, DrawnFamily};
@@ -39,5 +39,5 @@ pub use changes::{Changed, Rewriting, changed};
 pub use draw::Draw;
 pub use families::{DrawnFamily, FAMILIES};
 pub use invariance::Standard;
-pub use open::{DIFFERS, OPEN, is_open};
+pub use open::DIFFERS;
 pub use rules::{BrokenRule, Budget, Rule, faults};

@@ -1,21 +1,4 @@
-//! What is known to be wrong with drawn machines.
-
-use crate::rules::Rule;
-
-/// Faults that are known: family, rule, and a seed that shows it. A fault that is mended is removed here.
-pub const OPEN: &[(&str, Rule, u64)] = &[
-    // a body of 1e-9 of the mass of the other one, which has not moved yet, leaves a rigid stop
-    ("light", Rule::Faint, 64),
-    // more than 100 events at one time before bodies that strike each other without order are at rest
-    ("columns", Rule::End, 170),
-    ("chains", Rule::End, 189),
-];
-
-/// Whether a fault of a family against a rule is known.
-#[must_use]
-pub fn is_open(family: &str, rule: Rule) -> bool {
-    OPEN.iter().any(|(name, known, _)| *name == family && *known == rule)
-}
+//! What is known to be wrong with drawn machines. A fault that is mended is removed here.
 
 /// Machines whose events differ by more than rounding errors explain when they are written in another way: family and seed.
 pub const DIFFERS: &[(&str, u64)] = &[

@@ -14,7 +14,9 @@
 //! the stop, to the smallest one.
 
 use crate::case::Case;
-use crate::quantities::{compliant, contact_energy, contact_force, energy, fastest, gap, largest, power, surface_of};
+use crate::quantities::{
+    compliant, contact_energy, contact_force, energy, fastest, gap, largest, power, square, surface_of,
+};
 use core::fmt;
 use vibroimpact::events::{
     MachineEnd, MachineEventKind, MachineLimits, MachineMotion, MachineSample, MachineStretches,
@@ -90,7 +92,7 @@ const ASYMMETRY: f64 = 1e-9;
 const SYMMETRIC: f64 = 1e-13;
 /// Speeds of impacts below this part of the largest velocity are rounding errors.
 const FAINT: f64 = 1e-14;
-/// So many stretches at one time are a motion that does not advance.
+/// So many events on one stop at one time, or stretches, are a motion that does not advance.
 const STALLED: u32 = 100;
 /// The largest number of intervals of the quadrature over one stretch.
 const INTERVALS: f64 = 100.0;
@@ -145,7 +147,9 @@ impl<'a> Follower<'a> {
         let parts = machine.parts();
         let harmonics = parts.forces.iter().flat_map(|force| force.cos.iter().chain(&force.sin));
         let force = harmonics.chain(&parts.constant).fold(0.0_f64, |most, value| most.max(value.abs()));
-        let sizes = Sizes { force, ..Sizes::default() };
+        // impacts at the start may take all of this energy
+        let energy = 0.5 * square(&parts.mass, &case.start.qdot);
+        let sizes = Sizes { force, energy, ..Sizes::default() };
         Self { case, machine, fastest: fastest(machine), faults: Vec::new(), sizes, surfaces, asymmetry: (0.0, 0.0) }
     }
 
@@ -165,7 +169,7 @@ impl<'a> Follower<'a> {
         let motion = MachineMotion::new(self.machine, start, MachineLimits::default());
         let mut motion = motion.unwrap_or_else(|why| panic!("{} {}: {why}", self.case.family, self.case.seed));
         let mut fastest = largest(&start.qdot);
-        let (mut time, mut crowd) = (0.0, 0);
+        let (mut time, mut crowd) = (0.0, vec![0_u32; self.machine.stops().len() + self.machine.joints().len()]);
         let mut count = 0;
         for event in motion.by_ref() {
             count += 1;
@@ -175,13 +179,16 @@ impl<'a> Follower<'a> {
                 let (name, speed) = (self.name(event.place), event.speed);
                 self.fault(Rule::Faint, event.time, || format!("an impact on {name} with {speed:e}"));
             }
-            crowd = if event.time > time { 0 } else { crowd + 1 };
+            if event.time > time {
+                crowd.fill(0);
+            }
             time = event.time;
-            if crowd > STALLED {
+            crowd[event.place] += 1;
+            if crowd[event.place] > STALLED {
                 let name = self.name(event.place);
                 let kind = event.kind.name();
                 self.fault(Rule::End, time, || {
-                    format!("more than {STALLED} events at one time, the last: {kind} {name}")
+                    format!("more than {STALLED} events at one time on {name}, the last: {kind}")
                 });
                 return;
             }

@@ -1,7 +1,6 @@
 """The example notebook runs without changes, and contains no outputs."""
 
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -25,10 +24,8 @@ def test_the_notebook_runs(root: Path, tmp_path: Path, monkeypatch: pytest.Monke
     nbformat.validate(book)
     cells = [cell for cell in book.cells if cell.cell_type == "code"]
     assert all(cell.outputs == [] and cell.execution_count is None for cell in cells)
-    begin = time.monotonic()
     where = {"metadata": {"path": str(tmp_path)}}
     nbclient.NotebookClient(book, timeout=60, kernel_name="here", resources=where).execute()
-    assert time.monotonic() - begin < 60
     told = "".join(out.text for cell in cells for out in cell.outputs if out.output_type == "stream" and out.name == "stdout")
     figures = [out for cell in cells for out in cell.outputs if "image/png" in out.get("data", {})]
     # the statements in the text of the notebook

@@ -56,7 +56,10 @@ fn by_windows(
     touched.clear();
     touched.extend(flight.guards.iter().map(|guard| guard.known > 0));
     buffers.fresh = false;
-    let mut found = search(flight, until, steps, buffers, touches, &mut known, &mut touched);
+    let mut found = match closing_already(flight, buffers) {
+        Some(guard) => Found::Zero { s: 0.0, guards: Guards::One([guard]) },
+        None => search(flight, until, steps, buffers, touches, &mut known, &mut touched),
+    };
     (buffers.known, buffers.touched) = (known, touched);
     if let Found::Zero { s, guards } = &mut found {
         buffers.fresh = *s == buffers.modes.s;
@@ -67,9 +70,34 @@ fn by_windows(
     found
 }
 
+/// A rigid stop whose gap is zero at the beginning and closes, as after an impact elsewhere. Beside others that are zero and open
+/// no window would tell it apart from them.
+fn closing_already(flight: &MachineFlight, buffers: &mut Buffers) -> Option<usize> {
+    let mut zero = (0..flight.guards.len()).filter(|g| {
+        let guard = &flight.guards[*g];
+        guard.known < 2 && guard.value <= 0.0 && flight.structure.guards[*g].strikes
+    });
+    let mut next = zero.next();
+    if next.is_some() {
+        flight.at(0.0, &mut buffers.modes);
+    }
+    while let Some(g) = next {
+        if flight.guard(g, &buffers.modes).1 < 0.0 {
+            return Some(g);
+        }
+        next = zero.next();
+    }
+    None
+}
+
 /// A guard that only touches zero and goes below it by no more than this number of its rounding errors over a window decides
 /// nothing there.
 const FLAT: f64 = 8.0;
+
+/// Zeros before this part of a window are searched for in a shorter one, because those of several guards that are so near each
+/// other are not told apart in it; a window of this length is not made shorter.
+const SHORT: f64 = 1e-9;
+const SHORTEST: f64 = 1e-280;
 
 /// How many rounding errors of their values and of the time may lie between zeros of guards at one time.
 const TOGETHER: f64 = 32.0;
@@ -132,6 +160,7 @@ fn search(
     let quiet = flight.quiet_time(HIGHEST);
     let mut s = 0.0;
     let mut reach = 1.0;
+    let mut longest = f64::INFINITY;
     let mut on_track = false;
     while steps > 0 {
         steps -= 1;
@@ -144,6 +173,7 @@ fn search(
             && (reach == 1.0 || decays)
             && fastest > 0.0
             && !is_quiet
+            && longest.is_infinite()
         {
             // windows without a zero are passed without the closed form
             if !on_track {
@@ -178,7 +208,10 @@ fn search(
                 s = if on_track { buffers.track.s } else { until };
                 continue;
             };
-            if !standing && let Some(found) = certain(flight, series.length * part, s, near, buffers) {
+            if !standing
+                && near > SHORT
+                && let Some(found) = certain(flight, series.length * part, s, near, buffers)
+            {
                 return found;
             }
         }
@@ -198,6 +231,7 @@ fn search(
             .filter(|surface| surface.rate * s < 40.0)
             .fold(fastest, |rate, surface| rate.max(surface.rate * crate::system::decay(surface.rate * s / 9.0).0));
         let mut window = (if rate > 0.0 { REACH / rate } else { 1e150 } * reach).min((until - s) * 1.001 + 1e-300);
+        window = window.min(longest);
         if is_quiet {
             window = window.min(quiet - s);
         }
@@ -224,8 +258,13 @@ fn search(
         let Some((near, g)) = first_of(&mut buffers.polynomials) else {
             s += window;
             reach = (reach * 1.5).min(1.0);
+            longest = f64::INFINITY;
             continue;
         };
+        if near < SHORT && buffers.polynomials[g].beside(-1.0)[0] > 0.0 && window > SHORTEST {
+            longest = 1e3 * RESOLUTION.max(near) * window;
+            continue;
+        }
         if let Some(found) = certain(flight, window, s, near, buffers) {
             return found;
         }

@@ -71,9 +71,13 @@ fn proven(
                 _ => (s + t * window, curvature / (window * window)),
             }
         };
-        let at = if of.known > 0 {
+        let along = of.beside(0.0);
+        let at = if along[0] <= 0.0 {
+            // it is zero already
+            s
+        } else if of.known > 0 {
             let bracket = (*from, to);
-            on_polynomial(&of.beside(0.0), window, bracket).unwrap_or_else(|| {
+            on_polynomial(&along, window, bracket).unwrap_or_else(|| {
                 let bracket = (*from * window, to * window);
                 refine(flight, g, bracket, Some(guess()), RESOLUTION * window, &mut buffers.modes)
             })

@@ -10,7 +10,7 @@
 //! so a joint that slips at each impact and holds in between holds at the end if the force at rest is within its limit.
 
 use super::event::MachineEventKind;
-use super::instants::Round;
+use super::instants::{BELOW, Round};
 use super::motion::MachineMotion;
 use super::place::Place;
 use super::resolve::{Resolution, Resolved};
@@ -117,7 +117,7 @@ impl MachineMotion<'_> {
         });
         let mut gaps: Vec<FreeGap> = gaps.collect::<Option<_>>()?;
         let limit = if free.fastest() > 0.0 { SOON / free.fastest() } else { f64::INFINITY };
-        let rounding = 1e-3 * f64::EPSILON * self.instants.longest();
+        let rounding = BELOW * f64::EPSILON * self.instants.longest();
         let last = LAST * stops.len();
         let (mut time, mut recent) = (0.0, VecDeque::from(vec![0.0; last]));
         for step in 0..STEPS {
@@ -140,7 +140,7 @@ impl MachineMotion<'_> {
             if time > limit {
                 return None;
             }
-            if step > last && time - before <= rounding.max(1e-3 * f64::EPSILON * time) {
+            if step > last && time - before <= rounding.max(BELOW * f64::EPSILON * time) {
                 return Some(time);
             }
         }
@@ -184,6 +184,7 @@ impl MachineMotion<'_> {
             change_along(&along(|of| of.0), &mut there.x);
             change_along(&along(|of| of.1), &mut there.v);
         }
+        self.instants.silence(&mut there.x, &mut there.v);
         there.known.retain(|(kind, _)| !places.contains(&kind.place(stops)));
         candidates.extend(places);
         candidates.sort_unstable();

@@ -22,6 +22,10 @@ const LONGEST: usize = 32;
 const KEPT: usize = 3 * LONGEST + 1;
 /// Factors that differ by less than this part of them are equal.
 const EQUAL: f64 = 1e-2;
+/// Those of rounds that take no time, whose lengths tell nothing, differ by no more than this.
+const SETTLED: f64 = 1e-4;
+/// No time passes in less than this part of the rounding error of the longest flight.
+pub(super) const BELOW: f64 = 1e-3;
 /// Speeds and rounds fall if their factor is less than 1 by more than this.
 const FALLS: f64 = 1e-4;
 /// Impacts of a round that are apart by no more than this part of it are at the same time.
@@ -128,7 +132,7 @@ impl Instants {
         let way = self.passed * self.passed * of_v;
         self.square = larger(FORGOTTEN * FORGOTTEN * self.square, larger(of_x, way));
         self.longest *= FORGOTTEN;
-        self.short = self.passed < SHORT * self.longest;
+        self.short = self.passed <= SHORT * self.longest;
         if !self.short {
             self.longest = self.longest.max(self.passed);
             self.count = 0;
@@ -156,12 +160,15 @@ impl Instants {
     /// Whether a velocity along a direction, of which the square of the length is known, is below this part of the largest ones of late.
     #[inline]
     pub(super) fn is_faint(&self, velocity: f64, (along, square): (&[f64], f64), part: f64) -> bool {
-        let square = part * part * square * self.fastest;
+        let square = square * self.fastest;
         #[allow(clippy::cast_precision_loss)] // coordinates
         let count = along.len() as f64;
         // the sum below is no larger than this bound, which nearly always decides
-        velocity * velocity <= count * square
-            && velocity.abs() <= part * self.speeds.iter().zip(along).map(|(speed, w)| speed * w.abs()).sum::<f64>()
+        velocity * velocity <= part * part * count * square && {
+            let own = self.speeds.iter().zip(along).map(|(speed, w)| speed * w.abs()).sum::<f64>();
+            // what has never moved by more than a rounding error of the motion as a whole does not move
+            velocity.abs() <= part * own || own * own <= f64::EPSILON * f64::EPSILON * square
+        }
     }
 
     /// Takes away what rounding errors have left of coordinates and velocities that were larger of late: a structure whose bodies
@@ -253,18 +260,22 @@ impl Instants {
         }
         let falls = |factor: f64| (0.0..1.0 - FALLS).contains(&factor);
         let length = |k: usize| (k..k + period).map(|i| all[i].after).sum::<f64>();
-        let factor = length(0) / length(period);
+        // impacts that fall at one instant take no time
+        let at_once = length(0) <= BELOW * f64::EPSILON * self.longest;
+        let factor = if at_once { 0.0 } else { length(0) / length(period) };
         let slower = |k: usize| all[k].speed / all[k + period].speed;
         let impacts = |until: usize| (0..until).filter(|k| all[*k].is_impact());
         let first = slower(impacts(period).next()?);
-        let one = |until: usize| impacts(until).all(|k| (slower(k) - first).abs() <= EQUAL * first);
-        if !falls(factor) || !falls(first) || !one(period + 1) {
+        let one = |until: usize, equal: f64| impacts(until).all(|k| (slower(k) - first).abs() <= equal * first);
+        if !falls(factor) || !falls(first) || !one(period + 1, EQUAL) {
             return None;
         }
         let left = length(0) * factor / (1.0 - factor);
         // the factor of three rounds tells how much it still changes
-        let third = (period + 1..=2 * period).all(repeated) && one(2 * period);
-        let error = if third {
+        let third = (period + 1..=2 * period).all(repeated) && one(2 * period, EQUAL);
+        let error = if at_once {
+            if third && one(2 * period, SETTLED) { 0.0 } else { f64::INFINITY }
+        } else if third {
             let before = length(period) / length(2 * period);
             length(0) * (factor - before).abs() / ((1.0 - factor) * (1.0 - factor))
         } else {
@@ -277,7 +288,7 @@ impl Instants {
         places.dedup();
         Some(Round {
             places,
-            in_turn: most - least > TOGETHER * length(0),
+            in_turn: at_once || most - least > TOGETHER * length(0),
             left,
             error,
             speed: impacts(period).map(|k| all[k].speed).fold(0.0, f64::max),

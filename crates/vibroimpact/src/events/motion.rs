@@ -246,6 +246,7 @@ impl<'a> MachineMotion<'a> {
             _ => *state,
         };
         let before: Vec<ContactState> = self.place.states.iter().enumerate().map(before).collect();
+        self.instants.land(&self.place.x, &self.place.v);
         self.change(&before, &closing, candidates, &[]);
         let checked = !given.is_empty() && closing.is_empty() && self.end.is_none();
         if checked { self.check_guards() } else { Ok(()) }
