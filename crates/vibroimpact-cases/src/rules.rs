@@ -446,7 +446,9 @@ impl<'a> Follower<'a> {
             return;
         }
         let case = self.case;
-        let (q, v) = (self.sizes.q.max(f64::MIN_POSITIVE), self.sizes.v.max(f64::MIN_POSITIVE));
+        // rounding errors of forces that cancel each other move bodies that nothing else moves
+        let v = self.sizes.v.max(self.sizes.force * sample.time).max(f64::MIN_POSITIVE);
+        let q = self.sizes.q.max(v * sample.time);
         let mut worst = 0.0_f64;
         for symmetry in &case.symmetries {
             for (vector, size) in [(&sample.q, q), (&sample.qdot, v)] {

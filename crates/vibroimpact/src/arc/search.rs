@@ -98,9 +98,13 @@ const FLAT: f64 = 8.0;
 /// other are not told apart in it; a window of this length is not made shorter.
 const SHORT: f64 = 1e-9;
 const SHORTEST: f64 = 1e-280;
+/// The search goes on by at least this part of a window.
+const CREEPS: f64 = 1e-6;
 
 /// How many rounding errors of their values and of the time may lie between zeros of guards at one time.
 const TOGETHER: f64 = 32.0;
+/// A guard that is larger than so many of its rounding errors is clearly not zero.
+const OPEN: f64 = 4.0;
 
 /// Adds the guards that are zero at the same time within rounding errors.
 fn together(flight: &MachineFlight, s: f64, guards: &mut Guards, buffers: &mut Buffers) {
@@ -135,7 +139,10 @@ fn together(flight: &MachineFlight, s: f64, guards: &mut Guards, buffers: &mut B
             return strikes(g) && flight.guards[*g].known > 1 && value <= rounding && guards.iter().any(strikes);
         }
         let own = rounding / -rate;
-        value <= TOGETHER * (own.min(most.max(later * own)) + of_first) * -rate
+        // a gap that was clearly open at the beginning and is none now has closed, however slowly
+        let closed = flight.guards[*g].known == 0 && flight.guards[*g].value > OPEN * rounding;
+        let uncertain = if closed { own } else { own.min(most.max(later * own)) };
+        value <= TOGETHER * (uncertain + of_first) * -rate
     };
     let others: Vec<usize> = (0..flight.guards.len()).filter(|g| !guards.contains(g)).filter(also).collect();
     if !others.is_empty() {
@@ -143,6 +150,28 @@ fn together(flight: &MachineFlight, s: f64, guards: &mut Guards, buffers: &mut B
         all.sort_unstable();
         *guards = Guards::Several(all);
     }
+}
+
+/// The first zero of the guards that fall below zero by more than their errors, if the guard `g` does.
+fn below(flight: &MachineFlight, (s, window): (f64, f64), g: usize, buffers: &mut Buffers) -> Option<(f64, usize)> {
+    let zero = |guard: usize, buffers: &mut Buffers| {
+        let GuardPolynomial { p, error, from, .. } = buffers.polynomials[guard];
+        let from = from?;
+        let (touch, _) = lowest(&p, from);
+        if value(&without_remainder(&p), touch).0 >= -error - p[ORDER] {
+            return None;
+        }
+        let bracket = (s + from * window, s + touch * window);
+        Some(refine(flight, guard, bracket, None, RESOLUTION * window, &mut buffers.modes))
+    };
+    let mut first = (zero(g, buffers)?, g);
+    for other in (0..flight.guards.len()).filter(|other| *other != g) {
+        let is_before = buffers.polynomials[other].from.is_some_and(|from| s + from * window < first.0);
+        if is_before && let Some(at) = zero(other, buffers).filter(|at| *at < first.0) {
+            first = (at, other);
+        }
+    }
+    Some(first)
 }
 
 fn search(
@@ -160,7 +189,6 @@ fn search(
     let quiet = flight.quiet_time(HIGHEST);
     let mut s = 0.0;
     let mut reach = 1.0;
-    let mut longest = f64::INFINITY;
     let mut on_track = false;
     while steps > 0 {
         steps -= 1;
@@ -173,7 +201,6 @@ fn search(
             && (reach == 1.0 || decays)
             && fastest > 0.0
             && !is_quiet
-            && longest.is_infinite()
         {
             // windows without a zero are passed without the closed form
             if !on_track {
@@ -230,8 +257,9 @@ fn search(
         let rate = surfaces
             .filter(|surface| surface.rate * s < 40.0)
             .fold(fastest, |rate, surface| rate.max(surface.rate * crate::system::decay(surface.rate * s / 9.0).0));
-        let mut window = (if rate > 0.0 { REACH / rate } else { 1e150 } * reach).min((until - s) * 1.001 + 1e-300);
-        window = window.min(longest);
+        let rest = (until - s) * 1.001 + 1e-300;
+        // free bodies have no window of their own
+        let mut window = if rate > 0.0 { (REACH / rate * reach).min(rest) } else { rest.min(1e150) * reach };
         if is_quiet {
             window = window.min(quiet - s);
         }
@@ -257,12 +285,11 @@ fn search(
         }
         let Some((near, g)) = first_of(&mut buffers.polynomials) else {
             s += window;
-            reach = (reach * 1.5).min(1.0);
-            longest = f64::INFINITY;
+            reach = (reach * if reach < 1e-3 { 100.0 } else { 1.5 }).min(1.0);
             continue;
         };
         if near < SHORT && buffers.polynomials[g].beside(-1.0)[0] > 0.0 && window > SHORTEST {
-            longest = 1e3 * RESOLUTION.max(near) * window;
+            reach *= 1e3 * RESOLUTION.max(near);
             continue;
         }
         if let Some(found) = certain(flight, window, s, near, buffers) {
@@ -273,20 +300,16 @@ fn search(
         if remainder <= error || window * 0.01 <= f64::EPSILON * s {
             // a touch within rounding, or a zero that cannot be told from one
             let (touch, after) = lowest(&p, near);
-            let depth = value(&without_remainder(&p), touch).0;
-            if depth < -error - remainder {
-                let at = refine(
-                    flight,
-                    g,
-                    (s + near * window, s + touch * window),
-                    None,
-                    RESOLUTION * window,
-                    &mut buffers.modes,
-                );
-                return Found::Zero { s: at, guards: Guards::One([g]) };
+            if let Some((at, guard)) = below(flight, (s, window), g, buffers) {
+                return Found::Zero { s: at, guards: Guards::One([guard]) };
             }
             // one touch until the guard is clearly positive again; from there on what is flat is passed
             let again = core::mem::replace(&mut touched[g], true);
+            if again && touch + after < CREEPS && window * 0.01 > f64::EPSILON * s && window > SHORTEST {
+                // it rises, and may fall again within this window: it is passed over one in which it is flat
+                reach *= 0.1;
+                continue;
+            }
             if !again {
                 touches.push(Touch { s: s + touch * window, guard: g });
             }

@@ -184,7 +184,7 @@ impl MachineMotion<'_> {
             change_along(&along(|of| of.0), &mut there.x);
             change_along(&along(|of| of.1), &mut there.v);
         }
-        self.instants.silence(&mut there.x, &mut there.v);
+        self.instants.silence(&mut there.x, &mut there.v, 1);
         there.known.retain(|(kind, _)| !places.contains(&kind.place(stops)));
         candidates.extend(places);
         candidates.sort_unstable();

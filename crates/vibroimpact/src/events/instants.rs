@@ -172,10 +172,12 @@ impl Instants {
     }
 
     /// Takes away what rounding errors have left of coordinates and velocities that were larger of late: a structure whose bodies
-    /// stop each other exactly is at rest, and no force is left.
-    pub(super) fn silence(&self, x: &mut [f64], v: &mut [f64]) {
+    /// stop each other exactly is at rest, and no force is left. `steps` is the number of sums that each has gone through.
+    pub(super) fn silence(&self, x: &mut [f64], v: &mut [f64], steps: usize) {
+        #[allow(clippy::cast_precision_loss)] // at most some thousands
+        let noise = NOISE * f64::EPSILON * steps as f64;
         for ((x, v), speed) in x.iter_mut().zip(v).zip(&self.speeds) {
-            let least = NOISE * f64::EPSILON * speed;
+            let least = noise * speed;
             if v.abs() <= least {
                 *v = 0.0;
             }

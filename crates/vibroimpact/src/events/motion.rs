@@ -284,7 +284,7 @@ impl<'a> MachineMotion<'a> {
             }
         }
         self.meet(&soft, before, !rigid.is_empty(), &turns, &mut candidates);
-        self.instants.silence(&mut self.place.x, &mut self.place.v);
+        self.instants.silence(&mut self.place.x, &mut self.place.v, 1);
         // a force that jumps can end any rest
         for (at, state) in self.place.states.iter().enumerate() {
             if state.constrains() && !candidates.contains(&at) {

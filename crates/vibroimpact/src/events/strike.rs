@@ -5,7 +5,7 @@ use super::motion::MachineMotion;
 use super::passage::Blow;
 use super::place::Place;
 use crate::machine::StopLaw;
-use crate::math::{add_scaled, dot};
+use crate::math::dot;
 use crate::regime::{ContactState, GuardKind, compliant, independent};
 
 impl MachineMotion<'_> {
@@ -45,6 +45,7 @@ impl MachineMotion<'_> {
         let size = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
         // with the velocities of the law; in rounds a stop may be struck again and open more slowly than after its own impact
         let alone = rounds.len() == 1;
+        let mut stays = Vec::new();
         for ((j, before, e), (w, impulse)) in set.iter().zip(directions.iter().zip(&found)) {
             let rate = before - (dot(w, &after) - dot(w, &self.place.v));
             candidates.retain(|candidate| candidate != j);
@@ -59,11 +60,13 @@ impl MachineMotion<'_> {
                 self.place.states[*j] = ContactState::Open;
                 self.place.note(GuardKind::Gap(*j), 1);
             } else {
-                // exactly no velocity, so that the stop does not open by rounding
-                add_scaled(&mut after, rate / dot(w, w), w);
+                stays.push((*j, rate));
                 candidates.push(*j);
             }
         }
+        // exactly no velocity, so that no stop opens by rounding
+        self.normal.move_by(&stays, &mut after);
+        self.instants.silence(&mut self.place.x, &mut after, rounds.len());
         self.place.v = after;
         if let Some(passage) = &mut self.passage {
             let pushing = set.iter().zip(&found).filter(|(_, impulse)| **impulse > 0.0);
