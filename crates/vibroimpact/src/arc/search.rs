@@ -166,7 +166,9 @@ fn below(flight: &MachineFlight, (s, window): (f64, f64), g: usize, buffers: &mu
     };
     let mut first = (zero(g, buffers)?, g);
     for other in (0..flight.guards.len()).filter(|other| *other != g) {
-        let is_before = buffers.polynomials[other].from.is_some_and(|from| s + from * window < first.0);
+        // one that is zero at the beginning for certain is decided by the terms after that
+        let of = &buffers.polynomials[other];
+        let is_before = of.known == 0 && of.from.is_some_and(|from| s + from * window < first.0);
         if is_before && let Some(at) = zero(other, buffers).filter(|at| *at < first.0) {
             first = (at, other);
         }
@@ -235,10 +237,7 @@ fn search(
                 s = if on_track { buffers.track.s } else { until };
                 continue;
             };
-            if !standing
-                && near > SHORT
-                && let Some(found) = certain(flight, series.length * part, s, near, buffers)
-            {
+            if !standing && let Some(found) = certain(flight, series.length * part, s, near, buffers) {
                 return found;
             }
         }
@@ -285,10 +284,12 @@ fn search(
         }
         let Some((near, g)) = first_of(&mut buffers.polynomials) else {
             s += window;
-            reach = (reach * if reach < 1e-3 { 100.0 } else { 1.5 }).min(1.0);
+            reach = (reach * if rate == 0.0 && reach < 1e-3 { 100.0 } else { 1.5 }).min(1.0);
             continue;
         };
-        if near < SHORT && buffers.polynomials[g].beside(-1.0)[0] > 0.0 && window > SHORTEST {
+        // the windows of free bodies are not as short as their motion
+        let shortens = rate == 0.0 && window > SHORTEST;
+        if shortens && near < SHORT && buffers.polynomials[g].beside(-1.0)[0] > 0.0 {
             reach *= 1e3 * RESOLUTION.max(near);
             continue;
         }
@@ -305,7 +306,7 @@ fn search(
             }
             // one touch until the guard is clearly positive again; from there on what is flat is passed
             let again = core::mem::replace(&mut touched[g], true);
-            if again && touch + after < CREEPS && window * 0.01 > f64::EPSILON * s && window > SHORTEST {
+            if shortens && again && error > 0.0 && touch + after < CREEPS && window * 0.01 > f64::EPSILON * s {
                 // it rises, and may fall again within this window: it is passed over one in which it is flat
                 reach *= 0.1;
                 continue;

@@ -72,7 +72,7 @@ fn proven(
             }
         };
         let along = of.beside(0.0);
-        let at = if along[0] <= 0.0 {
+        let at = if of.known == 0 && along[0] <= 0.0 {
             // it is zero already
             s
         } else if of.known > 0 {
