@@ -56,6 +56,9 @@ pub(crate) struct Buffers {
     pub(crate) square: f64,
     /// The longest flight of late.
     pub(crate) longest: f64,
+    /// Whether touches follow each other at one time, because rounding errors decide how contacts begin: then what stays within
+    /// the rounding errors of the motion is passed.
+    pub(crate) stalled: bool,
     /// Whether `modes` are those of the last flight at its first zero.
     pub(super) fresh: bool,
 }

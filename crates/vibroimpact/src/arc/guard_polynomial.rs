@@ -47,10 +47,10 @@ impl GuardPolynomial {
         Self { p, known: 0, error: 0.0, size: 1.0, from: None }
     }
 
-    /// Whether it is nowhere below zero by more than so many rounding errors, over the whole window.
-    pub(super) fn is_flat(&self, roundings: f64) -> bool {
+    /// Whether it is nowhere below zero by more than so many rounding errors, of itself or a larger one, over the whole window.
+    pub(super) fn is_flat(&self, roundings: f64, larger: f64) -> bool {
         let mut q = self.p;
-        q[0] += roundings * self.error;
+        q[0] += roundings * self.error.max(larger);
         q[ORDER] = -q[ORDER];
         q[0] > 0.0 && first_zero(&q).is_none()
     }

@@ -203,6 +203,7 @@ fn search(
             && (reach == 1.0 || decays)
             && fastest > 0.0
             && !is_quiet
+            && !buffers.stalled
         {
             // windows without a zero are passed without the closed form
             if !on_track {
@@ -279,7 +280,13 @@ fn search(
                 touched[g] = false;
             }
             // a contact that is only just left, by a power of the time, is zero within rounding for a while
-            let passes = is_quiet && flight.guards[g].known > HIGHEST || touched[g] && of.is_flat(FLAT);
+            let larger = if buffers.stalled {
+                let w = &flight.structure.guards[g].function.position;
+                f64::EPSILON * (dot(w, w) * buffers.square).sqrt()
+            } else {
+                0.0
+            };
+            let passes = is_quiet && flight.guards[g].known > HIGHEST || touched[g] && of.is_flat(FLAT, larger);
             buffers.polynomials.push(if passes { GuardPolynomial::passed() } else { of });
         }
         let Some((near, g)) = first_of(&mut buffers.polynomials) else {

@@ -78,6 +78,8 @@ const ROUNDED: f64 = 64.0 * f64::EPSILON;
 const FAINT: f64 = 64.0 * f64::EPSILON;
 /// More events than this at one time are those of contacts that take no time.
 const SEVERAL: u32 = 2;
+/// After more events at one time than impacts that are summed can have, rounding errors decide them.
+const STALLED: u32 = 300;
 /// More events than this at one time are a collapse.
 const CROWD: u32 = 10_000;
 /// The number of windows of a flight after which it is asked whether there is an event at all.
@@ -514,6 +516,7 @@ impl<'a> MachineMotion<'a> {
         self.touches.clear();
         let steps = self.limits.steps.min(PATIENCE);
         (self.buffers.square, self.buffers.longest) = (self.instants.square(), self.instants.longest());
+        self.buffers.stalled = self.crowd > STALLED;
         let mut found = first_event(&flight, until, steps, &mut self.buffers, &mut self.touches);
         let mut never = false;
         if let Found::NoneBefore(s) = found {

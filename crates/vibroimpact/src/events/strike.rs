@@ -66,7 +66,9 @@ impl MachineMotion<'_> {
         }
         // exactly no velocity, so that no stop opens by rounding
         self.normal.move_by(&stays, &mut after);
-        self.instants.silence(&mut self.place.x, &mut after, rounds.len());
+        if !alone {
+            self.instants.silence(&mut self.place.x, &mut after, rounds.len());
+        }
         self.place.v = after;
         if let Some(passage) = &mut self.passage {
             let pushing = set.iter().zip(&found).filter(|(_, impulse)| **impulse > 0.0);
