@@ -54,6 +54,7 @@ enum Step {
 
 impl Of {
     /// Whether it is positive in a step, by its samples.
+    #[inline(always)]
     fn is_clear(&self, step: usize) -> bool {
         if self.known && step == 0 {
             // above the chord from the zero, less what it can bend
@@ -63,6 +64,7 @@ impl Of {
     }
 
     /// The first step in which it is not positive by its samples, from one on.
+    #[inline(always)]
     fn first_open(&self, from: usize) -> usize {
         // all steps at once, because no processor can predict which one it is
         let mut positive = 0_u32;
@@ -77,6 +79,7 @@ impl Of {
     }
 
     /// The same from the first step on.
+    #[inline(always)]
     fn first_open_of_all(&self) -> usize {
         if self.known {
             return self.first_open(0);
@@ -94,6 +97,7 @@ impl Of {
     }
 
     /// What it does in a step, by its series there.
+    #[inline(always)]
     fn decide(&self, c: &mut [f64; POWERS - 1], step: usize) -> Step {
         let mut error = self.error;
         if self.known && step == 0 {
@@ -110,6 +114,7 @@ impl Of {
 }
 
 /// Whether a polynomial with small higher terms is larger than an error on [0, 1]; `false` may be wrong.
+#[inline(always)]
 fn is_positive(c: &[f64; POWERS - 1], error: f64) -> bool {
     let rest: f64 = c[3..].iter().map(|c| c.abs()).sum();
     let inside = c[2] > 0.0 && c[1] < 0.0 && -c[1] < 2.0 * c[2];
@@ -118,6 +123,7 @@ fn is_positive(c: &[f64; POWERS - 1], error: f64) -> bool {
 }
 
 /// The zero of a polynomial that falls all the way to it.
+#[inline(always)]
 fn crossing(c: &[f64; POWERS - 1], error: f64) -> Option<f64> {
     // the zero of the parabola, and Halley's method from there
     let root = c[1] * c[1] - 4.0 * c[0] * c[2];
@@ -159,7 +165,7 @@ pub(super) fn plain_crossing(
     if flight.guards.iter().any(|guard| guard.known > 1 || guard.recovery.is_some()) {
         return None;
     }
-    let (s, guard, part) = sampling.search(flight, sampled, until, steps.min(SPANS))?;
+    let (s, guard, part) = search(sampling, flight, sampled, until, steps.min(SPANS))?;
     modes.s = s;
     let over = 1.0 / sampled.spans[0].step;
     let count = sampling.series.len();
@@ -171,6 +177,44 @@ pub(super) fn plain_crossing(
     }
     flight.turn(s, modes);
     Some((s, guard))
+}
+
+/// [`Sampling::search`] by vectors of four numbers where the processor has them. Samples are independent sums, so the result has the
+/// same bits.
+fn search(
+    sampling: &mut Sampling,
+    flight: &MachineFlight,
+    sampled: &Sampled,
+    until: f64,
+    spans: u32,
+) -> Option<(f64, usize, f64)> {
+    #[cfg(target_arch = "x86_64")]
+    if std::arch::is_x86_feature_detected!("avx2") {
+        // the processor has been asked
+        #[allow(unsafe_code)]
+        return unsafe { search_avx2(sampling, flight, sampled, until, spans) };
+    }
+    sampling.search(flight, sampled, until, spans)
+}
+
+/// Whether vectors of four numbers lead to the same crossing, to the last bit.
+#[cfg(test)]
+pub(super) fn is_the_same_without_vectors(flight: &MachineFlight, sampling: &mut Sampling) -> bool {
+    let sampled = flight.structure.sampled.as_ref().expect("the structure is sampled");
+    let bits = |found: Option<(f64, usize, f64)>| found.map(|(s, guard, part)| (s.to_bits(), guard, part.to_bits()));
+    bits(search(sampling, flight, sampled, 30.0, SPANS)) == bits(sampling.search(flight, sampled, 30.0, SPANS))
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn search_avx2(
+    sampling: &mut Sampling,
+    flight: &MachineFlight,
+    sampled: &Sampled,
+    until: f64,
+    spans: u32,
+) -> Option<(f64, usize, f64)> {
+    sampling.search(flight, sampled, until, spans)
 }
 
 /// The value of a polynomial and its slope, by even and odd powers.
@@ -193,6 +237,7 @@ fn value_and_slope<const N: usize>(c: &[f64; N], t: f64) -> (f64, f64) {
 
 impl Sampling {
     /// The time of the crossing, its guard, and which part of a step it is behind the state of `series`.
+    #[inline(always)]
     fn search(
         &mut self,
         flight: &MachineFlight,
@@ -266,6 +311,7 @@ impl Sampling {
     }
 
     /// The bounds of all guards in a span, without rounding errors.
+    #[inline(always)]
     fn bound(&mut self, span: &Span) {
         for (of, samples) in self.guards.iter_mut().zip(&span.guards) {
             let (bend, lowered) = samples.bend(&self.energies, &self.z);
@@ -276,6 +322,7 @@ impl Sampling {
 
     /// Decides the steps of a span of the first level from the first open one on: the crossing, with the steps before it,
     /// or none; `None` if that is not decided.
+    #[inline(always)]
     fn decide(&mut self, sampled: &Sampled, mut step: usize) -> Option<(f64, Option<(usize, f64)>)> {
         let count = sampled.parts.len();
         while step < SAMPLES - 1 {

@@ -347,6 +347,7 @@ fn search(
 
 #[cfg(test)]
 mod tests {
+    use super::super::crossing::is_the_same_without_vectors;
     use super::*;
     use crate::arc::{Begin, GapStart};
     use crate::machine::{Machine, MachineParts};
@@ -397,6 +398,7 @@ mod tests {
             let mut buffers = Buffers::default();
             let crossing = plain_crossing(&flight, 30.0, 100, &mut buffers.sampling, &mut buffers.modes);
             let modes = buffers.modes.clone();
+            assert!(is_the_same_without_vectors(&flight, &mut buffers.sampling), "case {case}");
             let mut touches = Vec::new();
             let searched = by_windows(&flight, 30.0, 10_000, &mut buffers, &mut touches);
             all += u32::from(matches!(searched, Found::Zero { .. }));

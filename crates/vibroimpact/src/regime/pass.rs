@@ -72,7 +72,7 @@ impl Pass {
     }
 
     /// The state at the end.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn pass(&self, z: &mut [f64]) {
         let (modes, rest) = z.split_at_mut(3 * self.steps.len());
         let (modes, _) = modes.as_chunks_mut::<3>();

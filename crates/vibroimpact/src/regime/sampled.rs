@@ -7,6 +7,8 @@
 //!
 //! Guards at all steps of a span are products of the state with one table. In longer spans fast modes are faint (see
 //! `window`).
+//!
+//! The search for a crossing is compiled for vectors of two and of four numbers; what it calls is inlined into both copies.
 
 use super::pass::{Moved, Pass};
 use super::signal::Observable;
@@ -106,7 +108,7 @@ impl Sampled {
     }
 
     /// The energies of the free parts of all modes at a state.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn energies(&self, z: &[f64], to: &mut Vec<f64>) {
         let (modes, turns) = z.split_at(3 * self.parts.len());
         let ((modes, _), (turns, _)) = (modes.as_chunks::<3>(), turns.as_chunks::<2>());
@@ -122,7 +124,7 @@ impl Sampled {
     }
 
     /// Bounds of the energies a time `s` later.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn grown(&self, energies: &[f64], z: &[f64], s: f64, to: &mut Vec<f64>) {
         let (modes, _) = z.as_chunks::<3>();
         fit(to, energies.len());
@@ -132,7 +134,7 @@ impl Sampled {
     }
 
     /// The series of all modes over a step of the shortest span from a state.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn expand(&self, z: &[f64], to: &mut Vec<[f64; POWERS]>) {
         let (modes, turns) = z.split_at(3 * self.parts.len());
         let (modes, _) = modes.as_chunks::<3>();
@@ -194,6 +196,7 @@ impl Span {
     }
 
     /// The state after a number of steps, at least one and less than [`SAMPLES`].
+    #[inline(always)]
     pub(crate) fn pass(&self, steps: usize, z: &mut [f64]) {
         self.passes[steps - 1].pass(z);
     }
@@ -253,7 +256,7 @@ impl GuardSamples {
     }
 
     /// The samples from a state on, with `constant` added.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn at(&self, z: &[f64], constant: f64, to: &mut [f64; SAMPLES]) {
         let mut samples = [constant; SAMPLES];
         for (row, z) in self.rows.iter().zip(z) {
@@ -263,7 +266,7 @@ impl GuardSamples {
     }
 
     /// A bound of the second derivative, and of what faint modes can take away, for energies of the free parts.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn bend(&self, energies: &[f64], z: &[f64]) -> (f64, f64) {
         let (mut bend, mut lowered) = (self.constant, 0.0);
         for (factor, energy) in self.bend.iter().zip(energies) {
@@ -308,7 +311,7 @@ impl GuardParts {
     }
 
     /// The size of its terms within a time `s` of the beginning `z` of a flight.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn size(&self, energies: &[f64], z: &[f64], s: f64) -> f64 {
         let mut size = self.swing;
         let (modes, _) = z.as_chunks::<3>();
@@ -324,7 +327,7 @@ impl GuardParts {
 
     /// Its series over a step of the shortest span, without its constant part, from those of the modes; `turns` are cosine and
     /// sine of each harmonic.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn series(&self, modes: &[[f64; POWERS]], turns: &[f64]) -> [f64; POWERS - 1] {
         let mut sum = [0.0; POWERS];
         for (row, turn) in self.harmonics.iter().zip(turns) {
