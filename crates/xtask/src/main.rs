@@ -5,6 +5,7 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program for the terminal: printing is what it is for")]
 
 mod command;
+mod cost;
 mod docs;
 mod examples;
 mod explorer;
@@ -44,6 +45,8 @@ usage: cargo xtask COMMAND
                           by default; `cargo xtask fuzz --help` lists all options
   wasm                    whether the core, plans, plots and reports compile for WebAssembly
   examples                runs the examples of the core
+  cost [PACKAGE]          what a cold release build costs, by package: processor time, and bytes in the program;
+                          vibroimpact-cli by default
   release                 whether the crates compile with the oldest Rust they name, and all packages build
   s3                      studies in buckets, against a server that it installs in target/s3-venv
 ";
@@ -53,6 +56,9 @@ const BAD_QUESTION: u8 = 2;
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
+    if let Some(compiled) = cost::compile(&words) {
+        return compiled;
+    }
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     let root = command::root();
     match words.as_slice() {
@@ -71,6 +77,8 @@ fn main() -> ExitCode {
         ["s3"] => finish(s3::test(&root)),
         ["wasm"] => finish(wasm::check(&root)),
         ["release"] => finish(release::check(&root)),
+        ["cost"] => finish(cost::print(&root, "vibroimpact-cli")),
+        ["cost", package] => finish(cost::print(&root, package)),
         ["examples"] => finish(examples::run(&root)),
         ["help" | "--help" | "-h"] => {
             print!("{USAGE}");

@@ -4,11 +4,12 @@
 //! continuous integration reads. It counts tests. A step that fails without a failed test (a lint, a build, a dead
 //! link) counts as one failure, so the line never reports `0 failed` for a failed run.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::thread::JoinHandle;
 use std::time::Instant;
 
+use crate::cost::Log;
 use crate::totals::{self, Totals};
 use crate::{command, docs, examples, licences, python, tools, wasm, words};
 
@@ -146,6 +147,8 @@ pub(crate) fn run(root: &Path, options: Options) -> ExitCode {
     steps.retain(|step| (step.fast || !options.fast) && (options.long || !step.long));
     let mut ran = Ran::default();
     let begin = Instant::now();
+    let log = command::target(root).ok().and_then(|target| Log::begin(&target));
+    let variables = log.as_ref().map(Log::variables).unwrap_or_default();
     let mut packages = steps.iter().any(|step| step.name == PYTHON_PACKAGE).then(|| python::begin(root));
     let mut beside: Vec<(Step, JoinHandle<Taken>)> = Vec::new();
     for (index, step) in steps.iter().enumerate() {
@@ -156,15 +159,18 @@ pub(crate) fn run(root: &Path, options: Options) -> ExitCode {
             let _ = packages.join();
         }
         println!("\n== {}/{} {}: {}", index + 1, steps.len(), step.name, typed(step, options));
-        let (of_thread, root) = (*step, root.to_owned());
         if step.beside {
             println!("   beside the next steps");
-            beside.push((*step, std::thread::spawn(move || take(&of_thread, &root, options))));
+            let (step, root, variables) = (*step, root.to_owned(), variables.clone());
+            beside.push((step, std::thread::spawn(move || take(&step, &root, options, &variables))));
         } else {
-            ran.record(step, take(step, &root, options));
+            ran.record(step, take(step, root, options, &variables));
         }
     }
     ran.join(&mut beside);
+    if let Some(sentence) = log.and_then(|log| log.sentence()) {
+        println!("\n{sentence}");
+    }
     println!("\n{} steps in {:.0} s", steps.len(), begin.elapsed().as_secs_f64());
     for step in &ran.failed {
         println!("{} failed; to run it alone: {}", step.name, typed(step, options));
@@ -223,15 +229,23 @@ fn typed(step: &Step, options: Options) -> String {
     }
 }
 
+/// Variables for the commands of a step.
+type Variables = [(&'static str, PathBuf)];
+
 /// Runs one step.
-fn take(step: &Step, root: &Path, options: Options) -> Taken {
+fn take(step: &Step, root: &Path, options: Options, variables: &Variables) -> Taken {
     let begin = Instant::now();
     let mut counted = None;
     let outcome = match step.work {
         Work::Check(run) => run(root),
-        Work::Command => command::run(command::words(root, step.alone)).map(|()| String::new()),
+        Work::Command => {
+            let mut command = command::words(root, step.alone);
+            command.envs(variables.iter().cloned());
+            command::run(command).map(|()| String::new())
+        }
         Work::Tests => {
             let mut command = command::words(root, step.alone);
+            command.envs(variables.iter().cloned());
             if options.long {
                 command.env(LONG.0, LONG.1);
             }

@@ -21,6 +21,9 @@ pub(super) const ARRIVAL: usize = 5;
 pub(super) const INTERVAL: usize = 6;
 pub(super) const SIDE: usize = 7;
 
+/// The number of groups of lanes whose contacts are found stage by stage.
+const GROUPS: usize = 4;
+
 /// The slots of a round by the result of their step.
 #[derive(Clone, Debug)]
 pub(super) struct Lists {
@@ -149,62 +152,42 @@ impl Slots {
     /// `doubts` is added to `open`.
     #[inline(always)]
     pub(super) fn strike<L: Lane, S: Systems>(&mut self, systems: &S, lists: &mut Lists) {
-        let count = lists.doubts.len();
-        let mut first = 0;
-        // in a block with fewer groups than it has room for, placeholders would take time
-        while first < count {
-            let groups = (count - first).div_ceil(L::WIDTH);
-            first += L::WIDTH
-                * if groups >= 4 {
-                    self.strike_block::<L, S, 4>(first, systems, lists)
-                } else if groups >= 2 {
-                    self.strike_block::<L, S, 2>(first, systems, lists)
-                } else {
-                    self.strike_block::<L, S, 1>(first, systems, lists)
-                };
-        }
-    }
-
-    /// The same for this number of groups of lanes, from index `first` of `doubts` on. Returns the number.
-    #[inline(always)]
-    fn strike_block<L: Lane, S: Systems, const GROUPS: usize>(
-        &mut self,
-        first: usize,
-        systems: &S,
-        lists: &mut Lists,
-    ) -> usize {
         let zero = L::splat(0.0);
         let mut guess = [Guess::nowhere(); GROUPS];
         let (mut approach, mut hits) = ([Approach::nowhere(); GROUPS], [Strike::nowhere(); GROUPS]);
         let mut phases = [zero; GROUPS];
         let mut of = [S::nowhere::<L>(); GROUPS];
         let count = lists.doubts.len();
-        // stage by stage, so that the operations of one group fill the time in which another one waits for its results
-        for k in 0..GROUPS {
-            let (s, from, to) = lists.doubts.steps::<L::Rough>(first + k * L::WIDTH);
-            of[k] = systems.group::<L>(lists.doubts.slots(first + k * L::WIDTH));
-            let roughly = systems.roughly(&of[k]);
-            guess[k] = Guess::<L>::of(&roughly.guess(roughly.h, s, &from, &to));
+        let mut block = 0;
+        while block < count {
+            let groups = (count - block).div_ceil(L::WIDTH).min(GROUPS);
+            // stage by stage, so that the operations of one group fill the time in which another one waits for its results
+            for k in 0..groups {
+                let (s, from, to) = lists.doubts.steps::<L::Rough>(block + k * L::WIDTH);
+                of[k] = systems.group::<L>(lists.doubts.slots(block + k * L::WIDTH));
+                let roughly = systems.roughly(&of[k]);
+                guess[k] = Guess::<L>::of(&roughly.guess(roughly.h, s, &from, &to));
+            }
+            for k in 0..groups {
+                let row = L::rows(&self.launches, lists.doubts.slots(block + k * L::WIDTH));
+                phases[k] = row[PHASE];
+                let launch = Launch { x: row[X], v: row[V], sin: row[SIN], cos: row[COS] };
+                approach[k] = systems.constants(&of[k]).approach(&launch, &guess[k], &systems.propagators(&of[k]));
+            }
+            for k in 0..groups {
+                hits[k] = systems.constants(&of[k]).polish(&guess[k], &approach[k]);
+            }
+            for k in 0..groups {
+                let first = block + k * L::WIDTH;
+                let (s, from, _) = lists.doubts.steps::<L::Rough>(first);
+                let proven = Constants::first_roughly(&systems.roughly(&of[k]), &hits[k], s, &from);
+                let slots = *lists.doubts.slots(first);
+                let there = (1_u32 << (count - first).min(L::WIDTH)) - 1;
+                self.relaunch(&systems.constants(&of[k]), &slots, phases[k], &hits[k], proven & there, lists);
+                each(!proven & there, |lane| lists.open.push(slots[lane]));
+            }
+            block += groups * L::WIDTH;
         }
-        for k in 0..GROUPS {
-            let row = L::rows(&self.launches, lists.doubts.slots(first + k * L::WIDTH));
-            phases[k] = row[PHASE];
-            let launch = Launch { x: row[X], v: row[V], sin: row[SIN], cos: row[COS] };
-            approach[k] = systems.constants(&of[k]).approach(&launch, &guess[k], &systems.propagators(&of[k]));
-        }
-        for k in 0..GROUPS {
-            hits[k] = systems.constants(&of[k]).polish(&guess[k], &approach[k]);
-        }
-        for k in 0..GROUPS {
-            let first = first + k * L::WIDTH;
-            let (s, from, _) = lists.doubts.steps::<L::Rough>(first);
-            let proven = Constants::first_roughly(&systems.roughly(&of[k]), &hits[k], s, &from);
-            let slots = *lists.doubts.slots(first);
-            let there = (1_u32 << (count - first).min(L::WIDTH)) - 1;
-            self.relaunch(&systems.constants(&of[k]), &slots, phases[k], &hits[k], proven & there, lists);
-            each(!proven & there, |lane| lists.open.push(slots[lane]));
-        }
-        GROUPS
     }
 
     /// Examines the steps in `open` in full precision. Those that come close to a stop and turn back continue. Those
