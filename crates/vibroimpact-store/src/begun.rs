@@ -4,6 +4,7 @@
 //! The part of a tile is one object below [`BEGUN`]: the number of its points and the numbers of its last state with a
 //! checksum, and a chunk for each field. It is removed when the tile is complete. The bytes of the tile do not depend on it.
 
+use crate::checksum;
 use crate::clock::Pause;
 use crate::shards::{bundle, unbundle};
 use crate::{Store, StoreError};
@@ -26,7 +27,7 @@ impl Store {
             let mut chunks = chunks.into_iter();
             let (done, left) = read_state(&chunks.next()?)?;
             let columns: Option<Vec<Column>> =
-                chunks.enumerate().map(|(field, chunk)| self.decoded(tile, field, chunk)).collect();
+                chunks.enumerate().map(|(field, chunk)| self.decoded(tile, field, &chunk)).collect();
             columns.filter(|columns| columns.len() == self.layout.fields.len()).map(|columns| BegunTile {
                 done,
                 left,
@@ -92,17 +93,13 @@ impl Store {
 fn write_state(done: u64, left: &[f64]) -> Vec<u8> {
     let mut bytes = done.to_le_bytes().to_vec();
     left.iter().for_each(|number| bytes.extend(number.to_le_bytes()));
-    let check = crc32c::crc32c(&bytes);
-    bytes.extend(check.to_le_bytes());
+    checksum::append(&mut bytes);
     bytes
 }
 
 /// The reverse; `None` for damaged bytes.
 fn read_state(bytes: &[u8]) -> Option<(u64, Vec<f64>)> {
-    let (words, check) = bytes.split_at_checked(bytes.len().checked_sub(4)?)?;
-    if crc32c::crc32c(words).to_le_bytes() != check || words.len() % 8 != 0 {
-        return None;
-    }
+    let words = checksum::content(bytes).filter(|words| words.len() % 8 == 0)?;
     let mut words = words.chunks(8).filter_map(|word| word.try_into().ok());
     let done = u64::from_le_bytes(words.next()?);
     Some((done, words.map(f64::from_le_bytes).collect()))

@@ -69,13 +69,10 @@ impl Store {
         let mut labelled = Vec::new();
         for (number, field) in self.layout.fields.iter().enumerate().filter(|(_, field)| field.name == "label") {
             let array = array_of(field, (&self.layout.grid, self.layout.shards.as_ref()), &self.labels(number)?);
-            labelled.push((number, array.map_err(|why| self.defect(&field.name, why))?));
+            labelled.push((number, array));
         }
-        let array = |table: StudyTable| match array_of_table(&table) {
-            Ok(array) => Ok((array, table.values)),
-            Err(why) => Err(self.defect(table.name, why)),
-        };
-        Ok(Conclusion { labelled, tables: tables.into_iter().map(array).collect::<Result<_, _>>()? })
+        let array = |table: StudyTable| (array_of_table(&table), table.values);
+        Ok(Conclusion { labelled, tables: tables.into_iter().map(array).collect() })
     }
 
     /// The labels m/n that occur, with their codes.

@@ -25,7 +25,7 @@ impl Store {
                 return Ok(());
             }
             if let Some(chunk) = chunk
-                && let Some(column) = self.decoded(tile, field, chunk.clone())
+                && let Some(column) = self.decoded(tile, field, &chunk)
             {
                 let counts = column.counts();
                 each(tile, &counts);

@@ -2,8 +2,9 @@
 //! them), and the values of coordinates and tables.
 
 use crate::check::Damage;
+use crate::chunk::Chunked;
 use crate::root::{Object, ROOT};
-use crate::{Store, StoreError, chunk};
+use crate::{Store, StoreError};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 
@@ -61,7 +62,7 @@ impl Store {
             let key = array.description_key();
             let bytes = self.get(&key)?;
             let found = bytes.as_deref().and_then(|bytes| serde_json::from_slice::<Value>(bytes).ok());
-            let wanted = array.description().map_err(|why| self.defect(&array.name, why))?;
+            let wanted = array.description();
             if found.as_ref().map(structure) != Some(structure(&wanted)) {
                 damage.push(of_store(wrong(&key, bytes.as_deref())));
             }
@@ -73,7 +74,7 @@ impl Store {
             }
         }
         for (array, values) in &self.layout.coordinates {
-            let whole = self.get(&array.key(&[0]))?.and_then(|bytes| array.decode(&[0], bytes).ok());
+            let whole = self.get(&array.key(&[0]))?.and_then(|bytes| array.decode(&bytes).ok());
             if whole.as_ref() != Some(values) {
                 damage.push(of_store(format!("the values of `{}` are damaged", array.name)));
             }
@@ -100,11 +101,11 @@ impl Store {
             if self.described().any(|array| array.name == *name) {
                 continue;
             }
-            let reads = match chunk::first_key(name, description) {
-                Ok(key) => self.get(&key)?.is_some_and(|bytes| chunk::reads(name, description, bytes)),
-                Err(_) => false,
+            let undamaged = match Chunked::from_description(name, description) {
+                Some(array) => self.get(&array.first_key())?.is_some_and(|bytes| array.decode(&bytes).is_ok()),
+                None => false,
             };
-            if !reads {
+            if !undamaged {
                 damage.push(of_store(format!("the values of `{name}` are damaged")));
             }
         }

@@ -85,7 +85,7 @@ pub fn estimate(plan: impl Into<StudyPlan>, sampling: Sampling, control: &Contro
     let study = Study::new(&plan)?;
     let unreachable = |why| StoreError::Unreachable { place: "the study".into(), why };
     let shards = Shards::of(study.grid(), plan.shard());
-    let layout = Layout::new(&study, shards).map_err(unreachable)?;
+    let layout = Layout::new(&study, shards);
     let grid = study.grid();
     let probes = sample(&study, sampling, control)?;
     let pool = control.pool()?;
@@ -232,7 +232,7 @@ fn compressed(layout: &Layout, probes: &[Probe]) -> Result<f64, String> {
     for (number, field) in layout.fields.iter().enumerate() {
         let parts = || probes.iter().filter_map(|probe| probe.columns.as_ref()?.get(number));
         // the numbers fill a chunk of a tile, if there are so many
-        let (array, place) = (&layout.arrays[number], layout.place(0, number));
+        let array = &layout.arrays[number];
         let mut chunk = field.empty(layout.grid.full_tile(0).points());
         let mut filled = 0;
         for part in parts() {
@@ -242,7 +242,7 @@ fn compressed(layout: &Layout, probes: &[Probe]) -> Result<f64, String> {
         }
         if filled > 0 {
             raw += filled as u64 * size(field.kind);
-            small += (array.encode(&place, Cells::Numbers(chunk))?.len() as u64).saturating_sub(CHUNK);
+            small += (array.encode(&Cells::Numbers(chunk))?.len() as u64).saturating_sub(CHUNK);
         }
     }
     #[allow(clippy::cast_precision_loss)] // sizes of a tile

@@ -1,6 +1,7 @@
 //! The arrays of a study in a store: one for each field, its coordinates, and the status of its tiles.
 
-use crate::chunk::{Chunked, Defect, Description, Holds};
+use crate::chunk::Chunked;
+use crate::codec::Holds;
 use crate::recent::Recent;
 use crate::shards::Shards;
 use serde_json::{Map, Value, json};
@@ -55,11 +56,7 @@ fn attributes(long_name: &str, unit: Unit, comment: &str, flags: &[(i32, String)
 }
 
 /// The array of a field; `more` are additional flags.
-pub(crate) fn array_of(
-    field: &Field,
-    (grid, shards): (&Grid, Option<&Shards>),
-    more: &[(i32, String)],
-) -> Result<Chunked, Defect> {
+pub(crate) fn array_of(field: &Field, (grid, shards): (&Grid, Option<&Shards>), more: &[(i32, String)]) -> Chunked {
     let mut dimensions: Vec<_> = grid.dimensions.iter().map(|d| (d.name.clone(), d.count, d.tile)).collect();
     dimensions.extend(field.extra.iter().map(|extra| (extra.name.to_owned(), extra.count, extra.count)));
     let shard = shards.map(|shards| {
@@ -68,66 +65,60 @@ pub(crate) fn array_of(
     });
     let own = field.flags.iter().map(|(value, meaning)| (*value, (*meaning).to_owned()));
     let flags: Vec<(i32, String)> = own.chain(more.iter().cloned()).collect();
-    Chunked::new(Description {
-        name: &field.name,
+    Chunked {
+        name: field.name.to_string(),
         kind: Holds::Numbers(field.kind),
         fill: field.fill,
         dimensions,
         shard,
         attributes: attributes(&field.long_name, field.unit, field.comment, &flags),
-    })
+    }
 }
 
 /// The array of a table.
-pub(crate) fn array_of_table(table: &StudyTable) -> Result<Chunked, Defect> {
-    let kind = match &table.values {
-        Cells::Text(_) => Holds::Text,
-        Cells::Numbers(Column::I8(_)) => Holds::Numbers(NumberType::I8),
-        Cells::Numbers(Column::I32(_)) => Holds::Numbers(NumberType::I32),
-        Cells::Numbers(Column::F64(_)) => Holds::Numbers(NumberType::F64),
-    };
-    Chunked::new(Description {
-        name: table.name,
-        kind,
+pub(crate) fn array_of_table(table: &StudyTable) -> Chunked {
+    Chunked {
+        name: table.name.to_owned(),
+        kind: Holds::of(&table.values),
         fill: i32::MIN,
         dimensions: table.dimensions.iter().map(|(name, count)| ((*name).to_owned(), *count, *count)).collect(),
         shard: None,
         attributes: attributes(table.long_name, table.unit, "", &[]),
-    })
+    }
 }
 
 impl Layout {
-    pub(crate) fn new(study: &Study, shards: Option<Shards>) -> Result<Self, Defect> {
+    pub(crate) fn new(study: &Study, shards: Option<Shards>) -> Self {
         let (grid, fields) = (study.grid().clone(), study.fields());
         let array = |field| array_of(field, (&grid, shards.as_ref()), &[]);
-        let arrays = fields.iter().map(array).collect::<Result<_, _>>()?;
+        let arrays = fields.iter().map(array).collect();
         let recent = fields.iter().map(|_| Recent::default()).collect();
         // the status of all tiles of a shard is one chunk
         let side = shards.as_ref().map_or_else(|| vec![1; grid.dimensions.len()], |shards| shards.side.clone());
         let tiles = grid.dimensions.iter().zip(grid.tiles_along());
         let flags = [(0, "not_computed".to_owned()), (i32::from(DONE), "done".to_owned())];
-        let status = Chunked::new(Description {
-            name: STATUS,
+        let status = Chunked {
+            name: STATUS.to_owned(),
             kind: Holds::Numbers(NumberType::I8),
             fill: 0,
             dimensions: tiles.zip(side).map(|((d, count), side)| (format!("tile_{}", d.name), count, side)).collect(),
             shard: None,
             attributes: attributes("whether the tile is computed", Unit::NUMBER, "", &flags),
-        })?;
+        };
         let coordinate = |along: vibroimpact_study::study::Along| {
             let count = along.values.len();
-            let array = Chunked::new(Description {
-                name: &along.name,
+            let array = Chunked {
+                name: along.name,
                 kind: Holds::Numbers(NumberType::F64),
                 fill: 0,
-                dimensions: vec![(along.dimension.clone(), count, count)],
+                dimensions: vec![(along.dimension, count, count)],
                 shard: None,
                 attributes: attributes(&along.long_name, along.unit, "", &[]),
-            })?;
-            Ok((array, Cells::Numbers(Column::F64(along.values))))
+            };
+            (array, Cells::Numbers(Column::F64(along.values)))
         };
-        let coordinates = study.coordinates().into_iter().map(coordinate).collect::<Result<_, Defect>>()?;
-        Ok(Self { grid, shards, fields, arrays, recent, status, coordinates })
+        let coordinates = study.coordinates().into_iter().map(coordinate).collect();
+        Self { grid, shards, fields, arrays, recent, status, coordinates }
     }
 
     /// The indices of the chunk of a tile in the array of a field.

@@ -48,8 +48,10 @@ mod begun;
 #[cfg(feature = "s3")]
 mod bucket;
 mod check;
+mod checksum;
 mod chunk;
 mod clock;
+mod codec;
 mod conclude;
 mod costs;
 mod count;
@@ -60,6 +62,7 @@ mod handle;
 mod held;
 mod layout;
 mod memory;
+mod metadata;
 mod order;
 mod read;
 mod recent;
@@ -210,7 +213,7 @@ impl Store {
     fn over(shelf: Arc<dyn Shelf>, plan: &StudyPlan, begun_by: String, format: u64) -> Result<Self, StoreError> {
         let study = Study::new(plan)?;
         let shards = if format == PLAIN { None } else { Shards::of(study.grid(), plan.shard()) };
-        let layout = Layout::new(&study, shards).map_err(|why| StoreError::Unreachable { place: shelf.name(), why })?;
+        let layout = Layout::new(&study, shards);
         Ok(Self { shelf, plan: plan.clone(), study, layout, begun_by, costs: None })
     }
 
@@ -275,7 +278,7 @@ impl Store {
     fn stated(&self, tile: u64) -> Result<bool, StoreError> {
         let (array, place) = (&self.layout.status, self.layout.status_place(tile));
         let Some(bytes) = self.get(&array.key(&place))? else { return Ok(false) };
-        Ok(array.decode(&place, bytes).as_ref() == Ok(&self.layout.all_done(tile)))
+        Ok(array.decode(&bytes).as_ref() == Ok(&self.layout.all_done(tile)))
     }
 
     /// Whether a tile is complete, that is, it waits for its shard, or its status exists and is undamaged. In this order,
@@ -312,7 +315,7 @@ impl Store {
     /// The status that says that a tile, or all tiles of its shard, are complete.
     fn status_object(&self, tile: u64) -> Result<(String, Vec<u8>), StoreError> {
         let (array, place) = (&self.layout.status, self.layout.status_place(tile));
-        let bytes = array.encode(&place, self.layout.all_done(tile)).map_err(|why| self.defect(&array.name, why))?;
+        let bytes = array.encode(&self.layout.all_done(tile)).map_err(|why| self.defect(&array.name, why))?;
         Ok((array.key(&place), bytes))
     }
 
@@ -324,14 +327,14 @@ impl Store {
     /// The chunk of a tile in the array of a field.
     fn encoded(&self, tile: u64, field: usize, column: &Column) -> Result<Vec<u8>, StoreError> {
         let array = &self.layout.arrays[field];
-        let encode = |chunk| array.encode(&self.layout.place(tile, field), Cells::Numbers(chunk));
+        let encode = |chunk| array.encode(&Cells::Numbers(chunk));
         let bytes = self.layout.recent[field].bytes(&self.layout.padded(tile, field, column), encode);
         bytes.map_err(|why| self.defect(&array.name, why))
     }
 
     /// The column of a field in a tile from its chunk, unless it is damaged.
-    fn decoded(&self, tile: u64, field: usize, chunk: Vec<u8>) -> Option<Column> {
-        match self.layout.arrays[field].decode(&self.layout.place(tile, field), chunk) {
+    fn decoded(&self, tile: u64, field: usize, chunk: &[u8]) -> Option<Column> {
+        match self.layout.arrays[field].decode(chunk) {
             Ok(Cells::Numbers(chunk)) => Some(self.layout.unpadded(tile, field, &chunk)),
             _ => None,
         }
@@ -342,7 +345,7 @@ impl Store {
     /// Another process may complete the shard of a tile that waits. It writes the shard, then the status, and removes the
     /// tile last, so a tile that is neither in the shard nor waits has moved if the shard has it now.
     fn sound(&self, tile: u64, field: usize) -> Result<Option<(Vec<u8>, Column)>, StoreError> {
-        let both = |chunk: Vec<u8>| Some((chunk.clone(), self.decoded(tile, field, chunk)?));
+        let both = |chunk: Vec<u8>| self.decoded(tile, field, &chunk).map(|column| (chunk, column));
         let Some(shards) = &self.layout.shards else {
             return Ok(self.get(&self.layout.key(tile, field))?.and_then(both));
         };

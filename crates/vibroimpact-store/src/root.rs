@@ -1,6 +1,7 @@
 //! The metadata of a store: those of the initial arrays, and the root, which is written after them.
 
-use crate::chunk::{Chunked, Defect};
+use crate::chunk::Chunked;
+use crate::codec::Defect;
 use crate::layout::Layout;
 use crate::shelf::Shelf;
 use crate::{FORMAT, Store, StoreError};
@@ -124,12 +125,11 @@ struct Described {
 impl Described {
     /// Adds an array; its values too, if they are one chunk.
     fn add(&mut self, array: &Chunked, values: Option<&Cells>) -> Result<(), Defect> {
-        let description = array.description()?;
+        let description = array.description();
         self.objects.push(Object { key: array.description_key(), bytes: pretty(&description) });
         self.consolidated.insert(array.name.clone(), description);
         if let Some(values) = values {
-            let first = array.first();
-            self.objects.push(Object { key: array.key(&first), bytes: array.encode(&first, values.clone())? });
+            self.objects.push(Object { key: array.first_key(), bytes: array.encode(values)? });
         }
         Ok(())
     }

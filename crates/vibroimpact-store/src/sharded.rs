@@ -1,6 +1,7 @@
 //! Stores with shards: tiles that wait for their shard, its completion when all are there, and its verification.
 
 use crate::check::Damage;
+use crate::checksum;
 use crate::held::Held;
 use crate::run::State;
 use crate::shards::{self, Chunks, LOOSE, Shards, loose_prefix};
@@ -86,14 +87,14 @@ impl Store {
         let torn: Vec<usize> = own
             .into_iter()
             .enumerate()
-            .filter(|(field, chunk)| chunk.clone().and_then(|chunk| self.decoded(tile, *field, chunk)).is_none())
+            .filter(|(field, chunk)| chunk.as_ref().and_then(|chunk| self.decoded(tile, *field, chunk)).is_none())
             .map(|(field, _)| field)
             .collect();
         if torn.is_empty() {
             return Ok(State::Whole);
         }
         if let Some(chunks) = self.waiting(tile)?
-            && torn.iter().all(|field| self.decoded(tile, *field, chunks[*field].clone()).is_some())
+            && torn.iter().all(|field| self.decoded(tile, *field, &chunks[*field]).is_some())
         {
             return Ok(State::Whole);
         }
@@ -169,10 +170,11 @@ impl Store {
                 let Some(tile) = tile else { continue };
                 // a tile that was damaged in the shard and computed again waits
                 let new = if waits.contains(shards.loose_key(*tile).as_str()) { self.waiting(*tile)? } else { None };
-                let new = new.and_then(|chunks| chunks.into_iter().nth(field)).filter(|new| shards::sealed(new));
+                let new =
+                    new.and_then(|chunks| chunks.into_iter().nth(field)).filter(|new| checksum::content(new).is_some());
                 *chunk = new.or_else(|| {
                     kept += 1;
-                    old.filter(|old| shards::sealed(old))
+                    old.filter(|old| checksum::content(old).is_some())
                 });
                 if chunk.is_none() {
                     // there is none, or another process has just completed the shard and removed the tile

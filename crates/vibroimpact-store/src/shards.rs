@@ -7,6 +7,7 @@
 //! a shard are there, its shards are written (one for each field), then its status, and the objects of its tiles are
 //! removed. The bytes of a shard depend only on its chunks, so any number of processes may do this at the same time.
 
+use crate::checksum;
 use vibroimpact_study::{Grid, number, place};
 
 /// The folder of the objects of tiles whose shards are not complete.
@@ -20,9 +21,8 @@ const MOST_SHARDS: u64 = 1024;
 const MOST_TILES: u64 = 4096;
 /// The offset and the length of a chunk that does not exist.
 const NONE: u64 = u64::MAX;
-/// Bytes of an entry of the index, and of its checksum.
+/// Bytes of an entry of the index.
 const ENTRY: usize = 16;
-const CHECK: usize = 4;
 
 /// How the tiles of a grid are grouped into shards.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -109,7 +109,7 @@ impl Shards {
 
     /// Number of bytes of the index at the end of a shard.
     pub(crate) fn index_length(&self) -> usize {
-        self.chunks() * ENTRY + CHECK
+        self.chunks() * ENTRY + checksum::LENGTH
     }
 }
 
@@ -123,7 +123,7 @@ pub(crate) type Chunks = Vec<Option<Vec<u8>>>;
 
 /// The bytes of a shard from its chunks.
 pub(crate) fn assemble(chunks: &[Option<Vec<u8>>]) -> Vec<u8> {
-    let (mut bytes, mut index) = (Vec::new(), Vec::with_capacity(chunks.len() * ENTRY + CHECK));
+    let (mut bytes, mut index) = (Vec::new(), Vec::with_capacity(chunks.len() * ENTRY + checksum::LENGTH));
     for chunk in chunks {
         let (offset, length) = match chunk {
             Some(chunk) => (bytes.len() as u64, chunk.len() as u64),
@@ -133,18 +133,14 @@ pub(crate) fn assemble(chunks: &[Option<Vec<u8>>]) -> Vec<u8> {
         index.extend(length.to_le_bytes());
         bytes.extend(chunk.iter().flatten());
     }
-    let check = crc32c::crc32c(&index);
+    checksum::append(&mut index);
     bytes.extend(index);
-    bytes.extend(check.to_le_bytes());
     bytes
 }
 
 /// The places of the chunks of a shard from its index; `None` if the index is damaged. `length` is that of the shard.
 pub(crate) fn index(bytes: &[u8], length: u64) -> Option<Vec<Option<(u64, u64)>>> {
-    let (entries, check) = bytes.split_at_checked(bytes.len().checked_sub(CHECK)?)?;
-    if crc32c::crc32c(entries).to_le_bytes() != check || entries.len() % ENTRY != 0 {
-        return None;
-    }
+    let entries = checksum::content(bytes).filter(|entries| entries.len() % ENTRY == 0)?;
     let word = |at: &[u8]| at.try_into().map(u64::from_le_bytes).ok();
     let end = length.checked_sub(bytes.len() as u64)?;
     let entry = |entry: &[u8]| -> Option<Option<(u64, u64)>> {
@@ -155,12 +151,6 @@ pub(crate) fn index(bytes: &[u8], length: u64) -> Option<Vec<Option<(u64, u64)>>
         (offset.checked_add(length)? <= end).then_some(Some((offset, length)))
     };
     entries.chunks(ENTRY).map(entry).collect()
-}
-
-/// Whether the bytes of a chunk have the CRC-32C that they end in. What they hold is checked when they are read.
-pub(crate) fn sealed(chunk: &[u8]) -> bool {
-    let split = chunk.len().checked_sub(CHECK).and_then(|at| chunk.split_at_checked(at));
-    split.is_some_and(|(bytes, check)| crc32c::crc32c(bytes).to_le_bytes() == check)
 }
 
 /// The chunks of a shard; `None` if its index is damaged.
@@ -242,16 +232,16 @@ mod tests {
         let some = |text: &str| Some(text.as_bytes().to_vec());
         let all = [some("one"), None, some(""), some("four")];
         let shard = assemble(&all);
-        assert_eq!(shard.len(), 7 + 4 * ENTRY + CHECK);
-        assert_eq!(chunks(&shard, 4 * ENTRY + CHECK).as_deref(), Some(all.as_slice()));
+        assert_eq!(shard.len(), 7 + 4 * ENTRY + checksum::LENGTH);
+        assert_eq!(chunks(&shard, 4 * ENTRY + checksum::LENGTH).as_deref(), Some(all.as_slice()));
         for k in 7..shard.len() {
             let mut bad = shard.clone();
             bad[k] ^= 16;
-            assert_eq!(chunks(&bad, 4 * ENTRY + CHECK), None, "{k}");
+            assert_eq!(chunks(&bad, 4 * ENTRY + checksum::LENGTH), None, "{k}");
         }
-        assert_eq!(chunks(&shard[1..], 4 * ENTRY + CHECK), None);
-        assert_eq!(chunks(&shard[..shard.len() - 1], 4 * ENTRY + CHECK), None);
-        assert_eq!(chunks(&[], 4 * ENTRY + CHECK), None);
+        assert_eq!(chunks(&shard[1..], 4 * ENTRY + checksum::LENGTH), None);
+        assert_eq!(chunks(&shard[..shard.len() - 1], 4 * ENTRY + checksum::LENGTH), None);
+        assert_eq!(chunks(&[], 4 * ENTRY + checksum::LENGTH), None);
         let pieces = [b"one".to_vec(), Vec::new(), b"three".to_vec()];
         let bytes = bundle(&pieces);
         assert_eq!(unbundle(&bytes).as_deref(), Some(pieces.as_slice()));
