@@ -30,7 +30,10 @@ pub(crate) fn system(error: &SystemError) -> Option<String> {
 pub(crate) fn plan(error: &PlanError) -> Option<String> {
     Some(match error {
         PlanError::System(error) => return system(error),
-        PlanError::Text(_) => "`vibro schema` prints what may be in a plan".to_owned(),
+        PlanError::Text(error) if !error.message.contains("\nhint: ") => {
+            "`vibro schema` prints what may be in a plan, `vibro schema --machine-plan` what may be in one of a machine"
+                .to_owned()
+        }
         PlanError::Frequency(_) => "--beta B or --inverse-beta X, with X = 1/B".to_owned(),
         PlanError::Unforced => "--impacts N limits the number of events".to_owned(),
         PlanError::Size { .. } => "fewer values, or a store (--store), which holds any number".to_owned(),

@@ -38,11 +38,10 @@ impl MachineFile {
             let text = files.call1((name,)).and_then(|text| text.extract::<String>());
             text.map_err(|error| format!("cannot be read: {}", error.value(files.py())))
         };
-        let source = MachineSource::from_text(text, read).map_err(|error| match (&error.problem, text) {
+        let source = MachineSource::from_text(text, read).map_err(|error| match error.problem {
             // JSON is written by this package, so a position in it does not help the user
-            (MachineProblem::Text(said), text) if text.starts_with('{') => {
-                let said = said.rsplit_once(" (line ").map_or(said.as_str(), |(said, _)| said);
-                Trouble::question(format!("{}: {said}", error.path))
+            MachineProblem::Read(error) if text.starts_with('{') => {
+                Trouble::question(error.without_place().to_string())
             }
             _ => error.into(),
         })?;

@@ -14,8 +14,8 @@ use vibroimpact_study::{
 pub(crate) fn read(text: &str) -> Result<Plan, Trouble> {
     let plan = Plan::from_text(text).map_err(|error| match error {
         // JSON is written by this package, so a position in it does not help the user
-        PlanError::Text(sentence) if text.trim_start().starts_with('{') => {
-            Trouble::question(sentence.rsplit_once(" at line ").map_or(sentence.as_str(), |(before, _)| before))
+        PlanError::Text(error) if text.trim_start().starts_with('{') => {
+            Trouble::question(error.without_place().to_string())
         }
         other => other.into(),
     })?;

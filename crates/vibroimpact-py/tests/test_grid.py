@@ -73,7 +73,7 @@ axes = [{ vary = "gap", over = "0:1:5" }]
     read = vi.Plan.read(str(tmp_path / "plan.toml"))
     assert read == vi.Plan.map(s.replace(gap=0), {"gap": "0:1:5"}, starts=4, seed=0)
     (tmp_path / "broken.toml").write_text("version = ")
-    with pytest.raises(vi.QuestionError, match="broken.toml`: the plan does not read: TOML parse error at line 1"):
+    with pytest.raises(vi.QuestionError, match="broken.toml`: the plan does not read: line 1, column 11"):
         vi.Plan.read(tmp_path / "broken.toml")
 
 

@@ -3,6 +3,7 @@
 use crate::control::Stopped;
 use crate::counted;
 use crate::machine::MachineTextError;
+use crate::text::TextError;
 use std::borrow::Cow;
 use thiserror::Error;
 use vibroimpact::continuation::BranchError;
@@ -179,7 +180,7 @@ pub enum PlanError {
     MixedPlane(&'static str, &'static str),
     /// A text that cannot be read as a plan.
     #[error("the plan does not read: {0}")]
-    Text(String),
+    Text(#[from] TextError),
     /// A range that is not `A:B:N`.
     #[error(
         "range `{given}` is not A:B:N with finite A and B and a whole N >= 1\nhint: {}",

@@ -58,8 +58,17 @@ impl SystemPlan {
     /// # Errors
     /// As [`Self::with`].
     pub fn with_all(&self, values: impl IntoIterator<Item = (Parameter, f64)>) -> Result<Self, PlanError> {
+        self.with_each(&mut values.into_iter())
+    }
+
+    /// The same, compiled once for all callers.
+    fn with_each(&self, values: &mut dyn Iterator<Item = (Parameter, f64)>) -> Result<Self, PlanError> {
         let Some(mut machine) = self.machine else {
-            return values.into_iter().try_fold(*self, |system, (parameter, value)| system.changed(parameter, value));
+            let mut system = *self;
+            for (parameter, value) in values {
+                system = system.changed(parameter, value)?;
+            }
+            return Ok(system);
         };
         let mut exact = Vec::new();
         for (parameter, value) in values {

@@ -2,6 +2,7 @@
 
 use crate::plan::{Plan, Task};
 use crate::system::{SecondStop, SystemPlan};
+use crate::text::Document;
 use crate::{Axis, Coordinate, Parameter, PhysicalPlan, PlanError, UnitsPlan};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -99,12 +100,10 @@ impl Plan {
     /// ```
     ///
     /// # Errors
-    /// [`PlanError::Text`] states the position of the error in the text and what is expected there.
+    /// [`PlanError::Text`] has the path of the part, the line and the column, and what is expected there;
+    /// [`PlanError::Missing`] and others name a number that the system lacks.
     pub fn from_text(text: &str) -> Result<Self, PlanError> {
-        if text.trim_start().starts_with('{') {
-            return Self::from_json(text);
-        }
-        toml::from_str(text).map_err(|error| PlanError::Text(plain(&error.to_string())))
+        Self::of_document(&Document::parse(text)?)
     }
 
     /// Reads a plan written as JSON.
@@ -112,7 +111,11 @@ impl Plan {
     /// # Errors
     /// As for [`Self::from_text`].
     pub fn from_json(text: &str) -> Result<Self, PlanError> {
-        serde_json::from_str(text).map_err(|error| PlanError::Text(plain(&error.to_string())))
+        Self::of_document(&Document::json(text)?)
+    }
+
+    pub(crate) fn of_document(document: &Document<'_>) -> Result<Self, PlanError> {
+        document.read::<PlanText>()?.try_into()
     }
 
     /// The plan as TOML.
@@ -141,41 +144,6 @@ impl Plan {
         };
         Ok(Self { system, units: self.units.map(own), ..self.clone() })
     }
-}
-
-/// The message of a parser, without names of types of this program and with long lines of the text cut.
-pub(crate) fn plain(why: &str) -> String {
-    const WORDS: [(&str, &str); 12] = [
-        ("floating point `", "number `"),
-        ("expected f64", "expected a number"),
-        ("expected u32", "expected a whole number, 0 or more"),
-        ("expected u64", "expected a whole number, 0 or more"),
-        ("expected unit variant", "expected a word alone"),
-        ("expected newtype variant", "expected a table"),
-        ("expected struct variant", "expected a table"),
-        ("expected struct", "expected a table"),
-        ("expected enum", "expected a word or a table"),
-        ("unit variant", "a word alone"),
-        ("newtype variant", "a table"),
-        ("struct variant", "a table"),
-    ];
-    const WIDTH: usize = 120;
-    let wide = |line: &str| line.chars().take(WIDTH).collect::<String>();
-    let text = why.trim_end().lines().map(wide).collect::<Vec<_>>().join("\n");
-    WORDS.into_iter().fold(text, |text, (inside, word)| {
-        let mut parts = text.split(inside);
-        let first = parts.next().unwrap_or_default().to_owned();
-        // the name of a type is removed together with its kind
-        let named = |rest: &str| match rest.strip_prefix(' ') {
-            Some(name) if inside.contains("variant") || inside.contains("struct") || inside.contains("enum") => {
-                let kind = name.starts_with(|c: char| c.is_ascii_uppercase());
-                let end = if kind { name.find([' ', '\n']).unwrap_or(name.len()) } else { 0 };
-                if kind { name[end..].to_owned() } else { rest.to_owned() }
-            }
-            _ => rest.to_owned(),
-        };
-        parts.fold(first, |told, rest| told + word + &named(rest))
-    })
 }
 
 impl System {
@@ -266,15 +234,15 @@ mod tests {
         for (text, sentence) in [
             (
                 r#"{"version":-1}"#,
-                "invalid value: integer `-1`, expected a whole number, 0 or more at line 1 column 13",
+                "version: invalid value: integer `-1`, expected a whole number, 0 or more (line 1, column 12)\n  |\n1 | {\"version\":-1}\n  |            ^^",
             ),
-            (r#"{"version":1,"system":5}"#, "invalid type: integer `5`, expected a table at line 1"),
+            (r#"{"version":1,"system":5}"#, "system: invalid type: integer `5`, expected a table (line 1, column 23)"),
             (r#"{"version":1,"task":{"settle":{"start":{"x":"a"}}}}"#, "invalid type: string \"a\", expected a number"),
             (r#"{"version":1,"task":{"settle":3}}"#, "expected a table"),
             (r#"{"version":1,"task":"settle"}"#, "expected a table"),
             (r#"{"version":1,"task":{"curve":{"kind":{"fold":1}}}}"#, ""),
             ("version = 1\n[task.settle]\nstart = { x = \"a\" }\n", "expected a number"),
-            (&long, "TOML parse error"),
+            (&long, "line 2, column "),
         ] {
             let told = Plan::from_text(text).unwrap_err().to_string();
             assert!(told.contains(sentence), "{told}");

@@ -1,6 +1,7 @@
 //! Errors of machine files: a path or a position in the text, and what is wrong there.
 
 use super::expression::ExpressionError;
+use crate::TextError;
 use thiserror::Error;
 use vibroimpact::machine::{MachineError, MachineFault};
 
@@ -24,7 +25,10 @@ pub enum MachineProblem {
     /// An expression without a value.
     #[error(transparent)]
     Expression(#[from] ExpressionError),
-    /// A text that cannot be read.
+    /// A part of the text that cannot be read.
+    #[error("{}", .0.body())]
+    Read(TextError),
+    /// A number or another part that has no meaning.
     #[error("{0}")]
     Text(String),
     /// A field that is needed.
@@ -89,6 +93,12 @@ pub enum MachineProblem {
 impl MachineTextError {
     pub(super) fn new(path: impl Into<String>, problem: impl Into<MachineProblem>) -> Self {
         Self { path: path.into(), problem: problem.into() }
+    }
+}
+
+impl From<TextError> for MachineTextError {
+    fn from(error: TextError) -> Self {
+        Self::new(error.head().unwrap_or_else(|| "machine".to_owned()), MachineProblem::Read(error))
     }
 }
 

@@ -6,7 +6,7 @@
 //! | idea | file |
 //! |---|---|
 //! | a machine file: parameters, a machine, changed numbers | [`MachineSource`], `source` |
-//! | from text to a source, with errors that name a path | `read` |
+//! | from text to a source | `read` |
 //! | the table `[machine]` | [`MachineText`], `text` |
 //! | a number or an expression of the parameters | [`NumberText`], `number`, `expression` |
 //! | vectors, matrices, and tables that keep their order | [`VectorText`], [`MatrixText`], [`Named`] |
@@ -42,7 +42,6 @@ pub use error::{MachineProblem, MachineTextError};
 pub use expression::ExpressionError;
 pub use named::Named;
 pub use number::NumberText;
-pub(crate) use read::from_either;
 pub use read::no_files;
 pub use shapes::{MatrixText, VectorText};
 pub use source::MachineSource;

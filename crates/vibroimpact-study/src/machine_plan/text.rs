@@ -2,7 +2,8 @@
 
 use super::plan::{MachinePlan, MachineTask};
 use crate::PlanError;
-use crate::machine::{MachineSource, MachineText, Named, StartText, from_either, headed_toml};
+use crate::machine::{MachineSource, MachineText, Named, StartText, headed_toml};
+use crate::text::Document;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -71,9 +72,17 @@ impl MachinePlan {
     /// the machine names, or says why not.
     ///
     /// # Errors
-    /// [`PlanError::Machine`] with the path of the part, or the line and the column, and what is expected there.
+    /// [`PlanError::Text`] with the path of the part, the line and the column, and what is expected there;
+    /// [`PlanError::Machine`] for a file that cannot be read.
     pub fn from_text(text: &str, files: impl FnOnce(&str) -> Result<String, String>) -> Result<Self, PlanError> {
-        let mut plan: Self = from_either(text)?;
+        Self::of_document(&Document::parse(text)?, files)
+    }
+
+    pub(crate) fn of_document(
+        document: &Document<'_>,
+        files: impl FnOnce(&str) -> Result<String, String>,
+    ) -> Result<Self, PlanError> {
+        let mut plan = Self::from(document.read::<MachinePlanText>()?);
         plan.machine.read_modes(files)?;
         Ok(plan)
     }
@@ -96,11 +105,7 @@ impl MachinePlan {
 /// Whether a text is a plan of a machine: it has a table `machine`.
 #[must_use]
 pub fn is_machine_plan(text: &str) -> bool {
-    if text.trim_start().starts_with('{') {
-        serde_json::from_str::<serde_json::Value>(text).is_ok_and(|value| value.get("machine").is_some())
-    } else {
-        toml::from_str::<toml::Table>(text).is_ok_and(|table| table.contains_key("machine"))
-    }
+    Document::parse(text).is_ok_and(|document| document.has_machine())
 }
 
 #[cfg(test)]
@@ -130,6 +135,9 @@ mod tests {
             assert!(is_machine_plan(&toml) && is_machine_plan(&json));
             assert!(toml.starts_with("version = 1\n") && toml.contains("[task.simulate]\nperiods = 2.5\n"), "{toml}");
         }
+        let source = CATALOGUE[0].source().unwrap();
+        let plan = MachinePlan::new(source, MachineTask::Attractors { starts: 1, seed: u64::MAX, impacts: None });
+        assert_eq!(MachinePlan::from_text(&plan.to_toml(), no_files), Ok(plan));
         assert!(
             !is_machine_plan("version = 1\n[system]\nbeta = 1\n") && !is_machine_plan("{") && !is_machine_plan("[")
         );
@@ -140,8 +148,12 @@ mod tests {
         let good = "version = 1\n[machine]\nbodies = { a = 1 }\n[task.simulate]\nimpacts = 5\n";
         assert!(MachinePlan::from_text(good, no_files).is_ok());
         for (from, to, said) in [
-            ("impacts", "impact", "task: unexpected keys in table: impact"),
-            ("[task.simulate]", "[task.settel]", "task: unknown"),
+            (
+                "impacts",
+                "impact",
+                "task.simulate.impact: unknown field `impact`, expected `impacts` or `periods` (line 5, column 1)",
+            ),
+            ("[task.simulate]", "[task.settel]", "task.settel: unknown"),
             ("version = 1", "version = 2", "the plan has version 2"),
             ("impacts = 5", "impacts = 0", "impacts = 0 lies outside"),
             ("impacts = 5", "periods = 3", "no forcing"),

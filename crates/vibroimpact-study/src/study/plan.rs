@@ -1,7 +1,8 @@
 //! A plan that can fill a grid: one of the oscillator, or one of a machine.
 
 use crate::machine::no_files;
-use crate::{MachinePlan, Plan, PlanError, is_machine_plan};
+use crate::text::Document;
+use crate::{MachinePlan, Plan, PlanError};
 use serde::Serialize;
 
 /// A plan of the oscillator or of a machine. Its JSON is that of the plan.
@@ -39,11 +40,12 @@ impl StudyPlan {
     /// # Errors
     /// [`PlanError`] says what is wrong, and where.
     pub fn from_text(text: &str, files: impl FnOnce(&str) -> Result<String, String>) -> Result<Self, PlanError> {
-        if is_machine_plan(text) {
-            MachinePlan::from_text(text, files).map(|plan| Self::from(&plan))
+        let document = Document::parse(text)?;
+        Ok(if document.has_machine() {
+            Self::Machine(Box::new(MachinePlan::of_document(&document, files)?))
         } else {
-            Plan::from_text(text).map(|plan| Self::from(&plan))
-        }
+            Self::Oscillator(Box::new(Plan::of_document(&document)?))
+        })
     }
 
     /// Reads a plan that names no files, as a store keeps it.

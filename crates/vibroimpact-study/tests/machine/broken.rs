@@ -67,7 +67,12 @@ fn damaged() -> impl Strategy<Value = String> {
     })
 }
 
-/// One sentence with a path or a place; the lines after it are hints.
+/// A line of the text with its number, or the mark below it.
+fn is_of_the_text(line: &str) -> bool {
+    line.split_once(" |").is_some_and(|(number, _)| number.trim().is_empty() || number.parse::<u32>().is_ok())
+}
+
+/// One sentence with a path or a place; the lines after it are the line of the text and hints.
 fn is_explained(told: &str) -> bool {
     let mut lines = told.lines();
     let first = lines.next().unwrap_or_default();
@@ -77,7 +82,7 @@ fn is_explained(told: &str) -> bool {
     !path.is_empty()
         && (counted || !path.contains(char::is_whitespace))
         && first.chars().count() < 600
-        && lines.all(|line| line.starts_with("hint: "))
+        && lines.all(|line| line.starts_with("hint: ") || is_of_the_text(line))
         && !["f64", "u32", "struct ", "variant", "MachineText", "Option<"].iter().any(|inside| told.contains(inside))
 }
 

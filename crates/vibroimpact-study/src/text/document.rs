@@ -1,0 +1,88 @@
+//! A text with its value. Each error has the path of the part or the position in the text.
+
+use super::error::TextError;
+use super::place::{TextPlace, in_json, in_toml};
+use super::reader::{Step, Wrong};
+use super::value::Value;
+use serde::de::DeserializeOwned;
+
+/// A text that is TOML or JSON, and its value.
+pub(crate) struct Document<'t> {
+    text: &'t str,
+    is_json: bool,
+    value: Value,
+}
+
+impl<'t> Document<'t> {
+    /// Parses TOML or, where the text begins with a brace, JSON.
+    pub(crate) fn parse(text: &'t str) -> Result<Self, TextError> {
+        if text.trim_start().starts_with('{') { Self::json(text) } else { Self::toml(text) }
+    }
+
+    /// Parses JSON.
+    pub(crate) fn json(text: &'t str) -> Result<Self, TextError> {
+        let value = serde_json::from_str(text).map_err(|error| {
+            let message = error.to_string();
+            let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(message, _)| message);
+            let message = if message == "trailing characters" { "the text does not end here" } else { message };
+            TextError::new(String::new(), message, Some(TextPlace::at(text, error.line(), error.column())))
+        })?;
+        Ok(Self { text, is_json: true, value })
+    }
+
+    fn toml(text: &'t str) -> Result<Self, TextError> {
+        let value = toml::from_str(text).map_err(|error| {
+            let place = error.span().map(|bytes| TextPlace::of(text, &bytes));
+            TextError::new(String::new(), error.message(), place)
+        })?;
+        Ok(Self { text, is_json: false, value })
+    }
+
+    /// Whether it has a table `machine`, as the plan of a machine.
+    pub(crate) fn has_machine(&self) -> bool {
+        self.value.get("machine").is_some()
+    }
+
+    /// What the text describes.
+    pub(crate) fn read<T: DeserializeOwned>(&self) -> Result<T, TextError> {
+        T::deserialize(&self.value).map_err(|wrong| self.error(wrong))
+    }
+
+    fn error(&self, mut wrong: Wrong) -> TextError {
+        wrong.steps.reverse();
+        let bytes = if self.is_json { in_json } else { in_toml };
+        let place = bytes(self.text, &wrong.steps, wrong.of_name).map(|bytes| TextPlace::of(self.text, &bytes));
+        TextError::new(path(&wrong.steps, &self.value), &wrong.message, place)
+    }
+}
+
+/// The path with names of stops, joints and links, and orders of forces, instead of their places in lists.
+fn path(steps: &[Step], whole: &Value) -> String {
+    let mut words: Vec<String> = Vec::new();
+    let mut here = Some(whole);
+    for step in steps {
+        match step {
+            Step::Item(index) => {
+                here = here.and_then(|value| if let Value::List(list) = value { list.get(*index) } else { None });
+                let of = |name: &str| here.and_then(|value| value.get(name));
+                let word = match (of("name"), words.last().map(String::as_str), of("order")) {
+                    (Some(Value::Text(name)), _, _) => name.clone(),
+                    (_, Some("force" | "motion"), Some(Value::Signed(order @ 0..))) => order.to_string(),
+                    (_, Some("force" | "motion"), Some(Value::Unsigned(order))) => order.to_string(),
+                    (_, Some("force" | "motion"), _) => "1".to_owned(),
+                    _ => (index + 1).to_string(),
+                };
+                words.push(word);
+            }
+            Step::Name(name) => {
+                here = here.and_then(|value| value.get(name));
+                words.push(name.clone());
+            }
+        }
+    }
+    if words.len() > 1 && words[0] == "machine" {
+        words.remove(0);
+    }
+    // names of the file may have any characters
+    words.join(".").chars().map(|c| if c.is_control() || c.is_whitespace() { '_' } else { c }).take(120).collect()
+}
