@@ -46,6 +46,7 @@ mod metrics;
 mod number;
 mod palette;
 mod panel;
+mod pdf;
 mod render;
 mod resolution;
 mod scale;

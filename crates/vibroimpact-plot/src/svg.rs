@@ -1,4 +1,4 @@
-//! The layout of a figure, and its output as SVG or PNG.
+//! The layout of a figure, and its output as SVG, PNG or PDF.
 
 use crate::canvas::Canvas;
 use crate::error::PlotError;
@@ -76,7 +76,7 @@ impl Figure {
         render::png(&pixels.to_svg(), scale)
     }
 
-    /// The figure as a PDF page of its size on paper, with text as text and curves as curves.
+    /// The figure as a PDF page of its size on paper, with curves as curves and letters as their outlines.
     ///
     /// # Errors
     /// [`PlotError::PageSize`] for a size that no page can have.
