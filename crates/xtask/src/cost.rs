@@ -128,7 +128,9 @@ pub(crate) fn print(root: &Path, package: &str) -> Result<String, String> {
     let _ = fs::remove_dir_all(&folder);
     let log =
         Log::begin(&folder).ok_or("processor time is measured on Linux only, and without another RUSTC_WRAPPER")?;
-    let mut build = command::words(root, "cargo build --release --locked --package");
+    // the names of functions say which crate they are from
+    let mut build =
+        command::words(root, "cargo build --release --locked --config profile.release.strip=false --package");
     build.arg(package).env("CARGO_TARGET_DIR", &folder);
     build.envs(log.variables());
     let before = seconds_of_children().unwrap_or(0.0);
