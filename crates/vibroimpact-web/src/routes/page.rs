@@ -6,11 +6,11 @@ use axum::extract::Path;
 use axum::extract::rejection::PathRejection;
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
-use rust_embed::RustEmbed;
+use core::hash::Hasher;
+use include_dir::{Dir, include_dir};
+use std::hash::DefaultHasher;
 
-#[derive(RustEmbed)]
-#[folder = "page/"]
-struct Page;
+static PAGE: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/page");
 
 pub(super) async fn index(headers: HeaderMap) -> Result<Response, Refusal> {
     file("index.html", &headers)
@@ -27,12 +27,10 @@ fn nothing() -> Refusal {
 }
 
 fn file(path: &str, headers: &HeaderMap) -> Result<Response, Refusal> {
-    if path.split(['/', '\\']).any(|part| part == ".." || part.is_empty()) {
-        return Err(nothing());
-    }
-    let file = Page::get(path).ok_or_else(nothing)?;
-    let tag =
-        file.metadata.sha256_hash().iter().take(8).fold(String::from("\""), |tag, b| format!("{tag}{b:02x}")) + "\"";
+    let file = PAGE.files().find(|file| file.path().to_str() == Some(path)).ok_or_else(nothing)?;
+    let mut hash = DefaultHasher::new();
+    hash.write(file.contents());
+    let tag = format!("\"{:016x}\"", hash.finish());
     if headers.get(header::IF_NONE_MATCH).is_some_and(|known| known.as_bytes() == tag.as_bytes()) {
         return Ok(StatusCode::NOT_MODIFIED.into_response());
     }
@@ -41,7 +39,7 @@ fn file(path: &str, headers: &HeaderMap) -> Result<Response, Refusal> {
         (header::CACHE_CONTROL, "no-cache".into()),
         (header::ETAG, tag),
     ];
-    Ok((headers, Bytes::from(file.data.into_owned())).into_response())
+    Ok((headers, Bytes::from_static(file.contents())).into_response())
 }
 
 fn kind(path: &str) -> &'static str {
@@ -53,5 +51,27 @@ fn kind(path: &str) -> &'static str {
         Some("png") => "image/png",
         Some("json") => "application/json",
         _ => "application/octet-stream",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_known_file_is_not_sent_again() {
+        let answer = file("index.html", &HeaderMap::new()).unwrap();
+        let tag = answer.headers()[header::ETAG].clone();
+        assert_eq!(answer.status(), StatusCode::OK);
+        let known = |tag| file("index.html", &HeaderMap::from_iter([(header::IF_NONE_MATCH, tag)])).unwrap().status();
+        assert_eq!(known(tag), StatusCode::NOT_MODIFIED);
+        assert_eq!(known(header::HeaderValue::from_static("\"other\"")), StatusCode::OK);
+    }
+
+    #[test]
+    fn only_files_of_the_page_are_sent() {
+        for path in ["", "none.js", "./index.html", "index.html/", "../Cargo.toml", "/etc/passwd"] {
+            assert!(file(path, &HeaderMap::new()).is_err(), "{path}");
+        }
     }
 }
