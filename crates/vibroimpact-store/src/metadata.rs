@@ -43,7 +43,7 @@ impl Chunked {
         let chunk: Value = dimensions().map(|(_, _, chunk)| *chunk).collect();
         let (file, codecs) = match &self.shard {
             None => (chunk, codecs(self.kind)),
-            Some(shard) => (json!(shard), json!([sharding(chunk, codecs(self.kind))])),
+            Some(shard) => (json!(shard), json!([sharding(&chunk, &codecs(self.kind))])),
         };
         json!({
             "zarr_format": 3,
@@ -96,7 +96,7 @@ fn little_endian() -> Value {
 }
 
 /// The codec of a shard, whose chunks have the lengths `chunk` and the given codecs. See [`shards`](crate::shards).
-fn sharding(chunk: Value, codecs: Value) -> Value {
+fn sharding(chunk: &Value, codecs: &Value) -> Value {
     json!({
         "name": "sharding_indexed",
         "configuration": {
