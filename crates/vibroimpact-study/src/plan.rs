@@ -42,10 +42,9 @@ const MOST_TILE: u32 = 4096;
 
 /// The first 16 digits of the SHA-256 of a plan as JSON.
 pub(crate) fn hash_of(plan: &impl Serialize) -> String {
-    use sha2::{Digest, Sha256};
     // finite numbers and texts can always be written as JSON
     let text = serde_json::to_vec(plan).unwrap_or_default();
-    Sha256::digest(text).iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+    hmac_sha256::Hash::hash(text).iter().take(8).map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// Checks the number of points of a tile along one axis.
