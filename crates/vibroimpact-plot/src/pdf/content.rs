@@ -5,7 +5,7 @@ use pdf_writer::types::{LineCapStyle, LineJoinStyle};
 use resvg::tiny_skia::{self, PathSegment, Point};
 use resvg::usvg::{Fill, FillRule, Group, LineCap, LineJoin, Node, Path, Stroke};
 
-use super::{Writer, matrix, unknown};
+use super::writer::{Writer, matrix, unknown};
 use crate::error::PlotError;
 
 impl Writer {

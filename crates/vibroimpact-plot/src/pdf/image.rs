@@ -4,7 +4,7 @@ use pdf_writer::{Content, Filter, Name};
 use resvg::tiny_skia::Pixmap;
 use resvg::usvg::{Image, ImageKind};
 
-use super::{Writer, packed, unknown};
+use super::writer::{Writer, packed, unknown};
 use crate::error::PlotError;
 
 impl Writer {

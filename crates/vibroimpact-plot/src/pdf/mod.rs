@@ -7,14 +7,15 @@
 mod content;
 mod image;
 mod paint;
+mod writer;
 
 use std::collections::BTreeMap;
 
-use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::{Content, Filter, Name, Pdf, Rect, Ref};
 use resvg::tiny_skia::Transform;
 use resvg::usvg::Tree;
 
+use self::writer::{RESOURCES, Writer, matrix, packed};
 use crate::error::PlotError;
 
 /// The page of a tree, with this width and height in points.
@@ -42,49 +43,6 @@ pub(crate) fn page(tree: &Tree, (width, height): (f32, f32)) -> Result<Vec<u8>, 
     sheet.pair(RESOURCES, shared);
     drop(sheet);
     Ok(pdf.finish())
-}
-
-const RESOURCES: Name<'_> = Name(b"Resources");
-
-/// The objects of the file, and what they have in common.
-struct Writer {
-    pdf: Pdf,
-    /// The number of the next object.
-    next: Ref,
-    /// The dictionary of the resources, for the page and the tiles of hatches.
-    shared: Ref,
-    /// From figure units to points of the page.
-    to_page: Transform,
-    /// The objects that drawings name, by kind and name.
-    resources: BTreeMap<&'static str, BTreeMap<String, Ref>>,
-}
-
-impl Writer {
-    /// The number of a new resource, or `None` if the name has one.
-    fn add(&mut self, kind: &'static str, name: &str) -> Option<Ref> {
-        let members = self.resources.entry(kind).or_default();
-        if members.contains_key(name) {
-            return None;
-        }
-        let id = self.next.bump();
-        members.insert(name.to_owned(), id);
-        Some(id)
-    }
-}
-
-/// The six numbers of a transform in the order of PDF.
-fn matrix(t: Transform) -> [f32; 6] {
-    [t.sx, t.ky, t.kx, t.sy, t.tx, t.ty]
-}
-
-/// Compressed bytes. Higher levels take longer and save little.
-fn packed(bytes: &[u8]) -> Vec<u8> {
-    compress_to_vec_zlib(bytes, 6)
-}
-
-/// Something that no figure has.
-fn unknown(what: &str) -> PlotError {
-    PlotError::Pdf(format!("{what} is not supported"))
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use pdf_writer::{Content, Filter, Name, Rect};
 use resvg::tiny_skia::Transform;
 use resvg::usvg::{Color, LinearGradient, Paint, Pattern};
 
-use super::{RESOURCES, Writer, matrix, packed, unknown};
+use super::writer::{RESOURCES, Writer, matrix, packed, unknown};
 use crate::error::PlotError;
 
 impl Writer {
