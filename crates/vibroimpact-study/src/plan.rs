@@ -44,7 +44,7 @@ const MOST_TILE: u32 = 4096;
 pub(crate) fn hash_of(plan: &impl Serialize) -> String {
     // finite numbers and texts can always be written as JSON
     let text = serde_json::to_vec(plan).unwrap_or_default();
-    hmac_sha256::Hash::hash(text).iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+    hmac_sha256::Hash::hash(&text).iter().take(8).map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// Checks the number of points of a tile along one axis.
