@@ -137,7 +137,7 @@ pub(crate) fn print(root: &Path, package: &str) -> Result<String, String> {
     command::run(build)?;
     let all = seconds_of_children().unwrap_or(0.0) - before;
     let seconds = log.seconds();
-    let bytes = programs(&folder.join("release")).map(|program| bytes(root, &program)).unwrap_or_default();
+    let bytes = program_in(&folder.join("release")).map(|program| bytes(root, &program)).unwrap_or_default();
     let mut rows: Vec<(&str, f64, u64)> = seconds
         .iter()
         .map(|(name, taken)| (name.as_str(), *taken, bytes.get(&name.replace('-', "_")).copied().unwrap_or(0)))
@@ -154,8 +154,8 @@ pub(crate) fn print(root: &Path, package: &str) -> Result<String, String> {
     Ok(format!("{} packages, {all:.0} s of processor time", rows.len()))
 }
 
-/// The program in a folder of a release.
-fn programs(folder: &Path) -> Option<PathBuf> {
+/// The program in a folder of a release: the other file without an ending there, a lock of cargo, begins with a dot.
+fn program_in(folder: &Path) -> Option<PathBuf> {
     let files = fs::read_dir(folder).ok()?.flatten().map(|entry| entry.path());
     files.filter(|path| path.is_file() && path.extension().is_none()).max()
 }

@@ -180,7 +180,7 @@ pub(super) fn plain_crossing(
 }
 
 /// [`Sampling::search`] by vectors of four numbers where the processor has them. Samples are independent sums, so the result has the
-/// same bits.
+/// same bits. What it calls is inlined, because a function that is not would be compiled for vectors of two.
 fn search(
     sampling: &mut Sampling,
     flight: &MachineFlight,
