@@ -8,6 +8,7 @@ use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 use vibroimpact::flight::SearchLimits;
 use vibroimpact::lanes::{ABREAST, Batch, Width};
+use vibroimpact::math::sort_by;
 use vibroimpact::motion::{EventKind, Motion};
 use vibroimpact::verdict::{KnownAttractors, SettleOptions, settle_many};
 use vibroimpact::{Oscillator, Start, scenario};
@@ -73,7 +74,7 @@ fn median_rate(duration: Duration, mut work: impl FnMut() -> usize) -> f64 {
         #[allow(clippy::cast_precision_loss)] // counts below 2^53
         rates.push(done as f64 / slice.elapsed().as_secs_f64());
     }
-    rates.sort_by(f64::total_cmp);
+    sort_by(&mut rates, f64::total_cmp);
     rates[rates.len() / 2]
 }
 
@@ -139,7 +140,7 @@ fn basin(width: Width, duration: Duration) -> f64 {
     };
     median_rate(duration, || {
         let survey = KnownAttractors::survey(&osc, (0..24).map(|k| start(417 * k)), &options);
-        settle_many(&osc, 0..10_000, start, &survey, &options, width, &|| false).cells.len()
+        settle_many(&osc, 0..10_000, &start, &survey, &options, width, &|| false).cells.len()
     })
 }
 

@@ -31,7 +31,7 @@ pub fn alone_as_among(
     let start = |k: u64| starts[usize::try_from(k).unwrap_or(0)];
     for part in ends.windows(2) {
         let range = part[0] as u64..part[1] as u64;
-        let found = settle_many(osc, range, start, &survey, options, width, &|| false);
+        let found = settle_many(osc, range, &start, &survey, options, width, &|| false);
         if found.cells.len() != part[1] - part[0] {
             return Err(format!("{} of {} starts have a verdict", found.cells.len(), part[1] - part[0]));
         }

@@ -8,14 +8,12 @@ use resvg::usvg::{Options, Tree, fontdb};
 use crate::error::{MAX_SIDE, PlotError};
 use crate::pdf::page;
 
-/// The four font faces of labels, loaded once.
+/// The font faces of labels, loaded once. No label is bold and oblique together.
 fn fonts() -> Arc<fontdb::Database> {
     static FONTS: OnceLock<Arc<fontdb::Database>> = OnceLock::new();
     let load = || {
         let mut fonts = fontdb::Database::new();
-        for face in
-            [dejavu::sans::regular(), dejavu::sans::oblique(), dejavu::sans::bold(), dejavu::sans::bold_oblique()]
-        {
+        for face in [dejavu::sans::regular(), dejavu::sans::oblique(), dejavu::sans::bold()] {
             fonts.load_font_source(fontdb::Source::Binary(Arc::new(face)));
         }
         fonts.set_sans_serif_family("DejaVu Sans");

@@ -76,7 +76,7 @@ fn settle_all(
     let surveyed = SURVEY.min(total);
     let survey = KnownAttractors::survey(osc, (0..surveyed).map(|k| starts.at(total / surveyed * k)), &options);
     let parts = tiles(total, TILE, control, |range, tick| {
-        settle_range(osc, range, |k| starts.at(k), &survey, &options, Width::best(), tick)
+        settle_range(osc, range, &|k| starts.at(k), &survey, &options, Width::best(), tick)
     })?;
     let mut merged = Census::default();
     let mut cells = Vec::with_capacity(usize::try_from(total).unwrap_or(0));

@@ -5,6 +5,7 @@ use crate::{Block, Parameter, PlanError, Span, StartPlan, SystemPlan, Unit};
 use core::fmt;
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use vibroimpact::math::sort_by;
 
 /// The quantity that varies along an axis: a parameter of the system or a coordinate of the start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -207,7 +208,7 @@ impl Values {
             return Err(bad(None));
         }
         let mut sorted = values.clone();
-        sorted.sort_by(f64::total_cmp);
+        sort_by(&mut sorted, f64::total_cmp);
         let twice = sorted.windows(2).find(|pair| pair[0] == pair[1]).map(|pair| pair[0]);
         match values.iter().copied().find(|v| !v.is_finite()).or(twice) {
             Some(value) => Err(bad(Some(value))),

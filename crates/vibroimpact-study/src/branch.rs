@@ -138,7 +138,7 @@ pub(crate) fn branches(system: &SystemPlan, plan: &BranchPlan, control: &Control
     let from = vary.get(&osc).map_err(PlanError::from)?;
     let label = plan.label.parse().map_err(PlanError::from)?;
     let stopped = |done: usize| Stopped { done: done as u64, total: u64::from(plan.follow) + 1 };
-    let chosen = choose(&osc, label, plan.orbit, || !control.stopping())?.ok_or_else(|| stopped(0))?;
+    let chosen = choose(&osc, label, plan.orbit, &|| !control.stopping())?.ok_or_else(|| stopped(0))?;
     let range = from.min(plan.to)..=from.max(plan.to);
     let direction = if plan.to > from { Direction::Up } else { Direction::Down };
     let options = BranchOptions { points: plan.points, ..BranchOptions::default() };

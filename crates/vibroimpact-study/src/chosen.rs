@@ -38,7 +38,7 @@ pub(crate) fn choose(
     osc: &Oscillator,
     label: Label,
     number: Option<u32>,
-    go_on: impl Fn() -> bool,
+    go_on: &dyn Fn() -> bool,
 ) -> Result<Option<Chosen>, PlanError> {
     if label.impacts == Count::Finite(0) && osc.damping() == 0.0 {
         return Err(BranchError::Undamped.into());
@@ -67,7 +67,7 @@ mod tests {
     use super::*;
 
     fn chosen(osc: &Oscillator, label: Label, number: Option<u32>) -> Result<Chosen, PlanError> {
-        choose(osc, label, number, || true).map(|chosen| chosen.expect("nobody stops it"))
+        choose(osc, label, number, &|| true).map(|chosen| chosen.expect("nobody stops it"))
     }
 
     #[test]
@@ -82,7 +82,7 @@ mod tests {
             let error = chosen(&osc, Label::new(1, 2), Some(given)).unwrap_err();
             assert!(matches!(error, PlanError::NoSuchOrbit { given: g, .. } if g == given));
         }
-        assert_eq!(choose(&osc, Label::new(2, 1), None, || false), Ok(None));
+        assert_eq!(choose(&osc, Label::new(2, 1), None, &|| false), Ok(None));
         let far = Oscillator::from_inverse_beta(0.7, 40.0, 0.5).unwrap();
         let error = chosen(&far, Label::new(1, 1), None).unwrap_err().to_string();
         assert!(error.starts_with("no admissible orbit 1/1 was found"), "{error}");

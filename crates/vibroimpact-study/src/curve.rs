@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use vibroimpact::continuation::{
     Branch, BranchEvent, BranchOptions, Curve, CurveEvent, CurveOptions, CurvePoint, Direction, SolutionPoint,
 };
+use vibroimpact::math::sort_by;
 use vibroimpact::{Label, Oscillator, ParameterPath};
 
 /// What holds along a curve.
@@ -105,7 +106,7 @@ pub(crate) fn curve(system: &SystemPlan, plan: &CurvePlan, control: &Control<'_>
     plan.check(system)?;
     let osc = system.oscillator()?;
     let label = followable(&plan.label)?;
-    let chosen = choose(&osc, label, plan.orbit, || !control.stopping())?.ok_or(Stopped { done: 0, total: 2 })?;
+    let chosen = choose(&osc, label, plan.orbit, &|| !control.stopping())?.ok_or(Stopped { done: 0, total: 2 })?;
     let going = || !control.stopping();
     let stopped = |done| if going() { Ok(()) } else { Err(Stopped { done, total: 2 }) };
     let frame = plan.vary.frame(&plan.and, system)?;
@@ -172,7 +173,7 @@ fn events(
             }
         }
     }
-    events.sort_by(|a, b| a.value.total_cmp(&b.value));
+    sort_by(&mut events, |a, b| a.value.total_cmp(&b.value));
     Ok(events)
 }
 

@@ -95,7 +95,7 @@ impl Plane {
         let each = tiles(wanted.len() as u64, 1, control, |range, tick| {
             // one region for each tile
             let (label, kind) = wanted[usize::try_from(range.start).unwrap_or(0)];
-            let region = region_while(&self.osc, label, kind, &self.frame, self.options, || !control.stopping());
+            let region = region_while(&self.osc, label, kind, &self.frame, self.options, &|| !control.stopping());
             if region.is_some() {
                 tick();
             }

@@ -93,14 +93,14 @@ pub fn run(plan: &Plan, control: &Control<'_>) -> Result<Results, RunError> {
         }
         Task::Settle { start, impacts } => {
             let start = start.start(&osc)?;
-            Results::Settle(start, settle_while(&osc, start, &options(*impacts), go_on).ok_or(stopped)?)
+            Results::Settle(start, settle_while(&osc, start, &options(*impacts), &go_on).ok_or(stopped)?)
         }
         Task::Attractors { starts, seed, impacts } => {
             Results::Attractors(attractors(system, (*starts, *seed), &options(*impacts), control)?)
         }
         Task::Orbit { label } => {
             let label: Label = label.parse().map_err(PlanError::from)?;
-            Results::Orbit(find_while(&osc, label, FindOptions::default(), go_on).ok_or(stopped)?)
+            Results::Orbit(find_while(&osc, label, FindOptions::default(), &go_on).ok_or(stopped)?)
         }
         Task::Basin(task) => Results::Basin(basin(system, task, control)?),
         Task::Map(task) => Results::Map(map(system, task, control)?),
@@ -112,10 +112,10 @@ pub fn run(plan: &Plan, control: &Control<'_>) -> Result<Results, RunError> {
             }
             let start = task.start.start(&osc)?;
             let section = match task.points {
-                Some(points) => Some(section_while(&osc, start, task.transient, points, go_on).ok_or(stopped)?),
+                Some(points) => Some(section_while(&osc, start, task.transient, points, &go_on).ok_or(stopped)?),
                 None => None,
             };
-            let exponents = exponents_while(&osc, start, &task.options(), go_on).ok_or(stopped)?;
+            let exponents = exponents_while(&osc, start, &task.options(), &go_on).ok_or(stopped)?;
             Results::Lyapunov(start, exponents, section)
         }
         Task::Branch(task) => Results::Branch(branches(system, task, control)?),

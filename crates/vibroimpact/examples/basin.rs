@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let options = SettleOptions::default();
     let found =
-        settle_many(&osc, 0..COLUMNS * ROWS, start, &KnownAttractors::default(), &options, Width::best(), &|| false);
+        settle_many(&osc, 0..COLUMNS * ROWS, &start, &KnownAttractors::default(), &options, Width::best(), &|| false);
     let letters: Vec<char> = ('a'..='z').collect();
     for row in found.cells.chunks(usize::try_from(COLUMNS)?) {
         println!("{}", row.iter().map(|&motion| letters[motion as usize % 26]).collect::<String>());

@@ -193,7 +193,7 @@ fn the_tail_of_chaos_ends_with_its_last_impact() {
         let osc = Oscillator::from_inverse_beta(inverse, gap, restitution).unwrap().with_damping(damping).unwrap();
         let options = SettleOptions::default();
         let start = |k: u64| scattered_starts(&osc, StartBox::natural(&osc), 1, k);
-        let many = settle_many(&osc, 0..40, start, &KnownAttractors::default(), &options, Width::best(), &|| false);
+        let many = settle_many(&osc, 0..40, &start, &KnownAttractors::default(), &options, Width::best(), &|| false);
         let single = settle(&osc, Start::at_rest(&osc), &options).verdict;
         let long = [300, 3000].map(|n| exponents(&osc, Start::at_rest(&osc), &ExponentOptions::new(n, 500)).motion);
         let verdicts = many.motions.into_iter().map(|found| found.verdict).chain([single]).chain(long);
@@ -234,7 +234,7 @@ fn kept_impacts_give_the_same_quantities() {
         let start = |k: u64| scattered_starts(&osc, StartBox::natural(&osc), 1, k);
         for count in [1, 12, 40] {
             let none = KnownAttractors::default();
-            let many = settle_many(&osc, 0..count, start, &none, &options, Width::best(), &|| false);
+            let many = settle_many(&osc, 0..count, &start, &none, &options, Width::best(), &|| false);
             assert_eq!(many.motions.len(), many.tails.len());
             for (motion, tail) in many.motions.iter().zip(&many.tails) {
                 let asked =

@@ -165,7 +165,7 @@ fn in_company(osc: &Oscillator, options: &SettleOptions, count: u64, start: impl
     for surveyed in [0, 8, 24] {
         let survey = KnownAttractors::survey(osc, (0..surveyed).map(|k| start(count / surveyed * k)), options);
         for width in Width::ALL.into_iter().filter(|width| width.available()) {
-            let many = settle_many(osc, 0..count, start, &survey, options, width, &|| false);
+            let many = settle_many(osc, 0..count, &start, &survey, options, width, &|| false);
             for (k, cell) in many.cells.iter().enumerate() {
                 let got = &many.motions[*cell as usize].verdict;
                 assert!(
@@ -422,7 +422,7 @@ fn f04c_search_steps_run_out_alike_alone_and_among_others() {
         let area = StartBox::natural(&osc);
         let surveyed = (2..40).map(|k| scattered_starts(&osc, area, 1, k));
         for survey in [KnownAttractors::default(), KnownAttractors::survey(&osc, surveyed, &options)] {
-            let among = settle_many(&osc, 0..64, |_| start, &survey, &options, Width::best(), &|| false);
+            let among = settle_many(&osc, 0..64, &|_| start, &survey, &options, Width::best(), &|| false);
             let [found] = &among.motions[..] else { panic!("{osc:?}: {:?}", among.motions) };
             assert!(
                 found.verdict.label() == alone.label() && found.verdict.same_as(&alone, 1e-6),

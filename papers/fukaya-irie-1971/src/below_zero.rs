@@ -5,6 +5,7 @@ use crate::figure04::cells;
 use crate::folder::Csv;
 use crate::grid::{Grid, settle_grid};
 use crate::{Error, Run, looks, search};
+use vibroimpact::math::sort_by;
 use vibroimpact_plot::{FigureAxis, Panel};
 use vibroimpact_study::Span;
 
@@ -44,7 +45,7 @@ fn claim(section: &mut Section, grid: &Grid) {
     let starts: usize = grid.points.iter().map(|p| p.starts.len()).sum();
     let undecided = grid.points.iter().flat_map(|p| &p.starts).filter(|(label, _)| label == "undecided").count();
     let mut labels = grid.labels();
-    labels.sort_by(|a, b| b.1.cmp(&a.1).then(a.0.cmp(&b.0)));
+    sort_by(&mut labels, |a, b| b.1.cmp(&a.1).then(a.0.cmp(&b.0)));
     let told: Vec<String> = labels.iter().map(|(label, points)| format!("{label} at {points}")).collect();
     section.claim(
         "4",

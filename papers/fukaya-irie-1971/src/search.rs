@@ -3,6 +3,7 @@
 use crate::folder::Csv;
 use crate::grid::{Grid, settle_grid};
 use crate::{Error, Run, looks};
+use vibroimpact::math::sort_by;
 use vibroimpact_study::Span;
 
 /// A part of the plane on a finer grid.
@@ -24,7 +25,7 @@ impl Part {
 /// Where a label was found on a grid.
 pub(crate) fn told(grid: &Grid, label: &str) -> Option<String> {
     let mut at: Vec<_> = grid.with(label).collect();
-    at.sort_by(|a, b| b.1.total_cmp(&a.1));
+    sort_by(&mut at, |a, b| b.1.total_cmp(&a.1));
     let (point, share) = at.first()?;
     Some(format!(
         "{label} at {}, from {} of the starts at {}",

@@ -3,6 +3,7 @@
 use super::parameter_flag::{ParameterFlag, flag, parameter};
 use crate::failure::Failure;
 use clap::Args;
+use vibroimpact::math::sort_by_key;
 use vibroimpact_study::Parameter;
 
 /// The order of the axes.
@@ -31,7 +32,7 @@ impl AxesArgs {
             )));
         }
         let mut varied = varied;
-        varied.sort_by_key(place);
+        sort_by_key(&mut varied, place);
         Ok(varied)
     }
 }

@@ -1,5 +1,6 @@
 //! Long lists in a summary: those with the largest shares, and the others together.
 
+use vibroimpact::math::sort_by;
 use vibroimpact_report::number::percent;
 
 /// Number of items that are shown of a longer list.
@@ -19,7 +20,7 @@ pub(super) fn leading<T>(items: Vec<T>, share: impl Fn(&T) -> f64, kept: impl Fn
     }
     let mut items = items;
     // a stable sort: equal shares stay in their order
-    items.sort_by(|a, b| share(b).total_cmp(&share(a)));
+    sort_by(&mut items, |a, b| share(b).total_cmp(&share(a)));
     let rest = items.split_off(SHOWN);
     let (kept, others): (Vec<T>, Vec<T>) = rest.into_iter().partition(kept);
     items.extend(kept);

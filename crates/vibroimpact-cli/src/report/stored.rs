@@ -10,6 +10,7 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 use vibroimpact::QuantityKind;
+use vibroimpact::math::sort_by;
 use vibroimpact_report::json::map::LabelCount;
 use vibroimpact_report::number::{Number, percent};
 use vibroimpact_report::table::diagram;
@@ -98,7 +99,7 @@ fn labels(store: &Store) -> Result<Vec<LabelCount>, Failure> {
         share: share / total as f64,
     };
     let mut list: Vec<LabelCount> = counts.into_iter().map(count).collect();
-    list.sort_by(|a, b| b.share.total_cmp(&a.share));
+    sort_by(&mut list, |a, b| b.share.total_cmp(&a.share));
     Ok(list)
 }
 

@@ -3,6 +3,7 @@
 use crate::figure::plane::{Plane, PlaneAxis, Sides};
 use crate::figure::{title, variant};
 use crate::{Asked, ReportError};
+use vibroimpact::math::sort_by;
 use vibroimpact_plot::{ClassStyle, Colour, Figure, FigureAxis, Legend, Panel, Raster, Rect, Rects, class_style};
 use vibroimpact_study::{Basin, MachineBasin, counted};
 
@@ -58,7 +59,7 @@ pub fn draw(sides: &Sides, motions: &[BasinMotion], cells: Vec<u16>, title: Stri
 /// The colours of the motions, and the legend with their shares.
 fn colours(motions: &[BasinMotion]) -> (Vec<Colour>, Legend) {
     let mut by_share: Vec<usize> = (0..motions.len()).collect();
-    by_share.sort_by(|a, b| motions[*b].share.total_cmp(&motions[*a].share));
+    sort_by(&mut by_share, |a, b| motions[*b].share.total_cmp(&motions[*a].share));
     let mut colours = vec![Colour::hex(0x9a_9a9a); motions.len()];
     let mut legend = Legend::below();
     let mut used: Vec<&str> = Vec::new();

@@ -7,6 +7,7 @@ use crate::figure::{label as legend_label, shares, title_without};
 use crate::{Asked, ReportError};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
+use vibroimpact::math::sort_by_key;
 use vibroimpact_plot::{
     ClassStyle, Colour, Figure, GROUPS, Legend, Line, Panel, Raster, Rects, class_style, legend_group, legend_text,
     unforced,
@@ -118,7 +119,7 @@ impl LabelledCells {
     fn legend(&self, style: impl Fn(&str) -> ClassStyle) -> Legend {
         let rank = |label: &str| GROUPS.iter().position(|group| *group == legend_group(label)).unwrap_or(GROUPS.len());
         let mut labels: Vec<&str> = self.labels.iter().map(String::as_str).collect();
-        labels.sort_by_key(|label| (rank(label), numbers(label)));
+        sort_by_key(&mut labels, |label| (rank(label), numbers(label)));
         let mut legend = Legend::below();
         if labels.len() <= NAMED {
             for label in labels {

@@ -9,6 +9,7 @@ use crate::machine_answer::machine_title;
 use crate::{AnswerError, Asked, ReportError, Units};
 use std::collections::BTreeMap;
 use vibroimpact::QuantityKind;
+use vibroimpact::math::sort_by_key;
 use vibroimpact_plot::{Colour, Figure, FigureAxis, Line, Panel, SERIES, plain};
 use vibroimpact_study::study::{
     NOT_COMPUTED, REFUSED, StudyArrays, StudyPlan, diagram_of, label_of, machine_diagram_of,
@@ -227,7 +228,7 @@ fn of_basin<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     // starts of a machine beyond a rigid stop have no motion
     let total = labels.whole().iter().filter(|code| **code != REFUSED).count() as f64;
     let mut list: Vec<_> = motions.into_iter().collect();
-    list.sort_by_key(|(_, (number, _))| *number);
+    sort_by_key(&mut list, |(_, (number, _))| *number);
     let motion = |((code, _), (_, count)): ((i32, i32), (u16, u64))| basin::BasinMotion {
         label: label_of(code).unwrap_or_default(),
         share: count as f64 / total,

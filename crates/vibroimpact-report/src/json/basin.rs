@@ -5,6 +5,7 @@ use super::motion::{MotionFields, SharedMotion};
 use super::{Document, Place};
 use crate::Asked;
 use serde::Serialize;
+use vibroimpact::math::sort_by_key;
 use vibroimpact::{Oscillator, Start};
 use vibroimpact_study::{Basin, Coordinate, Plan};
 
@@ -100,6 +101,6 @@ pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &Bas
 #[must_use]
 pub fn by_count(found: &Basin) -> Vec<usize> {
     let mut order: Vec<usize> = (0..found.motions.len()).collect();
-    order.sort_by_key(|m| core::cmp::Reverse(found.motions[*m].count));
+    sort_by_key(&mut order, |m| core::cmp::Reverse(found.motions[*m].count));
     order
 }

@@ -7,6 +7,7 @@ use crate::{AnswerError, Asked, ReportError};
 use std::collections::BTreeMap;
 use vibroimpact::Label;
 use vibroimpact::continuation::BranchEvent as E;
+use vibroimpact::math::{sort_by, sort_by_key};
 use vibroimpact::verdict::{Count, SettleOptions, Verdict, attractors};
 use vibroimpact_plot::Figure;
 use vibroimpact_study::diagram::Diagram;
@@ -136,7 +137,7 @@ pub(super) fn distinct(all: impl Iterator<Item = BifurcationEvent>, near: f64) -
             events.push(event);
         }
     }
-    events.sort_by(|a, b| a.value.total_cmp(&b.value));
+    sort_by(&mut events, |a, b| a.value.total_cmp(&b.value));
     events
 }
 
@@ -228,7 +229,7 @@ pub fn labels(
 /// Labels with their numbers of starts: those of most starts first.
 pub(super) fn most_first(counts: BTreeMap<String, u64>) -> Vec<String> {
     let mut list: Vec<(String, u64)> = counts.into_iter().collect();
-    list.sort_by_key(|(_, count)| core::cmp::Reverse(*count));
+    sort_by_key(&mut list, |(_, count)| core::cmp::Reverse(*count));
     list.into_iter().map(|(label, _)| label).collect()
 }
 

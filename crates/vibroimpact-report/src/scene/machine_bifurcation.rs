@@ -176,7 +176,7 @@ fn along(
 fn orbits(plan: &MachinePlan, cut: &MachineCut, labels: &[Label], control: &Control<'_>) -> Result<Seeds, AnswerError> {
     along(plan, (cut, LOOKS), control, |machine| {
         let starts = || (0..ORBIT_STARTS).map(|k| scattered_machine_starts(machine, SEED, k));
-        let of = |label: &Label| find_machine_while(machine, *label, starts(), || !control.stopping());
+        let of = |label: &Label| find_machine_while(machine, *label, starts(), &|| !control.stopping());
         labels.iter().flat_map(|label| of(label).unwrap_or_default()).map(|cycle| (cycle, 1)).collect()
     })
 }
@@ -193,7 +193,7 @@ fn motions(
         let mut census = Census::default();
         for k in 0..STARTS {
             let start = scattered_machine_starts(machine, SEED, k);
-            let settled = settle_machine_while(machine, &start, &options, || !control.stopping());
+            let settled = settle_machine_while(machine, &start, &options, &|| !control.stopping());
             if let Some(settled) = settled.ok().flatten() {
                 census.add(&settled.verdict);
             }

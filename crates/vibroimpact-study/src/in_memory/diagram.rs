@@ -5,6 +5,7 @@ use crate::machine::MachineSource;
 use crate::machine_plan::{MachineDiagram, MachineDiagramPlan};
 use crate::study::{SweepFill, Swept, tiles_of};
 use crate::{Control, RunError, SystemPlan};
+use vibroimpact::math::sort_by_key;
 
 /// Number of scattered starts, and of values, in a tile.
 const TILE: u32 = 4;
@@ -48,7 +49,7 @@ fn steps_of<S: Swept>(
     let mut steps = parts.into_iter().flat_map(|(_, steps)| steps).collect::<Result<Vec<_>, _>>()?;
     if let SweepDirection::Scatter { .. } = direction {
         // a tile holds several starts at several values; sort by value, and at each value by start
-        steps.sort_by_key(place);
+        sort_by_key(&mut steps, place);
     }
     Ok(steps)
 }

@@ -15,6 +15,7 @@
 //! | from the matrices back to a table | `back` |
 //! | the numbers of a table by path | `written` |
 //! | modes from a table of numbers | `modes` |
+//! | some of its numbers varied | `varied` |
 //! | where a machine begins | [`StartText`], [`StartNumbers`], `start` |
 //! | named machines of the literature | [`CATALOGUE`], `catalogue` |
 //! | errors | [`MachineTextError`], [`MachineProblem`] |
@@ -34,6 +35,7 @@ mod source;
 mod start;
 mod structure;
 mod text;
+mod varied;
 mod write;
 mod written;
 
@@ -49,4 +51,5 @@ pub use start::{ContactText, ContactWord, StartNumbers, StartText, contact_word}
 pub use text::{
     ForceText, FrictionText, ImpactsText, LinkText, MachineText, ModeText, MotionText, OpeningText, StopText,
 };
+pub(crate) use varied::VariedMachine;
 pub(crate) use write::headed_toml;

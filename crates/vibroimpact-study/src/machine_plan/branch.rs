@@ -156,8 +156,7 @@ impl MachineLine {
     #[must_use]
     pub fn new(source: &MachineSource, cut: MachineCut, points: u32) -> Self {
         let (from, to) = cut.ends;
-        let source = source.clone();
-        let family = MachineFamily::new(move |value| cut.source(&source, value).ok()?.machine().ok());
+        let family = cut.family(source);
         let options = BranchOptions { points, ..BranchOptions::default() };
         Self { family, range: from.min(to)..=from.max(to), options }
     }

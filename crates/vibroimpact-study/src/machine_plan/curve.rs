@@ -1,19 +1,20 @@
 //! Curves of events of an orbit of a machine in a plane of two of its numbers. A curve begins at an event on a branch in the
 //! first one.
 
-use super::cut::MachineStretch;
+use super::cut::{MachineCut, MachineStretch};
 use super::orbits;
-use crate::machine::MachineSource;
+use crate::machine::{MachineSource, VariedMachine};
 use crate::{Control, PlanError, RunError, Stopped, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vibroimpact::Label;
 use vibroimpact::continuation::{
     BranchOptions, CurveOptions, Direction, MachineBranch, MachineBranchEvent, MachineCurve, MachineCurveEvent,
-    MachineCurveKind, MachineCurvePoint, MachineFamily, MachinePlane, MachinePoint,
+    MachineCurveKind, MachineCurvePoint, MachinePlane, MachinePoint,
 };
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
+use vibroimpact::math::sort_by;
 
 /// What holds along a curve of a machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -154,8 +155,7 @@ pub(super) fn curve(
     let stopped = |done| if control.stopping() { Err(Stopped { done, total: 2 }) } else { Ok(()) };
     stopped(0)?;
     let own = source.number(&vary.path).map_err(PlanError::from)?;
-    let (file, path) = (source.clone(), vary.path.clone());
-    let family = MachineFamily::new(move |value| file.with(&path, value).ok()?.machine().ok());
+    let family = MachineCut { vary: vary.path.clone(), ends: (vary.from, vary.to), also: None }.family(source);
     let mut events: Vec<MachinePoint> = Vec::new();
     for (direction, end) in [(Direction::Up, vary.to), (Direction::Down, vary.from)] {
         if own == end {
@@ -172,7 +172,7 @@ pub(super) fn curve(
         }
     }
     stopped(0)?;
-    events.sort_by(|a, b| a.value.total_cmp(&b.value));
+    sort_by(&mut events, |a, b| a.value.total_cmp(&b.value));
     let off = |index: &usize| (events[*index].value - own).abs();
     let through = match asked.event {
         Some(given) => (given as usize).checked_sub(1).filter(|index| *index < events.len()),
@@ -187,11 +187,9 @@ pub(super) fn curve(
         count: events.len(),
         asked: asked.event,
     })?;
-    let (file, one, two) = (source.clone(), vary.path.clone(), and.path.clone());
-    let plane = MachinePlane::new(
-        move |p, q| file.with(&one, p).ok()?.with(&two, q).ok()?.machine().ok(),
-        (vary.from..=vary.to, and.from..=and.to),
-    );
+    let corners = [vec![vary.from, and.from], vec![vary.to, and.from], vec![vary.from, and.to], vec![vary.to, and.to]];
+    let varied = VariedMachine::new(source, [vary, and].into_iter().map(|stretch| stretch.path.as_str()), &corners);
+    let plane = MachinePlane::new(move |p, q| varied.at(&[p, q]), (vary.from..=vary.to, and.from..=and.to));
     let at = (events[through].value, source.number(&and.path).map_err(PlanError::from)?);
     let options = CurveOptions { longest: LONGEST, points: asked.points };
     let [forth, back] = MachineCurve::through(&plane, at, &events[through], options)

@@ -2,9 +2,10 @@
 
 use crate::PlanError;
 use crate::cut::in_proportion;
-use crate::machine::MachineSource;
+use crate::machine::{MachineSource, VariedMachine};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use vibroimpact::continuation::MachineFamily;
 
 /// A number of a machine, and its values at two ends.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -79,6 +80,13 @@ impl MachineCut {
             there = there.with(path, value)?;
         }
         Ok(there)
+    }
+
+    /// The machines along the line.
+    pub(super) fn family(&self, source: &MachineSource) -> MachineFamily {
+        let samples = [self.ends.0, 0.5 * (self.ends.0 + self.ends.1), self.ends.1].map(|at| self.values(at).collect());
+        let (cut, varied) = (self.clone(), VariedMachine::new(source, self.paths(), &samples));
+        MachineFamily::new(move |value| varied.at(&cut.values(value).collect::<Vec<f64>>()))
     }
 
     /// Checks that the second number is another one, that its values are finite, and both paths.

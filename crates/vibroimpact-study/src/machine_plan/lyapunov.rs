@@ -80,7 +80,8 @@ impl MachineLyapunovPlan {
             let (task, known) = ("measurement of one motion", "none: over axes it is a study");
             return Err(PlanError::WrongAxis { task, name: axis.vary.clone().into(), known }.into());
         }
-        let found = machine_exponents_while(machine, start, self.lengths(), || !control.stopping()).map_err(refused)?;
+        let found =
+            machine_exponents_while(machine, start, self.lengths(), &|| !control.stopping()).map_err(refused)?;
         found.ok_or_else(|| Stopped { done: 0, total: 1 }.into())
     }
 }

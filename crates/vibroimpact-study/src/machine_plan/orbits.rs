@@ -36,7 +36,7 @@ pub fn label(machine: &Machine, text: &str) -> Result<Label, PlanError> {
 /// The orbits with a label, from scattered starts.
 pub(super) fn orbits(machine: &Machine, label: Label, control: &Control<'_>) -> Result<Vec<MachineCycle>, RunError> {
     let starts = (0..STARTS).map(|k| scattered_machine_starts(machine, 1, k));
-    let found = find_machine_while(machine, label, starts, || !control.stopping());
+    let found = find_machine_while(machine, label, starts, &|| !control.stopping());
     found.ok_or_else(|| Stopped { done: 0, total: 1 }.into())
 }
 

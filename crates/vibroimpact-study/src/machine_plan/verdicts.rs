@@ -26,7 +26,7 @@ pub(super) fn settle(
     impacts: Option<u32>,
     control: &Control<'_>,
 ) -> Result<MachineSettled, RunError> {
-    let settled = settle_machine_while(machine, start, &options(impacts), || !control.stopping()).map_err(refused)?;
+    let settled = settle_machine_while(machine, start, &options(impacts), &|| !control.stopping()).map_err(refused)?;
     settled.ok_or_else(|| Stopped { done: 0, total: 1 }.into())
 }
 
@@ -42,7 +42,7 @@ pub(super) fn each_verdict(
         let mut found = Vec::new();
         for k in range {
             let verdict = problem(k).and_then(|(machine, start)| {
-                let settled = settle_machine_while(&machine, &start, &options, || !control.stopping());
+                let settled = settle_machine_while(&machine, &start, &options, &|| !control.stopping());
                 settled.ok().flatten().map(|settled| settled.verdict)
             });
             found.push(verdict);

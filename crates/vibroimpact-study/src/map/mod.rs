@@ -8,6 +8,7 @@ pub(crate) use plan::{check_impacts, check_refine, options};
 use vibroimpact::Oscillator;
 use vibroimpact::chaos::Arrivals;
 use vibroimpact::lanes::Width;
+use vibroimpact::math::sort_by_key;
 use vibroimpact::quantities::{Quantities, of_arrivals};
 use vibroimpact::verdict::{
     CountedMotion, SettleOptions, Settlement, StartBox, Verdict, scattered_starts, settle_each,
@@ -54,7 +55,7 @@ pub(crate) fn motions(
     let areas: Vec<StartBox> = systems.iter().map(StartBox::natural).collect();
     let start = |k: usize, index: u64| scattered_starts(&systems[k], areas[k], plan.seed, index);
     let tails = !plan.fields.is_empty();
-    settle_each(&counted, start, options, tails, Width::best(), &mut |k, settlement| {
+    settle_each(&counted, &start, options, tails, Width::best(), &mut |k, settlement| {
         done(k, shares(&systems[k], plan, settlement))
     })
 }
@@ -62,7 +63,7 @@ pub(crate) fn motions(
 /// The motions of a settlement, the most frequent first.
 fn shares(osc: &Oscillator, plan: &MapPlan, settlement: Settlement) -> Vec<Share> {
     let mut found: Vec<(CountedMotion, Arrivals)> = settlement.motions.into_iter().zip(settlement.tails).collect();
-    found.sort_by_key(|(found, _)| core::cmp::Reverse(found.count));
+    sort_by_key(&mut found, |(found, _)| core::cmp::Reverse(found.count));
     #[allow(clippy::cast_precision_loss)] // counts below 2^53
     let share = |count: u64| count as f64 / plan.starts as f64;
     let quantities = |verdict: &Verdict, tail: &Arrivals| {

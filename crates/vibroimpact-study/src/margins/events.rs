@@ -100,12 +100,12 @@ pub(crate) fn margins(
     let (start, motion) = match &plan.label {
         Some(label) => {
             let label: Label = label.parse().map_err(PlanError::from)?;
-            let chosen = choose(&osc, label, None, go_on)?.ok_or(stopped)?;
+            let chosen = choose(&osc, label, None, &go_on)?.ok_or(stopped)?;
             (None, Verdict::Periodic(chosen.orbit.cycle))
         }
         None => {
             let start = plan.start.start(&osc)?;
-            let settled = settle_while(&osc, start, &SettleOptions::default(), go_on).ok_or(stopped)?;
+            let settled = settle_while(&osc, start, &SettleOptions::default(), &go_on).ok_or(stopped)?;
             (Some(start), settled.verdict)
         }
     };

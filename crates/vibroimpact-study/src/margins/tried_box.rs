@@ -11,6 +11,7 @@ use super::carry::{Loss, carry};
 use super::scope::Scope;
 use crate::{Control, RunError, Stopped, SystemPlan};
 use vibroimpact::Oscillator;
+use vibroimpact::math::sort_by;
 use vibroimpact::orbit::Cycle;
 
 /// A box of parameters: each lies within a multiple of its scale from its value.
@@ -71,7 +72,7 @@ pub(super) fn tried_box(
             lost.push((direction, place));
         }
     }
-    lost.sort_by(|(_, a), (_, b)| a.size.total_cmp(&b.size));
+    sort_by(&mut lost, |(_, a), (_, b)| a.size.total_cmp(&b.size));
     let mut first: Option<Lost> = None;
     for (direction, place) in lost.into_iter().take(VARIED) {
         let place = trial.descend(direction, place)?;

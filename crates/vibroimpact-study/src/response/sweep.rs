@@ -5,6 +5,7 @@ use crate::diagram::{carried_state, state_on};
 use crate::map::options;
 use crate::{Control, RunError, SystemPlan};
 use vibroimpact::Start;
+use vibroimpact::math::sort_by;
 use vibroimpact::orbit::Cycle;
 use vibroimpact::quantities::{Quantities, of_verdict};
 use vibroimpact::verdict::{Verdict, settle_while};
@@ -32,7 +33,7 @@ pub(super) fn sweep(
 ) -> Result<Vec<SweptMotion>, RunError> {
     let cut = plan.cut();
     let mut values: Vec<f64> = plan.over.all();
-    values.sort_by(f64::total_cmp);
+    sort_by(&mut values, f64::total_cmp);
     if !rising {
         values.reverse();
     }
@@ -45,7 +46,7 @@ pub(super) fn sweep(
             Some((before, state)) => carried_state(state, &before, &there)?,
             None => Start::at_rest(&osc),
         };
-        let Some(settled) = settle_while(&osc, start, &options(plan.impacts), || !control.stopping()) else { break };
+        let Some(settled) = settle_while(&osc, start, &options(plan.impacts), &|| !control.stopping()) else { break };
         last = Some((there, state_on(&osc, &settled.verdict, start)));
         motions.push(SweptMotion {
             value,

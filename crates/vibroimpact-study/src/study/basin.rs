@@ -129,7 +129,7 @@ impl BasinFill {
             let numbers: Vec<u64> = spread(self.grid.points(), SURVEY).collect();
             let known = |k: u64| self.nth(&one.osc, numbers[usize::try_from(k).unwrap_or(0)]);
             let (range, width) = (0..numbers.len() as u64, Width::best());
-            let found = settle_many(&one.osc, range, known, &one.survey, &self.options, width, &|| false);
+            let found = settle_many(&one.osc, range, &known, &one.survey, &self.options, width, &|| false);
             let mut census = Census::default();
             for found in &found.motions {
                 census.add_found(found);

@@ -78,7 +78,7 @@ impl Spectra for Machines {
 
     fn at(&self, index: &[usize]) -> Option<Spectrum> {
         let (machine, start) = self.problem(index).ok()?;
-        let found = machine_exponents_while(&machine, &start, self.plan.lengths(), || true).ok()??;
+        let found = machine_exponents_while(&machine, &start, self.plan.lengths(), &|| true).ok()??;
         let Some(spectrum) = found.spectrum else {
             return Some(Spectrum { exponents: Vec::new(), further: vec![f64::NAN; 2], grounds: 0 });
         };

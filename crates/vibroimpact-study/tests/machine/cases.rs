@@ -301,7 +301,7 @@ fn c20_overdamped() {
     let exponents = |damping: f64| -> Vec<f64> {
         let machine = Case::named("overdamped").with("stop.s.damping", damping).machine();
         let start = MachineStart::default();
-        let found = machine_exponents_while(&machine, &start, (4_000, 500), || true).unwrap().unwrap();
+        let found = machine_exponents_while(&machine, &start, (4_000, 500), &|| true).unwrap().unwrap();
         found.spectrum.unwrap().exponents.iter().map(|exponent| exponent.value).collect()
     };
     let at_20 = exponents(20.0);

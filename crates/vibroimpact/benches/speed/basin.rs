@@ -32,7 +32,7 @@ pub(crate) fn bench(criterion: &mut Criterion) {
         group.bench_function(name, |b| {
             b.iter(|| {
                 let survey = KnownAttractors::survey(&osc, (0..SURVEY).map(|k| start(total / SURVEY * k)), &options);
-                settle_many(&osc, 0..black_box(total), start, &survey, &options, width, &|| false)
+                settle_many(&osc, 0..black_box(total), &start, &survey, &options, width, &|| false)
             });
         });
     }

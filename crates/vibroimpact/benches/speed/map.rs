@@ -23,7 +23,7 @@ fn plane() -> Vec<Oscillator> {
 fn motions(osc: &Oscillator, options: &SettleOptions) -> usize {
     let area = StartBox::natural(osc);
     let start = |index: u64| scattered_starts(osc, area, 1, index);
-    settle_many(osc, 0..STARTS, start, &KnownAttractors::default(), options, Width::best(), &|| false).motions.len()
+    settle_many(osc, 0..STARTS, &start, &KnownAttractors::default(), options, Width::best(), &|| false).motions.len()
 }
 
 pub(crate) fn bench(criterion: &mut Criterion) {

@@ -161,7 +161,7 @@ pub(super) fn plain_crossing(
     sampling: &mut Sampling,
     modes: &mut Modes,
 ) -> Option<(f64, usize)> {
-    let sampled = flight.structure.sampled.as_ref()?;
+    let sampled = flight.structure.sampled()?;
     if flight.guards.iter().any(|guard| guard.known > 1 || guard.recovery.is_some()) {
         return None;
     }
@@ -200,7 +200,7 @@ fn search(
 /// Whether vectors of four numbers lead to the same crossing, to the last bit.
 #[cfg(test)]
 pub(super) fn is_the_same_without_vectors(flight: &MachineFlight, sampling: &mut Sampling) -> bool {
-    let sampled = flight.structure.sampled.as_ref().expect("the structure is sampled");
+    let sampled = flight.structure.sampled().expect("the structure is sampled");
     let bits = |found: Option<(f64, usize, f64)>| found.map(|(s, guard, part)| (s.to_bits(), guard, part.to_bits()));
     bits(search(sampling, flight, sampled, 30.0, SPANS)) == bits(sampling.search(flight, sampled, 30.0, SPANS))
 }

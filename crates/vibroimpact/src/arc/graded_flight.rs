@@ -5,7 +5,7 @@
 //! row for each; of others both rows decay at the rate $`d`$ and turn. As one matrix of numbers the derivative would lose all
 //! that has decayed by more than the rounding errors of the rest.
 
-use crate::math::{Graded, add_scaled, dot, exp, sin_cos};
+use crate::math::{Graded, add_scaled, dot, exp, sin_cos, sort_by};
 use crate::regime::{Mode, Normal, Structure};
 
 /// Two rates of decay whose difference exceeds this in the time of the flight are told apart.
@@ -85,7 +85,7 @@ impl Structure {
         let stops = self.stops();
         rates.extend(self.held.iter().filter(|place| **place >= stops).map(|_| 0.0));
         rates.resize(2 * n, f64::NEG_INFINITY);
-        rates.sort_by(|a, b| b.total_cmp(a));
+        sort_by(&mut rates, |a, b| b.total_cmp(a));
         Some(rates)
     }
 

@@ -186,8 +186,8 @@ fn search(
     touched: &mut [bool],
 ) -> Found {
     let fastest = flight.structure.fastest();
-    let series = flight.structure.windows.first();
-    let decays = flight.structure.windows.get(1).is_some_and(Window::leaves_out_decays);
+    let series = flight.structure.windows().first();
+    let decays = flight.structure.windows().get(1).is_some_and(Window::leaves_out_decays);
     let quiet = flight.quiet_time(HIGHEST);
     let mut s = 0.0;
     let mut reach = 1.0;

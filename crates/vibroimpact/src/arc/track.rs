@@ -111,7 +111,7 @@ impl Track {
             })
         };
         let useful = |window: &&Window| window.leaves_out_decays() && window.length <= until;
-        flight.structure.windows.iter().rev().filter(useful).find(positive).map(|window| window.length)
+        flight.structure.windows().iter().rev().filter(useful).find(positive).map(|window| window.length)
     }
 
     /// What the constant terms of a guard are here, lowered by its surface and by faint modes, and bounds of its remainder and
@@ -204,7 +204,7 @@ impl Track {
         steps: &mut u32,
         all: &mut Vec<GuardPolynomial>,
     ) -> Option<f64> {
-        let windows = &flight.structure.windows;
+        let windows = flight.structure.windows();
         let (mut level, mut stay) = (0, 0_u32);
         while *steps > 0 && self.s < until && self.windows < WINDOWS {
             let left = until - self.s;

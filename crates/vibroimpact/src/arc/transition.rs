@@ -3,31 +3,40 @@
 use super::dense::{Dense, Steps};
 use super::drive::Drive;
 use crate::math::Matrix;
-use crate::regime::{ModalChange, Normal, Structure};
+use crate::regime::{FreeMode, ModalChange, Normal, Structure};
 
 impl Structure {
     /// The derivative of the state a time `s` later by the state now; both are of coordinates and, after them, velocities.
     pub(crate) fn transition(&self, normal: &Normal, s: f64) -> Matrix {
         let n = normal.n;
         let mut result = Matrix::zeros(2 * n, 2 * n);
-        let free: Vec<_> = self.modes.iter().map(|mode| mode.free(s)).collect();
+        let free = self.free_modes(s);
         for j in 0..2 * n {
             let mut change = self.unit_change(normal, j);
-            if self.dense.is_some() {
-                self.stepped(&mut change, s);
-            } else {
-                for (i, (mode, free)) in self.modes.iter().zip(&free).enumerate() {
-                    let (y, v, p) = (change.y[i], change.v[i], change.push[i]);
-                    change.y[i] = y - y * free.one_minus_c + v * free.s + p * free.step;
-                    change.v[i] = (p - mode.k * y) * free.s + v * free.s_rate;
-                }
-            }
+            self.carry(&mut change, &free, s);
             for i in 0..n {
                 result[(i, j)] = self.changed(&self.x[i], &change);
                 result[(n + i, j)] = self.changed(&self.v[i], &change);
             }
         }
         result
+    }
+
+    /// The free motions of the modes over a time.
+    pub(crate) fn free_modes(&self, s: f64) -> Vec<FreeMode> {
+        self.modes.iter().map(|mode| mode.free(s)).collect()
+    }
+
+    /// Moves a change on by a time, over which the modes have these free motions.
+    pub(crate) fn carry(&self, change: &mut ModalChange, free: &[FreeMode], s: f64) {
+        if self.dense.is_some() {
+            return self.stepped(change, s);
+        }
+        for (i, (mode, free)) in self.modes.iter().zip(free).enumerate() {
+            let (y, v, p) = (change.y[i], change.v[i], change.push[i]);
+            change.y[i] = y - y * free.one_minus_c + v * free.s + p * free.step;
+            change.v[i] = (p - mode.k * y) * free.s + v * free.s_rate;
+        }
     }
 
     /// Moves a change of a structure without modes.

@@ -64,7 +64,7 @@ fn proven(
         // a first approximation: nearly exact by the series of all powers
         let guess = || {
             let (t, curvature) = crossing_of(&without_remainder(&of.p), *from, to);
-            match flight.structure.windows.first() {
+            match flight.structure.windows().first() {
                 Some(series) if flight.guards[g].recovery.is_none() => {
                     buffers.track.sharp(flight, series, g, t * window / series.length)
                 }

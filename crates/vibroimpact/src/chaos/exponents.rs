@@ -198,7 +198,7 @@ impl Exponents {
 #[must_use]
 pub fn exponents(osc: &Oscillator, start: Start, options: &ExponentOptions) -> Exponents {
     // it is never stopped
-    exponents_while(osc, start, options, || true).unwrap_or_else(|| spent(osc, options, None, 0))
+    exponents_while(osc, start, options, &|| true).unwrap_or_else(|| spent(osc, options, None, 0))
 }
 
 /// The same as [`exponents`], but stopped when `go_on` returns false, and then `None`. `go_on` is called at every
@@ -208,7 +208,7 @@ pub fn exponents_while(
     osc: &Oscillator,
     start: Start,
     options: &ExponentOptions,
-    go_on: impl Fn() -> bool,
+    go_on: &dyn Fn() -> bool,
 ) -> Option<Exponents> {
     let mut motion = Motion::with_limits(osc, start, options.limits);
     let mut run = Run::new(options.impacts, options.transient);

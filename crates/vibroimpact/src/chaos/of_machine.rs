@@ -3,6 +3,7 @@
 use crate::events::{MachineLimits, MachineMotion, MachineStart};
 use crate::lyapunov::{MEASURED_IMPACTS, MachineMeasure, MachineSpectrum, Measured};
 use crate::machine::{Machine, MachineError};
+use crate::math::sort_by;
 use crate::orbit::MachineFrame;
 use crate::verdict::{MachineTail, MachineVerdict, Recorded, Recurring, SettleOptions, Step, settle_machine_while};
 use std::sync::Arc;
@@ -32,10 +33,10 @@ pub fn machine_exponents_while(
     machine: &Machine,
     start: &MachineStart,
     (events, transient): (u32, u32),
-    go_on: impl Fn() -> bool,
+    go_on: &dyn Fn() -> bool,
 ) -> Result<Option<MachineExponents>, MachineError> {
     let watch = SettleOptions { chaos_over: 0, max_impacts: transient.max(2_000), ..SettleOptions::default() };
-    let Some(settled) = settle_machine_while(machine, start, &watch, &go_on)? else { return Ok(None) };
+    let Some(settled) = settle_machine_while(machine, start, &watch, go_on)? else { return Ok(None) };
     let exact = |exponents: Vec<f64>, closings: f64| {
         let measured = |value: f64| Measured { value, error: 0.0 };
         MachineSpectrum {
@@ -50,7 +51,7 @@ pub fn machine_exponents_while(
             // a neighbour that is moved along a free translation stays as far away, and without forcing one that is ahead
             let kept = cycle.translations() + if machine.period().is_none() { 1 } else { 0 };
             let mut rates: Vec<f64> = own.chain((0..kept).map(|_| 0.0)).collect();
-            rates.sort_by(|a, b| b.total_cmp(a));
+            sort_by(&mut rates, |a, b| b.total_cmp(a));
             let closings = f64::from(cycle.counts.iter().sum::<u32>()) / cycle.period;
             let spectrum = Some(exact(rates, closings));
             return Ok(Some(MachineExponents { spectrum, motion: settled.verdict, exact: true }));
@@ -131,7 +132,7 @@ mod tests {
             let law = StopLaw::Compliant { stiffness, damping: 0.0, preload: 0.0, opening: Opening::Force };
             let machine = machine(law, gap);
             let found =
-                machine_exponents_while(&machine, &MachineStart::default(), (5_000, 500), || true).unwrap().unwrap();
+                machine_exponents_while(&machine, &MachineStart::default(), (5_000, 500), &|| true).unwrap().unwrap();
             let spectrum = found.spectrum.unwrap();
             let sum: f64 = spectrum.exponents.iter().map(|exponent| exponent.value).sum();
             assert!((sum + 0.05).abs() < 1e-9, "{gap} {} {sum}", found.motion.label());
@@ -141,7 +142,7 @@ mod tests {
     #[test]
     fn without_contacts_those_of_the_structure() {
         let machine = machine(StopLaw::Rigid { restitution: 0.5 }, 100.0);
-        let found = machine_exponents_while(&machine, &MachineStart::default(), (100, 100), || true).unwrap().unwrap();
+        let found = machine_exponents_while(&machine, &MachineStart::default(), (100, 100), &|| true).unwrap().unwrap();
         assert!(matches!(found.motion, MachineVerdict::NoImpact(_)));
         assert!(found.spectrum.unwrap().exponents.iter().all(|exponent| (exponent.value + 0.025).abs() < 1e-12));
     }

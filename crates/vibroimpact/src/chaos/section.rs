@@ -31,7 +31,7 @@ const IDLE: u32 = MAX_TOUCHES + 4;
 #[must_use]
 pub fn section(osc: &Oscillator, start: Start, transient: u64, points: u64) -> Section {
     // it is never stopped
-    section_while(osc, start, transient, points, || true).unwrap_or_default()
+    section_while(osc, start, transient, points, &|| true).unwrap_or_default()
 }
 
 /// The same as [`section`], but stopped when `go_on` returns false, and then `None`. `go_on` is called at every impact
@@ -42,7 +42,7 @@ pub fn section_while(
     start: Start,
     transient: u64,
     points: u64,
-    go_on: impl Fn() -> bool,
+    go_on: &dyn Fn() -> bool,
 ) -> Option<Section> {
     // with the same limit as for exponents over this number of impacts
     let most_steps = ExponentOptions::new(points, transient).max_steps;

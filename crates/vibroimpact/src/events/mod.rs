@@ -11,7 +11,7 @@
 //! | the state at one time | `place` |
 //! | a whole state as a start, and back | [`ContactStart`], `state` |
 //! | which stops rest and which joints hold | `resolve` |
-//! | one step of a motion, and its derivative by the state | `passage`, `saltation` |
+//! | one step of a motion, and its derivatives by the state and by a number | `passage`, `saltation`, `by_number` |
 //! | differences of neighbouring motions, and how they are stretched | `tangents` |
 //! | the motion as an iterator over its events | [`MachineMotion`] |
 //! | what it does between two events | [`MachineStretches`], `stretch` |
@@ -19,6 +19,7 @@
 //! | states, gaps and forces at one time, at equal steps | [`MachineSample`], [`MachineSamples`] |
 
 mod alone;
+mod by_number;
 mod chatter;
 mod collapse;
 mod collision;
@@ -41,6 +42,7 @@ mod strike;
 mod tangents;
 mod within;
 
+pub(crate) use by_number::ByNumber;
 pub(crate) use contact_force::contact_forces;
 pub use event::{ContactStart, MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
 pub use motion::MachineMotion;

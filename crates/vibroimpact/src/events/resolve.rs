@@ -13,6 +13,7 @@
 use super::place::{Place, Structures};
 use crate::arc::{FIRST_ORDERS, MachineFlight, ORDERS};
 use crate::machine::Machine;
+use crate::math::sort_by_key;
 use crate::regime::{ContactState, GuardKind, Normal, Observable, compliant, idles, independent};
 
 /// Rounding errors of reactions, accelerations and their rates, relative to their terms.
@@ -100,7 +101,7 @@ impl Resolution<'_> {
         let mut states = self.place.states.clone();
         self.candidates.iter().zip(of).for_each(|(at, state)| states[*at] = *state);
         let mut closed: Vec<usize> = (0..states.len()).filter(|at| states[*at].constrains()).collect();
-        closed.sort_by_key(|at| idles(self.machine, *at));
+        sort_by_key(&mut closed, |at| idles(self.machine, *at));
         let bearing = independent(closed.iter().map(|at| self.normal.directions[*at].as_slice()));
         for (k, at) in closed.iter().enumerate() {
             if states[*at] == ContactState::Resting && !bearing.contains(&k) {
@@ -230,7 +231,7 @@ impl Resolution<'_> {
                 combinations.iter().flat_map(|states| options.iter().map(move |state| with(states, state))).collect();
             combinations.truncate(COMBINATIONS);
         }
-        combinations.sort_by_key(|states| states.iter().filter(|state| !state.constrains()).count());
+        sort_by_key(&mut combinations, |states| states.iter().filter(|state| !state.constrains()).count());
         let mut best: Option<(Violation, Trial, Vec<ContactState>)> = None;
         for states in combinations {
             let Some(trial) = self.attempt(&states) else { continue };

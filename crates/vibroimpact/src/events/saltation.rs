@@ -155,7 +155,7 @@ impl EventLaw<'_> {
     }
 
     /// The stops that push, round after round.
-    fn in_rounds(&self) -> impl Iterator<Item = &[(usize, f64)]> {
+    pub(super) fn in_rounds(&self) -> impl Iterator<Item = &[(usize, f64)]> {
         let all = [self.pushed.len()];
         let counts = if self.rounds.is_empty() { all.to_vec() } else { self.rounds.to_vec() };
         let mut left = self.pushed;

@@ -6,7 +6,7 @@
 
 use super::measure::{LogSum, mean};
 use super::{Measured, TRANSIENT};
-use crate::math::{Wide, add_scaled, dot};
+use crate::math::{Wide, add_scaled, dot, sort_by};
 
 /// The Lyapunov exponents of a motion of a machine.
 #[derive(Clone, Debug, PartialEq)]
@@ -171,7 +171,7 @@ impl MachineMeasure {
             mean(&values)
         };
         let mut exponents: Vec<Measured> = (0..self.frame.len()).map(|k| of(&|block| block.logs[k])).collect();
-        exponents.sort_by(|a, b| b.value.total_cmp(&a.value));
+        sort_by(&mut exponents, |a, b| b.value.total_cmp(&a.value));
         let time = self.blocks.iter().map(|block| block.time).sum();
         Some(MachineSpectrum { exponents, closings: of(&|block| block.closings), time })
     }

@@ -6,12 +6,14 @@
 //! | the checks, and their errors | `checks`, [`MachineError`] |
 //! | damping by the ratios of the modes | [`modal_damping`] |
 //! | a checked machine, its numbers by path | [`Machine`], `path` |
+//! | the derivatives of its numbers by another one | `rate` |
 
 mod checks;
 mod error;
 mod modal;
 mod parts;
 mod path;
+mod rate;
 mod value;
 
 pub use checks::MOST_COORDINATES;

@@ -5,6 +5,7 @@
 //! Francis's double shift, which does not matter for matrices of the size of machines.
 
 use super::{Complex, Matrix, Multiplier};
+use crate::math::sort_by;
 
 /// The largest number of QR steps for one eigenvalue; two or three usually suffice.
 const STEPS: u32 = 200;
@@ -171,7 +172,7 @@ fn hessenberg(a: &mut Matrix) {
 /// Real eigenvalues made exactly real, complex ones exactly conjugate.
 fn paired(found: &[Complex], size: f64) -> Vec<Multiplier> {
     let mut rest: Vec<Complex> = found.to_vec();
-    rest.sort_by(|a, b| {
+    sort_by(&mut rest, |a, b| {
         let order = b.modulus().total_cmp(&a.modulus());
         order.then(b.re.total_cmp(&a.re)).then(b.im.total_cmp(&a.im))
     });

@@ -16,6 +16,7 @@ mod least;
 mod lu;
 mod matrix;
 mod scalar;
+mod sort;
 mod symmetric;
 mod trig;
 
@@ -30,6 +31,7 @@ pub(crate) use lane::{Lane, Mask, Numbers, Single, turned};
 pub(crate) use least::change_along;
 pub(crate) use lu::Lu;
 pub use matrix::{Matrix2, Multiplier, eigenvalues};
+pub use sort::{sort_by, sort_by_key};
 pub(crate) use symmetric::symmetric_eigen;
 pub use trig::sin_cos;
 pub(crate) use trig::sin_cos_lanes;

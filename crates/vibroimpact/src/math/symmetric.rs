@@ -4,6 +4,7 @@
 //! the eigenvectors orthogonal to rounding, also those of equal eigenvalues.
 
 use super::Matrix;
+use crate::math::sort_by;
 
 /// The largest number of sweeps; six to ten suffice, because convergence is quadratic.
 const SWEEPS: u32 = 60;
@@ -25,7 +26,7 @@ pub(crate) fn symmetric_eigen(matrix: &Matrix) -> (Vec<f64>, Matrix) {
         }
     }
     let mut order: Vec<usize> = (0..n).collect();
-    order.sort_by(|i, j| a[(*i, *i)].total_cmp(&a[(*j, *j)]).then(i.cmp(j)));
+    sort_by(&mut order, |i, j| a[(*i, *i)].total_cmp(&a[(*j, *j)]).then(i.cmp(j)));
     let values = order.iter().map(|i| a[(*i, *i)]).collect();
     let mut sorted = Matrix::zeros(n, n);
     for (to, from) in order.into_iter().enumerate() {

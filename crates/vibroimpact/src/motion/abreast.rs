@@ -39,7 +39,7 @@ pub(crate) trait Recorder {
         track: &mut Self::Track,
         osc: &Oscillator,
         motion: (Motion<'_>, Option<&PropagatorCache>),
-        leave: impl Fn(&ImpactState) -> bool,
+        leave: &dyn Fn(&ImpactState) -> bool,
     ) -> Option<ImpactState>;
     /// Called after each motion; whether to stop.
     fn stopping(&mut self) -> bool;
@@ -132,7 +132,7 @@ impl<R: Recorder> Abreast<R> {
             let osc = self.batch.osc(slot);
             let motion = Motion::with_limits(osc, self.batch.launched(slot), self.limits);
             let cache = PropagatorCache::new();
-            self.recorder.alone(track, osc, (motion, Some(&cache)), |_| false);
+            self.recorder.alone(track, osc, (motion, Some(&cache)), &|_| false);
             if self.recorder.stopping() {
                 break;
             }
@@ -193,7 +193,7 @@ impl<R: Recorder> Abreast<R> {
     /// Follows a single motion until it flies from impact to impact again, or until it is done.
     fn hand_over(&mut self, slot: u32, osc: &Oscillator, motion: Motion<'_>) {
         let track = &mut self.slots[slot as usize].track;
-        match self.recorder.alone(track, osc, (motion, None), |state| !chatter::settles_after(osc, state)) {
+        match self.recorder.alone(track, osc, (motion, None), &|state| !chatter::settles_after(osc, state)) {
             Some(state) => self.batch.launch(slot, state.rebound(osc)),
             None => self.note(slot, true),
         }

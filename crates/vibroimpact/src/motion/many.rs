@@ -66,7 +66,7 @@ pub fn record_events(
             for (number, start) in starts.iter().enumerate() {
                 let mut track = Track { number, time: Wide::default() };
                 let motion = Motion::with_limits(osc, *start, limits);
-                events.alone(&mut track, osc, (motion, Some(&cache)), |_| false);
+                events.alone(&mut track, osc, (motion, Some(&cache)), &|_| false);
                 if events.stopping() {
                     return;
                 }
@@ -123,7 +123,7 @@ impl<R: EventRecorder> Recorder for Events<'_, R> {
         track: &mut Track,
         _: &Oscillator,
         (motion, cache): (Motion<'_>, Option<&PropagatorCache>),
-        leave: impl Fn(&ImpactState) -> bool,
+        leave: &dyn Fn(&ImpactState) -> bool,
     ) -> Option<ImpactState> {
         let mut motion = motion.begun(track.time);
         while let Some(event) = motion.advance(cache) {

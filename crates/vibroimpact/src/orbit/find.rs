@@ -5,6 +5,7 @@ use super::label::{Count, Label};
 use super::physical::Orbit;
 use super::ring::Ring;
 use super::{DEFAULT_EVENTS, flight_limits, from_release, newton, one_impact, without_impacts};
+use crate::math::sort_by;
 use crate::motion::{ImpactMap, ImpactState, Mapped};
 use crate::system::{Oscillator, Side};
 use core::f64::consts::TAU;
@@ -42,7 +43,7 @@ impl Default for FindOptions {
 #[must_use]
 pub fn find(osc: &Oscillator, label: Label, options: FindOptions) -> Vec<Orbit> {
     // it is never stopped
-    find_while(osc, label, options, || true).unwrap_or_default()
+    find_while(osc, label, options, &|| true).unwrap_or_default()
 }
 
 /// The same as [`find`], but stopped when `go_on` returns false, and then `None`. `go_on` is called at every starting
@@ -52,7 +53,7 @@ pub fn find_while(
     osc: &Oscillator,
     label: Label,
     options: FindOptions,
-    go_on: impl Fn() -> bool,
+    go_on: &dyn Fn() -> bool,
 ) -> Option<Vec<Orbit>> {
     let mut orbits: Vec<Orbit> = osc
         .stops()
@@ -68,7 +69,7 @@ pub fn find_while(
         return Some(orbits);
     }
     struck(osc, (m, label.periods), options, &mut orbits, go_on)?;
-    orbits.sort_by(|a, b| a.cycle.fastest().total_cmp(&b.cycle.fastest()));
+    sort_by(&mut orbits, |a, b| a.cycle.fastest().total_cmp(&b.cycle.fastest()));
     Some(orbits)
 }
 
@@ -79,7 +80,7 @@ pub(crate) fn struck(
     (m, n): (u32, u32),
     options: FindOptions,
     orbits: &mut Vec<Orbit>,
-    go_on: impl Fn() -> bool,
+    go_on: &dyn Fn() -> bool,
 ) -> Option<()> {
     if m == 1 {
         orbits.extend(one_impact(osc, n).into_iter().map(|o| Orbit::judged(osc, o.cycle)));
@@ -226,7 +227,7 @@ mod tests {
             asked.set(asked.get() + 1);
             asked.get() < 3
         };
-        assert!(find_while(&osc, Label::new(2, 2), FindOptions::default(), go_on).is_none());
+        assert!(find_while(&osc, Label::new(2, 2), FindOptions::default(), &go_on).is_none());
         assert_eq!(asked.get(), 3, "no further guess is followed");
     }
 

@@ -7,7 +7,7 @@
 
 use super::cycle::Cycle;
 use super::label::Label;
-use crate::math::{Multiplier, asin, atan2, exp, sin_cos};
+use crate::math::{Multiplier, asin, atan2, exp, sin_cos, sort_by};
 use crate::system::{Oscillator, Side, phase};
 use core::f64::consts::{FRAC_PI_2, PI};
 
@@ -90,7 +90,7 @@ pub(super) fn met(osc: &Oscillator) -> Option<(Side, f64)> {
             (side, phase::wrap(crest(osc, side) - ahead) / osc.beta())
         })
         .collect();
-    met.sort_by(|a, b| a.1.total_cmp(&b.1));
+    sort_by(&mut met, |a, b| a.1.total_cmp(&b.1));
     met.first().copied()
 }
 

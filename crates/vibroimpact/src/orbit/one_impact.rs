@@ -16,7 +16,7 @@
 
 use super::ring::Ring;
 use super::{Cycle, earlier_contact, free, newton, shooting};
-use crate::math::atan2;
+use crate::math::{atan2, sort_by};
 use crate::motion::ImpactState;
 use crate::system::{Oscillator, Side, phase};
 
@@ -80,7 +80,7 @@ pub fn one_impact(osc: &Oscillator, n: u32) -> Vec<OneImpact> {
     }
     let large = if qb > 0.0 { -qb - disc.sqrt() } else { -qb + disc.sqrt() };
     let mut roots = [large / qa, if large == 0.0 { 0.0 } else { qc / large }];
-    roots.sort_by(f64::total_cmp);
+    sort_by(&mut roots, f64::total_cmp);
     // there one root is exactly 0; if the other one is 0 too, it is so to within the rounding errors of base and slope
     let rounding = f64::EPSILON * (4.0 + 2.0 * interval) * (a * a + b * b + c * c + d * d) / det.abs();
     let zero = if qc == 0.0 { 2.0 * rounding / qa.sqrt() } else { 0.0 };
@@ -133,7 +133,7 @@ fn bouncing(osc: &Oscillator, n: u32) -> Vec<OneImpact> {
     // beyond the fold the sine is not a number, and there is no cycle
     let mut orbits: Vec<OneImpact> = [sine, -sine].into_iter().filter(|s| s.is_finite()).filter_map(orbit).collect();
     let speed = |of: &OneImpact| of.cycle.points.first().map_or(0.0, |point| point.state.velocity);
-    orbits.sort_by(|a, b| speed(a).total_cmp(&speed(b)));
+    sort_by(&mut orbits, |a, b| speed(a).total_cmp(&speed(b)));
     orbits
 }
 

@@ -14,6 +14,7 @@
 //! | the gap of a closed stop as a function of its modes | `closed_stop` |
 //! | the structure in one regime, its guards | `structure` |
 //! | small changes of its state, and the gradients of guards | `change` |
+//! | the panels over which its motion is integrated | `panels` |
 //! | polynomials in Bernstein's form | `bernstein` |
 //! | how its state moves through a time | `pass` |
 //! | its motion over windows of one length | `window` |
@@ -27,6 +28,7 @@ mod complement;
 mod contact_state;
 mod mode;
 mod normal;
+mod panels;
 mod pass;
 mod refined;
 mod rest_force;
@@ -41,8 +43,9 @@ pub(crate) use change::ModalChange;
 pub(crate) use closed_stop::ClosedStop;
 pub(crate) use complement::{Orthonormal, independent};
 pub use contact_state::ContactState;
-pub(crate) use mode::{Mode, Turned};
-pub(crate) use normal::{Normal, compliant};
+pub(crate) use mode::{FreeMode, Mode, Turned};
+pub(crate) use normal::{Normal, NormalRate, compliant};
+pub(crate) use panels::{panels, rates};
 pub(crate) use rest_force::RestBuffers;
 pub(crate) use sampled::{POWERS, REST, SAMPLES, Sampled, Span};
 pub(crate) use signal::{Observable, Signal, turned};

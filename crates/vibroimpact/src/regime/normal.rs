@@ -2,8 +2,8 @@
 
 use super::signal::Signal;
 use super::translations::Translations;
-use crate::machine::{HarmonicMotion, Machine, MachineStop, StopLaw};
-use crate::math::{Matrix, change_along, dot};
+use crate::machine::{HarmonicMotion, Machine, MachineParts, MachineStop, StopLaw};
+use crate::math::{Matrix, add_scaled, change_along, dot};
 
 /// The acceleration of a machine without contacts towards a stop, as a function of the mass-normalised state.
 #[derive(Clone, Debug)]
@@ -56,37 +56,11 @@ impl Normal {
     pub(crate) fn new(machine: &Machine) -> Self {
         let parts = machine.parts();
         let (n, factor) = (machine.n(), machine.factor().clone());
-        let joints = parts.joints.len();
         let mut orders: Vec<u32> = parts.forces.iter().map(|force| force.order).collect();
         orders.extend(parts.stops.iter().flat_map(|stop| stop.motion.iter().map(|motion| motion.order)));
         orders.sort_unstable();
         orders.dedup();
-        let place = |order: u32| orders.iter().position(|known| *known == order).unwrap_or(0);
-        let zero = || Signal::zero(joints, orders.len());
-
-        let mut force: Vec<Signal> = (0..n).map(|_| zero()).collect();
-        for (signal, value) in force.iter_mut().zip(factor.solve_lower(&parts.constant)) {
-            signal.constant = value;
-        }
-        for harmonic in &parts.forces {
-            let h = place(harmonic.order);
-            let (cos, sin) = (factor.solve_lower(&harmonic.cos), factor.solve_lower(&harmonic.sin));
-            for (signal, (cos, sin)) in force.iter_mut().zip(cos.into_iter().zip(sin)) {
-                signal.harmonics[h].0 += cos;
-                signal.harmonics[h].1 += sin;
-            }
-        }
-        let walls = parts.stops.iter().map(|stop| {
-            let mut wall = zero();
-            wall.constant = stop.gap;
-            for HarmonicMotion { order, cos, sin } in &stop.motion {
-                let h = place(*order);
-                wall.harmonics[h].0 -= cos;
-                wall.harmonics[h].1 -= sin;
-            }
-            wall
-        });
-        let walls: Vec<Signal> = walls.collect();
+        let (force, walls) = signals(parts, &orders, &factor);
         let rates: Vec<f64> = orders.iter().map(|order| f64::from(*order) * parts.frequency.unwrap_or(0.0)).collect();
         let (stiffness, damping) = (parts.stiffness.reduced(&factor), parts.damping.reduced(&factor));
         let approach = |(stop, wall): (&MachineStop, &Signal)| {
@@ -160,6 +134,94 @@ impl Normal {
     /// The mass-normalised ones from coordinates or velocities.
     pub(crate) fn to_normal(&self, q: &[f64]) -> Vec<f64> {
         self.factor.apply_transposed(q)
+    }
+}
+
+/// The force on each coordinate, and the position of each stop, with harmonics of these orders.
+fn signals(parts: &MachineParts, orders: &[u32], factor: &Matrix) -> (Vec<Signal>, Vec<Signal>) {
+    let place = |order: u32| orders.iter().position(|known| *known == order).unwrap_or(0);
+    let zero = || Signal::zero(parts.joints.len(), orders.len());
+    let mut force: Vec<Signal> = parts.coordinates.iter().map(|_| zero()).collect();
+    for (signal, value) in force.iter_mut().zip(factor.solve_lower(&parts.constant)) {
+        signal.constant = value;
+    }
+    for harmonic in &parts.forces {
+        let h = place(harmonic.order);
+        let (cos, sin) = (factor.solve_lower(&harmonic.cos), factor.solve_lower(&harmonic.sin));
+        for (signal, (cos, sin)) in force.iter_mut().zip(cos.into_iter().zip(sin)) {
+            signal.harmonics[h].0 += cos;
+            signal.harmonics[h].1 += sin;
+        }
+    }
+    let walls = parts.stops.iter().map(|stop| {
+        let mut wall = zero();
+        wall.constant = stop.gap;
+        for HarmonicMotion { order, cos, sin } in &stop.motion {
+            let h = place(*order);
+            wall.harmonics[h].0 -= cos;
+            wall.harmonics[h].1 -= sin;
+        }
+        wall
+    });
+    let walls = walls.collect();
+    (force, walls)
+}
+
+/// The derivative of a machine in mass-normalised coordinates by one of its numbers, at fixed $`x`$.
+///
+/// With $`X = L^{-1}M'L^{-T}`$ the factor changes by $`L' = L\Phi`$, where $`\Phi`$ is the lower triangle of $`X`$ with half
+/// its diagonal. So $`(L^{-1}w)' = L^{-1}w' - \Phi L^{-1}w`$.
+#[derive(Clone, Debug)]
+pub(crate) struct NormalRate {
+    /// $`\Phi`$; `None` if the masses do not change.
+    pub(crate) turning: Option<Matrix>,
+    pub(crate) stiffness: Matrix,
+    pub(crate) damping: Matrix,
+    pub(crate) force: Vec<Signal>,
+    pub(crate) directions: Vec<Vec<f64>>,
+    pub(crate) walls: Vec<Signal>,
+    /// Of the angular frequencies of the harmonics.
+    pub(crate) rates: Vec<f64>,
+}
+
+impl NormalRate {
+    /// `change` has the derivatives of the numbers of the machine.
+    pub(crate) fn new(normal: &Normal, change: &MachineParts) -> Self {
+        let factor = &normal.factor;
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // they were made from these
+        let orders: Vec<u32> = normal.orders.iter().map(|order| *order as u32).collect();
+        let (mut force, walls) = signals(change, &orders, factor);
+        let stops = change.stops.iter().map(|stop| &stop.direction);
+        let all = stops.chain(change.joints.iter().map(|joint| &joint.direction));
+        let mut directions: Vec<Vec<f64>> = all.map(|direction| factor.solve_lower(direction)).collect();
+        let (mut stiffness, mut damping) = (change.stiffness.reduced(factor), change.damping.reduced(factor));
+        let mut turning = change.mass.reduced(factor);
+        let turns = turning.largest() > 0.0;
+        if turns {
+            for i in 0..normal.n {
+                turning[(i, i)] *= 0.5;
+                turning.row_mut(i)[i + 1..].fill(0.0);
+            }
+            for (own, of) in [(&mut stiffness, &normal.stiffness), (&mut damping, &normal.damping)] {
+                let turned = turning.times(of);
+                for i in 0..normal.n {
+                    for j in 0..normal.n {
+                        own[(i, j)] -= turned[(i, j)] + turned[(j, i)];
+                    }
+                }
+            }
+            for (own, of) in directions.iter_mut().zip(&normal.directions) {
+                add_scaled(own, -1.0, &turning.apply(of));
+            }
+            for (i, own) in force.iter_mut().enumerate() {
+                for (factor, of) in turning.row(i).iter().zip(&normal.force) {
+                    own.add(-factor, of);
+                }
+            }
+        }
+        let frequency = change.frequency.unwrap_or(0.0);
+        let rates = normal.orders.iter().map(|order| order * frequency).collect();
+        Self { turning: turns.then_some(turning), stiffness, damping, force, directions, walls, rates }
     }
 }
 

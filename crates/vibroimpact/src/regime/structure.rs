@@ -13,7 +13,8 @@ use super::sampled::Sampled;
 use super::signal::{Observable, Signal};
 use super::window::{Window, windows};
 use crate::machine::{Machine, Opening, StopLaw};
-use crate::math::{Matrix, add_scaled, dot};
+use crate::math::{Matrix, add_scaled, dot, sort_by, sort_by_key};
+use std::sync::OnceLock;
 
 /// A gap that changes by less than this part of the motion along its direction does not change.
 const STILL: f64 = 1e-12;
@@ -117,10 +118,9 @@ pub(crate) struct Structure {
     pub(crate) plain: bool,
     /// The reactions as functions of the mass-normalised state.
     pressing: Vec<Pressing>,
-    /// Windows of useful lengths, the shortest first; none without modes.
-    pub(crate) windows: Vec<Window>,
-    /// Its guards at equal steps, if plain crossings can be found by them.
-    pub(crate) sampled: Option<Sampled>,
+    /// What the search for zeros of guards uses, built when one is searched for: equations of cycles search for none.
+    windows: OnceLock<Vec<Window>>,
+    sampled: OnceLock<Option<Sampled>>,
     /// Whether coordinates and velocities have prescribed parts.
     pub(crate) carries: bool,
     /// Whether these have or gaps of closed stops.
@@ -165,12 +165,12 @@ impl Structure {
             })
             .collect();
         let weight = |contact: &Contact<'_>| contact.k * dot(contact.direction, contact.direction);
-        closed.sort_by(|one, other| weight(other).total_cmp(&weight(one)));
+        sort_by(&mut closed, |one, other| weight(other).total_cmp(&weight(one)));
 
         // constraints w.x = wall(t), or the set point and the way of the belt: x = x_c(t) + N eta
         // those that bear a load come first, and contacts without force only where they are free
         let mut constraints: Vec<usize> = (0..states.len()).filter(|place| states[*place].constrains()).collect();
-        constraints.sort_by_key(|place| (states[*place] == ContactState::Touching, idles(machine, *place)));
+        sort_by_key(&mut constraints, |place| (states[*place] == ContactState::Touching, idles(machine, *place)));
         let bearing = independent(constraints.iter().map(|place| normal.directions[*place].as_slice()));
         let held: Vec<usize> = bearing.iter().map(|at| constraints[*at]).collect();
         let directions: Vec<Vec<f64>> = held.iter().map(|place| normal.directions[*place].clone()).collect();
@@ -431,8 +431,8 @@ impl Structure {
             rest,
             plain: false,
             pressing: Vec::new(),
-            windows: Vec::new(),
-            sampled: None,
+            windows: OnceLock::new(),
+            sampled: OnceLock::new(),
             carries: false,
             swings: false,
             fastest: 0.0,
@@ -449,13 +449,24 @@ impl Structure {
         structure.fastest =
             structure.modes.iter().map(|mode| mode.rate).fold(rates.last().copied().unwrap_or(0.0), f64::max);
         structure.guards = structure.all_guards(machine, normal);
-        if structure.dense.is_none() {
-            let moved = Moved { modes: &structure.modes, drive: &structure.drive, rates };
-            let guards: Vec<&Observable> = structure.guards.iter().map(|guard| &guard.function).collect();
-            structure.windows = windows(moved, &guards);
-            structure.sampled = Sampled::new(moved, &guards);
-        }
         Some(structure)
+    }
+
+    /// Windows of useful lengths, the shortest first; none without modes.
+    pub(crate) fn windows(&self) -> &[Window] {
+        self.windows.get_or_init(|| self.tables(windows).unwrap_or_default())
+    }
+
+    /// Its guards at equal steps, if plain crossings can be found by them.
+    pub(crate) fn sampled(&self) -> Option<&Sampled> {
+        self.sampled.get_or_init(|| self.tables(Sampled::new).flatten()).as_ref()
+    }
+
+    /// Tables of all guards; `None` without modes.
+    fn tables<T>(&self, of: impl Fn(Moved<'_>, &[&Observable]) -> T) -> Option<T> {
+        let moved = Moved { modes: &self.modes, drive: &self.drive, rates: &self.rates };
+        let guards: Vec<&Observable> = self.guards.iter().map(|guard| &guard.function).collect();
+        self.dense.is_none().then(|| of(moved, &guards))
     }
 
     /// The states of stops and, after them, joints in it.

@@ -5,7 +5,7 @@
 //! cycle may return to its beginning moved along $`r`$, and cycles that differ by a translation are the same motion.
 
 use crate::machine::MachineParts;
-use crate::math::{Matrix, add_scaled, dot};
+use crate::math::{Matrix, add_scaled, dot, sort_by};
 
 /// A row that is a combination of others to within this part of its size depends on them.
 const DEPENDENT: f64 = 1e-14;
@@ -32,7 +32,7 @@ impl Translations {
         let mut springs: Vec<usize> = (0..n).collect();
         // the smallest first, so that stiff springs hide no soft ones
         let size = |i: &usize| dot(parts.stiffness.row(*i), parts.stiffness.row(*i));
-        springs.sort_by(|a, b| size(a).total_cmp(&size(b)));
+        sort_by(&mut springs, |a, b| size(a).total_cmp(&size(b)));
         let stops = parts.stops.iter().map(|stop| stop.direction.as_slice());
         for row in stops.chain(springs.iter().map(|i| parts.stiffness.row(*i))) {
             let row = factor.solve_lower(row);

@@ -16,7 +16,7 @@ use super::bernstein::{TERMS, bernstein};
 use super::mode::Mode;
 use super::pass::{Moved, Pass};
 use super::signal::Observable;
-use crate::math::hypot;
+use crate::math::{hypot, sort_by};
 
 /// Eight powers are expanded; the ninth is the remainder.
 const ORDER: usize = TERMS - 1;
@@ -105,7 +105,7 @@ fn window_levels(of: Moved<'_>) -> Vec<Level> {
     if !parts.iter().any(|(.., decaying)| *decaying) {
         return levels(of).into_iter().map(|(faint, rate)| Level { faint, decaying: Vec::new(), rate }).collect();
     }
-    parts.sort_by(|one, other| one.0.total_cmp(&other.0));
+    sort_by(&mut parts, |one, other| one.0.total_cmp(&other.0));
     let mut all: Vec<Level> = Vec::new();
     let mut level = Level { faint: Vec::new(), decaying: Vec::new(), rate: 0.0 };
     loop {
@@ -174,7 +174,7 @@ pub(crate) fn windows(of: Moved<'_>, guards: &[&Observable]) -> Vec<Window> {
 /// The modes that are faint, and the fastest rate of the others and of the forcing, in windows of all useful lengths.
 pub(super) fn levels(of: Moved<'_>) -> Vec<(Vec<usize>, f64)> {
     let mut order: Vec<usize> = (0..of.modes.len()).collect();
-    order.sort_by(|i, j| of.modes[*i].rate.total_cmp(&of.modes[*j].rate));
+    sort_by(&mut order, |i, j| of.modes[*i].rate.total_cmp(&of.modes[*j].rate));
     let mut all = Vec::new();
     let mut last = f64::INFINITY;
     for kept in (0..=order.len()).rev() {

@@ -94,12 +94,12 @@ impl<S: Source> Recorder for Settling<'_, S> {
         track: &mut Track,
         osc: &Oscillator,
         (mut motion, cache): (Motion<'_>, Option<&PropagatorCache>),
-        leave: impl Fn(&ImpactState) -> bool,
+        leave: &dyn Fn(&ImpactState) -> bool,
     ) -> Option<ImpactState> {
         let (Track { place, follow }, options) = (track, self.options);
         let releases = self.source.releases(*place);
         let mut drive = Drive { osc, options, follow, releases, cache, time: 0.0 };
-        match drive.on(&mut motion, |follow| leave(&follow.last())) {
+        match drive.on(&mut motion, &|follow| leave(&follow.last())) {
             None => Some(follow.last()),
             Some(verdict) => {
                 self.source.decided(*place, verdict, follow, options);

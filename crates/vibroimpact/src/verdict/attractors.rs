@@ -3,6 +3,7 @@
 use super::options::SettleOptions;
 use super::outcome::Verdict;
 use super::settle::settle;
+use crate::math::sort_by_key;
 use crate::system::{Oscillator, Start};
 use core::f64::consts::TAU;
 
@@ -74,7 +75,7 @@ impl<V: SteadyMotion> Census<V> {
     #[must_use]
     pub fn by_share(&self) -> Vec<&CountedMotion<V>> {
         let mut list: Vec<&CountedMotion<V>> = self.found.iter().collect();
-        list.sort_by_key(|found| core::cmp::Reverse(found.count));
+        sort_by_key(&mut list, |found| core::cmp::Reverse(found.count));
         list
     }
 

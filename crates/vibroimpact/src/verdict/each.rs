@@ -38,7 +38,7 @@ pub type Counted = (Oscillator, u64);
 ///     .collect::<Result<_, vibroimpact::SystemError>>()?;
 /// let start = |_: usize, k: u64| Start { x: 0.0, v: -1.0 * k as f64, phase: 0.0 };
 /// let mut starts = 0;
-/// let ended = settle_each(&systems, start, &SettleOptions::default(), false, Width::best(), &mut |_, settlement| {
+/// let ended = settle_each(&systems, &start, &SettleOptions::default(), false, Width::best(), &mut |_, settlement| {
 ///     starts += settlement.cells.len();
 ///     false
 /// });
@@ -47,7 +47,7 @@ pub type Counted = (Oscillator, u64);
 /// ```
 pub fn settle_each(
     systems: &[Counted],
-    start: impl Fn(usize, u64) -> Start,
+    start: &dyn Fn(usize, u64) -> Start,
     options: &SettleOptions,
     tails: bool,
     width: Width,
@@ -60,7 +60,7 @@ pub fn settle_each(
 fn each_from(
     long: usize,
     systems: &[Counted],
-    start: impl Fn(usize, u64) -> Start,
+    start: &dyn Fn(usize, u64) -> Start,
     (options, tails, width): (&SettleOptions, bool, Width),
     done: &mut dyn FnMut(usize, Settlement) -> bool,
 ) -> bool {
@@ -77,7 +77,7 @@ fn each_from(
             continue;
         }
         let none = KnownAttractors::default();
-        if done(system, settle_many(osc, 0..*count, |k| start(system, k), &none, options, width, &|| false)) {
+        if done(system, settle_many(osc, 0..*count, &|k| start(system, k), &none, options, width, &|| false)) {
             return false;
         }
     }
@@ -88,7 +88,7 @@ fn each_from(
         let source = Points {
             systems,
             points,
-            start: &start,
+            start,
             options,
             long,
             next: (0, 0),
@@ -124,10 +124,10 @@ impl Point {
 }
 
 /// The starts of several oscillators of one kind.
-struct Points<'a, F> {
+struct Points<'a> {
     systems: &'a [Counted],
     points: Vec<Point>,
-    start: &'a F,
+    start: &'a dyn Fn(usize, u64) -> Start,
     options: &'a SettleOptions,
     long: usize,
     /// The point and the start that is followed next.
@@ -139,7 +139,7 @@ struct Points<'a, F> {
     stopped: bool,
 }
 
-impl<F: Fn(usize, u64) -> Start> Points<'_, F> {
+impl Points<'_> {
     /// Takes down the verdict on a start of a point.
     fn decide(&mut self, (number, k): (usize, usize), verdict: Verdict, follow: &Follow) {
         let arrivals = if self.tails { follow.arrivals(&verdict, self.options) } else { Arrivals::new() };
@@ -163,12 +163,12 @@ impl<F: Fn(usize, u64) -> Start> Points<'_, F> {
         let osc = &self.systems[point.system].0;
         let full = |k: u64| settle(osc, (self.start)(point.system, k), self.options).verdict;
         // the verdicts are full ones, which contradict nothing
-        let settlement = part.settlement(0, full).unwrap_or_default();
+        let settlement = part.settlement(0, &full).unwrap_or_default();
         self.stopped |= (self.done)(point.system, settlement);
     }
 }
 
-impl<F: Fn(usize, u64) -> Start> Source for Points<'_, F> {
+impl Source for Points<'_> {
     fn next(&mut self, follow: &mut Follow) -> Option<(usize, Launched)> {
         while !self.stopped {
             let (mut number, mut k) = self.next;
@@ -183,7 +183,7 @@ impl<F: Fn(usize, u64) -> Start> Source for Points<'_, F> {
             let (releases, cache) = (&mut self.points[number].releases, PropagatorCache::new());
             let mut drive = Drive { osc, options, follow, releases, cache: Some(&cache), time: 0.0 };
             let flies_on = |follow: &Follow| !chatter::settles_after(osc, &follow.last());
-            match drive.on(&mut motion, |follow| follow.count() >= self.long && flies_on(follow)) {
+            match drive.on(&mut motion, &|follow| follow.count() >= self.long && flies_on(follow)) {
                 Some(verdict) => self.decide((number, k), verdict, follow),
                 None => {
                     self.places.push((number, k));
@@ -264,7 +264,7 @@ mod tests {
         let none = KnownAttractors::default();
         let alone = |system: usize| {
             let (osc, count) = systems[system];
-            settle_many(&osc, 0..count, |k| start(system, k), &none, &options, Width::Scalar, &|| false)
+            settle_many(&osc, 0..count, &|k| start(system, k), &none, &options, Width::Scalar, &|| false)
         };
         let expected: Vec<Settlement> = (0..systems.len()).map(alone).collect();
         let chaotic = |of: &Settlement| of.motions.iter().any(|found| matches!(found.verdict, Verdict::Chaotic(_)));
@@ -276,7 +276,7 @@ mod tests {
                 let mut left: Vec<usize> = part.clone().collect();
                 let of = |k: usize, index: u64| start(part.start + k, index);
                 let asked = (&options, true, width);
-                let ended = each_from(long, &systems[part.clone()], of, asked, &mut |k, got| {
+                let ended = each_from(long, &systems[part.clone()], &of, asked, &mut |k, got| {
                     assert_eq!(got, expected[part.start + k], "{width:?} {:?}", systems[part.start + k]);
                     left.retain(|system| *system != part.start + k);
                     false
@@ -285,7 +285,7 @@ mod tests {
             }
         }
         let mut count = 0;
-        let ended = settle_each(&systems, start, &options, false, Width::best(), &mut |_, _| {
+        let ended = settle_each(&systems, &start, &options, false, Width::best(), &mut |_, _| {
             count += 1;
             count == 7
         });

@@ -45,7 +45,7 @@ const fn coordinates(start: &Start) -> [f64; 3] {
 
 /// The starts with their numbers, sorted by the cell in which they are; `None` if they are few, or if most of them
 /// are beside the one before.
-pub(super) fn sorted(count: u64, start: impl Fn(u64) -> Start) -> Option<Vec<(u32, Start)>> {
+pub(super) fn sorted(count: u64, start: &dyn Fn(u64) -> Start) -> Option<Vec<(u32, Start)>> {
     let total = u32::try_from(count).ok().filter(|_| count >= FEW)?;
     let pair = |k: u64| [start(k), start(k + 1)];
     let pairs: Vec<[Start; 2]> = (0..PAIRS).map(|k| pair(k * SPREAD % (count - 1))).collect();
@@ -109,7 +109,7 @@ mod tests {
         let area = StartBox::natural(&osc);
         for count in [1024, 20_000, 65_536] {
             let start = |k: u64| scattered_starts(&osc, area, 3, k);
-            let list = sorted(count, start).unwrap();
+            let list = sorted(count, &start).unwrap();
             assert!(list.iter().all(|(k, there)| *there == start(u64::from(*k))));
             let mut numbers: Vec<u32> = list.iter().map(|(k, _)| *k).collect();
             numbers.sort_unstable();
@@ -119,15 +119,15 @@ mod tests {
             assert!(10 * near > 8 * count, "{near} of {count}");
             for row in [100, 128, 256] {
                 let grid = |k: u64| Start { x: (k / row) as f64, v: (k % row) as f64, phase: 0.0 };
-                assert!(sorted(count, grid).is_none());
+                assert!(sorted(count, &grid).is_none());
             }
         }
         // a list that is sorted is in order
         let flat = |k: u64| Start { phase: 0.0, ..scattered_starts(&osc, area, 3, k) };
-        let list = sorted(20_000, flat).unwrap();
-        assert!(sorted(20_000, |k| list[usize::try_from(k).unwrap()].1).is_none());
-        assert!(sorted(20, |k| scattered_starts(&osc, area, 3, k)).is_none());
+        let list = sorted(20_000, &flat).unwrap();
+        assert!(sorted(20_000, &|k| list[usize::try_from(k).unwrap()].1).is_none());
+        assert!(sorted(20, &|k| scattered_starts(&osc, area, 3, k)).is_none());
         // all the same
-        assert!(sorted(5000, |_| scattered_starts(&osc, area, 3, 1)).is_none());
+        assert!(sorted(5000, &|_| scattered_starts(&osc, area, 3, 1)).is_none());
     }
 }

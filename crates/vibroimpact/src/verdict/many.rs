@@ -54,7 +54,7 @@ impl KnownAttractors {
 /// let start = |k: u64| Start { x: 0.0, v: -4.0 + 0.01 * k as f64, phase: 0.0 };
 /// let options = SettleOptions::default();
 /// let survey = KnownAttractors::survey(&osc, (0..8).map(|k| start(100 * k)), &options);
-/// let settlement = settle_many(&osc, 0..800, start, &survey, &options, Width::best(), &|| false);
+/// let settlement = settle_many(&osc, 0..800, &start, &survey, &options, Width::best(), &|| false);
 /// assert_eq!(settlement.motions.len(), 2);         // 1/1 and 2/1
 /// assert_eq!(settlement.cells.len(), 800);
 /// ```
@@ -62,7 +62,7 @@ impl KnownAttractors {
 pub fn settle_many(
     osc: &Oscillator,
     range: Range<u64>,
-    start: impl Fn(u64) -> Start,
+    start: &dyn Fn(u64) -> Start,
     survey: &KnownAttractors,
     options: &SettleOptions,
     width: Width,
@@ -70,11 +70,11 @@ pub fn settle_many(
 ) -> Settlement {
     let full = |k: u64| settle(osc, start(k), options).verdict;
     let question = Question { osc, options, width, tick };
-    question.decide(range.clone(), &start, survey).settlement(range.start, full).unwrap_or_else(|| {
+    question.decide(range.clone(), start, survey).settlement(range.start, &full).unwrap_or_else(|| {
         // the full verdict on the first start of a motion contradicts a trapping region: compute this part without
         // trapping regions
-        let part = question.decide(range.clone(), &start, &KnownAttractors::default());
-        part.settlement(range.start, full).unwrap_or_default()
+        let part = question.decide(range.clone(), start, &KnownAttractors::default());
+        part.settlement(range.start, &full).unwrap_or_default()
     })
 }
 
@@ -92,7 +92,7 @@ struct Question<'a> {
 impl Question<'_> {
     /// Decides a range of starts: side by side in a batch, or one after another if they are few or the lanes cannot
     /// follow them.
-    fn decide(&self, range: Range<u64>, start: &impl Fn(u64) -> Start, survey: &KnownAttractors) -> Part {
+    fn decide(&self, range: Range<u64>, start: &dyn Fn(u64) -> Start, survey: &KnownAttractors) -> Part {
         let count = usize::try_from(range.end - range.start).unwrap_or(usize::MAX);
         let mut part = Part::open(count);
         let alone = count < FEW && survey.known.is_empty();
@@ -110,14 +110,14 @@ impl Question<'_> {
             return part;
         };
         let first = range.start;
-        match launches::sorted(range.end - first, |k| start(first + k)) {
+        match launches::sorted(range.end - first, &|k| start(first + k)) {
             Some(sorted) => {
                 let launch = |k: usize| (sorted[k].0 as usize, sorted[k].1);
-                self.abreast(batch, range, launch, (&survey.known, releases, part))
+                self.abreast(batch, range, &launch, (&survey.known, releases, part))
             }
             None => {
                 let launch = |k: usize| (k, start(first + k as u64));
-                self.abreast(batch, range, launch, (&survey.known, releases, part))
+                self.abreast(batch, range, &launch, (&survey.known, releases, part))
             }
         }
     }
@@ -127,7 +127,7 @@ impl Question<'_> {
         &self,
         batch: Batch,
         range: Range<u64>,
-        launch: impl Fn(usize) -> (usize, Start),
+        launch: &dyn Fn(usize) -> (usize, Start),
         (known, releases, part): (&[(Verdict, TrappingRegion)], Releases, Part),
     ) -> Part {
         let (numbers, tick) = (vec![None; known.len()], self.tick);
@@ -137,7 +137,7 @@ impl Question<'_> {
 }
 
 /// Starts of one oscillator.
-struct Starts<'a, F> {
+struct Starts<'a> {
     osc: &'a Oscillator,
     known: &'a [(Verdict, TrappingRegion)],
     /// The number of each of these cycles in `part`, once a start leads to it.
@@ -145,13 +145,13 @@ struct Starts<'a, F> {
     releases: Releases,
     range: Range<u64>,
     /// The place and the start of each, in the order in which they are launched.
-    launch: F,
+    launch: &'a dyn Fn(usize) -> (usize, Start),
     next: usize,
     part: Part,
     tick: &'a dyn Fn() -> bool,
 }
 
-impl<F: Fn(usize) -> (usize, Start)> Source for Starts<'_, F> {
+impl Source for Starts<'_> {
     #[inline]
     fn next(&mut self, follow: &mut Follow) -> Option<(usize, Launched)> {
         let (next, index) = (self.next, self.range.start + self.next as u64);
@@ -232,7 +232,7 @@ mod tests {
         let (area, options) = (StartBox::natural(&osc), SettleOptions::default());
         let start = |k: u64| scattered_starts(&osc, area, 5, k);
         let survey = KnownAttractors::survey(&osc, (0..10).map(start), &options);
-        let got = settle_many(&osc, 100..2600, start, &survey, &options, Width::best(), &|| false);
+        let got = settle_many(&osc, 100..2600, &start, &survey, &options, Width::best(), &|| false);
         let mut census = Census::default();
         let cells = (100..2600).map(|k| census.add(&settle(&osc, start(k), &options).verdict));
         assert!(cells.eq(got.cells.iter().map(|cell| *cell as usize)));
@@ -260,7 +260,7 @@ mod tests {
             let survey = KnownAttractors::survey(&osc, (100..110).map(start), &options);
             for width in Width::ALL.into_iter().filter(|width| width.available()) {
                 for survey in [&none, &survey] {
-                    let got = settle_many(&osc, 0..60, start, survey, &options, width, &|| false);
+                    let got = settle_many(&osc, 0..60, &start, survey, &options, width, &|| false);
                     assert_eq!(reasons(&got), reasons(&expected), "{osc:?} {width:?}");
                     if *survey != none {
                         // a motion that a trapping region has captured is not followed to the end
@@ -272,7 +272,7 @@ mod tests {
                     assert!(got.tails.iter().all(Vec::is_empty) || Batch::new(&osc, 1, width).is_none(), "{osc:?}");
                     assert_eq!(Settlement { endings, tails, ..got }, expected, "{osc:?} {width:?}");
                     // a small number is followed one by one
-                    let few = settle_many(&osc, 0..20, start, survey, &options, width, &|| false);
+                    let few = settle_many(&osc, 0..20, &start, survey, &options, width, &|| false);
                     assert_eq!(few.cells, expected.cells[..20], "{osc:?} {width:?}");
                 }
             }

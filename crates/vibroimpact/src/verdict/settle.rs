@@ -63,7 +63,7 @@ pub fn settle_while(
     osc: &Oscillator,
     start: Start,
     options: &SettleOptions,
-    go_on: impl Fn() -> bool,
+    go_on: &dyn Fn() -> bool,
 ) -> Option<Settled> {
     drive(osc, start, options, &mut Releases::default(), go_on).map(|(settled, _)| settled)
 }
@@ -77,7 +77,7 @@ pub(super) fn settle_knowing(
     releases: &mut Releases,
 ) -> (Settled, Arrivals) {
     // only a verdict stops it
-    drive(osc, start, options, releases, || true).unwrap_or_else(|| {
+    drive(osc, start, options, releases, &|| true).unwrap_or_else(|| {
         let verdict = ended(osc, None, options.limits);
         (Settled { verdict, impacts: 0, time: 0.0, transient: None }, Arrivals::new())
     })
@@ -89,13 +89,13 @@ fn drive(
     start: Start,
     options: &SettleOptions,
     releases: &mut Releases,
-    go_on: impl Fn() -> bool,
+    go_on: &dyn Fn() -> bool,
 ) -> Option<(Settled, Arrivals)> {
     let mut follow = Follow::keeping_tail();
     let cache = PropagatorCache::new();
     let mut motion = Motion::with_limits(osc, start, options.limits);
     let mut drive = Drive { osc, options, follow: &mut follow, releases, cache: Some(&cache), time: 0.0 };
-    let verdict = drive.on(&mut motion, |_| !go_on())?;
+    let verdict = drive.on(&mut motion, &|_| !go_on())?;
     let time = drive.time;
     let transient =
         if matches!(verdict, Verdict::Chaotic(_) | Verdict::Undecided(_)) { None } else { follow.transient(osc) };
@@ -117,7 +117,7 @@ pub(super) struct Drive<'a> {
 
 impl Drive<'_> {
     /// Follows the motion to a verdict, or to the first impact after which `leave` returns true of its record.
-    pub(super) fn on(&mut self, motion: &mut Motion<'_>, leave: impl Fn(&Follow) -> bool) -> Option<Verdict> {
+    pub(super) fn on(&mut self, motion: &mut Motion<'_>, leave: &dyn Fn(&Follow) -> bool) -> Option<Verdict> {
         let Self { osc, options, follow, cache, .. } = self;
         let before = follow.steps;
         // every other event is followed by an impact or ends the motion; runs of grazing contacts are limited

@@ -4,6 +4,7 @@ use super::CountedMotion;
 use super::attractors::SAME;
 use super::outcome::{Reason, Verdict};
 use crate::lyapunov::Arrivals;
+use crate::math::sort_by_key;
 
 /// The motions to which a range of starts leads.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -92,12 +93,12 @@ impl Part {
 
     /// The motions in order of first appearance, each with the full verdict on its first start; `None` if this verdict
     /// is another motion.
-    pub(super) fn settlement(mut self, first: u64, full: impl Fn(u64) -> Verdict) -> Option<Settlement> {
+    pub(super) fn settlement(mut self, first: u64, full: &dyn Fn(u64) -> Verdict) -> Option<Settlement> {
         self.cells.truncate(self.cells.iter().position(|&cell| cell == OPEN).unwrap_or(self.cells.len()));
         self.endings.truncate(self.cells.len());
         let end = first + self.cells.len() as u64;
         let mut order: Vec<usize> = (0..self.motions.len()).filter(|&k| self.motions[k].first < end).collect();
-        order.sort_by_key(|&k| self.motions[k].first);
+        sort_by_key(&mut order, |&k| self.motions[k].first);
         let mut renamed = vec![OPEN; self.motions.len()];
         let mut motions = Vec::with_capacity(order.len());
         let mut tails = Vec::with_capacity(order.len());

@@ -179,7 +179,7 @@ fn both_cycles_beside_a_branch_point() {
     let branch = Branch::new(&osc, orbit, Parameter::Beta, range.clone(), Direction::Down, options).unwrap();
     let expected = branch.into_iter().find(|point| point.event == Some(BranchEvent::BranchPoint)).unwrap();
     let starts = (0..16).map(|k| scattered_machine_starts(&machine, 1, k));
-    let cycles = find_machine_while(&machine, label, starts, || true).unwrap();
+    let cycles = find_machine_while(&machine, label, starts, &|| true).unwrap();
     let cycle = cycles.iter().find(|cycle| cycle.stable()).unwrap();
     let (family, beta) = MachineFamily::of_path(&machine, "frequency").unwrap();
     let mut branch = MachineBranch::new((&family, beta), cycle, &range, Direction::Down, options).unwrap();

@@ -244,7 +244,7 @@ fn a_drifting_cycle() {
 fn limit_cycles_with_a_label() {
     let find = |machine: &Machine, label| {
         let starts = (0..48).map(|k| scattered_machine_starts(machine, 1, k));
-        find_machine_while(machine, Label::unforced(label).unwrap(), starts, || true).unwrap()
+        find_machine_while(machine, Label::unforced(label).unwrap(), starts, &|| true).unwrap()
     };
     let points = branch(&pair(0.2, 0.9, 0.5), ("stop.stop.gap", 0.7, 1.2), Direction::Down);
     let unstable = points.last().unwrap();

@@ -322,7 +322,7 @@ fn corners() {
 fn the_unstable_orbit_between_two_stable_ones_is_found() {
     let machine = hammer(1.06, 0.5).unwrap();
     let starts = (0..48).map(|k| scattered_machine_starts(&machine, 1, k));
-    let found = find_machine_while(&machine, Label::new(2, 1), starts, || true).unwrap();
+    let found = find_machine_while(&machine, Label::new(2, 1), starts, &|| true).unwrap();
     assert_eq!(found.iter().map(MachineCycle::stable).collect::<Vec<_>>(), [false, true]);
     let begin = cycle(&hammer(1.2, 0.5).unwrap(), &MachineStart::default());
     let family = MachineFamily::new(|frequency| hammer(frequency, 0.5));

@@ -134,7 +134,7 @@ fn multipliers_by_differences() {
             power = power.times(&turn);
         }
         // its exponents are those of the multipliers, and 0 for the translation
-        let found = machine_exponents_while(&machine, &MachineStart::default(), (2_000, 200), || true);
+        let found = machine_exponents_while(&machine, &MachineStart::default(), (2_000, 200), &|| true);
         let exponents = found.unwrap().unwrap().spectrum.unwrap().exponents;
         assert_eq!((exponents.len(), exponents[0].value), (4, 0.0));
         // while a joint holds its velocity is known, so the motion forgets one direction

@@ -8,7 +8,7 @@ use vibroimpact::verdict::MachineVerdict;
 
 fn found(parts: MachineParts) -> (MachineExponents, Vec<f64>) {
     let machine = Machine::new(parts).unwrap();
-    let found = machine_exponents_while(&machine, &MachineStart::default(), (4_000, 500), || true).unwrap().unwrap();
+    let found = machine_exponents_while(&machine, &MachineStart::default(), (4_000, 500), &|| true).unwrap().unwrap();
     let exponents = found.spectrum.as_ref().unwrap().exponents.iter().map(|exponent| exponent.value).collect();
     (found, exponents)
 }

@@ -123,7 +123,7 @@ fn power_and_exponents() {
     assert!((of("power") - lost).abs() < 1e-12 * lost && lost > 0.0, "{} {lost}", of("power"));
     assert!(of("impacts_per_period").is_nan());
     let exponents =
-        machine_exponents_while(&machine, &MachineStart::default(), (2_000, 100), || true).unwrap().unwrap();
+        machine_exponents_while(&machine, &MachineStart::default(), (2_000, 100), &|| true).unwrap().unwrap();
     let spectrum = exponents.spectrum.unwrap();
     assert!(exponents.exact && spectrum.exponents.len() == 4);
     assert!(spectrum.exponents[0].value == 0.0 && spectrum.exponents[1].value < 0.0);

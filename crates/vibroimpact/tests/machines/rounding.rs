@@ -53,7 +53,7 @@ fn no_orbit_is_found() {
     let start = MachineStart { q: vec![3.0], qdot: vec![1.0], phase: 0.0, ..MachineStart::default() };
     for periods in [29, 30, 38, 49] {
         let label = Label { impacts: Count::Infinite, periods };
-        let found = find_machine_while(&machine, label, [start.clone()], || true).unwrap();
+        let found = find_machine_while(&machine, label, [start.clone()], &|| true).unwrap();
         assert!(found.is_empty(), "{label}: {}", found.len());
     }
 }

@@ -120,7 +120,7 @@ fn without_losses_no_cycle_is_stable() {
     for (name, machine) in conservative() {
         for label in ["1/1", "2/1", "2/2"] {
             let starts = (0..20).map(|k| scattered_machine_starts(&machine, 1, k));
-            for cycle in find_machine_while(&machine, label.parse().unwrap(), starts, || true).unwrap() {
+            for cycle in find_machine_while(&machine, label.parse().unwrap(), starts, &|| true).unwrap() {
                 let off = cycle.multipliers.iter().map(|one| (one.modulus() - 1.0).abs()).fold(0.0, f64::max);
                 match cycle.stability() {
                     Stability::Stable => panic!("{name} {label} {:?}", cycle.multipliers),

@@ -4,6 +4,7 @@ use super::{Plane, free_amplitude};
 use crate::claims::{Agreement, Section};
 use crate::grid::{Grid, Point};
 use crate::{figure03, looks, search};
+use vibroimpact::math::sort_by;
 use vibroimpact::scenario;
 
 pub(super) fn add(section: &mut Section, grid: &Grid, plane: &Plane) {
@@ -169,7 +170,7 @@ fn right(section: &mut Section, grid: &Grid, plane: &Plane) {
 /// The gap below which three quarters of the points with 1/beta >= 1.5 and delta >= 1 lie, rounded to the grid.
 fn upper_end(places: &[(f64, f64)]) -> f64 {
     let mut gaps: Vec<f64> = places.iter().filter(|(x, gap)| *x >= 1.5 && *gap >= 1.0).map(|(_, gap)| *gap).collect();
-    gaps.sort_by(f64::total_cmp);
+    sort_by(&mut gaps, f64::total_cmp);
     gaps.get(gaps.len() * 3 / 4).map_or(0.0, |gap| gap + 0.125)
 }
 

@@ -3,6 +3,7 @@
 use crate::{EPS, Error};
 use std::ops::RangeInclusive;
 use vibroimpact::continuation::{Branch, BranchEvent, BranchOptions, Direction, SolutionPoint};
+use vibroimpact::math::{sort_by, sort_by_key};
 use vibroimpact::orbit::{Cycle, FindOptions, find};
 use vibroimpact::system::phase;
 use vibroimpact::{Label, Oscillator, Parameter, scenario};
@@ -157,10 +158,10 @@ pub(crate) fn events(branches: &[Vec<SolutionPoint>]) -> Vec<Event> {
     }
     for event in &mut events {
         if event.kind != Kind::Flip {
-            event.orbits.sort_by_key(|orbit| (orbit.label().periods, orbit.label().impacts));
+            sort_by_key(&mut event.orbits, |orbit| (orbit.label().periods, orbit.label().impacts));
         }
     }
-    events.sort_by(|a, b| a.gap.total_cmp(&b.gap));
+    sort_by(&mut events, |a, b| a.gap.total_cmp(&b.gap));
     events
 }
 

@@ -3,6 +3,7 @@
 use super::branches::{Kind, events};
 use crate::{EPS, Error};
 use vibroimpact::continuation::SolutionPoint;
+use vibroimpact::math::sort_by;
 use vibroimpact::scenario;
 use vibroimpact_plot::{
     Colour, DOUBLE_COLUMN, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, SERIES, Shape, Stroke, Text,
@@ -122,7 +123,7 @@ fn pieces(run: &[SolutionPoint], stable: bool) -> Vec<(Vec<f64>, Vec<f64>)> {
         .iter()
         .map(|point| {
             let mut speeds: Vec<f64> = point.cycle.points.iter().map(|p| p.state.velocity).collect();
-            speeds.sort_by(|a, b| b.total_cmp(a));
+            sort_by(&mut speeds, |a, b| b.total_cmp(a));
             speeds
         })
         .collect();

@@ -3,6 +3,7 @@
 use super::glyphs::{Sketch, Way};
 use super::model::{Item, Kind, Model, Place};
 use crate::number::short;
+use vibroimpact::math::sort_by_key;
 use vibroimpact_plot::{Anchor, Colour};
 
 const BODY: f64 = 2.0;
@@ -58,7 +59,7 @@ pub(super) fn draw(model: &Model) -> Sketch {
     }
     for slot in &mut slots {
         // arms come from below
-        slot.sort_by_key(|one| one.far);
+        sort_by_key(slot, |one| one.far);
     }
     let lanes = slots.iter().map(Vec::len).max().unwrap_or(0).max(1) as f64;
     let high = 1.5 + (lanes - 1.0) * LANE;

@@ -95,7 +95,7 @@ impl BasinFill {
             self.start(osc, there, &block.index(wanted[group[usize::try_from(k).unwrap_or(0)]]))
         };
         let mut settlements = vec![Settlement::default(); few.len()];
-        settle_each(&counted, start, &self.options, false, Width::best(), &mut |system, settlement| {
+        settle_each(&counted, &start, &self.options, false, Width::best(), &mut |system, settlement| {
             settlements[system] = settlement;
             few[system].0.iter().fold(false, |stop, _| tick() || stop)
         })
@@ -114,7 +114,7 @@ impl BasinFill {
     ) -> Option<(Vec<CountedMotion>, Vec<u32>)> {
         let start = |k: u64| start(usize::try_from(k).unwrap_or(0));
         let range = 0..group.len() as u64;
-        let settlement = settle_many(osc, range, start, survey, &self.options, Width::best(), &|| tick());
+        let settlement = settle_many(osc, range, &start, survey, &self.options, Width::best(), &|| tick());
         if settlement.cells.len() < group.len() {
             return None;
         }

@@ -12,6 +12,7 @@ use crate::continuation::equations::cycle_equations::CycleEquations;
 use crate::continuation::equations::test_functions::{Place, TestFunction};
 use crate::continuation::trace::interpolate;
 use crate::continuation::trace::tracer::{Crossing, Step};
+use crate::math::sort_by;
 use crate::orbit::Orbit;
 
 impl ImpactBranch {
@@ -94,7 +95,7 @@ impl ImpactBranch {
                 found[k].0 = self.ahead(&w).unwrap_or(s);
             }
         }
-        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        sort_by(&mut found, |a, b| a.0.total_cmp(&b.0));
         found
     }
 

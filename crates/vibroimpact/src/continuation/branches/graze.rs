@@ -8,6 +8,7 @@
 use crate::continuation::equations::cycle_equations::CycleEquations;
 use crate::continuation::equations::test_functions::TestFunction;
 use crate::continuation::trace::equations::{Equations, tangent};
+use crate::math::{sort_by, sort_by_key};
 use crate::orbit::{Ring, closest};
 use crate::system::{Oscillator, Side};
 use core::cmp::Reverse;
@@ -44,9 +45,9 @@ pub(crate) fn beyond(
         let touch = closest(osc, ring, k, side)?;
         new.push((k, ring.theta(k) + osc.beta() * touch.time, side));
     }
-    new.sort_by(|a, b| b.0.cmp(&a.0).then(b.1.total_cmp(&a.1)));
+    sort_by(&mut new, |a, b| b.0.cmp(&a.0).then(b.1.total_cmp(&a.1)));
     let mut old: Vec<usize> = gone.to_vec();
-    old.sort_by_key(|&k| Reverse(k));
+    sort_by_key(&mut old, |&k| Reverse(k));
     for &(k, theta, side) in &new {
         next.insert(k, theta, side);
         row.splice(2 * k + 2..2 * k + 2, [0.0, 0.0]);

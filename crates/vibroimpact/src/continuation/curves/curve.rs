@@ -8,7 +8,7 @@ use crate::continuation::equations::plane_equations::{Condition, Plane};
 use crate::continuation::equations::plane_tracer::{PlaneSolution, PlaneTracer};
 use crate::continuation::trace::equations::{Equations, correct, tangent};
 use crate::continuation::trace::root;
-use crate::math::{Multiplier, hypot};
+use crate::math::{Multiplier, hypot, sort_by};
 use crate::orbit::{Floquet, Orbit, Ring, ring_cycle};
 use crate::system::{Oscillator, ParameterPath, Side, SystemError};
 use std::collections::VecDeque;
@@ -209,7 +209,7 @@ impl Curve {
                 Some(at) => step.crossed.push((at, None)),
                 None => return self.finish(&here, CurveEvent::NoConvergence),
             }
-            step.crossed.sort_by(|a, b| a.0.total_cmp(&b.0));
+            sort_by(&mut step.crossed, |a, b| a.0.total_cmp(&b.0));
         }
         for &(at, what) in &step.crossed {
             let Some(spot) = self.tracer.between(&step, at).and_then(|w| self.tracer.solution(w)) else {

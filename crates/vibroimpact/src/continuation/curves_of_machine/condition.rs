@@ -3,7 +3,7 @@
 use super::borders::Borders;
 use super::moment::Moment;
 use crate::continuation::of_machine::{CompleteChatter, Limit, limits, touches};
-use crate::math::{Matrix, Multiplier, general_eigenvalues, hypot};
+use crate::math::{Matrix, Multiplier, general_eigenvalues, hypot, sort_by};
 use crate::orbit::{MachineFrame, MachineRing};
 
 /// A condition.
@@ -69,7 +69,7 @@ impl Condition {
             Self::Pair { cosine } => Some(pair(&multipliers(frame, ring)?.1, *cosine)?.1),
             Self::Touch { at, size, .. } => {
                 let before = (at + ring.len() - 1) % ring.len();
-                Some(ring.block(frame, before, true)?.late[0] * ring.frequency(frame.machine) / size)
+                Some(ring.block(frame, before)?.late[0] * ring.frequency(frame.machine) / size)
             }
             Self::Limit { limit, size, .. } => Some(limit.of(frame, ring)?.value / size),
             Self::Chatter(chatter) => chatter.value(frame, ring),
@@ -111,7 +111,7 @@ impl Condition {
                     let also = touches(frame, ring, *contact, *speed).into_iter();
                     let also = also.filter(|(value, touch)| value.abs() < AT_LIMIT && other(touch.leg));
                     moments.extend(also.map(|(_, touch)| Moment::Flight(touch.leg, touch.phase)));
-                    moments.sort_by(|a, b| a.phase(ring).total_cmp(&b.phase(ring)));
+                    sort_by(&mut moments, |a, b| a.phase(ring).total_cmp(&b.phase(ring)));
                 }
                 moments
             }

@@ -3,7 +3,7 @@
 use super::borders::Borders;
 use super::condition::{Condition, turned};
 use super::plane::MachinePlane;
-use crate::continuation::of_machine::{by_number, linearised, weigh, weights};
+use crate::continuation::of_machine::{linearised, weigh, weights};
 use crate::continuation::trace::equations::Equations;
 use crate::events::StateShape;
 use crate::machine::Machine;
@@ -152,15 +152,8 @@ impl Equations for CurveEquations {
         let frame = MachineFrame::new(&machine);
         let (mut miss, mut rows) = linearised(&frame, &ring, w)?;
         let length = w.len();
-        let ((p, q), scales) = (Self::values(w), self.plane.scales());
-        for (column, (value, scale)) in [(length - 2, (p, scales.0)), (length - 1, (q, scales.1))] {
-            let misses = |value: f64| {
-                let mut other = w.to_vec();
-                other[column] = value;
-                let (machine, ring) = self.split(&other)?;
-                ring.misses(&MachineFrame::new(&machine))
-            };
-            for (row, slope) in by_number(misses, (value, scale))?.into_iter().enumerate() {
+        for (column, rate) in [length - 2, length - 1].into_iter().zip(self.plane.rates(Self::values(w))?) {
+            for (row, slope) in ring.by_number(&frame, &rate)?.into_iter().enumerate() {
                 rows[row * length + column] = slope;
             }
         }

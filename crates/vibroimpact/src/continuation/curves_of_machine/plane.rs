@@ -1,6 +1,6 @@
 //! A machine as a function of two numbers, and a frame in their plane.
 
-use crate::machine::{Machine, MachineError};
+use crate::machine::{Machine, MachineError, MachineParts};
 use core::fmt;
 use core::ops::RangeInclusive;
 use std::sync::Arc;
@@ -69,6 +69,13 @@ impl MachinePlane {
     #[must_use]
     pub fn at(&self, (p, q): (f64, f64)) -> Option<Machine> {
         (self.at)(p, q)
+    }
+
+    /// The derivatives of the numbers of the machine at a point, by the first and by the second number.
+    pub(super) fn rates(&self, (p, q): (f64, f64)) -> Option<[MachineParts; 2]> {
+        let (scales, parts) = (self.scales(), |p, q| self.at((p, q)).map(|machine| machine.parts().clone()));
+        let one = MachineParts::rate(&|p| parts(p, q), (p, scales.0))?;
+        Some([one, MachineParts::rate(&|q| parts(p, q), (q, scales.1))?])
     }
 
     /// The change of each number that has length 1: a quarter of its range.

@@ -185,7 +185,7 @@ impl CurveProblem {
                 let MachineCurveKind::Grazing { stop } = self.kind else { return None };
                 // what an impulse at the touch changes of the gap at the next touch
                 let m = ring.len();
-                let steps = (0..m).map(|i| ring.block(frame, (touch + i) % m, true)?.step);
+                let steps = (0..m).map(|i| ring.block(frame, (touch + i) % m)?.step);
                 let direction = &frame.normal.directions[stop];
                 let mut change = vec![0.0; frame.shape.size()];
                 change[frame.shape.n..2 * frame.shape.n].copy_from_slice(direction);
@@ -266,7 +266,7 @@ impl Problem for CurveProblem {
         let rising = (0..ring.len()).find_map(|k| {
             let event = (k + 1) % ring.len();
             let own = moments.iter().any(|moment| moment.has(event, ring.len()));
-            (!own && ring.block(&frame, k, true).is_none_or(|block| block.late[0] >= 0.0)).then_some(event)
+            (!own && ring.block(&frame, k).is_none_or(|block| block.late[0] >= 0.0)).then_some(event)
         });
         let all = at.map_or_else(Vec::new, |(_, all)| all);
         let judged = if moments.is_empty() {

@@ -17,7 +17,7 @@ use super::summed::{of_chatter, sums};
 use super::touch::{grazing, touching};
 use crate::continuation::branches::{BranchOptions, Direction};
 use crate::continuation::trace::tracer::{Crossing, Problem, Step, Tracer};
-use crate::math::Multiplier;
+use crate::math::{Multiplier, sort_by};
 use crate::orbit::{Chatter, MachineCycle, MachineFrame, MachineRing, RingEvent};
 use crate::regime::GuardKind;
 use core::ops::RangeInclusive;
@@ -157,7 +157,7 @@ impl MachineBranch {
             && let Some(inside) = self.tracer.between(&step, until).and_then(|w| self.tracer.solution(w))
         {
             crossed.extend(self.tracer.hidden(&[PLUS_ONE, MINUS_ONE, TORUS], &crossed, (until, &inside)));
-            crossed.sort_by(|a, b| a.0.total_cmp(&b.0));
+            sort_by(&mut crossed, |a, b| a.0.total_cmp(&b.0));
         }
         for (s, what) in &crossed {
             let event = match what {

@@ -51,14 +51,6 @@ impl MachineEquations {
         w.push(value);
         w
     }
-
-    /// The residuals at the same events with another value of the number.
-    fn misses(&self, w: &[f64], value: f64) -> Option<Vec<f64>> {
-        let mut other = w.to_vec();
-        *other.last_mut()? = value;
-        let (machine, ring) = self.split(&other)?;
-        ring.misses(&MachineFrame::new(&machine))
-    }
 }
 
 impl Equations for MachineEquations {
@@ -68,9 +60,10 @@ impl Equations for MachineEquations {
 
     fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
         let (machine, ring) = self.split(w)?;
-        let (miss, mut rows) = linear::linearised(&MachineFrame::new(&machine), &ring, w)?;
+        let frame = MachineFrame::new(&machine);
+        let (miss, mut rows) = linear::linearised(&frame, &ring, w)?;
         let length = w.len();
-        let slopes = linear::by_number(|value| self.misses(w, value), (*w.last()?, self.scale))?;
+        let slopes = ring.by_number(&frame, &self.family.rate(*w.last()?, self.scale)?)?;
         for (row, slope) in slopes.into_iter().enumerate() {
             rows[row * length + length - 1] = slope;
         }
@@ -83,7 +76,7 @@ mod tests {
     use super::*;
     use crate::continuation::trace::equations::correct;
     use crate::events::MachineStart;
-    use crate::machine::{MachineParts, Opening, StopLaw};
+    use crate::machine::{HarmonicMotion, MachineParts, Opening, StopLaw};
     use crate::verdict::{MachineVerdict, SettleOptions, settle_machine};
 
     fn machine(soft: bool) -> Machine {
@@ -115,6 +108,10 @@ mod tests {
         Machine::new(parts).unwrap()
     }
 
+    fn misses(ring: &MachineRing, frame: &MachineFrame<'_>) -> Vec<f64> {
+        (0..ring.len()).flat_map(|k| ring.miss(frame, k).unwrap()).collect()
+    }
+
     /// The Jacobian against differences of the residuals, and Newton's method from a distant guess.
     #[test]
     fn derivatives_and_convergence() {
@@ -134,7 +131,7 @@ mod tests {
                     let mut other = w.clone();
                     other[j] += h;
                     let (machine, ring) = equations.split(&other).unwrap();
-                    ring.misses(&MachineFrame::new(&machine)).unwrap()
+                    misses(&ring, &MachineFrame::new(&machine))
                 };
                 let (plus, minus) = (at(1e-5), at(-1e-5));
                 for i in 0..length - 1 {
@@ -155,5 +152,112 @@ mod tests {
             let (found, _) = correct(&equations, &guess, &row, gap).unwrap();
             assert!(found.iter().zip(&w).all(|(a, b)| (a - b).abs() < 1e-11), "{found:?} {w:?}");
         }
+    }
+
+    /// Machines whose cycles have events of all kinds: rests and holds, stops that open by force and by position, with preload,
+    /// that move, impacts at one time, a translation, coupled damping and masses.
+    fn machines() -> Vec<Machine> {
+        let soft = |stiffness, damping, preload, opening| StopLaw::Compliant { stiffness, damping, preload, opening };
+        let moving = |mut parts: MachineParts| {
+            for stop in &mut parts.stops {
+                stop.motion.push(HarmonicMotion { order: 2, cos: 0.03, sin: -0.02 });
+            }
+            Machine::new(parts).unwrap()
+        };
+        let pair = || {
+            let mut parts = MachineParts::new(["a", "b"])
+                .with_mass(0, 1.0)
+                .with_mass(1, 0.8)
+                .with_link(&[1.0, -1.0], 1.1, 0.12)
+                .with_link(&[0.0, 1.0], 0.9, 0.1)
+                .with_frequency(0.8)
+                .with_force(1, 1, 0.0, 0.9)
+                .with_force(0, 2, 0.1, 0.0);
+            (parts.mass[(0, 1)], parts.mass[(1, 0)]) = (0.1, 0.1);
+            parts.constant[0] = 0.05;
+            parts
+        };
+        let mut ball = MachineParts::new(["ball"])
+            .with_mass(0, 1.0)
+            .with_frequency(1.0)
+            .with_constant(0, -1.0)
+            .with_rigid_stop("table", &[-1.0], 0.0, 0.3);
+        ball.stops[0].motion.push(HarmonicMotion { order: 1, cos: 0.0, sin: -1.6 });
+        // nothing holds them
+        let mut free = MachineParts::new(["frame", "ball"])
+            .with_mass(0, 2.0)
+            .with_mass(1, 0.5)
+            .with_link(&[1.0, 0.0], 0.0, 0.3)
+            .with_link(&[0.0, 1.0], 0.0, 0.1)
+            .with_constant(0, 0.05)
+            .with_frequency(1.3)
+            .with_force(0, 1, 0.0, 3.0)
+            .with_rigid_stop("right", &[-1.0, 1.0], 0.3, 0.6)
+            .with_rigid_stop("left", &[1.0, -1.0], 0.3, 0.6);
+        (free.mass[(0, 1)], free.mass[(1, 0)]) = (0.05, 0.05);
+        vec![
+            machine(false),
+            machine(true),
+            on_belt(),
+            moving(pair().with_rigid_stop("wall", &[1.0, 0.0], 0.4, 0.6).with_rigid_stop(
+                "other",
+                &[-1.0, 0.2],
+                0.5,
+                0.3,
+            )),
+            moving(pair().with_stop("pad", &[1.0, -0.3], 0.3, soft(9.0, 0.7, 0.2, Opening::Position))),
+            moving(pair().with_stop("pad", &[1.0, 0.0], 0.3, soft(20.0, 1.5, 0.1, Opening::Force))),
+            moving(pair().with_rigid_stop("wall", &[1.0, 0.0], 0.1, 0.0)),
+            moving(pair().with_rigid_stop("wall", &[1.0, 0.0], 0.4, 0.6).with_joint(
+                "floor",
+                &[0.0, 1.0],
+                0.35,
+                0.5,
+                0.0,
+            )),
+            Machine::new(ball).unwrap(),
+            Machine::new(free).unwrap(),
+        ]
+    }
+
+    /// The derivatives of the residuals by each number of a machine against differences of machines with other numbers.
+    #[test]
+    fn derivatives_by_every_number() {
+        let (mut kinds, mut compared) = (std::collections::BTreeSet::new(), 0);
+        for (place, machine) in machines().into_iter().enumerate() {
+            let settled = settle_machine(&machine, &MachineStart::default(), &SettleOptions::default()).unwrap();
+            let MachineVerdict::Periodic(cycle) = settled.verdict else { panic!("{place} {settled:?}") };
+            let frame = MachineFrame::new(&machine);
+            let ring = MachineRing::of(&frame, &cycle.strobes[0], (cycle.label.periods, cycle.period)).unwrap();
+            kinds.extend(
+                ring.events.iter().map(|event| format!("{:?}", event.guard).split('(').next().unwrap().to_owned()),
+            );
+            let unknowns = ring.unknowns(&StateShape::of(&machine));
+            let mut paths: Vec<String> = machine.numbers().into_iter().map(|(path, _)| path).collect();
+            for name in &machine.parts().coordinates {
+                paths.extend(machine.stops().iter().map(|stop| format!("stop.{}.direction.{name}", stop.name)));
+                paths.extend(machine.joints().iter().map(|joint| format!("friction.{}.direction.{name}", joint.name)));
+            }
+            for path in paths {
+                let value = machine.number(&path).unwrap();
+                let (family, _) = MachineFamily::of_path(&machine, &path).unwrap();
+                let exact = ring.by_number(&frame, &family.rate(value, 1.0).unwrap()).unwrap();
+                let at = |h: f64| {
+                    let machine = family.at(value + h)?;
+                    Some(misses(&ring.with(&machine, &unknowns), &MachineFrame::new(&machine)))
+                };
+                let h = 1e-4;
+                let all = [at(h), at(-h), at(2.0 * h), at(-2.0 * h)];
+                let [Some(a), Some(b), Some(c), Some(d)] = all else { continue };
+                for (i, exact) in exact.iter().enumerate() {
+                    let difference = (8.0 * (a[i] - b[i]) - (c[i] - d[i])) / (12.0 * h);
+                    let close = (difference - exact).abs() < 2e-9 * (1.0 + exact.abs());
+                    assert!(close, "{place} {path} {i}: {exact} is not {difference}");
+                    compared += 1;
+                }
+            }
+        }
+        println!("{kinds:?} {compared}");
+        assert!(compared > 2000, "{compared}");
     }
 }

@@ -1,6 +1,6 @@
 //! A machine as a function of one number.
 
-use crate::machine::{Machine, MachineError};
+use crate::machine::{Machine, MachineError, MachineParts};
 use core::fmt;
 use std::sync::Arc;
 
@@ -29,6 +29,11 @@ impl MachineFamily {
     #[must_use]
     pub fn at(&self, value: f64) -> Option<Machine> {
         (self.0)(value)
+    }
+
+    /// The derivatives of the numbers of the machine at a value, for a number of this scale.
+    pub(crate) fn rate(&self, value: f64, scale: f64) -> Option<MachineParts> {
+        MachineParts::rate(&|value| self.at(value).map(|machine| machine.parts().clone()), (value, scale))
     }
 }
 

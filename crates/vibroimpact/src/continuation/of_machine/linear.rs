@@ -1,13 +1,10 @@
-//! What the equations of branches and of curves share: weights, residuals with their derivatives by the unknowns of the
-//! events, and derivatives by a number of the machine.
+//! What the equations of branches and of curves share: weights, and residuals with their derivatives by the unknowns of the
+//! events.
 
 use crate::events::StateShape;
 use crate::machine::Machine;
 use crate::orbit::{MachineFrame, MachineRing};
 use core::f64::consts::TAU;
-
-/// The step of differences by a number, relative to its scale.
-const STEP: f64 = 1e-3;
 
 /// Adapts the weights of the unknowns of a ring, the first of `w`, to the period: without forcing a change of all times by a
 /// part of the period has the same length for each period. Returns whether there is no forcing.
@@ -60,26 +57,4 @@ pub(crate) fn linearised(frame: &MachineFrame<'_>, ring: &MachineRing, w: &[f64]
         }
     }
     Some((miss, rows))
-}
-
-/// The derivatives of the residuals `misses` by a number of this `scale` at `value`, from differences of the fourth order
-/// whose own error is about 1e-12 of the largest terms.
-pub(crate) fn by_number(misses: impl Fn(f64) -> Option<Vec<f64>>, (value, scale): (f64, f64)) -> Option<Vec<f64>> {
-    let mut h = STEP * scale.min(value.abs().max(0.1 * scale));
-    for _ in 0..8 {
-        let at = |k: f64| misses(value + k * h);
-        if let (Some(a), Some(b), Some(c), Some(d)) = (at(1.0), at(-1.0), at(2.0), at(-2.0)) {
-            let slope = |i: usize| (8.0 * (a[i] - b[i]) - (c[i] - d[i])) / (12.0 * h);
-            return Some((0..a.len()).map(slope).collect());
-        }
-        // beside the end of the allowed numbers: one-sided differences of the second order
-        for side in [1.0, -1.0] {
-            if let (Some(a), Some(b), Some(c)) = (at(0.0), at(0.05 * side), at(0.1 * side)) {
-                let slope = |i: usize| side * (4.0 * b[i] - 3.0 * a[i] - c[i]) / (0.1 * h);
-                return Some((0..a.len()).map(slope).collect());
-            }
-        }
-        h *= 0.1;
-    }
-    None
 }

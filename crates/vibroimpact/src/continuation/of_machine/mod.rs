@@ -51,7 +51,7 @@ pub(crate) use complete_chatter::{ADAPTED, CompleteChatter};
 pub(crate) use edge::edge;
 pub use family::MachineFamily;
 pub(crate) use joined::join;
-pub(crate) use linear::{by_number, linearised, weigh, weights};
+pub(crate) use linear::{linearised, weigh, weights};
 pub(crate) use matched::matched;
 pub use point::{MachineBranchEvent, MachinePoint};
 pub(crate) use problem::{CLOSED, Judged, judge, over_pairs, seen_on};

@@ -24,7 +24,7 @@ use super::options::{RegionKind, RegionOptions};
 use super::outline::outline;
 use super::polygon::{Bound, Polygon, Region, Vertex};
 use crate::continuation::curves::Frame;
-use crate::math::hypot;
+use crate::math::{hypot, sort_by};
 use crate::system::{Oscillator, Parameter, Side};
 
 /// The region of the motion without impacts of `osc` in a frame of two parameters.
@@ -133,7 +133,7 @@ impl Limit {
             }
         }
         breaks.retain(|x| *x > self.x.low && *x < self.x.high);
-        breaks.sort_by(f64::total_cmp);
+        sort_by(&mut breaks, f64::total_cmp);
         breaks.dedup();
         breaks
     }

@@ -44,7 +44,7 @@ use crate::verdict::{Count, Label};
 pub fn region(osc: &Oscillator, label: Label, kind: RegionKind, frame: &Frame, options: RegionOptions) -> Region {
     // it is never stopped
     let nothing = Region { polygons: Vec::new(), unresolved: Vec::new() };
-    region_while(osc, label, kind, frame, options, || true).unwrap_or(nothing)
+    region_while(osc, label, kind, frame, options, &|| true).unwrap_or(nothing)
 }
 
 /// The same as [`region`], but stopped when `go_on` returns false, and then `None`. `go_on` is called at every point of
@@ -56,12 +56,12 @@ pub fn region_while(
     kind: RegionKind,
     frame: &Frame,
     options: RegionOptions,
-    go_on: impl Fn() -> bool,
+    go_on: &dyn Fn() -> bool,
 ) -> Option<Region> {
     if label.impacts == Count::Finite(0) {
         return go_on().then(|| free_region(osc, kind, frame, options));
     }
-    let mut search = Search::new(osc, frame, kind, options, &go_on);
+    let mut search = Search::new(osc, frame, kind, options, go_on);
     search.run(label);
     go_on().then_some(search.region)
 }

@@ -8,7 +8,7 @@ use super::sheet_walk::{Edge, SheetWalk};
 use super::singular::INWARDS;
 use crate::continuation::curves::Frame;
 use crate::continuation::equations::plane_equations::Plane;
-use crate::math::sin_cos;
+use crate::math::{sin_cos, sort_by};
 use crate::orbit::{Cycle, DEFAULT_EVENTS, FindOptions, Orbit, Ring, from_release, struck};
 use crate::system::Oscillator;
 use crate::verdict::{Count, Label};
@@ -265,7 +265,7 @@ impl<'a> Search<'a> {
                     (crate::math::hypot((u - x) / scales.0, (v - y) / scales.1), k)
                 })
                 .collect();
-            places.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            sort_by(&mut places, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
             places.truncate(PLACES * PLACES);
             places.iter().step_by(PLACES).find_map(|&(_, k)| walk.reach(&trail[k], at, below))
         })

@@ -10,6 +10,7 @@
 use super::equations::{Equations, correct, tangent};
 use super::root;
 use super::step_length::StepLength;
+use crate::math::sort_by;
 use core::f64::consts::TAU;
 use core::fmt::Debug;
 
@@ -247,7 +248,7 @@ impl<P: Problem> Tracer<P> {
                 }
             }
         }
-        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        sort_by(&mut found, |a, b| a.0.total_cmp(&b.0));
         Some(found)
     }
 

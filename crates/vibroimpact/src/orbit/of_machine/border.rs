@@ -25,7 +25,7 @@ const GUESSES: u32 = 16;
 pub(super) fn on_border(
     frame: &MachineFrame<'_>,
     (a, b): (&MachineCycle, &MachineCycle),
-    go_on: impl Fn() -> bool,
+    go_on: &dyn Fn() -> bool,
 ) -> Vec<Place> {
     find(frame, (a, b), go_on).unwrap_or_default()
 }
@@ -33,7 +33,7 @@ pub(super) fn on_border(
 fn find(
     frame: &MachineFrame<'_>,
     (a, b): (&MachineCycle, &MachineCycle),
-    go_on: impl Fn() -> bool,
+    go_on: &dyn Fn() -> bool,
 ) -> Option<Vec<Place>> {
     let time = frame.time(a.label.periods.max(b.label.periods), a.period.max(b.period));
     let (from, other) = (a.strobes.first()?, b.strobes.first()?);

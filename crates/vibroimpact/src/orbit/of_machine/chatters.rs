@@ -168,7 +168,7 @@ impl Chatter {
         ring.places[self.rest].states.clone_from(&open);
         let event = &mut ring.events[self.rest];
         (event.after, event.pushed[0].1) = (open, false);
-        let miss = ring.block(frame, before, false)?.miss;
+        let miss = ring.miss(frame, before)?;
         let wanted = frame.shape.values(&ring.places[self.rest]);
         let values: Vec<f64> = wanted.iter().zip(&miss[1..]).map(|(wanted, miss)| wanted + miss).collect();
         ring.places[self.rest] = frame.shape.with_values(&ring.places[self.rest], &values);

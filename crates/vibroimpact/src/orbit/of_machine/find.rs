@@ -6,6 +6,7 @@ use super::frame::MachineFrame;
 use super::near_returns::near_returns;
 use crate::events::{MachineLimits, MachineMotion, MachineStart};
 use crate::machine::Machine;
+use crate::math::sort_by;
 use crate::orbit::Label;
 
 /// The forcing periods after which a motion is a guess.
@@ -29,14 +30,26 @@ pub fn find_machine_while(
     machine: &Machine,
     label: Label,
     starts: impl IntoIterator<Item = MachineStart>,
-    go_on: impl Fn() -> bool,
+    go_on: &dyn Fn() -> bool,
 ) -> Option<Vec<MachineCycle>> {
-    let frame = MachineFrame::new(machine);
+    let (frame, starts) = (MachineFrame::new(machine), &mut starts.into_iter());
+    match machine.period() {
+        Some(period) => forced(&frame, (label, period), starts, go_on),
+        None => unforced(&frame, label, starts, go_on),
+    }
+}
+
+/// The cycles of a machine whose forcing has this period.
+fn forced(
+    frame: &MachineFrame<'_>,
+    (label, period): (Label, f64),
+    starts: &mut dyn Iterator<Item = MachineStart>,
+    go_on: &dyn Fn() -> bool,
+) -> Option<Vec<MachineCycle>> {
     // of all labels of as many periods
     let mut known: Vec<MachineCycle> = Vec::new();
-    let Some(period) = machine.period() else { return unforced(&frame, label, starts, go_on) };
     for start in starts {
-        let Ok(mut motion) = MachineMotion::new(machine, &start, MachineLimits::default()) else { continue };
+        let Ok(mut motion) = MachineMotion::new(frame.machine, &start, MachineLimits::default()) else { continue };
         let mut seen = 0;
         for after in AFTER {
             while motion.time() < after * period && seen < EVENTS && motion.step().is_some() {
@@ -46,16 +59,16 @@ pub fn find_machine_while(
             if !go_on() {
                 return None;
             }
-            learn(&mut known, MachineCycle::near(&frame, motion.place(), label.periods));
+            learn(&mut known, MachineCycle::near(frame, motion.place(), label.periods));
         }
     }
     let stable: Vec<MachineCycle> = known.iter().filter(|cycle| cycle.stable()).take(BETWEEN).cloned().collect();
     for (i, j) in (0..stable.len()).flat_map(|i| (0..i).map(move |j| (i, j))) {
-        for guess in on_border(&frame, (&stable[i], &stable[j]), &go_on) {
+        for guess in on_border(frame, (&stable[i], &stable[j]), go_on) {
             if !go_on() {
                 return None;
             }
-            learn(&mut known, MachineCycle::near(&frame, &guess, label.periods));
+            learn(&mut known, MachineCycle::near(frame, &guess, label.periods));
         }
     }
     Some(of_label(known, label))
@@ -65,8 +78,8 @@ pub fn find_machine_while(
 fn unforced(
     frame: &MachineFrame<'_>,
     label: Label,
-    starts: impl IntoIterator<Item = MachineStart>,
-    go_on: impl Fn() -> bool,
+    starts: &mut dyn Iterator<Item = MachineStart>,
+    go_on: &dyn Fn() -> bool,
 ) -> Option<Vec<MachineCycle>> {
     let mut known: Vec<MachineCycle> = Vec::new();
     let from = |known: &mut Vec<MachineCycle>, motion: MachineMotion<'_>| {
@@ -82,7 +95,7 @@ fn unforced(
     }
     let stable: Vec<MachineCycle> = known.iter().filter(|cycle| cycle.stable()).take(BETWEEN).cloned().collect();
     for (i, j) in (0..stable.len()).flat_map(|i| (0..i).map(move |j| (i, j))) {
-        if let Some(place) = on_border(frame, (&stable[i], &stable[j]), &go_on).into_iter().next() {
+        if let Some(place) = on_border(frame, (&stable[i], &stable[j]), go_on).into_iter().next() {
             from(&mut known, frame.resume(place))?;
         }
     }
@@ -92,7 +105,7 @@ fn unforced(
 /// The cycles with a label, the fastest last.
 fn of_label(known: Vec<MachineCycle>, label: Label) -> Vec<MachineCycle> {
     let mut found: Vec<MachineCycle> = known.into_iter().filter(|cycle| cycle.label == label).collect();
-    found.sort_by(|a, b| a.fastest().total_cmp(&b.fastest()));
+    sort_by(&mut found, |a, b| a.fastest().total_cmp(&b.fastest()));
     found
 }
 

@@ -6,7 +6,8 @@
 //! | the motion over a time, with its derivative | `lap` |
 //! | the multipliers of a cycle | `multipliers` |
 //! | whether rounding errors decide the period of one that rests | `rounding` |
-//! | the events of a cycle as unknowns, and their equations | `ring` |
+//! | the events of a cycle as unknowns | `ring` |
+//! | their equations, and the derivatives | `flight` |
 //! | how many impacts of a chatter are among them | `chatters` |
 //! | the events of a motion | `of_motion` |
 //! | without forcing, where a motion passes the state of a cycle | `crossing` |
@@ -22,6 +23,7 @@ mod closing;
 mod crossing;
 mod cycle;
 mod find;
+mod flight;
 mod frame;
 mod lap;
 mod multipliers;

@@ -11,7 +11,7 @@
 use super::frame::MachineFrame;
 use super::lap::MachineLap;
 use crate::events::{FrameChange, Place, TangentStep, tangent_steps};
-use crate::math::{Matrix, Multiplier, add_scaled, dot, exp, general_eigenvalues, ln};
+use crate::math::{Matrix, Multiplier, add_scaled, dot, exp, general_eigenvalues, ln, sort_by};
 
 /// A multiplier and the logarithm of its modulus, which says how small it is where it underflows; minus infinity if it is 0.
 #[derive(Clone, Copy, Debug)]
@@ -127,7 +127,7 @@ fn by_frames(
             found.extend(block(&turn, &changes, &logs, (begin, end))?);
             begin = end;
         }
-        found.sort_by(|a: &Stretching, b| b.log.total_cmp(&a.log));
+        sort_by(&mut found, |a: &Stretching, b| b.log.total_cmp(&a.log));
         return Some(found);
     }
     None

@@ -6,6 +6,7 @@
 use super::frame::MachineFrame;
 use super::ring::RingEvent;
 use crate::events::{MachineMotion, Place};
+use crate::math::sort_by;
 use crate::orbit::Count;
 
 /// The events of a motion after which its returns are looked for.
@@ -46,7 +47,7 @@ pub(super) fn near_returns(frame: &MachineFrame<'_>, motion: MachineMotion<'_>, 
             .fold((0.0, 0.0), |(x, v): (f64, f64), own| (x.max(own.0), v.max(own.1)));
         let mut nearest: Vec<(f64, &Passed)> =
             window.iter().filter(returns).map(|to| (frame.distance(&from.place, &to.place, sizes), to)).collect();
-        nearest.sort_by(|a, b| a.0.total_cmp(&b.0));
+        sort_by(&mut nearest, |a, b| a.0.total_cmp(&b.0));
         guesses.extend(nearest.iter().take(NEAREST).map(|(_, to)| (from.place.clone(), to.time - from.time)));
     }
     guesses

@@ -18,10 +18,11 @@
 //! cycle can begin at any time. Here it ends at the phase 0, so the phase of the first event is an unknown like the others:
 //! its negative is the period.
 
+use super::flight::MachineBlock;
 use super::frame::MachineFrame;
 use crate::arc::Recovery;
-use crate::events::{EventLaw, LinearEvent, Passage, Place, StateShape, standing_back};
-use crate::machine::{Machine, StopLaw};
+use crate::events::{Passage, Place, StateShape, standing_back};
+use crate::machine::Machine;
 use crate::math::{Matrix, add_scaled};
 use crate::regime::{ContactState, GuardKind, Structure, Translations};
 use crate::system::{decay, phase};
@@ -30,9 +31,6 @@ use std::sync::Arc;
 
 /// Two parts of a cycle that differ by less are the same.
 const ALIKE: f64 = 3e-4;
-
-/// A contact that vanishes may last for a negative time, as a phase up to this: its solutions are not admissible then.
-const BRIEF: f64 = 0.05;
 
 /// The least depth at an opening by force, for contacts that vanish, and the size below which a surface has come back.
 const LEAST: (f64, f64) = (1e-12, 1e-300);
@@ -94,18 +92,6 @@ pub(crate) struct MachineRing {
     pub(crate) pace: f64,
     /// An event that may come at the same time as the next one, or by rounding after it.
     pub(crate) together: Option<usize>,
-}
-
-/// One flight of a cycle and the event at its end, to first order.
-pub(crate) struct MachineBlock {
-    /// The residuals: of the guard, and of the state after the event.
-    pub(crate) miss: Vec<f64>,
-    /// Their derivatives by phase and state at the beginning,
-    pub(crate) left: Matrix,
-    /// and by the phase at the end. Those by the state after the event are -1 on the diagonal.
-    pub(crate) late: Vec<f64>,
-    /// The derivative of the state after the event by that after the one before; `None` where the guard is touched.
-    pub(crate) step: Option<Matrix>,
 }
 
 impl MachineRing {
@@ -205,7 +191,7 @@ impl MachineRing {
     /// Whether a contact rests or holds from event `k` to the next one and not before and after. Such a flight may end before
     /// it begins: the solution is not admissible then, but with it the one at which the rest takes no time is located as a
     /// zero like others.
-    fn rests(&self, k: usize) -> bool {
+    pub(super) fn rests(&self, k: usize) -> bool {
         let m = self.len();
         let (before, own) = (&self.events[(k + m - 1) % m].after, &self.events[k].after);
         let RingEvent { guard, after: next, back, .. } = &self.events[(k + 1) % m];
@@ -225,7 +211,7 @@ impl MachineRing {
     }
 
     /// Whether the contact after event `k` begins and ends at the depth zero.
-    fn is_between_zeros(&self, k: usize) -> bool {
+    pub(super) fn is_between_zeros(&self, k: usize) -> bool {
         let m = self.len();
         let ends = matches!(self.events[(k + 1) % m].guard, GuardKind::Depth(_));
         self.contact(k).is_some_and(|stop| ends && !self.events[(k + m - 1) % m].back[stop])
@@ -261,110 +247,6 @@ impl MachineRing {
             }
         }
         Some(())
-    }
-
-    /// The flight after event `k` and the event at its end; the derivatives only if `linear`.
-    pub(crate) fn block(&self, frame: &MachineFrame<'_>, k: usize, linear: bool) -> Option<MachineBlock> {
-        let frequency = self.frequency(frame.machine);
-        let (mut from, next) = (self.place(k), (k + 1) % self.len());
-        frame.constrain(&mut from)?;
-        let event = &self.events[next];
-        let time = self.time(k, frame.machine);
-        let brief = self.contact(k).is_some() && time * frequency > -BRIEF;
-        if !((time > 0.0 || self.together == Some(k) || self.rests(k) || brief) && time.is_finite()) {
-            return None;
-        }
-        let divisor = if self.is_between_zeros(k) { time } else { 1.0 };
-        if divisor == 0.0 {
-            return None;
-        }
-        let structure = frame.structure(&from.states)?;
-        let before = frame.moved(&from, &structure, time);
-        let of = |kind: &GuardKind| structure.guards.iter().position(|guard| guard.kind == *kind);
-        let guards: Vec<usize> = core::iter::once(&event.guard).chain(&event.with).map(of).collect::<Option<_>>()?;
-        let restitution = |j: usize| match frame.machine.stops()[j].law {
-            StopLaw::Rigid { restitution } => restitution,
-            StopLaw::Compliant { .. } => 0.0,
-        };
-        let pushed: Vec<(usize, f64)> =
-            event.pushed.iter().map(|(j, still)| (*j, if *still { 0.0 } else { restitution(*j) })).collect();
-        let law = EventLaw { structure: &structure, guards: &guards, pushed: &pushed, rounds: &event.rounds };
-        let mut arrived = before.clone();
-        arrived.v = law.rebound(&frame.normal, &before)?;
-        arrived.states.clone_from(&event.after);
-        let turns = before.turns(&frame.normal);
-        for (j, back) in event.back.iter().enumerate() {
-            match (before.surfaces[j], back) {
-                (None, true) => {
-                    let depth = -before.gap(&frame.normal, &turns, j).0;
-                    arrived.surfaces[j] = Some(standing_back(&frame.machine.stops()[j].law, depth)?);
-                }
-                (_, false) => arrived.surfaces[j] = None,
-                _ => {}
-            }
-        }
-        let to = self.place(next);
-        let (reached, wanted) = (frame.shape.values(&arrived), frame.shape.values(&to));
-        let free = &frame.normal.translations;
-        let closes = next == 0 && !free.is_empty();
-        let mut miss = vec![law.value(&frame.normal, &before) / divisor];
-        miss.extend(reached.iter().zip(&wanted).map(|(reached, wanted)| reached - wanted));
-        if closes {
-            free.remove(&mut miss[1..]);
-            let part = free.part(&to.x);
-            add_scaled(&mut miss[1..=part.len()], -1.0, &part);
-        }
-        let size = frame.shape.size();
-        if !linear {
-            return Some(MachineBlock { miss, left: Matrix::zeros(0, 0), late: Vec::new(), step: None });
-        }
-        let after = frame.structure(&event.after)?;
-        let mut other = |states: &[ContactState]| frame.structure(states);
-        let linear = LinearEvent::at(&frame.shape, &frame.normal, &law, &before, (&arrived, &after), &mut other)?;
-        let first = linear.guards.first()?;
-        let transition = frame.shape.transition(&structure, &frame.normal, &from, time);
-        let start = frame.shape.flow(&structure, &frame.normal, &from);
-        let through = linear.reset.times(&transition);
-        let guarded = transition.apply_transposed(&first.gradient);
-        let mut left = Matrix::zeros(size + 1, size + 1);
-        // an earlier beginning at the same state: the flow at the beginning, carried to the end
-        left[(0, 0)] = -crate::math::dot(&guarded, &start) / frequency;
-        left.row_mut(0)[1..].copy_from_slice(&guarded);
-        let carried = through.apply(&start);
-        let ended = linear.reset.apply(&linear.flow_before);
-        let mut late = vec![first.rate / frequency];
-        for i in 0..size {
-            left[(i + 1, 0)] = -carried[i] / frequency;
-            left.row_mut(i + 1)[1..].copy_from_slice(through.row(i));
-            late.push((ended[i] + linear.reset_rate[i]) / frequency);
-        }
-        if self.is_between_zeros(k) {
-            left.row_mut(0).iter_mut().chain(&mut late[..1]).for_each(|value| *value /= time);
-            left[(0, 0)] += miss[0] / (time * frequency);
-            late[0] -= miss[0] / (time * frequency);
-        }
-        if closes {
-            free.remove_from_columns(&mut left, 1);
-            free.remove(&mut late[1..]);
-        }
-        // nothing jumps at a touch
-        let step = if event.touches(&from.states) {
-            Some(through)
-        } else {
-            linear.saltation().map(|saltation| saltation.times(&transition))
-        };
-        Some(MachineBlock { miss, left, late, step })
-    }
-
-    /// All flights to first order; `None` if one is not defined.
-    pub(crate) fn blocks(&self, frame: &MachineFrame<'_>) -> Option<Vec<MachineBlock>> {
-        (0..self.len()).map(|k| self.block(frame, k, true)).collect()
-    }
-
-    /// The residuals of all flights.
-    pub(crate) fn misses(&self, frame: &MachineFrame<'_>) -> Option<Vec<f64>> {
-        let blocks: Option<Vec<MachineBlock>> = (0..self.len()).map(|k| self.block(frame, k, false)).collect();
-        Some(blocks?.into_iter().flat_map(|block| block.miss).collect())
     }
 
     /// Writes the derivatives of all residuals into the first columns of a matrix of rows of this length. After one period

@@ -7,12 +7,10 @@
 //! |---|---|
 //! | the quantities by name and path, and the parts of a machine | [`MachineQuantity`], [`MachinePart`] |
 //! | sums and extremes, and means with error bars | `sums` |
-//! | the panels over which a flight is integrated | `panels` |
 //! | sums along a motion: flights, impacts, chatters | `tally` |
 //! | the quantities of a steady motion | [`machine_quantities`], [`MachineQuantities`] |
 
 mod motion;
-mod panels;
 mod quantity;
 mod sums;
 mod tally;

@@ -1,13 +1,12 @@
 //! Sums and extremes along a motion of a machine: its flights, its impacts, its summed chatters.
 
-use super::panels::{panels, rates};
 use super::sums::{MachineExtremes, MachineSums};
 use crate::arc::{MachineFlight, Modes};
 use crate::events::{MachineEvent, Passage, Place, contact_forces};
 use crate::machine::StopLaw;
 use crate::math::{Gauss, POINTS, add_scaled, dot};
 use crate::orbit::MachineFrame;
-use crate::regime::{ContactState, Signal, Structure, compliant};
+use crate::regime::{ContactState, Signal, Structure, compliant, panels, rates};
 use crate::system::decay;
 use std::sync::Arc;
 

@@ -164,7 +164,7 @@ pub fn settle_machine(
 ) -> Result<MachineSettled, MachineError> {
     let frame = MachineFrame::new(machine);
     // it is never stopped
-    Ok(settle_in(frame, start, options, || true)?.unwrap_or(MachineSettled {
+    Ok(settle_in(frame, start, options, &|| true)?.unwrap_or(MachineSettled {
         verdict: MachineVerdict::Undecided { why: MachineUndecided::Events, spectrum: None, events: 0 },
         events: 0,
         time: 0.0,
@@ -180,7 +180,7 @@ pub fn settle_machine_while(
     machine: &Machine,
     start: &MachineStart,
     options: &SettleOptions,
-    go_on: impl Fn() -> bool,
+    go_on: &dyn Fn() -> bool,
 ) -> Result<Option<MachineSettled>, MachineError> {
     settle_in(MachineFrame::new(machine), start, options, go_on)
 }
@@ -196,7 +196,7 @@ fn settle_in<'a>(
     frame: MachineFrame<'a>,
     start: &MachineStart,
     options: &SettleOptions,
-    go_on: impl Fn() -> bool,
+    go_on: &dyn Fn() -> bool,
 ) -> Result<Option<MachineSettled>, MachineError> {
     // chatters and contacts take many events in each period
     let options = &SettleOptions { longest: options.longest.saturating_mul(EVENTS_PER_IMPACT), ..*options };

@@ -15,7 +15,7 @@ use super::rest_branch::{FoundEvent, RestBranch};
 use crate::contact::sticking::release_phase;
 use crate::continuation::trace::root;
 use crate::flight::Flight;
-use crate::math::sin_cos;
+use crate::math::{sin_cos, sort_by};
 use crate::orbit::{Excursion, Stretch, turning_near};
 use crate::system::{Oscillator, Side, phase};
 use core::f64::consts::PI;
@@ -43,7 +43,7 @@ impl RestBranch {
                 let off = |touched: &Touched| (touched.value - self.value).abs();
                 let mut touched: Vec<Touched> =
                     places.iter().filter_map(|&place| self.touch(place, to, there)).collect();
-                touched.sort_by(|a, b| off(a).total_cmp(&off(b)));
+                sort_by(&mut touched, |a, b| off(a).total_cmp(&off(b)));
                 let first = touched.first()?.value;
                 touched.retain(|touched| (touched.value - first).abs() <= TOGETHER * (1.0 + first.abs()));
                 self.graze(&touched, there)

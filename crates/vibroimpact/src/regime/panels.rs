@@ -10,8 +10,8 @@
 //! that at the beginning, relative to the size of the term there, and the error of a product with a slow term grows to
 //! $`10^{-16}`$. After $`e^{-40}`$ nothing is left of it. So a stiff mode with damping costs little in a long flight.
 
+use super::structure::Structure;
 use crate::math::exp;
-use crate::regime::Structure;
 
 /// The longest panel, in units of the time in which a term changes.
 const PANEL: f64 = 2.5;
@@ -19,7 +19,7 @@ const PANEL: f64 = 2.5;
 const GONE: f64 = 40.0;
 
 /// The rates of the terms of a flight, each with the rate at which it decays.
-pub(super) fn rates(structure: &Structure) -> Vec<(f64, f64)> {
+pub(crate) fn rates(structure: &Structure) -> Vec<(f64, f64)> {
     if structure.dense.is_some() {
         return vec![(structure.fastest(), 0.0)];
     }
@@ -39,7 +39,7 @@ pub(super) fn rates(structure: &Structure) -> Vec<(f64, f64)> {
 }
 
 /// The panels of a flight of this length: beginning and length of each; at most `most` of them, and then `None`.
-pub(super) fn panels(rates: &[(f64, f64)], duration: f64, most: usize) -> Option<Vec<(f64, f64)>> {
+pub(crate) fn panels(rates: &[(f64, f64)], duration: f64, most: usize) -> Option<Vec<(f64, f64)>> {
     let mut all = Vec::new();
     let mut begin = 0.0;
     while begin < duration {

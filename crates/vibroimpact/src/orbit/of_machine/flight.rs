@@ -1,0 +1,195 @@
+//! The flights of a ring and the events at their ends: residuals, and their derivatives by the unknowns and by a number of the
+//! machine.
+
+use super::frame::MachineFrame;
+use super::ring::{MachineRing, RingEvent};
+use crate::events::{ByNumber, EventLaw, LinearEvent, Place, standing_back};
+use crate::machine::{MachineParts, StopLaw};
+use crate::math::{Matrix, add_scaled, dot};
+use crate::regime::{ContactState, GuardKind, Structure};
+use std::sync::Arc;
+
+/// A contact that vanishes may last for a negative time, as a phase up to this: its solutions are not admissible then.
+const BRIEF: f64 = 0.05;
+
+/// One flight of a cycle and the event at its end, to first order.
+pub(crate) struct MachineBlock {
+    /// The residuals: of the guard, and of the state after the event.
+    pub(crate) miss: Vec<f64>,
+    /// Their derivatives by phase and state at the beginning,
+    pub(crate) left: Matrix,
+    /// and by the phase at the end. Those by the state after the event are -1 on the diagonal.
+    pub(crate) late: Vec<f64>,
+    /// The derivative of the state after the event by that after the one before; `None` where the guard is touched.
+    pub(crate) step: Option<Matrix>,
+}
+
+/// A flight of a ring, and the event at its end.
+struct RingFlight<'a> {
+    event: &'a RingEvent,
+    time: f64,
+    from: Place,
+    structure: Arc<Structure>,
+    /// The guards of the structure that are zero at the end, and the rigid stops that push there with their restitution.
+    guards: Vec<usize>,
+    pushed: Vec<(usize, f64)>,
+    /// The states before and after the event.
+    before: Place,
+    after: Place,
+    /// The state that the ring has after the event.
+    to: Place,
+    /// What the value of the guard is divided by.
+    divisor: f64,
+    /// Whether the cycle is closed but for translations.
+    drifts: bool,
+}
+
+impl RingFlight<'_> {
+    fn law(&self) -> EventLaw<'_> {
+        EventLaw { structure: &self.structure, guards: &self.guards, pushed: &self.pushed, rounds: &self.event.rounds }
+    }
+
+    fn miss(&self, frame: &MachineFrame<'_>) -> Vec<f64> {
+        let (reached, wanted) = (frame.shape.values(&self.after), frame.shape.values(&self.to));
+        let mut miss = vec![self.law().value(&frame.normal, &self.before) / self.divisor];
+        miss.extend(reached.iter().zip(&wanted).map(|(reached, wanted)| reached - wanted));
+        if self.drifts {
+            let free = &frame.normal.translations;
+            free.remove(&mut miss[1..]);
+            let part = free.part(&self.to.x);
+            add_scaled(&mut miss[1..=part.len()], -1.0, &part);
+        }
+        miss
+    }
+}
+
+impl MachineRing {
+    /// The flight after event `k`; `None` if it is not defined.
+    fn flight(&self, frame: &MachineFrame<'_>, k: usize) -> Option<RingFlight<'_>> {
+        let (mut from, next) = (self.place(k), (k + 1) % self.len());
+        frame.constrain(&mut from)?;
+        let event = &self.events[next];
+        let time = self.time(k, frame.machine);
+        let brief = self.contact(k).is_some() && time * self.frequency(frame.machine) > -BRIEF;
+        if !((time > 0.0 || self.together == Some(k) || self.rests(k) || brief) && time.is_finite()) {
+            return None;
+        }
+        let divisor = if self.is_between_zeros(k) { time } else { 1.0 };
+        if divisor == 0.0 {
+            return None;
+        }
+        let structure = frame.structure(&from.states)?;
+        let before = frame.moved(&from, &structure, time);
+        let of = |kind: &GuardKind| structure.guards.iter().position(|guard| guard.kind == *kind);
+        let guards: Vec<usize> = core::iter::once(&event.guard).chain(&event.with).map(of).collect::<Option<_>>()?;
+        let restitution = |j: usize| match frame.machine.stops()[j].law {
+            StopLaw::Rigid { restitution } => restitution,
+            StopLaw::Compliant { .. } => 0.0,
+        };
+        let pushed = event.pushed.iter().map(|(j, still)| (*j, if *still { 0.0 } else { restitution(*j) })).collect();
+        let drifts = next == 0 && !frame.normal.translations.is_empty();
+        let (to, after) = (self.place(next), before.clone());
+        let mut flight =
+            RingFlight { event, time, from, structure, guards, pushed, before, after, to, divisor, drifts };
+        flight.after.v = flight.law().rebound(&frame.normal, &flight.before)?;
+        flight.after.states.clone_from(&event.after);
+        let turns = flight.before.turns(&frame.normal);
+        for (j, back) in event.back.iter().enumerate() {
+            match (flight.before.surfaces[j], back) {
+                (None, true) => {
+                    let depth = -flight.before.gap(&frame.normal, &turns, j).0;
+                    flight.after.surfaces[j] = Some(standing_back(&frame.machine.stops()[j].law, depth)?);
+                }
+                (_, false) => flight.after.surfaces[j] = None,
+                _ => {}
+            }
+        }
+        Some(flight)
+    }
+
+    /// The flight after event `k` and the event at its end to first order.
+    pub(crate) fn block(&self, frame: &MachineFrame<'_>, k: usize) -> Option<MachineBlock> {
+        let flight = self.flight(frame, k)?;
+        let miss = flight.miss(frame);
+        let RingFlight { event, time, from, structure, before, after, .. } = &flight;
+        let frequency = self.frequency(frame.machine);
+        let size = frame.shape.size();
+        let next = frame.structure(&event.after)?;
+        let mut other = |states: &[ContactState]| frame.structure(states);
+        let linear = LinearEvent::at(&frame.shape, &frame.normal, &flight.law(), before, (after, &next), &mut other)?;
+        let first = linear.guards.first()?;
+        let transition = frame.shape.transition(structure, &frame.normal, from, *time);
+        let start = frame.shape.flow(structure, &frame.normal, from);
+        let through = linear.reset.times(&transition);
+        let guarded = transition.apply_transposed(&first.gradient);
+        let mut left = Matrix::zeros(size + 1, size + 1);
+        // an earlier beginning at the same state: the flow at the beginning, carried to the end
+        left[(0, 0)] = -dot(&guarded, &start) / frequency;
+        left.row_mut(0)[1..].copy_from_slice(&guarded);
+        let carried = through.apply(&start);
+        let ended = linear.reset.apply(&linear.flow_before);
+        let mut late = vec![first.rate / frequency];
+        for i in 0..size {
+            left[(i + 1, 0)] = -carried[i] / frequency;
+            left.row_mut(i + 1)[1..].copy_from_slice(through.row(i));
+            late.push((ended[i] + linear.reset_rate[i]) / frequency);
+        }
+        if self.is_between_zeros(k) {
+            left.row_mut(0).iter_mut().chain(&mut late[..1]).for_each(|value| *value /= time);
+            left[(0, 0)] += miss[0] / (time * frequency);
+            late[0] -= miss[0] / (time * frequency);
+        }
+        if flight.drifts {
+            frame.normal.translations.remove_from_columns(&mut left, 1);
+            frame.normal.translations.remove(&mut late[1..]);
+        }
+        // nothing jumps at a touch
+        let step = if event.touches(&from.states) {
+            Some(through)
+        } else {
+            linear.saltation().map(|saltation| saltation.times(&transition))
+        };
+        Some(MachineBlock { miss, left, late, step })
+    }
+
+    /// All flights to first order; `None` if one is not defined.
+    pub(crate) fn blocks(&self, frame: &MachineFrame<'_>) -> Option<Vec<MachineBlock>> {
+        (0..self.len()).map(|k| self.block(frame, k)).collect()
+    }
+
+    /// The residuals of the flight after event `k`.
+    pub(crate) fn miss(&self, frame: &MachineFrame<'_>, k: usize) -> Option<Vec<f64>> {
+        Some(self.flight(frame, k)?.miss(frame))
+    }
+
+    /// The derivatives of all residuals by a number of the machine, for the derivatives `parts` of its numbers by that one.
+    pub(crate) fn by_number(&self, frame: &MachineFrame<'_>, parts: &MachineParts) -> Option<Vec<f64>> {
+        let by = ByNumber::new(frame.machine, &frame.normal, parts);
+        let slopes: Option<Vec<Vec<f64>>> =
+            (0..self.len()).map(|k| self.flight(frame, k)?.by_number(frame, &by)).collect();
+        Some(slopes?.concat())
+    }
+}
+
+impl RingFlight<'_> {
+    /// The derivatives of the residuals by a number.
+    fn by_number(&self, frame: &MachineFrame<'_>, by: &ByNumber<'_>) -> Option<Vec<f64>> {
+        let law = self.law();
+        let flown = by.flown(&frame.shape, &self.structure, (&self.from, &self.before), self.time)?;
+        let mut guard = by.guard(&law, &self.before, &flown)? / self.divisor;
+        if self.divisor == self.time {
+            guard -= law.value(&frame.normal, &self.before) * by.duration(self.time) / (self.time * self.time);
+        }
+        let summed = |j: usize| self.event.pushed.iter().any(|(of, summed)| *of == j && *summed);
+        let after = by.after(&law, &summed, (&self.before, &self.after), flown)?;
+        let surfaces = frame.shape.surfaces.iter().map(|j| after.surfaces[*j]);
+        let mut slopes: Vec<f64> = core::iter::once(guard).chain(after.x).chain(after.v).chain(surfaces).collect();
+        if self.drifts {
+            let misses = self.after.x.iter().zip(&self.to.x);
+            let apart: Vec<f64> = misses.map(|(after, to)| after - to).collect();
+            frame.normal.translations.remove(&mut slopes[1..]);
+            by.turned(&apart, &self.to.x, &mut slopes[1..]);
+        }
+        Some(slopes)
+    }
+}
