@@ -318,7 +318,11 @@ impl<L: Lane> OfGroup<'_, L> {
             }
             bits &= bits - 1;
         }
-        columns.map(|column| L::load(&column))
+        let mut loaded = row;
+        for (loaded, column) in loaded.iter_mut().zip(&columns) {
+            *loaded = L::load(column);
+        }
+        loaded
     }
 }
 

@@ -59,7 +59,12 @@ impl UncertainSteps {
     #[inline(always)]
     pub(super) fn steps<N: Single>(&self, first: usize) -> (N, End<N>, End<N>) {
         let first = first.min(SEGMENT);
-        let [s, x, v, a, to_x, to_v, to_a] = core::array::from_fn(|k| N::load(&self.columns[k][first..first + WIDEST]));
+        // closures of the standard library are not always compiled for the processor's instructions, loops are
+        let mut loaded = [N::splat(0.0); 7];
+        for (loaded, column) in loaded.iter_mut().zip(&self.columns) {
+            *loaded = N::load(&column[first..first + WIDEST]);
+        }
+        let [s, x, v, a, to_x, to_v, to_a] = loaded;
         (s, End { x, v, a }, End { x: to_x, v: to_v, a: to_a })
     }
 }

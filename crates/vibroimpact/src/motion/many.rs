@@ -53,7 +53,7 @@ pub fn record_events(
     starts: &[Start],
     limits: SearchLimits,
     width: Width,
-    recorder: &mut impl EventRecorder,
+    recorder: &mut dyn EventRecorder,
 ) {
     let batch = if starts.len() < FEW { None } else { Batch::new(osc, MOST.min(starts.len()), width) };
     let mut events = Events { osc, starts, next: 0, recorder };
@@ -75,11 +75,11 @@ pub fn record_events(
     }
 }
 
-struct Events<'a, R> {
+struct Events<'a> {
     osc: &'a Oscillator,
     starts: &'a [Start],
     next: usize,
-    recorder: &'a mut R,
+    recorder: &'a mut dyn EventRecorder,
 }
 
 /// The number of a motion, and the time of its last event.
@@ -88,7 +88,7 @@ struct Track {
     time: Wide,
 }
 
-impl<R: EventRecorder> Recorder for Events<'_, R> {
+impl Recorder for Events<'_> {
     type Track = Track;
 
     fn track(&self) -> Track {

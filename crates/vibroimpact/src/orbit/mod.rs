@@ -33,6 +33,7 @@ mod physical;
 mod refine;
 mod release;
 mod ring;
+mod rounding;
 mod shooting;
 mod stability;
 
