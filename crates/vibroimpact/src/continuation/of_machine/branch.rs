@@ -196,7 +196,8 @@ impl MachineBranch {
                 };
                 other.and_then(middle).or_else(|| self.tracer.solution_along(one, along))
             };
-            let Some(at) = BESIDE.into_iter().find_map(solved) else { continue };
+            let shares = if event == MachineBranchEvent::BranchPoint { &BESIDE[SINGULAR..] } else { &BESIDE };
+            let Some(at) = shares.iter().copied().find_map(solved) else { continue };
             let any = |test: &dyn Fn(&Multiplier) -> bool| at.known.multipliers.iter().any(test);
             let near = |value: f64| any(&|m| (m.re - value).abs() + m.im.abs() < NEARBY);
             let real = match event {
@@ -423,6 +424,9 @@ const HERE: f64 = 1e-7;
 const ASIDE: f64 = 1e-6;
 /// Parts of a step by which an event may be moved where its equations are singular.
 const BESIDE: [f64; 7] = [0.0, 1e-8, -1e-8, 1e-6, -1e-6, 1e-4, -1e-4];
+/// The place in this list from which solutions at branch points are accurate: the error of a solution is a rounding error over the
+/// distance, that of the middle of two the square of the distance.
+const SINGULAR: usize = 5;
 
 impl Iterator for MachineBranch {
     type Item = MachinePoint;

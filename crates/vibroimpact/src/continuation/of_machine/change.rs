@@ -129,7 +129,11 @@ pub(crate) fn difference(ring: &MachineRing, judged: &Judged) -> Difference {
     if i < m && found.guard == expected.guard {
         if found.pushed.iter().map(|(j, _)| j).ne(expected.pushed.iter().map(|(j, _)| j)) {
             let other = found.pushed.iter().chain(&expected.pushed).map(|(j, _)| *j).find(|j| *j != own);
-            return Difference::Corner { first: own, second: other.unwrap_or(own) };
+            return match other {
+                Some(other) => Difference::Corner { first: own, second: other },
+                // a rest that takes no time begins with an impact of speed zero
+                None => Difference::Rest { place: own, joint: own >= stops, begins: found.after[own].constrains() },
+            };
         }
         let changed = (0..found.after.len()).find(|j| found.after[*j] != expected.after[*j]);
         let rests = |state: ContactState| state.constrains();
@@ -165,6 +169,10 @@ pub(crate) fn difference(ring: &MachineRing, judged: &Judged) -> Difference {
             if stop == same && judged.seen.len() == m =>
         {
             Difference::Corner { first: stop, second: stop }
+        }
+        // of one contact: a rest that begins or ends between them
+        _ if delayed && early && own == other => {
+            new().or_else(|| missing(expected)).unwrap_or(Difference::Other { place: Some(own) })
         }
         _ if delayed && early && judged.seen.len() == m => Difference::Corner { first: own, second: other },
         // only one of both explains the difference

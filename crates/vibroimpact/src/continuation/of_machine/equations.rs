@@ -184,7 +184,7 @@ mod tests {
             .with_rigid_stop("table", &[-1.0], 0.0, 0.3);
         ball.stops[0].motion.push(HarmonicMotion { order: 1, cos: 0.0, sin: -1.6 });
         // nothing holds them
-        let mut free = MachineParts::new(["frame", "ball"])
+        let free = MachineParts::new(["frame", "ball"])
             .with_mass(0, 2.0)
             .with_mass(1, 0.5)
             .with_link(&[1.0, 0.0], 0.0, 0.3)
@@ -194,7 +194,6 @@ mod tests {
             .with_force(0, 1, 0.0, 3.0)
             .with_rigid_stop("right", &[-1.0, 1.0], 0.3, 0.6)
             .with_rigid_stop("left", &[1.0, -1.0], 0.3, 0.6);
-        (free.mass[(0, 1)], free.mass[(1, 0)]) = (0.05, 0.05);
         vec![
             machine(false),
             machine(true),
@@ -234,14 +233,20 @@ mod tests {
             );
             let unknowns = ring.unknowns(&StateShape::of(&machine));
             let mut paths: Vec<String> = machine.numbers().into_iter().map(|(path, _)| path).collect();
-            for name in &machine.parts().coordinates {
+            let names = &machine.parts().coordinates;
+            if let [one, other] = names.as_slice() {
+                paths.extend(["mass", "damping", "stiffness"].map(|matrix| format!("{matrix}.{one}.{other}")));
+            }
+            for name in names {
                 paths.extend(machine.stops().iter().map(|stop| format!("stop.{}.direction.{name}", stop.name)));
                 paths.extend(machine.joints().iter().map(|joint| format!("friction.{}.direction.{name}", joint.name)));
             }
             for path in paths {
                 let value = machine.number(&path).unwrap();
                 let (family, _) = MachineFamily::of_path(&machine, &path).unwrap();
-                let exact = ring.by_number(&frame, &family.rate(value, 1.0).unwrap()).unwrap();
+                // without springs another stiffness is not allowed
+                let Some(rate) = family.rate(value, 1.0) else { continue };
+                let exact = ring.by_number(&frame, &rate).unwrap();
                 let at = |h: f64| {
                     let machine = family.at(value + h)?;
                     Some(misses(&ring.with(&machine, &unknowns), &MachineFrame::new(&machine)))
