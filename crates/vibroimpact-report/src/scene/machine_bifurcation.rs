@@ -121,7 +121,7 @@ pub fn machine_bifurcation(
         // the task of this plan has no other result
         return Err(ReportError::NoLabels.into());
     };
-    let line = MachineLine::new(&plan.machine, cut, POINTS);
+    let line = MachineLine::new(&plan.machine, &cut, POINTS);
     let mut branches: Vec<Vec<MachinePoint>> = Vec::new();
     let mut seen: Vec<MachineOrigin> = Vec::new();
     for (value, cycle) in seeds.iter().flat_map(|(value, cycles)| cycles.iter().map(move |(cycle, _)| (*value, cycle)))

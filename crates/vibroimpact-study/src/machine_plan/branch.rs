@@ -131,7 +131,7 @@ pub(super) fn branch(
     let cut = plan.cut(source)?;
     let (from, to) = cut.ends;
     let ChosenCycle { cycle, among } = orbits::chosen(problem, (plan.label.as_deref(), plan.orbit), control)?;
-    let line = MachineLine::new(source, cut, plan.points);
+    let line = MachineLine::new(source, &cut, plan.points);
     let direction = if to > from { Direction::Up } else { Direction::Down };
     let points = line.trace((from, &cycle), direction, control)?;
     let followed = line.beginning_on(&points, plan.follow as usize, &mut Vec::new(), control)?;
@@ -154,7 +154,7 @@ const SAME: f64 = 1e-7;
 impl MachineLine {
     /// A line, and the largest number of points of each branch.
     #[must_use]
-    pub fn new(source: &MachineSource, cut: MachineCut, points: u32) -> Self {
+    pub fn new(source: &MachineSource, cut: &MachineCut, points: u32) -> Self {
         let (from, to) = cut.ends;
         let family = cut.family(source);
         let options = BranchOptions { points, ..BranchOptions::default() };

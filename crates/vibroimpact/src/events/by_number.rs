@@ -49,6 +49,9 @@ struct Instant<'a> {
     begin: &'a [f64],
 }
 
+/// Stiffness, damping and preload of a compliant stop.
+type Law = (f64, f64, f64);
+
 /// A change of the state: of coordinates, velocities, and surfaces that stand back.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct StateChange {
@@ -108,7 +111,7 @@ impl<'a> ByNumber<'a> {
     }
 
     /// The numbers of a compliant stop, and their changes.
-    fn law(&self, stop: usize) -> Option<((f64, f64, f64), (f64, f64, f64))> {
+    fn law(&self, stop: usize) -> Option<(Law, Law)> {
         Some((compliant(&self.machine.stops()[stop].law)?, compliant(&self.parts.stops[stop].law)?))
     }
 

@@ -64,7 +64,7 @@ mod tests {
                     })
                     .collect();
                 let mut standard = list.clone();
-                standard.sort_by(|a, b| a.0.cmp(&b.0));
+                standard.sort_by_key(|(key, _)| *key);
                 sort_by_key(&mut list, |(key, _)| *key);
                 assert_eq!(list, standard);
             }
