@@ -152,9 +152,6 @@ impl<'py> Fields<'py> {
             Verdict::Undecided(Undecided::Search { periods }) => {
                 Self { tried: tried(None, Some(*periods), None), ..bare }
             }
-            Verdict::Undecided(Undecided::Rounding { impacts }) => {
-                Self { tried: tried(Some(*impacts), None, None), ..bare }
-            }
         }
     }
 

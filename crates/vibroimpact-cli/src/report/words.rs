@@ -211,9 +211,6 @@ fn grounds(verdict: &Verdict, units: &Units) -> String {
             "a flight was followed for {} forcing periods without contact, too few to conclude",
             short(*periods)
         ),
-        Verdict::Undecided(Undecided::Rounding { impacts }) => format!(
-            "it is periodic, as it returns to a release after about {impacts} impacts, but rounding errors decide its period"
-        ),
     }
 }
 

@@ -221,9 +221,6 @@ impl MotionFields {
             Verdict::Undecided(Undecided::Search { periods }) => {
                 Self { tried: Some(Tried { impacts: None, periods: Some(*periods), lyapunov: None }), ..bare }
             }
-            Verdict::Undecided(Undecided::Rounding { impacts }) => {
-                Self { tried: Some(Tried { impacts: Some(*impacts), periods: None, lyapunov: None }), ..bare }
-            }
         }
     }
 

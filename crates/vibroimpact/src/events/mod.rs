@@ -11,7 +11,7 @@
 //! | the state at one time | `place` |
 //! | a whole state as a start, and back | [`ContactStart`], `state` |
 //! | which stops rest and which joints hold | `resolve` |
-//! | one step of a motion, and its derivatives by the state and by a number | `passage`, `saltation`, `by_number` |
+//! | one step of a motion, and its derivatives by the state and by a number | `passage`, `saltation`, `by_number`, `event_by_number` |
 //! | differences of neighbouring motions, and how they are stretched | `tangents` |
 //! | the motion as an iterator over its events | [`MachineMotion`] |
 //! | what it does between two events | [`MachineStretches`], `stretch` |
@@ -25,6 +25,7 @@ mod collapse;
 mod collision;
 mod contact_force;
 mod event;
+mod event_by_number;
 mod given;
 mod impulses;
 mod instants;

@@ -9,7 +9,7 @@ const SHORT: usize = 16;
 ///
 /// ```
 /// use vibroimpact::math::sort_by;
-/// let mut speeds = vec![0.4, 1.5, 0.1];
+/// let mut speeds = vec![0.4_f64, 1.5, 0.1];
 /// sort_by(&mut speeds, |a, b| b.total_cmp(a));
 /// assert_eq!(speeds, [1.5, 0.4, 0.1]);
 /// ```

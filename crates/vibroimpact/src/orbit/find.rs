@@ -4,7 +4,7 @@ use super::grazing::grazes;
 use super::label::{Count, Label};
 use super::physical::Orbit;
 use super::ring::Ring;
-use super::{DEFAULT_EVENTS, Excursion, flight_limits, newton, one_impact, without_impacts};
+use super::{DEFAULT_EVENTS, flight_limits, from_release, newton, one_impact, without_impacts};
 use crate::math::sort_by;
 use crate::motion::{ImpactMap, ImpactState, Mapped};
 use crate::system::{Oscillator, Side};
@@ -57,8 +57,7 @@ pub fn find_while(
 ) -> Option<Vec<Orbit>> {
     let mut orbits: Vec<Orbit> = osc
         .stops()
-        .filter_map(|(side, _)| Excursion::new(osc, side, DEFAULT_EVENTS, f64::INFINITY))
-        .filter_map(|excursion| excursion.cycle().filter(|_| !excursion.rounding_decides(osc)))
+        .filter_map(|(side, _)| from_release(osc, side, DEFAULT_EVENTS))
         .filter(|cycle| cycle.label == label)
         .map(|cycle| Orbit::judged(osc, cycle))
         .collect();

@@ -33,7 +33,6 @@ mod physical;
 mod refine;
 mod release;
 mod ring;
-mod rounding;
 mod shooting;
 mod stability;
 

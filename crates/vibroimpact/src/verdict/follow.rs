@@ -12,7 +12,7 @@ use super::trapping_region::Depth;
 use crate::flight::SearchLimits;
 use crate::lyapunov::{Arrivals, MEASURED_IMPACTS};
 use crate::motion::{End, ImpactState, MAX_TOUCHES};
-use crate::orbit::{DEFAULT_EVENTS, Excursion};
+use crate::orbit::{DEFAULT_EVENTS, from_release};
 use crate::system::{Oscillator, Side};
 
 /// The record of a motion.
@@ -50,11 +50,7 @@ impl Releases {
             .map_or(SHORT, |impacts| u32::try_from(impacts).unwrap_or(u32::MAX).saturating_mul(4).max(DEFAULT_EVENTS));
         known
             .get_or_insert_with(|| {
-                let excursion = Excursion::new(osc, side, events, f64::INFINITY)?;
-                let cycle = excursion.cycle()?;
-                if excursion.rounding_decides(osc) {
-                    return Some(Verdict::Undecided(Undecided::Rounding { impacts: cycle.points.len() as u64 }));
-                }
+                let cycle = from_release(osc, side, events)?;
                 let periods = cycle.label.periods;
                 let landing = cycle.points.is_empty();
                 Some(if landing {

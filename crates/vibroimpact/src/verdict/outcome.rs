@@ -92,11 +92,6 @@ pub enum Undecided {
         /// Forcing periods without contact.
         periods: f64,
     },
-    /// The motion returns to a release, so it is periodic, but rounding errors on the way decide after how many periods.
-    Rounding {
-        /// Impacts from one release to the next, as far as these digits tell.
-        impacts: u64,
-    },
 }
 
 /// Why a verdict holds, without its numbers.
@@ -124,13 +119,11 @@ pub enum Reason {
     Impacts,
     /// Undecided within the budget of a search.
     SearchLimit,
-    /// Undecided, because rounding errors decide the period.
-    Rounding,
 }
 
 impl Reason {
     /// All reasons.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 11] = [
         Self::Cycle,
         Self::Exponent,
         Self::Stuck,
@@ -142,7 +135,6 @@ impl Reason {
         Self::Search,
         Self::Impacts,
         Self::SearchLimit,
-        Self::Rounding,
     ];
 
     /// Its name.
@@ -160,7 +152,6 @@ impl Reason {
             Self::Search => "search",
             Self::Impacts => "impact_budget",
             Self::SearchLimit => "search_budget",
-            Self::Rounding => "rounding",
         }
     }
 }
@@ -181,7 +172,6 @@ impl Verdict {
             Self::NoImpact(NoImpact::ForPeriods(_)) => Reason::Search,
             Self::Undecided(Undecided::Impacts { .. }) => Reason::Impacts,
             Self::Undecided(Undecided::Search { .. }) => Reason::SearchLimit,
-            Self::Undecided(Undecided::Rounding { .. }) => Reason::Rounding,
         }
     }
 

@@ -2,7 +2,7 @@
 //! machine.
 
 use super::frame::MachineFrame;
-use super::ring::{MachineRing, RingEvent};
+use super::ring::{MachineBlock, MachineRing, RingEvent};
 use crate::events::{ByNumber, EventLaw, LinearEvent, Place, standing_back};
 use crate::machine::{MachineParts, StopLaw};
 use crate::math::{Matrix, add_scaled, dot};
@@ -11,18 +11,6 @@ use std::sync::Arc;
 
 /// A contact that vanishes may last for a negative time, as a phase up to this: its solutions are not admissible then.
 const BRIEF: f64 = 0.05;
-
-/// One flight of a cycle and the event at its end, to first order.
-pub(crate) struct MachineBlock {
-    /// The residuals: of the guard, and of the state after the event.
-    pub(crate) miss: Vec<f64>,
-    /// Their derivatives by phase and state at the beginning,
-    pub(crate) left: Matrix,
-    /// and by the phase at the end. Those by the state after the event are -1 on the diagonal.
-    pub(crate) late: Vec<f64>,
-    /// The derivative of the state after the event by that after the one before; `None` where the guard is touched.
-    pub(crate) step: Option<Matrix>,
-}
 
 /// A flight of a ring, and the event at its end.
 struct RingFlight<'a> {

@@ -18,7 +18,6 @@
 //! cycle can begin at any time. Here it ends at the phase 0, so the phase of the first event is an unknown like the others:
 //! its negative is the period.
 
-use super::flight::MachineBlock;
 use super::frame::MachineFrame;
 use crate::arc::Recovery;
 use crate::events::{Passage, Place, StateShape, standing_back};
@@ -92,6 +91,18 @@ pub(crate) struct MachineRing {
     pub(crate) pace: f64,
     /// An event that may come at the same time as the next one, or by rounding after it.
     pub(crate) together: Option<usize>,
+}
+
+/// One flight of a cycle and the event at its end, to first order.
+pub(crate) struct MachineBlock {
+    /// The residuals: of the guard, and of the state after the event.
+    pub(crate) miss: Vec<f64>,
+    /// Their derivatives by phase and state at the beginning,
+    pub(crate) left: Matrix,
+    /// and by the phase at the end. Those by the state after the event are -1 on the diagonal.
+    pub(crate) late: Vec<f64>,
+    /// The derivative of the state after the event by that after the one before; `None` where the guard is touched.
+    pub(crate) step: Option<Matrix>,
 }
 
 impl MachineRing {
