@@ -151,6 +151,17 @@ impl MachineSource {
         Ok(changed)
     }
 
+    /// The same machine with other numbers at several paths, one after another.
+    ///
+    /// # Errors
+    /// As [`with`](Self::with).
+    pub(crate) fn with_all<'a>(
+        &self,
+        changes: impl IntoIterator<Item = (&'a str, f64)>,
+    ) -> Result<Self, MachineTextError> {
+        changes.into_iter().try_fold(self.clone(), |source, (path, value)| source.with(path, value))
+    }
+
     /// The paths of all numbers: parameters, those of the file, and those of its expansion that are not zero.
     ///
     /// # Errors

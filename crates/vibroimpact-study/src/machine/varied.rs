@@ -20,20 +20,20 @@ impl VariedMachine {
         let anew = Self { source: source.clone(), paths, expanded: None };
         let Ok(machine) = source.machine() else { return anew };
         let changed = Self { expanded: Some(machine), ..anew.clone() };
-        let same = samples.iter().all(|values| changed.at(values) == anew.at(values));
+        // a sample that is not allowed says nothing
+        let same = samples.iter().all(|values| changed.at(values).is_some_and(|at| anew.at(values) == Some(at)));
         if same { changed } else { anew }
     }
 
     /// The machine with these values; `None` if they are not allowed.
     pub(crate) fn at(&self, values: &[f64]) -> Option<Machine> {
-        let mut changes = self.paths.iter().zip(values);
+        let mut changes = self.paths.iter().map(String::as_str).zip(values.iter().copied());
         if let Some(machine) = &self.expanded {
             let mut parts = machine.parts().clone();
-            changes.try_for_each(|(path, value)| parts.set(path, *value)).ok()?;
+            changes.try_for_each(|(path, value)| parts.set(path, value)).ok()?;
             return Machine::new(parts).ok();
         }
-        let changed = changes.try_fold(self.source.clone(), |source, (path, value)| source.with(path, *value));
-        changed.ok()?.machine().ok()
+        self.source.with_all(changes).ok()?.machine().ok()
     }
 }
 

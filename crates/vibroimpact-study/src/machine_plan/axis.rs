@@ -35,8 +35,7 @@ impl MachineAxis {
         source: &MachineSource,
         values: impl IntoIterator<Item = (&'a Self, f64)>,
     ) -> Result<MachineSource, PlanError> {
-        let one = |source: MachineSource, (axis, value): (&Self, f64)| source.with(&axis.vary, value);
-        Ok(values.into_iter().try_fold(source.clone(), one)?)
+        Ok(source.with_all(values.into_iter().map(|(axis, value)| (axis.vary.as_str(), value)))?)
     }
 
     /// The number of points of the grid over some axes.

@@ -75,11 +75,7 @@ impl MachineCut {
         source: &MachineSource,
         values: impl Iterator<Item = f64>,
     ) -> Result<MachineSource, PlanError> {
-        let mut there = source.clone();
-        for (path, value) in self.paths().zip(values) {
-            there = there.with(path, value)?;
-        }
-        Ok(there)
+        Ok(source.with_all(self.paths().zip(values))?)
     }
 
     /// The machines along the line.

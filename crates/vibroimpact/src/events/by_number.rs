@@ -266,11 +266,14 @@ impl<'a> ByNumber<'a> {
             ModalChange { y: zeros(), v: zeros(), push: zeros(), set: vec![0.0; self.machine.joints().len()] };
         let mut seen = Seen::default();
         let still = vec![0.0; n];
-        let halves = panels(&rates(structure), 0.5 * time.abs(), MOST_PANELS)?;
         // decays are steep at the beginning, and those of the transition at the end
-        let mirrored = halves.iter().map(|(begin, length)| (time.abs() - begin - length, *length));
-        let acts = modes > 0 && self.acts(structure);
-        let all = if acts { halves.iter().copied().chain(mirrored).collect() } else { Vec::new() };
+        let mirrored = |(begin, length): &(f64, f64)| (time.abs() - begin - length, *length);
+        let all = if modes > 0 && self.acts(structure) {
+            let halves = panels(&rates(structure), 0.5 * time.abs(), MOST_PANELS)?;
+            halves.iter().copied().chain(halves.iter().map(mirrored)).collect()
+        } else {
+            Vec::new()
+        };
         for (begin, length) in all {
             for (point, weight) in RULE.iter().flat_map(|(point, weight)| [(*point, *weight), (-point, *weight)]) {
                 let t = (begin + 0.5 * length * (1.0 + point)) * time.signum();

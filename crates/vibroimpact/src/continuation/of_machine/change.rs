@@ -170,10 +170,6 @@ pub(crate) fn difference(ring: &MachineRing, judged: &Judged) -> Difference {
         {
             Difference::Corner { first: stop, second: stop }
         }
-        // of one contact: a rest that begins or ends between them
-        _ if delayed && early && own == other => {
-            new().or_else(|| missing(expected)).unwrap_or(Difference::Other { place: Some(own) })
-        }
         _ if delayed && early && judged.seen.len() == m => Difference::Corner { first: own, second: other },
         // only one of both explains the difference
         (_, guard) if early && !delayed && rest(guard, stops, false).is_some() => {
