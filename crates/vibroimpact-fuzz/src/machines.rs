@@ -51,7 +51,7 @@ fn asked(source: &MachineSource, task: MachineTask, name: &str) -> Result<Value,
     let plan = MachinePlan::new(source.clone(), task);
     let answer = machine_answer("drawn", &plan, &Control::default()).map_err(|why| format!("{name}: {why}"))?;
     let object = rules::object(answer.json().as_bytes())?;
-    rules::machine_answer(name, &object)?;
+    rules::answer(name, &object)?;
     Ok(object)
 }
 

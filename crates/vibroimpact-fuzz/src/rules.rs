@@ -60,9 +60,13 @@ pub fn answer(task: &str, answer: &Value) -> Result<(), String> {
         "simulate" => &["system", "start", "events", "end", "plan"],
         "attractors" => &["system", "motions", "starts", "plan"],
         "orbit" => &["system", "orbits", "plan"],
-        "branch" => &["system", "points", "events", "plan"],
+        "branch" => &["system", "vary", "branches", "plan"],
         "lyapunov" => &["system", "exponents", "impacts_per_period", "plan"],
-        "basin" | "map" | "diagram" | "region" | "curve" => &["system", "plan"],
+        "basin" => &["system", "axes", "motions", "cells", "plan"],
+        "map" => &["system", "axes", "labels", "points", "plan"],
+        "curve" => &["system", "points", "events", "plan"],
+        "diagram" => &["system", "sweeps", "plan"],
+        "region" => &["system", "existence", "stability", "plan"],
         "bench" => &["impacts_per_second", "starts_per_second"],
         _ => &[],
     };
@@ -76,30 +80,10 @@ pub fn answer(task: &str, answer: &Value) -> Result<(), String> {
         "settle" => motion(&answer["motion"]),
         "attractors" => each("motions", motion).and_then(|()| shares(&answer["motions"])),
         "orbit" => each("orbits", motion),
+        "branch" => each("branches", branch),
         "simulate" => events(answer),
         _ => Ok(()),
     }
-}
-
-/// Checks the fields that programs need in the answer to a task about a machine.
-///
-/// # Errors
-/// The name of a missing field.
-pub fn machine_answer(task: &str, answer: &Value) -> Result<(), String> {
-    let fields: &[&str] = match task {
-        "settle" => &["start", "motion", "plan"],
-        "simulate" => &["start", "events", "end", "plan"],
-        "attractors" => &["motions", "starts", "plan"],
-        "orbit" => &["orbits", "plan"],
-        "branch" => &["points", "events", "plan"],
-        "basin" | "map" => &["axes", "plan"],
-        "diagram" => &["sweeps", "plan"],
-        _ => &[],
-    };
-    if let Some(field) = fields.iter().find(|field| answer.get(field).is_none_or(Value::is_null)) {
-        return Err(format!("the answer to {task} about a machine has no `{field}`"));
-    }
-    if task == "simulate" { in_order(answer) } else { Ok(()) }
 }
 
 /// Checks that all rows of a table have the same number of cells, and no cell is `NaN`.
@@ -139,10 +123,9 @@ fn motion(motion: &Value) -> Result<(), String> {
     let (kind, label) = (motion["kind"].as_str().unwrap_or(""), motion["label"].as_str().unwrap_or(""));
     let agrees = match kind {
         "periodic" => {
+            // a motion without impacts of an oscillator has no events in its cycle
             let cycle = motion["cycle"].as_array();
-            // a motion without impacts has none in its cycle
-            (label.contains('/') || label == "0")
-                && cycle.is_some_and(|cycle| cycle.is_empty() == (label == "0") || label.starts_with("inf"))
+            (label.contains('/') || label == "0") && cycle.is_some_and(|cycle| cycle.is_empty() || label != "0")
         }
         "no_impact" => label == "0",
         "transient" => !label.is_empty(),
@@ -152,16 +135,35 @@ fn motion(motion: &Value) -> Result<(), String> {
     if !agrees {
         return Err(format!("a motion of the kind `{kind}` with the label `{label}`: {motion}"));
     }
-    for impact in motion["cycle"].as_array().into_iter().flatten() {
-        let phase = impact["phase"].as_f64();
-        if !phase.is_some_and(|phase| (0.0..core::f64::consts::TAU).contains(&phase)) {
-            return Err(format!("a phase outside [0, 2 pi): {impact}"));
-        }
-        if impact["velocity_before"].as_f64().is_none_or(|v| v < 0.0) {
-            return Err(format!("an arrival that is not positive: {impact}"));
-        }
+    motion["cycle"].as_array().into_iter().flatten().try_for_each(event)
+}
+
+/// Checks the fields of an event of any system.
+fn event(event: &Value) -> Result<(), String> {
+    // without forcing there is no phase
+    let turn = 0.0..core::f64::consts::TAU;
+    if event.get("phase").is_some_and(|phase| !phase.as_f64().is_some_and(|phase| turn.contains(&phase))) {
+        return Err(format!("a phase outside [0, 2 pi): {event}"));
+    }
+    if event["speed"].as_f64().is_none_or(|speed| speed < 0.0) {
+        return Err(format!("a speed that is negative: {event}"));
+    }
+    let lists = ["q", "qdot"].map(|name| event[name].as_array().map_or(0, Vec::len));
+    if event["time"].as_f64().is_none() || event["stop"].as_str().is_none() || lists[0] == 0 || lists[0] != lists[1] {
+        return Err(format!("an event lacks a field: {event}"));
     }
     Ok(())
+}
+
+/// Checks that the events of a branch lie at its points, and that it says how it ends.
+fn branch(branch: &Value) -> Result<(), String> {
+    let points = branch["points"].as_array().map_or(0, Vec::len) as u64;
+    let there = |event: &Value| event["point"].as_u64().is_some_and(|point| point < points);
+    let events = branch["events"].as_array();
+    match events.filter(|events| events.iter().all(there)).and_then(|events| events.last()) {
+        Some(last) if last["kind"] == branch["end"] && last["ends"] == true => Ok(()),
+        _ => Err(format!("the events of a branch of {points} points that ends with {}", branch["end"])),
+    }
 }
 
 fn shares(motions: &Value) -> Result<(), String> {
@@ -174,9 +176,10 @@ fn shares(motions: &Value) -> Result<(), String> {
 fn events(answer: &Value) -> Result<(), String> {
     const REASONS: [&str; 5] = ["no_more_impacts", "impact_limit", "time_limit", "stuck", "search_limit"];
     let reason = answer["end"]["reason"].as_str().unwrap_or("");
-    if !REASONS.contains(&reason) {
+    if answer["system"]["kind"] != "machine" && !REASONS.contains(&reason) {
         return Err(format!("a simulation ends for the reason `{reason}`"));
     }
+    answer["events"].as_array().into_iter().flatten().try_for_each(event)?;
     in_order(answer)
 }
 

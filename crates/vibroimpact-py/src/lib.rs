@@ -58,7 +58,7 @@ mod _core {
     use crate::oscillator::{Oscillator, Units};
     #[pymodule_export]
     use crate::plan::{
-        checked_plan, coordinate_words, fixed_coordinates, machine_parameters, point_coordinates, scales_of_points,
+        answer_json, checked_plan, coordinate_words, fixed_coordinates, machine_parameters, point_coordinates, scales_of_points,
         scales_over, system_fields,
     };
     #[pymodule_export]

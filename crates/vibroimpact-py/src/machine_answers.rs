@@ -7,11 +7,8 @@ use crate::machine::{MachineFile, Start, start};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use vibroimpact_study::{
-    MachineDiagram, MachineDiagramStep, MachinePlan, MachineResults, MachineSection, MachineShare, MachineTask,
+    MachineDiagram, MachineDiagramStep, MachinePlan, MachineResults, MachineSection, MachineTask,
 };
-
-/// The labels, the shares and the stops that stay closed at each point of a map.
-type Cells = Vec<Vec<(String, f64, String)>>;
 
 /// The points of both sections of an attractor: at the closings of stops, and at phase 0.
 #[derive(IntoPyObject)]
@@ -61,12 +58,11 @@ impl<'py> DiagramFields<'py> {
     }
 }
 
-/// The JSON object that the command prints, and what the object does not have: the points of a map, of the sections of an
-/// attractor, or of an orbit diagram.
+/// The JSON object that the command prints, and what the object does not have: the points of the sections of an attractor, or of
+/// an orbit diagram.
 #[derive(IntoPyObject)]
 pub(crate) struct AnswerFields<'py> {
     json: String,
-    cells: Option<Cells>,
     section: Option<SectionFields<'py>>,
     diagram: Option<DiagramFields<'py>>,
 }
@@ -109,13 +105,8 @@ pub(crate) fn machine_answer<'py>(
         let answer = vibroimpact_report::machine_answer("", &plan, control)?;
         Ok((answer.json(), answer.machine, answer.results))
     })?;
-    let stops =
-        |motion: &MachineShare| motion.stops.iter().map(|stop| machine.name_of(*stop)).collect::<Vec<_>>().join(" ");
-    let row =
-        |cell: Vec<MachineShare>| cell.iter().map(|motion| (motion.label(), motion.share, stops(motion))).collect();
-    let mut answer = AnswerFields { json, cells: None, section: None, diagram: None };
+    let mut answer = AnswerFields { json, section: None, diagram: None };
     match results {
-        MachineResults::Map(found) => answer.cells = Some(found.cells.into_iter().map(row).collect()),
         MachineResults::Lyapunov(_, Some(points)) => {
             let stops = points.closings.iter().map(|at| machine.name_of(at.place).to_owned()).collect();
             answer.section = Some(SectionFields::new(py, &points, stops, machine.n())?);

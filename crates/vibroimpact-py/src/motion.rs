@@ -40,6 +40,8 @@ pub(crate) struct Fields<'py> {
     quantities: Option<Vec<(&'static str, f64)>>,
     /// Three standard errors of the means of a chaotic motion.
     quantities_error: Option<Vec<(&'static str, f64)>>,
+    /// The object of the motion in the JSON of the command.
+    told: String,
 }
 
 /// One phase of sticking.
@@ -127,6 +129,7 @@ impl<'py> Fields<'py> {
                 let known = of.iter().filter(|(_, error)| error.is_finite());
                 known.map(|(quantity, error)| (quantity.name(), error)).collect()
             }),
+            told: vibroimpact_report::json::motion::text(verdict, osc),
         };
         let tried = |impacts, periods, lyapunov| Some(Tried { impacts, periods, lyapunov });
         match verdict {

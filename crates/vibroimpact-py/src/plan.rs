@@ -1,11 +1,13 @@
 //! A plan from text in JSON or TOML: checked, and converted to the form in which it is stored.
 
+use crate::door::{self, Watch};
 use crate::error::Trouble;
 use crate::oscillator::Oscillator;
 use crate::simulate::{StartArgument, start_plan};
 use pyo3::prelude::*;
 use std::collections::HashMap;
 use vibroimpact::PhysicalParameter;
+use vibroimpact_report::Units;
 use vibroimpact_study::{
     Axis, Coordinate, Parameter, Plan, PlanError, StartPlan, StudyPlan, SystemPlan, Task, is_machine_plan,
 };
@@ -52,6 +54,22 @@ pub(crate) fn points(plan: &StudyPlan) -> u64 {
 pub(crate) fn checked_plan(text: &str) -> Result<(String, String, String, u64), Trouble> {
     let plan = read_any(text)?;
     Ok((crate::simulate::text(&plan)?, plan.hash(), plan.title(), points(&plan)))
+}
+
+/// The object that the command prints with `--json` for a plan, which is computed.
+#[pyfunction]
+pub(crate) fn answer_json(py: Python<'_>, plan: &str) -> Result<String, Trouble> {
+    let plan = read_any(plan)?;
+    let watch = Watch { what: "computing an answer", total: 1, progress: None, threads: 0 };
+    door::run(py, watch, move |control| {
+        Ok(match plan {
+            StudyPlan::Oscillator(plan) => vibroimpact_report::answer(&plan, Units::default(), control)?.json(),
+            StudyPlan::Machine(plan) => {
+                let name = plan.machine.title.as_deref().unwrap_or("machine");
+                vibroimpact_report::machine_answer(name, &plan, control)?.json()
+            }
+        })
+    })
 }
 
 /// The fields of the system of a plan as JSON, with the frequency in the form in which it was given.

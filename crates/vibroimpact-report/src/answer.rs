@@ -78,7 +78,7 @@ impl Serialize for Answer {
             }
             (_, Results::Orbit(found)) => json::orbit::document(asked, plan, osc, found).serialize(to),
             (_, Results::Basin(found)) => json::basin::document(asked, plan, osc, found).serialize(to),
-            (_, Results::Map(found)) => json::map::document(asked, plan, found).serialize(to),
+            (_, Results::Map(found)) => json::map::document(asked, plan, osc, found).serialize(to),
             (_, Results::Diagram(found)) => json::diagram::document(asked, plan, osc, found).serialize(to),
             (_, Results::Lyapunov(start, found, _)) => {
                 json::lyapunov::document(asked, plan, (osc, start), found).serialize(to)
@@ -91,7 +91,7 @@ impl Serialize for Answer {
                 json::curve::document(asked, plan, osc, (task, found)).serialize(to)
             }
             (Task::Region(task), Results::Region(found)) => {
-                json::region::document(asked, plan, (task, found)).serialize(to)
+                json::region::document(asked, plan, osc, (task, found)).serialize(to)
             }
             (Task::Response(task), Results::Response(found)) => {
                 json::response::document(asked, plan, osc, (task, found)).serialize(to)
@@ -285,7 +285,7 @@ mod tests {
         let mut text = Vec::new();
         line.table(&Shown::default()).unwrap().unwrap().write(&mut text).unwrap();
         assert!(text.starts_with(b"x,label\n0,"));
-        assert!(line.json().contains(r#""x":{"from":0.0,"to":0.7,"count":2},"v":0.0,"phase":0.0"#), "{}", line.json());
+        assert!(line.json().contains(r#""axes":[{"vary":"x","over":{"from":0.0,"to":0.7,"count":2}}],"cells":[0,0]"#), "{}", line.json());
         let beyond = ask(&basin(&x.replace("0.7", "0.8")));
         assert!(matches!(beyond, Err(AnswerError::Plan(PlanError::System(_)))), "{beyond:?}");
         let gap = r#"{"vary":"gap","over":"1:2:2"}"#;

@@ -4,8 +4,10 @@
  * @typedef {object} TrackEvent
  * @property {"impact" | "stick" | "release" | "graze"} kind
  * @property {number} time
- * @property {"upper" | "lower"} side
- * @property {number} [velocity_before]
+ * @property {"upper" | "lower"} stop
+ * @property {number} speed
+ * @property {number[]} q
+ * @property {number[]} qdot
  */
 
 import { motion } from "./api.js";

@@ -47,8 +47,8 @@ export class Waveform {
     if (hits.length > MARKED) return;
     // neighbouring marks do not merge
     const size = Math.min(0.27 * plot.em, Math.max(0.1 * plot.em, (0.3 * plot.wide) / (hits.length || 1)));
-    plot.curves.append(...hits.map(({ time, side }) => drawn("circle", {
-      class: "impact", r: size, cx: plot.toX(time), cy: plot.toY(side === "lower" ? shown.stops[1] : shown.stops[0]),
+    plot.curves.append(...hits.map(({ time, stop }) => drawn("circle", {
+      class: "impact", r: size, cx: plot.toX(time), cy: plot.toY(stop === "lower" ? shown.stops[1] : shown.stops[0]),
     })));
   }
 }

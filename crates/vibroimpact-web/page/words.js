@@ -41,7 +41,7 @@ export function meaning(motion) {
   if (kind === "periodic") {
     const [m, n] = label.split("/");
     if (m === "0" || n === undefined) return "The steady motion, without impacts.";
-    const rests = motion.rests?.length ?? 0;
+    const rests = motion.sticks ?? 0;
     const rest = rests ? `, and ${counted(rests, "rest")} on the stop` : "";
     if (m === "inf") return capital(`a complete chatter (infinitely many impacts)${rest} ${every(Number(n))}.`);
     return capital(`${counted(Number(m), "impact")}${rest} ${every(Number(n))}.`);
@@ -54,7 +54,7 @@ export function meaning(motion) {
     if (horizon?.why === "grazing") return "It touches the stop without impact.";
     return "No more impacts, ever.";
   }
-  if (kind === "chaotic") return motion.seen_impacts ? `No repetition in ${grouped(motion.seen_impacts)} impacts.` : "Impacts that do not repeat.";
+  if (kind === "chaotic") return motion.seen_events ? `No repetition in ${grouped(motion.seen_events)} impacts.` : "Impacts that do not repeat.";
   if (kind === "stuck") return `At rest on the ${motion.stop === "lower" ? "second stop" : "stop"} for ever.`;
   return "Nothing could be shown within the budget of impacts.";
 }

@@ -8,7 +8,7 @@ use vibroimpact::orbit::Cycle;
 use vibroimpact::quantities::{Quantities, Quantity, of_verdict};
 use vibroimpact::verdict::{Count, NoImpact, Stability, Undecided, Verdict};
 use vibroimpact::{Oscillator, Side, Start};
-use vibroimpact_report::json::motion::side;
+use vibroimpact_report::json::event::side;
 use vibroimpact_report::number::short;
 use vibroimpact_report::{Asked, Units};
 use vibroimpact_study::ImpactsByStop;

@@ -10,7 +10,9 @@ fn number(value: &Value) -> f64 {
     value.as_f64().expect("a number")
 }
 
+/// The events of a branch, or of the first one of an answer.
 fn events<'a>(branch: &'a Value, kind: &str) -> Vec<&'a Value> {
+    let branch = branch.get("branches").map_or(branch, |all| &all[0]);
     branch["events"].as_array().expect("a list").iter().filter(|event| event["kind"] == kind).collect()
 }
 
@@ -20,50 +22,51 @@ fn points_events_and_the_branch_that_begins_at_a_flip() {
     assert_eq!((&answer["vary"], &answer["from"], &answer["to"]), (&"gap".into(), &1.5.into(), &2.5.into()));
     let flip = events(&answer, "flip")[0];
     assert!((number(&flip["parameter"]) - 1.829_006_189_683_6).abs() < 1e-12);
-    for point in answer["points"].as_array().unwrap() {
+    for point in answer["branches"][0]["points"].as_array().unwrap() {
         let before = number(&point["parameter"]) < number(&flip["parameter"]);
         let at = (number(&point["parameter"]) - number(&flip["parameter"])).abs() < 1e-9;
         assert!(at || point["stable"] == before, "{point}");
-        assert_eq!((&point["label"], &point["physical"]), (&"1/1".into(), &true.into()));
+        assert_eq!((&point["label"], &point["admissible"]), (&"1/1".into(), &true.into()));
         let product = number(&point["multipliers"][0][0]) * number(&point["multipliers"][1][0])
             - number(&point["multipliers"][0][1]) * number(&point["multipliers"][1][1]);
         assert!((product - 0.25).abs() < 1e-9);
         assert_eq!(point["cycle"].as_array().unwrap().len(), 1);
     }
     let place = flip["point"].as_u64().unwrap();
-    assert_eq!(answer["points"][usize::try_from(place).unwrap()]["parameter"], flip["parameter"]);
-    let end = answer["events"].as_array().unwrap().last().unwrap();
+    assert_eq!(answer["branches"][0]["points"][usize::try_from(place).unwrap()]["parameter"], flip["parameter"]);
+    let end = answer["branches"][0]["events"].as_array().unwrap().last().unwrap();
     assert_eq!((&end["kind"], &end["ends"], &end["parameter"]), (&"end of range".into(), &true.into(), &2.5.into()));
 
-    assert_eq!(answer["branches"].as_array().unwrap().len(), 1);
-    let second = &answer["branches"][0];
+    assert_eq!(answer["branches"].as_array().unwrap().len(), 2);
+    assert_eq!((&answer["branches"][0]["from"], &answer["branches"][0]["end"]), (&Value::Null, &"end of range".into()));
+    let second = &answer["branches"][1];
     assert_eq!((&second["from"]["kind"], &second["from"]["branch"]), (&"flip".into(), &1.into()));
     assert_eq!(second["from"]["parameter"], flip["parameter"]);
     let grazing = events(second, "grazing")[0];
-    assert_eq!((&grazing["label_before"], &grazing["label_after"]), (&"2/2".into(), &"1/2".into()));
-    assert_eq!((&grazing["change"], &grazing["turns"]), (&"disappears".into(), &true.into()));
-    assert_eq!((&grazing["impact"], &grazing["side"]), (&2.into(), &"upper".into()));
+    assert_eq!((&grazing["before"], &grazing["after"]), (&"2/2".into(), &"1/2".into()));
+    assert_eq!((&grazing["appears"], &grazing["turns"]), (&false.into(), &true.into()));
+    assert_eq!((&grazing["impact"], &grazing["stop"]), (&2.into(), &"upper".into()));
     assert!(number(&grazing["phase"]) > 0.0 && events(second, "fold").len() == 1);
     // beyond the event, simulation settles into the motion of the branch
     let settled = json("settle --inverse-beta 1.11 --gap 2.5 --restitution 0.5");
     let last = second["points"].as_array().unwrap().last().unwrap();
     assert_eq!((&last["label"], &settled["motion"]["label"]), (&"1/2".into(), &"1/2".into()));
-    let velocity = |cycle: &Value| number(&cycle[0]["velocity_before"]);
+    let velocity = |cycle: &Value| number(&cycle[0]["speed"]);
     assert!((velocity(&last["cycle"]) - velocity(&settled["motion"]["cycle"])).abs() < 1e-9);
-    assert_eq!(json(&format!("{DOUBLING} --to 2.5"))["branches"], Value::Array(Vec::new()));
+    assert_eq!(json(&format!("{DOUBLING} --to 2.5"))["branches"].as_array().unwrap().len(), 1);
 }
 
 /// A branch towards lower values, in any parameter; the plan contains the question.
 #[test]
 fn other_parameters_and_the_other_way() {
     let answer = json(&format!("{DOUBLING} --to 0.5"));
-    let values: Vec<f64> = answer["points"].as_array().unwrap().iter().map(|p| number(&p["parameter"])).collect();
+    let values: Vec<f64> = answer["branches"][0]["points"].as_array().unwrap().iter().map(|p| number(&p["parameter"])).collect();
     assert!(values[0] == 1.5 && values.windows(2).all(|pair| pair[1] <= pair[0]), "{values:?}");
     let task = &answer["plan"]["task"]["branch"];
     assert_eq!((&task["label"], &task["vary"], &task["to"]), (&"1/1".into(), &"gap".into(), &0.5.into()));
     for (vary, to) in [("inverse-beta", "1.3"), ("beta", "0.8"), ("restitution", "0.7"), ("damping", "0.1")] {
         let answer = json(&DOUBLING.replace("--vary gap", &format!("--vary {vary} --to {to}")));
-        assert_eq!(answer["events"].as_array().unwrap().last().unwrap()["kind"], "end of range", "{vary}");
+        assert_eq!(answer["branches"][0]["events"].as_array().unwrap().last().unwrap()["kind"], "end of range", "{vary}");
         assert_eq!(answer["vary"], vary.replace('-', "_"));
     }
 }
@@ -75,8 +78,8 @@ fn typed_ends_come_back() {
                    --label 1/1";
     let ends = |line: &str| {
         let answer = json(&format!("{machine} {line}"));
-        let point = |k: usize| answer["points"][k]["parameter"].to_string();
-        let last = answer["points"].as_array().unwrap().len() - 1;
+        let point = |k: usize| answer["branches"][0]["points"][k]["parameter"].to_string();
+        let last = answer["branches"][0]["points"].as_array().unwrap().len() - 1;
         let table = String::from_utf8(vibro(&format!("{machine} {line} --csv -")).output().unwrap().stdout).unwrap();
         let rows: Vec<&str> = table.lines().filter(|row| row.starts_with("1,")).collect();
         let cell = |row: &str| row.split(',').nth(1).unwrap().parse::<f64>().unwrap().to_string();
@@ -99,15 +102,15 @@ fn one_of_several_orbits() {
     let system = "branch --inverse-beta 0.7 --gap 2 --restitution 0.5 --label 1/1 --vary gap --to 3.5";
     let fast = json(system);
     assert_eq!((&fast["orbit"]["number"], &fast["orbit"]["count"]), (&2.into(), &2.into()));
-    assert_eq!(fast["points"][0]["stable"], true);
+    assert_eq!(fast["branches"][0]["points"][0]["stable"], true);
     let slow = json(&format!("{system} --orbit 1"));
-    assert_eq!((&slow["orbit"]["number"], &slow["points"][0]["stable"]), (&1.into(), &false.into()));
+    assert_eq!((&slow["orbit"]["number"], &slow["branches"][0]["points"][0]["stable"]), (&1.into(), &false.into()));
     // both orbits meet at a fold, at which the branch turns back
     let [one, two] = [&fast, &slow].map(|answer| number(&events(answer, "fold")[0]["parameter"]));
     assert!((one - two).abs() < 1e-10);
-    let back = fast["points"].as_array().unwrap().last().unwrap();
+    let back = fast["branches"][0]["points"].as_array().unwrap().last().unwrap();
     assert!(
-        (number(&back["cycle"][0]["velocity_before"]) - number(&slow["points"][0]["cycle"][0]["velocity_before"]))
+        (number(&back["cycle"][0]["speed"]) - number(&slow["branches"][0]["points"][0]["cycle"][0]["speed"]))
             .abs()
             < 1e-9
     );
@@ -128,10 +131,10 @@ fn text_and_table() {
     }
     let table = said(&format!("{DOUBLING} --to 2.5 --follow 1 --csv -"));
     let rows: Vec<Vec<&str>> = table.lines().map(|row| row.split(',').collect()).collect();
-    assert_eq!(rows[0][..7], ["branch", "gap", "label", "physical", "stable", "stability", "event"]);
+    assert_eq!(rows[0][..7], ["branch", "gap", "label", "admissible", "stable", "stability", "event"]);
     assert!(rows.iter().all(|row| row.len() == rows[0].len()), "{table}");
     let double = rows.iter().find(|row| row[0] == "2" && row[2] == "2/2").unwrap();
-    assert_eq!((double[11].split(' ').count(), double[12].split(' ').count()), (2, 2));
+    assert_eq!((double[13].split(' ').count(), double[14].split(' ').count()), (2, 2));
     assert!(rows.iter().any(|row| row[6] == "flip") && rows.iter().any(|row| row[0] == "2" && row[2] == "1/2"));
 }
 
@@ -142,19 +145,21 @@ fn a_cycle_that_rests() {
     let answer = json(line);
     let soft = events(&answer, "soft landing")[0];
     assert_eq!(
-        (&soft["label_before"], &soft["label_after"], &soft["impact"]),
+        (&soft["before"], &soft["after"], &soft["impact"]),
         (&"inf/1".into(), &"inf/1".into(), &1.into())
     );
-    let end = answer["events"].as_array().unwrap().last().unwrap();
-    assert_eq!((&end["kind"], &end["side"], &end["ends"]), (&"end of rest".into(), &"upper".into(), &true.into()));
-    for point in answer["points"].as_array().unwrap() {
-        let (rest, gap) = (&point["rests"][0], number(&point["parameter"]));
+    let end = answer["branches"][0]["events"].as_array().unwrap().last().unwrap();
+    assert_eq!((&end["kind"], &end["stop"], &end["ends"]), (&"end of rest".into(), &"upper".into(), &true.into()));
+    for point in answer["branches"][0]["points"].as_array().unwrap() {
+        let cycle = point["cycle"].as_array().unwrap();
+        let of = |kind: &str| cycle.iter().find(|event| event["kind"] == kind).unwrap();
+        let (stick, leaves, gap) = (of("stick"), of("release"), number(&point["parameter"]));
         assert_eq!(
-            (&point["label"], &point["stable"], &rest["chatter"]),
+            (&point["label"], &point["stable"], &stick["chatter"]),
             (&"inf/1".into(), &true.into(), &true.into())
         );
-        assert!((number(&rest["release"]) - (std::f64::consts::PI - gap.asin())).abs() < 1e-12);
-        assert!(number(&rest["begin"]) < number(&rest["release"]));
+        assert!((number(&leaves["phase"]) - (std::f64::consts::PI - gap.asin())).abs() < 1e-12);
+        assert!(number(&stick["phase"]) < number(&leaves["phase"]));
         assert_eq!(point["multipliers"], serde_json::json!([[0.0, 0.0], [0.0, 0.0]]));
     }
     // simulation settles on this motion before the end of the branch, and on another one beyond
@@ -173,7 +178,7 @@ fn a_cycle_that_rests() {
         said(&format!("{line} --csv -"))
             .lines()
             .skip(1)
-            .all(|row| row.split(',').count() == 13 && row.contains(",inf/1,true,true,stable,"))
+            .all(|row| row.split(',').count() == 16 && row.contains(",inf/1,true,true,stable,"))
     );
     // with restitution 0 the label is m/n, and an impact follows the release
     let zero = "branch --inverse-beta 1.3 --gap 0.3 --restitution 0 --label 1/1 --vary gap --to 1";
@@ -191,12 +196,12 @@ fn the_branches_at_a_branch_point() {
     let line = format!("branch --beta 2 {system} --label 2/1 --vary beta --to 1.5 --follow 2");
     let answer = json(&line);
     let point = events(&answer, "branch point")[0];
-    let branches = answer["branches"].as_array().unwrap();
+    let branches = &answer["branches"].as_array().unwrap()[1..];
     assert_eq!(branches.len(), 2);
     let unlike = |branch: &Value, k: usize| {
         let cycle = branch["points"][k]["cycle"].as_array().unwrap();
         let speed =
-            |side: &str| number(&cycle.iter().find(|impact| impact["side"] == side).unwrap()["velocity_before"]);
+            |side: &str| number(&cycle.iter().find(|impact| impact["stop"] == side).unwrap()["speed"]);
         speed("upper") - speed("lower")
     };
     for branch in branches {
@@ -215,7 +220,7 @@ fn the_branches_at_a_branch_point() {
         .expect("they are stable at first");
     let settled = json(&format!("settle --beta {} {system}", beyond["parameter"]));
     let cycle = settled["motion"]["cycle"].as_array().unwrap();
-    let speed = |side: &str| number(&cycle.iter().find(|impact| impact["side"] == side).unwrap()["velocity_before"]);
+    let speed = |side: &str| number(&cycle.iter().find(|impact| impact["stop"] == side).unwrap()["speed"]);
     let apart = (speed("upper") - speed("lower")).abs();
     assert!(apart > 1e-3 && (apart - unlike(&branches[0], index).abs()).abs() < 1e-6, "{apart}");
     assert_eq!(settled["motion"]["label"], "2/1");
@@ -234,8 +239,8 @@ fn the_branches_at_a_branch_point() {
 fn touches_of_both_stops() {
     let line = "branch --beta 0.7 --gap 3 --restitution 0.6 --damping 0.1 --second-gap 3 --second-restitution 0.6 --label 0 --vary beta --to 1.2";
     let grazing = &events(&json(line), "grazing")[0].clone();
-    assert_eq!((&grazing["label_before"], &grazing["label_after"]), (&"0".into(), &"2/1".into()));
-    assert!(grazing["side"] != grazing["also"]["side"] && grazing["impact"] == Value::Null);
+    assert_eq!((&grazing["before"], &grazing["after"]), (&"0".into(), &"2/1".into()));
+    assert!(grazing["stop"] != grazing["also"]["stop"] && grazing["impact"] == Value::Null);
     let apart = (number(&grazing["phase"]) - number(&grazing["also"]["phase"])).abs();
     assert!((apart - std::f64::consts::PI).abs() < 1e-9);
     let text = String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
@@ -249,11 +254,11 @@ fn touches_of_both_stops() {
 #[test]
 fn ever_more_impacts() {
     let line = "branch --inverse-beta 1.11 --gap -0.3 --restitution 0.5 --label 4/1 --vary gap --to -1";
-    let end = json(line)["events"].as_array().unwrap().last().unwrap().clone();
+    let end = json(line)["branches"][0]["events"].as_array().unwrap().last().unwrap().clone();
     let rest = "branch --inverse-beta 1.11 --gap -0.5 --restitution 0.5 --label inf/1 --vary gap --to 0";
-    let other = json(rest)["events"].as_array().unwrap().last().unwrap().clone();
+    let other = json(rest)["branches"][0]["events"].as_array().unwrap().last().unwrap().clone();
     assert_eq!(
-        (&end["kind"], &end["label_after"], &other["kind"]),
+        (&end["kind"], &end["after"], &other["kind"]),
         (&"chatter".into(), &"inf/1".into(), &"end of rest".into())
     );
     assert!((number(&end["parameter"]) - number(&other["parameter"])).abs() < 1e-12);
@@ -272,7 +277,7 @@ fn a_machine_in_physical_units() {
     let plain = json("branch --beta 0.9 --gap 1.5 --restitution 0.5 --label 1/1 --vary gap --to 2.5");
     let flip = |answer: &Value| number(&events(answer, "flip")[0]["parameter"]);
     assert!((flip(&si) - 0.005 * flip(&plain)).abs() < 1e-14);
-    let velocity = |answer: &Value| number(&answer["points"][0]["cycle"][0]["velocity_before"]);
+    let velocity = |answer: &Value| number(&answer["branches"][0]["points"][0]["cycle"][0]["speed"]);
     assert!((velocity(&si) - 0.1 * velocity(&plain)).abs() < 1e-12);
     assert_eq!(si["to"], 0.0125);
 }

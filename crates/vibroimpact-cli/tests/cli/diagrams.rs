@@ -63,7 +63,7 @@ fn hysteresis_at_s_with_the_velocities_of_the_orbits() {
             .as_array()
             .unwrap()
             .iter()
-            .map(|point| point["velocity_before"].as_f64().unwrap())
+            .map(|point| point["speed"].as_f64().unwrap())
             .collect();
         expected.sort_by(f64::total_cmp);
         assert_eq!(found.len(), expected.len(), "{sweep}: {found:?}");

@@ -19,7 +19,7 @@ fn tables_do_not_depend_on_threads() {
     for (name, line, header, rows) in [
         ("basin", format!("basin {S} {GRID}"), "x,v,label", 37 * 29),
         ("map", format!("map {PLANE}"), "inverse_beta,gap,label,share", 8 * 6),
-        ("diagram", format!("diagram {SWEEP}"), "gap,sweep,kind,side,phase,velocity", 2 * 31),
+        ("diagram", format!("diagram {SWEEP}"), "gap,sweep,kind,stop,phase,speed", 2 * 31),
         ("strobe", format!("diagram {SWEEP} --direction scatter --show strobe"), "gap,sweep,kind,x,v", 8 * 31),
     ] {
         let mut tables = Vec::new();
@@ -65,7 +65,7 @@ fn existing_files_stay_unless_forced() {
     }
     let forced = format!("simulate {S} --csv keep.csv --force");
     assert!(vibro(&forced).current_dir(&folder).output().unwrap().status.success());
-    assert!(fs::read_to_string(&file).unwrap().starts_with("t,x,v\n0,0,0\n"));
+    assert!(fs::read_to_string(&file).unwrap().starts_with("time,x,v\n0,0,0\n"));
 }
 
 #[test]

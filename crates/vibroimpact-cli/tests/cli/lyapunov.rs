@@ -44,7 +44,7 @@ fn where_there_is_nothing_to_measure() {
     assert_eq!((&sticks["impacts_per_period"]["why"], &sticks["identity"]), (&"infinity".into(), &Value::Null));
 
     let stuck = json("lyapunov --beta 0.9 --gap -1.5 --restitution 0.5 --x -3");
-    assert_eq!((&stuck["grounds"]["kind"], &stuck["grounds"]["side"]), (&"stuck".into(), &"upper".into()));
+    assert_eq!((&stuck["grounds"]["kind"], &stuck["grounds"]["stop"]), (&"stuck".into(), &"upper".into()));
 
     let plastic = json("lyapunov --inverse-beta 1.11 --gap 3 --restitution 0 --impacts 2000");
     assert_eq!(why(&plastic), [Value::Null, "minus_infinity".into()]);
@@ -78,30 +78,30 @@ fn both_sections_as_a_table() {
     let output = vibro(&format!("lyapunov {S} --impacts 1000 --section - --points 4")).output().unwrap();
     let table = String::from_utf8(output.stdout).unwrap();
     let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
-    assert_eq!(rows[0], ["section", "side", "phase", "x", "v"]);
+    assert_eq!(rows[0], ["section", "stop", "phase", "speed", "x", "v"]);
     assert_eq!(rows.len(), 9, "{table}");
     let cycle = json(&format!("settle {S}"));
     for row in &rows[1..5] {
-        assert_eq!((row[0], row[1], row[3]), ("impact", "upper", "0.75"));
+        assert_eq!((row[0], row[1], row[4]), ("closing", "upper", "0.75"));
         let at = |point: &Value| {
             let near =
                 |cell: &str, key: &str| (cell.parse::<f64>().unwrap() - point[key].as_f64().unwrap()).abs() < 1e-9;
-            near(row[2], "phase") && near(row[4], "velocity_before")
+            near(row[2], "phase") && near(row[3], "speed")
         };
         assert!(cycle["motion"]["cycle"].as_array().unwrap().iter().any(at), "{row:?}");
     }
     // one state in each period, equal to rounding
-    let state = |row: &[&str]| [3, 4].map(|k| row[k].parse::<f64>().unwrap());
+    let state = |row: &[&str]| [4, 5].map(|k| row[k].parse::<f64>().unwrap());
     for row in &rows[5..9] {
-        assert_eq!((row[0], row[1], row[2]), ("strobe", "", "0"));
+        assert_eq!((row[0], row[1], row[2], row[3]), ("strobe", "", "0", ""));
         let (now, first) = (state(row), state(&rows[5]));
         assert!((now[0] - first[0]).abs() < 1e-9 && (now[1] - first[1]).abs() < 1e-9, "{row:?}");
     }
-    // an impact on the lower stop has a negative velocity before it
+    // after an impact on the lower stop the velocity is positive
     let line = "lyapunov --beta 0.7 --gap 0.6 --restitution 0.7 --second-gap 0.8 --impacts 1000 --csv - --points 50";
     let table = String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
-    let lower: Vec<&str> = table.lines().filter(|row| row.starts_with("impact,lower,")).collect();
-    assert!(!lower.is_empty() && lower.iter().all(|row| row.contains(",-0.8,-")), "{table}");
+    let lower: Vec<&str> = table.lines().filter(|row| row.starts_with("closing,lower,")).collect();
+    assert!(!lower.is_empty() && lower.iter().all(|row| row.contains(",-0.8,") && !row.contains(",-0.8,-")), "{table}");
 }
 
 #[test]

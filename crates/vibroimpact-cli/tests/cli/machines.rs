@@ -314,7 +314,7 @@ fn a_limit_cycle() {
     let [orbit] = orbits.as_array().unwrap().as_slice() else { panic!("{orbits}") };
     assert!(orbit["label"] == "0/T" && close(&orbit["period"], period(0.1)), "{orbit}");
     let branch = json("branch --machine stick-slip --vary V --to 1 --points 40");
-    for point in branch["points"].as_array().unwrap() {
+    for point in branch["branches"][0]["points"].as_array().unwrap() {
         let belt = point["parameter"].as_f64().unwrap();
         assert!(point["label"] == "0/T" && close(&point["period"], period(belt)), "{point}");
     }
@@ -376,7 +376,7 @@ fn numbers_of_orbits() {
     for k in [0, 1] {
         let found = json(&format!("branch {machine} --orbit {} --vary frequency --to 1.065", k + 1));
         let speed = orbits[k]["cycle"][0]["speed"].as_f64().unwrap();
-        assert!(close(&found["points"][0]["cycle"][0]["speed"], speed), "{}", found["points"][0]);
+        assert!(close(&found["branches"][0]["points"][0]["cycle"][0]["speed"], speed), "{}", found["branches"][0]["points"][0]);
         assert_eq!(found["orbit"], serde_json::json!({"number": k + 1, "count": 2}));
     }
     let curve = "--kind fold --vary frequency=1:1.1 --and b=0.45:0.55 --points 5";
@@ -420,12 +420,14 @@ fn sections() {
 #[test]
 fn branches() {
     let found = json("branch --machine two-mass-hammer --vary frequency --to 1.05");
+    assert_eq!(found["vary"], "frequency");
+    let found = found["branches"][0].clone();
     let points = found["points"].as_array().unwrap();
     let kinds: Vec<&str> =
         found["events"].as_array().unwrap().iter().map(|event| event["kind"].as_str().unwrap()).collect();
     assert_eq!(kinds, ["grazing", "fold", "end of range"]);
     let grazing = &found["events"][0];
-    assert!(grazing["stop"] == "anvil" && grazing["appears"] == true && found["vary"] == "frequency", "{grazing}");
+    assert!(grazing["stop"] == "anvil" && grazing["appears"] == true, "{grazing}");
     // a settled motion before the grazing is on the branch
     let settled = json("settle --machine two-mass-hammer --set frequency=1.1")["motion"]["label"].clone();
     assert!(settled == "1/1" && grazing["parameter"].as_f64().unwrap() < 1.1, "{grazing}");
@@ -434,7 +436,7 @@ fn branches() {
     assert_eq!(points[at]["parameter"], grazing["parameter"]);
     let table = printed("branch --machine two-mass-hammer --vary frequency --to 1.05 --csv -");
     assert!(
-        table.starts_with("branch,frequency,label,physical,stable,stability,event,stop,fastest,multiplier_1_re,"),
+        table.starts_with("branch,frequency,label,admissible,stable,stability,event,stop,fastest,multiplier_1_re,"),
         "{table}"
     );
     assert!(table.lines().next().unwrap().ends_with(",multiplier_4_im,phases,speeds,stops"), "{table}");
@@ -463,7 +465,7 @@ fn all_branches_of_a_machine_are_written_and_drawn() {
     let of = |k: &str| read("a.csv").lines().filter(|row| row.starts_with(k)).count();
     let found = json(line);
     let count = |points: &serde_json::Value| points.as_array().unwrap().len();
-    assert!(of("2,") > 2 && of("2,") == count(&found["followed"][0]["points"]) && of("1,") == count(&found["points"]));
+    assert!(of("2,") > 2 && of("2,") == count(&found["branches"][1]["points"]) && of("1,") == count(&found["branches"][0]["points"]));
     for text in [">stable<", ">unstable<", ">flip<", ">fold<", ">grazing<", ">simulation<", ">5/2<", "stroke-dasharray"]
     {
         assert!(read("a.svg").contains(text), "{text}");
@@ -489,8 +491,8 @@ fn all_branches_of_a_machine_are_written_and_drawn() {
     let (swept, followed): (f64, f64) = (rows[1][6].parse().unwrap(), last[9].parse().unwrap());
     assert!((swept - followed).abs() < 1e-7, "{swept} {followed}");
     let object = json(&format!("branch {line} --to 1.1 --also b=0.6"));
-    assert_eq!(object["also"], serde_json::json!({"path": "b", "from": 0.5, "to": 0.6}));
-    let end = object["events"].as_array().unwrap().last().unwrap().clone();
+    assert_eq!(object["also"], serde_json::json!({"parameter": "b", "from": 0.5, "to": 0.6}));
+    let end = object["branches"][0]["events"].as_array().unwrap().last().unwrap().clone();
     assert_eq!(end["values"], serde_json::json!([1.1, 0.6]));
 }
 
@@ -518,7 +520,7 @@ fn curves() {
     printed(&format!("{line} --points 20 --plot {} --csv {}", svg.display(), csv.display()));
     let (svg, csv) = (fs::read_to_string(svg).unwrap(), fs::read_to_string(csv).unwrap());
     assert!(svg.contains(">Gamma<") && svg.contains(">flip of 1/1<") && svg.contains(">found on the branch<"));
-    assert!(csv.starts_with("Gamma,e,label,event,stop,residual,touch,multiplier_1_re,"), "{csv}");
+    assert!(csv.starts_with("Gamma,e,label,admissible,event,stop,residual,touch,multiplier_1_re,"), "{csv}");
     assert_eq!(csv.lines().count(), 1 + 39);
 }
 
@@ -528,7 +530,7 @@ fn basins_and_maps() {
     assert_eq!(table, "q.head,qdot.head,label\n-1,0,1/1\n0,0,1/1\n1,0,refused\n-1,1,1/1\n0,1,1/1\n1,1,refused\n");
     let found = json("basin --machine two-mass-hammer --axis q.head=-1:1:3");
     assert_eq!(found["cells"], serde_json::json!([0, 0, null]));
-    assert!(found["refused"] == 1 && found["motions"][0]["count"] == 2, "{found}");
+    assert!(found["refused"] == 1 && found["motions"][0]["starts"] == 2, "{found}");
     let line = "map --machine two-mass-hammer --axis frequency=0.8:1.2:3 --starts 2";
     let table = printed(&format!("{line} --csv -"));
     assert!(table.starts_with("frequency,label,share\n0.8,"), "{table}");
@@ -537,9 +539,17 @@ fn basins_and_maps() {
         let alone = json(&format!("attractors --machine two-mass-hammer --set frequency={} --starts 2", cells[0]));
         assert!(alone["motions"].as_array().unwrap().iter().any(|motion| motion["label"] == cells[1]), "{row}");
     }
-    let counts = json(line)["labels"].as_object().unwrap().clone();
+    let answer = json(line);
     let text = printed(line);
-    for (label, count) in counts {
+    let rows: Vec<String> = (answer["points"].as_array().unwrap().iter())
+        .flat_map(|point| point["motions"].as_array().unwrap().iter().map(move |motion| (point, motion)))
+        .map(|(point, motion)| (point["frequency"].as_f64().unwrap(), motion["label"].as_str().unwrap()))
+        .map(|(frequency, label)| format!("{frequency},{label},"))
+        .collect();
+    assert_eq!(rows.len(), table.lines().count() - 1);
+    assert!(table.lines().skip(1).zip(&rows).all(|(row, own)| row.starts_with(own)), "{rows:?} {table}");
+    for of in answer["labels"].as_array().unwrap() {
+        let (label, count) = (of["label"].as_str().unwrap(), &of["points"]);
         assert!(text.contains(&format!("{label:>10}  at {count} point")), "{text}");
     }
 }

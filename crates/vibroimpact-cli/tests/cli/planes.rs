@@ -51,7 +51,7 @@ fn text_and_tables() {
         assert!(text.contains(sentence), "{sentence}: {text}");
     }
     let table = said(&format!("{FOLD} --csv -"));
-    assert!(table.starts_with("gap,inverse_beta,physical,event,re_1"), "{table}");
+    assert!(table.starts_with("gap,inverse_beta,label,admissible,event,multiplier_1_re"), "{table}");
     assert!(table.lines().any(|row| row.contains(",resonant grazing,")));
     let columns = table.lines().next().unwrap().split(',').count();
     assert!(table.lines().all(|row| row.split(',').count() == columns));
@@ -82,9 +82,9 @@ fn the_regions_of_one_impact_a_period() {
     for gap in [1.2, 1.82, 1.84, 2.4] {
         let orbits = json(&format!("orbit --inverse-beta 1.11 --gap {gap} --restitution 0.5 --label 1/1"));
         let any =
-            |key: &str| orbits["orbits"].as_array().unwrap().iter().any(|o| o["physical"] == true && o[key] == true);
+            |key: &str| orbits["orbits"].as_array().unwrap().iter().any(|o| o["admissible"] == true && o[key] == true);
         let in_region = |kind: &str| inside(&answer[kind]["polygons"], (1.11, gap));
-        assert_eq!((in_region("existence"), in_region("stability")), (any("physical"), any("stable")), "{gap}");
+        assert_eq!((in_region("existence"), in_region("stability")), (any("admissible"), any("stable")), "{gap}");
     }
     let polygon = &answer["stability"]["polygons"][0];
     let bounds = polygon["bounds"].as_array().unwrap();
@@ -140,8 +140,8 @@ fn f06_the_region_of_the_motion_without_impacts() {
     for (beta, gap) in [(1.6, 0.6), (1.6, 0.7), (2.0, 1.0), (2.9, 0.51)] {
         let orbit = json(&format!("orbit --label 0 --damping 0.05 --beta {beta} --gap {gap} --restitution 0.5"));
         let orbit = &orbit["orbits"][0];
-        for (kind, expected) in [("existence", orbit["physical"] == true), ("stability", orbit["stable"] == true)] {
-            let expected = expected && orbit["physical"] == true;
+        for (kind, expected) in [("existence", orbit["admissible"] == true), ("stability", orbit["stable"] == true)] {
+            let expected = expected && orbit["admissible"] == true;
             assert_eq!(inside(&answer[kind]["polygons"], (beta, gap)), expected, "{kind} at {beta}, {gap}");
         }
     }

@@ -77,7 +77,7 @@ fn same(line: &str) {
 fn same_of_machine(line: &str) {
     let written = Written::by(line);
     let plan: MachinePlan = serde_json::from_value(written.object["plan"].clone()).expect("a plan");
-    let (control, name) = (Control::default(), written.object["machine"].as_str().expect("a name"));
+    let (control, name) = (Control::default(), written.object["system"]["name"].as_str().expect("a name"));
     let told = machine_answer(name, &plan, &control).expect("it was answered before");
     let (table, figure) = (told.table(&Shown::default()), told.figure(&Shown::default(), &control));
     written.is(line, told.json(), table.expect("it was written before"), figure.expect("it was drawn before"));

@@ -149,11 +149,10 @@ fn told(verb: &str, stdout: &[u8], stored: bool, plain: bool) -> Result<(), Stri
     if stored || matches!(verb, "resume" | "verify" | "status") {
         return Ok(());
     }
-    if let Some(name) = object.get("machine").and_then(Value::as_str) {
-        rules::machine_answer(verb, &object)?;
-        return again_from_plan(name, &object, stdout);
-    }
     rules::answer(verb, &object)?;
+    if object["system"]["kind"] == "machine" {
+        return again_from_plan(object["system"]["name"].as_str().unwrap_or_default(), &object, stdout);
+    }
     // a plan has the units of a machine only if its results are in them
     let nondimensional = object.get("system").is_none_or(|system| system.get("scales").is_none());
     let reproducible = nondimensional || object.get("units").is_some_and(|units| units == "si");

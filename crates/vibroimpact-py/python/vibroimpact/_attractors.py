@@ -31,8 +31,8 @@ class Attractor(Motion):
         return f", {100 * self.share:.4g} %"
 
     def to_dict(self) -> dict[str, Any]:
-        """The fields of the JSON of the command; numbers that are not finite are None."""
-        return {**Motion.to_dict(self), "share": self.share, "count": self.count}
+        """The object of the motion in the JSON of the command."""
+        return {**Motion.to_dict(self), "share": self.share, "starts": self.count}
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
@@ -74,18 +74,6 @@ class Attractors(Result):
 
     def __getitem__(self, k: int) -> Attractor:
         return self.motions[k]
-
-    def to_dict(self) -> dict[str, Any]:
-        """The fields of the JSON of the command; numbers that are not finite are None."""
-        box = {name: list(ends) for name, ends in self.box.items()}
-        return {
-            "motions": [motion.to_dict() for motion in self],
-            "share_intervals": [list(motion.share_interval) for motion in self],
-            "missed_below": self.missed_below,
-            "starts": self.starts,
-            "seed": self.seed,
-            "box": box,
-        }
 
     def _table(self) -> dict[str, Any]:
         """One row for each motion."""

@@ -1,6 +1,5 @@
 """Branches of periodic orbits in one parameter or along a line through two, with their events."""
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -11,9 +10,9 @@ from numpy.typing import NDArray
 from vibroimpact import _core
 from vibroimpact._axis import beside
 from vibroimpact._core import Oscillator
-from vibroimpact._cycle import Cycles, pairs
+from vibroimpact._cycle import Cycles
 from vibroimpact._progress import Progress, watched
-from vibroimpact._result import Result
+from vibroimpact._result import Result, answer
 from vibroimpact._whole import BRANCH, FOLLOW, NUMBER, maybe, whole
 
 if TYPE_CHECKING:
@@ -46,18 +45,6 @@ class BranchEvent:
     also: tuple[int | None, str, float] | None = None
     #: Values of both parameters, on a line through two.
     values: tuple[float, float] | None = None
-
-    def to_dict(self) -> dict[str, Any]:
-        """The fields of the JSON of the command."""
-        always = ("kind", "parameter", "point", "ends", "label_before", "label_after")
-        fields = {name: getattr(self, name) for name in self.__dataclass_fields__}
-        if self.also is not None:
-            also = dict(zip(("impact", "side", "phase"), self.also))
-            fields["also"] = {name: value for name, value in also.items() if value is not None}
-        if self.values is not None:
-            fields["values"] = list(self.values)
-        return {name: value for name, value in fields.items() if name in always or value is not None}
-
 
 class Origin(NamedTuple):
     """The event at which a further branch begins."""
@@ -104,6 +91,8 @@ class Branch(Result):
         The branches that begin on it, the branches that begin on those, and so on.
     orbit : (int, int)
         The number of the orbit at which it begins, and the number of orbits with its label.
+    number : int
+        The number of the branch: 0 for that of the chosen orbit, from 1 for those that begin on it.
     plan : str
         The plan as JSON.
     """
@@ -123,6 +112,7 @@ class Branch(Result):
     origin: Origin | None
     followed: "list[Branch]"
     orbit: tuple[int, int]
+    number: int
     plan: str
 
     def __repr__(self) -> str:
@@ -188,39 +178,10 @@ class Branch(Result):
             "speed": self.speed, "multiplier": modulus,
         }
 
-    def _points(self) -> list[dict[str, Any]]:
-        rests = self.rests
-        return [
-            {
-                "parameter": float(self.parameter[k]),
-                **({} if self.second is None else {"values": [float(self.parameter[k]), float(self.second[k])]}),
-                "label": self.label[k],
-                "cycle": cycle.to_list(),
-                **({"rests": rests[k]} if rests[k] else {}),
-                "multipliers": pairs(self.multipliers[k]),
-                "stable": bool(self.stable[k]),
-                "stability": str(self.stability[k]),
-                "physical": bool(self.physical[k]),
-            }
-            for k, cycle in enumerate(self.cycles)
-        ]
-
     def to_dict(self) -> dict[str, Any]:
-        """The fields of the JSON of the command; numbers that are not finite are None."""
-        own = {"points": self._points(), "events": [event.to_dict() for event in self.events]}
-        if self.origin is not None:
-            return {"from": self.origin._asdict(), **own}
-        return {
-            "label": self.label[0],
-            "vary": self.vary,
-            "from": self.ends[0],
-            "to": self.ends[1],
-            **({"also": dict(zip(("parameter", "from", "to"), self.also))} if self.also else {}),
-            "orbit": {"number": self.orbit[0], "count": self.orbit[1]},
-            **own,
-            "branches": [branch.to_dict() for branch in self.followed],
-            "plan": json.loads(self.plan),
-        }
+        """The object that the command prints with --json; of a branch that begins on another one, its part of it."""
+        whole_answer = answer(self.plan)
+        return whole_answer if self.number == 0 else whole_answer["branches"][self.number]
 
 
 def branch(
@@ -276,7 +237,7 @@ def branch(
     with watched(progress, "branches") as tell:
         found = _core.branch(osc, label, vary, to, beside(also), orbit, follow, points, tell)
 
-    def of(fields: dict[str, Any], followed: list[Branch]) -> Branch:
+    def of(number: int, fields: dict[str, Any], followed: list[Branch]) -> Branch:
         return Branch(
             osc=osc,
             vary=vary,
@@ -293,8 +254,9 @@ def branch(
             origin=None if fields["origin"] is None else Origin(*fields["origin"]),
             followed=followed,
             orbit=found["orbit"],
+            number=number,
             plan=found["plan"],
         )
 
     first, *others = found["branches"]
-    return of(first, [of(fields, []) for fields in others])
+    return of(0, first, [of(number, fields, []) for number, fields in enumerate(others, start=1)])

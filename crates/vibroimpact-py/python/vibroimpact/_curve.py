@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from vibroimpact import _core
 from vibroimpact._axis import Interval, plane
 from vibroimpact._core import Oscillator
-from vibroimpact._cycle import Cycles, pairs
+from vibroimpact._cycle import Cycles
 from vibroimpact._figure import named, new_axes
 from vibroimpact._plane import broken, frame
 from vibroimpact._progress import Progress, watched
@@ -99,24 +99,6 @@ class Curve(Result):
         """One row for each point."""
         p, q = self.parameters
         return {p: self.values[:, 0], q: self.values[:, 1], "physical": self.physical}
-
-    def to_dict(self) -> dict[str, Any]:
-        """The fields of the JSON of the command; numbers that are not finite are None."""
-        points = zip(self.values.tolist(), self.physical.tolist(), self.cycles, self.multipliers)
-        return {
-            "label": self.label,
-            "kind": self.kind,
-            "parameters": list(self.parameters),
-            "orbit": {"number": self.orbit[0], "count": self.orbit[1]},
-            "found_at": self.found_at,
-            "through": {"event": self.through[0], "point": self.through[1]},
-            "points": [
-                {"values": values, "physical": physical, "cycle": cycle.to_list(), "multipliers": pairs(multipliers)}
-                for values, physical, cycle, multipliers in points
-            ],
-            "events": [{"kind": e.kind, "values": list(e.values), "point": e.point} for e in self.events],
-        }
-
 
 def _draw(of: Curve, ax: "Axes | None") -> "Axes":
     """Draw the curve, dotted where the orbit is inadmissible, and its points of codimension two."""

@@ -9,9 +9,6 @@ from numpy.typing import NDArray
 
 from vibroimpact._result import Result
 
-#: Names of the two stops by their sign.
-SIDES = {1: "upper", -1: "lower"}
-
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Cycle(Result):
@@ -36,14 +33,6 @@ class Cycle(Result):
 
     def __len__(self) -> int:
         return len(self.phase)
-
-    def to_list(self) -> list[dict[str, Any]]:
-        """One dict for each impact, as in the JSON of the command."""
-        rows = zip(self.phase.tolist(), self.velocity_before.tolist(), self.interval.tolist(), self.side.tolist())
-        return [
-            {"phase": phase, "velocity_before": velocity, "interval": interval, "side": SIDES[side]}
-            for phase, velocity, interval, side in rows
-        ]
 
     def _table(self) -> dict[str, Any]:
         """One row for each impact."""
@@ -86,13 +75,3 @@ class Cycles(Result):
         """The largest speed before an impact of each cycle; 0 without impacts."""
         lists = (cycle.velocity_before for cycle in self)
         return np.array([speeds.max() if len(speeds) else 0.0 for speeds in lists], dtype=np.float64)
-
-
-def finite(value: float | None) -> float | None:
-    """The value for JSON: None (null) for a number that is not finite."""
-    return value if value is not None and np.isfinite(value) else None
-
-
-def pairs(multipliers: NDArray[np.complex128]) -> list[list[float | None]]:
-    """Real and imaginary parts, as in the JSON of the command."""
-    return [[finite(float(m.real)), finite(float(m.imag))] for m in multipliers]

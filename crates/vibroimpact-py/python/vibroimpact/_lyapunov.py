@@ -8,9 +8,8 @@ from numpy.typing import NDArray
 
 from vibroimpact import _core, _exponents
 from vibroimpact._core import Oscillator
-from vibroimpact._cycle import finite
 from vibroimpact._figure import named, title
-from vibroimpact._motion import Motion, fields_of, horizon_object
+from vibroimpact._motion import Motion, fields_of
 from vibroimpact._progress import Progress, watched
 from vibroimpact._result import Result
 from vibroimpact._sections import Impacts, Strobes, sections
@@ -25,14 +24,6 @@ class Measured(NamedTuple):
 
     value: float
     error: float
-
-    def to_dict(self) -> dict[str, Any]:
-        """The object in the JSON of the command. For a value that is not finite it has the reason "why"."""
-        if np.isfinite(self.value):
-            return {"value": self.value, "error": finite(self.error)}
-        why = "undefined" if np.isnan(self.value) else "infinity" if self.value > 0 else "minus_infinity"
-        return {"value": None, "error": None, "why": why}
-
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
 class Lyapunov(Result):
@@ -103,29 +94,6 @@ class Lyapunov(Result):
     def _draw(self, ax: Any) -> None:
         exact = not any(of.error for of in self.exponents)
         _exponents.plot(self.exponents, exact, f"{title(self.osc)}: {named(self.motion.label)}", ax)
-
-    def to_dict(self) -> dict[str, Any]:
-        """The fields of the JSON of the command; numbers that are not finite are None."""
-        motion = self.motion.to_dict()
-        motion.pop("lyapunov", None)
-        motion.get("tried", {}).pop("lyapunov", None)
-        some = {name: value for name, value in self.grounds.items() if value is not None}
-        if "horizon" in some:
-            some["horizon"] = horizon_object(some["horizon"])
-        return {
-            "motion": motion,
-            "exponents": [of.to_dict() for of in self.exponents],
-            "exponents_per_period": [of.to_dict() for of in self.exponents_per_period],
-            "sum": self.sum.to_dict(),
-            "identity": finite(self.identity),
-            "impacts_per_period": self.impacts_per_period.to_dict(),
-            "dimension": {
-                "section": self.dimension and self.dimension.to_dict(),
-                "flow": self.flow_dimension and self.flow_dimension.to_dict(),
-            },
-            "grounds": some,
-        }
-
 
 def lyapunov(
     osc: Oscillator,

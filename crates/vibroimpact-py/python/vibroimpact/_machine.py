@@ -609,7 +609,7 @@ class Machine:
                         "impacts": maybe("impacts", impacts, BUDGET)}}
         total = _machine_answers.size(over)
         found = _machine_answers.answered(self._file, self.start_of(), task, total, threads, progress, "points")
-        return _machine_answers.mapped(found["object"], found["cells"] or [])
+        return _machine_answers.mapped(found["object"])
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)

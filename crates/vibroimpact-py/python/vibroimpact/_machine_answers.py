@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vibroimpact import _core
 from vibroimpact._lyapunov import Measured
 from vibroimpact._progress import Progress, watched
-from vibroimpact._result import Result
+from vibroimpact._result import Result, answer
 from vibroimpact._whole import THREADS, whole
 
 if TYPE_CHECKING:
@@ -34,8 +34,8 @@ def answered(
     progress: Progress = None,
     what: str = "starts",
 ) -> dict[str, Any]:
-    """The JSON object of the command for a task as "object", and what it does not have: the points of a map as "cells", the
-    sections of an attractor as "section", and the points of an orbit diagram as "diagram"."""
+    """The JSON object of the command for a task as "object", and what it does not have: the sections of an attractor as
+    "section", and the points of an orbit diagram as "diagram"."""
     with watched(progress, what) as tell:
         threads = whole("threads", threads, THREADS)
         found = _core.machine_answer(file, start, json.dumps(task), total, threads, tell)
@@ -284,10 +284,6 @@ class MachineSettled(Result):
     def __repr__(self) -> str:
         return f"<MachineSettled {self.motion!r} after {self.events} events>"
 
-    def to_dict(self) -> dict[str, Any]:
-        """The motion, and how far it was followed."""
-        return {"motion": self.motion.to_dict(), "events_followed": self.events, "time_followed": self.time}
-
     def _table(self) -> dict[str, Any]:
         """One row for each event of the cycle."""
         return self.motion._table()
@@ -301,8 +297,8 @@ def settled(found: Mapping[str, Any], machine: Any) -> MachineSettled:
     """Of the JSON object."""
     plan = json.dumps(found["plan"])
     return MachineSettled(
-        _motion(found["motion"], len(found["coordinates"]), machine), found["events_followed"], found["time_followed"],
-        _all_measured(found.get("chaotic_transient")), plan,
+        _motion(found["motion"], len(found["system"]["coordinates"]), machine), found["events_followed"], found["time_followed"],
+        _all_measured(found.get("chaotic_transient", {}).get("exponents")), plan,
     )
 
 
@@ -347,16 +343,6 @@ class MachineAttractors(Result):
     def __getitem__(self, k: int) -> MachineMotion:
         return self.motions[k]
 
-    def to_dict(self) -> dict[str, Any]:
-        """The motions as in the JSON of the command, with their shares."""
-        rows = zip(self.motions, self.share.tolist(), self.count.tolist())
-        return {
-            "motions": [{**of.to_dict(), "share": share, "count": n} for of, share, n in rows],
-            "share_intervals": self.share_intervals.tolist(),
-            "missed_below": self.missed_below,
-            "starts": self.starts,
-        }
-
     def _table(self) -> dict[str, Any]:
         """One row for each motion."""
         names = ("label", "kind", "stable", "stability", "seen_events", "impacts", "periods")
@@ -371,9 +357,9 @@ class MachineAttractors(Result):
 
 
 def _shared(found: Mapping[str, Any], machine: Any) -> tuple[tuple[MachineMotion, ...], _Floats, NDArray[np.int64]]:
-    width, motions = len(found["coordinates"]), found["motions"]
+    width, motions = len(found["system"]["coordinates"]), found["motions"]
     share = np.array([motion.pop("share") for motion in motions], dtype=np.float64)
-    count = np.array([motion.pop("count") for motion in motions], dtype=np.int64)
+    count = np.array([motion.pop("starts") for motion in motions], dtype=np.int64)
     return tuple(_motion(motion, width, machine) for motion in motions), share, count
 
 
@@ -434,16 +420,6 @@ class MachineLyapunov(Result):
         first = f"{self.exponents[0].value:.5g} +- {self.exponents[0].error:.1g}" if self.exponents else "unknown"
         return f"<MachineLyapunov, largest {first}, {self.motion.label}>"
 
-    def to_dict(self) -> dict[str, Any]:
-        """The exponents as in the JSON of the command, and the motion."""
-        rate = self.impacts_per_period
-        return {
-            "exponents": None if self.exponents is None else [of.to_dict() for of in self.exponents],
-            "impacts_per_period": None if rate is None else rate.to_dict(),
-            "exact": self.exact,
-            "motion": self.motion.to_dict(),
-        }
-
     def _table(self) -> dict[str, Any]:
         """One row for each exponent."""
         of = self.exponents or ()
@@ -470,7 +446,7 @@ class MachineLyapunov(Result):
 
 def lyapunov(found: Mapping[str, Any], machine: Any, points: Mapping[str, Any] | None) -> MachineLyapunov:
     """Of the JSON object, and the points of both sections."""
-    rate, plan, width = found["impacts_per_period"], json.dumps(found["plan"]), len(found["coordinates"])
+    rate, plan, width = found["impacts_per_period"], json.dumps(found["plan"]), len(found["system"]["coordinates"])
     none, states = np.empty(0), np.empty((0, width))
     given = points or {
         "stop": [], "phase": none, "speed": none, **{name: states for name in ("q", "qdot", "strobe_q", "strobe_qdot")},
@@ -511,10 +487,6 @@ class MachineOrbits(Result):
     def __getitem__(self, k: int) -> MachineMotion:
         return self.orbits[k]
 
-    def to_dict(self) -> dict[str, Any]:
-        """The orbits as in the JSON of the command."""
-        return {"orbits": [orbit.to_dict() for orbit in self]}
-
     def _table(self) -> dict[str, Any]:
         """One row for each event of each orbit."""
         tables = [of.cycle._table() for of in self]
@@ -531,7 +503,7 @@ class MachineOrbits(Result):
 
 def orbits(found: Mapping[str, Any], machine: Any) -> MachineOrbits:
     """Of the JSON object."""
-    width, plan = len(found["coordinates"]), json.dumps(found["plan"])
+    width, plan = len(found["system"]["coordinates"]), json.dumps(found["plan"])
     return MachineOrbits(tuple(_motion(orbit, width, machine) for orbit in found["orbits"]), plan)
 
 
@@ -582,6 +554,8 @@ class MachineBranch(Result):
         The branches that begin at flips, with twice the period, and at branch points.
     orbit : (int, int) or None
         The number of the orbit at which it begins, and the number of orbits with its label; None for the motion from the start.
+    number : int
+        The number of the branch: 0 for that of the orbit that was asked for, from 1 for those that begin on it.
     plan : str
         The plan as JSON.
     """
@@ -609,6 +583,7 @@ class MachineBranch(Result):
     branch_point: float | None
     followed: "list[MachineBranch]"
     orbit: tuple[int, int] | None
+    number: int
     plan: str
     _machine: Any
 
@@ -621,18 +596,9 @@ class MachineBranch(Result):
         return len(self.parameter)
 
     def to_dict(self) -> dict[str, Any]:
-        """The points and the events as lists of objects."""
-        events = ("kind", "parameter", "point", "label", "stop")
-        columns = zip(*(getattr(self, f"event_{name}").tolist() for name in events))
-        table = {name: of.tolist() for name, of in self._table().items()}
-        return {
-            "vary": self.vary,
-            "points": [dict(zip(table, row)) for row in zip(*table.values())],
-            "events": [dict(zip(events, row)) for row in columns],
-            **({} if self.flip is None else {"flip": self.flip}),
-            **({} if self.branch_point is None else {"branch_point": self.branch_point}),
-            "followed": [branch.to_dict() for branch in self.followed],
-        }
+        """The object that the command prints with --json; of a branch that begins on another one, its part of it."""
+        whole_answer = answer(self.plan)
+        return whole_answer if self.number == 0 else whole_answer["branches"][self.number]
 
     def _table(self) -> dict[str, Any]:
         """One row for each point."""
@@ -684,20 +650,25 @@ def branch(found: Mapping[str, Any], machine: Any) -> MachineBranch:
     line, orbit = found.get("also"), found.get("orbit")
     whole_answer = {
         "vary": found["vary"],
-        "also": line and (line["path"], line["from"], line["to"]),
+        "also": line and (line["parameter"], line["from"], line["to"]),
         "orbit": orbit and (orbit["number"], orbit["count"]),
         "plan": json.dumps(found["plan"]),
         "_machine": machine,
     }
-    width = len(found["coordinates"])
-    followed = [_branch(one, width, [], whole_answer) for one in found.get("followed", [])]
-    return _branch(found, width, followed, whole_answer)
+    width = len(found["system"]["coordinates"])
+    first, *further = found["branches"]
+    followed = [_branch(one, width, [], {**whole_answer, "number": k}) for k, one in enumerate(further, start=1)]
+    return _branch(first, width, followed, {**whole_answer, "number": 0})
 
 
 def _branch(
     found: Mapping[str, Any], width: int, followed: list[MachineBranch], whole_answer: dict[str, Any]
 ) -> MachineBranch:
     points, events = found["points"], found["events"]
+    begins = found["from"] or {}
+
+    def origin(kind: str) -> float | None:
+        return begins["parameter"] if begins.get("kind") == kind else None
 
     def words(of: Sequence[Mapping[str, Any]], name: str) -> NDArray[np.str_]:
         return np.array([one.get(name, "") for one in of], dtype=np.str_)
@@ -714,8 +685,8 @@ def _branch(
         **whole_answer,
         parameter=np.array([point["parameter"] for point in points], dtype=np.float64),
         second=None if whole_answer["also"] is None else second,
-        flip=found.get("flip"),
-        branch_point=found.get("branch_point"),
+        flip=origin("flip"),
+        branch_point=origin("branch point"),
         followed=followed,
         label=words(points, "label"),
         period=np.array([point["period"] for point in points], dtype=np.float64),
@@ -730,7 +701,7 @@ def _branch(
         event_kind=words(events, "kind"),
         event_parameter=np.array([event["parameter"] for event in events], dtype=np.float64),
         event_point=np.array([event["point"] for event in events], dtype=np.int64),
-        event_label=words(events, "label"),
+        event_label=words(events, "before"),
         event_stop=words(events, "stop"),
     )
 
@@ -792,18 +763,6 @@ class MachineCurve(Result):
     def __len__(self) -> int:
         return len(self.values)
 
-    def to_dict(self) -> dict[str, Any]:
-        """The points and the events as lists."""
-        events = zip(self.event_kind.tolist(), self.event_stop.tolist(), self.event_point.tolist())
-        return {
-            "kind": self.kind,
-            "label": self.label,
-            "of": list(self.of),
-            "parameters": list(self.parameters),
-            "values": self.values.tolist(),
-            "events": [{"kind": kind, "stop": stop, "point": point} for kind, stop, point in events],
-        }
-
     def _table(self) -> dict[str, Any]:
         """One row for each point."""
         p, q = self.parameters
@@ -818,7 +777,7 @@ class MachineCurve(Result):
 
 def curve(found: Mapping[str, Any]) -> MachineCurve:
     """Of the JSON object."""
-    width, points, events = len(found["coordinates"]), found["points"], found["events"]
+    width, points, events = len(found["system"]["coordinates"]), found["points"], found["events"]
     one, two = found["parameters"]
     return MachineCurve(
         kind=found["kind"],
@@ -860,7 +819,8 @@ def size(axes: Sequence[Mapping[str, str]]) -> int:
 
 
 def _coordinates(found: Mapping[str, Any]) -> dict[str, _Floats]:
-    return {axis["vary"]: _core.span_values(axis["over"]) for axis in found["axes"]}
+    (task,) = found["plan"]["task"].values()
+    return {axis["vary"]: _core.span_values(axis["over"]) for axis in task["axes"]}
 
 
 def _in_axes(values: NDArray[Any], axes: Mapping[str, _Floats]) -> NDArray[Any]:
@@ -908,11 +868,6 @@ class MachineBasin(Result):
         import xarray as xr
 
         return xr.DataArray(self.labels, coords=self.axes, dims=list(self.axes), name="label", attrs={"plan": self.plan})
-
-    def to_dict(self) -> dict[str, Any]:
-        """The motions as in the JSON of the command, and the number of the motion of each start."""
-        axes = {path: of.tolist() for path, of in self.axes.items()}
-        return {"axes": axes, "motions": [of.to_dict() for of in self.motions], "cells": self.cells.tolist()}
 
     def _table(self) -> dict[str, Any]:
         """One row for each start."""
@@ -975,12 +930,6 @@ class MachineMap(Result):
         variables = {"label": (dims, self.labels), "share": (dims, self.share), "stop": (dims, self.stop)}
         return xr.Dataset(variables, coords=self.axes, attrs={"plan": self.plan})
 
-    def to_dict(self) -> dict[str, Any]:
-        """The labels and shares at each point."""
-        axes = {path: of.tolist() for path, of in self.axes.items()}
-        columns = {"labels": self.labels.tolist(), "share": self.share.tolist(), "stop": self.stop.tolist()}
-        return {"axes": axes, **columns, "seen_events": self.seen_events}
-
     def _table(self) -> dict[str, Any]:
         """One row for each motion at each point."""
         count = np.arange(self.labels.shape[-1])
@@ -997,8 +946,11 @@ class MachineMap(Result):
         return _machine_plots.cells(self.axes, self.labels, self.plan, ax, share=self.share)
 
 
-def mapped(found: Mapping[str, Any], cells: list[list[tuple[str, float, str]]]) -> MachineMap:
-    """Of the JSON object, and the points."""
+def mapped(found: Mapping[str, Any]) -> MachineMap:
+    """Of the JSON object."""
+    cells = [
+        [(of["label"], of["share"], " ".join(of.get("stops", ()))) for of in point["motions"]] for point in found["points"]
+    ]
     axes, most = _coordinates(found), max((len(cell) for cell in cells), default=0)
     rows = [cell + [("", math.nan, "")] * (most - len(cell)) for cell in cells]
 

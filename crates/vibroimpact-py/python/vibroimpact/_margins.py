@@ -28,11 +28,6 @@ class MarginEnd:
     #: The event with the fields of the JSON of the command: "kind", "label_before", "label_after" and others.
     event: dict[str, Any] | None
 
-    def to_dict(self) -> dict[str, Any]:
-        """The fields of the JSON of the command."""
-        return {name: getattr(self, name) for name in self.__dataclass_fields__}
-
-
 @dataclass(frozen=True, slots=True)
 class ParameterMargin:
     """The nearest events of a motion in one parameter."""
@@ -43,12 +38,6 @@ class ParameterMargin:
     scale: float
     down: MarginEnd
     up: MarginEnd
-
-    def to_dict(self) -> dict[str, Any]:
-        """The fields of the JSON of the command."""
-        ends = {"down": self.down.to_dict(), "up": self.up.to_dict()}
-        return {"parameter": self.parameter, "value": self.value, "scale": self.scale, **ends}
-
 
 class Nearest(NamedTuple):
     """The event with the smallest change in units of the scale of its parameter."""
@@ -75,23 +64,6 @@ class MotionBox:
     lines: int
     #: Why the motion was not found next to the box, and the values of the parameters there; None if the box ends at the end of a range.
     edge: tuple[str, dict[str, float]] | None
-
-    def to_dict(self) -> dict[str, Any]:
-        """The fields of the JSON of the command."""
-        edge = None
-        if self.edge is not None:
-            loss, values = self.edge
-            edge = {"loss": loss, "parameters": [{"parameter": name, "value": of} for name, of in values.items()]}
-        return {
-            "size": self.size,
-            "largest": self.largest,
-            "parameters": [{"parameter": name, "from": a, "to": b} for name, (a, b) in self.ranges.items()],
-            "points": self.points,
-            "lines": self.lines,
-            "proved": False,
-            "edge": edge,
-        }
-
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
 class Margins(Result):
@@ -143,16 +115,6 @@ class Margins(Result):
         from vibroimpact import _margin_bars
 
         return _margin_bars.plot(self, ax)
-
-    def to_dict(self) -> dict[str, Any]:
-        """The fields of the JSON of the command; numbers that are not finite are None."""
-        return {
-            "motion": self.motion.to_dict(),
-            "parameters": [margin.to_dict() for margin in self.parameters.values()],
-            "nearest": None if self.nearest is None else self.nearest._asdict(),
-            "box": None if self.box is None else self.box.to_dict(),
-        }
-
 
 def margins(
     osc: Oscillator,

@@ -1,5 +1,6 @@
 """The motion after the transient: its kind, its impacts and its stability."""
 
+import json
 import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -9,7 +10,7 @@ from numpy.typing import NDArray
 
 from vibroimpact import _core
 from vibroimpact._core import Oscillator
-from vibroimpact._cycle import Cycle, finite, pairs
+from vibroimpact._cycle import Cycle
 from vibroimpact._result import Result
 
 if TYPE_CHECKING:
@@ -105,6 +106,7 @@ class Motion(Result):
     tried: dict[str, Any] | None
     quantities: dict[str, float] | None
     quantities_error: dict[str, float] | None
+    _told: str
 
     def __repr__(self) -> str:
         stability = "" if self.kind in ("chaotic", "stuck") or self.stability is None else f", {self.stability}"
@@ -119,47 +121,9 @@ class Motion(Result):
         return ""
 
     def to_dict(self) -> dict[str, Any]:
-        """The fields of the JSON of the command; numbers that are not finite are None."""
-        fields: dict[str, Any] = {
-            "kind": self.kind,
-            "label": self.label,
-            "impacts": self.impacts,
-            **({"impacts_upper": self.impacts_upper, "impacts_lower": self.impacts_lower} if self.by_stop else {}),
-            "periods": self.periods,
-            "sticks": self.sticks,
-            "stable": self.stable,
-            "stability": self.stability,
-            "multipliers": None if self.multipliers is None else pairs(self.multipliers),
-            "cycle": self.cycle.to_list(),
-        }
-        if self.rests:
-            last = self.rests[-1]
-            if last["chatter"]:
-                fields["chatter_end"] = last["begin"]
-            fields |= {"release": last["release"], "rests": self.rests}
-        if self.lyapunov is not None:
-            fields["lyapunov"] = _estimate(self.lyapunov)
-        if self.seen_impacts is not None:
-            fields["seen_impacts"] = self.seen_impacts
-        if self.chaotic_transient is not None:
-            impacts, exponent = self.chaotic_transient
-            fields["chaotic_transient"] = {"impacts": impacts, "lyapunov": _estimate(exponent)}
-        if self.horizon is not None:
-            fields["horizon"] = horizon_object(self.horizon)
-        if self.residual is not None:
-            fields["residual"] = finite(self.residual)
-        if self.side is not None:
-            fields |= {"side": self.side, "stop": self.side, "stops": [self.side]}
-        if self.tried is not None:
-            tried = {name: value for name, value in self.tried.items() if value is not None}
-            if "lyapunov" in tried:
-                tried["lyapunov"] = _estimate(tried["lyapunov"])
-            fields["tried"] = tried
-        quantities = self.quantities
-        fields["quantities"] = None if quantities is None else {name: finite(value) for name, value in quantities.items()}
-        if self.quantities_error is not None:
-            fields["quantities_error"] = dict(self.quantities_error)
-        return fields
+        """The object of the motion in the JSON of the command."""
+        found: dict[str, Any] = json.loads(self._told)
+        return found
 
     def _table(self) -> dict[str, Any]:
         """One row for each impact of the cycle."""
@@ -207,20 +171,7 @@ class Motion(Result):
         return _figure.waveform(self.osc, (t, x), (ends, sides), self.label, ax, si)
 
 
-def _estimate(of: tuple[float, float]) -> dict[str, Any]:
-    return {"value": finite(of[0]), "error": finite(of[1])}
-
-
-def horizon_object(horizon: dict[str, Any]) -> dict[str, Any]:
-    """The object in the JSON of the command."""
-    fields = {name: horizon[name] for name in ("kind", "periods", "why")}
-    if horizon["common_period"] is not None:
-        forcing, natural = horizon["common_period"]
-        fields["common_period"] = {"forcing_periods": forcing, "natural_periods": natural}
-    return fields
-
-
 def fields_of(osc: Oscillator, fields: dict[str, Any]) -> dict[str, Any]:
     """The keyword arguments of a Motion, from the fields returned by the compiled module."""
     named = {name: None if fields[name] is None else dict(fields[name]) for name in ("quantities", "quantities_error")}
-    return {**fields, "osc": osc, "cycle": Cycle(**fields["cycle"]), **named}
+    return {**fields, "osc": osc, "_told": fields.pop("told"), "cycle": Cycle(**fields["cycle"]), **named}

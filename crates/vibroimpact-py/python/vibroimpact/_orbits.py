@@ -19,7 +19,7 @@ class EarlierContact(NamedTuple):
     #: The number of the impact before the contact, counted from 1; None if the solution has no impacts.
     after_impact: int | None
     #: "upper" or "lower".
-    side: str
+    stop: str
     #: Time from that impact, or from phase 0, to the contact.
     time: float
 
@@ -45,9 +45,9 @@ class Orbit(Motion):
         return Motion.waveform(self, points_per_period, periods)
 
     def to_dict(self) -> dict[str, Any]:
-        """The fields of the JSON of the command; numbers that are not finite are None."""
+        """The object of the orbit in the JSON of the command."""
         earlier = None if self.earlier_contact is None else self.earlier_contact._asdict()
-        return {**Motion.to_dict(self), "physical": self.physical, "earlier_contact": earlier}
+        return {**Motion.to_dict(self), "admissible": self.physical, "earlier_contact": earlier}
 
 
 def orbits(osc: Oscillator, label: str, *, progress: Progress = None) -> list[Orbit]:

@@ -50,11 +50,6 @@ class Polygon(Result):
     def __repr__(self) -> str:
         return f"<Polygon of {len(self.vertices)} vertices{', a hole' if self.hole else ''}>"
 
-    def to_dict(self) -> dict[str, Any]:
-        """The fields of the JSON of the command."""
-        return {"hole": self.hole, "sheet": self.sheet, "vertices": self.vertices.tolist(), "bounds": self.bounds}
-
-
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
 class Part(Result):
     """The region where a motion exists, or where it is stable.
@@ -83,11 +78,6 @@ class Part(Result):
         polygons = [(polygon.vertices, polygon.sheet == "below") for polygon in self.polygons]
         inside = _core.contains(polygons, np.ascontiguousarray(p).reshape(-1), np.ascontiguousarray(q).reshape(-1))
         return inside.reshape(p.shape)
-
-    def to_dict(self) -> dict[str, Any]:
-        """The fields of the JSON of the command."""
-        return {"polygons": [p.to_dict() for p in self.polygons], "unresolved": self.unresolved.tolist()}
-
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
 class Region(Result):
@@ -131,17 +121,6 @@ class Region(Result):
     def plot(self, ax: "Axes | None" = None) -> "Axes":
         """Draw both regions. The colour of an edge shows the kind of boundary."""
         return _draw(self, ax)
-
-    def to_dict(self) -> dict[str, Any]:
-        """The fields of the JSON of the command."""
-        return {
-            "label": self.label,
-            "parameters": list(self.parameters),
-            "neutrally_stable": self.neutrally_stable,
-            "existence": self.existence.to_dict(),
-            "stability": self.stability.to_dict(),
-        }
-
 
 def _vertices(parts: "list[tuple[str, Part]]", names: tuple[str, str]) -> dict[str, Any]:
     """The vertices of all polygons as columns."""

@@ -1,6 +1,5 @@
 """A quantity of all motions over one parameter: branches, stable or not, and the motions of sweeps up and down."""
 
-import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -10,7 +9,6 @@ from numpy.typing import NDArray
 from vibroimpact import _core
 from vibroimpact._axis import Axis, sweep
 from vibroimpact._core import Oscillator
-from vibroimpact._cycle import finite
 from vibroimpact._figure import Scale, legend, named, new_axes, title
 from vibroimpact._palette import SERIES
 from vibroimpact._progress import Progress, watched
@@ -102,25 +100,6 @@ class Response(Result):
         joined = {name: np.concatenate([table[name] for _, table in tables]) for name in tables[0][1]}
         of = np.repeat([name for name, _ in tables], [len(curve) for _, curve in curves])
         return {"curve": of, self.vary: joined.pop("parameter"), **joined}
-
-    def to_dict(self) -> dict[str, Any]:
-        """The fields of the JSON of the command; numbers that are not finite are None."""
-
-        def points(of: ResponseCurve, branch: bool) -> list[dict[str, Any]]:
-            values = of.quantities[self.quantity].tolist()
-            own = [{"stable": stable, "stability": word, "physical": physical} if branch else {}
-                   for stable, word, physical in zip(of.stable.tolist(), of.stability.tolist(), of.physical.tolist(), strict=True)]
-            rows = zip(of.parameter.tolist(), of.label.tolist(), values, own, strict=True)
-            return [{"parameter": at, "label": label, "value": finite(value)} | more for at, label, value, more in rows]
-
-        sweeps = (("up", self.up), ("down", self.down))
-        return {
-            "vary": self.vary,
-            "quantity": self.quantity,
-            "sweeps": [{"direction": name, "points": points(of, False)} for name, of in sweeps],
-            "branches": [{"points": points(of, True)} for of in self.branches],
-            "plan": json.loads(self.plan),
-        }
 
     def plot(self, ax: "Axes | None" = None, *, quantity: str | None = None) -> "Axes":
         """Draw a quantity over the parameter: stable branches solid, neutral ones dashed and dotted, unstable ones dashed, the motions of the sweeps as dots.

@@ -36,6 +36,14 @@ def equal(a: object, b: object) -> bool:
     return a == b
 
 
+def answer(plan: str) -> dict[str, Any]:
+    """The object that the command prints with --json for a plan, which is computed for it."""
+    from vibroimpact import _core
+
+    found: dict[str, Any] = json.loads(_core.answer_json(plan))
+    return found
+
+
 class Result:
     """The base of all results."""
 
@@ -49,6 +57,10 @@ class Result:
     def _table(self) -> dict[str, Any]:
         """The columns of the table of the result."""
         raise NotImplementedError
+
+    def to_dict(self) -> dict[str, Any]:
+        """The object that the command prints with --json for the plan of the result, which is computed again for it."""
+        return answer(self.plan)  # type: ignore[attr-defined]
 
     def to_dataframe(self) -> "pd.DataFrame":
         """The result as a table of pandas: one row for each event, motion, point or value."""

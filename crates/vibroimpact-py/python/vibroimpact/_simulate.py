@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 
 from vibroimpact import _core
 from vibroimpact._core import Oscillator
-from vibroimpact._cycle import SIDES, finite
-from vibroimpact._motion import horizon_object
 from vibroimpact._progress import Progress, watched
 from vibroimpact._result import Result
 from vibroimpact._whole import SIMULATED, maybe
@@ -97,36 +95,10 @@ class Simulation(Result):
         struck = self.code == 0
         return _figure.waveform(self.osc, (t, x), (self.time[struck], self.side[struck]), None, ax, si)
 
-    def to_dict(self) -> dict[str, Any]:
-        """The fields "events" and "end" of the JSON of the command."""
-        end: dict[str, Any] = {"reason": self.end, "time": finite(self.end_time)}
-        if self.horizon is not None:
-            end["horizon"] = horizon_object(self.horizon)
-        return {"events": self._events(), "end": end}
-
     def _table(self) -> dict[str, Any]:
         """One row for each event."""
         names = ("time", "phase", "side", "velocity_before", "velocity_after", "depth", "chatter", "error")
         return {"kind": self.kind, **{name: getattr(self, name) for name in names}}
-
-    def _events(self) -> list[dict[str, Any]]:
-        """One dict for each event. Each column is converted once, because access to single elements is slow."""
-        names = ("time", "phase", "velocity_before", "velocity_after", "depth", "chatter", "error", "side")
-        rows = zip(self.kind.tolist(), *(getattr(self, name).tolist() for name in names))
-        events = []
-        for kind, time, phase, before, after, depth, chatter, error, side in rows:
-            event: dict[str, Any] = {"kind": kind, "time": time, "phase": phase}
-            match kind:
-                case "impact":
-                    event |= {"velocity_before": before, "velocity_after": after}
-                case "graze":
-                    event["depth"] = depth
-                case "stick":
-                    event |= {"chatter": chatter, "error": error}
-            event["side"] = SIDES[side]
-            events.append(event)
-        return events
-
 
 def simulate(
     osc: Oscillator,

@@ -2,7 +2,7 @@
 
 use super::Document;
 use super::certainty::Certainty;
-use super::motion::{MotionFields, SharedMotion};
+use super::motion::{MotionObject, SharedMotion};
 use crate::Asked;
 use serde::Serialize;
 use vibroimpact::Oscillator;
@@ -11,8 +11,8 @@ use vibroimpact_study::Plan;
 
 /// The fields of `vibro attractors`.
 #[derive(Serialize)]
-struct AttractorsFields {
-    motions: Vec<SharedMotion>,
+struct AttractorsFields<'a> {
+    motions: Vec<SharedMotion<'a>>,
     #[serde(flatten)]
     certainty: Certainty,
     starts: u64,
@@ -41,9 +41,9 @@ pub fn document<'a>(
     let (units, area) = (&asked.units, StartBox::natural(osc));
     let scaled = |(a, b): (f64, f64), unit: f64| (a * unit, b * unit);
     let shared = census.by_share().into_iter().map(|found| SharedMotion {
-        motion: MotionFields::new(&found.verdict, osc, units),
+        motion: MotionObject::of_oscillator(&found.verdict, osc, units),
         share: census.share(found),
-        count: found.count,
+        starts: found.count,
     });
     let area = Area { x: scaled(area.x, units.length()), v: scaled(area.v, units.velocity()), phase: area.phase };
     let certainty = Certainty::of(census.by_share().into_iter().map(|found| found.count), census.total());

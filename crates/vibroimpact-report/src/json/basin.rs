@@ -1,22 +1,22 @@
 //! The motions of a basin and their shares of its starts.
 
 use super::certainty::Certainty;
-use super::motion::{MotionFields, SharedMotion};
-use super::{Document, Place};
+use super::motion::{MotionObject, SharedMotion};
+use super::{AxisObject, Document};
 use crate::Asked;
 use serde::Serialize;
 use vibroimpact::math::sort_by_key;
 use vibroimpact::{Oscillator, Start};
-use vibroimpact_study::{Basin, Coordinate, Plan};
+use vibroimpact_study::{Basin, Plan};
 
-/// The fields of `vibro basin`: the axes of the starts, and the values of coordinates on no axis.
+/// The fields of `vibro basin`. Coordinates on no axis are those of the start.
 #[derive(Serialize)]
-struct BasinFields {
-    x: Place,
-    v: Place,
-    phase: Place,
-    motions: Vec<SharedMotion>,
+struct BasinFields<'a> {
+    motions: Vec<SharedMotion<'a>>,
     starts: usize,
+    axes: Vec<AxisObject<'a>>,
+    /// The number of the motion of each start, the first axis varying fastest.
+    cells: Vec<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     measures: Option<MeasureFields>,
 }
@@ -77,24 +77,23 @@ impl MeasureFields {
 #[must_use]
 pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &Basin) -> impl Serialize + use<'a> {
     let (units, task) = (&asked.units, &found.plan);
-    let place = |vary: Coordinate, unit: f64, fixed: f64| {
-        let axis = task.axes.iter().find(|axis| axis.vary == vary);
-        axis.map_or(Place::At(fixed * unit), |axis| Place::over(&axis.over, unit))
-    };
-    let shared = by_count(found).into_iter().map(|m| SharedMotion {
-        motion: MotionFields::new(&found.motions[m].verdict, osc, units),
+    let order = by_count(found);
+    let mut places = vec![0; order.len()];
+    order.iter().enumerate().for_each(|(place, motion)| places[*motion] = place);
+    let start = Start { x: task.start.x.unwrap_or_else(|| Start::at_rest(osc).x), v: task.start.v, phase: task.start.phase };
+    let shared = order.into_iter().map(|m| SharedMotion {
+        motion: MotionObject::of_oscillator(&found.motions[m].verdict, osc, units),
         share: found.share(m),
-        count: found.motions[m].count,
+        starts: found.motions[m].count,
     });
     let answer = BasinFields {
-        x: place(Coordinate::X, units.length(), task.start.x.unwrap_or_else(|| Start::at_rest(osc).x)),
-        v: place(Coordinate::V, units.velocity(), task.start.v),
-        phase: place(Coordinate::Phase, 1.0, task.start.phase),
         motions: shared.collect(),
         starts: found.cells.len(),
+        axes: AxisObject::of_oscillator(&task.axes, units),
+        cells: found.cells.iter().map(|motion| places[usize::from(*motion)]).collect(),
         measures: MeasureFields::of(found),
     };
-    Document::new(asked, osc, plan, answer)
+    Document::new(asked, osc, plan, answer).start(&start, units)
 }
 
 /// The indices of the motions in order of falling numbers of starts.

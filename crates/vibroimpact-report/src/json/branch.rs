@@ -1,26 +1,34 @@
-//! Branches of periodic orbits: their points, their events, and the events at which further branches begin.
+//! Branches of periodic orbits of any system: their points, their events, and the events at which further branches begin.
 
-use super::motion::{CyclePoint, Rest, impacts, pairs, rests, side};
+use super::event::{self, EventObject, side};
+use super::motion::{drift, multipliers};
 use super::{Document, Pair};
-use crate::{Asked, Units};
+use crate::branch_quantity::BranchQuantity;
+use crate::{Asked, MachineAnswer, Units};
+use core::iter::once;
 use serde::Serialize;
+use serde_json::{Map, Value};
 use vibroimpact::Oscillator;
-use vibroimpact::continuation::{BranchEvent, SolutionPoint};
-use vibroimpact_study::{Branches, Chosen, Cut, EventRecord, Followed, Plan};
+use vibroimpact::continuation::{BranchEvent, MachineBranchEvent, MachinePoint, SolutionPoint};
+use vibroimpact::machine::Machine;
+use vibroimpact_study::{
+    Branches, Chosen, Cut, EventRecord, Followed, MachineBranchPlan, MachineBranched, MachineCut, Plan, SystemPlan,
+};
 
 /// The fields of `vibro branch`.
 #[derive(Serialize)]
-struct BranchFields {
+pub(super) struct BranchFields<'a> {
+    /// The label of the orbit at which the first branch begins.
     label: String,
-    vary: &'static str,
+    vary: &'a str,
     from: f64,
     to: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
-    also: Option<Pair>,
-    orbit: ChosenObject,
-    points: Vec<PointObject>,
-    events: Vec<EventObject>,
-    branches: Vec<BranchObject>,
+    also: Option<Pair<'a>>,
+    /// Absent for the motion from the start of a machine.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    orbit: Option<ChosenObject>,
+    branches: Vec<BranchObject<'a>>,
 }
 
 /// The orbit at which the branch begins.
@@ -28,92 +36,6 @@ struct BranchFields {
 pub(super) struct ChosenObject {
     number: u32,
     count: u32,
-}
-
-#[derive(Serialize)]
-struct PointObject {
-    parameter: f64,
-    /// Values of both parameters, on a line through two.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    values: Option<[f64; 2]>,
-    label: String,
-    cycle: Vec<CyclePoint>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    rests: Vec<Rest>,
-    multipliers: [[f64; 2]; 2],
-    stable: bool,
-    stability: &'static str,
-    physical: bool,
-}
-
-#[derive(Serialize)]
-struct EventObject {
-    kind: &'static str,
-    parameter: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    values: Option<[f64; 2]>,
-    /// Index among the points.
-    point: usize,
-    #[serde(flatten)]
-    fields: EventFields,
-}
-
-/// The fields of an event that do not depend on the branch.
-#[derive(Serialize)]
-pub(super) struct EventFields {
-    ends: bool,
-    label_before: String,
-    label_after: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    change: Option<&'static str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    impact: Option<usize>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    side: Option<&'static str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    phase: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    turns: Option<bool>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    also: Option<TouchObject>,
-}
-
-/// A contact that is simultaneous with that of the event.
-#[derive(Serialize)]
-struct TouchObject {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    impact: Option<usize>,
-    side: &'static str,
-    phase: f64,
-}
-
-/// A further branch.
-#[derive(Serialize)]
-struct BranchObject {
-    from: OriginObject,
-    points: Vec<PointObject>,
-    events: Vec<EventObject>,
-}
-
-/// The event at which it begins.
-#[derive(Serialize)]
-struct OriginObject {
-    kind: &'static str,
-    parameter: f64,
-    /// Number of the branch of that event, counted from 1; the branch of the chosen orbit is number 1.
-    branch: usize,
-}
-
-/// The object of `vibro branch`, for branches along this line.
-#[must_use]
-pub fn document<'a>(
-    asked: &Asked,
-    plan: &'a Plan,
-    osc: &Oscillator,
-    found: &Branches,
-    cut: &Cut,
-) -> impl Serialize + use<'a> {
-    Document::new(asked, osc, plan, BranchFields::new(found, cut, &asked.units))
 }
 
 impl ChosenObject {
@@ -127,49 +49,213 @@ impl ChosenObject {
     }
 }
 
-impl BranchFields {
-    fn new(found: &Branches, cut: &Cut, units: &Units) -> Self {
+/// A branch.
+#[derive(Serialize)]
+struct BranchObject<'a> {
+    /// The event at which it begins; null for that of the orbit that was asked for.
+    from: Option<OriginObject>,
+    points: Vec<PointObject<'a>>,
+    events: Vec<BranchEventObject<'a>>,
+    /// The event with which it ends.
+    end: Option<&'static str>,
+}
+
+#[derive(Serialize)]
+struct OriginObject {
+    kind: &'static str,
+    parameter: f64,
+    /// Number of the branch of that event, counted from 1; the branch of the chosen orbit is number 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    branch: Option<usize>,
+}
+
+#[derive(Serialize)]
+struct PointObject<'a> {
+    parameter: f64,
+    /// Values of both parameters, on a line through two.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    values: Option<[f64; 2]>,
+    label: String,
+    /// The time of one period.
+    period: f64,
+    cycle: Vec<EventObject<'a>>,
+    multipliers: Vec<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drift: Option<Map<String, Value>>,
+    /// The quantity that the figure shows, of a machine without stops.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    quantities: Option<Map<String, Value>>,
+    stable: bool,
+    stability: &'static str,
+    admissible: bool,
+}
+
+#[derive(Serialize)]
+struct BranchEventObject<'a> {
+    kind: &'static str,
+    parameter: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    values: Option<[f64; 2]>,
+    /// Index among the points.
+    point: usize,
+    #[serde(flatten)]
+    fields: EventFields<'a>,
+}
+
+/// The fields of an event that do not depend on the branch.
+#[derive(Default, Serialize)]
+pub(super) struct EventFields<'a> {
+    ends: bool,
+    /// The labels on both sides; null where the branch ends.
+    before: String,
+    after: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stop: Option<&'a str>,
+    /// Of a grazing contact, whether an impact appears beyond it or disappears.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    appears: Option<bool>,
+    /// Whether the parameter turns back.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    turns: Option<bool>,
+    /// Number of the impact of an oscillator, counted from 1, and the phase of the contact.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    impact: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    phase: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    also: Option<TouchObject>,
+}
+
+/// A contact that is simultaneous with that of the event.
+#[derive(Serialize)]
+struct TouchObject {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    impact: Option<usize>,
+    stop: &'static str,
+    phase: f64,
+}
+
+/// The object of `vibro branch`, for branches along this line.
+#[must_use]
+pub fn document<'a>(
+    asked: &Asked,
+    plan: &'a Plan,
+    osc: &'a Oscillator,
+    found: &Branches,
+    cut: &Cut,
+) -> impl Serialize + use<'a> {
+    Document::new(asked, osc, plan, BranchFields::of_oscillator(found, cut, asked))
+}
+
+impl BranchFields<'static> {
+    fn of_oscillator(found: &Branches, cut: &Cut, Asked { system, units }: &Asked) -> Self {
         let unit = units.of(cut.vary);
-        let points =
-            |branch: &Followed| branch.points.iter().map(|point| PointObject::new(point, cut, units)).collect();
-        let mut rest = found.followed.iter();
-        let first = rest.next();
+        let branch = |branch: &Followed| {
+            let from = branch.origin.as_ref().map(|origin| OriginObject {
+                kind: origin.point.event.map_or("", |event| event.name()),
+                parameter: origin.point.value * unit,
+                branch: Some(origin.branch + 1),
+            });
+            let point = |point| PointObject::of_oscillator(point, cut, system, units);
+            let event = |(k, point): (usize, &SolutionPoint)| {
+                Some(BranchEventObject::of_oscillator(k, point, &point.event?, (cut, units)))
+            };
+            BranchObject {
+                from,
+                points: branch.points.iter().map(point).collect(),
+                events: branch.points.iter().enumerate().filter_map(event).collect(),
+                end: branch.points.last().and_then(|point| point.event).map(|event| event.name()),
+            }
+        };
         Self {
             label: found.chosen.orbit.cycle.label.to_string(),
             vary: units.name_of(cut.vary),
             from: cut.ends.0 * unit,
             to: cut.ends.1 * unit,
             also: Pair::of(cut, units),
-            orbit: ChosenObject::new(&found.chosen),
-            points: first.map_or_else(Vec::new, points),
-            events: first.map_or_else(Vec::new, |branch| events(branch, cut, units)),
-            branches: rest
-                .filter_map(|branch| {
-                    let origin = branch.origin.as_ref()?;
-                    let from = OriginObject {
-                        kind: origin.point.event.map_or("", |event| event.name()),
-                        parameter: origin.point.value * unit,
-                        branch: origin.branch + 1,
-                    };
-                    Some(BranchObject { from, points: points(branch), events: events(branch, cut, units) })
-                })
-                .collect(),
+            orbit: Some(ChosenObject::new(&found.chosen)),
+            branches: found.followed.iter().map(branch).collect(),
         }
     }
 }
 
-impl PointObject {
-    fn new(point: &SolutionPoint, cut: &Cut, units: &Units) -> Self {
+impl<'a> BranchFields<'a> {
+    /// Those of a machine, for branches along this line.
+    pub(super) fn of_machine(
+        MachineAnswer { machine, plan, .. }: &'a MachineAnswer,
+        task: &'a MachineBranchPlan,
+        cut: &MachineCut,
+        found: &'a MachineBranched,
+    ) -> Self {
+        let quantity = BranchQuantity::of(machine, &plan.machine, cut, found);
+        let origins = once(None).chain(found.followed.iter().map(Some));
+        let branch = |(points, origin): (&'a [MachinePoint], Option<&vibroimpact_study::MachineFollowed>)| {
+            let event = |k: usize| Some(BranchEventObject::of_machine(k, points, points[k].event?, (machine, cut)));
+            BranchObject {
+                from: origin.map(|at| OriginObject { kind: at.event.name(), parameter: at.at, branch: None }),
+                points: points
+                    .iter()
+                    .map(|point| PointObject::of_machine(point, machine, cut, quantity.as_ref()))
+                    .collect(),
+                events: (0..points.len()).filter_map(event).collect(),
+                end: points.last().and_then(|point| point.event).map(|event| event.name()),
+            }
+        };
+        Self {
+            label: found.points.first().map_or_else(String::new, |point| point.cycle.label.to_string()),
+            vary: &task.vary,
+            from: cut.ends.0,
+            to: cut.ends.1,
+            also: (task.also.as_ref().zip(cut.also.as_ref()))
+                .map(|(own, also)| Pair { parameter: &own.path, from: also.from, to: also.to }),
+            orbit: ChosenObject::of_machine(found.among),
+            branches: found.all().zip(origins).map(branch).collect(),
+        }
+    }
+}
+
+impl PointObject<'static> {
+    fn of_oscillator(point: &SolutionPoint, cut: &Cut, system: &SystemPlan, units: &Units) -> Self {
+        let (cycle, there) = (&point.cycle, units.at(cut.vary, point.value));
+        let osc = cut.oscillator(system, point.value).ok();
+        let period = osc.map_or(f64::NAN, |osc| f64::from(cycle.label.periods) * osc.period() * there.time());
         Self {
             parameter: point.value * units.of(cut.vary),
             values: both(point, cut, units),
-            label: point.cycle.label.to_string(),
-            cycle: impacts(&point.cycle, &units.at(cut.vary, point.value)),
-            rests: rests(&point.cycle),
-            multipliers: pairs(point.cycle.multipliers),
+            label: cycle.label.to_string(),
+            period,
+            cycle: osc.map_or_else(Vec::new, |osc| event::of_cycle(&osc, cycle, &there)),
+            multipliers: multipliers(&cycle.multipliers),
+            drift: None,
+            quantities: None,
             stable: point.stable(),
             stability: point.stability().name(),
-            physical: point.physical,
+            admissible: point.physical,
+        }
+    }
+}
+
+impl<'a> PointObject<'a> {
+    fn of_machine(
+        MachinePoint { value, cycle, .. }: &'a MachinePoint,
+        machine: &'a Machine,
+        cut: &MachineCut,
+        quantity: Option<&BranchQuantity<'_>>,
+    ) -> Self {
+        let point = &MachinePoint { value: *value, cycle: cycle.clone(), event: None };
+        Self {
+            parameter: *value,
+            values: both_of_machine(*value, cut),
+            label: cycle.label.to_string(),
+            period: cycle.period,
+            cycle: cycle.events.iter().map(|event| event::of_machine(machine, event)).collect(),
+            multipliers: multipliers(&cycle.multipliers),
+            drift: drift(machine, cycle),
+            quantities: quantity.map(|quantity| once((quantity.path.clone(), quantity.at(point).into())).collect()),
+            stable: cycle.stable(),
+            stability: cycle.stability().name(),
+            // a branch of a machine ends where its orbit ceases to be admissible
+            admissible: true,
         }
     }
 }
@@ -180,38 +266,67 @@ fn both(point: &SolutionPoint, cut: &Cut, units: &Units) -> Option<[f64; 2]> {
     Some([values.next()?, values.next()?])
 }
 
-fn events(branch: &Followed, cut: &Cut, units: &Units) -> Vec<EventObject> {
-    let all = branch.points.iter().enumerate();
-    all.filter_map(|(k, point)| point.event.map(|event| EventObject::new(k, point, &event, (cut, units)))).collect()
+fn both_of_machine(value: f64, cut: &MachineCut) -> Option<[f64; 2]> {
+    cut.values(value).nth(1).map(|second| [value, second])
 }
 
-impl EventObject {
-    fn new(place: usize, point: &SolutionPoint, event: &BranchEvent, (cut, units): (&Cut, &Units)) -> Self {
+impl BranchEventObject<'static> {
+    fn of_oscillator(place: usize, point: &SolutionPoint, event: &BranchEvent, (cut, units): (&Cut, &Units)) -> Self {
         let record = EventRecord::of(point, event);
         Self {
             kind: record.kind,
             parameter: point.value * units.of(cut.vary),
             values: both(point, cut, units),
             point: place,
-            fields: EventFields::new(record),
+            fields: EventFields::of_oscillator(record),
         }
     }
 }
 
-impl EventFields {
-    pub(super) fn new(record: EventRecord) -> Self {
-        let EventRecord { kind: _, ends, label_before, label_after, change, impact, side: at, phase, turns, also } =
-            record;
+impl<'a> BranchEventObject<'a> {
+    fn of_machine(
+        k: usize,
+        points: &[MachinePoint],
+        event: MachineBranchEvent,
+        (machine, cut): (&'a Machine, &MachineCut),
+    ) -> Self {
+        let label = |k: usize| points.get(k).map(|point| point.cycle.label.to_string());
+        let (appears, turns) = match event {
+            MachineBranchEvent::Grazing { appears, turns, .. } => (Some(appears), Some(turns)),
+            _ => (None, None),
+        };
+        Self {
+            kind: event.name(),
+            parameter: points[k].value,
+            values: both_of_machine(points[k].value, cut),
+            point: k,
+            fields: EventFields {
+                ends: event.ends(),
+                // a point at an event has the cycle before it
+                before: label(k).unwrap_or_default(),
+                after: if event.ends() { None } else { label(k + 1) },
+                stop: event.place().map(|place| machine.name_of(place)),
+                appears,
+                turns,
+                ..EventFields::default()
+            },
+        }
+    }
+}
+
+impl EventFields<'static> {
+    pub(super) fn of_oscillator(record: EventRecord) -> Self {
+        let EventRecord { ends, label_before, label_after, change, impact, side: at, phase, turns, also, .. } = record;
         Self {
             ends,
-            label_after,
-            label_before,
-            change,
-            impact,
-            side: at.map(side),
-            phase,
+            before: label_before,
+            after: label_after,
+            stop: at.map(side),
+            appears: change.map(|change| change == "appears"),
             turns,
-            also: also.map(|(impact, at, phase)| TouchObject { impact, side: side(at), phase }),
+            impact,
+            phase,
+            also: also.map(|(impact, at, phase)| TouchObject { impact, stop: side(at), phase }),
         }
     }
 }

@@ -2,7 +2,8 @@
 
 use super::Document;
 use super::branch::ChosenObject;
-use super::motion::{CyclePoint, impacts, pairs};
+use super::event::{self, EventObject};
+use super::motion::multipliers;
 use crate::{Asked, Units};
 use serde::Serialize;
 use vibroimpact::Oscillator;
@@ -21,7 +22,7 @@ struct CurveFields {
     /// The number, counted from 1, of the event through which the curve passes, and its index among the points.
     through: Through,
     points: Vec<PointObject>,
-    events: Vec<EventObject>,
+    events: Vec<CurveEventObject>,
 }
 
 #[derive(Serialize)]
@@ -33,14 +34,15 @@ struct Through {
 #[derive(Serialize)]
 struct PointObject {
     values: [f64; 2],
-    physical: bool,
-    /// The impacts; on a grazing curve including the one of speed zero.
-    cycle: Vec<CyclePoint>,
-    multipliers: [[f64; 2]; 2],
+    label: String,
+    admissible: bool,
+    /// The events; on a grazing curve including the impact of speed zero.
+    cycle: Vec<EventObject<'static>>,
+    multipliers: Vec<[f64; 2]>,
 }
 
 #[derive(Serialize)]
-struct EventObject {
+struct CurveEventObject {
     kind: &'static str,
     values: [f64; 2],
     point: usize,
@@ -54,7 +56,7 @@ pub fn document<'a>(
     osc: &Oscillator,
     (task, found): (&CurvePlan, &EventCurve),
 ) -> impl Serialize + use<'a> {
-    Document::new(asked, osc, plan, CurveFields::new(found, task, &asked.units))
+    Document::new(asked, osc, plan, CurveFields::new(found, task, asked))
 }
 
 /// Values of both parameters at a point, in the units of the results.
@@ -64,7 +66,7 @@ pub fn values(point: &CurvePoint, plan: &CurvePlan, units: &Units) -> [f64; 2] {
 }
 
 impl CurveFields {
-    fn new(found: &EventCurve, plan: &CurvePlan, units: &Units) -> Self {
+    fn new(found: &EventCurve, plan: &CurvePlan, Asked { system, units }: &Asked) -> Self {
         let points = found.points.iter();
         Self {
             label: plan.label.trim().to_owned(),
@@ -77,18 +79,22 @@ impl CurveFields {
                 .clone()
                 .enumerate()
                 .filter_map(|(k, point)| {
-                    Some(EventObject { kind: point.event?.name(), values: values(point, plan, units), point: k })
+                    Some(CurveEventObject { kind: point.event?.name(), values: values(point, plan, units), point: k })
                 })
                 .collect(),
             points: points
-                .map(|point| PointObject {
-                    values: values(point, plan, units),
-                    physical: point.physical,
-                    cycle: impacts(
-                        &point.cycle,
-                        &units.at_both((plan.vary.parameter, plan.and.parameter), point.values),
-                    ),
-                    multipliers: pairs(point.cycle.multipliers),
+                .map(|point| {
+                    let of = [plan.vary.parameter, plan.and.parameter];
+                    let there = units.at_both((of[0], of[1]), point.values);
+                    let osc = system.with_all(of.into_iter().zip(<[f64; 2]>::from(point.values)));
+                    let osc = osc.and_then(|system| system.oscillator());
+                    PointObject {
+                        values: values(point, plan, units),
+                        label: point.cycle.label.to_string(),
+                        admissible: point.physical,
+                        cycle: osc.map_or_else(|_| Vec::new(), |osc| event::of_cycle(&osc, &point.cycle, &there)),
+                        multipliers: multipliers(&point.cycle.multipliers),
+                    }
                 })
                 .collect(),
         }

@@ -14,7 +14,7 @@ struct DiagramFields {
     vary: &'static str,
     over: Place,
     #[serde(skip_serializing_if = "Option::is_none")]
-    also: Option<Pair>,
+    also: Option<Pair<'static>>,
     columns: Vec<String>,
     sweeps: Vec<Counts>,
 }

@@ -1,7 +1,8 @@
 //! Lyapunov exponents with error bars, dimensions, and how they were obtained.
 
 use super::Document;
-use super::motion::{HorizonObject, MotionFields, side};
+use super::event::side;
+use super::motion::{Estimate, HorizonObject, MotionObject};
 use crate::{Asked, Units};
 use serde::Serialize;
 use vibroimpact::chaos::{Exponents, Grounds, Measured};
@@ -10,16 +11,16 @@ use vibroimpact_study::Plan;
 
 /// The fields of `vibro lyapunov`.
 #[derive(Serialize)]
-struct LyapunovFields {
-    motion: MotionFields,
+struct LyapunovFields<'a> {
+    motion: MotionObject<'a>,
     /// Per unit of time.
-    exponents: [Quantity; 2],
-    exponents_per_period: [Quantity; 2],
-    sum: Quantity,
+    exponents: [Estimate; 2],
+    exponents_per_period: [Estimate; 2],
+    sum: Estimate,
     /// The exact value of the sum.
     identity: Option<f64>,
-    impacts_per_period: Quantity,
-    dimension: QuantityKind,
+    impacts_per_period: Estimate,
+    dimension: Dimensions,
     grounds: GroundsObject,
 }
 
@@ -34,22 +35,13 @@ pub fn document<'a>(
     Document::new(asked, osc, plan, LyapunovFields::new(found, osc, &asked.units)).start(start, &asked.units)
 }
 
-/// A number with its error; if it is not finite, the reason.
-#[derive(Serialize)]
-struct Quantity {
-    value: Option<f64>,
-    error: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    why: Option<&'static str>,
-}
-
 /// Kaplan-Yorke dimensions; `null` if the larger exponent is not known to differ from 0.
 #[derive(Serialize)]
-struct QuantityKind {
-    /// QuantityKind of the stroboscopic section.
-    section: Option<Quantity>,
-    /// QuantityKind of the flow in the space of position, velocity and phase.
-    flow: Option<Quantity>,
+struct Dimensions {
+    /// Dimension of the stroboscopic section.
+    section: Option<Estimate>,
+    /// Dimension of the flow in the space of position, velocity and phase.
+    flow: Option<Estimate>,
 }
 
 #[derive(Serialize)]
@@ -57,48 +49,34 @@ struct QuantityKind {
 enum GroundsObject {
     Measured { impacts: u64, transient: u64, time: f64, blocks: u32 },
     NoImpact { horizon: HorizonObject },
-    Sticks { side: &'static str },
-    Stuck { side: &'static str },
+    Sticks { stop: &'static str },
+    Stuck { stop: &'static str },
     Touches { horizon: HorizonObject },
     Undecided { impacts: u64 },
 }
 
-impl Quantity {
-    fn new(of: Measured) -> Self {
-        let why = if of.value.is_nan() {
-            Some("undefined")
-        } else if of.value == f64::NEG_INFINITY {
-            Some("minus_infinity")
-        } else {
-            of.value.is_infinite().then_some("infinity")
-        };
-        let known = |x: f64| x.is_finite().then_some(x);
-        Self { value: known(of.value), error: known(of.error).filter(|_| why.is_none()), why }
-    }
-}
-
-impl LyapunovFields {
+impl LyapunovFields<'_> {
     fn new(found: &Exponents, osc: &Oscillator, units: &Units) -> Self {
-        let per_time = |of: Measured| Quantity::new(scaled(of, 1.0 / units.time()));
+        let per_time = |of: Measured| Estimate::from(scaled(of, 1.0 / units.time()));
         let identity = found.identity / units.time();
         Self {
-            motion: MotionFields::new(&found.motion, osc, units).without_lyapunov(),
+            motion: MotionObject::of_oscillator(&found.motion, osc, units).without_lyapunov(),
             exponents: found.exponents.map(per_time),
-            exponents_per_period: found.per_period().map(Quantity::new),
+            exponents_per_period: found.per_period().map(Estimate::from),
             sum: per_time(found.sum),
             identity: identity.is_finite().then_some(identity),
-            impacts_per_period: Quantity::new(found.impacts_per_period),
-            dimension: QuantityKind {
-                section: found.section_dimension.map(Quantity::new),
-                flow: found.flow_dimension().map(Quantity::new),
+            impacts_per_period: Estimate::from(found.impacts_per_period),
+            dimension: Dimensions {
+                section: found.section_dimension.map(Estimate::from),
+                flow: found.flow_dimension().map(Estimate::from),
             },
             grounds: match found.grounds {
                 Grounds::Measured { impacts, transient, time, blocks } => {
                     GroundsObject::Measured { impacts, transient, time: time * units.time(), blocks }
                 }
                 Grounds::Flight(why) => GroundsObject::NoImpact { horizon: HorizonObject::new(&why) },
-                Grounds::Sticks(at) => GroundsObject::Sticks { side: side(at) },
-                Grounds::Stuck(at) => GroundsObject::Stuck { side: side(at) },
+                Grounds::Sticks(at) => GroundsObject::Sticks { stop: side(at) },
+                Grounds::Stuck(at) => GroundsObject::Stuck { stop: side(at) },
                 Grounds::Touches(why) => GroundsObject::Touches { horizon: HorizonObject::new(&why) },
                 Grounds::Undecided { impacts } => GroundsObject::Undecided { impacts },
             },

@@ -1,8 +1,8 @@
 //! Curves of events of machines in a plane of two numbers: their points, and their points of codimension two.
 
 use super::branch::ChosenObject;
-use super::machine_event::{EventObject, event_object};
-use super::machine_motion::multipliers;
+use super::event::{self, EventObject};
+use super::motion::multipliers;
 use serde::Serialize;
 use vibroimpact::continuation::MachineCurveKind;
 use vibroimpact::machine::Machine;
@@ -38,6 +38,7 @@ struct Through {
 struct PointObject<'a> {
     values: [f64; 2],
     label: String,
+    admissible: bool,
     /// The time of one period.
     period: f64,
     /// The events; on a curve of grazing without the touch.
@@ -89,8 +90,9 @@ pub(super) fn curved<'a>(machine: &'a Machine, plan: &'a MachineCurvePlan, found
             .map(|point| PointObject {
                 values: pair(point.values),
                 label: point.cycle.label.to_string(),
+                admissible: true,
                 period: point.cycle.period,
-                cycle: point.cycle.events.iter().map(|event| event_object(machine, event)).collect(),
+                cycle: point.cycle.events.iter().map(|event| event::of_machine(machine, event)).collect(),
                 multipliers: multipliers(&point.cycle.multipliers),
                 residual: point.residual,
                 touch: point.touch,

@@ -1,27 +1,55 @@
-//! The labels of a map and their frequencies.
+//! The labels of a map and their frequencies, and the motions at its points.
 
-use super::Place;
-use crate::{Asked, PROGRAM, Units};
+use super::event::side;
+use super::{AxisObject, Document};
+use crate::Asked;
 use serde::Serialize;
-use serde_json::Value;
+use serde_json::{Map, Value};
 use std::collections::BTreeMap;
+use vibroimpact::Oscillator;
+use vibroimpact::machine::Machine;
+use vibroimpact::verdict::Verdict;
 use vibroimpact_plot::{GROUPS, legend_group};
-use vibroimpact_study::{Axis, Coordinate, Parameter, PhysicalPlan, Plan, RegionMap, SystemPlan};
+use vibroimpact_study::{
+    Coordinate, MachineAxis, MachineMap, MachineMapPlan, MachineShare, MapPoint, Parameter, Plan, RegionMap, Share,
+};
 
 /// The fields of `vibro map`.
 #[derive(Serialize)]
-struct MapFields<'a> {
-    system: serde_json::Map<String, Value>,
-    #[serde(flatten)]
-    axes: serde_json::Map<String, Value>,
+pub(super) struct MapFields<'a> {
+    axes: Vec<AxisObject<'a>>,
     starts: u64,
     seed: u64,
-    points: usize,
-    units: &'static str,
+    /// Number of points where several motions coexist.
     coexisting: usize,
+    /// The smallest number of events (of an oscillator: impacts) over which chaos was seen at a point.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    seen_events: Option<u64>,
     labels: Vec<LabelCount>,
-    plan: &'a Plan,
-    program: &'static str,
+    points: Vec<PointObject<'a>>,
+}
+
+/// A point: the values of the axes by path, and the motions there, the most frequent first.
+#[derive(Serialize)]
+struct PointObject<'a> {
+    #[serde(flatten)]
+    at: Map<String, Value>,
+    motions: Vec<ShareObject<'a>>,
+}
+
+/// A motion at a point.
+#[derive(Serialize)]
+struct ShareObject<'a> {
+    label: String,
+    share: f64,
+    /// The stops that stay closed for ever.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    stops: Vec<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    seen_events: Option<u64>,
+    /// Those that the plan asks for.
+    #[serde(skip_serializing_if = "Map::is_empty")]
+    quantities: Map<String, Value>,
 }
 
 /// The frequency of a label.
@@ -37,20 +65,73 @@ pub struct LabelCount {
 
 /// The object of `vibro map`.
 #[must_use]
-pub fn document<'a>(asked: &Asked, plan: &'a Plan, found: &RegionMap) -> impl Serialize + use<'a> {
-    let task = &found.plan;
-    let (system, axes) = objects(&plan.system, &task.axes, &asked.units);
-    MapFields {
-        system,
-        axes,
+pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &RegionMap) -> impl Serialize + use<'a> {
+    let (task, units) = (&found.plan, &asked.units);
+    let axes = AxisObject::of_oscillator(&task.axes, units);
+    // in the units, and with exactly the numbers, of the question; a value that overflows in them is null
+    let columns: Vec<Vec<f64>> =
+        task.axes.iter().map(|axis| units.shown(axis).map_or_else(|_| Vec::new(), |values| values.all())).collect();
+    let point = |(k, point): (usize, &MapPoint)| {
+        let mut rest = k;
+        let mut at = Map::new();
+        for ((axis, column), own) in axes.iter().zip(&columns).zip(&task.axes) {
+            let count = own.over.count();
+            at.insert(axis.vary.to_owned(), column.get(rest % count).copied().into());
+            rest /= count;
+        }
+        let there = units.over(&task.axes, |axis| point.at[axis]);
+        let share = |motion: &Share| ShareObject {
+            label: motion.verdict.label().into_owned(),
+            share: motion.share,
+            stops: if let Verdict::Stuck(at) = motion.verdict { vec![side(at)] } else { Vec::new() },
+            seen_events: if let Verdict::Chaotic(chaos) = &motion.verdict { Some(chaos.impacts) } else { None },
+            quantities: (motion.quantities.iter())
+                .flat_map(|of| task.fields.iter().map(|field| (field.name().to_owned(), there.value_of(of, *field).into())))
+                .collect(),
+        };
+        PointObject { at, motions: point.motions.iter().map(share).collect() }
+    };
+    let points: Vec<PointObject<'static>> = found.points.iter().enumerate().map(point).collect();
+    let varied: Vec<Parameter> = (task.axes.iter())
+        .filter_map(|axis| if let Coordinate::Parameter(parameter) = axis.vary { Some(parameter) } else { None })
+        .collect();
+    let seen = points.iter().flat_map(|point| &point.motions).filter_map(|motion| motion.seen_events).min();
+    let answer = MapFields {
         starts: task.starts,
         seed: task.seed,
-        points: found.points.len(),
-        units: asked.units.name(),
         coexisting: coexisting(found),
+        seen_events: seen,
         labels: counts(found),
-        plan,
-        program: PROGRAM,
+        axes,
+        points,
+    };
+    Document::over(asked, osc, &varied, plan, answer)
+}
+
+impl<'a> MapFields<'a> {
+    /// Those of a machine.
+    pub(super) fn of_machine(machine: &'a Machine, task: &MachineMapPlan, found: &'a MachineMap) -> Self {
+        let share = |motion: &'a MachineShare| ShareObject {
+            label: motion.label(),
+            share: motion.share,
+            stops: motion.stops.iter().map(|stop| machine.name_of(*stop)).collect(),
+            seen_events: motion.seen_events,
+            quantities: found.fields.iter().cloned().zip(motion.quantities.iter().map(|value| (*value).into())).collect(),
+        };
+        let point = |(k, cell): (usize, &'a Vec<MachineShare>)| {
+            let values = MachineAxis::at(&found.axes, k as u64);
+            let at = found.axes.iter().zip(values).map(|(axis, value)| (axis.vary.clone(), value.into())).collect();
+            PointObject { at, motions: cell.iter().map(share).collect() }
+        };
+        Self {
+            axes: AxisObject::of_machine(&found.axes),
+            starts: task.starts,
+            seed: task.seed,
+            coexisting: found.cells.iter().filter(|cell| cell.len() > 1).count(),
+            seen_events: found.seen_events(),
+            labels: counted(found.cells.iter().map(|cell| cell.iter().map(|motion| (motion.label(), motion.share)))),
+            points: found.cells.iter().enumerate().map(point).collect(),
+        }
     }
 }
 
@@ -60,76 +141,30 @@ pub fn coexisting(found: &RegionMap) -> usize {
     found.points.iter().filter(|point| point.motions.len() > 1).count()
 }
 
-/// The parameters with one value, and those that vary.
-fn objects(
-    system: &SystemPlan,
-    axes: &[Axis],
-    units: &Units,
-) -> (serde_json::Map<String, Value>, serde_json::Map<String, Value>) {
-    let range =
-        |axis: &Axis| serde_json::to_value(Place::over(&axis.over, units.of_coordinate(axis.vary))).unwrap_or_default();
-    let name = |vary: Coordinate| match vary {
-        Coordinate::Parameter(parameter) => units.name_of(parameter),
-        start => start.name(),
-    };
-    let varying = axes.iter().map(|axis| (name(axis.vary).to_owned(), range(axis))).collect();
-    (fixed_machine(system, axes).unwrap_or_else(|| fixed_parameters(system, axes)), varying)
-}
-
-/// The parameters of the oscillator that do not vary.
-fn fixed_parameters(system: &SystemPlan, axes: &[Axis]) -> serde_json::Map<String, Value> {
-    let mut fixed = serde_json::Map::new();
-    for parameter in Parameter::ALL {
-        let given = match parameter {
-            Parameter::Beta => system.beta,
-            Parameter::InverseBeta => system.inverse_beta,
-            Parameter::SecondGap | Parameter::SecondRestitution => None,
-            _ => system.value(parameter).ok(),
-        };
-        if let Some(value) = given.filter(|_| !axes.iter().any(|axis| axis.vary == Coordinate::Parameter(parameter))) {
-            fixed.insert(parameter.name().to_owned(), value.into());
-        }
-    }
-    if let Some(stop) = system.second_stop {
-        fixed.insert("second_stop".into(), serde_json::json!({ "gap": stop.gap, "restitution": stop.restitution }));
-    }
-    fixed
-}
-
-/// The numbers of the machine that do not vary; `None` if none of its numbers varies. A number that varies may determine
-/// several parameters of the oscillator, so these are not listed then.
-fn fixed_machine(system: &SystemPlan, axes: &[Axis]) -> Option<serde_json::Map<String, Value>> {
-    let varied = |axis: &Axis| match axis.vary {
-        Coordinate::Parameter(Parameter::Physical(number)) => Some(number),
-        _ => None,
-    };
-    let mut machine = PhysicalPlan::from(system.machine.as_ref()?);
-    axes.iter().any(|axis| varied(axis).is_some()).then_some(())?;
-    axes.iter().filter_map(varied).for_each(|number| machine.set(number, None));
-    let Ok(Value::Object(mut numbers)) = serde_json::to_value(machine) else { return None };
-    numbers.retain(|name, _| axes.iter().all(|axis| axis.vary.name() != name));
-    Some(numbers)
-}
-
 /// Labels in the order of a legend, then by name.
 #[must_use]
 pub fn counts(found: &RegionMap) -> Vec<LabelCount> {
+    let label = |motion: &Share| (motion.verdict.label().into_owned(), motion.share);
+    counted(found.points.iter().map(|point| point.motions.iter().map(label)))
+}
+
+/// The same of the labels and shares at all points.
+fn counted<P: Iterator<Item = (String, f64)>>(points: impl ExactSizeIterator<Item = P>) -> Vec<LabelCount> {
+    #[allow(clippy::cast_precision_loss)] // at most 1e8
+    let all = points.len() as f64;
     let mut counts: BTreeMap<(usize, String), (u64, f64)> = BTreeMap::new();
-    for point in &found.points {
+    for point in points {
         let mut here: Vec<String> = Vec::new();
-        for motion in &point.motions {
-            let label = motion.verdict.label().into_owned();
+        for (label, share) in point {
             let group = legend_group(&label);
             let rank = GROUPS.iter().position(|g| *g == group).unwrap_or(GROUPS.len());
             let entry = counts.entry((rank, label.clone())).or_default();
-            entry.1 += motion.share;
+            entry.1 += share;
             if !here.contains(&label) {
                 entry.0 += 1;
                 here.push(label);
             }
         }
     }
-    #[allow(clippy::cast_precision_loss)] // at most 1e8
-    let all = found.points.len() as f64;
     counts.into_iter().map(|((_, label), (points, share))| LabelCount { label, points, share: share / all }).collect()
 }

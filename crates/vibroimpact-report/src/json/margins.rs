@@ -2,7 +2,7 @@
 
 use super::Document;
 use super::branch::EventFields;
-use super::motion::MotionFields;
+use super::motion::MotionObject;
 use crate::{Asked, Units};
 use serde::Serialize;
 use vibroimpact::Oscillator;
@@ -10,8 +10,8 @@ use vibroimpact_study::{EventRecord, MarginEnd, MotionBox, MotionMargins, Parame
 
 /// The fields of `vibro margins`.
 #[derive(Serialize)]
-struct MarginFields {
-    motion: MotionFields,
+struct MarginFields<'a> {
+    motion: MotionObject<'a>,
     parameters: Vec<ParameterObject>,
     nearest: Option<NearestObject>,
     #[serde(rename = "box")]
@@ -42,12 +42,12 @@ struct EndObject {
 struct MarginEvent {
     kind: &'static str,
     #[serde(flatten)]
-    fields: EventFields,
+    fields: EventFields<'static>,
 }
 
 impl MarginEvent {
     fn new(record: EventRecord) -> Self {
-        Self { kind: record.kind, fields: EventFields::new(record) }
+        Self { kind: record.kind, fields: EventFields::of_oscillator(record) }
     }
 }
 
@@ -105,7 +105,7 @@ pub fn document<'a>(
 ) -> impl Serialize + use<'a> {
     let units = &asked.units;
     let fields = MarginFields {
-        motion: MotionFields::new(&found.motion, osc, units),
+        motion: MotionObject::of_oscillator(&found.motion, osc, units),
         parameters: found.parameters.iter().map(|margin| ParameterObject::new(margin, units)).collect(),
         nearest: found.nearest().map(|(margin, end)| {
             let distance = end.distance(&margin.scope);

@@ -8,12 +8,10 @@ pub mod branch;
 mod certainty;
 pub mod curve;
 pub mod diagram;
+pub mod event;
 pub mod lyapunov;
 mod machine;
 mod machine_curve;
-mod machine_event;
-mod machine_motion;
-mod machine_quantities;
 pub mod map;
 pub mod margins;
 pub mod motion;
@@ -23,105 +21,46 @@ pub mod region;
 pub mod response;
 pub mod settle;
 pub mod simulate;
+mod system;
 
 use crate::units::given;
 use crate::{Asked, PROGRAM, Units};
+use event::StateObject;
 use serde::Serialize;
-use vibroimpact::{Oscillator, Side, Start};
-use vibroimpact_study::{Cut, FramePlan, Plan, Span, Stretch, Values};
+use system::SystemObject;
+use vibroimpact::{Oscillator, Start};
+use vibroimpact_study::{Axis, Coordinate, Cut, MachineAxis, Parameter, Plan, Span, Stretch, Values};
 
 /// The object that a command prints: the system, the start, the fields of the command, and the plan.
 #[derive(Serialize)]
-pub struct Document<'a, T> {
-    system: System,
+struct Document<'a, T, P> {
+    system: SystemObject<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    start: Option<StartPoint>,
+    start: Option<StateObject<'a>>,
+    /// Whether numbers are nondimensional or in SI units; absent for machines, whose units are those of their numbers.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    units: Option<&'static str>,
     #[serde(flatten)]
     result: T,
-    units: &'static str,
-    plan: &'a Plan,
+    plan: &'a P,
     program: &'static str,
 }
 
-impl<'a, T: Serialize> Document<'a, T> {
-    /// An object with the fields of the command.
-    #[must_use]
-    pub fn new(asked: &Asked, osc: &Oscillator, plan: &'a Plan, result: T) -> Self {
-        Self { system: System::new(asked, osc), start: None, result, units: asked.units.name(), plan, program: PROGRAM }
+impl<'a, T: Serialize> Document<'a, T, Plan> {
+    /// An object of an oscillator with the fields of the command.
+    fn new(asked: &Asked, osc: &Oscillator, plan: &'a Plan, result: T) -> Self {
+        Self::over(asked, osc, &[], plan, result)
+    }
+
+    /// The same where parameters vary.
+    fn over(asked: &Asked, osc: &Oscillator, varied: &[Parameter], plan: &'a Plan, result: T) -> Self {
+        let system = SystemObject::of_oscillator(asked, osc, varied);
+        Self { system, start: None, result, units: Some(asked.units.name()), plan, program: PROGRAM }
     }
 
     /// Adds the start of the motion.
-    #[must_use]
-    pub fn start(self, start: &Start, units: &Units) -> Self {
-        Self {
-            start: Some(StartPoint { x: start.x * units.length(), v: start.v * units.velocity(), phase: start.phase }),
-            ..self
-        }
-    }
-}
-
-#[derive(Serialize)]
-struct System {
-    beta: f64,
-    inverse_beta: f64,
-    gap: f64,
-    restitution: f64,
-    damping: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    second_stop: Option<SecondStop>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    scales: Option<Scales>,
-}
-
-#[derive(Serialize)]
-struct SecondStop {
-    gap: f64,
-    restitution: f64,
-}
-
-#[derive(Serialize)]
-struct Scales {
-    length_m: f64,
-    time_s: f64,
-    mass_kg: f64,
-    velocity_m_per_s: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    frame: Option<FramePlan>,
-}
-
-#[derive(Serialize)]
-struct StartPoint {
-    x: f64,
-    v: f64,
-    phase: f64,
-}
-
-impl System {
-    fn new(asked: &Asked, osc: &Oscillator) -> Self {
-        Self {
-            beta: osc.beta(),
-            // exactly as given, if it was given
-            inverse_beta: asked.system.inverse_beta.unwrap_or(1.0 / osc.beta()),
-            gap: osc.gap(),
-            restitution: osc.restitution(),
-            damping: osc.damping(),
-            second_stop: osc.stop(Side::Lower).map(|stop| SecondStop { gap: stop.gap, restitution: stop.restitution }),
-            scales: Scales::new(&asked.units),
-        }
-    }
-}
-
-impl Scales {
-    /// The physical units, if there are any.
-    fn new(units: &Units) -> Option<Self> {
-        let scales = units.scales?;
-        Some(Self {
-            length_m: scales.length_m,
-            time_s: scales.time_s,
-            mass_kg: scales.mass_kg,
-            velocity_m_per_s: scales.velocity_m_per_s(),
-            frame: units.frame,
-        })
+    fn start(self, start: &Start, units: &Units) -> Self {
+        Self { start: Some(StateObject::of_oscillator(start, units)), ..self }
     }
 }
 
@@ -131,24 +70,27 @@ struct Range {
     from: f64,
     to: f64,
     count: u32,
+    #[serde(skip_serializing_if = "core::ops::Not::not")]
+    logarithmic: bool,
 }
 
 impl Range {
     fn new(span: &Span, unit: f64) -> Self {
         let (from, to) = span.ends();
-        Self { from: given(from, unit), to: given(to, unit), count: span.count() }
+        let logarithmic = span.is_logarithmic();
+        Self { from: given(from, unit), to: given(to, unit), count: span.count(), logarithmic }
     }
 }
 
 /// The second parameter of a line, with its values at both ends.
 #[derive(Serialize)]
-struct Pair {
-    parameter: &'static str,
+struct Pair<'a> {
+    parameter: &'a str,
     from: f64,
     to: f64,
 }
 
-impl Pair {
+impl Pair<'static> {
     fn of(cut: &Cut, units: &Units) -> Option<Self> {
         let Stretch { parameter, from, to } = cut.also?;
         let unit = units.of(parameter);
@@ -156,13 +98,38 @@ impl Pair {
     }
 }
 
-/// One value, or the values of an axis.
+/// The values of an axis.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Place {
-    At(f64),
     Over(Range),
     Listed(Vec<f64>),
+}
+
+/// An axis: the path of what varies, and its values.
+#[derive(Serialize)]
+struct AxisObject<'a> {
+    vary: &'a str,
+    over: Place,
+}
+
+impl<'a> AxisObject<'a> {
+    fn of_machine(axes: &'a [MachineAxis]) -> Vec<Self> {
+        axes.iter().map(|axis| Self { vary: &axis.vary, over: Place::over(&axis.over, 1.0) }).collect()
+    }
+
+    /// In the units of the results.
+    fn of_oscillator(axes: &[Axis], units: &Units) -> Vec<AxisObject<'static>> {
+        let name = |vary: Coordinate| match vary {
+            Coordinate::Parameter(parameter) => units.name_of(parameter),
+            start => start.name(),
+        };
+        let object = |axis: &Axis| AxisObject {
+            vary: name(axis.vary),
+            over: Place::over(&axis.over, units.of_coordinate(axis.vary)),
+        };
+        axes.iter().map(object).collect()
+    }
 }
 
 impl Place {
@@ -174,4 +141,4 @@ impl Place {
     }
 }
 
-pub use machine_motion::undecided;
+pub use motion::undecided;

@@ -1,121 +1,127 @@
-//! A motion: its label, its impacts and phases of sticking, its stability, and the grounds of the verdict.
+//! A steady motion of any system: its label, the events of its cycle, its stability, and the grounds of the verdict.
 
-use super::quantities::{QuantityErrors, QuantityFields};
+use super::event::{self, EventObject, StateObject, side};
+use super::quantities;
 use crate::Units;
 use serde::Serialize;
-use vibroimpact::chaos::Measured;
+use serde_json::{Map, Value};
+use vibroimpact::chaos::{MachineSpectrum, Measured};
+use vibroimpact::events::MachineEnd;
 use vibroimpact::flight::Horizon;
+use vibroimpact::machine::Machine;
 use vibroimpact::math::Multiplier;
-use vibroimpact::orbit::Cycle;
-use vibroimpact::quantities::{errors_of_verdict, of_verdict};
-use vibroimpact::verdict::{Chaos, Count, NoImpact, Stability, Undecided, Verdict};
+use vibroimpact::orbit::{Cycle, MachineCycle};
+use vibroimpact::quantities::{errors_of_verdict, machine_cycle_quantities, machine_quantities, of_verdict};
+use vibroimpact::verdict::{
+    Chaos, Count, MachineUndecided, MachineVerdict, NoImpact, Stability, Undecided, Verdict,
+};
 use vibroimpact::{Oscillator, Side};
 use vibroimpact_study::ImpactsByStop;
 
-/// The name of a stop.
-#[must_use]
-pub const fn side(side: Side) -> &'static str {
-    match side {
-        Side::Upper => "upper",
-        Side::Lower => "lower",
-    }
-}
-
 /// The JSON object of a motion.
-#[derive(Serialize)]
-pub struct MotionFields {
+#[derive(Default, Serialize)]
+pub(super) struct MotionObject<'a> {
     kind: &'static str,
     label: String,
     impacts: Option<u32>,
-    /// Impacts on each stop, if there are two; the inner number is none for infinitely many.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    impacts_upper: Option<Option<u32>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    impacts_lower: Option<Option<u32>>,
     periods: Option<u32>,
+    /// The time of one period of a cycle.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    period: Option<f64>,
+    /// Rests on stops, and holds of joints, in one period.
     sticks: Option<usize>,
     stable: Option<bool>,
     stability: Option<&'static str>,
-    multipliers: Option<[[f64; 2]; 2]>,
-    cycle: Vec<CyclePoint>,
+    /// Closings of each stop in one period; null for infinitely many.
     #[serde(skip_serializing_if = "Option::is_none")]
-    chatter_end: Option<f64>,
+    counts: Option<Map<String, Value>>,
+    multipliers: Option<Vec<[f64; 2]>>,
+    /// By how much each coordinate moves on in one period, and the mean velocity of this, in machines that can be translated.
     #[serde(skip_serializing_if = "Option::is_none")]
-    release: Option<f64>,
+    drift: Option<Map<String, Value>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    rests: Option<Vec<Rest>>,
+    drift_velocity: Option<Map<String, Value>>,
+    cycle: Vec<EventObject<'a>>,
+    /// The first stop that stays closed for ever, where the structure rests, and all of them, which compliant ones can be
+    /// without a rest.
     #[serde(skip_serializing_if = "Option::is_none")]
-    lyapunov: Option<Estimate>,
-    /// Number of impacts over which chaos was measured.
+    stop: Option<&'a str>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    stops: Vec<&'a str>,
+    /// A state between two events from which the motion can be started.
     #[serde(skip_serializing_if = "Option::is_none")]
-    seen_impacts: Option<u64>,
-    /// Chaos before the motion settled.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    chaotic_transient: Option<Transient>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    horizon: Option<HorizonObject>,
+    state: Option<StateObject<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     residual: Option<f64>,
+    /// Why an oscillator has no more impacts, and for how many periods.
     #[serde(skip_serializing_if = "Option::is_none")]
-    side: Option<&'static str>,
-    /// The stop on which a stuck motion rests; also as a list, as that of a machine that rests on several.
+    horizon: Option<HorizonObject>,
+    /// The largest exponent of a chaotic motion, or of an undecided one if it was measured, per unit of time.
     #[serde(skip_serializing_if = "Option::is_none")]
-    stop: Option<&'static str>,
+    lyapunov: Option<Estimate>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    stops: Option<[&'static str; 1]>,
+    exponents: Option<Vec<Estimate>>,
+    /// The events (of an oscillator: impacts) over which chaos was seen, or that were followed without a verdict.
     #[serde(skip_serializing_if = "Option::is_none")]
-    tried: Option<Tried>,
-    quantities: Option<QuantityFields>,
+    seen_events: Option<u64>,
+    /// Why the motion is undecided.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    why: Option<&'static str>,
+    quantities: Option<Map<String, Value>>,
     /// Three standard errors of the means among the quantities of a chaotic motion.
     #[serde(skip_serializing_if = "Option::is_none")]
-    quantities_error: Option<QuantityErrors>,
+    quantities_error: Option<Map<String, Value>>,
 }
 
-/// An impact of a cycle.
+/// A measured number; null where it is not finite, with the reason.
 #[derive(Serialize)]
-pub(super) struct CyclePoint {
-    phase: f64,
-    velocity_before: f64,
-    interval: f64,
-    side: &'static str,
-}
-
-/// A phase of sticking of a cycle.
-#[derive(Serialize)]
-pub(super) struct Rest {
-    side: &'static str,
-    chatter: bool,
-    begin: f64,
-    release: f64,
-}
-
-#[derive(Serialize)]
-struct Estimate {
+pub(super) struct Estimate {
     value: f64,
     error: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    why: Option<&'static str>,
 }
 
-impl Estimate {
-    fn per_time(of: Measured, units: &Units) -> Self {
-        Self { value: of.value / units.time(), error: of.error / units.time() }
+impl From<Measured> for Estimate {
+    fn from(of: Measured) -> Self {
+        let why = match of.value {
+            value if value.is_nan() => Some("undefined"),
+            f64::NEG_INFINITY => Some("minus_infinity"),
+            value => value.is_infinite().then_some("infinity"),
+        };
+        Self { value: of.value, error: if why.is_none() { of.error } else { f64::NAN }, why }
     }
 }
 
-#[derive(Serialize)]
-struct Transient {
-    /// The number of the impact by which it had ended.
-    impacts: u64,
-    lyapunov: Estimate,
+impl Estimate {
+    pub(super) fn per_time(of: Measured, units: &Units) -> Self {
+        Self::from(Measured { value: of.value / units.time(), error: of.error / units.time() })
+    }
 }
 
+/// All exponents of a machine.
+pub(super) fn estimates(spectrum: &MachineSpectrum) -> Vec<Estimate> {
+    spectrum.exponents.iter().map(|exponent| Estimate::from(*exponent)).collect()
+}
+
+/// Chaos before the motion settled.
 #[derive(Serialize)]
-struct Tried {
+pub(super) struct ChaosObject {
+    /// The number of the impact by which it had ended, of an oscillator.
     #[serde(skip_serializing_if = "Option::is_none")]
-    impacts: Option<u64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    periods: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    lyapunov: Option<Estimate>,
+    events: Option<u64>,
+    exponents: Vec<Estimate>,
+}
+
+impl ChaosObject {
+    pub(super) fn of_oscillator(chaos: &Chaos, units: &Units) -> Self {
+        let exponents = chaos.spectrum.exponents.map(|exponent| Estimate::per_time(exponent, units));
+        Self { events: Some(chaos.impacts), exponents: exponents.into() }
+    }
+
+    pub(super) fn of_machine(spectrum: &MachineSpectrum) -> Self {
+        Self { events: None, exponents: estimates(spectrum) }
+    }
 }
 
 /// Why there are no more impacts, and for how many periods.
@@ -151,41 +157,35 @@ impl HorizonObject {
     }
 }
 
-impl MotionFields {
-    /// The object of a verdict, in these units.
-    #[must_use]
-    pub fn new(verdict: &Verdict, osc: &Oscillator, units: &Units) -> Self {
-        let by_stop = ImpactsByStop::of(osc, verdict);
+impl MotionObject<'_> {
+    /// The motion of an oscillator, in these units.
+    pub(super) fn of_oscillator(verdict: &Verdict, osc: &Oscillator, units: &Units) -> Self {
         let stability = verdict.stability(osc);
         let bare = Self {
             kind: "undecided",
             label: verdict.label().into_owned(),
-            impacts: None,
-            impacts_upper: by_stop.map(|by| by.upper),
-            impacts_lower: by_stop.map(|by| by.lower),
-            periods: None,
-            sticks: None,
             stable: stability.map(Stability::is_stable),
             stability: stability.map(Stability::name),
-            multipliers: verdict.multipliers(osc).map(pairs),
-            cycle: Vec::new(),
-            chatter_end: None,
-            release: None,
-            rests: None,
-            lyapunov: None,
-            seen_impacts: None,
-            chaotic_transient: None,
-            horizon: None,
-            residual: None,
-            side: None,
-            stop: None,
-            stops: None,
-            tried: None,
-            quantities: of_verdict(osc, verdict).map(|values| QuantityFields::new(values, units)),
-            quantities_error: errors_of_verdict(osc, verdict).map(|errors| QuantityErrors::new(errors, units)),
+            counts: counts(osc, verdict),
+            multipliers: verdict.multipliers(osc).map(|both| multipliers(&both)),
+            quantities: of_verdict(osc, verdict).map(|found| quantities::of_oscillator(&found, units)),
+            quantities_error: errors_of_verdict(osc, verdict)
+                .map(|errors| quantities::errors_of_oscillator(&errors, units)),
+            ..Self::default()
         };
+        let largest = |of: &[Measured; 2]| Estimate::per_time(of[0], units);
         match verdict {
-            Verdict::Periodic(cycle) => Self::periodic(cycle, bare, units),
+            Verdict::Periodic(cycle) => Self {
+                kind: "periodic",
+                impacts: finite(cycle.label.impacts),
+                periods: Some(cycle.label.periods),
+                period: Some(f64::from(cycle.label.periods) * osc.period() * units.time()),
+                sticks: Some(cycle.rests.len()),
+                cycle: event::of_cycle(osc, cycle, units),
+                state: StateObject::within(osc, cycle, units),
+                residual: Some(cycle.residual),
+                ..bare
+            },
             Verdict::NoImpact(no_impact) => Self {
                 kind: "no_impact",
                 impacts: Some(0),
@@ -196,8 +196,8 @@ impl MotionFields {
             },
             Verdict::Chaotic(chaos) => Self {
                 kind: "chaotic",
-                lyapunov: Some(Estimate::per_time(chaos.spectrum.exponents[0], units)),
-                seen_impacts: Some(chaos.impacts),
+                lyapunov: Some(largest(&chaos.spectrum.exponents)),
+                seen_events: Some(chaos.impacts),
                 ..bare
             },
             Verdict::Stuck(at) => Self {
@@ -205,93 +205,161 @@ impl MotionFields {
                 impacts: Some(0),
                 periods: Some(1),
                 sticks: Some(1),
-                side: Some(side(*at)),
                 stop: Some(side(*at)),
-                stops: Some([side(*at)]),
+                stops: vec![side(*at)],
                 ..bare
             },
             Verdict::Undecided(Undecided::Impacts { impacts, spectrum }) => Self {
-                tried: Some(Tried {
-                    impacts: Some(*impacts),
-                    periods: None,
-                    lyapunov: spectrum.map(|s| Estimate::per_time(s.exponents[0], units)),
-                }),
+                why: Some("events"),
+                seen_events: Some(*impacts),
+                lyapunov: spectrum.as_ref().map(|spectrum| largest(&spectrum.exponents)),
                 ..bare
             },
-            Verdict::Undecided(Undecided::Search { periods }) => {
-                Self { tried: Some(Tried { impacts: None, periods: Some(*periods), lyapunov: None }), ..bare }
-            }
+            Verdict::Undecided(Undecided::Search { periods }) => Self {
+                why: Some("search_limit"),
+                horizon: Some(HorizonObject::new(&NoImpact::ForPeriods(*periods))),
+                ..bare
+            },
         }
     }
 
-    /// Adds the chaos that preceded the motion.
-    pub(super) fn after(self, transient: Option<Chaos>, units: &Units) -> Self {
-        let told = |chaos: Chaos| Transient {
-            impacts: chaos.impacts,
-            lyapunov: Estimate::per_time(chaos.spectrum.exponents[0], units),
-        };
-        Self { chaotic_transient: transient.map(told), ..self }
-    }
-
-    /// Removes the exponent of the verdict, for a report with a more precise one.
+    /// The same without the exponent of the verdict, for a report with a more precise one.
     pub(super) fn without_lyapunov(self) -> Self {
-        Self { lyapunov: None, tried: self.tried.map(|tried| Tried { lyapunov: None, ..tried }), ..self }
+        Self { lyapunov: None, ..self }
     }
+}
 
-    fn periodic(cycle: &Cycle, bare: Self, units: &Units) -> Self {
-        let rests = rests(cycle);
-        // the list of impacts begins at the release that ends the last phase of sticking
-        let last = cycle.rests.last();
+impl<'a> MotionObject<'a> {
+    /// A cycle of a machine.
+    pub(super) fn of_cycle(machine: &'a Machine, cycle: &'a MachineCycle) -> Self {
+        let counts = machine.stops().iter().zip(&cycle.counts);
+        let sticks = cycle.events.iter().filter(|event| matches!(event.kind.name(), "stick" | "hold")).count();
         Self {
             kind: "periodic",
-            impacts: match cycle.label.impacts {
-                Count::Finite(m) => Some(m),
-                Count::Infinite => None,
-            },
-            periods: Some(cycle.label.periods),
-            sticks: Some(rests.len()),
-            cycle: impacts(cycle, units),
-            chatter_end: last.filter(|rest| rest.chatter).map(|rest| rest.begin),
-            release: last.map(|rest| rest.release),
-            rests: (!rests.is_empty()).then_some(rests),
+            label: cycle.label.to_string(),
+            impacts: finite(cycle.label.impacts),
+            // 0 stands for no forcing
+            periods: Some(cycle.label.periods).filter(|periods| *periods > 0),
+            period: Some(cycle.period),
+            sticks: Some(sticks),
+            stable: Some(cycle.stable()),
+            stability: Some(cycle.stability().name()),
+            counts: Some(counts.map(|(stop, count)| (stop.name.clone(), Value::from(*count))).collect()),
+            multipliers: Some(multipliers(&cycle.multipliers)),
+            drift: drift(machine, cycle),
+            drift_velocity: (cycle.translations() > 0).then(|| by_coordinate(machine, &cycle.drift_velocity())),
+            cycle: cycle.events.iter().map(|event| event::of_machine(machine, event)).collect(),
+            state: Some(StateObject::of(machine, &cycle.state)),
             residual: Some(cycle.residual),
-            ..bare
+            quantities: machine_cycle_quantities(machine, cycle).map(|found| quantities::of_machine(machine, &found)),
+            ..Self::default()
+        }
+    }
+
+    /// The motion of a machine.
+    pub(super) fn of_machine(machine: &'a Machine, verdict: &'a MachineVerdict) -> Self {
+        if let MachineVerdict::Periodic(cycle) = verdict {
+            return Self::of_cycle(machine, cycle);
+        }
+        let found = machine_quantities(machine, verdict);
+        let stability = verdict.stability(machine);
+        let stops: Vec<&str> = verdict.closed().into_iter().map(|stop| machine.name_of(stop)).collect();
+        let plain = |kind| Self {
+            kind,
+            label: verdict.label(),
+            stable: stability.map(Stability::is_stable),
+            stability: stability.map(Stability::name),
+            quantities: found.as_ref().map(|found| quantities::of_machine(machine, found)),
+            ..Self::default()
+        };
+        match verdict {
+            MachineVerdict::Periodic(cycle) => Self::of_cycle(machine, cycle),
+            MachineVerdict::NoImpact(_) => Self { impacts: Some(0), stops, ..plain("no_impact") },
+            MachineVerdict::Stuck(_) => {
+                Self { impacts: Some(0), stop: stops.first().copied(), stops, ..plain("stuck") }
+            }
+            MachineVerdict::Chaotic { spectrum, events, .. } => Self {
+                quantities_error: found.as_ref().map(|found| quantities::errors_of_machine(machine, found)),
+                lyapunov: spectrum.exponents.first().map(|first| Estimate::from(*first)),
+                exponents: Some(estimates(spectrum)),
+                seen_events: Some(*events),
+                ..plain("chaotic")
+            },
+            MachineVerdict::Undecided { why, spectrum, events } => Self {
+                exponents: spectrum.as_ref().map(estimates),
+                seen_events: Some(*events),
+                why: Some(undecided(*why)),
+                quantities: None,
+                ..plain("undecided")
+            },
         }
     }
 }
 
-/// The impacts of a cycle.
-pub(super) fn impacts(cycle: &Cycle, units: &Units) -> Vec<CyclePoint> {
-    cycle
-        .points
-        .iter()
-        .map(|point| CyclePoint {
-            phase: point.state.phase,
-            velocity_before: point.state.velocity * units.velocity(),
-            interval: point.interval * units.time(),
-            side: side(point.state.side),
-        })
-        .collect()
+const fn finite(impacts: Count) -> Option<u32> {
+    match impacts {
+        Count::Finite(impacts) => Some(impacts),
+        Count::Infinite => None,
+    }
 }
 
-/// The phases of sticking of a cycle.
-pub(super) fn rests(cycle: &Cycle) -> Vec<Rest> {
-    let rests = cycle.rests.iter();
-    rests
-        .map(|rest| Rest { side: side(rest.side), chatter: rest.chatter, begin: rest.begin, release: rest.release })
-        .collect()
+/// Impacts on each stop of an oscillator in one period; `None` if the motion does not repeat.
+fn counts(osc: &Oscillator, verdict: &Verdict) -> Option<Map<String, Value>> {
+    let by = match verdict {
+        Verdict::Periodic(cycle) => ImpactsByStop::of_cycle(cycle),
+        Verdict::NoImpact(NoImpact::ForPeriods(_)) | Verdict::Chaotic(_) | Verdict::Undecided(_) => return None,
+        Verdict::NoImpact(_) | Verdict::Stuck(_) => ImpactsByStop { upper: Some(0), lower: Some(0) },
+    };
+    let count = |at: Side| if at == Side::Upper { by.upper } else { by.lower };
+    Some(osc.stops().map(|(at, _)| (side(at).to_owned(), count(at).into())).collect())
 }
 
-/// Real and imaginary part of each multiplier.
-pub(crate) fn pairs(multipliers: [Multiplier; 2]) -> [[f64; 2]; 2] {
-    multipliers.map(|m| [m.re, m.im])
+/// The drift of a cycle by coordinate; `None` in a machine without free translations.
+pub(super) fn drift(machine: &Machine, cycle: &MachineCycle) -> Option<Map<String, Value>> {
+    (cycle.translations() > 0).then(|| by_coordinate(machine, &cycle.drift))
 }
 
-/// A motion, with the number of starts that lead to it.
+fn by_coordinate(machine: &Machine, values: &[f64]) -> Map<String, Value> {
+    let names = machine.parts().coordinates.iter().cloned();
+    names.zip(values.iter().map(|value| Value::from(*value))).collect()
+}
+
+/// The real and the imaginary part of each.
+pub(crate) fn multipliers(of: &[Multiplier]) -> Vec<[f64; 2]> {
+    of.iter().map(|multiplier| [multiplier.re, multiplier.im]).collect()
+}
+
+/// Why a motion of a machine is undecided.
+#[must_use]
+pub const fn undecided(why: MachineUndecided) -> &'static str {
+    match why {
+        MachineUndecided::Events => "events",
+        MachineUndecided::Unconfirmed => "unconfirmed",
+        MachineUndecided::Ended(MachineEnd::NoEventWithin) => "time_limit",
+        MachineUndecided::Ended(MachineEnd::SearchLimit) => "search_limit",
+        MachineUndecided::Ended(MachineEnd::Inconsistent) => "inconsistent",
+        MachineUndecided::Ended(MachineEnd::Collapse) => "collapse",
+        MachineUndecided::Ended(MachineEnd::Never | MachineEnd::Stuck) => "no_more_impacts",
+    }
+}
+
+/// A motion, with the share and the number of the starts that lead to it.
 #[derive(Serialize)]
-pub(super) struct SharedMotion {
+pub(super) struct SharedMotion<'a> {
     #[serde(flatten)]
-    pub(super) motion: MotionFields,
+    pub(super) motion: MotionObject<'a>,
     pub(super) share: f64,
-    pub(super) count: u64,
+    pub(super) starts: u64,
+}
+
+/// The object of a motion of an oscillator as text, nondimensional.
+#[must_use]
+pub fn text(verdict: &Verdict, osc: &Oscillator) -> String {
+    // texts and numbers can always be written as JSON
+    serde_json::to_string(&MotionObject::of_oscillator(verdict, osc, &Units::default())).unwrap_or_default()
+}
+
+/// The cycle of an oscillator as a motion.
+pub(super) fn of_oscillator_cycle(cycle: &Cycle, osc: &Oscillator, units: &Units) -> MotionObject<'static> {
+    MotionObject::of_oscillator(&Verdict::Periodic(cycle.clone()), osc, units)
 }

@@ -1,18 +1,18 @@
 //! The orbits with a label: admissible ones and inadmissible solutions of the equations.
 
 use super::Document;
-use super::motion::{MotionFields, side};
+use super::event::side;
+use super::motion::{MotionObject, of_oscillator_cycle};
 use crate::{Asked, Units};
 use serde::Serialize;
 use vibroimpact::Oscillator;
 use vibroimpact::orbit::{EarlierContact, Orbit};
-use vibroimpact::verdict::Verdict;
 use vibroimpact_study::Plan;
 
 /// The fields of `vibro orbit`.
 #[derive(Serialize)]
-struct OrbitFields {
-    orbits: Vec<OrbitObject>,
+struct OrbitFields<'a> {
+    orbits: Vec<OrbitObject<'a>>,
 }
 
 /// The object of `vibro orbit`.
@@ -24,10 +24,10 @@ pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, orbits: &[O
 
 /// One orbit.
 #[derive(Serialize)]
-struct OrbitObject {
+struct OrbitObject<'a> {
     #[serde(flatten)]
-    motion: MotionFields,
-    physical: bool,
+    motion: MotionObject<'a>,
+    admissible: bool,
     earlier_contact: Option<ContactObject>,
 }
 
@@ -35,22 +35,22 @@ struct OrbitObject {
 struct ContactObject {
     /// Number of the impact before the contact, counted from 1; none if the motion has no impacts.
     after_impact: Option<usize>,
-    side: &'static str,
+    stop: &'static str,
     /// Time from that impact, or from phase 0, to the contact.
     time: f64,
 }
 
-impl OrbitObject {
+impl OrbitObject<'_> {
     fn new(orbit: &Orbit, osc: &Oscillator, units: &Units) -> Self {
         let earlier = |contact: EarlierContact| ContactObject {
             after_impact: (!orbit.cycle.points.is_empty()).then_some(contact.flight + 1),
-            side: side(contact.side),
+            stop: side(contact.side),
             time: contact.time * units.time(),
         };
         Self {
-            physical: orbit.physical,
+            admissible: orbit.physical,
             earlier_contact: orbit.earlier.map(earlier),
-            motion: MotionFields::new(&Verdict::Periodic(orbit.cycle.clone()), osc, units),
+            motion: of_oscillator_cycle(&orbit.cycle, osc, units),
         }
     }
 }

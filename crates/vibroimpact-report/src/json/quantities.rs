@@ -1,43 +1,58 @@
-//! The quantities of a motion.
+//! The quantities of a motion, in the units of the results: those of the whole system by name, and of a machine objects of its
+//! forces by order and of its stops, friction joints and coordinates by name. Numbers that are not finite become null.
 
 use crate::Units;
-use serde::{Serialize, Serializer};
-use vibroimpact::quantities::{Quantities, Quantity};
+use serde_json::{Map, Value};
+use vibroimpact::chaos::Measured;
+use vibroimpact::machine::Machine;
+use vibroimpact::quantities::{MachinePart, MachineQuantities, Quantities, Quantity};
 
-/// All quantities of a motion in these units, by name.
-#[derive(Clone, Copy)]
-pub(super) struct QuantityFields {
-    values: Quantities,
-    units: Units,
+/// Those of an oscillator.
+pub(super) fn of_oscillator(found: &Quantities, units: &Units) -> Map<String, Value> {
+    let value = |quantity: Quantity| (quantity.name().to_owned(), units.value_of(found, quantity).into());
+    Quantity::ALL.into_iter().map(value).collect()
 }
 
-/// The error bars of quantities in these units, by name: only those that there are.
-#[derive(Clone, Copy)]
-pub(super) struct QuantityErrors(QuantityFields);
-
-impl QuantityErrors {
-    pub(super) const fn new(errors: Quantities, units: &Units) -> Self {
-        Self(QuantityFields::new(errors, units))
-    }
+/// Three standard errors of the means of a chaotic motion of an oscillator: only those that there are.
+pub(super) fn errors_of_oscillator(errors: &Quantities, units: &Units) -> Map<String, Value> {
+    of_oscillator(errors, units).into_iter().filter(|(_, error)| !error.is_null()).collect()
 }
 
-impl Serialize for QuantityErrors {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let QuantityFields { values, units } = &self.0;
-        let all = Quantity::ALL.map(|quantity| (quantity.name(), units.value_of(values, quantity)));
-        to.collect_map(all.into_iter().filter(|(_, error)| error.is_finite()))
-    }
+/// Those of a machine.
+pub(super) fn of_machine(machine: &Machine, found: &MachineQuantities) -> Map<String, Value> {
+    by_part(machine, found, |measured| Some(Value::from(measured.value)))
 }
 
-impl QuantityFields {
-    pub(super) const fn new(values: Quantities, units: &Units) -> Self {
-        Self { values, units: *units }
-    }
+/// Three standard errors of the means of a chaotic motion of a machine: only those that there are.
+pub(super) fn errors_of_machine(machine: &Machine, found: &MachineQuantities) -> Map<String, Value> {
+    by_part(machine, found, |measured| measured.error.is_finite().then(|| Value::from(measured.error)))
 }
 
-impl Serialize for QuantityFields {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        // numbers that are not finite become null
-        to.collect_map(Quantity::ALL.map(|quantity| (quantity.name(), self.units.value_of(&self.values, quantity))))
+fn by_part(
+    machine: &Machine,
+    found: &MachineQuantities,
+    value: impl Fn(Measured) -> Option<Value>,
+) -> Map<String, Value> {
+    let mut all = Map::new();
+    let mut parts = ["forces", "stops", "joints", "coordinates"].map(|kind| (kind, Map::new()));
+    for (part, quantity, measured) in found.iter() {
+        let Some(value) = value(measured) else { continue };
+        let (kind, name) = match part {
+            MachinePart::Whole => {
+                all.insert(quantity.name().to_owned(), value);
+                continue;
+            }
+            MachinePart::Force(order) => ("forces", order.to_string()),
+            MachinePart::Stop(j) => ("stops", machine.stops()[j].name.clone()),
+            MachinePart::Joint(j) => ("joints", machine.joints()[j].name.clone()),
+            MachinePart::Coordinate(i) => ("coordinates", machine.parts().coordinates[i].clone()),
+        };
+        for (_, of) in parts.iter_mut().filter(|(own, _)| *own == kind) {
+            if let Value::Object(own) = of.entry(name.as_str()).or_insert_with(|| Value::Object(Map::new())) {
+                own.insert(quantity.name().to_owned(), value.clone());
+            }
+        }
     }
+    all.extend(parts.into_iter().map(|(kind, of)| (kind.to_owned(), Value::Object(of))));
+    all
 }

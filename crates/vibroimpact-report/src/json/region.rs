@@ -1,10 +1,11 @@
 //! Regions of existence and stability: their polygons and the kinds of their boundaries.
 
-use super::Scales;
-use crate::{Asked, PROGRAM, Units};
+use super::Document;
+use crate::{Asked, Units};
 use serde::Serialize;
+use vibroimpact::Oscillator;
 use vibroimpact::continuation::{Polygon, Region, Vertex};
-use vibroimpact_study::{Parameter, Plan, RegionPlan, Regions};
+use vibroimpact_study::{Plan, RegionPlan, Regions};
 
 /// The fields of the regions. Pairs of values are in the order of `parameters`.
 #[derive(Serialize)]
@@ -33,55 +34,16 @@ struct PolygonObject {
     bounds: Vec<&'static str>,
 }
 
-/// The whole object. Parameters that vary have no value in `system`.
-#[derive(Serialize)]
-struct Object<'a> {
-    system: SystemObject,
-    #[serde(flatten)]
-    answer: RegionFields,
-    units: &'static str,
-    plan: &'a Plan,
-    program: &'static str,
-}
-
-#[derive(Serialize)]
-struct SystemObject {
-    beta: Option<f64>,
-    inverse_beta: Option<f64>,
-    gap: Option<f64>,
-    restitution: Option<f64>,
-    damping: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    second_gap: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    second_restitution: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    scales: Option<Scales>,
-}
-
-/// The object of `vibro region`.
+/// The object of `vibro region`. Parameters that vary have no value in the system.
 #[must_use]
-pub fn document<'a>(asked: &Asked, plan: &'a Plan, (task, found): (&RegionPlan, &Regions)) -> impl Serialize + use<'a> {
-    let Asked { system, units } = asked;
+pub fn document<'a>(
+    asked: &Asked,
+    plan: &'a Plan,
+    osc: &Oscillator,
+    (task, found): (&RegionPlan, &Regions),
+) -> impl Serialize + use<'a> {
     let varied = [task.across.parameter, task.up.parameter];
-    let fixed = |parameter: Parameter, value: Option<f64>| value.filter(|_| !varied.contains(&parameter));
-    let second = system.second_stop;
-    Object {
-        system: SystemObject {
-            beta: fixed(Parameter::Beta, system.beta),
-            inverse_beta: fixed(Parameter::InverseBeta, system.inverse_beta),
-            gap: fixed(Parameter::Gap, Some(system.gap)),
-            restitution: fixed(Parameter::Restitution, Some(system.restitution)),
-            damping: fixed(Parameter::Damping, Some(system.damping)),
-            second_gap: fixed(Parameter::SecondGap, second.map(|stop| stop.gap)),
-            second_restitution: fixed(Parameter::SecondRestitution, second.map(|stop| stop.restitution)),
-            scales: Scales::new(units),
-        },
-        answer: RegionFields::new(found, task, asked),
-        units: units.name(),
-        plan,
-        program: PROGRAM,
-    }
+    Document::over(asked, osc, &varied, plan, RegionFields::new(found, task, asked))
 }
 
 impl RegionFields {

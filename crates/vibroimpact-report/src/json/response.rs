@@ -45,7 +45,7 @@ struct PointObject {
     value: f64,
     stable: bool,
     stability: &'static str,
-    physical: bool,
+    admissible: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     event: Option<&'static str>,
 }
@@ -88,7 +88,7 @@ fn object(branch: &ResponseBranch, task: &ResponsePlan, units: &Units) -> Branch
         value: value(point.quantities, task.quantity, &units.at(task.vary, point.solution.value)),
         stable: point.solution.stable(),
         stability: point.solution.stability().name(),
-        physical: point.solution.physical,
+        admissible: point.solution.physical,
         event: point.solution.event.map(|event| event.name()),
     };
     BranchObject { points: branch.points.iter().map(point).collect() }

@@ -1,10 +1,11 @@
 //! A settled motion, and the verdict of the rule of the 1971 paper.
 
 use super::Document;
-use super::motion::MotionFields;
-use super::quantities::QuantityFields;
+use super::motion::{ChaosObject, MotionObject};
+use super::quantities;
 use crate::{Asked, Units};
 use serde::Serialize;
+use serde_json::{Map, Value};
 use vibroimpact::quantities::{Harmonic, harmonics, of_transient};
 use vibroimpact::verdict::{PaperRule, PaperVerdict, Settled, Verdict};
 use vibroimpact::{Oscillator, Start};
@@ -12,10 +13,14 @@ use vibroimpact_study::Plan;
 
 /// The fields of `vibro settle`.
 #[derive(Serialize)]
-struct SettleFields {
-    motion: MotionFields,
-    impacts_followed: u64,
+struct SettleFields<'a> {
+    motion: MotionObject<'a>,
+    /// Of an oscillator: impacts.
+    events_followed: u64,
     time_followed: f64,
+    /// Chaos before the motion settled.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    chaotic_transient: Option<ChaosObject>,
     /// The spectrum of the positions; none of a motion that is no cycle.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     harmonics: Vec<HarmonicObject>,
@@ -38,9 +43,9 @@ struct HarmonicObject {
 /// The largest values on the way, and means over it.
 #[derive(Serialize)]
 struct TransientObject {
-    impacts: u64,
+    events: u64,
     time: f64,
-    quantities: QuantityFields,
+    quantities: Map<String, Value>,
 }
 
 /// Harmonics up to this multiple of the frequency of the force, and at most this number of them.
@@ -61,9 +66,9 @@ fn harmonics_of(verdict: &Verdict, osc: &Oscillator, units: &Units) -> Vec<Harmo
 fn transient_of(settled: &Settled, osc: &Oscillator, start: &Start, units: &Units) -> Option<TransientObject> {
     let ends = !matches!(settled.verdict, Verdict::Chaotic(_) | Verdict::Undecided(_));
     (ends && settled.impacts <= LONGEST_WAY).then(|| TransientObject {
-        impacts: settled.impacts,
+        events: settled.impacts,
         time: settled.time * units.time(),
-        quantities: QuantityFields::new(of_transient(osc, *start, settled.impacts), units),
+        quantities: quantities::of_oscillator(&of_transient(osc, *start, settled.impacts), units),
     })
 }
 
@@ -91,9 +96,10 @@ pub fn document<'a>(
 ) -> impl Serialize + use<'a> {
     let units = &asked.units;
     let answer = SettleFields {
-        motion: MotionFields::new(&settled.verdict, osc, units).after(settled.transient, units),
-        impacts_followed: settled.impacts,
+        motion: MotionObject::of_oscillator(&settled.verdict, osc, units),
+        events_followed: settled.impacts,
         time_followed: settled.time * units.time(),
+        chaotic_transient: settled.transient.as_ref().map(|chaos| ChaosObject::of_oscillator(chaos, units)),
         harmonics: harmonics_of(&settled.verdict, osc, units),
         transient: transient_of(settled, osc, start, units),
         paper_rule: paper.map(|(rule, verdict)| PaperAnswer::new(rule, verdict)),

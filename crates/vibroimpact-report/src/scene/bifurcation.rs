@@ -262,7 +262,7 @@ mod tests {
         let mut table = Vec::new();
         diagram.table().unwrap().write(&mut table).unwrap();
         let table = String::from_utf8(table).unwrap();
-        assert!(table.starts_with("gap,sweep,kind,side,phase,velocity,label,event\n"), "{}", &table[..80]);
+        assert!(table.starts_with("gap,sweep,kind,stop,phase,speed,label,event\n"), "{}", &table[..80]);
         let simulated = table.lines().filter(|row| row.ends_with(",,")).count();
         let stable = table.lines().filter(|row| row.contains(",stable,upper,") && row.ends_with(",1/1,")).count();
         let flip = table.lines().find(|row| row.ends_with(",1/1,flip")).unwrap();

@@ -2,7 +2,7 @@
 
 use crate::Units;
 use crate::figure::settle::steady;
-use crate::json::simulate::EventObject;
+use crate::json::event::EventObject;
 use serde::Serialize;
 use vibroimpact::motion::{Motion, sample};
 use vibroimpact::verdict::Settled;
@@ -35,7 +35,7 @@ pub struct SampledMotion {
     /// Velocities.
     pub velocity: Vec<f64>,
     /// Impacts, sticking, releases and grazing contacts, with times since the first point.
-    pub events: Vec<EventObject>,
+    pub events: Vec<EventObject<'static>>,
     /// The units of all these numbers: `si` or `nondimensional`.
     pub units: &'static str,
 }
@@ -73,7 +73,7 @@ impl SampledMotion {
             time: points.iter().map(|point| point.time * time).collect(),
             position: points.iter().map(|point| point.x * length).collect(),
             velocity: points.iter().map(|point| point.v * velocity).collect(),
-            events: events.map(|event| EventObject::new(&event, units)).collect(),
+            events: events.map(|event| EventObject::of_oscillator(osc, &event, units)).collect(),
             units: units.name(),
         }
     }

@@ -22,6 +22,6 @@ pub fn table(found: &Census, osc: &Oscillator, units: &Units) -> Table<'static> 
         format!("{},{},{},{parts}{quantities}", motion.verdict.label(), Number(found.share(motion)), motion.count)
     };
     let rows: Vec<String> = found.by_share().iter().map(row).collect();
-    let header = "label,share,starts,multiplier1_re,multiplier1_im,multiplier2_re,multiplier2_im";
+    let header = "label,share,starts,multiplier_1_re,multiplier_1_im,multiplier_2_re,multiplier_2_im";
     Table::new(format!("{header}{}", columns(&Quantity::ALL, units)), rows.into_iter())
 }

@@ -4,7 +4,7 @@ use super::{Table, diagram};
 use crate::Asked;
 use crate::branch_quantity::BranchQuantity;
 use crate::figure::tracks::Followed as What;
-use crate::json::motion::side;
+use crate::json::event::side;
 use crate::number::Number;
 use vibroimpact::continuation::MachinePoint;
 use vibroimpact::machine::Machine;

@@ -1,11 +1,10 @@
 //! Curves of events in a plane of two parameters: one row for each point.
 
 use super::Table;
-use super::branch::cells;
+use super::branch::{cells, cycle_columns};
 use crate::Units;
 use crate::json::curve::values;
 use crate::number::Number;
-use vibroimpact::QuantityKind;
 use vibroimpact_study::{CurvePlan, EventCurve};
 
 /// The table of `vibro curve`.
@@ -17,8 +16,7 @@ pub fn table<'a>(found: &'a EventCurve, plan: &'a CurvePlan, units: &'a Units) -
 /// The columns of the table.
 fn columns(plan: &CurvePlan, units: &Units) -> String {
     let (p, q) = (units.column_of(plan.vary.parameter), units.column_of(plan.and.parameter));
-    let velocities = units.column("velocities", QuantityKind::Velocity);
-    format!("{p},{q},physical,event,re_1,im_1,re_2,im_2,phases,{velocities}")
+    format!("{p},{q},label,admissible,event,{}", cycle_columns(units))
 }
 
 /// One row for each point, from one end to the other.
@@ -26,7 +24,7 @@ fn rows<'a>(found: &'a EventCurve, plan: &'a CurvePlan, units: &'a Units) -> imp
     found.points.iter().map(move |point| {
         let [p, q] = values(point, plan, units);
         let event = point.event.map_or("", |event| event.name());
-        let head = format!("{},{},{},{event}", Number(p), Number(q), point.physical);
+        let head = format!("{},{},{},{},{event}", Number(p), Number(q), point.cycle.label, point.physical);
         let units = units.at_both((plan.vary.parameter, plan.and.parameter), point.values);
         format!("{head},{}", cells(&point.cycle, &units))
     })

@@ -2,7 +2,7 @@
 
 use super::Table;
 use crate::Units;
-use crate::json::motion::side;
+use crate::json::event::side;
 use crate::number::Number;
 use crate::units::shown;
 use vibroimpact::machine::Machine;
@@ -23,8 +23,8 @@ pub fn table(found: &Diagram, units: Units) -> Result<Table<'_>, PlanError> {
 pub fn columns(found: &Diagram, units: &Units) -> Vec<String> {
     let quantity;
     let shown: &[&str] = match (found.plan.show, units.si) {
-        (Show::Velocity, false) => &["sweep", "kind", "side", "phase", "velocity"],
-        (Show::Velocity, true) => &["sweep", "kind", "side", "phase", "velocity_m_per_s"],
+        (Show::Velocity, false) => &["sweep", "kind", "stop", "phase", "speed"],
+        (Show::Velocity, true) => &["sweep", "kind", "stop", "phase", "speed_m_per_s"],
         (Show::Strobe, false) => &["sweep", "kind", "x", "v"],
         (Show::Strobe, true) => &["sweep", "kind", "x_m", "v_m_per_s"],
         (Show::Quantity(of), _) => {

@@ -17,7 +17,7 @@ pub(super) fn closing_columns(machine: &Machine) -> impl Iterator<Item = String>
 /// stop of the event, fastest closing, multipliers, the drift of a machine that can be translated, of each closing the phase, speed and stop,
 /// and without forcing the period.
 pub(crate) fn table<'a>(machine: &'a Machine, cut: &MachineCut, found: &'a MachineBranched) -> Table<'a> {
-    let own = ["label", "physical", "stable", "stability", "event", "stop", "fastest"];
+    let own = ["label", "admissible", "stable", "stability", "event", "stop", "fastest"];
     let heads = core::iter::once("branch").chain(cut.paths()).chain(own).map(str::to_owned);
     let drifting = found.all().flatten().any(|point| point.cycle.translations() > 0);
     let header = heads

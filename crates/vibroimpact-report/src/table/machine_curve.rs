@@ -7,11 +7,11 @@ use crate::number::Number;
 use vibroimpact::machine::Machine;
 use vibroimpact_study::{MachineCurvePlan, MachineEventCurve};
 
-/// One row a point: both numbers, label, whether it is stable, event, stop of the event, residual of the condition, phase of
+/// One row a point: both numbers, label, whether it is admissible, event, stop of the event, residual of the condition, phase of
 /// the touch, multipliers, of each closing besides the touch the phase, speed and stop, and without
 /// forcing the period.
 pub(crate) fn table<'a>(machine: &'a Machine, plan: &MachineCurvePlan, found: &'a MachineEventCurve) -> Table<'a> {
-    let names = [plan.vary.path.as_str(), plan.and.path.as_str(), "label", "event", "stop", "residual", "touch"];
+    let names = [plan.vary.path.as_str(), plan.and.path.as_str(), "label", "admissible", "event", "stop", "residual", "touch"];
     let header = names.map(str::to_owned).into_iter().chain(numbered(machine)).chain(closing_columns(machine));
     let header = header.collect::<Vec<_>>().join(",");
     let rows = found.points.iter().map(|point| {
@@ -20,7 +20,7 @@ pub(crate) fn table<'a>(machine: &'a Machine, plan: &MachineCurvePlan, found: &'
         let stop = point.event.and_then(|event| event.place()).map_or("", |place| machine.name_of(place));
         let touch = point.touch.map_or_else(String::new, |phase| Number(phase).to_string());
         let (label, residual) = (point.cycle.label, Number(point.residual));
-        let mut row = format!("{},{},{label},{event},{stop},{residual},{touch}", Number(p), Number(q));
+        let mut row = format!("{},{},{label},true,{event},{stop},{residual},{touch}", Number(p), Number(q));
         push(&mut row, Some(&point.cycle.multipliers), machine.n());
         row.push_str(&closings(machine, &point.cycle));
         row

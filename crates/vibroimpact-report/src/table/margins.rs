@@ -8,29 +8,30 @@ use vibroimpact_study::{EventRecord, MarginEnd, MotionMargins, ParameterMargin};
 /// The table of `vibro margins`.
 #[must_use]
 pub fn table(found: &MotionMargins, units: Units) -> Table<'_> {
-    let header = "parameter,value,direction,limit,at,distance,relative,event,label_after";
+    let header = "parameter,value,direction,limit,at,distance,relative,event,before,after";
     let rows = found.parameters.iter().flat_map(move |margin| {
         [("down", &margin.down), ("up", &margin.up)].map(|(way, end)| row(margin, way, end, &units))
     });
     Table::new(header.to_owned(), rows)
 }
 
-/// One row. Without an event up to the limit of the range, the last five cells are empty.
+/// One row. Without an event up to the limit of the range, the last six cells are empty.
 fn row(margin: &ParameterMargin, way: &str, end: &MarginEnd, units: &Units) -> String {
     let scope = &margin.scope;
     let (unit, name) = (units.of(scope.parameter), units.column_of(scope.parameter));
     let limit = if way == "down" { scope.low } else { scope.high };
     let begin = format!("{name},{},{way},{}", Number(scope.value * unit), Number(limit * unit));
     let Some((point, event)) = end.point.as_ref().and_then(|point| Some((point, point.event?))) else {
-        return format!("{begin},,,,,");
+        return format!("{begin},,,,,,");
     };
     let record = EventRecord::of(point, &event);
     let relative = end.relative(scope).map_or_else(String::new, |relative| Number(relative).to_string());
     format!(
-        "{begin},{},{},{relative},{},{}",
+        "{begin},{},{},{relative},{},{},{}",
         Number(end.value * unit),
         Number(end.distance(scope) * unit),
         record.kind,
+        record.label_before,
         record.label_after.unwrap_or_default()
     )
 }

@@ -33,7 +33,7 @@ pub fn table<'a>(found: &'a ResponseCurves, units: &'a Units) -> Table<'a> {
         })
     });
     let header = format!(
-        "curve,{},label,physical,stable,stability{}",
+        "curve,{},label,admissible,stable,stability{}",
         units.column_of(found.plan.vary),
         columns(&Quantity::ALL, units)
     );

@@ -34,7 +34,7 @@ pub fn table(
             Number(point.v * units.velocity())
         )
     });
-    let time = if units.si { "t_s" } else { "t" };
+    let time = if units.si { "time_s" } else { "time" };
     let (x, v) = (units.column("x", QuantityKind::Length), units.column("v", QuantityKind::Velocity));
     Ok(Table::new(format!("{time},{x},{v}"), rows))
 }

@@ -57,7 +57,7 @@ fn frequencies_in_hertz() {
     same(
         &format!("diagram {machine} --vary frequency-hz --over 0.8:1.2:5 --keep 8"),
         &format!("diagram --gap 1.5 --restitution 0.5 --vary beta --over {low:?}:{high:?}:5 --keep 8"),
-        "frequency_hz,sweep,kind,side,phase,velocity_m_per_s",
+        "frequency_hz,sweep,kind,stop,phase,speed_m_per_s",
     );
     let begin = 1.146 / hertz;
     same(
@@ -92,7 +92,7 @@ fn random_machines_over_their_gap() {
     for machine in Machine::random() {
         let [plain, si] = over_gaps(&machine, ("map", "--starts 4"), [0.4, 1.1]);
         assert_eq!((&plain["labels"], &plain["coexisting"]), (&si["labels"], &si["coexisting"]), "{machine:?}");
-        assert_eq!(si["gap_m"]["to"], 1.1 * machine.length());
+        assert_eq!(si["axes"][0]["over"]["to"], 1.1 * machine.length());
         // what does not vary is listed in the units of the machine
         let fixed = ["mass_kg", "stiffness_n_per_m", "force_n", "omega_rad_per_s", "damping_ratio", "restitution"];
         let stated = [machine.mass, machine.stiffness, machine.force, machine.omega, machine.damping_ratio];

@@ -159,9 +159,9 @@ const COMMANDS: [Command; 10] = [
 fn unit(machine: &Machine, key: &str) -> Option<f64> {
     let (length, time, velocity) = (machine.length(), machine.time(), machine.velocity());
     match key {
-        "x" | "gap" => Some(length),
-        "v" | "velocity" | "velocity_before" | "velocity_after" => Some(velocity),
-        "t" | "time" | "interval" => Some(time),
+        "x" | "q" | "gap" => Some(length),
+        "v" | "qdot" | "speed" | "fastest" => Some(velocity),
+        "time" | "period" => Some(time),
         // the columns of quantities end in their units
         _ => Quantity::ALL.into_iter().find(|quantity| key == quantity.name()).map(|quantity| {
             let mass = machine.mass;
