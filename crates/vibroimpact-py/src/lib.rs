@@ -58,8 +58,8 @@ mod _core {
     use crate::oscillator::{Oscillator, Units};
     #[pymodule_export]
     use crate::plan::{
-        answer_json, checked_plan, coordinate_words, fixed_coordinates, machine_parameters, point_coordinates, scales_of_points,
-        scales_over, system_fields,
+        answer_json, checked_plan, coordinate_words, fixed_coordinates, machine_parameters, point_coordinates,
+        scales_of_points, scales_over, system_fields,
     };
     #[pymodule_export]
     use crate::points::{drawn_points, settle_points};

@@ -6,9 +6,7 @@ use crate::error::Trouble;
 use crate::machine::{MachineFile, Start, start};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
-use vibroimpact_study::{
-    MachineDiagram, MachineDiagramStep, MachinePlan, MachineResults, MachineSection, MachineTask,
-};
+use vibroimpact_study::{MachineDiagram, MachineDiagramStep, MachinePlan, MachineResults, MachineSection, MachineTask};
 
 /// The points of both sections of an attractor: at the closings of stops, and at phase 0.
 #[derive(IntoPyObject)]

@@ -285,7 +285,11 @@ mod tests {
         let mut text = Vec::new();
         line.table(&Shown::default()).unwrap().unwrap().write(&mut text).unwrap();
         assert!(text.starts_with(b"x,label\n0,"));
-        assert!(line.json().contains(r#""axes":[{"vary":"x","over":{"from":0.0,"to":0.7,"count":2}}],"cells":[0,0]"#), "{}", line.json());
+        assert!(
+            line.json().contains(r#""axes":[{"vary":"x","over":{"from":0.0,"to":0.7,"count":2}}],"cells":[0,0]"#),
+            "{}",
+            line.json()
+        );
         let beyond = ask(&basin(&x.replace("0.7", "0.8")));
         assert!(matches!(beyond, Err(AnswerError::Plan(PlanError::System(_)))), "{beyond:?}");
         let gap = r#"{"vary":"gap","over":"1:2:2"}"#;

@@ -192,10 +192,7 @@ async fn quantities_as_colours() {
     let (status, kind, table) = ask("/api/bifurcation?labels=1/1&table=true", DIAGRAM).await;
     assert_eq!((status.as_u16(), kind.as_str()), (200, "text/csv; charset=utf-8"));
     let table = String::from_utf8(table).unwrap();
-    assert!(
-        table.starts_with("gap,sweep,kind,stop,phase,speed,label,event\n") && table.contains(",1/1,"),
-        "{table}"
-    );
+    assert!(table.starts_with("gap,sweep,kind,stop,phase,speed,label,event\n") && table.contains(",1/1,"), "{table}");
 }
 
 /// A motion for the page: from the start, and after its transient, in the requested number of periods.

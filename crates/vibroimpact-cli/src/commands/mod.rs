@@ -124,7 +124,7 @@ pub(crate) fn run(line: &CommandLine, session: &Session) -> Result<(), Failure> 
         Command::Export(args) => export::run(args, session),
         Command::Plot(args) => plot::run(args, session),
         Command::Slurm(args) => slurm::run(args, session),
-        Command::Schema(args) => schema::run(*args, session),
+        Command::Schema(args) => schema::run(args, session),
         Command::Bench(args) => bench::run(args, session),
         #[cfg(feature = "reproduce")]
         Command::Reproduce(args) => reproduce::run(args, session),

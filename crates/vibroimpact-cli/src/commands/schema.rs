@@ -1,13 +1,19 @@
-//! `vibro schema`: the JSON schema of plans, of machine files and of plans of machines.
+//! `vibro schema`: the JSON schema of plans, of machine files, of plans of machines, and of answers.
 
 use crate::failure::Failure;
 use crate::session::Session;
+use vibroimpact_report::json;
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{MachinePlan, Plan};
 
-/// Print the JSON schema of plans, of machine files or of plans of machines, for editors and other programs
-#[derive(Clone, Copy, Debug, clap::Args)]
+/// Print the JSON schema of plans, of machine files, of plans of machines or of answers, for editors and other programs
+#[derive(Clone, Debug, clap::Args)]
 pub(crate) struct Schema {
+    /// The schema of the object that this command prints with --json, the same for every system: simulate, settle, attractors,
+    /// orbit, branch, curve, region, response, margins, lyapunov, diagram, map or basin
+    #[arg(value_name = "COMMAND", conflicts_with_all = ["machine", "machine_plan"])]
+    of: Option<String>,
+
     /// The schema of machine files instead of that of plans
     #[arg(long)]
     machine: bool,
@@ -17,10 +23,14 @@ pub(crate) struct Schema {
     machine_plan: bool,
 }
 
-pub(super) fn run(args: Schema, session: &Session) -> Result<(), Failure> {
-    let schema = match (args.machine, args.machine_plan) {
-        (true, _) => MachineSource::schema(),
-        (_, true) => MachinePlan::schema(),
+pub(super) fn run(args: &Schema, session: &Session) -> Result<(), Failure> {
+    let schema = match (args.of.as_deref(), args.machine, args.machine_plan) {
+        (Some(verb), ..) => json::schema(verb).ok_or_else(|| {
+            let known: Vec<&str> = json::verbs().collect();
+            Failure::bad(format!("`{verb}` has no schema of an answer\nhint: one of {}", known.join(", ")))
+        })?,
+        (_, true, _) => MachineSource::schema(),
+        (_, _, true) => MachinePlan::schema(),
         _ => Plan::schema(),
     };
     let text = serde_json::to_string_pretty(&schema)

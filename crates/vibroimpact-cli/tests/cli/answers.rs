@@ -47,7 +47,12 @@ fn a_periodic_motion_has_its_cycle_and_multipliers() {
     assert_eq!((&first["q"], &motion["counts"]["upper"]), (&serde_json::json!([0.25]), &4.into()));
     // the state lies on the cycle
     let state = |name: &str| motion["state"][name][0].as_f64().unwrap();
-    let from = format!("--x={:?} --v={:?} --phase {:?}", state("q"), state("qdot"), motion["state"]["phase"].as_f64().unwrap());
+    let from = format!(
+        "--x={:?} --v={:?} --phase {:?}",
+        state("q"),
+        state("qdot"),
+        motion["state"]["phase"].as_f64().unwrap()
+    );
     let flown = json(&format!("simulate --inverse-beta 1.8 --gap 0.25 --restitution 0.5 {from} --impacts 4"));
     let speeds = |of: &Value| of.as_array().unwrap().iter().map(|at| at["speed"].as_f64().unwrap()).fold(0.0, f64::max);
     assert!((speeds(&flown["events"]) - speeds(&motion["cycle"])).abs() < 1e-12);
@@ -78,7 +83,10 @@ fn other_kinds_of_motion() {
     let release = core::f64::consts::PI + 0.5_f64.asin();
     let events = chatter["cycle"].as_array().unwrap();
     let [stick, leaves] = &events[events.len() - 2..] else { panic!("{chatter}") };
-    assert_eq!((&stick["kind"], &stick["chatter"], &leaves["kind"]), (&"stick".into(), &true.into(), &"release".into()));
+    assert_eq!(
+        (&stick["kind"], &stick["chatter"], &leaves["kind"]),
+        (&"stick".into(), &true.into(), &"release".into())
+    );
     assert!((leaves["phase"].as_f64().unwrap() - release).abs() < 1e-12);
     assert!(stick["phase"].as_f64().unwrap() < release);
 }

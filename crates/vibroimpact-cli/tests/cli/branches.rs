@@ -60,13 +60,18 @@ fn points_events_and_the_branch_that_begins_at_a_flip() {
 #[test]
 fn other_parameters_and_the_other_way() {
     let answer = json(&format!("{DOUBLING} --to 0.5"));
-    let values: Vec<f64> = answer["branches"][0]["points"].as_array().unwrap().iter().map(|p| number(&p["parameter"])).collect();
+    let values: Vec<f64> =
+        answer["branches"][0]["points"].as_array().unwrap().iter().map(|p| number(&p["parameter"])).collect();
     assert!(values[0] == 1.5 && values.windows(2).all(|pair| pair[1] <= pair[0]), "{values:?}");
     let task = &answer["plan"]["task"]["branch"];
     assert_eq!((&task["label"], &task["vary"], &task["to"]), (&"1/1".into(), &"gap".into(), &0.5.into()));
     for (vary, to) in [("inverse-beta", "1.3"), ("beta", "0.8"), ("restitution", "0.7"), ("damping", "0.1")] {
         let answer = json(&DOUBLING.replace("--vary gap", &format!("--vary {vary} --to {to}")));
-        assert_eq!(answer["branches"][0]["events"].as_array().unwrap().last().unwrap()["kind"], "end of range", "{vary}");
+        assert_eq!(
+            answer["branches"][0]["events"].as_array().unwrap().last().unwrap()["kind"],
+            "end of range",
+            "{vary}"
+        );
         assert_eq!(answer["vary"], vary.replace('-', "_"));
     }
 }
@@ -110,8 +115,7 @@ fn one_of_several_orbits() {
     assert!((one - two).abs() < 1e-10);
     let back = fast["branches"][0]["points"].as_array().unwrap().last().unwrap();
     assert!(
-        (number(&back["cycle"][0]["speed"]) - number(&slow["branches"][0]["points"][0]["cycle"][0]["speed"]))
-            .abs()
+        (number(&back["cycle"][0]["speed"]) - number(&slow["branches"][0]["points"][0]["cycle"][0]["speed"])).abs()
             < 1e-9
     );
 }
@@ -144,10 +148,7 @@ fn a_cycle_that_rests() {
     let line = "branch --inverse-beta 2.5 --gap 0.25 --restitution 0.5 --label inf/1 --vary gap --to 1";
     let answer = json(line);
     let soft = events(&answer, "soft landing")[0];
-    assert_eq!(
-        (&soft["before"], &soft["after"], &soft["impact"]),
-        (&"inf/1".into(), &"inf/1".into(), &1.into())
-    );
+    assert_eq!((&soft["before"], &soft["after"], &soft["impact"]), (&"inf/1".into(), &"inf/1".into(), &1.into()));
     let end = answer["branches"][0]["events"].as_array().unwrap().last().unwrap();
     assert_eq!((&end["kind"], &end["stop"], &end["ends"]), (&"end of rest".into(), &"upper".into(), &true.into()));
     for point in answer["branches"][0]["points"].as_array().unwrap() {
@@ -200,8 +201,7 @@ fn the_branches_at_a_branch_point() {
     assert_eq!(branches.len(), 2);
     let unlike = |branch: &Value, k: usize| {
         let cycle = branch["points"][k]["cycle"].as_array().unwrap();
-        let speed =
-            |side: &str| number(&cycle.iter().find(|impact| impact["stop"] == side).unwrap()["speed"]);
+        let speed = |side: &str| number(&cycle.iter().find(|impact| impact["stop"] == side).unwrap()["speed"]);
         speed("upper") - speed("lower")
     };
     for branch in branches {

@@ -59,12 +59,8 @@ fn hysteresis_at_s_with_the_velocities_of_the_orbits() {
         found.sort_by(f64::total_cmp);
         let orbits = json(&format!("orbit --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --label {label}"));
         let stable = orbits["orbits"].as_array().unwrap().iter().find(|orbit| orbit["stable"] == true).unwrap();
-        let mut expected: Vec<f64> = stable["cycle"]
-            .as_array()
-            .unwrap()
-            .iter()
-            .map(|point| point["speed"].as_f64().unwrap())
-            .collect();
+        let mut expected: Vec<f64> =
+            stable["cycle"].as_array().unwrap().iter().map(|point| point["speed"].as_f64().unwrap()).collect();
         expected.sort_by(f64::total_cmp);
         assert_eq!(found.len(), expected.len(), "{sweep}: {found:?}");
         assert!(found.iter().zip(&expected).all(|(f, e)| (f - e).abs() < 1e-9), "{sweep}: {found:?} {expected:?}");

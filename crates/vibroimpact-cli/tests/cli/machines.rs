@@ -376,7 +376,11 @@ fn numbers_of_orbits() {
     for k in [0, 1] {
         let found = json(&format!("branch {machine} --orbit {} --vary frequency --to 1.065", k + 1));
         let speed = orbits[k]["cycle"][0]["speed"].as_f64().unwrap();
-        assert!(close(&found["branches"][0]["points"][0]["cycle"][0]["speed"], speed), "{}", found["branches"][0]["points"][0]);
+        assert!(
+            close(&found["branches"][0]["points"][0]["cycle"][0]["speed"], speed),
+            "{}",
+            found["branches"][0]["points"][0]
+        );
         assert_eq!(found["orbit"], serde_json::json!({"number": k + 1, "count": 2}));
     }
     let curve = "--kind fold --vary frequency=1:1.1 --and b=0.45:0.55 --points 5";
@@ -465,7 +469,11 @@ fn all_branches_of_a_machine_are_written_and_drawn() {
     let of = |k: &str| read("a.csv").lines().filter(|row| row.starts_with(k)).count();
     let found = json(line);
     let count = |points: &serde_json::Value| points.as_array().unwrap().len();
-    assert!(of("2,") > 2 && of("2,") == count(&found["branches"][1]["points"]) && of("1,") == count(&found["branches"][0]["points"]));
+    assert!(
+        of("2,") > 2
+            && of("2,") == count(&found["branches"][1]["points"])
+            && of("1,") == count(&found["branches"][0]["points"])
+    );
     for text in [">stable<", ">unstable<", ">flip<", ">fold<", ">grazing<", ">simulation<", ">5/2<", "stroke-dasharray"]
     {
         assert!(read("a.svg").contains(text), "{text}");

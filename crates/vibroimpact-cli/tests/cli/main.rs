@@ -24,6 +24,7 @@ mod states;
 mod studies;
 mod summaries;
 mod units;
+mod vocabulary;
 
 use assert_cmd::Command;
 use serde_json::Value;

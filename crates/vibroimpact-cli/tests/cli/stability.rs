@@ -121,7 +121,12 @@ fn column(table: &str, name: &str) -> Vec<String> {
 }
 
 fn kinds(branch: &Value) -> Vec<&str> {
-    branch["branches"][0]["events"].as_array().expect("a list").iter().map(|event| event["kind"].as_str().expect("a text")).collect()
+    branch["branches"][0]["events"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(|event| event["kind"].as_str().expect("a text"))
+        .collect()
 }
 
 /// 42.5: of 87 points of this branch 33 were called stable, with torus events between them.

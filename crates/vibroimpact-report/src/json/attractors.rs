@@ -4,25 +4,28 @@ use super::Document;
 use super::certainty::Certainty;
 use super::motion::{MotionObject, SharedMotion};
 use crate::Asked;
+use schemars::JsonSchema;
 use serde::Serialize;
 use vibroimpact::Oscillator;
-use vibroimpact::verdict::{Census, StartBox};
+use vibroimpact::machine::Machine;
+use vibroimpact::verdict::{Census, MachineVerdict, StartBox};
 use vibroimpact_study::Plan;
 
-/// The fields of `vibro attractors`.
-#[derive(Serialize)]
-struct AttractorsFields<'a> {
+/// The answer to `vibro attractors`.
+#[derive(JsonSchema, Serialize)]
+pub(super) struct AttractorsAnswer<'a> {
     motions: Vec<SharedMotion<'a>>,
     #[serde(flatten)]
     certainty: Certainty,
     starts: u64,
     seed: u64,
-    #[serde(rename = "box")]
-    area: Area,
+    /// The box of the starts of an oscillator.
+    #[serde(rename = "box", skip_serializing_if = "Option::is_none")]
+    area: Option<Area>,
 }
 
 /// The box of the starts.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct Area {
     x: (f64, f64),
     v: (f64, f64),
@@ -47,5 +50,22 @@ pub fn document<'a>(
     });
     let area = Area { x: scaled(area.x, units.length()), v: scaled(area.v, units.velocity()), phase: area.phase };
     let certainty = Certainty::of(census.by_share().into_iter().map(|found| found.count), census.total());
-    Document::new(asked, osc, plan, AttractorsFields { motions: shared.collect(), certainty, starts, seed, area })
+    Document::new(
+        asked,
+        osc,
+        plan,
+        AttractorsAnswer { motions: shared.collect(), certainty, starts, seed, area: Some(area) },
+    )
+}
+
+impl<'a> AttractorsAnswer<'a> {
+    pub(super) fn of_machine(machine: &'a Machine, seed: u64, census: &'a Census<MachineVerdict>) -> Self {
+        let shared = census.by_share().into_iter().map(|found| SharedMotion {
+            motion: MotionObject::of_machine(machine, &found.verdict),
+            share: census.share(found),
+            starts: found.count,
+        });
+        let certainty = Certainty::of(census.by_share().into_iter().map(|found| found.count), census.total());
+        Self { motions: shared.collect(), certainty, starts: census.total(), seed, area: None }
+    }
 }

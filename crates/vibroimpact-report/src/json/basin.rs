@@ -4,25 +4,29 @@ use super::certainty::Certainty;
 use super::motion::{MotionObject, SharedMotion};
 use super::{AxisObject, Document};
 use crate::Asked;
+use schemars::JsonSchema;
 use serde::Serialize;
+use vibroimpact::machine::Machine;
 use vibroimpact::math::sort_by_key;
 use vibroimpact::{Oscillator, Start};
-use vibroimpact_study::{Basin, Plan};
+use vibroimpact_study::{Basin, MachineBasin, Plan};
 
-/// The fields of `vibro basin`. Coordinates on no axis are those of the start.
-#[derive(Serialize)]
-struct BasinFields<'a> {
+/// The answer to `vibro basin`. Coordinates on no axis are those of the start.
+#[derive(JsonSchema, Serialize)]
+pub(super) struct BasinAnswer<'a> {
     motions: Vec<SharedMotion<'a>>,
     starts: usize,
     axes: Vec<AxisObject<'a>>,
-    /// The number of the motion of each start, the first axis varying fastest.
-    cells: Vec<usize>,
+    /// Starts beyond a rigid stop.
+    refused: usize,
+    /// The number of the motion of each start, the first axis varying fastest; null beyond a rigid stop.
+    cells: Vec<Option<usize>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     measures: Option<MeasureFields>,
 }
 
 /// Measures of the basins in a plane.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct MeasureFields {
     /// Side of the boxes of the entropies, in starts.
     box_side: usize,
@@ -36,14 +40,14 @@ struct MeasureFields {
     certainty: Certainty,
 }
 
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct ExponentFields {
     value: f64,
     error: f64,
 }
 
 /// How far the boundaries of the basins are from each other, in starts, and whether they count as one.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct MergingFields {
     motions: usize,
     radius: usize,
@@ -80,20 +84,41 @@ pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &Bas
     let order = by_count(found);
     let mut places = vec![0; order.len()];
     order.iter().enumerate().for_each(|(place, motion)| places[*motion] = place);
-    let start = Start { x: task.start.x.unwrap_or_else(|| Start::at_rest(osc).x), v: task.start.v, phase: task.start.phase };
+    let start =
+        Start { x: task.start.x.unwrap_or_else(|| Start::at_rest(osc).x), v: task.start.v, phase: task.start.phase };
     let shared = order.into_iter().map(|m| SharedMotion {
         motion: MotionObject::of_oscillator(&found.motions[m].verdict, osc, units),
         share: found.share(m),
         starts: found.motions[m].count,
     });
-    let answer = BasinFields {
+    let answer = BasinAnswer {
         motions: shared.collect(),
         starts: found.cells.len(),
         axes: AxisObject::of_oscillator(&task.axes, units),
-        cells: found.cells.iter().map(|motion| places[usize::from(*motion)]).collect(),
+        // refused with the plan
+        refused: 0,
+        cells: found.cells.iter().map(|motion| Some(places[usize::from(*motion)])).collect(),
         measures: MeasureFields::of(found),
     };
     Document::new(asked, osc, plan, answer).start(&start, units)
+}
+
+impl<'a> BasinAnswer<'a> {
+    pub(super) fn of_machine(machine: &'a Machine, found: &'a MachineBasin) -> Self {
+        let motions = found.motions.iter().zip(found.shares()).map(|(verdict, (starts, share))| SharedMotion {
+            motion: MotionObject::of_machine(machine, verdict),
+            share,
+            starts,
+        });
+        Self {
+            motions: motions.collect(),
+            starts: found.cells.len(),
+            axes: AxisObject::of_machine(&found.axes),
+            refused: found.refused(),
+            cells: found.cells.clone(),
+            measures: None,
+        }
+    }
 }
 
 /// The indices of the motions in order of falling numbers of starts.

@@ -6,6 +6,7 @@ use super::{Document, Pair};
 use crate::branch_quantity::BranchQuantity;
 use crate::{Asked, MachineAnswer, Units};
 use core::iter::once;
+use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
 use vibroimpact::Oscillator;
@@ -15,9 +16,9 @@ use vibroimpact_study::{
     Branches, Chosen, Cut, EventRecord, Followed, MachineBranchPlan, MachineBranched, MachineCut, Plan, SystemPlan,
 };
 
-/// The fields of `vibro branch`.
-#[derive(Serialize)]
-pub(super) struct BranchFields<'a> {
+/// The answer to `vibro branch`.
+#[derive(JsonSchema, Serialize)]
+pub(super) struct BranchAnswer<'a> {
     /// The label of the orbit at which the first branch begins.
     label: String,
     vary: &'a str,
@@ -32,7 +33,7 @@ pub(super) struct BranchFields<'a> {
 }
 
 /// The orbit at which the branch begins.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub(super) struct ChosenObject {
     number: u32,
     count: u32,
@@ -50,7 +51,7 @@ impl ChosenObject {
 }
 
 /// A branch.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct BranchObject<'a> {
     /// The event at which it begins; null for that of the orbit that was asked for.
     from: Option<OriginObject>,
@@ -60,7 +61,7 @@ struct BranchObject<'a> {
     end: Option<&'static str>,
 }
 
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct OriginObject {
     kind: &'static str,
     parameter: f64,
@@ -69,7 +70,7 @@ struct OriginObject {
     branch: Option<usize>,
 }
 
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct PointObject<'a> {
     parameter: f64,
     /// Values of both parameters, on a line through two.
@@ -90,7 +91,7 @@ struct PointObject<'a> {
     admissible: bool,
 }
 
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct BranchEventObject<'a> {
     kind: &'static str,
     parameter: f64,
@@ -103,7 +104,7 @@ struct BranchEventObject<'a> {
 }
 
 /// The fields of an event that do not depend on the branch.
-#[derive(Default, Serialize)]
+#[derive(Default, JsonSchema, Serialize)]
 pub(super) struct EventFields<'a> {
     ends: bool,
     /// The labels on both sides; null where the branch ends.
@@ -127,7 +128,7 @@ pub(super) struct EventFields<'a> {
 }
 
 /// A contact that is simultaneous with that of the event.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct TouchObject {
     #[serde(skip_serializing_if = "Option::is_none")]
     impact: Option<usize>,
@@ -144,10 +145,10 @@ pub fn document<'a>(
     found: &Branches,
     cut: &Cut,
 ) -> impl Serialize + use<'a> {
-    Document::new(asked, osc, plan, BranchFields::of_oscillator(found, cut, asked))
+    Document::new(asked, osc, plan, BranchAnswer::of_oscillator(found, cut, asked))
 }
 
-impl BranchFields<'static> {
+impl BranchAnswer<'static> {
     fn of_oscillator(found: &Branches, cut: &Cut, Asked { system, units }: &Asked) -> Self {
         let unit = units.of(cut.vary);
         let branch = |branch: &Followed| {
@@ -179,7 +180,7 @@ impl BranchFields<'static> {
     }
 }
 
-impl<'a> BranchFields<'a> {
+impl<'a> BranchAnswer<'a> {
     /// Those of a machine, for branches along this line.
     pub(super) fn of_machine(
         MachineAnswer { machine, plan, .. }: &'a MachineAnswer,
@@ -206,8 +207,11 @@ impl<'a> BranchFields<'a> {
             vary: &task.vary,
             from: cut.ends.0,
             to: cut.ends.1,
-            also: (task.also.as_ref().zip(cut.also.as_ref()))
-                .map(|(own, also)| Pair { parameter: &own.path, from: also.from, to: also.to }),
+            also: (task.also.as_ref().zip(cut.also.as_ref())).map(|(own, also)| Pair {
+                parameter: &own.path,
+                from: also.from,
+                to: also.to,
+            }),
             orbit: ChosenObject::of_machine(found.among),
             branches: found.all().zip(origins).map(branch).collect(),
         }

@@ -1,10 +1,11 @@
 //! How certain the shares of motions are.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use vibroimpact_study::basin::{missed_share, share_interval};
 
 /// How certain the shares of motions are, if the starts were random ones.
-#[derive(Debug, Serialize)]
+#[derive(Debug, JsonSchema, Serialize)]
 pub(super) struct Certainty {
     /// The interval of each share at a confidence of 95 %, in the order of the motions.
     share_intervals: Vec<(f64, f64)>,

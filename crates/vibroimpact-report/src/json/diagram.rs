@@ -2,19 +2,22 @@
 
 use super::{Document, Pair, Place};
 use crate::Asked;
-use crate::table::diagram::columns;
+use crate::table::diagram::{columns, of_machine};
+use schemars::JsonSchema;
 use serde::Serialize;
 use vibroimpact::Oscillator;
+use vibroimpact::machine::Machine;
 use vibroimpact_study::diagram::{Diagram, MotionKind, Sweep, SweepDirection};
-use vibroimpact_study::{MachineDiagram, Plan};
+use vibroimpact_study::{MachineDiagram, MachineDiagramPlan, Plan};
 
-/// The fields of `vibro diagram`.
-#[derive(Serialize)]
-struct DiagramFields {
-    vary: &'static str,
+/// The answer to `vibro diagram`.
+#[derive(JsonSchema, Serialize)]
+pub(super) struct DiagramAnswer<'a> {
+    vary: &'a str,
     over: Place,
     #[serde(skip_serializing_if = "Option::is_none")]
-    also: Option<Pair<'static>>,
+    also: Option<Pair<'a>>,
+    /// The columns of the table.
     columns: Vec<String>,
     sweeps: Vec<Counts>,
 }
@@ -25,7 +28,7 @@ pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &Dia
     let task = &found.plan;
     let over = Place::over(&task.over, asked.units.of(task.vary));
     let also = Pair::of(&task.cut(), &asked.units);
-    let answer = DiagramFields {
+    let answer = DiagramAnswer {
         vary: asked.units.name_of(task.vary),
         over,
         also,
@@ -35,8 +38,21 @@ pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &Dia
     Document::new(asked, osc, plan, answer)
 }
 
+impl<'a> DiagramAnswer<'a> {
+    pub(super) fn of_machine(machine: &Machine, found: &'a MachineDiagram) -> Self {
+        let MachineDiagramPlan { vary, over, also, .. } = &found.plan;
+        Self {
+            vary,
+            over: Place::over(over, 1.0),
+            also: also.as_ref().map(Pair::of_machine),
+            columns: of_machine(found, machine).header.split(',').map(str::to_owned).collect(),
+            sweeps: machine_counts(found),
+        }
+    }
+}
+
 /// Numbers of motions of each kind in a sweep, or in all scattered starts.
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, JsonSchema, Serialize)]
 pub struct Counts {
     /// `up`, `down` or `scatter`.
     pub sweep: &'static str,

@@ -1,6 +1,7 @@
 //! The events of a motion, and states from which a motion can be started, of every system.
 
 use crate::Units;
+use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value};
 use std::borrow::Cow;
@@ -22,7 +23,7 @@ pub const fn side(side: Side) -> &'static str {
 }
 
 /// An event of a motion.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct EventObject<'a> {
     kind: &'static str,
     /// The stop, or the friction joint.
@@ -154,7 +155,7 @@ pub(super) fn of_cycle(osc: &Oscillator, cycle: &Cycle, units: &Units) -> Vec<Ev
 }
 
 /// A state from which a motion can be started.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub(super) struct StateObject<'a> {
     q: Cow<'a, [f64]>,
     qdot: Cow<'a, [f64]>,

@@ -4,24 +4,33 @@ use super::Document;
 use super::event::side;
 use super::motion::{Estimate, HorizonObject, MotionObject};
 use crate::{Asked, Units};
+use schemars::JsonSchema;
 use serde::Serialize;
-use vibroimpact::chaos::{Exponents, Grounds, Measured};
+use vibroimpact::chaos::{Exponents, Grounds, MachineExponents, Measured};
+use vibroimpact::machine::Machine;
 use vibroimpact::{Oscillator, Start};
 use vibroimpact_study::Plan;
 
-/// The fields of `vibro lyapunov`.
-#[derive(Serialize)]
-struct LyapunovFields<'a> {
+/// The answer to `vibro lyapunov`.
+#[derive(JsonSchema, Serialize)]
+pub(super) struct LyapunovAnswer<'a> {
     motion: MotionObject<'a>,
-    /// Per unit of time.
-    exponents: [Estimate; 2],
-    exponents_per_period: [Estimate; 2],
-    sum: Estimate,
-    /// The exact value of the sum.
+    /// Per unit of time, the largest first; null if the motion ends in a way for which there are none.
+    exponents: Option<Vec<Estimate>>,
+    /// Null without forcing.
+    exponents_per_period: Option<Vec<Estimate>>,
+    impacts_per_period: Option<Estimate>,
+    /// Whether they are those of a cycle or of a motion without impacts, and not measured.
+    exact: bool,
+    /// The sum of the exponents of an oscillator, and the exact value of the sum.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sum: Option<Estimate>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     identity: Option<f64>,
-    impacts_per_period: Estimate,
-    dimension: Dimensions,
-    grounds: GroundsObject,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    dimension: Option<Dimensions>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    grounds: Option<GroundsObject>,
 }
 
 /// The object of `vibro lyapunov`.
@@ -32,11 +41,11 @@ pub fn document<'a>(
     (osc, start): (&Oscillator, &Start),
     found: &Exponents,
 ) -> impl Serialize + use<'a> {
-    Document::new(asked, osc, plan, LyapunovFields::new(found, osc, &asked.units)).start(start, &asked.units)
+    Document::new(asked, osc, plan, LyapunovAnswer::of_oscillator(found, osc, &asked.units)).start(start, &asked.units)
 }
 
 /// Kaplan-Yorke dimensions; `null` if the larger exponent is not known to differ from 0.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct Dimensions {
     /// Dimension of the stroboscopic section.
     section: Option<Estimate>,
@@ -44,7 +53,7 @@ struct Dimensions {
     flow: Option<Estimate>,
 }
 
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 enum GroundsObject {
     Measured { impacts: u64, transient: u64, time: f64, blocks: u32 },
@@ -55,22 +64,23 @@ enum GroundsObject {
     Undecided { impacts: u64 },
 }
 
-impl LyapunovFields<'_> {
-    fn new(found: &Exponents, osc: &Oscillator, units: &Units) -> Self {
+impl<'a> LyapunovAnswer<'a> {
+    fn of_oscillator(found: &Exponents, osc: &Oscillator, units: &Units) -> Self {
         let per_time = |of: Measured| Estimate::from(scaled(of, 1.0 / units.time()));
         let identity = found.identity / units.time();
         Self {
             motion: MotionObject::of_oscillator(&found.motion, osc, units).without_lyapunov(),
-            exponents: found.exponents.map(per_time),
-            exponents_per_period: found.per_period().map(Estimate::from),
-            sum: per_time(found.sum),
+            exponents: Some(found.exponents.map(per_time).into()),
+            exponents_per_period: Some(found.per_period().map(Estimate::from).into()),
+            exact: !matches!(found.grounds, Grounds::Measured { .. } | Grounds::Undecided { .. }),
+            sum: Some(per_time(found.sum)),
             identity: identity.is_finite().then_some(identity),
-            impacts_per_period: Estimate::from(found.impacts_per_period),
-            dimension: Dimensions {
+            impacts_per_period: Some(Estimate::from(found.impacts_per_period)),
+            dimension: Some(Dimensions {
                 section: found.section_dimension.map(Estimate::from),
                 flow: found.flow_dimension().map(Estimate::from),
-            },
-            grounds: match found.grounds {
+            }),
+            grounds: Some(match found.grounds {
                 Grounds::Measured { impacts, transient, time, blocks } => {
                     GroundsObject::Measured { impacts, transient, time: time * units.time(), blocks }
                 }
@@ -79,7 +89,27 @@ impl LyapunovFields<'_> {
                 Grounds::Stuck(at) => GroundsObject::Stuck { stop: side(at) },
                 Grounds::Touches(why) => GroundsObject::Touches { horizon: HorizonObject::new(&why) },
                 Grounds::Undecided { impacts } => GroundsObject::Undecided { impacts },
-            },
+            }),
+        }
+    }
+
+    pub(super) fn of_machine(machine: &'a Machine, found: &'a MachineExponents) -> Self {
+        let spectrum = found.spectrum.as_ref();
+        let period = spectrum.zip(machine.period());
+        let all = |factor: f64| {
+            let exponents = spectrum.map_or(&[][..], |spectrum| &spectrum.exponents);
+            exponents.iter().map(|of| Estimate::from(scaled(*of, factor))).collect()
+        };
+        Self {
+            motion: MotionObject::of_machine(machine, &found.motion),
+            exponents: spectrum.map(|_| all(1.0)),
+            exponents_per_period: period.map(|(_, period)| all(period)),
+            impacts_per_period: period.map(|(spectrum, period)| Estimate::from(scaled(spectrum.closings, period))),
+            exact: found.exact,
+            sum: None,
+            identity: None,
+            dimension: None,
+            grounds: None,
         }
     }
 }

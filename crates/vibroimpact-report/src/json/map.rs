@@ -3,6 +3,7 @@
 use super::event::side;
 use super::{AxisObject, Document};
 use crate::Asked;
+use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
@@ -14,9 +15,9 @@ use vibroimpact_study::{
     Coordinate, MachineAxis, MachineMap, MachineMapPlan, MachineShare, MapPoint, Parameter, Plan, RegionMap, Share,
 };
 
-/// The fields of `vibro map`.
-#[derive(Serialize)]
-pub(super) struct MapFields<'a> {
+/// The answer to `vibro map`.
+#[derive(JsonSchema, Serialize)]
+pub(super) struct MapAnswer<'a> {
     axes: Vec<AxisObject<'a>>,
     starts: u64,
     seed: u64,
@@ -30,7 +31,7 @@ pub(super) struct MapFields<'a> {
 }
 
 /// A point: the values of the axes by path, and the motions there, the most frequent first.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct PointObject<'a> {
     #[serde(flatten)]
     at: Map<String, Value>,
@@ -38,7 +39,7 @@ struct PointObject<'a> {
 }
 
 /// A motion at a point.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct ShareObject<'a> {
     label: String,
     share: f64,
@@ -53,7 +54,7 @@ struct ShareObject<'a> {
 }
 
 /// The frequency of a label.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct LabelCount {
     /// The label.
     pub label: String,
@@ -86,7 +87,9 @@ pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &Reg
             stops: if let Verdict::Stuck(at) = motion.verdict { vec![side(at)] } else { Vec::new() },
             seen_events: if let Verdict::Chaotic(chaos) = &motion.verdict { Some(chaos.impacts) } else { None },
             quantities: (motion.quantities.iter())
-                .flat_map(|of| task.fields.iter().map(|field| (field.name().to_owned(), there.value_of(of, *field).into())))
+                .flat_map(|of| {
+                    task.fields.iter().map(|field| (field.name().to_owned(), there.value_of(of, *field).into()))
+                })
                 .collect(),
         };
         PointObject { at, motions: point.motions.iter().map(share).collect() }
@@ -96,7 +99,7 @@ pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &Reg
         .filter_map(|axis| if let Coordinate::Parameter(parameter) = axis.vary { Some(parameter) } else { None })
         .collect();
     let seen = points.iter().flat_map(|point| &point.motions).filter_map(|motion| motion.seen_events).min();
-    let answer = MapFields {
+    let answer = MapAnswer {
         starts: task.starts,
         seed: task.seed,
         coexisting: coexisting(found),
@@ -108,7 +111,7 @@ pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &Reg
     Document::over(asked, osc, &varied, plan, answer)
 }
 
-impl<'a> MapFields<'a> {
+impl<'a> MapAnswer<'a> {
     /// Those of a machine.
     pub(super) fn of_machine(machine: &'a Machine, task: &MachineMapPlan, found: &'a MachineMap) -> Self {
         let share = |motion: &'a MachineShare| ShareObject {
@@ -116,7 +119,12 @@ impl<'a> MapFields<'a> {
             share: motion.share,
             stops: motion.stops.iter().map(|stop| machine.name_of(*stop)).collect(),
             seen_events: motion.seen_events,
-            quantities: found.fields.iter().cloned().zip(motion.quantities.iter().map(|value| (*value).into())).collect(),
+            quantities: found
+                .fields
+                .iter()
+                .cloned()
+                .zip(motion.quantities.iter().map(|value| (*value).into()))
+                .collect(),
         };
         let point = |(k, cell): (usize, &'a Vec<MachineShare>)| {
             let values = MachineAxis::at(&found.axes, k as u64);

@@ -4,13 +4,14 @@ use super::Document;
 use super::branch::EventFields;
 use super::motion::MotionObject;
 use crate::{Asked, Units};
+use schemars::JsonSchema;
 use serde::Serialize;
 use vibroimpact::Oscillator;
 use vibroimpact_study::{EventRecord, MarginEnd, MotionBox, MotionMargins, ParameterMargin, Plan};
 
-/// The fields of `vibro margins`.
-#[derive(Serialize)]
-struct MarginFields<'a> {
+/// The answer to `vibro margins`.
+#[derive(JsonSchema, Serialize)]
+pub(super) struct MarginsAnswer<'a> {
     motion: MotionObject<'a>,
     parameters: Vec<ParameterObject>,
     nearest: Option<NearestObject>,
@@ -18,7 +19,7 @@ struct MarginFields<'a> {
     motion_box: Option<BoxObject>,
 }
 
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct ParameterObject {
     parameter: &'static str,
     value: f64,
@@ -28,7 +29,7 @@ struct ParameterObject {
 }
 
 /// The nearest event in one direction. Without one, the last four are `null`.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct EndObject {
     /// The end of the range in which events are looked for.
     limit: f64,
@@ -38,7 +39,7 @@ struct EndObject {
     event: Option<MarginEvent>,
 }
 
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct MarginEvent {
     kind: &'static str,
     #[serde(flatten)]
@@ -52,7 +53,7 @@ impl MarginEvent {
 }
 
 /// The event with the smallest change in units of the scale of its parameter.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct NearestObject {
     parameter: &'static str,
     direction: &'static str,
@@ -60,7 +61,7 @@ struct NearestObject {
     scaled: f64,
 }
 
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct BoxObject {
     /// Each parameter lies within this multiple of its scale from its value.
     size: f64,
@@ -75,7 +76,7 @@ struct BoxObject {
     edge: Option<EdgeObject>,
 }
 
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct RangeObject {
     parameter: &'static str,
     from: f64,
@@ -83,13 +84,13 @@ struct RangeObject {
 }
 
 /// A point next to the box at which the motion was not found.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct EdgeObject {
     loss: &'static str,
     parameters: Vec<ValueObject>,
 }
 
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct ValueObject {
     parameter: &'static str,
     value: f64,
@@ -104,7 +105,7 @@ pub fn document<'a>(
     found: &MotionMargins,
 ) -> impl Serialize + use<'a> {
     let units = &asked.units;
-    let fields = MarginFields {
+    let fields = MarginsAnswer {
         motion: MotionObject::of_oscillator(&found.motion, osc, units),
         parameters: found.parameters.iter().map(|margin| ParameterObject::new(margin, units)).collect(),
         nearest: found.nearest().map(|(margin, end)| {

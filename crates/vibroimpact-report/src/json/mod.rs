@@ -11,7 +11,6 @@ pub mod diagram;
 pub mod event;
 pub mod lyapunov;
 mod machine;
-mod machine_curve;
 pub mod map;
 pub mod margins;
 pub mod motion;
@@ -19,6 +18,7 @@ pub mod orbit;
 mod quantities;
 pub mod region;
 pub mod response;
+mod schema;
 pub mod settle;
 pub mod simulate;
 mod system;
@@ -26,13 +26,14 @@ mod system;
 use crate::units::given;
 use crate::{Asked, PROGRAM, Units};
 use event::StateObject;
+use schemars::JsonSchema;
 use serde::Serialize;
 use system::SystemObject;
 use vibroimpact::{Oscillator, Start};
-use vibroimpact_study::{Axis, Coordinate, Cut, MachineAxis, Parameter, Plan, Span, Stretch, Values};
+use vibroimpact_study::{Axis, Coordinate, Cut, MachineAxis, MachineStretch, Parameter, Plan, Span, Stretch, Values};
 
 /// The object that a command prints: the system, the start, the fields of the command, and the plan.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct Document<'a, T, P> {
     system: SystemObject<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -42,6 +43,8 @@ struct Document<'a, T, P> {
     units: Option<&'static str>,
     #[serde(flatten)]
     result: T,
+    /// The plan, which gives the same answer again (`vibro run`); `vibro schema` prints its fields.
+    #[schemars(with = "serde_json::Map<String, serde_json::Value>")]
     plan: &'a P,
     program: &'static str,
 }
@@ -65,7 +68,7 @@ impl<'a, T: Serialize> Document<'a, T, Plan> {
 }
 
 /// `A:B:N` as an object, in the units of the results.
-#[derive(Clone, Copy, Serialize)]
+#[derive(Clone, Copy, JsonSchema, Serialize)]
 struct Range {
     from: f64,
     to: f64,
@@ -83,11 +86,17 @@ impl Range {
 }
 
 /// The second parameter of a line, with its values at both ends.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct Pair<'a> {
     parameter: &'a str,
     from: f64,
     to: f64,
+}
+
+impl<'a> Pair<'a> {
+    fn of_machine(also: &'a MachineStretch) -> Self {
+        Self { parameter: &also.path, from: also.from, to: also.to }
+    }
 }
 
 impl Pair<'static> {
@@ -99,7 +108,7 @@ impl Pair<'static> {
 }
 
 /// The values of an axis.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 #[serde(untagged)]
 enum Place {
     Over(Range),
@@ -107,7 +116,7 @@ enum Place {
 }
 
 /// An axis: the path of what varies, and its values.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct AxisObject<'a> {
     vary: &'a str,
     over: Place,
@@ -142,3 +151,4 @@ impl Place {
 }
 
 pub use motion::undecided;
+pub use schema::{schema, verbs};

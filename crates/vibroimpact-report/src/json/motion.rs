@@ -3,6 +3,7 @@
 use super::event::{self, EventObject, StateObject, side};
 use super::quantities;
 use crate::Units;
+use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
 use vibroimpact::chaos::{MachineSpectrum, Measured};
@@ -12,14 +13,12 @@ use vibroimpact::machine::Machine;
 use vibroimpact::math::Multiplier;
 use vibroimpact::orbit::{Cycle, MachineCycle};
 use vibroimpact::quantities::{errors_of_verdict, machine_cycle_quantities, machine_quantities, of_verdict};
-use vibroimpact::verdict::{
-    Chaos, Count, MachineUndecided, MachineVerdict, NoImpact, Stability, Undecided, Verdict,
-};
+use vibroimpact::verdict::{Chaos, Count, MachineUndecided, MachineVerdict, NoImpact, Stability, Undecided, Verdict};
 use vibroimpact::{Oscillator, Side};
 use vibroimpact_study::ImpactsByStop;
 
 /// The JSON object of a motion.
-#[derive(Default, Serialize)]
+#[derive(Default, JsonSchema, Serialize)]
 pub(super) struct MotionObject<'a> {
     kind: &'static str,
     label: String,
@@ -74,7 +73,7 @@ pub(super) struct MotionObject<'a> {
 }
 
 /// A measured number; null where it is not finite, with the reason.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub(super) struct Estimate {
     value: f64,
     error: f64,
@@ -105,7 +104,7 @@ pub(super) fn estimates(spectrum: &MachineSpectrum) -> Vec<Estimate> {
 }
 
 /// Chaos before the motion settled.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub(super) struct ChaosObject {
     /// The number of the impact by which it had ended, of an oscillator.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -125,7 +124,7 @@ impl ChaosObject {
 }
 
 /// Why there are no more impacts, and for how many periods.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub(super) struct HorizonObject {
     kind: &'static str,
     periods: Option<f64>,
@@ -134,7 +133,7 @@ pub(super) struct HorizonObject {
     common_period: Option<CommonPeriod>,
 }
 
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct CommonPeriod {
     forcing_periods: u32,
     natural_periods: u32,
@@ -344,7 +343,7 @@ pub const fn undecided(why: MachineUndecided) -> &'static str {
 }
 
 /// A motion, with the share and the number of the starts that lead to it.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub(super) struct SharedMotion<'a> {
     #[serde(flatten)]
     pub(super) motion: MotionObject<'a>,

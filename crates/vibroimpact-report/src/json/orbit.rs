@@ -4,14 +4,16 @@ use super::Document;
 use super::event::side;
 use super::motion::{MotionObject, of_oscillator_cycle};
 use crate::{Asked, Units};
+use schemars::JsonSchema;
 use serde::Serialize;
 use vibroimpact::Oscillator;
-use vibroimpact::orbit::{EarlierContact, Orbit};
+use vibroimpact::machine::Machine;
+use vibroimpact::orbit::{EarlierContact, MachineCycle, Orbit};
 use vibroimpact_study::Plan;
 
-/// The fields of `vibro orbit`.
-#[derive(Serialize)]
-struct OrbitFields<'a> {
+/// The answer to `vibro orbit`.
+#[derive(JsonSchema, Serialize)]
+pub(super) struct OrbitAnswer<'a> {
     orbits: Vec<OrbitObject<'a>>,
 }
 
@@ -19,11 +21,11 @@ struct OrbitFields<'a> {
 #[must_use]
 pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, orbits: &[Orbit]) -> impl Serialize + use<'a> {
     let orbits = orbits.iter().map(|orbit| OrbitObject::new(orbit, osc, &asked.units)).collect();
-    Document::new(asked, osc, plan, OrbitFields { orbits })
+    Document::new(asked, osc, plan, OrbitAnswer { orbits })
 }
 
 /// One orbit.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct OrbitObject<'a> {
     #[serde(flatten)]
     motion: MotionObject<'a>,
@@ -31,13 +33,25 @@ struct OrbitObject<'a> {
     earlier_contact: Option<ContactObject>,
 }
 
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct ContactObject {
     /// Number of the impact before the contact, counted from 1; none if the motion has no impacts.
     after_impact: Option<usize>,
     stop: &'static str,
     /// Time from that impact, or from phase 0, to the contact.
     time: f64,
+}
+
+impl<'a> OrbitAnswer<'a> {
+    pub(super) fn of_machine(machine: &'a Machine, found: &'a [MachineCycle]) -> Self {
+        let orbit = |cycle| OrbitObject {
+            motion: MotionObject::of_cycle(machine, cycle),
+            // others are not found
+            admissible: true,
+            earlier_contact: None,
+        };
+        Self { orbits: found.iter().map(orbit).collect() }
+    }
 }
 
 impl OrbitObject<'_> {

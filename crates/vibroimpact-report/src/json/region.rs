@@ -2,14 +2,15 @@
 
 use super::Document;
 use crate::{Asked, Units};
+use schemars::JsonSchema;
 use serde::Serialize;
 use vibroimpact::Oscillator;
 use vibroimpact::continuation::{Polygon, Region, Vertex};
 use vibroimpact_study::{Plan, RegionPlan, Regions};
 
-/// The fields of the regions. Pairs of values are in the order of `parameters`.
-#[derive(Serialize)]
-struct RegionFields {
+/// The answer to `vibro region`. Pairs of values are in the order of `parameters`.
+#[derive(JsonSchema, Serialize)]
+pub(super) struct RegionAnswer {
     label: String,
     parameters: [&'static str; 2],
     /// Whether no energy is lost, at impacts or between them. The motion is then neutrally stable wherever it exists.
@@ -18,14 +19,14 @@ struct RegionFields {
     stability: RegionObject,
 }
 
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct RegionObject {
     polygons: Vec<PolygonObject>,
     /// Points of the grid where the search for orbits contradicts the polygons.
     unresolved: Vec<[f64; 2]>,
 }
 
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct PolygonObject {
     hole: bool,
     sheet: &'static str,
@@ -43,10 +44,10 @@ pub fn document<'a>(
     (task, found): (&RegionPlan, &Regions),
 ) -> impl Serialize + use<'a> {
     let varied = [task.across.parameter, task.up.parameter];
-    Document::over(asked, osc, &varied, plan, RegionFields::new(found, task, asked))
+    Document::over(asked, osc, &varied, plan, RegionAnswer::new(found, task, asked))
 }
 
-impl RegionFields {
+impl RegionAnswer {
     fn new(found: &Regions, plan: &RegionPlan, Asked { system, units }: &Asked) -> Self {
         let unit = unit(plan, units);
         Self {

@@ -2,14 +2,15 @@
 
 use super::{Document, Place};
 use crate::{Asked, Units};
+use schemars::JsonSchema;
 use serde::Serialize;
 use vibroimpact::Oscillator;
 use vibroimpact::quantities::{Quantities, Quantity};
 use vibroimpact_study::{Plan, ResponseBranch, ResponseCurves, ResponsePlan, SweptMotion};
 
-/// The fields of `vibro response`.
-#[derive(Serialize)]
-struct ResponseFields {
+/// The answer to `vibro response`.
+#[derive(JsonSchema, Serialize)]
+pub(super) struct ResponseAnswer {
     vary: &'static str,
     over: Place,
     quantity: &'static str,
@@ -17,14 +18,14 @@ struct ResponseFields {
     branches: Vec<BranchObject>,
 }
 
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct SweepObject {
     direction: &'static str,
     points: Vec<SweptObject>,
 }
 
 /// A motion of a sweep.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct SweptObject {
     parameter: f64,
     label: String,
@@ -32,13 +33,13 @@ struct SweptObject {
     value: f64,
 }
 
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct BranchObject {
     points: Vec<PointObject>,
 }
 
 /// A point of a branch.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct PointObject {
     parameter: f64,
     label: String,
@@ -63,7 +64,7 @@ pub fn document<'a>(
         direction,
         points: motions.iter().map(|motion| swept(motion, task, units)).collect(),
     };
-    let answer = ResponseFields {
+    let answer = ResponseAnswer {
         vary: units.name_of(task.vary),
         over: Place::over(&task.over, units.of(task.vary)),
         quantity: task.quantity.name(),

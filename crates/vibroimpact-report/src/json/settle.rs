@@ -4,16 +4,18 @@ use super::Document;
 use super::motion::{ChaosObject, MotionObject};
 use super::quantities;
 use crate::{Asked, Units};
+use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
+use vibroimpact::machine::Machine;
 use vibroimpact::quantities::{Harmonic, harmonics, of_transient};
-use vibroimpact::verdict::{PaperRule, PaperVerdict, Settled, Verdict};
+use vibroimpact::verdict::{MachineSettled, PaperRule, PaperVerdict, Settled, Verdict};
 use vibroimpact::{Oscillator, Start};
 use vibroimpact_study::Plan;
 
-/// The fields of `vibro settle`.
-#[derive(Serialize)]
-struct SettleFields<'a> {
+/// The answer to `vibro settle`.
+#[derive(JsonSchema, Serialize)]
+pub(super) struct SettleAnswer<'a> {
     motion: MotionObject<'a>,
     /// Of an oscillator: impacts.
     events_followed: u64,
@@ -32,7 +34,7 @@ struct SettleFields<'a> {
 }
 
 /// A harmonic of the positions of a motion with the period of n forcing periods.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct HarmonicObject {
     /// Its frequency is this number over n, times that of the force.
     order: u32,
@@ -41,7 +43,7 @@ struct HarmonicObject {
 }
 
 /// The largest values on the way, and means over it.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct TransientObject {
     events: u64,
     time: f64,
@@ -72,7 +74,7 @@ fn transient_of(settled: &Settled, osc: &Oscillator, start: &Start, units: &Unit
     })
 }
 
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct PaperAnswer {
     percent: f64,
     limit: u32,
@@ -95,7 +97,7 @@ pub fn document<'a>(
     paper: Option<(PaperRule, PaperVerdict)>,
 ) -> impl Serialize + use<'a> {
     let units = &asked.units;
-    let answer = SettleFields {
+    let answer = SettleAnswer {
         motion: MotionObject::of_oscillator(&settled.verdict, osc, units),
         events_followed: settled.impacts,
         time_followed: settled.time * units.time(),
@@ -105,6 +107,20 @@ pub fn document<'a>(
         paper_rule: paper.map(|(rule, verdict)| PaperAnswer::new(rule, verdict)),
     };
     Document::new(asked, osc, plan, answer).start(start, units)
+}
+
+impl<'a> SettleAnswer<'a> {
+    pub(super) fn of_machine(machine: &'a Machine, settled: &'a MachineSettled) -> Self {
+        Self {
+            motion: MotionObject::of_machine(machine, &settled.verdict),
+            events_followed: settled.events,
+            time_followed: settled.time,
+            chaotic_transient: settled.transient.as_ref().map(ChaosObject::of_machine),
+            harmonics: Vec::new(),
+            transient: None,
+            paper_rule: None,
+        }
+    }
 }
 
 impl PaperAnswer {

@@ -1,29 +1,39 @@
 //! The events of a motion, and the reason why the list ends.
 
 use super::Document;
-use super::event::EventObject;
+use super::event::{self, EventObject};
 use super::motion::HorizonObject;
-use crate::{Asked, Units};
+use crate::{Asked, MachineAnswer, Units};
+use schemars::JsonSchema;
+use serde::ser::Error;
 use serde::{Serialize, Serializer};
 use vibroimpact::motion::Event;
 use vibroimpact::{Oscillator, Start};
-use vibroimpact_study::{Plan, Simulated};
+use vibroimpact_study::{MachineSimulated, MachineTask, Plan, Simulated, events_with_states};
 
-/// The fields of `vibro simulate`. Events are converted while they are written.
-#[derive(Serialize)]
-struct Simulation<'a> {
+/// The answer to `vibro simulate`.
+#[derive(JsonSchema, Serialize)]
+pub(super) struct SimulateAnswer<'a> {
     #[serde(serialize_with = "each_event")]
-    events: (&'a Oscillator, &'a [Event], Units),
+    #[schemars(with = "Vec<EventObject<'a>>")]
+    events: Events<'a>,
     end: EndObject,
 }
 
+/// Events, which are converted while they are written.
+enum Events<'a> {
+    Oscillator(&'a Oscillator, &'a [Event], Units),
+    /// So many of the events of a machine.
+    Machine(&'a MachineAnswer, usize),
+}
+
 /// The reason why the list of events ends, and the time.
-#[derive(Serialize)]
-pub(super) struct EndObject {
-    pub(super) reason: &'static str,
-    pub(super) time: f64,
+#[derive(JsonSchema, Serialize)]
+struct EndObject {
+    reason: &'static str,
+    time: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) horizon: Option<HorizonObject>,
+    horizon: Option<HorizonObject>,
 }
 
 /// The object of `vibro simulate`.
@@ -36,13 +46,28 @@ pub fn document<'a>(
 ) -> impl Serialize + use<'a> {
     let horizon = followed.horizon.as_ref().map(HorizonObject::new);
     let end = EndObject { reason: followed.reason, time: followed.time * asked.units.time(), horizon };
-    let answer = Simulation { events: (osc, &followed.events, asked.units), end };
+    let answer = SimulateAnswer { events: Events::Oscillator(osc, &followed.events, asked.units), end };
     Document::new(asked, osc, plan, answer).start(start, &asked.units)
 }
 
-fn each_event<S: Serializer>(
-    (osc, events, units): &(&Oscillator, &[Event], Units),
-    serializer: S,
-) -> Result<S::Ok, S::Error> {
-    serializer.collect_seq(events.iter().map(|event| EventObject::of_oscillator(osc, event, units)))
+impl<'a> SimulateAnswer<'a> {
+    pub(super) fn of_machine(answer: &'a MachineAnswer, found: &MachineSimulated) -> Self {
+        let end = EndObject { reason: found.reason, time: found.time, horizon: None };
+        Self { events: Events::Machine(answer, found.events.len()), end }
+    }
+}
+
+fn each_event<S: Serializer>(events: &Events<'_>, serializer: S) -> Result<S::Ok, S::Error> {
+    match events {
+        Events::Oscillator(osc, events, units) => {
+            serializer.collect_seq(events.iter().map(|event| EventObject::of_oscillator(osc, event, units)))
+        }
+        Events::Machine(MachineAnswer { plan, machine, start, .. }, count) => {
+            let MachineTask::Simulate { periods, .. } = plan.task else {
+                return Err(Error::custom("the plan is that of another task"));
+            };
+            let events = events_with_states(machine, start, periods).map_err(Error::custom)?;
+            serializer.collect_seq(events.take(*count).map(|event| event::EventOf(machine, event)))
+        }
+    }
 }

@@ -2,6 +2,7 @@
 
 use super::event::side;
 use crate::{Asked, Units};
+use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 use vibroimpact::machine::Machine;
@@ -9,7 +10,7 @@ use vibroimpact::{Oscillator, Side};
 use vibroimpact_study::{FramePlan, Parameter, PhysicalPlan};
 
 /// A system.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub(super) struct SystemObject<'a> {
     kind: &'static str,
     name: &'a str,
@@ -23,7 +24,7 @@ pub(super) struct SystemObject<'a> {
     scales: Option<Scales>,
 }
 
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct Scales {
     length_m: f64,
     time_s: f64,

@@ -11,7 +11,8 @@ use vibroimpact_study::{MachineCurvePlan, MachineEventCurve};
 /// the touch, multipliers, of each closing besides the touch the phase, speed and stop, and without
 /// forcing the period.
 pub(crate) fn table<'a>(machine: &'a Machine, plan: &MachineCurvePlan, found: &'a MachineEventCurve) -> Table<'a> {
-    let names = [plan.vary.path.as_str(), plan.and.path.as_str(), "label", "admissible", "event", "stop", "residual", "touch"];
+    let names =
+        [plan.vary.path.as_str(), plan.and.path.as_str(), "label", "admissible", "event", "stop", "residual", "touch"];
     let header = names.map(str::to_owned).into_iter().chain(numbered(machine)).chain(closing_columns(machine));
     let header = header.collect::<Vec<_>>().join(",");
     let rows = found.points.iter().map(|point| {

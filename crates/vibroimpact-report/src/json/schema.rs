@@ -1,0 +1,55 @@
+//! The JSON schema of the answer to each command, the same for every system.
+
+use super::attractors::AttractorsAnswer;
+use super::basin::BasinAnswer;
+use super::branch::BranchAnswer;
+use super::curve::CurveAnswer;
+use super::diagram::DiagramAnswer;
+use super::lyapunov::LyapunovAnswer;
+use super::map::MapAnswer;
+use super::margins::MarginsAnswer;
+use super::orbit::OrbitAnswer;
+use super::region::RegionAnswer;
+use super::response::ResponseAnswer;
+use super::settle::SettleAnswer;
+use super::simulate::SimulateAnswer;
+use super::{Document, JsonSchema};
+use schemars::generate::SchemaSettings;
+use serde_json::Value;
+
+/// The commands whose answers have a schema, with its maker.
+const SCHEMAS: [(&str, fn() -> Value); 13] = [
+    ("simulate", of::<SimulateAnswer<'static>>),
+    ("settle", of::<SettleAnswer<'static>>),
+    ("attractors", of::<AttractorsAnswer<'static>>),
+    ("orbit", of::<OrbitAnswer<'static>>),
+    ("branch", of::<BranchAnswer<'static>>),
+    ("curve", of::<CurveAnswer<'static>>),
+    ("region", of::<RegionAnswer>),
+    ("response", of::<ResponseAnswer>),
+    ("margins", of::<MarginsAnswer<'static>>),
+    ("lyapunov", of::<LyapunovAnswer<'static>>),
+    ("diagram", of::<DiagramAnswer<'static>>),
+    ("map", of::<MapAnswer<'static>>),
+    ("basin", of::<BasinAnswer<'static>>),
+];
+
+fn of<T: JsonSchema>() -> Value {
+    // of what is written: fields that are left out where they say nothing are not required
+    SchemaSettings::draft2020_12()
+        .for_serialize()
+        .into_generator()
+        .into_root_schema_for::<Document<'static, T, ()>>()
+        .to_value()
+}
+
+/// The names of these commands.
+pub fn verbs() -> impl Iterator<Item = &'static str> {
+    SCHEMAS.into_iter().map(|(verb, _)| verb)
+}
+
+/// The schema of the object that a command prints with `--json`; `None` for a command that is not one of [`verbs`].
+#[must_use]
+pub fn schema(verb: &str) -> Option<Value> {
+    SCHEMAS.into_iter().find(|(known, _)| *known == verb).map(|(_, of)| of())
+}
