@@ -10,7 +10,7 @@ use vibroimpact_report::number::short;
 
 /// The text of a measured number: `0.01862 +- 0.00023`, rounded according to its error; `minus infinity`, `none`, or
 /// the number alone if it is exact.
-fn said(of: Measured) -> String {
+pub(super) fn said(of: Measured) -> String {
     if of.value == f64::NEG_INFINITY {
         "minus infinity".into()
     } else if of.error == 0.0 || !of.value.is_finite() {

@@ -2,6 +2,7 @@
 
 use crate::report::certainty::certainty;
 use crate::report::diagram;
+use crate::report::lyapunov::said;
 use crate::report::machine_curve;
 use core::fmt::Write;
 use vibroimpact::chaos::MachineSpectrum;
@@ -54,6 +55,15 @@ pub(crate) fn text(answer: &MachineAnswer) -> String {
             match &found.spectrum {
                 Some(spectrum) => text.push_str(&exponents(spectrum)),
                 None => text.push_str("no exponents: the motion ended before\n"),
+            }
+            let dimensions = found.section_dimension(machine).zip(found.flow_dimension(machine));
+            if let Some((section, flow)) = dimensions.filter(|(section, _)| section.value > 0.0) {
+                let _ = writeln!(
+                    text,
+                    "  Kaplan-Yorke dimension {} of the section at one phase, {} of the flow",
+                    said(section),
+                    said(flow)
+                );
             }
             let how = if found.exact { "exact" } else { "measured" };
             let seen = found.motion.seen_events();

@@ -38,7 +38,7 @@ const COMMANDS: [(&str, [&str; 3]); 9] = [
 ];
 
 /// Fields that only some systems or motions have; each says so in the schema.
-const OF_SOME: [&str; 27] = [
+const OF_SOME: [&str; 26] = [
     "units",
     "scales",
     "harmonics",
@@ -46,7 +46,6 @@ const OF_SOME: [&str; 27] = [
     "box",
     "sum",
     "identity",
-    "dimension",
     "grounds",
     "measures",
     "residual",

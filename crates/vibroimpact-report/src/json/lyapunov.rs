@@ -27,8 +27,7 @@ pub(super) struct LyapunovAnswer<'a> {
     sum: Option<Estimate>,
     #[serde(skip_serializing_if = "Option::is_none")]
     identity: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    dimension: Option<Dimensions>,
+    dimension: Dimensions,
     #[serde(skip_serializing_if = "Option::is_none")]
     grounds: Option<GroundsObject>,
 }
@@ -49,7 +48,7 @@ pub fn document<'a>(
 struct Dimensions {
     /// Dimension of the stroboscopic section.
     section: Option<Estimate>,
-    /// Dimension of the flow in the space of position, velocity and phase.
+    /// Dimension of the flow in the space of coordinates, velocities and phase.
     flow: Option<Estimate>,
 }
 
@@ -76,10 +75,10 @@ impl<'a> LyapunovAnswer<'a> {
             sum: Some(per_time(found.sum)),
             identity: identity.is_finite().then_some(identity),
             impacts_per_period: Some(Estimate::from(found.impacts_per_period)),
-            dimension: Some(Dimensions {
+            dimension: Dimensions {
                 section: found.section_dimension.map(Estimate::from),
                 flow: found.flow_dimension().map(Estimate::from),
-            }),
+            },
             grounds: Some(match found.grounds {
                 Grounds::Measured { impacts, transient, time, blocks } => {
                     GroundsObject::Measured { impacts, transient, time: time * units.time(), blocks }
@@ -108,7 +107,10 @@ impl<'a> LyapunovAnswer<'a> {
             exact: found.exact,
             sum: None,
             identity: None,
-            dimension: None,
+            dimension: Dimensions {
+                section: found.section_dimension(machine).map(Estimate::from),
+                flow: found.flow_dimension(machine).map(Estimate::from),
+            },
             grounds: None,
         }
     }

@@ -31,9 +31,52 @@ pub(super) fn of_section(exponents: &[Measured; 2], blocks: &[Block]) -> Option<
     Some(Measured { value: 1.0 + part.value, error: part.error })
 }
 
+/// The dimension from all exponents, the largest first: with the largest j for which
+/// $`\lambda_1 + \dots + \lambda_j \ge 0`$ it is $`j + (\lambda_1 + \dots + \lambda_j)/|\lambda_{j+1}|`$, and the number of exponents if the
+/// sum of all is not negative. The error is a bound to first order. `None` if the largest exponent is not known to differ from 0.
+pub(super) fn of_exponents(exponents: &[Measured]) -> Option<Measured> {
+    let largest = exponents.first()?;
+    if largest.value < -largest.error {
+        return Some(Measured::default());
+    }
+    // NaN does not exceed its error either
+    if !(largest.value > largest.error) {
+        return None;
+    }
+    let (mut whole, mut sum, mut error) = (0.0, 0.0, 0.0);
+    for of in exponents {
+        if sum + of.value < 0.0 {
+            // minus infinity adds nothing
+            let part = -sum / of.value;
+            let error = if of.value.is_finite() { (error + part * of.error) / -of.value } else { 0.0 };
+            return Some(Measured { value: whole + part, error });
+        }
+        (whole, sum, error) = (whole + 1.0, sum + of.value, error + of.error);
+    }
+    Some(Measured { value: whole, error: 0.0 })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn of_many_exponents() {
+        let of = |values: &[f64]| {
+            let all: Vec<Measured> = values.iter().map(|value| Measured { value: *value, error: 0.01 }).collect();
+            of_exponents(&all).map(|found| (found.value, found.error))
+        };
+        assert_eq!(of(&[-0.1, -0.2]), Some((0.0, 0.0)));
+        assert_eq!(of(&[0.005, -0.2]), None);
+        assert_eq!(of(&[f64::NAN, -0.2]), None);
+        assert_eq!(of(&[0.25, -0.25]), Some((2.0, 0.0)));
+        assert_eq!(of(&[0.25, f64::NEG_INFINITY]), Some((1.0, 0.0)));
+        // the largest j is 3: 0.5 + 0.25 - 0.5 = 0.25
+        let (value, error) = of(&[0.5, 0.25, -0.5, -1.0]).unwrap();
+        assert!((value - 3.25).abs() < 1e-15 && (error - (0.03 + 0.25 * 0.01)).abs() < 1e-15);
+        // that of two exponents is the same
+        assert!((of(&[0.25, -0.5]).unwrap().0 - 1.5).abs() < 1e-15);
+    }
 
     #[test]
     fn by_the_signs_of_the_exponents() {

@@ -1,5 +1,6 @@
 //! All Lyapunov exponents of the motion of a machine from a start.
 
+use super::dimension;
 use crate::events::{MachineLimits, MachineMotion, MachineStart};
 use crate::lyapunov::{MEASURED_IMPACTS, MachineMeasure, MachineSpectrum, Measured};
 use crate::machine::{Machine, MachineError};
@@ -17,6 +18,25 @@ pub struct MachineExponents {
     pub motion: MachineVerdict,
     /// Whether they are exact: from the multipliers of a cycle, or from the structure at rest.
     pub exact: bool,
+}
+
+impl MachineExponents {
+    /// The Kaplan-Yorke dimension of the flow in the space of coordinates, velocities and the phase of the forcing, by the exponents
+    /// (J. L. Kaplan and J. A. Yorke, doi:10.1007/BFb0064319). Its error is a bound to first order from those of the exponents.
+    /// `None` if the largest exponent is not known to differ from 0.
+    #[must_use]
+    pub fn flow_dimension(&self, machine: &Machine) -> Option<Measured> {
+        let found = dimension::of_exponents(&self.spectrum.as_ref()?.exponents)?;
+        // the exponent 0 along the phase is not one of them; without forcing that along the motion is
+        let along = if machine.period().is_some() { 1.0 } else { 0.0 };
+        Some(Measured { value: found.value + along, error: found.error })
+    }
+
+    /// The dimension of the section at one phase of the forcing, or across the flow without forcing: one less than that of the flow.
+    #[must_use]
+    pub fn section_dimension(&self, machine: &Machine) -> Option<Measured> {
+        self.flow_dimension(machine).map(|of| Measured { value: (of.value - 1.0).max(0.0), error: of.error })
+    }
 }
 
 /// The number of events over which exponents are measured by default, and of the transient before.
