@@ -9,10 +9,8 @@ use crate::simulate::text;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use vibroimpact::Scales;
-use vibroimpact::verdict::Stability;
 use vibroimpact_study::{
-    Parameter, Plan, Quantities, Quantity, ResponseBranch, ResponsePlan, Results, SweptMotion, Task, Values,
-    unknown_quantity,
+    Parameter, Plan, Quantity, ResponsePlan, ResponseRow, Results, Task, Values, unknown_quantity,
 };
 
 /// The fields of a `ResponseCurve`.
@@ -40,41 +38,21 @@ pub(crate) struct Found<'py> {
 }
 
 /// The quantities of a motion, in SI units where there are scales.
-fn row(of: Option<Quantities>, scales: Option<Scales>) -> Vec<f64> {
+fn row(of: &ResponseRow, scales: Option<Scales>) -> Vec<f64> {
     let unit = |quantity: Quantity| scales.map_or(1.0, |scales| quantity.kind().in_si(&scales));
-    Quantity::ALL.into_iter().map(|quantity| of.map_or(f64::NAN, |of| of.get(quantity) * unit(quantity))).collect()
+    of.quantities.iter().zip(Quantity::ALL).map(|(value, quantity)| value * unit(quantity)).collect()
 }
 
 impl<'py> Fields<'py> {
-    /// A sweep; each of its motions is stable and admissible.
-    fn swept(py: Python<'py>, motions: &[SweptMotion], scales: impl Fn(f64) -> Option<Scales>) -> PyResult<Self> {
+    fn new(py: Python<'py>, rows: &[ResponseRow], scales: impl Fn(f64) -> Option<Scales>) -> PyResult<Self> {
+        let all = || rows.iter();
         Ok(Self {
-            parameter: column(py, motions.iter().map(|motion| motion.value)),
-            label: motions.iter().map(|motion| motion.label.clone()).collect(),
-            stable: column(py, motions.iter().map(|_| true)),
-            stability: motions.iter().map(|_| Stability::Stable.name()).collect(),
-            physical: column(py, motions.iter().map(|_| true)),
-            values: grid(
-                py,
-                motions.iter().map(|motion| row(motion.quantities, scales(motion.value))),
-                Quantity::ALL.len(),
-            )?,
-        })
-    }
-
-    fn branch(py: Python<'py>, branch: &ResponseBranch, scales: impl Fn(f64) -> Option<Scales>) -> PyResult<Self> {
-        let points = || branch.points.iter();
-        Ok(Self {
-            parameter: column(py, points().map(|point| point.solution.value)),
-            label: points().map(|point| point.solution.cycle.label.to_string()).collect(),
-            stable: column(py, points().map(|point| point.solution.stable())),
-            stability: points().map(|point| point.solution.stability().name()).collect(),
-            physical: column(py, points().map(|point| point.solution.physical)),
-            values: grid(
-                py,
-                points().map(|point| row(point.quantities, scales(point.solution.value))),
-                Quantity::ALL.len(),
-            )?,
+            parameter: column(py, all().map(|row| row.value)),
+            label: all().map(|row| row.label.clone()).collect(),
+            stable: column(py, all().map(ResponseRow::stable)),
+            stability: all().map(|row| row.stability.map_or("", |stability| stability.name())).collect(),
+            physical: column(py, all().map(|row| row.admissible)),
+            values: grid(py, all().map(|of| row(of, scales(of.value))), Quantity::ALL.len())?,
         })
     }
 }
@@ -103,14 +81,14 @@ pub(crate) fn response<'py>(
         Over::Range(text) => Values::Span(text.parse()?),
         Over::List(list) => Values::Listed(list),
     };
-    let task = ResponsePlan { quantity, impacts, ..ResponsePlan::new(parameter(vary)?, over) };
+    let vary = parameter(vary)?;
+    let task = ResponsePlan { quantity, impacts, ..ResponsePlan::new(vary, over) };
     let plan = Plan::new(osc.plan, Task::Response(task));
     let total = plan.work().map_or(1, |(motions, _)| motions);
     let watch = Watch::one("computing a response", total, progress);
     let found =
         door::result(py, watch, &plan, |of| if let Results::Response(found) = of { Some(found) } else { None })?;
     // over a number of a machine the nondimensional units may change from value to value
-    let vary = found.plan.vary;
     let scales = |value: f64| match vary {
         Parameter::Physical(_) => osc.plan.with(vary, value).ok().and_then(|system| system.scales()),
         _ => None,
@@ -123,9 +101,9 @@ pub(crate) fn response<'py>(
                 _ => quantity.kind().nondimensional(),
             })
             .to_vec(),
-        up: Fields::swept(py, &found.up, scales)?,
-        down: Fields::swept(py, &found.down, scales)?,
-        branches: found.branches.iter().map(|branch| Fields::branch(py, branch, scales)).collect::<PyResult<_>>()?,
+        up: Fields::new(py, &found.up, scales)?,
+        down: Fields::new(py, &found.down, scales)?,
+        branches: found.branches.iter().map(|branch| Fields::new(py, branch, scales)).collect::<PyResult<_>>()?,
         plan: text(&plan)?,
     })
 }

@@ -3,6 +3,7 @@
 use crate::figure::coloured::{self, Coloured};
 use crate::figure::overlay::Overlay;
 use crate::figure::{self, title};
+use crate::response::ResponseView;
 use crate::scene::{View, Viewed, phase_portrait};
 use crate::{AnswerError, Asked, ReportError, Table, Units, json, table};
 use serde::ser::Error as _;
@@ -154,7 +155,10 @@ impl Answer {
             (_, Results::Basin(found)) => figure::basin::figure(found, asked)?,
             (_, Results::Map(found)) => figure::map::figure_with(found, asked, shown.overlay.cells())?,
             (_, Results::Diagram(found)) => figure::diagram::figure(found, asked)?,
-            (_, Results::Response(found)) => figure::response::figure(found, asked)?,
+            (Task::Response(task), Results::Response(found)) => {
+                let view = ResponseView::of_oscillator(found, task, &asked.units);
+                figure::response::figure(&view, figure::title_without(asked, &[task.vary]))
+            }
             (Task::Branch(task), Results::Branch(found)) => {
                 let behind = if shown.diagram {
                     let plan = Plan::new(asked.system, Task::Diagram(task.diagram(&asked.system)?));
@@ -198,7 +202,9 @@ impl Answer {
             }
             (Task::Curve(task), Results::Curve(found)) => table::curve::table(found, task, units),
             (Task::Region(task), Results::Region(found)) => table::region::table(found, task, units),
-            (_, Results::Response(found)) => table::response::table(found, units),
+            (Task::Response(task), Results::Response(found)) => {
+                table::response::table(ResponseView::of_oscillator(found, task, units))
+            }
             (_, Results::Margins(found)) => table::margins::table(found, *units),
             _ => return Ok(None),
         }))

@@ -25,6 +25,7 @@ pub mod json;
 mod machine_answer;
 pub mod number;
 pub mod question;
+pub mod response;
 pub mod scene;
 pub mod table;
 mod units;

@@ -3,6 +3,7 @@
 use crate::AnswerError;
 use crate::branch_quantity::BranchQuantity;
 use crate::figure::coloured;
+use crate::response::ResponseView;
 use crate::scene::{self, View};
 use crate::{ReportError, Shown, Table, figure, table};
 use vibroimpact::events::{MachineLimits, MachineMotion, MachineStart};
@@ -12,7 +13,7 @@ use vibroimpact_plot::Figure;
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{
     Control, MachineBranchPlan, MachineDiagram, MachinePlan, MachineResults, MachineSimulated, MachineTask, PlanError,
-    run_machine,
+    ResponseCurves, run_machine,
 };
 
 /// The largest number of characters of a title over an axis of ordinary width.
@@ -116,6 +117,10 @@ impl MachineAnswer {
                 let MachineTask::Curve(plan) = &self.plan.task else { return Ok(None) };
                 figure::curve::of_machine(found, plan, title)
             }
+            MachineResults::Response(found) => {
+                let Some(view) = self.response(found) else { return Ok(None) };
+                figure::response::figure(&view, title)
+            }
             MachineResults::Basin(found) => figure::basin::of_machine(found, title)?,
             MachineResults::Map(found) => figure::map::of_machine(found, title)?,
             MachineResults::Diagram(found) => figure::diagram::of_machine(found, title)?,
@@ -123,8 +128,18 @@ impl MachineAnswer {
                 let label = figure::label(&found.motion.label());
                 figure::machine_section::figure(points, &self.machine, format!("{title}: {label}"))
             }
-            MachineResults::Attractors(_) | MachineResults::Lyapunov(..) | MachineResults::Orbit(_) => return Ok(None),
+            MachineResults::Attractors(_)
+            | MachineResults::Lyapunov(..)
+            | MachineResults::Margins(_)
+            | MachineResults::Orbit(_) => return Ok(None),
         }))
+    }
+
+    /// The response as it is told; `None` if the plan is that of another task.
+    #[must_use]
+    pub fn response<'a>(&'a self, found: &'a ResponseCurves) -> Option<ResponseView<'a>> {
+        let MachineTask::Response(plan) = &self.plan.task else { return None };
+        Some(ResponseView::of_machine(found, plan, &self.machine))
     }
 
     /// The orbit diagram over the range of a branch, of closings or of a quantity; `None` if there is no machine at one end,
@@ -201,6 +216,11 @@ impl MachineAnswer {
             MachineResults::Curve(found) => {
                 let MachineTask::Curve(plan) = &self.plan.task else { return Ok(None) };
                 table::machine_curve::table(&self.machine, plan, found)
+            }
+            MachineResults::Margins(found) => table::margins::of_machine(found),
+            MachineResults::Response(found) => {
+                let Some(view) = self.response(found) else { return Ok(None) };
+                table::response::table(view)
             }
             MachineResults::Basin(found) => table::machine_tables::basin(&self.machine, found),
             MachineResults::Map(found) => table::machine_tables::map(&self.machine, found),

@@ -95,9 +95,10 @@ pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
 pub use machine_plan::{
     MachineAxis, MachineBasin, MachineBasinPlan, MachineBranchPlan, MachineBranched, MachineCurvePlan, MachineCut,
     MachineDiagram, MachineDiagramPlan, MachineDiagramPoint, MachineDiagramStep, MachineEventCurve, MachineFollowed,
-    MachineFollowedEvent, MachineLine, MachineLyapunovPlan, MachineMap, MachineMapPlan, MachineOrigin, MachinePlan,
-    MachineResults, MachineSection, MachineShare, MachineSimulated, MachineStretch, MachineTarget, MachineTask,
-    events_with_states, is_machine_plan, machine_label, run_machine,
+    MachineFollowedEvent, MachineLine, MachineLyapunovPlan, MachineMap, MachineMapPlan, MachineMargins,
+    MachineMarginsPlan, MachineOrigin, MachinePlan, MachineResponsePlan, MachineResults, MachineSection, MachineShare,
+    MachineSimulated, MachineStretch, MachineTarget, MachineTask, NumberEvent, NumberMargin, events_with_states,
+    is_machine_plan, machine_label, run_machine,
 };
 pub use map::{MapPlan, MapPoint, RegionMap, Share};
 pub use margins::{
@@ -110,7 +111,7 @@ pub use plan::{Plan, Task};
 pub use points::{DrawnPoints, ListedColumn, PointRange, PointRule, PointsPlan};
 pub use quantity::{Quantities, Quantity, unknown as unknown_quantity};
 pub use region::{DEFAULT_GRID, RegionPlan, Regions, stability_regions};
-pub use response::{ResponseBranch, ResponseCurves, ResponsePlan, ResponsePoint, SweptMotion};
+pub use response::{ResponseCurves, ResponsePlan, ResponseRow};
 pub use run::{Results, run};
 pub use simulate::{SEARCH_LIMIT, Simulated, simulate};
 pub use simulate_many::{real_numbers, simulate_points};

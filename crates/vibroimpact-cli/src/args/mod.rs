@@ -30,7 +30,7 @@ pub(crate) use numbers::{number, whole, within};
 pub(crate) use of_machine::{MachineArgs, MachineAxesArgs, StartOfMachineArgs, StudyAxesArgs};
 pub(crate) use output::Globals;
 pub(crate) use overlay::OverlayArgs;
-pub(crate) use parameter_flag::{ParameterFlag, Varied, parameter, varied};
+pub(crate) use parameter_flag::{ParameterFlag, Varied, varied};
 pub(crate) use physical::PhysicalArgs;
 pub(crate) use plane::{Ends, Interval, Named, Over, Place, Value, VariedNamed, VariedOver};
 pub(crate) use ranged::{Ranged, axis_values};

@@ -52,7 +52,7 @@ impl ParameterFlag {
 }
 
 /// Parses a parameter from the name of its flag.
-pub(crate) fn parameter() -> impl TypedValueParser<Value = ParameterFlag> {
+pub(super) fn parameter() -> impl TypedValueParser<Value = ParameterFlag> {
     let values: Vec<PossibleValue> =
         ParameterFlag::all().map(|named| PossibleValue::new(named.flag()).help(named.meaning())).collect();
     PossibleValuesParser::new(values).try_map(|name| {

@@ -1,15 +1,19 @@
 //! `vibro margins`: how far a periodic motion is from the events that end or change it.
 
-use crate::args::{FigureArgs, Named, ParameterFlag, StartArgs, SystemArgs, number, parameter, whole};
+use crate::args::{
+    FigureArgs, MachineArgs, Named, ParameterFlag, StartArgs, StartOfMachineArgs, SystemArgs, Varied, VariedNamed,
+    number, varied, whole,
+};
 use crate::commands::outputs::Outputs;
-use crate::commands::respond;
+use crate::commands::{of_machine, respond};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use std::path::PathBuf;
 use vibroimpact_report::{Asked, Shown};
 use vibroimpact_study::{
-    DEFAULT_LINES, DEFAULT_WITHIN, MarginsPlan, Parameter, Plan, ScaledParameter, StartPlan, Task,
+    DEFAULT_LINES, DEFAULT_WITHIN, MachineMarginsPlan, MachineTask, MarginsPlan, Parameter, Plan, ScaledParameter,
+    StartPlan, Task,
 };
 
 /// How far a motion is from the events that end or change it
@@ -22,34 +26,47 @@ use vibroimpact_study::{
 /// parameter lies within one multiple of its scale from its value. It is found by trying: the motion is carried along
 /// lines from the centre to the surface of the box, so events between the lines may be missed.
 ///
-/// A system in physical units has its results in SI units.
+/// A system in physical units has its results in SI units. A machine has no box.
 #[derive(Clone, Debug, Args)]
 #[command(
-    override_usage = "vibro margins --beta B --gap D --restitution E [--x X --v V --phase P | --label m/n] [OPTIONS]",
+    override_usage = "vibro margins --beta B --gap D --restitution E [--x X --v V --phase P | --label m/n] [OPTIONS]\n       \
+        vibro margins --machine NAME|FILE [--set PATH=VALUE] [--q A,B --qdot A,B | --label m/n] [OPTIONS]",
     after_help = "Examples:\n  \
         vibro margins --inverse-beta 1.11 --gap 1.5 --restitution 0.5\n  \
         vibro margins --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 --vary gap,restitution \\\n    \
         --scale gap=0.05 --csv margins.csv\n  \
         vibro margins --mass-kg 0.8 --stiffness-n-per-m 12000 --force-n 30 --damping-ratio 0.02 \\\n    \
-        --gap-m 0.0015 --restitution 0.65 --frequency-hz 20"
+        --gap-m 0.0015 --restitution 0.65 --frequency-hz 20\n  \
+        vibro margins --machine two-mass-hammer --vary frequency,stop.anvil.gap"
 )]
 pub(crate) struct Margins {
     #[command(flatten)]
     system: SystemArgs,
     #[command(flatten)]
     start: StartArgs,
+    #[command(flatten)]
+    machine: MachineArgs,
+    #[command(flatten)]
+    of_machine: StartOfMachineArgs,
 
     /// m/n of the motion instead of a start: the stable orbit, else the fastest one
     #[arg(long, value_name = "m/n", allow_hyphen_values = true, help_heading = "Margins")]
     label: Option<String>,
 
-    /// The parameters that vary, separated by commas [default: all of the system]
-    #[arg(long, value_delimiter = ',', value_parser = parameter(), value_name = "PARAMETERS", help_heading = "Margins")]
-    vary: Vec<ParameterFlag>,
+    /// The parameters that vary, separated by commas; of a machine paths, as stop.wall.gap [default: all of the system; of a machine
+    /// its parameters, and the numbers that are written in its file and are not 0]
+    #[arg(long, value_delimiter = ',', value_parser = varied(), value_name = "PARAMETERS|PATHS", help_heading = "Margins")]
+    vary: Vec<Varied>,
 
     /// The change of a parameter that counts as 1 in the box [default: its value]; may be repeated
-    #[arg(long, value_name = "PARAMETER=VALUE", allow_hyphen_values = true, help_heading = "Margins")]
-    scale: Vec<Named<f64>>,
+    #[arg(
+        long,
+        value_name = "PARAMETER=VALUE",
+        allow_hyphen_values = true,
+        conflicts_with = "machine",
+        help_heading = "Margins"
+    )]
+    scale: Vec<VariedNamed<f64>>,
 
     /// Events are looked for from each value divided by this number to the value times this number, above 1 and up to
     /// 100; a restitution from 0 to 1
@@ -58,11 +75,11 @@ pub(crate) struct Margins {
 
     /// Lines from the centre of the box to scattered points of its surface, 0 to 100000, besides those to the centres of
     /// its faces and to its corners
-    #[arg(long, value_parser = whole::<u32>, value_name = "N", default_value_t = DEFAULT_LINES, allow_hyphen_values = true, help_heading = "Margins")]
+    #[arg(long, value_parser = whole::<u32>, value_name = "N", default_value_t = DEFAULT_LINES, allow_hyphen_values = true, conflicts_with = "machine", help_heading = "Margins")]
     lines: u32,
 
     /// Write one row for each parameter and direction to this file; - for stdout. Columns: parameter, value, direction,
-    /// limit, at, distance, relative, event, label_after; without an event the last five are empty
+    /// limit, at, distance, relative, event, before, after; without an event the last six are empty
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 
@@ -72,6 +89,16 @@ pub(crate) struct Margins {
 }
 
 pub(super) fn run(args: &Margins, session: &Session) -> Result<(), Failure> {
+    let task = || {
+        let vary = args.vary.iter().map(Varied::path).collect();
+        Ok(MachineTask::Margins(MachineMarginsPlan { label: args.label.clone(), vary, within: args.within }))
+    };
+    let (files, no_figure) =
+        ((args.csv.as_deref(), (None, &FigureArgs::default()), args.json), (None, of_machine::usual));
+    let start = Some((&args.of_machine, args.start.phase));
+    if let Some(answer) = of_machine::asked(&args.machine, start, task, files, no_figure, session) {
+        return answer;
+    }
     let (asked, vary) = args.varied()?;
     let start = args.start.plan(&asked.units);
     if args.label.is_some() && start != StartPlan::default() {
@@ -90,7 +117,9 @@ impl Margins {
         let machine = self.system.is_machine();
         let asked = if machine { self.system.in_si().asked()? } else { self.system.asked()? };
         let known = MarginsPlan::parameters(&asked.system);
-        let named = self.vary.iter().chain(self.scale.iter().map(|Named(named, _)| named));
+        let vary = self.vary.iter().map(Varied::parameter).collect::<Result<Vec<ParameterFlag>, Failure>>()?;
+        let scales = self.scale.iter().map(VariedNamed::of_oscillator).collect::<Result<Vec<Named<f64>>, Failure>>()?;
+        let named = vary.iter().chain(scales.iter().map(|Named(named, _)| named));
         let nondimensional = |of: Parameter| {
             matches!(
                 of,
@@ -110,13 +139,13 @@ impl Margins {
             )));
         }
         let all: Vec<ParameterFlag> = known.into_iter().map(|parameter| ParameterFlag { parameter }).collect();
-        let flags = if self.vary.is_empty() { all } else { self.vary.clone() };
+        let flags = if vary.is_empty() { all } else { vary };
         let scale = |parameter| {
             let of = |Named(named, value): &Named<f64>| (named.parameter == parameter).then_some(*value);
-            self.scale.iter().rev().find_map(of).map(|value| value / asked.units.of(parameter))
+            scales.iter().rev().find_map(of).map(|value| value / asked.units.of(parameter))
         };
         let unknown = |Named(named, _): &&Named<f64>| !flags.iter().any(|flag| flag.parameter == named.parameter);
-        if let Some(Named(named, _)) = self.scale.iter().find(unknown) {
+        if let Some(Named(named, _)) = scales.iter().find(unknown) {
             return Err(Failure::bad(format!(
                 "--scale {0} has no effect: {0} does not vary\nhint: --vary",
                 named.flag()

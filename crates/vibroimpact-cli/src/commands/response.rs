@@ -1,43 +1,58 @@
 //! `vibro response`: a quantity of all motions over one parameter.
 
-use crate::args::{FigureArgs, RangedSystemArgs, quantity, whole};
+use crate::args::{FigureArgs, MachineArgs, MachineAxesArgs, RangedSystemArgs, StartOfMachineArgs, quantity, whole};
 use crate::commands::outputs::Outputs;
-use crate::commands::respond;
+use crate::commands::{of_machine, respond};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use std::path::PathBuf;
 use vibroimpact_report::{Asked, Shown};
-use vibroimpact_study::{Coordinate, Plan, Quantity, ResponsePlan, Task};
+use vibroimpact_study::{Coordinate, MachineResponsePlan, MachineTask, Plan, ResponsePlan, Task};
 
-/// The response over a parameter, such as the frequency: a quantity of all motions, from branches and sweeps
+/// The response over a number, such as the frequency: a quantity of all motions, from branches and sweeps
 ///
 /// One parameter takes a range A:B:N or a list of values. A sweep with rising values and one with falling values settle the
 /// motion at each value from the state of the motion at the value before. The branch of each cycle that they find is followed
 /// over the range through its folds and grazing impacts, stable or not. Orbits on branches that no sweep meets are not found.
 #[derive(Clone, Debug, Args)]
 #[command(
-    override_usage = "vibro response --beta A:B:N --gap D --restitution E [OPTIONS]",
+    // a machine of several coordinates stands for all of the system
+    mut_arg("restitution", |arg| {
+        arg.required(false).required_unless_present("machine").requires("frequency").requires("distance")
+    }),
+    mut_group("frequency", |group| group.required(false)),
+    mut_group("distance", |group| group.required(false)),
+    override_usage = "vibro response --beta A:B:N --gap D --restitution E [OPTIONS]\n       \
+        vibro response --machine NAME|FILE --axis PATH=A:B:N [OPTIONS]",
     after_help = "Examples:\n  \
         vibro response --beta 0.5:1.5:201 --gap 1.5 --restitution 0.7 --damping 0.02 --plot response.png\n  \
         vibro response --mass-kg 0.8 --stiffness-n-per-m 12000 --force-n 30 --damping-ratio 0.02 --gap-m 0.0015 \\\n    \
-        --restitution 0.65 --frequency-hz 15:25:201 --quantity impact-speed-max --csv response.csv --plot response.png"
+        --restitution 0.65 --frequency-hz 15:25:201 --quantity impact-speed-max --csv response.csv --plot response.png\n  \
+        vibro response --machine two-mass-hammer --axis frequency=0.9:1.3:41 --quantity stop.anvil.impact-speed-max \\\n    \
+        --plot hammer.png"
 )]
 pub(crate) struct Response {
     #[command(flatten)]
     system: RangedSystemArgs,
+    #[command(flatten)]
+    machine: MachineArgs,
+    #[command(flatten)]
+    start: StartOfMachineArgs,
+    #[command(flatten)]
+    machine_axes: MachineAxesArgs,
 
-    /// The quantity, such as displacement-amplitude, displacement-max, impact-speed-max, power [default:
-    /// displacement-amplitude]
-    #[arg(long, value_name = "NAME", value_parser = quantity, help_heading = "Output")]
-    quantity: Option<Quantity>,
+    /// The quantity, such as displacement-amplitude, displacement-max, impact-speed-max, power; of a machine its path, such as
+    /// q.head.displacement-amplitude or stop.anvil.impact-speed-max [default: displacement-amplitude, that of the first coordinate]
+    #[arg(long, value_name = "NAME", help_heading = "Output")]
+    quantity: Option<String>,
 
     /// Budget of impacts for the motion at each value, 1 to 1000000; what is not settled by then is undecided [default: 20000]
     #[arg(long, value_parser = whole::<u32>, value_name = "N", allow_hyphen_values = true, help_heading = "Sweep")]
     impacts: Option<u32>,
 
     /// Write one row for each motion of a sweep and each point of a branch to this file; - for stdout. Columns: curve (up,
-    /// down or the number of a branch), the parameter, label, physical, stable, stability, all quantities
+    /// down or the number of a branch), the parameter, label, admissible, stable, stability, event, all quantities
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 
@@ -55,6 +70,27 @@ pub(crate) struct Response {
 }
 
 pub(super) fn run(args: &Response, session: &Session) -> Result<(), Failure> {
+    let task = || {
+        let axes = args.machine_axes.axes();
+        let [axis] = axes.as_slice() else {
+            return Err(Failure::bad(format!(
+                "a response is over one number, and there are {} axes\nhint: --axis frequency=0.5:1.5:201",
+                axes.len()
+            )));
+        };
+        let (vary, over) = (axis.vary.clone(), axis.over.clone());
+        Ok(MachineTask::Response(MachineResponsePlan {
+            vary,
+            over,
+            quantity: args.quantity.clone(),
+            impacts: args.impacts,
+        }))
+    };
+    let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
+    let (start, look) = (Some((&args.start, None)), (None, of_machine::usual));
+    if let Some(answer) = of_machine::asked(&args.machine, start, task, files, look, session) {
+        return answer;
+    }
     let Asked { system, units } = args.system.asked()?;
     let axes = args.system.axes()?;
     let [axis] = axes.as_slice() else {
@@ -67,7 +103,8 @@ pub(super) fn run(args: &Response, session: &Session) -> Result<(), Failure> {
         return Err(Failure::bad("a response is over a parameter of the system\nhint: --beta 0.5:1.5:201"));
     };
     let task = ResponsePlan::new(vary, axis.over.clone());
-    let task = ResponsePlan { quantity: args.quantity.unwrap_or(task.quantity), impacts: args.impacts, ..task };
+    let named = args.quantity.as_deref().map(|name| quantity(name).map_err(Failure::bad)).transpose()?;
+    let task = ResponsePlan { quantity: named.unwrap_or(task.quantity), impacts: args.impacts, ..task };
     let plan = Plan::new(system, Task::Response(task));
     plan.check()?;
     let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;

@@ -4,6 +4,8 @@ use crate::report::certainty::certainty;
 use crate::report::diagram;
 use crate::report::lyapunov::said;
 use crate::report::machine_curve;
+use crate::report::margins;
+use crate::report::response;
 use core::fmt::Write;
 use vibroimpact::chaos::MachineSpectrum;
 use vibroimpact::continuation::MachinePoint;
@@ -81,6 +83,13 @@ pub(crate) fn text(answer: &MachineAnswer) -> String {
             }
         }
         MachineResults::Curve(found) => text.push_str(&machine_curve::text(machine, &answer.plan.task, found)),
+        MachineResults::Margins(found) => {
+            text.push_str(&margins::of_machine(found, machine, motion(machine, &found.motion)));
+        }
+        MachineResults::Response(found) => {
+            let view = answer.response(found);
+            text.push_str(&view.map_or_else(String::new, |view| response::text(&view, view.vary)));
+        }
         MachineResults::Basin(found) => {
             for (verdict, (_, share)) in found.motions.iter().zip(found.shares()) {
                 let _ = write!(text, "{:>6.1} %  {}", 100.0 * share, motion(machine, verdict));

@@ -5,9 +5,13 @@ use crate::report::words::{by_stop, meaning, table};
 use std::fmt::Write;
 use vibroimpact::Oscillator;
 use vibroimpact::continuation::{BranchEvent, SolutionPoint};
+use vibroimpact::machine::Machine;
 use vibroimpact_report::Units;
 use vibroimpact_report::number::{percent, precise, short};
-use vibroimpact_study::{EventRecord, Loss, MarginEnd, MotionBox, MotionMargins, ParameterMargin, counted};
+use vibroimpact_study::{
+    EventRecord, Loss, MachineMargins, MarginEnd, MotionBox, MotionMargins, NumberEvent, NumberMargin, ParameterMargin,
+    counted,
+};
 
 /// The motion, its nearest events in each parameter, and its box.
 pub(crate) fn text(found: &MotionMargins, osc: &Oscillator, units: &Units) -> String {
@@ -41,6 +45,43 @@ pub(crate) fn text(found: &MotionMargins, osc: &Oscillator, units: &Units) -> St
     text
 }
 
+/// The motion of a machine, and its nearest events in each number; `motion` is what is told of the motion.
+pub(crate) fn of_machine(found: &MachineMargins, machine: &Machine, motion: String) -> String {
+    let mut text = motion;
+    if found.numbers.is_empty() {
+        text.push_str("  it is no single periodic motion, so it has no branch to follow and no margins\n");
+        return text;
+    }
+    let row = |number: &NumberMargin, (way, limit, event): (&str, f64, Option<&NumberEvent>)| {
+        let begin = [number.path.clone(), short(number.value), way.to_owned()];
+        let told = event.and_then(|event| Some((event, event.point.event?)));
+        let ends = told.map_or_else(
+            || [String::new(), String::new(), String::new(), format!("none up to {}", short(limit))],
+            |(event, kind)| {
+                let distance = event.point.value - number.value;
+                let relative = 100.0 * distance / number.scale();
+                let before = event.point.cycle.label.to_string();
+                let beyond = event.after.as_ref().filter(|after| **after != before);
+                let beyond = beyond.map_or_else(String::new, |after| format!(" to {after}"));
+                let of = kind.place().map_or_else(String::new, |place| format!(": {}", machine.name_of(place)));
+                let words = format!("{}{beyond}{of}", kind.name());
+                [precise(event.point.value), short(distance), format!("{relative:+.2} %"), words]
+            },
+        );
+        begin.into_iter().chain(ends).collect::<Vec<String>>()
+    };
+    let rows: Vec<Vec<String>> =
+        found.numbers.iter().flat_map(|number| number.ends().map(|end| row(number, end))).collect();
+    text.push_str(&table(&HEADS.map(str::to_owned), &rows));
+    if let Some((number, way, scaled)) = found.nearest() {
+        let _ = writeln!(text, "  nearest: {way} in {}, by {} of its value", number.path, percent(scaled));
+    }
+    text
+}
+
+/// The columns of the events.
+const HEADS: [&str; 7] = ["<parameter", "value", "<way", "event at", "distance", "relative", "<event"];
+
 /// What a box is measured in: the values of the parameters, or other scales.
 fn whole(parameters: &[ParameterMargin]) -> &'static str {
     let usual = parameters.iter().all(|margin| margin.scope.scale == margin.scope.value.abs());
@@ -49,7 +90,7 @@ fn whole(parameters: &[ParameterMargin]) -> &'static str {
 
 /// One row for each parameter and direction.
 fn events(parameters: &[ParameterMargin], units: &Units) -> String {
-    let heads = ["<parameter", "value", "<way", "event at", "distance", "relative", "<event"].map(str::to_owned);
+    let heads = HEADS.map(str::to_owned);
     let rows: Vec<Vec<String>> = parameters
         .iter()
         .flat_map(|margin| {

@@ -28,6 +28,7 @@ mod words;
 
 use crate::failure::Failure;
 use vibroimpact_report::Answer;
+use vibroimpact_report::response::ResponseView;
 use vibroimpact_study::{Results, Task};
 
 /// The text that a command prints, unless JSON or a table on stdout was requested.
@@ -52,7 +53,9 @@ pub(crate) fn text(answer: &Answer) -> Result<String, Failure> {
         }
         (Task::Curve(task), Results::Curve(found)) => system() + &curve::text(found, task, units),
         (Task::Region(task), Results::Region(found)) => region::text(found, task, asked),
-        (_, Results::Response(found)) => response::text(found, units),
+        (Task::Response(task), Results::Response(found)) => {
+            response::text(&ResponseView::of_oscillator(found, task, units), &branch::named(task.vary, units))
+        }
         (_, Results::Margins(found)) => match &found.start {
             Some(start) => from(start) + "\n" + &margins::text(found, osc, units),
             None => system() + &margins::text(found, osc, units),

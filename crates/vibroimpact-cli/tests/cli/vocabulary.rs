@@ -11,7 +11,7 @@ const BODY: &str = "--units si --mass-kg 2 --stiffness-n-per-m 800 --force-n 4 -
 const MACHINE: &str = "--machine two-mass-hammer";
 
 /// The commands, and what each asks of the oscillator, of the body and of the machine.
-const COMMANDS: [(&str, [&str; 3]); 9] = [
+const COMMANDS: [(&str, [&str; 3]); 11] = [
     ("simulate --impacts 3", ["", "", ""]),
     ("settle", ["", "", ""]),
     ("attractors --starts 4", ["", "", ""]),
@@ -26,6 +26,8 @@ const COMMANDS: [(&str, [&str; 3]); 9] = [
         ],
     ),
     ("lyapunov --impacts 1000", ["", "", ""]),
+    ("margins", ["--vary gap --lines 2", "--vary gap-m --lines 2", "--vary frequency"]),
+    ("response", ["", "", "--axis frequency=0.9:1.2:3"]),
     (
         "diagram",
         [
@@ -122,7 +124,7 @@ fn fields(value: &Value, path: &str, found: &mut BTreeSet<String>) {
         Value::Object(own) => {
             for (name, value) in own.iter().filter(|(name, _)| !OF_SOME.contains(&name.as_str())) {
                 let path = format!("{path}.{name}");
-                if !["plan", "quantities", "counts", "system"].contains(&name.as_str()) {
+                if !["plan", "quantities", "counts", "system", "event"].contains(&name.as_str()) {
                     fields(value, &path, found);
                 }
                 found.insert(path);
@@ -143,6 +145,11 @@ fn every_answer_is_as_its_schema_says_and_the_same_for_every_system() {
             .into_iter()
             .zip(flags)
             .map(|(system, more)| {
+                // a response takes a range of a parameter
+                let system = match verb {
+                    "response" => system.replace("--restitution 0.5", "--restitution 0.4:0.6:3"),
+                    _ => system.to_owned(),
+                };
                 let answer = json(&format!("{command} {system} {more}"));
                 check(&answer, &schema, &schema, verb);
                 assert!(
@@ -168,8 +175,7 @@ fn further_answers_are_as_their_schemas_say() {
         "map --restitution 0.5 --beta 0.8:0.9:2 --gap 0.5:1:2 --starts 3",
         "map --machine two-mass-hammer --axis frequency=0.8:1.2:2 --starts 2",
         "region --label 1/1 --inverse-beta 1.05:1.2 --gap 1:2.5 --restitution 0.5 --grid 4",
-        "response --beta 0.7:0.9:3 --gap 0.75 --restitution 0.5 --damping 0.02",
-        &format!("margins {OSCILLATOR} --lines 2"),
+        "margins --machine two-mass-hammer --vary stop.anvil.gap,stop.anvil.restitution",
         "settle --inverse-beta 1.11 --gap 3 --restitution 0.5",
         "settle --inverse-beta 1.11 --gap -0.5 --restitution 0.5",
         "settle --beta 0.9 --gap -1.5 --restitution 0.5 --x -3",

@@ -1,11 +1,10 @@
 //! The figure of a response: branches as curves, stable solid, neutral dashed and dotted and unstable dashed, and the motions of both sweeps.
 
-use crate::figure::{label, named, quantity_name, title_without, variant};
-use crate::json::response::value;
-use crate::{Asked, ReportError};
+use crate::figure::{label, variant};
+use crate::response::ResponseView;
 use vibroimpact::verdict::Stability;
 use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, SERIES, Stroke};
-use vibroimpact_study::{ResponseCurves, ResponsePoint, SweptMotion};
+use vibroimpact_study::ResponseRow;
 
 /// Width of a branch.
 const WIDTH: f64 = 2.6;
@@ -24,45 +23,30 @@ const DASHES: [(Stability, Dash); 3] =
 /// The parts of all branches with one label with one stability, separated by `NaN`.
 type BranchLine = ((String, Stability), Vec<f64>, Vec<f64>);
 
-/// The figure of `vibro response`. Inadmissible solutions are left out.
-///
-/// # Errors
-/// [`ReportError::Plan`] if a value of the parameter overflows in these units.
-pub fn figure(found: &ResponseCurves, asked: &Asked) -> Result<Figure, ReportError> {
-    let (units, plan) = (&asked.units, &found.plan);
-    let (unit, quantity) = (units.of(plan.vary), plan.quantity);
-    let (from, to) = plan.cut().ends;
-    let mut panel = Panel::new(
-        FigureAxis::new(named(plan.vary, units)).range(from * unit, to * unit),
-        FigureAxis::new(quantity_name(quantity, units)),
-    );
+/// The figure of `vibro response`, with this title. Inadmissible solutions are left out.
+#[must_use]
+pub fn figure(view: &ResponseView<'_>, title: String) -> Figure {
+    let (found, (from, to)) = (view.found, view.ends());
+    let mut panel =
+        Panel::new(FigureAxis::new(view.axis.clone()).range(from, to), FigureAxis::new(view.ordinate.clone()));
     let mut legend = Legend::below();
+    let place = |row: &ResponseRow| (view.parameter(row), view.shown(row));
     // the sweeps lie below the branches; where both have the same motion, the small dot is inside the large one
-    let sweeps: [(&str, &[SweptMotion], f64, Colour); 2] =
+    let sweeps: [(&str, &[ResponseRow], f64, Colour); 2] =
         [("sweep up", &found.up, LARGE, LIGHT), ("sweep down", &found.down, SMALL, DARK)];
-    for (_, motions, size, colour) in sweeps {
-        let places = motions.iter().map(|motion| {
-            let units = units.at(plan.vary, motion.value);
-            (motion.value * unit, value(motion.quantities, quantity, &units))
-        });
-        let (xs, ys): (Vec<f64>, Vec<f64>) = places.filter(|(_, y)| y.is_finite()).unzip();
+    for (_, rows, size, colour) in sweeps {
+        let (xs, ys): (Vec<f64>, Vec<f64>) = rows.iter().map(place).filter(|(_, y)| y.is_finite()).unzip();
         let points = Points::new(xs, ys, colour).size(size);
         panel.add(points);
     }
     let mut lines: Vec<BranchLine> = Vec::new();
-    for branch in &found.branches {
-        for pair in branch.points.windows(2) {
+    for rows in &found.branches {
+        for pair in rows.windows(2) {
             let [a, b] = [&pair[0], &pair[1]];
             // an event separates two parts, so a step takes its look from the end that is no event
-            let one = if b.solution.event.is_some() && a.solution.event.is_none() { a } else { b };
-            if !one.solution.physical {
-                continue;
-            }
-            let place = |point: &ResponsePoint| {
-                let at = point.solution.value;
-                (at * unit, value(point.quantities, quantity, &units.at(plan.vary, at)))
-            };
-            let key = (one.solution.cycle.label.to_string(), one.solution.stability());
+            let one = if b.event.is_some() && a.event.is_none() { a } else { b };
+            let Some(stability) = one.stability.filter(|_| one.admissible) else { continue };
+            let key = (one.label.clone(), stability);
             let at = lines.iter().position(|(other, ..)| *other == key).unwrap_or_else(|| {
                 lines.push((key, Vec::new(), Vec::new()));
                 lines.len() - 1
@@ -101,5 +85,5 @@ pub fn figure(found: &ResponseCurves, asked: &Asked) -> Result<Figure, ReportErr
     for (name, _, size, colour) in sweeps {
         legend = legend.points(&Points::new([], [], colour).size(size), name);
     }
-    Ok(Figure::new(panel).size(680.0, 520.0).title(title_without(asked, &[plan.vary])).legend(legend))
+    Figure::new(panel).size(680.0, 520.0).title(title).legend(legend)
 }

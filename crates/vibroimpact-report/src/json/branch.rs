@@ -9,6 +9,7 @@ use core::iter::once;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
+use vibroimpact::Label;
 use vibroimpact::Oscillator;
 use vibroimpact::continuation::{BranchEvent, MachineBranchEvent, MachinePoint, SolutionPoint};
 use vibroimpact::machine::Machine;
@@ -294,26 +295,40 @@ impl<'a> BranchEventObject<'a> {
         event: MachineBranchEvent,
         (machine, cut): (&'a Machine, &MachineCut),
     ) -> Self {
-        let label = |k: usize| points.get(k).map(|point| point.cycle.label.to_string());
-        let (appears, turns) = match event {
-            MachineBranchEvent::Grazing { appears, turns, .. } => (Some(appears), Some(turns)),
-            _ => (None, None),
-        };
         Self {
             kind: event.name(),
             parameter: points[k].value,
             values: both_of_machine(points[k].value, cut),
             point: k,
-            fields: EventFields {
-                ends: event.ends(),
-                // a point at an event has the cycle before it
-                before: label(k).unwrap_or_default(),
-                after: if event.ends() { None } else { label(k + 1) },
-                stop: event.place().map(|place| machine.name_of(place)),
-                appears,
-                turns,
-                ..EventFields::default()
-            },
+            // a point at an event has the cycle before it
+            fields: EventFields::of_machine(
+                event,
+                (points[k].cycle.label, points.get(k + 1).map(|next| next.cycle.label.to_string())),
+                machine,
+            ),
+        }
+    }
+}
+
+impl<'a> EventFields<'a> {
+    /// Those of an event of a machine, from the labels before and after it.
+    pub(super) fn of_machine(
+        event: MachineBranchEvent,
+        (before, after): (Label, Option<String>),
+        machine: &'a Machine,
+    ) -> Self {
+        let (appears, turns) = match event {
+            MachineBranchEvent::Grazing { appears, turns, .. } => (Some(appears), Some(turns)),
+            _ => (None, None),
+        };
+        Self {
+            ends: event.ends(),
+            before: before.to_string(),
+            after: after.filter(|_| !event.ends()),
+            stop: event.place().map(|place| machine.name_of(place)),
+            appears,
+            turns,
+            ..Self::default()
         }
     }
 }

@@ -9,10 +9,13 @@ use super::diagram::DiagramAnswer;
 use super::event::StateObject;
 use super::lyapunov::LyapunovAnswer;
 use super::map::MapAnswer;
+use super::margins::MarginsAnswer;
 use super::orbit::OrbitAnswer;
+use super::response::ResponseAnswer;
 use super::settle::SettleAnswer;
 use super::simulate::SimulateAnswer;
 use super::system::SystemObject;
+use crate::response::ResponseView;
 use crate::{MachineAnswer, PROGRAM};
 use serde::ser::Error;
 use serde::{Serialize, Serializer};
@@ -36,6 +39,10 @@ impl Serialize for MachineAnswer {
             (MachineTask::Curve(task), MachineResults::Curve(found)) => {
                 self.document(CurveAnswer::of_machine(machine, task, found), to)
             }
+            (_, MachineResults::Margins(found)) => self.document(MarginsAnswer::of_machine(machine, found), to),
+            (MachineTask::Response(task), MachineResults::Response(found)) => {
+                self.document(ResponseAnswer::new(&ResponseView::of_machine(found, task, machine)), to)
+            }
             (_, MachineResults::Basin(found)) => self.document(BasinAnswer::of_machine(machine, found), to),
             (_, MachineResults::Diagram(found)) => self.document(DiagramAnswer::of_machine(machine, found), to),
             (MachineTask::Map(task), MachineResults::Map(found)) => {
@@ -56,9 +63,12 @@ const fn begins(task: &MachineTask) -> bool {
         | MachineTask::Basin(_) => true,
         MachineTask::Branch(branch) => branch.label.is_none(),
         MachineTask::Curve(curve) => curve.label.is_none(),
-        MachineTask::Attractors { .. } | MachineTask::Orbit { .. } | MachineTask::Map(_) | MachineTask::Diagram(_) => {
-            false
-        }
+        MachineTask::Margins(margins) => margins.label.is_none(),
+        MachineTask::Attractors { .. }
+        | MachineTask::Orbit { .. }
+        | MachineTask::Map(_)
+        | MachineTask::Diagram(_)
+        | MachineTask::Response(_) => false,
     }
 }
 

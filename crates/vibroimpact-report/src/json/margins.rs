@@ -7,46 +7,49 @@ use crate::{Asked, Units};
 use schemars::JsonSchema;
 use serde::Serialize;
 use vibroimpact::Oscillator;
-use vibroimpact_study::{EventRecord, MarginEnd, MotionBox, MotionMargins, ParameterMargin, Plan};
+use vibroimpact::machine::Machine;
+use vibroimpact_study::{
+    EventRecord, MachineMargins, MarginEnd, MotionBox, MotionMargins, NumberMargin, ParameterMargin, Plan,
+};
 
 /// The answer to `vibro margins`.
 #[derive(JsonSchema, Serialize)]
 pub(super) struct MarginsAnswer<'a> {
     motion: MotionObject<'a>,
-    parameters: Vec<ParameterObject>,
-    nearest: Option<NearestObject>,
+    parameters: Vec<ParameterObject<'a>>,
+    nearest: Option<NearestObject<'a>>,
     #[serde(rename = "box")]
     motion_box: Option<BoxObject>,
 }
 
 #[derive(JsonSchema, Serialize)]
-struct ParameterObject {
-    parameter: &'static str,
+struct ParameterObject<'a> {
+    parameter: &'a str,
     value: f64,
     scale: f64,
-    down: EndObject,
-    up: EndObject,
+    down: EndObject<'a>,
+    up: EndObject<'a>,
 }
 
 /// The nearest event in one direction. Without one, the last four are `null`.
 #[derive(JsonSchema, Serialize)]
-struct EndObject {
+struct EndObject<'a> {
     /// The end of the range in which events are looked for.
     limit: f64,
     at: Option<f64>,
     distance: Option<f64>,
     relative: Option<f64>,
-    event: Option<MarginEvent>,
+    event: Option<MarginEvent<'a>>,
 }
 
 #[derive(JsonSchema, Serialize)]
-struct MarginEvent {
+struct MarginEvent<'a> {
     kind: &'static str,
     #[serde(flatten)]
-    fields: EventFields<'static>,
+    fields: EventFields<'a>,
 }
 
-impl MarginEvent {
+impl MarginEvent<'static> {
     fn new(record: EventRecord) -> Self {
         Self { kind: record.kind, fields: EventFields::of_oscillator(record) }
     }
@@ -54,8 +57,8 @@ impl MarginEvent {
 
 /// The event with the smallest change in units of the scale of its parameter.
 #[derive(JsonSchema, Serialize)]
-struct NearestObject {
-    parameter: &'static str,
+struct NearestObject<'a> {
+    parameter: &'a str,
     direction: &'static str,
     /// The change in units of the scale.
     scaled: f64,
@@ -125,7 +128,40 @@ pub fn document<'a>(
     }
 }
 
-impl ParameterObject {
+impl<'a> MarginsAnswer<'a> {
+    pub(super) fn of_machine(machine: &'a Machine, found: &'a MachineMargins) -> Self {
+        let nearest =
+            found.nearest().map(|(of, direction, scaled)| NearestObject { parameter: &of.path, direction, scaled });
+        Self {
+            motion: MotionObject::of_machine(machine, &found.motion),
+            parameters: found.numbers.iter().map(|number| ParameterObject::of_machine(machine, number)).collect(),
+            nearest,
+            motion_box: None,
+        }
+    }
+}
+
+impl<'a> ParameterObject<'a> {
+    fn of_machine(machine: &'a Machine, number: &'a NumberMargin) -> Self {
+        let [down, up] = number.ends().map(|(_, limit, event)| {
+            let at = event.map(|event| event.point.value);
+            let told = event.and_then(|event| Some((event, event.point.event?)));
+            EndObject {
+                limit,
+                at,
+                distance: at.map(|at| at - number.value),
+                relative: at.filter(|_| number.value != 0.0).map(|at| (at - number.value) / number.value.abs()),
+                event: told.map(|(event, kind)| MarginEvent {
+                    kind: kind.name(),
+                    fields: EventFields::of_machine(kind, (event.point.cycle.label, event.after.clone()), machine),
+                }),
+            }
+        });
+        Self { parameter: &number.path, value: number.value, scale: number.scale(), down, up }
+    }
+}
+
+impl ParameterObject<'static> {
     fn new(margin: &ParameterMargin, units: &Units) -> Self {
         let scope = &margin.scope;
         let unit = units.of(scope.parameter);

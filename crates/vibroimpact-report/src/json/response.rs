@@ -1,19 +1,20 @@
-//! The response over a parameter: the motions of two sweeps, and the branches on which they lie.
+//! The response over a number: the motions of two sweeps, and the branches on which they lie.
 
 use super::{Document, Place};
+use crate::response::ResponseView;
 use crate::{Asked, Units};
 use schemars::JsonSchema;
 use serde::Serialize;
 use vibroimpact::Oscillator;
-use vibroimpact::quantities::{Quantities, Quantity};
-use vibroimpact_study::{Plan, ResponseBranch, ResponseCurves, ResponsePlan, SweptMotion};
+use vibroimpact_study::{Plan, ResponseCurves, ResponsePlan, ResponseRow};
 
 /// The answer to `vibro response`.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct ResponseAnswer {
-    vary: &'static str,
+pub(super) struct ResponseAnswer<'a> {
+    vary: &'a str,
     over: Place,
-    quantity: &'static str,
+    /// The quantity that `value` is.
+    quantity: String,
     sweeps: [SweepObject; 2],
     branches: Vec<BranchObject>,
 }
@@ -21,16 +22,7 @@ pub(super) struct ResponseAnswer {
 #[derive(JsonSchema, Serialize)]
 struct SweepObject {
     direction: &'static str,
-    points: Vec<SweptObject>,
-}
-
-/// A motion of a sweep.
-#[derive(JsonSchema, Serialize)]
-struct SweptObject {
-    parameter: f64,
-    label: String,
-    /// The quantity; none where it is not defined.
-    value: f64,
+    points: Vec<PointObject>,
 }
 
 #[derive(JsonSchema, Serialize)]
@@ -38,14 +30,15 @@ struct BranchObject {
     points: Vec<PointObject>,
 }
 
-/// A point of a branch.
+/// A motion of a sweep, or an orbit of a branch.
 #[derive(JsonSchema, Serialize)]
 struct PointObject {
     parameter: f64,
     label: String,
+    /// The quantity; null where it is not defined.
     value: f64,
     stable: bool,
-    stability: &'static str,
+    stability: Option<&'static str>,
     admissible: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     event: Option<&'static str>,
@@ -57,46 +50,35 @@ pub fn document<'a>(
     asked: &Asked,
     plan: &'a Plan,
     osc: &Oscillator,
-    (task, found): (&ResponsePlan, &ResponseCurves),
+    (task, found): (&'a ResponsePlan, &'a ResponseCurves),
 ) -> impl Serialize + use<'a> {
-    let units = &asked.units;
-    let sweep = |direction, motions: &[SweptMotion]| SweepObject {
-        direction,
-        points: motions.iter().map(|motion| swept(motion, task, units)).collect(),
-    };
-    let answer = ResponseAnswer {
-        vary: units.name_of(task.vary),
-        over: Place::over(&task.over, units.of(task.vary)),
-        quantity: task.quantity.name(),
-        sweeps: [sweep("up", &found.up), sweep("down", &found.down)],
-        branches: found.branches.iter().map(|branch| object(branch, task, units)).collect(),
-    };
-    Document::new(asked, osc, plan, answer)
+    let units: &Units = &asked.units;
+    let view = ResponseView::of_oscillator(found, task, units);
+    Document::over(asked, osc, &[task.vary], plan, ResponseAnswer::new(&view))
 }
 
-fn swept(motion: &SweptMotion, task: &ResponsePlan, units: &Units) -> SweptObject {
-    SweptObject {
-        parameter: motion.value * units.of(task.vary),
-        label: motion.label.clone(),
-        value: value(motion.quantities, task.quantity, &units.at(task.vary, motion.value)),
+impl<'a> ResponseAnswer<'a> {
+    pub(super) fn new(view: &ResponseView<'a>) -> Self {
+        let points = |rows: &[ResponseRow]| {
+            let point = |row: &ResponseRow| PointObject {
+                parameter: view.parameter(row),
+                label: row.label.clone(),
+                value: view.shown(row),
+                stable: row.stable(),
+                stability: row.stability.map(|stability| stability.name()),
+                admissible: row.admissible,
+                event: row.event,
+            };
+            rows.iter().map(point).collect()
+        };
+        let found = view.found;
+        Self {
+            vary: view.vary,
+            over: Place::over(view.over, view.unit()),
+            quantity: found.quantities[found.shown].clone(),
+            sweeps: [("up", &found.up), ("down", &found.down)]
+                .map(|(direction, rows)| SweepObject { direction, points: points(rows) }),
+            branches: found.branches.iter().map(|rows| BranchObject { points: points(rows) }).collect(),
+        }
     }
-}
-
-fn object(branch: &ResponseBranch, task: &ResponsePlan, units: &Units) -> BranchObject {
-    let point = |point: &vibroimpact_study::ResponsePoint| PointObject {
-        parameter: point.solution.value * units.of(task.vary),
-        label: point.solution.cycle.label.to_string(),
-        value: value(point.quantities, task.quantity, &units.at(task.vary, point.solution.value)),
-        stable: point.solution.stable(),
-        stability: point.solution.stability().name(),
-        admissible: point.solution.physical,
-        event: point.solution.event.map(|event| event.name()),
-    };
-    BranchObject { points: branch.points.iter().map(point).collect() }
-}
-
-/// A quantity in these units; not-a-number where it is not defined.
-#[must_use]
-pub fn value(of: Option<Quantities>, quantity: Quantity, units: &Units) -> f64 {
-    of.map_or(f64::NAN, |of| units.value_of(&of, quantity))
 }

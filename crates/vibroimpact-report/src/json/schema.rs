@@ -26,7 +26,7 @@ const SCHEMAS: [(&str, fn() -> Value); 13] = [
     ("branch", of::<BranchAnswer<'static>>),
     ("curve", of::<CurveAnswer<'static>>),
     ("region", of::<RegionAnswer>),
-    ("response", of::<ResponseAnswer>),
+    ("response", of::<ResponseAnswer<'static>>),
     ("margins", of::<MarginsAnswer<'static>>),
     ("lyapunov", of::<LyapunovAnswer<'static>>),
     ("diagram", of::<DiagramAnswer<'static>>),

@@ -3,16 +3,36 @@
 use super::Table;
 use crate::Units;
 use crate::number::Number;
-use vibroimpact_study::{EventRecord, MarginEnd, MotionMargins, ParameterMargin};
+use vibroimpact_study::{EventRecord, MachineMargins, MarginEnd, MotionMargins, ParameterMargin};
+
+const HEADER: &str = "parameter,value,direction,limit,at,distance,relative,event,before,after";
+
+/// The table of `vibro margins --machine`.
+#[must_use]
+pub fn of_machine(found: &MachineMargins) -> Table<'_> {
+    let rows = found.numbers.iter().flat_map(|number| {
+        number.ends().map(|(way, limit, event)| {
+            let begin = format!("{},{},{way},{}", number.path, Number(number.value), Number(limit));
+            let Some((event, kind)) = event.and_then(|event| Some((event, event.point.event?))) else {
+                return format!("{begin},,,,,,");
+            };
+            let (at, distance) = (event.point.value, event.point.value - number.value);
+            let relative =
+                if number.value == 0.0 { String::new() } else { Number(distance / number.value.abs()).to_string() };
+            let (before, after) = (event.point.cycle.label, event.after.as_deref().unwrap_or_default());
+            format!("{begin},{},{},{relative},{},{before},{after}", Number(at), Number(distance), kind.name())
+        })
+    });
+    Table::new(HEADER.to_owned(), rows)
+}
 
 /// The table of `vibro margins`.
 #[must_use]
 pub fn table(found: &MotionMargins, units: Units) -> Table<'_> {
-    let header = "parameter,value,direction,limit,at,distance,relative,event,before,after";
     let rows = found.parameters.iter().flat_map(move |margin| {
         [("down", &margin.down), ("up", &margin.up)].map(|(way, end)| row(margin, way, end, &units))
     });
-    Table::new(header.to_owned(), rows)
+    Table::new(HEADER.to_owned(), rows)
 }
 
 /// One row. Without an event up to the limit of the range, the last six cells are empty.

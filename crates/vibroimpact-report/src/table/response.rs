@@ -1,41 +1,36 @@
-//! The response over a parameter: one row for each motion of a sweep and each point of a branch.
+//! The response over a number: one row for each motion of a sweep and each point of a branch.
 
 use super::Table;
-use super::quantities::{cells, columns};
-use crate::Units;
 use crate::number::Number;
-use vibroimpact::quantities::Quantity;
-use vibroimpact_study::{ResponseCurves, SweptMotion};
+use crate::response::ResponseView;
+use vibroimpact_study::ResponseRow;
 
 /// The table of `vibro response`, with all quantities. The first column is `up`, `down` or the number of a branch.
 #[must_use]
-pub fn table<'a>(found: &'a ResponseCurves, units: &'a Units) -> Table<'a> {
-    let (vary, unit) = (found.plan.vary, units.of(found.plan.vary));
-    let swept = move |name: &'static str, motions: &'a [SweptMotion]| {
-        motions.iter().map(move |motion| {
-            let own = cells(&Quantity::ALL, motion.quantities, &units.at(vary, motion.value));
-            format!("{name},{},{},true,,{own}", Number(motion.value * unit), motion.label)
-        })
-    };
-    let branches = found.branches.iter().enumerate().flat_map(move |(k, branch)| {
-        branch.points.iter().map(move |point| {
-            let solution = &point.solution;
-            let own = cells(&Quantity::ALL, point.quantities, &units.at(vary, solution.value));
+pub fn table(view: ResponseView<'_>) -> Table<'_> {
+    let found = view.found;
+    let sweeps = [("up", &found.up), ("down", &found.down)].map(|(name, rows)| (name.to_owned(), rows));
+    let branches = found.branches.iter().enumerate().map(|(k, rows)| ((k + 1).to_string(), rows));
+    let header = format!("curve,{},label,admissible,stable,stability,event,{}", view.column, view.columns.join(","));
+    let curves: Vec<(String, &Vec<ResponseRow>)> = sweeps.into_iter().chain(branches).collect();
+    let rows = curves.into_iter().flat_map(move |(name, rows)| {
+        let view = view.clone();
+        rows.iter().map(move |row| {
+            let cell = |k: usize| {
+                let value = view.value(row, k);
+                if value.is_finite() { format!(",{}", Number(value)) } else { ",".to_owned() }
+            };
+            let cells: String = (0..row.quantities.len()).map(cell).collect();
             format!(
-                "{},{},{},{},{},{}{own}",
-                k + 1,
-                Number(solution.value * unit),
-                solution.cycle.label,
-                solution.physical,
-                solution.stable(),
-                solution.stability()
+                "{name},{},{},{},{},{},{}{cells}",
+                Number(view.parameter(row)),
+                row.label,
+                row.admissible,
+                row.stable(),
+                row.stability.map_or("", |stability| stability.name()),
+                row.event.unwrap_or_default()
             )
         })
     });
-    let header = format!(
-        "curve,{},label,admissible,stable,stability{}",
-        units.column_of(found.plan.vary),
-        columns(&Quantity::ALL, units)
-    );
-    Table::new(header, swept("up", &found.up).chain(swept("down", &found.down)).chain(branches))
+    Table::new(header, rows)
 }

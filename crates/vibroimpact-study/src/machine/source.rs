@@ -197,6 +197,24 @@ impl MachineSource {
         Ok(all)
     }
 
+    /// The numbers by which a machine of this file can be changed one at a time: the parameters, and the numbers that are written as
+    /// such and are not 0, without directions and shapes of modes.
+    ///
+    /// # Errors
+    /// As [`Self::paths`].
+    pub fn free_numbers(&self) -> Result<Named<f64>, MachineTextError> {
+        let mut copy = self.machine.clone();
+        let written: BTreeSet<String> = (numbers(&mut copy).into_iter())
+            .filter(|(path, number)| {
+                matches!(number, NumberText::Value(_)) && !path.contains(".direction.") && !path.contains(".shape.")
+            })
+            .map(|(path, _)| path)
+            .collect();
+        let parameters = self.parameters.names();
+        let free = |path: &str| written.contains(path) || parameters.iter().any(|name| *name == path);
+        Ok(Named(self.numbers()?.0.into_iter().filter(|(path, value)| *value != 0.0 && free(path)).collect()))
+    }
+
     /// The expansion as a source: it has matrices and directions only, and no parameters.
     ///
     /// # Errors

@@ -181,6 +181,35 @@ impl MachineLine {
         Err(Stopped { done: found.len() as u64, total: u64::from(self.options.points) }.into())
     }
 
+    /// The first event of the branch of a cycle at a value of the number in one direction, and the label beyond it unless the branch
+    /// ends; `None` if there is none in the range.
+    ///
+    /// # Errors
+    /// As [`trace`](Self::trace).
+    pub fn first_event(
+        &self,
+        (value, cycle): (f64, &MachineCycle),
+        direction: Direction,
+        control: &Control<'_>,
+    ) -> Result<Option<(MachinePoint, Option<String>)>, RunError> {
+        let mut branch = MachineBranch::new((&self.family, value), cycle, &self.range, direction, self.options)
+            .map_err(|error| PlanError::MachineBranch(error.to_string()))?;
+        let mut done = 0;
+        while !control.stopping() {
+            let Some(point) = branch.next() else { return Ok(None) };
+            match point.event {
+                Some(MachineBranchEvent::EndOfRange) => return Ok(None),
+                Some(event) if event.ends() => return Ok(Some((point, None))),
+                Some(_) => {
+                    let after = branch.next().map(|next| next.cycle.label.to_string());
+                    return Ok(Some((point, after)));
+                }
+                None => done += 1,
+            }
+        }
+        Err(Stopped { done, total: u64::from(self.options.points) }.into())
+    }
+
     /// At most so many of the branches that begin at flips and branch points of a branch, and of these branches in turn. Events
     /// in `seen` are left out, and those that are passed are added to it.
     ///

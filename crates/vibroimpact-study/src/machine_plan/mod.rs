@@ -11,6 +11,8 @@
 //! | orbits, and the one at which a branch begins | `orbits` |
 //! | a line through one number or two | [`MachineCut`], [`MachineStretch`], [`MachineTarget`], `cut` |
 //! | branches of orbits | [`MachineBranchPlan`], [`MachineBranched`], `branch` |
+//! | how far a cycle is from its nearest events | [`MachineMarginsPlan`], [`MachineMargins`], `margins` |
+//! | a quantity of all motions over a number | [`MachineResponsePlan`], `response` |
 //! | curves of events over two numbers | [`MachineCurvePlan`], [`MachineEventCurve`], `curve` |
 //! | an axis of a grid | [`MachineAxis`] |
 //! | basins and maps: plans and results | [`MachineBasinPlan`], [`MachineBasin`], [`MachineMapPlan`], [`MachineMap`], `grid` |
@@ -25,8 +27,10 @@ mod cut;
 mod diagram;
 mod grid;
 mod lyapunov;
+mod margins;
 mod orbits;
 mod plan;
+mod response;
 mod run;
 mod section;
 mod simulate;
@@ -42,8 +46,10 @@ pub use diagram::{MachineDiagram, MachineDiagramPlan, MachineDiagramPoint, Machi
 pub use grid::{MachineBasin, MachineBasinPlan, MachineMap, MachineMapPlan, MachineShare};
 pub(crate) use grid::{StartAxis, check_memory, values_of};
 pub use lyapunov::MachineLyapunovPlan;
+pub use margins::{MachineMargins, MachineMarginsPlan, NumberEvent, NumberMargin};
 pub use orbits::label as machine_label;
 pub use plan::{MachinePlan, MachineTask};
+pub use response::MachineResponsePlan;
 pub use run::{MachineResults, run_machine};
 pub use section::MachineSection;
 pub use simulate::{MachineSimulated, events_with_states};

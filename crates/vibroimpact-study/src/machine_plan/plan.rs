@@ -6,6 +6,8 @@ use super::curve::MachineCurvePlan;
 use super::diagram::MachineDiagramPlan;
 use super::grid::{MachineBasinPlan, MachineMapPlan};
 use super::lyapunov::MachineLyapunovPlan;
+use super::margins::MachineMarginsPlan;
+use super::response::MachineResponsePlan;
 use super::simulate::{check, most_events};
 use super::{orbits, verdicts};
 use crate::machine::{MachineSource, Named, NumberText, StartText, VectorText};
@@ -94,6 +96,10 @@ pub enum MachineTask {
     Branch(MachineBranchPlan),
     /// A curve of an event of an orbit over two numbers.
     Curve(MachineCurvePlan),
+    /// How far a cycle is from the nearest event in each number.
+    Margins(MachineMarginsPlan),
+    /// A quantity of all motions over one number.
+    Response(MachineResponsePlan),
     /// The motion to which each start of a grid leads.
     Basin(MachineBasinPlan),
     /// The motions at each point of a grid of numbers of the machine.
@@ -144,6 +150,7 @@ impl MachinePlan {
         match &self.task {
             MachineTask::Basin(basin) => format!("motions that starts lead to over {}: {name}", over(&basin.axes)),
             MachineTask::Diagram(diagram) => format!("orbit diagram over {}: {name}", diagram.vary),
+            MachineTask::Response(response) => format!("response over {}: {name}", response.vary),
             MachineTask::Map(map) => format!("motions over {}: {name}", over(&map.axes)),
             MachineTask::Lyapunov(MachineLyapunovPlan { axes, .. }) if !axes.is_empty() => {
                 format!("Lyapunov exponents over {}: {name}", over(axes))
@@ -159,6 +166,7 @@ impl MachinePlan {
             MachineTask::Attractors { starts, .. } => Some((*starts, "starts")),
             MachineTask::Basin(basin) => Some((MachineAxis::points(&basin.axes), "starts")),
             MachineTask::Map(map) => Some((MachineAxis::points(&map.axes), "points")),
+            MachineTask::Response(response) => Some((response.motions(), "motions")),
             MachineTask::Lyapunov(lyapunov) => match lyapunov.axes.as_slice() {
                 [] => None,
                 axes => Some((MachineAxis::points(axes), "points")),
@@ -245,7 +253,7 @@ impl MachinePlan {
         check_tile(self.tile)?;
         check_shard(self.shard)?;
         let (machine, _) = match &self.task {
-            MachineTask::Map(_) | MachineTask::Diagram(_) => self.described()?,
+            MachineTask::Map(_) | MachineTask::Diagram(_) | MachineTask::Response(_) => self.described()?,
             // each point has its own start
             MachineTask::Lyapunov(MachineLyapunovPlan { axes, .. }) if !axes.is_empty() => self.described()?,
             _ => self.problem()?,
@@ -258,6 +266,8 @@ impl MachinePlan {
             MachineTask::Orbit { label } => orbits::label(&machine, label).map(|_| ()),
             MachineTask::Branch(branch) => branch.check(&self.machine, &machine),
             MachineTask::Curve(curve) => curve.check(&self.machine, &machine),
+            MachineTask::Margins(margins) => margins.check(&self.machine, &machine),
+            MachineTask::Response(response) => response.check(&self.machine, &machine),
             MachineTask::Basin(basin) => basin.check(&machine),
             MachineTask::Map(map) => map.check(&self.machine),
             MachineTask::Diagram(diagram) => diagram.check(&self.machine),

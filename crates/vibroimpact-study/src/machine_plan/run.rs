@@ -4,11 +4,12 @@ use super::branch::{self, MachineBranched};
 use super::curve::{self, MachineEventCurve};
 use super::diagram::MachineDiagram;
 use super::grid::{MachineBasin, MachineMap};
+use super::margins::MachineMargins;
 use super::plan::{MachinePlan, MachineTask};
 use super::section::{self, MachineSection};
 use super::simulate::{MachineSimulated, simulate};
-use super::{orbits, verdicts};
-use crate::{Control, RunError, in_memory};
+use super::{margins, orbits, response, verdicts};
+use crate::{Control, ResponseCurves, RunError, in_memory};
 use vibroimpact::chaos::MachineExponents;
 use vibroimpact::orbit::MachineCycle;
 use vibroimpact::verdict::{Census, MachineSettled, MachineVerdict};
@@ -30,6 +31,10 @@ pub enum MachineResults {
     Branch(MachineBranched),
     /// The curve.
     Curve(MachineEventCurve),
+    /// The margins.
+    Margins(MachineMargins),
+    /// The response.
+    Response(ResponseCurves),
     /// The basin.
     Basin(MachineBasin),
     /// The map.
@@ -70,6 +75,12 @@ pub fn run_machine(plan: &MachinePlan, control: &Control<'_>) -> Result<MachineR
         }
         MachineTask::Curve(asked) => {
             MachineResults::Curve(curve::curve(&plan.machine, (&machine, &start), asked, control)?)
+        }
+        MachineTask::Margins(asked) => {
+            MachineResults::Margins(margins::margins(&plan.machine, (&machine, &start), asked, control)?)
+        }
+        MachineTask::Response(asked) => {
+            MachineResults::Response(response::response(&plan.machine, (&machine, &start), asked, control)?)
         }
         MachineTask::Basin(basin) => {
             MachineResults::Basin(in_memory::machine_basin((&machine, &start), basin, control)?)

@@ -101,9 +101,7 @@ impl MarginsPlan {
             Some(label) => label.parse::<Label>().map(|_| ())?,
             None => self.start.start(&system.oscillator()?).map(|_| ())?,
         }
-        if !(self.within > 1.0 && self.within <= MOST_WITHIN) {
-            return Err(PlanError::Within { given: self.within, most: MOST_WITHIN });
-        }
+        check_within(self.within)?;
         if self.lines > MOST_LINES {
             return Err(PlanError::Lines { given: self.lines, most: MOST_LINES });
         }
@@ -128,6 +126,11 @@ impl MarginsPlan {
         let varied = if self.vary.is_empty() { all().collect() } else { self.vary.clone() };
         varied.into_iter().map(|one| Scope::new(system, one, self.within)).collect()
     }
+}
+
+/// Checks the ratio of the ends of ranges to values.
+pub(crate) fn check_within(given: f64) -> Result<(), PlanError> {
+    if given > 1.0 && given <= MOST_WITHIN { Ok(()) } else { Err(PlanError::Within { given, most: MOST_WITHIN }) }
 }
 
 #[cfg(test)]

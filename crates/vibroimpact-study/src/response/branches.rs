@@ -1,32 +1,16 @@
 //! The branches on which the cycles of the sweeps lie.
 
-use super::{ResponsePlan, SweptMotion};
+use super::{ResponsePlan, ResponseRow, SweptMotion, all};
 use crate::{Control, Cut, PlanError, RunError, SystemPlan};
 use core::ops::RangeInclusive;
 use vibroimpact::continuation::{Branch, BranchEvent, BranchOptions, Direction, SolutionPoint};
 use vibroimpact::orbit::{Cycle, refine, without_impacts};
-use vibroimpact::quantities::{Quantities, of_cycle};
+use vibroimpact::quantities::of_cycle;
 use vibroimpact::{Oscillator, ParameterPath};
 
-/// A point of a branch with its quantities.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ResponsePoint {
-    /// The point.
-    pub solution: SolutionPoint,
-    /// The quantities of its cycle.
-    pub quantities: Option<Quantities>,
-}
-
-/// A branch through a cycle of the sweeps, from one end to the other.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ResponseBranch {
-    /// Its points.
-    pub points: Vec<ResponsePoint>,
-}
-
 /// Maximum number of branches, and of points in each direction along one.
-const MOST_BRANCHES: usize = 40;
-const MOST_POINTS: u32 = 3_000;
+pub(crate) const MOST_BRANCHES: usize = 40;
+pub(crate) const MOST_POINTS: u32 = 3_000;
 /// Two cycles closer than this are the same one.
 const SAME: f64 = 1e-6;
 
@@ -37,7 +21,7 @@ pub(super) fn branches<'a>(
     plan: &ResponsePlan,
     motions: impl Iterator<Item = &'a SweptMotion>,
     control: &Control<'_>,
-) -> Result<Vec<ResponseBranch>, RunError> {
+) -> Result<Vec<Vec<ResponseRow>>, RunError> {
     let cut = plan.cut();
     let ground = Ground { system, cut, range: cut.ends.0..=cut.ends.1, control };
     let mut found: Vec<Vec<SolutionPoint>> = Vec::new();
@@ -45,25 +29,27 @@ pub(super) fn branches<'a>(
         if control.stopping() || found.len() >= MOST_BRANCHES {
             break;
         }
-        let osc = ground.oscillator(motion.value)?;
-        let still = || if motion.label == "0" { without_impacts(&osc) } else { None };
+        let osc = ground.oscillator(motion.row.value)?;
+        let still = || if motion.row.label == "0" { without_impacts(&osc) } else { None };
         let Some(cycle) = motion.cycle.clone().or_else(still) else { continue };
-        if found.iter().any(|points| ground.passes(points, &osc, &cycle, motion.value)) {
+        if found.iter().any(|points| ground.passes(points, &osc, &cycle, motion.row.value)) {
             continue;
         }
-        found.push(ground.both_ways(&osc, &cycle, cut.varying(system, motion.value)?));
+        found.push(ground.both_ways(&osc, &cycle, cut.varying(system, motion.row.value)?));
     }
-    let quantities = |solution: SolutionPoint| {
-        if control.stopping() {
-            return Ok(ResponsePoint { quantities: None, solution });
-        }
-        let osc = ground.oscillator(solution.value)?;
-        Ok(ResponsePoint { quantities: of_cycle(&osc, &solution.cycle), solution })
+    let row = |point: &SolutionPoint| {
+        let quantities =
+            if control.stopping() { None } else { of_cycle(&ground.oscillator(point.value)?, &point.cycle) };
+        Ok(ResponseRow {
+            value: point.value,
+            label: point.cycle.label.to_string(),
+            admissible: point.physical,
+            stability: Some(point.stability()),
+            event: point.event.map(|event| event.name()),
+            quantities: all(quantities),
+        })
     };
-    let branch = |points: Vec<SolutionPoint>| {
-        Ok(ResponseBranch { points: points.into_iter().map(quantities).collect::<Result<_, RunError>>()? })
-    };
-    found.into_iter().map(branch).collect()
+    found.into_iter().map(|points| points.iter().map(row).collect()).collect()
 }
 
 /// The data common to all branches.

@@ -3,26 +3,17 @@
 
 mod branches;
 mod plan;
+mod row;
 mod sweep;
 
-pub use branches::{ResponseBranch, ResponsePoint};
+pub(crate) use branches::{MOST_BRANCHES, MOST_POINTS};
 pub use plan::ResponsePlan;
-pub use sweep::SweptMotion;
+pub(crate) use plan::check_values;
+pub use row::{ResponseCurves, ResponseRow};
 
-use crate::{Control, RunError, Stopped, SystemPlan};
-
-/// The response over a parameter.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ResponseCurves {
-    /// The plan.
-    pub plan: ResponsePlan,
-    /// The motions of the sweep with rising values, in this order.
-    pub up: Vec<SweptMotion>,
-    /// The motions of the sweep with falling values, in this order.
-    pub down: Vec<SweptMotion>,
-    /// The branches.
-    pub branches: Vec<ResponseBranch>,
-}
+use crate::{Control, Quantity, RunError, Stopped, SystemPlan};
+use sweep::SweptMotion;
+use vibroimpact::quantities::Quantities;
 
 /// Computes both sweeps and the branches.
 ///
@@ -48,13 +39,25 @@ pub(crate) fn response(
     if control.stopping() {
         return Err(stopped(done).into());
     }
-    Ok(ResponseCurves { plan: plan.clone(), up, down, branches })
+    let rows = |motions: Vec<SweptMotion>| motions.into_iter().map(|motion| motion.row).collect();
+    Ok(ResponseCurves {
+        quantities: Quantity::ALL.map(|quantity| quantity.name().to_owned()).to_vec(),
+        shown: Quantity::ALL.iter().position(|quantity| *quantity == plan.quantity).unwrap_or(0),
+        up: rows(up),
+        down: rows(down),
+        branches,
+    })
+}
+
+/// The values of all quantities; not-a-number where one is not defined.
+fn all(of: Option<Quantities>) -> Vec<f64> {
+    Quantity::ALL.into_iter().map(|quantity| of.map_or(f64::NAN, |of| of.get(quantity))).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Parameter, Plan, Quantity, Span, Task, Values};
+    use crate::{Parameter, Plan, Span, Task, Values};
 
     /// A damped oscillator with a wide gap has the classical response of a linear oscillator.
     #[test]
@@ -65,14 +68,13 @@ mod tests {
         let found = response(&system, &plan, &Control::default()).unwrap();
         let exact = |beta: f64| 1.0 / (1.0 - beta * beta).hypot(0.1 * beta);
         for motion in found.up.iter().chain(&found.down) {
-            let value = motion.quantities.unwrap().get(Quantity::DisplacementAmplitude);
+            let value = motion.quantities[found.shown];
             assert!((value - exact(motion.value)).abs() < 1e-12 && motion.label == "0", "{motion:?}");
         }
         let [branch] = found.branches.as_slice() else { panic!("{} branches", found.branches.len()) };
-        assert!(branch.points.len() > 5);
-        for point in &branch.points {
-            let value = point.quantities.unwrap().get(Quantity::DisplacementAmplitude);
-            assert!((value - exact(point.solution.value)).abs() < 1e-12);
+        assert!(branch.len() > 5);
+        for point in branch {
+            assert!((point.quantities[found.shown] - exact(point.value)).abs() < 1e-12);
         }
     }
 
@@ -82,7 +84,7 @@ mod tests {
         let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.5, restitution: 0.5, ..SystemPlan::default() };
         let listed = ResponsePlan::new(Parameter::Gap, Values::Listed(vec![0.5, 1.5, 0.75, 1.0]));
         let found = response(&system, &listed, &Control::default()).unwrap();
-        let values = |list: &[SweptMotion]| list.iter().map(|motion| motion.value).collect::<Vec<_>>();
+        let values = |list: &[ResponseRow]| list.iter().map(|motion| motion.value).collect::<Vec<_>>();
         assert_eq!(values(&found.up), [0.5, 0.75, 1.0, 1.5]);
         assert_eq!(values(&found.down), [1.5, 1.0, 0.75, 0.5]);
         let even = ResponsePlan::new(Parameter::Gap, "0.5:1.5:5".parse::<Span>().unwrap());
@@ -115,15 +117,16 @@ mod tests {
         let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.5, restitution: 0.5, ..SystemPlan::default() };
         let plan = ResponsePlan::new(Parameter::Gap, "0.5:1.5:21".parse::<Span>().unwrap());
         let found = response(&system, &plan, &Control::default()).unwrap();
-        let at = |list: &[SweptMotion]| list.iter().find(|m| (m.value - 0.75).abs() < 1e-12).unwrap().label.clone();
+        let at = |list: &[ResponseRow]| list.iter().find(|m| (m.value - 0.75).abs() < 1e-12).unwrap().label.clone();
         assert_eq!((at(&found.up), at(&found.down)), ("2/1".to_owned(), "1/1".to_owned()));
-        for motion in found.up.iter().chain(&found.down).filter(|motion| motion.cycle.is_some()) {
-            let value = motion.quantities.unwrap().get(Quantity::DisplacementAmplitude);
+        for motion in found.up.iter().chain(&found.down).filter(|motion| motion.label.contains('/')) {
+            let value = motion.quantities[found.shown];
             // the branch passes the point within its steps
-            let near = found.branches.iter().flat_map(|branch| branch.points.windows(2)).any(|pair| {
-                let of = |k: usize| (pair[k].solution.value, pair[k].quantities);
-                let ((a, Some(qa)), (b, Some(qb))) = (of(0), of(1)) else { return false };
-                let (qa, qb) = (qa.get(Quantity::DisplacementAmplitude), qb.get(Quantity::DisplacementAmplitude));
+            let near = found.branches.iter().flat_map(|branch| branch.windows(2)).any(|pair| {
+                let ((a, qa), (b, qb)) = (
+                    (pair[0].value, pair[0].quantities[found.shown]),
+                    (pair[1].value, pair[1].quantities[found.shown]),
+                );
                 (a.min(b) - 1e-9..=a.max(b) + 1e-9).contains(&motion.value)
                     && value > qa.min(qb) - 1e-3
                     && value < qa.max(qb) + 1e-3

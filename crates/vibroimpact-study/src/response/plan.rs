@@ -55,16 +55,22 @@ impl ResponsePlan {
     /// # Errors
     /// [`PlanError`] names the first invalid value.
     pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
-        self.over.check()?;
-        let cut = self.cut();
-        if cut.ends.0 == cut.ends.1 {
-            return Err(PlanError::Nowhere { name: self.vary.name(), value: cut.ends.0 });
-        }
-        let count = u32::try_from(self.over.count()).unwrap_or(u32::MAX);
-        if count > MOST_VALUES {
-            return Err(PlanError::Values { given: count, most: MOST_VALUES });
-        }
+        check_values(&self.over, self.vary.name())?;
         check_impacts(self.impacts)?;
-        cut.check(system)
+        self.cut().check(system)
     }
+}
+
+/// Checks that the values of a response differ, and their number.
+pub(crate) fn check_values(over: &Values, name: &'static str) -> Result<(), PlanError> {
+    over.check()?;
+    let (from, to) = over.extent();
+    if from == to {
+        return Err(PlanError::Nowhere { name, value: from });
+    }
+    let count = u32::try_from(over.count()).unwrap_or(u32::MAX);
+    if count > MOST_VALUES {
+        return Err(PlanError::Values { given: count, most: MOST_VALUES });
+    }
+    Ok(())
 }

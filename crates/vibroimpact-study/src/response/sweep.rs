@@ -1,26 +1,20 @@
 //! A sweep: at each value the motion is settled from the state that the motion at the value before has.
 
-use super::ResponsePlan;
+use super::{ResponsePlan, ResponseRow, all};
 use crate::diagram::{carried_state, state_on};
 use crate::map::options;
 use crate::{Control, RunError, SystemPlan};
 use vibroimpact::Start;
 use vibroimpact::math::sort_by;
 use vibroimpact::orbit::Cycle;
-use vibroimpact::quantities::{Quantities, of_verdict};
+use vibroimpact::quantities::of_verdict;
 use vibroimpact::verdict::{Verdict, settle_while};
 
 /// The motion of a sweep at one value.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SweptMotion {
-    /// The value of the parameter.
-    pub value: f64,
-    /// The label of the motion.
-    pub label: String,
+pub(super) struct SweptMotion {
+    pub(super) row: ResponseRow,
     /// Its cycle, if it is periodic with impacts.
-    pub cycle: Option<Cycle>,
-    /// Its quantities; `None` for an undecided motion.
-    pub quantities: Option<Quantities>,
+    pub(super) cycle: Option<Cycle>,
 }
 
 /// The motions of one sweep; fewer than there are values when stopped. `before` motions were done before.
@@ -48,10 +42,16 @@ pub(super) fn sweep(
         };
         let Some(settled) = settle_while(&osc, start, &options(plan.impacts), &|| !control.stopping()) else { break };
         last = Some((there, state_on(&osc, &settled.verdict, start)));
-        motions.push(SweptMotion {
+        let row = ResponseRow {
             value,
             label: settled.verdict.label().into_owned(),
-            quantities: of_verdict(&osc, &settled.verdict),
+            admissible: true,
+            stability: settled.verdict.stability(&osc),
+            event: None,
+            quantities: all(of_verdict(&osc, &settled.verdict)),
+        };
+        motions.push(SweptMotion {
+            row,
             cycle: if let Verdict::Periodic(cycle) = settled.verdict { Some(cycle) } else { None },
         });
         (control.progress)((before + motions.len()) as u64);

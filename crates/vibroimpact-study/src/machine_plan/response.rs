@@ -1,0 +1,241 @@
+//! The response of a machine over one of its numbers: a quantity of the motions that sweeps up and down find, and of the branches on
+//! which their cycles lie.
+
+use super::branch::MachineLine;
+use super::cut::MachineCut;
+use super::grid::check_fields;
+use super::verdicts::settle;
+use crate::machine::{MachineSource, VariedMachine};
+use crate::map::check_impacts;
+use crate::response::{MOST_BRANCHES, MOST_POINTS, check_values};
+use crate::{Control, PlanError, ResponseCurves, ResponseRow, RunError, Values};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use vibroimpact::continuation::{Direction, MachineBranchEvent, MachinePoint};
+use vibroimpact::events::MachineStart;
+use vibroimpact::machine::Machine;
+use vibroimpact::math::sort_by;
+use vibroimpact::orbit::MachineCycle;
+use vibroimpact::quantities::{
+    MachineQuantities, machine_cycle_quantities, machine_quantities, machine_quantity_paths,
+};
+use vibroimpact::verdict::MachineVerdict;
+
+/// A quantity of all motions over the values of one number of a machine.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MachineResponsePlan {
+    /// The path of the number that varies.
+    pub vary: String,
+    /// Its values, in any order.
+    pub over: Values,
+    /// The path of the quantity that is reported; the displacement amplitude of the first coordinate when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub quantity: Option<String>,
+    /// Events to follow each motion of a sweep for, at most: 1 to 1000000. 20000 when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub impacts: Option<u32>,
+}
+
+impl MachineResponsePlan {
+    /// The path of the quantity.
+    #[must_use]
+    pub fn quantity(&self, machine: &Machine) -> String {
+        let first = machine.parts().coordinates.first().map_or("", String::as_str);
+        self.quantity.clone().unwrap_or_else(|| format!("q.{first}.displacement_amplitude"))
+    }
+
+    /// The number of motions of both sweeps.
+    #[must_use]
+    pub fn motions(&self) -> u64 {
+        2 * self.over.count() as u64
+    }
+
+    /// Checks everything that can be checked without running the plan.
+    ///
+    /// # Errors
+    /// [`PlanError`] names the first invalid value.
+    pub fn check(&self, source: &MachineSource, machine: &Machine) -> Result<(), PlanError> {
+        check_values(&self.over, "the number")?;
+        check_impacts(self.impacts)?;
+        check_fields(machine, &[self.quantity(machine)])?;
+        let (from, to) = self.over.extent();
+        [from, to]
+            .into_iter()
+            .try_for_each(|value| Ok(source.with_all([(self.vary.as_str(), value)])?.machine().map(drop)?))
+    }
+}
+
+/// The machines over the values, and all quantities of their motions.
+struct Ground<'a> {
+    varied: VariedMachine,
+    plan: &'a MachineResponsePlan,
+    names: &'a [String],
+}
+
+impl Ground<'_> {
+    fn machine(&self, value: f64) -> Option<Machine> {
+        self.varied.at(&[value])
+    }
+
+    fn all(&self, found: Option<MachineQuantities>) -> Vec<f64> {
+        found.map_or_else(|| vec![f64::NAN; self.names.len()], |found| found.iter().map(|(.., of)| of.value).collect())
+    }
+
+    /// The motions of one sweep with their cycles; `before` motions were done before. Each begins with the state of the motion at
+    /// the value before.
+    fn sweep(
+        &self,
+        start: &MachineStart,
+        rising: bool,
+        before: usize,
+        control: &Control<'_>,
+    ) -> Result<Vec<(ResponseRow, Option<MachineCycle>)>, RunError> {
+        let mut values: Vec<f64> = self.plan.over.all();
+        sort_by(&mut values, f64::total_cmp);
+        if !rising {
+            values.reverse();
+        }
+        let mut motions = Vec::with_capacity(values.len());
+        let mut state = start.clone();
+        for value in values {
+            let Some(machine) = self.machine(value) else { continue };
+            state = state.within_stops(&machine);
+            let verdict = settle(&machine, &state, self.plan.impacts, control)?.verdict;
+            state = verdict.reached(&machine).unwrap_or(state);
+            let row = ResponseRow {
+                value,
+                label: verdict.label(),
+                admissible: true,
+                stability: verdict.stability(&machine),
+                event: None,
+                quantities: self.all(machine_quantities(&machine, &verdict)),
+            };
+            motions.push((row, if let MachineVerdict::Periodic(cycle) = verdict { Some(cycle) } else { None }));
+            (control.progress)((before + motions.len()) as u64);
+        }
+        Ok(motions)
+    }
+
+    fn row(&self, point: &MachinePoint) -> ResponseRow {
+        let cycle = &point.cycle;
+        let found = self.machine(point.value).and_then(|machine| machine_cycle_quantities(&machine, cycle));
+        ResponseRow {
+            value: point.value,
+            label: cycle.label.to_string(),
+            // a branch of a machine ends where its orbit ceases to be admissible
+            admissible: true,
+            stability: Some(cycle.stability()),
+            event: point.event.map(|event| event.name()),
+            quantities: self.all(found),
+        }
+    }
+}
+
+/// Computes both sweeps and the branches.
+pub(super) fn response(
+    source: &MachineSource,
+    (machine, start): (&Machine, &MachineStart),
+    plan: &MachineResponsePlan,
+    control: &Control<'_>,
+) -> Result<ResponseCurves, RunError> {
+    let names = machine_quantity_paths(machine);
+    let (from, to) = plan.over.extent();
+    let samples = [from, 0.5 * (from + to), to].map(|value| vec![value]);
+    let varied = VariedMachine::new(source, [plan.vary.as_str()].into_iter(), &samples);
+    let ground = Ground { varied, plan, names: &names };
+    let up = ground.sweep(start, true, 0, control)?;
+    let down = ground.sweep(start, false, up.len(), control)?;
+    let line =
+        MachineLine::new(source, &MachineCut { vary: plan.vary.clone(), ends: (from, to), also: None }, MOST_POINTS);
+    let mut branches: Vec<Vec<MachinePoint>> = Vec::new();
+    for (row, cycle) in up.iter().chain(&down) {
+        let Some(cycle) = cycle.as_ref().filter(|_| branches.len() < MOST_BRANCHES) else { continue };
+        if !branches.iter().any(|points| passes(points, row.value, cycle)) {
+            let points = both_ways(&line, (row.value, cycle), control)?;
+            // a motion without events has no equations to be followed by
+            branches.extend((!points.is_empty()).then_some(points));
+        }
+    }
+    let shown = plan.quantity(machine).replace('-', "_");
+    Ok(ResponseCurves {
+        shown: names.iter().position(|name| *name == shown).unwrap_or(0),
+        up: up.into_iter().map(|(row, _)| row).collect(),
+        down: down.into_iter().map(|(row, _)| row).collect(),
+        branches: branches.iter().map(|points| points.iter().map(|point| ground.row(point)).collect()).collect(),
+        quantities: names,
+    })
+}
+
+/// The points of the branch through a cycle, from its end downwards to its end upwards.
+fn both_ways(
+    line: &MachineLine,
+    at: (f64, &MachineCycle),
+    control: &Control<'_>,
+) -> Result<Vec<MachinePoint>, RunError> {
+    let way = |direction| match line.trace(at, direction, control) {
+        // a cycle that cannot be followed, as one without events, is no branch
+        Err(RunError::Plan(_)) => Ok(Vec::new()),
+        other => other,
+    };
+    let mut points = way(Direction::Down)?;
+    if points.last().is_some_and(|point| point.event == Some(MachineBranchEvent::Closed)) {
+        return Ok(points);
+    }
+    points.reverse();
+    // both begin with the cycle itself
+    points.extend(way(Direction::Up)?.into_iter().skip(usize::from(!points.is_empty())));
+    Ok(points)
+}
+
+/// Whether a branch passes through a cycle at a value: between two of its points with this label, which differ from the cycle by no
+/// more than from each other.
+fn passes(points: &[MachinePoint], value: f64, cycle: &MachineCycle) -> bool {
+    points.windows(2).any(|pair| {
+        let [a, b] = [&pair[0], &pair[1]];
+        let between = (a.value.min(b.value)..=a.value.max(b.value)).contains(&value);
+        let speeds = [a.cycle.fastest(), b.cycle.fastest()];
+        let apart = (speeds[0] - speeds[1]).abs() + CLOSE * cycle.fastest();
+        between
+            && [a, b].iter().any(|point| point.cycle.label == cycle.label && point.cycle.counts == cycle.counts)
+            && speeds.iter().all(|speed| (speed - cycle.fastest()).abs() <= apart)
+    })
+}
+
+/// Two speeds that differ by less than this part of them are equal.
+const CLOSE: f64 = 1e-6;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{MachinePlan, MachineResults, MachineTask, Span, run_machine};
+
+    fn response(name: &str, plan: MachineResponsePlan) -> ResponseCurves {
+        let plan = MachinePlan::new(MachineSource::open(name).unwrap(), MachineTask::Response(plan));
+        let plan = MachinePlan::from_text(&plan.to_toml(), crate::machine::no_files).unwrap();
+        let MachineResults::Response(found) = run_machine(&plan, &Control::default()).unwrap() else { panic!() };
+        found
+    }
+
+    /// Motions of both sweeps lie on the branches through them.
+    #[test]
+    fn sweeps_lie_on_branches() {
+        let over = "0.9:1.2:7".parse::<Span>().unwrap().into();
+        let quantity = Some("stop.anvil.impact-speed-max".to_owned());
+        let plan = MachineResponsePlan { vary: "frequency".to_owned(), over, quantity, impacts: None };
+        let found = response("two-mass-hammer", plan);
+        assert_eq!((found.up.len(), found.down.len()), (7, 7));
+        assert_eq!(found.quantities[found.shown], "stop.anvil.impact_speed_max");
+        let (mut compared, shown) = (0, found.shown);
+        for motion in found.up.iter().chain(&found.down).filter(|motion| motion.label.contains('/')) {
+            let near = found.branches.iter().flat_map(|branch| branch.windows(2)).any(|pair| {
+                let ((a, x), (b, y)) = ((pair[0].value, &pair[0].quantities), (pair[1].value, &pair[1].quantities));
+                let apart = (x[shown] - y[shown]).abs() + 1e-6;
+                (a.min(b)..=a.max(b)).contains(&motion.value) && (motion.quantities[shown] - x[shown]).abs() <= apart
+            });
+            assert!(near, "{} at {}", motion.label, motion.value);
+            compared += 1;
+        }
+        assert!(compared >= 10 && found.branches.iter().flatten().any(|row| row.event == Some("fold")));
+    }
+}
