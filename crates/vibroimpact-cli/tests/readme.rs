@@ -156,6 +156,12 @@ fn the_page_on_machines_runs() {
     assert!(folder.path().join("hammer.png").exists() && folder.path().join("waveform.png").exists());
 }
 
+#[test]
+fn the_page_on_answers_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    assert_eq!(runs("docs/answers.md", folder.path()), 3);
+}
+
 /// Every machine of the catalogue has a page in the gallery, and every page runs and draws its figure.
 #[test]
 fn the_gallery_of_machines_runs() {

@@ -38,7 +38,7 @@ def test_settle_simulate_attractors(ask: Callable[..., Any], osc: vi.Oscillator,
     assert vi.settle(osc, v=0.5, phase=1).to_dict() == ask("settle", *flags, "--v", 0.5, "--phase", 1)["motion"]
     told = ask("simulate", *flags, "--impacts", 60)
     found = vi.simulate(osc, impacts=60)
-    assert found.to_dict() == {name: told[name] for name in ("events", "end")} and json.loads(found.plan) == told["plan"]
+    assert found.to_dict() == told and json.loads(found.plan) == told["plan"]
     told = ask("attractors", *flags, "--starts", 60)
     found = vi.attractors(osc, starts=60)
     assert [motion.to_dict() for motion in found] == told["motions"]
@@ -66,7 +66,7 @@ def test_branch(ask: Callable[..., Any]) -> None:
     told = ask("branch", "--inverse-beta", 1.11, "--gap", 1.5, "--restitution", 0.5, "--label", "1/1", "--vary", "gap",
                "--to", 2.5, "--follow", 2)
     found = vi.branch(osc, "1/1", "gap", 2.5, follow=2).to_dict()
-    assert len(found["branches"]) == 2 or len(found["branches"]) == len(told["branches"])
+    assert len(found["branches"]) == len(told["branches"]) > 1
     assert found == {name: told[name] for name in found}
 
 
@@ -114,7 +114,7 @@ def test_diagram(vibro: Callable[..., Any], show: str) -> None:
     told = vibro("diagram", "--inverse-beta", 1.3, "--restitution", 0.5, "--vary", "gap", "--over", "0:3:31", "--show", show,
                  "--csv", "-")
     head, *rows = [line.split(",") for line in told.stdout.splitlines()]
-    columns = ("phase", "velocity") if show == "velocity" else ("x", "v")
+    columns = ("phase", "speed") if show == "velocity" else ("x", "v")
     places = [head.index(name) for name in columns]
     told_points = [(r[1], float(r[0]), *(float(r[k]) for k in places)) for r in rows if r[places[0]] != ""]
     found = []

@@ -133,7 +133,8 @@ def test_branches_follow_lines_orbits_and_flips() -> None:
     branch = HAMMER.set(frequency=0.95).branch("frequency", 0.895, follow=1)
     (doubled,) = branch.followed
     assert doubled.flip == branch.event_parameter[branch.event_kind == "flip"][0] and branch.flip is None
-    assert "5/2" in set(doubled.label) and len(branch.to_dict()["followed"]) == 1
+    assert "5/2" in set(doubled.label) and len(branch.to_dict()["branches"]) == 2
+    assert doubled.to_dict() == branch.to_dict()["branches"][1]
 
 
 def test_the_sections_of_an_attractor() -> None:

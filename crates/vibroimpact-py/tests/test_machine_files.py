@@ -147,12 +147,12 @@ def test_the_command_says_the_same(vibro: Callable[..., subprocess.CompletedProc
         return [{name: value for name, value in event.items() if name not in ("contacts", "exact")}
                 for event in answer["events"]]
 
-    assert events(told) == ours["events"] and told["end"] == ours["end"]
+    assert events(told) == events(ours) and told["end"] == ours["end"]
     # the plans of both run again
     for plan in (motion.plan, json.dumps(told["plan"])):
         file = tmp_path / "plan.json"
         file.write_text(plan)
-        assert events(json.loads(vibro("run", str(file), "--json").stdout)) == ours["events"]
+        assert events(json.loads(vibro("run", str(file), "--json").stdout)) == events(ours)
 
 
 @pytest.mark.parametrize(("name", "panels"), [("two-mass-hammer", 1), ("soft-stop", 2), ("cantilever", 2), ("chain", 2)])

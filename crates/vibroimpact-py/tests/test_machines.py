@@ -201,11 +201,11 @@ def compared(m: Machine, start: tuple[float, float, float], told: dict[str, Any]
             return number
         # an impact moves by the error over its speed, and its speed changes by the acceleration times that
         late, faster = error / speed, error * m.natural + error * abs(before) / speed
-        assert event["kind"] == "impact" and event["side"] == ("upper" if side > 0 else "lower"), where
+        assert event["kind"] == "impact" and event["stop"] == ("upper" if side > 0 else "lower"), where
         assert abs(event["time"] - (at - begin)) <= late, where
         assert abs(math.remainder(event["phase"] - m.omega * at - frame["phase"], 2 * math.pi)) <= m.omega * late, where
-        assert abs(event["velocity_before"] - speed) <= faster, where
-        assert abs(event["velocity_after"] + restitution * speed) <= faster, where
+        assert abs(event["speed"] - speed) <= faster, where
+        assert abs(side * event["qdot"][0] + restitution * speed) <= faster, where
         # the waveform of this flight, without its ends
         inside = rows[(rows[:, 0] > t - begin + late) & (rows[:, 0] < at - begin - late)]
         if len(inside):

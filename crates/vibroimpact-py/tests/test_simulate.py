@@ -104,20 +104,3 @@ def test_it_can_be_pickled(n: vi.Oscillator) -> None:
     sim = vi.simulate(n, x=-1, impacts=50)
     again = pickle.loads(pickle.dumps(sim))
     assert again.to_dict() == sim.to_dict() and again.plan == sim.plan and repr(again) == repr(sim)
-
-
-def test_f12_the_events_as_dicts_take_time_in_proportion(
-    u: vi.Oscillator, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """The column of kinds is computed once. An earlier version computed it for each event: the time grew by the square."""
-    kind, computed = vi.Simulation.kind.fget, []
-
-    def counted(sim: vi.Simulation) -> Any:
-        computed.append(len(sim))
-        return kind(sim)
-
-    monkeypatch.setattr(vi.Simulation, "kind", property(counted))
-    sim = vi.simulate(u, impacts=300)
-    events = sim.to_dict()["events"]
-    assert len(events) == len(sim) and events[-1]["time"] == sim.time[-1]
-    assert computed == [len(sim)]

@@ -292,7 +292,8 @@ mod tests {
         line.table(&Shown::default()).unwrap().unwrap().write(&mut text).unwrap();
         assert!(text.starts_with(b"x,label\n0,"));
         assert!(
-            line.json().contains(r#""axes":[{"vary":"x","over":{"from":0.0,"to":0.7,"count":2}}],"cells":[0,0]"#),
+            line.json()
+                .contains(r#""axes":[{"vary":"x","over":{"from":0.0,"to":0.7,"count":2}}],"refused":0,"cells":[0,0]"#),
             "{}",
             line.json()
         );

@@ -705,23 +705,6 @@ class MachineSimulation(Result):
 
         return _machine_figure.draw(self, axes)
 
-    def to_dict(self) -> dict[str, Any]:
-        """The fields "events" and "end" of the JSON of the command."""
-        forced = self.machine.period is not None
-        names = ("kind", "stop", "time", "phase", "speed", "q", "qdot")
-        rows = zip(*(getattr(self, name).tolist() for name in names), self.with_, self.tie)
-        events = []
-        for *values, others, tie in rows:
-            event: dict[str, Any] = dict(zip(names, values))
-            if not forced:
-                del event["phase"]
-            if others:
-                event["with"] = list(others)
-            if tie:
-                event["tie"] = True
-            events.append(event)
-        return {"events": events, "end": {"reason": self.end, "time": self.end_time}}
-
     def _table(self) -> dict[str, Any]:
         """One row for each event; coordinates and velocities by their paths."""
         columns = {name: getattr(self, name) for name in ("kind", "stop", "time", "phase", "speed")}

@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value};
 use std::borrow::Cow;
-use vibroimpact::events::{MachineEvent, MachineStart};
+use vibroimpact::events::{MachineEvent, MachineEventKind, MachineStart};
 use vibroimpact::machine::Machine;
 use vibroimpact::motion::{Event, EventKind};
 use vibroimpact::orbit::Cycle;
@@ -32,8 +32,11 @@ pub struct EventObject<'a> {
     /// Phase of the force; absent without forcing.
     #[serde(skip_serializing_if = "Option::is_none")]
     phase: Option<f64>,
-    /// Speed of closing, or of separation at an opening.
+    /// Speed of closing, or of separation at an opening; never negative.
     speed: f64,
+    /// Where a joint begins to slip: forwards (1) or backwards (-1).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    direction: Option<f64>,
     /// Coordinates and velocities after the event.
     q: Cow<'a, [f64]>,
     qdot: Cow<'a, [f64]>,
@@ -75,6 +78,7 @@ impl EventObject<'static> {
             time: event.time * units.time(),
             phase: Some(event.phase),
             speed: 0.0,
+            direction: None,
             q: vec![stop].into(),
             qdot: vec![0.0].into(),
             with: Vec::new(),
@@ -218,12 +222,15 @@ impl Serialize for EventOf<'_> {
 
 /// An event of a machine.
 pub(super) fn of_machine<'a>(machine: &'a Machine, event: &'a MachineEvent) -> EventObject<'a> {
+    // an event of a joint has no speed, but a direction
+    let slips = event.kind == MachineEventKind::Slip;
     EventObject {
         kind: event.kind.name(),
         stop: machine.name_of(event.place),
         time: event.time,
         phase: machine.parts().frequency.is_some().then_some(event.phase),
-        speed: event.speed,
+        speed: if slips { 0.0 } else { event.speed },
+        direction: slips.then_some(event.speed),
         q: (&event.q).into(),
         qdot: (&event.qdot).into(),
         with: event.with.iter().map(|place| machine.name_of(*place)).collect(),

@@ -17,8 +17,11 @@ use super::{Document, JsonSchema};
 use schemars::generate::SchemaSettings;
 use serde_json::Value;
 
+/// Makes a schema.
+type Maker = fn() -> Value;
+
 /// The commands whose answers have a schema, with its maker.
-const SCHEMAS: [(&str, fn() -> Value); 13] = [
+const SCHEMAS: [(&str, Maker); 13] = [
     ("simulate", of::<SimulateAnswer<'static>>),
     ("settle", of::<SettleAnswer<'static>>),
     ("attractors", of::<AttractorsAnswer<'static>>),

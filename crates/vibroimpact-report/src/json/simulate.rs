@@ -22,7 +22,7 @@ pub(super) struct SimulateAnswer<'a> {
 
 /// Events, which are converted while they are written.
 enum Events<'a> {
-    Oscillator(&'a Oscillator, &'a [Event], Units),
+    Oscillator(&'a Oscillator, &'a [Event], Box<Units>),
     /// So many of the events of a machine.
     Machine(&'a MachineAnswer, usize),
 }
@@ -46,7 +46,7 @@ pub fn document<'a>(
 ) -> impl Serialize + use<'a> {
     let horizon = followed.horizon.as_ref().map(HorizonObject::new);
     let end = EndObject { reason: followed.reason, time: followed.time * asked.units.time(), horizon };
-    let answer = SimulateAnswer { events: Events::Oscillator(osc, &followed.events, asked.units), end };
+    let answer = SimulateAnswer { events: Events::Oscillator(osc, &followed.events, Box::new(asked.units)), end };
     Document::new(asked, osc, plan, answer).start(start, &asked.units)
 }
 

@@ -211,7 +211,7 @@ impl MachineSource {
             .map(|(path, _)| path)
             .collect();
         let parameters = self.parameters.names();
-        let free = |path: &str| written.contains(path) || parameters.iter().any(|name| *name == path);
+        let free = |path: &str| written.contains(path) || parameters.contains(&path);
         Ok(Named(self.numbers()?.0.into_iter().filter(|(path, value)| *value != 0.0 && free(path)).collect()))
     }
 

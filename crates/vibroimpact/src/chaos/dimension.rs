@@ -39,8 +39,7 @@ pub(super) fn of_exponents(exponents: &[Measured]) -> Option<Measured> {
     if largest.value < -largest.error {
         return Some(Measured::default());
     }
-    // NaN does not exceed its error either
-    if !(largest.value > largest.error) {
+    if largest.value.is_nan() || largest.value <= largest.error {
         return None;
     }
     let (mut whole, mut sum, mut error) = (0.0, 0.0, 0.0);
