@@ -174,4 +174,5 @@ class Motion(Result):
 def fields_of(osc: Oscillator, fields: dict[str, Any]) -> dict[str, Any]:
     """The keyword arguments of a Motion, from the fields returned by the compiled module."""
     named = {name: None if fields[name] is None else dict(fields[name]) for name in ("quantities", "quantities_error")}
-    return {**fields, "osc": osc, "_told": fields.pop("told"), "cycle": Cycle(**fields["cycle"]), **named}
+    kept = {name: value for name, value in fields.items() if name != "told"}
+    return {**kept, "osc": osc, "_told": fields["told"], "cycle": Cycle(**fields["cycle"]), **named}
