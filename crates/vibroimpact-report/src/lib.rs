@@ -9,7 +9,8 @@
 //! | the same for a plan of a machine | [`machine_answer()`], [`MachineAnswer`] |
 //! | what stands for a cycle on a branch of a machine without stops | [`BranchQuantity`] |
 //! | the system of a question, and the units of results | [`Asked`], [`Units`] |
-//! | the JSON objects of the commands, one file for each | [`json`] |
+//! | the JSON objects of the commands, one for each, whatever the system | [`json`] |
+//! | a response of any system, with its names and units | [`response`] |
 //! | the tables | [`Table`], [`table`] |
 //! | the figures | [`figure`] |
 //! | the views of a settled motion: waveform, phase portrait, multipliers, sections; a diagram with branches over it | [`scene`] |

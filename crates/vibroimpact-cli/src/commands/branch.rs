@@ -78,9 +78,9 @@ pub(crate) struct Branch {
     #[arg(long, value_parser = whole::<u32>, value_name = "N", default_value_t = DEFAULT_BRANCH_POINTS, allow_hyphen_values = true, help_heading = "Branch")]
     points: u32,
 
-    /// Write one row a point to this file; - for stdout. Columns: branch, the parameter, that of --also, label, physical, stable,
-    /// stability, event, real and imaginary part of both multipliers, phases and velocities of the impacts (lists with blanks between);
-    /// of a machine also the stop of the event, the fastest closing, and the stops
+    /// Write one row a point to this file; - for stdout. Columns: branch, the parameter, that of --also, label, admissible, stable,
+    /// stability, event, its stop, fastest closing, real and imaginary part of the multipliers, phases, speeds and stops of the
+    /// closings (lists with blanks between)
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 

@@ -80,9 +80,9 @@ pub(crate) struct Curve {
     #[arg(long, value_parser = whole::<u32>, value_name = "N", requires = "machine", allow_hyphen_values = true, help_heading = "Curve")]
     points: Option<u32>,
 
-    /// Write one row a point to this file; - for stdout. Columns: both parameters, physical, event, real and
-    /// imaginary part of both multipliers, phases and velocities of the impacts (lists with blanks between); of a machine also
-    /// label, stop of the event, residual and the phase of the touch
+    /// Write one row a point to this file; - for stdout. Columns: both parameters, label, admissible, event, real and imaginary
+    /// part of the multipliers, phases, speeds and stops of the closings (lists with blanks between); of a machine also the stop
+    /// of the event, the residual of the condition and the phase of the touch
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 

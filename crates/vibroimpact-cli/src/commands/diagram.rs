@@ -108,8 +108,8 @@ pub(crate) struct Diagram {
     #[command(flatten)]
     store: StoreArgs,
 
-    /// Write one row a point to this file; - for stdout. Columns: the parameter, that of --also, sweep, kind, side, phase,
-    /// velocity; for strobe the parameters, sweep, kind, x, v; for a quantity the parameters, sweep, kind, its value
+    /// Write one row a point to this file; - for stdout. Columns: the parameter, that of --also, sweep, kind, stop, phase,
+    /// speed; for strobe the parameters, sweep, kind, x, v; for a quantity the parameters, sweep, kind, its value
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 

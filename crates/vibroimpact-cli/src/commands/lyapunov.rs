@@ -59,10 +59,9 @@ pub(crate) struct Lyapunov {
     #[arg(long, value_parser = whole::<u64>, value_name = "N", allow_hyphen_values = true, help_heading = "Output")]
     points: Option<u64>,
 
-    /// Write the points of both sections of the attractor to this file; - for stdout. Columns: section (impact, or strobe
-    /// for the states at phase 0), side, phase, x, v; at an impact v is the velocity of arrival. Of a machine: section (closing or
-    /// strobe), stop, phase, speed of the closing, all coordinates and velocities, which at a closing are those after it. Over axes
-    /// one row for each exponent of a point
+    /// Write the points of both sections of the attractor to this file; - for stdout. Columns: section (closing, or strobe for the
+    /// states at phase 0), stop, phase, speed of the closing, and positions and velocities, which at a closing are those after it. Over
+    /// axes one row for each exponent of a point
     #[arg(long, visible_alias = "csv", value_name = "FILE", help_heading = "Output")]
     section: Option<PathBuf>,
 
