@@ -113,7 +113,7 @@ impl Answer {
     }
 
     /// The figure that the command draws with `--plot`. For a settled motion it shows the motion after the transient;
-    /// for exponents it shows both sections, if points of them were requested. `None` for attractors and orbits, and
+    /// for exponents it shows both sections, if points of them were requested. `None` for attractors, and
     /// for a view that the answer does not have. The orbit diagram behind a branch is computed here.
     ///
     /// # Errors
@@ -152,6 +152,7 @@ impl Answer {
                 let span = (0.0, found.shown_until(osc));
                 figure::waveform::figure(osc, *start, span, &asked.units, title(asked))
             }
+            (_, Results::Orbit(found)) => figure::orbits::figure(found, &asked.units, title(asked)),
             (_, Results::Basin(found)) => figure::basin::figure(found, asked)?,
             (_, Results::Map(found)) => figure::map::figure_with(found, asked, shown.overlay.cells())?,
             (_, Results::Diagram(found)) => figure::diagram::figure(found, asked)?,
@@ -175,7 +176,7 @@ impl Answer {
         }))
     }
 
-    /// The table that the command writes with `--csv`; for a simulation the waveform. `None` for orbits, and for
+    /// The table that the command writes with `--csv`; for a simulation the waveform. `None` for
     /// exponents without points of their sections.
     ///
     /// # Errors
@@ -193,6 +194,7 @@ impl Answer {
                 view.table()?.kept()
             }
             (_, Results::Attractors(found)) => table::attractors::table(found, osc, units),
+            (_, Results::Orbit(found)) => table::orbits::table(found, units),
             (_, Results::Basin(found)) => table::basin::table(found, osc, units)?,
             (_, Results::Map(found)) => table::map::table(found, *units)?,
             (_, Results::Diagram(found)) => table::diagram::table(found, *units)?,

@@ -128,10 +128,10 @@ impl MachineAnswer {
                 let label = figure::label(&found.motion.label());
                 figure::machine_section::figure(points, &self.machine, format!("{title}: {label}"))
             }
-            MachineResults::Attractors(_)
-            | MachineResults::Lyapunov(..)
-            | MachineResults::Margins(_)
-            | MachineResults::Orbit(_) => return Ok(None),
+            MachineResults::Attractors(_) | MachineResults::Lyapunov(..) | MachineResults::Margins(_) => {
+                return Ok(None);
+            }
+            MachineResults::Orbit(found) => figure::orbits::of_machine(found, title),
         }))
     }
 
@@ -226,7 +226,8 @@ impl MachineAnswer {
             MachineResults::Map(found) => table::machine_tables::map(&self.machine, found),
             MachineResults::Diagram(found) => table::diagram::of_machine(found, &self.machine),
             MachineResults::Lyapunov(_, Some(points)) => table::machine_section::table(&self.machine, points),
-            MachineResults::Orbit(_) | MachineResults::Lyapunov(..) => return Ok(None),
+            MachineResults::Orbit(found) => table::orbits::of_machine(found, &self.machine),
+            MachineResults::Lyapunov(..) => return Ok(None),
         }))
     }
 }

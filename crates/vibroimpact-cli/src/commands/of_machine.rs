@@ -80,11 +80,10 @@ pub(super) fn run(
     // before the computation
     drawable(plan, &outputs)?;
     let bare = match &plan.task {
-        MachineTask::Orbit { .. } => true,
         MachineTask::Lyapunov(lyapunov) => lyapunov.points.is_none(),
         _ => false,
     };
-    if outputs.drawn() && (bare || matches!(plan.task, MachineTask::Attractors { .. })) {
+    if outputs.drawn() && (bare || matches!(plan.task, MachineTask::Attractors { .. } | MachineTask::Margins(_))) {
         return Err(none("figure"));
     }
     if outputs.tabled() && bare {

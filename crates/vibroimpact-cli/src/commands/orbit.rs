@@ -6,6 +6,7 @@ use crate::commands::{of_machine, respond};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
+use std::path::PathBuf;
 use vibroimpact_report::Shown;
 use vibroimpact_study::{MachineTask, Plan, Task};
 
@@ -14,7 +15,7 @@ use vibroimpact_study::{MachineTask, Plan, Task};
 /// Newton's method starts from many seeds; orbits 1/n are also found in closed form. An orbit that no seed leads to is
 /// not found.
 ///
-/// A solution of the equations that passes through a stop is inadmissible. In JSON its "physical" is false, and
+/// A solution of the equations that passes through a stop is inadmissible. In JSON its "admissible" is false, and
 /// "earlier_contact" gives the impact, counted from 1, after which it meets a stop, the stop, and the time since that
 /// impact (for 0, which has no impacts, the time since phase 0). Only some of the inadmissible solutions are found.
 #[derive(Clone, Debug, Args)]
@@ -36,28 +37,33 @@ pub(crate) struct Orbit {
     #[arg(long, value_name = "m/n", allow_hyphen_values = true, help_heading = "Orbit")]
     label: String,
 
+    /// Write one row an orbit to this file; - for stdout. Columns: orbit, label, admissible, stable, stability, fastest closing, real
+    /// and imaginary part of the multipliers, phases, speeds and stops of the closings (lists with blanks between)
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    csv: Option<PathBuf>,
+
+    /// Draw phase and speed of the closings of the admissible orbits into this file, .svg, .png or .pdf
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    plot: Option<PathBuf>,
+
+    #[command(flatten)]
+    figure: FigureArgs,
+
     /// Print one JSON object instead of text
     #[arg(long, help_heading = "Output")]
     json: bool,
 }
 
 pub(super) fn run(args: &Orbit, session: &Session) -> Result<(), Failure> {
-    let look = FigureArgs::default();
+    let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
     let task = || Ok(MachineTask::Orbit { label: args.label.clone() });
-    if let Some(answer) = of_machine::asked(
-        &args.machine,
-        None,
-        task,
-        (None, (None, &look), args.json),
-        (None, of_machine::usual),
-        session,
-    ) {
+    if let Some(answer) = of_machine::asked(&args.machine, None, task, files, (None, of_machine::usual), session) {
         return answer;
     }
     let asked = args.system.asked()?;
     let task = Task::Orbit { label: args.label.clone() };
     let plan = Plan::new(asked.system, task);
     plan.check()?;
-    let outputs = Outputs::reserve(None, (None, &FigureArgs::default()), args.json, session)?;
+    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
     respond::run(&plan, asked.units, (outputs, Shown::default()), None, session)
 }

@@ -36,11 +36,8 @@ impl Written {
         let (csv, svg) = (folder.path().join("table.csv"), folder.path().join("figure.svg"));
         let task = line.split_whitespace().next().expect("a command");
         let mut command = vibro(line);
-        command.arg("--json");
-        if task != "orbit" {
-            command.arg("--csv").arg(&csv);
-        }
-        if !["attractors", "orbit", "margins"].contains(&task) {
+        command.arg("--json").arg("--csv").arg(&csv);
+        if !["attractors", "margins"].contains(&task) {
             command.arg("--plot").arg(&svg);
         }
         let output = command.output().expect("vibro runs");
@@ -89,6 +86,8 @@ fn of_machines() {
     same_of_machine(&format!("simulate {hammer} --impacts 20"));
     same_of_machine(&format!("attractors {hammer} --starts 10"));
     same_of_machine(&format!("orbit {hammer} --label 1/1"));
+    same_of_machine(&format!("margins {hammer} --vary b"));
+    same_of_machine("response --machine two-mass-hammer --axis frequency=1:1.2:3");
     same_of_machine(&format!("lyapunov {hammer} --impacts 100 --points 30"));
     same_of_machine("lyapunov --machine impact-pair --impacts 1000 --points 300");
     same_of_machine(&format!(

@@ -213,6 +213,13 @@ fn tables_have_the_names_of_the_json() {
         head(&format!("{branch} frequency --to 1.19 {MACHINE}"))
             .starts_with("branch,frequency,label,admissible,stable,stability,event,stop,fastest,multiplier_1_re,")
     );
+    let orbit = head(&format!("orbit --label 2/1 {OSCILLATOR}"));
+    assert!(
+        orbit.starts_with("orbit,label,admissible,stable,stability,fastest,multiplier_1_re,")
+            && orbit.ends_with("phases,speeds,stops")
+    );
+    let of_machine = head(&format!("orbit --label 1/1 {MACHINE}"));
+    assert!(of_machine.starts_with("orbit,label,admissible,stable,stability,fastest,multiplier_1_re,"), "{of_machine}");
     let diagram = |vary: &str, system: &str| head(&format!("diagram --vary {vary} {system}"));
     assert_eq!(diagram("damping --over 0.01:0.02:2", OSCILLATOR), "damping,sweep,kind,stop,phase,speed");
     assert_eq!(diagram("frequency --over 1.1:1.2:2", MACHINE), "frequency,sweep,kind,stop,phase,speed");

@@ -9,6 +9,7 @@ pub mod machine;
 pub mod machine_section;
 pub mod machine_waveform;
 pub mod map;
+pub mod orbits;
 pub mod overlay;
 pub mod plane;
 pub mod point_motion;

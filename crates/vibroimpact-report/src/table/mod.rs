@@ -14,6 +14,7 @@ pub(crate) mod machine_tables;
 pub mod machine_waveform;
 pub mod map;
 pub mod margins;
+pub mod orbits;
 mod quantities;
 pub mod region;
 pub mod response;
