@@ -39,7 +39,7 @@ def test_solutions_that_are_no_motions_say_where_they_fail() -> None:
     virtual = vi.orbits(osc, "1/1")
     assert len(virtual) == 1 and not virtual[0].physical
     contact = virtual[0].earlier_contact
-    assert contact is not None and (contact.after_impact, contact.side) == (1, "upper")
+    assert contact is not None and (contact.after_impact, contact.stop) == (1, "upper")
     # a simulation from there has this next impact
     x, v, phase = virtual[0].start()
     assert vi.simulate(osc, x=x, v=v, phase=phase, impacts=1).time[0] == pytest.approx(contact.time, rel=1e-12)

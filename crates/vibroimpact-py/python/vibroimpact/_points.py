@@ -18,7 +18,7 @@ _POINTS = np.array([None, "impact", "chatter", "chatter", "impact"], dtype=objec
 _SIDES = np.array([None, "upper", "upper", "lower", "lower"], dtype=object)
 #: The variable of each column of numbers.
 _NUMBERS = {
-    "velocity": {"phase": "impact_phase", "velocity": "velocity"},
+    "velocity": {"phase": "impact_phase", "speed": "velocity"},
     "x": {"x": "x", "v": "v"},
     "speed": {"phase": "closing_phase", "speed": "speed"},
 }
@@ -89,7 +89,7 @@ def table(ds: "xr.Dataset") -> "pd.DataFrame":
     if side is not None:
         side = side[known]
         out["kind"] = np.where(side == 0, kind, _POINTS[side])
-        out["side"] = _SIDES[side]
+        out["stop"] = _SIDES[side]
     if "stop" in ds:
         # a motion without points has no stop
         stop = ds["stop"].values[run, at][known]
