@@ -4,7 +4,7 @@ use super::event::{self, EventObject, side};
 use super::motion::{drift, multipliers};
 use super::{Document, Pair};
 use crate::branch_quantity::BranchQuantity;
-use crate::{Asked, MachineAnswer, Units};
+use crate::{Asked, Units};
 use core::iter::once;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -13,6 +13,7 @@ use vibroimpact::Label;
 use vibroimpact::Oscillator;
 use vibroimpact::continuation::{BranchEvent, MachineBranchEvent, MachinePoint, SolutionPoint};
 use vibroimpact::machine::Machine;
+use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{
     Branches, Chosen, Cut, EventRecord, Followed, MachineBranchPlan, MachineBranched, MachineCut, Plan, SystemPlan,
 };
@@ -184,12 +185,12 @@ impl BranchAnswer<'static> {
 impl<'a> BranchAnswer<'a> {
     /// Those of a machine, for branches along this line.
     pub(super) fn of_machine(
-        MachineAnswer { machine, plan, .. }: &'a MachineAnswer,
+        (machine, source): (&'a Machine, &MachineSource),
         task: &'a MachineBranchPlan,
         cut: &MachineCut,
         found: &'a MachineBranched,
     ) -> Self {
-        let quantity = BranchQuantity::of(machine, &plan.machine, cut, found);
+        let quantity = BranchQuantity::of(machine, source, cut, found);
         let origins = once(None).chain(found.followed.iter().map(Some));
         let branch = |(points, origin): (&'a [MachinePoint], Option<&vibroimpact_study::MachineFollowed>)| {
             let event = |k: usize| Some(BranchEventObject::of_machine(k, points, points[k].event?, (machine, cut)));

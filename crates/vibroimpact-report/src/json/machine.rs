@@ -25,7 +25,9 @@ impl Serialize for MachineAnswer {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         let Self { machine, results, plan, .. } = self;
         match (&plan.task, results) {
-            (_, MachineResults::Simulate(found)) => self.document(SimulateAnswer::of_machine(self, found), to),
+            (MachineTask::Simulate { periods, .. }, MachineResults::Simulate(found)) => {
+                self.document(SimulateAnswer::of_machine((machine, &self.start), *periods, found), to)
+            }
             (_, MachineResults::Settle(found)) => self.document(SettleAnswer::of_machine(machine, found), to),
             (MachineTask::Attractors { seed, .. }, MachineResults::Attractors(census)) => {
                 self.document(AttractorsAnswer::of_machine(machine, *seed, census), to)
@@ -34,7 +36,7 @@ impl Serialize for MachineAnswer {
             (_, MachineResults::Lyapunov(found, _)) => self.document(LyapunovAnswer::of_machine(machine, found), to),
             (MachineTask::Branch(task), MachineResults::Branch(found)) => {
                 let cut = task.cut(&plan.machine).map_err(Error::custom)?;
-                self.document(BranchAnswer::of_machine(self, task, &cut, found), to)
+                self.document(BranchAnswer::of_machine((machine, &plan.machine), task, &cut, found), to)
             }
             (MachineTask::Curve(task), MachineResults::Curve(found)) => {
                 self.document(CurveAnswer::of_machine(machine, task, found), to)

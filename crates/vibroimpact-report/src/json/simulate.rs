@@ -3,13 +3,15 @@
 use super::Document;
 use super::event::{self, EventObject};
 use super::motion::HorizonObject;
-use crate::{Asked, MachineAnswer, Units};
+use crate::{Asked, Units};
 use schemars::JsonSchema;
 use serde::ser::Error;
 use serde::{Serialize, Serializer};
+use vibroimpact::events::MachineStart;
+use vibroimpact::machine::Machine;
 use vibroimpact::motion::Event;
 use vibroimpact::{Oscillator, Start};
-use vibroimpact_study::{MachineSimulated, MachineTask, Plan, Simulated, events_with_states};
+use vibroimpact_study::{MachineSimulated, Plan, Simulated, events_with_states};
 
 /// The answer to `vibro simulate`.
 #[derive(JsonSchema, Serialize)]
@@ -23,8 +25,8 @@ pub(super) struct SimulateAnswer<'a> {
 /// Events, which are converted while they are written.
 enum Events<'a> {
     Oscillator(&'a Oscillator, &'a [Event], Box<Units>),
-    /// So many of the events of a machine.
-    Machine(&'a MachineAnswer, usize),
+    /// So many of the events of a machine from a start, which were followed for so many forcing periods.
+    Machine((&'a Machine, &'a MachineStart), Option<f64>, usize),
 }
 
 /// The reason why the list of events ends, and the time.
@@ -51,9 +53,13 @@ pub fn document<'a>(
 }
 
 impl<'a> SimulateAnswer<'a> {
-    pub(super) fn of_machine(answer: &'a MachineAnswer, found: &MachineSimulated) -> Self {
+    pub(super) fn of_machine(
+        problem: (&'a Machine, &'a MachineStart),
+        periods: Option<f64>,
+        found: &MachineSimulated,
+    ) -> Self {
         let end = EndObject { reason: found.reason, time: found.time, horizon: None };
-        Self { events: Events::Machine(answer, found.events.len()), end }
+        Self { events: Events::Machine(problem, periods, found.events.len()), end }
     }
 }
 
@@ -62,11 +68,8 @@ fn each_event<S: Serializer>(events: &Events<'_>, serializer: S) -> Result<S::Ok
         Events::Oscillator(osc, events, units) => {
             serializer.collect_seq(events.iter().map(|event| EventObject::of_oscillator(osc, event, units)))
         }
-        Events::Machine(MachineAnswer { plan, machine, start, .. }, count) => {
-            let MachineTask::Simulate { periods, .. } = plan.task else {
-                return Err(Error::custom("the plan is that of another task"));
-            };
-            let events = events_with_states(machine, start, periods).map_err(Error::custom)?;
+        Events::Machine((machine, start), periods, count) => {
+            let events = events_with_states(machine, start, *periods).map_err(Error::custom)?;
             serializer.collect_seq(events.take(*count).map(|event| event::EventOf(machine, event)))
         }
     }

@@ -1,6 +1,8 @@
 //! The branches on which the cycles of the sweeps lie.
 
-use super::{ResponsePlan, ResponseRow, SweptMotion, all};
+use super::plan::ResponsePlan;
+use super::row::{ResponseRow, all};
+use super::sweep::SweptMotion;
 use crate::{Control, Cut, PlanError, RunError, SystemPlan};
 use core::ops::RangeInclusive;
 use vibroimpact::continuation::{Branch, BranchEvent, BranchOptions, Direction, SolutionPoint};

@@ -13,7 +13,6 @@ pub use row::{ResponseCurves, ResponseRow};
 
 use crate::{Control, Quantity, RunError, Stopped, SystemPlan};
 use sweep::SweptMotion;
-use vibroimpact::quantities::Quantities;
 
 /// Computes both sweeps and the branches.
 ///
@@ -47,11 +46,6 @@ pub(crate) fn response(
         down: rows(down),
         branches,
     })
-}
-
-/// The values of all quantities; not-a-number where one is not defined.
-fn all(of: Option<Quantities>) -> Vec<f64> {
-    Quantity::ALL.into_iter().map(|quantity| of.map_or(f64::NAN, |of| of.get(quantity))).collect()
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! A sweep: at each value the motion is settled from the state that the motion at the value before has.
 
-use super::{ResponsePlan, ResponseRow, all};
+use super::plan::ResponsePlan;
+use super::row::{ResponseRow, all};
 use crate::diagram::{carried_state, state_on};
 use crate::map::options;
 use crate::{Control, RunError, SystemPlan};
