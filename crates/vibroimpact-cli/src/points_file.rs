@@ -4,10 +4,20 @@ use crate::failure::Failure;
 use std::io::Read;
 use std::path::Path;
 use vibroimpact_study::typed::decimal;
-use vibroimpact_study::{Coordinate, ListedColumn};
+use vibroimpact_study::{Coordinate, ListedColumn, MachineColumn};
 
-/// Reads the columns of a table of comma-separated values; `-` is stdin.
+/// Reads the columns of a table of comma-separated values for an oscillator; `-` is stdin.
 pub(crate) fn read(path: &Path) -> Result<Vec<ListedColumn>, Failure> {
+    columns_of(path, columns)
+}
+
+/// The same for a machine: what the columns vary is checked with its plan.
+pub(crate) fn read_for_machine(path: &Path) -> Result<Vec<MachineColumn>, Failure> {
+    let column = |(name, values): (&str, Vec<f64>)| MachineColumn { vary: name.to_owned(), values };
+    columns_of(path, |text| Ok(cells(text)?.into_iter().map(column).collect()))
+}
+
+fn columns_of<T>(path: &Path, columns: impl Fn(&str) -> Result<T, String>) -> Result<T, Failure> {
     let text = if path == Path::new("-") {
         let mut text = String::new();
         std::io::stdin().read_to_string(&mut text).map(|_| text)
@@ -19,45 +29,52 @@ pub(crate) fn read(path: &Path) -> Result<Vec<ListedColumn>, Failure> {
     columns(&text).map_err(|why| Failure::bad(format!("`{name}`: {why}")))
 }
 
-/// The columns in a text. Empty lines, and lines that begin with `#`, are skipped.
+/// The columns in a text.
 fn columns(text: &str) -> Result<Vec<ListedColumn>, String> {
+    let column = |(name, values): (&str, Vec<f64>)| Ok(ListedColumn { vary: coordinate(name)?, values });
+    cells(text)?.into_iter().map(column).collect()
+}
+
+/// The names and values of the columns in a text. Empty lines, and lines that begin with `#`, are skipped.
+fn cells(text: &str) -> Result<Vec<(&str, Vec<f64>)>, String> {
     let rows = text.trim_start_matches('\u{feff}').lines().zip(1..);
     let mut rows = rows.map(|(line, number)| (line.trim(), number)).filter(|(line, _)| {
         // lines without points
         !line.is_empty() && !line.starts_with('#')
     });
     let (head, _) = rows.next().ok_or("there is no header with the names of what varies")?;
-    let mut columns = head.split(',').map(column).collect::<Result<Vec<_>, _>>()?;
+    let mut columns: Vec<(&str, Vec<f64>)> =
+        head.split(',').map(|name| (name.trim().trim_matches('"'), Vec::new())).collect();
     for (line, number) in rows {
         let cells: Vec<&str> = line.split(',').map(str::trim).collect();
         if cells.len() != columns.len() {
             return Err(format!("line {number} has {} values, and the header has {}", cells.len(), columns.len()));
         }
-        for (column, cell) in columns.iter_mut().zip(cells) {
+        for ((name, values), cell) in columns.iter_mut().zip(cells) {
             let shown: String = cell.chars().take(60).collect();
-            let value = decimal(cell).ok_or_else(|| {
-                format!("line {number}: {} = `{shown}` is not a number, such as 0.5 or -2e-3", column.vary.name())
-            })?;
-            column.values.push(value);
+            values.push(
+                decimal(cell).ok_or_else(|| {
+                    format!("line {number}: {name} = `{shown}` is not a number, such as 0.5 or -2e-3")
+                })?,
+            );
         }
     }
-    if columns.iter().all(|column| column.values.is_empty()) {
+    if columns.iter().all(|(_, values)| values.is_empty()) {
         return Err("there is no point below the header".to_owned());
     }
     Ok(columns)
 }
 
-/// The column with this name, which may be that of a flag.
-fn column(name: &str) -> Result<ListedColumn, String> {
-    let plain = name.trim().trim_matches('"').replace('-', "_");
-    let vary = Coordinate::named(&plain).ok_or_else(|| {
+/// The parameter or coordinate with this name, which may be that of a flag.
+fn coordinate(name: &str) -> Result<Coordinate, String> {
+    let plain = name.replace('-', "_");
+    Coordinate::named(&plain).ok_or_else(|| {
         let shown: String = name.trim().chars().take(60).collect();
         format!(
             "the column `{shown}` is no parameter and no coordinate of a start\n\
             hint: beta, inverse_beta, gap, restitution, damping, second_gap, second_restitution, x, v, phase, or a number of the machine, such as gap_m"
         )
-    })?;
-    Ok(ListedColumn { vary, values: Vec::new() })
+    })
 }
 
 #[cfg(test)]

@@ -69,6 +69,19 @@ pub enum PlanError {
         /// Its last value.
         to: f64,
     },
+    /// The range of a number of points.
+    #[error("{path} is to lie between {from} and {to}, which are no two finite numbers in increasing order")]
+    PointRange {
+        /// What varies.
+        path: String,
+        /// One end.
+        from: f64,
+        /// The other end.
+        to: f64,
+    },
+    /// A column of points.
+    #[error("the column {0} has another number of points than the first one, or a value that is not finite")]
+    MachinePoints(String),
     /// The number of an orbit without a label.
     #[error(
         "the number of an orbit is given without a label\nhint: orbits are numbered among those with the same label m/n"

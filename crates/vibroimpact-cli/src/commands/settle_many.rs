@@ -1,10 +1,11 @@
 //! `vibro settle-many`: the motions at many points of parameters and starts, listed or drawn.
 
 use crate::args::{
-    Convention, FieldsArgs, FigureArgs, Interval, PhysicalArgs, Place, StoreArgs, SystemStretchesArgs, whole,
+    Convention, FieldsArgs, FigureArgs, Interval, MachineArgs, PhysicalArgs, Place, StartOfMachineArgs, StoreArgs,
+    SystemStretchesArgs, VariedOver, whole,
 };
 use crate::commands::outputs::Outputs;
-use crate::commands::stored;
+use crate::commands::{of_machine, stored};
 use crate::failure::Failure;
 use crate::points_file;
 use crate::session::Session;
@@ -13,8 +14,8 @@ use core::str::FromStr;
 use std::path::PathBuf;
 use vibroimpact_report::{Asked, Shown, Units};
 use vibroimpact_study::{
-    BasinPlan, Coordinate, DrawnPoints, ListedColumn, Parameter, Plan, PointRange, PointRule, PointsPlan, StartPlan,
-    StudyPlan, Task,
+    BasinPlan, Coordinate, DrawnPoints, ListedColumn, MachineDrawn, MachineManyPlan, MachinePoints, MachineRange,
+    MachineStretch, MachineTask, Parameter, Plan, PointRange, PointRule, PointsPlan, StartPlan, StudyPlan, Task,
 };
 
 /// Which motion each of many systems and starts leads to: points from a table, or drawn from ranges
@@ -26,11 +27,13 @@ use vibroimpact_study::{
 #[command(
     mut_arg("restitution", |arg| arg.required(false)),
     override_usage = "vibro settle-many --sample lhs:N --inverse-beta A:B --gap A:B --restitution E [OPTIONS]\n       \
-        vibro settle-many --points FILE.csv --restitution E [OPTIONS]",
+        vibro settle-many --points FILE.csv --restitution E [OPTIONS]\n       \
+        vibro settle-many --machine NAME|FILE --sample lhs:N --over PATH=A:B [--over PATH=A:B] [OPTIONS]",
     after_help = "Examples:\n  \
         vibro settle-many --sample lhs:1e4 --inverse-beta 0.6:2 --gap 0:2 --restitution 0.3:0.8 --v 0.5 --csv sample.csv\n  \
         vibro settle-many --sample sobol:65536 --beta 1 --gap 1 --restitution 0.5 --x -4:1 --v -4:4 --store starts.zarr\n  \
-        vibro settle-many --points systems.csv --restitution 0.5 --fields impact-speed-max --csv -"
+        vibro settle-many --points systems.csv --restitution 0.5 --fields impact-speed-max --csv -\n  \
+        vibro settle-many --machine two-mass-hammer --sample sobol:64 --over frequency=0.9:1.3 --over q.head=-1:0.4 --csv -"
 )]
 #[command(group = clap::ArgGroup::new("of_points").required(true).args(["points", "sample"]))]
 pub(crate) struct SettleMany {
@@ -51,6 +54,14 @@ pub(crate) struct SettleMany {
 
     #[command(flatten)]
     machine: PhysicalArgs,
+    #[command(flatten)]
+    of_machine: MachineArgs,
+    #[command(flatten)]
+    start_of_machine: StartOfMachineArgs,
+
+    /// What is drawn for a machine, once for each: the path of a number, or q.NAME, qdot.NAME and phase of the start, and its range
+    #[arg(long, value_name = "PATH=A:B", allow_hyphen_values = true, requires = "machine", help_heading = "Machine")]
+    over: Vec<VariedOver>,
 
     /// Units of ranges, columns and results
     #[arg(long, value_enum, value_name = "UNITS", default_value_t = Convention::Nondimensional, help_heading = "System")]
@@ -111,6 +122,27 @@ impl FromStr for Drawn {
 }
 
 impl SettleMany {
+    /// The points of a machine.
+    fn points_of_machine(&self) -> Result<MachinePoints, Failure> {
+        match (&self.points, self.sample) {
+            (Some(path), _) => Ok(MachinePoints::Listed(points_file::read_for_machine(path)?)),
+            (None, Some(Drawn(rule, count))) => {
+                let range = |over: &VariedOver| {
+                    let MachineStretch { path: vary, from, to } = over.stretch();
+                    MachineRange { vary, from, to }
+                };
+                if self.over.is_empty() {
+                    return Err(Failure::bad(
+                        "nothing varies\nhint: --over PATH=A:B, such as --over frequency=0.9:1.3",
+                    ));
+                }
+                let over = self.over.iter().map(range).collect();
+                Ok(MachinePoints::Drawn(MachineDrawn { rule, count, seed: self.seed, over }))
+            }
+            (None, None) => Err(Failure::bad("there are no points\nhint: --points FILE.csv, or --sample lhs:N")),
+        }
+    }
+
     fn starts(&self) -> [(Coordinate, Option<Place>); 3] {
         [(Coordinate::X, self.x), (Coordinate::V, self.v), (Coordinate::Phase, self.phase)]
     }
@@ -206,6 +238,18 @@ impl SettleMany {
 }
 
 pub(super) fn run(args: &SettleMany, session: &Session) -> Result<(), Failure> {
+    let task = || {
+        if args.store.filling().is_some() || args.transient {
+            return Err(Failure::bad("--store and --transient are for points of oscillators\nhint: --csv FILE"));
+        }
+        let (impacts, fields) = (args.impacts, args.fields.paths());
+        Ok(MachineTask::SettleMany(MachineManyPlan { points: args.points_of_machine()?, impacts, fields }))
+    };
+    let (files, usual) = ((args.csv.as_deref(), (None, &FigureArgs::default()), args.json), (None, of_machine::usual));
+    let start = Some((&args.start_of_machine, None));
+    if let Some(answer) = of_machine::asked(&args.of_machine, start, task, files, usual, session) {
+        return answer;
+    }
     let (asked, points) = match (&args.points, args.sample) {
         (Some(path), _) => args.listed(points_file::read(path)?)?,
         (None, Some(drawn)) => args.drawn(drawn)?,

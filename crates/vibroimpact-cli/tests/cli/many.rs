@@ -145,3 +145,35 @@ fn summaries_and_refusals() {
         assert!(complaint.contains(sentence), "{line}: {complaint}");
     }
 }
+
+/// Points of a machine: listed and drawn ones are as single questions, and what makes no sense is refused.
+#[test]
+fn points_of_a_machine() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("points.csv");
+    fs::write(&file, "q.head,b\n0,0.4\n0.2,0.6\n7,0.3\n").unwrap();
+    let machine = "settle-many --machine two-mass-hammer";
+    let printed = |line: &str| String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
+    let table = printed(&format!("{machine} --points {} --csv - --fields power", file.display()));
+    let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows[0], ["sample", "q.head", "b", "label", "power"]);
+    assert_eq!((rows.len(), rows[3][3], rows[3][4]), (4, "refused", ""));
+    for row in &rows[1..3] {
+        let alone = crate::json(&format!("settle --machine two-mass-hammer --set b={} --q 0,{}", row[2], row[1]));
+        assert_eq!(alone["motion"]["label"], row[3]);
+        assert_eq!(alone["motion"]["quantities"]["power"].as_f64().unwrap(), row[4].parse::<f64>().unwrap());
+    }
+    let drawn = crate::json(&format!("{machine} --sample lhs:6 --seed 2 --over frequency=0.9:1.3"));
+    let points = drawn["points"].as_array().unwrap();
+    assert!(points.len() == 6 && points.iter().all(|point| point["motions"][0]["label"].is_string()), "{drawn}");
+    for (flags, sentence) in [
+        ("--sample lhs:6", "--over PATH=A:B"),
+        ("--sample lhs:6 --over nix=1:2", "no such number in this machine"),
+        ("--sample lhs:6 --over q.nix=1:2", "q.nix"),
+        ("--sample lhs:6 --over b=1:2 --store a.zarr", "for points of oscillators"),
+    ] {
+        let output = vibro(&format!("{machine} {flags}")).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.code() == Some(2) && said.contains(sentence), "{flags}: {said}");
+    }
+}

@@ -48,7 +48,10 @@ impl Serialize for MachineAnswer {
             (_, MachineResults::Basin(found)) => self.document(BasinAnswer::of_machine(machine, found), to),
             (_, MachineResults::Diagram(found)) => self.document(DiagramAnswer::of_machine(machine, found), to),
             (MachineTask::Map(task), MachineResults::Map(found)) => {
-                self.document(MapAnswer::of_machine(machine, task, found), to)
+                self.document(MapAnswer::of_machine(machine, (task.starts, task.seed), found), to)
+            }
+            (MachineTask::SettleMany(_), MachineResults::Map(found)) => {
+                self.document(MapAnswer::of_machine(machine, (1, 0), found), to)
             }
             // `machine_answer` combines each plan with its own results, so this does not occur
             _ => Err(Error::custom("the results belong to another task than the plan's")),
@@ -62,6 +65,7 @@ const fn begins(task: &MachineTask) -> bool {
         MachineTask::Simulate { .. }
         | MachineTask::Settle { .. }
         | MachineTask::Lyapunov(_)
+        | MachineTask::SettleMany(_)
         | MachineTask::Basin(_) => true,
         MachineTask::Branch(branch) => branch.label.is_none(),
         MachineTask::Curve(curve) => curve.label.is_none(),

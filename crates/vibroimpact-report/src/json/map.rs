@@ -11,9 +11,7 @@ use vibroimpact::Oscillator;
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::Verdict;
 use vibroimpact_plot::{GROUPS, legend_group};
-use vibroimpact_study::{
-    Coordinate, MachineAxis, MachineMap, MachineMapPlan, MachineShare, MapPoint, Parameter, Plan, RegionMap, Share,
-};
+use vibroimpact_study::{Coordinate, MachineMap, MachineShare, MapPoint, Parameter, Plan, RegionMap, Share};
 
 /// The answer to `vibro map`.
 #[derive(JsonSchema, Serialize)]
@@ -113,7 +111,7 @@ pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &Reg
 
 impl<'a> MapAnswer<'a> {
     /// Those of a machine.
-    pub(super) fn of_machine(machine: &'a Machine, task: &MachineMapPlan, found: &'a MachineMap) -> Self {
+    pub(super) fn of_machine(machine: &'a Machine, (starts, seed): (u64, u64), found: &'a MachineMap) -> Self {
         let share = |motion: &'a MachineShare| ShareObject {
             label: motion.label(),
             share: motion.share,
@@ -127,14 +125,13 @@ impl<'a> MapAnswer<'a> {
                 .collect(),
         };
         let point = |(k, cell): (usize, &'a Vec<MachineShare>)| {
-            let values = MachineAxis::at(&found.axes, k as u64);
-            let at = found.axes.iter().zip(values).map(|(axis, value)| (axis.vary.clone(), value.into())).collect();
+            let at = found.varied().zip(found.at(k)).map(|(vary, value)| (vary.to_owned(), value.into())).collect();
             PointObject { at, motions: cell.iter().map(share).collect() }
         };
         Self {
             axes: AxisObject::of_machine(&found.axes),
-            starts: task.starts,
-            seed: task.seed,
+            starts,
+            seed,
             coexisting: found.cells.iter().filter(|cell| cell.len() > 1).count(),
             seen_events: found.seen_events(),
             labels: counted(found.cells.iter().map(|cell| cell.iter().map(|motion| (motion.label(), motion.share)))),

@@ -153,18 +153,31 @@ pub(crate) fn basin<'a>(machine: &'a Machine, found: &'a MachineBasin) -> Table<
     Table::new(header(&found.axes, &own, &found.fields), rows)
 }
 
-/// One row a motion at a point: what varies, label, share, what stops and events say more of the label, and quantities.
+/// One row a motion at a point: what varies, label, share, what stops and events say more of the label, and quantities. Of points that
+/// are no grid their number comes first, and there is no share.
 pub(crate) fn map<'a>(machine: &'a Machine, found: &'a MachineMap) -> Table<'a> {
     let motions = found.cells.iter().flatten();
     let remarks = Remarks::of(motions.map(|motion| (motion.stops.as_slice(), motion.seen_events)));
+    let grid = found.points.is_none();
     let rows = found.cells.iter().enumerate().flat_map(move |(k, cell)| {
-        let at = values(&found.axes, k);
-        let row = move |motion: &MachineShare| {
+        let number = if grid { String::new() } else { format!("{},", k + 1) };
+        let at: String = found.at(k).into_iter().map(|value| format!("{},", Number(value))).collect();
+        let row = |motion: &MachineShare| {
+            let share = if grid { format!(",{}", Number(motion.share)) } else { String::new() };
             let remarks = remarks.cells(machine, &motion.stops, motion.seen_events);
-            format!("{at}{},{}{remarks}{}", motion.label(), Number(motion.share), quantities(&motion.quantities))
+            format!("{number}{at}{}{share}{remarks}{}", motion.label(), quantities(&motion.quantities))
         };
-        cell.iter().map(row)
+        let mut rows: Vec<String> = cell.iter().map(row).collect();
+        if rows.is_empty() && !grid {
+            // numbers that are not allowed, or a start beyond a stop
+            let empty = ",".repeat(remarks.heads().count() + found.fields.len());
+            rows.push(format!("{number}{at}refused{empty}"));
+        }
+        rows
     });
-    let own: Vec<&str> = ["label", "share"].into_iter().chain(remarks.heads()).collect();
-    Table::new(header(&found.axes, &own, &found.fields), rows)
+    let own: Vec<&str> = ["label", "share"].into_iter().take(if grid { 2 } else { 1 }).chain(remarks.heads()).collect();
+    let head = if grid { vec![] } else { vec!["sample"] };
+    let fields = found.fields.iter().map(String::as_str);
+    let header = head.into_iter().chain(found.varied()).chain(own).chain(fields).collect::<Vec<_>>().join(",");
+    Table::new(header, rows)
 }

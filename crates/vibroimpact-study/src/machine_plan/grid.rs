@@ -1,6 +1,7 @@
 //! Plans and results of basins over coordinates, and of maps over numbers, of a machine.
 
 use super::axis::MachineAxis;
+use super::points::MachineColumn;
 use super::verdicts::check_starts;
 use crate::PlanError;
 use crate::limits::MOST_CELLS;
@@ -82,6 +83,8 @@ pub struct MachineBasin {
 pub struct MachineMap {
     /// The axes; the first varies fastest.
     pub axes: Vec<MachineAxis>,
+    /// The points, where they are no grid.
+    pub points: Option<Vec<MachineColumn>>,
     /// The motions at each point, the most frequent first. Two motions of one label have a row each. Empty where the numbers
     /// are not allowed.
     pub cells: Vec<Vec<MachineShare>>,
@@ -135,6 +138,19 @@ impl MachineBasin {
 }
 
 impl MachineMap {
+    /// What varies.
+    pub fn varied(&self) -> impl Iterator<Item = &str> {
+        let columns = self.points.iter().flatten().map(|column| column.vary.as_str());
+        self.axes.iter().map(|axis| axis.vary.as_str()).chain(columns)
+    }
+
+    /// Its values at point number `k`.
+    #[must_use]
+    pub fn at(&self, k: usize) -> Vec<f64> {
+        let columns = self.points.iter().flatten().map(|column| column.values[k]);
+        MachineAxis::at(&self.axes, k as u64).into_iter().chain(columns).collect()
+    }
+
     /// The smallest number of events over which chaos was seen at a point; `None` if it was seen at none.
     #[must_use]
     pub fn seen_events(&self) -> Option<u64> {

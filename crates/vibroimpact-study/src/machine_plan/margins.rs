@@ -198,7 +198,7 @@ mod tests {
     fn the_first_events_of_branches() {
         let source = MachineSource::open("two-mass-hammer").unwrap();
         let vary = vec!["frequency".to_owned(), "stop.anvil.gap".to_owned(), "stop.anvil.restitution".to_owned()];
-        let task = MachineTask::Margins(MachineMarginsPlan { label: None, vary: vary.clone(), within: 1.5 });
+        let task = MachineTask::Margins(MachineMarginsPlan { label: None, vary: vary.clone(), within: 2.0 });
         let plan = MachinePlan::new(source.clone(), task);
         assert_eq!(MachinePlan::from_text(&plan.to_toml(), crate::machine::no_files).unwrap(), plan);
         let MachineResults::Margins(found) = run_machine(&plan, &Control::default()).unwrap() else { panic!() };
@@ -228,6 +228,6 @@ mod tests {
                 }
             }
         }
-        assert!(events >= 3 && found.nearest().is_some(), "{events}");
+        assert!(events >= 2 && found.nearest().is_some(), "{events}");
     }
 }

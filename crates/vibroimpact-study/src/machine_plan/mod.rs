@@ -11,6 +11,7 @@
 //! | orbits, and the one at which a branch begins | `orbits` |
 //! | a line through one number or two | [`MachineCut`], [`MachineStretch`], [`MachineTarget`], `cut` |
 //! | branches of orbits | [`MachineBranchPlan`], [`MachineBranched`], `branch` |
+//! | which motion each of many points leads to | [`MachineManyPlan`], `many`; [`MachinePoints`], `points` |
 //! | how far a cycle is from its nearest events | [`MachineMarginsPlan`], [`MachineMargins`], `margins` |
 //! | a quantity of all motions over a number | [`MachineResponsePlan`], `response` |
 //! | curves of events over two numbers | [`MachineCurvePlan`], [`MachineEventCurve`], `curve` |
@@ -27,9 +28,11 @@ mod cut;
 mod diagram;
 mod grid;
 mod lyapunov;
+mod many;
 mod margins;
 mod orbits;
 mod plan;
+mod points;
 mod response;
 mod run;
 mod section;
@@ -46,9 +49,11 @@ pub use diagram::{MachineDiagram, MachineDiagramPlan, MachineDiagramPoint, Machi
 pub use grid::{MachineBasin, MachineBasinPlan, MachineMap, MachineMapPlan, MachineShare};
 pub(crate) use grid::{StartAxis, check_memory, values_of};
 pub use lyapunov::MachineLyapunovPlan;
+pub use many::MachineManyPlan;
 pub use margins::{MachineMargins, MachineMarginsPlan, NumberEvent, NumberMargin};
 pub use orbits::label as machine_label;
 pub use plan::{MachinePlan, MachineTask};
+pub use points::{MachineColumn, MachineDrawn, MachinePoints, MachineRange};
 pub use response::MachineResponsePlan;
 pub use run::{MachineResults, run_machine};
 pub use section::MachineSection;

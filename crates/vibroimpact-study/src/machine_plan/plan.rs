@@ -6,6 +6,7 @@ use super::curve::MachineCurvePlan;
 use super::diagram::MachineDiagramPlan;
 use super::grid::{MachineBasinPlan, MachineMapPlan};
 use super::lyapunov::MachineLyapunovPlan;
+use super::many::MachineManyPlan;
 use super::margins::MachineMarginsPlan;
 use super::response::MachineResponsePlan;
 use super::simulate::{check, most_events};
@@ -96,6 +97,8 @@ pub enum MachineTask {
     Branch(MachineBranchPlan),
     /// A curve of an event of an orbit over two numbers.
     Curve(MachineCurvePlan),
+    /// The motion at each of many points of numbers and starts.
+    SettleMany(MachineManyPlan),
     /// How far a cycle is from the nearest event in each number.
     Margins(MachineMarginsPlan),
     /// A quantity of all motions over one number.
@@ -167,6 +170,7 @@ impl MachinePlan {
             MachineTask::Basin(basin) => Some((MachineAxis::points(&basin.axes), "starts")),
             MachineTask::Map(map) => Some((MachineAxis::points(&map.axes), "points")),
             MachineTask::Response(response) => Some((response.motions(), "motions")),
+            MachineTask::SettleMany(many) => Some((many.points.count(), "points")),
             MachineTask::Lyapunov(lyapunov) => match lyapunov.axes.as_slice() {
                 [] => None,
                 axes => Some((MachineAxis::points(axes), "points")),
@@ -193,6 +197,7 @@ impl MachinePlan {
         match &self.task {
             MachineTask::Basin(basin) => &basin.fields,
             MachineTask::Map(map) => &map.fields,
+            MachineTask::SettleMany(many) => &many.fields,
             _ => &[],
         }
     }
@@ -253,7 +258,9 @@ impl MachinePlan {
         check_tile(self.tile)?;
         check_shard(self.shard)?;
         let (machine, _) = match &self.task {
-            MachineTask::Map(_) | MachineTask::Diagram(_) | MachineTask::Response(_) => self.described()?,
+            MachineTask::Map(_) | MachineTask::Diagram(_) | MachineTask::Response(_) | MachineTask::SettleMany(_) => {
+                self.described()?
+            }
             // each point has its own start
             MachineTask::Lyapunov(MachineLyapunovPlan { axes, .. }) if !axes.is_empty() => self.described()?,
             _ => self.problem()?,
@@ -266,6 +273,7 @@ impl MachinePlan {
             MachineTask::Orbit { label } => orbits::label(&machine, label).map(|_| ()),
             MachineTask::Branch(branch) => branch.check(&self.machine, &machine),
             MachineTask::Curve(curve) => curve.check(&self.machine, &machine),
+            MachineTask::SettleMany(many) => many.check(&self.machine, &machine),
             MachineTask::Margins(margins) => margins.check(&self.machine, &machine),
             MachineTask::Response(response) => response.check(&self.machine, &machine),
             MachineTask::Basin(basin) => basin.check(&machine),

@@ -8,7 +8,7 @@ use super::margins::MachineMargins;
 use super::plan::{MachinePlan, MachineTask};
 use super::section::{self, MachineSection};
 use super::simulate::{MachineSimulated, simulate};
-use super::{margins, orbits, response, verdicts};
+use super::{many, margins, orbits, response, verdicts};
 use crate::{Control, ResponseCurves, RunError, in_memory};
 use vibroimpact::chaos::MachineExponents;
 use vibroimpact::orbit::MachineCycle;
@@ -75,6 +75,9 @@ pub fn run_machine(plan: &MachinePlan, control: &Control<'_>) -> Result<MachineR
         }
         MachineTask::Curve(asked) => {
             MachineResults::Curve(curve::curve(&plan.machine, (&machine, &start), asked, control)?)
+        }
+        MachineTask::SettleMany(asked) => {
+            MachineResults::Map(many::many(&plan.machine, (&machine, &start), asked, control)?)
         }
         MachineTask::Margins(asked) => {
             MachineResults::Margins(margins::margins(&plan.machine, (&machine, &start), asked, control)?)

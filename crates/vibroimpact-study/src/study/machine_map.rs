@@ -11,6 +11,7 @@ use crate::machine::MachineSource;
 use crate::machine_plan::{MachineMapPlan, MachineShare, values_of};
 use crate::map::options;
 use crate::{MachineAxis, PlanError, Unit};
+use vibroimpact::machine::Machine;
 use vibroimpact::verdict::{
     Census, CountedMotion, MachineVerdict, SettleOptions, scattered_machine_starts, settle_machine,
 };
@@ -55,20 +56,26 @@ impl MachinesOver {
             }
         }
         let motion = |found: &CountedMotion<MachineVerdict>| {
-            let verdict = &found.verdict;
-            let cycle = verdict.stored_cycle();
-            let fastest = if let MachineVerdict::Periodic(cycle) = verdict { cycle.fastest() } else { f64::NAN };
-            MachineShare {
-                code: code::of_machine(verdict),
-                share: census.share(found),
-                speed: fastest,
-                multiplier: cycle.map_or(f64::NAN, |cycle| cycle.multiplier),
-                stops: verdict.closed(),
-                seen_events: verdict.seen_events(),
-                quantities: values_of(&machine, verdict, &self.plan.fields),
-            }
+            MachineShare::of(&machine, &found.verdict, census.share(found), &self.plan.fields)
         };
         Ok(census.by_share().into_iter().map(motion).collect())
+    }
+}
+
+impl MachineShare {
+    /// A motion of a machine to which this share of the starts leads.
+    pub(crate) fn of(machine: &Machine, verdict: &MachineVerdict, share: f64, fields: &[String]) -> Self {
+        let cycle = verdict.stored_cycle();
+        let fastest = if let MachineVerdict::Periodic(cycle) = verdict { cycle.fastest() } else { f64::NAN };
+        Self {
+            code: code::of_machine(verdict),
+            share,
+            speed: fastest,
+            multiplier: cycle.map_or(f64::NAN, |cycle| cycle.multiplier),
+            stops: verdict.closed(),
+            seen_events: verdict.seen_events(),
+            quantities: values_of(machine, verdict, fields),
+        }
     }
 }
 

@@ -89,6 +89,7 @@ impl Study {
             MachineTask::Curve(_) => return none("follow a curve"),
             MachineTask::Response(_) => return none("compute a response"),
             MachineTask::Margins(_) => return none("compute margins"),
+            MachineTask::SettleMany(_) => return none("settle points"),
         };
         Ok(Self { fill })
     }

@@ -1,0 +1,127 @@
+//! Which motion each of many machines and starts leads to: points of numbers and starts, listed or drawn from ranges.
+
+use super::grid::{MachineMap, MachineShare, StartAxis, check_fields};
+use super::points::MachinePoints;
+use super::verdicts::each_verdict;
+use crate::machine::MachineSource;
+use crate::map::check_impacts;
+use crate::{Control, PlanError, RunError};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use vibroimpact::events::MachineStart;
+use vibroimpact::machine::Machine;
+
+/// Points of numbers of a machine and of its start.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MachineManyPlan {
+    /// The points. What varies at none of them is that of the machine and of its start.
+    pub points: MachinePoints,
+    /// Budget of events for each start: 1 to 1000000. 20000 when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub impacts: Option<u32>,
+    /// Quantities of each motion to report beside its label, by path.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub fields: Vec<String>,
+}
+
+impl MachineManyPlan {
+    /// Checks everything that can be checked without running the plan.
+    ///
+    /// # Errors
+    /// [`PlanError`] names the first invalid value.
+    pub fn check(&self, source: &MachineSource, machine: &Machine) -> Result<(), PlanError> {
+        self.points.check()?;
+        check_fields(machine, &self.fields)?;
+        check_impacts(self.impacts)?;
+        let mut names: Vec<&str> = Vec::new();
+        for name in self.points.varied() {
+            if names.contains(&name) {
+                return Err(PlanError::MachineAxisTwice(name.to_owned()));
+            }
+            if StartAxis::found(machine, name)?.is_none() {
+                source.number(name)?;
+            }
+            names.push(name);
+        }
+        Ok(())
+    }
+}
+
+/// The motion at each point; none where the numbers or the start are not allowed.
+pub(super) fn many(
+    source: &MachineSource,
+    (machine, start): (&Machine, &MachineStart),
+    plan: &MachineManyPlan,
+    control: &Control<'_>,
+) -> Result<MachineMap, RunError> {
+    let columns = plan.points.columns();
+    let places = columns.iter().map(|column| StartAxis::found(machine, &column.vary)).collect::<Result<Vec<_>, _>>()?;
+    let problem = |k: u64| {
+        let at = usize::try_from(k).ok()?;
+        let mut state = start.clone();
+        let mut changes = Vec::new();
+        for (column, place) in columns.iter().zip(&places) {
+            match place {
+                Some(place) => place.set(&mut state, column.values[at]),
+                None => changes.push((column.vary.as_str(), column.values[at])),
+            }
+        }
+        let there = if changes.is_empty() { machine.clone() } else { source.with_all(changes).ok()?.machine().ok()? };
+        Some((there, state))
+    };
+    let verdicts = each_verdict(plan.points.count(), control, problem, plan.impacts)?;
+    let share = |(k, verdict): (u64, Option<vibroimpact::verdict::MachineVerdict>)| {
+        let found = verdict.and_then(|verdict| Some(MachineShare::of(&problem(k)?.0, &verdict, 1.0, &plan.fields)));
+        found.into_iter().collect::<Vec<_>>()
+    };
+    let cells = (0..).zip(verdicts).map(share).collect();
+    Ok(MachineMap { axes: Vec::new(), points: Some(columns), cells, fields: plan.fields.clone() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine_plan::points::{MachineColumn, MachineDrawn, MachineRange};
+    use crate::points::PointRule;
+    use crate::{MachinePlan, MachineResults, MachineTask, run_machine};
+
+    fn settled(source: &MachineSource, points: MachinePoints) -> MachineMap {
+        let fields = vec!["power".to_owned()];
+        let task = MachineTask::SettleMany(MachineManyPlan { points, impacts: None, fields });
+        let plan = MachinePlan::new(source.clone(), task);
+        assert_eq!(MachinePlan::from_text(&plan.to_toml(), crate::machine::no_files).unwrap(), plan);
+        let MachineResults::Map(found) = run_machine(&plan, &Control::default()).unwrap() else { panic!() };
+        found
+    }
+
+    /// Each point is settled as it is alone; a start beyond a stop has no motion.
+    #[test]
+    fn points_are_those_of_single_questions() {
+        let source = MachineSource::open("two-mass-hammer").unwrap();
+        let over = [("frequency", 0.9, 1.3), ("q.head", -1.0, 0.4)].map(|(vary, from, to)| MachineRange {
+            vary: vary.to_owned(),
+            from,
+            to,
+        });
+        let drawn = MachineDrawn { rule: PointRule::Sobol, count: 24, seed: 3, over: over.to_vec() };
+        let found = settled(&source, MachinePoints::Drawn(drawn));
+        let columns = found.points.clone().unwrap();
+        for (k, cell) in found.cells.iter().enumerate() {
+            let [frequency, head] = [0, 1].map(|column| columns[column].values[k]);
+            let alone =
+                MachinePlan::new(source.with("frequency", frequency).unwrap(), MachineTask::Settle { impacts: None });
+            let alone =
+                alone.starting(&MachineStart { q: vec![0.0, head], qdot: vec![0.0; 2], ..MachineStart::default() });
+            let MachineResults::Settle(alone) = run_machine(&alone, &Control::default()).unwrap() else { panic!() };
+            assert_eq!(cell[0].label(), alone.verdict.label(), "{k}");
+            assert!(cell[0].quantities[0].is_finite());
+        }
+        let listed = |values: Vec<f64>| MachineColumn { vary: "q.head".to_owned(), values };
+        let found = settled(&source, MachinePoints::Listed(vec![listed(vec![0.0, 9.0])]));
+        assert!(found.cells[0].len() == 1 && found.cells[1].is_empty());
+        let twice = MachinePoints::Listed(vec![listed(vec![0.0]), listed(vec![0.0])]);
+        let plan = MachineManyPlan { points: twice, impacts: None, fields: Vec::new() };
+        assert!(plan.check(&source, &source.machine().unwrap()).unwrap_err().to_string().contains("q.head"));
+    }
+}
