@@ -97,7 +97,10 @@ async fn tables_commands_and_layers() {
     assert!(steady.starts_with("time,x,v\n0,0.75,") && steady.lines().count() > 500, "{steady}");
     let motions = String::from_utf8(ask("/api/table", r#""attractors":{"starts":200,"seed":1}"#).await.2).unwrap();
     assert!(motions.contains("\n2/1,0.64,128,0.4437") && motions.lines().count() == 3, "{motions}");
-    assert_eq!(ask("/api/table", r#""orbit":{"label":"1/1"}"#).await.0, 404);
+    let orbits = String::from_utf8(ask("/api/table", r#""orbit":{"label":"1/1"}"#).await.2).unwrap();
+    assert!(orbits.starts_with("orbit,label,admissible,stable,") && orbits.lines().count() > 1, "{orbits}");
+    let no_points = r#""lyapunov":{"start":{},"impacts":2000,"transient":200,"points":null}"#;
+    assert_eq!(ask("/api/table", no_points).await.0, 404);
 
     let told: Value = serde_json::from_slice(&ask("/api/command", SETTLE).await.2).unwrap();
     assert_eq!(told["vibro"], "vibro settle --inverse-beta 1.3 --gap 0.75 --restitution 0.5");
