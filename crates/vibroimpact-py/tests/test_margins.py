@@ -63,3 +63,24 @@ def test_scales_and_refusals() -> None:
         vi.margins(osc, within=1)
     with pytest.raises(TypeError, match="is not a list of parameters"):
         vi.margins(osc, vary="gap")
+
+
+def test_margins_of_a_machine_are_those_of_the_oscillator() -> None:
+    osc = vi.Oscillator(inverse_beta=1.11, gap=1.5, restitution=0.5, damping=0.01)
+    gap = "stop.anvil.gap"
+    machine = vi.Machine(
+        coordinates=["x"], mass=[1], damping=[0.02], stiffness=[1], frequency=1 / 1.11,
+        forces=[{"at": "x", "sin": 1}], stops={"anvil": {"at": "x", "gap": 1.5, "restitution": 0.5}},
+    )
+    alone, found = vi.margins(osc, label="1/1", vary=["gap"]), machine.margins(label="1/1", vary=[gap])
+    for way in ("down", "up"):
+        one, two = getattr(alone.parameters["gap"], way), getattr(found.parameters[gap], way)
+        assert (one.event is None) == (two.event is None) and one.limit == two.limit, way
+        if one.event is not None:
+            assert one.event["kind"] == two.event["kind"] and abs(one.at - two.at) < 1e-9
+    assert found.box is None and found.system == machine and found.motion.label == "1/1"
+    assert found.nearest is not None and found.nearest.parameter == gap
+    ax = found.plot()
+    assert "1/1" in ax.get_title() and len(found.to_dataframe()) == 2
+    with pytest.raises(TypeError, match="not a list of paths"):
+        machine.margins(vary=gap)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from vibroimpact import _core, _machine_answers
+from vibroimpact import _core, _machine_answers, _margins
 from vibroimpact._axis import beside
 from vibroimpact._core import QuestionError
 from vibroimpact._machine_answers import (
@@ -25,6 +25,7 @@ from vibroimpact._machine_answers import (
     MachineOrbits,
     MachineSettled,
 )
+from vibroimpact._margins import Margins
 from vibroimpact._progress import Progress, watched
 from vibroimpact._result import Result
 from vibroimpact._whole import (
@@ -542,6 +543,42 @@ class Machine:
             "event": maybe("event", event, NUMBER), "points": whole("points", points, BRANCH),
         }}
         return _machine_answers.curve(self._ask(task, (q, qdot, phase), progress, "curves"))
+
+    def margins(
+        self, *, q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None,
+        label: str | None = None, vary: Sequence[str] | None = None, within: float = 2.0, progress: Progress = None,
+    ) -> Margins:
+        """Find how far a periodic motion is from the events that end or change it.
+
+        The motion is followed in each number alone, up and down, to the nearest event: a fold, a flip, a grazing impact, the
+        end of a rest.
+
+        Parameters
+        ----------
+        q, qdot, phase : sequence, sequence, float
+            The start, as in `simulate`.
+        label : str
+            "m/n" of the motion instead of a start: the stable orbit, or else the fastest one.
+        vary : sequence of str
+            The paths of the numbers that vary; by default the parameters of the file, and the numbers that are written as such
+            and are not 0, without directions.
+        within : float
+            Events are looked for from each value divided by this number to the value times this number, above 1 and up to 100;
+            a restitution from 0 to 1.
+        progress : bool or callable
+            True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
+
+        Examples
+        --------
+        >>> import vibroimpact as vi
+        >>> vi.Machine.named("two-mass-hammer").margins(vary=["omega"])
+        <Margins of 1/1, nearest grazing at omega 1.055>
+        """
+        if isinstance(vary, str):
+            raise TypeError(f'vary = {vary!r} is not a list of paths, such as ["omega"]')
+        task = {"margins": {"label": label, "vary": list(vary or []), "within": within}}
+        found = self._ask(task, (q, qdot, phase), progress, "margins")
+        return _margins.of_answer(found, self, _machine_answers.motion(found, self))
 
     def basin(
         self, axes: MachineAxes, *, q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None,

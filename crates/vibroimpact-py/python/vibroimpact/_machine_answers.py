@@ -293,11 +293,16 @@ class MachineSettled(Result):
         return self.motion.plot(axes)
 
 
+def motion(found: Mapping[str, Any], machine: Any) -> MachineMotion:
+    """The motion of the JSON object of a command."""
+    return _motion(found["motion"], len(found["system"]["coordinates"]), machine)
+
+
 def settled(found: Mapping[str, Any], machine: Any) -> MachineSettled:
     """Of the JSON object."""
     plan = json.dumps(found["plan"])
     return MachineSettled(
-        _motion(found["motion"], len(found["system"]["coordinates"]), machine), found["events_followed"], found["time_followed"],
+        motion(found, machine), found["events_followed"], found["time_followed"],
         _all_measured(found.get("chaotic_transient", {}).get("exponents")), plan,
     )
 

@@ -1,5 +1,6 @@
 """How far a periodic motion is from the events that end or change it."""
 
+import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -14,6 +15,9 @@ from vibroimpact._whole import LINES, whole
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from vibroimpact._machine import Machine
+    from vibroimpact._machine_answers import MachineMotion
+
 
 @dataclass(frozen=True, slots=True)
 class MarginEnd:
@@ -25,7 +29,7 @@ class MarginEnd:
     at: float | None
     distance: float | None
     relative: float | None
-    #: The event with the fields of the JSON of the command: "kind", "label_before", "label_after" and others.
+    #: The event with the fields of the JSON of the command: "kind", "before", "after", "stop" and others.
     event: dict[str, Any] | None
 
 @dataclass(frozen=True, slots=True)
@@ -71,22 +75,23 @@ class Margins(Result):
 
     Attributes
     ----------
-    osc : Oscillator
+    system : Oscillator or Machine
         The system.
-    motion : Motion
+    motion : Motion or MachineMotion
         The motion.
     parameters : dict of ParameterMargin
         The nearest events in each parameter, by the name of the parameter; empty for a motion that is not periodic.
     nearest : Nearest or None
         The event with the smallest change in units of the scale of its parameter; None if there is none in the ranges.
     box : MotionBox or None
-        The largest box in which the motion was found; None for a motion that is not periodic, or not stable.
+        The largest box in which the motion was found; None for a motion that is not periodic, or not stable, and of machines,
+        for which no box is looked for.
     plan : str
         The plan as JSON.
     """
 
-    osc: Oscillator
-    motion: Motion
+    system: "Oscillator | Machine"
+    motion: "Motion | MachineMotion"
     parameters: dict[str, ParameterMargin]
     nearest: Nearest | None
     box: MotionBox | None
@@ -175,33 +180,26 @@ def margins(
     lines = whole("lines", lines, LINES)
     with watched(progress, "margins") as tell:
         found = _core.margins(osc, (x, v, phase), label, varied, within, lines, tell)
+    return of_answer(json.loads(found["json"]), osc, Motion(**fields_of(osc, found["motion"])))
+
+
+def of_answer(found: Mapping[str, Any], system: "Oscillator | Machine", motion: "Motion | MachineMotion") -> Margins:
+    """The margins of the object of the command, and the motion that it contains."""
     return Margins(
-        osc=osc,
-        motion=Motion(**fields_of(osc, found["motion"])),
+        system=system,
+        motion=motion,
         parameters={of["parameter"]: _parameter(of) for of in found["parameters"]},
-        nearest=None if found["nearest"] is None else Nearest(*found["nearest"]),
-        box=None if found["found"] is None else _box(found["found"]),
-        plan=found["plan"],
+        nearest=None if found["nearest"] is None else Nearest(**found["nearest"]),
+        box=None if found["box"] is None else _box(found["box"]),
+        plan=json.dumps(found["plan"]),
     )
 
 
-def _parameter(of: dict[str, Any]) -> ParameterMargin:
-    ends = {way: MarginEnd(**{**of[way], "event": _event(of[way]["event"])}) for way in ("down", "up")}
-    return ParameterMargin(**{**of, **ends})
+def _parameter(of: Mapping[str, Any]) -> ParameterMargin:
+    return ParameterMargin(**{**of, "down": MarginEnd(**of["down"]), "up": MarginEnd(**of["up"])})
 
 
-def _event(of: dict[str, Any] | None) -> dict[str, Any] | None:
-    """The fields of an event; those that do not apply to its kind are left out."""
-    if of is None:
-        return None
-    fields = {name: value for name, value in of.items() if name in ("label_after",) or value is not None}
-    if "also" in fields:
-        also = dict(zip(("impact", "side", "phase"), fields["also"]))
-        fields["also"] = {name: value for name, value in also.items() if value is not None}
-    return fields
-
-
-def _box(of: dict[str, Any]) -> MotionBox:
-    ranges = {name: (a, b) for name, a, b in of["ranges"]}
-    edge = None if of["edge"] is None else (of["edge"][0], dict(of["edge"][1]))
-    return MotionBox(**{**of, "ranges": ranges, "edge": edge})
+def _box(of: Mapping[str, Any]) -> MotionBox:
+    ranges = {one["parameter"]: (one["from"], one["to"]) for one in of["parameters"]}
+    edge = of["edge"] and (of["edge"]["loss"], {one["parameter"]: one["value"] for one in of["edge"]["parameters"]})
+    return MotionBox(of["size"], of["largest"], ranges, of["points"], of["lines"], edge)
