@@ -15,9 +15,6 @@ from vibroimpact._whole import LINES, whole
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from vibroimpact._machine import Machine
-    from vibroimpact._machine_answers import MachineMotion
-
 
 @dataclass(frozen=True, slots=True)
 class MarginEnd:
@@ -90,8 +87,8 @@ class Margins(Result):
         The plan as JSON.
     """
 
-    system: "Oscillator | Machine"
-    motion: "Motion | MachineMotion"
+    system: Any
+    motion: Any
     parameters: dict[str, ParameterMargin]
     nearest: Nearest | None
     box: MotionBox | None
@@ -183,7 +180,7 @@ def margins(
     return of_answer(json.loads(found["json"]), osc, Motion(**fields_of(osc, found["motion"])))
 
 
-def of_answer(found: Mapping[str, Any], system: "Oscillator | Machine", motion: "Motion | MachineMotion") -> Margins:
+def of_answer(found: Mapping[str, Any], system: Any, motion: Any) -> Margins:
     """The margins of the object of the command, and the motion that it contains."""
     return Margins(
         system=system,
