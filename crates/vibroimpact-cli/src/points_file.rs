@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use std::io::Read;
 use std::path::Path;
 use vibroimpact_study::typed::decimal;
-use vibroimpact_study::{Coordinate, ListedColumn, MachineColumn};
+use vibroimpact_study::{Coordinate, ListedColumn};
 
 /// Reads the columns of a table of comma-separated values for an oscillator; `-` is stdin.
 pub(crate) fn read(path: &Path) -> Result<Vec<ListedColumn>, Failure> {
@@ -12,8 +12,8 @@ pub(crate) fn read(path: &Path) -> Result<Vec<ListedColumn>, Failure> {
 }
 
 /// The same for a machine: what the columns vary is checked with its plan.
-pub(crate) fn read_for_machine(path: &Path) -> Result<Vec<MachineColumn>, Failure> {
-    let column = |(name, values): (&str, Vec<f64>)| MachineColumn { vary: name.to_owned(), values };
+pub(crate) fn read_for_machine(path: &Path) -> Result<Vec<ListedColumn<String>>, Failure> {
+    let column = |(name, values): (&str, Vec<f64>)| ListedColumn { vary: name.to_owned(), values };
     columns_of(path, |text| Ok(cells(text)?.into_iter().map(column).collect()))
 }
 

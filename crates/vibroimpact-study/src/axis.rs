@@ -20,6 +20,12 @@ pub enum Coordinate {
     Phase,
 }
 
+impl From<Coordinate> for std::borrow::Cow<'static, str> {
+    fn from(coordinate: Coordinate) -> Self {
+        coordinate.name().into()
+    }
+}
+
 impl Coordinate {
     /// Gives a coordinate of a start this value; a parameter leaves the start as it is.
     pub(crate) fn place(self, start: &mut StartPlan, value: impl FnOnce() -> f64) {

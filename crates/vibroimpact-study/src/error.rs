@@ -69,19 +69,6 @@ pub enum PlanError {
         /// Its last value.
         to: f64,
     },
-    /// The range of a number of points.
-    #[error("{path} is to lie between {from} and {to}, which are no two finite numbers in increasing order")]
-    PointRange {
-        /// What varies.
-        path: String,
-        /// One end.
-        from: f64,
-        /// The other end.
-        to: f64,
-    },
-    /// A column of points.
-    #[error("the column {0} has another number of points than the first one, or a value that is not finite")]
-    MachinePoints(String),
     /// The number of an orbit without a label.
     #[error(
         "the number of an orbit is given without a label\nhint: orbits are numbered among those with the same label m/n"
@@ -253,7 +240,7 @@ pub enum PlanError {
     #[error("{} has {} values and {} has {}: every column has one value for each point", names.0, counts.0, names.1, counts.1)]
     PointColumns {
         /// The names of two columns.
-        names: (&'static str, &'static str),
+        names: (Cow<'static, str>, Cow<'static, str>),
         /// Their lengths.
         counts: (usize, usize),
     },
@@ -261,7 +248,7 @@ pub enum PlanError {
     #[error("{name} = {value} is not finite (point {point})")]
     PointValue {
         /// The name of the column.
-        name: &'static str,
+        name: Cow<'static, str>,
         /// The value.
         value: f64,
         /// The number of the point, counted from 0.
@@ -530,7 +517,7 @@ pub enum PlanError {
     #[error("{name} from {from} to {to} is no range: two finite numbers in rising order are needed")]
     Stretch {
         /// The name of the parameter.
-        name: &'static str,
+        name: Cow<'static, str>,
         /// The first end.
         from: f64,
         /// The second end.

@@ -93,13 +93,12 @@ pub use grid::{Block, Dimension, Grid, number, place};
 pub use limits::PLAN_VERSION;
 pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
 pub use machine_plan::{
-    MachineAxis, MachineBasin, MachineBasinPlan, MachineBranchPlan, MachineBranched, MachineColumn, MachineCurvePlan,
-    MachineCut, MachineDiagram, MachineDiagramPlan, MachineDiagramPoint, MachineDiagramStep, MachineDrawn,
-    MachineEventCurve, MachineFollowed, MachineFollowedEvent, MachineLine, MachineLyapunovPlan, MachineManyPlan,
-    MachineMap, MachineMapPlan, MachineMargins, MachineMarginsPlan, MachineOrigin, MachinePlan, MachinePoints,
-    MachineRange, MachineResponsePlan, MachineResults, MachineSection, MachineShare, MachineSimulated, MachineStretch,
-    MachineTarget, MachineTask, NumberEvent, NumberMargin, events_with_states, is_machine_plan, machine_label,
-    run_machine,
+    MachineAxis, MachineBasin, MachineBasinPlan, MachineBranchPlan, MachineBranched, MachineCurvePlan, MachineCut,
+    MachineDiagram, MachineDiagramPlan, MachineDiagramPoint, MachineDiagramStep, MachineEventCurve, MachineFollowed,
+    MachineFollowedEvent, MachineLine, MachineLyapunovPlan, MachineManyPlan, MachineMap, MachineMapPlan,
+    MachineMargins, MachineMarginsPlan, MachineOrigin, MachinePlan, MachineResponsePlan, MachineResults,
+    MachineSection, MachineShare, MachineSimulated, MachineStretch, MachineTarget, MachineTask, NumberEvent,
+    NumberMargin, events_with_states, is_machine_plan, machine_label, run_machine,
 };
 pub use map::{MapPlan, MapPoint, RegionMap, Share};
 pub use margins::{

@@ -65,7 +65,7 @@ const NARROWEST: f64 = 1e-100;
 pub(crate) fn check_plane(system: &SystemPlan, one: &Stretch, two: &Stretch) -> Result<(), PlanError> {
     for stretch in [one, two] {
         if !(stretch.from.is_finite() && stretch.to.is_finite() && stretch.from < stretch.to) {
-            let name = stretch.parameter.name();
+            let name = stretch.parameter.name().into();
             return Err(PlanError::Stretch { name, from: stretch.from, to: stretch.to });
         }
         let least = (NARROW * stretch.from.abs().max(stretch.to.abs())).max(NARROWEST);

@@ -14,8 +14,8 @@ use core::str::FromStr;
 use std::path::PathBuf;
 use vibroimpact_report::{Asked, Shown, Units};
 use vibroimpact_study::{
-    BasinPlan, Coordinate, DrawnPoints, ListedColumn, MachineDrawn, MachineManyPlan, MachinePoints, MachineRange,
-    MachineStretch, MachineTask, Parameter, Plan, PointRange, PointRule, PointsPlan, StartPlan, StudyPlan, Task,
+    BasinPlan, Coordinate, DrawnPoints, ListedColumn, MachineManyPlan, MachineStretch, MachineTask, Parameter, Plan,
+    PointRange, PointRule, PointsPlan, StartPlan, StudyPlan, Task,
 };
 
 /// Which motion each of many systems and starts leads to: points from a table, or drawn from ranges
@@ -123,13 +123,13 @@ impl FromStr for Drawn {
 
 impl SettleMany {
     /// The points of a machine.
-    fn points_of_machine(&self) -> Result<MachinePoints, Failure> {
+    fn points_of_machine(&self) -> Result<PointsPlan<String>, Failure> {
         match (&self.points, self.sample) {
-            (Some(path), _) => Ok(MachinePoints::Listed(points_file::read_for_machine(path)?)),
+            (Some(path), _) => Ok(PointsPlan::Listed(points_file::read_for_machine(path)?)),
             (None, Some(Drawn(rule, count))) => {
                 let range = |over: &VariedOver| {
                     let MachineStretch { path: vary, from, to } = over.stretch();
-                    MachineRange { vary, from, to }
+                    PointRange { vary, from, to }
                 };
                 if self.over.is_empty() {
                     return Err(Failure::bad(
@@ -137,7 +137,7 @@ impl SettleMany {
                     ));
                 }
                 let over = self.over.iter().map(range).collect();
-                Ok(MachinePoints::Drawn(MachineDrawn { rule, count, seed: self.seed, over }))
+                Ok(PointsPlan::Drawn(DrawnPoints { rule, count, seed: self.seed, over }))
             }
             (None, None) => Err(Failure::bad("there are no points\nhint: --points FILE.csv, or --sample lhs:N")),
         }

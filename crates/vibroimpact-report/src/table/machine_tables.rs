@@ -158,7 +158,7 @@ pub(crate) fn basin<'a>(machine: &'a Machine, found: &'a MachineBasin) -> Table<
 pub(crate) fn map<'a>(machine: &'a Machine, found: &'a MachineMap) -> Table<'a> {
     let motions = found.cells.iter().flatten();
     let remarks = Remarks::of(motions.map(|motion| (motion.stops.as_slice(), motion.seen_events)));
-    let grid = found.points.is_none();
+    let grid = found.points.is_empty();
     let rows = found.cells.iter().enumerate().flat_map(move |(k, cell)| {
         let number = if grid { String::new() } else { format!("{},", k + 1) };
         let at: String = found.at(k).into_iter().map(|value| format!("{},", Number(value))).collect();

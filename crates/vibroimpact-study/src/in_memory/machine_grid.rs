@@ -64,5 +64,5 @@ pub(crate) fn machine_map(
             }
         }
     }
-    Ok(MachineMap { axes: plan.axes.clone(), points: None, cells, fields: plan.fields.clone() })
+    Ok(MachineMap { axes: plan.axes.clone(), points: Vec::new(), cells, fields: plan.fields.clone() })
 }

@@ -1,13 +1,12 @@
 //! Plans and results of basins over coordinates, and of maps over numbers, of a machine.
 
 use super::axis::MachineAxis;
-use super::points::MachineColumn;
 use super::verdicts::check_starts;
-use crate::PlanError;
 use crate::limits::MOST_CELLS;
 use crate::machine::MachineSource;
 use crate::map::{check_impacts, check_refine};
 use crate::study::label_of;
+use crate::{ListedColumn, PlanError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -83,8 +82,8 @@ pub struct MachineBasin {
 pub struct MachineMap {
     /// The axes; the first varies fastest.
     pub axes: Vec<MachineAxis>,
-    /// The points, where they are no grid.
-    pub points: Option<Vec<MachineColumn>>,
+    /// The points as columns, where they are no grid; empty for a grid.
+    pub points: Vec<ListedColumn<String>>,
     /// The motions at each point, the most frequent first. Two motions of one label have a row each. Empty where the numbers
     /// are not allowed.
     pub cells: Vec<Vec<MachineShare>>,
@@ -140,14 +139,14 @@ impl MachineBasin {
 impl MachineMap {
     /// What varies.
     pub fn varied(&self) -> impl Iterator<Item = &str> {
-        let columns = self.points.iter().flatten().map(|column| column.vary.as_str());
+        let columns = self.points.iter().map(|column| column.vary.as_str());
         self.axes.iter().map(|axis| axis.vary.as_str()).chain(columns)
     }
 
     /// Its values at point number `k`.
     #[must_use]
     pub fn at(&self, k: usize) -> Vec<f64> {
-        let columns = self.points.iter().flatten().map(|column| column.values[k]);
+        let columns = self.points.iter().map(|column| column.values[k]);
         MachineAxis::at(&self.axes, k as u64).into_iter().chain(columns).collect()
     }
 
@@ -223,10 +222,19 @@ pub(super) fn check_axes(axes: &[MachineAxis]) -> Result<(), PlanError> {
         return Err(PlanError::MachineAxes(axes.len()));
     }
     axes.iter().try_for_each(|axis| axis.over.check())?;
-    match axes.iter().enumerate().find(|(k, axis)| axes[..*k].iter().any(|other| other.vary == axis.vary)) {
-        Some((_, twice)) => Err(PlanError::MachineAxisTwice(twice.vary.clone())),
-        None => Ok(()),
+    none_twice(axes.iter().map(|axis| axis.vary.clone()))
+}
+
+/// Refuses a path that varies twice.
+pub(super) fn none_twice(varied: impl Iterator<Item = String>) -> Result<(), PlanError> {
+    let mut paths: Vec<String> = Vec::new();
+    for path in varied {
+        if paths.contains(&path) {
+            return Err(PlanError::MachineAxisTwice(path));
+        }
+        paths.push(path);
     }
+    Ok(())
 }
 
 /// Refuses a grid whose results do not fit in memory; a store has no such limit.

@@ -1,11 +1,10 @@
 //! Which motion each of many machines and starts leads to: points of numbers and starts, listed or drawn from ranges.
 
-use super::grid::{MachineMap, MachineShare, StartAxis, check_fields};
-use super::points::MachinePoints;
+use super::grid::{MachineMap, MachineShare, StartAxis, check_fields, none_twice};
 use super::verdicts::each_verdict;
 use crate::machine::MachineSource;
 use crate::map::check_impacts;
-use crate::{Control, PlanError, RunError};
+use crate::{Control, ListedColumn, PlanError, PointsPlan, RunError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vibroimpact::events::MachineStart;
@@ -15,8 +14,9 @@ use vibroimpact::machine::Machine;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MachineManyPlan {
-    /// The points. What varies at none of them is that of the machine and of its start.
-    pub points: MachinePoints,
+    /// The points. What varies is the path of a number of the machine, or `q.COORDINATE`, `qdot.COORDINATE` or `phase` of the
+    /// start; what does not is that of the machine and of its start.
+    pub points: PointsPlan<String>,
     /// Budget of events for each start: 1 to 1000000. 20000 when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub impacts: Option<u32>,
@@ -25,26 +25,28 @@ pub struct MachineManyPlan {
     pub fields: Vec<String>,
 }
 
+/// Maximum number of points, whose motions are in memory.
+const MOST: u64 = 10_000_000;
+
 impl MachineManyPlan {
     /// Checks everything that can be checked without running the plan.
     ///
     /// # Errors
     /// [`PlanError`] names the first invalid value.
     pub fn check(&self, source: &MachineSource, machine: &Machine) -> Result<(), PlanError> {
-        self.points.check()?;
+        self.points.check_values()?;
+        if self.points.count() > MOST {
+            return Err(PlanError::PointCount { given: self.points.count(), most: MOST });
+        }
         check_fields(machine, &self.fields)?;
         check_impacts(self.impacts)?;
-        let mut names: Vec<&str> = Vec::new();
-        for name in self.points.varied() {
-            if names.contains(&name) {
-                return Err(PlanError::MachineAxisTwice(name.to_owned()));
+        none_twice(self.points.varied())?;
+        self.points.varied().try_for_each(|name| {
+            if StartAxis::found(machine, &name)?.is_none() {
+                source.number(&name)?;
             }
-            if StartAxis::found(machine, name)?.is_none() {
-                source.number(name)?;
-            }
-            names.push(name);
-        }
-        Ok(())
+            Ok(())
+        })
     }
 }
 
@@ -55,7 +57,12 @@ pub(super) fn many(
     plan: &MachineManyPlan,
     control: &Control<'_>,
 ) -> Result<MachineMap, RunError> {
-    let columns = plan.points.columns();
+    let count = plan.points.count();
+    let column = |column| ListedColumn {
+        vary: plan.points.vary(column),
+        values: (0..usize::try_from(count).unwrap_or(0)).map(|k| plan.points.at(column, k)).collect(),
+    };
+    let columns: Vec<ListedColumn<String>> = (0..plan.points.width()).map(column).collect();
     let places = columns.iter().map(|column| StartAxis::found(machine, &column.vary)).collect::<Result<Vec<_>, _>>()?;
     let problem = |k: u64| {
         let at = usize::try_from(k).ok()?;
@@ -70,23 +77,18 @@ pub(super) fn many(
         let there = if changes.is_empty() { machine.clone() } else { source.with_all(changes).ok()?.machine().ok()? };
         Some((there, state))
     };
-    let verdicts = each_verdict(plan.points.count(), control, problem, plan.impacts)?;
-    let share = |(k, verdict): (u64, Option<vibroimpact::verdict::MachineVerdict>)| {
-        let found = verdict.and_then(|verdict| Some(MachineShare::of(&problem(k)?.0, &verdict, 1.0, &plan.fields)));
-        found.into_iter().collect::<Vec<_>>()
-    };
-    let cells = (0..).zip(verdicts).map(share).collect();
-    Ok(MachineMap { axes: Vec::new(), points: Some(columns), cells, fields: plan.fields.clone() })
+    let share = |machine: &Machine, verdict| MachineShare::of(machine, &verdict, 1.0, &plan.fields);
+    let shares = each_verdict(count, control, problem, plan.impacts, share)?;
+    let cells = shares.into_iter().map(|share| share.into_iter().collect()).collect();
+    Ok(MachineMap { axes: Vec::new(), points: columns, cells, fields: plan.fields.clone() })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::machine_plan::points::{MachineColumn, MachineDrawn, MachineRange};
-    use crate::points::PointRule;
-    use crate::{MachinePlan, MachineResults, MachineTask, run_machine};
+    use crate::{DrawnPoints, MachinePlan, MachineResults, MachineTask, PointRange, PointRule, run_machine};
 
-    fn settled(source: &MachineSource, points: MachinePoints) -> MachineMap {
+    fn settled(source: &MachineSource, points: PointsPlan<String>) -> MachineMap {
         let fields = vec!["power".to_owned()];
         let task = MachineTask::SettleMany(MachineManyPlan { points, impacts: None, fields });
         let plan = MachinePlan::new(source.clone(), task);
@@ -99,14 +101,14 @@ mod tests {
     #[test]
     fn points_are_those_of_single_questions() {
         let source = MachineSource::open("two-mass-hammer").unwrap();
-        let over = [("frequency", 0.9, 1.3), ("q.head", -1.0, 0.4)].map(|(vary, from, to)| MachineRange {
+        let over = [("frequency", 0.9, 1.3), ("q.head", -1.0, 0.4)].map(|(vary, from, to)| PointRange {
             vary: vary.to_owned(),
             from,
             to,
         });
-        let drawn = MachineDrawn { rule: PointRule::Sobol, count: 24, seed: 3, over: over.to_vec() };
-        let found = settled(&source, MachinePoints::Drawn(drawn));
-        let columns = found.points.clone().unwrap();
+        let drawn = DrawnPoints { rule: PointRule::Sobol, count: 24, seed: 3, over: over.to_vec() };
+        let found = settled(&source, PointsPlan::Drawn(drawn));
+        let columns = found.points.clone();
         for (k, cell) in found.cells.iter().enumerate() {
             let [frequency, head] = [0, 1].map(|column| columns[column].values[k]);
             let alone =
@@ -117,10 +119,10 @@ mod tests {
             assert_eq!(cell[0].label(), alone.verdict.label(), "{k}");
             assert!(cell[0].quantities[0].is_finite());
         }
-        let listed = |values: Vec<f64>| MachineColumn { vary: "q.head".to_owned(), values };
-        let found = settled(&source, MachinePoints::Listed(vec![listed(vec![0.0, 9.0])]));
+        let listed = |values: Vec<f64>| ListedColumn { vary: "q.head".to_owned(), values };
+        let found = settled(&source, PointsPlan::Listed(vec![listed(vec![0.0, 9.0])]));
         assert!(found.cells[0].len() == 1 && found.cells[1].is_empty());
-        let twice = MachinePoints::Listed(vec![listed(vec![0.0]), listed(vec![0.0])]);
+        let twice = PointsPlan::Listed(vec![listed(vec![0.0]), listed(vec![0.0])]);
         let plan = MachineManyPlan { points: twice, impacts: None, fields: Vec::new() };
         assert!(plan.check(&source, &source.machine().unwrap()).unwrap_err().to_string().contains("q.head"));
     }

@@ -11,7 +11,7 @@
 //! | orbits, and the one at which a branch begins | `orbits` |
 //! | a line through one number or two | [`MachineCut`], [`MachineStretch`], [`MachineTarget`], `cut` |
 //! | branches of orbits | [`MachineBranchPlan`], [`MachineBranched`], `branch` |
-//! | which motion each of many points leads to | [`MachineManyPlan`], `many`; [`MachinePoints`], `points` |
+//! | which motion each of many points leads to | [`MachineManyPlan`], `many` |
 //! | how far a cycle is from its nearest events | [`MachineMarginsPlan`], [`MachineMargins`], `margins` |
 //! | a quantity of all motions over a number | [`MachineResponsePlan`], `response` |
 //! | curves of events over two numbers | [`MachineCurvePlan`], [`MachineEventCurve`], `curve` |
@@ -32,7 +32,6 @@ mod many;
 mod margins;
 mod orbits;
 mod plan;
-mod points;
 mod response;
 mod run;
 mod section;
@@ -53,7 +52,6 @@ pub use many::MachineManyPlan;
 pub use margins::{MachineMargins, MachineMarginsPlan, NumberEvent, NumberMargin};
 pub use orbits::label as machine_label;
 pub use plan::{MachinePlan, MachineTask};
-pub use points::{MachineColumn, MachineDrawn, MachinePoints, MachineRange};
 pub use response::MachineResponsePlan;
 pub use run::{MachineResults, run_machine};
 pub use section::MachineSection;

@@ -30,20 +30,21 @@ pub(super) fn settle(
     settled.ok_or_else(|| Stopped { done: 0, total: 1 }.into())
 }
 
-/// The verdicts on many starts, in order. A start that is not allowed has none.
-pub(super) fn each_verdict(
+/// What `told` makes of the machine and the verdict on each of many starts, in order. A start that is not allowed has none.
+pub(super) fn each_verdict<T: Send>(
     total: u64,
     control: &Control<'_>,
     problem: impl Fn(u64) -> Option<(Machine, MachineStart)> + Sync,
     impacts: Option<u32>,
-) -> Result<Vec<Option<MachineVerdict>>, RunError> {
+    told: impl Fn(&Machine, MachineVerdict) -> T + Sync,
+) -> Result<Vec<Option<T>>, RunError> {
     let options = options(impacts);
     let parts = tiles(total, TILE, control, |range, tick| {
         let mut found = Vec::new();
         for k in range {
             let verdict = problem(k).and_then(|(machine, start)| {
                 let settled = settle_machine_while(&machine, &start, &options, &|| !control.stopping());
-                settled.ok().flatten().map(|settled| settled.verdict)
+                settled.ok().flatten().map(|settled| told(&machine, settled.verdict))
             });
             found.push(verdict);
             if tick() {
@@ -63,7 +64,7 @@ pub(super) fn attractors(
 ) -> Result<Census<MachineVerdict>, RunError> {
     let problem = |k| Some((machine.clone(), scattered_machine_starts(machine, seed, k)));
     let mut census = Census::default();
-    for verdict in each_verdict(starts, control, problem, impacts)?.iter().flatten() {
+    for verdict in each_verdict(starts, control, problem, impacts, |_, verdict| verdict)?.iter().flatten() {
         census.add(verdict);
     }
     Ok(census)

@@ -4,11 +4,12 @@ use super::listed::ListedColumn;
 use super::rule::{MOST_SOBOL, PointRule};
 use crate::{Coordinate, PlanError};
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// Points drawn from a box by a rule.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct DrawnPoints {
+pub struct DrawnPoints<V = Coordinate> {
     /// How they are drawn.
     pub rule: PointRule,
     /// How many.
@@ -17,15 +18,15 @@ pub struct DrawnPoints {
     #[serde(default)]
     pub seed: u64,
     /// The sides of the box.
-    pub over: Vec<PointRange>,
+    pub over: Vec<PointRange<V>>,
 }
 
 /// A side of the box: the range of one number.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct PointRange {
+pub struct PointRange<V = Coordinate> {
     /// What varies.
-    pub vary: Coordinate,
+    pub vary: V,
     /// One end of its range.
     pub from: f64,
     /// The other end.
@@ -37,7 +38,7 @@ const MOST: u64 = 1_000_000_000;
 /// Maximum number of sides, all of which have their corners checked.
 const MOST_SIDES: usize = 16;
 
-impl DrawnPoints {
+impl<V: Clone + Into<Cow<'static, str>>> DrawnPoints<V> {
     /// The value of column number `column` at point number `k`.
     pub(super) fn at(&self, column: usize, k: usize) -> f64 {
         let PointRange { from, to, .. } = self.over[column];
@@ -59,16 +60,16 @@ impl DrawnPoints {
             return Err(PlanError::PointCount { given: self.count, most: MOST });
         }
         match self.over.iter().find(|side| !(side.from.is_finite() && side.to.is_finite() && side.from < side.to)) {
-            Some(side) => Err(PlanError::Stretch { name: side.vary.name(), from: side.from, to: side.to }),
+            Some(side) => Err(PlanError::Stretch { name: side.vary.clone().into(), from: side.from, to: side.to }),
             None => Ok(()),
         }
     }
 
     /// The corners of the box, as columns of points that are listed.
-    pub(super) fn corners(&self) -> Vec<ListedColumn> {
+    pub(super) fn corners(&self) -> Vec<ListedColumn<V>> {
         let corners = 0..1_u32 << self.over.len();
-        let column = |(k, side): (usize, &PointRange)| ListedColumn {
-            vary: side.vary,
+        let column = |(k, side): (usize, &PointRange<V>)| ListedColumn {
+            vary: side.vary.clone(),
             values: corners.clone().map(|bits| if bits >> k & 1 == 0 { side.from } else { side.to }).collect(),
         };
         self.over.iter().enumerate().map(column).collect()

@@ -2,13 +2,14 @@
 
 use crate::{Coordinate, PlanError};
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// The values of one number at all points.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct ListedColumn {
+pub struct ListedColumn<V = Coordinate> {
     /// What varies.
-    pub vary: Coordinate,
+    pub vary: V,
     /// Its value at each point.
     pub values: Vec<f64>,
 }
@@ -25,7 +26,8 @@ pub(super) fn length(count: u64) -> usize {
 ///
 /// # Errors
 /// [`PlanError`] for the first column that is invalid.
-pub(super) fn check(columns: &[ListedColumn]) -> Result<(), PlanError> {
+pub(super) fn check<V: Clone + Into<Cow<'static, str>>>(columns: &[ListedColumn<V>]) -> Result<(), PlanError> {
+    let name = |column: &ListedColumn<V>| column.vary.clone().into();
     let count = columns.first().map_or(0, |column| column.values.len());
     if count == 0 || count as u64 > MOST {
         return Err(PlanError::PointCount { given: count as u64, most: MOST });
@@ -33,12 +35,12 @@ pub(super) fn check(columns: &[ListedColumn]) -> Result<(), PlanError> {
     for column in columns {
         if column.values.len() != count {
             return Err(PlanError::PointColumns {
-                names: (columns[0].vary.name(), column.vary.name()),
+                names: (name(&columns[0]), name(column)),
                 counts: (count, column.values.len()),
             });
         }
         if let Some(k) = column.values.iter().position(|value| !value.is_finite()) {
-            return Err(PlanError::PointValue { name: column.vary.name(), value: column.values[k], point: k as u64 });
+            return Err(PlanError::PointValue { name: name(column), value: column.values[k], point: k as u64 });
         }
     }
     Ok(())

@@ -1,5 +1,6 @@
 //! Points in the space of the parameters of a system and the coordinates of a start: listed, or drawn from a box. They are
-//! an axis of a grid along which several of them vary at once.
+//! an axis of a grid along which several of them vary at once. What varies is a [`Coordinate`] of an oscillator, or a path of
+//! a machine as text.
 
 mod drawn;
 mod listed;
@@ -13,21 +14,22 @@ pub use rule::PointRule;
 use crate::axis::none_twice;
 use crate::{Coordinate, Parameter, PlanError, StartPlan, SystemPlan};
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// Points of a study.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum PointsPlan {
+pub enum PointsPlan<V = Coordinate> {
     /// Points that are given, as one column for each number that varies.
-    Listed(Vec<ListedColumn>),
+    Listed(Vec<ListedColumn<V>>),
     /// Points of a low-discrepancy sequence or a Latin hypercube.
-    Drawn(DrawnPoints),
+    Drawn(DrawnPoints<V>),
 }
 
 /// The name of the dimension of points.
 pub(crate) const DIMENSION: &str = "sample";
 
-impl PointsPlan {
+impl<V: Clone + Into<Cow<'static, str>>> PointsPlan<V> {
     /// The number of points.
     #[must_use]
     pub fn count(&self) -> u64 {
@@ -51,10 +53,10 @@ impl PointsPlan {
     /// # Panics
     /// If there is no such column.
     #[must_use]
-    pub fn vary(&self, column: usize) -> Coordinate {
+    pub fn vary(&self, column: usize) -> V {
         match self {
-            Self::Listed(columns) => columns[column].vary,
-            Self::Drawn(drawn) => drawn.over[column].vary,
+            Self::Listed(columns) => columns[column].vary.clone(),
+            Self::Drawn(drawn) => drawn.over[column].vary.clone(),
         }
     }
 
@@ -71,10 +73,20 @@ impl PointsPlan {
     }
 
     /// What the columns vary, in order.
-    pub fn varied(&self) -> impl Iterator<Item = Coordinate> + '_ {
+    pub fn varied(&self) -> impl Iterator<Item = V> + '_ {
         (0..self.width()).map(|column| self.vary(column))
     }
 
+    /// Checks the number of points and that their values are finite, or the box from which they are drawn.
+    pub(crate) fn check_values(&self) -> Result<(), PlanError> {
+        match self {
+            Self::Listed(columns) => listed::check(columns),
+            Self::Drawn(drawn) => drawn.check(),
+        }
+    }
+}
+
+impl PointsPlan {
     /// Whether all points belong to one system.
     #[must_use]
     pub fn one_system(&self) -> bool {
@@ -120,12 +132,9 @@ impl PointsPlan {
         valid: impl Fn(&SystemPlan, &StartPlan) -> Result<(), PlanError>,
     ) -> Result<(), PlanError> {
         none_twice(self.varied())?;
-        match self {
-            Self::Listed(columns) => listed::check(columns)?,
-            Self::Drawn(drawn) => {
-                drawn.check()?;
-                return Self::Listed(drawn.corners()).check(system, start, valid);
-            }
+        self.check_values()?;
+        if let Self::Drawn(drawn) = self {
+            return Self::Listed(drawn.corners()).check(system, start, valid);
         }
         let fixed = self.one_system();
         // the starts of one system are a convex set, so the corners of a box that holds the points say that all are valid

@@ -22,7 +22,7 @@ pub(super) const MOST_SOBOL: usize = DIRECTIONS.len();
 
 impl PointRule {
     /// The place from 0 to 1 of point number `k` in a dimension, for a number of points and a seed.
-    pub(crate) fn place(self, k: u64, dimension: usize, (count, seed): (u64, u64)) -> f64 {
+    pub(super) fn place(self, k: u64, dimension: usize, (count, seed): (u64, u64)) -> f64 {
         match self {
             Self::Sobol => {
                 let shift = if seed == 0 { 0 } else { mixed(seed, dimension as u64) >> 32 };
