@@ -217,7 +217,7 @@ impl MachineAnswer {
                 let MachineTask::Curve(plan) = &self.plan.task else { return Ok(None) };
                 table::machine_curve::table(&self.machine, plan, found)
             }
-            MachineResults::Margins(found) => table::margins::of_machine(found),
+            MachineResults::Margins(found) => table::margins::of_machine(found, &self.machine),
             MachineResults::Response(found) => {
                 let Some(view) = self.response(found) else { return Ok(None) };
                 table::response::table(view)

@@ -107,11 +107,11 @@ struct BranchEventObject<'a> {
 
 /// The fields of an event that do not depend on the branch.
 #[derive(Default, JsonSchema, Serialize)]
-pub(super) struct EventFields<'a> {
+pub(crate) struct EventFields<'a> {
     ends: bool,
     /// The labels on both sides; null where the branch ends.
-    before: String,
-    after: Option<String>,
+    pub(crate) before: String,
+    pub(crate) after: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     stop: Option<&'a str>,
     /// Of a grazing contact, whether an impact appears beyond it or disappears.

@@ -23,30 +23,30 @@ pub(super) struct MarginsAnswer<'a> {
 }
 
 #[derive(JsonSchema, Serialize)]
-struct ParameterObject<'a> {
+pub(crate) struct ParameterObject<'a> {
     parameter: &'a str,
-    value: f64,
+    pub(crate) value: f64,
     scale: f64,
-    down: EndObject<'a>,
-    up: EndObject<'a>,
+    pub(crate) down: EndObject<'a>,
+    pub(crate) up: EndObject<'a>,
 }
 
 /// The nearest event in one direction. Without one, the last four are `null`.
 #[derive(JsonSchema, Serialize)]
-struct EndObject<'a> {
+pub(crate) struct EndObject<'a> {
     /// The end of the range in which events are looked for.
-    limit: f64,
-    at: Option<f64>,
-    distance: Option<f64>,
-    relative: Option<f64>,
-    event: Option<MarginEvent<'a>>,
+    pub(crate) limit: f64,
+    pub(crate) at: Option<f64>,
+    pub(crate) distance: Option<f64>,
+    pub(crate) relative: Option<f64>,
+    pub(crate) event: Option<MarginEvent<'a>>,
 }
 
 #[derive(JsonSchema, Serialize)]
-struct MarginEvent<'a> {
-    kind: &'static str,
+pub(crate) struct MarginEvent<'a> {
+    pub(crate) kind: &'static str,
     #[serde(flatten)]
-    fields: EventFields<'a>,
+    pub(crate) fields: EventFields<'a>,
 }
 
 impl MarginEvent<'static> {
@@ -142,7 +142,7 @@ impl<'a> MarginsAnswer<'a> {
 }
 
 impl<'a> ParameterObject<'a> {
-    fn of_machine(machine: &'a Machine, number: &'a NumberMargin) -> Self {
+    pub(crate) fn of_machine(machine: &'a Machine, number: &'a NumberMargin) -> Self {
         let [down, up] = number.ends().map(|(_, limit, event)| {
             let at = event.map(|event| event.point.value);
             let told = event.and_then(|event| Some((event, event.point.event?)));
@@ -162,7 +162,7 @@ impl<'a> ParameterObject<'a> {
 }
 
 impl ParameterObject<'static> {
-    fn new(margin: &ParameterMargin, units: &Units) -> Self {
+    pub(crate) fn new(margin: &ParameterMargin, units: &Units) -> Self {
         let scope = &margin.scope;
         let unit = units.of(scope.parameter);
         let end = |end: &MarginEnd, limit: f64| {

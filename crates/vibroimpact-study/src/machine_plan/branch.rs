@@ -161,18 +161,22 @@ impl MachineLine {
         Self { family, range: from.min(to)..=from.max(to), options }
     }
 
+    fn begin(&self, (value, cycle): (f64, &MachineCycle), direction: Direction) -> Result<MachineBranch, PlanError> {
+        MachineBranch::new((&self.family, value), cycle, &self.range, direction, self.options)
+            .map_err(|error| PlanError::MachineBranch(error.to_string()))
+    }
+
     /// The branch of a cycle at a value of the number in one direction.
     ///
     /// # Errors
     /// [`PlanError::MachineBranch`] if the cycle is not there, [`Stopped`] when stopped.
     pub fn trace(
         &self,
-        (value, cycle): (f64, &MachineCycle),
+        at: (f64, &MachineCycle),
         direction: Direction,
         control: &Control<'_>,
     ) -> Result<Vec<MachinePoint>, RunError> {
-        let mut branch = MachineBranch::new((&self.family, value), cycle, &self.range, direction, self.options)
-            .map_err(|error| PlanError::MachineBranch(error.to_string()))?;
+        let mut branch = self.begin(at, direction)?;
         let mut found = Vec::new();
         while !control.stopping() {
             let Some(point) = branch.next() else { return Ok(found) };
@@ -188,12 +192,11 @@ impl MachineLine {
     /// As [`trace`](Self::trace).
     pub fn first_event(
         &self,
-        (value, cycle): (f64, &MachineCycle),
+        at: (f64, &MachineCycle),
         direction: Direction,
         control: &Control<'_>,
     ) -> Result<Option<(MachinePoint, Option<String>)>, RunError> {
-        let mut branch = MachineBranch::new((&self.family, value), cycle, &self.range, direction, self.options)
-            .map_err(|error| PlanError::MachineBranch(error.to_string()))?;
+        let mut branch = self.begin(at, direction)?;
         let mut done = 0;
         while !control.stopping() {
             let Some(point) = branch.next() else { return Ok(None) };
