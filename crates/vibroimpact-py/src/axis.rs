@@ -1,8 +1,8 @@
-//! Conversion of the names of parameters and their ranges.
+//! Conversion of the names of parameters.
 
 use crate::error::Trouble;
 use vibroimpact::PhysicalParameter;
-use vibroimpact_study::{Parameter, Stretch};
+use vibroimpact_study::Parameter;
 
 /// The parameter with this name.
 pub(crate) fn parameter(name: &str) -> Result<Parameter, Trouble> {
@@ -11,9 +11,4 @@ pub(crate) fn parameter(name: &str) -> Result<Parameter, Trouble> {
         let known = Parameter::ALL.map(Parameter::name).join(", ");
         Trouble::question(format!("`{name}` is no parameter; there are {known}, and of a machine {machine}"))
     })
-}
-
-/// A parameter and its range.
-pub(crate) fn stretch((name, from, to): (String, f64, f64)) -> Result<Stretch, Trouble> {
-    Ok(Stretch { parameter: parameter(&name)?, from, to })
 }

@@ -4,26 +4,18 @@
 //! Each file has one family of functions. Checked parameters, plans and columns of numbers are here; results with
 //! methods, figures and documentation are written in Python, in `python/vibroimpact`.
 
-mod attractors;
+mod answer;
 mod axis;
-mod branch;
 mod columns;
 mod command;
-mod curve;
 mod door;
 mod error;
 mod grid;
-mod lyapunov;
 mod machine;
-mod machine_answers;
-mod margins;
-mod motion;
-mod orbits;
 mod oscillator;
 mod plan;
 mod points;
 mod region;
-mod response;
 mod settle;
 mod simulate;
 mod simulate_many;
@@ -33,27 +25,15 @@ mod store;
 #[pyo3::pymodule]
 mod _core {
     #[pymodule_export]
-    use crate::attractors::{attractors, missed_share, share_interval};
-    #[pymodule_export]
-    use crate::branch::branch;
+    use crate::answer::{answer, plan_json, varied_parameters};
     #[pymodule_export]
     use crate::command::vibro;
-    #[pymodule_export]
-    use crate::curve::curve;
     #[pymodule_export]
     use crate::error::{QuestionError, StoppedError, StoreError};
     #[pymodule_export]
     use crate::grid::{basin_measures, fill, labels_of, span_values};
     #[pymodule_export]
-    use crate::lyapunov::lyapunov;
-    #[pymodule_export]
     use crate::machine::{MachineFile, machine_names, machine_state, machine_waveform, simulate_machine};
-    #[pymodule_export]
-    use crate::machine_answers::{machine_answer, machine_plan};
-    #[pymodule_export]
-    use crate::margins::{margins, varied_parameters};
-    #[pymodule_export]
-    use crate::orbits::orbits;
     #[pymodule_export]
     use crate::oscillator::{Oscillator, Units};
     #[pymodule_export]
@@ -64,11 +44,9 @@ mod _core {
     #[pymodule_export]
     use crate::points::{drawn_points, settle_points};
     #[pymodule_export]
-    use crate::region::{contains, region};
+    use crate::region::contains;
     #[pymodule_export]
-    use crate::response::response;
-    #[pymodule_export]
-    use crate::settle::{settle, settle_many};
+    use crate::settle::{settle_many, share_interval};
     #[pymodule_export]
     use crate::simulate::{simulate, waveform};
     #[pymodule_export]

@@ -1,31 +1,21 @@
-//! Settling of motions: from one start, and from starts given as arrays.
+//! Settling of motions from starts given as arrays.
 
 use crate::door::{self, Watch};
 use crate::error::Trouble;
-use crate::motion::Fields;
 use crate::oscillator::Oscillator;
-use crate::simulate::{StartArgument, start_plan, text};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use vibroimpact::Start;
 use vibroimpact::lanes::Width;
 use vibroimpact::system::phase;
 use vibroimpact::verdict::{Census, KnownAttractors, SettleOptions, settle_many as settle_range};
-use vibroimpact_study::{Control, Plan, Results, Task, tiles};
+use vibroimpact_report::json::motion;
+use vibroimpact_study::{Control, basin, tiles};
 
-/// Settles the motion from a start. Returns the fields of the motion, and the plan.
+/// The interval of a share at a confidence of 95 %.
 #[pyfunction]
-pub(crate) fn settle<'py>(
-    py: Python<'py>,
-    osc: Oscillator,
-    start: StartArgument,
-    impacts: Option<u32>,
-) -> Result<(Fields<'py>, String), Trouble> {
-    let plan = Plan::new(osc.plan, Task::Settle { start: start_plan(start), impacts });
-    let watch = Watch::alone("settling a motion");
-    let settled =
-        door::result(py, watch, &plan, |of| if let Results::Settle(_, found) = of { Some(found) } else { None })?;
-    Ok((Fields::new(py, &settled.verdict, &osc.osc).after(settled.transient), text(&plan)?))
+pub(crate) fn share_interval(count: u64, total: u64) -> (f64, f64) {
+    basin::share_interval(count, total)
 }
 
 /// Number of starts of a tile.
@@ -88,8 +78,8 @@ fn settle_all(
     Ok((merged, cells))
 }
 
-/// The motions in the order of their first start, each with its number of starts, and the motion of each start.
-pub(crate) type Many<'py> = (Vec<(Fields<'py>, u64)>, Bound<'py, PyArray1<u32>>);
+/// The JSON objects of the motions in the order of their first start, each with its number of starts, and the motion of each start.
+pub(crate) type Many<'py> = (Vec<(String, u64)>, Bound<'py, PyArray1<u32>>);
 
 /// Settles starts given as columns. Each column has the length of the longest one or length 1.
 #[pyfunction]
@@ -119,6 +109,6 @@ pub(crate) fn settle_many<'py>(
     let total = longest as u64;
     let watch = Watch { what: "settling motions", total, progress, threads };
     let (census, cells) = door::run_borrowing(py, watch, |control| settle_all(&osc, &starts, total, control))?;
-    let motions = census.motions().iter().map(|found| (Fields::new(py, &found.verdict, &osc), found.count)).collect();
+    let motions = census.motions().iter().map(|found| (motion::text(&found.verdict, &osc), found.count)).collect();
     Ok((motions, cells.into_pyarray(py)))
 }

@@ -1,14 +1,15 @@
 //! The events of a motion, and its waveform.
 
-use crate::columns::{column, sign};
+use crate::columns::{column, grid, sign};
 use crate::door::{self, Watch};
 use crate::error::Trouble;
-use crate::motion::HorizonFields;
 use crate::oscillator::Oscillator;
-use numpy::PyArray1;
+use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use serde::Serialize;
+use vibroimpact::Side;
 use vibroimpact::motion::{EventKind, sample};
+use vibroimpact_report::json::motion::horizon;
 use vibroimpact_study::{Plan, Results, StartPlan, Task};
 
 /// The fields of `Simulation`.
@@ -19,14 +20,17 @@ pub(crate) struct Fields<'py> {
     time: Bound<'py, PyArray1<f64>>,
     phase: Bound<'py, PyArray1<f64>>,
     side: Bound<'py, PyArray1<i8>>,
-    velocity_before: Bound<'py, PyArray1<f64>>,
-    velocity_after: Bound<'py, PyArray1<f64>>,
+    speed: Bound<'py, PyArray1<f64>>,
+    /// Positions and velocities after the events, as rows.
+    q: Bound<'py, PyArray2<f64>>,
+    qdot: Bound<'py, PyArray2<f64>>,
     depth: Bound<'py, PyArray1<f64>>,
     chatter: Bound<'py, PyArray1<bool>>,
     error: Bound<'py, PyArray1<f64>>,
     reason: &'static str,
     end_time: f64,
-    horizon: Option<HorizonFields>,
+    /// The JSON object that says why there are no more impacts.
+    horizon: Option<String>,
     shown_until: f64,
     plan: String,
 }
@@ -60,13 +64,11 @@ pub(crate) fn simulate<'py>(
         door::result(py, watch, &plan, |of| if let Results::Simulate(_, found) = of { Some(found) } else { None })?;
     let osc = osc.osc;
     let events = || found.events.iter();
-    let velocities = |which: fn(f64, f64) -> f64| {
-        let of = move |kind| match kind {
-            EventKind::Impact { velocity_before, velocity_after } => which(velocity_before, velocity_after),
-            _ => f64::NAN,
-        };
-        column(py, events().map(move |event| of(event.kind)))
+    let impact = |kind: EventKind| match kind {
+        EventKind::Impact { velocity_before, velocity_after } => (velocity_before, velocity_after),
+        _ => (0.0, 0.0),
     };
+    let place = |side: Side| osc.stop(side).map_or(f64::NAN, |stop| side.sign() * stop.gap);
     Ok(Fields {
         code: column(
             py,
@@ -80,8 +82,10 @@ pub(crate) fn simulate<'py>(
         time: column(py, events().map(|event| event.time)),
         phase: column(py, events().map(|event| event.phase)),
         side: column(py, events().map(|event| sign(event.side))),
-        velocity_before: velocities(|before, _| before),
-        velocity_after: velocities(|_, after| after),
+        speed: column(py, events().map(|event| impact(event.kind).0)),
+        q: grid(py, events().map(|event| vec![place(event.side)]), 1)?,
+        // without a rebound 0, not -0
+        qdot: grid(py, events().map(|event| vec![event.side.sign() * impact(event.kind).1 + 0.0]), 1)?,
         depth: column(
             py,
             events().map(|event| if let EventKind::Graze { depth } = event.kind { depth } else { f64::NAN }),
@@ -93,7 +97,7 @@ pub(crate) fn simulate<'py>(
         ),
         reason: found.reason,
         end_time: found.time,
-        horizon: found.horizon.as_ref().map(HorizonFields::new),
+        horizon: found.horizon.as_ref().map(horizon),
         shown_until: found.shown_until(&osc),
         plan: text(&plan)?,
     })

@@ -73,7 +73,7 @@ def first_flight(beta: float, gamma: float) -> tuple[float, float, float]:
     osc = oscillator(beta, gamma, 0.0)
     sim = vi.simulate(osc, x=osc.gap, v=0.0, phase=0.0, impacts=1)
     assert sim.kind.tolist() == ["stick", "release", "impact"]
-    return table(sim.phase[1]), beta * float(sim.time[2] - sim.time[1]), beta * float(sim.velocity_before[2])
+    return table(sim.phase[1]), beta * float(sim.time[2] - sim.time[1]), beta * float(sim.speed[2])
 
 
 @pytest.mark.parametrize("beta", [0.7, 10.0, 160.0])
@@ -123,7 +123,7 @@ def test_impacts_one_after_another(restitution: float, start: tuple[float, float
         osc = oscillator(beta, gamma, restitution)
         sim = vi.simulate(osc, x=osc.gap, v=-start[1] / beta, phase=start[0] + math.pi, impacts=impacts)
         assert sim.kind.tolist() == ["impact"] * impacts
-        own = np.stack([start[0] + beta * sim.time, beta * sim.velocity_before], axis=1)
+        own = np.stack([start[0] + beta * sim.time, beta * sim.speed], axis=1)
         return list(own.ravel() - expected)
 
     # impacts multiply the errors, so that the order shows at greater beta
@@ -167,7 +167,7 @@ def test_one_impact_in_n_periods(restitution: float, n: int) -> None:
         a, b = (complex(*pair) for pair in orbit.to_dict()["multipliers"])
         # the determinant is e^2 for any beta, because there is no damper
         assert abs(a * b - restitution**2) < 1e-9
-        return [table(orbit.cycle.phase[0]) - phase, beta * orbit.cycle.velocity_before[0] - speed, (a + b).real - trace]
+        return [table(orbit.cycle.phase[0]) - phase, beta * orbit.cycle.speed[0] - speed, (a + b).real - trace]
 
     has_order_two(errors, n)
 
@@ -181,7 +181,7 @@ def test_where_bouncing_begins_and_doubles_its_period(restitution: float, n: int
     def errors(beta: float) -> list[float]:
         found = []
         for kind, expected, beyond in (("fold" if restitution > 0 else "stick", begins, 0.9), ("flip", doubles, 1.1)):
-            branch = vi.branch(oscillator(beta, gamma, restitution), f"1/{n}", "gap", -1 / (expected * beyond))
+            branch = vi.branch(oscillator(beta, gamma, restitution), "gap", -1 / (expected * beyond), label=f"1/{n}")
             events = [event for event in branch.events if event.kind == kind]
             assert len(events) == 1, branch.events
             found.append(-1 / events[0].parameter - expected)

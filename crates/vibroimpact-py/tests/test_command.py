@@ -65,7 +65,7 @@ def test_branch(ask: Callable[..., Any]) -> None:
     osc = vi.Oscillator(inverse_beta=1.11, gap=1.5, restitution=0.5)
     told = ask("branch", "--inverse-beta", 1.11, "--gap", 1.5, "--restitution", 0.5, "--label", "1/1", "--vary", "gap",
                "--to", 2.5, "--follow", 2)
-    found = vi.branch(osc, "1/1", "gap", 2.5, follow=2).to_dict()
+    found = vi.branch(osc, "gap", 2.5, label="1/1", follow=2).to_dict()
     assert len(found["branches"]) == len(told["branches"]) > 1
     assert found == {name: told[name] for name in found}
 
@@ -73,7 +73,7 @@ def test_branch(ask: Callable[..., Any]) -> None:
 def test_branch_of_an_orbit_that_rests(ask: Callable[..., Any]) -> None:
     told = ask("branch", "--inverse-beta", 1.11, "--gap", -0.5, "--restitution", 0.5, "--label", "inf/1", "--vary", "gap",
                "--to", -0.2)
-    found = vi.branch(vi.Oscillator(inverse_beta=1.11, gap=-0.5, restitution=0.5), "inf/1", "gap", -0.2)
+    found = vi.branch(vi.Oscillator(inverse_beta=1.11, gap=-0.5, restitution=0.5), "gap", -0.2, label="inf/1")
     assert found.events[-1].kind == "end of rest" and len(found.rests[0]) == 1
     assert found.to_dict() == {name: told[name] for name in found.to_dict()}
 
@@ -82,7 +82,7 @@ def test_curve(ask: Callable[..., Any]) -> None:
     osc = vi.Oscillator(inverse_beta=1.11, gap=1.5, restitution=0.5)
     told = ask("curve", "--inverse-beta", 1.11, "--gap", 1.5, "--restitution", 0.5, "--label", "1/1", "--kind", "flip",
                "--vary", "gap=0:3", "--and", "inverse-beta=1.05:1.2")
-    found = vi.curve(osc, "1/1", "flip", {"gap": (0, 3), "inverse_beta": (1.05, 1.2)})
+    found = vi.curve(osc, "flip", {"gap": (0, 3), "inverse_beta": (1.05, 1.2)}, label="1/1")
     assert found.to_dict() == {name: told[name] for name in found.to_dict()} and json.loads(found.plan) == told["plan"]
 
 

@@ -19,7 +19,7 @@ def test_points_are_the_impacts_of_the_motion(ds: xr.Dataset, s: vi.Oscillator) 
     assert dict(ds.sizes) == {"sweep": 2, "gap": 11, "point": 64}
     here = ds.sel(sweep=1, gap=0.75).dropna("point")
     motion = vi.settle(s)
-    np.testing.assert_allclose(np.sort(here["velocity"].values), np.sort(motion.cycle.velocity_before), atol=1e-8)
+    np.testing.assert_allclose(np.sort(here["velocity"].values), np.sort(motion.cycle.speed), atol=1e-8)
     np.testing.assert_allclose(np.sort(here["impact_phase"].values), np.sort(motion.cycle.phase), atol=1e-8)
     assert here["side"].values.tolist() == [1, 1]
 

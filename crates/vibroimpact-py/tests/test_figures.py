@@ -49,7 +49,7 @@ def test_metres_and_seconds() -> None:
 
 def test_a_branch_is_solid_where_it_is_stable_and_dashed_where_not() -> None:
     osc = vi.Oscillator(inverse_beta=1.11, gap=1.5, restitution=0.5)
-    found = vi.branch(osc, "1/1", "gap", 2.5, follow=1)
+    found = vi.branch(osc, "gap", 2.5, label="1/1", follow=1)
     ax = found.plot(diagram=False)
     drawn(ax)
     assert words(ax) == ["1/1", "2/2", "1/2", "stable", "unstable", "flip", "fold", "grazing"]
@@ -64,10 +64,10 @@ def test_a_branch_is_solid_where_it_is_stable_and_dashed_where_not() -> None:
     "draw",
     [
         lambda s: vi.attractors(s).plot(),
-        lambda s: vi.curve(s.replace(inverse_beta=0.7, gap=2), "1/1", "fold", {"gap": (0, 5), "inverse_beta": (0.45, 0.9)}).plot(),
+        lambda s: vi.curve(s.replace(inverse_beta=0.7, gap=2), "fold", {"gap": (0, 5), "inverse_beta": (0.45, 0.9)}, label="1/1").plot(),
         lambda s: vi.region(s, "1/1", {"inverse_beta": (0.4, 2), "gap": (-1, 5)}).plot(),
-        lambda s: vi.lyapunov(s, impacts=2000, points=100).plot()[0],
-        lambda s: vi.lyapunov(s.replace(second_gap=1), impacts=2000, points=100).plot()[1],
+        lambda s: vi.lyapunov(s, impacts=2000, points=100).plot_sections()[0],
+        lambda s: vi.lyapunov(s.replace(second_gap=1), impacts=2000, points=100).plot_sections()[1],
         lambda s: vi.orbit_diagram(s, "gap", "0:3:61").vibro.plot(),
         lambda s: vi.orbit_diagram(s, "gap", "0:3:61").vibro.plot(which="impact_phase"),
         lambda s: vi.orbit_diagram(s, "inverse_beta", "1:1.3:21", show="strobe", direction="scatter").vibro.plot(),

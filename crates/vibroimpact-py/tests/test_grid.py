@@ -42,7 +42,7 @@ def test_each_point_of_a_map_has_its_attractors() -> None:
             names = [name for name in labels.sel(here).values.tolist() if name]
             assert names == [motion.label for motion in expected]
             assert ds["share"].sel(here).values[: len(names)].tolist() == [motion.share for motion in expected]
-            fastest = [len(m.cycle) and m.cycle.velocity_before.max() or np.nan for m in expected]
+            fastest = [len(m.cycle) and m.cycle.speed.max() or np.nan for m in expected]
             np.testing.assert_array_equal(ds["speed"].sel(here).values[: len(names)], fastest)
 
 

@@ -15,7 +15,7 @@ def test_chaos_obeys_the_identity(u: vi.Oscillator) -> None:
     rate = found.impacts_per_period.value / u.period
     assert abs(one.value + two.value - 2 * math.log(0.5) * rate) < 1e-9
     assert found.dimension is not None and abs(found.dimension.value - (1 + one.value / -two.value)) < 1e-12
-    assert len(found.impacts.phase) == len(found.strobes.x) == 500 and found.strobes.x.max() <= u.gap
+    assert len(found.closings.phase) == len(found.strobes.q) == 500 and found.strobes.q.max() <= u.gap
     assert found.grounds["kind"] == "measured" and found.grounds["impacts"] >= 20_000
     assert pickle.loads(pickle.dumps(found)).to_dict() == found.to_dict()
 

@@ -20,9 +20,9 @@ def test_a_map_is_that_of_the_machine_and_of_its_store(tmp_path: Path) -> None:
     for name in ("label", "share", "speed", "multiplier", "power", "stop.anvil.impact_speed_max"):
         np.testing.assert_array_equal(stored[name].values, ds[name].values, err_msg=name)
     for gap in (0.3, 0.75):
-        own = HAMMER.set({"stop.anvil.gap": gap}).map({"frequency": (0.8, 1.2, 5)}, starts=2)
+        own = HAMMER.set({"stop.anvil.gap": gap}).map({"frequency": "0.8:1.2:5"}, starts=2)
         labels = ds.vibro.labels().sel({"stop.anvil.gap": gap}).isel(motion=0).values
-        assert labels.tolist() == own.labels[:, 0].tolist()
+        assert labels.tolist() == own.vibro.labels().values[:, 0].tolist()
     settled = HAMMER.set({"stop.anvil.gap": 0.3, "frequency": 1.2}).settle().motion
     power = ds["power"].sel({"stop.anvil.gap": 0.3, "frequency": 1.2}).isel(motion=0).item()
     assert power == pytest.approx(settled.quantities["power"], rel=1e-7)
@@ -31,9 +31,8 @@ def test_a_map_is_that_of_the_machine_and_of_its_store(tmp_path: Path) -> None:
 
 def test_basins_have_starts_of_machines() -> None:
     ds = basin(HAMMER, {"q.head": "-1:1:5", "phase": "0:6:3"}, qdot=[0, 0.5])
-    own = HAMMER.basin({"q.head": (-1, 1, 5), "phase": (0, 6, 3)}, qdot=[0, 0.5])
-    codes = ds["label"].transpose("q.head", "phase").values
-    assert ((codes == -5) == (own.labels == "refused")).all()
+    # the head begins beyond the anvil
+    assert ((ds["label"] == -5) == (ds["q.head"] > 0.5)).all()
     assert ds["cycle_share"].sum() == 1
     with pytest.raises(QuestionError, match="x is no part of the start"):
         Plan.basin(HAMMER, {"q.head": "0:1:2"}, x=0.5)

@@ -54,7 +54,7 @@ def test_a_branch_without_stops_shows_a_displacement() -> None:
 
 
 def test_orbits_branches_and_curves() -> None:
-    found = HAMMER.orbit("1/1")
+    found = HAMMER.orbits("1/1")
     ax = found.plot()
     assert len(words(ax)) == len(found) and words(ax)[-1].startswith("1/1, no.")
     np.testing.assert_array_equal(ax.get_lines()[-1].get_ydata(), found[-1].cycle.speed[np.isin(found[-1].cycle.kind, ("impact", "close"))])
@@ -73,7 +73,7 @@ def test_orbits_branches_and_curves() -> None:
     curve = HAMMER.curve("grazing", {"frequency": (0.9, 1.3), "b": (0.4, 0.6)})
     ax = curve.plot()
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("frequency", "b") and words(ax)[0] == f"grazing of {curve.label}"
-    np.testing.assert_array_equal(ax.get_lines()[0].get_xdata(), curve.values[:, 0])
+    np.testing.assert_array_equal(ax.get_lines()[0].get_xdata()[1:], curve.values[:, 0])
 
 
 def test_sections() -> None:
@@ -87,15 +87,12 @@ def test_sections() -> None:
 
 
 def test_basins_and_maps() -> None:
-    basin = HAMMER.basin({"q.head": (-1, 1, 5), "qdot.head": (-1, 1, 3)})
-    ax = basin.plot()
+    ax = HAMMER.basin({"q.head": "-1:1:5", "qdot.head": "-1:1:3"}).vibro.plot()
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("q.head", "qdot.head") and "1/1" in words(ax)
     mesh = ax.collections[0].get_array()
     # the last column lies beyond the anvil
     assert mesh.shape == (3, 5) and np.ma.getmaskarray(mesh).tolist() == [[False] * 4 + [True]] * 3
-    over = HAMMER.map({"frequency": (0.8, 1.2, 3)}, starts=2)
-    ax = over.plot()
-    assert set(words(ax)) == {label for label in over.labels.ravel().tolist() if label}
-    plane = HAMMER.map({"frequency": (0.8, 1.2, 3), "b": (0.4, 0.6, 2)}, starts=1)
-    ax = plane.plot()
+    over = HAMMER.map({"frequency": "0.8:1.2:3"}, starts=2)
+    assert set(words(over.vibro.plot())) == {label for label in over.vibro.labels().values.ravel().tolist() if label}
+    ax = HAMMER.map({"frequency": "0.8:1.2:3", "b": "0.4:0.6:2"}, starts=1).vibro.plot()
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("frequency", "b")

@@ -39,8 +39,8 @@ def test_a_hypercube_is_as_one_by_one() -> None:
             np.testing.assert_allclose(here["impact_speed_max"].item(), motion.quantities["impact_speed_max"], rtol=1e-13)
         elif motion.horizon is not None:
             assert reasons[k] == motion.horizon["why"] and np.isnan(here["impacts"].item())
-        if motion.seen_impacts is not None:
-            assert (here["transient"].item(), reasons[k]) == (motion.seen_impacts, "exponent")
+        if motion.seen_events is not None:
+            assert (here["transient"].item(), reasons[k]) == (motion.seen_events, "exponent")
         assert here["transient"].item() >= 0
     assert len(set(labels.tolist())) > 3
     # scalar coordinates state what does not vary, and the others where they do

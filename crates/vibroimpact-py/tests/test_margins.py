@@ -12,7 +12,7 @@ def test_the_distance_is_that_of_the_branch() -> None:
     osc = vi.Oscillator(inverse_beta=1.11, gap=1.5, restitution=0.5)
     found = vi.margins(osc, label="1/1")
     assert list(found.parameters) == ["inverse_beta", "gap", "restitution", "damping"]
-    branch = vi.branch(osc, "1/1", "gap", 3.0)
+    branch = vi.branch(osc, "gap", 3.0, label="1/1")
     up = found.parameters["gap"].up
     assert up.event is not None and up.event["kind"] == branch.events[0].kind == "flip"
     assert up.at is not None and abs(up.at - branch.events[0].parameter) < 1e-11
@@ -29,10 +29,10 @@ def test_the_motion_is_found_at_random_points_of_the_box() -> None:
     for _ in range(100):
         values = {name: random.uniform(a, b) for name, (a, b) in found.box.ranges.items()}
         orbits = vi.orbits(osc.replace(**values), "1/1")
-        assert any(orbit.physical and orbit.stable for orbit in orbits), values
+        assert any(orbit.admissible and orbit.stable for orbit in orbits), values
     loss, values = found.box.edge
     beside = vi.orbits(osc.replace(**values), "1/1")
-    assert loss == "unstable" and not any(orbit.physical and orbit.stable for orbit in beside)
+    assert loss == "unstable" and not any(orbit.admissible and orbit.stable for orbit in beside)
 
 
 def test_the_bars_end_at_the_events() -> None:
@@ -61,7 +61,7 @@ def test_scales_and_refusals() -> None:
         vi.margins(osc, vary=["mass"])
     with pytest.raises(vi.QuestionError, match="within = 1 lies outside"):
         vi.margins(osc, within=1)
-    with pytest.raises(TypeError, match="is not a list of parameters"):
+    with pytest.raises(TypeError, match="is not a list of numbers"):
         vi.margins(osc, vary="gap")
 
 
@@ -82,5 +82,5 @@ def test_margins_of_a_machine_are_those_of_the_oscillator() -> None:
     assert found.nearest is not None and found.nearest.parameter == gap
     ax = found.plot()
     assert "1/1" in ax.get_title() and len(found.to_dataframe()) == 2
-    with pytest.raises(TypeError, match="not a list of paths"):
+    with pytest.raises(TypeError, match="not a list of numbers"):
         machine.margins(vary=gap)

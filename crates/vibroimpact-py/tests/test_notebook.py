@@ -29,6 +29,6 @@ def test_the_notebook_runs(root: Path, tmp_path: Path, monkeypatch: pytest.Monke
     told = "".join(out.text for cell in cells for out in cell.outputs if out.output_type == "stream" and out.name == "stdout")
     figures = [out for cell in cells for out in cell.outputs if "image/png" in out.get("data", {})]
     # the statements in the text of the notebook
-    assert "one length is 5 mm" in told and "<Motion 2/1, stable>" in told and "flip at a gap of" in told
+    assert "one length is 5 mm" in told and "<Settled 2/1, stable>" in told and "flip at a gap of" in told
     assert "falling: at most 0.82 m/s at 15.15 Hz, 1/1" in told and "rising: at most 2.63 W at 15.90 Hz" in told
     assert len(figures) == 6 and all(len(out.data["image/png"]) > 10_000 for out in figures)

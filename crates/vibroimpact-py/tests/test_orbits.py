@@ -26,7 +26,7 @@ def test_as_the_closed_form(inverse: float, gap: float, n: int) -> None:
     found = vi.orbits(osc, f"1/{n}")
     assert expected and len(found) == len(expected)
     for orbit, (speed, phase) in zip(found, expected):
-        assert orbit.cycle.velocity_before[0] == pytest.approx(speed, rel=1e-12)
+        assert orbit.cycle.speed[0] == pytest.approx(speed, rel=1e-12)
         assert orbit.cycle.phase[0] == pytest.approx(phase, abs=1e-12)
         assert orbit.multipliers is not None
         # the determinant is known exactly
@@ -37,12 +37,11 @@ def test_as_the_closed_form(inverse: float, gap: float, n: int) -> None:
 def test_solutions_that_are_no_motions_say_where_they_fail() -> None:
     osc = vi.Oscillator(inverse_beta=1.9, gap=1, restitution=0.5)
     virtual = vi.orbits(osc, "1/1")
-    assert len(virtual) == 1 and not virtual[0].physical
+    assert len(virtual) == 1 and not virtual[0].admissible
     contact = virtual[0].earlier_contact
     assert contact is not None and (contact.after_impact, contact.stop) == (1, "upper")
     # a simulation from there has this next impact
-    x, v, phase = virtual[0].start()
-    assert vi.simulate(osc, x=x, v=v, phase=phase, impacts=1).time[0] == pytest.approx(contact.time, rel=1e-12)
+    assert vi.simulate(osc, **virtual[0].start(), impacts=1).time[0] == pytest.approx(contact.time, rel=1e-12)
     assert contact.time < osc.period
     with pytest.raises(vi.QuestionError, match="is inadmissible"):
         virtual[0].waveform()

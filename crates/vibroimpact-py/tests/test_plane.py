@@ -19,7 +19,7 @@ def fold_of_1_1(inverse: float, eps: float) -> float:
 
 def test_the_fold_curve_is_the_closed_form() -> None:
     osc = vi.Oscillator(inverse_beta=0.7, gap=2, restitution=0.5)
-    found = vi.curve(osc, "1/1", "fold", {"gap": "0:5", "inverse_beta": (0.45, 0.9)})
+    found = vi.curve(osc, "fold", {"gap": "0:5", "inverse_beta": (0.45, 0.9)}, label="1/1")
     gaps, inverses = found.values.T
     ordinary = inverses > 0.5 + 1e-6
     expected = [fold_of_1_1(inverse, 0.5) for inverse in inverses[ordinary]]
@@ -38,7 +38,7 @@ def test_points_inside_a_region_are_orbits() -> None:
     exists, stable = found.existence.contains(inverses, gaps), found.stability.contains(inverses, gaps)
     assert exists.any() and not exists.all()
     for inverse, gap, here, firm in zip(inverses, gaps, exists, stable):
-        orbits = [orbit for orbit in vi.orbits(osc.replace(inverse_beta=inverse, gap=gap), "1/1") if orbit.physical]
+        orbits = [orbit for orbit in vi.orbits(osc.replace(inverse_beta=inverse, gap=gap), "1/1") if orbit.admissible]
         assert here == bool(orbits) and firm == any(orbit.stable for orbit in orbits)
     assert found.existence.contains(inverses[:, None], gaps[None, :]).shape == (40, 40)
     assert pickle.loads(pickle.dumps(found)).to_dict() == found.to_dict()

@@ -12,7 +12,7 @@ MACHINE = vi.Oscillator.from_units(
 
 def test_curves_over_numbers_of_a_machine() -> None:
     """Where the gap doubles with the force, the oscillator is the same."""
-    found = vi.curve(MACHINE, "1/1", "flip", {"gap_m": (1e-3, 9e-3), "force_n": (15, 60)})
+    found = vi.curve(MACHINE, "flip", {"gap_m": (1e-3, 9e-3), "force_n": (15, 60)}, label="1/1")
     gap, force = found.values.T
     assert len(found) > 10 and np.ptp(force) > 35
     np.testing.assert_allclose(gap / force, gap[0] / force[0], rtol=1e-9)
@@ -23,7 +23,7 @@ def test_curves_over_numbers_of_a_machine() -> None:
 def test_regions_over_numbers_of_a_machine() -> None:
     """The edge of the region of stability is a flip at every force."""
     found = vi.region(MACHINE, "1/1", {"mass_kg": (0.7, 0.95), "force_n": (10, 60)}, grid=6)
-    flip = vi.curve(MACHINE, "1/1", "flip", {"force_n": (10, 60), "mass_kg": (0.7, 0.95)})
+    flip = vi.curve(MACHINE, "flip", {"force_n": (10, 60), "mass_kg": (0.7, 0.95)}, label="1/1")
     for force, mass in flip.values[1:-1:10]:
         assert found.stability.contains(mass, force + 0.1) and not found.stability.contains(mass, force - 0.1)
         assert found.existence.contains(mass, force - 0.1)

@@ -13,8 +13,8 @@ def test_the_work_of_the_force_is_lost() -> None:
     lost = of["impact_loss_per_period"] + of["damping_loss_per_period"]
     assert abs(of["work_per_period"] - lost) < 1e-13 and lost > 0.1
     # the largest speed of arrival is that of the cycle
-    assert of["impact_speed_max"] == vi.settle(osc).cycle.velocity_before.max()
-    assert vi.settle(osc).to_dict()["quantities"]["impacts_per_period"] == of["impacts_per_period"]
+    assert of["impact_speed_max"] == vi.settle(osc).cycle.speed.max()
+    assert vi.settle(osc).to_dict()["motion"]["quantities"]["impacts_per_period"] == of["impacts_per_period"]
 
 
 def test_against_a_waveform() -> None:

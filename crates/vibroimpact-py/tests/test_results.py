@@ -23,8 +23,8 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "attractors": lambda: vi.attractors(OSC, starts=12),
     "settlement": lambda: vi.settle_many(OSC, [0.0, 1.0]),
     "orbit": lambda: vi.orbits(OSC, "1/1")[0],
-    "branch": lambda: vi.branch(OSC, "1/1", "gap", 2.0),
-    "curve": lambda: vi.curve(OSC, "1/1", "flip", {"gap": (1, 3), "inverse_beta": (1.05, 1.2)}),
+    "branch": lambda: vi.branch(OSC, "gap", 2.0, label="1/1"),
+    "curve": lambda: vi.curve(OSC, "flip", {"gap": (1, 3), "inverse_beta": (1.05, 1.2)}, label="1/1"),
     "region": lambda: vi.region(OSC, "1/1", {"inverse_beta": (0.6, 0.9), "gap": (1, 3)}, grid=4),
     "response": lambda: vi.response(OSC, "gap", "1:2:3"),
     "lyapunov": lambda: vi.lyapunov(OSC, impacts=1000, points=20),
@@ -34,11 +34,11 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "machine motion": lambda: HAMMER.settle().motion,
     "machine attractors": lambda: HAMMER.attractors(4),
     "machine lyapunov": lambda: HAMMER.lyapunov(impacts=200),
-    "machine orbits": lambda: HAMMER.orbit("1/1"),
+    "machine orbits": lambda: HAMMER.orbits("1/1"),
     "machine branch": lambda: HAMMER.branch("frequency", 1.05),
     "machine curve": lambda: HAMMER.curve("grazing", {"frequency": (0.9, 1.3), "b": (0.4, 0.6)}),
-    "machine basin": lambda: HAMMER.basin({"q.head": (-1, 1, 5), "qdot.head": (-1, 1, 3)}),
-    "machine map": lambda: HAMMER.map({"frequency": (0.8, 1.2, 3)}, starts=2),
+    "machine response": lambda: HAMMER.response("frequency", "1.1:1.2:3"),
+    "machine margins": lambda: HAMMER.margins(vary=["frequency"]),
 }
 #: Results without a figure.
 NO_PICTURE = {"cycle"}
@@ -69,16 +69,16 @@ def test_results_are_values(name: str) -> None:
 
 def test_other_values_are_other_results() -> None:
     assert vi.simulate(OSC, impacts=5) != vi.simulate(OSC, impacts=6)
-    assert vi.branch(OSC, "1/1", "gap", 2.0) != vi.branch(OSC, "1/1", "gap", 2.1)
+    assert vi.branch(OSC, "gap", 2.0, label="1/1") != vi.branch(OSC, "gap", 2.1, label="1/1")
     assert HAMMER.settle() != HAMMER.set({"frequency": 1.05}).settle()
-    # not-a-number equals itself: a release has no velocity
+    # not-a-number equals itself: only a stick has an error
     pressed = vi.simulate(vi.Oscillator(beta=0.9, gap=-0.5, restitution=0.5), impacts=20)
-    assert np.isnan(pressed.velocity_before).any() and pressed == vi.simulate(pressed.osc, impacts=20)
+    assert np.isnan(pressed.error).any() and pressed == vi.simulate(pressed.system, impacts=20)
 
 
 def test_results_that_have_no_figure_show_their_text() -> None:
     silent = vi.settle(vi.Oscillator(beta=0.5, gap=9, restitution=0.5))
-    assert silent._repr_html_() == "<pre>&lt;Motion 0, neutral&gt;</pre>"
+    assert silent._repr_html_() == "<pre>&lt;Settled 0, neutral&gt;</pre>"
 
 
 def test_the_accessor_is_there_whoever_is_imported_first() -> None:
@@ -161,8 +161,8 @@ LONG: list[Callable[..., Any]] = [
     lambda **of: vi.lyapunov(OSC, impacts=20_000, **of),
     lambda **of: vi.response(OSC, "gap", "1:2:5", **of),
     lambda **of: vi.region(OSC, "1/1", {"inverse_beta": (0.6, 0.9), "gap": (1, 3)}, grid=4, **of),
-    lambda **of: vi.branch(OSC, "1/1", "gap", 2.0, **of),
-    lambda **of: vi.curve(OSC, "1/1", "flip", {"gap": (1, 3), "inverse_beta": (1.05, 1.2)}, **of),
+    lambda **of: vi.branch(OSC, "gap", 2.0, label="1/1", **of),
+    lambda **of: vi.curve(OSC, "flip", {"gap": (1, 3), "inverse_beta": (1.05, 1.2)}, label="1/1", **of),
     lambda **of: vi.orbits(OSC, "2/2", **of),
     lambda **of: vi.margins(OSC, vary=["gap"], lines=4, **of),
     lambda **of: vi.region_map(OSC, {"gap": "1:2:9", "inverse_beta": "1:1.2:9"}, starts=2, refine=4, **of),
@@ -171,12 +171,12 @@ LONG: list[Callable[..., Any]] = [
     lambda **of: HAMMER.simulate(periods=50, **of),
     lambda **of: HAMMER.settle(**of),
     lambda **of: HAMMER.lyapunov(impacts=200, **of),
-    lambda **of: HAMMER.orbit("1/1", **of),
+    lambda **of: HAMMER.orbits("1/1", **of),
     lambda **of: HAMMER.branch("frequency", 1.05, **of),
     lambda **of: HAMMER.curve("grazing", {"frequency": (0.9, 1.3), "b": (0.4, 0.6)}, **of),
     lambda **of: HAMMER.attractors(4, **of),
-    lambda **of: HAMMER.basin({"q.head": (-1, 1, 5), "qdot.head": (-1, 1, 3)}, **of),
-    lambda **of: HAMMER.map({"frequency": (0.8, 1.2, 3)}, starts=2, **of),
+    lambda **of: HAMMER.basin({"q.head": "-1:1:5", "qdot.head": "-1:1:3"}, **of),
+    lambda **of: HAMMER.map({"frequency": "0.8:1.2:3"}, starts=2, **of),
 ]
 
 

@@ -14,10 +14,10 @@ def test_the_motion_at_s_is_the_published_cycle(s: vi.Oscillator) -> None:
     assert (motion.kind, motion.label, motion.impacts, motion.periods, motion.stable) == ("periodic", "2/1", 2, 1, True)
     # 40-digit arithmetic, rounded
     np.testing.assert_allclose(motion.cycle.phase, [0.82998967146192075, 3.19459089385777344], rtol=1e-14)
-    np.testing.assert_allclose(motion.cycle.velocity_before, [2.64401858778543508, 0.77762665463488177], rtol=1e-14)
+    np.testing.assert_allclose(motion.cycle.speed, [2.64401858778543508, 0.77762665463488177], rtol=1e-14)
     assert motion.multipliers is not None and motion.multipliers.dtype == np.complex128
     np.testing.assert_allclose(motion.multipliers, [0.443795500242, 0.140830630247], rtol=1e-10)
-    np.testing.assert_allclose(motion.cycle.interval.sum(), s.period, rtol=1e-15)
+    np.testing.assert_allclose(motion.period, s.period, rtol=1e-15)
 
 
 @pytest.mark.parametrize(
@@ -44,18 +44,17 @@ def test_means_of_chaos_have_error_bars() -> None:
     assert not {name for name in errors if name.endswith(("_max", "_min", "_amplitude"))}
     # no sticking and no damping: these means are exactly 0
     assert all((errors[name] == 0) == (motion.quantities[name] == 0) for name in errors)
-    assert motion.to_dict()["quantities_error"] == errors
+    assert motion.to_dict()["motion"]["quantities_error"] == errors
     other = vi.settle(vi.Oscillator(inverse_beta=1.11, gap=1, restitution=0.5))
-    assert other.quantities_error is None and "quantities_error" not in other.to_dict()
+    assert other.quantities_error is None and "quantities_error" not in other.to_dict()["motion"]
 
 
 def test_a_motion_closes_on_itself(n: vi.Oscillator) -> None:
     motion = vi.settle(n)
-    x, v, phase = motion.start()
-    sim = vi.simulate(n, x=x, v=v, phase=phase, impacts=4)
+    sim = vi.simulate(n, **motion.start(), impacts=4)
     # 4/1: the fourth impact after the first one is the first one again
     assert abs(sim.phase[3] - motion.cycle.phase[0]) < 1e-12
-    assert abs(sim.velocity_before[3] - motion.cycle.velocity_before[0]) < 1e-12
+    assert abs(sim.speed[3] - motion.cycle.speed[0]) < 1e-12
     t, xs, vs = motion.waveform()
     assert t[-1] == n.period and abs(xs[-1] - xs[0]) < 1e-12
 
@@ -65,7 +64,7 @@ def test_many_starts_are_settled_like_each_alone(s: vi.Oscillator) -> None:
     found = vi.settle_many(s, x, v, 0.5)
     alone = [[vi.settle(s, x=a, v=b, phase=0.5).label for a, b in zip(*row)] for row in zip(x, v)]
     assert found.labels.tolist() == alone and found.cells.shape == x.shape and found.cells.dtype == np.uint32
-    assert sum(motion.count for motion in found.motions) == x.size
+    assert sum(motion.starts for motion in found.motions) == x.size
     for k, motion in enumerate(found.motions):
         assert motion.share == np.mean(found.cells == k)
 

@@ -45,32 +45,21 @@ from vibroimpact._axis import Span, span
 from vibroimpact._branch import Branch, BranchEvent, Origin, branch
 from vibroimpact._core import Oscillator, QuestionError, StoppedError, StoreError, Units, __version__
 from vibroimpact._curve import Curve, CurveEvent, curve
-from vibroimpact._cycle import Cycle
+from vibroimpact._events import Events
 from vibroimpact._grid import basin, orbit_diagram, region_map
-from vibroimpact._lyapunov import Lyapunov, Measured, lyapunov
-from vibroimpact._machine import Machine, MachineSimulation, MachineWaveform
-from vibroimpact._machine_answers import (
-    MachineAttractors,
-    MachineBasin,
-    MachineBranch,
-    MachineCurve,
-    MachineCycle,
-    MachineLyapunov,
-    MachineMap,
-    MachineMotion,
-    MachineOrbits,
-    MachineSettled,
-)
+from vibroimpact._lyapunov import Closings, Lyapunov, Strobes, lyapunov
+from vibroimpact._machine import Machine
+from vibroimpact._machine_simulation import MachineSimulation, MachineWaveform
 from vibroimpact._margins import MarginEnd, Margins, MotionBox, Nearest, ParameterMargin, margins
-from vibroimpact._motion import Motion
-from vibroimpact._orbits import EarlierContact, Orbit, orbits
+from vibroimpact._motion import Measured, Motion
+from vibroimpact._orbits import EarlierContact, Orbit, Orbits, orbits
 from vibroimpact._plan import Estimate, Plan
 from vibroimpact._refine import refine
 from vibroimpact._region import Part, Polygon, Region, region
 from vibroimpact._register import register as _register
 from vibroimpact._response import Response, ResponseCurve, response
 from vibroimpact._sample import Sample, sample
-from vibroimpact._settle import Settlement, settle, settle_many
+from vibroimpact._settle import Settled, Settlement, settle, settle_many
 from vibroimpact._simulate import Simulation, simulate
 from vibroimpact._simulate_many import simulate_many
 from vibroimpact._store import Ran, Status, Verified, open, resume, run, status, verify
@@ -95,23 +84,14 @@ __all__ = [
     "Attractors",
     "Branch",
     "BranchEvent",
+    "Closings",
     "Curve",
     "CurveEvent",
-    "Cycle",
     "EarlierContact",
     "Estimate",
+    "Events",
     "Lyapunov",
     "Machine",
-    "MachineAttractors",
-    "MachineBasin",
-    "MachineBranch",
-    "MachineCurve",
-    "MachineCycle",
-    "MachineLyapunov",
-    "MachineMap",
-    "MachineMotion",
-    "MachineOrbits",
-    "MachineSettled",
     "MachineSimulation",
     "MachineWaveform",
     "MarginEnd",
@@ -121,6 +101,7 @@ __all__ = [
     "MotionBox",
     "Nearest",
     "Orbit",
+    "Orbits",
     "Origin",
     "Oscillator",
     "ParameterMargin",
@@ -133,12 +114,14 @@ __all__ = [
     "Response",
     "ResponseCurve",
     "Sample",
+    "Settled",
     "Settlement",
     "Simulation",
     "Span",
     "Status",
     "StoppedError",
     "StoreError",
+    "Strobes",
     "Units",
     "Verified",
     "VibroAccessor",

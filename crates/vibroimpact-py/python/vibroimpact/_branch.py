@@ -1,50 +1,73 @@
-"""Branches of periodic orbits in one parameter or along a line through two, with their events."""
+"""Branches of periodic orbits in one number or along a line through two, with their events."""
 
+import copy
 from collections.abc import Mapping
-from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from vibroimpact import _core
+from vibroimpact._ask import Start, System, answered, ask, given
 from vibroimpact._axis import beside
-from vibroimpact._core import Oscillator
-from vibroimpact._cycle import Cycles
-from vibroimpact._progress import Progress, watched
-from vibroimpact._result import Result, answer
+from vibroimpact._core import Oscillator, QuestionError
+from vibroimpact._events import Events
+from vibroimpact._motion import complex_of
+from vibroimpact._progress import Progress
+from vibroimpact._result import View
 from vibroimpact._whole import BRANCH, FOLLOW, NUMBER, maybe, whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+_Floats = NDArray[np.float64]
 
-@dataclass(frozen=True, slots=True)
-class BranchEvent:
-    """An event at a point of a branch.
 
-    `kind` is "fold", "flip", "branch point", "grazing", "loss of contact", "stick", "soft landing", "end of
-    rest", "rest for ever", "chatter", or the reason why the branch ends: "end of range",
-    "closed", "halving", "step limit", "impact limit", "no convergence". A grazing event has the number of the impact
-    (counted from 1) that appears or disappears, its side, its phase, and whether the parameter turns back.
+class BranchEvent(View):
+    """An event at a point of a branch, or the reason why the branch ends.
+
+    Attributes
+    ----------
+    kind : str
+        "fold", "flip", "torus", "branch point", "grazing", "loss of contact", "stick", "soft landing", "chatter", ..., or the reason
+        why the branch ends: "end of range", "closed", "halving", "step limit", "impact limit", "no convergence".
+    parameter : float
+        The value of the number there.
+    values : (float, float) or None
+        The values of both numbers, on a line through two.
+    point : int
+        Index among the points of the branch.
+    ends : bool
+        Whether the branch ends there.
+    before, after : str or None
+        The labels before and after the event.
+    stop : str or None
+        The stop, or joint, of the event.
+    appears, turns : bool or None
+        At a grazing event: whether a closing appears or disappears there, and whether the number turns back.
+    impact, phase : int or None, float or None
+        At a grazing event of an oscillator: the number of the impact, counted from 1, and its phase.
+    also : dict or None
+        For two identical stops, the simultaneous contact with the other one: "impact", "stop", "phase".
     """
 
     kind: str
     parameter: float
-    #: Index among the points of the branch.
+    values: list[float] | None
     point: int
     ends: bool
-    label_before: str
-    label_after: str | None
-    change: str | None = None
-    impact: int | None = None
-    side: str | None = None
-    phase: float | None = None
-    turns: bool | None = None
-    #: For two identical stops, the simultaneous grazing contact with the other one: impact, side and phase.
-    also: tuple[int | None, str, float] | None = None
-    #: Values of both parameters, on a line through two.
-    values: tuple[float, float] | None = None
+    before: str
+    after: str | None
+    stop: str | None
+    appears: bool | None
+    turns: bool | None
+    impact: int | None
+    phase: float | None
+    also: dict[str, Any] | None
+
+    def __repr__(self) -> str:
+        return f"<BranchEvent {self.kind} at {self.parameter:.9g}>"
+
 
 class Origin(NamedTuple):
     """The event at which a further branch begins."""
@@ -55,93 +78,188 @@ class Origin(NamedTuple):
     branch: int
 
 
-@dataclass(frozen=True, eq=False, repr=False, slots=True)
-class Branch(Result):
+class Branch(View):
     """A branch of periodic orbits; each point is one step along it.
 
     Attributes
     ----------
-    osc : Oscillator
+    system : Oscillator or Machine
         The system at which the branch begins.
     vary : str
-        The parameter that varies.
+        The number that varies.
+    ends : (float, float)
+        The ends of its range.
     parameter : ndarray
         Its value at each point.
     also : (str, float, float) or None
-        The parameter that varies with it along a line, and its values at the ends of the range.
+        The number that varies with it along a line, and its values at the ends of the range.
     second : ndarray or None
-        The value of that parameter at each point.
-    label : list of str
-        m/n at each point.
-    stable, physical : ndarray of bool
+        The value of that number at each point.
+    label : ndarray of str
+        m/n at each point, or m/T without forcing.
+    period : ndarray
+        The time of one period at each point.
+    stable, admissible : ndarray of bool
         Whether the orbit is stable; whether it is admissible.
     stability : ndarray of str
         "stable", "neutral" (a multiplier on the unit circle to rounding and none outside) or "unstable".
-    multipliers : ndarray of complex128, shape (points, 2)
-        Floquet multipliers; infinite at a grazing impact.
+    multipliers : ndarray of complex128, points x (two for each coordinate)
+        Floquet multipliers, without the 1 of each free translation; infinite at a grazing impact.
     speed : ndarray
-        The largest speed before an impact at each point; 0 without impacts.
-    cycles : sequence of Cycle
-        The impacts at each point.
+        The largest speed of a closing at each point; 0 without closings.
+    quantity, value : str or None, ndarray or None
+        Of a machine without stops the path of the quantity that the figure shows, and its value at each point.
+    drift : ndarray, points x coordinates
+        By how much each coordinate moves on in one period; 0 if the system cannot be translated.
+    cycles : list of Events
+        The events at each point.
     events : list of BranchEvent
-        The events, in order along the branch.
+        The events of the branch, in order along it.
     origin : Origin or None
         The event at which it begins; None for the branch of the chosen orbit.
     followed : list of Branch
         The branches that begin on it, the branches that begin on those, and so on.
-    orbit : (int, int)
-        The number of the orbit at which it begins, and the number of orbits with its label.
+    orbit : (int, int) or None
+        The number of the orbit at which it begins, and the number of orbits with its label; None for the motion from the start.
     number : int
         The number of the branch: 0 for that of the chosen orbit, from 1 for those that begin on it.
     plan : str
         The plan as JSON.
     """
 
-    osc: Oscillator
     vary: str
-    ends: tuple[float, float]
-    also: tuple[str, float, float] | None
-    parameter: NDArray[np.float64]
-    second: NDArray[np.float64] | None
-    label: list[str]
-    stable: NDArray[np.bool_]
-    stability: NDArray[np.str_]
-    physical: NDArray[np.bool_]
-    cycles: Cycles
-    events: list[BranchEvent]
-    origin: Origin | None
-    followed: "list[Branch]"
-    orbit: tuple[int, int]
-    number: int
-    plan: str
+
+    def __init__(self, of: dict[str, Any], system: Any, number: int = 0) -> None:
+        super().__init__(of, system)
+        self.number = number
+        self._one: dict[str, Any] = of["branches"][number]
+        self._points: list[dict[str, Any]] = self._one["points"]
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Branch) and self.number == other.number and super().__eq__(other)
+
+    __hash__ = None
+
+    def __len__(self) -> int:
+        return len(self._points)
 
     def __repr__(self) -> str:
         more = f", {len(self.followed)} more begin on it" if self.followed else ""
         along = f" and {self.also[0]}" if self.also else ""
         return f"<Branch of {self.label[0]} over {self.vary}{along}, {len(self)} points, {len(self.events)} events{more}>"
 
-    def __len__(self) -> int:
-        return len(self.parameter)
+    @property
+    def ends(self) -> tuple[float, float]:
+        """The ends of the range."""
+        return self._of["from"], self._of["to"]
 
     @property
+    def also(self) -> tuple[str, float, float] | None:
+        """The second number of a line."""
+        found = self._of.get("also")
+        return None if found is None else (found["parameter"], found["from"], found["to"])
+
+    @property
+    def orbit(self) -> tuple[int, int] | None:
+        """The number of the orbit, and how many there are."""
+        found = self._of.get("orbit")
+        return None if found is None else (found["number"], found["count"])
+
+    @property
+    def origin(self) -> Origin | None:
+        """The event at which it begins."""
+        found = self._one["from"]
+        return None if found is None else Origin(found["kind"], found["parameter"], found.get("branch", 1))
+
+    @cached_property
+    def followed(self) -> "list[Branch]":
+        """The branches that begin on it."""
+        further = range(1, len(self._of["branches"])) if self.number == 0 else range(0)
+        return [Branch(self._of, self.system, k) for k in further]
+
+    @cached_property
+    def events(self) -> list[BranchEvent]:
+        """The events."""
+        return [BranchEvent(of, self.system) for of in self._one["events"]]
+
+    @cached_property
+    def cycles(self) -> list[Events]:
+        """The events at each point."""
+        return [Events.of(point["cycle"], self.system) for point in self._points]
+
+    def _column(self, name: str, kind: Any = np.float64) -> NDArray[Any]:
+        return np.array([point[name] for point in self._points], dtype=kind)
+
+    @cached_property
+    def parameter(self) -> _Floats:
+        """The value of the number."""
+        return self._column("parameter")
+
+    @cached_property
+    def second(self) -> _Floats | None:
+        """The value of the second number."""
+        return None if self.also is None else self._column("values")[:, 1]
+
+    @cached_property
+    def label(self) -> NDArray[np.str_]:
+        """m/n."""
+        return self._column("label", np.str_)
+
+    @cached_property
+    def period(self) -> _Floats:
+        """The time of one period."""
+        return self._column("period")
+
+    @cached_property
+    def stable(self) -> NDArray[np.bool_]:
+        """Whether the orbit is stable."""
+        return self._column("stable", np.bool_)
+
+    @cached_property
+    def stability(self) -> NDArray[np.str_]:
+        """The stability in words."""
+        return self._column("stability", np.str_)
+
+    @cached_property
+    def admissible(self) -> NDArray[np.bool_]:
+        """Whether the orbit is admissible."""
+        return self._column("admissible", np.bool_)
+
+    @cached_property
     def multipliers(self) -> NDArray[np.complex128]:
-        """Both multipliers at each point."""
-        return self.cycles.multipliers
+        """Floquet multipliers in rows."""
+        return rows_of(self._points)
+
+    @cached_property
+    def speed(self) -> _Floats:
+        """The largest speed of a closing."""
+        return np.array([cycle.speed[cycle.closes].max(initial=0.0) for cycle in self.cycles], dtype=np.float64)
+
+    @cached_property
+    def drift(self) -> _Floats:
+        """By how much each coordinate moves on."""
+        width = len(self._of["system"]["coordinates"])
+        rows = [list(point["drift"].values()) if "drift" in point else [0.0] * width for point in self._points]
+        return np.array(rows, dtype=np.float64).reshape(len(self), width)
 
     @property
-    def rests(self) -> list[list[dict[str, Any]]]:
-        """The phases of sticking at each point, as in a Motion."""
-        return self.cycles.rests or [[] for _ in range(len(self))]
+    def quantity(self) -> str | None:
+        """The quantity of a machine without stops."""
+        return next((next(iter(point["quantities"])) for point in self._points if "quantities" in point), None)
 
     @property
-    def speed(self) -> NDArray[np.float64]:
-        """The largest speed before an impact at each point; 0 without impacts."""
-        return self.cycles.fastest()
+    def value(self) -> _Floats | None:
+        """Its value."""
+        name = self.quantity
+        if name is None:
+            return None
+        return np.array([point["quantities"][name] for point in self._points if "quantities" in point], dtype=np.float64)
 
     def plot(
-        self, ax: "Axes | None" = None, *, diagram: bool = True, virtual: bool = False, si: bool = False
+        self, ax: "Axes | None" = None, *, diagram: bool = True, inadmissible: bool = False, si: bool = False
     ) -> "Axes":
-        """Draw the bifurcation diagram: speeds before impacts (solid if stable, dashed and dotted if neutral, dashed if unstable) and events.
+        """Draw the bifurcation diagram: speeds of closings, or of a machine without stops the `quantity`, solid if stable, dashed and
+        dotted if neutral, dashed if unstable, with the events.
 
         Parameters
         ----------
@@ -149,21 +267,34 @@ class Branch(Result):
             The axes to draw on; by default those of a new figure.
         diagram : bool
             Whether to draw the orbit diagram from simulation in grey behind the branch.
-        virtual : bool
+        inadmissible : bool
             Whether to draw inadmissible solutions too, as dotted lines.
         si : bool
-            Whether to draw in metres and seconds.
+            Whether to draw in metres and seconds, for an oscillator with units.
         """
         from vibroimpact import _tracks
 
-        behind = None
-        if diagram:
+        return _tracks.plot(self, ax, self._behind(_tracks.VALUES) if diagram else None, inadmissible, si)
+
+    def _behind(self, count: int) -> "tuple[_Floats, _Floats, NDArray[np.bool_]]":
+        """The points of the orbit diagram, and whether each is of a motion that repeats."""
+        over = f"{self.ends[0]!r}:{self.ends[1]!r}:{count}"
+        if isinstance(self.system, Oscillator):
             from vibroimpact._grid import orbit_diagram
 
             also = None if self.also is None else {self.also[0]: self.also[1:]}
-            first, last = map(float, self.ends)
-            behind = orbit_diagram(self.osc, self.vary, f"{first!r}:{last!r}:{_tracks.VALUES}", also=also)
-        return _tracks.plot(self, ax, behind, virtual, si)
+            ds = orbit_diagram(self.system, self.vary, over, also=also)
+            ys = ds["velocity"].transpose("sweep", self.vary, "point").values
+            xs = np.broadcast_to(ds[self.vary].values[:, None], ys.shape)
+            there = np.isfinite(ys)
+            repeats = np.broadcast_to(there.sum(axis=-1, keepdims=True) < ys.shape[-1], ys.shape)
+            return xs[there], ys[there], repeats[there]
+        task = given(vary=self.vary, over=over, show=self.quantity)
+        if self.also is not None:
+            task["also"] = dict(zip(("path", "from", "to"), self.also))
+        # the sweeps use all cores
+        found = answered(self.system, "diagram", task, threads=0)["diagram"]
+        return found["parameter"], found["speed"], found["repeats"]
 
     def _draw(self, ax: Any) -> None:
         self.plot(ax, diagram=False)
@@ -171,92 +302,88 @@ class Branch(Result):
     def _table(self) -> dict[str, Any]:
         """One row for each point."""
         second = {} if self.also is None or self.second is None else {self.also[0]: self.second}
+        shown = {} if self.quantity is None or self.value is None else {self.quantity: self.value}
         modulus = np.abs(self.multipliers).max(axis=1) if len(self) else np.empty(0)
         return {
-            self.vary: self.parameter, **second, "label": self.label, "stable": self.stable, "stability": self.stability,
-            "physical": self.physical,
-            "speed": self.speed, "multiplier": modulus,
+            self.vary: self.parameter, **second, "label": self.label, "period": self.period, "stable": self.stable,
+            "stability": self.stability, "admissible": self.admissible, "speed": self.speed, **shown, "multiplier": modulus,
         }
 
     def to_dict(self) -> dict[str, Any]:
         """The object that the command prints with --json; of a branch that begins on another one, its part of it."""
-        whole_answer = answer(self.plan)
-        return whole_answer if self.number == 0 else whole_answer["branches"][self.number]
+        return copy.deepcopy(self._of if self.number == 0 else self._one)
+
+
+def rows_of(points: list[dict[str, Any]]) -> NDArray[np.complex128]:
+    """The multipliers of all points, in rows."""
+    each = len(points[0]["multipliers"]) if points else 0
+    return complex_of([pair for point in points for pair in point["multipliers"]]).reshape(len(points), each)
 
 
 def branch(
-    osc: Oscillator,
-    label: str,
+    system: System,
     vary: str,
     to: float,
     *,
+    label: str | None = None,
     also: Mapping[str, float] | None = None,
     orbit: int | None = None,
     follow: int = 0,
     points: int = 5000,
+    q: ArrayLike | None = None,
+    qdot: ArrayLike | None = None,
+    phase: float | None = None,
     progress: Progress = None,
 ) -> Branch:
-    """Follow a periodic orbit, stable or not, in one parameter and through its events.
+    """Follow a periodic orbit, stable or not, in one number and through its events.
 
-    The orbit is searched at `osc` and followed by pseudo-arclength continuation to the value `to`. Events are located to
+    The orbit is searched at `system` and followed by pseudo-arclength continuation to the value `to`. Events are located to
     rounding. At a grazing event the branch continues with the orbit on the other side of the event.
 
     Parameters
     ----------
-    osc : Oscillator
+    system : Oscillator or Machine
         The system at which the branch begins.
-    label : str
-        "m/n" of the orbit there.
     vary : str
-        "beta", "inverse_beta", "gap", "restitution", "damping", "second_gap" or "second_restitution".
+        What varies: "beta", "inverse_beta", "gap", "restitution", "damping", "second_gap" or "second_restitution" of an oscillator,
+        with physical units also "mass_kg" and others; of a machine the path of a number, as "frequency" or "stop.wall.gap".
     to : float
         The other end of its range.
+    label : str
+        "m/n" of the orbit there, "m/T" without forcing. Default, of a machine only: that of the motion from the start.
     also : dict
-        A second parameter that varies in proportion to the first, and its value where the first is `to`:
-        {"inverse_beta": 1.05}. Its value at the beginning is that of `osc`. So a branch can follow any line in two parameters.
+        A second number that varies in proportion to the first, and its value where the first is `to`: {"inverse_beta": 1.05}. Its
+        value at the beginning is that of `system`. So a branch can follow any line in two numbers.
     orbit : int
         Number of the orbit, counted from 1 in the order of `orbits`. Default: the stable orbit, or else the fastest admissible one.
     follow : int
         Maximum number of branches, 0 to 100, to follow from flips and branch points.
     points : int
         Maximum number of points of each branch, 2 to 100000.
+    q, qdot, phase : array, array, float
+        Start of a machine: coordinates, velocities and phase. Default: those of its `start`, or 0.
     progress : bool or callable
         True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
 
     Examples
     --------
-    >>> from vibroimpact import Oscillator, branch
-    >>> found = branch(Oscillator(inverse_beta=1.11, gap=1.5, restitution=0.5), "1/1", "gap", 2.5, follow=1)
+    >>> import vibroimpact as vi
+    >>> found = vi.branch(vi.Oscillator(inverse_beta=1.11, gap=1.5, restitution=0.5), "gap", 2.5, label="1/1", follow=1)
     >>> [(event.kind, round(event.parameter, 9)) for event in found.events]
     [('flip', 1.82900619), ('end of range', 2.5)]
     >>> [event.kind for event in found.followed[0].events]
     ['fold', 'grazing', 'end of range']
+    >>> [(of.kind, of.stop) for of in vi.Machine.named("two-mass-hammer").branch("frequency", 1.05).events]
+    [('grazing', 'anvil'), ('fold', None), ('end of range', None)]
     """
-    orbit = maybe("orbit", orbit, NUMBER)
-    follow, points = whole("follow", follow, FOLLOW), whole("points", points, BRANCH)
-    with watched(progress, "branches") as tell:
-        found = _core.branch(osc, label, vary, to, beside(also), orbit, follow, points, tell)
-
-    def of(number: int, fields: dict[str, Any], followed: list[Branch]) -> Branch:
-        return Branch(
-            osc=osc,
-            vary=vary,
-            ends=(found["from"], to),
-            also=found["also"],
-            parameter=fields["parameter"],
-            second=fields["second"],
-            label=fields["label"],
-            stable=fields["stable"],
-            stability=np.array(fields["stability"], dtype=np.str_),
-            physical=fields["physical"],
-            cycles=Cycles.of(fields["cycles"]),
-            events=[BranchEvent(**event) for event in fields["events"]],
-            origin=None if fields["origin"] is None else Origin(*fields["origin"]),
-            followed=followed,
-            orbit=found["orbit"],
-            number=number,
-            plan=found["plan"],
-        )
-
-    first, *others = found["branches"]
-    return of(0, first, [of(number, fields, []) for number, fields in enumerate(others, start=1)])
+    if label is None and isinstance(system, Oscillator):
+        raise QuestionError('the branch of an oscillator needs the label of its orbit\nhint: label="1/1"')
+    second = beside(also)
+    named = "parameter" if isinstance(system, Oscillator) else "path"
+    task = given(
+        label=label, orbit=maybe("orbit", orbit, NUMBER), vary=vary, to=float(to),
+        also=second and {named: second[0], "to": float(second[1])},
+        follow=whole("follow", follow, FOLLOW), points=whole("points", points, BRANCH),
+    )
+    start = Start(system, None, None, q, qdot, phase if not isinstance(system, Oscillator) else None)
+    return Branch(ask(system, "branch", task, start, progress=progress, what="branches"), system)

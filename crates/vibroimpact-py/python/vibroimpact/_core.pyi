@@ -11,16 +11,14 @@ _Fields: TypeAlias = dict[str, Any]
 _Start: TypeAlias = tuple[float | None, float, float]
 _MachineStart: TypeAlias = tuple[list[float], list[float], float]
 _Counts: TypeAlias = tuple[int, int, int, int]
-_Stretch: TypeAlias = tuple[str, float, float]
 _Progress: TypeAlias = Callable[[int, int], object] | None
 _Array: TypeAlias = NDArray[np.float64]
 _Columns: TypeAlias = list[tuple[str, _Array]]
-_Part: TypeAlias = tuple[list[tuple[_Array, list[str], bool, bool]], _Array]
 
 __all__ = [
+    "answer",
+    "plan_json",
     "answer_json",
-    "attractors",
-    "missed_share",
     "share_interval",
     "basin_measures",
     "fill",
@@ -38,29 +36,19 @@ __all__ = [
     "estimate_plan",
     "seconds_of",
     "StoreError",
-    "branch",
-    "curve",
-    "response",
     "QuestionError",
     "StoppedError",
-    "lyapunov",
     "MachineFile",
-    "machine_answer",
     "machine_names",
-    "machine_plan",
     "machine_state",
     "machine_waveform",
     "simulate_machine",
-    "margins",
     "varied_parameters",
-    "orbits",
     "Oscillator",
     "Units",
     "contains",
-    "region",
     "drawn_points",
     "settle_points",
-    "settle",
     "settle_many",
     "simulate",
     "crossings_of_points",
@@ -182,15 +170,6 @@ class MachineFile:
 def simulate_machine(
     file: MachineFile, start: _MachineStart, impacts: int | None, periods: float | None, progress: _Progress
 ) -> _Fields: ...
-def machine_answer(
-    file: MachineFile,
-    start: _MachineStart,
-    task: str,
-    total: int,
-    threads: int,
-    progress: _Progress,
-) -> _Fields: ...
-def machine_plan(file: MachineFile, start: _MachineStart, task: str, tile: int | None) -> str: ...
 def machine_waveform(file: MachineFile, start: _MachineStart, until: float, step: float, events: bool) -> _Fields: ...
 def machine_names() -> list[str]: ...
 def machine_state(plan: str, event: int) -> str: ...
@@ -200,10 +179,9 @@ def simulate(
 def waveform(
     osc: Oscillator, start: _Start, until: float, points_per_period: float
 ) -> tuple[_Array, _Array, _Array]: ...
-def settle(osc: Oscillator, start: _Start, impacts: int | None) -> tuple[_Fields, str]: ...
 def settle_many(
     osc: Oscillator, x: _Array, v: _Array, phase: _Array, threads: int, progress: _Progress
-) -> tuple[list[tuple[_Fields, int]], NDArray[np.uint32]]: ...
+) -> tuple[list[tuple[str, int]], NDArray[np.uint32]]: ...
 def drawn_points(drawn: str) -> list[_Array]: ...
 def settle_points(
     osc: Oscillator, over: _Columns, start: _Start, options: tuple[int | None, list[str], bool], threads: int,
@@ -224,37 +202,14 @@ def crossings_of_points(
     osc: Oscillator, over: _Columns, start: _Start, position: float, periods: float, threads: int, progress: _Progress
 ) -> _Fields: ...
 def share_interval(count: int, total: int) -> tuple[float, float]: ...
-def missed_share(total: int) -> float: ...
-def attractors(
-    osc: Oscillator, starts: int, seed: int, impacts: int | None, threads: int, progress: _Progress
-) -> _Fields: ...
-def orbits(
-    osc: Oscillator, label: str, progress: _Progress
-) -> list[tuple[_Fields, bool, tuple[int | None, str, float] | None]]: ...
-def branch(
-    osc: Oscillator, label: str, vary: str, to: float, also: tuple[str, float] | None, orbit: int | None, follow: int,
-    points: int, progress: _Progress,
-) -> _Fields: ...
-def curve(
-    osc: Oscillator, label: str, kind: str, vary: _Stretch, and_: _Stretch, orbit: int | None, event: int | None,
-    progress: _Progress,
-) -> _Fields: ...
-def region(
-    osc: Oscillator, label: str, across: _Stretch, up: _Stretch, grid: int, threads: int, progress: _Progress
-) -> tuple[_Part, _Part, bool, str]: ...
-def response(
-    osc: Oscillator, vary: str, over: str | list[float], quantity: str, impacts: int | None,
-    progress: _Progress,
-) -> _Fields: ...
 def contains(polygons: list[tuple[_Array, bool]], p: _Array, q: _Array) -> NDArray[np.bool_]: ...
-def lyapunov(
-    osc: Oscillator, start: _Start, impacts: int, transient: int, points: int | None, progress: _Progress
-) -> _Fields: ...
-def margins(
-    osc: Oscillator, start: _Start, label: str | None, vary: list[tuple[str, float | None]], within: float, lines: int,
-    progress: _Progress,
-) -> _Fields: ...
 def varied_parameters(osc: Oscillator) -> list[str]: ...
+def answer(
+    system: Oscillator | MachineFile, from_: _MachineStart | None, task: str, total: int, threads: int, progress: _Progress
+) -> _Fields: ...
+def plan_json(
+    system: Oscillator | MachineFile, from_: _MachineStart | None, task: str, tile: int | None
+) -> str: ...
 def answer_json(plan: str) -> str: ...
 def checked_plan(text: str) -> tuple[str, str, str, int]: ...
 def fixed_coordinates(text: str) -> list[tuple[str, float, str, str, str]]: ...

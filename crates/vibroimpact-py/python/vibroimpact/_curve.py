@@ -1,95 +1,158 @@
-"""Curves of folds, flips or grazing impacts of an orbit in a plane of two parameters."""
+"""Curves of an event of an orbit in a plane of two numbers."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from vibroimpact import _core
+from vibroimpact._ask import Start, System, ask, given
 from vibroimpact._axis import Interval, plane
-from vibroimpact._core import Oscillator
-from vibroimpact._cycle import Cycles
+from vibroimpact._branch import rows_of
+from vibroimpact._core import Oscillator, QuestionError
+from vibroimpact._events import Events
 from vibroimpact._figure import named, new_axes
+from vibroimpact._palette import SERIES
 from vibroimpact._plane import broken, frame
-from vibroimpact._progress import Progress, watched
-from vibroimpact._result import Result
+from vibroimpact._progress import Progress
+from vibroimpact._result import View
 from vibroimpact._tables import CURVE_MARKS, EVENT_COLOURS
-from vibroimpact._whole import NUMBER, maybe
+from vibroimpact._whole import BRANCH, NUMBER, maybe
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-class CurveEvent(NamedTuple):
-    """A point of codimension two on a curve, or an end of the curve."""
-
-    #: "cusp", "resonant grazing", "double grazing", "degenerate grazing", "touch", "1:2", "end of box" ...
-    kind: str
-    #: Values of both parameters.
-    values: tuple[float, float]
-    #: Index among the points of the curve.
-    point: int
-
-
-@dataclass(frozen=True, eq=False, repr=False, slots=True)
-class Curve(Result):
-    """A curve of events, from one end to the other.
+class CurveEvent(View):
+    """A point of codimension two on a curve, or an end of the curve.
 
     Attributes
     ----------
-    osc : Oscillator
+    kind : str
+        "cusp", "resonant grazing", "double grazing", "1:1", "1:2", "fold-flip", "end of box" ...
+    values : list of float
+        Values of both numbers.
+    point : int
+        Index among the points of the curve.
+    stop : str or None
+        The stop or joint, if there is one.
+    """
+
+    kind: str
+    values: list[float]
+    point: int
+    stop: str | None
+
+    def __repr__(self) -> str:
+        return f"<CurveEvent {self.kind} at {self.values[0]:.9g}, {self.values[1]:.9g}>"
+
+
+class Curve(View):
+    """A curve of an event of an orbit, from one end to the other.
+
+    Attributes
+    ----------
+    system : Oscillator or Machine
         The system at which the orbit was searched.
     label, kind : str
-        The label m/n of the orbit; "fold", "flip" or "grazing".
+        The label of the orbit; "fold", "flip", "grazing", of a machine also "torus", "corner", "sticking" or "holding".
+    of : list of str or None
+        The stop or joint of a curve of grazing, sticking or holding of a machine, or the stops and joints of a corner.
     parameters : (str, str)
-        The two parameters.
+        The two numbers.
     ranges : ((float, float), (float, float))
-        The ranges of the two parameters.
+        Their ranges.
     values : ndarray, shape (points, 2)
-        Values of the two parameters.
-    physical : ndarray of bool
+        Values of the two numbers.
+    admissible : ndarray of bool
         Whether the orbit is admissible.
-    cycles : sequence of Cycle
-        The impacts at each point; on a grazing curve including the one of speed zero.
+    multipliers : ndarray of complex128
+        Floquet multipliers; on a curve of grazing of a machine those of the cycle without the contact.
+    residual : ndarray
+        Of a machine: by how much the condition of the curve fails at each point. nan of an oscillator.
+    cycles : list of Events
+        The events at each point; on a grazing curve of an oscillator including the impact of speed zero.
     events : list of CurveEvent
         The events, in order along the curve.
     found_at : list of float
-        Values of the first parameter at the events of this kind on the branch of the orbit.
+        Values of the first number at the events of this kind on the branch of the orbit.
     through : (int, int)
         The number, counted from 1, of the event through which the curve passes, and its index among the points.
-    orbit : (int, int)
-        The number of the orbit, and the number of orbits with its label.
+    orbit : (int, int) or None
+        The number of the orbit, and the number of orbits with its label; None for the motion from the start.
     plan : str
         The plan as JSON.
     """
 
-    osc: Oscillator
     label: str
     kind: str
-    parameters: tuple[str, str]
-    ranges: tuple[tuple[float, float], tuple[float, float]]
-    values: NDArray[np.float64]
-    physical: NDArray[np.bool_]
-    cycles: Cycles
-    events: list[CurveEvent]
+    of: list[str] | None
     found_at: list[float]
-    through: tuple[int, int]
-    orbit: tuple[int, int]
-    plan: str
 
     def __repr__(self) -> str:
         p, q = self.parameters
         return f"<Curve of {self.kind} of {self.label} over {p} and {q}, {len(self)} points, {len(self.events)} events>"
 
     def __len__(self) -> int:
-        return len(self.values)
+        return len(self._of["points"])
 
     @property
+    def parameters(self) -> tuple[str, str]:
+        """The two numbers."""
+        one, two = self._of["parameters"]
+        return one, two
+
+    @property
+    def ranges(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Their ranges."""
+        task = self._of["plan"]["task"]["curve"]
+        one, two = ((task[name]["from"], task[name]["to"]) for name in ("vary", "and"))
+        return one, two
+
+    @property
+    def through(self) -> tuple[int, int]:
+        """The event through which the curve passes."""
+        return self._of["through"]["event"], self._of["through"]["point"]
+
+    @property
+    def orbit(self) -> tuple[int, int] | None:
+        """The number of the orbit, and how many there are."""
+        found = self._of.get("orbit")
+        return None if found is None else (found["number"], found["count"])
+
+    def _column(self, name: str, kind: Any) -> NDArray[Any]:
+        return np.array([point.get(name, np.nan) for point in self._of["points"]], dtype=kind)
+
+    @cached_property
+    def values(self) -> NDArray[np.float64]:
+        """Values of the two numbers."""
+        return self._column("values", np.float64).reshape(len(self), 2)
+
+    @cached_property
+    def admissible(self) -> NDArray[np.bool_]:
+        """Whether the orbit is admissible."""
+        return self._column("admissible", np.bool_)
+
+    @cached_property
+    def residual(self) -> NDArray[np.float64]:
+        """By how much the condition fails."""
+        return self._column("residual", np.float64)
+
+    @cached_property
     def multipliers(self) -> NDArray[np.complex128]:
-        """Both multipliers at each point."""
-        return self.cycles.multipliers
+        """Floquet multipliers in rows."""
+        return rows_of(self._of["points"])
+
+    @cached_property
+    def cycles(self) -> list[Events]:
+        """The events at each point."""
+        return [Events.of(point["cycle"], self.system) for point in self._of["points"]]
+
+    @cached_property
+    def events(self) -> list[CurveEvent]:
+        """The points of codimension two and the ends."""
+        return [CurveEvent(of, self.system) for of in self._of["events"]]
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
         """Draw the curve in its plane, dotted where the orbit is inadmissible, and its points of codimension two."""
@@ -98,89 +161,92 @@ class Curve(Result):
     def _table(self) -> dict[str, Any]:
         """One row for each point."""
         p, q = self.parameters
-        return {p: self.values[:, 0], q: self.values[:, 1], "physical": self.physical}
+        columns = {p: self.values[:, 0], q: self.values[:, 1], "admissible": self.admissible}
+        return columns if isinstance(self.system, Oscillator) else {**columns, "residual": self.residual}
+
 
 def _draw(of: Curve, ax: "Axes | None") -> "Axes":
     """Draw the curve, dotted where the orbit is inadmissible, and its points of codimension two."""
     ax = new_axes(ax, (7.2, 4.8))
-    colour, events = EVENT_COLOURS[of.kind], {event.point for event in of.events}
+    colour, events = EVENT_COLOURS.get(of.kind, SERIES[3]), {event.point for event in of.events}
+    # a motion with friction only has no impact that could name it
+    name = of.kind if of.label == "0" else f"{of.kind} of {named(of.label)}"
     # an event separates two parts, so a step takes its look from the end that is no event
     steps = [k if k + 1 in events and k not in events else k + 1 for k in range(len(of) - 1)]
-    for physical, dash, words in ((True, "-", ""), (False, ":", ", inadmissible")):
-        xs, ys = (np.array(column, dtype=float) for column in broken(of.values, of.physical[steps] == physical))
+    for admissible, dash, words in ((True, "-", ""), (False, ":", ", inadmissible")):
+        xs, ys = (np.array(column, dtype=float) for column in broken(of.values, of.admissible[steps] == admissible))
         if len(xs):
-            ax.plot(xs, ys, dash, color=colour, linewidth=1.8, label=f"{of.kind} of {named(of.label)}{words}")
-    for kind, mark in CURVE_MARKS.items():
-        places = [event.values for event in of.events if event.kind == kind]
-        if places:
-            xs, ys = np.array(places).T
-            ax.plot(xs, ys, mark, color="white", markeredgecolor="black", markersize=8, label=kind, zorder=4, clip_on=False)
-    begin = of.values[of.through[1]]
-    ax.plot(*begin, "o", color="black", markersize=5, label="found on the branch", zorder=5)
-    frame(ax, of.osc, of.parameters, of.ranges)
+            ax.plot(xs, ys, dash, color=colour, linewidth=1.8, label=f"{name}{words}")
+    kinds = dict.fromkeys(event.kind for event in of.events if not event.kind.startswith("end"))
+    for k, kind in enumerate(kinds):
+        xs, ys = np.array([event.values for event in of.events if event.kind == kind]).T
+        ax.plot(xs, ys, CURVE_MARKS.get(kind, "osD^v"[k % 5]), color="white", markeredgecolor="black", markersize=8, label=kind,
+                zorder=4, clip_on=False)
+    ax.plot(*of.values[of.through[1]], "o", color="black", markersize=5, label="found on the branch", zorder=5)
+    frame(ax, of.system, of.parameters, of.ranges)
     return ax
 
 
 def curve(
-    osc: Oscillator,
-    label: str,
+    system: System,
     kind: str,
     over: Mapping[str, Interval],
     *,
+    label: str | None = None,
     orbit: int | None = None,
     event: int | None = None,
+    points: int | None = None,
+    q: ArrayLike | None = None,
+    qdot: ArrayLike | None = None,
+    phase: float | None = None,
     progress: Progress = None,
 ) -> Curve:
-    """Follow a fold, flip or grazing impact of an orbit in a plane of two parameters.
+    """Follow an event of an orbit in a plane of two numbers.
 
-    The orbit is searched at `osc` and followed in the first parameter to both ends of its range, as long as it keeps its
+    The orbit is searched at `system` and followed in the first number to both ends of its range, as long as it keeps its
     label. From an event of the given kind the curve is followed in both directions to the edge of the plane.
 
     Parameters
     ----------
-    osc : Oscillator
+    system : Oscillator or Machine
         The system at which the orbit is searched; it must lie in the plane.
-    label : str
-        "m/n" of the orbit there.
     kind : str
-        "fold", "flip" or "grazing".
+        "fold", "flip" or "grazing"; of a machine also "torus", "corner", and "sticking" and "holding", the begin and the end of sticking
+        on a stop and of holding of a friction joint.
     over : mapping
-        Two parameters and their ranges; the orbit is followed in the first one:
-        {"gap": (0, 5), "inverse_beta": (0.45, 0.9)}. Of a machine in physical units also two of its numbers:
-        {"gap_m": (0.001, 0.01), "force_n": (20, 60)}. The velocities of the impacts are in the units of the machine at each
-        point, which depend on its mass, its stiffness and what drives it.
+        Two numbers and their ranges; the orbit is followed in the first one:
+        {"gap": (0, 5), "inverse_beta": (0.45, 0.9)}. With physical units also {"gap_m": (0.001, 0.01), "force_n": (20, 60)}; the
+        velocities of the impacts are in the units at each point, which depend on the mass, the stiffness and what drives it. Of a
+        machine paths.
+    label : str
+        "m/n" of the orbit there, "m/T" without forcing. Default, of a machine only: that of the motion from the start.
     orbit : int
         Number of the orbit, as for `branch`.
     event : int
-        Number of the event, counted from 1 in order of rising values. Default: the event nearest to `osc`.
+        Number of the event, counted from 1 in order of rising values. Default: the event nearest to `system`.
+    points : int
+        Of a machine the largest number of points in each direction, 2 to 100 000.
+    q, qdot, phase : array, array, float
+        Start of a machine: coordinates, velocities and phase. Default: those of its `start`, or 0.
     progress : bool or callable
         True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
 
     Examples
     --------
-    >>> from vibroimpact import Oscillator, curve
-    >>> osc = Oscillator(inverse_beta=0.7, gap=2, restitution=0.5)
-    >>> fold = curve(osc, "1/1", "fold", {"gap": (0, 5), "inverse_beta": (0.45, 0.9)})
+    >>> import vibroimpact as vi
+    >>> osc = vi.Oscillator(inverse_beta=0.7, gap=2, restitution=0.5)
+    >>> fold = vi.curve(osc, "fold", {"gap": (0, 5), "inverse_beta": (0.45, 0.9)}, label="1/1")
     >>> [(event.kind, round(event.values[0], 6)) for event in fold.events]
     [('resonant grazing', 0.333333), ('end of box', 5.0)]
+    >>> found = vi.Machine.named("two-mass-hammer").curve("grazing", {"frequency": (0.9, 1.3), "b": (0.4, 0.6)})
+    >>> found.kind, [event.kind for event in found.events]
+    ('grazing', ['end of box', 'end of box'])
     """
-    first, second = plane(over)
-    orbit, event = maybe("orbit", orbit, NUMBER), maybe("event", event, NUMBER)
-    with watched(progress, "curves") as tell:
-        found = _core.curve(osc, label, kind, first, second, orbit, event, tell)
-    values = found["values"]
-    return Curve(
-        osc=osc,
-        label=label.strip(),
-        kind=kind,
-        parameters=(first[0], second[0]),
-        ranges=(first[1:], second[1:]),
-        values=values,
-        physical=found["physical"],
-        cycles=Cycles.of(found["cycles"]),
-        events=[CurveEvent(name, (float(values[k, 0]), float(values[k, 1])), k) for name, k in found["events"]],
-        found_at=found["found_at"],
-        through=found["through"],
-        orbit=found["orbit"],
-        plan=found["plan"],
-    )
+    if label is None and isinstance(system, Oscillator):
+        raise QuestionError('the curve of an oscillator needs the label of its orbit\nhint: label="1/1"')
+    name = "parameter" if isinstance(system, Oscillator) else "path"
+    vary, and_ = ({name: path, "from": first, "to": last} for path, first, last in plane(over))
+    task = given(label=label, kind=kind, vary=vary, orbit=maybe("orbit", orbit, NUMBER), event=maybe("event", event, NUMBER),
+                 points=maybe("points", points, BRANCH))
+    start = Start(system, None, None, q, qdot, phase if not isinstance(system, Oscillator) else None)
+    return Curve(ask(system, "curve", {**task, "and": and_}, start, progress=progress, what="curves"), system)

@@ -125,6 +125,18 @@ def title(osc: Oscillator, without: tuple[str, ...] = ()) -> str:
     return ", ".join(shown)
 
 
+def heading(system: Any, without: tuple[str, ...] = ()) -> str:
+    """The title of a figure: the parameters of an oscillator except those in `without`, or the name of a machine."""
+    if isinstance(system, Oscillator):
+        return title(system, without)
+    return str(system.title or "machine").split(": ")[0]
+
+
+def axis_of(system: Any, name: str) -> str:
+    """The name of the axis of a number: the symbol of a parameter of an oscillator, or the path of a number of a machine."""
+    return Scale(system, False).axis(name) if isinstance(system, Oscillator) else name
+
+
 def named(label: str) -> str:
     """The text of a label in a figure."""
     return "no impact" if label == "0" else label.replace("inf", "∞")
@@ -148,21 +160,20 @@ def walls(ax: "Axes", osc: Oscillator, unit: float, ys: NDArray[np.float64]) -> 
 def waveform(
     osc: Oscillator,
     wave: tuple[NDArray[np.float64], NDArray[np.float64]],
-    impacts: tuple[NDArray[np.float64], NDArray[np.int8]],
+    impacts: tuple[NDArray[np.float64], NDArray[np.float64]],
     label: str | None,
     ax: "Axes | None",
     si: bool,
 ) -> "Axes":
-    """Draw the position over time, with the stops and the impacts."""
+    """Draw the position over time, with the stops and the impacts, whose times and positions are given."""
     scale = Scale(osc, si)
     ax = new_axes(ax, (9.5, 3.6))
     t, x = wave[0] * scale.time, wave[1] * scale.length
     ax.plot(t, x, color=SERIES[0], linewidth=1.5, label="position")
-    times, sides = impacts
+    times, at = impacts
     seen = times * scale.time <= t[-1] * (1 + 1e-12)
     if 0 < np.count_nonzero(seen) <= _MARKED:
-        lower = 0.0 if osc.second_gap is None else -osc.second_gap
-        places = np.where(sides[seen] > 0, osc.gap, lower) * scale.length
+        places = at[seen] * scale.length
         size = 3 if np.count_nonzero(seen) > 60 else 6
         ax.plot(times[seen] * scale.time, places, "o", color=SERIES[1], markersize=size, markeredgecolor="white",
                 markeredgewidth=0.7, label="impact", zorder=3)

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vibroimpact import _core
+from vibroimpact._ask import System
 from vibroimpact._axis import Axis, Interval
 from vibroimpact._core import Oscillator, Units
-from vibroimpact._machine import Machine
 from vibroimpact._plan import Plan
 from vibroimpact._progress import Progress, watched
 from vibroimpact._whole import THREADS, whole
@@ -81,13 +81,13 @@ def _dataset(
     return with_fixed(ds)
 
 
-def _units(osc: Oscillator | Machine) -> Units | None:
+def _units(osc: System) -> Units | None:
     """The units of the results of an oscillator; those of a machine are its own."""
     return osc.units if isinstance(osc, Oscillator) else None
 
 
 def basin(
-    osc: Oscillator | Machine,
+    osc: System,
     over: Mapping[str, Axis] | None = None,
     *,
     x: Axis | float | None = None,
@@ -172,7 +172,7 @@ def basin(
 
 
 def region_map(
-    osc: Oscillator | Machine,
+    osc: System,
     over: Mapping[str, Axis],
     *,
     starts: int = 8,
@@ -228,7 +228,7 @@ def region_map(
 
 
 def orbit_diagram(
-    osc: Oscillator | Machine,
+    osc: System,
     vary: str,
     over: Axis,
     *,

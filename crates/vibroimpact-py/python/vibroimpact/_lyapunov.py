@@ -1,123 +1,196 @@
 """Lyapunov exponents of a motion and the dimension of its attractor."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from vibroimpact import _core, _exponents
+from vibroimpact import _core
+from vibroimpact._ask import Start, System, answered, given
 from vibroimpact._core import Oscillator
-from vibroimpact._figure import named, title
-from vibroimpact._motion import Motion, fields_of
-from vibroimpact._progress import Progress, watched
-from vibroimpact._result import Result
-from vibroimpact._sections import Impacts, Strobes, sections
-from vibroimpact._whole import MEASURED, SECTION, TRANSIENT, maybe, whole
+from vibroimpact._figure import heading, named
+from vibroimpact._motion import Measured, Motion, all_measured, measured
+from vibroimpact._progress import Progress
+from vibroimpact._result import View, equal
+from vibroimpact._whole import MEASURED, SECTION, SIMULATED, TRANSIENT, maybe
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+_Floats = NDArray[np.float64]
 
-class Measured(NamedTuple):
-    """A number and its error bar, which is three standard errors; 0 if the number is exact."""
 
-    value: float
-    error: float
+class Closings(NamedTuple):
+    """The section of an attractor at the closings of stops: stop, phase and speed, and coordinates and velocities after it."""
 
-@dataclass(frozen=True, eq=False, repr=False, slots=True)
-class Lyapunov(Result):
-    """Both Lyapunov exponents of a motion with error bars, and sections of its attractor.
+    stop: NDArray[np.str_]
+    phase: _Floats
+    speed: _Floats
+    #: Closings x coordinates.
+    q: _Floats
+    qdot: _Floats
+
+
+class Strobes(NamedTuple):
+    """The stroboscopic section: coordinates and velocities at phase 0 of the force, states x coordinates."""
+
+    q: _Floats
+    qdot: _Floats
+
+
+class Lyapunov(View):
+    """The Lyapunov exponents of a motion with error bars, two for each coordinate, and sections of its attractor.
 
     Attributes
     ----------
-    osc : Oscillator
+    system : Oscillator or Machine
         The system.
     motion : Motion
         The motion after the transient.
-    exponents, exponents_per_period : tuple of Measured
-        The exponents, the larger one first, per unit of time and per forcing period.
-    sum : Measured
-        The measured sum of both exponents.
-    identity : float
+    exponents, exponents_per_period : tuple of Measured or None
+        The exponents, the largest first, per unit of time and per forcing period; None if the motion ended before.
+    sum : Measured or None
+        The measured sum of both exponents of an oscillator.
+    identity : float or None
         The exact value of the sum: 2 ln(eps) times the rate of impacts, minus 2 zeta.
-    impacts_per_period : Measured
-        Number of impacts per forcing period.
-    dimension : Measured or None
-        Kaplan-Yorke dimension of the stroboscopic section; None if the larger exponent is not known to differ from 0.
-    flow_dimension : Measured or None
-        Kaplan-Yorke dimension of the flow in the space of position, velocity and phase.
-    grounds : dict
-        How the exponents were obtained: "kind" is "measured", "no_impact", "sticks", "stuck", "touches" or "undecided".
-    impacts, strobes : named tuples of ndarray
+    impacts_per_period : Measured or None
+        Number of closings of stops per forcing period.
+    exact : bool
+        Whether the exponents are those of a cycle or of a motion without impacts, and not measured.
+    dimension, flow_dimension : Measured or None
+        Kaplan-Yorke dimension of the stroboscopic section, and of the flow; None if the largest exponent is not known to differ from 0.
+    grounds : dict or None
+        How the exponents of an oscillator were obtained: "kind" is "measured", "no_impact", "sticks", "stuck", "touches" or
+        "undecided".
+    closings, strobes : named tuples of ndarray
         Points of both sections; empty unless requested.
     plan : str
         The plan as JSON.
     """
 
-    osc: Oscillator
-    motion: Motion
-    exponents: tuple[Measured, Measured]
-    exponents_per_period: tuple[Measured, Measured]
-    sum: Measured
-    identity: float
-    impacts_per_period: Measured
-    dimension: Measured | None
-    flow_dimension: Measured | None
-    grounds: dict[str, Any]
-    impacts: Impacts
-    strobes: Strobes
-    plan: str
+    identity: float | None
+    exact: bool
+    grounds: dict[str, Any] | None
+
+    def __init__(self, of: dict[str, Any], system: Any, points: Mapping[str, Any] | None) -> None:
+        super().__init__(of, system)
+        none, states = np.empty(0), np.empty((0, len(of["system"]["coordinates"])))
+        found = points or {
+            "stop": [], "phase": none, "speed": none, **{name: states for name in ("q", "qdot", "strobe_q", "strobe_qdot")},
+        }
+        stop = np.array(found["stop"], dtype=np.str_)
+        self.closings = Closings(stop, *(found[name] for name in ("phase", "speed", "q", "qdot")))
+        self.strobes = Strobes(found["strobe_q"], found["strobe_qdot"])
+
+    def __eq__(self, other: object) -> bool:
+        same = super().__eq__(other)
+        return same if same is not True else equal((self.closings, self.strobes), (other.closings, other.strobes))  # type: ignore[attr-defined]
+
+    __hash__ = None
+
+    @cached_property
+    def motion(self) -> Motion:
+        """The motion."""
+        return Motion(self._of["motion"], self.system)
+
+    @property
+    def exponents(self) -> tuple[Measured, ...] | None:
+        """Per unit of time."""
+        return all_measured(self._of["exponents"])
+
+    @property
+    def exponents_per_period(self) -> tuple[Measured, ...] | None:
+        """Per forcing period."""
+        return all_measured(self._of["exponents_per_period"])
+
+    def _one(self, of: Mapping[str, Any] | None) -> Measured | None:
+        return None if of is None else measured(of)
+
+    @property
+    def sum(self) -> Measured | None:
+        """The measured sum."""
+        return self._one(self._of.get("sum"))
+
+    @property
+    def impacts_per_period(self) -> Measured | None:
+        """Closings per forcing period."""
+        return self._one(self._of["impacts_per_period"])
+
+    @property
+    def dimension(self) -> Measured | None:
+        """Of the stroboscopic section."""
+        return self._one(self._of["dimension"]["section"])
+
+    @property
+    def flow_dimension(self) -> Measured | None:
+        """Of the flow."""
+        return self._one(self._of["dimension"]["flow"])
 
     def __repr__(self) -> str:
-        one, two = self.exponents
-        return f"<Lyapunov {one.value:.5g} +- {one.error:.1g}, {two.value:.5g} +- {two.error:.1g}, {self.motion.label}>"
+        first = f"{self.exponents[0].value:.5g} +- {self.exponents[0].error:.1g}" if self.exponents else "unknown"
+        return f"<Lyapunov, largest {first}, {self.motion.label}>"
 
     def _table(self) -> dict[str, Any]:
         """One row for each measured number."""
-        measured = {
-            "exponent 1": self.exponents[0], "exponent 2": self.exponents[1], "sum": self.sum,
-            "impacts per period": self.impacts_per_period, "dimension": self.dimension,
+        found = {f"exponent {k + 1}": of for k, of in enumerate(self.exponents or ())}
+        more = {
+            "sum": self.sum, "impacts per period": self.impacts_per_period, "dimension": self.dimension,
             "dimension of the flow": self.flow_dimension,
         }
-        known = {name: of for name, of in measured.items() if of is not None}
-        return {
-            "name": list(known), "value": [of.value for of in known.values()], "error": [of.error for of in known.values()],
-        }
+        found |= {name: of for name, of in more.items() if of is not None}
+        return {"name": list(found), "value": [of.value for of in found.values()], "error": [of.error for of in found.values()]}
 
-    def plot(self, axes: "tuple[Axes, Axes] | None" = None) -> "tuple[Axes, Axes]":
-        """Draw both sections of the attractor: phase and speed of its impacts, and its states at phase 0."""
-        if not len(self.impacts.phase) and not len(self.strobes.x):
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
+        """Draw the exponents with their error bars."""
+        from vibroimpact import _exponents
+
+        if not self.exponents:
+            raise _core.QuestionError("there are no exponents: the motion ended before they could be measured")
+        return _exponents.plot(self.exponents, self.exact, f"{heading(self.system)}: {named(self.motion.label)}", ax)
+
+    def plot_sections(self, axes: Any = None) -> "NDArray[Any]":
+        """Draw both sections of the attractor: the phase and speed of closings, and the plane of each coordinate and its velocity
+        at phase 0.
+
+        `axes` are one axes more than there are coordinates. Returns the axes.
+        """
+        from vibroimpact import _sections
+
+        if not len(self.closings.phase) and not len(self.strobes.q):
             raise _core.QuestionError("there are no points of the sections\nhint: lyapunov(..., points=5000)")
-        return sections(self.osc, self.impacts, self.strobes, axes)
+        return _sections.sections(self, axes)
 
-    def _draw(self, ax: Any) -> None:
-        exact = not any(of.error for of in self.exponents)
-        _exponents.plot(self.exponents, exact, f"{title(self.osc)}: {named(self.motion.label)}", ax)
 
 def lyapunov(
-    osc: Oscillator,
+    system: System,
     *,
     x: float | None = None,
-    v: float = 0.0,
-    phase: float = 0.0,
-    impacts: int = 100_000,
-    transient: int = 1000,
+    v: float | None = None,
+    q: ArrayLike | None = None,
+    qdot: ArrayLike | None = None,
+    phase: float | None = None,
+    impacts: int | None = None,
+    transient: int | None = None,
     points: int | None = None,
     progress: Progress = None,
 ) -> Lyapunov:
-    """Measure both Lyapunov exponents of a motion, with error bars, and the dimension of its attractor.
+    """Measure the Lyapunov exponents of a motion, with error bars, and the dimension of its attractor.
 
     Parameters
     ----------
-    osc : Oscillator
+    system : Oscillator or Machine
         The system.
     x, v, phase : float
-        Start: position in units of F/k (default: at rest, or on the stop), velocity, phase of the force in radians.
+        Start of an oscillator: position in units of F/k (default: at rest, or on the stop), velocity, phase of the force in radians.
+    q, qdot, phase : array, array, float
+        Start of a machine: coordinates, velocities and phase. Default: those of its `start`, or 0.
     impacts : int
-        Number of impacts of the measurement, 1000 to 1e7; the error bar decreases with its square root.
+        Number of impacts of the measurement, 1000 to 1e7, default 100 000; of a machine of events, from 25, default 20 000. The error
+        bar decreases with its square root.
     transient : int
-        Number of impacts before the measurement, and of forcing periods before the stroboscopic section.
+        Number of impacts before the measurement, and of forcing periods before the stroboscopic section. Default: 1000.
     points : int
         Number of points of each section of the attractor, 1 to 100000; by default no sections.
     progress : bool or callable
@@ -125,37 +198,23 @@ def lyapunov(
 
     Examples
     --------
-    >>> from vibroimpact import Oscillator, lyapunov
-    >>> found = lyapunov(Oscillator(inverse_beta=1.11, gap=3, restitution=0.5), impacts=10_000)
+    >>> import vibroimpact as vi
+    >>> found = vi.lyapunov(vi.Oscillator(inverse_beta=1.11, gap=3, restitution=0.5), impacts=10_000)
     >>> found.motion.label, found.exponents[0].value > found.exponents[0].error
     ('chaotic', True)
     >>> abs(found.sum.value - found.identity) < 1e-9
     True
+    >>> len(vi.Machine.named("two-mass-hammer").lyapunov(impacts=2000).exponents)
+    4
     """
-    impacts, transient = whole("impacts", impacts, MEASURED), whole("transient", transient, TRANSIENT)
-    section = maybe("points", points, SECTION)
-    with watched(progress, "impacts") as tell:
-        fields = _core.lyapunov(osc, (x, v, phase), impacts, transient, section, tell)
-
-    def measured(name: str) -> Measured | None:
-        return None if fields[name] is None else Measured(*fields[name])
-
-    def both(name: str) -> tuple[Measured, Measured]:
-        one, two = fields[name]
-        return Measured(*one), Measured(*two)
-
-    return Lyapunov(
-        osc=osc,
-        motion=Motion(**fields_of(osc, fields["motion"])),
-        exponents=both("exponents"),
-        exponents_per_period=both("exponents_per_period"),
-        sum=Measured(*fields["sum"]),
-        identity=fields["identity"],
-        impacts_per_period=Measured(*fields["impacts_per_period"]),
-        dimension=measured("section_dimension"),
-        flow_dimension=measured("flow_dimension"),
-        grounds=fields["grounds"],
-        impacts=Impacts(*fields["impacts"]),
-        strobes=Strobes(*fields["strobes"]),
-        plan=fields["plan"],
+    start = Start(system, x, v, q, qdot, phase)
+    range_ = MEASURED if isinstance(system, Oscillator) else SIMULATED
+    impacts, transient = maybe("impacts", impacts, range_), maybe("transient", transient, TRANSIENT)
+    points = maybe("points", points, SECTION)
+    task = start.within(given(impacts=impacts, transient=transient, points=points))
+    before = 1000 if transient is None else transient
+    total = before + (impacts or 100_000) + (0 if points is None else before + points)
+    found = answered(
+        system, "lyapunov", task, start, total=total if isinstance(system, Oscillator) else 1, progress=progress, what="impacts"
     )
+    return Lyapunov(found["object"], system, found["section"])

@@ -2,9 +2,8 @@
 
 from typing import TYPE_CHECKING, Any
 
-from vibroimpact import _machine_plots
-from vibroimpact._core import Oscillator, QuestionError
-from vibroimpact._figure import Scale, equal, legend, named, new_axes, title
+from vibroimpact._core import QuestionError
+from vibroimpact._figure import axis_of, equal, heading, legend, named, new_axes
 from vibroimpact._palette import SERIES
 from vibroimpact._tables import EVENT_COLOURS
 
@@ -22,9 +21,7 @@ def plot(of: Any, ax: "Axes | None") -> "Axes":
     if not of.parameters:
         raise QuestionError(f"the motion {of.motion.label} is not periodic, so it has no margins to draw")
     ax = new_axes(ax, (7.6, 1.6 + 0.5 * len(of.parameters)))
-    of_oscillator, colours = isinstance(of.system, Oscillator), dict(EVENT_COLOURS)
-    name = Scale(of.system, False).axis if of_oscillator else str
-    head = title(of.system, tuple(of.parameters)) if of_oscillator else _machine_plots.title(of.plan)
+    colours, head = dict(EVENT_COLOURS), heading(of.system, tuple(of.parameters))
     shown: set[str] = set()
     for row, margin in enumerate(of.parameters.values()):
         for end, side in ((margin.down, -1), (margin.up, 1)):
@@ -41,7 +38,7 @@ def plot(of: Any, ax: "Axes | None") -> "Axes":
     if of.box is not None:
         ax.axvspan(-of.box.size, of.box.size, facecolor="none", edgecolor="black", linestyle="--", label="box", zorder=3)
     ax.axvline(0, color="black", linewidth=0.8)
-    ax.set_yticks(range(len(of.parameters)), [equal(name(one), margin.value) for one, margin in of.parameters.items()])
+    ax.set_yticks(range(len(of.parameters)), [equal(axis_of(of.system, one), margin.value) for one, margin in of.parameters.items()])
     ax.invert_yaxis()
     # room for the values at the ends of bars
     ax.margins(x=0.3)

@@ -5,12 +5,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from numpy.typing import ArrayLike
+
 from vibroimpact import _core
+from vibroimpact._ask import Start, System, ask, given
 from vibroimpact._core import Oscillator
-from vibroimpact._motion import Motion, fields_of
-from vibroimpact._progress import Progress, watched
+from vibroimpact._motion import Motion
+from vibroimpact._progress import Progress
 from vibroimpact._result import Result
-from vibroimpact._whole import LINES, whole
+from vibroimpact._whole import LINES, maybe
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -74,7 +77,7 @@ class Margins(Result):
     ----------
     system : Oscillator or Machine
         The system.
-    motion : Motion or MachineMotion
+    motion : Motion
         The motion.
     parameters : dict of ParameterMargin
         The nearest events in each parameter, by the name of the parameter; empty for a motion that is not periodic.
@@ -88,7 +91,7 @@ class Margins(Result):
     """
 
     system: Any
-    motion: Any
+    motion: Motion
     parameters: dict[str, ParameterMargin]
     nearest: Nearest | None
     box: MotionBox | None
@@ -119,72 +122,79 @@ class Margins(Result):
         return _margin_bars.plot(self, ax)
 
 def margins(
-    osc: Oscillator,
+    system: System,
     *,
     x: float | None = None,
-    v: float = 0.0,
-    phase: float = 0.0,
+    v: float | None = None,
+    q: ArrayLike | None = None,
+    qdot: ArrayLike | None = None,
+    phase: float | None = None,
     label: str | None = None,
     vary: Sequence[str] | None = None,
     scale: Mapping[str, float] | None = None,
     within: float = 2.0,
-    lines: int = 200,
+    lines: int | None = None,
     progress: Progress = None,
 ) -> Margins:
     """Find how far a periodic motion is from the events that end or change it.
 
-    The motion is followed in each parameter alone, up and down, to the nearest event: a fold, a flip, a grazing impact, the
-    end of sticking. Then the largest box of all parameters together is looked for in which the motion is stable. It is found
-    by trying points along lines from its centre, so events between the lines may be missed.
+    The motion is followed in each number alone, up and down, to the nearest event: a fold, a flip, a grazing impact, the end of a
+    rest. Of an oscillator the largest box of all parameters together is looked for in which the motion is stable. It is found by
+    trying points along lines from its centre, so events between the lines may be missed.
 
     Parameters
     ----------
-    osc : Oscillator
+    system : Oscillator or Machine
         The system.
     x, v, phase : float
-        Start: position in units of F/k (default: at rest, or on the stop), velocity, phase of the force in radians.
+        Start of an oscillator: position in units of F/k (default: at rest, or on the stop), velocity, phase of the force in radians.
+    q, qdot, phase : array, array, float
+        Start of a machine: coordinates, velocities and phase. Default: those of its `start`, or 0.
     label : str
         "m/n" of the motion instead of a start: the stable orbit, or else the fastest one.
     vary : sequence of str
-        The parameters that vary; by default all of the system. The frequency is "beta" or "inverse_beta".
+        The numbers that vary; by default all of an oscillator, whose frequency is "beta" or "inverse_beta", and of a machine the
+        parameters of the file, and the numbers that are written as such and are not 0, without directions.
     scale : dict
-        The change of a parameter that counts as 1 in the box; by default its value.
+        The change of a parameter of an oscillator that counts as 1 in the box; by default its value.
     within : float
         Events are looked for from each value divided by this number to the value times this number, above 1 and up to 100;
         a restitution from 0 to 1.
     lines : int
         Number of lines to scattered points of the surface of the box, besides those to the centres of its faces and to its corners.
+        Default: 200.
     progress : bool or callable
         True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
 
     Examples
     --------
-    >>> from vibroimpact import Oscillator, margins
-    >>> found = margins(Oscillator(inverse_beta=1.11, gap=1.5, restitution=0.5), vary=["gap"])
+    >>> import vibroimpact as vi
+    >>> found = vi.margins(vi.Oscillator(inverse_beta=1.11, gap=1.5, restitution=0.5), vary=["gap"])
     >>> found
     <Margins of 1/1, nearest flip at gap 1.82901>
     >>> found.parameters["gap"].up.distance
     0.32900618968...
+    >>> vi.Machine.named("two-mass-hammer").margins(vary=["omega"])
+    <Margins of 1/1, nearest grazing at omega 1.055>
     """
     if isinstance(vary, str):
-        raise TypeError(f'vary = {vary!r} is not a list of parameters, such as ["gap"]')
-    scales = dict(scale or {})
-    names = list(vary) if vary is not None else _core.varied_parameters(osc) if scales else []
-    unknown = [name for name in scales if name not in names]
-    if unknown:
-        raise _core.QuestionError(f"the scale of {unknown[0]} has no effect: it does not vary\nhint: vary has its name")
-    varied = [(name, scales.get(name)) for name in names]
-    lines = whole("lines", lines, LINES)
-    with watched(progress, "margins") as tell:
-        found = _core.margins(osc, (x, v, phase), label, varied, within, lines, tell)
-    return of_answer(json.loads(found["json"]), osc, Motion(**fields_of(osc, found["motion"])))
-
-
-def of_answer(found: Mapping[str, Any], system: Any, motion: Any) -> Margins:
-    """The margins of the object of the command, and the motion that it contains."""
+        raise TypeError(f'vary = {vary!r} is not a list of numbers, such as ["gap"]')
+    start, scales, count = Start(system, x, v, q, qdot, phase), dict(scale or {}), maybe("lines", lines, LINES)
+    if isinstance(system, Oscillator):
+        names = list(vary) if vary is not None else _core.varied_parameters(system) if scales else []
+        unknown = [name for name in scales if name not in names]
+        if unknown:
+            raise _core.QuestionError(f"the scale of {unknown[0]} has no effect: it does not vary\nhint: vary has its name")
+        varied: list[Any] = [given(parameter=name, scale=scales.get(name)) for name in names]
+    elif scales or lines is not None:
+        raise _core.QuestionError("scale and lines belong to the box, which is not looked for in numbers of a machine")
+    else:
+        varied = list(vary or [])
+    task = start.within(given(label=label, vary=varied, within=float(within), lines=count))
+    found = ask(system, "margins", task, start, progress=progress, what="margins")
     return Margins(
         system=system,
-        motion=motion,
+        motion=Motion(found["motion"], system),
         parameters={of["parameter"]: _parameter(of) for of in found["parameters"]},
         nearest=None if found["nearest"] is None else Nearest(**found["nearest"]),
         box=None if found["box"] is None else _box(found["box"]),

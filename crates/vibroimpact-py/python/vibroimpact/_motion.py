@@ -1,149 +1,224 @@
-"""The motion after the transient: its kind, its impacts and its stability."""
+"""A steady motion of any system: its kind, the events of its cycle, its stability and its quantities."""
 
-import json
 import math
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact import _core
-from vibroimpact._core import Oscillator
-from vibroimpact._cycle import Cycle
-from vibroimpact._result import Result
+from vibroimpact._ask import MachineLike
+from vibroimpact._core import Oscillator, QuestionError
+from vibroimpact._events import Events
+from vibroimpact._result import View
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-#: Minimum number of forcing periods in a figure of a periodic motion.
-_SHOWN = 6
+#: Minimum number of forcing periods, and of cycles without forcing, in a figure of a periodic motion.
+_SHOWN, _CYCLES = 6, 3
+#: What the paths of the quantities of the parts of a machine begin with.
+_HEADS = {"forces": "force", "stops": "stop", "joints": "friction", "coordinates": "q"}
 
 
-@dataclass(frozen=True, eq=False, repr=False, slots=True)
-class Motion(Result):
-    """The result of settling a motion.
+class Measured(NamedTuple):
+    """A number and its error bar, which is three standard errors; 0 if the number is exact."""
+
+    value: float
+    error: float
+
+
+def measured(given: Mapping[str, Any]) -> Measured:
+    """Of the JSON object; null stands for an infinite or an undefined number."""
+    value, error = given["value"], given["error"]
+    if value is None:
+        value = {"minus_infinity": -math.inf, "infinity": math.inf}.get(given.get("why", ""), math.nan)
+    # an infinite number is exact
+    return Measured(value, error if error is not None else 0.0 if math.isinf(value) else math.nan)
+
+
+def all_measured(given: Sequence[Mapping[str, Any]] | None) -> tuple[Measured, ...] | None:
+    """Of a list of them; None if there is none."""
+    return None if given is None else tuple(measured(one) for one in given)
+
+
+def complex_of(pairs: Sequence[Sequence[float | None]]) -> NDArray[np.complex128]:
+    """Complex numbers of pairs; null is infinite."""
+    numbers = [complex(*(math.inf if part is None else part for part in pair)) for pair in pairs]
+    return np.array(numbers, dtype=np.complex128)
+
+
+def _by_path(given: Mapping[str, Any] | None) -> dict[str, float] | None:
+    """Quantities by path, from the objects of the parts of a machine; null is infinite or not defined."""
+    if given is None:
+        return None
+    found = {name: value for name, value in given.items() if name not in _HEADS}
+    for kind, head in _HEADS.items():
+        for part, own in given.get(kind, {}).items():
+            found |= {f"{head}.{part}.{name}": value for name, value in own.items()}
+    return {path: math.nan if value is None else value for path, value in found.items()}
+
+
+class Motion(View):
+    """A steady motion.
 
     Attributes
     ----------
-    osc : Oscillator
+    system : Oscillator or Machine
         The system.
     kind : str
         "periodic", "no_impact", "chaotic", "stuck" or "undecided". All of these are results; none is an error.
     label : str
-        m/n for m impacts in n forcing periods, such as "4/1", or "inf/1" with a complete chatter; or "0", "chaotic", "stuck", "undecided".
+        m/n for m closings of stops in n forcing periods, such as "4/1", "inf/1" with a complete chatter, m/T without forcing; or
+        "0", "chaotic", "stuck", "undecided".
     impacts, periods : int or None
         m and n.
-    by_stop : bool
-        Whether there are two stops and the numbers of impacts on each are known.
-    impacts_upper, impacts_lower : int or None
-        With two stops, the numbers of impacts on each; None for infinitely many, and with one stop.
+    period : float or None
+        The time of one period of a cycle.
     sticks : int or None
-        Number of phases of sticking in each period of the motion.
+        Rests on stops, and holds of joints, in each period.
+    counts : dict
+        The closings of each stop in one period; None for infinitely many.
     stable : bool or None
         Whether it is stable; None if this is not decided.
     stability : str or None
         "stable", "neutral" (a multiplier on the unit circle to rounding and none outside, as of every elastic motion) or
         "unstable"; None if this is not decided.
-    multipliers : ndarray of complex128 or None
-        Floquet multipliers, the larger first.
-    cycle : Cycle
-        The impacts of one period of the motion; empty unless it is periodic.
-    rests : list of dict
-        Phases of sticking: "side", "chatter" (whether a chatter precedes it), and the phases of the force "begin" and "release".
+    multipliers : ndarray of complex128
+        Floquet multipliers, two for each coordinate, the largest first. In a machine that can be translated as a whole, the 1 that
+        belongs to this is left out.
+    drift, drift_velocity : dict or None
+        By how much each coordinate moves on in one period, and the mean velocity of this; None if the system cannot be translated.
+    cycle : Events
+        The events of one period; empty unless it is periodic. Impacts of a complete chatter that are summed are not listed.
+    state : dict or None
+        A state of the cycle between two events: `q`, `qdot`, `phase`, and of a machine its contacts and all digits, which
+        `Machine.starting` takes.
     residual : float or None
         The distance between the states before and after one period of the cycle.
-    lyapunov : (float, float) or None
-        For a chaotic motion: the larger exponent per unit of time, and its error.
-    seen_impacts : int or None
-        For a chaotic motion: number of impacts over which no cycle, no second phase of sticking and no fading impacts were
-        found. The chaos may still be a longer transient.
-    chaotic_transient : (int, (float, float)) or None
-        Chaos before the motion settled: the number of the impact by which it had ended, and the exponent with its error.
+    stops : tuple of str
+        The stops that stay closed for ever, of a motion without a further event.
+    stop : str or None
+        For a stuck motion: the stop on which it rests.
+    seen_events : int or None
+        For a chaotic or undecided motion: the events (of an oscillator: impacts) that were followed. Chaos may be a longer
+        transient.
+    exponents : tuple of Measured or None
+        Lyapunov exponents of a chaotic or undecided motion, if they were measured, per unit of time.
+    lyapunov : Measured or None
+        The largest of them.
     horizon : dict or None
-        Why there are no more impacts, and for how many periods (None: for ever).
-    side, stop : str or None
-        For a stuck motion: the stop, "upper" or "lower".
-    tried : dict or None
-        For an undecided motion: the budget used and the measurements made.
+        Why an oscillator has no more impacts, and for how many periods (None: for ever).
+    why : str or None
+        Why a motion is undecided.
     quantities : dict or None
-        Quantities of the motion by name, nondimensional, from the closed form of its flights: "impact_speed_max",
-        "work_per_period", "displacement_rms" and others; nan where one is not defined. None for an undecided motion.
+        Quantities of the motion, in the units of the system: "impact_speed_max", "work_per_period", "displacement_rms" and others;
+        of the parts of a machine by path, as "stop.anvil.impulse_per_period". nan where one is not defined. None for an undecided
+        motion.
     quantities_error : dict or None
-        For a chaotic motion: three standard errors of those of its quantities that are means, by name. They come from blocks
-        of the impacts over which the quantities are measured. None for other motions, whose quantities are exact to rounding.
+        For a chaotic motion: three standard errors of those of its quantities that are means. None for other motions, whose
+        quantities are exact to rounding.
 
     Examples
     --------
-    >>> from vibroimpact import Oscillator, settle
-    >>> motion = settle(Oscillator(inverse_beta=1.8, gap=0.25, restitution=0.5))
+    >>> from vibroimpact import Oscillator, attractors
+    >>> motion = attractors(Oscillator(inverse_beta=1.8, gap=0.25, restitution=0.5), starts=4)[0]
     >>> motion
-    <Motion 4/1, stable>
-    >>> motion.cycle.velocity_before.round(4).tolist()
+    <Attractor 4/1, stable, 100 %>
+    >>> motion.cycle.speed.round(4).tolist()
     [1.5131, 1.0992, 0.5139, 0.1792]
     """
 
-    osc: Oscillator
     kind: str
     label: str
     impacts: int | None
-    by_stop: bool
-    impacts_upper: int | None
-    impacts_lower: int | None
     periods: int | None
+    period: float | None
     sticks: int | None
     stable: bool | None
     stability: str | None
-    multipliers: NDArray[np.complex128] | None
-    cycle: Cycle
-    rests: list[dict[str, Any]]
+    drift: dict[str, float] | None
+    drift_velocity: dict[str, float] | None
+    state: dict[str, Any] | None
     residual: float | None
-    lyapunov: tuple[float, float] | None
-    seen_impacts: int | None
-    chaotic_transient: tuple[int, tuple[float, float]] | None
+    stop: str | None
+    seen_events: int | None
     horizon: dict[str, Any] | None
-    side: str | None
-    tried: dict[str, Any] | None
-    quantities: dict[str, float] | None
-    quantities_error: dict[str, float] | None
-    _told: str
+    why: str | None
 
     def __repr__(self) -> str:
-        stability = "" if self.kind in ("chaotic", "stuck") or self.stability is None else f", {self.stability}"
-        return f"<{type(self).__name__} {self.label}{stability}{self._remark()}>"
+        return f"<{type(self).__name__} {self._words()}{self._remark()}>"
 
-    @property
-    def stop(self) -> str | None:
-        """The stop of a stuck motion."""
-        return self.side
+    def _words(self) -> str:
+        """The label, and what it does not say: the stops of a rest, for how long chaos was seen, the stability."""
+        stops = f" on {', '.join(self.stops)}" if self.stops else ""
+        if self.kind == "chaotic":
+            return f"chaotic, seen over {self.seen_events} events"
+        return f"{self.label}{stops}" + ("" if self.stability is None else f", {self.stability}")
 
     def _remark(self) -> str:
         return ""
 
-    def to_dict(self) -> dict[str, Any]:
-        """The object of the motion in the JSON of the command."""
-        found: dict[str, Any] = json.loads(self._told)
-        return found
+    @property
+    def stops(self) -> tuple[str, ...]:
+        """The stops that stay closed for ever."""
+        return tuple(self._of.get("stops", ()))
+
+    @property
+    def counts(self) -> dict[str, int | None]:
+        """The closings of each stop in one period."""
+        return dict(self._of.get("counts") or {})
+
+    @cached_property
+    def multipliers(self) -> NDArray[np.complex128]:
+        """Floquet multipliers."""
+        return complex_of(self._of.get("multipliers") or [])
+
+    @cached_property
+    def cycle(self) -> Events:
+        """The events of one period."""
+        return Events.of(self._of["cycle"], self.system)
+
+    @cached_property
+    def exponents(self) -> tuple[Measured, ...] | None:
+        """Lyapunov exponents."""
+        return all_measured(self._of.get("exponents"))
+
+    @property
+    def lyapunov(self) -> Measured | None:
+        """The largest exponent."""
+        found = self._of.get("lyapunov")
+        return None if found is None else measured(found)
+
+    @cached_property
+    def quantities(self) -> dict[str, float] | None:
+        """Quantities by name."""
+        return _by_path(self._of["quantities"])
+
+    @cached_property
+    def quantities_error(self) -> dict[str, float] | None:
+        """Their errors, of a chaotic motion."""
+        return _by_path(self._of.get("quantities_error"))
 
     def _table(self) -> dict[str, Any]:
-        """One row for each impact of the cycle."""
+        """One row for each event of the cycle."""
         return self.cycle._table()
 
-    def start(self) -> tuple[float, float, float]:
-        """A start on the motion: position, velocity and phase just after the first impact of its cycle."""
+    def start(self) -> dict[str, Any]:
+        """A start on the motion, just after the first event of its cycle, as arguments of `simulate` and other functions."""
         if not len(self.cycle):
-            raise _core.QuestionError(f"the motion {self.label} has no impacts to start from\nhint: simulate it from its start")
-        first = (array[0] for array in (self.cycle.phase, self.cycle.velocity_before, self.cycle.side))
-        phase, speed, sign = (float(number) for number in first)
-        gap, restitution = self.osc.gap, self.osc.restitution
-        if sign < 0:
-            gap, restitution = self.osc.second_gap or 0.0, self.osc.second_restitution or 0.0
-        return sign * gap, -sign * restitution * speed, phase
+            raise QuestionError(f"the motion {self.label} has no events to start from\nhint: simulate it from its start")
+        q, qdot, phase = self.cycle.q[0], self.cycle.qdot[0], float(self.cycle.phase[0])
+        if isinstance(self.system, Oscillator):
+            return {"x": float(q[0]), "v": float(qdot[0]), "phase": phase}
+        return {"q": q.tolist(), "qdot": qdot.tolist(), "phase": phase}
 
     def waveform(
         self, points_per_period: float = 200, periods: float | None = None
     ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-        """Times, positions and velocities along the periodic motion, from just after its first impact.
+        """Times, positions and velocities along a periodic motion of an oscillator, from just after its first impact.
 
         Parameters
         ----------
@@ -152,27 +227,43 @@ class Motion(Result):
         periods : float
             Number of forcing periods; by default those of one period of the motion.
         """
+        if not isinstance(self.system, Oscillator):
+            raise QuestionError("the waveform of a machine is that of a simulation\nhint: simulate(...).waveform(step)")
         start = self.start()
         turns = self.periods or 1
-        return _core.waveform(self.osc, start, (periods or turns) * self.osc.period, points_per_period)
+        from_ = (start["x"], start["v"], start["phase"])
+        return _core.waveform(self.system, from_, (periods or turns) * self.system.period, points_per_period)
 
-    def plot(self, ax: "Axes | None" = None, *, si: bool = False) -> "Axes":
-        """Draw the position over time along the periodic motion, with the stops. `si` selects metres and seconds."""
+    def plot(self, ax: "Axes | Any" = None, *, si: bool = False) -> Any:
+        """Draw some periods of the motion: of an oscillator the position with the stops, of a machine the coordinates, and below
+        them the contact forces, if there are any.
+
+        `ax` is the axes to draw into, of a machine one or two. Returns the axes. `si` selects metres and seconds for an
+        oscillator with units.
+        """
+        if not isinstance(self.system, Oscillator):
+            return self._plot_machine(self.system, ax)
         from vibroimpact import _figure
 
         turns = self.periods or 1
         periods = turns * max(2, math.ceil(_SHOWN / turns))
         t, x, _ = self.waveform(periods=periods)
-        ends = np.concatenate([[0.0], np.cumsum(np.tile(self.cycle.interval, periods // turns))])
-        count = len(self.cycle)
-        sides = np.concatenate([np.tile(self.cycle.side, periods // turns), self.cycle.side[:1]])
-        if self.rests or count == 0:
-            ends, sides = ends[:0], sides[:0]
-        return _figure.waveform(self.osc, (t, x), (ends, sides), self.label, ax, si)
+        struck = np.zeros(0, dtype=np.intp) if self.sticks else np.flatnonzero(self.cycle.kind == "impact")
+        period = turns * self.system.period
+        times = np.concatenate([self.cycle.time[struck] + k * period for k in range(periods // turns + 1)])
+        places = np.tile(self.cycle.q[struck, 0], periods // turns + 1)
+        return _figure.waveform(self.system, (t, x), (times, places), self.label, ax, si)
 
+    def _plot_machine(self, machine: MachineLike, axes: Any) -> "NDArray[Any]":
+        from vibroimpact import _machine_figure, _machine_simulation
+        from vibroimpact._figure import heading, named
 
-def fields_of(osc: Oscillator, fields: dict[str, Any]) -> dict[str, Any]:
-    """The keyword arguments of a Motion, from the fields returned by the compiled module."""
-    named = {name: None if fields[name] is None else dict(fields[name]) for name in ("quantities", "quantities_error")}
-    kept = {name: value for name, value in fields.items() if name != "told"}
-    return {**kept, "osc": osc, "_told": fields["told"], "cycle": Cycle(**fields["cycle"]), **named}
+        if self.state is None:
+            raise QuestionError(f"the motion {self.label} has no cycle to draw\nhint: simulate(...).plot() draws it from its start")
+        turns = self.periods or 1
+        impacts = max(_CYCLES * len(self.cycle), 1) if machine.period is None else None
+        periods = None if impacts else turns * max(2, math.ceil(_SHOWN / turns))
+        start = self.state["q"], self.state["qdot"], self.state["phase"]
+        drawn = _machine_figure.draw(_machine_simulation.simulate(machine, start, impacts, periods, None), axes)
+        drawn[0].set_title(f"{heading(machine)}: {named(self.label)}")
+        return drawn

@@ -1,16 +1,26 @@
 """The periodic orbits with a label, stable or not."""
 
-from dataclasses import dataclass
-from typing import Any, NamedTuple
+from collections.abc import Iterator
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact import _core
-from vibroimpact._core import Oscillator
-from vibroimpact._motion import Motion, fields_of
-from vibroimpact._progress import Progress, watched
+from vibroimpact._ask import System, ask
+from vibroimpact._core import QuestionError
+from vibroimpact._figure import heading, legend, named, new_axes
+from vibroimpact._motion import Motion
+from vibroimpact._palette import SERIES
+from vibroimpact._progress import Progress
+from vibroimpact._result import View
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+#: Number of colours of lines; the others of the series are too light, or black.
+_USABLE = 6
 
 
 class EarlierContact(NamedTuple):
@@ -24,64 +34,109 @@ class EarlierContact(NamedTuple):
     time: float
 
 
-@dataclass(frozen=True, eq=False, repr=False, slots=True)
 class Orbit(Motion):
-    """A periodic orbit, admissible or not."""
+    """A periodic orbit. `admissible` is False for a solution of the equations of an oscillator that passes through a stop."""
 
-    #: Whether it is admissible; False for a solution of the equations that passes through a stop.
-    physical: bool
-    #: For an inadmissible solution, its first contact with a stop before its next impact.
-    earlier_contact: EarlierContact | None
+    admissible: bool
+
+    @property
+    def earlier_contact(self) -> EarlierContact | None:
+        """For an inadmissible solution, its first contact with a stop before its next impact."""
+        found = self._of["earlier_contact"]
+        return None if found is None else EarlierContact(**found)
 
     def _remark(self) -> str:
-        return "" if self.physical else ", inadmissible"
+        return "" if self.admissible else ", inadmissible"
 
     def waveform(
         self, points_per_period: float = 200, periods: float | None = None
     ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
         """As for a Motion. Raises QuestionError for an inadmissible solution."""
-        if not self.physical:
-            raise _core.QuestionError(f"this solution {self.label} is inadmissible: it passes through a stop on its way")
+        if not self.admissible:
+            raise QuestionError(f"this solution {self.label} is inadmissible: it passes through a stop on its way")
         return Motion.waveform(self, points_per_period, periods)
 
-    def to_dict(self) -> dict[str, Any]:
-        """The object of the orbit in the JSON of the command."""
-        earlier = None if self.earlier_contact is None else self.earlier_contact._asdict()
-        return {**Motion.to_dict(self), "admissible": self.physical, "earlier_contact": earlier}
+
+class Orbits(View):
+    """A sequence of `Orbit`, the fastest last.
+
+    Attributes
+    ----------
+    system : Oscillator or Machine
+        The system.
+    orbits : list of Orbit
+        The orbits.
+    plan : str
+        The plan as JSON.
+    """
+
+    @cached_property
+    def orbits(self) -> list[Orbit]:
+        """The orbits."""
+        return [Orbit(of, self.system) for of in self._of["orbits"]]
+
+    def __repr__(self) -> str:
+        return f"<Orbits: {', '.join(map(repr, self.orbits)) or 'none found'}>"
+
+    def __iter__(self) -> Iterator[Orbit]:
+        return iter(self.orbits)
+
+    def __len__(self) -> int:
+        return len(self.orbits)
+
+    def __getitem__(self, k: int) -> Orbit:
+        return self.orbits[k]
+
+    def _table(self) -> dict[str, Any]:
+        """One row for each event of each orbit."""
+        tables = [of.cycle._table() for of in self]
+        names = tables[0] if tables else {}
+        number = np.repeat(np.arange(1, len(self) + 1), [len(of.cycle) for of in self])
+        return {"orbit": number, **{name: np.concatenate([table[name] for table in tables]) for name in names}}
+
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
+        """Draw the speed and the phase of each closing of a stop, for all orbits."""
+        if not len(self):
+            raise QuestionError("there are no orbits to draw")
+        ax = new_axes(ax, (6.4, 4.2))
+        for k, one in enumerate(self):
+            at, colour = one.cycle.closes, SERIES[k % _USABLE]
+            ax.plot(one.cycle.phase[at], one.cycle.speed[at], "o" if one.stable else "s", color=colour, markersize=7,
+                    markerfacecolor=colour if one.stable else "white",
+                    label=f"{named(one.label)}, no. {k + 1}, {one.stability}{one._remark()}")
+        ax.set_xlim(0, 2 * np.pi)
+        ax.set_xlabel(r"phase $\theta$")
+        ax.set_ylabel("speed of closing")
+        ax.set_title(heading(self.system))
+        legend(ax)
+        return ax
 
 
-def orbits(osc: Oscillator, label: str, *, progress: Progress = None) -> list[Orbit]:
-    """Find the periodic orbits with m impacts in n forcing periods, stable or not. The fastest one comes last.
+def orbits(system: System, label: str, *, progress: Progress = None) -> Orbits:
+    """Find the periodic orbits with m closings of stops in n forcing periods, stable or not. The fastest one comes last.
 
-    Orbits are searched by Newton's method from many seeds; orbits 1/n are also computed in closed form. An orbit to which
-    no seed leads is not found. Solutions that pass through a stop are inadmissible and marked as such; only some of them
-    are found.
+    Orbits are searched by Newton's method from many seeds; orbits 1/n of an oscillator are also computed in closed form. An orbit
+    to which no seed leads is not found. Solutions that pass through a stop are inadmissible and marked as such; only some of
+    them are found, and none of a machine.
 
     Parameters
     ----------
-    osc : Oscillator
+    system : Oscillator or Machine
         The system.
     label : str
-        "m/n", "inf/n", or "0" for the motion without impacts.
+        "m/n", "inf/n", "m/T" without forcing, or "0" for the motion of an oscillator without impacts.
     progress : bool or callable
         True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
 
     Examples
     --------
-    >>> from vibroimpact import Oscillator, orbits
-    >>> osc = Oscillator(inverse_beta=1.11, gap=2, restitution=0.5)
-    >>> orbits(osc, "1/1")
-    [<Orbit 1/1, unstable>]
-    >>> [orbit for orbit in orbits(osc, "1/2") if orbit.physical and orbit.stable]
+    >>> import vibroimpact as vi
+    >>> osc = vi.Oscillator(inverse_beta=1.11, gap=2, restitution=0.5)
+    >>> vi.orbits(osc, "1/1")
+    <Orbits: <Orbit 1/1, unstable>>
+    >>> [orbit for orbit in vi.orbits(osc, "1/2") if orbit.admissible and orbit.stable]
     [<Orbit 1/2, stable>]
+    >>> vi.Machine.named("two-mass-hammer").orbits("1/1")[-1].stable
+    True
     """
-    with watched(progress, "searches") as tell:
-        found = _core.orbits(osc, label, tell)
-    return [
-        Orbit(
-            **fields_of(osc, fields),
-            physical=physical,
-            earlier_contact=None if earlier is None else EarlierContact(*earlier),
-        )
-        for fields, physical, earlier in found
-    ]
+    return Orbits(ask(system, "orbit", {"label": label}, progress=progress, what="searches"), system)

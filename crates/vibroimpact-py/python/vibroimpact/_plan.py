@@ -10,10 +10,10 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from vibroimpact import _core
+from vibroimpact._ask import Start, System
 from vibroimpact._axis import Axis, Interval, axes, beside, interval, sweep
 from vibroimpact._budget import Budget, seconds
 from vibroimpact._core import Oscillator
-from vibroimpact._machine import Machine
 from vibroimpact._over import Points, points
 from vibroimpact._sample import Sample
 from vibroimpact._whole import BLOCKS, BUDGET, KEEP, MEASURED, POINT_STARTS, REFINE, SEED, SHARD, SIMULATED, STARTS, THREADS, TILE, TRANSIENT, maybe, whole
@@ -156,7 +156,7 @@ class Plan:
     @classmethod
     def map(
         cls,
-        osc: Oscillator | Machine,
+        osc: System,
         over: Mapping[str, Axis],
         *,
         starts: int = 8,
@@ -180,7 +180,7 @@ class Plan:
     @classmethod
     def basin(
         cls,
-        osc: Oscillator | Machine,
+        osc: System,
         over: Mapping[str, Axis],
         *,
         x: float | None = None,
@@ -203,7 +203,7 @@ class Plan:
             "impacts": maybe("impacts", impacts, BUDGET),
             "fields": names(fields),
         }
-        if isinstance(osc, Machine):
+        if not isinstance(osc, Oscillator):
             _absent("a machine has q and qdot", x=x, v=v)
             return cls._of(osc, "basin", task, tile, osc.start_of(q, qdot, phase))
         _absent("an oscillator has x and v", q=q, qdot=qdot)
@@ -252,7 +252,7 @@ class Plan:
     @classmethod
     def diagram(
         cls,
-        osc: Oscillator | Machine,
+        osc: System,
         vary: str,
         over: Axis,
         *,
@@ -266,7 +266,7 @@ class Plan:
         tile: int | None = None,
     ) -> "Plan":
         """A plan for the motion after its transient along one parameter or a line through two; arguments as for `orbit_diagram`."""
-        machine = isinstance(osc, Machine)
+        machine = not isinstance(osc, Oscillator)
         show = show or ("speed" if machine else "velocity")
         if not machine:
             _known("show", show, ("velocity", "strobe"))
@@ -294,7 +294,7 @@ class Plan:
     @classmethod
     def lyapunov(
         cls,
-        osc: Oscillator | Machine,
+        osc: System,
         over: Mapping[str, Axis],
         *,
         x: float | None = None,
@@ -313,10 +313,10 @@ class Plan:
         """
         task = {
             "axes": axes(over),
-            "impacts": maybe("impacts", impacts, SIMULATED if isinstance(osc, Machine) else MEASURED),
+            "impacts": maybe("impacts", impacts, MEASURED if isinstance(osc, Oscillator) else SIMULATED),
             "transient": whole("transient", transient, TRANSIENT),
         }
-        if isinstance(osc, Machine):
+        if not isinstance(osc, Oscillator):
             _absent("a machine has q and qdot", x=x, v=v)
             return cls._of(osc, "lyapunov", task, tile, osc.start_of(q, qdot, phase))
         _absent("an oscillator has x and v", q=q, qdot=qdot)
@@ -337,7 +337,7 @@ class Plan:
     @classmethod
     def _of(
         cls,
-        osc: Oscillator | Machine,
+        osc: System,
         name: str,
         task: dict[str, Any],
         tile: int | None,
@@ -345,8 +345,8 @@ class Plan:
     ) -> "Plan":
         given = {key: value for key, value in task.items() if value is not None}
         tile = maybe("tile", tile, TILE)
-        if isinstance(osc, Machine):
-            return cls(_core.machine_plan(osc._file, start or osc.start_of(), json.dumps({name: given}), tile))
+        if not isinstance(osc, Oscillator):
+            return cls(_core.plan_json(osc._file, start or osc.start_of(), json.dumps({name: given}), tile))
         plan: dict[str, Any] = {"version": _VERSION, "system": json.loads(_core.system_fields(osc)), "task": {name: given}}
         if tile is not None:
             plan["tile"] = tile

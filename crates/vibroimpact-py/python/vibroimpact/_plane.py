@@ -1,12 +1,11 @@
 """A plane of two parameters in a figure, and polylines in it."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact._core import Oscillator
-from vibroimpact._figure import Scale, legend, title
+from vibroimpact._figure import axis_of, heading, legend
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -14,15 +13,14 @@ if TYPE_CHECKING:
 Range = tuple[float, float]
 
 
-def frame(ax: "Axes", osc: Oscillator, parameters: tuple[str, str], ranges: tuple[Range, Range]) -> None:
+def frame(ax: "Axes", system: Any, parameters: tuple[str, str], ranges: tuple[Range, Range]) -> None:
     """Set the ranges of the axes, and write their labels, the title and the legend."""
     (p, q), (across, up) = parameters, ranges
     ax.set_xlim(*across)
     ax.set_ylim(*up)
-    scale = Scale(osc, False)
-    ax.set_xlabel(scale.axis(p))
-    ax.set_ylabel(scale.axis(q))
-    ax.set_title(title(osc, (p, q)))
+    ax.set_xlabel(axis_of(system, p))
+    ax.set_ylabel(axis_of(system, q))
+    ax.set_title(heading(system, (p, q)))
     legend(ax)
 
 

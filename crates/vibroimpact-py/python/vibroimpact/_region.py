@@ -1,5 +1,6 @@
 """The regions of a plane of two parameters in which a motion exists and in which it is stable."""
 
+import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -8,15 +9,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact import _core
+from vibroimpact._ask import ask
 from vibroimpact._axis import Interval, numbers, plane
 from vibroimpact._core import Oscillator
 from vibroimpact._figure import named, new_axes
 from vibroimpact._palette import class_colour
 from vibroimpact._plane import broken, frame
-from vibroimpact._progress import Progress, watched
+from vibroimpact._progress import Progress
 from vibroimpact._result import Result
 from vibroimpact._tables import BOUND_STYLES
-from vibroimpact._whole import GRID, THREADS, whole
+from vibroimpact._whole import GRID, whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -217,13 +219,18 @@ def region(
     True
     """
     first, second = plane(over)
-    grid, threads = whole("grid", grid, GRID), whole("threads", threads, THREADS)
-    with watched(progress, "regions") as tell:
-        existence, stability, neutral, plan = _core.region(osc, label, first, second, grid, threads, tell)
-    parts = [
-        Part([Polygon(v, b, hole, "below" if below else "above") for v, b, hole, below in polygons], unresolved)
-        for polygons, unresolved in (existence, stability)
-    ]
+    sides = [{"parameter": name, "from": low, "to": high} for name, low, high in (first, second)]
+    task = {"label": label, "across": sides[0], "up": sides[1], "grid": whole("grid", grid, GRID)}
+    found = ask(osc, "region", task, total=2, threads=threads, progress=progress, what="regions")
     return Region(
-        osc, label.strip(), (first[0], second[0]), (first[1:], second[1:]), neutral, parts[0], parts[1], plan
+        osc, label.strip(), (first[0], second[0]), (first[1:], second[1:]), found["neutrally_stable"],
+        _part(found["existence"]), _part(found["stability"]), json.dumps(found["plan"]),
     )
+
+
+def _part(of: Mapping[str, Any]) -> Part:
+    def pairs(given: Any) -> NDArray[np.float64]:
+        return np.array(given, dtype=np.float64).reshape(-1, 2)
+
+    polygons = [Polygon(pairs(one["vertices"]), one["bounds"], one["hole"], one["sheet"]) for one in of["polygons"]]
+    return Part(polygons, pairs(of["unresolved"]))

@@ -1,5 +1,6 @@
 """A quantity of all motions over one parameter: branches, stable or not, and the motions of sweeps up and down."""
 
+import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -7,11 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact import _core
+from vibroimpact._ask import System, answered, given
 from vibroimpact._axis import Axis, sweep
 from vibroimpact._core import Oscillator
-from vibroimpact._figure import Scale, legend, named, new_axes, title
+from vibroimpact._figure import axis_of, heading, legend, named, new_axes
 from vibroimpact._palette import SERIES
-from vibroimpact._progress import Progress, watched
+from vibroimpact._progress import Progress
 from vibroimpact._result import Result
 from vibroimpact._tracks import LOOKS
 from vibroimpact._whole import BUDGET, maybe
@@ -33,7 +35,7 @@ class ResponseCurve(Result):
         The value of the parameter.
     label : ndarray of str
         The label of each motion.
-    stable, physical : ndarray of bool
+    stable, admissible : ndarray of bool
         Whether it is stable; whether it is admissible. Motions of a sweep are both.
     stability : ndarray of str
         "stable", "neutral" or "unstable".
@@ -45,7 +47,7 @@ class ResponseCurve(Result):
     label: NDArray[np.str_]
     stable: NDArray[np.bool_]
     stability: NDArray[np.str_]
-    physical: NDArray[np.bool_]
+    admissible: NDArray[np.bool_]
     quantities: dict[str, NDArray[np.float64]]
 
     def __len__(self) -> int:
@@ -53,7 +55,7 @@ class ResponseCurve(Result):
 
     def _table(self) -> dict[str, Any]:
         """One row for each motion."""
-        names = ("parameter", "label", "stable", "stability", "physical")
+        names = ("parameter", "label", "stable", "stability", "admissible")
         return {**{name: getattr(self, name) for name in names}, **self.quantities}
 
     def __repr__(self) -> str:
@@ -66,7 +68,7 @@ class Response(Result):
 
     Attributes
     ----------
-    osc : Oscillator
+    system : Oscillator or Machine
         The system.
     vary, quantity : str
         The parameter, and the quantity that is drawn.
@@ -80,7 +82,7 @@ class Response(Result):
         The plan as JSON.
     """
 
-    osc: Oscillator
+    system: Any
     vary: str
     quantity: str
     up: ResponseCurve
@@ -128,12 +130,13 @@ class Response(Result):
                 xs, ys = branch.parameter[begin : end + 1], branch.quantities[quantity][begin : end + 1]
                 ax.plot(xs, ys, LOOKS[stability], color=colours[label], linewidth=1.8)
         for word in ("neutral", "unstable"):
-            if any((branch.stability[branch.physical] == word).any() for branch in self.branches):
+            if any((branch.stability[branch.admissible] == word).any() for branch in self.branches):
                 ax.plot([], [], LOOKS[word], color="black", linewidth=1.8, label=word)
-        ax.set_xlabel(Scale(self.osc, False).axis(self.vary))
-        unit = self.units[quantity] if self.vary in _core.machine_parameters() else ""
-        ax.set_ylabel(quantity.replace("_", " ") + (f" ({unit})" if unit else ""))
-        ax.set_title(title(self.osc, (self.vary,)))
+        ax.set_xlabel(axis_of(self.system, self.vary))
+        unit = self.units[quantity]
+        words = quantity.replace("_", " ") if isinstance(self.system, Oscillator) else quantity
+        ax.set_ylabel(words + (f" ({unit})" if unit else ""))
+        ax.set_title(heading(self.system, (self.vary,)))
         legend(ax)
         return ax
 
@@ -142,7 +145,7 @@ def _runs(branch: ResponseCurve) -> list[tuple[int, int]]:
     """The first and last point of each part with one label and stability; parts share a point. Inadmissible ones are left out."""
     runs: list[tuple[int, int]] = []
     for k in range(1, len(branch)):
-        if not branch.physical[k]:
+        if not branch.admissible[k]:
             continue
         last = runs[-1] if runs else None
         same = last is not None and last[1] == k - 1 and branch.label[k] == branch.label[k - 1]
@@ -154,15 +157,15 @@ def _runs(branch: ResponseCurve) -> list[tuple[int, int]]:
 
 
 def response(
-    osc: Oscillator,
+    system: System,
     vary: str,
     over: Axis,
     *,
-    quantity: str = "displacement_amplitude",
+    quantity: str | None = None,
     impacts: int | None = None,
     progress: Progress = None,
 ) -> Response:
-    """Compute the response over a parameter, such as the frequency.
+    """Compute the response over a number, such as the frequency.
 
     A sweep with rising values and one with falling values settle the motion at each value from the state of the motion at
     the value before. The branch of each cycle that they find is followed through its folds and grazing impacts. Orbits on
@@ -170,47 +173,49 @@ def response(
 
     Parameters
     ----------
-    osc : Oscillator
-        The system; its value of the parameter that varies is ignored.
+    system : Oscillator or Machine
+        The system; its value of the number that varies is ignored.
     vary : str
         "beta", "inverse_beta", "gap", "restitution", "damping", "second_gap" or "second_restitution"; for an oscillator
-        from `Oscillator.from_units` also a number of the machine, such as "frequency_hz", "force_n", "mass_kg" or "gap_m".
-        Over a number of the machine the quantities are in SI units.
+        from `Oscillator.from_units` also a number of the body, such as "frequency_hz", "force_n", "mass_kg" or "gap_m", over which
+        the quantities are in SI units; of a machine the path of a number.
     over : str or array
         Its values: a range ("0.5:1.5:201" has 201 values) or an array.
     quantity : str
-        The quantity that is drawn; all are computed. `Motion.quantities` has the names.
+        The quantity that is drawn; all are computed. `Motion.quantities` has the names. Default: "displacement_amplitude", of a
+        machine that of its first coordinate.
     impacts : int
-        Budget of impacts for the motion at each value. Motions that have not settled by then are undecided.
+        Budget of impacts for the motion at each value, of a machine of events. Motions that have not settled by then are undecided.
     progress : bool or callable
         True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
 
     Examples
     --------
-    >>> from vibroimpact import Oscillator, response
-    >>> osc = Oscillator(inverse_beta=1.3, gap=0.5, restitution=0.5)
-    >>> found = response(osc, "gap", "0.5:1.5:11", quantity="impact_speed_max")
+    >>> import vibroimpact as vi
+    >>> osc = vi.Oscillator(inverse_beta=1.3, gap=0.5, restitution=0.5)
+    >>> found = vi.response(osc, "gap", "0.5:1.5:11", quantity="impact_speed_max")
     >>> found.up.label.tolist()[-1], found.down.label.tolist()[-1], len(found.branches)
     ('1/1', '2/1', 1)
+    >>> vi.Machine.named("two-mass-hammer").response("frequency", "1.1:1.3:3")
+    <Response of q.frame.displacement_amplitude over frequency: 3 values, 1 branch>
     """
-    budget = maybe("impacts", impacts, BUDGET)
-    with watched(progress, "motions") as tell:
-        found = _core.response(osc, vary, sweep(over), quantity.replace("-", "_"), budget, tell)
+    values = sweep(over)
+    count = len(_core.span_values(values)) if isinstance(values, str) else len(values)
+    shown = quantity.replace("-", "_") if quantity is not None else None
+    task = given(vary=vary, over=values, quantity=shown, impacts=maybe("impacts", impacts, BUDGET))
+    answer = answered(system, "response", task, total=2 * count, progress=progress, what="motions")
+    found, all_ = answer["object"], answer["response"]
+    lists = [*(of["points"] for of in found["sweeps"]), *(of["points"] for of in found["branches"])]
+    up, down, *branches = [_curve(points, all_["names"], values) for points, values in zip(lists, all_["curves"])]
+    units = dict(zip(all_["names"], all_["units"]))
+    return Response(system, vary, found["quantity"], up, down, branches, units, json.dumps(found["plan"]))
 
-    def curve(fields: dict[str, Any]) -> ResponseCurve:
-        values = fields["values"]
-        quantities = {name: values[:, k] for k, name in enumerate(found["names"])}
-        label = np.array(fields["label"], dtype=np.str_)
-        stability = np.array(fields["stability"], dtype=np.str_)
-        return ResponseCurve(fields["parameter"], label, fields["stable"], stability, fields["physical"], quantities)
 
-    return Response(
-        osc=osc,
-        vary=vary,
-        quantity=quantity.replace("-", "_"),
-        up=curve(found["up"]),
-        down=curve(found["down"]),
-        branches=[curve(fields) for fields in found["branches"]],
-        units=dict(zip(found["names"], found["units"], strict=True)),
-        plan=found["plan"],
+def _curve(points: list[dict[str, Any]], names: list[str], values: NDArray[np.float64]) -> ResponseCurve:
+    def column(name: str, kind: Any) -> NDArray[Any]:
+        return np.array([point[name] or "" if kind is np.str_ else point[name] for point in points], dtype=kind)
+
+    return ResponseCurve(
+        column("parameter", np.float64), column("label", np.str_), column("stable", np.bool_), column("stability", np.str_),
+        column("admissible", np.bool_), {name: values[:, k] for k, name in enumerate(names)},
     )

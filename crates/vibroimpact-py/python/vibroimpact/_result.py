@@ -1,6 +1,7 @@
 """What all results have in common: equality of their values, a table, and a small picture in a notebook."""
 
 import base64
+import copy
 import html
 import io
 import json
@@ -92,6 +93,43 @@ class Result:
     def _draw(self, ax: Any) -> None:
         """Draw the picture into one axes; a quick one, where the figure takes long."""
         self.plot(ax)  # type: ignore[attr-defined]
+
+
+class View(Result):
+    """A part of the JSON object that the command prints for a system. Its attributes are the fields of the object; those that
+    are declared and absent in it are None."""
+
+    _declared: frozenset[str] = frozenset()
+    #: The system: an `Oscillator` or a `Machine`.
+    system: Any
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        cls._declared = cls._declared | cls.__annotations__.keys()
+
+    def __init__(self, of: "dict[str, Any]", system: Any) -> None:
+        self._of, self.system = of, system
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_") or name not in self._of and name not in self._declared:
+            raise AttributeError(f"`{type(self).__name__}` has no attribute `{name}`")
+        return self._of.get(name)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, View) or type(self) is not type(other):
+            return NotImplemented
+        return equal(self._of, other._of) and bool(self.system == other.system)
+
+    __hash__ = None
+
+    @property
+    def plan(self) -> str:
+        """The plan as JSON."""
+        return json.dumps(self._of["plan"])
+
+    def to_dict(self) -> dict[str, Any]:
+        """The object in the JSON of the command."""
+        return copy.deepcopy(self._of)
 
 
 def flat(of: dict[str, Any]) -> dict[str, Any]:

@@ -1,60 +1,52 @@
 """Sections of an attractor: at impacts, and at phase 0 of the force."""
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact._core import Oscillator
-from vibroimpact._figure import ARRIVAL, title
+from vibroimpact._core import Oscillator, QuestionError
+from vibroimpact._figure import ARRIVAL, heading, named
 from vibroimpact._palette import SERIES
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-
-class Impacts(NamedTuple):
-    """The section of the attractor at impacts: phase, speed before the impact and stop (+1 first, -1 second)."""
-
-    phase: NDArray[np.float64]
-    velocity_before: NDArray[np.float64]
-    side: NDArray[np.int8]
+#: Number of colours of stops; the others of the series are too light, or black.
+_USABLE = 6
 
 
-class Strobes(NamedTuple):
-    """The stroboscopic section: states at phase 0 of the force."""
+def sections(of: Any, axes: Any) -> "NDArray[Any]":
+    """Draw the phase and speed of closings of each stop, and the plane of each coordinate and its velocity at phase 0."""
+    import matplotlib.pyplot as plt
 
-    x: NDArray[np.float64]
-    v: NDArray[np.float64]
-
-
-def sections(
-    osc: Oscillator, impacts: Impacts, strobes: Strobes, axes: "tuple[Axes, Axes] | None"
-) -> "tuple[Axes, Axes]":
-    """Draw both sections of an attractor side by side."""
+    system = of.system
+    oscillator = isinstance(system, Oscillator)
+    names = [(r"$\xi$", "velocity $u$")] if oscillator else [(f"q.{name}", f"qdot.{name}") for name in system.coordinates]
     if axes is None:
-        import matplotlib.pyplot as plt
-
-        figure, pair = plt.subplots(1, 2, figsize=(10, 4.4), layout="constrained")
-        figure.suptitle(title(osc))
-        axes = (pair[0], pair[1])
-    left, right = axes
-    for sign, colour, name in ((1, SERIES[0], "stop"), (-1, SERIES[1], "second stop")):
-        at = impacts.side == sign
-        if np.any(at):
-            dots(left, impacts.phase[at], impacts.velocity_before[at], color=colour, label=name)
-    left.set_xlabel(r"phase $\theta$")
-    left.set_ylabel(ARRIVAL)
-    left.set_title("impacts")
-    if osc.second_gap is not None:
-        dot_legend(left)
-    dots(right, strobes.x, strobes.v, color="black")
-    right.set_xlabel(r"$\xi$")
-    right.set_ylabel("velocity $u$")
-    right.set_title("states at phase 0")
-    room(left)
-    room(right)
-    return left, right
+        rows = -(-(len(names) + 1) // 2)
+        figure, grid = plt.subplots(rows, 2, figsize=(10, 4.2 * rows), layout="constrained", squeeze=False)
+        figure.suptitle(f"{heading(system)}: {named(of.motion.label)}")
+        axes = grid.ravel()
+        for ax in axes[len(names) + 1 :]:
+            ax.remove()
+    drawn = np.asarray(axes, dtype=object).ravel()[: len(names) + 1]
+    if len(drawn) != len(names) + 1:
+        raise QuestionError(f"{len(names) + 1} axes are needed, for the closings and for each coordinate, not {len(drawn)}")
+    first = drawn[0]
+    stops = [stop for stop in (("upper", "lower") if oscillator else system.stops) if (of.closings.stop == stop).any()]
+    for k, stop in enumerate(stops):
+        at = of.closings.stop == stop
+        dots(first, of.closings.phase[at], of.closings.speed[at], color=SERIES[k % _USABLE], label=stop)
+    first.set(xlabel=r"phase $\theta$", ylabel=ARRIVAL if oscillator else "speed of closing", title="closings of stops")
+    if len(stops) > 1:
+        dot_legend(first)
+    for i, (ax, (abscissa, ordinate)) in enumerate(zip(drawn[1:], names)):
+        dots(ax, of.strobes.q[:, i], of.strobes.qdot[:, i], color="black")
+        ax.set(xlabel=abscissa, ylabel=ordinate, title="states at phase 0")
+    for ax in drawn:
+        room(ax)
+    return drawn
 
 
 def dots(ax: "Axes", xs: NDArray[np.float64], ys: NDArray[np.float64], **look: Any) -> None:

@@ -1,5 +1,7 @@
 """Settling of motions, from one start or from arrays of starts."""
 
+import copy
+import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from os import PathLike
@@ -9,10 +11,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact import _core
-from vibroimpact._attractors import Attractor
+from vibroimpact._ask import Start, System, ask, given
+from vibroimpact._attractors import Attractor, table
 from vibroimpact._axis import numbers
 from vibroimpact._core import Oscillator
-from vibroimpact._motion import Motion, fields_of
+from vibroimpact._motion import Motion, all_measured
 from vibroimpact._over import Points
 from vibroimpact._progress import Progress, watched
 from vibroimpact._result import Result
@@ -24,31 +27,105 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
+class Settled(Motion):
+    """What a motion settles into: a `Motion`, and how far it was followed.
+
+    Attributes
+    ----------
+    events_followed : int
+        The number of events (of an oscillator: impacts) that were followed.
+    time_followed : float
+        The time that was followed.
+    chaotic_transient : dict or None
+        Chaos before the motion settled: "exponents", a tuple of Measured, and of an oscillator "events", the number of the impact by
+        which it had ended.
+    harmonics : list of dict
+        The spectrum of the position of a cycle of an oscillator: "order", "amplitude", "phase".
+    transient : dict or None
+        The way of an oscillator from the start until it had settled: "events", "time", "quantities".
+    plan : str
+        The plan as JSON.
+    """
+
+    def __init__(self, of: dict[str, Any], system: Any) -> None:
+        super().__init__(of["motion"], system)
+        self._whole = of
+
+    @property
+    def plan(self) -> str:
+        """The plan as JSON."""
+        return json.dumps(self._whole["plan"])
+
+    @property
+    def motion(self) -> Motion:
+        """The motion alone."""
+        return Motion(self._of, self.system)
+
+    @property
+    def events_followed(self) -> int:
+        """The number of events that were followed."""
+        return int(self._whole["events_followed"])
+
+    @property
+    def time_followed(self) -> float:
+        """The time that was followed."""
+        return float(self._whole["time_followed"])
+
+    @property
+    def chaotic_transient(self) -> dict[str, Any] | None:
+        """Chaos before the motion settled."""
+        found = self._whole.get("chaotic_transient")
+        return None if found is None else {**found, "exponents": all_measured(found["exponents"])}
+
+    @property
+    def harmonics(self) -> list[dict[str, float]]:
+        """The spectrum of the position."""
+        return list(self._whole.get("harmonics", ()))
+
+    @property
+    def transient(self) -> dict[str, Any] | None:
+        """The way until the motion had settled."""
+        found: dict[str, Any] | None = self._whole.get("transient")
+        return found
+
+    def to_dict(self) -> dict[str, Any]:
+        """The object that the command prints with --json."""
+        return copy.deepcopy(self._whole)
+
+
 def settle(
-    osc: Oscillator, *, x: float | None = None, v: float = 0.0, phase: float = 0.0, impacts: int | None = None
-) -> Motion:
-    """Follow the motion from a start until it has settled, and confirm the result.
+    system: System, *, x: float | None = None, v: float | None = None, q: ArrayLike | None = None,
+    qdot: ArrayLike | None = None, phase: float | None = None, impacts: int | None = None, progress: Progress = None,
+) -> Settled:
+    """Follow the motion from a start until it has settled, and confirm the result: a cycle, chaos, no further impact, or rest on
+    a stop.
 
     Parameters
     ----------
-    osc : Oscillator
+    system : Oscillator or Machine
         The system.
-    x : float
-        Position at the start, in units of F/k. Default: at rest, or on the stop.
-    v, phase : float
-        Velocity, and phase of the force in radians, at the start.
+    x, v, phase : float
+        Start of an oscillator: position in units of F/k (default: at rest, or on the stop), velocity, phase of the force in radians.
+    q, qdot, phase : array, array, float
+        Start of a machine: coordinates, velocities and phase. Default: those of its `start`, or 0.
     impacts : int
-        Budget of impacts, 1 to 1 000 000. A motion that has not settled by then is undecided. Default: 20 000.
+        Budget of impacts, of a machine of events, 1 to 1 000 000. A motion that has not settled by then is undecided. Default: 20 000.
+    progress : bool or callable
+        True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
 
     Examples
     --------
-    >>> from vibroimpact import Oscillator, settle
-    >>> osc = Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5)
-    >>> settle(osc), settle(osc, x=-2)
-    (<Motion 2/1, stable>, <Motion 1/1, stable>)
+    >>> import vibroimpact as vi
+    >>> osc = vi.Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5)
+    >>> vi.settle(osc), vi.settle(osc, x=-2)
+    (<Settled 2/1, stable>, <Settled 1/1, stable>)
+    >>> found = vi.Machine.named("two-mass-hammer").settle()
+    >>> found, found.counts, len(found.multipliers)
+    (<Settled 1/1, stable>, {'anvil': 1}, 4)
     """
-    fields, _ = _core.settle(osc, (x, v, phase), maybe("impacts", impacts, BUDGET))
-    return Motion(**fields_of(osc, fields))
+    start = Start(system, x, v, q, qdot, phase)
+    task = start.within(given(impacts=maybe("impacts", impacts, BUDGET)))
+    return Settled(ask(system, "settle", task, start, progress=progress), system)
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
@@ -74,8 +151,7 @@ class Settlement(Result):
 
     def _table(self) -> dict[str, Any]:
         """One row for each motion."""
-        names = ("label", "kind", "stable", "stability", "impacts", "periods", "share", "count")
-        return {name: [getattr(motion, name) for motion in self.motions] for name in names}
+        return table(self.motions)
 
     def to_dict(self) -> dict[str, Any]:
         """The motions as in the JSON of the command, and the number of the motion of each start."""
@@ -264,11 +340,8 @@ def _of_starts(
         found, cells = _core.settle_many(osc, flat[0], flat[1], flat[2], threads, tell)
     motions = [
         Attractor(
-            **fields_of(osc, fields),
-            share=count / max(size, 1),
-            count=count,
-            share_interval=_core.share_interval(count, size),
+            {**json.loads(told), "share": count / max(size, 1), "starts": count}, osc, _core.share_interval(count, size)
         )
-        for fields, count in found
+        for told, count in found
     ]
     return Settlement(osc, motions, cells.reshape(shape))

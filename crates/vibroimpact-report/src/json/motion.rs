@@ -358,6 +358,13 @@ pub fn text(verdict: &Verdict, osc: &Oscillator) -> String {
     serde_json::to_string(&MotionObject::of_oscillator(verdict, osc, &Units::default())).unwrap_or_default()
 }
 
+/// Why there are no more impacts, and for how many periods, as text.
+#[must_use]
+pub fn horizon(no_impact: &NoImpact) -> String {
+    // texts and numbers can always be written as JSON
+    serde_json::to_string(&HorizonObject::new(no_impact)).unwrap_or_default()
+}
+
 /// The cycle of an oscillator as a motion.
 pub(super) fn of_oscillator_cycle(cycle: &Cycle, osc: &Oscillator, units: &Units) -> MotionObject<'static> {
     MotionObject::of_oscillator(&Verdict::Periodic(cycle.clone()), osc, units)

@@ -1,0 +1,122 @@
+"""Questions about any system: where a motion starts, and the answer of the compiled module."""
+
+import json
+import math
+from collections.abc import Mapping
+from typing import Any, Protocol, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vibroimpact import _core
+from vibroimpact._core import Oscillator, QuestionError
+from vibroimpact._progress import Progress, watched
+from vibroimpact._whole import THREADS, whole
+
+#: Coordinates, velocities and phase of a machine.
+State: TypeAlias = tuple[list[float], list[float], float]
+
+
+class MachineLike(Protocol):
+    """What is asked of a `Machine`."""
+
+    _file: _core.MachineFile
+
+    @property
+    def coordinates(self) -> tuple[str, ...]: ...
+    @property
+    def stops(self) -> tuple[str, ...]: ...
+    @property
+    def joints(self) -> tuple[str, ...]: ...
+    @property
+    def title(self) -> str | None: ...
+    @property
+    def period(self) -> float | None: ...
+    @property
+    def paths(self) -> list[str]: ...
+    def number(self, path: str) -> float: ...
+    def start_of(
+        self, q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None
+    ) -> State: ...
+
+
+System: TypeAlias = Oscillator | MachineLike
+
+
+class Start:
+    """Where a motion starts: `x`, `v` and `phase` of an oscillator, `q`, `qdot` and `phase` of a machine."""
+
+    def __init__(
+        self,
+        system: System,
+        x: float | None = None,
+        v: float | None = None,
+        q: ArrayLike | None = None,
+        qdot: ArrayLike | None = None,
+        phase: float | None = None,
+    ) -> None:
+        self.of_machine: State | None = None
+        self.of_oscillator: dict[str, float] = {}
+        if isinstance(system, Oscillator):
+            _absent("an oscillator has x and v", q=q, qdot=qdot)
+            found = {"x": x, "v": v, "phase": phase}
+            self.of_oscillator = {name: float(value) for name, value in found.items() if value is not None}
+        elif not hasattr(system, "start_of"):
+            raise TypeError(f"{system!r} is no Oscillator and no Machine")
+        else:
+            _absent("a machine has q and qdot", x=x, v=v)
+            self.of_machine = system.start_of(q, qdot, phase)
+
+    def within(self, task: Mapping[str, Any]) -> dict[str, Any]:
+        """A task with the start, where it belongs to the task."""
+        return dict(task) if self.of_machine is not None else {**task, "start": self.of_oscillator}
+
+
+def _absent(hint: str, **given: object) -> None:
+    """Refuse parts of a start that the system does not have."""
+    for name, value in given.items():
+        if value is not None:
+            raise QuestionError(f"{name} is no part of the start of this system\nhint: {hint}")
+
+
+def given(**fields: Any) -> dict[str, Any]:
+    """The fields of a task that are not None."""
+    return {name: value.item() if isinstance(value, np.generic) else value for name, value in fields.items() if value is not None}
+
+
+def _finite(value: Any, name: str) -> None:
+    """Refuse numbers that JSON cannot write."""
+    if isinstance(value, Mapping):
+        for key, of in value.items():
+            _finite(of, f"{name} {key}" if name == "start" else str(key))
+    elif isinstance(value, list):
+        for of in value:
+            _finite(of, name)
+    elif isinstance(value, float) and not math.isfinite(value):
+        raise QuestionError(f"{name} = {'NaN' if math.isnan(value) else value} is not a finite number")
+
+
+def answered(
+    system: System, name: str, task: Mapping[str, Any], start: Start | None = None, *, total: int = 1, threads: int = 1,
+    progress: Progress = None, what: str = "motions",
+) -> dict[str, Any]:
+    """The JSON object of the command for a task as "object", and what it does not have: the sections of an attractor as
+    "section", the points of an orbit diagram as "diagram", all quantities of a response as "response"."""
+    file = system if isinstance(system, Oscillator) else system._file
+    from_ = (start or Start(system)).of_machine
+    threads = whole("threads", threads, THREADS)
+    _finite(task, name)
+    with watched(progress, what) as tell:
+        found = _core.answer(file, from_, json.dumps({name: task}), total, threads, tell)
+    return {**found, "object": json.loads(found["json"])}
+
+
+def ask(
+    system: System, name: str, task: Mapping[str, Any], start: Start | None = None, *, total: int = 1, threads: int = 1,
+    progress: Progress = None, what: str = "motions",
+) -> dict[str, Any]:
+    """The JSON object of the command for a task."""
+    found: dict[str, Any] = answered(
+        system, name, task, start, total=total, threads=threads, progress=progress, what=what
+    )["object"]
+    return found
