@@ -18,6 +18,7 @@ use vibroimpact_study::{
 
 /// A system about which a question is asked.
 #[derive(FromPyObject)]
+#[allow(clippy::large_enum_variant, reason = "there is one of them in a call")]
 pub(crate) enum System<'py> {
     Oscillator(Oscillator),
     Machine(PyRef<'py, MachineFile>),
@@ -112,12 +113,7 @@ impl<'py> ResponseFields<'py> {
 
     /// Of an oscillator, over a number of a body in SI units in these units, because the nondimensional ones may change from value
     /// to value.
-    fn of_oscillator(
-        py: Python<'py>,
-        found: &ResponseCurves,
-        vary: Parameter,
-        system: &SystemPlan,
-    ) -> PyResult<Self> {
+    fn of_oscillator(py: Python<'py>, found: &ResponseCurves, vary: Parameter, system: &SystemPlan) -> PyResult<Self> {
         let physical = matches!(vary, Parameter::Physical(_));
         let units = Quantity::ALL.map(|of| if physical { of.kind().unit() } else { "" }).to_vec();
         Self::new(py, found, units, |row, k| {
@@ -148,12 +144,7 @@ fn task<T: DeserializeOwned>(text: &str) -> Result<T, Trouble> {
 }
 
 /// The checked plan of a task, which is JSON, for a system. The start of a machine is given; that of an oscillator is in the task.
-fn planned(
-    system: &System<'_>,
-    from: Option<Start>,
-    text: &str,
-    tile: Option<u32>,
-) -> Result<StudyPlan, Trouble> {
+fn planned(system: &System<'_>, from: Option<Start>, text: &str, tile: Option<u32>) -> Result<StudyPlan, Trouble> {
     let plan = match system {
         System::Oscillator(osc) => StudyPlan::from(&Plan { tile, ..Plan::new(osc.plan, task(text)?) }),
         System::Machine(file) => {

@@ -3,15 +3,16 @@
 use crate::figure::coloured::{self, Coloured};
 use crate::figure::overlay::Overlay;
 use crate::figure::{self, title};
+use crate::json::margins::ParameterObject;
 use crate::response::ResponseView;
 use crate::scene::{View, Viewed, phase_portrait};
 use crate::{AnswerError, Asked, ReportError, Table, Units, json, table};
 use serde::ser::Error as _;
 use serde::{Serialize, Serializer};
-use vibroimpact::Oscillator;
-use vibroimpact::verdict::{PaperRule, PaperVerdict};
+use vibroimpact::verdict::{CountedMotion, PaperRule, PaperVerdict};
+use vibroimpact::{Oscillator, Parameter};
 use vibroimpact_plot::Figure;
-use vibroimpact_study::{Control, Plan, Results, Task, run};
+use vibroimpact_study::{Control, ParameterMargin, Plan, Results, Task, run};
 
 /// A plan and its result, in memory. Its [`Serialize`] form is the JSON object that the command prints with `--json`.
 #[derive(Clone, Debug)]
@@ -113,8 +114,7 @@ impl Answer {
     }
 
     /// The figure that the command draws with `--plot`. For a settled motion it shows the motion after the transient;
-    /// for exponents it shows both sections, if points of them were requested. `None` for attractors, and
-    /// for a view that the answer does not have. The orbit diagram behind a branch is computed here.
+    /// for exponents it shows both sections, if points of them were requested. `None` for a view that the answer does not have. The orbit diagram behind a branch is computed here.
     ///
     /// # Errors
     /// [`AnswerError`] for a result that cannot be drawn, or when stopped.
@@ -172,6 +172,23 @@ impl Answer {
             }
             (Task::Curve(task), Results::Curve(found)) => figure::curve::figure(found, task, asked),
             (Task::Region(task), Results::Region(found)) => figure::region::figure(found, task, asked),
+            (_, Results::Attractors(census)) => {
+                let share = |found: &CountedMotion| (found.verdict.label().into_owned(), census.share(found));
+                figure::bars::shares(&census.by_share().into_iter().map(share).collect::<Vec<_>>(), title(asked))
+            }
+            (_, Results::Margins(found)) => {
+                let label = figure::label(&found.motion.label());
+                if found.parameters.is_empty() {
+                    return Err(ReportError::NoMargins(label).into());
+                }
+                let of = &found.parameters;
+                let varied: Vec<Parameter> = of.iter().map(|of| of.scope.parameter).collect();
+                let title = [figure::title_without(asked, &varied), label].join(": ");
+                let name = |of: &ParameterMargin| figure::named(of.scope.parameter, &asked.units);
+                let rows: Vec<_> = of.iter().map(|of| (name(of), ParameterObject::new(of, &asked.units))).collect();
+                let size = found.motion_box.as_ref().map(|found| found.size);
+                figure::bars::margins(&rows, size, title.trim_start_matches(": ").to_owned())
+            }
             _ => return Ok(None),
         }))
     }

@@ -100,6 +100,9 @@ pub enum ReportError {
         "the settled motion has no state or no period from which it can be shown: {0}\nhint: `vibro simulate --machine --plot` draws any motion"
     )]
     NoCycle(String),
+    /// A motion that is not periodic has no margins.
+    #[error("the motion `{0}` is not periodic, so it has no margins to draw")]
+    NoMargins(String),
     /// A motion without multipliers.
     #[error("the motion `{0}` has no multipliers\nhint: periodic motions have, and those without impacts")]
     NoMultipliers(String),

@@ -3,13 +3,14 @@
 use crate::AnswerError;
 use crate::branch_quantity::BranchQuantity;
 use crate::figure::coloured;
+use crate::json::margins::ParameterObject;
 use crate::response::ResponseView;
 use crate::scene::{self, View};
 use crate::{ReportError, Shown, Table, figure, table};
 use vibroimpact::events::{MachineLimits, MachineMotion, MachineStart};
 use vibroimpact::machine::Machine;
-use vibroimpact::verdict::MachineVerdict;
-use vibroimpact_plot::Figure;
+use vibroimpact::verdict::{CountedMotion, MachineVerdict};
+use vibroimpact_plot::{Figure, plain};
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{
     Control, MachineBranchPlan, MachineDiagram, MachinePlan, MachineResults, MachineSimulated, MachineTask, PlanError,
@@ -56,7 +57,7 @@ pub(crate) fn machine_title(machine: &MachineSource, name: &str) -> String {
     let title = machine.title.as_deref().unwrap_or(name);
     let part = title.split_once(": ").map_or(title, |(part, _)| part);
     let fits = [title, part, name].into_iter().find(|text| text.chars().count() <= TITLE);
-    vibroimpact_plot::plain(fits.unwrap_or(name))
+    plain(fits.unwrap_or(name))
 }
 
 impl MachineAnswer {
@@ -89,7 +90,7 @@ impl MachineAnswer {
         }
         Ok(Some(match &self.results {
             MachineResults::Simulate(found) => {
-                let title = vibroimpact_plot::plain(&self.title());
+                let title = plain(&self.title());
                 figure::machine_waveform::figure(&self.machine, &self.start, found, title)?
             }
             MachineResults::Settle(found) => {
@@ -128,9 +129,21 @@ impl MachineAnswer {
                 let label = figure::label(&found.motion.label());
                 figure::machine_section::figure(points, &self.machine, format!("{title}: {label}"))
             }
-            MachineResults::Attractors(_) | MachineResults::Lyapunov(..) | MachineResults::Margins(_) => {
-                return Ok(None);
+            MachineResults::Attractors(census) => {
+                let share = |found: &CountedMotion<MachineVerdict>| (found.verdict.label(), census.share(found));
+                figure::bars::shares(&census.by_share().into_iter().map(share).collect::<Vec<_>>(), title)
             }
+            MachineResults::Margins(found) => {
+                let label = figure::label(&found.motion.label());
+                if found.numbers.is_empty() {
+                    return Err(ReportError::NoMargins(label).into());
+                }
+                let all = found.numbers.iter();
+                let rows: Vec<_> =
+                    all.map(|of| (plain(&of.path), ParameterObject::of_machine(&self.machine, of))).collect();
+                figure::bars::margins(&rows, None, format!("{title}: {label}"))
+            }
+            MachineResults::Lyapunov(..) => return Ok(None),
             MachineResults::Orbit(found) => figure::orbits::of_machine(found, title),
         }))
     }

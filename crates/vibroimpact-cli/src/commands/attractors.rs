@@ -1,12 +1,11 @@
 //! `vibro attractors`: the attractors of a system, and the share of starts that lead to each.
 
-use crate::args::{FigureArgs, MachineArgs, StoreArgs, SystemArgs, whole};
+use crate::args::{MachineArgs, OutputArgs, StoreArgs, SystemArgs, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::{of_machine, respond};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
-use std::path::PathBuf;
 use vibroimpact_report::Shown;
 use vibroimpact_study::{MachineTask, Plan, Task};
 
@@ -18,7 +17,12 @@ use vibroimpact_study::{MachineTask, Plan, Task};
 #[command(
     override_usage = "vibro attractors --beta B --gap D --restitution E --starts N [OPTIONS]\n       \
         vibro attractors --machine NAME|FILE [--set PATH=VALUE] --starts N [OPTIONS]",
-    after_help = "Example:\n  vibro attractors --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --starts 500"
+    after_help = "Example:\n  vibro attractors --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --starts 500",
+    mut_arg("plot", |arg| arg.help("Draw the shares as bars into this file, .svg, .png or .pdf")),
+    mut_arg("csv", |arg| arg.help(
+        "Write one row a motion to this file; - for stdout. Columns: label, share, starts, real and imaginary \
+        part of both multipliers, all quantities"
+    ))
 )]
 pub(crate) struct Attractors {
     #[command(flatten)]
@@ -41,25 +45,20 @@ pub(crate) struct Attractors {
     #[command(flatten)]
     store: StoreArgs,
 
-    /// Write one row a motion to this file; - for stdout. Columns: label, share, starts, real and imaginary part of both multipliers, all quantities
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    csv: Option<PathBuf>,
-
-    /// Print one JSON object instead of text
-    #[arg(long, help_heading = "Output")]
-    json: bool,
+    #[command(flatten)]
+    output: OutputArgs,
 }
 
 pub(super) fn run(args: &Attractors, session: &Session) -> Result<(), Failure> {
-    let look = FigureArgs::default();
-    let files = (args.csv.as_deref(), (None, &look), args.json);
     let task = || Ok(MachineTask::Attractors { starts: args.starts, seed: args.seed, impacts: args.impacts });
-    if let Some(answer) = of_machine::asked(&args.machine, None, task, files, (None, of_machine::usual), session) {
+    if let Some(answer) =
+        of_machine::asked(&args.machine, None, task, args.output.files(), (None, of_machine::usual), session)
+    {
         return answer;
     }
     let asked = args.system.asked()?;
     let task = Task::Attractors { starts: args.starts, seed: args.seed, impacts: args.impacts };
     let plan = args.store.tiled(Plan::new(asked.system, task))?;
-    let outputs = Outputs::reserve(args.csv.as_deref(), (None, &FigureArgs::default()), args.json, session)?;
+    let outputs = Outputs::reserve(args.output.files(), session)?;
     respond::run(&plan, asked.units, (outputs, Shown::default()), Some(&args.store), session)
 }

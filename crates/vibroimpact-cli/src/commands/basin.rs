@@ -1,7 +1,7 @@
 //! `vibro basin`: the motion to which each start of a plane leads.
 
 use crate::args::{
-    ColourArgs, FieldsArgs, FigureArgs, MachineArgs, MachineAxesArgs, StartOfMachineArgs, StoreArgs, SystemArgs,
+    ColourArgs, FieldsArgs, MachineArgs, MachineAxesArgs, OutputArgs, StartOfMachineArgs, StoreArgs, SystemArgs,
     number, whole,
 };
 use crate::commands::outputs::Outputs;
@@ -9,7 +9,6 @@ use crate::commands::{of_machine, respond};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
-use std::path::PathBuf;
 use vibroimpact_report::Shown;
 use vibroimpact_study::{BasinPlan, MachineBasinPlan, MachineTask, Plan, Span, Task};
 
@@ -24,7 +23,12 @@ use vibroimpact_study::{BasinPlan, MachineBasinPlan, MachineTask, Plan, Span, Ta
         vibro basin --machine NAME|FILE --axis q.NAME=A:B:N --axis qdot.NAME=A:B:N [OPTIONS]",
     after_help = "Example:\n  \
         vibro basin --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --x -4:0.75:400 --v -4:4:400 \\\n    \
-        --csv basin.csv --plot basin.png"
+        --csv basin.csv --plot basin.png",
+    mut_arg("csv", |arg| arg.help(
+        "Write one row a start, columns x, v, label and --fields, to this file; - for stdout. Of a machine also \
+        the stops that stay closed for ever and the events over which chaos was seen"
+    )),
+    mut_arg("plot", |arg| arg.help("Draw the basin into this file, .svg, .png or .pdf"))
 )]
 pub(crate) struct Basin {
     #[command(flatten)]
@@ -71,30 +75,16 @@ pub(crate) struct Basin {
     #[arg(long, value_parser = whole::<u32>, value_name = "K", requires = "store", help_heading = "Store")]
     refine: Option<u32>,
 
-    /// Write one row a start, columns x, v, label and --fields, to this file; - for stdout. Of a machine also the stops
-    /// that stay closed for ever and the events over which chaos was seen
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    csv: Option<PathBuf>,
-
-    /// Draw the basin into this file, .svg, .png or .pdf
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    plot: Option<PathBuf>,
-
     #[command(flatten)]
     colour: ColourArgs,
     #[command(flatten)]
-    figure: FigureArgs,
-
-    #[command(flatten)]
     fields: FieldsArgs,
 
-    /// Print one JSON object with the motions and their shares
-    #[arg(long, help_heading = "Output")]
-    json: bool,
+    #[command(flatten)]
+    output: OutputArgs,
 }
 
 pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
-    let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
     let start = Some((&args.of_machine, args.phase));
     let task = || {
         let (axes, refine, impacts) = (args.axes.axes(), args.refine, args.impacts);
@@ -102,7 +92,9 @@ pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
         Ok(MachineTask::Basin(MachineBasinPlan { axes, refine, impacts, fields }))
     };
     let shown = |drawn| Ok(Shown { colour: args.colour.coloured(drawn)?, ..Shown::default() });
-    if let Some(answer) = of_machine::asked(&args.machine, start, task, files, (Some(&args.store), shown), session) {
+    if let Some(answer) =
+        of_machine::asked(&args.machine, start, task, args.output.files(), (Some(&args.store), shown), session)
+    {
         return answer;
     }
     let (Some(x), Some(v)) = (&args.x, &args.v) else {
@@ -119,7 +111,7 @@ pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
     };
     let axes = task.axes.clone();
     let plan = args.store.tiled(Plan::new(asked.system, Task::Basin(task)))?;
-    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
+    let outputs = Outputs::reserve(args.output.files(), session)?;
     outputs.drawable(&axes, 2)?;
     let shown = Shown { colour: args.colour.coloured(outputs.drawn())?, ..Shown::default() };
     respond::run(&plan, units, (outputs, shown), Some(&args.store), session)

@@ -1,7 +1,7 @@
 //! `vibro branch`: a branch of periodic orbits in one parameter, through its events.
 
 use crate::args::{
-    FigureArgs, MachineArgs, Named, ParameterFlag, StartOfMachineArgs, SystemArgs, Value, Varied, VariedNamed, number,
+    MachineArgs, Named, OutputArgs, ParameterFlag, StartOfMachineArgs, SystemArgs, Value, Varied, VariedNamed, number,
     varied, whole,
 };
 use crate::commands::outputs::Outputs;
@@ -9,7 +9,6 @@ use crate::commands::{of_machine, respond};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
-use std::path::PathBuf;
 use vibroimpact_report::Shown;
 use vibroimpact_study::{BranchPlan, DEFAULT_BRANCH_POINTS, MachineBranchPlan, MachineTask, Plan, Target, Task};
 
@@ -32,7 +31,16 @@ use vibroimpact_study::{BranchPlan, DEFAULT_BRANCH_POINTS, MachineBranchPlan, Ma
         vibro branch --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 --vary gap --to 2.5 \\\n    \
         --follow 3 --csv branch.csv --plot branch.png\n  \
         vibro branch --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 --vary gap --to 2.5 \\\n    \
-        --also inverse-beta=1.05"
+        --also inverse-beta=1.05",
+    mut_arg("csv", |arg| arg.help(
+        "Write one row a point to this file; - for stdout. Columns: branch, the parameter, that of --also, label, \
+        admissible, stable, stability, event, its stop, fastest closing, real and imaginary part of the \
+        multipliers, phases, speeds and stops of the closings (lists with blanks between)"
+    )),
+    mut_arg("plot", |arg| arg.help(
+        "Draw the bifurcation diagram into this file, .svg, .png or .pdf: stable solid, neutral dashed and \
+        dotted, unstable dashed, behind it in grey what simulation finds"
+    ))
 )]
 pub(crate) struct Branch {
     #[command(flatten)]
@@ -78,20 +86,6 @@ pub(crate) struct Branch {
     #[arg(long, value_parser = whole::<u32>, value_name = "N", default_value_t = DEFAULT_BRANCH_POINTS, allow_hyphen_values = true, help_heading = "Branch")]
     points: u32,
 
-    /// Write one row a point to this file; - for stdout. Columns: branch, the parameter, that of --also, label, admissible, stable,
-    /// stability, event, its stop, fastest closing, real and imaginary part of the multipliers, phases, speeds and stops of the
-    /// closings (lists with blanks between)
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    csv: Option<PathBuf>,
-
-    /// Draw the bifurcation diagram into this file, .svg, .png or .pdf: stable solid, neutral dashed and dotted, unstable
-    /// dashed, behind it in grey what simulation finds
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    plot: Option<PathBuf>,
-
-    #[command(flatten)]
-    figure: FigureArgs,
-
     /// Leave out the simulation behind the figure
     #[arg(long, help_heading = "Output")]
     no_diagram: bool,
@@ -100,9 +94,8 @@ pub(crate) struct Branch {
     #[arg(long = "virtual", conflicts_with = "machine", help_heading = "Output")]
     show_virtual: bool,
 
-    /// Print one JSON object instead of text
-    #[arg(long, help_heading = "Output")]
-    json: bool,
+    #[command(flatten)]
+    output: OutputArgs,
 }
 
 impl Branch {
@@ -120,14 +113,15 @@ impl Branch {
 }
 
 pub(super) fn run(args: &Branch, session: &Session) -> Result<(), Failure> {
-    if args.plot.is_none() && (args.no_diagram || args.show_virtual) {
+    if args.output.plot.is_none() && (args.no_diagram || args.show_virtual) {
         return Err(Failure::bad("--no-diagram and --virtual say how the figure is drawn\nhint: --plot FILE"));
     }
     let shown = Shown { diagram: !args.no_diagram, inadmissible: args.show_virtual, ..Shown::default() };
-    let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
     let task = || Ok(MachineTask::Branch(args.of_machine()));
     let start = Some((&args.of_machine, None));
-    if let Some(answer) = of_machine::asked(&args.machine, start, task, files, (None, |_| Ok(shown.clone())), session) {
+    if let Some(answer) =
+        of_machine::asked(&args.machine, start, task, args.output.files(), (None, |_| Ok(shown.clone())), session)
+    {
         return answer;
     }
     let also = args.also.as_ref().map(VariedNamed::of_oscillator).transpose()?;
@@ -149,6 +143,6 @@ pub(super) fn run(args: &Branch, session: &Session) -> Result<(), Failure> {
     };
     let plan = Plan::new(asked.system, Task::Branch(task));
     plan.check()?;
-    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
+    let outputs = Outputs::reserve(args.output.files(), session)?;
     respond::run(&plan, asked.units, (outputs, shown), None, session)
 }

@@ -1,14 +1,13 @@
 //! `vibro curve`: a fold, flip or grazing impact of an orbit in a plane of two parameters.
 
 use crate::args::{
-    FigureArgs, MachineArgs, Named, Over, StartOfMachineArgs, SystemArgs, VariedOver, of_oscillator, whole,
+    MachineArgs, Named, OutputArgs, Over, StartOfMachineArgs, SystemArgs, VariedOver, of_oscillator, whole,
 };
 use crate::commands::outputs::Outputs;
 use crate::commands::{of_machine, respond};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::{Args, ValueEnum};
-use std::path::PathBuf;
 use vibroimpact_report::{Shown, Units};
 use vibroimpact_study::{
     CurvePlan, DEFAULT_BRANCH_POINTS, FollowedEvent, MachineCurvePlan, MachineFollowedEvent, MachineTask, Parameter,
@@ -35,7 +34,14 @@ use vibroimpact_study::{
         --vary gap=0:3 --and inverse-beta=1.05:1.2 --plot flip.png\n  \
         vibro curve --inverse-beta 0.7 --gap 2 --restitution 0.5 --label 1/1 --kind fold \\\n    \
         --vary gap=1:5 --and inverse-beta=0.6:0.9 --csv fold.csv\n  \
-        vibro curve --machine bouncing-ball --set Gamma=1.2 --label 1/1 --kind flip --vary Gamma=0.2:4 --and e=0.2:0.9"
+        vibro curve --machine bouncing-ball --set Gamma=1.2 --label 1/1 --kind flip --vary Gamma=0.2:4 --and e=0.2:0.9",
+    mut_arg("csv", |arg| arg.help(
+        "Write one row a point to this file; - for stdout. Columns: both parameters, label, admissible, event, \
+        real and imaginary part of the multipliers, phases, speeds and stops of the closings (lists with blanks \
+        between); of a machine also the stop of the event, the residual of the condition and the phase of the \
+        touch"
+    )),
+    mut_arg("plot", |arg| arg.help("Draw the curve into this file, .svg, .png or .pdf"))
 )]
 pub(crate) struct Curve {
     #[command(flatten)]
@@ -80,22 +86,8 @@ pub(crate) struct Curve {
     #[arg(long, value_parser = whole::<u32>, value_name = "N", requires = "machine", allow_hyphen_values = true, help_heading = "Curve")]
     points: Option<u32>,
 
-    /// Write one row a point to this file; - for stdout. Columns: both parameters, label, admissible, event, real and imaginary
-    /// part of the multipliers, phases, speeds and stops of the closings (lists with blanks between); of a machine also the stop
-    /// of the event, the residual of the condition and the phase of the touch
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    csv: Option<PathBuf>,
-
-    /// Draw the curve into this file, .svg, .png or .pdf
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    plot: Option<PathBuf>,
-
     #[command(flatten)]
-    figure: FigureArgs,
-
-    /// Print one JSON object instead of text
-    #[arg(long, help_heading = "Output")]
-    json: bool,
+    output: OutputArgs,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -163,11 +155,10 @@ impl Curve {
 }
 
 pub(super) fn run(args: &Curve, session: &Session) -> Result<(), Failure> {
-    let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
     let start = Some((&args.of_machine, None));
     let task = || Ok(args.of_machine());
     if let Some(answer) =
-        of_machine::asked(&args.machine, start, task, files, (None, |_| Ok(Shown::default())), session)
+        of_machine::asked(&args.machine, start, task, args.output.files(), (None, |_| Ok(Shown::default())), session)
     {
         return answer;
     }
@@ -177,6 +168,6 @@ pub(super) fn run(args: &Curve, session: &Session) -> Result<(), Failure> {
     let parameters = of_oscillator(&mut asked, &varied);
     let plan = Plan::new(asked.system, Task::Curve(args.plan((&over.0, &over.1), &asked.units, &parameters)?));
     plan.check()?;
-    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
+    let outputs = Outputs::reserve(args.output.files(), session)?;
     respond::run(&plan, asked.units, (outputs, Shown::default()), None, session)
 }

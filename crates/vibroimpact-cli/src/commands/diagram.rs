@@ -1,7 +1,7 @@
 //! `vibro diagram`: the orbit diagram, the motion after its transient at each value of a parameter.
 
 use crate::args::{
-    Ends, FigureArgs, MachineArgs, Named, StartOfMachineArgs, StoreArgs, SystemArgs, Varied, VariedNamed, axis_values,
+    Ends, MachineArgs, Named, OutputArgs, StartOfMachineArgs, StoreArgs, SystemArgs, Varied, VariedNamed, axis_values,
     number, quantity, varied, whole,
 };
 use crate::commands::outputs::Outputs;
@@ -9,7 +9,6 @@ use crate::commands::{of_machine, respond};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::{Args, ValueEnum};
-use std::path::PathBuf;
 use vibroimpact_report::number::short;
 use vibroimpact_report::scene::{BifurcationEvent, bifurcation, machine_bifurcation};
 use vibroimpact_report::{Asked, Shown};
@@ -45,7 +44,13 @@ use vibroimpact_study::{
         --show strobe --csv strobe.csv\n  \
         vibro diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 0:3:301 --show impact-speed-max --plot speed.png\n  \
         vibro diagram --restitution 0.5 --vary inverse-beta --over 1.05:1.15:401 --also gap=1.5:3 --plot line.png\n  \
-        vibro diagram --machine two-mass-hammer --vary frequency --over 0.7:1.3:301 --branches --plot hammer.png"
+        vibro diagram --machine two-mass-hammer --vary frequency --over 0.7:1.3:301 --branches --plot hammer.png",
+    mut_arg("csv", |arg| arg.help(
+        "Write one row a point to this file; - for stdout. Columns: the parameter, that of --also, sweep, kind, \
+        stop, phase, speed; for strobe the parameters, sweep, kind, x, v; for a quantity the parameters, sweep, \
+        kind, its value"
+    )),
+    mut_arg("plot", |arg| arg.help("Draw the diagram into this file, .svg, .png or .pdf"))
 )]
 pub(crate) struct Diagram {
     #[command(flatten)]
@@ -108,21 +113,8 @@ pub(crate) struct Diagram {
     #[command(flatten)]
     store: StoreArgs,
 
-    /// Write one row a point to this file; - for stdout. Columns: the parameter, that of --also, sweep, kind, stop, phase,
-    /// speed; for strobe the parameters, sweep, kind, x, v; for a quantity the parameters, sweep, kind, its value
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    csv: Option<PathBuf>,
-
-    /// Draw the diagram into this file, .svg, .png or .pdf
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    plot: Option<PathBuf>,
-
     #[command(flatten)]
-    figure: FigureArgs,
-
-    /// Print one JSON object with the number of motions of each kind
-    #[arg(long, help_heading = "Output")]
-    json: bool,
+    output: OutputArgs,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -193,12 +185,16 @@ pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
     if let (Some(name), Some(labels)) = (&args.machine.machine, &args.branches) {
         return machine_with_branches(args, name, labels, session);
     }
-    let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
     let task = || args.of_machine();
     let start = Some((&args.of_machine, args.phase));
-    if let Some(answer) =
-        of_machine::asked(&args.machine, start, task, files, (Some(&args.store), |_| Ok(Shown::default())), session)
-    {
+    if let Some(answer) = of_machine::asked(
+        &args.machine,
+        start,
+        task,
+        args.output.files(),
+        (Some(&args.store), |_| Ok(Shown::default())),
+        session,
+    ) {
         return answer;
     }
     let (named, show) = (args.vary.parameter()?, what(args.show.as_deref())?);
@@ -224,7 +220,7 @@ pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
         return Err(PlanError::NoStoredQuantity.into());
     }
     let plan = args.store.tiled(Plan::new(asked.system, Task::Diagram(task.clone())))?;
-    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
+    let outputs = Outputs::reserve(args.output.files(), session)?;
     if let Some(labels) = &args.branches {
         return with_branches((&Asked { units, ..asked }, &task), labels, outputs, session);
     }
@@ -259,7 +255,7 @@ fn with_branches(
 fn machine_with_branches(args: &Diagram, name: &str, labels: &[String], session: &Session) -> Result<(), Failure> {
     let start = Some((&args.of_machine, args.phase));
     let plan = MachinePlan::new(args.machine.source(start)?, args.of_machine()?);
-    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), false, session)?;
+    let outputs = Outputs::reserve(args.output.files(), session)?;
     let given = given(labels);
     let found = session.watched(None, |control| machine_bifurcation(name, &plan, given.as_deref(), control));
     let found = found.map_err(|error| respond::stopped(error, None))?;

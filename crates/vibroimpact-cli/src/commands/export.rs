@@ -1,7 +1,7 @@
 //! `vibro export`: a store as a table, or in other formats.
 
 use super::stored;
-use crate::args::FigureArgs;
+use crate::args::Files;
 use crate::commands::outputs::Outputs;
 use crate::failure::Failure;
 use crate::report::stored::table;
@@ -42,7 +42,7 @@ pub(crate) struct Export {
 pub(super) fn run(args: &Export, session: &Session) -> Result<(), Failure> {
     let store = stored::open(&args.store)?;
     if let Some(path) = &args.csv {
-        let outputs = Outputs::reserve(Some(path), (None, &FigureArgs::default()), false, session)?;
+        let outputs = Outputs::reserve(Files { csv: Some(path), plot: None, look: None, json: false }, session)?;
         // check for damage before the first row, because output to stdout cannot be taken back
         session.tiled(0, "points", |control, _| store.whole(control))?;
         return outputs.stream(

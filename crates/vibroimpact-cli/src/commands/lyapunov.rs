@@ -1,14 +1,13 @@
 //! `vibro lyapunov`: the Lyapunov exponents of a motion, and sections of its attractor.
 
 use crate::args::{
-    FigureArgs, MachineArgs, StartArgs, StartOfMachineArgs, StoreArgs, StudyAxesArgs, SystemArgs, whole,
+    MachineArgs, OutputArgs, StartArgs, StartOfMachineArgs, StoreArgs, StudyAxesArgs, SystemArgs, whole,
 };
 use crate::commands::outputs::Outputs;
 use crate::commands::{of_machine, respond, stored};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
-use std::path::PathBuf;
 use vibroimpact::chaos::{DEFAULT_IMPACTS, DEFAULT_TRANSIENT};
 use vibroimpact_report::{ReportError, Shown};
 use vibroimpact_study::{
@@ -31,7 +30,13 @@ use vibroimpact_study::{
     after_help = "Examples:\n  \
         vibro lyapunov --inverse-beta 1.11 --gap 3 --restitution 0.5\n  \
         vibro lyapunov --inverse-beta 1.11 --gap 3 --restitution 0.5 --section section.csv --plot section.png\n  \
-        vibro lyapunov --inverse-beta 1.11 --gap 3 --restitution 0.5 --axis gap=2.5:3.5:101 --impacts 20000 --plot gap.png"
+        vibro lyapunov --inverse-beta 1.11 --gap 3 --restitution 0.5 --axis gap=2.5:3.5:101 --impacts 20000 --plot gap.png",
+    mut_arg("csv", |arg| arg.visible_alias("section").help(
+        "Write the points of both sections of the attractor to this file; - for stdout. Columns: section \
+        (closing, or strobe for the states at phase 0), stop, phase, speed of the closing, and positions and \
+        velocities, which at a closing are those after it. Over axes one row for each exponent of a point"
+    )),
+    mut_arg("plot", |arg| arg.help("Draw both sections into this file, .svg, .png or .pdf; over axes the exponents"))
 )]
 pub(crate) struct Lyapunov {
     #[command(flatten)]
@@ -59,42 +64,28 @@ pub(crate) struct Lyapunov {
     #[arg(long, value_parser = whole::<u64>, value_name = "N", allow_hyphen_values = true, help_heading = "Output")]
     points: Option<u64>,
 
-    /// Write the points of both sections of the attractor to this file; - for stdout. Columns: section (closing, or strobe for the
-    /// states at phase 0), stop, phase, speed of the closing, and positions and velocities, which at a closing are those after it. Over
-    /// axes one row for each exponent of a point
-    #[arg(long, visible_alias = "csv", value_name = "FILE", help_heading = "Output")]
-    section: Option<PathBuf>,
-
-    /// Draw both sections into this file, .svg, .png or .pdf; over axes the exponents
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    plot: Option<PathBuf>,
-
-    #[command(flatten)]
-    figure: FigureArgs,
     #[command(flatten)]
     store: StoreArgs,
 
-    /// Print one JSON object instead of text
-    #[arg(long, help_heading = "Output")]
-    json: bool,
+    #[command(flatten)]
+    output: OutputArgs,
 }
 
 pub(super) fn run(args: &Lyapunov, session: &Session) -> Result<(), Failure> {
-    let files = (args.section.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
     let start = Some((&args.of_machine, args.start.phase));
     let study = args.axes.count() > 0;
     if !study && args.store.store.is_some() {
         return Err(Failure::bad("one motion needs no store\nhint: --axis gap=0:5:41 for the exponents over an axis"));
     }
-    if study && args.store.store.is_none() && args.section.is_none() && args.plot.is_none() && !args.json {
+    if study && args.store.store.is_none() && !args.output.any_file() && !args.output.table.json {
         return Err(Failure::bad(
             "the exponents of the points would be lost\nhint: --csv FILE, --plot FILE or --store DIR",
         ));
     }
-    if args.axes.count() > 1 && args.plot.is_some() {
+    if args.axes.count() > 1 && args.output.plot.is_some() {
         return Err(ReportError::Exponents.into());
     }
-    let shown = !study && (args.section.is_some() || args.plot.is_some());
+    let shown = !study && args.output.any_file();
     if args.points.is_some() && !shown {
         return Err(Failure::bad(if study {
             "--points says how much of the sections is shown; they are of one motion, without --axis"
@@ -109,7 +100,9 @@ pub(super) fn run(args: &Lyapunov, session: &Session) -> Result<(), Failure> {
         Ok(MachineTask::Lyapunov(MachineLyapunovPlan { axes: args.axes.of_machine(), impacts, transient, points }))
     };
     let store = study.then_some(&args.store);
-    if let Some(answer) = of_machine::asked(&args.machine, start, task, files, (store, of_machine::usual), session) {
+    if let Some(answer) =
+        of_machine::asked(&args.machine, start, task, args.output.files(), (store, of_machine::usual), session)
+    {
         return answer;
     }
     let asked = args.system.asked()?;
@@ -126,7 +119,7 @@ pub(super) fn run(args: &Lyapunov, session: &Session) -> Result<(), Failure> {
     let axes = task.axes.clone();
     let plan = Plan { units: asked.units.plan(), ..Plan::new(asked.system, Task::Lyapunov(task)) };
     let plan = args.store.tiled(plan)?;
-    let outputs = Outputs::reserve(args.section.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
+    let outputs = Outputs::reserve(args.output.files(), session)?;
     if !study {
         return respond::run(&plan, asked.units, (outputs, Shown::default()), None, session);
     }

@@ -1,14 +1,13 @@
 //! `vibro map`: the motions at each point of a plane of parameters.
 
 use crate::args::{
-    ColourArgs, FieldsArgs, FigureArgs, MachineArgs, MachineAxesArgs, OverlayArgs, RangedSystemArgs, StoreArgs, whole,
+    ColourArgs, FieldsArgs, MachineArgs, MachineAxesArgs, OutputArgs, OverlayArgs, RangedSystemArgs, StoreArgs, whole,
 };
 use crate::commands::outputs::Outputs;
 use crate::commands::{of_machine, respond};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
-use std::path::PathBuf;
 use vibroimpact_report::{Asked, Shown};
 use vibroimpact_study::{MachineMapPlan, MachineTask, MapPlan, Plan, Task};
 
@@ -34,7 +33,14 @@ use vibroimpact_study::{MachineMapPlan, MachineTask, MapPlan, Plan, Task};
         vibro map --inverse-beta 0.9:1.5:61 --gap 0.5:3:51 --restitution 0.5 --starts 4 --plot map.svg \\\n    \
         --layers regions,amplitude,stripes --mark 1.3,1 --line 1.1,1.5:1.1,2.5\n  \
         vibro map --beta 0.1:10:60:log --restitution 0.2:0.9:40 --gap 1 --starts 8 --plot restitution.png\n  \
-        vibro map --inverse-beta 0.4:2:800 --gap 0:5:800 --restitution 0.5 --starts 8 --store map.zarr --refine 8"
+        vibro map --inverse-beta 0.4:2:800 --gap 0:5:800 --restitution 0.5 --starts 8 --store map.zarr --refine 8",
+    mut_arg("csv", |arg| arg.help(
+        "Write one row a motion to this file; - for stdout. Columns: what varies, then label, share, and \
+        --fields; of a machine also the stops that stay closed for ever and the events over which chaos was seen"
+    )),
+    mut_arg("plot", |arg| arg.help(
+        "Draw the map into this file, .svg, .png or .pdf: the labels over two parameters, their shares over one"
+    ))
 )]
 pub(crate) struct Map {
     #[command(flatten)]
@@ -63,32 +69,18 @@ pub(crate) struct Map {
     #[arg(long, value_parser = whole::<u32>, value_name = "K", requires = "store", help_heading = "Store")]
     refine: Option<u32>,
 
-    /// Write one row a motion to this file; - for stdout. Columns: what varies, then label, share, and --fields;
-    /// of a machine also the stops that stay closed for ever and the events over which chaos was seen
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    csv: Option<PathBuf>,
-
-    /// Draw the map into this file, .svg, .png or .pdf: the labels over two parameters, their shares over one
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    plot: Option<PathBuf>,
-
     #[command(flatten)]
     colour: ColourArgs,
     #[command(flatten)]
     overlay: OverlayArgs,
     #[command(flatten)]
-    figure: FigureArgs,
-
-    #[command(flatten)]
     fields: FieldsArgs,
 
-    /// Print one JSON object with the labels and how often they occur
-    #[arg(long, help_heading = "Output")]
-    json: bool,
+    #[command(flatten)]
+    output: OutputArgs,
 }
 
 pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
-    let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
     if args.machine.machine.is_some() && args.overlay.any() {
         return Err(Failure::bad("--layers, --mark and --line are for maps without --machine"));
     }
@@ -103,7 +95,9 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
         }))
     };
     let shown = |drawn| Ok(Shown { colour: args.colour.coloured(drawn)?, ..Shown::default() });
-    if let Some(answer) = of_machine::asked(&args.machine, None, task, files, (Some(&args.store), shown), session) {
+    if let Some(answer) =
+        of_machine::asked(&args.machine, None, task, args.output.files(), (Some(&args.store), shown), session)
+    {
         return answer;
     }
     let Asked { system, units } = args.plane.asked()?;
@@ -123,7 +117,7 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
     };
     let axes = task.axes.clone();
     let plan = args.store.tiled(Plan::new(system, Task::Map(task)))?;
-    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
+    let outputs = Outputs::reserve(args.output.files(), session)?;
     outputs.drawable(&axes, 1)?;
     let colour = args.colour.coloured(outputs.drawn())?;
     let overlay = args.overlay.overlay(outputs.drawn(), colour.is_some())?;

@@ -1,7 +1,7 @@
 //! `vibro margins`: how far a periodic motion is from the events that end or change it.
 
 use crate::args::{
-    FigureArgs, MachineArgs, Named, ParameterFlag, StartArgs, StartOfMachineArgs, SystemArgs, Varied, VariedNamed,
+    MachineArgs, Named, OutputArgs, ParameterFlag, StartArgs, StartOfMachineArgs, SystemArgs, Varied, VariedNamed,
     number, varied, whole,
 };
 use crate::commands::outputs::Outputs;
@@ -9,7 +9,6 @@ use crate::commands::{of_machine, respond};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
-use std::path::PathBuf;
 use vibroimpact_report::{Asked, Shown};
 use vibroimpact_study::{
     DEFAULT_LINES, DEFAULT_WITHIN, MachineMarginsPlan, MachineTask, MarginsPlan, Parameter, Plan, ScaledParameter,
@@ -37,7 +36,14 @@ use vibroimpact_study::{
         --scale gap=0.05 --csv margins.csv\n  \
         vibro margins --mass-kg 0.8 --stiffness-n-per-m 12000 --force-n 30 --damping-ratio 0.02 \\\n    \
         --gap-m 0.0015 --restitution 0.65 --frequency-hz 20\n  \
-        vibro margins --machine two-mass-hammer --vary frequency,stop.anvil.gap"
+        vibro margins --machine two-mass-hammer --vary frequency,stop.anvil.gap",
+    mut_arg("plot", |arg| arg.help(
+        "Draw the change of each parameter to its nearest events as bars into this file, .svg, .png or .pdf"
+    )),
+    mut_arg("csv", |arg| arg.help(
+        "Write one row for each parameter and direction to this file; - for stdout. Columns: parameter, value, \
+        direction, limit, at, distance, relative, event, before, after; without an event the last six are empty"
+    ))
 )]
 pub(crate) struct Margins {
     #[command(flatten)]
@@ -78,14 +84,8 @@ pub(crate) struct Margins {
     #[arg(long, value_parser = whole::<u32>, value_name = "N", default_value_t = DEFAULT_LINES, allow_hyphen_values = true, conflicts_with = "machine", help_heading = "Margins")]
     lines: u32,
 
-    /// Write one row for each parameter and direction to this file; - for stdout. Columns: parameter, value, direction,
-    /// limit, at, distance, relative, event, before, after; without an event the last six are empty
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    csv: Option<PathBuf>,
-
-    /// Print one JSON object instead of text
-    #[arg(long, help_heading = "Output")]
-    json: bool,
+    #[command(flatten)]
+    output: OutputArgs,
 }
 
 pub(super) fn run(args: &Margins, session: &Session) -> Result<(), Failure> {
@@ -93,10 +93,9 @@ pub(super) fn run(args: &Margins, session: &Session) -> Result<(), Failure> {
         let vary = args.vary.iter().map(Varied::path).collect();
         Ok(MachineTask::Margins(MachineMarginsPlan { label: args.label.clone(), vary, within: args.within }))
     };
-    let (files, no_figure) =
-        ((args.csv.as_deref(), (None, &FigureArgs::default()), args.json), (None, of_machine::usual));
+    let usual = (None, of_machine::usual);
     let start = Some((&args.of_machine, args.start.phase));
-    if let Some(answer) = of_machine::asked(&args.machine, start, task, files, no_figure, session) {
+    if let Some(answer) = of_machine::asked(&args.machine, start, task, args.output.files(), usual, session) {
         return answer;
     }
     let (asked, vary) = args.varied()?;
@@ -107,7 +106,7 @@ pub(super) fn run(args: &Margins, session: &Session) -> Result<(), Failure> {
     let task = MarginsPlan { start, label: args.label.clone(), vary, within: args.within, lines: args.lines };
     let plan = Plan::new(asked.system, Task::Margins(task));
     plan.check()?;
-    let outputs = Outputs::reserve(args.csv.as_deref(), (None, &FigureArgs::default()), args.json, session)?;
+    let outputs = Outputs::reserve(args.output.files(), session)?;
     respond::run(&plan, asked.units, (outputs, Shown::default()), None, session)
 }
 

@@ -1,12 +1,11 @@
 //! Commands with `--machine`, and `vibro run` with a plan of a machine: the result of the plan.
 
-use crate::args::{FigureArgs, MachineArgs, StartOfMachineArgs, StoreArgs};
+use crate::args::{Files, MachineArgs, StartOfMachineArgs, StoreArgs};
 use crate::commands::outputs::Outputs;
 use crate::commands::{respond, stored};
 use crate::failure::Failure;
 use crate::report::{machine_answers, machine_events};
 use crate::session::Session;
-use std::path::Path;
 use vibroimpact::events::MachineEnd;
 use vibroimpact::verdict::{MachineUndecided, MachineVerdict};
 use vibroimpact_report::figure::plane::{PlaneAxis, Sides};
@@ -15,9 +14,6 @@ use vibroimpact_study::{
     Control, MachineBasinPlan, MachineLyapunovPlan, MachineMapPlan, MachinePlan, MachineResults, MachineTask,
     SEARCH_LIMIT, StudyPlan,
 };
-
-/// The files of a command: its table, its figure, and whether it prints JSON.
-pub(super) type Files<'a> = (Option<&'a Path>, (Option<&'a Path>, &'a FigureArgs), bool);
 
 /// The look of the table and the figure of a command that has no flags for it.
 #[allow(clippy::unnecessary_wraps, reason = "other looks may be refused")]
@@ -31,7 +27,7 @@ pub(super) fn asked(
     machine: &MachineArgs,
     start: Option<(&StartOfMachineArgs, Option<f64>)>,
     task: impl FnOnce() -> Result<MachineTask, Failure>,
-    (csv, plot, json): Files<'_>,
+    files: Files<'_>,
     (store, shown): (Option<&StoreArgs>, impl FnOnce(bool) -> Result<Shown, Failure>),
     session: &Session,
 ) -> Option<Result<(), Failure>> {
@@ -40,7 +36,7 @@ pub(super) fn asked(
         let (tile, shard) = store.map_or((None, None), |store| (store.tile, store.shard));
         let plan = MachinePlan { tile, shard, ..MachinePlan::new(machine.source(start)?, task()?) };
         plan.check()?;
-        let outputs = Outputs::reserve(csv, plot, json, session)?;
+        let outputs = Outputs::reserve(files, session)?;
         let shown = shown(outputs.drawn())?;
         let filling = store.and_then(StoreArgs::filling);
         // exponents over axes are a study, with a store or in memory
@@ -83,7 +79,7 @@ pub(super) fn run(
         MachineTask::Lyapunov(lyapunov) => lyapunov.points.is_none(),
         _ => false,
     };
-    if outputs.drawn() && (bare || matches!(plan.task, MachineTask::Attractors { .. } | MachineTask::Margins(_))) {
+    if outputs.drawn() && bare {
         return Err(none("figure"));
     }
     if outputs.tabled() && bare {

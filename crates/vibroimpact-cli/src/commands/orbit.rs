@@ -1,12 +1,11 @@
 //! `vibro orbit`: the periodic orbits with a label, stable or not.
 
-use crate::args::{FigureArgs, MachineArgs, SystemArgs};
+use crate::args::{MachineArgs, OutputArgs, SystemArgs};
 use crate::commands::outputs::Outputs;
 use crate::commands::{of_machine, respond};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
-use std::path::PathBuf;
 use vibroimpact_report::Shown;
 use vibroimpact_study::{MachineTask, Plan, Task};
 
@@ -24,7 +23,15 @@ use vibroimpact_study::{MachineTask, Plan, Task};
         vibro orbit --machine NAME|FILE [--set PATH=VALUE] --label m/n [OPTIONS]",
     after_help = "Example: the unstable 1/1 beside the stable 1/2 it gave way to\n  \
         vibro orbit --inverse-beta 1.11 --gap 2 --restitution 0.5 --label 1/1\n  \
-        vibro orbit --inverse-beta 1.11 --gap 2 --restitution 0.5 --label 1/2"
+        vibro orbit --inverse-beta 1.11 --gap 2 --restitution 0.5 --label 1/2",
+    mut_arg("csv", |arg| arg.help(
+        "Write one row an orbit to this file; - for stdout. Columns: orbit, label, admissible, stable, stability, \
+        fastest closing, real and imaginary part of the multipliers, phases, speeds and stops of the closings \
+        (lists with blanks between)"
+    )),
+    mut_arg("plot", |arg| arg.help(
+        "Draw phase and speed of the closings of the admissible orbits into this file, .svg, .png or .pdf"
+    ))
 )]
 pub(crate) struct Orbit {
     #[command(flatten)]
@@ -37,33 +44,21 @@ pub(crate) struct Orbit {
     #[arg(long, value_name = "m/n", allow_hyphen_values = true, help_heading = "Orbit")]
     label: String,
 
-    /// Write one row an orbit to this file; - for stdout. Columns: orbit, label, admissible, stable, stability, fastest closing, real
-    /// and imaginary part of the multipliers, phases, speeds and stops of the closings (lists with blanks between)
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    csv: Option<PathBuf>,
-
-    /// Draw phase and speed of the closings of the admissible orbits into this file, .svg, .png or .pdf
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    plot: Option<PathBuf>,
-
     #[command(flatten)]
-    figure: FigureArgs,
-
-    /// Print one JSON object instead of text
-    #[arg(long, help_heading = "Output")]
-    json: bool,
+    output: OutputArgs,
 }
 
 pub(super) fn run(args: &Orbit, session: &Session) -> Result<(), Failure> {
-    let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
     let task = || Ok(MachineTask::Orbit { label: args.label.clone() });
-    if let Some(answer) = of_machine::asked(&args.machine, None, task, files, (None, of_machine::usual), session) {
+    if let Some(answer) =
+        of_machine::asked(&args.machine, None, task, args.output.files(), (None, of_machine::usual), session)
+    {
         return answer;
     }
     let asked = args.system.asked()?;
     let task = Task::Orbit { label: args.label.clone() };
     let plan = Plan::new(asked.system, task);
     plan.check()?;
-    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
+    let outputs = Outputs::reserve(args.output.files(), session)?;
     respond::run(&plan, asked.units, (outputs, Shown::default()), None, session)
 }

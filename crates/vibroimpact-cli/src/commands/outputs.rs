@@ -1,6 +1,6 @@
 //! The output files of a command: a table, a figure, or both. They are reserved before the computation.
 
-use crate::args::FigureArgs;
+use crate::args::{FigureArgs, Files};
 use crate::failure::Failure;
 use crate::files::Target;
 use crate::picture::Picture;
@@ -24,12 +24,7 @@ enum Sheet {
 }
 
 impl Outputs {
-    pub(super) fn reserve(
-        csv: Option<&Path>,
-        (plot, look): (Option<&Path>, &FigureArgs),
-        json: bool,
-        session: &Session,
-    ) -> Result<Self, Failure> {
+    pub(super) fn reserve(Files { csv, plot, look, json }: Files<'_>, session: &Session) -> Result<Self, Failure> {
         let csv = match csv {
             None => None,
             Some(path) if path == Path::new("-") && json => {
@@ -41,12 +36,12 @@ impl Outputs {
                 Some(Sheet::File(target, path.display().to_string()))
             }
         };
-        if plot.is_none() && look.any() {
+        if plot.is_none() && look.is_some_and(FigureArgs::any) {
             return Err(Failure::bad(
                 "--title, --size, --dpi, --x-limits, --y-limits and --greyscale say how the figure looks\nhint: --plot FILE",
             ));
         }
-        let picture = plot.map(|path| Picture::reserve(path, look, session.force)).transpose()?;
+        let picture = plot.zip(look).map(|(path, look)| Picture::reserve(path, look, session.force)).transpose()?;
         Ok(Self { csv, picture, json })
     }
 

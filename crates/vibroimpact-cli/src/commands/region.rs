@@ -1,12 +1,11 @@
 //! `vibro region`: the regions of a plane of two parameters in which a motion exists and in which it is stable.
 
-use crate::args::{AxesArgs, Convention, FigureArgs, PhysicalArgs, SystemStretchesArgs, of_oscillator, whole};
+use crate::args::{AxesArgs, Convention, OutputArgs, PhysicalArgs, SystemStretchesArgs, of_oscillator, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
-use std::path::PathBuf;
 use vibroimpact_report::{Asked, Shown};
 use vibroimpact_study::{DEFAULT_GRID, Plan, RegionPlan, Stretch, Task};
 
@@ -23,7 +22,15 @@ use vibroimpact_study::{DEFAULT_GRID, Plan, RegionPlan, Stretch, Task};
     override_usage = "vibro region --label m/n --inverse-beta A:B --gap A:B --restitution E [OPTIONS]",
     after_help = "Examples:\n  \
         vibro region --label 1/1 --inverse-beta 0.4:2 --gap -1:5 --restitution 0.5 --csv region.csv --plot region.png\n  \
-        vibro region --label 1/2 --inverse-beta 1.11 --gap 0:3 --restitution 0.2:0.9 --plot plane.png"
+        vibro region --label 1/2 --inverse-beta 1.11 --gap 0:3 --restitution 0.2:0.9 --plot plane.png",
+    mut_arg("csv", |arg| arg.help(
+        "Write one row a vertex to this file; - for stdout. Columns: region (existence or stability), polygon, \
+        hole, sheet (below: multipliers below +1, or above), both parameters, and what bounds the region from \
+        here to the next vertex"
+    )),
+    mut_arg("plot", |arg| arg.help(
+        "Draw both regions into this file, .svg, .png or .pdf; edges of the sheet \"above\" are thin"
+    ))
 )]
 pub(crate) struct Region {
     /// m impacts in n forcing periods, for example 2/1; 0 for the motion without impacts
@@ -47,21 +54,8 @@ pub(crate) struct Region {
     #[arg(long, value_parser = whole::<u32>, value_name = "N", default_value_t = DEFAULT_GRID, allow_hyphen_values = true, help_heading = "Plane")]
     grid: u32,
 
-    /// Write one row a vertex to this file; - for stdout. Columns: region (existence or stability), polygon, hole, sheet
-    /// (below: multipliers below +1, or above), both parameters, and what bounds the region from here to the next vertex
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    csv: Option<PathBuf>,
-
-    /// Draw both regions into this file, .svg, .png or .pdf; edges of the sheet "above" are thin
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    plot: Option<PathBuf>,
-
     #[command(flatten)]
-    figure: FigureArgs,
-
-    /// Print one JSON object with the polygons instead of text
-    #[arg(long, help_heading = "Output")]
-    json: bool,
+    output: OutputArgs,
 }
 
 impl Region {
@@ -89,6 +83,6 @@ pub(super) fn run(args: &Region, session: &Session) -> Result<(), Failure> {
     let task = RegionPlan { label: args.label.clone(), across, up, grid: args.grid };
     let plan = Plan::new(asked.system, Task::Region(task));
     plan.check()?;
-    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
+    let outputs = Outputs::reserve(args.output.files(), session)?;
     respond::run(&plan, asked.units, (outputs, Shown::default()), None, session)
 }

@@ -1,12 +1,11 @@
 //! `vibro response`: a quantity of all motions over one parameter.
 
-use crate::args::{FigureArgs, MachineArgs, MachineAxesArgs, RangedSystemArgs, StartOfMachineArgs, quantity, whole};
+use crate::args::{MachineArgs, MachineAxesArgs, OutputArgs, RangedSystemArgs, StartOfMachineArgs, quantity, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::{of_machine, respond};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
-use std::path::PathBuf;
 use vibroimpact_report::{Asked, Shown};
 use vibroimpact_study::{Coordinate, MachineResponsePlan, MachineTask, Plan, ResponsePlan, Task};
 
@@ -30,7 +29,16 @@ use vibroimpact_study::{Coordinate, MachineResponsePlan, MachineTask, Plan, Resp
         vibro response --mass-kg 0.8 --stiffness-n-per-m 12000 --force-n 30 --damping-ratio 0.02 --gap-m 0.0015 \\\n    \
         --restitution 0.65 --frequency-hz 15:25:201 --quantity impact-speed-max --csv response.csv --plot response.png\n  \
         vibro response --machine two-mass-hammer --axis frequency=0.9:1.3:41 --quantity stop.anvil.impact-speed-max \\\n    \
-        --plot hammer.png"
+        --plot hammer.png",
+    mut_arg("csv", |arg| arg.help(
+        "Write one row for each motion of a sweep and each point of a branch to this file; - for stdout. Columns: \
+        curve (up, down or the number of a branch), the parameter, label, admissible, stable, stability, event, \
+        all quantities"
+    )),
+    mut_arg("plot", |arg| arg.help(
+        "Draw the response into this file, .svg, .png or .pdf: stable branches solid, neutral dashed and dotted, \
+        unstable dashed, the sweeps as dots"
+    ))
 )]
 pub(crate) struct Response {
     #[command(flatten)]
@@ -51,22 +59,8 @@ pub(crate) struct Response {
     #[arg(long, value_parser = whole::<u32>, value_name = "N", allow_hyphen_values = true, help_heading = "Sweep")]
     impacts: Option<u32>,
 
-    /// Write one row for each motion of a sweep and each point of a branch to this file; - for stdout. Columns: curve (up,
-    /// down or the number of a branch), the parameter, label, admissible, stable, stability, event, all quantities
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    csv: Option<PathBuf>,
-
-    /// Draw the response into this file, .svg, .png or .pdf: stable branches solid, neutral dashed and dotted,
-    /// unstable dashed, the sweeps as dots
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    plot: Option<PathBuf>,
-
     #[command(flatten)]
-    figure: FigureArgs,
-
-    /// Print one JSON object instead of text
-    #[arg(long, help_heading = "Output")]
-    json: bool,
+    output: OutputArgs,
 }
 
 pub(super) fn run(args: &Response, session: &Session) -> Result<(), Failure> {
@@ -86,9 +80,8 @@ pub(super) fn run(args: &Response, session: &Session) -> Result<(), Failure> {
             impacts: args.impacts,
         }))
     };
-    let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
     let (start, look) = (Some((&args.start, None)), (None, of_machine::usual));
-    if let Some(answer) = of_machine::asked(&args.machine, start, task, files, look, session) {
+    if let Some(answer) = of_machine::asked(&args.machine, start, task, args.output.files(), look, session) {
         return answer;
     }
     let Asked { system, units } = args.system.asked()?;
@@ -107,6 +100,6 @@ pub(super) fn run(args: &Response, session: &Session) -> Result<(), Failure> {
     let task = ResponsePlan { quantity: named.unwrap_or(task.quantity), impacts: args.impacts, ..task };
     let plan = Plan::new(system, Task::Response(task));
     plan.check()?;
-    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
+    let outputs = Outputs::reserve(args.output.files(), session)?;
     respond::run(&plan, units, (outputs, Shown::default()), None, session)
 }

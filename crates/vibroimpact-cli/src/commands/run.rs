@@ -2,7 +2,7 @@
 
 use super::of_machine as of_machine_plan;
 use super::stored;
-use crate::args::{BudgetArgs, ColourArgs, FigureArgs, Filling, OverlayArgs, Tiles};
+use crate::args::{BudgetArgs, ColourArgs, Filling, OutputArgs, OverlayArgs, Tiles};
 use crate::commands::outputs::Outputs;
 use crate::failure::Failure;
 use crate::hints;
@@ -20,9 +20,14 @@ use vibroimpact_study::{MachinePlan, PlanError, Study, StudyPlan};
 /// and any command with --json prints its plan. The store is a Zarr group, which xarray, zarr and napari open. Tiles that
 /// are done are not computed again. Several processes and machines may fill one store.
 #[derive(Clone, Debug, Args)]
-#[command(after_help = "Examples:\n  \
+#[command(
+    mut_arg("csv", |arg| arg.help("When all tiles are there: write the short table to this file; - for stdout")),
+    mut_arg("plot", |arg| arg.help("When all tiles are there: draw the figure into this file, .svg, .png or .pdf")),
+    mut_arg("json", |arg| arg.help("Print one JSON object with what was done")),
+    after_help = "Examples:\n  \
     vibro run map.toml --store map.zarr --plot map.png\n  \
-    vibro run map.toml --store /scratch/map.zarr --tiles 3/16     the third of sixteen jobs")]
+    vibro run map.toml --store /scratch/map.zarr --tiles 3/16     the third of sixteen jobs"
+)]
 pub(crate) struct Run {
     /// The plan, TOML or JSON
     #[arg(value_name = "PLAN")]
@@ -39,24 +44,12 @@ pub(crate) struct Run {
     #[command(flatten)]
     budget: BudgetArgs,
 
-    /// When all tiles are there: write the short table to this file; - for stdout
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    csv: Option<PathBuf>,
-
-    /// When all tiles are there: draw the figure into this file, .svg, .png or .pdf
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    plot: Option<PathBuf>,
-
     #[command(flatten)]
     colour: ColourArgs,
     #[command(flatten)]
     overlay: OverlayArgs,
     #[command(flatten)]
-    figure: FigureArgs,
-
-    /// Print one JSON object with what was done
-    #[arg(long, help_heading = "Output")]
-    json: bool,
+    output: OutputArgs,
 }
 
 /// Reads and checks the plan in a file.
@@ -91,7 +84,7 @@ fn run_machine(args: &Run, plan: &MachinePlan, session: &Session) -> Result<(), 
     }
     args.colour.coloured(false)?;
     args.overlay.overlay(false, false)?;
-    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
+    let outputs = Outputs::reserve(args.output.files(), session)?;
     let name = args.plan.file_stem().map_or_else(|| "machine".into(), |stem| stem.to_string_lossy());
     of_machine_plan::run(&name, plan, (outputs, Shown::default()), session)
 }
@@ -109,7 +102,7 @@ pub(super) fn run(args: &Run, session: &Session) -> Result<(), Failure> {
     {
         return run_machine(args, machine, session);
     }
-    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
+    let outputs = Outputs::reserve(args.output.files(), session)?;
     let place = args.store.clone().unwrap_or_else(|| default_store(&args.plan));
     let colour = args.colour.coloured(outputs.drawn())?;
     let overlay = args.overlay.overlay(outputs.drawn(), colour.is_some())?;

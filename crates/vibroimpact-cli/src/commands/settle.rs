@@ -1,12 +1,11 @@
 //! `vibro settle`: the motion from one start after its transient.
 
-use crate::args::{FigureArgs, MachineArgs, StartArgs, StartOfMachineArgs, SystemArgs, number, whole};
+use crate::args::{MachineArgs, OutputArgs, StartArgs, StartOfMachineArgs, SystemArgs, number, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::{of_machine, respond};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::{Args, ValueEnum};
-use std::path::PathBuf;
 use vibroimpact::verdict::{PaperRule, paper_rule};
 use vibroimpact_report::Shown;
 use vibroimpact_report::scene::View;
@@ -26,7 +25,12 @@ use vibroimpact_study::{MachineTask, Plan, Results, Task};
         vibro settle --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --v 1 --plot steady.svg\n  \
         vibro settle --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --show phase --plot portrait.svg\n  \
         vibro settle --mass-kg 2 --damping-ns-per-m 1 --stiffness-n-per-m 800 --force-n 4 --frequency-hz 4 \\\n    \
-        --gap-m 0.01 --restitution 0.5 --units si"
+        --gap-m 0.01 --restitution 0.5 --units si",
+    mut_arg("csv", |arg| arg.help(
+        "Write the steady motion to this file, one row a point, columns t, x, v unless --show says otherwise; of \
+        a machine those of `vibro simulate`; - for stdout"
+    )),
+    mut_arg("plot", |arg| arg.help("Draw the steady motion into this file, .svg, .png or .pdf"))
 )]
 pub(crate) struct Settle {
     #[command(flatten)]
@@ -58,21 +62,8 @@ pub(crate) struct Settle {
     #[arg(long, value_enum, value_name = "VIEW", help_heading = "Output")]
     show: Option<Views>,
 
-    /// Write the steady motion to this file, one row a point, columns t, x, v unless --show says otherwise; of a machine
-    /// those of `vibro simulate`; - for stdout
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    csv: Option<PathBuf>,
-
-    /// Print one JSON object instead of text
-    #[arg(long, help_heading = "Output")]
-    json: bool,
-
-    /// Draw the steady motion into this file, .svg, .png or .pdf
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    plot: Option<PathBuf>,
-
     #[command(flatten)]
-    figure: FigureArgs,
+    output: OutputArgs,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -109,14 +100,13 @@ enum Rule {
 }
 
 pub(super) fn run(args: &Settle, session: &Session) -> Result<(), Failure> {
-    let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
     let start = Some((&args.of_machine, args.start.phase));
     let task = || match args.rule {
         Rule::Confirmed => Ok(MachineTask::Settle { impacts: args.impacts }),
         Rule::Paper => Err(Failure::bad("--rule paper is for oscillators: the paper has no machines")),
     };
     let look = |_: bool| args.look();
-    if let Some(answer) = of_machine::asked(&args.machine, start, task, files, (None, look), session) {
+    if let Some(answer) = of_machine::asked(&args.machine, start, task, args.output.files(), (None, look), session) {
         return answer;
     }
     let asked = args.system.asked()?;
@@ -125,7 +115,7 @@ pub(super) fn run(args: &Settle, session: &Session) -> Result<(), Failure> {
     plan.check()?;
     let rule = args.paper_rule()?;
     let shown = args.look()?;
-    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
+    let outputs = Outputs::reserve(args.output.files(), session)?;
     let mut answer = respond::compute(&plan, asked.units, session)?;
     if let (Some(rule), Results::Settle(start, _)) = (rule, &answer.results) {
         answer.paper_rule = Some((rule, paper_rule(&answer.osc, *start, rule)));
@@ -136,7 +126,7 @@ pub(super) fn run(args: &Settle, session: &Session) -> Result<(), Failure> {
 impl Settle {
     /// The look of the table and the figure.
     fn look(&self) -> Result<Shown, Failure> {
-        if self.show.is_some() && self.csv.is_none() && self.plot.is_none() {
+        if self.show.is_some() && !self.output.any_file() {
             return Err(Failure::bad("--show says what is drawn or written: it belongs to --plot and --csv"));
         }
         Ok(Shown { view: self.show.map(View::from), ..Shown::default() })

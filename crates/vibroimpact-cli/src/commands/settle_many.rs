@@ -1,8 +1,8 @@
 //! `vibro settle-many`: the motions at many points of parameters and starts, listed or drawn.
 
 use crate::args::{
-    Convention, FieldsArgs, FigureArgs, Interval, MachineArgs, PhysicalArgs, Place, StartOfMachineArgs, StoreArgs,
-    SystemStretchesArgs, VariedOver, whole,
+    Convention, FieldsArgs, Interval, MachineArgs, PhysicalArgs, Place, StartOfMachineArgs, StoreArgs,
+    SystemStretchesArgs, TableArgs, VariedOver, whole,
 };
 use crate::commands::outputs::Outputs;
 use crate::commands::{of_machine, stored};
@@ -26,6 +26,9 @@ use vibroimpact_study::{
 #[derive(Clone, Debug, Args)]
 #[command(
     mut_arg("restitution", |arg| arg.required(false)),
+    mut_arg("csv", |arg| arg.help(
+        "Write one row a point to this file; - for stdout. Columns: what varies, then label, and --fields"
+    )),
     override_usage = "vibro settle-many --sample lhs:N --inverse-beta A:B --gap A:B --restitution E [OPTIONS]\n       \
         vibro settle-many --points FILE.csv --restitution E [OPTIONS]\n       \
         vibro settle-many --machine NAME|FILE --sample lhs:N --over PATH=A:B [--over PATH=A:B] [OPTIONS]",
@@ -93,13 +96,8 @@ pub(crate) struct SettleMany {
     #[arg(long, help_heading = "Output")]
     transient: bool,
 
-    /// Write one row a point to this file; - for stdout. Columns: what varies, then label, and --fields
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    csv: Option<PathBuf>,
-
-    /// Print one JSON object with the labels and how often they occur
-    #[arg(long, help_heading = "Output")]
-    json: bool,
+    #[command(flatten)]
+    output: TableArgs,
 }
 
 /// `sobol:N` or `lhs:N`.
@@ -245,9 +243,9 @@ pub(super) fn run(args: &SettleMany, session: &Session) -> Result<(), Failure> {
         let (impacts, fields) = (args.impacts, args.fields.paths());
         Ok(MachineTask::SettleMany(MachineManyPlan { points: args.points_of_machine()?, impacts, fields }))
     };
-    let (files, usual) = ((args.csv.as_deref(), (None, &FigureArgs::default()), args.json), (None, of_machine::usual));
+    let usual = (None, of_machine::usual);
     let start = Some((&args.start_of_machine, None));
-    if let Some(answer) = of_machine::asked(&args.of_machine, start, task, files, usual, session) {
+    if let Some(answer) = of_machine::asked(&args.of_machine, start, task, args.output.files(), usual, session) {
         return answer;
     }
     let (asked, points) = match (&args.points, args.sample) {
@@ -263,7 +261,7 @@ pub(super) fn run(args: &SettleMany, session: &Session) -> Result<(), Failure> {
     };
     let plan = Plan { units: asked.units.plan(), ..Plan::new(asked.system, Task::Basin(task)) };
     let plan = StudyPlan::from(&args.store.tiled(plan)?);
-    let outputs = Outputs::reserve(args.csv.as_deref(), (None, &FigureArgs::default()), args.json, session)?;
+    let outputs = Outputs::reserve(args.output.files(), session)?;
     stored::filled(&plan, args.store.filling(), (outputs, Shown::default()), session)
 }
 

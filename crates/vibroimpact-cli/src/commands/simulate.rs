@@ -1,12 +1,11 @@
 //! `vibro simulate`: the events of a motion.
 
-use crate::args::{FigureArgs, MachineArgs, StartArgs, StartOfMachineArgs, SystemArgs, number, whole};
+use crate::args::{MachineArgs, OutputArgs, StartArgs, StartOfMachineArgs, SystemArgs, number, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::{of_machine, respond};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
-use std::path::PathBuf;
 use vibroimpact_report::Shown;
 use vibroimpact_study::{MachinePlan, MachineTask, Plan, Task};
 
@@ -23,7 +22,12 @@ use vibroimpact_study::{MachinePlan, MachineTask, Plan, Task};
         vibro simulate --beta 0.9 --gap -0.5 --restitution 0.5 --periods 4 --plot chatter.svg\n  \
         vibro simulate --beta 0.9 --gap 0.5 --restitution 0.7 --periods 10 --csv wave.csv --step 0.01\n  \
         vibro simulate --machine soft-stop --impacts 10\n  \
-        vibro simulate --machine two-mass-hammer --periods 10 --plot hammer.svg"
+        vibro simulate --machine two-mass-hammer --periods 10 --plot hammer.svg",
+    mut_arg("csv", |arg| arg.help(
+        "Write the waveform, columns t, x, v, to this file; - for stdout. Of a machine: time, coordinates, \
+        velocities, gaps, forces, surfaces of damped stops, and what stops and joints do"
+    )),
+    mut_arg("plot", |arg| arg.help("Draw the waveform into this file, .svg, .png or .pdf"))
 )]
 pub(crate) struct Simulate {
     #[command(flatten)]
@@ -43,25 +47,12 @@ pub(crate) struct Simulate {
     #[arg(long, value_parser = number, value_name = "N", allow_hyphen_values = true, help_heading = "Length")]
     periods: Option<f64>,
 
-    /// Print one JSON object instead of text
-    #[arg(long, help_heading = "Output")]
-    json: bool,
-
-    /// Write the waveform, columns t, x, v, to this file; - for stdout. Of a machine: time, coordinates, velocities, gaps,
-    /// forces, surfaces of damped stops, and what stops and joints do
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    csv: Option<PathBuf>,
-
     /// Time between points of the waveform [default: a hundredth of the forcing period]
     #[arg(long, value_parser = number, value_name = "T", requires = "csv", allow_hyphen_values = true, help_heading = "Output")]
     step: Option<f64>,
 
-    /// Draw the waveform into this file, .svg, .png or .pdf
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    plot: Option<PathBuf>,
-
     #[command(flatten)]
-    figure: FigureArgs,
+    output: OutputArgs,
 }
 
 pub(super) fn run(args: &Simulate, session: &Session) -> Result<(), Failure> {
@@ -70,7 +61,7 @@ pub(super) fn run(args: &Simulate, session: &Session) -> Result<(), Failure> {
         let plan = MachinePlan::new(args.machine.source(Some((&args.of_machine, args.start.phase)))?, task);
         plan.check()?;
         let step = checked(args.step)?;
-        let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
+        let outputs = Outputs::reserve(args.output.files(), session)?;
         return of_machine::run(name, &plan, (outputs, Shown { step, ..Shown::default() }), session);
     }
     let asked = args.system.asked()?;
@@ -79,7 +70,7 @@ pub(super) fn run(args: &Simulate, session: &Session) -> Result<(), Failure> {
     let plan = Plan::new(asked.system, task);
     plan.check()?;
     let step = checked(args.step.map(|step| step / asked.units.time()))?;
-    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
+    let outputs = Outputs::reserve(args.output.files(), session)?;
     respond::run(&plan, asked.units, (outputs, Shown { step, ..Shown::default() }), None, session)
 }
 

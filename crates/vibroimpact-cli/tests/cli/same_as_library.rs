@@ -34,12 +34,8 @@ impl Written {
     fn by(line: &str) -> Self {
         let folder = tempfile::tempdir().expect("a folder");
         let (csv, svg) = (folder.path().join("table.csv"), folder.path().join("figure.svg"));
-        let task = line.split_whitespace().next().expect("a command");
         let mut command = vibro(line);
-        command.arg("--json").arg("--csv").arg(&csv);
-        if !["attractors", "margins"].contains(&task) {
-            command.arg("--plot").arg(&svg);
-        }
+        command.arg("--json").arg("--csv").arg(&csv).arg("--plot").arg(&svg);
         let output = command.output().expect("vibro runs");
         assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
         let printed = String::from_utf8(output.stdout).expect("text");

@@ -154,7 +154,14 @@ fn every_answer_is_as_its_schema_says_and_the_same_for_every_system() {
                     }
                     _ => system.to_owned(),
                 };
-                let answer = json(&format!("{command} {system} {more}"));
+                // every command has a table and a figure too, for every system
+                let files = tempfile::tempdir().unwrap();
+                let at = |name: &str| files.path().join(name);
+                let (csv, plot) = (at("table.csv"), at("figure.svg"));
+                let answer =
+                    json(&format!("{command} {system} {more} --csv {} --plot {}", csv.display(), plot.display()));
+                let (table, drawn) = (std::fs::read_to_string(csv).unwrap(), std::fs::read_to_string(plot).unwrap());
+                assert!(table.lines().count() > 1 && drawn.starts_with("<svg"), "{command} {system}");
                 check(&answer, &schema, &schema, verb);
                 assert!(
                     answer["system"]["kind"].is_string() && answer["system"]["stops"].is_array(),

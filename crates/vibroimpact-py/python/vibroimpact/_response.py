@@ -120,17 +120,18 @@ class Response(Result):
         ax = new_axes(ax, (7.2, 4.8))
         for name, of, size, colour in (("sweep up", self.up, 6.0, "0.77"), ("sweep down", self.down, 3.0, "0.38")):
             ax.plot(of.parameter, of.quantities[quantity], "o", color=colour, markersize=size, markeredgewidth=0, label=name)
-        colours: dict[str, str] = {}
+        colours, looks = dict[str, str](), set[str]()
         for branch in self.branches:
             for begin, end in _runs(branch):
                 label, stability = str(branch.label[end]), str(branch.stability[end])
+                looks.add(stability)
                 if label not in colours:
                     colours[label] = SERIES[len(colours) % _USABLE]
                     ax.plot([], [], color=colours[label], linewidth=1.8, label=named(label))
                 xs, ys = branch.parameter[begin : end + 1], branch.quantities[quantity][begin : end + 1]
                 ax.plot(xs, ys, LOOKS[stability], color=colours[label], linewidth=1.8)
         for word in ("neutral", "unstable"):
-            if any((branch.stability[branch.admissible] == word).any() for branch in self.branches):
+            if word in looks:
                 ax.plot([], [], LOOKS[word], color="black", linewidth=1.8, label=word)
         ax.set_xlabel(axis_of(self.system, self.vary))
         unit = self.units[quantity]

@@ -1,5 +1,6 @@
 //! Figures. Each file draws one kind of figure; this file has their common texts and colours.
 
+pub mod bars;
 pub mod basin;
 pub mod branch;
 pub mod coloured;

@@ -24,9 +24,9 @@ pub(super) struct MarginsAnswer<'a> {
 
 #[derive(JsonSchema, Serialize)]
 pub(crate) struct ParameterObject<'a> {
-    parameter: &'a str,
+    pub(crate) parameter: &'a str,
     pub(crate) value: f64,
-    scale: f64,
+    pub(crate) scale: f64,
     pub(crate) down: EndObject<'a>,
     pub(crate) up: EndObject<'a>,
 }

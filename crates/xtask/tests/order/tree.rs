@@ -24,8 +24,6 @@ pub(crate) struct Module {
     pub(crate) file: PathBuf,
     /// The names of its items, except modules.
     pub(crate) items: Vec<String>,
-    /// Among these, the types that other crates can use.
-    pub(crate) types: Vec<String>,
     /// Its `use` declarations, one for each name.
     pub(crate) imports: Vec<Import>,
     /// Paths in its code.
@@ -71,24 +69,11 @@ fn items(tree: &mut Tree, at: Vec<String>, path: &Path, folder: &Path, list: &[I
             }
             _ => {
                 module.items.extend(name(item));
-                module.types.extend(public_type(item));
                 Paths(&mut module.paths).visit_item(item);
             }
         }
     }
     tree.insert(at, module);
-}
-
-/// The name of a type that is `pub` without restriction.
-fn public_type(item: &Item) -> Option<String> {
-    let (vis, ident) = match item {
-        Item::Struct(of) => (&of.vis, &of.ident),
-        Item::Enum(of) => (&of.vis, &of.ident),
-        Item::Trait(of) => (&of.vis, &of.ident),
-        Item::Type(of) => (&of.vis, &of.ident),
-        _ => return None,
-    };
-    matches!(vis, syn::Visibility::Public(_)).then(|| ident.to_string())
 }
 
 fn imports(tree: &UseTree, mut path: Vec<String>, exported: bool, found: &mut Vec<Import>) {

@@ -64,27 +64,3 @@ fn inside(tree: &Tree, at: &[String], path: &[String], depth: usize) -> Option<P
         globs.into_iter().find_map(|import| resolve(tree, at, &[&import.path[..], path].concat(), depth))
     })
 }
-
-/// Groups of files that use each other in a circle.
-pub(crate) fn circles(uses: &Uses) -> Vec<Vec<PathBuf>> {
-    let reach: BTreeMap<&PathBuf, BTreeSet<&PathBuf>> = uses.keys().map(|from| (from, reached(uses, from))).collect();
-    let mut found: BTreeSet<Vec<PathBuf>> = BTreeSet::new();
-    for (from, to) in &reach {
-        if to.contains(*from) {
-            found
-                .insert(to.iter().filter(|other| reach[**other].contains(*from)).map(|path| (*path).clone()).collect());
-        }
-    }
-    found.into_iter().collect()
-}
-
-fn reached<'a>(uses: &'a Uses, from: &PathBuf) -> BTreeSet<&'a PathBuf> {
-    let mut found = BTreeSet::new();
-    let mut next: Vec<&PathBuf> = uses[from].iter().collect();
-    while let Some(path) = next.pop() {
-        if found.insert(path) {
-            next.extend(uses.get(path).into_iter().flatten());
-        }
-    }
-    found
-}

@@ -1,0 +1,59 @@
+//! OUTPUT: the table, the figure and the JSON object of an answer.
+
+use super::FigureArgs;
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+/// The outputs of a command without a figure. A command says in its help what its table has.
+#[derive(Clone, Debug, Args)]
+#[command(next_help_heading = "Output")]
+pub(crate) struct TableArgs {
+    /// Write the answer as a table to this file; - for stdout
+    #[arg(long, value_name = "FILE")]
+    pub(crate) csv: Option<PathBuf>,
+
+    /// Print one JSON object instead of text
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// The outputs of a command.
+#[derive(Clone, Debug, Args)]
+#[command(next_help_heading = "Output")]
+pub(crate) struct OutputArgs {
+    #[command(flatten)]
+    pub(crate) table: TableArgs,
+
+    /// Draw the answer into this file, .svg, .png or .pdf
+    #[arg(long, value_name = "FILE")]
+    pub(crate) plot: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub(crate) figure: FigureArgs,
+}
+
+/// The files that a command writes, the look of its figure, and whether it prints JSON.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Files<'a> {
+    pub(crate) csv: Option<&'a Path>,
+    pub(crate) plot: Option<&'a Path>,
+    pub(crate) look: Option<&'a FigureArgs>,
+    pub(crate) json: bool,
+}
+
+impl TableArgs {
+    pub(crate) fn files(&self) -> Files<'_> {
+        Files { csv: self.csv.as_deref(), plot: None, look: None, json: self.json }
+    }
+}
+
+impl OutputArgs {
+    pub(crate) fn files(&self) -> Files<'_> {
+        Files { plot: self.plot.as_deref(), look: Some(&self.figure), ..self.table.files() }
+    }
+
+    /// Whether a table or a figure is asked for.
+    pub(crate) const fn any_file(&self) -> bool {
+        self.table.csv.is_some() || self.plot.is_some()
+    }
+}
