@@ -124,7 +124,7 @@ impl<'py> ResponseFields<'py> {
     }
 }
 
-/// The JSON object that the command prints, and what it does not have: the points of the sections of an attractor and of an orbit
+/// The JSON object that the command prints, [brief](vibroimpact_report::Answer::brief), and what it does not have: the points of the sections of an attractor and of an orbit
 /// diagram, and all quantities of a response.
 #[derive(Default, IntoPyObject)]
 pub(crate) struct AnswerFields<'py> {
@@ -192,7 +192,7 @@ pub(crate) fn answer<'py>(
         StudyPlan::Oscillator(plan) => {
             let (json, of) = door::run(py, watch, move |control| {
                 let answer = vibroimpact_report::answer(&plan, Units::default(), control)?;
-                Ok((answer.json(), answer))
+                Ok((answer.brief(), answer))
             })?;
             let mut fields = AnswerFields { json, ..AnswerFields::default() };
             match (&of.plan.task, &of.results) {

@@ -1,13 +1,13 @@
-//! Runs work that takes time: without the lock of the interpreter, on a thread of its own, with a stop flag.
+//! Runs work that takes time: without the lock of the interpreter, on another thread, with a stop flag.
 //!
 //! Every 50 ms the calling thread checks whether Ctrl-C was pressed and calls the progress callback. Work that reads
 //! the stop flag has ended when the exception is raised. Other work is abandoned after half a second.
 
 use crate::error::Trouble;
 use pyo3::prelude::*;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SendError, Sender, channel};
+use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
 use vibroimpact_study::{Control, Plan, Results, Stopped};
@@ -65,10 +65,42 @@ pub(crate) fn run<T: Send + 'static>(
         let (sender, receiver) = channel();
         let (theirs, threads) = (Arc::clone(&shared), watch.threads);
         // sending fails if the receiver is gone; then nobody needs the result
-        let worker = move || drop(sender.send(theirs.working(threads, work)));
-        thread::Builder::new().spawn(worker).map_err(|_| Trouble::Defect("starting a thread"))?;
+        on_a_thread(Box::new(move || drop(sender.send(theirs.working(threads, work)))))?;
         wait(&receiver, &shared, &watch)
     })
+}
+
+/// Work for a thread.
+type Job = Box<dyn FnOnce() + Send>;
+
+/// The threads that wait for work, each of the process with this number: a process that was forked has none of its parent's.
+static WAITING: Mutex<Vec<(u32, Sender<Job>)>> = Mutex::new(Vec::new());
+
+/// Lets a thread that waits do a job, or a new one: starting a thread takes longer than many a question.
+fn on_a_thread(mut job: Job) -> Result<(), Trouble> {
+    let process = std::process::id();
+    let next = || WAITING.lock().ok().and_then(|mut waiting| waiting.pop());
+    while let Some((of, worker)) = next() {
+        if of == process {
+            match worker.send(job) {
+                Ok(()) => return Ok(()),
+                // it has ended; the job comes back
+                Err(SendError(back)) => job = back,
+            }
+        }
+    }
+    let (to, jobs) = channel::<Job>();
+    let own = to.clone();
+    let serve = move || {
+        for job in jobs {
+            job();
+            if let Ok(mut waiting) = WAITING.lock() {
+                waiting.push((process, own.clone()));
+            }
+        }
+    };
+    thread::Builder::new().spawn(serve).map_err(|_| Trouble::Defect("starting a thread"))?;
+    to.send(job).map_err(|_| Trouble::Defect("starting a thread"))
 }
 
 /// Checks a plan, computes its result, and extracts the variant that belongs to its task.

@@ -113,6 +113,14 @@ impl Answer {
         serde_json::to_string(self).unwrap_or_default()
     }
 
+    /// The same without what takes longest to compute: the harmonics and the transient of a settled motion.
+    #[must_use]
+    pub fn brief(&self) -> String {
+        let Results::Settle(start, found) = &self.results else { return self.json() };
+        let object = json::settle::brief(&self.asked, &self.plan, (&self.osc, start), found);
+        serde_json::to_string(&object).unwrap_or_default()
+    }
+
     /// The figure that the command draws with `--plot`. For a settled motion it shows the motion after the transient;
     /// for exponents it shows both sections, if points of them were requested. `None` for a view that the answer does not have. The orbit diagram behind a branch is computed here.
     ///

@@ -68,7 +68,7 @@ export async function f10_panels_export_what_they_show({ open }) {
   for (const [panel, view, python, head] of [
     ["phase portrait", "phase", "motion.waveform()", "time,x,v"],
     ["multipliers", "multipliers", "motion.multipliers", "re,im"],
-    ["impact map and stroboscopic section", "sections", "vi.lyapunov(osc, x=0, points=2000).plot()", "section,stop,phase,speed,x,v"],
+    ["impact map and stroboscopic section", "sections", "vi.lyapunov(osc, x=0, points=2000).plot_sections()", "section,stop,phase,speed,x,v"],
   ]) {
     await page.locator(`#point button[aria-label="Export ${panel}"]`).click();
     await until(`the command of ${view}`, async () =>

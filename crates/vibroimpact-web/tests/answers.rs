@@ -146,7 +146,12 @@ async fn f10_a_view_has_its_own_table_and_command() {
         ("waveform", "time,x,v", "", "motion.plot()"),
         ("phase", "time,x,v", " --show phase", "motion.waveform()"),
         ("multipliers", "re,im", " --show multipliers", "motion.multipliers"),
-        ("sections", "section,stop,phase,speed,x,v", " --show sections", "vi.lyapunov(osc, points=2000).plot()"),
+        (
+            "sections",
+            "section,stop,phase,speed,x,v",
+            " --show sections",
+            "vi.lyapunov(osc, points=2000).plot_sections()",
+        ),
     ] {
         let (status, _, table) = ask(&format!("/api/table?kind={view}"), SETTLE).await;
         assert_eq!((status.as_u16(), String::from_utf8(table).unwrap().lines().next()), (200, Some(head)), "{view}");

@@ -1,6 +1,5 @@
 """Settling of motions, from one start or from arrays of starts."""
 
-import copy
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -18,7 +17,7 @@ from vibroimpact._core import Oscillator
 from vibroimpact._motion import Motion, all_measured
 from vibroimpact._over import Points
 from vibroimpact._progress import Progress, watched
-from vibroimpact._result import Result
+from vibroimpact._result import Result, answer
 from vibroimpact._whole import BUDGET, THREADS, maybe, whole
 
 if TYPE_CHECKING:
@@ -80,17 +79,17 @@ class Settled(Motion):
     @property
     def harmonics(self) -> list[dict[str, float]]:
         """The spectrum of the position."""
-        return list(self._whole.get("harmonics", ()))
+        return list(self.to_dict().get("harmonics", ()))
 
     @property
     def transient(self) -> dict[str, Any] | None:
         """The way until the motion had settled."""
-        found: dict[str, Any] | None = self._whole.get("transient")
+        found: dict[str, Any] | None = self.to_dict().get("transient")
         return found
 
     def to_dict(self) -> dict[str, Any]:
-        """The object that the command prints with --json."""
-        return copy.deepcopy(self._whole)
+        """The object that the command prints with --json, which is computed again for its harmonics and transient."""
+        return answer(self.plan)
 
 
 def settle(

@@ -87,6 +87,18 @@ struct PaperAnswer {
     impacts: Option<u32>,
 }
 
+/// The object of `vibro settle`, without what takes ten times as long as the motion itself: its harmonics and its transient.
+#[must_use]
+pub fn brief<'a>(
+    asked: &Asked,
+    plan: &'a Plan,
+    (osc, start): (&Oscillator, &Start),
+    settled: &Settled,
+) -> impl Serialize + use<'a> {
+    let answer = SettleAnswer::brief(settled, osc, &asked.units);
+    Document::new(asked, osc, plan, answer).start(start, &asked.units)
+}
+
 /// The object of `vibro settle`.
 #[must_use]
 pub fn document<'a>(
@@ -98,15 +110,26 @@ pub fn document<'a>(
 ) -> impl Serialize + use<'a> {
     let units = &asked.units;
     let answer = SettleAnswer {
-        motion: MotionObject::of_oscillator(&settled.verdict, osc, units),
-        events_followed: settled.impacts,
-        time_followed: settled.time * units.time(),
-        chaotic_transient: settled.transient.as_ref().map(|chaos| ChaosObject::of_oscillator(chaos, units)),
         harmonics: harmonics_of(&settled.verdict, osc, units),
         transient: transient_of(settled, osc, start, units),
         paper_rule: paper.map(|(rule, verdict)| PaperAnswer::new(rule, verdict)),
+        ..SettleAnswer::brief(settled, osc, units)
     };
     Document::new(asked, osc, plan, answer).start(start, units)
+}
+
+impl SettleAnswer<'_> {
+    fn brief(settled: &Settled, osc: &Oscillator, units: &Units) -> Self {
+        Self {
+            motion: MotionObject::of_oscillator(&settled.verdict, osc, units),
+            events_followed: settled.impacts,
+            time_followed: settled.time * units.time(),
+            chaotic_transient: settled.transient.as_ref().map(|chaos| ChaosObject::of_oscillator(chaos, units)),
+            harmonics: Vec::new(),
+            transient: None,
+            paper_rule: None,
+        }
+    }
 }
 
 impl<'a> SettleAnswer<'a> {

@@ -42,15 +42,16 @@ pub fn python(plan: &Plan) -> Option<String> {
         Task::Diagram(task) => ("diagram", diagram(task)),
         Task::Lyapunov(task) => ("exponents", lyapunov(task)),
         Task::Branch(task) => {
-            let call = Call::new("branch").then(text(&task.label)).then(text(task.vary.name())).then(number(task.to));
+            let call = Call::new("branch").then(text(task.vary.name())).then(number(task.to));
+            let call = call.named("label", text(&task.label));
             let also = |also: Target| mapping(core::iter::once((also.parameter.name(), number(also.to))));
             let call = call.given("also", task.also.map(also));
             let call = call.given("orbit", task.orbit).unless("follow", task.follow, 0);
             ("branch", call.unless("points", task.points, DEFAULT_BRANCH_POINTS))
         }
         Task::Curve(task) => {
-            let call = Call::new("curve").then(text(&task.label)).then(text(task.kind.name()));
-            let call = call.then(plane(&task.vary, &task.and));
+            let call = Call::new("curve").then(text(task.kind.name())).then(plane(&task.vary, &task.and));
+            let call = call.named("label", text(&task.label));
             ("curve", call.given("orbit", task.orbit).given("event", task.event))
         }
         Task::Region(task) => {
@@ -84,7 +85,7 @@ pub fn python_showing(plan: &Plan, view: View) -> Option<String> {
         View::Phase => "t, x, v = motion.waveform()  # of a periodic motion, v over x".to_owned(),
         View::Multipliers => "motion.multipliers".to_owned(),
         View::Sections => {
-            format!("{}.plot()", Call::new("lyapunov").start(start).named("points", SECTION_POINTS).text())
+            format!("{}.plot_sections()", Call::new("lyapunov").start(start).named("points", SECTION_POINTS).text())
         }
     };
     Some(format!("{text}{shown}\n"))
@@ -315,11 +316,11 @@ mod tests {
             ),
             (
                 r#"{"branch":{"label":"1/1","vary":"second_gap","to":3,"orbit":2}}"#,
-                "branch = vi.branch(osc, \"1/1\", \"second_gap\", 3, orbit=2)\n",
+                "branch = vi.branch(osc, \"second_gap\", 3, label=\"1/1\", orbit=2)\n",
             ),
             (
                 r#"{"curve":{"label":"1/1","kind":"flip","vary":{"parameter":"gap","from":0,"to":3},"and":{"parameter":"damping","from":0,"to":0.1}}}"#,
-                "curve = vi.curve(osc, \"1/1\", \"flip\", {\"gap\": (0, 3), \"damping\": (0, 0.1)})\n",
+                "curve = vi.curve(osc, \"flip\", {\"gap\": (0, 3), \"damping\": (0, 0.1)}, label=\"1/1\")\n",
             ),
             (
                 r#"{"margins":{"label":"1/1","vary":[{"parameter":"gap","scale":0.1},{"parameter":"damping"}],"within":1.5,"lines":7}}"#,
