@@ -4,11 +4,11 @@
 use vibroimpact::chaos::{ExponentOptions, Grounds, exponents};
 use vibroimpact::lanes::Width;
 use vibroimpact::motion::{End, Event, EventKind, ImpactState, Motion};
-use vibroimpact::orbit::Cycle;
+use vibroimpact::orbit::{Cycle, from_release};
 use vibroimpact::system::phase;
 use vibroimpact::verdict::{
-    KnownAttractors, NoImpact, SettleOptions, Settled, StartBox, Verdict, attractors, scattered_starts, settle,
-    settle_many,
+    KnownAttractors, NoImpact, Reason, SettleOptions, Settled, StartBox, Undecided, Verdict, attractors,
+    scattered_starts, settle, settle_many,
 };
 use vibroimpact::{Oscillator, Side, Start};
 
@@ -25,14 +25,15 @@ fn from(osc: &Oscillator, x: f64, v: f64, phase: f64) -> Settled {
     settle(osc, start, &SettleOptions::default())
 }
 
-/// The four motions that were called chaotic within the 5000 impacts over which they rest, repeat or fade.
+/// The four motions that were called chaotic within the 5000 impacts over which they rest, repeat or fade. The first two rest, and
+/// doubles do not know their periods: see `f42m`.
 fn once_chaotic() -> [(Oscillator, Start, &'static str); 4] {
     let damped = undamped(0.784_339_627_776_156_7, -0.806_919_592_797_126_2, 0.912_439_072_371_459_2);
     let damped = damped.with_damping(0.007_192_270_676_996_959).expect("the damping is legal");
     let start = |x, v, phase| Start { x, v, phase };
     [
-        (undamped(3.0, -0.05, 0.8), start(-1.5, 1.0, 0.0), "inf/421"),
-        (damped, start(-3.570_543_057_349_507, -0.426_951_663_182_411_96, 1.988_025_944_495_123_4), "inf/154"),
+        (undamped(3.0, -0.05, 0.8), start(-1.5, 1.0, 0.0), "undecided"),
+        (damped, start(-3.570_543_057_349_507, -0.426_951_663_182_411_96, 1.988_025_944_495_123_4), "undecided"),
         (
             inverse(1.85, 1.125, 0.5),
             start(-4.305_408_057_337_258, 1.994_347_726_109_132_2, 0.461_032_904_869_165_87),
@@ -52,6 +53,7 @@ fn f01a_motions_that_rest_repeat_or_fade_are_not_chaotic() {
         let settled = settle(&osc, start, &SettleOptions::default());
         assert_eq!(settled.verdict.label(), label, "{osc:?}");
         assert!(settled.impacts < 5000);
+        assert_eq!(settled.verdict.reason() == Reason::Unconfirmed, label == "undecided");
     }
 }
 
@@ -59,7 +61,8 @@ fn f01a_motions_that_rest_repeat_or_fade_are_not_chaotic() {
 #[test]
 fn f01b_chaotic_transients_are_results() {
     let transients = once_chaotic().map(|(osc, start, _)| settle(&osc, start, &SettleOptions::default()).transient);
-    for (transient, ended) in transients.into_iter().skip(1).zip([1840, 5000, 2760]) {
+    // an undecided motion has no transient
+    for (transient, ended) in transients.into_iter().skip(2).zip([5000, 2760]) {
         let chaos = transient.expect("it was chaotic for thousands of impacts");
         assert!(chaos.impacts <= ended && chaos.impacts > 1500 && chaos.spectrum.chaotic(), "{chaos:?} {ended}");
     }
@@ -429,5 +432,22 @@ fn f04c_search_steps_run_out_alike_alone_and_among_others() {
                 "{osc:?}: {alone:?} {found:?}"
             );
         }
+    }
+}
+
+/// Chaos from a release to the next rest: rounding errors decide after how many periods it comes, and no number is claimed.
+///
+/// With 140, 180 and 250 digits, followed impact by impact to speeds of 1e-100, the first is inf/294 and the second inf/101. Errors grow by
+/// 8e62 and 3e70 on the way. After a change of the first rebound by 1e-16, -1e-16 and 2e-16 of itself they are inf/186, inf/176 and inf/229, and
+/// inf/702, inf/518 and inf/119. With doubles these were called inf/421 and inf/154.
+#[test]
+fn f42m_periods_that_rounding_decides_are_not_claimed() {
+    for (osc, start, _) in once_chaotic().into_iter().take(2) {
+        for (x, v) in [(start.x, start.v), (osc.gap() - 1.0, 0.0), (osc.gap() - 2.0, 0.5)] {
+            let settled = from(&osc, x, v, start.phase);
+            let Verdict::Undecided(Undecided::Unconfirmed { impacts }) = settled.verdict else { panic!("{settled:?}") };
+            assert_eq!(impacts, settled.impacts);
+        }
+        assert_eq!(from_release(&osc, Side::Upper, 20_000), None);
     }
 }

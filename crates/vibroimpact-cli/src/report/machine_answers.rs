@@ -6,6 +6,7 @@ use crate::report::lyapunov::said;
 use crate::report::machine_curve;
 use crate::report::margins;
 use crate::report::response;
+use crate::report::words::ROUNDING_DECIDES;
 use core::fmt::Write;
 use vibroimpact::chaos::MachineSpectrum;
 use vibroimpact::continuation::MachinePoint;
@@ -156,10 +157,7 @@ fn motion(machine: &Machine, verdict: &MachineVerdict) -> String {
         MachineVerdict::Undecided { why, events, .. } => {
             let why = match why {
                 MachineUndecided::Events => "the budget is used up".to_owned(),
-                MachineUndecided::Unconfirmed => {
-                    "it is periodic, as it returns to a release from rest, but rounding errors decide its period"
-                        .to_owned()
-                }
+                MachineUndecided::Unconfirmed => ROUNDING_DECIDES.to_owned(),
                 MachineUndecided::Ended(MachineEnd::NoEventWithin) => {
                     let time = short(MachineLimits::default().time);
                     format!("no event within a time of {time} after the last one, and none is excluded later")

@@ -101,6 +101,10 @@ fn counted(n: u32, one: &str) -> String {
     format!("{number} {one}{}", if n == 1 { "" } else { "s" })
 }
 
+/// Why the period of a motion that returns to a release is not known.
+pub(super) const ROUNDING_DECIDES: &str =
+    "it is periodic, as it returns to a release from rest, but rounding errors decide its period";
+
 /// The meaning of a verdict, as a sentence without full stop.
 pub(crate) fn meaning(verdict: &Verdict) -> String {
     match verdict {
@@ -132,6 +136,7 @@ pub(crate) fn meaning(verdict: &Verdict) -> String {
         Verdict::NoImpact(_) => "no more impacts, ever".into(),
         Verdict::Chaotic(chaos) => format!("no repetition in {} impacts", chaos.impacts),
         Verdict::Stuck(at) => format!("at rest on the {} for ever", stop_name(*at)),
+        Verdict::Undecided(Undecided::Unconfirmed { .. }) => ROUNDING_DECIDES.into(),
         Verdict::Undecided(_) => "nothing could be shown within the budget".into(),
     }
 }
@@ -207,6 +212,9 @@ fn grounds(verdict: &Verdict, units: &Units) -> String {
                 measured(s.exponents[0], 1.0 / units.time())
             ))
         ),
+        Verdict::Undecided(Undecided::Unconfirmed { impacts }) => {
+            format!("{impacts} impacts; on the way from the release to the next rest errors of rounding grow too much")
+        }
         Verdict::Undecided(Undecided::Search { periods }) => format!(
             "a flight was followed for {} forcing periods without contact, too few to conclude",
             short(*periods)

@@ -214,6 +214,9 @@ impl MotionObject<'_> {
                 lyapunov: spectrum.as_ref().map(|spectrum| largest(&spectrum.exponents)),
                 ..bare
             },
+            Verdict::Undecided(Undecided::Unconfirmed { impacts }) => {
+                Self { why: Some("unconfirmed"), seen_events: Some(*impacts), ..bare }
+            }
             Verdict::Undecided(Undecided::Search { periods }) => Self {
                 why: Some("search_limit"),
                 horizon: Some(HorizonObject::new(&NoImpact::ForPeriods(*periods))),

@@ -246,10 +246,13 @@ pub fn exponents_while(
             EventKind::Stick { chatter, .. } => {
                 follow.stick(osc, interval);
                 if let Some(rate) = run.stick(osc, event.side, event.time, chatter)
-                    && let Some(cycle) = &settled
+                    && let Some(verdict) = &settled
                 {
                     let grounds = Grounds::Sticks(event.side);
-                    return Some(Exponents::exact(osc, [f64::NEG_INFINITY; 2], rate, (cycle.clone(), grounds)));
+                    // a finite number of impacts in a period that rounding errors decide is not known
+                    let known = rate == f64::INFINITY || !matches!(verdict, Verdict::Undecided(_));
+                    let rate = if known { rate } else { f64::NAN };
+                    return Some(Exponents::exact(osc, [f64::NEG_INFINITY; 2], rate, (verdict.clone(), grounds)));
                 }
             }
             EventKind::Release => {

@@ -8,6 +8,7 @@
 //! | one impact in n forcing periods, in closed form | [`one_impact`] |
 //! | Newton's method on the m-fold impact map | [`shoot`] |
 //! | cycles that stick, from their release | [`from_release`] |
+//! | whether rounding errors decide the period of a motion that comes to rest | `error_growth`, `release_errors` |
 //! | the impacts of a cycle as unknowns, and their equations, smooth through grazing | `ring`, `cyclic` |
 //! | Newton's method on these equations, and their linear systems | `newton`, `condense`; [`refine`] |
 //! | multipliers and test functions from these equations | `floquet` |
@@ -21,6 +22,7 @@ mod clearance;
 mod condense;
 mod cycle;
 mod cyclic;
+mod error_growth;
 mod find;
 mod floquet;
 mod free;
@@ -32,6 +34,7 @@ mod one_impact;
 mod physical;
 mod refine;
 mod release;
+mod release_errors;
 mod ring;
 mod shooting;
 mod stability;
@@ -58,7 +61,7 @@ pub(crate) use cyclic::{Block, blocks, by_parameter, fill};
 pub(crate) use floquet::Floquet;
 pub(crate) use free::{crest, room};
 pub(crate) use newton::{cycle as ring_cycle, solve};
-pub(crate) use release::{Excursion, Stretch};
+pub(crate) use release::{AfterRelease, Excursion, Stretch};
 pub(crate) use ring::Ring;
 pub(crate) use shooting::{Lap, flight_limits, shoot_stable};
 pub(crate) use stability::rounding;

@@ -7,6 +7,7 @@
 
 use super::cycle::{Cycle, CyclePoint, RestSpan};
 use super::label::{Count, Label};
+use super::release_errors::rounding_decides;
 use crate::contact::sticking::release_phase;
 use crate::lanes::PropagatorCache;
 use crate::math::Multiplier;
@@ -133,7 +134,8 @@ impl Excursion {
 }
 
 /// The cycle that consists of the motion after the release from the stop on `side`, if it returns to this release
-/// within `events` events; `None` otherwise, or if the stop never releases the mass.
+/// within `events` events; `None` otherwise, if the stop never releases the mass, or if rounding errors decide after how many
+/// periods it returns.
 ///
 /// ```
 /// use vibroimpact::{Oscillator, Side, orbit};
@@ -145,7 +147,28 @@ impl Excursion {
 /// ```
 #[must_use]
 pub fn from_release(osc: &Oscillator, side: Side, events: u32) -> Option<Cycle> {
-    Excursion::new(osc, side, events, f64::INFINITY)?.cycle()
+    match AfterRelease::new(osc, side, events)? {
+        AfterRelease::Cycle(cycle) => Some(cycle),
+        AfterRelease::Unconfirmed => None,
+    }
+}
+
+/// The motion after a release that returns to this release.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum AfterRelease {
+    /// The cycle.
+    Cycle(Cycle),
+    /// Rounding errors decide its period.
+    Unconfirmed,
+}
+
+impl AfterRelease {
+    /// After the release from the stop on `side`; `None` if it does not return within `events` events.
+    pub(crate) fn new(osc: &Oscillator, side: Side, events: u32) -> Option<Self> {
+        let excursion = Excursion::new(osc, side, events, f64::INFINITY)?;
+        let cycle = excursion.cycle()?;
+        Some(if rounding_decides(osc, &excursion) { Self::Unconfirmed } else { Self::Cycle(cycle) })
+    }
 }
 
 #[cfg(test)]

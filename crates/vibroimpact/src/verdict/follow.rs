@@ -12,7 +12,7 @@ use super::trapping_region::Depth;
 use crate::flight::SearchLimits;
 use crate::lyapunov::{Arrivals, MEASURED_IMPACTS};
 use crate::motion::{End, ImpactState, MAX_TOUCHES};
-use crate::orbit::{DEFAULT_EVENTS, from_release};
+use crate::orbit::{AfterRelease, DEFAULT_EVENTS};
 use crate::system::{Oscillator, Side};
 
 /// The record of a motion.
@@ -50,7 +50,9 @@ impl Releases {
             .map_or(SHORT, |impacts| u32::try_from(impacts).unwrap_or(u32::MAX).saturating_mul(4).max(DEFAULT_EVENTS));
         known
             .get_or_insert_with(|| {
-                let cycle = from_release(osc, side, events)?;
+                let AfterRelease::Cycle(cycle) = AfterRelease::new(osc, side, events)? else {
+                    return Some(Verdict::Undecided(Undecided::Unconfirmed { impacts: 0 }));
+                };
                 let periods = cycle.label.periods;
                 let landing = cycle.points.is_empty();
                 Some(if landing {
@@ -185,7 +187,11 @@ impl Follow {
         let first = &mut self.released[usize::from(side == Side::Lower)];
         let again = first.map(|then| now - then);
         first.get_or_insert(now);
-        releases.verdict(osc, side, again)
+        let verdict = releases.verdict(osc, side, again);
+        verdict.map(|verdict| match verdict {
+            Verdict::Undecided(_) => Verdict::Undecided(Undecided::Unconfirmed { impacts: now as u64 }),
+            verdict => verdict,
+        })
     }
 
     /// The verdict when the budget is used up, after a last search for a recurrence.

@@ -87,6 +87,12 @@ pub enum Undecided {
         /// The Lyapunov exponents of the last measurement; `None` if there was none.
         spectrum: Option<Spectrum>,
     },
+    /// The motion returns to a release from a stop, so it is periodic, but the rounding errors between two releases grow so
+    /// much that they decide its period.
+    Unconfirmed {
+        /// Impacts followed.
+        impacts: u64,
+    },
     /// A flight was followed for this number of forcing periods, too few to conclude that there are no more impacts.
     Search {
         /// Forcing periods without contact.
@@ -119,11 +125,13 @@ pub enum Reason {
     Impacts,
     /// Undecided within the budget of a search.
     SearchLimit,
+    /// It is periodic, and rounding errors decide its period.
+    Unconfirmed,
 }
 
 impl Reason {
     /// All reasons.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Cycle,
         Self::Exponent,
         Self::Stuck,
@@ -135,6 +143,7 @@ impl Reason {
         Self::Search,
         Self::Impacts,
         Self::SearchLimit,
+        Self::Unconfirmed,
     ];
 
     /// Its name.
@@ -152,6 +161,7 @@ impl Reason {
             Self::Search => "search",
             Self::Impacts => "impact_budget",
             Self::SearchLimit => "search_budget",
+            Self::Unconfirmed => "unconfirmed",
         }
     }
 }
@@ -172,6 +182,7 @@ impl Verdict {
             Self::NoImpact(NoImpact::ForPeriods(_)) => Reason::Search,
             Self::Undecided(Undecided::Impacts { .. }) => Reason::Impacts,
             Self::Undecided(Undecided::Search { .. }) => Reason::SearchLimit,
+            Self::Undecided(Undecided::Unconfirmed { .. }) => Reason::Unconfirmed,
         }
     }
 

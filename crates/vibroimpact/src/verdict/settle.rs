@@ -11,7 +11,8 @@
 //!   the contraction. A transient that only passes near a cycle is not captured, and it is followed further. The
 //!   flights in Newton's method end at their first contact, so the cycle is admissible;
 //! - **periodic with sticking**: every motion is the same after a release, so a release that leads back to itself shows
-//!   the cycle ([`from_release`](crate::orbit::from_release)); the multipliers are 0;
+//!   the cycle ([`from_release`](crate::orbit::from_release)); the multipliers are 0. Where rounding errors decide after how many
+//!   periods it leads back, the motion is undecided;
 //! - **chaotic**: the largest Lyapunov exponent, measured along the motion as it is followed, exceeds its error bar of
 //!   three standard errors; neighbours have separated by more than is possible on the way from an unstable cycle to a
 //!   stable one ([`Spectrum::chaotic`](crate::chaos::Spectrum::chaotic)); and none of the above was shown during the

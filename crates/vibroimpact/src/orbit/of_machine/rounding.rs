@@ -1,27 +1,13 @@
-//! Whether rounding errors decide the period of a motion that comes to rest.
-//!
-//! A rest forgets what was before, so a motion that returns to a release has the same state again, whatever happened on the way.
-//! That it closes is no evidence of the way. There each event adds rounding errors, and the derivatives of flights and
-//! events carry them on: with the covariance $`E`$ of the errors and the derivative $`A`$ of a step,
-//! $`E_+ = AEA' + D`$, where $`D`$ is that of new errors. Where the errors become as large as the differences between motions that
-//! end otherwise, numbers of these digits do not know how many periods pass until the next rest.
-//!
-//! The linear law does not see a contact that is nearly missed or nearly made, nor that a chatter forgets errors at its end. If the
-//! errors grow noticeably, neighbours at the distance of a few roundings are followed from the release on: all must come
-//! back.
+//! Whether rounding errors decide the period of a motion of a machine that comes to rest, by the rule of
+//! [`error_growth`].
 
 use super::frame::MachineFrame;
 use super::lap::MachineLap;
 use crate::events::{Passage, Place, step_derivative};
 use crate::math::Matrix;
+use crate::orbit::error_growth::{self, NEIGHBOURS, NEW};
 
-/// New errors of each step, relative to the sizes of coordinates and velocities.
-const NEW: f64 = 2.0 * f64::EPSILON;
-/// Errors above this are noticeable: neighbours are followed.
-const NOTICEABLE: f64 = 1e-9;
-/// The distance of these neighbours, their number, and how near they must come back.
-const BESIDE: f64 = 8.0 * f64::EPSILON;
-const NEIGHBOURS: usize = 4;
+/// How near, relative to the motion, neighbours must come back.
 const BACK: f64 = 1e-6;
 
 type LapStep = (f64, Place, Passage);
@@ -39,7 +25,7 @@ pub(crate) fn rounding_decides(frame: &MachineFrame<'_>, lap: &MachineLap) -> bo
     let Some(first) = (0..count).find(|k| held(&lap.steps[*k]) == most) else { return false };
     // the largest error after any step, if it is that of new errors at the rest
     let Some(error) = largest_error(frame, lap, (0..count).map(|k| (first + k) % count)) else { return false };
-    error.is_nan() || error > NOTICEABLE && neighbours_part(frame, lap, (first, most)).unwrap_or(true)
+    error_growth::decide(error, || neighbours_part(frame, lap, (first, most)))
 }
 
 /// The largest error, relative to the sizes of coordinates and velocities, on the way through these steps of a lap. `None` where a
@@ -87,9 +73,7 @@ fn neighbours_part(frame: &MachineFrame<'_>, lap: &MachineLap, (rest, most): (us
         let mut values = frame.shape.values(&middle);
         for (i, value) in values.iter_mut().enumerate() {
             let scale = if (n..2 * n).contains(&i) { speed } else { size };
-            // each neighbour on another side
-            let sign = if ((neighbour + 1) >> (i % 2)) & 1 == usize::from(i / 2 % 2 == 1) { -1.0 } else { 1.0 };
-            *value += sign * BESIDE * scale;
+            *value += error_growth::beside(neighbour, i) * scale;
         }
         let mut beside = frame.shape.with_values(&middle, &values);
         frame.constrain(&mut beside)?;
