@@ -22,9 +22,10 @@ const FEWEST: usize = 256;
 
 /// Whether rounding errors decide on which stop and after how many periods the motion comes to rest, after any of its releases.
 pub(super) fn rounding_decides(osc: &Oscillator, excursion: &Excursion) -> bool {
-    excursion.stretches.iter().any(|stretch| {
-        error_growth::decide(largest_error(osc, stretch), || neighbours_part(osc, stretch))
-    })
+    excursion
+        .stretches
+        .iter()
+        .any(|stretch| error_growth::decide(largest_error(osc, stretch), || neighbours_part(osc, stretch)))
 }
 
 /// The largest error after any impact, relative to the size of the motion, which is the same of position and velocity, as the natural

@@ -205,3 +205,38 @@ fn f42l_labels_count_closings_only() {
     assert_eq!(cycle.counts.iter().map(|count| *count as usize).collect::<Vec<_>>(), [closings(0), closings(1)]);
     assert!(closings(0) == 0 && closings(1) > 0 && cycle.label.to_string().starts_with(&format!("{}/", closings(1))));
 }
+
+/// The capsule of the catalogue: a closed stop loses its force for an instant, and beyond it opens and closes again. That is a grazing
+/// contact, in both directions. With 30 digits, from the closed forms of the regimes between the events, it is at the frequency
+/// 0.123374360093306278.
+#[test]
+fn f42n_a_closed_stop_that_opens_for_no_time() {
+    let mut parts = MachineParts::new(["mass", "capsule"])
+        .with_mass(0, 1.0)
+        .with_mass(1, 5.0)
+        .with_link(&[1.0, -1.0], 1.0, 0.1)
+        .with_force(0, 1, 1.6, 0.0)
+        .with_stop(
+            "plate",
+            &[1.0, -1.0],
+            0.02,
+            StopLaw::Compliant { stiffness: 15.0, damping: 0.0, preload: 0.0, opening: Opening::Force },
+        )
+        .with_joint("surface", &[0.0, 1.0], 1.0, 1.0, 0.0);
+    for (from, to, direction, appears) in
+        [(0.1232, 0.1236, Direction::Up, true), (0.1236, 0.1232, Direction::Down, false)]
+    {
+        parts.frequency = Some(from);
+        let machine = Machine::new(parts.clone()).unwrap();
+        let cycle = settled(&machine, &MachineStart::default()).unwrap();
+        let range = (f64::min(from, to), f64::max(from, to));
+        let points = traced((&machine, "frequency"), &cycle, range, direction);
+        let events = events(&points);
+        let grazing = MachineBranchEvent::Grazing { stop: 0, appears, turns: false };
+        assert!(
+            matches!(events.as_slice(), [(event, _), (MachineBranchEvent::EndOfRange, _)] if *event == grazing),
+            "{events:?}"
+        );
+        assert!((events[0].1 - 0.123_374_360_093_306_278).abs() < 2e-15, "{events:?}");
+    }
+}

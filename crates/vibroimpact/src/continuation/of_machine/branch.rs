@@ -343,6 +343,8 @@ impl MachineBranch {
             {
                 MachineBranchEvent::Change { place: Some(place) }
             }
+            Difference::Other { .. } => opened(ring, other)
+                .map_or(found.event(turns), |(stop, appears)| MachineBranchEvent::Grazing { stop, appears, turns }),
             _ => found.event(turns),
         };
         let complete = (0..ring.events.first().map_or(0, |event| event.back.len())).find_map(|stop| {
@@ -413,6 +415,24 @@ impl MachineBranch {
         let here = self.tracer.here.clone();
         self.add(&here, landing);
     }
+}
+
+/// The stop, if the only difference of two signatures is that a closed stop opens and closes again in one of them, and whether it does
+/// in the second one. At the event between both it only loses its force.
+fn opened(ring: &MachineRing, other: &MachineRing) -> Option<(usize, bool)> {
+    let guards = |ring: &MachineRing| ring.events.iter().map(|event| event.guard).collect::<Vec<_>>();
+    let (few, many) = (guards(ring), guards(other));
+    let (appears, few, many) = if few.len() < many.len() { (true, few, many) } else { (false, many, few) };
+    let m = many.len();
+    if few.len() + 2 != m {
+        return None;
+    }
+    (0..m).find_map(|k| {
+        let (GuardKind::Depth(stop) | GuardKind::Force(stop)) = many[k] else { return None };
+        let rest: Vec<GuardKind> = (2..m).map(|i| many[(k + i) % m]).collect();
+        let same = (0..few.len()).any(|shift| (0..few.len()).all(|i| few[(i + shift) % few.len()] == rest[i]));
+        (many[(k + 1) % m] == GuardKind::Gap(stop) && same).then_some((stop, appears))
+    })
 }
 
 /// How far from 1 or -1 a multiplier is at most at a bifurcation, which is located to rounding.

@@ -27,7 +27,7 @@ pub enum MachineBranchEvent {
     Halving,
     /// A pair of complex multipliers crosses the unit circle (Neimark-Sacker).
     Torus,
-    /// A stop is closed with speed zero.
+    /// A stop is closed with speed zero, or a closed one opens for no time.
     Grazing {
         /// The stop.
         stop: usize,
