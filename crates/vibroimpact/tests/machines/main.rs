@@ -1,5 +1,6 @@
 //! The events of machines against an independent simulation in high precision (see README.md here).
 
+#[cfg(test)]
 mod accumulation;
 #[cfg(test)]
 mod branches;
