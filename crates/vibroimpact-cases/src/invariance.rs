@@ -149,7 +149,8 @@ fn scaled(case: &Case, kind: usize, factor: f64) -> (Machine, MachineStart) {
 }
 
 /// The machine and its start with all numbers that are not zero changed by some roundings, each by itself.
-fn rounded(case: &Case, seed: u64) -> (Machine, MachineStart) {
+#[must_use]
+pub fn rounded(case: &Case, seed: u64) -> (Machine, MachineStart) {
     let (mut parts, mut start) = (case.machine.parts().clone(), case.start.clone());
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     let mut change = |value: &mut f64| {

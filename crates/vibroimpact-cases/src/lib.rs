@@ -38,6 +38,6 @@ pub use case::{Case, Drawn, Symmetry};
 pub use changes::{Changed, Rewriting, changed};
 pub use draw::Draw;
 pub use families::{DrawnFamily, FAMILIES};
-pub use invariance::Standard;
+pub use invariance::{Standard, rounded};
 pub use open::DIFFERS;
 pub use rules::{BrokenRule, Budget, Rule, faults};

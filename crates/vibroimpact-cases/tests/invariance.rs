@@ -3,7 +3,7 @@
 
 use vibroimpact::orbit::Stability;
 use vibroimpact::verdict::{SettleOptions, settle_machine};
-use vibroimpact_cases::{Budget, Case, DIFFERS, FAMILIES, Rewriting, Standard, changed};
+use vibroimpact_cases::{Budget, Case, DIFFERS, FAMILIES, Rewriting, Standard, changed, rounded};
 
 fn long() -> bool {
     std::env::var("VIBROIMPACT_LONG").is_ok()
@@ -58,6 +58,22 @@ fn label(verdict: &str, twice: bool) -> String {
     }
 }
 
+/// Whether rounding errors can give this verdict on a case: one of the motions whose numbers are changed by some roundings, each by
+/// itself, has it.
+fn is_of_a_rounding(case: &Case, verdict: &str, options: &SettleOptions) -> bool {
+    (0..ROUNDED).any(|seed| {
+        let (machine, start) = rounded(case, seed);
+        settle_machine(&machine, &start, options).unwrap().verdict.label() == verdict
+    })
+}
+
+/// The number of these motions.
+const ROUNDED: u64 = 60;
+
+/// A verdict does not depend on how the machine is written, as far as the motion does not: after some tens of events of a chaotic motion,
+/// rounding errors decide where it is, when a transient ends, and in which motion, and whether an exponent exceeds its
+/// error bar at the end of the budget. So where verdicts differ, the other one must be that of a motion of the same machine
+/// whose numbers differ by roundings.
 #[test]
 fn verdicts_do_not_depend_on_names_order_units_and_signs() {
     let options = SettleOptions::at_most(if long() { 4000 } else { 1000 });
@@ -73,7 +89,8 @@ fn verdicts_do_not_depend_on_names_order_units_and_signs() {
                 let again = changed(&case, change);
                 let verdict = settle_machine(&again.machine, &again.start, &options).unwrap().verdict.label();
                 let undecided = neutral && verdict == "undecided";
-                if label(&verdict, change == Rewriting::Twice) != standard && !undecided {
+                let verdict = label(&verdict, change == Rewriting::Twice);
+                if verdict != standard && !undecided && !is_of_a_rounding(&case, &verdict, &options) {
                     wrong.push(format!("{} {seed} {change:?}: {verdict} instead of {standard}", family.name));
                 }
             }

@@ -2,13 +2,15 @@
 //! motion followed ten times as far, each start alone and in company.
 
 use vibroimpact::chaos::{ExponentOptions, Grounds, exponents};
+use vibroimpact::events::MachineStart;
 use vibroimpact::lanes::Width;
+use vibroimpact::machine::{Machine, MachineParts};
 use vibroimpact::motion::{End, Event, EventKind, ImpactState, Motion};
 use vibroimpact::orbit::{Cycle, from_release};
 use vibroimpact::system::phase;
 use vibroimpact::verdict::{
-    KnownAttractors, NoImpact, Reason, SettleOptions, Settled, StartBox, Undecided, Verdict, attractors,
-    scattered_starts, settle, settle_many,
+    KnownAttractors, MachineUndecided, MachineVerdict, NoImpact, Reason, SettleOptions, Settled, StartBox, Undecided,
+    Verdict, attractors, scattered_starts, settle, settle_machine, settle_many,
 };
 use vibroimpact::{Oscillator, Side, Start};
 
@@ -449,5 +451,32 @@ fn f42m_periods_that_rounding_decides_are_not_claimed() {
             assert_eq!(impacts, settled.impacts);
         }
         assert_eq!(from_release(&osc, Side::Upper, 20_000), None);
+        // the machine with the same numbers says the same
+        let parts = MachineParts::new(["mass"])
+            .with_mass(0, 1.0)
+            .with_link(&[1.0], 1.0, 2.0 * osc.damping())
+            .with_frequency(osc.beta())
+            .with_force(0, 1, 0.0, 1.0)
+            .with_rigid_stop("stop", &[1.0], osc.gap(), osc.restitution());
+        let start =
+            MachineStart { q: vec![start.x], qdot: vec![start.v], phase: start.phase, ..MachineStart::default() };
+        let found = settle_machine(&Machine::new(parts).unwrap(), &start, &SettleOptions::default()).unwrap().verdict;
+        let MachineVerdict::Undecided { why, .. } = found else { panic!("{}", found.label()) };
+        assert_eq!(why, MachineUndecided::Unconfirmed);
+    }
+}
+
+/// Short ways from a release to a rest are known, after a chatter and after impacts without rebound.
+#[test]
+fn f42m_short_ways_are_known() {
+    for (osc, label) in [
+        (inverse(1.11, -0.5, 0.5), "inf/1"),
+        (inverse(0.9, -0.9, 0.7), "inf/1"),
+        (inverse(2.5, 0.25, 0.5), "inf/1"),
+        (inverse(1.3, 0.3, 0.0), "1/1"),
+    ] {
+        let cycle = from_release(&osc, Side::Upper, 4000).unwrap();
+        assert_eq!(cycle.label.to_string(), label);
+        assert_eq!(from(&osc, osc.gap().min(0.0) - 1.0, 0.0, 0.0).verdict.label(), label);
     }
 }

@@ -176,13 +176,14 @@ impl MachineMeasure {
         Some(MachineSpectrum { exponents, closings: of(&|block| block.closings), time })
     }
 
-    /// The exponents, and whether the motion is chaotic by this measurement: it is by the whole, and its last fifth
-    /// diverges too.
+    /// The exponents, and whether the motion is chaotic by this measurement: it is by the whole, and in its last fifth the
+    /// direction of the largest exponent diverges too. That need not be the first one: in a machine of independent parts each direction
+    /// of the frame stays in its part.
     pub(crate) fn chaos(&self) -> Option<(MachineSpectrum, bool)> {
         let spectrum = self.spectrum()?;
-        let last: f64 =
-            self.blocks.iter().rev().take(FEWEST).map(|block| block.logs.first().copied().unwrap_or(0.0)).sum();
-        let chaotic = spectrum.chaotic() && last > 0.0;
+        let over = |k: usize, count: usize| self.blocks.iter().rev().take(count).map(|block| block.logs[k]).sum::<f64>();
+        let largest = (0..self.frame.len()).max_by(|a, b| over(*a, BLOCKS).total_cmp(&over(*b, BLOCKS)));
+        let chaotic = spectrum.chaotic() && largest.is_some_and(|k| over(k, FEWEST) > 0.0);
         Some((spectrum, chaotic))
     }
 }
