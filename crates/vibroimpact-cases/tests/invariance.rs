@@ -98,3 +98,18 @@ fn verdicts_do_not_depend_on_names_order_units_and_signs() {
     }
     assert!(wrong.is_empty(), "{}:\n{}", wrong.len(), wrong.join("\n"));
 }
+
+/// Machines of parts that do not act on each other, whose verdict has depended on the order of their coordinates: chaos was decided in
+/// the last fifth of its measurement by the part of the first one.
+#[test]
+fn chaos_of_one_part_is_found_in_any_order() {
+    let family = vibroimpact_cases::DrawnFamily::named("rotated").unwrap();
+    let options = SettleOptions::at_most(4000);
+    for seed in [2, 16, 25, 29, 31] {
+        let case = family.case(seed);
+        let again = changed(&case, Rewriting::Order);
+        for (machine, start) in [(&case.machine, &case.start), (&again.machine, &again.start)] {
+            assert_eq!(settle_machine(machine, start, &options).unwrap().verdict.label(), "chaotic", "{seed}");
+        }
+    }
+}

@@ -181,7 +181,8 @@ impl MachineMeasure {
     /// of the frame stays in its part.
     pub(crate) fn chaos(&self) -> Option<(MachineSpectrum, bool)> {
         let spectrum = self.spectrum()?;
-        let over = |k: usize, count: usize| self.blocks.iter().rev().take(count).map(|block| block.logs[k]).sum::<f64>();
+        let over =
+            |k: usize, count: usize| self.blocks.iter().rev().take(count).map(|block| block.logs[k]).sum::<f64>();
         let largest = (0..self.frame.len()).max_by(|a, b| over(*a, BLOCKS).total_cmp(&over(*b, BLOCKS)));
         let chaotic = spectrum.chaotic() && largest.is_some_and(|k| over(k, FEWEST) > 0.0);
         Some((spectrum, chaotic))

@@ -98,3 +98,24 @@ fn energy_and_momentum() {
     // rounding errors add up as a random walk: a thousand of them
     assert!((energy(&v) / before - 1.0).abs() < 1e-12, "{}", energy(&v) / before - 1.0);
 }
+
+/// Chaos of one part of a machine whose parts do not act on each other is that of the machine, whatever the order of its coordinates: U
+/// of the paper beside an oscillator that comes to a steady motion.
+#[test]
+fn f42o_chaos_beside_a_steady_part() {
+    for chaotic in [0, 1] {
+        let mut parts = MachineParts::new(["a", "b"]).with_frequency(1.0 / 1.11);
+        for i in 0..2 {
+            let mut own = [0.0, 0.0];
+            own[i] = 1.0;
+            let damping = if i == chaotic { 0.0 } else { 0.3 };
+            parts = parts.with_mass(i, 1.0).with_link(&own, 1.0, damping).with_force(i, 1, 0.0, 1.0);
+            if i == chaotic {
+                parts = parts.with_rigid_stop("stop", &own, 3.0, 0.5);
+            }
+        }
+        let machine = Machine::new(parts).unwrap();
+        let found = settle_machine(&machine, &MachineStart::default(), &SettleOptions::default()).unwrap().verdict;
+        assert_eq!(found.label(), "chaotic", "{chaotic}");
+    }
+}
