@@ -7,6 +7,7 @@
 //! | damping by the ratios of the modes | [`modal_damping`] |
 //! | a checked machine, its numbers by path | [`Machine`], `path` |
 //! | the derivatives of its numbers by another one | `rate` |
+//! | the oscillator that a machine of one coordinate is | [`Machine::reduced`] |
 
 mod checks;
 mod error;
@@ -14,10 +15,12 @@ mod modal;
 mod parts;
 mod path;
 mod rate;
+mod reduced;
 mod value;
 
 pub use checks::MOST_COORDINATES;
 pub use error::{MachineError, MachineFault};
 pub use modal::modal_damping;
 pub use parts::{FrictionJoint, HarmonicForce, HarmonicMotion, ImpactLaw, MachineParts, MachineStop, Opening, StopLaw};
+pub use reduced::Reduction;
 pub use value::Machine;

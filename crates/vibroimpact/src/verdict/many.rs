@@ -44,6 +44,11 @@ impl KnownAttractors {
         }
         survey
     }
+
+    /// The verdicts on the motions.
+    pub(super) fn verdicts(&self) -> impl Iterator<Item = &Verdict> {
+        self.known.iter().map(|(verdict, _)| verdict)
+    }
 }
 
 /// Settles the starts with these indices. `tick` is called after each start; if it returns true, the computation stops.

@@ -38,8 +38,9 @@ pub use each::{Counted, settle_each};
 pub(crate) use follow::{Follow, Releases, ended};
 pub use many::{KnownAttractors, settle_many};
 pub use of_machine::{
-    MachineSettled, MachineTail, MachineUndecided, MachineVerdict, scattered_machine_starts, settle_machine,
-    settle_machine_while,
+    KnownMotions, MachineSettled, MachineSettlement, MachineTail, MachineUndecided, MachineVerdict,
+    scattered_machine_starts, settle_each_machine, settle_machine, settle_machine_many, settle_machine_while,
+    settle_unreduced,
 };
 pub(crate) use of_machine::{Recorded, Step};
 pub use options::SettleOptions;

@@ -5,6 +5,7 @@
 
 mod branches;
 mod events;
+mod reduced;
 mod verdicts;
 
 use vibroimpact::events::MachineStart;

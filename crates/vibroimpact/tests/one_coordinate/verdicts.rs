@@ -1,8 +1,8 @@
-//! The verdicts on both.
+//! The verdicts on both, the machine followed as any other.
 
 use crate::{System, is_long, some};
 use vibroimpact::Start;
-use vibroimpact::verdict::{MachineVerdict, NoImpact, SettleOptions, Verdict, settle, settle_machine};
+use vibroimpact::verdict::{MachineVerdict, NoImpact, SettleOptions, Verdict, settle, settle_unreduced};
 
 /// The labels of the motions of the oscillator from starts with a velocity that is wrong by up to 100 roundings.
 fn beside<'a>(system: &'a System, options: &'a SettleOptions) -> impl Iterator<Item = String> + 'a {
@@ -24,7 +24,7 @@ fn the_same_motions() {
     let mut sensitive = 0;
     for system in some() {
         let expected = settle(&system.oscillator, system.start, &options).verdict;
-        let found = settle_machine(&system.machine(), &system.machine_start(), &options).unwrap().verdict;
+        let found = settle_unreduced(&system.machine(), &system.machine_start(), &options).unwrap().verdict;
         let mut fault =
             |what: String| differ.push(format!("{}: {} {}: {what}", system.text, expected.label(), found.label()));
         match (&expected, &found) {

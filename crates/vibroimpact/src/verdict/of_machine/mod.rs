@@ -6,13 +6,20 @@
 //! | the last part of a motion, for its quantities | [`MachineTail`] |
 //! | starts spread over the states of a machine | [`scattered_machine_starts`] |
 //! | from a start to a verdict | [`settle_machine`] |
+//! | the same for a machine that is an oscillator | `reduced` |
+//! | many starts: of one machine, of several | [`settle_machine_many`], [`settle_each_machine`] |
 
+mod many;
+mod reduced;
 mod returns;
 mod settle;
 mod starts;
 mod tail;
 
+pub use many::{KnownMotions, MachineSettlement, settle_each_machine, settle_machine_many};
 pub(crate) use returns::{Recorded, Step};
-pub use settle::{MachineSettled, MachineUndecided, MachineVerdict, settle_machine, settle_machine_while};
+pub use settle::{
+    MachineSettled, MachineUndecided, MachineVerdict, settle_machine, settle_machine_while, settle_unreduced,
+};
 pub use starts::scattered_machine_starts;
 pub use tail::MachineTail;

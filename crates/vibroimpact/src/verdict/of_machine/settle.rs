@@ -4,6 +4,8 @@ use super::super::attractors::SteadyMotion;
 use super::super::options::SettleOptions;
 use super::super::record::{Record, Shown};
 use super::super::recurring::Recurring;
+use super::super::settle::settle_while;
+use super::reduced;
 use super::returns::{Recorded, Step};
 use super::tail::MachineTail;
 use crate::events::{MachineEnd, MachineLimits, MachineMotion, MachineStart};
@@ -61,7 +63,7 @@ pub enum MachineUndecided {
 pub struct MachineSettled {
     /// The verdict.
     pub verdict: MachineVerdict,
-    /// The number of events that were followed.
+    /// The number of events that were followed; of impacts, if the machine was followed as an oscillator.
     pub events: u64,
     /// The time that was followed.
     pub time: f64,
@@ -138,6 +140,10 @@ impl SteadyMotion for MachineVerdict {
 /// The verdict on the motion of `machine` from `start`. In the options an impact stands for an event, and the limits of
 /// the search of the oscillator are not used.
 ///
+/// A machine that [is an oscillator](Machine::reduced) is followed as that: the options then mean what they mean for
+/// [`settle`](crate::verdict::settle()), events are impacts, and chaos is decided as early as there. What the oscillator does not
+/// decide for the machine, and the motion from a start that says what its contacts do, is followed as that of any machine.
+///
 /// ```
 /// use vibroimpact::events::MachineStart;
 /// use vibroimpact::machine::{Machine, MachineParts};
@@ -162,14 +168,7 @@ pub fn settle_machine(
     start: &MachineStart,
     options: &SettleOptions,
 ) -> Result<MachineSettled, MachineError> {
-    let frame = MachineFrame::new(machine);
-    // it is never stopped
-    Ok(settle_in(frame, start, options, &|| true)?.unwrap_or(MachineSettled {
-        verdict: MachineVerdict::Undecided { why: MachineUndecided::Events, spectrum: None, events: 0 },
-        events: 0,
-        time: 0.0,
-        transient: None,
-    }))
+    unstopped(settle_machine_while(machine, start, options, &|| true))
 }
 
 /// The same, but stopped when `go_on` returns false, and then `None`. `go_on` is called at every step.
@@ -182,7 +181,38 @@ pub fn settle_machine_while(
     options: &SettleOptions,
     go_on: &dyn Fn() -> bool,
 ) -> Result<Option<MachineSettled>, MachineError> {
+    if let Some(reduction) = machine.reduced()
+        && let Some(from) = reduced::start_of(&reduction, start)
+    {
+        let Some(found) = settle_while(&reduction.oscillator, from, options, go_on) else { return Ok(None) };
+        if let Some(found) = reduced::settled(machine, &reduction, &found) {
+            return Ok(Some(found));
+        }
+    }
     settle_in(MachineFrame::new(machine), start, options, go_on)
+}
+
+/// The same as [`settle_machine`], but also a machine that is an oscillator is followed as any other: it takes a hundred times as
+/// long, and checks it.
+///
+/// # Errors
+/// [`MachineError`] for an invalid start.
+pub fn settle_unreduced(
+    machine: &Machine,
+    start: &MachineStart,
+    options: &SettleOptions,
+) -> Result<MachineSettled, MachineError> {
+    unstopped(settle_in(MachineFrame::new(machine), start, options, &|| true))
+}
+
+/// The verdict on a motion that was not stopped.
+fn unstopped(found: Result<Option<MachineSettled>, MachineError>) -> Result<MachineSettled, MachineError> {
+    Ok(found?.unwrap_or(MachineSettled {
+        verdict: MachineVerdict::Undecided { why: MachineUndecided::Events, spectrum: None, events: 0 },
+        events: 0,
+        time: 0.0,
+        transient: None,
+    }))
 }
 
 /// How many events of a machine stand for one impact of the longest period that is searched for.
@@ -331,7 +361,7 @@ mod tests {
                 let start = Start { x, v, phase: 0.0 };
                 let expected = settle(&osc, start, &SettleOptions::default()).verdict;
                 let own = MachineStart { q: vec![x], qdot: vec![v], phase: 0.0, ..MachineStart::default() };
-                let found = settle_machine(&machine, &own, &SettleOptions::default()).unwrap().verdict;
+                let found = settle_unreduced(&machine, &own, &SettleOptions::default()).unwrap().verdict;
                 assert_eq!(found.label(), expected.label(), "{} from {x} {v}", point.name);
                 if let (MachineVerdict::Periodic(cycle), Verdict::Periodic(of)) = (&found, &expected) {
                     assert!(cycle.residual < 1e-12);

@@ -1,0 +1,221 @@
+//! Many starts of machines: the distinct motions, and the motion of each start.
+//!
+//! A machine that is an oscillator settles its starts as one: side by side in lanes, those of several machines beside each other,
+//! and with the trapping regions of cycles that are known. Only the distinct motions are converted to verdicts on the machine.
+//! All other starts are settled one after another. The verdict on a start is that of [`settle_machine`](super::settle_machine)
+//! either way, and a motion has the verdict on the first start that leads to it.
+
+use super::super::attractors::{CountedMotion, SAME, SteadyMotion};
+use super::super::each::settle_each;
+use super::super::many::{KnownAttractors, settle_many};
+use super::super::options::SettleOptions;
+use super::super::outcome::Verdict;
+use super::super::settlement::Settlement;
+use super::reduced::{self, Converted};
+use super::settle::{MachineVerdict, settle_unreduced};
+use crate::events::MachineStart;
+use crate::lanes::Width;
+use crate::machine::{Machine, Reduction};
+use crate::system::Start;
+
+/// The motions to which starts of one machine lead.
+#[derive(Clone, Debug, Default)]
+pub struct MachineSettlement {
+    /// The distinct motions, in the order of the first start that leads to each.
+    pub motions: Vec<CountedMotion<MachineVerdict>>,
+    /// The index of its motion for each start; `None` for a start that is not allowed.
+    pub cells: Vec<Option<u32>>,
+    /// For each start of a chaotic motion the number of events over which chaos was seen.
+    pub seen: Vec<Option<u64>>,
+}
+
+/// What is known of a machine before many starts are settled: the cycles that have trapping regions. Empty unless the machine is an
+/// oscillator.
+#[derive(Clone, Debug, Default)]
+pub struct KnownMotions {
+    attractors: KnownAttractors,
+    converted: Vec<(Verdict, Converted)>,
+}
+
+impl KnownMotions {
+    /// Settles these starts one by one, if the machine is an oscillator, and keeps the cycles that have a trapping region.
+    #[must_use]
+    pub fn survey(machine: &Machine, starts: &[MachineStart], options: &SettleOptions) -> Self {
+        let Some(reduction) = machine.reduced() else { return Self::default() };
+        let plain = starts.iter().filter_map(|start| reduced::start_of(&reduction, start));
+        let attractors = KnownAttractors::survey(&reduction.oscillator, plain, options);
+        let converted = attractors.verdicts().map(|of| (of.clone(), reduced::converted(machine, &reduction, of)));
+        Self { converted: converted.collect(), attractors }
+    }
+}
+
+/// Settles starts of one machine; `None` if stopped. `tick` is called for each start; if it returns true, the computation stops.
+///
+/// ```
+/// use vibroimpact::events::MachineStart;
+/// use vibroimpact::lanes::Width;
+/// use vibroimpact::machine::{Machine, MachineParts};
+/// use vibroimpact::verdict::{KnownMotions, SettleOptions, settle_machine_many};
+/// // S of the 1971 paper: two motions coexist
+/// let parts = MachineParts::new(["mass"])
+///     .with_mass(0, 1.0)
+///     .with_link(&[1.0], 1.0, 0.0)
+///     .with_frequency(1.0 / 1.3)
+///     .with_force(0, 1, 0.0, 1.0)
+///     .with_rigid_stop("stop", &[1.0], 0.75, 0.5);
+/// let machine = Machine::new(parts)?;
+/// let start = |k: u32| MachineStart { qdot: vec![0.01 * f64::from(k) - 4.0], ..MachineStart::default() };
+/// let starts: Vec<MachineStart> = (0..800).map(start).collect();
+/// let options = SettleOptions::default();
+/// let known = KnownMotions::survey(&machine, &starts[..8], &options);
+/// let settled = settle_machine_many(&machine, &starts, &known, &options, Width::best(), &|| false).unwrap();
+/// assert_eq!((settled.motions.len(), settled.cells.len()), (2, 800)); // 1/1 and 2/1
+/// # Ok::<(), vibroimpact::machine::MachineError>(())
+/// ```
+#[must_use]
+pub fn settle_machine_many(
+    machine: &Machine,
+    starts: &[MachineStart],
+    known: &KnownMotions,
+    options: &SettleOptions,
+    width: Width,
+    tick: &dyn Fn() -> bool,
+) -> Option<MachineSettlement> {
+    let mut question = Question::new(machine, starts, options);
+    question.known = Some(known);
+    let settlement = question.reduction.map(|reduction| {
+        let start = |k: u64| question.plain(k);
+        let range = 0..question.places.len() as u64;
+        settle_many(&reduction.oscillator, range, &start, &known.attractors, options, width, tick)
+    });
+    question.settle(settlement, tick)
+}
+
+/// Settles the starts of each of several machines; `None` if stopped. `tick` is called for each start; if it returns true, the
+/// computation stops.
+#[must_use]
+pub fn settle_each_machine(
+    problems: &[(Machine, Vec<MachineStart>)],
+    options: &SettleOptions,
+    width: Width,
+    tick: &dyn Fn() -> bool,
+) -> Option<Vec<MachineSettlement>> {
+    let questions: Vec<Question<'_>> =
+        problems.iter().map(|(machine, starts)| Question::new(machine, starts, options)).collect();
+    let reduced: Vec<(usize, Reduction)> =
+        questions.iter().enumerate().filter_map(|(k, question)| Some((k, question.reduction?))).collect();
+    let counted: Vec<_> =
+        reduced.iter().map(|(k, reduction)| (reduction.oscillator, questions[*k].places.len() as u64)).collect();
+    let mut settlements: Vec<Option<Settlement>> = vec![None; questions.len()];
+    let start = |system: usize, k: u64| questions[reduced[system].0].plain(k);
+    let ended = settle_each(&counted, &start, options, false, width, &mut |system, settlement| {
+        let stop = settlement.cells.iter().fold(false, |stop, _| tick() || stop);
+        settlements[reduced[system].0] = Some(settlement);
+        stop
+    });
+    if !ended {
+        return None;
+    }
+    questions.iter().zip(settlements).map(|(question, settlement)| question.settle(settlement, tick)).collect()
+}
+
+/// The starts of a machine.
+struct Question<'a> {
+    machine: &'a Machine,
+    starts: &'a [MachineStart],
+    options: &'a SettleOptions,
+    known: Option<&'a KnownMotions>,
+    reduction: Option<Reduction>,
+    /// The starts that the oscillator has, each with its place among all.
+    places: Vec<(usize, Start)>,
+}
+
+impl<'a> Question<'a> {
+    fn new(machine: &'a Machine, starts: &'a [MachineStart], options: &'a SettleOptions) -> Self {
+        let reduction = machine.reduced();
+        let plain = |reduction: &Reduction| {
+            let of = |(place, start)| Some((place, reduced::start_of(reduction, start)?));
+            starts.iter().enumerate().filter_map(of).collect()
+        };
+        let places = reduction.as_ref().map(plain).unwrap_or_default();
+        Self { machine, starts, options, known: None, reduction, places }
+    }
+
+    /// A start of the oscillator.
+    #[allow(clippy::cast_possible_truncation)] // an index
+    fn plain(&self, k: u64) -> Start {
+        self.places[k as usize].1
+    }
+
+    /// What a motion of the oscillator is of the machine.
+    fn converted(&self, reduction: &Reduction, of: &Verdict) -> Converted {
+        let known = self.known.and_then(|known| known.converted.iter().find(|(known, _)| known.same_as(of, SAME)));
+        known.map_or_else(|| reduced::converted(self.machine, reduction, of), |(_, converted)| converted.clone())
+    }
+
+    /// The motions of all starts, where those of the oscillator are settled; `None` if stopped.
+    fn settle(&self, settlement: Option<Settlement>, tick: &dyn Fn() -> bool) -> Option<MachineSettlement> {
+        let settlement = settlement.unwrap_or_default();
+        if settlement.cells.len() < self.places.len() {
+            return None;
+        }
+        let convert = |found: &CountedMotion| Some(self.converted(self.reduction.as_ref()?, &found.verdict));
+        let converted: Vec<Option<Converted>> = settlement.motions.iter().map(convert).collect();
+        let mut leads: Vec<Option<(usize, u64)>> = vec![None; self.starts.len()];
+        for (((place, _), cell), ending) in self.places.iter().zip(&settlement.cells).zip(&settlement.endings) {
+            leads[*place] = Some((*cell as usize, u64::from(ending.impacts)));
+        }
+        let mut found = MachineSettlement::default();
+        // the number here of each motion of the oscillator, once it is known
+        let mut numbers: Vec<Option<u32>> = vec![None; converted.len()];
+        for (start, lead) in self.starts.iter().zip(leads) {
+            if let Some((motion, impacts)) = lead
+                && let Some(number) = numbers[motion].or_else(|| match &converted[motion] {
+                    Some(Converted::Verdict(verdict)) => Some(found.number(verdict)),
+                    _ => None,
+                })
+            {
+                numbers[motion] = Some(number);
+                found.lead(Some(number), Some(impacts));
+                continue;
+            }
+            let own = settle_unreduced(self.machine, start, self.options).ok().map(|settled| settled.verdict);
+            let number = own.as_ref().map(|verdict| found.number(verdict));
+            found.lead(number, own.as_ref().and_then(MachineVerdict::seen_events));
+            if let (Some((motion, _)), Some(own)) = (lead, &own)
+                && matches!(converted[motion], Some(Converted::Kind))
+                && own.label() == settlement.motions[motion].verdict.label()
+            {
+                numbers[motion] = number;
+            }
+            // those of the oscillator have been counted
+            if lead.is_none() && tick() {
+                return None;
+            }
+        }
+        Some(found)
+    }
+}
+
+impl MachineSettlement {
+    /// The number of a motion; a new motion is added.
+    fn number(&mut self, verdict: &MachineVerdict) -> u32 {
+        let known = self.motions.iter().position(|found| found.verdict.same_as(verdict, SAME));
+        let number = known.unwrap_or_else(|| {
+            self.motions.push(CountedMotion { verdict: verdict.clone(), count: 0 });
+            self.motions.len() - 1
+        });
+        u32::try_from(number).unwrap_or(u32::MAX)
+    }
+
+    /// The next start leads to a motion, which was followed for so many events.
+    fn lead(&mut self, number: Option<u32>, events: Option<u64>) {
+        let motion = number.and_then(|number| self.motions.get_mut(number as usize));
+        let chaotic = motion.is_some_and(|found| {
+            found.count += 1;
+            found.verdict.seen_events().is_some()
+        });
+        self.cells.push(number);
+        self.seen.push(events.filter(|_| chaotic));
+    }
+}

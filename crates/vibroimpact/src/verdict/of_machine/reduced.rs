@@ -1,0 +1,118 @@
+//! Verdicts on a machine that is an oscillator: those on the oscillator, in the numbers of the machine.
+//!
+//! The oscillator decides, by its own record, budget and bits. A cycle is then closed by the machine from a state between two
+//! impacts, so that all its numbers are the machine's own; exponents are those of the oscillator per unit of the machine's time.
+//! What the machine would not call the same, and what depends on more than the motion, is left to the machine: a motion without
+//! impacts or at rest has a last state, and the limits of the search of the oscillator are not those of the machine.
+
+use super::super::outcome::{Chaos, NoImpact, Undecided, Verdict};
+use super::super::settle::Settled;
+use super::settle::{MachineSettled, MachineUndecided, MachineVerdict};
+use super::tail::MachineTail;
+use crate::events::{MachineLimits, MachineMotion, MachineStart, Place};
+use crate::flight::Flight;
+use crate::lyapunov::{MachineSpectrum, Measured, Spectrum};
+use crate::machine::{Machine, Reduction};
+use crate::orbit::{Cycle, MachineCycle, MachineFrame};
+use crate::system::{Start, phase};
+
+/// What a verdict on the oscillator says of the machine.
+#[derive(Clone, Debug)]
+pub(super) enum Converted {
+    /// This.
+    Verdict(MachineVerdict),
+    /// The kind of the motion. The rest follows from the machine's own motion from any start that leads to it.
+    Kind,
+    /// Nothing.
+    Unknown,
+}
+
+/// The start of the oscillator; `None` for one that says what its contacts do, that has digits of its own, or that is not valid.
+pub(super) fn start_of(reduction: &Reduction, start: &MachineStart) -> Option<Start> {
+    let number = |values: &[f64]| match values {
+        [] => Some(0.0),
+        [one] => Some(*one),
+        _ => None,
+    };
+    if !start.contacts.is_empty() || !start.exact.is_empty() {
+        return None;
+    }
+    reduction.start(number(&start.q)?, number(&start.qdot)?, start.phase)
+}
+
+/// The verdict on the motion of the machine from a start from which the oscillator settles so; `None` if the machine decides.
+pub(super) fn settled(machine: &Machine, reduction: &Reduction, settled: &Settled) -> Option<MachineSettled> {
+    let Converted::Verdict(verdict) = converted(machine, reduction, &settled.verdict) else { return None };
+    Some(MachineSettled {
+        verdict,
+        events: settled.impacts,
+        time: settled.time * reduction.time(),
+        transient: settled.transient.map(|Chaos { spectrum, .. }| in_time(reduction, &spectrum)),
+    })
+}
+
+/// What a verdict on the oscillator says of the machine.
+pub(super) fn converted(machine: &Machine, reduction: &Reduction, verdict: &Verdict) -> Converted {
+    let found = match verdict {
+        Verdict::Periodic(cycle) => closed(machine, reduction, cycle).map(MachineVerdict::Periodic),
+        Verdict::Chaotic(Chaos { spectrum, impacts }) => {
+            let from = place(machine, reduction, spectrum.tail.from.rebound(&reduction.oscillator));
+            from.map(|from| MachineVerdict::Chaotic {
+                spectrum: in_time(reduction, spectrum),
+                events: *impacts,
+                tail: MachineTail { from, steps: spectrum.tail.impacts },
+            })
+        }
+        Verdict::Undecided(Undecided::Impacts { impacts, spectrum }) => Some(MachineVerdict::Undecided {
+            why: MachineUndecided::Events,
+            spectrum: spectrum.map(|spectrum| in_time(reduction, &spectrum)),
+            events: *impacts,
+        }),
+        Verdict::Stuck(_) | Verdict::NoImpact(NoImpact::Flight(_)) => return Converted::Kind,
+        Verdict::NoImpact(_) | Verdict::Undecided(Undecided::Search { .. }) => None,
+    };
+    found.map_or(Converted::Unknown, Converted::Verdict)
+}
+
+/// The cycle of the oscillator, closed by the machine; `None` if the machine gives it another label.
+fn closed(machine: &Machine, reduction: &Reduction, cycle: &Cycle) -> Option<MachineCycle> {
+    let from = place(machine, reduction, flying(reduction, cycle)?)?;
+    let found = MachineCycle::near(&MachineFrame::new(machine), &from, cycle.label.periods)?;
+    (found.label == cycle.label).then_some(found)
+}
+
+/// A state of a cycle between two contacts.
+fn flying(reduction: &Reduction, cycle: &Cycle) -> Option<Start> {
+    let osc = &reduction.oscillator;
+    let (flight, time) = match cycle.rests.last() {
+        // its impacts begin after this release
+        Some(rest) => {
+            let turn = phase::wrap(cycle.points.first()?.state.phase - rest.release);
+            (Flight::release(osc, rest.side, rest.release), turn / osc.beta())
+        }
+        None => {
+            let longest = cycle.points.iter().max_by(|a, b| a.interval.total_cmp(&b.interval))?;
+            (Flight::new(osc, longest.state.rebound(osc)), longest.interval)
+        }
+    };
+    let (x, v) = flight.state(0.5 * time);
+    Some(Start { x, v, phase: flight.phase_at(0.5 * time) })
+}
+
+/// The state of the machine at one of the oscillator.
+fn place(machine: &Machine, reduction: &Reduction, at: Start) -> Option<Place> {
+    let (q, qdot, phase) = reduction.state(at);
+    let start = MachineStart { q: vec![q], qdot: vec![qdot], phase, ..MachineStart::default() };
+    Some(MachineMotion::new(machine, &start, MachineLimits::default()).ok()?.place().clone())
+}
+
+/// Exponents per unit of the machine's time.
+fn in_time(reduction: &Reduction, spectrum: &Spectrum) -> MachineSpectrum {
+    let per = |unit: f64, of: Measured| Measured { value: of.value / unit, error: of.error / unit };
+    let time = reduction.time();
+    MachineSpectrum {
+        exponents: spectrum.exponents.iter().map(|of| per(time, *of)).collect(),
+        closings: per(time * reduction.oscillator.period(), spectrum.impacts_per_period),
+        time: spectrum.time * time,
+    }
+}
