@@ -5,7 +5,7 @@ use vibroimpact::Start;
 use vibroimpact::verdict::{MachineVerdict, NoImpact, SettleOptions, Verdict, settle, settle_unreduced};
 
 /// The labels of the motions of the oscillator from starts with a velocity that is wrong by up to 100 roundings.
-fn beside<'a>(system: &'a System, options: &'a SettleOptions) -> impl Iterator<Item = String> + 'a {
+pub(crate) fn beside<'a>(system: &'a System, options: &'a SettleOptions) -> impl Iterator<Item = String> + 'a {
     (1..=100).flat_map(move |k| {
         let by = f64::from(k) * f64::EPSILON;
         [1.0 + by, 1.0 - by].map(|factor| {

@@ -6,16 +6,16 @@
 //! either way, and a motion has the verdict on the first start that leads to it.
 
 use super::super::attractors::{CountedMotion, SAME, SteadyMotion};
-use super::super::each::settle_each;
+use super::super::each::{Counted, settle_each};
 use super::super::many::{KnownAttractors, settle_many};
 use super::super::options::SettleOptions;
 use super::super::outcome::Verdict;
 use super::super::settlement::Settlement;
-use super::reduced::{self, Converted};
+use super::reduced::{Converted, Reduced};
 use super::settle::{MachineVerdict, settle_unreduced};
 use crate::events::MachineStart;
 use crate::lanes::Width;
-use crate::machine::{Machine, Reduction};
+use crate::machine::Machine;
 use crate::system::Start;
 
 /// The motions to which starts of one machine lead.
@@ -41,10 +41,10 @@ impl KnownMotions {
     /// Settles these starts one by one, if the machine is an oscillator, and keeps the cycles that have a trapping region.
     #[must_use]
     pub fn survey(machine: &Machine, starts: &[MachineStart], options: &SettleOptions) -> Self {
-        let Some(reduction) = machine.reduced() else { return Self::default() };
-        let plain = starts.iter().filter_map(|start| reduced::start_of(&reduction, start));
-        let attractors = KnownAttractors::survey(&reduction.oscillator, plain, options);
-        let converted = attractors.verdicts().map(|of| (of.clone(), reduced::converted(machine, &reduction, of)));
+        let Some(reduced) = Reduced::new(machine, options) else { return Self::default() };
+        let plain = starts.iter().filter_map(|start| reduced.start(start));
+        let attractors = KnownAttractors::survey(reduced.oscillator(), plain, options);
+        let converted = attractors.verdicts().map(|of| (of.clone(), reduced.converted(of)));
         Self { converted: converted.collect(), attractors }
     }
 }
@@ -81,12 +81,11 @@ pub fn settle_machine_many(
     width: Width,
     tick: &dyn Fn() -> bool,
 ) -> Option<MachineSettlement> {
-    let mut question = Question::new(machine, starts, options);
-    question.known = Some(known);
-    let settlement = question.reduction.map(|reduction| {
-        let start = |k: u64| question.plain(k);
-        let range = 0..question.places.len() as u64;
-        settle_many(&reduction.oscillator, range, &start, &known.attractors, options, width, tick)
+    let question = Question::new(machine, starts, (known, options));
+    let settlement = question.reduced.as_ref().map(|reduced| {
+        let range = 0..question.plain.len() as u64;
+        let start = |k: u64| question.start(k);
+        settle_many(reduced.oscillator(), range, &start, &known.attractors, options, width, tick)
     });
     question.settle(settlement, tick)
 }
@@ -100,17 +99,18 @@ pub fn settle_each_machine(
     width: Width,
     tick: &dyn Fn() -> bool,
 ) -> Option<Vec<MachineSettlement>> {
+    let none = KnownMotions::default();
     let questions: Vec<Question<'_>> =
-        problems.iter().map(|(machine, starts)| Question::new(machine, starts, options)).collect();
-    let reduced: Vec<(usize, Reduction)> =
-        questions.iter().enumerate().filter_map(|(k, question)| Some((k, question.reduction?))).collect();
-    let counted: Vec<_> =
-        reduced.iter().map(|(k, reduction)| (reduction.oscillator, questions[*k].places.len() as u64)).collect();
+        problems.iter().map(|(machine, starts)| Question::new(machine, starts, (&none, options))).collect();
+    let counted = |(k, question): (usize, &Question<'_>)| {
+        Some((k, (*question.reduced.as_ref()?.oscillator(), question.plain.len() as u64)))
+    };
+    let (places, systems): (Vec<usize>, Vec<Counted>) = questions.iter().enumerate().filter_map(counted).unzip();
     let mut settlements: Vec<Option<Settlement>> = vec![None; questions.len()];
-    let start = |system: usize, k: u64| questions[reduced[system].0].plain(k);
-    let ended = settle_each(&counted, &start, options, false, width, &mut |system, settlement| {
+    let start = |system: usize, k: u64| questions[places[system]].start(k);
+    let ended = settle_each(&systems, &start, options, false, width, &mut |system, settlement| {
         let stop = settlement.cells.iter().fold(false, |stop, _| tick() || stop);
-        settlements[reduced[system].0] = Some(settlement);
+        settlements[places[system]] = Some(settlement);
         stop
     });
     if !ended {
@@ -123,46 +123,50 @@ pub fn settle_each_machine(
 struct Question<'a> {
     machine: &'a Machine,
     starts: &'a [MachineStart],
+    known: &'a KnownMotions,
     options: &'a SettleOptions,
-    known: Option<&'a KnownMotions>,
-    reduction: Option<Reduction>,
+    reduced: Option<Reduced<'a>>,
     /// The starts that the oscillator has, each with its place among all.
-    places: Vec<(usize, Start)>,
+    plain: Vec<(usize, Start)>,
 }
 
 impl<'a> Question<'a> {
-    fn new(machine: &'a Machine, starts: &'a [MachineStart], options: &'a SettleOptions) -> Self {
-        let reduction = machine.reduced();
-        let plain = |reduction: &Reduction| {
-            let of = |(place, start)| Some((place, reduced::start_of(reduction, start)?));
-            starts.iter().enumerate().filter_map(of).collect()
-        };
-        let places = reduction.as_ref().map(plain).unwrap_or_default();
-        Self { machine, starts, options, known: None, reduction, places }
+    fn new(
+        machine: &'a Machine,
+        starts: &'a [MachineStart],
+        (known, options): (&'a KnownMotions, &'a SettleOptions),
+    ) -> Self {
+        let reduced = Reduced::new(machine, options);
+        let plain = |(place, start)| Some((place, reduced.as_ref()?.start(start)?));
+        let plain = starts.iter().enumerate().filter_map(plain).collect();
+        Self { machine, starts, known, options, reduced, plain }
     }
 
     /// A start of the oscillator.
     #[allow(clippy::cast_possible_truncation)] // an index
-    fn plain(&self, k: u64) -> Start {
-        self.places[k as usize].1
+    fn start(&self, k: u64) -> Start {
+        self.plain[k as usize].1
     }
 
     /// What a motion of the oscillator is of the machine.
-    fn converted(&self, reduction: &Reduction, of: &Verdict) -> Converted {
-        let known = self.known.and_then(|known| known.converted.iter().find(|(known, _)| known.same_as(of, SAME)));
-        known.map_or_else(|| reduced::converted(self.machine, reduction, of), |(_, converted)| converted.clone())
+    fn converted(&self, of: &Verdict) -> Converted {
+        let known = self.known.converted.iter().find(|(known, _)| known.same_as(of, SAME));
+        match (known, &self.reduced) {
+            (Some((_, converted)), _) => converted.clone(),
+            (None, Some(reduced)) => reduced.converted(of),
+            (None, None) => Converted::Unknown,
+        }
     }
 
     /// The motions of all starts, where those of the oscillator are settled; `None` if stopped.
     fn settle(&self, settlement: Option<Settlement>, tick: &dyn Fn() -> bool) -> Option<MachineSettlement> {
         let settlement = settlement.unwrap_or_default();
-        if settlement.cells.len() < self.places.len() {
+        if settlement.cells.len() < self.plain.len() {
             return None;
         }
-        let convert = |found: &CountedMotion| Some(self.converted(self.reduction.as_ref()?, &found.verdict));
-        let converted: Vec<Option<Converted>> = settlement.motions.iter().map(convert).collect();
+        let converted: Vec<Converted> = settlement.motions.iter().map(|found| self.converted(&found.verdict)).collect();
         let mut leads: Vec<Option<(usize, u64)>> = vec![None; self.starts.len()];
-        for (((place, _), cell), ending) in self.places.iter().zip(&settlement.cells).zip(&settlement.endings) {
+        for (((place, _), cell), ending) in self.plain.iter().zip(&settlement.cells).zip(&settlement.endings) {
             leads[*place] = Some((*cell as usize, u64::from(ending.impacts)));
         }
         let mut found = MachineSettlement::default();
@@ -171,7 +175,7 @@ impl<'a> Question<'a> {
         for (start, lead) in self.starts.iter().zip(leads) {
             if let Some((motion, impacts)) = lead
                 && let Some(number) = numbers[motion].or_else(|| match &converted[motion] {
-                    Some(Converted::Verdict(verdict)) => Some(found.number(verdict)),
+                    Converted::Verdict(verdict) => Some(found.number(verdict)),
                     _ => None,
                 })
             {
@@ -183,7 +187,7 @@ impl<'a> Question<'a> {
             let number = own.as_ref().map(|verdict| found.number(verdict));
             found.lead(number, own.as_ref().and_then(MachineVerdict::seen_events));
             if let (Some((motion, _)), Some(own)) = (lead, &own)
-                && matches!(converted[motion], Some(Converted::Kind))
+                && matches!(converted[motion], Converted::Kind)
                 && own.label() == settlement.motions[motion].verdict.label()
             {
                 numbers[motion] = number;

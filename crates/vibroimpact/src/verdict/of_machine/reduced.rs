@@ -5,6 +5,7 @@
 //! What the machine would not call the same, and what depends on more than the motion, is left to the machine: a motion without
 //! impacts or at rest has a last state, and the limits of the search of the oscillator are not those of the machine.
 
+use super::super::options::SettleOptions;
 use super::super::outcome::{Chaos, NoImpact, Undecided, Verdict};
 use super::super::settle::Settled;
 use super::settle::{MachineSettled, MachineUndecided, MachineVerdict};
@@ -14,7 +15,7 @@ use crate::flight::Flight;
 use crate::lyapunov::{MachineSpectrum, Measured, Spectrum};
 use crate::machine::{Machine, Reduction};
 use crate::orbit::{Cycle, MachineCycle, MachineFrame};
-use crate::system::{Start, phase};
+use crate::system::{Oscillator, Start, phase};
 
 /// What a verdict on the oscillator says of the machine.
 #[derive(Clone, Debug)]
@@ -27,92 +28,114 @@ pub(super) enum Converted {
     Unknown,
 }
 
-/// The start of the oscillator; `None` for one that says what its contacts do, that has digits of its own, or that is not valid.
-pub(super) fn start_of(reduction: &Reduction, start: &MachineStart) -> Option<Start> {
-    let number = |values: &[f64]| match values {
-        [] => Some(0.0),
-        [one] => Some(*one),
-        _ => None,
-    };
-    if !start.contacts.is_empty() || !start.exact.is_empty() {
-        return None;
+/// A machine that is an oscillator, and the budget of its verdicts.
+pub(super) struct Reduced<'a> {
+    machine: &'a Machine,
+    pub(super) reduction: Reduction,
+    options: &'a SettleOptions,
+}
+
+impl<'a> Reduced<'a> {
+    pub(super) fn new(machine: &'a Machine, options: &'a SettleOptions) -> Option<Self> {
+        Some(Self { machine, reduction: machine.reduced()?, options })
     }
-    reduction.start(number(&start.q)?, number(&start.qdot)?, start.phase)
-}
 
-/// The verdict on the motion of the machine from a start from which the oscillator settles so; `None` if the machine decides.
-pub(super) fn settled(machine: &Machine, reduction: &Reduction, settled: &Settled) -> Option<MachineSettled> {
-    let Converted::Verdict(verdict) = converted(machine, reduction, &settled.verdict) else { return None };
-    Some(MachineSettled {
-        verdict,
-        events: settled.impacts,
-        time: settled.time * reduction.time(),
-        transient: settled.transient.map(|Chaos { spectrum, .. }| in_time(reduction, &spectrum)),
-    })
-}
+    /// The oscillator.
+    pub(super) const fn oscillator(&self) -> &Oscillator {
+        &self.reduction.oscillator
+    }
 
-/// What a verdict on the oscillator says of the machine.
-pub(super) fn converted(machine: &Machine, reduction: &Reduction, verdict: &Verdict) -> Converted {
-    let found = match verdict {
-        Verdict::Periodic(cycle) => closed(machine, reduction, cycle).map(MachineVerdict::Periodic),
-        Verdict::Chaotic(Chaos { spectrum, impacts }) => {
-            let from = place(machine, reduction, spectrum.tail.from.rebound(&reduction.oscillator));
-            from.map(|from| MachineVerdict::Chaotic {
-                spectrum: in_time(reduction, spectrum),
-                events: *impacts,
-                tail: MachineTail { from, steps: spectrum.tail.impacts },
-            })
+    /// The start of the oscillator; `None` for one that says what its contacts do, that has digits of its own, or that is not valid.
+    pub(super) fn start(&self, start: &MachineStart) -> Option<Start> {
+        let number = |values: &[f64]| match values {
+            [] => Some(0.0),
+            [one] => Some(*one),
+            _ => None,
+        };
+        if !start.contacts.is_empty() || !start.exact.is_empty() {
+            return None;
         }
-        Verdict::Undecided(Undecided::Impacts { impacts, spectrum }) => Some(MachineVerdict::Undecided {
-            why: MachineUndecided::Events,
-            spectrum: spectrum.map(|spectrum| in_time(reduction, &spectrum)),
-            events: *impacts,
-        }),
-        Verdict::Stuck(_) | Verdict::NoImpact(NoImpact::Flight(_)) => return Converted::Kind,
-        Verdict::NoImpact(_) | Verdict::Undecided(Undecided::Search { .. }) => None,
-    };
-    found.map_or(Converted::Unknown, Converted::Verdict)
-}
+        self.reduction.start(number(&start.q)?, number(&start.qdot)?, start.phase)
+    }
 
-/// The cycle of the oscillator, closed by the machine; `None` if the machine gives it another label.
-fn closed(machine: &Machine, reduction: &Reduction, cycle: &Cycle) -> Option<MachineCycle> {
-    let from = place(machine, reduction, flying(reduction, cycle)?)?;
-    let found = MachineCycle::near(&MachineFrame::new(machine), &from, cycle.label.periods)?;
-    (found.label == cycle.label).then_some(found)
-}
+    /// The verdict on the motion from a start from which the oscillator settles so; `None` if the machine decides.
+    pub(super) fn settled(&self, settled: &Settled) -> Option<MachineSettled> {
+        let Converted::Verdict(verdict) = self.converted(&settled.verdict) else { return None };
+        Some(MachineSettled {
+            verdict,
+            events: settled.impacts,
+            time: settled.time * self.reduction.time(),
+            transient: settled.transient.map(|Chaos { spectrum, .. }| self.in_time(&spectrum)),
+        })
+    }
 
-/// A state of a cycle between two contacts.
-fn flying(reduction: &Reduction, cycle: &Cycle) -> Option<Start> {
-    let osc = &reduction.oscillator;
-    let (flight, time) = match cycle.rests.last() {
-        // its impacts begin after this release
-        Some(rest) => {
-            let turn = phase::wrap(cycle.points.first()?.state.phase - rest.release);
-            (Flight::release(osc, rest.side, rest.release), turn / osc.beta())
+    /// What a verdict on the oscillator says of the machine.
+    pub(super) fn converted(&self, verdict: &Verdict) -> Converted {
+        let found = match verdict {
+            Verdict::Periodic(cycle) => self.closed(cycle).map(MachineVerdict::Periodic),
+            Verdict::Chaotic(Chaos { spectrum, impacts }) => {
+                self.place(spectrum.tail.from.rebound(self.oscillator())).map(|from| MachineVerdict::Chaotic {
+                    spectrum: self.in_time(spectrum),
+                    events: *impacts,
+                    tail: MachineTail { from, steps: spectrum.tail.impacts },
+                })
+            }
+            // with fewer impacts the search of long flights has used up its steps
+            Verdict::Undecided(Undecided::Impacts { impacts, spectrum })
+                if *impacts >= u64::from(self.options.max_impacts) =>
+            {
+                Some(MachineVerdict::Undecided {
+                    why: MachineUndecided::Events,
+                    spectrum: spectrum.map(|spectrum| self.in_time(&spectrum)),
+                    events: *impacts,
+                })
+            }
+            Verdict::Stuck(_) | Verdict::NoImpact(NoImpact::Flight(_)) => return Converted::Kind,
+            Verdict::NoImpact(_) | Verdict::Undecided(_) => None,
+        };
+        found.map_or(Converted::Unknown, Converted::Verdict)
+    }
+
+    /// The cycle of the oscillator, closed by the machine; `None` if the machine gives it another label.
+    fn closed(&self, cycle: &Cycle) -> Option<MachineCycle> {
+        let from = self.place(self.flying(cycle)?)?;
+        let found = MachineCycle::near(&MachineFrame::new(self.machine), &from, cycle.label.periods)?;
+        (found.label == cycle.label).then_some(found)
+    }
+
+    /// A state of a cycle between two contacts.
+    fn flying(&self, cycle: &Cycle) -> Option<Start> {
+        let osc = self.oscillator();
+        let (flight, time) = match cycle.rests.last() {
+            // its impacts begin after this release
+            Some(rest) => {
+                let turn = phase::wrap(cycle.points.first()?.state.phase - rest.release);
+                (Flight::release(osc, rest.side, rest.release), turn / osc.beta())
+            }
+            None => {
+                let longest = cycle.points.iter().max_by(|a, b| a.interval.total_cmp(&b.interval))?;
+                (Flight::new(osc, longest.state.rebound(osc)), longest.interval)
+            }
+        };
+        let (x, v) = flight.state(0.5 * time);
+        Some(Start { x, v, phase: flight.phase_at(0.5 * time) })
+    }
+
+    /// The state of the machine at one of the oscillator.
+    fn place(&self, at: Start) -> Option<Place> {
+        let (q, qdot, phase) = self.reduction.state(at);
+        let start = MachineStart { q: vec![q], qdot: vec![qdot], phase, ..MachineStart::default() };
+        Some(MachineMotion::new(self.machine, &start, MachineLimits::default()).ok()?.place().clone())
+    }
+
+    /// Exponents per unit of the machine's time.
+    fn in_time(&self, spectrum: &Spectrum) -> MachineSpectrum {
+        let per = |unit: f64, of: Measured| Measured { value: of.value / unit, error: of.error / unit };
+        let time = self.reduction.time();
+        MachineSpectrum {
+            exponents: spectrum.exponents.iter().map(|of| per(time, *of)).collect(),
+            closings: per(time * self.oscillator().period(), spectrum.impacts_per_period),
+            time: spectrum.time * time,
         }
-        None => {
-            let longest = cycle.points.iter().max_by(|a, b| a.interval.total_cmp(&b.interval))?;
-            (Flight::new(osc, longest.state.rebound(osc)), longest.interval)
-        }
-    };
-    let (x, v) = flight.state(0.5 * time);
-    Some(Start { x, v, phase: flight.phase_at(0.5 * time) })
-}
-
-/// The state of the machine at one of the oscillator.
-fn place(machine: &Machine, reduction: &Reduction, at: Start) -> Option<Place> {
-    let (q, qdot, phase) = reduction.state(at);
-    let start = MachineStart { q: vec![q], qdot: vec![qdot], phase, ..MachineStart::default() };
-    Some(MachineMotion::new(machine, &start, MachineLimits::default()).ok()?.place().clone())
-}
-
-/// Exponents per unit of the machine's time.
-fn in_time(reduction: &Reduction, spectrum: &Spectrum) -> MachineSpectrum {
-    let per = |unit: f64, of: Measured| Measured { value: of.value / unit, error: of.error / unit };
-    let time = reduction.time();
-    MachineSpectrum {
-        exponents: spectrum.exponents.iter().map(|of| per(time, *of)).collect(),
-        closings: per(time * reduction.oscillator.period(), spectrum.impacts_per_period),
-        time: spectrum.time * time,
     }
 }

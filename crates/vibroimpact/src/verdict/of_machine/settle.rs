@@ -5,7 +5,7 @@ use super::super::options::SettleOptions;
 use super::super::record::{Record, Shown};
 use super::super::recurring::Recurring;
 use super::super::settle::settle_while;
-use super::reduced;
+use super::reduced::Reduced;
 use super::returns::{Recorded, Step};
 use super::tail::MachineTail;
 use crate::events::{MachineEnd, MachineLimits, MachineMotion, MachineStart};
@@ -181,11 +181,11 @@ pub fn settle_machine_while(
     options: &SettleOptions,
     go_on: &dyn Fn() -> bool,
 ) -> Result<Option<MachineSettled>, MachineError> {
-    if let Some(reduction) = machine.reduced()
-        && let Some(from) = reduced::start_of(&reduction, start)
+    if let Some(reduced) = Reduced::new(machine, options)
+        && let Some(from) = reduced.start(start)
     {
-        let Some(found) = settle_while(&reduction.oscillator, from, options, go_on) else { return Ok(None) };
-        if let Some(found) = reduced::settled(machine, &reduction, &found) {
+        let Some(found) = settle_while(reduced.oscillator(), from, options, go_on) else { return Ok(None) };
+        if let Some(found) = reduced.settled(&found) {
             return Ok(Some(found));
         }
     }
