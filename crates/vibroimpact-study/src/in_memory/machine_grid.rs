@@ -52,8 +52,10 @@ pub(crate) fn machine_map(
     control: &Control<'_>,
 ) -> Result<MachineMap, RunError> {
     check_memory(&plan.axes, plan.starts)?;
-    // one point a tile, because one point may take a thousand times as long as another
-    let task = MapFill::of_machine(source, &MachineMapPlan { refine: None, ..plan.clone() }, Some(1));
+    // one point a tile, because one point may take a thousand times as long as another; oscillators share lanes
+    let alone = source.machine().is_ok_and(|machine| machine.reduced().is_none());
+    let tile = if alone { Some(1) } else { None };
+    let task = MapFill::of_machine(source, &MachineMapPlan { refine: None, ..plan.clone() }, tile);
     let whole = task.grid().whole();
     let mut cells: Vec<Vec<MachineShare>> = vec![Vec::new(); whole.points()];
     for (block, tile) in tiles_of(&task, control)? {

@@ -1,14 +1,16 @@
 //! Which motion each of many machines and starts leads to: points of numbers and starts, listed or drawn from ranges.
 
 use super::grid::{MachineMap, MachineShare, StartAxis, check_fields, none_twice};
-use super::verdicts::each_verdict;
+use super::verdicts::tile;
 use crate::machine::MachineSource;
-use crate::map::check_impacts;
-use crate::{Control, ListedColumn, PlanError, PointsPlan, RunError};
+use crate::map::{check_impacts, options};
+use crate::{Control, ListedColumn, PlanError, PointsPlan, RunError, tiles};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vibroimpact::events::MachineStart;
+use vibroimpact::lanes::Width;
 use vibroimpact::machine::Machine;
+use vibroimpact::verdict::{CountedMotion, settle_each_machine};
 
 /// Points of numbers of a machine and of its start.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -77,10 +79,43 @@ pub(super) fn many(
         let there = if changes.is_empty() { machine.clone() } else { source.with_all(changes).ok()?.machine().ok()? };
         Some((there, state))
     };
-    let share = |machine: &Machine, verdict| MachineShare::of(machine, &verdict, 1.0, &plan.fields);
-    let shares = each_verdict(count, control, problem, plan.impacts, share)?;
-    let cells = shares.into_iter().map(|share| share.into_iter().collect()).collect();
+    let shares = tiles(count, tile(machine), control, |range, tick| {
+        let total = range.end - range.start;
+        let found = settled(range.map(problem), plan, &|| !control.stopping());
+        (0..total).all(|_| !tick());
+        found
+    })?;
+    let shares = shares.into_iter().flatten().flatten();
+    let cells = shares.map(|share| share.into_iter().collect()).collect();
     Ok(MachineMap { axes: Vec::new(), points: columns, cells, fields: plan.fields.clone() })
+}
+
+/// The motion at each of some points; `None` if stopped. Points of the same machine after each other are settled together.
+fn settled(
+    points: impl Iterator<Item = Option<(Machine, MachineStart)>>,
+    plan: &MachineManyPlan,
+    go_on: &dyn Fn() -> bool,
+) -> Option<Vec<Option<MachineShare>>> {
+    let mut problems: Vec<(Machine, Vec<MachineStart>)> = Vec::new();
+    let mut allowed = Vec::new();
+    for point in points {
+        allowed.push(point.is_some());
+        let Some((machine, start)) = point else { continue };
+        match problems.last_mut() {
+            Some((last, starts)) if *last == machine => starts.push(start),
+            _ => problems.push((machine, vec![start])),
+        }
+    }
+    let found = settle_each_machine(&problems, &options(plan.impacts), Width::best(), go_on, &|| false)?;
+    let mut shares = problems.iter().zip(&found).flat_map(|((machine, _), found)| {
+        let share = |motion: &CountedMotion<_>| MachineShare::of(machine, &motion.verdict, 1.0, &plan.fields);
+        let shares: Vec<MachineShare> = found.motions.iter().map(share).collect();
+        let of = move |(cell, seen): (&Option<u32>, &Option<u64>)| {
+            cell.map(|cell| MachineShare { seen_events: *seen, ..shares[cell as usize].clone() })
+        };
+        found.cells.iter().zip(&found.seen).map(of)
+    });
+    Some(allowed.into_iter().map(|allowed| allowed.then(|| shares.next().flatten()).flatten()).collect())
 }
 
 #[cfg(test)]

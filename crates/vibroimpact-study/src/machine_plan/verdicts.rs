@@ -3,11 +3,17 @@
 use crate::map::{check_impacts, options};
 use crate::{Control, PlanError, RunError, Stopped, limits, tiles};
 use vibroimpact::events::MachineStart;
+use vibroimpact::lanes::Width;
 use vibroimpact::machine::{Machine, MachineError};
-use vibroimpact::verdict::{Census, MachineSettled, MachineVerdict, scattered_machine_starts, settle_machine_while};
+use vibroimpact::verdict::{
+    Census, KnownMotions, MachineSettled, MachineVerdict, scattered_machine_starts, settle_machine_many,
+    settle_machine_while,
+};
 
 /// Starts of a tile.
 const TILE: u64 = 4;
+/// The same of machines that are oscillators, whose starts share lanes.
+const WIDE_TILE: u64 = 256;
 
 pub(super) fn refused(error: MachineError) -> RunError {
     RunError::Plan(PlanError::Machine(error.into()))
@@ -30,30 +36,9 @@ pub(super) fn settle(
     settled.ok_or_else(|| Stopped { done: 0, total: 1 }.into())
 }
 
-/// What `told` makes of the machine and the verdict on each of many starts, in order. A start that is not allowed has none.
-pub(super) fn each_verdict<T: Send>(
-    total: u64,
-    control: &Control<'_>,
-    problem: impl Fn(u64) -> Option<(Machine, MachineStart)> + Sync,
-    impacts: Option<u32>,
-    told: impl Fn(&Machine, MachineVerdict) -> T + Sync,
-) -> Result<Vec<Option<T>>, RunError> {
-    let options = options(impacts);
-    let parts = tiles(total, TILE, control, |range, tick| {
-        let mut found = Vec::new();
-        for k in range {
-            let verdict = problem(k).and_then(|(machine, start)| {
-                let settled = settle_machine_while(&machine, &start, &options, &|| !control.stopping());
-                settled.ok().flatten().map(|settled| told(&machine, settled.verdict))
-            });
-            found.push(verdict);
-            if tick() {
-                break;
-            }
-        }
-        found
-    })?;
-    Ok(parts.into_iter().flatten().collect())
+/// The number of starts of a tile, of a machine or of machines like it.
+pub(super) fn tile(machine: &Machine) -> u64 {
+    if machine.reduced().is_some() { WIDE_TILE } else { TILE }
 }
 
 /// The distinct motions from scattered starts, and how many lead to each.
@@ -62,10 +47,14 @@ pub(super) fn attractors(
     (starts, seed, impacts): (u64, u64, Option<u32>),
     control: &Control<'_>,
 ) -> Result<Census<MachineVerdict>, RunError> {
-    let problem = |k| Some((machine.clone(), scattered_machine_starts(machine, seed, k)));
+    let (options, known) = (options(impacts), KnownMotions::default());
+    let parts = tiles(starts, tile(machine), control, |range, tick| {
+        let starts: Vec<MachineStart> = range.map(|k| scattered_machine_starts(machine, seed, k)).collect();
+        settle_machine_many(machine, &starts, &known, &options, Width::best(), &|| !control.stopping(), &|| tick())
+    })?;
     let mut census = Census::default();
-    for verdict in each_verdict(starts, control, problem, impacts, |_, verdict| verdict)?.iter().flatten() {
-        census.add(verdict);
+    for found in parts.into_iter().flatten().flat_map(|part| part.motions) {
+        census.add_found(&found);
     }
     Ok(census)
 }

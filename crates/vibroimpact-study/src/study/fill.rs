@@ -191,10 +191,10 @@ pub(super) fn along(axes: &[Axis]) -> Vec<Along> {
     axes.iter().rev().map(one).collect()
 }
 
-/// The same for a grid over a machine, whose points take a hundred times as long: its tiles are as small as one point where
-/// an axis is short.
-pub(super) fn machine_grid(axes: &[MachineAxis], asked: Option<u32>, side: usize) -> Grid {
-    let dimension = |axis: &MachineAxis| dimension(&axis.vary, axis.over.count(), asked, (1, side));
+/// The same for a grid over a machine, by default with tiles of sides from the least to the most. Where points take a hundred times as
+/// long, tiles are as small as one point where an axis is short.
+pub(super) fn machine_grid(axes: &[MachineAxis], asked: Option<u32>, sides: (usize, usize)) -> Grid {
+    let dimension = |axis: &MachineAxis| dimension(&axis.vary, axis.over.count(), asked, sides);
     Grid { dimensions: axes.iter().rev().map(dimension).collect() }
 }
 

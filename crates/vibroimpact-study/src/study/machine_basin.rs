@@ -15,13 +15,22 @@ use core::cell::RefCell;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 use vibroimpact::events::MachineStart;
+use vibroimpact::lanes::Width;
 use vibroimpact::machine::Machine;
-use vibroimpact::verdict::{Census, CountedMotion, MachineVerdict, SettleOptions, settle_machine};
+use vibroimpact::verdict::{
+    Census, CountedMotion, KnownMotions, MachineSettlement, MachineVerdict, SettleOptions, settle_machine,
+    settle_machine_many,
+};
 
-/// Default number of points of a tile along each of two axes; a start takes up to a second.
-const TILE: usize = 16;
+/// Default number of points of a tile along each of two axes, at least and at most; a start takes up to a second.
+const TILE: (usize, usize) = (1, 16);
+/// The same for a machine that is an oscillator, whose starts share lanes.
+const WIDE_TILE: (usize, usize) = (16, 64);
 /// Number of starts, spread over the grid, that are settled before the first tile is stored, to find the cycles.
 const SURVEY: u64 = 48;
+/// Number of starts whose cycles get trapping regions, if the machine is an oscillator and the grid has more than a few starts.
+const TRAPS: u64 = 24;
+const FEW: u64 = 500;
 
 /// The starts of a machine over a grid.
 pub(crate) struct MachineBasinFill {
@@ -31,6 +40,8 @@ pub(crate) struct MachineBasinFill {
     places: Vec<StartAxis>,
     options: SettleOptions,
     grid: Grid,
+    /// The cycles with trapping regions.
+    known: KnownMotions,
     /// The cycles with the same numbers in all tiles; computed when the first tile is stored.
     survey: OnceLock<Vec<MachineVerdict>>,
 }
@@ -55,12 +66,29 @@ impl MachineBasinFill {
         tile: Option<u32>,
     ) -> Result<Self, PlanError> {
         let places = plan.axes.iter().map(|axis| StartAxis::of(machine, &axis.vary)).collect::<Result<_, _>>()?;
-        let grid = machine_grid(&plan.axes, tile, side(TILE, plan.axes.len()));
+        let (least, most) = if machine.reduced().is_some() { WIDE_TILE } else { TILE };
+        let grid = machine_grid(&plan.axes, tile, (least, side(most, plan.axes.len())));
         let mut start = start.clone();
         start.q.resize(machine.n(), 0.0);
         start.qdot.resize(machine.n(), 0.0);
         let (machine, plan, options) = (machine.clone(), plan.clone(), options(plan.impacts));
-        Ok(Self { machine, start, plan, places, options, grid, survey: OnceLock::new() })
+        let (known, survey) = (KnownMotions::default(), OnceLock::new());
+        let bare = Self { machine, start, plan, places, options, grid, known, survey };
+        let traps = if bare.grid.points() > FEW { TRAPS } else { 0 };
+        let known = KnownMotions::survey(&bare.machine, &bare.spread(traps), &bare.options);
+        Ok(Self { known, ..bare })
+    }
+
+    /// So many starts, spread over the grid.
+    fn spread(&self, count: u64) -> Vec<MachineStart> {
+        let whole = self.grid.whole();
+        let start = |k| self.start(&whole.index(usize::try_from(k).unwrap_or(0)));
+        spread(self.grid.points(), count).map(start).collect()
+    }
+
+    /// The motions of starts; `None` if stopped.
+    fn many(&self, starts: &[MachineStart], tick: &dyn Fn() -> bool) -> Option<MachineSettlement> {
+        settle_machine_many(&self.machine, starts, &self.known, &self.options, Width::best(), &|| true, tick)
     }
 
     /// The start at a point of the grid.
@@ -81,13 +109,9 @@ impl MachineBasinFill {
     /// The cycles of the survey. Every tile computes the same ones.
     fn survey(&self) -> &[MachineVerdict] {
         self.survey.get_or_init(|| {
-            let whole = self.grid.whole();
             let mut census = Census::default();
-            for k in spread(self.grid.points(), SURVEY) {
-                let index = whole.index(usize::try_from(k).unwrap_or(0));
-                if let Some(verdict) = self.settled(&index) {
-                    census.add(&verdict);
-                }
+            for found in self.many(&self.spread(SURVEY), &|| false).unwrap_or_default().motions {
+                census.add_found(&found);
             }
             cycles::survey(&census)
         })
@@ -134,15 +158,15 @@ impl Fill for MachineBasinFill {
 
     fn compute(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<MachineBasinTile> {
         let (met, seen) = (RefCell::new(Census::default()), RefCell::new(BTreeMap::new()));
-        let one = |k: &usize| -> Option<Option<u32>> {
-            let verdict = self.settled(&block.index(*k));
-            if let Some(events) = verdict.as_ref().and_then(MachineVerdict::seen_events) {
-                seen.borrow_mut().insert(*k, events);
-            }
-            let number = verdict.map(|verdict| u32::try_from(met.borrow_mut().add(&verdict)).unwrap_or(u32::MAX));
-            (!tick()).then_some(number)
+        let points = |wanted: &[usize]| {
+            let starts: Vec<MachineStart> = wanted.iter().map(|k| self.start(&block.index(*k))).collect();
+            let found = self.many(&starts, &|| tick())?;
+            let number = |motion| u32::try_from(met.borrow_mut().add_found(motion)).unwrap_or(u32::MAX);
+            let numbers: Vec<u32> = found.motions.iter().map(number).collect();
+            let events = wanted.iter().zip(&found.seen).filter_map(|(k, events)| Some((*k, (*events)?)));
+            seen.borrow_mut().extend(events);
+            Some(found.cells.iter().map(|cell| cell.map(|cell| numbers[cell as usize])).collect::<Vec<_>>())
         };
-        let points = |wanted: &[usize]| wanted.iter().map(one).collect::<Option<Vec<_>>>();
         let cells = match self.plan.refine {
             None => points(&(0..block.points()).collect::<Vec<_>>())?.into_iter().map(Cell::Computed).collect(),
             Some(step) => refine::fill(block, step as usize, points, |a, b| a == b)?,

@@ -26,7 +26,7 @@ impl LyapunovFill<Machines> {
         tile: Option<u32>,
     ) -> Result<Self, PlanError> {
         let machine = source.machine()?;
-        let grid = machine_grid(&plan.axes, tile, side(TILE, plan.axes.len()));
+        let grid = machine_grid(&plan.axes, tile, (1, side(TILE, plan.axes.len())));
         let places = plan.axes.iter().map(|axis| StartAxis::found(&machine, &axis.vary)).collect::<Result<_, _>>()?;
         let of = Machines { source: source.clone(), plan: plan.clone(), places, directions: 2 * machine.n() };
         Ok(Self::over(of, grid))

@@ -11,13 +11,17 @@ use crate::machine::MachineSource;
 use crate::machine_plan::{MachineMapPlan, MachineShare, values_of};
 use crate::map::options;
 use crate::{MachineAxis, PlanError, Unit};
+use vibroimpact::events::MachineStart;
+use vibroimpact::lanes::Width;
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::{
-    Census, CountedMotion, MachineVerdict, SettleOptions, scattered_machine_starts, settle_machine,
+    Census, CountedMotion, MachineVerdict, SettleOptions, scattered_machine_starts, settle_each_machine,
 };
 
-/// Default number of points of a tile along each of two axes; the starts at a point take up to some seconds.
-const TILE: usize = 8;
+/// Default number of points of a tile along each of two axes, at least and at most; the starts at a point take up to some seconds.
+const TILE: (usize, usize) = (1, 8);
+/// The same for machines that are oscillators, whose long motions share lanes.
+const WIDE_TILE: (usize, usize) = (8, 32);
 
 /// Machines over numbers.
 pub(crate) struct MachinesOver {
@@ -30,8 +34,11 @@ pub(crate) struct MachinesOver {
 
 impl MapFill<MachinesOver> {
     pub(crate) fn of_machine(source: &MachineSource, plan: &MachineMapPlan, tile: Option<u32>) -> Self {
-        let grid = machine_grid(&plan.axes, tile, side(TILE, plan.axes.len()));
-        let stops = source.machine().map_or(0, |machine| machine.stops().len());
+        let machine = source.machine().ok();
+        let reduced = machine.as_ref().is_some_and(|machine| machine.reduced().is_some());
+        let (least, most) = if reduced { WIDE_TILE } else { TILE };
+        let grid = machine_grid(&plan.axes, tile, (least, side(most, plan.axes.len())));
+        let stops = machine.map_or(0, |machine| machine.stops().len());
         let mapped = MachinesOver { source: source.clone(), plan: plan.clone(), options: options(plan.impacts), stops };
         Self::of(mapped, grid, plan.starts, plan.refine)
     }
@@ -44,21 +51,11 @@ impl MachinesOver {
         MachineAxis::with_values(&self.source, self.plan.axes.iter().enumerate().map(value))
     }
 
-    /// The motions at a point, the most frequent first.
-    fn at(&self, index: &[usize]) -> Result<Vec<MachineShare>, PlanError> {
+    /// The machine at a point, with its scattered starts.
+    fn problem(&self, index: &[usize]) -> Result<(Machine, Vec<MachineStart>), PlanError> {
         let machine = self.source(index)?.machine()?;
-        let mut census: Census<MachineVerdict> = Census::default();
-        for k in 0..self.plan.starts {
-            let start = scattered_machine_starts(&machine, self.plan.seed, k);
-            // a start beyond a rigid stop has no motion
-            if let Ok(settled) = settle_machine(&machine, &start, &self.options) {
-                census.add(&settled.verdict);
-            }
-        }
-        let motion = |found: &CountedMotion<MachineVerdict>| {
-            MachineShare::of(&machine, &found.verdict, census.share(found), &self.plan.fields)
-        };
-        Ok(census.by_share().into_iter().map(motion).collect())
+        let starts = (0..self.plan.starts).map(|k| scattered_machine_starts(&machine, self.plan.seed, k)).collect();
+        Ok((machine, starts))
     }
 }
 
@@ -88,7 +85,31 @@ impl Mapped for MachinesOver {
     }
 
     fn motions(&self, points: &[Index], tick: &dyn Fn() -> bool) -> Option<Vec<Motions<Self>>> {
-        points.iter().map(|index| (!tick()).then(|| self.at(index))).collect()
+        let mut problems = Vec::new();
+        let mut found: Vec<Motions<Self>> = Vec::with_capacity(points.len());
+        for index in points {
+            found.push(self.problem(index).map(|problem| {
+                problems.push(problem);
+                Vec::new()
+            }));
+            if found.last().is_some_and(Result::is_err) && tick() {
+                return None;
+            }
+        }
+        let settled = settle_each_machine(&problems, &self.options, Width::best(), &|| true, tick)?;
+        let allowed = found.iter_mut().filter_map(|found| found.as_mut().ok());
+        for (shares, ((machine, _), settlement)) in allowed.zip(problems.iter().zip(settled)) {
+            // a start beyond a rigid stop has no motion
+            let mut census = Census::default();
+            settlement.motions.iter().for_each(|motion| {
+                census.add_found(motion);
+            });
+            let share = |of: &CountedMotion<MachineVerdict>| {
+                MachineShare::of(machine, &of.verdict, census.share(of), &self.plan.fields)
+            };
+            *shares = census.by_share().into_iter().map(share).collect();
+        }
+        Some(found)
     }
 
     fn label(motion: &MachineShare) -> (i32, f64) {

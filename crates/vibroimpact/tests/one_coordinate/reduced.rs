@@ -320,7 +320,7 @@ fn a_basin() {
     let survey: Vec<MachineStart> = starts.iter().step_by(200).cloned().collect();
     let (none, known) = (KnownMotions::default(), KnownMotions::survey(&machine, &survey, &options));
     let labels = |starts: &[MachineStart], known: &KnownMotions, width: Width| -> Vec<String> {
-        let found = settle_machine_many(&machine, starts, known, &options, width, &|| false).unwrap();
+        let found = settle_machine_many(&machine, starts, known, &options, width, &|| true, &|| false).unwrap();
         let counted: u64 = found.motions.iter().map(|motion| motion.count).sum();
         assert_eq!((counted, found.seen.len()), (starts.len() as u64, starts.len()));
         found.cells.iter().map(|cell| found.motions[cell.unwrap() as usize].verdict.label()).collect()
@@ -372,12 +372,13 @@ fn many_machines() {
         alone.iter().flatten().any(Option::is_none) && alone.iter().flatten().flatten().any(|label| label == "chaotic")
     );
     for width in Width::ALL.into_iter().filter(|width| width.available()) {
-        let all = settle_each_machine(&problems, &options, width, &|| false).unwrap();
+        let all = settle_each_machine(&problems, &options, width, &|| true, &|| false).unwrap();
         for ((found, expected), (machine, _)) in all.iter().zip(&alone).zip(&problems) {
             let label = |cell: &Option<u32>| cell.map(|cell| found.motions[cell as usize].verdict.label());
             let labels: Vec<_> = found.cells.iter().map(label).collect();
             assert_eq!(&labels, expected, "{:?}", machine.parts());
         }
     }
-    assert!(settle_each_machine(&problems, &options, Width::best(), &|| true).is_none());
+    assert!(settle_each_machine(&problems, &options, Width::best(), &|| true, &|| true).is_none());
+    assert!(settle_each_machine(&problems, &options, Width::best(), &|| false, &|| false).is_none());
 }

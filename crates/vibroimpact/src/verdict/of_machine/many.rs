@@ -12,7 +12,7 @@ use super::super::options::SettleOptions;
 use super::super::outcome::Verdict;
 use super::super::settlement::Settlement;
 use super::reduced::{Converted, Reduced};
-use super::settle::{MachineVerdict, settle_unreduced};
+use super::settle::{MachineVerdict, settle_alone};
 use crate::events::MachineStart;
 use crate::lanes::Width;
 use crate::machine::Machine;
@@ -49,7 +49,8 @@ impl KnownMotions {
     }
 }
 
-/// Settles starts of one machine; `None` if stopped. `tick` is called for each start; if it returns true, the computation stops.
+/// Settles starts of one machine; `None` if stopped. `tick` is called for each start, and stops the computation if it returns true;
+/// `go_on` at every step of a motion that the machine follows itself, and stops it if it returns false.
 ///
 /// ```
 /// use vibroimpact::events::MachineStart;
@@ -68,7 +69,8 @@ impl KnownMotions {
 /// let starts: Vec<MachineStart> = (0..800).map(start).collect();
 /// let options = SettleOptions::default();
 /// let known = KnownMotions::survey(&machine, &starts[..8], &options);
-/// let settled = settle_machine_many(&machine, &starts, &known, &options, Width::best(), &|| false).unwrap();
+/// let settled = settle_machine_many(&machine, &starts, &known, &options, Width::best(), &|| true, &|| false)
+///     .unwrap();
 /// assert_eq!((settled.motions.len(), settled.cells.len()), (2, 800)); // 1/1 and 2/1
 /// # Ok::<(), vibroimpact::machine::MachineError>(())
 /// ```
@@ -79,6 +81,7 @@ pub fn settle_machine_many(
     known: &KnownMotions,
     options: &SettleOptions,
     width: Width,
+    go_on: &dyn Fn() -> bool,
     tick: &dyn Fn() -> bool,
 ) -> Option<MachineSettlement> {
     let question = Question::new(machine, starts, (known, options));
@@ -87,16 +90,17 @@ pub fn settle_machine_many(
         let start = |k: u64| question.start(k);
         settle_many(reduced.oscillator(), range, &start, &known.attractors, options, width, tick)
     });
-    question.settle(settlement, tick)
+    question.settle(settlement, go_on, tick)
 }
 
-/// Settles the starts of each of several machines; `None` if stopped. `tick` is called for each start; if it returns true, the
-/// computation stops.
+/// Settles the starts of each of several machines; `None` if stopped. `tick` is called for each machine, and stops the computation if
+/// it returns true; `go_on` at every step of a motion that a machine follows itself, and stops it if it returns false.
 #[must_use]
 pub fn settle_each_machine(
     problems: &[(Machine, Vec<MachineStart>)],
     options: &SettleOptions,
     width: Width,
+    go_on: &dyn Fn() -> bool,
     tick: &dyn Fn() -> bool,
 ) -> Option<Vec<MachineSettlement>> {
     let none = KnownMotions::default();
@@ -109,14 +113,18 @@ pub fn settle_each_machine(
     let mut settlements: Vec<Option<Settlement>> = vec![None; questions.len()];
     let start = |system: usize, k: u64| questions[places[system]].start(k);
     let ended = settle_each(&systems, &start, options, false, width, &mut |system, settlement| {
-        let stop = settlement.cells.iter().fold(false, |stop, _| tick() || stop);
         settlements[places[system]] = Some(settlement);
-        stop
+        tick() || !go_on()
     });
     if !ended {
         return None;
     }
-    questions.iter().zip(settlements).map(|(question, settlement)| question.settle(settlement, tick)).collect()
+    let settle = |(question, settlement): (&Question<'_>, Option<Settlement>)| {
+        let found = question.settle(settlement, go_on, &|| false)?;
+        // the others have been counted
+        (question.reduced.is_some() || !tick()).then_some(found)
+    };
+    questions.iter().zip(settlements).map(settle).collect()
 }
 
 /// The starts of a machine.
@@ -159,7 +167,12 @@ impl<'a> Question<'a> {
     }
 
     /// The motions of all starts, where those of the oscillator are settled; `None` if stopped.
-    fn settle(&self, settlement: Option<Settlement>, tick: &dyn Fn() -> bool) -> Option<MachineSettlement> {
+    fn settle(
+        &self,
+        settlement: Option<Settlement>,
+        go_on: &dyn Fn() -> bool,
+        tick: &dyn Fn() -> bool,
+    ) -> Option<MachineSettlement> {
         let settlement = settlement.unwrap_or_default();
         if settlement.cells.len() < self.plain.len() {
             return None;
@@ -183,7 +196,10 @@ impl<'a> Question<'a> {
                 found.lead(Some(number), Some(impacts));
                 continue;
             }
-            let own = settle_unreduced(self.machine, start, self.options).ok().map(|settled| settled.verdict);
+            let own = match settle_alone(self.machine, start, self.options, go_on) {
+                Ok(settled) => Some(settled?.verdict),
+                Err(_) => None,
+            };
             let number = own.as_ref().map(|verdict| found.number(verdict));
             found.lead(number, own.as_ref().and_then(MachineVerdict::seen_events));
             if let (Some((motion, _)), Some(own)) = (lead, &own)

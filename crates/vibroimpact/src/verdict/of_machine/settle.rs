@@ -189,7 +189,7 @@ pub fn settle_machine_while(
             return Ok(Some(found));
         }
     }
-    settle_in(MachineFrame::new(machine), start, options, go_on)
+    settle_alone(machine, start, options, go_on)
 }
 
 /// The same as [`settle_machine`], but also a machine that is an oscillator is followed as any other: it takes a hundred times as
@@ -202,7 +202,7 @@ pub fn settle_unreduced(
     start: &MachineStart,
     options: &SettleOptions,
 ) -> Result<MachineSettled, MachineError> {
-    unstopped(settle_in(MachineFrame::new(machine), start, options, &|| true))
+    unstopped(settle_alone(machine, start, options, &|| true))
 }
 
 /// The verdict on a motion that was not stopped.
@@ -222,16 +222,17 @@ const FORGOTTEN: f64 = 1e-9;
 /// The number of latest steps whose size distances are relative to.
 const RECENT: usize = 64;
 
-fn settle_in<'a>(
-    frame: MachineFrame<'a>,
+/// The verdict on the motion that the machine follows itself.
+pub(super) fn settle_alone<'a>(
+    machine: &'a Machine,
     start: &MachineStart,
     options: &SettleOptions,
     go_on: &dyn Fn() -> bool,
 ) -> Result<Option<MachineSettled>, MachineError> {
     // chatters and contacts take many events in each period
     let options = &SettleOptions { longest: options.longest.saturating_mul(EVENTS_PER_IMPACT), ..*options };
-    let mut motion = MachineMotion::new(frame.machine, start, MachineLimits::default())?;
-    let system = Recorded::new(frame);
+    let mut motion = MachineMotion::new(machine, start, MachineLimits::default())?;
+    let system = Recorded::new(MachineFrame::new(machine));
     let mut record: Record<Recorded<'a>> = Record::default();
     let mut sizes: std::collections::VecDeque<(f64, f64)> = std::collections::VecDeque::new();
     let mut events = 0_u64;
