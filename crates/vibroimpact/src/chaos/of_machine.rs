@@ -1,12 +1,14 @@
 //! All Lyapunov exponents of the motion of a machine from a start.
 
-use super::dimension;
+use super::{ExponentOptions, dimension, exponents_while};
 use crate::events::{MachineLimits, MachineMotion, MachineStart};
 use crate::lyapunov::{MEASURED_IMPACTS, MachineMeasure, MachineSpectrum, Measured};
 use crate::machine::{Machine, MachineError};
 use crate::math::sort_by;
 use crate::orbit::MachineFrame;
-use crate::verdict::{MachineTail, MachineVerdict, Recorded, Recurring, SettleOptions, Step, settle_machine_while};
+use crate::verdict::{
+    MachineTail, MachineVerdict, Recorded, Recurring, Reduced, SettleOptions, Step, settle_machine_while,
+};
 use std::sync::Arc;
 
 /// The exponents of a motion of a machine, and where they come from.
@@ -45,7 +47,8 @@ pub const DEFAULT_EVENTS: u32 = 20_000;
 pub const DEFAULT_MACHINE_TRANSIENT: u32 = 1_000;
 
 /// The exponents of the motion of `machine` from `start`: exact if it settles into a cycle or comes to an end, otherwise
-/// measured over `events` events after `transient`; stopped when `go_on` returns false, and then `None`.
+/// measured over `events` events after `transient`; stopped when `go_on` returns false, and then `None`. Of a machine that
+/// [is an oscillator](Machine::reduced) they are measured over impacts, as [`exponents_while`] does.
 ///
 /// # Errors
 /// [`MachineError`] for an invalid start.
@@ -56,7 +59,22 @@ pub fn machine_exponents_while(
     go_on: &dyn Fn() -> bool,
 ) -> Result<Option<MachineExponents>, MachineError> {
     let watch = SettleOptions { chaos_over: 0, max_impacts: transient.max(2_000), ..SettleOptions::default() };
-    let Some(settled) = settle_machine_while(machine, start, &watch, go_on)? else { return Ok(None) };
+    let Some(mut settled) = settle_machine_while(machine, start, &watch, go_on)? else { return Ok(None) };
+    if matches!(settled.verdict, MachineVerdict::Chaotic { .. } | MachineVerdict::Undecided { .. })
+        && let Some(reduced) = Reduced::new(machine, &watch)
+        && let Some(from) = reduced.start(start)
+    {
+        let lengths = ExponentOptions::new(u64::from(events), u64::from(transient));
+        let Some(found) = exponents_while(reduced.oscillator(), from, &lengths, go_on) else { return Ok(None) };
+        match reduced.measured(&found.motion) {
+            Some((motion, Some(spectrum))) => {
+                return Ok(Some(MachineExponents { spectrum: Some(spectrum), motion, exact: false }));
+            }
+            // it has settled later
+            Some((motion, None)) => settled.verdict = motion,
+            None => {}
+        }
+    }
     let exact = |exponents: Vec<f64>, closings: f64| {
         let measured = |value: f64| Measured { value, error: 0.0 };
         MachineSpectrum {
@@ -93,6 +111,17 @@ pub fn machine_exponents_while(
         }
         _ => {}
     }
+    measured(machine, start, (events, transient), settled.verdict, go_on)
+}
+
+/// The exponents measured along the machine's own motion, which settles into `settled` if they do not show chaos.
+fn measured(
+    machine: &Machine,
+    start: &MachineStart,
+    (events, transient): (u32, u32),
+    settled: MachineVerdict,
+    go_on: &dyn Fn() -> bool,
+) -> Result<Option<MachineExponents>, MachineError> {
     let system = Recorded::new(MachineFrame::new(machine));
     let mut motion = MachineMotion::new(machine, start, MachineLimits::default())?;
     let mut measure: Option<MachineMeasure> = None;
@@ -126,7 +155,7 @@ pub fn machine_exponents_while(
             let tail = MachineTail { steps: tail.steps.min(MEASURED_IMPACTS), ..tail };
             MachineVerdict::Chaotic { spectrum: found.clone(), events: u64::from(seen), tail }
         }
-        _ => settled.verdict,
+        _ => settled,
     };
     Ok(Some(MachineExponents { spectrum, motion, exact: false }))
 }
@@ -165,5 +194,35 @@ mod tests {
         let found = machine_exponents_while(&machine, &MachineStart::default(), (100, 100), &|| true).unwrap().unwrap();
         assert!(matches!(found.motion, MachineVerdict::NoImpact(_)));
         assert!(found.spectrum.unwrap().exponents.iter().all(|exponent| (exponent.value + 0.025).abs() < 1e-12));
+    }
+
+    /// Those of a machine that is an oscillator are those of the oscillator, per unit of its time, and agree with those along the
+    /// machine's own motion.
+    #[test]
+    fn of_an_oscillator() {
+        let of = crate::scenario::U.oscillator();
+        let (mass, stiffness, force) = (0.2, 5.0, 3.0);
+        let parts = MachineParts::new(["mass"])
+            .with_mass(0, mass)
+            .with_link(&[1.0], stiffness, 0.0)
+            .with_frequency(of.beta() * 5.0)
+            .with_force(0, 1, 0.0, force);
+        let law = StopLaw::Rigid { restitution: of.restitution() };
+        let machine = Machine::new(parts.with_stop("stop", &[1.0], of.gap() * force / stiffness, law)).unwrap();
+        let start = MachineStart::default();
+        let found = machine_exponents_while(&machine, &start, (20_000, 1_000), &|| true).unwrap().unwrap();
+        let expected = super::super::exponents(&of, crate::Start::at_rest(&of), &ExponentOptions::new(20_000, 1_000));
+        let unknown =
+            MachineVerdict::Undecided { why: crate::verdict::MachineUndecided::Events, spectrum: None, events: 0 };
+        let own = measured(&machine, &start, (20_000, 1_000), unknown, &|| true).unwrap().unwrap();
+        assert_eq!((found.motion.label(), own.motion.label()), ("chaotic".to_owned(), "chaotic".to_owned()));
+        let (found, own) = (found.spectrum.unwrap(), own.spectrum.unwrap());
+        for ((one, other), want) in found.exponents.iter().zip(&own.exponents).zip(expected.exponents) {
+            // the same motion to rounding, which chaos enlarges: within the bars of both
+            assert!((one.value / 5.0 - want.value).abs() < want.error, "{one:?} {want:?}");
+            assert!((one.error / 5.0 / want.error - 1.0).abs() < 0.5, "{one:?} {want:?}");
+            assert!((one.value - other.value).abs() < one.error + other.error, "{one:?} {other:?}");
+        }
+        assert!((found.closings.value / own.closings.value - 1.0).abs() < 0.02);
     }
 }

@@ -42,7 +42,7 @@ pub use of_machine::{
     scattered_machine_starts, settle_each_machine, settle_machine, settle_machine_many, settle_machine_while,
     settle_unreduced,
 };
-pub(crate) use of_machine::{Recorded, Step};
+pub(crate) use of_machine::{Recorded, Reduced, Step};
 pub use options::SettleOptions;
 pub use outcome::{Chaos, NoImpact, Reason, Undecided, Verdict};
 pub use paper_rule::{PaperRule, PaperVerdict, paper_rule};

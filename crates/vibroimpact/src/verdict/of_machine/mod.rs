@@ -17,6 +17,7 @@ mod starts;
 mod tail;
 
 pub use many::{KnownMotions, MachineSettlement, settle_each_machine, settle_machine_many};
+pub(crate) use reduced::Reduced;
 pub(crate) use returns::{Recorded, Step};
 pub use settle::{
     MachineSettled, MachineUndecided, MachineVerdict, settle_machine, settle_machine_while, settle_unreduced,

@@ -29,24 +29,24 @@ pub(super) enum Converted {
 }
 
 /// A machine that is an oscillator, and the budget of its verdicts.
-pub(super) struct Reduced<'a> {
+pub(crate) struct Reduced<'a> {
     machine: &'a Machine,
-    pub(super) reduction: Reduction,
+    reduction: Reduction,
     options: &'a SettleOptions,
 }
 
 impl<'a> Reduced<'a> {
-    pub(super) fn new(machine: &'a Machine, options: &'a SettleOptions) -> Option<Self> {
+    pub(crate) fn new(machine: &'a Machine, options: &'a SettleOptions) -> Option<Self> {
         Some(Self { machine, reduction: machine.reduced()?, options })
     }
 
     /// The oscillator.
-    pub(super) const fn oscillator(&self) -> &Oscillator {
+    pub(crate) const fn oscillator(&self) -> &Oscillator {
         &self.reduction.oscillator
     }
 
     /// The start of the oscillator; `None` for one that says what its contacts do, that has digits of its own, or that is not valid.
-    pub(super) fn start(&self, start: &MachineStart) -> Option<Start> {
+    pub(crate) fn start(&self, start: &MachineStart) -> Option<Start> {
         let number = |values: &[f64]| match values {
             [] => Some(0.0),
             [one] => Some(*one),
@@ -94,6 +94,21 @@ impl<'a> Reduced<'a> {
             Verdict::NoImpact(_) | Verdict::Undecided(_) => None,
         };
         found.map_or(Converted::Unknown, Converted::Verdict)
+    }
+
+    /// A verdict after a measurement and the exponents of that, whatever the budget was; `None` if the machine decides.
+    pub(crate) fn measured(&self, verdict: &Verdict) -> Option<(MachineVerdict, Option<MachineSpectrum>)> {
+        let spectrum = match verdict {
+            Verdict::Undecided(Undecided::Impacts { impacts, spectrum }) => {
+                let (spectrum, events) = (Some(self.in_time(spectrum.as_ref()?)), *impacts);
+                let why = MachineUndecided::Events;
+                return Some((MachineVerdict::Undecided { why, spectrum: spectrum.clone(), events }, spectrum));
+            }
+            Verdict::Chaotic(chaos) => Some(self.in_time(&chaos.spectrum)),
+            _ => None,
+        };
+        let Converted::Verdict(verdict) = self.converted(verdict) else { return None };
+        Some((verdict, spectrum))
     }
 
     /// The cycle of the oscillator, closed by the machine; `None` if the machine gives it another label.
