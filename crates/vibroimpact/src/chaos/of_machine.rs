@@ -1,6 +1,7 @@
 //! All Lyapunov exponents of the motion of a machine from a start.
 
-use super::{ExponentOptions, dimension, exponents_while};
+use super::dimension;
+use super::exponents::{ExponentOptions, exponents_while};
 use crate::events::{MachineLimits, MachineMotion, MachineStart};
 use crate::lyapunov::{MEASURED_IMPACTS, MachineMeasure, MachineSpectrum, Measured};
 use crate::machine::{Machine, MachineError};
@@ -66,13 +67,12 @@ pub fn machine_exponents_while(
     {
         let lengths = ExponentOptions::new(u64::from(events), u64::from(transient));
         let Some(found) = exponents_while(reduced.oscillator(), from, &lengths, go_on) else { return Ok(None) };
-        match reduced.measured(&found.motion) {
-            Some((motion, Some(spectrum))) => {
+        if let Some(motion) = reduced.measured(&found.motion) {
+            if let Some(spectrum) = motion.spectrum().cloned() {
                 return Ok(Some(MachineExponents { spectrum: Some(spectrum), motion, exact: false }));
             }
             // it has settled later
-            Some((motion, None)) => settled.verdict = motion,
-            None => {}
+            settled.verdict = motion;
         }
     }
     let exact = |exponents: Vec<f64>, closings: f64| {
@@ -211,7 +211,8 @@ mod tests {
         let machine = Machine::new(parts.with_stop("stop", &[1.0], of.gap() * force / stiffness, law)).unwrap();
         let start = MachineStart::default();
         let found = machine_exponents_while(&machine, &start, (20_000, 1_000), &|| true).unwrap().unwrap();
-        let expected = super::super::exponents(&of, crate::Start::at_rest(&of), &ExponentOptions::new(20_000, 1_000));
+        let expected =
+            super::super::exponents::exponents(&of, crate::Start::at_rest(&of), &ExponentOptions::new(20_000, 1_000));
         let unknown =
             MachineVerdict::Undecided { why: crate::verdict::MachineUndecided::Events, spectrum: None, events: 0 };
         let own = measured(&machine, &start, (20_000, 1_000), unknown, &|| true).unwrap().unwrap();

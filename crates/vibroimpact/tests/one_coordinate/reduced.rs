@@ -7,7 +7,7 @@ use vibroimpact::lanes::Width;
 use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::motion::{EventKind, Motion};
 use vibroimpact::verdict::{
-    KnownMotions, MachineVerdict, SettleOptions, Verdict, settle, settle_each_machine, settle_machine,
+    KnownMotions, MachineVerdict, NoImpact, SettleOptions, Verdict, settle, settle_each_machine, settle_machine,
     settle_machine_many, settle_unreduced,
 };
 use vibroimpact::{Oscillator, Side, Start, scenario};
@@ -306,6 +306,32 @@ fn the_oscillators_verdicts() {
         assert_eq!((expected.impacts, expected.time), (found.events, found.time), "{}", system.text);
     }
     assert!(converted > 30, "{converted}");
+}
+
+/// Ever gentler impacts at Q: the machine follows thousands of them and comes to the same end, no impact in the limit. The state
+/// that is given moves on without one.
+#[test]
+fn a_limit_that_grazes() {
+    let options = SettleOptions::default();
+    let (osc, mut limits) = (scenario::Q.oscillator(), 0);
+    for k in 0..20 {
+        let machine = DRESSES[k % DRESSES.len()].machine(&osc);
+        let start = Start { x: 1.5 - 0.15 * f64::from(u32::try_from(k).unwrap()), v: 0.5, phase: 0.0 };
+        if !matches!(settle(&osc, start, &options).verdict, Verdict::NoImpact(NoImpact::GrazeLimit { .. })) {
+            continue;
+        }
+        limits += 1;
+        let (found, own) = compare(&machine, &start_of(&machine, start)).unwrap();
+        assert_eq!((found.as_str(), own.as_str()), ("0", "0"), "{k}");
+        let verdict = settle_machine(&machine, &start_of(&machine, start), &options).unwrap().verdict;
+        let reached = verdict.reached(&machine).unwrap();
+        let motion = MachineMotion::new(&machine, &reached, MachineLimits::default()).unwrap();
+        let scale = machine.reduced().unwrap().speed(Side::Upper, 1.0);
+        for event in motion.take(50) {
+            assert!(event.speed < 1e-6 * scale, "{k} {event:?}");
+        }
+    }
+    assert!(limits > 3, "{limits}");
 }
 
 /// The basin of S: 3600 starts, none with another label, in one call and in parts, at any width of the lanes, and as the machine's

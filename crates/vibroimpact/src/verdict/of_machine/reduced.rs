@@ -8,14 +8,17 @@
 use super::super::options::SettleOptions;
 use super::super::outcome::{Chaos, NoImpact, Undecided, Verdict};
 use super::super::settle::Settled;
-use super::settle::{MachineSettled, MachineUndecided, MachineVerdict};
+use super::outcome::{MachineSettled, MachineUndecided, MachineVerdict};
 use super::tail::MachineTail;
 use crate::events::{MachineLimits, MachineMotion, MachineStart, Place};
 use crate::flight::Flight;
 use crate::lyapunov::{MachineSpectrum, Measured, Spectrum};
 use crate::machine::{Machine, Reduction};
 use crate::orbit::{Cycle, MachineCycle, MachineFrame};
-use crate::system::{Oscillator, Start, phase};
+use crate::system::{Oscillator, Side, Start, phase};
+
+/// The time after a grazing contact at which the state of its motion is given, in units of the oscillator.
+const AFTER_GRAZE: f64 = 0.5;
 
 /// What a verdict on the oscillator says of the machine.
 #[derive(Clone, Debug)]
@@ -81,14 +84,13 @@ impl<'a> Reduced<'a> {
                 })
             }
             // with fewer impacts the search of long flights has used up its steps
-            Verdict::Undecided(Undecided::Impacts { impacts, spectrum })
+            Verdict::Undecided(Undecided::Impacts { impacts, .. })
                 if *impacts >= u64::from(self.options.max_impacts) =>
             {
-                Some(MachineVerdict::Undecided {
-                    why: MachineUndecided::Events,
-                    spectrum: spectrum.map(|spectrum| self.in_time(&spectrum)),
-                    events: *impacts,
-                })
+                self.undecided(verdict)
+            }
+            Verdict::NoImpact(NoImpact::GrazeLimit { phase, .. }) => {
+                self.grazing(*phase).map(|from| MachineVerdict::NoImpact(MachineTail::end(&from)))
             }
             Verdict::Stuck(_) | Verdict::NoImpact(NoImpact::Flight(_)) => return Converted::Kind,
             Verdict::NoImpact(_) | Verdict::Undecided(_) => None,
@@ -96,19 +98,22 @@ impl<'a> Reduced<'a> {
         found.map_or(Converted::Unknown, Converted::Verdict)
     }
 
-    /// A verdict after a measurement and the exponents of that, whatever the budget was; `None` if the machine decides.
-    pub(crate) fn measured(&self, verdict: &Verdict) -> Option<(MachineVerdict, Option<MachineSpectrum>)> {
-        let spectrum = match verdict {
-            Verdict::Undecided(Undecided::Impacts { impacts, spectrum }) => {
-                let (spectrum, events) = (Some(self.in_time(spectrum.as_ref()?)), *impacts);
-                let why = MachineUndecided::Events;
-                return Some((MachineVerdict::Undecided { why, spectrum: spectrum.clone(), events }, spectrum));
-            }
-            Verdict::Chaotic(chaos) => Some(self.in_time(&chaos.spectrum)),
-            _ => None,
-        };
-        let Converted::Verdict(verdict) = self.converted(verdict) else { return None };
-        Some((verdict, spectrum))
+    /// The verdict on a motion that was measured, whatever the budget was.
+    pub(crate) fn measured(&self, verdict: &Verdict) -> Option<MachineVerdict> {
+        match self.converted(verdict) {
+            Converted::Verdict(verdict) => Some(verdict),
+            Converted::Kind | Converted::Unknown => self.undecided(verdict),
+        }
+    }
+
+    /// The verdict on a motion that is undecided after some impacts.
+    fn undecided(&self, verdict: &Verdict) -> Option<MachineVerdict> {
+        let Verdict::Undecided(Undecided::Impacts { impacts, spectrum }) = verdict else { return None };
+        Some(MachineVerdict::Undecided {
+            why: MachineUndecided::Events,
+            spectrum: spectrum.map(|spectrum| self.in_time(&spectrum)),
+            events: *impacts,
+        })
     }
 
     /// The cycle of the oscillator, closed by the machine; `None` if the machine gives it another label.
@@ -134,6 +139,18 @@ impl<'a> Reduced<'a> {
         };
         let (x, v) = flight.state(0.5 * time);
         Some(Start { x, v, phase: flight.phase_at(0.5 * time) })
+    }
+
+    /// A state of the motion that grazes the stop at a phase, to which ever gentler impacts tend; `None` with two stops, of which
+    /// the limit does not say which.
+    fn grazing(&self, phase: f64) -> Option<Place> {
+        let osc = self.oscillator();
+        if osc.stop(Side::Lower).is_some() {
+            return None;
+        }
+        let flight = Flight::new(osc, Start { x: osc.gap(), v: 0.0, phase });
+        let (x, v) = flight.state(AFTER_GRAZE);
+        self.place(Start { x, v, phase: flight.phase_at(AFTER_GRAZE) })
     }
 
     /// The state of the machine at one of the oscillator.
