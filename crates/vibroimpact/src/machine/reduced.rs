@@ -191,7 +191,7 @@ impl Reduction {
     /// exactly. `None` beyond a stop, and where a number is too large.
     #[must_use]
     pub fn start(&self, q: f64, qdot: f64, phase: f64) -> Option<Start> {
-        if !(phase.abs() <= phase::LARGEST) {
+        if !(-phase::LARGEST..=phase::LARGEST).contains(&phase) {
             return None;
         }
         let phase = phase::wrap(phase);

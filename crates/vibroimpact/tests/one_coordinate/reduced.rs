@@ -374,10 +374,7 @@ fn many_machines() {
         let mut machine = dress.machine(&system.oscillator);
         let beside = |v: f64| start_of(&machine, Start { v, ..system.start });
         let mut starts = vec![beside(system.start.v), beside(0.5), beside(-1.0)];
-        starts.push(MachineStart {
-            q: vec![f64::from(machine.stops()[0].direction[0].signum() as i8) * 1e9],
-            ..starts[0].clone()
-        });
+        starts.push(MachineStart { q: vec![machine.stops()[0].direction[0].signum() * 1e9], ..starts[0].clone() });
         let state = MachineMotion::with_states(&machine, &starts[0], MachineLimits::default()).unwrap().nth(2);
         starts.extend(state.and_then(|event| event.state).map(|state| *state));
         if k % 9 == 0 {

@@ -24,7 +24,7 @@ const AFTER_GRAZE: f64 = 0.5;
 #[derive(Clone, Debug)]
 pub(super) enum Converted {
     /// This.
-    Verdict(MachineVerdict),
+    Verdict(Box<MachineVerdict>),
     /// The kind of the motion. The rest follows from the machine's own motion from any start that leads to it.
     Kind,
     /// Nothing.
@@ -65,7 +65,7 @@ impl<'a> Reduced<'a> {
     pub(super) fn settled(&self, settled: &Settled) -> Option<MachineSettled> {
         let Converted::Verdict(verdict) = self.converted(&settled.verdict) else { return None };
         Some(MachineSettled {
-            verdict,
+            verdict: *verdict,
             events: settled.impacts,
             time: settled.time * self.reduction.time(),
             transient: settled.transient.map(|Chaos { spectrum, .. }| self.in_time(&spectrum)),
@@ -95,13 +95,13 @@ impl<'a> Reduced<'a> {
             Verdict::Stuck(_) | Verdict::NoImpact(NoImpact::Flight(_)) => return Converted::Kind,
             Verdict::NoImpact(_) | Verdict::Undecided(_) => None,
         };
-        found.map_or(Converted::Unknown, Converted::Verdict)
+        found.map_or(Converted::Unknown, |verdict| Converted::Verdict(Box::new(verdict)))
     }
 
     /// The verdict on a motion that was measured, whatever the budget was.
     pub(crate) fn measured(&self, verdict: &Verdict) -> Option<MachineVerdict> {
         match self.converted(verdict) {
-            Converted::Verdict(verdict) => Some(verdict),
+            Converted::Verdict(verdict) => Some(*verdict),
             Converted::Kind | Converted::Unknown => self.undecided(verdict),
         }
     }
