@@ -10,7 +10,7 @@ use vibroimpact::flight::SearchLimits;
 use vibroimpact::lanes::{ABREAST, Batch, Width};
 use vibroimpact::math::sort_by;
 use vibroimpact::motion::{EventKind, Motion};
-use vibroimpact::verdict::{KnownAttractors, SettleOptions, settle_many};
+use vibroimpact::verdict::{KnownAttractors, SettleOptions, settle, settle_many};
 use vibroimpact::{Oscillator, Start, scenario};
 
 /// What is measured.
@@ -53,7 +53,7 @@ pub(crate) fn measure(workload: Workload, width: Width, duration: Duration) -> R
                 lanes: both(&|start| abreast(&osc, width, along(&osc, start), duration / 4)),
             }
         }
-        Workload::Basin => Rates { scalar: basin(Width::Scalar, duration / 3), lanes: basin(width, duration / 2) },
+        Workload::Basin => Rates { scalar: one_by_one(duration / 3), lanes: basin(width, duration / 2) },
     }
 }
 
@@ -130,17 +130,28 @@ fn abreast(osc: &Oscillator, width: Width, starts: Vec<Start>, duration: Duratio
     median_rate(duration, || black_box(round()))
 }
 
+/// A start of the basin, which is a grid of 100 x 100.
+fn basin_start(k: u64) -> Start {
+    #[allow(clippy::cast_precision_loss)] // up to 100
+    let (column, row) = ((k % 100) as f64, (k / 100) as f64);
+    Start { x: -4.0 + 4.75 * (column + 0.5) / 100.0, v: -4.0 + 8.0 * (row + 0.5) / 100.0, phase: 0.0 }
+}
+
 /// Starts per second to a confirmed motion, including the survey of the basin.
 fn basin(width: Width, duration: Duration) -> f64 {
     let (osc, options) = (scenario::S.oscillator(), SettleOptions::default());
-    let start = |k: u64| {
-        #[allow(clippy::cast_precision_loss)] // a grid of 100 x 100
-        let (column, row) = ((k % 100) as f64, (k / 100) as f64);
-        Start { x: -4.0 + 4.75 * (column + 0.5) / 100.0, v: -4.0 + 8.0 * (row + 0.5) / 100.0, phase: 0.0 }
-    };
     median_rate(duration, || {
-        let survey = KnownAttractors::survey(&osc, (0..24).map(|k| start(417 * k)), &options);
-        settle_many(&osc, 0..10_000, &start, &survey, &options, width, &|| false).cells.len()
+        let survey = KnownAttractors::survey(&osc, (0..24).map(|k| basin_start(417 * k)), &options);
+        settle_many(&osc, 0..10_000, &basin_start, &survey, &options, width, &|| false).cells.len()
+    })
+}
+
+/// The same for starts that are settled one after another, each without the results of the others.
+fn one_by_one(duration: Duration) -> f64 {
+    let (osc, options) = (scenario::S.oscillator(), SettleOptions::default());
+    let mut starts = (0..10_000).map(|k| 7919 * k % 10_000).cycle();
+    median_rate(duration, || {
+        starts.by_ref().take(100).map(|k| black_box(settle(&osc, basin_start(k), &options))).count()
     })
 }
 

@@ -94,7 +94,7 @@ fn plane() -> BoxedStrategy<system::SystemValues> {
         .boxed()
 }
 
-const WIDTHS: [Width; 4] = [Width::Scalar, Width::Portable, Width::Avx2, Width::Avx512];
+const WIDTHS: [Width; 3] = Width::ALL;
 
 impl Property for Verdicts {
     type Case = StartBatch;
@@ -140,7 +140,7 @@ impl Property for Verdicts {
         let options = case.impacts.map_or_else(|| SettleOptions::at_most(2000), SettleOptions::at_most);
         let area = StartBox::natural(&osc);
         let starts: Vec<Start> = (0..case.count).map(|k| scattered_starts(&osc, area, case.seed, k)).collect();
-        let width = Some(WIDTHS[case.width]).filter(|width| width.available()).unwrap_or(Width::Scalar);
+        let width = Some(WIDTHS[case.width]).filter(|width| width.available()).unwrap_or(Width::Portable);
         alone_as_among(&osc, &starts, &options, (&case.survey, &case.cuts, width))
     }
 }

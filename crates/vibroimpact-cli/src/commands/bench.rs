@@ -41,20 +41,17 @@ pub(crate) struct Bench {
 /// The lanes by name.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Lanes {
-    /// One motion after another, by the same algorithm
-    Scalar,
     /// Four, in the vectors every machine of this kind has
     Portable,
-    /// Eight, with AVX2
+    /// Sixteen, with AVX2
     Avx2,
-    /// Eight, with AVX-512
+    /// Sixteen, with AVX-512
     Avx512,
 }
 
 impl Lanes {
     const fn width(self) -> Width {
         match self {
-            Self::Scalar => Width::Scalar,
             Self::Portable => Width::Portable,
             Self::Avx2 => Width::Avx2,
             Self::Avx512 => Width::Avx512,
@@ -64,7 +61,6 @@ impl Lanes {
 
 fn name(width: Width) -> &'static str {
     match width {
-        Width::Scalar => "scalar",
         Width::Portable => "portable",
         Width::Avx2 => "avx2",
         Width::Avx512 => "avx512",
@@ -101,7 +97,7 @@ struct Impacts {
 struct Starts {
     #[serde(skip_serializing_if = "Option::is_none")]
     basin: Option<f64>,
-    /// The same one motion after another.
+    /// The same for starts that are settled one after another, each without the results of the others.
     #[serde(skip_serializing_if = "Option::is_none")]
     basin_scalar: Option<f64>,
 }

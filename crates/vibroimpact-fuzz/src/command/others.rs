@@ -52,7 +52,7 @@ pub(super) fn lines() -> Words {
         1 => line("man", vec![words(&[".", "none", "plan.toml"])]),
         1 => line("bench", vec![flag("seconds", 1.0, prop_oneof![2 => word(&["0.01"]), 1 => word(&["0", "-1", "nan", "1e9"])].boxed()),
             flag("workload", 0.9, word(&["chaos", "regular", "basin", "none"])),
-            flag("width", 0.4, word(&["scalar", "portable", "avx2", "avx512", "none"])), switch("json", 0.5)]),
+            flag("width", 0.4, word(&["portable", "avx2", "avx512", "none"])), switch("json", 0.5)]),
         1 => line("reproduce", vec![flag("out", 1.0, word(&["plan.toml", "thesis.zarr/x", ""])), switch("quick", 1.0)]),
         1 => line("explore", vec![flag("port", 1.0, word(&["-1", "65536", "x", ""])), switch("no-open", 1.0)]),
         1 => all(vec![words(&["help", "--help", "--version", "-h", "frobnicate", "settle", ""])]),

@@ -11,8 +11,8 @@ use super::flight::{Hit, Progress};
 use super::slots::{ARRIVAL, COS, INTERVAL, Lists, PHASE, SIDE, SIN, Slots, V, X, rebound, row};
 use super::stride::Stride;
 use super::strike::Launch;
-use super::systems::{Each, Kind, One};
-use super::width::Width;
+use super::systems::{Each, Kind, One, Oscillators};
+use super::width::{Width, round_of_each};
 use crate::contact::ImpactState;
 use crate::contact::chatter;
 use crate::flight::{Contact, Flight, SearchLimits, counted};
@@ -51,25 +51,18 @@ pub struct Batch {
     width: Width,
 }
 
-/// The oscillators of the motions.
-#[derive(Clone, Debug)]
-enum Oscillators {
-    One(Oscillator, Box<One>),
-    Many(Each),
-}
-
 impl Batch {
     /// A batch for at most `capacity` motions of `osc`. `None` for oscillators whose flights the lanes cannot follow:
     /// restitution 0, forcing or damping some hundred times faster than the oscillator, stops a million static
     /// deflections away.
     #[must_use]
     pub fn new(osc: &Oscillator, capacity: usize, width: Width) -> Option<Self> {
-        Some(Self::of(Oscillators::One(*osc, Box::new(One::new(Stride::new(osc)?))), capacity, width))
+        Some(Self::of(Oscillators::One(Box::new(One::new(osc)?)), capacity, width))
     }
 
     /// A batch for at most `capacity` motions, each of an oscillator of its own, which is of this kind.
     pub(crate) fn of_many(kind: Kind, capacity: usize, width: Width) -> Self {
-        Self::of(Oscillators::Many(Each::new(kind, capacity)), capacity, width)
+        Self::of(Oscillators::Each(Each::new(kind, capacity)), capacity, width)
     }
 
     fn of(systems: Oscillators, capacity: usize, width: Width) -> Self {
@@ -92,25 +85,17 @@ impl Batch {
     /// The longest flight whose end the lanes can find.
     #[must_use]
     pub fn longest(&self) -> f64 {
-        match &self.systems {
-            Oscillators::One(_, one) => one.stride.longest(),
-            Oscillators::Many(each) => (0..self.len()).map(|slot| each.of(slot).stride.longest()).fold(0.0, f64::max),
-        }
+        let slots = if let Oscillators::One(_) = &self.systems { 1 } else { self.len() };
+        (0..slots).map(|slot| self.stride(slot).longest()).fold(0.0, f64::max)
     }
 
     /// The oscillator of a slot.
     pub(crate) fn osc(&self, slot: u32) -> &Oscillator {
-        match &self.systems {
-            Oscillators::One(osc, _) => osc,
-            Oscillators::Many(each) => &each.of(slot as usize).osc,
-        }
+        &self.systems.of(slot as usize).osc
     }
 
     fn stride(&self, slot: usize) -> &Stride {
-        match &self.systems {
-            Oscillators::One(_, one) => &one.stride,
-            Oscillators::Many(each) => &each.of(slot).stride,
-        }
+        &self.systems.of(slot).stride
     }
 
     /// Adds a motion, in the next slot.
@@ -148,7 +133,7 @@ impl Batch {
     }
 
     fn set(&mut self, slot: usize, osc: &Oscillator) {
-        if let Oscillators::Many(each) = &mut self.systems {
+        if let Oscillators::Each(each) = &mut self.systems {
             each.set(slot, osc);
         }
     }
@@ -156,7 +141,7 @@ impl Batch {
     /// Removes a motion; the one in the last slot moves to this slot.
     pub fn remove(&mut self, slot: u32) {
         self.slots.remove(slot as usize);
-        if let Oscillators::Many(each) = &mut self.systems {
+        if let Oscillators::Each(each) = &mut self.systems {
             each.remove(slot as usize);
         }
     }
@@ -167,8 +152,8 @@ impl Batch {
         self.rare.clear();
         self.settling.clear();
         match &self.systems {
-            Oscillators::One(_, one) => self.width.round(&mut self.slots, &**one, &mut self.lists),
-            Oscillators::Many(each) => self.width.round(&mut self.slots, each, &mut self.lists),
+            Oscillators::One(one) => self.width.round(&mut self.slots, one, &mut self.lists),
+            Oscillators::Each(each) => round_of_each(&mut self.slots, each, &mut self.lists),
         }
         for k in 0..self.lists.left.len() {
             self.refine(self.lists.left[k]);
@@ -237,14 +222,8 @@ impl Batch {
         let row = &self.slots.launches[slot as usize];
         let launch = Launch { x: row[X], v: row[V], sin: row[SIN], cos: row[COS] };
         let state = self.slots.state(slot as usize);
-        let progress = match &self.systems {
-            Oscillators::One(_, one) => one.stride.refine(&launch, state, &&**one, &one.table),
-            Oscillators::Many(each) => {
-                let cached = each.of(slot as usize).cached();
-                cached.0.refine(&launch, state, &cached, &cached)
-            }
-        };
-        match progress {
+        let cached = self.systems.of(slot as usize).cached();
+        match cached.0.refine(&launch, state, &cached, &cached) {
             Progress::Clear(on) => {
                 self.slots.put(slot as usize, on);
                 if self.stride(slot as usize).roughly.late(on.s) {

@@ -232,8 +232,7 @@ mod tests {
         let above = all.ceilings().map(|ceiling| Ceiling { level: ceiling.level + 0.1, ..ceiling });
         let from = Part { begin: 0.0, end: 8.0, point: Points::begin(&flight) };
         let panels = &Panels::default();
-        let within =
-            |ceilings: &[Ceiling]| Width::Scalar.run(Above { flight: &flight, from, panels, ceilings }).is_none();
+        let within = |ceilings: &[Ceiling]| Above { flight: &flight, from, panels, ceilings }.run::<f64>().is_none();
         assert!(within(&above));
         // the speed and the acceleration have two ceilings each, of which the motion reaches at least one
         for pair in [&below[0..1], &below[1..2], &below[2..4], &below[4..6]] {

@@ -100,23 +100,23 @@ mod tests {
                     for duration in [1e-9, 0.2, 0.3, 1.0, 7.7, 60.0, 2e3] {
                         let mut single = FlightIntegrals::default();
                         single.add(&flight, duration);
-                        let mut scalar = FlightIntegrals::default();
-                        add_with(Width::Scalar, &mut scalar, &panels, &flight, duration);
+                        let mut portable = FlightIntegrals::default();
+                        add_with(Width::Portable, &mut portable, &panels, &flight, duration);
                         // the size of the motion, whose rounding errors the closed forms have
                         let size = (1.0 + x.abs() + v.abs()).powi(2) + single.x_squared + single.v_squared;
                         let close = 1e-15 * (1.0 + duration) * (1.0 + duration * beta.max(1.0)) * size;
                         for (a, b) in [
-                            (single.x, scalar.x),
-                            (single.x_squared, scalar.x_squared),
-                            (single.v_squared, scalar.v_squared),
-                            (single.work, scalar.work),
+                            (single.x, portable.x),
+                            (single.x_squared, portable.x_squared),
+                            (single.v_squared, portable.v_squared),
+                            (single.work, portable.work),
                         ] {
                             assert!((a - b).abs() < close, "beta {beta} {x} {v} s {duration}: {a:e} {b:e} {:e}", a - b);
                         }
                         for width in Width::ALL.into_iter().filter(|width| width.available()) {
                             let mut other = FlightIntegrals::default();
                             add_with(width, &mut other, &panels, &flight, duration);
-                            assert_eq!(bits(&other), bits(&scalar), "{width:?} beta {beta} s {duration}");
+                            assert_eq!(bits(&other), bits(&portable), "{width:?} beta {beta} s {duration}");
                         }
                     }
                 }

@@ -1,6 +1,7 @@
 //! Propagators of one oscillator that a long single motion needs again and again: each is computed once.
 
 use super::stride::{Halvings, LEVELS, NODES, Pace, Propagators, Row, Stride};
+use crate::system::UndampedForm;
 use core::array::from_fn;
 use core::cell::OnceCell;
 
@@ -48,8 +49,8 @@ impl Propagators<f64> for Cached<'_> {
         self.0.rest(t)
     }
     #[inline]
-    fn whole(&self, time: f64) -> Row<f64> {
-        self.0.whole(time)
+    fn form(&self) -> (UndampedForm<f64>, f64) {
+        self.0.form()
     }
 }
 

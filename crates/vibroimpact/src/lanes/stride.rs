@@ -104,7 +104,7 @@ pub(crate) struct Stride {
 
 /// The propagator without damping by the closed form.
 #[inline(always)]
-pub(super) fn closed<L: Lane>(form: &UndampedForm<L>, time: L) -> Row<L> {
+fn closed<L: Lane>(form: &UndampedForm<L>, time: L) -> Row<L> {
     let p = form.at(time);
     [p.one_minus_c, p.c, p.s, p.c, p.kc, p.ks, p.sin_turn, p.cos_turn]
 }
@@ -196,7 +196,7 @@ impl Stride {
         of_sums(sums, (damped, L::splat(beta), L::splat(drag)), (t, z, zz))
     }
 
-    /// The coefficients of the series, as [`damped_by_series`] takes them.
+    /// The coefficients of the series, as [`series_of_each`] takes them.
     pub(super) fn terms(&self) -> [Terms; TERMS] {
         let mut terms = [[0.0; 8]; TERMS];
         for (n, Coefficients { even, odd }) in self.series.iter().enumerate() {
@@ -205,25 +205,6 @@ impl Stride {
             }
         }
         terms
-    }
-
-    /// The propagator without damping over any time from 0 on, accurate to the last bits: by the series over the first
-    /// half step, where differences are small, otherwise by the closed form.
-    #[inline(always)]
-    pub(super) fn undamped<L: Lane>(&self, time: L) -> Row<L> {
-        let row = closed(&self.form.splat(), time);
-        let early = time.less(L::splat(0.5 * self.constants.h));
-        if early.bits() == 0 {
-            return row;
-        }
-        let series = self.by_series(time);
-        let mut chosen = row;
-        let mut k = 0;
-        while k < chosen.len() {
-            chosen[k] = L::choose(early, series[k], row[k]);
-            k += 1;
-        }
-        chosen
     }
 }
 
@@ -255,13 +236,13 @@ fn of_sums<L: Lane>(sums: [[L; 2]; 4], (damped, beta, drag): (bool, L, L), (t, z
     [omc, c, s, s_rate, kc, ks, sin, cos]
 }
 
-/// The propagator with damping over a time of either sign, at most half a step, of another oscillator in each lane: that
-/// with this number in a list of all [`Stride::terms`].
+/// The propagator over a time of either sign, at most half a step, of another oscillator in each lane: that with this
+/// number in a list of all [`Stride::terms`].
 #[inline(always)]
-pub(super) fn damped_by_series<L: Lane>(
+pub(super) fn series_of_each<L: Lane>(
     terms: &[Terms],
     numbers: &[u32; WIDEST],
-    (beta, drag): (L, L),
+    &Constants { damped, beta, drag, .. }: &Constants<L>,
     t: L,
 ) -> Row<L> {
     let (z, zz) = (t * t, (t * t) * (t * t));
@@ -285,7 +266,7 @@ pub(super) fn damped_by_series<L: Lane>(
         }
     }
     let [a, b, c, d, e, f, g, h] = sums;
-    of_sums([[a, b], [c, d], [e, f], [g, h]], (true, beta, drag), (t, z, zz))
+    of_sums([[a, b], [c, d], [e, f], [g, h]], (damped, beta, drag), (t, z, zz))
 }
 
 /// The coefficients of one index of the oscillators with these numbers.
@@ -303,13 +284,30 @@ fn terms_of<L: Lane>(terms: &[Terms], numbers: &[u32; WIDEST], k: usize) -> [L; 
 }
 
 /// The propagators that are not needed in every step.
-pub(super) trait Propagators<L> {
+pub(super) trait Propagators<L: Lane> {
     /// The propagator over `k` whole steps.
     fn node(&self, k: L) -> Row<L>;
-    /// The propagator over a time of either sign, at most half a step. In lanes of several systems: with damping.
+    /// The propagator over a time of either sign, at most half a step.
     fn rest(&self, t: L) -> Row<L>;
-    /// The propagator without damping over any time from 0 on.
-    fn whole(&self, time: L) -> Row<L>;
+    /// The closed form without damping, and the length of a whole step.
+    fn form(&self) -> (UndampedForm<L>, L);
+    /// The propagator without damping over any time from 0 on, accurate to the last bits: by the series over the first
+    /// half step, where differences are small, otherwise by the closed form.
+    #[inline(always)]
+    fn whole(&self, time: L) -> Row<L> {
+        let (form, h) = self.form();
+        let mut row = closed(&form, time);
+        let early = time.less(L::splat(0.5) * h);
+        if early.bits() != 0 {
+            let series = self.rest(time);
+            let mut k = 0;
+            while k < row.len() {
+                row[k] = L::choose(early, series[k], row[k]);
+                k += 1;
+            }
+        }
+        row
+    }
 }
 
 /// Halved steps.
@@ -330,8 +328,8 @@ impl Propagators<f64> for Stride {
         self.by_series(t)
     }
     #[inline]
-    fn whole(&self, time: f64) -> Row<f64> {
-        self.undamped(time)
+    fn form(&self) -> (UndampedForm<f64>, f64) {
+        (self.form, self.constants.h)
     }
 }
 
@@ -349,7 +347,6 @@ impl Halvings for Stride {
 #[derive(Clone, Debug)]
 pub(super) struct Table {
     nodes: Vec<Row<f64>>,
-    paces: [Pace<f64>; LEVELS],
 }
 
 impl Table {
@@ -359,14 +356,9 @@ impl Table {
             k += 1.0;
             stride.node(k)
         });
-        Self {
-            nodes: rows.take(nodes(stride.constants.damped) as usize + 4).collect(),
-            paces: core::array::from_fn(|level| stride.pace(level)),
-        }
+        Self { nodes: rows.take(nodes(stride.constants.damped) as usize + 4).collect() }
     }
-}
 
-impl Table {
     /// The propagators over these numbers of whole steps.
     #[inline(always)]
     pub(super) fn node<L: Lane>(&self, k: L) -> Row<L> {
@@ -390,12 +382,6 @@ pub(super) fn indices<L: Lane>(k: L, last: u32) -> [u32; WIDEST] {
         *which = k.min(last);
     }
     which
-}
-
-impl Halvings for Table {
-    fn pace(&self, level: usize) -> Pace<f64> {
-        self.paces[level]
-    }
 }
 
 /// The largest width of a lane type; arrays are padded to a multiple of it.

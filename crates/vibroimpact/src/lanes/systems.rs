@@ -1,12 +1,16 @@
 //! The systems of the flights of a batch: one for all slots, or another one in each.
+//!
+//! A round is compiled for one system in all lane types, with constants that stay in registers. With another system in each
+//! slot it is compiled for AVX-512 only: with fewer numbers in a register it takes longer than one motion after another.
 
 use super::constants::Constants;
 use super::propagator_cache::{Cached, LAST, PropagatorCache};
 use super::stride::{
-    Pace, Propagators, Row, Stride, TERMS, Table, Terms, WIDEST, closed, closed_at_node, damped_by_series, indices,
-    longest, whole_step,
+    Pace, Propagators, Row, Stride, TERMS, Table, Terms, WIDEST, closed_at_node, indices, longest, series_of_each,
+    whole_step,
 };
-use crate::math::{Lane, Mask, Numbers, Single};
+use super::width::Width;
+use crate::math::{Lane, Numbers, Single};
 use crate::system::{FormKind, Oscillator, Side, UndampedForm};
 
 /// Where the stages of a round find the constants of the flights in their lanes.
@@ -34,16 +38,54 @@ pub(super) trait Systems {
     fn pace<L: Lane>(&self, group: &Self::Group<L>) -> Pace<L>;
 }
 
+/// The oscillators of the motions of a batch.
+#[derive(Clone, Debug)]
+pub(super) enum Oscillators {
+    One(Box<One>),
+    Each(Each),
+}
+
+impl Oscillators {
+    /// The system of a slot.
+    #[inline]
+    pub(super) fn of(&self, slot: usize) -> &OfSlot {
+        match self {
+            Self::One(one) => &one.system,
+            Self::Each(each) => each.of(slot),
+        }
+    }
+}
+
+/// A system with its propagators.
+#[derive(Clone, Debug)]
+pub(super) struct OfSlot {
+    pub(super) osc: Oscillator,
+    pub(super) stride: Stride,
+    cache: PropagatorCache,
+}
+
+impl OfSlot {
+    fn new(osc: &Oscillator) -> Option<Self> {
+        Some(Self { osc: *osc, stride: Stride::new(osc)?, cache: PropagatorCache::new() })
+    }
+
+    pub(super) const fn cached(&self) -> Cached<'_> {
+        Cached(&self.stride, &self.cache)
+    }
+}
+
 /// One system for all slots.
 #[derive(Clone, Debug)]
 pub(super) struct One {
-    pub(super) stride: Stride,
-    pub(super) table: Table,
+    system: OfSlot,
+    table: Table,
 }
 
 impl One {
-    pub(super) fn new(stride: Stride) -> Self {
-        Self { table: Table::new(&stride), stride }
+    /// `None` if the lanes cannot follow its flights.
+    pub(super) fn new(osc: &Oscillator) -> Option<Self> {
+        let system = OfSlot::new(osc)?;
+        Some(Self { table: Table::new(&system.stride), system })
     }
 }
 
@@ -53,7 +95,7 @@ impl Systems for One {
 
     #[inline(always)]
     fn step<N: Single>(&self, _: usize) -> (Constants<N>, Pace<N>) {
-        (self.stride.constants.each(|x| N::splat(*x)), self.stride.pace.each(|x| N::splat(*x)))
+        (self.system.stride.constants.each(|x| N::splat(*x)), self.system.stride.pace.each(|x| N::splat(*x)))
     }
     #[inline(always)]
     fn group<L: Lane>(&self, _: &[u32; WIDEST]) {}
@@ -61,11 +103,11 @@ impl Systems for One {
     fn nowhere<L: Lane>() {}
     #[inline(always)]
     fn constants<L: Lane>(&self, (): &()) -> Constants<L> {
-        self.stride.constants.each(|x| L::splat(*x))
+        self.system.stride.constants.each(|x| L::splat(*x))
     }
     #[inline(always)]
     fn roughly<L: Lane>(&self, (): &()) -> Constants<L::Rough> {
-        self.stride.constants.each(|x| L::Rough::splat(*x))
+        self.system.stride.constants.each(|x| L::Rough::splat(*x))
     }
     #[inline(always)]
     fn propagators<L: Lane>(&self, (): &()) -> &Self {
@@ -73,7 +115,7 @@ impl Systems for One {
     }
     #[inline(always)]
     fn pace<L: Lane>(&self, (): &()) -> Pace<L> {
-        self.stride.pace.each(|x| L::splat(*x))
+        self.system.stride.pace.each(|x| L::splat(*x))
     }
 }
 
@@ -84,11 +126,12 @@ impl<L: Lane> Propagators<L> for &One {
     }
     #[inline(always)]
     fn rest(&self, t: L) -> Row<L> {
-        self.stride.by_series(t)
+        self.system.stride.by_series(t)
     }
     #[inline(always)]
-    fn whole(&self, time: L) -> Row<L> {
-        self.stride.undamped(time)
+    fn form(&self) -> (UndampedForm<L>, L) {
+        let Stride { form, constants, .. } = &self.system.stride;
+        (form.splat(), L::splat(constants.h))
     }
 }
 
@@ -103,9 +146,9 @@ pub(crate) struct Kind {
 
 impl Kind {
     /// The kind of an oscillator, and the longest flight whose end the lanes can find; `None` if they cannot follow its
-    /// flights.
-    pub(crate) fn of(osc: &Oscillator) -> Option<(Self, f64)> {
-        let h = whole_step(osc)?;
+    /// flights, or take longer than one motion after another.
+    pub(crate) fn of(osc: &Oscillator, width: Width) -> Option<(Self, f64)> {
+        let h = whole_step(osc).filter(|_| width.suits_each())?;
         let damped = osc.damping() != 0.0;
         let form = if damped { FormKind::Plain } else { osc.response().undamped_form().kind };
         Some((Self { two_stops: osc.stop(Side::Lower).is_some(), damped, form }, longest(damped, h)))
@@ -122,27 +165,13 @@ type Columns<L> = [L; 16];
 /// The constants and the pace of sixteen slots, side by side.
 type Block = (Constants<[f32; WIDEST]>, [[f32; WIDEST]; 16]);
 
-/// The system of a slot, with its propagators.
-#[derive(Clone, Debug)]
-pub(super) struct OfSlot {
-    pub(super) osc: Oscillator,
-    pub(super) stride: Stride,
-    cache: PropagatorCache,
-}
-
-impl OfSlot {
-    pub(super) const fn cached(&self) -> Cached<'_> {
-        Cached(&self.stride, &self.cache)
-    }
-}
-
 /// Another system in each slot; all are of one [`Kind`].
 #[derive(Clone, Debug)]
 pub(super) struct Each {
     kind: Kind,
     /// The systems of the slots.
     systems: Vec<OfSlot>,
-    /// The coefficients of the series of the slots, with damping.
+    /// The coefficients of the series of the slots.
     series: Vec<[Terms; TERMS]>,
     rows: Vec<Columns<f64>>,
     /// The paces of the slots.
@@ -159,7 +188,7 @@ impl Each {
         Self {
             kind,
             systems: Vec::with_capacity(capacity),
-            series: vec![[[0.0; 8]; TERMS]; if kind.damped { padded } else { 0 }],
+            series: vec![[[0.0; 8]; TERMS]; padded],
             rows: vec![[0.0; 16]; padded],
             paces: vec![[0.0; 16]; padded],
             blocks: vec![Default::default(); blocks],
@@ -168,8 +197,7 @@ impl Each {
 
     /// Gives a slot, which may be the next one, a system of this kind.
     pub(super) fn set(&mut self, slot: usize, osc: &Oscillator) {
-        let Some(stride) = Stride::new(osc) else { return };
-        let system = OfSlot { osc: *osc, stride, cache: PropagatorCache::new() };
+        let Some(system) = OfSlot::new(osc) else { return };
         if slot == self.systems.len() {
             self.systems.push(system);
         } else {
@@ -189,9 +217,7 @@ impl Each {
     /// Writes the numbers of the system of a slot to where the lanes read them.
     fn write(&mut self, slot: usize) {
         let stride = &self.systems[slot].stride;
-        if self.kind.damped {
-            self.series[slot] = stride.terms();
-        }
+        self.series[slot] = stride.terms();
         let Stride { constants, roughly, pace, rough, form, .. } = stride;
         let Constants { beta, drag, gap, restitution, h, margin_rate, shortest, bound, sixth, .. } = *constants;
         let [a, b, c] = form.numbers;
@@ -220,9 +246,9 @@ impl Each {
         self.paces[slot] = pace.row();
     }
 
-    /// The system of a slot; that of the last one for a slot beyond, which stands in a lane that is not used.
+    /// The system of a slot; that of the last one for a slot beyond, which is in a lane that is not used.
     #[inline]
-    pub(super) fn of(&self, slot: usize) -> &OfSlot {
+    fn of(&self, slot: usize) -> &OfSlot {
         &self.systems[slot.min(self.systems.len() - 1)]
     }
 }
@@ -300,32 +326,6 @@ pub(super) struct OfGroup<'a, L> {
     group: Group<L>,
 }
 
-impl<L: Lane> OfGroup<'_, L> {
-    /// Computes the rows of the lanes whose bits are set one by one, in place of those given.
-    #[inline(always)]
-    fn alone(&self, mut bits: u32, row: Row<L>, times: L, of: impl Fn(&Stride, f64) -> Row<f64>) -> Row<L> {
-        let mut single = [0.0; WIDEST];
-        times.store(&mut single);
-        let mut columns = [[0.0; WIDEST]; 8];
-        for (column, numbers) in columns.iter_mut().zip(row) {
-            numbers.store(column);
-        }
-        while bits != 0 {
-            let lane = bits.trailing_zeros() as usize % WIDEST;
-            let of_lane = of(&self.each.of(self.group.slots[lane] as usize).stride, single[lane]);
-            for (column, number) in columns.iter_mut().zip(of_lane) {
-                column[lane] = number;
-            }
-            bits &= bits - 1;
-        }
-        let mut loaded = row;
-        for (loaded, column) in loaded.iter_mut().zip(&columns) {
-            *loaded = L::load(column);
-        }
-        loaded
-    }
-}
-
 impl<L: Lane> Propagators<L> for OfGroup<'_, L> {
     #[inline(always)]
     fn node(&self, k: L) -> Row<L> {
@@ -346,12 +346,10 @@ impl<L: Lane> Propagators<L> for OfGroup<'_, L> {
     #[inline(always)]
     fn rest(&self, t: L) -> Row<L> {
         let Group { slots, constants, .. } = &self.group;
-        damped_by_series(self.each.series.as_flattened(), slots, (constants.beta, constants.drag), t)
+        series_of_each(self.each.series.as_flattened(), slots, constants, t)
     }
     #[inline(always)]
-    fn whole(&self, time: L) -> Row<L> {
-        let row = closed(&self.group.form, time);
-        let early = time.less(L::splat(0.5) * self.group.constants.h).bits();
-        if early == 0 { row } else { self.alone(early, row, time, |stride, t| stride.rest(t)) }
+    fn form(&self) -> (UndampedForm<L>, L) {
+        (self.group.form, self.group.constants.h)
     }
 }

@@ -68,7 +68,7 @@ fn each_from(
     let mut kinds: Vec<(Kind, Vec<usize>)> = Vec::new();
     for (system, (osc, count)) in systems.iter().enumerate() {
         let few = (1..FEW as u64).contains(count);
-        let kind = if few { Kind::of(osc) } else { None };
+        let kind = if few { Kind::of(osc, width) } else { None };
         if let Some((kind, _)) = kind.filter(|(_, longest)| *longest < options.limits.horizon(osc)) {
             match kinds.iter_mut().find(|(known, _)| *known == kind) {
                 Some((_, group)) => group.push(system),
@@ -264,7 +264,7 @@ mod tests {
         let none = KnownAttractors::default();
         let alone = |system: usize| {
             let (osc, count) = systems[system];
-            settle_many(&osc, 0..count, &|k| start(system, k), &none, &options, Width::Scalar, &|| false)
+            settle_many(&osc, 0..count, &|k| start(system, k), &none, &options, Width::Portable, &|| false)
         };
         let expected: Vec<Settlement> = (0..systems.len()).map(alone).collect();
         let chaotic = |of: &Settlement| of.motions.iter().any(|found| matches!(found.verdict, Verdict::Chaotic(_)));
