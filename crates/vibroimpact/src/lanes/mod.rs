@@ -4,7 +4,7 @@
 //! |---|---|
 //! | the constants of the flights of an oscillator: steps with a constant matrix | `stride`, `constants` |
 //! | propagators that a long single motion needs again | `propagator_cache` |
-//! | one oscillator for all lanes, or another one in each | `systems` |
+//! | one oscillator for all lanes, or, with AVX-512, another one in each | `systems` |
 //! | a step proven clear of the stops | `hull` |
 //! | a step that comes close to a stop and turns back | `swing` |
 //! | a contact that is found, refined and proven to be the first | `strike` |

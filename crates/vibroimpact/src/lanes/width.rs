@@ -126,7 +126,7 @@ pub(super) fn round_of_each(slots: &mut Slots, systems: &Each, lists: &mut Lists
     }
 }
 
-/// Something that is computed in lanes of any type. Lane types have 1, 4, 8 or 16 numbers.
+/// Something that is computed in lanes of any type. Lane types have 4 or 16 numbers.
 pub(crate) trait Task {
     /// The result.
     type Output;
