@@ -9,7 +9,6 @@ use super::stride::{
     Pace, Propagators, Row, Stride, TERMS, Table, Terms, WIDEST, closed_at_node, indices, longest, series_of_each,
     whole_step,
 };
-use super::width::Width;
 use crate::math::{Lane, Numbers, Single};
 use crate::system::{FormKind, Oscillator, Side, UndampedForm};
 
@@ -146,9 +145,9 @@ pub(crate) struct Kind {
 
 impl Kind {
     /// The kind of an oscillator, and the longest flight whose end the lanes can find; `None` if they cannot follow its
-    /// flights, or take longer than one motion after another.
-    pub(crate) fn of(osc: &Oscillator, width: Width) -> Option<(Self, f64)> {
-        let h = whole_step(osc).filter(|_| width.suits_each())?;
+    /// flights.
+    pub(crate) fn of(osc: &Oscillator) -> Option<(Self, f64)> {
+        let h = whole_step(osc)?;
         let damped = osc.damping() != 0.0;
         let form = if damped { FormKind::Plain } else { osc.response().undamped_form().kind };
         Some((Self { two_stops: osc.stop(Side::Lower).is_some(), damped, form }, longest(damped, h)))

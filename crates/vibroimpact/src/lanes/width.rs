@@ -76,7 +76,7 @@ impl Width {
 
     /// Whether lanes with another system in each slot are faster than one motion after another: a map takes a tenth to a
     /// sixth less time with AVX-512, and more time with narrower registers.
-    pub(super) fn suits_each(self) -> bool {
+    pub(crate) fn suits_each(self) -> bool {
         self == Self::Avx512 && self.available()
     }
 

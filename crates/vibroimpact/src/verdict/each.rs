@@ -67,8 +67,8 @@ fn each_from(
     // the systems of each kind that can share lanes
     let mut kinds: Vec<(Kind, Vec<usize>)> = Vec::new();
     for (system, (osc, count)) in systems.iter().enumerate() {
-        let few = (1..FEW as u64).contains(count);
-        let kind = if few { Kind::of(osc, width) } else { None };
+        let few = width.suits_each() && (1..FEW as u64).contains(count);
+        let kind = if few { Kind::of(osc) } else { None };
         if let Some((kind, _)) = kind.filter(|(_, longest)| *longest < options.limits.horizon(osc)) {
             match kinds.iter_mut().find(|(known, _)| *known == kind) {
                 Some((_, group)) => group.push(system),
