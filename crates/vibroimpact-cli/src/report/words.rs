@@ -213,7 +213,9 @@ fn grounds(verdict: &Verdict, units: &Units) -> String {
             ))
         ),
         Verdict::Undecided(Undecided::Unconfirmed { impacts }) => {
-            format!("{impacts} impacts; from the release to the next rest the rounding errors grow beyond what tells one motion from another")
+            format!(
+                "{impacts} impacts; from the release to the next rest the rounding errors grow beyond what tells one motion from another"
+            )
         }
         Verdict::Undecided(Undecided::Search { periods }) => format!(
             "a flight was followed for {} forcing periods without contact, too few to conclude",
