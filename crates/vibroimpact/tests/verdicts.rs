@@ -439,9 +439,9 @@ fn f04c_search_steps_run_out_alike_alone_and_among_others() {
 
 /// Chaos from a release to the next rest: rounding errors decide after how many periods it comes, and no number is claimed.
 ///
-/// With 140, 180 and 250 digits, followed impact by impact to speeds of 1e-100, the first is inf/294 and the second inf/101. Errors grow by
-/// 8e62 and 3e70 on the way. After a change of the first rebound by 1e-16, -1e-16 and 2e-16 of itself they are inf/186, inf/176 and inf/229, and
-/// inf/702, inf/518 and inf/119. With doubles these were called inf/421 and inf/154.
+/// Followed impact by impact to speeds of 1e-100, the first is inf/294 with 140, 180 and 250 digits, and the second inf/101 with 120, 160
+/// and 250. Errors grow by 8e62 and 3e70 on the way. After a change of the first rebound by 1e-16, -1e-16 and 2e-16 of itself they are
+/// inf/186, inf/176 and inf/229, and inf/702, inf/518 and inf/119. With doubles these were called inf/421 and inf/154.
 #[test]
 fn f42m_periods_that_rounding_decides_are_not_claimed() {
     for (osc, start, _) in once_chaotic().into_iter().take(2) {
