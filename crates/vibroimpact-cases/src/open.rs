@@ -15,9 +15,6 @@ pub const DIFFERS: &[(&str, u64)] = &[
 /// Machines with another verdict when they are written in another way, which none of 60 motions with numbers changed by roundings
 /// has: family and seed.
 pub const VERDICTS_DIFFER: &[(&str, u64)] = &[
-    // 1/1 or 2/1 in other units of mass and length: not explained yet
-    ("duplicates", 15),
-    ("duplicates", 21),
     // twice beside itself: no further event instead of undecided, and undecided instead of 0 or 38/T
     ("idle", 3),
     ("idle", 19),

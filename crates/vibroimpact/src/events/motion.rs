@@ -276,16 +276,17 @@ impl<'a> MachineMotion<'a> {
         let (rigid, soft): (Vec<usize>, Vec<usize>) =
             closing.iter().partition(|j| compliant(&self.machine.stops()[**j].law).is_none());
         let mut events: Vec<(MachineEventKind, usize, f64, Vec<usize>)> = Vec::new();
-        if !rigid.is_empty() {
+        let sizes = (!rigid.is_empty()).then(|| self.rate_sizes());
+        if let Some(sizes) = &sizes {
             self.largest_impact = rigid.iter().fold(self.largest_impact, |most, j| most.max(speeds[*j]));
-            let pushed = self.strike(&rigid, &speeds, &mut candidates)?;
+            let pushed = self.strike(&rigid, (&speeds, sizes), &mut candidates)?;
             for j in self.distinct(&rigid, &pushed) {
                 let others = rigid.iter().chain(pushed.iter().filter(|other| !rigid.contains(other)));
                 let with = others.copied().filter(|other| *other != j).collect();
                 events.push((MachineEventKind::Impact, j, speeds[j], with));
             }
         }
-        self.meet(&soft, before, !rigid.is_empty(), &turns, &mut candidates);
+        self.meet(&soft, before, sizes.as_deref(), &turns, &mut candidates);
         self.instants.silence(&mut self.place.x, &mut self.place.v, 1);
         // a force that jumps can end any rest
         for (at, state) in self.place.states.iter().enumerate() {

@@ -10,12 +10,12 @@ use crate::regime::{ContactState, GuardKind, compliant, independent};
 
 impl MachineMotion<'_> {
     /// The impacts on the rigid stops `struck`, together with the rigid ones at rest: new velocities, the states of
-    /// contacts that open or close by them, and the rest as candidates. Returns the stops that push; `None` if the law of
-    /// impact has no solution.
+    /// contacts that open or close by them, and the rest as candidates. The speeds and the [sizes](Self::rate_sizes) are those
+    /// before. Returns the stops that push; `None` if the law of impact has no solution.
     pub(super) fn strike(
         &mut self,
         struck: &[usize],
-        speeds: &[f64],
+        (speeds, sizes): (&[f64], &[f64]),
         candidates: &mut Vec<usize>,
     ) -> Option<Vec<usize>> {
         let stops = self.machine.stops();
@@ -86,7 +86,7 @@ impl MachineMotion<'_> {
             }
             let (_, rate, _, size) = self.place.gap(&self.normal, &turns, j);
             candidates.retain(|candidate| *candidate != j);
-            if rate.abs() <= 64.0 * f64::EPSILON * size {
+            if rate.abs() <= 64.0 * f64::EPSILON * size.max(sizes[j]) {
                 candidates.push(j);
             } else if rate > 0.0 {
                 self.place.states[j] = ContactState::Open;
@@ -101,13 +101,24 @@ impl MachineMotion<'_> {
             let (speed, size) = self.place.sliding(self.machine, &self.normal, joint);
             let at = stops.len() + joint;
             candidates.retain(|candidate| *candidate != at);
-            if speed.abs() > 64.0 * f64::EPSILON * size {
+            if speed.abs() > 64.0 * f64::EPSILON * size.max(sizes[at]) {
                 self.place.states[at] = if speed > 0.0 { ContactState::Forward } else { ContactState::Backward };
             } else {
                 candidates.push(at);
             }
         }
         Some(set.iter().zip(&found).filter(|(_, impulse)| **impulse > 0.0).map(|((j, ..), _)| *j).collect())
+    }
+
+    /// The size to which the rounding error of the rate of each gap is relative, and of the velocity of each joint, which are counted
+    /// after the stops. That of the velocities before an impact holds after it too: an impact that takes a velocity away leaves the
+    /// rounding error of it.
+    pub(super) fn rate_sizes(&self) -> Vec<f64> {
+        let turns = self.place.turns(&self.normal);
+        let stops = (0..self.machine.stops().len()).map(|j| self.place.gap(&self.normal, &turns, j).3);
+        stops
+            .chain((0..self.machine.joints().len()).map(|k| self.place.sliding(self.machine, &self.normal, k).1))
+            .collect()
     }
 
     /// The stops among `struck` that have an impact of their own: of stops at one place, only the one that pushes.
@@ -129,27 +140,28 @@ impl MachineMotion<'_> {
     }
 
     /// Closes the compliant stops that the structure has reached. After impacts at the same time it may move away from them,
-    /// or back to those that have just opened.
+    /// or back to those that have just opened; `sizes` are then those of the rates before the impacts.
     pub(super) fn meet(
         &mut self,
         reached: &[usize],
         before: &[ContactState],
-        struck: bool,
+        sizes: Option<&[f64]>,
         turns: &[(f64, f64)],
         candidates: &mut Vec<usize>,
     ) {
-        if !struck {
+        let Some(sizes) = sizes else {
             for j in reached {
                 self.place.close(*j);
             }
             return;
-        }
+        };
         for (j, was) in before.iter().enumerate().take(self.machine.stops().len()) {
             let opened = *was == ContactState::Closed && self.place.states[j] == ContactState::Open;
             if !(opened || reached.contains(&j)) {
                 continue;
             }
             let (_, mut rate, _, size) = self.place.gap(&self.normal, turns, j);
+            let size = size.max(sizes[j]);
             if let Some(surface) = self.place.surfaces[j] {
                 rate -= surface.rate * surface.size;
             }
