@@ -41,6 +41,10 @@ impl MachineCycle {
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // checked to be small
             return (1.0..1e6).contains(&periods).then(|| Self::near(frame, from, periods as u32)).flatten();
         }
+        // one that loses energy does not return, and one that loses none has others of more and of less energy beside it
+        if frame.gains_no_energy() {
+            return None;
+        }
         let (begin, lap, residual) = closed(frame, from, time)?;
         // without events nothing says that the motion is not one of many
         let alone = |begin: &Place, lap: &MachineLap, residual| {

@@ -170,6 +170,13 @@ impl<'a> MachineFrame<'a> {
         self.machine.parts().frequency.is_none()
     }
 
+    /// Whether nothing drives the machine: no forcing, no belt that moves, and no constant force along a free translation.
+    pub(crate) fn gains_no_energy(&self) -> bool {
+        self.unforced()
+            && self.normal.translations.is_empty()
+            && self.machine.joints().iter().all(|joint| joint.belt == 0.0)
+    }
+
     /// The time of so many forcing periods; without forcing the time `otherwise`.
     pub(crate) fn time(&self, periods: u32, otherwise: f64) -> f64 {
         self.machine.period().map_or(otherwise, |period| period * f64::from(periods))
