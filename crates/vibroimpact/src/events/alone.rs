@@ -60,6 +60,10 @@ impl MachineMotion<'_> {
                         }
                     }
                     StopLaw::Compliant { .. } => {
+                        // what rounding errors have left of a motion ends in the general way
+                        if self.instants.may_be_noise(speed, square) {
+                            return false;
+                        }
                         if self.place.close(j) {
                             add_scaled(&mut self.place.x, gap / square, w);
                         }

@@ -171,6 +171,12 @@ impl Instants {
         }
     }
 
+    /// Whether [`silence`](Self::silence) may take away a velocity along a direction of this square of the length: a first test.
+    #[inline]
+    pub(super) fn may_be_noise(&self, velocity: f64, square: f64) -> bool {
+        velocity * velocity <= (NOISE * f64::EPSILON) * (NOISE * f64::EPSILON) * square * self.fastest
+    }
+
     /// Takes away what rounding errors have left of coordinates and velocities that were larger of late: a structure whose bodies
     /// stop each other exactly is at rest, and no force is left. `steps` is the number of sums that each has gone through.
     pub(super) fn silence(&self, x: &mut [f64], v: &mut [f64], steps: usize) {

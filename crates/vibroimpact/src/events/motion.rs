@@ -288,6 +288,15 @@ impl<'a> MachineMotion<'a> {
         }
         self.meet(&soft, before, sizes.as_deref(), &turns, &mut candidates);
         self.instants.silence(&mut self.place.x, &mut self.place.v, 1);
+        // a stop that is met by a rounding error of a motion that has ended is touched
+        for j in soft {
+            let ended = self.place.gap(&self.normal, &turns, j).3 == 0.0;
+            if ended && self.place.known.contains(&(GuardKind::Depth(j), 1)) && !candidates.contains(&j) {
+                self.place.known.retain(|(kind, _)| *kind != GuardKind::Depth(j));
+                self.place.states[j] = ContactState::Open;
+                candidates.push(j);
+            }
+        }
         // a force that jumps can end any rest
         for (at, state) in self.place.states.iter().enumerate() {
             if state.constrains() && !candidates.contains(&at) {

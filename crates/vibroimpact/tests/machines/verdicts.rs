@@ -144,3 +144,23 @@ fn f42q_without_a_drive_there_is_no_isolated_cycle() {
         assert!(!matches!(found, MachineVerdict::Periodic(_)), "{}", found.label());
     }
 }
+
+/// A damped body beside one that swings for ever, with nothing left between them: what is left of its motion ends where it is a rounding
+/// error, on a compliant stop as on a rigid one, and the verdict is that no event follows. It was followed to 1e-300 for 7000 events.
+#[test]
+fn f42r_a_motion_that_decays_on_a_compliant_stop_ends() {
+    let law = StopLaw::Compliant { stiffness: 167.1, damping: 0.0, preload: 0.0, opening: Opening::Force };
+    let parts = MachineParts::new(["idle", "swings"])
+        .with_mass(0, 1.0)
+        .with_mass(1, 2.0)
+        .with_link(&[1.0, 0.0], 0.71, 0.1)
+        .with_link(&[0.0, 1.0], 1.13, 0.0)
+        .with_stop("s", &[-1.0, 0.0], 0.0, law)
+        .with_rigid_stop("c", &[-1.0, 1.0], 0.5, 1.0);
+    let machine = Machine::new(parts).unwrap();
+    let start = MachineStart { qdot: vec![0.1, 0.2], ..MachineStart::default() };
+    let settled = settle_machine(&machine, &start, &SettleOptions::at_most(4000)).unwrap();
+    assert_eq!(settled.verdict.label(), "0");
+    assert!(settled.events < 1000, "{}", settled.events);
+    assert_eq!(settled.verdict.closed(), vec![0]);
+}
