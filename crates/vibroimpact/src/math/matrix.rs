@@ -65,6 +65,11 @@ impl Multiplier {
     pub fn modulus(self) -> f64 {
         hypot(self.re, self.im)
     }
+
+    /// Whether it is one of a complex pair on the unit circle. Two real ones whose product is 1 are not.
+    pub(crate) fn is_on_circle(self) -> bool {
+        self.im.abs() > 1e-6 && (self.modulus() - 1.0).abs() < 1e-6
+    }
 }
 
 /// The two eigenvalues of a matrix with this trace and determinant, the larger first. The smaller is computed as the

@@ -19,7 +19,7 @@ impl ImpactBranch {
             BranchEvent::Grazing { change: Change::Appears, side, .. } => Some((*value, *side)),
             _ => None,
         };
-        let added: Option<Vec<(f64, Side)>> = self.grazed.iter().rev().take(LEAST).map(added).collect();
+        let added: Option<Vec<(f64, Side)>> = self.path.grazed.iter().rev().take(LEAST).map(added).collect();
         let [(last, side), (second, _), (first, _)] = added?[..] else { return None };
         let (step, before) = (last - second, second - first);
         let ratio = step / before;

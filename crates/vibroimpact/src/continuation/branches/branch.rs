@@ -53,7 +53,7 @@ impl Branch {
     ) -> Result<Self, BranchError> {
         let varying = varying.into();
         if cycle.rests.is_empty() {
-            return ImpactBranch::new(osc, cycle, varying, range, direction, options).map(Self::from);
+            return ImpactBranch::of_cycle(osc, cycle, varying, range, direction, options).map(Self::from);
         }
         let resting = RestBranch::new(osc, cycle, varying, range, direction, options)?;
         Ok(Self(Method::Release(Box::new(resting))))

@@ -4,14 +4,14 @@
 //! exception: two curves of solutions cross there and the equations are singular, so a branch point is interpolated
 //! from points beside it.
 
-use super::impact_branch::{ImpactBranch, point, value};
+use super::impact_branch::ImpactBranch;
 use super::point::BranchEvent;
 use super::problem::{BranchSolution, RESOLUTION};
 use super::switch::halved;
 use crate::continuation::equations::cycle_equations::CycleEquations;
 use crate::continuation::equations::test_functions::{Place, TestFunction};
 use crate::continuation::trace::interpolate;
-use crate::continuation::trace::tracer::{Crossing, Step};
+use crate::continuation::trace::tracer::{Crossing, Step, last};
 use crate::math::sort_by;
 use crate::orbit::Orbit;
 
@@ -49,12 +49,12 @@ impl ImpactBranch {
             let (was, is) = (self.tracer.here.known.physical, step.there.known.physical);
             if let Some(event) = event {
                 self.amid((last.replace(place), place), &crossed[..n], &step);
-                self.emit(&at, event);
+                self.add(&at, Some(event));
                 if event.ends() {
                     self.over = true;
                     return;
                 }
-            } else if test.needed() && was && !self.options.keep_signature {
+            } else if test.needed() && was && !self.path.options.keep_signature {
                 self.amid((last, place), &crossed[..n], &step);
                 if let TestFunction::Pull(k) = test {
                     return self.end(&at, BranchEvent::Stick { impact: self.listed(&at, k) });
@@ -65,9 +65,9 @@ impl ImpactBranch {
                 // of several such events the last one makes the solution admissible, and the first one makes it
                 // inadmissible
                 match (is, more) {
-                    (true, false) => self.emit(&at, BranchEvent::BecomesPhysical),
+                    (true, false) => self.add(&at, Some(BranchEvent::BecomesPhysical)),
                     (false, _) if !crossed[..n].iter().any(|(_, what)| needed(what, self)) => {
-                        self.emit(&at, BranchEvent::BecomesVirtual);
+                        self.add(&at, Some(BranchEvent::BecomesVirtual));
                     }
                     _ => {}
                 }
@@ -121,7 +121,7 @@ impl ImpactBranch {
         };
         let told = |j: &usize| matches!(self.test(*j), TestFunction::PlusOne | TestFunction::MinusOne);
         if (0..at.values.len()).filter(told).all(holds) {
-            self.add(point(&at, None));
+            self.add(&at, None);
         }
     }
 
@@ -159,7 +159,7 @@ impl ImpactBranch {
         let (_, ring) = self.cycles().split(&w)?;
         let m = ring.len();
         if m.is_multiple_of(2) && ring.unlike_after(m / 2).is_some_and(|unlike| unlike < ALIKE) {
-            let (ring, value) = halved(self.cycles(), &ring, value(&w))?;
+            let (ring, value) = halved(self.cycles(), &ring, last(&w))?;
             return Some((CycleEquations::join(&ring, value), Some(BranchEvent::Halving)));
         }
         Some((w, Some(BranchEvent::BranchPoint)))
@@ -168,7 +168,7 @@ impl ImpactBranch {
     /// Ends the branch at the point on the end of the range.
     fn end_of_range(&mut self, there: &BranchSolution) {
         let (here, (low, high)) = (&self.tracer.here, self.tracer.problem.range);
-        let (before, after) = (value(&here.w), value(&there.w));
+        let (before, after) = (last(&here.w), last(&there.w));
         let end = if after > high { high } else { low };
         let share = (end - before) / (after - before);
         let guess: Vec<f64> = here.w.iter().zip(&there.w).map(|(a, b)| a + (b - a) * share).collect();

@@ -25,6 +25,7 @@ mod switch;
 mod touch;
 
 pub use branch::Branch;
+pub(crate) use options::scale;
 pub use options::{BranchError, BranchOptions, Direction};
 pub use point::{BranchEvent, Change, SolutionPoint, Touch};
 pub(crate) use problem::{COARSE, RULES};

@@ -1,5 +1,7 @@
 //! How a branch is followed, and why it cannot begin.
 
+use crate::continuation::trace::step_length::StepLength;
+use core::ops::RangeInclusive;
 use thiserror::Error;
 
 /// The direction in which the parameter changes at first.
@@ -38,7 +40,26 @@ impl Default for BranchOptions {
     }
 }
 
-/// Why a branch cannot begin.
+impl BranchOptions {
+    /// The length of the first step.
+    pub(crate) const fn first_step(&self) -> StepLength {
+        StepLength { now: self.first, longest: self.longest, shortest: self.shortest }
+    }
+}
+
+/// The change of a number that has the same length as a change of all phases by one radian: a quarter of the range.
+///
+/// # Errors
+/// [`BranchError::OutOfRange`] if the range is invalid or does not contain `value`.
+pub(crate) fn scale(range: &RangeInclusive<f64>, value: f64) -> Result<f64, BranchError> {
+    let (low, high) = (*range.start(), *range.end());
+    if !(low.is_finite() && high.is_finite() && low < high && range.contains(&value)) {
+        return Err(BranchError::OutOfRange { value, low, high });
+    }
+    Ok(0.25 * (high - low))
+}
+
+/// Why a branch or a curve cannot begin.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum BranchError {
@@ -46,7 +67,7 @@ pub enum BranchError {
     #[error("{0} is a parameter of the second stop, and there is only one stop")]
     NoSuchParameter(&'static str),
     /// The range is not two finite numbers in increasing order, or the value at which the branch begins lies outside.
-    #[error("the branch begins at {value}, which does not lie in the range from {low} to {high}")]
+    #[error("the branch or curve begins at {value}, which does not lie in the range from {low} to {high}")]
     OutOfRange {
         /// The value at which it begins.
         value: f64,

@@ -2,7 +2,7 @@
 
 use super::branch::Branch;
 use super::impact_branch::ImpactBranch;
-use super::options::{BranchError, BranchOptions};
+use super::options::{BranchError, BranchOptions, scale};
 use super::point::{BranchEvent, SolutionPoint};
 use crate::continuation::equations::cycle_equations::CycleEquations;
 use crate::continuation::trace::equations::Equations;
@@ -116,11 +116,10 @@ fn leave(
     mut direction: Vec<f64>,
     options: BranchOptions,
 ) -> Result<Branch, BranchError> {
-    let equations = ImpactBranch::equations(osc, varying, &range, value, ring)?;
+    let equations = CycleEquations::new(osc, varying, ring, scale(&range, value)?);
     direction.push(0.0);
     let length = equations.length(&direction);
     direction.iter_mut().for_each(|d| *d /= length);
     let w = CycleEquations::join(ring, value);
-    let branch = ImpactBranch::begin(equations, w, direction, (*range.start(), *range.end()), options);
-    branch.map(Branch::from).ok_or(BranchError::NoCycle)
+    ImpactBranch::begin(equations, w, direction, &range, options).map(Branch::from)
 }

@@ -2,11 +2,11 @@
 
 use super::free::{arriving, leaving};
 use super::graze::{Beyond, beyond};
-use super::impact_branch::{ImpactBranch, value};
+use super::impact_branch::ImpactBranch;
 use super::point::{BranchEvent, Change, Touch};
 use super::problem::BranchSolution;
 use crate::continuation::equations::test_functions::TestFunction;
-use crate::continuation::trace::tracer::Crossing;
+use crate::continuation::trace::tracer::{Crossing, last};
 use crate::orbit::{closest, crest};
 use crate::system::{Side, phase};
 use crate::verdict::Label;
@@ -63,7 +63,7 @@ impl ImpactBranch {
             (None, None, None) => None,
         };
         let also = second.map(|(k, side)| Touch { impact: self.listed(at, k), side, phase: phase_of(k, side) });
-        let value = value(&at.w);
+        let value = last(&at.w);
         let next = if ring.len() == 0 {
             arriving(self.cycles(), &osc, value, &rooms)
         } else if (0..ring.len()).all(|k| ring.speed(k).abs() < AT_REST) {
@@ -87,12 +87,12 @@ impl ImpactBranch {
         let impact = self.listed(at, k);
         let event = BranchEvent::Grazing { change, impact, side, phase, before, after, turns, also };
         let again = |(v, e): &(f64, BranchEvent)| (v - value).abs() < AGAIN * (1.0 + value.abs()) && alike(e, &event);
-        if self.grazed.iter().any(again) {
+        if self.path.grazed.iter().any(again) {
             return self.end(at, BranchEvent::Closed);
         }
-        self.grazed.push((value, event));
-        self.emit(at, event);
-        if equations.impacts() > self.options.impacts as usize {
+        self.path.grazed.push((value, event));
+        self.add(at, Some(event));
+        if equations.impacts() > self.path.options.impacts as usize {
             self.tracer.here.w.clone_from(&at.w);
             self.tracer.here.known.clone_from(&at.known);
             return self.finish(BranchEvent::ImpactLimit);

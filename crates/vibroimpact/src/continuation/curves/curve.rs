@@ -1,32 +1,76 @@
 //! Curves of folds, flips and grazing impacts in a plane of two parameters, and the points of codimension two on them.
 
 use super::end::{Trail, reason};
-use super::frame::Frame;
+use super::frame::{Frame, check};
 use super::point::{CurveEvent, CurveKind, CurveOptions, CurvePoint};
 use crate::continuation::branches::{BranchError, BranchEvent, Change, SolutionPoint};
 use crate::continuation::equations::plane_equations::{Condition, Plane};
-use crate::continuation::equations::plane_tracer::{PlaneSolution, PlaneTracer};
-use crate::continuation::trace::equations::{Equations, correct, tangent};
+use crate::continuation::equations::plane_tracer::{PlaneProblem, PlaneSolution, PlaneTracer, beginning};
+use crate::continuation::trace::driver::{Driver, Path, PathEvent};
+use crate::continuation::trace::equations::correct;
 use crate::continuation::trace::root;
+use crate::continuation::trace::tracer::Step;
 use crate::math::{Multiplier, hypot, sort_by};
 use crate::orbit::{Floquet, Orbit, Ring, ring_cycle};
 use crate::system::{Oscillator, ParameterPath, Side, SystemError};
-use std::collections::VecDeque;
 
 /// A curve of folds, flips or grazing impacts: an iterator over its points in one direction from the point at which it
 /// begins.
 #[derive(Clone, Debug)]
-pub struct Curve {
+pub struct Curve(ConditionCurve);
+
+/// What a curve keeps beside its tracer.
+#[derive(Clone, Debug)]
+struct ConditionPath {
     kind: CurveKind,
     /// The index of the grazing impact, on a grazing curve.
     grazing: Option<usize>,
-    tracer: PlaneTracer,
-    begin: PlaneSolution,
-    options: CurveOptions,
-    count: u32,
-    pending: VecDeque<CurvePoint>,
-    over: bool,
     trail: Trail,
+}
+
+type ConditionCurve = Driver<ConditionPath>;
+
+impl PathEvent for CurveEvent {
+    const CLOSED: Self = Self::Closed;
+    const STEP_LIMIT: Self = Self::StepLimit;
+    const NO_CONVERGENCE: Self = Self::NoConvergence;
+}
+
+impl Path for ConditionPath {
+    type Problem = PlaneProblem;
+    type Event = CurveEvent;
+    type Point = CurvePoint;
+
+    const EXACT: bool = false;
+
+    fn point(curve: &ConditionCurve, at: &PlaneSolution, event: Option<CurveEvent>) -> Option<CurvePoint> {
+        let PlaneProblem { plane, watched } = &curve.tracer.problem;
+        let (osc, ring, flights) = plane.flights(&at.w)?;
+        let mut cycle = ring_cycle(&osc, &ring, &flights);
+        let grazing = curve.path.grazing.is_some();
+        if grazing {
+            // the derivative is proportional to the inverse of the speed, so it does not exist at speed zero
+            cycle.multipliers = [Multiplier { re: f64::NAN, im: f64::NAN }; 2];
+        }
+        // at an event or a grazing impact, the limit of admissible solutions counts as admissible
+        let limit = grazing || event.is_some();
+        let physical = if limit { grazes(watched, at) } else { Orbit::judged(&osc, cycle.clone()).physical };
+        Some(CurvePoint { values: Plane::values(&at.w), cycle, physical, event })
+    }
+
+    fn go_through(curve: &mut ConditionCurve, step: Step<()>) {
+        curve.go_through(step);
+    }
+
+    fn stop(curve: &mut ConditionCurve) {
+        if let Some(edge) = curve.on_edge() {
+            return curve.end_of_box(&edge);
+        }
+        match reason(&curve.tracer, curve.path.kind, &curve.path.trail) {
+            Some((at, event)) => curve.end(&at, event),
+            None => curve.finish(CurveEvent::NoConvergence),
+        }
+    }
 }
 
 impl Curve {
@@ -69,10 +113,7 @@ impl Curve {
             }
             _ => return Err(BranchError::NotThere),
         };
-        if !frame.sensible() || !frame.holds((p, q)) {
-            let (low, high) = (*frame.ranges.0.start(), *frame.ranges.0.end());
-            return Err(BranchError::OutOfRange { value: p, low, high });
-        }
+        check(&frame.ranges, (p, q))?;
         let condition = match (kind, grazing) {
             (CurveKind::Fold, _) => Condition::PlusOne,
             (CurveKind::Flip, _) => Condition::MinusOne,
@@ -93,149 +134,79 @@ impl Curve {
             watched.extend([Condition::Trace, Condition::Pull(k)]);
         }
         let w = Plane::join(&ring, (p, q));
-        let forth = Self::begin(kind, grazing, plane.clone(), watched.clone(), &w, 1.0, options);
-        let back = Self::begin(kind, grazing, plane, watched, &w, -1.0, options);
-        match (forth, back) {
-            (Some(forth), Some(back)) => Ok([forth, back]),
-            _ => Err(BranchError::NoCycle),
-        }
-    }
-
-    /// The curve through the solution near `w`, in the direction in which a parameter increases (`way` 1) or decreases
-    /// (-1).
-    fn begin(
-        kind: CurveKind,
-        grazing: Option<usize>,
-        plane: Plane,
-        watched: Vec<Condition>,
-        w: &[f64],
-        way: f64,
-        options: CurveOptions,
-    ) -> Option<Self> {
-        let (p, q) = (w.len() - 2, w.len() - 1);
-        // in the direction in which a parameter changes along the curve, after a correction onto the curve itself
-        let row = |at: usize| {
-            let mut row = vec![0.0; w.len()];
-            row[at] = way;
-            row
+        let begin = |way| {
+            let (w, row) = beginning(&plane, &w, way)?;
+            let tracer = PlaneTracer::along(plane.clone(), watched.clone(), w, &row, options.longest)?;
+            Driver::new(ConditionPath { kind, grazing, trail: Trail::default() }, tracer, options.points).map(Self)
         };
-        let rows = [row(p), row(q)];
-        // a parameter that changes only by rounding determines no direction
-        let pace = |row: &Vec<f64>| tangent(&plane, w, row).map(|t| plane.pace(&t, row));
-        let usable =
-            |least: f64| rows.iter().find(|row| pace(row).is_some_and(|pace| pace > least && pace.is_finite()));
-        let row = usable(SLOWEST).or_else(|| usable(0.0))?.clone();
-        let along = tangent(&plane, w, &row)?;
-        let fix = plane.row(&along);
-        let level = fix.iter().zip(w).map(|(r, w)| r * w).sum();
-        let (w, _) = correct(&plane, w, &fix, level)?;
-        let tracer = PlaneTracer::along(plane, watched, w, &row, options.longest)?;
-        let begin = tracer.here.clone();
-        let mut curve = Self {
-            kind,
-            grazing,
-            tracer,
-            begin,
-            options,
-            count: 0,
-            pending: VecDeque::new(),
-            over: false,
-            trail: Trail::default(),
-        };
-        let first = curve.point(&curve.tracer.here, None)?;
-        curve.pending.push_back(first);
-        Some(curve)
+        begin(1.0).zip(begin(-1.0)).map(|(forth, back)| [forth, back]).ok_or(BranchError::NoCycle)
     }
 
     /// The kind of the curve.
     #[must_use]
     pub const fn kind(&self) -> CurveKind {
-        self.kind
+        self.0.path.kind
     }
+}
 
-    /// The point of the curve at a solution.
-    fn point(&self, spot: &PlaneSolution, event: Option<CurveEvent>) -> Option<CurvePoint> {
-        let (osc, ring, flights) = self.tracer.problem.plane.flights(&spot.w)?;
-        let mut cycle = ring_cycle(&osc, &ring, &flights);
-        if self.grazing.is_some() {
-            // the derivative is proportional to the inverse of the speed, so it does not exist at speed zero
-            cycle.multipliers = [Multiplier { re: f64::NAN, im: f64::NAN }; 2];
-        }
-        let physical = match self.grazing {
-            // at an event or a grazing impact, the limit of admissible solutions counts as admissible
-            None if event.is_none() => Orbit::judged(&osc, cycle.clone()).physical,
-            _ => grazes(&self.tracer.problem.watched, spot),
-        };
-        Some(CurvePoint { values: Plane::values(&spot.w), cycle, physical, event })
+impl Iterator for Curve {
+    type Item = CurvePoint;
+
+    fn next(&mut self) -> Option<CurvePoint> {
+        self.0.next()
     }
+}
 
-    fn emit(&mut self, spot: &PlaneSolution, event: Option<CurveEvent>) {
-        if let Some(point) = self.point(spot, event) {
-            self.pending.push_back(point);
-        }
-        self.count += 1;
-    }
-
-    fn finish(&mut self, spot: &PlaneSolution, event: CurveEvent) {
-        self.emit(spot, Some(event));
-        self.over = true;
-    }
-
-    /// Takes one step, reports the events on it, or ends the curve.
-    fn advance(&mut self) {
-        let here = self.tracer.here.clone();
-        if self.count >= self.options.points {
-            return self.finish(&here, CurveEvent::StepLimit);
-        }
-        let Some(mut step) = self.tracer.step() else {
-            if let Some(edge) = self.on_edge() {
-                return self.end_of_box(&edge);
-            }
-            let (spot, event) =
-                reason(&self.tracer, self.kind, &self.trail).unwrap_or((here, CurveEvent::NoConvergence));
-            return self.finish(&spot, event);
-        };
-        let course = |spot: &PlaneSolution| self.tracer.problem.plane.scaled(&spot.tangent);
-        let ((p, q), (r, s)) = (course(&here), course(&step.there));
-        // where only the speeds still change, rounding changes the direction in the plane
-        let moves = hypot(p, q).max(hypot(r, s)) > STILL;
-        if self.kind == CurveKind::Fold && p * r + q * s < 0.0 && moves {
-            let f = |at: f64| {
-                let (r, s) = course(&self.tracer.solution(self.tracer.between(&step, at)?)?);
-                Some(p * r + q * s)
-            };
-            let ends = ((0.0, p * p + q * q), (step.length, p * r + q * s));
-            match root::between(f, ends.0, ends.1, 1e-13) {
-                Some(at) => step.crossed.push((at, None)),
-                None => return self.finish(&here, CurveEvent::NoConvergence),
-            }
+impl ConditionCurve {
+    /// Reports the events on a step, up to one that ends the curve.
+    fn go_through(&mut self, mut step: Step<()>) {
+        let kind = self.path.kind;
+        if kind == CurveKind::Fold && self.turns(&step) {
+            let Some(at) = self.cusp(&step) else { return self.finish(CurveEvent::NoConvergence) };
+            step.crossed.push((at, None));
             sort_by(&mut step.crossed, |a, b| a.0.total_cmp(&b.0));
         }
         for &(at, what) in &step.crossed {
             let Some(spot) = self.tracer.between(&step, at).and_then(|w| self.tracer.solution(w)) else {
-                return self.finish(&here, CurveEvent::NoConvergence);
+                return self.finish(CurveEvent::NoConvergence);
             };
             let event = match what.map(|j| self.tracer.problem.watched[j]) {
                 None => CurveEvent::Cusp,
                 Some(Condition::Line(..)) => return self.end_of_box(&spot),
                 Some(Condition::Trace) => CurveEvent::ResonantGrazing,
                 Some(Condition::Pull(_)) => CurveEvent::DegenerateGrazing,
-                Some(Condition::Speed(_)) if self.kind != CurveKind::Grazing => {
-                    return self.finish(&spot, CurveEvent::ResonantGrazing);
+                Some(Condition::Speed(_)) if kind != CurveKind::Grazing => {
+                    return self.end(&spot, CurveEvent::ResonantGrazing);
                 }
-                Some(_) if self.kind == CurveKind::Grazing => CurveEvent::DoubleGrazing,
+                Some(_) if kind == CurveKind::Grazing => CurveEvent::DoubleGrazing,
                 Some(_) => CurveEvent::Touch,
             };
-            self.emit(&spot, Some(event));
+            self.add(&spot, Some(event));
         }
-        let there = step.there;
-        let closed = self.count > 3 && self.tracer.closes(&self.begin, &there);
-        self.tracer.take(there.clone());
-        if self.kind == CurveKind::Fold {
-            self.trail.pass(&self.tracer);
+        self.take(step.there);
+        if kind == CurveKind::Fold {
+            self.path.trail.pass(&self.tracer);
         }
-        self.emit(&there, closed.then_some(CurveEvent::Closed));
-        self.over = closed;
+    }
+
+    /// The direction of the curve in the plane, in quarters of the ranges.
+    fn course(&self, at: &PlaneSolution) -> (f64, f64) {
+        self.tracer.problem.plane.scaled(&at.tangent)
+    }
+
+    /// Whether the curve turns back in the plane on a step. Where only the speeds still change, rounding changes its
+    /// direction in the plane.
+    fn turns(&self, step: &Step<()>) -> bool {
+        let ((p, q), (r, s)) = (self.course(&self.tracer.here), self.course(&step.there));
+        p * r + q * s < 0.0 && hypot(p, q).max(hypot(r, s)) > STILL
+    }
+
+    /// The distance along a step at which the curve turns back.
+    fn cusp(&self, step: &Step<()>) -> Option<f64> {
+        let (p, q) = self.course(&self.tracer.here);
+        let along = |(r, s): (f64, f64)| p * r + q * s;
+        let at = |s: f64| Some(along(self.course(&self.tracer.solution(self.tracer.between(step, s)?)?)));
+        root::between(at, (0.0, along((p, q))), (step.length, along(self.course(&step.there))), 1e-13)
     }
 
     /// The point on an edge of the frame, if the curve has come close to it. Beyond the edge the parameters can be
@@ -261,10 +232,10 @@ impl Curve {
     /// Ends the curve on an edge of the frame.
     fn end_of_box(&mut self, spot: &PlaneSolution) {
         let turn = self.tracer.problem.plane.flights(&spot.w).map(|(o, r, f)| Floquet::new(&o, &r, &f).determinant);
-        if self.kind == CurveKind::Flip && turn.is_some_and(|det| (det - 1.0).abs() < 1e-12) {
-            self.emit(spot, Some(CurveEvent::OneToTwo));
+        if self.path.kind == CurveKind::Flip && turn.is_some_and(|det| (det - 1.0).abs() < 1e-12) {
+            self.add(spot, Some(CurveEvent::OneToTwo));
         }
-        self.finish(spot, CurveEvent::EndOfBox);
+        self.end(spot, CurveEvent::EndOfBox);
     }
 }
 
@@ -279,19 +250,5 @@ fn grazes(watched: &[Condition], spot: &PlaneSolution) -> bool {
 
 /// A curve with no further step that is closer to an edge of the frame than this ends at the edge.
 const AT_EDGE: f64 = 1e-8;
-/// A parameter that changes by less than this along the curve, in quarters of its range over the arclength, changes by
-/// rounding.
-const SLOWEST: f64 = 1e-9;
 /// If the parameters change by less than this over the arclength, their direction is not used.
 const STILL: f64 = 1e-4;
-
-impl Iterator for Curve {
-    type Item = CurvePoint;
-
-    fn next(&mut self) -> Option<CurvePoint> {
-        while self.pending.is_empty() && !self.over {
-            self.advance();
-        }
-        self.pending.pop_front()
-    }
-}

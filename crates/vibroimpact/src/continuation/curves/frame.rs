@@ -1,8 +1,25 @@
 //! A plane of two parameters, and a frame in it.
 
+use crate::continuation::branches::{BranchError, scale};
 use crate::continuation::equations::plane_equations::Condition;
 use crate::system::ParameterPlane;
 use core::ops::RangeInclusive;
+
+/// The ranges of two numbers.
+pub(crate) type Ranges = (RangeInclusive<f64>, RangeInclusive<f64>);
+
+/// The change of each number that has length 1: a quarter of its range.
+pub(crate) fn scales((p, q): &Ranges) -> (f64, f64) {
+    let quarter = |range: &RangeInclusive<f64>| 0.25 * (range.end() - range.start());
+    (quarter(p), quarter(q))
+}
+
+/// Refuses ranges that are not two finite numbers in increasing order, and a point outside.
+pub(crate) fn check(ranges: &Ranges, (p, q): (f64, f64)) -> Result<(), BranchError> {
+    scale(&ranges.0, p)?;
+    scale(&ranges.1, q)?;
+    Ok(())
+}
 
 /// A rectangular frame in a plane of two parameters.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,10 +31,9 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// The change of each parameter that has length 1: a quarter of its range.
+    /// The change of each parameter that has length 1.
     pub(crate) fn scales(&self) -> (f64, f64) {
-        let quarter = |range: &RangeInclusive<f64>| 0.25 * (range.end() - range.start());
-        (quarter(&self.ranges.0), quarter(&self.ranges.1))
+        scales(&self.ranges)
     }
 
     /// Whether the ranges are finite and in order.

@@ -13,4 +13,5 @@ mod point;
 
 pub use curve::Curve;
 pub use frame::Frame;
+pub(crate) use frame::{check, scales};
 pub use point::{CurveEvent, CurveKind, CurveOptions, CurvePoint};

@@ -29,5 +29,5 @@ mod point;
 mod problem;
 
 pub use curve::MachineCurve;
-pub use plane::{MachineCurveError, MachinePlane};
+pub use plane::MachinePlane;
 pub use point::{MachineCurveEvent, MachineCurveKind, MachineCurvePoint};

@@ -3,9 +3,11 @@
 use super::condition::{Condition, multipliers, pair};
 use super::equations::CurveEquations;
 use super::origin_at_rest;
-use super::plane::{MachineCurveError, MachinePlane};
+use super::plane::MachinePlane;
 use super::point::MachineCurveKind;
 use super::problem::CurveProblem;
+use crate::continuation::branches::BranchError;
+use crate::continuation::curves::check;
 use crate::continuation::of_machine::{CompleteChatter, MachineBranchEvent, MachinePoint, closest};
 use crate::events::standing_back;
 use crate::machine::Machine;
@@ -17,14 +19,14 @@ pub(super) fn origin(
     plane: &MachinePlane,
     values: (f64, f64),
     point: &MachinePoint,
-) -> Result<(CurveProblem, Vec<f64>), MachineCurveError> {
-    plane.check(values)?;
-    let machine = plane.at(values).ok_or(MachineCurveError::NoCurve)?;
-    let event = point.event.ok_or(MachineCurveError::NotThere)?;
-    begin(plane, (&machine, values), point, event).unwrap_or(Err(MachineCurveError::NoCurve))
+) -> Result<(CurveProblem, Vec<f64>), BranchError> {
+    check(&plane.ranges, values)?;
+    let machine = plane.at(values).ok_or(BranchError::NoCycle)?;
+    let event = point.event.ok_or(BranchError::NotThere)?;
+    begin(plane, (&machine, values), point, event).unwrap_or(Err(BranchError::NoCycle))
 }
 
-type Origin = Result<(CurveProblem, Vec<f64>), MachineCurveError>;
+type Origin = Result<(CurveProblem, Vec<f64>), BranchError>;
 
 fn begin(
     plane: &MachinePlane,
@@ -60,7 +62,7 @@ fn begin(
             let lowest = legs.filter_map(|leg| Some((leg, closest(&frame, &ring, (leg, GuardKind::Gap(stop)))?)));
             let (leg, (gap, place)) = lowest.min_by(|a, b| a.1.0.abs().total_cmp(&b.1.0.abs()))?;
             if gap.abs() > NEAR * sizes.0 {
-                return Some(Err(MachineCurveError::NotThere));
+                return Some(Err(BranchError::NotThere));
             }
             let back = place.surfaces.iter().map(Option::is_some).collect();
             ring.insert(leg + 1, RingEvent::touch(GuardKind::Gap(stop), &place.states, back), place);
@@ -68,7 +70,7 @@ fn begin(
         }
         MachineBranchEvent::Grazing { stop, .. } | MachineBranchEvent::LossOfContact { stop } => {
             let Some(at) = without_contact(&frame, &mut ring, (stop, NEAR * sizes.1)) else {
-                return Some(Err(MachineCurveError::NotThere));
+                return Some(Err(BranchError::NotThere));
             };
             (MachineCurveKind::Grazing { stop }, Some(touch(at)))
         }
@@ -101,7 +103,7 @@ fn begin(
             } else if let Some(condition) = origin_at_rest::condition(&frame, &mut ring, (contact, sizes.1)) {
                 condition
             } else {
-                return Some(Err(MachineCurveError::NotThere));
+                return Some(Err(BranchError::NotThere));
             };
             let kind = if contact < machine.stops().len() {
                 MachineCurveKind::Sticking { stop: contact }
@@ -110,7 +112,7 @@ fn begin(
             };
             (kind, Some(condition))
         }
-        _ => return Some(Err(MachineCurveError::NotThere)),
+        _ => return Some(Err(BranchError::NotThere)),
     };
     let w = CurveEquations::join(machine, &ring, values);
     let rigid = if let MachineCurveKind::Grazing { stop } = kind {

@@ -1,34 +1,10 @@
 //! A machine as a function of two numbers, and a frame in their plane.
 
+use crate::continuation::curves::scales;
 use crate::machine::{Machine, MachineError, MachineParts};
 use core::fmt;
 use core::ops::RangeInclusive;
 use std::sync::Arc;
-use thiserror::Error;
-
-/// Why a curve of a machine cannot begin.
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[non_exhaustive]
-pub enum MachineCurveError {
-    /// A range is not two finite numbers in increasing order, or does not contain the value of the machine.
-    #[error("the curve begins at {value}, which does not lie in the range from {low} to {high}")]
-    OutOfRange {
-        /// The value of the machine.
-        value: f64,
-        /// Lower end of the range.
-        low: f64,
-        /// Upper end of the range.
-        high: f64,
-    },
-    /// The point has another event, or none.
-    #[error(
-        "what happens at this point begins no curve\nhint: curves go through folds, flips, torus bifurcations, grazing, loss of contact, corners, and where sticking or holding begins or ends at a limit"
-    )]
-    NotThere,
-    /// Newton's method does not converge from the point, or more than one curve goes through it.
-    #[error("no single curve goes through this point of the plane")]
-    NoCurve,
-}
 
 type At = dyn Fn(f64, f64) -> Option<Machine> + Send + Sync;
 
@@ -80,19 +56,7 @@ impl MachinePlane {
 
     /// The change of each number that has length 1: a quarter of its range.
     pub(super) fn scales(&self) -> (f64, f64) {
-        let quarter = |range: &RangeInclusive<f64>| 0.25 * (range.end() - range.start());
-        (quarter(&self.ranges.0), quarter(&self.ranges.1))
-    }
-
-    /// Refuses ranges that are none, and a point outside.
-    pub(super) fn check(&self, (p, q): (f64, f64)) -> Result<(), MachineCurveError> {
-        for (range, value) in [(&self.ranges.0, p), (&self.ranges.1, q)] {
-            let (low, high) = (*range.start(), *range.end());
-            if !(low.is_finite() && high.is_finite() && low < high && range.contains(&value)) {
-                return Err(MachineCurveError::OutOfRange { value, low, high });
-            }
-        }
-        Ok(())
+        scales(&self.ranges)
     }
 }
 

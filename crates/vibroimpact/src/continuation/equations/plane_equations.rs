@@ -83,12 +83,6 @@ impl Plane {
         w
     }
 
-    /// The rate at which the parameter selected by `row` changes along a tangent, in quarters of its range.
-    pub(crate) fn pace(&self, tangent: &[f64], row: &[f64]) -> f64 {
-        let picked = |(w, (t, r)): (&f64, (&f64, &f64))| w.sqrt() * (t * r).abs();
-        self.weights.iter().zip(tangent.iter().zip(row)).map(picked).sum()
-    }
-
     /// The values of the parameters.
     pub(crate) fn values(w: &[f64]) -> (f64, f64) {
         (w[w.len() - 2], w[w.len() - 1])

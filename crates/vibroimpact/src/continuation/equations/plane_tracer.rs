@@ -1,7 +1,7 @@
 //! Tracing curves in a plane of parameters: the equations with one condition, and other conditions as test functions.
 
 use super::plane_equations::{Condition, Plane};
-use crate::continuation::trace::equations::{Equations, tangent};
+use crate::continuation::trace::equations::{Equations, correct, tangent};
 use crate::continuation::trace::step_length::StepLength;
 use crate::continuation::trace::tracer::{Problem, Solution, StepRules, Tracer};
 
@@ -33,6 +33,31 @@ impl PlaneTracer {
         Self::new(PlaneProblem { plane, watched }, w, along, first_step(longest))
     }
 }
+
+/// Where a curve through the solution near `w` begins, on the curve itself, and the row that gives its direction: that in
+/// which one of both numbers, the last unknowns, increases (`way` 1) or decreases (-1).
+pub(crate) fn beginning<E: Equations>(equations: &E, w: &[f64], way: f64) -> Option<(Vec<f64>, Vec<f64>)> {
+    let row = |at: usize| {
+        let mut row = vec![0.0; w.len()];
+        row[at] = way;
+        row
+    };
+    // a number that changes only by rounding determines no direction
+    let usable = |least: f64| {
+        let pace = |at: usize| Some(equations.weights()[at].sqrt() * tangent(equations, w, &row(at))?[at].abs());
+        let changes = |at: &usize| pace(*at).is_some_and(|pace| pace > least && pace.is_finite());
+        [w.len() - 2, w.len() - 1].into_iter().find(changes)
+    };
+    let row = row(usable(SLOWEST).or_else(|| usable(0.0))?);
+    let fix = equations.row(&tangent(equations, w, &row)?);
+    let level = fix.iter().zip(w).map(|(r, w)| r * w).sum();
+    let (w, _) = correct(equations, w, &fix, level)?;
+    Some((w, row))
+}
+
+/// A number that changes by less than this along a curve, in quarters of its range over the arclength, changes by
+/// rounding.
+const SLOWEST: f64 = 1e-9;
 
 /// The length of the first step of a curve whose steps have at most this length.
 pub(crate) fn first_step(longest: f64) -> StepLength {

@@ -3,7 +3,6 @@
 //! There a limit of the contact is zero, or the smallest value of a guard, as a function along the curve of solutions. If a
 //! flight takes no time there, its equations are singular, so the curve is that of the signature without it.
 
-use super::beginning::last;
 use super::change::Difference;
 use super::closest::closest;
 use super::equations::MachineEquations;
@@ -11,7 +10,7 @@ use super::joined::join;
 use super::problem::{MachineProblem, MachineSolution};
 use super::rest::{RestZero, rest_zero};
 use crate::continuation::trace::equations::{Equations, correct, tangent};
-use crate::continuation::trace::tracer::Tracer;
+use crate::continuation::trace::tracer::{Tracer, last};
 use crate::orbit::{MachineFrame, MachineRing};
 
 /// The first step of the secant method along the curve, and the largest distance from the solution at which it begins.

@@ -3,13 +3,7 @@
 use super::problem::MachineProblem;
 use crate::continuation::branches::BranchOptions;
 use crate::continuation::trace::equations::{correct, tangent};
-use crate::continuation::trace::step_length::StepLength;
 use crate::continuation::trace::tracer::Tracer;
-
-/// The value of the number, the last unknown.
-pub(super) fn last(w: &[f64]) -> f64 {
-    w.last().copied().unwrap_or(f64::NAN)
-}
 
 /// The tracer from the solution near `w` with this value of the number; the number changes in direction `up` first.
 pub(super) fn begun(
@@ -34,6 +28,5 @@ pub(super) fn traced(
     along: Vec<f64>,
     options: BranchOptions,
 ) -> Option<Tracer<MachineProblem>> {
-    let step = StepLength { now: options.first, longest: options.longest, shortest: options.shortest };
-    Tracer::new(problem, w, along, step)
+    Tracer::new(problem, w, along, options.first_step())
 }

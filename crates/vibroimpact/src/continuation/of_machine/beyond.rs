@@ -6,7 +6,7 @@
 //! continuous, and the cycle beyond is found by Newton's method from the last one at a number a little beyond, or before if the
 //! branch turns back. Else the cycles with the events beyond are followed, although they are not admissible here, until they are.
 
-use super::beginning::{begun, last, traced};
+use super::beginning::{begun, traced};
 use super::change::Difference;
 use super::closest::closest;
 use super::equations::MachineEquations;
@@ -15,7 +15,7 @@ use super::summed::same_in_turn;
 use super::touch::speed_before;
 use crate::continuation::branches::BranchOptions;
 use crate::continuation::trace::equations::{Equations, correct, tangent};
-use crate::continuation::trace::tracer::Tracer;
+use crate::continuation::trace::tracer::{Tracer, last};
 use crate::events::Place;
 use crate::machine::{Machine, Opening, StopLaw};
 use crate::orbit::{Chatter, MachineCycle, MachineFrame, MachineRing, RingEvent};

@@ -17,9 +17,9 @@
 //! decrease by the factor $`\lambda`$; the first powers are eliminated.
 
 use super::at_rest::zero_near;
-use super::beginning::last;
 use super::equations::MachineEquations;
 use super::problem::MachineSolution;
+use crate::continuation::trace::tracer::last;
 use crate::machine::{Machine, StopLaw};
 use crate::orbit::{Chatter, MachineFrame, MachineRing, Rebound};
 use crate::regime::GuardKind;

@@ -20,7 +20,7 @@
 //! | two events that come so close that no further step converges | `meeting` |
 //! | the branch beyond such a change | `beyond` |
 //! | the cycle of twice the period beside a flip, and where it is the other one repeated | `switch`, `halving` |
-//! | the branch | [`MachineBranch`] |
+//! | the branch, and the events of a step | [`MachineBranch`], `step` |
 
 mod at_rest;
 mod beginning;
@@ -40,11 +40,12 @@ mod meeting;
 mod point;
 mod problem;
 mod rest;
+mod step;
 mod summed;
 mod switch;
 mod touch;
 
-pub use branch::{MachineBranch, MachineBranchError};
+pub use branch::MachineBranch;
 pub(crate) use change::{Difference, difference};
 pub(crate) use closest::closest;
 pub(crate) use complete_chatter::{ADAPTED, CompleteChatter};

@@ -15,7 +15,7 @@ use core::f64::consts::TAU;
 use core::fmt::Debug;
 
 /// Equations whose curves of solutions are traced, with the test functions on their solutions.
-pub(crate) trait Problem: Equations {
+pub(crate) trait Problem: Equations + Clone + Debug {
     /// What is known of a solution apart from its unknowns and test functions.
     type Known: Clone + Debug;
 
@@ -339,7 +339,8 @@ fn sign(value: f64, zero: f64) -> Option<bool> {
     (value.abs() > zero).then_some(value > 0.0)
 }
 
-fn last(w: &[f64]) -> f64 {
+/// The last unknown: of a branch, the parameter.
+pub(crate) fn last(w: &[f64]) -> f64 {
     w.last().copied().unwrap_or(f64::NAN)
 }
 

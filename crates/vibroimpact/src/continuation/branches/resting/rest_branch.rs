@@ -5,8 +5,8 @@
 //! beginning; the number of impacts of a chatter that are listed before its sum does not matter. If no step is short
 //! enough, there is an event, which `rest_events` identifies.
 
-use super::super::impact_branch::{place, scale};
-use super::super::options::{BranchError, BranchOptions, Direction};
+use super::super::impact_branch::place;
+use super::super::options::{BranchError, BranchOptions, Direction, scale};
 use super::super::point::{BranchEvent, Change, SolutionPoint};
 use super::likeness::{Likeness, likeness};
 use crate::continuation::trace::step_length::StepLength;

@@ -1,0 +1,238 @@
+//! The events of a step of a branch of a machine, in order.
+
+use super::at_rest::at_rest;
+use super::branch::EventBranch;
+use super::change::{Difference, additional, difference, missing_hold};
+use super::edge::edge;
+use super::halving::halved;
+use super::joined::SHORT;
+use super::point::MachineBranchEvent;
+use super::problem::{Judged, MINUS_ONE, MachineSolution, PACE, PLUS_ONE, TORUS};
+use super::summed::{of_chatter, sums};
+use super::touch::{grazing, touching};
+use crate::continuation::trace::tracer::{Crossing, Problem, Step, last};
+use crate::math::{Multiplier, sort_by};
+use crate::orbit::RingEvent;
+use crate::regime::GuardKind;
+
+impl EventBranch {
+    /// Reports the events of a step in order, up to one that changes the signature or ends the branch.
+    pub(super) fn go_through(&mut self, step: Step<Judged>) {
+        let edge = self.outside(&step).and_then(|outside| self.edge(&step, outside));
+        if !step.there.known.physical() && edge.is_none() {
+            return self.finish(MachineBranchEvent::NoConvergence);
+        }
+        for crossing in self.until_edge(&step, edge.as_ref().map(|(s, ..)| *s)) {
+            if !self.report(&step, crossing) {
+                return;
+            }
+        }
+        if let Some((_, at, found)) = edge {
+            return self.pass(&at, &found);
+        }
+        if step.on_end {
+            return self.end(&step.there, MachineBranchEvent::EndOfRange);
+        }
+        self.take(step.there);
+        self.adapt();
+    }
+
+    /// The distance of an inadmissible solution on a step. Where the derivative is infinite between two admissible solutions,
+    /// there are inadmissible ones between them.
+    fn outside(&self, step: &Step<Judged>) -> Option<f64> {
+        if !step.there.known.physical() {
+            return Some(step.length);
+        }
+        let (plus, minus) = (crossing(step, PLUS_ONE)?, crossing(step, MINUS_ONE)?);
+        if (plus - minus).abs() < 1e-9 { self.hidden(step) } else { None }
+    }
+
+    /// The crossings of a step before its edge. At a grazing impact a multiplier is without limit, and its test functions change
+    /// sign without a zero.
+    fn until_edge(&self, step: &Step<Judged>, edge: Option<f64>) -> Vec<Crossing> {
+        let Some(edge) = edge else { return step.crossed.clone() };
+        let until = edge - ASIDE * step.length;
+        let mut crossed: Vec<Crossing> = step.crossed.iter().copied().filter(|(s, _)| *s < until).collect();
+        if until > 0.0
+            && let Some(inside) = self.tracer.between(step, until).and_then(|w| self.tracer.solution(w))
+        {
+            crossed.extend(self.tracer.hidden(&[PLUS_ONE, MINUS_ONE, TORUS], &crossed, (until, &inside)));
+            sort_by(&mut crossed, |a, b| a.0.total_cmp(&b.0));
+        }
+        crossed
+    }
+
+    /// Reports the event at a crossing, if it is one; returns whether the branch goes on.
+    fn report(&mut self, step: &Step<Judged>, (s, what): Crossing) -> bool {
+        let turns = crossing(step, PACE).is_some();
+        let event = match what {
+            None => {
+                let at = self.on_end(step, s).unwrap_or_else(|| self.tracer.here.clone());
+                self.end(&at, MachineBranchEvent::EndOfRange);
+                return false;
+            }
+            Some(PACE) => {
+                if crossing(step, PLUS_ONE).is_none()
+                    && let Some(at) = self.halving(step, s)
+                {
+                    self.end(&at, MachineBranchEvent::Halving);
+                    return false;
+                }
+                return true;
+            }
+            Some(PLUS_ONE) if turns => MachineBranchEvent::Fold,
+            Some(PLUS_ONE) => MachineBranchEvent::BranchPoint,
+            Some(MINUS_ONE) => MachineBranchEvent::Flip,
+            Some(_) => MachineBranchEvent::Torus,
+        };
+        if let Some(at) = self.located(step, s, event)
+            && is_at(&at.known.multipliers, event)
+        {
+            self.add(&at, Some(event));
+        }
+        true
+    }
+
+    /// The solution on the end of the range that is crossed near the distance `s` on a step.
+    fn on_end(&self, step: &Step<Judged>, s: f64) -> Option<MachineSolution> {
+        let (low, high) = self.tracer.problem.range;
+        let end = if last(&step.there.w) > high { high } else { low };
+        let (w, _) = self.tracer.on_end(&self.tracer.between(step, s)?, end)?;
+        self.tracer.solution(w)
+    }
+
+    /// The solution at an event near the distance `s` on a step. Where another curve of solutions crosses, the equations are
+    /// singular, and rounding decides whether they can be solved there; then it is one beside its place.
+    fn located(&self, step: &Step<Judged>, s: f64, event: MachineBranchEvent) -> Option<MachineSolution> {
+        let singular = event == MachineBranchEvent::BranchPoint;
+        let s = if singular { self.branch_point(step, s) } else { s };
+        let beside = |share: f64| self.tracer.between(step, (s + share * step.length).clamp(0.0, step.length));
+        let solved = |share: f64| {
+            let one = beside(share)?;
+            let along = self.tracer.tangent_at(&one).unwrap_or_else(|| self.tracer.here.tangent.clone());
+            // half way between the solutions on both sides
+            let other = if share == 0.0 { None } else { beside(-share) };
+            let middle = |other: Vec<f64>| {
+                let w = one.iter().zip(&other).map(|(a, b)| 0.5 * (a + b)).collect();
+                self.tracer.solution_along(w, along.clone())
+            };
+            other.and_then(middle).or_else(|| self.tracer.solution_along(one, along))
+        };
+        let shares = if singular { &BESIDE[SINGULAR..] } else { &BESIDE };
+        shares.iter().copied().find_map(solved)
+    }
+
+    /// The distance along a step of a branch point close to `s`. Around it the equations are nearly singular, so that it was only
+    /// located within a small distance; to both sides of this the test function is linear to about its square.
+    fn branch_point(&self, step: &Step<Judged>, s: f64) -> f64 {
+        let by = 1e-4 * step.length;
+        let test = |s: f64| self.tracer.problem.test(PLUS_ONE, &self.tracer.between(step, s)?, || None);
+        match (test(s - by), test(s + by)) {
+            (Some(a), Some(b)) if a * b < 0.0 => s + by * (a + b) / (a - b),
+            _ => s,
+        }
+    }
+
+    /// The solution at which the number turns back and a cycle repeats itself after half its period.
+    fn halving(&self, step: &Step<Judged>, s: f64) -> Option<MachineSolution> {
+        let w = self.tracer.between(step, s).unwrap_or_else(|| {
+            let share = s / step.length;
+            self.tracer.here.w.iter().zip(&step.there.w).map(|(a, b)| a + (b - a) * share).collect()
+        });
+        halved(&self.tracer.problem, &self.tracer.here, &w)
+    }
+
+    /// An inadmissible solution within a step.
+    fn hidden(&self, step: &Step<Judged>) -> Option<f64> {
+        (1..32).map(|k| step.length * f64::from(k) / 32.0).find(|s| {
+            let at = self.tracer.between(step, *s).and_then(|w| self.tracer.solution(w));
+            at.is_none_or(|solution| !solution.known.physical())
+        })
+    }
+
+    /// The last admissible solution before an inadmissible one on a step: its distance, the solution, and how the events
+    /// differ beyond it.
+    fn edge(&self, step: &Step<Judged>, outside: f64) -> Option<(f64, MachineSolution, Difference)> {
+        let (s, inside, beyond) = edge(&self.tracer, step, outside, Judged::physical)?;
+        let ring = &self.tracer.problem.equations.ring;
+        let found = difference(ring, &beyond);
+        if let Some(place) = self.ceases(&inside, &beyond) {
+            return Some((s, inside, Difference::Rest { place, joint: true, begins: false }));
+        }
+        if let Some((at, found)) = at_rest(&self.tracer, &inside, &found) {
+            return Some((s, at, found));
+        }
+        let found = match found {
+            // one more impact of a chatter before it is summed is no other event
+            Difference::Rest { place, .. } => additional(ring, &beyond)
+                .filter(|more| !matches!(*more, Difference::Appears { stop, .. } if stop == place && sums(ring, stop)))
+                .unwrap_or(found),
+            _ => found,
+        };
+        let found = grazing(&self.tracer, &inside, found);
+        let found = of_chatter(&self.tracer, &inside, found);
+        if let Some((at, found)) = self.interrupted(&inside, &found) {
+            return Some((s, at, found));
+        }
+        let (s, at) = touching(&self.tracer, step, (s, &inside), &found).unwrap_or((s, inside));
+        Some((s, at, found))
+    }
+
+    /// The joint of a hold that lasts for some time and is missing beyond, because the velocity of its joint only touches zero at
+    /// its beginning. Then it slips on only if its static limit exceeds its sliding force: otherwise a hold begins
+    /// and ends with no length.
+    fn ceases(&self, inside: &MachineSolution, beyond: &Judged) -> Option<usize> {
+        let ring = &self.tracer.problem.equations.ring;
+        let event = beyond.rising.or_else(|| missing_hold(ring, beyond))?;
+        let RingEvent { guard: GuardKind::Sliding(joint), after, back, .. } = &ring.events[event] else { return None };
+        let place = back.len() + joint;
+        let (machine, _) = self.tracer.problem.equations.split(&inside.w)?;
+        let sticks = &machine.joints()[*joint];
+        let holds = after[place].constrains() && sticks.limit > sticks.sliding;
+        (holds && ring.theta(event + 1) - ring.theta(event) > SHORT).then_some(place)
+    }
+
+    /// The solution at which a rest or a hold begins or ends, if this explains a change of the events that shows elsewhere:
+    /// a hold that is interrupted changes all that follows.
+    fn interrupted(&self, inside: &MachineSolution, found: &Difference) -> Option<(MachineSolution, Difference)> {
+        matches!(found, Difference::Other { .. }).then_some(())?;
+        let equations = &self.tracer.problem.equations;
+        let machine = equations.family.at(last(&inside.w))?;
+        let stops = machine.stops().len();
+        let here = |at: &MachineSolution| (last(&at.w) - last(&inside.w)).abs() <= HERE * equations.scale;
+        (0..stops + machine.joints().len()).find_map(|place| {
+            let rest = Difference::Rest { place, joint: place >= stops, begins: false };
+            at_rest(&self.tracer, inside, &rest).filter(|(at, _)| here(at))
+        })
+    }
+}
+
+/// The distance along a step at which a test function is zero.
+fn crossing(step: &Step<Judged>, test: usize) -> Option<f64> {
+    step.crossed.iter().find(|(_, what)| *what == Some(test)).map(|(s, _)| *s)
+}
+
+/// Whether the multipliers are those of an event that its test function shows.
+fn is_at(multipliers: &[Multiplier], event: MachineBranchEvent) -> bool {
+    let near = |value: f64| multipliers.iter().any(|m| (m.re - value).abs() + m.im.abs() < NEARBY);
+    match event {
+        MachineBranchEvent::Torus => multipliers.iter().any(|m| m.is_on_circle()),
+        // beside a grazing contact one multiplier is so large that rounding decides the sign of the determinants
+        MachineBranchEvent::BranchPoint => near(1.0),
+        MachineBranchEvent::Flip => near(-1.0),
+        _ => true,
+    }
+}
+
+/// How far from 1 or -1 a multiplier is at most at a bifurcation, which is located to rounding.
+const NEARBY: f64 = 0.1;
+/// Values of the number that differ by less, in its scale, are those of one event.
+const HERE: f64 = 1e-7;
+/// The distance, in parts of a step, from a grazing solution to that at which the signs of test functions are compared
+/// with those at the beginning.
+const ASIDE: f64 = 1e-6;
+/// Parts of a step by which an event may be moved where its equations are singular.
+const BESIDE: [f64; 7] = [0.0, 1e-8, -1e-8, 1e-6, -1e-6, 1e-4, -1e-4];
+/// The place in this list from which solutions at branch points are accurate: the error of a solution is a rounding error over the
+/// distance, that of the middle of two the square of the distance.
+const SINGULAR: usize = 5;

@@ -1,0 +1,144 @@
+//! The driver of a branch or a curve of any system: an iterator over its points.
+//!
+//! The [tracer](super::tracer) takes the steps. What is done with a step - the events on it, other equations beyond an
+//! event, the end - is that of a [`Path`]: one for branches and one for curves of each system. The driver has what all
+//! of them share: the points that wait to be returned, the largest number of points, and the end of a closed path.
+
+use super::tracer::{Problem, Solution, Step, Tracer};
+use core::fmt::Debug;
+use std::collections::VecDeque;
+
+/// What is known of the solutions of a path.
+type Known<P> = <<P as Path>::Problem as Problem>::Known;
+/// A solution on a path.
+pub(crate) type PathSolution<P> = Solution<Known<P>>;
+
+/// The events of every path.
+pub(crate) trait PathEvent: Copy + Debug {
+    /// The next point would be the first.
+    const CLOSED: Self;
+    /// The largest number of points is reached.
+    const STEP_LIMIT: Self;
+    /// No step converges.
+    const NO_CONVERGENCE: Self;
+}
+
+/// A branch or a curve of one system, with what it keeps from step to step beside the tracer.
+pub(crate) trait Path: Sized {
+    type Problem: Problem;
+    type Event: PathEvent;
+    type Point: Clone + Debug;
+
+    /// Whether the largest number of points is exact. If not, the first point does not count, and the last one is
+    /// repeated with its event.
+    const EXACT: bool;
+
+    /// The point at a solution; `None` if it cannot be computed.
+    fn point(driver: &Driver<Self>, at: &PathSolution<Self>, event: Option<Self::Event>) -> Option<Self::Point>;
+
+    /// Reports the events of a step in order and makes its end the current point, or ends the path at one of them.
+    fn go_through(driver: &mut Driver<Self>, step: Step<Known<Self>>);
+
+    /// Goes on or ends the path where no step converges.
+    fn stop(driver: &mut Driver<Self>) {
+        driver.finish(Self::Event::NO_CONVERGENCE);
+    }
+
+    /// A point that the path has instead of the current one where it ends with this event.
+    fn limit(_driver: &Driver<Self>, _event: Self::Event) -> Option<Self::Point> {
+        None
+    }
+}
+
+/// A path that is being followed.
+#[derive(Clone, Debug)]
+pub(crate) struct Driver<P: Path> {
+    pub(crate) path: P,
+    pub(crate) tracer: Tracer<P::Problem>,
+    /// The first solution, as long as the equations have not been exchanged.
+    begin: Option<PathSolution<P>>,
+    /// The largest number of points, and the number so far.
+    most: u32,
+    count: u32,
+    pending: VecDeque<P::Point>,
+    pub(crate) over: bool,
+}
+
+/// A closed path has more points than this.
+const SHORTEST_LOOP: u32 = 3;
+
+impl<P: Path> Driver<P> {
+    /// Begins at the solution of a tracer; `None` if it has no point.
+    pub(crate) fn new(path: P, tracer: Tracer<P::Problem>, most: u32) -> Option<Self> {
+        let begin = Some(tracer.here.clone());
+        let (count, pending) = (u32::from(P::EXACT), VecDeque::new());
+        let mut driver = Self { path, tracer, begin, most, count, pending, over: false };
+        driver.pending.push_back(P::point(&driver, &driver.tracer.here, None)?);
+        Some(driver)
+    }
+
+    /// Adds a point. With an exact limit the ordinary point with which it is reached ends the path.
+    pub(crate) fn add(&mut self, at: &PathSolution<P>, event: Option<P::Event>) {
+        let full = P::EXACT && event.is_none() && self.count + 1 >= self.most;
+        let event = if full { Some(P::Event::STEP_LIMIT) } else { event };
+        let point = P::point(self, at, event);
+        self.push(point);
+        self.over |= full;
+    }
+
+    fn push(&mut self, point: Option<P::Point>) {
+        self.pending.extend(point);
+        self.count += 1;
+    }
+
+    /// Adds an event that ends the path.
+    pub(crate) fn end(&mut self, at: &PathSolution<P>, event: P::Event) {
+        self.add(at, Some(event));
+        self.over = true;
+    }
+
+    /// Ends the path at the current point, or at the limit that its events approach.
+    pub(crate) fn finish(&mut self, event: P::Event) {
+        match P::limit(self, event) {
+            Some(limit) => self.push(Some(limit)),
+            None => self.add(&self.tracer.here.clone(), Some(event)),
+        }
+        self.over = true;
+    }
+
+    /// Makes `there` the current point, or ends the path if it is closed.
+    pub(crate) fn take(&mut self, there: PathSolution<P>) {
+        let closes = |begin| self.tracer.closes(begin, &there);
+        let closed = self.count > SHORTEST_LOOP && self.begin.as_ref().is_some_and(closes);
+        self.tracer.take(there.clone());
+        self.add(&there, closed.then_some(P::Event::CLOSED));
+        self.over |= closed;
+    }
+
+    /// Goes on with other equations.
+    pub(crate) fn exchange(&mut self, tracer: Tracer<P::Problem>) {
+        (self.tracer, self.begin) = (tracer, None);
+    }
+
+    /// Takes one step, or ends the path.
+    fn advance(&mut self) {
+        if self.count >= self.most {
+            return self.finish(P::Event::STEP_LIMIT);
+        }
+        match self.tracer.step() {
+            Some(step) => P::go_through(self, step),
+            None => P::stop(self),
+        }
+    }
+}
+
+impl<P: Path> Iterator for Driver<P> {
+    type Item = P::Point;
+
+    fn next(&mut self) -> Option<P::Point> {
+        while self.pending.is_empty() && !self.over {
+            self.advance();
+        }
+        self.pending.pop_front()
+    }
+}
