@@ -89,7 +89,7 @@ fn events() -> String {
         })
         .collect();
     let curve: String =
-        CURVE_MARKS.iter().map(|(event, shape)| format!("    \"{}\": \"{}\",\n", event.name(), mark(*shape))).collect();
+        CURVE_MARKS.iter().map(|(name, shape)| format!("    \"{name}\": \"{}\",\n", mark(*shape))).collect();
     let bounds: String = BOUND_STYLES
         .iter()
         .map(|(bound, colour, line, text)| {

@@ -25,8 +25,9 @@ pub fn figure(found: &EventCurve, plan: &CurvePlan, asked: &Asked) -> Figure {
         at: (point.values.0 * x, point.values.1 * y),
         physical: point.physical,
         event: point.event.map(|event| {
-            let shape = CURVE_MARKS.iter().find(|(known, _)| *known == event).map(|(_, shape)| *shape);
-            (event.name(), shape)
+            let name = event.name();
+            let shape = CURVE_MARKS.iter().find(|(known, _)| *known == name).map(|(_, shape)| *shape);
+            (name, shape)
         }),
     });
     let name = format!("{} of {}", plan.kind.name(), label(plan.label.trim()));

@@ -1,7 +1,7 @@
 //! How figures show events: colours, dashes and marks. The Python package draws with the same tables; the test `tables`
 //! writes them for it.
 
-use vibroimpact::continuation::{Bound, CurveEvent};
+use vibroimpact::continuation::Bound;
 use vibroimpact_plot::{Colour, Dash, SERIES, Shape};
 use vibroimpact_study::{FollowedEvent, MachineFollowedEvent};
 
@@ -35,18 +35,18 @@ pub const MACHINE_BRANCH_MARKS: [(&str, Shape, bool); 8] = [
     ("change", Shape::Cross, false),
 ];
 
-/// The marks of points of codimension two on curves. Ends of a curve have no mark.
-pub const CURVE_MARKS: [(CurveEvent, Shape); 10] = [
-    (CurveEvent::Cusp, Shape::TriangleDown),
-    (CurveEvent::ResonantGrazing, Shape::Diamond),
-    (CurveEvent::DoubleGrazing, Shape::Square),
-    (CurveEvent::DegenerateGrazing, Shape::TriangleUp),
-    (CurveEvent::Touch, Shape::Circle),
-    (CurveEvent::OneToTwo, Shape::Circle),
-    (CurveEvent::DegenerateFlip, Shape::Cross),
-    (CurveEvent::LossOfContact, Shape::Plus),
-    (CurveEvent::WholePeriods, Shape::Plus),
-    (CurveEvent::Unbounded, Shape::Plus),
+/// The marks of points of codimension two on curves, by name. Ends of a curve have no mark.
+pub const CURVE_MARKS: [(&str, Shape); 10] = [
+    ("cusp", Shape::TriangleDown),
+    ("resonant grazing", Shape::Diamond),
+    ("double grazing", Shape::Square),
+    ("degenerate grazing", Shape::TriangleUp),
+    ("touch", Shape::Circle),
+    ("1:2", Shape::Circle),
+    ("degenerate flip", Shape::Cross),
+    ("loss of contact", Shape::Plus),
+    ("whole periods", Shape::Plus),
+    ("speeds without bound", Shape::Plus),
 ];
 
 /// The colours of curves of events of machines.
@@ -100,8 +100,8 @@ mod tests {
     use vibroimpact::{Label, Side};
 
     #[test]
-    fn marks_on_curves_of_machines_have_the_names_of_events() {
-        use vibroimpact::continuation::MachineCurveEvent as Event;
+    fn marks_on_curves_have_the_names_of_events() {
+        use vibroimpact::continuation::CurveEvent as Event;
         let (stop, first, second, place) = (0, 0, 1, 0);
         let events = [
             Event::Cusp,
@@ -125,6 +125,19 @@ mod tests {
             Event::DegenerateFlip,
         ];
         assert_eq!(MACHINE_CURVE_MARKS.map(|(name, _)| name), events.map(|event| event.name()));
+        let of_oscillators = [
+            Event::Cusp,
+            Event::ResonantGrazing { stop },
+            Event::DoubleGrazing { stop },
+            Event::DegenerateGrazing { stop },
+            Event::Touch { stop },
+            Event::OneToTwo,
+            Event::DegenerateFlip,
+            Event::LossOfContact,
+            Event::WholePeriods,
+            Event::Unbounded,
+        ];
+        assert_eq!(CURVE_MARKS.map(|(name, _)| name), of_oscillators.map(|event| event.name()));
     }
 
     /// A renamed event would lose its mark without an error.

@@ -8,7 +8,7 @@ use crate::{Asked, Units};
 use schemars::JsonSchema;
 use serde::Serialize;
 use vibroimpact::Oscillator;
-use vibroimpact::continuation::{CurvePoint, MachineCurveKind, MachineCurvePoint};
+use vibroimpact::continuation::{CurveKind, CurvePoint, MachineCurvePoint};
 use vibroimpact::machine::Machine;
 use vibroimpact_study::{CurvePlan, EventCurve, MachineCurvePlan, MachineEventCurve, Plan};
 
@@ -142,9 +142,9 @@ impl<'a> CurveAnswer<'a> {
             label: found.label.to_string(),
             kind: plan.kind.name(),
             of: match found.kind {
-                MachineCurveKind::Grazing { stop } | MachineCurveKind::Sticking { stop } => vec![machine.name_of(stop)],
-                MachineCurveKind::Holding { joint } => vec![machine.name_of(joint)],
-                MachineCurveKind::Corner { first, second } => vec![machine.name_of(first), machine.name_of(second)],
+                CurveKind::Grazing { stop } | CurveKind::Sticking { stop } => vec![machine.name_of(stop)],
+                CurveKind::Holding { joint } => vec![machine.name_of(joint)],
+                CurveKind::Corner { first, second } => vec![machine.name_of(first), machine.name_of(second)],
                 _ => Vec::new(),
             },
             parameters: [&plan.vary.path, &plan.and.path],

@@ -9,8 +9,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vibroimpact::Label;
 use vibroimpact::continuation::{
-    BranchOptions, CurveOptions, Direction, MachineBranch, MachineBranchEvent, MachineCurve, MachineCurveEvent,
-    MachineCurveKind, MachineCurvePoint, MachinePlane, MachinePoint,
+    BranchOptions, CurveEvent, CurveKind, CurveOptions, Direction, MachineBranch, MachineBranchEvent, MachineCurve,
+    MachineCurvePoint, MachinePlane, MachinePoint,
 };
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
@@ -99,7 +99,7 @@ pub struct MachineEventCurve {
     /// the start.
     pub among: Option<(u32, u32)>,
     /// What holds along the curve, with the stop or the events.
-    pub kind: MachineCurveKind,
+    pub kind: CurveKind,
     /// The events of the requested kind on its branch, in order of rising values.
     pub events: Vec<MachinePoint>,
     /// Index of the event through which the curve passes.
@@ -196,7 +196,7 @@ pub(super) fn curve(
         .map_err(|error| PlanError::MachineBranch(error.to_string()))?;
     let kind = forth.kind();
     let forth: Vec<MachineCurvePoint> = forth.take_while(|_| !control.stopping()).collect();
-    let closed = forth.last().is_some_and(|point| point.event == Some(MachineCurveEvent::Closed));
+    let closed = forth.last().is_some_and(|point| point.event == Some(CurveEvent::Closed));
     // the event itself is the first point of both directions, so one copy is skipped
     let mut points: Vec<MachineCurvePoint> =
         if closed { Vec::new() } else { back.skip(1).take_while(|_| !control.stopping()).collect() };

@@ -20,6 +20,6 @@ mod trace;
 
 pub use branches::{Branch, BranchError, BranchEvent, BranchOptions, Change, Direction, SolutionPoint, Touch};
 pub use curves::{Curve, CurveEvent, CurveKind, CurveOptions, CurvePoint, Frame};
-pub use curves_of_machine::{MachineCurve, MachineCurveEvent, MachineCurveKind, MachineCurvePoint, MachinePlane};
+pub use curves_of_machine::{MachineCurve, MachineCurvePoint, MachinePlane};
 pub use of_machine::{MachineBranch, MachineBranchEvent, MachineFamily, MachinePoint};
 pub use regions::{Bound, Polygon, Region, RegionKind, RegionOptions, Vertex, region, region_while};

@@ -38,6 +38,15 @@ impl Side {
         }
     }
 
+    /// The place of the stop among the stops: 0 for the upper, 1 for the lower.
+    #[must_use]
+    pub const fn place(self) -> usize {
+        match self {
+            Self::Upper => 0,
+            Self::Lower => 1,
+        }
+    }
+
     /// The side with this [`sign`](Self::sign).
     #[inline]
     pub(crate) const fn of_sign(sign: f64) -> Self {

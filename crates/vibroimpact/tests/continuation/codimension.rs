@@ -36,7 +36,7 @@ fn double_grazing_is_where_two_grazing_curves_cross() {
     let mut found = Vec::new();
     for direction in [DOWN, UP] {
         let points = curve(&osc, Label::new(2, 1), direction, "grazing", &frame);
-        let double = at(&points, CurveEvent::DoubleGrazing);
+        let double = at(&points, CurveEvent::DoubleGrazing { stop: 0 });
         let touched =
             |p: &CurvePoint| p.cycle.points.iter().find(|q| q.state.velocity.abs() < 1e-12).unwrap().state.side;
         found.push(double.iter().map(|p| (touched(p), p.values)).collect::<Vec<_>>());
@@ -80,7 +80,7 @@ fn curves_end_for_a_reason() {
     assert!((end.values.0 - 0.75).abs() < 1e-15, "{:?}", end.values);
     // beside a singular point the equations say little about the gap
     assert!((end.values.1 - 1.0 / (1.0 - 0.5625)).abs() < 1e-6, "{:?}", end.values);
-    assert!(at(&points, CurveEvent::DoubleGrazing).is_empty());
+    assert!(at(&points, CurveEvent::DoubleGrazing { stop: 0 }).is_empty());
     // damped: the folds of 2/2 end on the flips of 1/1
     let osc = Oscillator::from_inverse_beta(1.11, 1.0, 0.5).unwrap().with_damping(0.03).unwrap();
     let frame = Frame { plane: (Parameter::Beta, Parameter::Gap).into(), ranges: (0.72..=1.125, -0.9..=6.0) };
@@ -130,7 +130,7 @@ fn a_limit_of_motions_is_one() {
     for way in ways {
         let points: Vec<CurvePoint> = way.collect();
         let (last, before) = (points.last().unwrap(), &points[points.len() - 2]);
-        if last.event == Some(CurveEvent::ResonantGrazing) {
+        if last.event == Some(CurveEvent::ResonantGrazing { stop: 0 }) {
             assert!(last.cycle.points.iter().any(|p| p.state.velocity.abs() < 1e-12));
             assert!(before.physical && last.physical);
             found += 1;

@@ -51,7 +51,7 @@ fn fold_and_doubling_curves_of_one_impact() {
                 assert!((p.values.1 - sign * gap).abs() < tolerance, "{name} {:?} {gap} {speed} {u}", p.values);
             }
             let ends = points.iter().filter(|p| p.event == Some(CurveEvent::EndOfBox)).count();
-            let resonant = points.iter().filter(|p| p.event == Some(CurveEvent::ResonantGrazing)).count();
+            let resonant = points.iter().filter(|p| p.event == Some(CurveEvent::ResonantGrazing { stop: 0 })).count();
             assert_eq!(ends + resonant, 2, "{name} at {osc:?}");
         }
     }
@@ -82,8 +82,11 @@ fn resonant_grazing_of_one_impact() {
             assert!((p.values.1 - f).abs() < 1e-10 * f, "{:?} {f}", p.values);
             assert!(p.cycle.points[0].state.velocity.abs() < 1e-12);
         }
-        let resonant: Vec<f64> =
-            points.iter().filter(|p| p.event == Some(CurveEvent::ResonantGrazing)).map(|p| p.values.0).collect();
+        let resonant: Vec<f64> = points
+            .iter()
+            .filter(|p| p.event == Some(CurveEvent::ResonantGrazing { stop: 0 }))
+            .map(|p| p.values.0)
+            .collect();
         let wd = (1.0 - zeta * zeta).sqrt();
         let expected: Vec<f64> =
             (1..20).map(|k| f64::from(k) / (2.0 * f64::from(n) * wd)).filter(|x| (1.05..high).contains(x)).collect();

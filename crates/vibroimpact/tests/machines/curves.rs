@@ -6,8 +6,7 @@ use crate::closed_forms::ball;
 use core::f64::consts::PI;
 use vibroimpact::continuation::{
     Branch, BranchEvent, BranchOptions, Curve, CurveEvent, CurveKind, CurveOptions, Direction, Frame, MachineBranch,
-    MachineBranchEvent, MachineCurve, MachineCurveEvent, MachineCurveKind, MachineCurvePoint, MachineFamily,
-    MachinePlane, MachinePoint,
+    MachineBranchEvent, MachineCurve, MachineCurvePoint, MachineFamily, MachinePlane, MachinePoint,
 };
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::{Machine, MachineParts};
@@ -69,10 +68,9 @@ fn ball_on_a_table() {
     let family = MachineFamily::new(move |gamma| (gamma > 0.0).then(|| ball(gamma, e)));
     let fold = |e: f64| PI * (1.0 - e) / (1.0 + e);
     let flip = |e: f64| fold(e).hypot(2.0 * (1.0 + e * e) / ((1.0 + e) * (1.0 + e)));
-    for (direction, kind, law) in [
-        (Direction::Up, MachineCurveKind::Flip, &flip as &dyn Fn(f64) -> f64),
-        (Direction::Down, MachineCurveKind::Fold, &fold),
-    ] {
+    for (direction, kind, law) in
+        [(Direction::Up, CurveKind::Flip, &flip as &dyn Fn(f64) -> f64), (Direction::Down, CurveKind::Fold, &fold)]
+    {
         let found = events((&family, between), &cycle, 0.1..=4.0, direction);
         let point = found.iter().find(|point| point.event.is_some_and(|event| event.name() == kind.name())).unwrap();
         let curves = MachineCurve::through(&plane((0.05, 4.0)), (point.value, e), point, OPTIONS).unwrap();
@@ -114,7 +112,9 @@ fn the_curves_of_the_oscillator() {
                 let kind = match point.event {
                     Some(BranchEvent::Fold) => CurveKind::Fold,
                     Some(BranchEvent::Flip) => CurveKind::Flip,
-                    Some(BranchEvent::Grazing { .. } | BranchEvent::LossOfContact { .. }) => CurveKind::Grazing,
+                    Some(BranchEvent::Grazing { .. } | BranchEvent::LossOfContact { .. }) => {
+                        CurveKind::Grazing { stop: 0 }
+                    }
                     _ => continue,
                 };
                 let Ok(theirs) = Curve::through(&osc, &point, Parameter::Gap, &frame, CurveOptions::default()) else {
@@ -125,7 +125,7 @@ fn the_curves_of_the_oscillator() {
                 let ours = MachineCurve::through(&plane, (own.value, osc.beta()), own, OPTIONS).unwrap();
                 let ends: Vec<(f64, f64)> = ours
                     .into_iter()
-                    .filter_map(|curve| curve.last().filter(|p| p.event == Some(MachineCurveEvent::EndOfBox)))
+                    .filter_map(|curve| curve.last().filter(|p| p.event == Some(CurveEvent::EndOfBox)))
                     .map(|point| point.values)
                     .collect();
                 for end in theirs.into_iter().filter_map(Iterator::last) {
@@ -259,7 +259,7 @@ fn torus_bifurcations() {
         assert!((pair.modulus() - 1.0).abs() < 1e-9 && pair.im > 0.1 && point.residual < 1e-9, "{pair:?}");
     }
     for end in [&points[0], &points[points.len() - 1]] {
-        assert_eq!(end.event, Some(MachineCurveEvent::EndOfBox));
+        assert_eq!(end.event, Some(CurveEvent::EndOfBox));
         let there = machine.with("stop.stop.gap", end.values.0).unwrap();
         let found = cycle(&there, &MachineStart::default());
         let (family, value) = MachineFamily::of_path(&there, "frequency").unwrap();
@@ -355,6 +355,6 @@ fn the_number_of_points() {
     let limited = CurveOptions { points: 7, ..OPTIONS };
     for curve in MachineCurve::through(&plane, (all[0].value, 0.5), &all[0], limited).unwrap() {
         let points: Vec<MachineCurvePoint> = curve.collect();
-        assert_eq!((points.len(), points[6].event), (7, Some(MachineCurveEvent::StepLimit)));
+        assert_eq!((points.len(), points[6].event), (7, Some(CurveEvent::StepLimit)));
     }
 }

@@ -3,8 +3,8 @@
 use crate::closed_forms::ball;
 use std::f64::consts::PI;
 use vibroimpact::continuation::{
-    BranchOptions, CurveOptions, Direction, MachineBranch, MachineBranchEvent, MachineCurve, MachineCurveError,
-    MachineCurveEvent, MachineCurveKind, MachineCurvePoint, MachineFamily, MachinePlane, MachinePoint,
+    BranchError, BranchOptions, CurveEvent, CurveKind, CurveOptions, Direction, MachineBranch, MachineBranchEvent,
+    MachineCurve, MachineCurvePoint, MachineFamily, MachinePlane, MachinePoint,
 };
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::{Machine, MachineParts};
@@ -98,7 +98,7 @@ fn curve(
     values: (f64, f64),
     ranges: ((f64, f64), (f64, f64)),
     point: &MachinePoint,
-) -> (MachineCurveKind, Vec<MachineCurvePoint>) {
+) -> (CurveKind, Vec<MachineCurvePoint>) {
     let ((a, b), (c, d)) = ranges;
     let plane = MachinePlane::new(make, (a..=b, c..=d));
     let [forth, back] =
@@ -130,7 +130,7 @@ fn the_curve_of_dry_friction() {
         let start = MachineStart::default();
         let point = first_event(|friction| den_hartog(0.8, friction), (from, &start), ((0.001, 1.2), direction));
         let (kind, points) = curve(make, (point.value, 0.8), ((0.1, 1.2), (0.6, 0.97)), &point);
-        assert_eq!(kind, MachineCurveKind::Holding { joint: 0 });
+        assert_eq!(kind, CurveKind::Holding { joint: 0 });
         for point in &points {
             let (friction, beta) = point.values;
             let expected = friction_at_limit(beta);
@@ -138,7 +138,7 @@ fn the_curve_of_dry_friction() {
             assert!(point.residual < 1e-14, "{point:?}");
         }
         for end in [&points[0], &points[points.len() - 1]] {
-            assert_eq!(end.event, Some(MachineCurveEvent::EndOfBox));
+            assert_eq!(end.event, Some(CurveEvent::EndOfBox));
         }
         assert_eq!((points[0].values.1, points[points.len() - 1].values.1), (0.6, 0.97));
         for point in points.iter().step_by(points.len() / 6) {
@@ -159,7 +159,7 @@ fn the_curve_of_a_ball_without_rebound() {
         let start = MachineStart { q: vec![from + 0.1], qdot: vec![0.0], phase: 0.0, ..MachineStart::default() };
         let point = first_event(|gamma| ball(gamma, 0.0), (from, &start), ((0.5, 6.0), direction));
         let (kind, points) = curve(make, (point.value, 1.0), ((0.5, 6.0), (0.4, 1.6)), &point);
-        assert_eq!(kind, MachineCurveKind::Sticking { stop: 0 });
+        assert_eq!(kind, CurveKind::Sticking { stop: 0 });
         for point in &points {
             let (gamma, gravity) = point.values;
             assert!((gamma - gravity * (1.0 + PI * PI).sqrt()).abs() < 1e-12, "{gravity}: {gamma}");
@@ -181,7 +181,7 @@ fn no_curve_over_the_restitution() {
     let make = |gamma, e| (0.0..=1.0).contains(&e).then(|| ball(gamma, e));
     let plane = MachinePlane::new(make, (0.5..=6.0, 0.0..=0.5));
     let curves = MachineCurve::through(&plane, (point.value, 0.0), &point, CurveOptions { longest: 0.1, points: 400 });
-    assert_eq!(curves.err(), Some(MachineCurveError::NoCurve));
+    assert_eq!(curves.err(), Some(BranchError::NoCycle));
 }
 
 /// The events of the branch of the settled motion at which a rest or a hold begins or ends.
@@ -305,12 +305,12 @@ fn curve_of_chatter(
     let mut branch = MachineBranch::new((&family, gap), &cycle, &(0.7..=1.1), Direction::Up, options).unwrap();
     let point = branch.find(|point| matches!(point.event, Some(MachineBranchEvent::Sticking { .. }))).unwrap();
     let (kind, points) = curve(make, (point.value, other), ((0.2, 1.4), others), &point);
-    assert_eq!(kind, MachineCurveKind::Sticking { stop: 0 });
+    assert_eq!(kind, CurveKind::Sticking { stop: 0 });
     for point in &points {
         assert_eq!(point.cycle.label.to_string(), "inf/1", "{:?}", point.values);
     }
     for end in [&points[0], &points[points.len() - 1]] {
-        assert_eq!(end.event, Some(MachineCurveEvent::EndOfBox), "{:?}", end.values);
+        assert_eq!(end.event, Some(CurveEvent::EndOfBox), "{:?}", end.values);
     }
     points
 }

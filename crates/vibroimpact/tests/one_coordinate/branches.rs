@@ -2,8 +2,8 @@
 
 use crate::{System, is_long, some};
 use vibroimpact::continuation::{
-    Branch, BranchEvent, BranchOptions, CurveOptions, Direction, MachineBranch, MachineBranchEvent, MachineCurve,
-    MachineCurveKind, MachineFamily, MachinePlane, MachinePoint,
+    Branch, BranchEvent, BranchOptions, CurveKind, CurveOptions, Direction, MachineBranch, MachineBranchEvent,
+    MachineCurve, MachineFamily, MachinePlane, MachinePoint,
 };
 use vibroimpact::events::MachineStart;
 use vibroimpact::orbit::one_impact;
@@ -171,7 +171,7 @@ fn a_curve_of_complete_chatters() {
     let plane = MachinePlane::new(make, (0.5..=1.5, 0.05..=0.9));
     let options = CurveOptions { longest: 0.1, points: 400 };
     let [forth, back] = MachineCurve::through(&plane, (point.value, 0.35), &point, options).unwrap();
-    assert_eq!(forth.kind(), MachineCurveKind::Sticking { stop: 0 });
+    assert_eq!(forth.kind(), CurveKind::Sticking { stop: 0 });
     let (forth, back): (Vec<_>, Vec<_>) = (forth.collect(), back.collect());
     let ends: Vec<f64> = [&forth, &back].map(|points| points.last().unwrap().values.1).to_vec();
     assert_eq!(ends, [0.05, 0.9]);

@@ -1,8 +1,9 @@
 //! Curves of folds, flips and grazing impacts in a plane of two parameters, and the points of codimension two on them.
 
 use super::end::{Trail, reason};
+use super::event::{CurveEvent, CurveKind};
 use super::frame::{Frame, check};
-use super::point::{CurveEvent, CurveKind, CurveOptions, CurvePoint};
+use super::point::{CurveOptions, CurvePoint};
 use crate::continuation::branches::{BranchError, BranchEvent, Change, SolutionPoint};
 use crate::continuation::equations::plane_equations::{Condition, Plane};
 use crate::continuation::equations::plane_tracer::{PlaneProblem, PlaneSolution, PlaneTracer, beginning};
@@ -93,14 +94,14 @@ impl Curve {
             _ => BranchError::NoCycle,
         })?;
         let mut ring = Ring::of(&osc, &point.cycle).ok_or(BranchError::Rests)?;
-        let (kind, grazing) = match point.event {
-            Some(BranchEvent::Fold) => (CurveKind::Fold, None),
-            Some(BranchEvent::Flip) => (CurveKind::Flip, None),
-            Some(BranchEvent::Grazing { change: Change::Disappears, impact, .. }) => (CurveKind::Grazing, Some(impact)),
-            Some(BranchEvent::LossOfContact { .. }) => (CurveKind::Grazing, Some(0)),
+        let condition = match point.event {
+            Some(BranchEvent::Fold) => Condition::PlusOne,
+            Some(BranchEvent::Flip) => Condition::MinusOne,
+            Some(BranchEvent::Grazing { change: Change::Disappears, impact, .. }) => Condition::Speed(impact),
+            Some(BranchEvent::LossOfContact { .. }) => Condition::Speed(0),
             Some(BranchEvent::Grazing { change: Change::Appears, side, phase, .. }) if ring.len() == 0 => {
                 ring = Ring { sides: vec![side], unknowns: vec![phase, 0.0], periods: 1 };
-                (CurveKind::Grazing, Some(0))
+                Condition::Speed(0)
             }
             Some(BranchEvent::Grazing { change: Change::Appears, impact, side, phase, .. }) => {
                 let ahead = crate::system::phase::wrap(phase - ring.theta(impact));
@@ -109,15 +110,15 @@ impl Curve {
                 let touch = crate::orbit::closest(&osc, &ring, impact, side);
                 let theta = ring.theta(impact) + touch.map_or(ahead, |touch| osc.beta() * touch.time);
                 ring.insert(impact, theta, side);
-                (CurveKind::Grazing, Some(impact + 1))
+                Condition::Speed(impact + 1)
             }
             _ => return Err(BranchError::NotThere),
         };
         check(&frame.ranges, (p, q))?;
-        let condition = match (kind, grazing) {
-            (CurveKind::Fold, _) => Condition::PlusOne,
-            (CurveKind::Flip, _) => Condition::MinusOne,
-            (CurveKind::Grazing, k) => Condition::Speed(k.unwrap_or(0)),
+        let (kind, grazing) = match condition {
+            Condition::Speed(k) => (CurveKind::Grazing { stop: ring.side(k).place() }, Some(k)),
+            Condition::MinusOne => (CurveKind::Flip, None),
+            _ => (CurveKind::Fold, None),
         };
         let plane = Plane::new(&osc, frame.plane, frame.scales(), &ring, condition);
         let mut watched: Vec<Condition> = frame.edges().to_vec();
@@ -170,16 +171,17 @@ impl ConditionCurve {
             let Some(spot) = self.tracer.between(&step, at).and_then(|w| self.tracer.solution(w)) else {
                 return self.finish(CurveEvent::NoConvergence);
             };
-            let event = match what.map(|j| self.tracer.problem.watched[j]) {
-                None => CurveEvent::Cusp,
-                Some(Condition::Line(..)) => return self.end_of_box(&spot),
-                Some(Condition::Trace) => CurveEvent::ResonantGrazing,
-                Some(Condition::Pull(_)) => CurveEvent::DegenerateGrazing,
-                Some(Condition::Speed(_)) if kind != CurveKind::Grazing => {
-                    return self.end(&spot, CurveEvent::ResonantGrazing);
-                }
-                Some(_) if kind == CurveKind::Grazing => CurveEvent::DoubleGrazing,
-                Some(_) => CurveEvent::Touch,
+            let Some(condition) = what.map(|j| self.tracer.problem.watched[j]) else {
+                self.add(&spot, Some(CurveEvent::Cusp));
+                continue;
+            };
+            let event = match (condition, self.stop_of(condition)) {
+                (Condition::Line(..), _) => return self.end_of_box(&spot),
+                (Condition::Trace, stop) => CurveEvent::ResonantGrazing { stop },
+                (Condition::Pull(_), stop) => CurveEvent::DegenerateGrazing { stop },
+                (_, stop) if self.path.grazing.is_some() => CurveEvent::DoubleGrazing { stop },
+                (Condition::Speed(_), stop) => return self.end(&spot, CurveEvent::ResonantGrazing { stop }),
+                (_, stop) => CurveEvent::Touch { stop },
             };
             self.add(&spot, Some(event));
         }
@@ -187,6 +189,16 @@ impl ConditionCurve {
         if kind == CurveKind::Fold {
             self.path.trail.pass(&self.tracer);
         }
+    }
+
+    /// The place of the stop of a condition; that of the grazing impact if the condition has no other.
+    fn stop_of(&self, condition: Condition) -> usize {
+        let side = match condition {
+            Condition::Clear(_, side) => side,
+            Condition::Speed(k) | Condition::Pull(k) => self.tracer.problem.plane.sides[k],
+            _ => self.path.grazing.map_or(Side::Upper, |k| self.tracer.problem.plane.sides[k]),
+        };
+        side.place()
     }
 
     /// The direction of the curve in the plane, in quarters of the ranges.

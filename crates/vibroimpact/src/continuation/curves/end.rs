@@ -3,7 +3,7 @@
 //! Steps become ever shorter towards a point at which the equations are singular. The last cycle shows the kind of the
 //! point: all speeds vanish, the halves of the cycle become equal, or a flight takes a whole number of natural periods.
 
-use super::point::{CurveEvent, CurveKind};
+use super::event::{CurveEvent, CurveKind};
 use crate::continuation::equations::plane_equations::Plane;
 use crate::continuation::equations::plane_tracer::{PlaneSolution, PlaneTracer};
 use crate::continuation::trace::equations::Equations;
@@ -96,7 +96,8 @@ pub(crate) fn reason(tracer: &PlaneTracer, kind: CurveKind, trail: &Trail) -> Op
     let m = ring.len();
     let onward = |step: f64| here.w.iter().zip(&here.tangent).map(|(w, t)| w + step * t).collect::<Vec<f64>>();
     let solution = |w: Vec<f64>| PlaneSolution { w, ..here.clone() };
-    let still = if kind == CurveKind::Grazing { NEAR } else { STILL };
+    let grazing = matches!(kind, CurveKind::Grazing { .. });
+    let still = if grazing { NEAR } else { STILL };
     if m > 1 && (0..m).all(|k| ring.speed(k).abs() < still) {
         // extrapolates along the tangent to the point at which the fastest impact has speed zero
         let fastest = (0..m).max_by(|&a, &b| ring.speed(a).abs().total_cmp(&ring.speed(b).abs()))?;
@@ -109,9 +110,7 @@ pub(crate) fn reason(tracer: &PlaneTracer, kind: CurveKind, trail: &Trail) -> Op
         let off: Vec<f64> = w.iter().zip(&here.w).map(|(a, b)| a - b).collect();
         return (plane.length(&off) < FAR).then(|| (solution(w), CurveEvent::DegenerateFlip));
     }
-    if kind != CurveKind::Grazing
-        && let Some(w) = unbounded(tracer, &ring)
-    {
+    if !grazing && let Some(w) = unbounded(tracer, &ring) {
         return Some((solution(w), CurveEvent::Unbounded));
     }
     let turns = f64::from(ring.periods) / osc.beta();

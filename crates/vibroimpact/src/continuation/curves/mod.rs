@@ -2,16 +2,19 @@
 //!
 //! | idea | file |
 //! |---|---|
-//! | the curve; a point of a curve, and its event | [`Curve`], [`CurvePoint`] |
+//! | the curve; a point of a curve | [`Curve`], [`CurvePoint`] |
+//! | what holds along a curve, and the events on it, of any system | [`CurveKind`], [`CurveEvent`] |
 //! | why a curve ends | `end` |
 //! | the frame in which curves are followed | [`Frame`] |
 
 mod curve;
 mod end;
+mod event;
 mod frame;
 mod point;
 
 pub use curve::Curve;
+pub use event::{CurveEvent, CurveKind};
 pub use frame::Frame;
 pub(crate) use frame::{check, scales};
-pub use point::{CurveEvent, CurveKind, CurveOptions, CurvePoint};
+pub use point::{CurveOptions, CurvePoint};

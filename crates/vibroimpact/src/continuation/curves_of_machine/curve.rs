@@ -5,13 +5,13 @@ use super::end::reason;
 use super::equations::CurveEquations;
 use super::origin::origin;
 use super::plane::MachinePlane;
-use super::point::{MachineCurveEvent, MachineCurveKind, MachineCurvePoint};
+use super::point::MachineCurvePoint;
 use super::problem::{CurveProblem, CurveSolution, Watched};
 use crate::continuation::branches::BranchError;
-use crate::continuation::curves::CurveOptions;
+use crate::continuation::curves::{CurveEvent, CurveKind, CurveOptions};
 use crate::continuation::equations::plane_tracer::{beginning, first_step};
 use crate::continuation::of_machine::{ADAPTED, Difference, Judged, MachinePoint, difference, edge};
-use crate::continuation::trace::driver::{Driver, Path, PathEvent};
+use crate::continuation::trace::driver::{Driver, Path};
 use crate::continuation::trace::equations::{correct, tangent};
 use crate::continuation::trace::tracer::{Step, Tracer};
 use crate::orbit::MachineFrame;
@@ -31,27 +31,21 @@ const INEXACT: f64 = 1e-2;
 /// A curve with no further step that is closer to an edge of the frame than this, in quarters of the range, ends there.
 const AT_EDGE: f64 = 1e-7;
 
-impl PathEvent for MachineCurveEvent {
-    const CLOSED: Self = Self::Closed;
-    const STEP_LIMIT: Self = Self::StepLimit;
-    const NO_CONVERGENCE: Self = Self::NoConvergence;
-}
-
 impl Path for EventPath {
     type Problem = CurveProblem;
-    type Event = MachineCurveEvent;
+    type Event = CurveEvent;
     type Point = MachineCurvePoint;
 
     const EXACT: bool = true;
 
     /// At an event rounding can make a solution inadmissible: the cycle of the last point stands for it.
-    fn point(curve: &EventCurve, at: &CurveSolution, event: Option<MachineCurveEvent>) -> Option<MachineCurvePoint> {
+    fn point(curve: &EventCurve, at: &CurveSolution, event: Option<CurveEvent>) -> Option<MachineCurvePoint> {
         let CurveProblem { equations, kind, .. } = &curve.tracer.problem;
         let (machine, ring) = equations.split(&at.w)?;
         let cycle = at.known.cycle.clone().or_else(|| curve.tracer.here.known.cycle.clone())?;
         let residual = equations.condition.residual(&MachineFrame::new(&machine), &ring, &at.known.multipliers);
         let touch = equations.condition.touch().map(|at| ring.place(at).phase);
-        let touch = touch.filter(|_| machine.period().is_some() && matches!(kind, MachineCurveKind::Grazing { .. }));
+        let touch = touch.filter(|_| machine.period().is_some() && matches!(kind, CurveKind::Grazing { .. }));
         Some(MachineCurvePoint { values: CurveEquations::values(&at.w), cycle, residual, touch, event })
     }
 
@@ -62,9 +56,9 @@ impl Path for EventPath {
     fn stop(curve: &mut EventCurve) {
         let here = &curve.tracer.here;
         match curve.on_edge(here, AT_EDGE) {
-            Some(edge) => curve.end(&edge, MachineCurveEvent::EndOfBox),
+            Some(edge) => curve.end(&edge, CurveEvent::EndOfBox),
             None => {
-                let event = reason(&curve.tracer.problem, here).unwrap_or(MachineCurveEvent::NoConvergence);
+                let event = reason(&curve.tracer.problem, here).unwrap_or(CurveEvent::NoConvergence);
                 curve.finish(event);
             }
         }
@@ -97,7 +91,7 @@ impl MachineCurve {
 
     /// What holds along the curve.
     #[must_use]
-    pub const fn kind(&self) -> MachineCurveKind {
+    pub const fn kind(&self) -> CurveKind {
         self.0.tracer.problem.kind
     }
 }
@@ -129,7 +123,7 @@ impl EventCurve {
             match self.tracer.problem.event(what) {
                 None => {
                     let edge = self.on_edge(&at, f64::INFINITY).unwrap_or(at);
-                    return self.end(&edge, MachineCurveEvent::EndOfBox);
+                    return self.end(&edge, CurveEvent::EndOfBox);
                 }
                 Some(_) if what == Watched::Pair && !at.known.multipliers.iter().any(|m| m.is_on_circle()) => {}
                 // at a cusp the curve turns back in the plane
@@ -140,7 +134,7 @@ impl EventCurve {
         }
         match outside {
             Some(Some((_, at, beyond))) => self.end(&at, self.beyond(&beyond)),
-            Some(None) => self.finish(MachineCurveEvent::NoConvergence),
+            Some(None) => self.finish(CurveEvent::NoConvergence),
             None => {
                 self.take(step.there);
                 self.adapt();
@@ -173,7 +167,7 @@ impl EventCurve {
     }
 
     /// Why solutions are not admissible beyond.
-    fn beyond(&self, known: &Judged) -> MachineCurveEvent {
+    fn beyond(&self, known: &Judged) -> CurveEvent {
         let equations = &self.tracer.problem.equations;
         let ring = equations.signature();
         let moments = equations
@@ -191,7 +185,7 @@ impl EventCurve {
                     .map_or(Difference::Other { place: None }, |stop| Difference::Appears { at: 0, stop }),
             }
         };
-        let grazing = matches!(self.tracer.problem.kind, MachineCurveKind::Grazing { .. });
+        let grazing = matches!(self.tracer.problem.kind, CurveKind::Grazing { .. });
         let rigid = |stop: usize| {
             let (p, q) = CurveEquations::values(&self.tracer.here.w);
             let machine = self.tracer.problem.equations.plane.at((p, q));
@@ -199,13 +193,13 @@ impl EventCurve {
         };
         match found {
             Difference::Appears { stop, .. } | Difference::Disappears { stop, .. } if grazing => {
-                MachineCurveEvent::DoubleGrazing { stop }
+                CurveEvent::DoubleGrazing { stop }
             }
-            Difference::Disappears { stop, .. } if rigid(stop) => MachineCurveEvent::ResonantGrazing { stop },
-            Difference::Appears { stop, .. } | Difference::Disappears { stop, .. } => MachineCurveEvent::Touch { stop },
-            Difference::Corner { first, second } => MachineCurveEvent::Corner { first, second },
-            Difference::Rest { place, .. } => MachineCurveEvent::Rest { place },
-            Difference::Other { place } => MachineCurveEvent::Change { place },
+            Difference::Disappears { stop, .. } if rigid(stop) => CurveEvent::ResonantGrazing { stop },
+            Difference::Appears { stop, .. } | Difference::Disappears { stop, .. } => CurveEvent::Touch { stop },
+            Difference::Corner { first, second } => CurveEvent::Corner { first, second },
+            Difference::Rest { place, .. } => CurveEvent::Rest { place },
+            Difference::Other { place } => CurveEvent::Change { place },
         }
     }
 

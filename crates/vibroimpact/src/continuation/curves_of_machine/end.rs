@@ -4,16 +4,16 @@
 //! takes no time any more, or both halves of the cycle have become equal.
 
 use super::moment::Moment;
-use super::point::{MachineCurveEvent, MachineCurveKind};
 use super::problem::{CurveProblem, CurveSolution};
 
+use crate::continuation::curves::{CurveEvent, CurveKind};
 use crate::orbit::{Chatter, MachineFrame};
 
 /// A flight that is shorter than this, in forcing periods or without forcing in periods of the cycle, takes no time.
 const SHORT: f64 = 1e-3;
 
 /// The event at the end of a curve; `None` if no reason is known.
-pub(super) fn reason(problem: &CurveProblem, here: &CurveSolution) -> Option<MachineCurveEvent> {
+pub(super) fn reason(problem: &CurveProblem, here: &CurveSolution) -> Option<CurveEvent> {
     let (machine, ring) = problem.equations.split(&here.w)?;
     let (m, stops) = (ring.len(), machine.stops().len());
     let period = machine.period().unwrap_or_else(|| ring.period(&MachineFrame::new(&machine)));
@@ -30,11 +30,11 @@ pub(super) fn reason(problem: &CurveProblem, here: &CurveSolution) -> Option<Mac
         let (first, second) =
             (ring.events[shortest].guard.place(stops), ring.events[(shortest + 1) % m].guard.place(stops));
         return Some(match problem.kind {
-            _ if first != second || first >= stops => MachineCurveEvent::Corner { first, second },
-            MachineCurveKind::Grazing { .. } => MachineCurveEvent::DoubleGrazing { stop: first },
-            _ => MachineCurveEvent::Touch { stop: first },
+            _ if first != second || first >= stops => CurveEvent::Corner { first, second },
+            CurveKind::Grazing { .. } => CurveEvent::DoubleGrazing { stop: first },
+            _ => CurveEvent::Touch { stop: first },
         });
     }
     let twice = ring.is_twice(&MachineFrame::new(&machine), here.known.cycle.as_ref()?.sizes);
-    twice.then_some(MachineCurveEvent::DegenerateFlip)
+    twice.then_some(CurveEvent::DegenerateFlip)
 }

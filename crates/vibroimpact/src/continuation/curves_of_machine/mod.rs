@@ -12,7 +12,7 @@
 //! | the events and the condition of a curve, from an event of a branch | `origin` |
 //! | the same where a rest begins or ends | `origin_at_rest` |
 //! | why a curve ends | `end` |
-//! | a point of a curve, and its event | [`MachineCurvePoint`], [`MachineCurveEvent`] |
+//! | a point of a curve | [`MachineCurvePoint`] |
 //! | the curve | [`MachineCurve`] |
 
 mod beside;
@@ -30,4 +30,4 @@ mod problem;
 
 pub use curve::MachineCurve;
 pub use plane::MachinePlane;
-pub use point::{MachineCurveEvent, MachineCurveKind, MachineCurvePoint};
+pub use point::MachineCurvePoint;

@@ -4,10 +4,9 @@ use super::condition::{Condition, multipliers, pair};
 use super::equations::CurveEquations;
 use super::origin_at_rest;
 use super::plane::MachinePlane;
-use super::point::MachineCurveKind;
 use super::problem::CurveProblem;
 use crate::continuation::branches::BranchError;
-use crate::continuation::curves::check;
+use crate::continuation::curves::{CurveKind, check};
 use crate::continuation::of_machine::{CompleteChatter, MachineBranchEvent, MachinePoint, closest};
 use crate::events::standing_back;
 use crate::machine::Machine;
@@ -46,15 +45,15 @@ fn begin(
     let mut ring = ring_at(machine).or_else(|| both_sides().find_map(beside))?;
     let touch = |at: usize| Condition::Touch { at, size: sizes.1, contact: None, speed: sizes.1 };
     let (kind, condition) = match event {
-        MachineBranchEvent::Fold => (MachineCurveKind::Fold, None),
-        MachineBranchEvent::Flip => (MachineCurveKind::Flip, None),
+        MachineBranchEvent::Fold => (CurveKind::Fold, None),
+        MachineBranchEvent::Flip => (CurveKind::Flip, None),
         MachineBranchEvent::Torus => {
             let all = multipliers(&frame, &ring)?.1;
             // of the pairs of complex multipliers the one nearest to the circle
             let complex: Vec<_> = all.iter().copied().filter(|m| m.im != 0.0).collect();
             let nearest =
                 complex.iter().min_by(|a, b| (a.modulus() - 1.0).abs().total_cmp(&(b.modulus() - 1.0).abs()))?;
-            (MachineCurveKind::Torus, Some(Condition::Pair { cosine: pair(&all, nearest.re)?.2 }))
+            (CurveKind::Torus, Some(Condition::Pair { cosine: pair(&all, nearest.re)?.2 }))
         }
         MachineBranchEvent::Grazing { stop, appears: true, .. } => {
             let open = |leg: usize| ring.events[leg].after[stop] == ContactState::Open;
@@ -66,13 +65,13 @@ fn begin(
             }
             let back = place.surfaces.iter().map(Option::is_some).collect();
             ring.insert(leg + 1, RingEvent::touch(GuardKind::Gap(stop), &place.states, back), place);
-            (MachineCurveKind::Grazing { stop }, Some(touch(leg + 1)))
+            (CurveKind::Grazing { stop }, Some(touch(leg + 1)))
         }
         MachineBranchEvent::Grazing { stop, .. } | MachineBranchEvent::LossOfContact { stop } => {
             let Some(at) = without_contact(&frame, &mut ring, (stop, NEAR * sizes.1)) else {
                 return Some(Err(BranchError::NotThere));
             };
-            (MachineCurveKind::Grazing { stop }, Some(touch(at)))
+            (CurveKind::Grazing { stop }, Some(touch(at)))
         }
         MachineBranchEvent::Corner { first, second } => {
             let stops = machine.stops().len();
@@ -84,7 +83,7 @@ fn begin(
             let at = (0..ring.len())
                 .filter(both)
                 .min_by(|a, b| (ring.theta(a + 1) - ring.theta(*a)).total_cmp(&(ring.theta(b + 1) - ring.theta(*b))))?;
-            let kind = MachineCurveKind::Corner { first: of(at), second: of(at + 1) };
+            let kind = CurveKind::Corner { first: of(at), second: of(at + 1) };
             ring.together = Some(at);
             (kind, Some(Condition::Together { at }))
         }
@@ -106,25 +105,22 @@ fn begin(
                 return Some(Err(BranchError::NotThere));
             };
             let kind = if contact < machine.stops().len() {
-                MachineCurveKind::Sticking { stop: contact }
+                CurveKind::Sticking { stop: contact }
             } else {
-                MachineCurveKind::Holding { joint: contact }
+                CurveKind::Holding { joint: contact }
             };
             (kind, Some(condition))
         }
         _ => return Some(Err(BranchError::NotThere)),
     };
     let w = CurveEquations::join(machine, &ring, values);
-    let rigid = if let MachineCurveKind::Grazing { stop } = kind {
-        CurveProblem::rigid(&machine.stops()[stop].law)
-    } else {
-        false
-    };
+    let rigid =
+        if let CurveKind::Grazing { stop } = kind { CurveProblem::rigid(&machine.stops()[stop].law) } else { false };
     let together = Condition::Together { at: 0 };
     let equations = CurveEquations::new((machine, plane.clone()), ring, sizes, condition.unwrap_or(together));
     let equations = match kind {
-        MachineCurveKind::Fold => equations.singular(machine, 1.0)?,
-        MachineCurveKind::Flip => equations.singular(machine, -1.0)?,
+        CurveKind::Fold => equations.singular(machine, 1.0)?,
+        CurveKind::Flip => equations.singular(machine, -1.0)?,
         _ => equations,
     };
     Some(Ok((CurveProblem::new(equations, kind, (sizes.1, rigid)), w)))

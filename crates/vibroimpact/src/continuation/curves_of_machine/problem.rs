@@ -4,7 +4,7 @@
 use super::beside::judge_beside;
 use super::condition::{Condition, multipliers, pair};
 use super::equations::CurveEquations;
-use super::point::{MachineCurveEvent, MachineCurveKind};
+use crate::continuation::curves::{CurveEvent, CurveKind};
 use crate::continuation::equations::plane_tracer::PLANE_RULES;
 use crate::continuation::of_machine::{Judged, judge, over_pairs};
 use crate::continuation::trace::equations::Equations;
@@ -42,7 +42,7 @@ pub(super) enum Watched {
 #[derive(Clone, Debug)]
 pub(super) struct CurveProblem {
     pub(super) equations: CurveEquations,
-    pub(super) kind: MachineCurveKind,
+    pub(super) kind: CurveKind,
     pub(super) watched: Vec<Watched>,
     /// The largest velocity.
     pub(super) speed: f64,
@@ -52,26 +52,26 @@ pub(super) struct CurveProblem {
 pub(super) type CurveSolution = Solution<Judged>;
 
 impl CurveProblem {
-    pub(super) fn new(equations: CurveEquations, kind: MachineCurveKind, (speed, rigid): (f64, bool)) -> Self {
+    pub(super) fn new(equations: CurveEquations, kind: CurveKind, (speed, rigid): (f64, bool)) -> Self {
         let mut watched =
             vec![Watched::Edge(0, false), Watched::Edge(0, true), Watched::Edge(1, false), Watched::Edge(1, true)];
         let others = [Watched::PlusOne, Watched::MinusOne, Watched::Pair];
         match kind {
-            MachineCurveKind::Fold => watched.extend([Watched::Bending].into_iter().chain(others)),
-            MachineCurveKind::Flip => watched.extend(others),
-            MachineCurveKind::Torus => {
+            CurveKind::Fold => watched.extend([Watched::Bending].into_iter().chain(others)),
+            CurveKind::Flip => watched.extend(others),
+            CurveKind::Torus => {
                 watched.extend([1.0, -1.0, -0.5, 0.0].map(Watched::Cosine));
                 watched.extend([Watched::PlusOne, Watched::MinusOne]);
             }
-            MachineCurveKind::Grazing { .. } => {
+            CurveKind::Grazing { .. } => {
                 watched.extend([Watched::Pull].into_iter().chain(rigid.then_some(Watched::Trace)).chain(others));
             }
-            MachineCurveKind::Sticking { .. } | MachineCurveKind::Holding { .. }
+            CurveKind::Sticking { .. } | CurveKind::Holding { .. }
                 if matches!(equations.condition, Condition::Limit { .. } | Condition::Chatter(_)) =>
             {
                 watched.push(Watched::Release);
             }
-            MachineCurveKind::Corner { .. } | MachineCurveKind::Sticking { .. } | MachineCurveKind::Holding { .. } => {}
+            CurveKind::Corner { .. } | CurveKind::Sticking { .. } | CurveKind::Holding { .. } => {}
         }
         Self { equations, kind, watched, speed }
     }
@@ -160,7 +160,7 @@ impl CurveProblem {
             }
             Watched::Pull => {
                 let touch = self.equations.condition.touch()?;
-                let MachineCurveKind::Grazing { stop } = self.kind else { return None };
+                let CurveKind::Grazing { stop } = self.kind else { return None };
                 let place = ring.place(touch);
                 let structure = frame.structure(&place.states)?;
                 let rate = structure.gap(&frame.normal, stop).1;
@@ -182,7 +182,7 @@ impl CurveProblem {
             },
             Watched::Trace => {
                 let touch = self.equations.condition.touch()?;
-                let MachineCurveKind::Grazing { stop } = self.kind else { return None };
+                let CurveKind::Grazing { stop } = self.kind else { return None };
                 // what an impulse at the touch changes of the gap at the next touch
                 let m = ring.len();
                 let steps = (0..m).map(|i| ring.block(frame, (touch + i) % m)?.step);
@@ -199,36 +199,29 @@ impl CurveProblem {
     }
 
     /// The event where a test function is zero, and whether the curve ends there; `None` for the edge of the frame.
-    pub(super) fn event(&self, what: Watched) -> Option<(MachineCurveEvent, bool)> {
-        let stop = if let MachineCurveKind::Grazing { stop } = self.kind { Some(stop) } else { None };
+    pub(super) fn event(&self, what: Watched) -> Option<(CurveEvent, bool)> {
+        let stop = if let CurveKind::Grazing { stop } = self.kind { Some(stop) } else { None };
         let event = match (what, self.kind) {
             (Watched::Edge(..), _) => return None,
-            (Watched::Bending, _) => MachineCurveEvent::Cusp,
-            (Watched::Cosine(1.0), _) => return Some((MachineCurveEvent::OneToOne, true)),
-            (Watched::Cosine(-1.0), _) => return Some((MachineCurveEvent::OneToTwo, true)),
-            (Watched::Cosine(0.0), _) => MachineCurveEvent::OneToFour,
-            (Watched::Cosine(_), _) => MachineCurveEvent::OneToThree,
-            (Watched::PlusOne, MachineCurveKind::Fold) => MachineCurveEvent::OneToOne,
-            (Watched::PlusOne, MachineCurveKind::Torus) | (Watched::Pair, MachineCurveKind::Fold) => {
-                MachineCurveEvent::FoldTorus
-            }
-            (Watched::MinusOne, MachineCurveKind::Flip) => MachineCurveEvent::OneToTwo,
-            (Watched::MinusOne, MachineCurveKind::Torus) | (Watched::Pair, MachineCurveKind::Flip) => {
-                MachineCurveEvent::FlipTorus
-            }
-            (Watched::PlusOne, MachineCurveKind::Grazing { .. }) => MachineCurveEvent::FoldGrazing,
-            (Watched::MinusOne, MachineCurveKind::Grazing { .. }) => MachineCurveEvent::FlipGrazing,
-            (Watched::PlusOne | Watched::MinusOne, _) => MachineCurveEvent::FoldFlip,
-            (Watched::Pair, _) => MachineCurveEvent::TorusGrazing,
-            (Watched::Pull, _) => return Some((MachineCurveEvent::DegenerateGrazing { stop: stop? }, true)),
-            (
-                Watched::Release,
-                MachineCurveKind::Sticking { stop: place } | MachineCurveKind::Holding { joint: place },
-            ) => {
-                return Some((MachineCurveEvent::DegenerateRest { place }, true));
+            (Watched::Bending, _) => CurveEvent::Cusp,
+            (Watched::Cosine(1.0), _) => return Some((CurveEvent::OneToOne, true)),
+            (Watched::Cosine(-1.0), _) => return Some((CurveEvent::OneToTwo, true)),
+            (Watched::Cosine(0.0), _) => CurveEvent::OneToFour,
+            (Watched::Cosine(_), _) => CurveEvent::OneToThree,
+            (Watched::PlusOne, CurveKind::Fold) => CurveEvent::OneToOne,
+            (Watched::PlusOne, CurveKind::Torus) | (Watched::Pair, CurveKind::Fold) => CurveEvent::FoldTorus,
+            (Watched::MinusOne, CurveKind::Flip) => CurveEvent::OneToTwo,
+            (Watched::MinusOne, CurveKind::Torus) | (Watched::Pair, CurveKind::Flip) => CurveEvent::FlipTorus,
+            (Watched::PlusOne, CurveKind::Grazing { .. }) => CurveEvent::FoldGrazing,
+            (Watched::MinusOne, CurveKind::Grazing { .. }) => CurveEvent::FlipGrazing,
+            (Watched::PlusOne | Watched::MinusOne, _) => CurveEvent::FoldFlip,
+            (Watched::Pair, _) => CurveEvent::TorusGrazing,
+            (Watched::Pull, _) => return Some((CurveEvent::DegenerateGrazing { stop: stop? }, true)),
+            (Watched::Release, CurveKind::Sticking { stop: place } | CurveKind::Holding { joint: place }) => {
+                return Some((CurveEvent::DegenerateRest { place }, true));
             }
             (Watched::Release, _) => return None,
-            (Watched::Trace, _) => MachineCurveEvent::ResonantGrazing { stop: stop? },
+            (Watched::Trace, _) => CurveEvent::ResonantGrazing { stop: stop? },
         };
         Some((event, false))
     }

@@ -37,7 +37,7 @@ pub(crate) enum Condition {
 pub(crate) struct Plane {
     osc: Oscillator,
     pub(crate) over: ParameterPlane,
-    sides: Vec<Side>,
+    pub(crate) sides: Vec<Side>,
     periods: u32,
     scales: (f64, f64),
     weights: Vec<f64>,
