@@ -87,14 +87,15 @@ pub enum BranchError {
         "without damping the steady motion without impacts is one of many and cannot be followed\nhint: a damping above 0, or a branch from 1/1 towards it"
     )]
     Undamped,
-    /// Newton's method does not converge from the cycle at these parameters, or the curve has no tangent there.
+    /// Newton's method does not converge from the cycle at these parameters, or the curve has no single tangent there; or
+    /// the cycle of a machine has no events.
     #[error(
-        "the orbit cannot be followed from here: at these parameters its equations have no solution close by, or no single curve of them\nhint: begin a little beside a fold, a branch point or a grazing impact"
+        "the orbit cannot be followed from here: it has no events, or its equations have no solution close by, or no single curve of them\nhint: begin a little beside a fold, a branch point or a grazing contact"
     )]
     NoCycle,
     /// The event at this point is not one at which the requested branch or curve begins.
     #[error(
-        "what happens at this point begins no branch and no curve of that kind\nhint: branches begin at flips and branch points, curves go through folds, flips and grazing impacts"
+        "what happens at this point begins no branch and no curve of that kind\nhint: branches begin at flips and branch points; curves go through folds, flips, torus bifurcations, grazing, loss of contact, corners, and where sticking or holding begins or ends at a limit"
     )]
     NotThere,
 }

@@ -3,7 +3,6 @@
 use super::free::hides;
 use crate::continuation::equations::cycle_equations::CycleEquations;
 use crate::continuation::equations::test_functions::{Place, TestFunction};
-use crate::continuation::trace::equations::Equations;
 use crate::continuation::trace::tracer::{Problem, Solution, StepRules, Tracer};
 use crate::orbit::{Orbit, ring_cycle};
 
@@ -22,18 +21,13 @@ pub(crate) type BranchTracer = Tracer<BranchProblem>;
 /// A solution on a branch, with its cycle and whether it is admissible.
 pub(crate) type BranchSolution = Solution<Orbit>;
 
-impl Equations for BranchProblem {
-    fn weights(&self) -> &[f64] {
-        self.equations.weights()
-    }
-
-    fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
-        self.equations.at(w)
-    }
-}
-
 impl Problem for BranchProblem {
     type Known = Orbit;
+    type Equations = CycleEquations;
+
+    fn equations(&self) -> &CycleEquations {
+        &self.equations
+    }
 
     fn rules(&self) -> StepRules {
         RULES

@@ -10,7 +10,7 @@ use super::problem::{CurveProblem, CurveSolution, Watched};
 use crate::continuation::branches::BranchError;
 use crate::continuation::curves::{CurveEvent, CurveKind, CurveOptions};
 use crate::continuation::equations::plane_tracer::{beginning, first_step};
-use crate::continuation::of_machine::{ADAPTED, Difference, Judged, MachinePoint, difference, edge};
+use crate::continuation::of_machine::{ADAPTED, Difference, Judged, MachineEquations, MachinePoint, difference, edge};
 use crate::continuation::trace::driver::{Driver, Path};
 use crate::continuation::trace::equations::{correct, tangent};
 use crate::continuation::trace::tracer::{Step, Tracer};
@@ -79,10 +79,10 @@ impl MachineCurve {
     ) -> Result<[Self; 2], BranchError> {
         let (problem, w) = origin(plane, values, point)?;
         let begin = |way| {
-            let (w, row) = beginning(&problem, &w, way)?;
+            let (w, row) = beginning(&problem.equations, &w, way)?;
             let mut problem = problem.clone();
             problem.renew(&w);
-            let along = tangent(&problem, &w, &row)?;
+            let along = tangent(&problem.equations, &w, &row)?;
             let tracer = Tracer::new(problem, w, along, first_step(options.longest))?;
             Driver::new(EventPath, tracer, options.points).map(Self)
         };
@@ -151,9 +151,9 @@ impl EventCurve {
             let (at, by) = if way.0.abs() > way.1.abs() { (length - 2, way.0) } else { (length - 1, way.1) };
             let mut row = vec![0.0; length];
             row[at] = by.signum();
-            let Some((w, _)) = correct(&problem, &w, &row, by.signum() * w[at]) else { break };
+            let Some((w, _)) = correct(&problem.equations, &w, &row, by.signum() * w[at]) else { break };
             let step = self.tracer.step;
-            let next = tangent(&problem, &w, &row).and_then(|along| Tracer::new(problem, w, along, step));
+            let next = tangent(&problem.equations, &w, &row).and_then(|along| Tracer::new(problem, w, along, step));
             let Some(tracer) = next.filter(|tracer| tracer.here.known.physical()) else { break };
             self.tracer = tracer;
         }
@@ -169,7 +169,7 @@ impl EventCurve {
     /// Why solutions are not admissible beyond.
     fn beyond(&self, known: &Judged) -> CurveEvent {
         let equations = &self.tracer.problem.equations;
-        let ring = equations.signature();
+        let ring = &equations.events.ring;
         let moments = equations
             .split(&self.tracer.here.w)
             .map_or_else(Vec::new, |(machine, ring)| equations.condition.moments(&MachineFrame::new(&machine), &ring));
@@ -187,8 +187,7 @@ impl EventCurve {
         };
         let grazing = matches!(self.tracer.problem.kind, CurveKind::Grazing { .. });
         let rigid = |stop: usize| {
-            let (p, q) = CurveEquations::values(&self.tracer.here.w);
-            let machine = self.tracer.problem.equations.plane.at((p, q));
+            let machine = equations.events.family.machine(MachineEquations::numbers(&self.tracer.here.w));
             machine.is_some_and(|machine| CurveProblem::rigid(&machine.stops()[stop].law))
         };
         match found {
@@ -217,12 +216,13 @@ impl EventCurve {
             .min_by(|a, b| a.2.total_cmp(&b.2))
             .filter(|(.., value)| *value < near);
         let (which, upper, _) = closest?;
-        let range = if which == 0 { &problem.equations.plane.ranges.0 } else { &problem.equations.plane.ranges.1 };
+        let ranges = &problem.equations.ranges;
+        let range = if which == 0 { &ranges.0 } else { &ranges.1 };
         let end = if upper { *range.end() } else { *range.start() };
         let mut row = vec![0.0; at.w.len()];
         let column = at.w.len() - 2 + which;
         row[column] = 1.0;
-        let (mut w, _) = correct(problem, &at.w, &row, end)?;
+        let (mut w, _) = correct(&problem.equations, &at.w, &row, end)?;
         w[column] = end;
         self.tracer.solution(w)
     }

@@ -2,19 +2,18 @@
 
 use super::borders::Borders;
 use super::condition::{Condition, turned};
-use super::plane::MachinePlane;
-use crate::continuation::of_machine::{linearised, weigh, weights};
+use crate::continuation::curves::Ranges;
+use crate::continuation::of_machine::MachineEquations;
 use crate::continuation::trace::equations::Equations;
-use crate::events::StateShape;
 use crate::machine::Machine;
 use crate::orbit::{MachineFrame, MachineRing};
 
 /// The equations of a curve. The unknowns are phases and states of the events and, last, the two numbers.
 #[derive(Clone, Debug)]
 pub(super) struct CurveEquations {
-    pub(super) plane: MachinePlane,
-    ring: MachineRing,
-    weights: Vec<f64>,
+    pub(super) events: MachineEquations<2>,
+    /// The ranges of both numbers.
+    pub(super) ranges: Ranges,
     pub(super) condition: Condition,
 }
 
@@ -22,71 +21,28 @@ pub(super) struct CurveEquations {
 const DIFFERENCE: f64 = 1e-6;
 
 impl CurveEquations {
-    /// The equations for the signature of `ring`; `sizes` are the largest coordinates and velocities.
-    pub(super) fn new(
-        (machine, plane): (&Machine, MachinePlane),
-        ring: MachineRing,
-        sizes: (f64, f64),
-        condition: Condition,
-    ) -> Self {
-        let mut weights = weights(machine, &ring, sizes);
-        let scales = plane.scales();
-        weights.extend([1.0 / (scales.0 * scales.0), 1.0 / (scales.1 * scales.1)]);
-        Self { plane, ring, weights, condition }
-    }
-
     /// The same with the condition that a multiplier is `turn`, with borders at the cycle itself.
     pub(super) fn singular(mut self, machine: &Machine, turn: f64) -> Option<Self> {
-        let matrix = turned(&MachineFrame::new(machine), &self.ring, turn)?;
-        let columns = self.sizes(matrix.rows());
+        let matrix = turned(&MachineFrame::new(machine), &self.events.ring, turn)?;
+        let columns = self.weights()[..matrix.rows()].iter().map(|weight| 1.0 / weight.sqrt()).collect();
         self.condition = Condition::Singular { turn, borders: Borders::new(&matrix, columns, None)? };
         Some(self)
     }
 
-    /// Adapts the weights to a solution; whether they can have changed.
-    pub(super) fn weigh(&mut self, w: &[f64]) -> bool {
-        let count = self.weights.len() - 2;
-        weigh(&mut self.weights[..count], &self.ring, w)
-    }
-
-    /// The sizes of the first unknowns.
-    fn sizes(&self, count: usize) -> Vec<f64> {
-        self.weights[..count].iter().map(|weight| 1.0 / weight.sqrt()).collect()
-    }
-
     /// The values of the two numbers.
     pub(super) fn values(w: &[f64]) -> (f64, f64) {
-        (w[w.len() - 2], w[w.len() - 1])
-    }
-
-    /// The vector of unknowns of a ring and two values.
-    pub(super) fn join(machine: &Machine, ring: &MachineRing, (p, q): (f64, f64)) -> Vec<f64> {
-        let mut w = ring.unknowns(&StateShape::of(machine));
-        w.extend([p, q]);
-        w
+        MachineEquations::<2>::numbers(w).into()
     }
 
     /// The machine and the ring that belong to these unknowns; `None` if the numbers are not allowed.
     pub(super) fn split(&self, w: &[f64]) -> Option<(Machine, MachineRing)> {
-        let machine = self.plane.at(Self::values(w))?;
-        let ring = self.ring.with(&machine, &w[..w.len() - 2]);
-        Some((machine, ring))
-    }
-
-    /// The ring of the first unknowns.
-    pub(super) fn ring(&self, machine: &Machine, unknowns: &[f64]) -> MachineRing {
-        self.ring.with(machine, unknowns)
-    }
-
-    /// The signature, with the unknowns at which the curve begins.
-    pub(super) const fn signature(&self) -> &MachineRing {
-        &self.ring
+        self.events.split(w)
     }
 
     /// The change of the two numbers along a tangent, divided by the scales.
     pub(super) fn course(&self, tangent: &[f64]) -> (f64, f64) {
-        let (scales, (p, q)) = (self.plane.scales(), Self::values(tangent));
-        (p / scales.0, q / scales.1)
+        let ([one, two], (p, q)) = (self.events.scales, Self::values(tangent));
+        (p / one, q / two)
     }
 
     /// The gradient of the function of the condition, by central differences of its terms; one-sided at the end of the allowed
@@ -95,7 +51,7 @@ impl CurveEquations {
         let count = w.len() - 2;
         let terms = |moved: &[f64], i: usize| {
             if i < count {
-                self.condition.terms(frame, &self.ring(frame.machine, &moved[..count]))
+                self.condition.terms(frame, &self.events.ring.with(frame.machine, &moved[..count]))
             } else {
                 let (machine, ring) = self.split(moved)?;
                 self.condition.terms(&MachineFrame::new(&machine), &ring)
@@ -105,10 +61,11 @@ impl CurveEquations {
         let by_terms = self.condition.by_terms(&here);
         let mut moved = w.to_vec();
         let mut row = vec![0.0; w.len()];
-        let (events, width) = (self.condition.events(&self.ring), count / self.ring.len());
+        let signature = &self.events.ring;
+        let (events, width) = (self.condition.events(signature), count / signature.len());
         let matters = |i: usize| i >= count || events.as_ref().is_none_or(|events| events.contains(&(i / width)));
         for (i, slope) in row.iter_mut().enumerate().filter(|(i, _)| matters(*i)) {
-            let h = DIFFERENCE / self.weights[i].sqrt();
+            let h = DIFFERENCE / self.weights()[i].sqrt();
             let mut at = |x: f64| {
                 moved[i] = x;
                 let terms = terms(&moved, i);
@@ -130,10 +87,10 @@ impl CurveEquations {
         let (machine, ring) = self.split(w)?;
         let frame = MachineFrame::new(&machine);
         let (_, vector) = borders.test(&turned(&frame, &ring, *turn)?)?;
-        let length = self.weights.iter().zip(&vector).map(|(w, v)| w * v * v).sum::<f64>().sqrt();
+        let length = self.weights().iter().zip(&vector).map(|(w, v)| w * v * v).sum::<f64>().sqrt();
         let at = |h: f64| {
             let moved: Vec<f64> = w.iter().zip(&vector).map(|(w, v)| w + h / length * v).collect();
-            self.condition.value(&frame, &self.ring(&machine, &moved))
+            self.condition.value(&frame, &self.events.ring.with(&machine, &moved))
         };
         Some((at(ALONG)? - at(-ALONG)?) / (2.0 * ALONG))
     }
@@ -144,23 +101,16 @@ const ALONG: f64 = 1e-4;
 
 impl Equations for CurveEquations {
     fn weights(&self) -> &[f64] {
-        &self.weights
+        self.events.weights()
     }
 
     fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
         let (machine, ring) = self.split(w)?;
         let frame = MachineFrame::new(&machine);
-        let (mut miss, mut rows) = linearised(&frame, &ring, w)?;
-        let length = w.len();
-        for (column, rate) in [length - 2, length - 1].into_iter().zip(self.plane.rates(Self::values(w))?) {
-            for (row, slope) in ring.by_number(&frame, &rate)?.into_iter().enumerate() {
-                rows[row * length + column] = slope;
-            }
-        }
-        let here = self.condition.value(&frame, &ring)?;
-        let last = (length - 2) * length;
-        rows[last..last + length].copy_from_slice(&self.gradient(&frame, w, &ring)?);
-        miss.push(here);
+        let (mut miss, mut rows) = self.events.linearised(&frame, &ring, w)?;
+        let last = (w.len() - 2) * w.len();
+        rows[last..last + w.len()].copy_from_slice(&self.gradient(&frame, w, &ring)?);
+        miss.push(self.condition.value(&frame, &ring)?);
         Some((miss, rows))
     }
 }

@@ -7,7 +7,7 @@ use super::plane::MachinePlane;
 use super::problem::CurveProblem;
 use crate::continuation::branches::BranchError;
 use crate::continuation::curves::{CurveKind, check};
-use crate::continuation::of_machine::{CompleteChatter, MachineBranchEvent, MachinePoint, closest};
+use crate::continuation::of_machine::{CompleteChatter, MachineBranchEvent, MachineEquations, MachinePoint, closest};
 use crate::events::standing_back;
 use crate::machine::Machine;
 use crate::orbit::{MachineFrame, MachineRing, RingEvent};
@@ -20,7 +20,7 @@ pub(super) fn origin(
     point: &MachinePoint,
 ) -> Result<(CurveProblem, Vec<f64>), BranchError> {
     check(&plane.ranges, values)?;
-    let machine = plane.at(values).ok_or(BranchError::NoCycle)?;
+    let machine = plane.family.machine(values.into()).ok_or(BranchError::NoCycle)?;
     let event = point.event.ok_or(BranchError::NotThere)?;
     begin(plane, (&machine, values), point, event).unwrap_or(Err(BranchError::NoCycle))
 }
@@ -40,7 +40,7 @@ fn begin(
         MachineRing::of(&MachineFrame::new(machine), begin, (point.cycle.label.periods, point.cycle.period))
     };
     // rounding can let a motion end at a limit, or miss a stop that it grazes
-    let beside = |by: f64| ring_at(&plane.at((values.0 + by * plane.scales().0, values.1))?);
+    let beside = |by: f64| ring_at(&plane.family.machine([values.0 + by * plane.scales()[0], values.1])?);
     let both_sides = || BESIDE.into_iter().flat_map(|by| [by, -by]);
     let mut ring = ring_at(machine).or_else(|| both_sides().find_map(beside))?;
     let touch = |at: usize| Condition::Touch { at, size: sizes.1, contact: None, speed: sizes.1 };
@@ -113,11 +113,13 @@ fn begin(
         }
         _ => return Some(Err(BranchError::NotThere)),
     };
-    let w = CurveEquations::join(machine, &ring, values);
+    let w = MachineEquations::join(machine, &ring, values.into());
     let rigid =
         if let CurveKind::Grazing { stop } = kind { CurveProblem::rigid(&machine.stops()[stop].law) } else { false };
     let together = Condition::Together { at: 0 };
-    let equations = CurveEquations::new((machine, plane.clone()), ring, sizes, condition.unwrap_or(together));
+    let events = MachineEquations::new((machine, plane.family.clone()), ring, sizes, plane.scales());
+    let (ranges, condition) = (plane.ranges.clone(), condition.unwrap_or(together));
+    let equations = CurveEquations { events, ranges, condition };
     let equations = match kind {
         CurveKind::Fold => equations.singular(machine, 1.0)?,
         CurveKind::Flip => equations.singular(machine, -1.0)?,

@@ -6,8 +6,7 @@ use super::condition::{Condition, multipliers, pair};
 use super::equations::CurveEquations;
 use crate::continuation::curves::{CurveEvent, CurveKind};
 use crate::continuation::equations::plane_tracer::PLANE_RULES;
-use crate::continuation::of_machine::{Judged, judge, over_pairs};
-use crate::continuation::trace::equations::Equations;
+use crate::continuation::of_machine::{Judged, MachineEquations, judge, over_pairs};
 use crate::continuation::trace::tracer::{Problem, Solution, StepRules};
 use crate::machine::StopLaw;
 use crate::math::{Matrix, Multiplier, dot};
@@ -93,11 +92,12 @@ impl CurveProblem {
         let Condition::Chatter(chatter) = &self.equations.condition else { return None };
         let (machine, mut ring) = self.equations.split(&at.w)?;
         let chatter = chatter.adapted(&MachineFrame::new(&machine), &mut ring)?;
-        let (plane, values) = (self.equations.plane.clone(), CurveEquations::values(&at.w));
+        let CurveEquations { events, ranges, .. } = &self.equations;
         let sizes = at.known.cycle.as_ref()?.sizes;
-        let w = CurveEquations::join(&machine, &ring, values);
+        let w = MachineEquations::join(&machine, &ring, MachineEquations::<2>::numbers(&at.w));
         let condition = Condition::Chatter(chatter);
-        let equations = CurveEquations::new((&machine, plane), ring, sizes, condition);
+        let events = MachineEquations::new((&machine, events.family.clone()), ring, sizes, events.scales);
+        let equations = CurveEquations { events, ranges: ranges.clone(), condition };
         Some((Self { equations, ..self.clone() }, w))
     }
 
@@ -141,10 +141,9 @@ impl CurveProblem {
         };
         match what {
             Watched::Edge(which, upper) => {
-                let ((p, q), scales) = (CurveEquations::values(w), self.equations.plane.scales());
-                let ranges = &self.equations.plane.ranges;
-                let (value, scale, range) =
-                    if which == 0 { (p, scales.0, &ranges.0) } else { (q, scales.1, &ranges.1) };
+                let CurveEquations { events, ranges, .. } = &self.equations;
+                let (value, scale) = (MachineEquations::<2>::numbers(w)[which], events.scales[which]);
+                let range = if which == 0 { &ranges.0 } else { &ranges.1 };
                 Some(if upper { (range.end() - value) / scale } else { (value - range.start()) / scale })
             }
             Watched::Bending => self.equations.bending(w),
@@ -227,18 +226,13 @@ impl CurveProblem {
     }
 }
 
-impl Equations for CurveProblem {
-    fn weights(&self) -> &[f64] {
-        self.equations.weights()
-    }
-
-    fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
-        self.equations.at(w)
-    }
-}
-
 impl Problem for CurveProblem {
     type Known = Judged;
+    type Equations = CurveEquations;
+
+    fn equations(&self) -> &CurveEquations {
+        &self.equations
+    }
 
     fn rules(&self) -> StepRules {
         PLANE_RULES
@@ -288,7 +282,7 @@ impl Problem for CurveProblem {
     /// Adapts the condition to the solution. The weights stay with forcing.
     fn weigh(&mut self, w: &[f64]) -> bool {
         self.renew(w);
-        self.equations.weigh(w)
+        self.equations.events.weigh(w)
     }
 }
 

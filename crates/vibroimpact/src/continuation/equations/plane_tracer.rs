@@ -76,18 +76,13 @@ pub(crate) const PLANE_RULES: StepRules = StepRules {
     beside: 0.0,
 };
 
-impl Equations for PlaneProblem {
-    fn weights(&self) -> &[f64] {
-        self.plane.weights()
-    }
-
-    fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
-        self.plane.at(w)
-    }
-}
-
 impl Problem for PlaneProblem {
     type Known = ();
+    type Equations = Plane;
+
+    fn equations(&self) -> &Plane {
+        &self.plane
+    }
 
     fn rules(&self) -> StepRules {
         PLANE_RULES

@@ -42,8 +42,8 @@ pub(super) fn at_rest(
     // without the flight that takes no time the events are those beyond
     let begins = zero.rests(&ring, contact) == joined;
     let number = last(&inside.w);
-    let guess = MachineEquations::join(&machine, &ring, number);
-    let equations = MachineEquations::new((&machine, old.family.clone()), ring, sizes, old.scale);
+    let guess = MachineEquations::join(&machine, &ring, [number]);
+    let equations = MachineEquations::new((&machine, old.family.clone()), ring, sizes, old.scales);
     let value = |frame: &MachineFrame<'_>, ring: &MachineRing| match &zero {
         RestZero::Limit(limit) => Some(limit.of(frame, ring)?.value),
         RestZero::Touch(touch) => Some(closest(frame, ring, (touch.leg, touch.guard))?.0),

@@ -15,9 +15,9 @@ pub(super) fn begun(
 ) -> Option<Tracer<MachineProblem>> {
     let mut row = vec![0.0; w.len()];
     *row.last_mut()? = 1.0;
-    let (w, _) = correct(&problem, w, &row, value)?;
+    let (w, _) = correct(&problem.equations, w, &row, value)?;
     *row.last_mut()? = up;
-    let along = tangent(&problem, &w, &row)?;
+    let along = tangent(&problem.equations, &w, &row)?;
     traced(problem, w, along, options)
 }
 

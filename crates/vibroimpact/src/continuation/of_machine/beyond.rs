@@ -52,7 +52,7 @@ pub(super) fn with_ring(
 ) -> MachineProblem {
     let old = &tracer.problem;
     let ring = ring.centred(&MachineFrame::new(machine).normal.translations);
-    let equations = MachineEquations::new((machine, old.equations.family.clone()), ring, sizes, old.equations.scale);
+    let equations = MachineEquations::new((machine, old.equations.family.clone()), ring, sizes, old.equations.scales);
     MachineProblem { equations, range: old.range }
 }
 
@@ -72,11 +72,11 @@ fn first_step(
     for h in STEPS {
         for along in directions {
             let guess: Vec<f64> = w.iter().zip(along).map(|(w, t)| w + h * t).collect();
-            let row = problem.row(along);
-            let level = problem.dot(along, w) + h;
-            let Some((next, _)) = correct(problem, &guess, &row, level) else { continue };
-            let Some(next_along) = tangent(problem, &next, &row) else { continue };
-            if problem.dot(&next_along, along) < BEND {
+            let row = problem.equations.row(along);
+            let level = problem.equations.dot(along, w) + h;
+            let Some((next, _)) = correct(&problem.equations, &guess, &row, level) else { continue };
+            let Some(next_along) = tangent(&problem.equations, &next, &row) else { continue };
+            if problem.equations.dot(&next_along, along) < BEND {
                 continue;
             }
             if let Some(tracer) = traced(problem.clone(), next, next_along, *options)
@@ -127,7 +127,7 @@ fn appearing(
     let contact = next.contact(index).is_some();
     let sizes = at.known.cycle.as_ref()?.sizes;
     let problem = with_ring(tracer, machine, next, sizes);
-    let w = MachineEquations::join(machine, &problem.equations.ring, last(&at.w));
+    let w = MachineEquations::join(machine, &problem.equations.ring, [last(&at.w)]);
     let width = frame.shape.size() + 1;
     let mut row = vec![0.0; w.len()];
     if contact {
@@ -140,7 +140,7 @@ fn appearing(
             row[index * width + 1 + machine.n() + i] = -direction;
         }
     }
-    let along = tangent(&problem, &w, &row)?;
+    let along = tangent(&problem.equations, &w, &row)?;
     first_step(&problem, &w, &[along], options)
 }
 
@@ -178,10 +178,10 @@ fn disappearing(
     }
     let next = next.shortest(&frame, sizes);
     let problem = with_ring(tracer, machine, next, sizes);
-    let w = MachineEquations::join(machine, &problem.equations.ring, last(&at.w));
+    let w = MachineEquations::join(machine, &problem.equations.ring, [last(&at.w)]);
     let mut row = vec![0.0; w.len()];
     *row.last_mut()? = if last(&at.tangent) < 0.0 { -1.0 } else { 1.0 };
-    let along = tangent(&problem, &w, &row)?;
+    let along = tangent(&problem.equations, &w, &row)?;
     let back: Vec<f64> = along.iter().map(|t| -t).collect();
     first_step(&problem, &w, &[along, back], options)
 }
@@ -223,7 +223,7 @@ pub(super) fn across(
     at: &MachineSolution,
     options: &BranchOptions,
 ) -> Option<(Tracer<MachineProblem>, bool)> {
-    let MachineEquations { ring, scale, family, .. } = &tracer.problem.equations;
+    let MachineEquations { ring, scales: [scale], family, .. } = &tracer.problem.equations;
     let (low, high) = tracer.problem.range;
     let motion = LastMotion::of(tracer, at)?;
     let sizes = at.known.cycle.as_ref()?.sizes;
@@ -234,7 +234,7 @@ pub(super) fn across(
         let next = MachineRing::of(&frame, &motion.begin, (motion.periods, motion.period))?;
         (!same_in_turn(&next.events, &ring.events)).then_some(())?;
         let problem = with_ring(tracer, &machine, next, sizes);
-        let guess = MachineEquations::join(&machine, &problem.equations.ring, there);
+        let guess = MachineEquations::join(&machine, &problem.equations.ring, [there]);
         // at this number, or where one of the new events is where it was first
         let events = &problem.equations.ring.events;
         let width = frame.shape.size() + 1;
@@ -242,12 +242,12 @@ pub(super) fn across(
         let solved = core::iter::once(guess.len() - 1).chain(new).find_map(|fixed| {
             let mut row = vec![0.0; guess.len()];
             row[fixed] = 1.0;
-            let (w, _) = correct(&problem, &guess, &row, guess[fixed])?;
-            Some((tangent(&problem, &w, &row)?, w))
+            let (w, _) = correct(&problem.equations, &guess, &row, guess[fixed])?;
+            Some((tangent(&problem.equations, &w, &row)?, w))
         });
         let (along, w) = solved?;
         let moved: Vec<f64> = w.iter().zip(&guess).map(|(w, guess)| w - guess).collect();
-        let continues = problem.length(&moved) < CONTINUOUS;
+        let continues = problem.equations.length(&moved) < CONTINUOUS;
         let back = along.iter().map(|t| -t).collect();
         let onward = if last(&along) * forward(at) < 0.0 { [back, along] } else { [along, back] };
         let ways = onward.into_iter().filter_map(|along| {
@@ -268,7 +268,7 @@ fn admissible(mut tracer: Tracer<MachineProblem>) -> Option<Tracer<MachineProble
             return Some(tracer);
         }
         let step = tracer.step()?;
-        if (last(&step.there.w) - begin).abs() > FAR * tracer.problem.equations.scale {
+        if (last(&step.there.w) - begin).abs() > FAR * tracer.problem.equations.scales[0] {
             return None;
         }
         let mut there = step.there.clone();
@@ -339,14 +339,14 @@ impl LastMotion {
     ) -> Option<Tracer<MachineProblem>> {
         let equations = &tracer.problem.equations;
         let (low, high) = tracer.problem.range;
-        let there = self.number + by * equations.scale;
+        let there = self.number + by * equations.scales[0];
         (low..=high).contains(&there).then_some(())?;
         let moved = equations.family.at(there)?;
         let frame = MachineFrame::new(&moved);
         let cycle = MachineCycle::lasting(&frame, &self.begin, (self.periods, self.period))?;
         let next = MachineRing::of(&frame, cycle.strobes.first()?, (self.periods, cycle.period))?;
         wanted(&next).then_some(())?;
-        let w = MachineEquations::join(&moved, &next, there);
+        let w = MachineEquations::join(&moved, &next, [there]);
         let problem = with_ring(tracer, &moved, next, cycle.sizes);
         begun(problem, &w, there, by.signum(), *options).filter(|tracer| tracer.here.known.physical())
     }

@@ -95,8 +95,8 @@ impl MachineBranch {
             let machine = &family.at(value)?;
             let times = (cycle.label.periods, cycle.period);
             let ring = MachineRing::of(&MachineFrame::new(machine), cycle.strobes.first()?, times)?;
-            let w = MachineEquations::join(machine, &ring, value);
-            let equations = MachineEquations::new((machine, family.clone()), ring, cycle.sizes, scale);
+            let w = MachineEquations::join(machine, &ring, [value]);
+            let equations = MachineEquations::new((machine, family.clone()), ring, cycle.sizes, [scale]);
             let problem = MachineProblem { equations, range: (*range.start(), *range.end()) };
             let up = if direction == Direction::Up { 1.0 } else { -1.0 };
             let tracer = begun(problem, &w, value, up, options)?;
@@ -172,7 +172,7 @@ impl EventBranch {
             Chatter::adapt(&MachineFrame::new(&machine), &mut ring)?;
             let problem = with_ring(tracer, &machine, ring, tracer.here.known.cycle.as_ref()?.sizes);
             let number = last(&tracer.here.w);
-            let w = MachineEquations::join(&machine, &problem.equations.ring, number);
+            let w = MachineEquations::join(&machine, &problem.equations.ring, [number]);
             let mut next = begun(problem, &w, number, last(&tracer.here.tangent).signum(), self.path.options)?;
             next.step = tracer.step;
             next.here.known.physical().then_some(next)
@@ -205,7 +205,7 @@ impl EventBranch {
         (next, landing): (Tracer<MachineProblem>, Option<MachineBranchEvent>),
     ) {
         let now = Passed { number: last(&at.w), unknowns: at.w.len(), rises: last(&at.tangent) > 0.0, event };
-        let near = 1e-9 * self.tracer.problem.equations.scale;
+        let near = 1e-9 * self.tracer.problem.equations.scales[0];
         let same = |other: &Passed| {
             (other.number - now.number).abs() < near
                 && (other.unknowns, other.rises, other.event) == (now.unknowns, now.rises, now.event)

@@ -242,8 +242,8 @@ impl CompleteChatter {
         let mut number = last(&at.w);
         let mut own = Self::shortened(&MachineFrame::new(&machine), &mut ring, stop)?;
         for _ in 0..ADDED {
-            let guess = MachineEquations::join(&machine, &ring, number);
-            let equations = MachineEquations::new((&machine, old.family.clone()), ring, sizes, old.scale);
+            let guess = MachineEquations::join(&machine, &ring, [number]);
+            let equations = MachineEquations::new((&machine, old.family.clone()), ring, sizes, old.scales);
             let w = zero_near(&equations, &guess, MOST, |frame, ring| own.value(frame, ring))?;
             number = last(&w);
             (machine, ring) = equations.split(&w)?;

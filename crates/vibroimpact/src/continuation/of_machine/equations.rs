@@ -1,73 +1,130 @@
-//! The equations of a cycle of a machine with one of its numbers among the unknowns.
+//! The equations of a cycle of a machine with numbers of it among the unknowns: one along a branch, two along a curve.
 
 use super::family::MachineFamily;
-use super::linear;
 use crate::continuation::trace::equations::Equations;
 use crate::events::StateShape;
 use crate::machine::Machine;
 use crate::orbit::{MachineFrame, MachineRing};
+use core::f64::consts::TAU;
 
-/// The equations of the cycles with the signature of a ring. The unknowns are phases and states of the events and, last, a
-/// number of the machine.
+/// The equations of the cycles with the signature of a ring. The unknowns are phases and states of the events and, last, N
+/// numbers of the machine.
 #[derive(Clone, Debug)]
-pub(crate) struct MachineEquations {
-    pub(crate) family: MachineFamily,
+pub(crate) struct MachineEquations<const N: usize = 1> {
+    pub(crate) family: MachineFamily<N>,
+    /// The signature, with the unknowns with which the equations were made.
     pub(crate) ring: MachineRing,
     weights: Vec<f64>,
-    pub(crate) scale: f64,
+    /// Changes of the numbers that have the same length as a change of all phases by one radian.
+    pub(crate) scales: [f64; N],
 }
 
-impl MachineEquations {
-    /// The equations for the signature of `ring`; `sizes` are the largest coordinates and velocities. A change of the
-    /// number by `scale` has the same length as a change of all phases by one radian.
+impl<const N: usize> MachineEquations<N> {
+    /// The equations for the signature of `ring`; `sizes` are the largest coordinates and velocities.
     pub(crate) fn new(
-        (machine, family): (&Machine, MachineFamily),
+        (machine, family): (&Machine, MachineFamily<N>),
         ring: MachineRing,
         sizes: (f64, f64),
-        scale: f64,
+        scales: [f64; N],
     ) -> Self {
-        let mut weights = linear::weights(machine, &ring, sizes);
-        weights.push(1.0 / (scale * scale));
-        Self { family, ring, weights, scale }
+        let mut weights = weights(machine, &ring, sizes);
+        weights.extend(scales.map(|scale| 1.0 / (scale * scale)));
+        Self { family, ring, weights, scales }
     }
 
-    /// The machine and the ring that belong to these unknowns; `None` if the number is not allowed.
+    /// The vector of unknowns of a ring and values of the numbers.
+    pub(crate) fn join(machine: &Machine, ring: &MachineRing, numbers: [f64; N]) -> Vec<f64> {
+        let mut w = ring.unknowns(&StateShape::of(machine));
+        w.extend(numbers);
+        w
+    }
+
+    /// The values of the numbers.
+    pub(crate) fn numbers(w: &[f64]) -> [f64; N] {
+        w.last_chunk().copied().unwrap_or([f64::NAN; N])
+    }
+
+    /// The machine and the ring that belong to these unknowns; `None` if the numbers are not allowed.
     pub(crate) fn split(&self, w: &[f64]) -> Option<(Machine, MachineRing)> {
-        let (value, unknowns) = w.split_last()?;
-        let machine = self.family.at(*value)?;
+        let (unknowns, numbers) = w.split_last_chunk()?;
+        let machine = self.family.machine(*numbers)?;
         let ring = self.ring.with(&machine, unknowns);
         Some((machine, ring))
     }
 
-    /// Adapts the weights to a solution; whether they can have changed.
+    /// Adapts the weights of the unknowns of the events to the period: without forcing a change of all times by a part of the
+    /// period has the same length for each period. Returns whether there is no forcing.
     pub(crate) fn weigh(&mut self, w: &[f64]) -> bool {
-        let count = self.weights.len() - 1;
-        linear::weigh(&mut self.weights[..count], &self.ring, w)
+        if self.ring.periods > 0 {
+            return false;
+        }
+        let count = self.weights.len() - N;
+        #[allow(clippy::cast_precision_loss)] // a few dozen
+        let m = self.ring.len() as f64;
+        // the first unknown is the period, with another sign
+        let radian = w[0] / TAU;
+        let width = count / self.ring.len();
+        self.weights[..count].iter_mut().step_by(width).for_each(|weight| *weight = 1.0 / (m * radian * radian));
+        true
     }
 
-    /// The vector of unknowns of a ring and a value.
-    pub(crate) fn join(machine: &Machine, ring: &MachineRing, value: f64) -> Vec<f64> {
-        let mut w = ring.unknowns(&StateShape::of(machine));
-        w.push(value);
-        w
+    /// The residuals of the events of `ring`, whose unknowns are the first of `w`, and their derivatives in rows as long as `w`,
+    /// followed by N rows of zeros.
+    pub(crate) fn linearised(
+        &self,
+        frame: &MachineFrame<'_>,
+        ring: &MachineRing,
+        w: &[f64],
+    ) -> Option<(Vec<f64>, Vec<f64>)> {
+        let blocks = ring.blocks(frame)?;
+        let length = w.len();
+        let mut rows = vec![0.0; length * length];
+        ring.fill(&mut rows, length, &blocks, 1.0);
+        let mut miss: Vec<f64> = blocks.into_iter().flat_map(|block| block.miss).collect();
+        // the sizes of surfaces that do not stand back are 0
+        let (m, shape) = (ring.len(), &frame.shape);
+        let width = shape.size() + 1;
+        for (k, event) in ring.events.iter().enumerate() {
+            for (s, _) in shape.surfaces.iter().enumerate().filter(|(_, j)| !event.back[**j]) {
+                let place = 1 + 2 * shape.n + s;
+                miss[((k + m - 1) % m) * width + place] -= w[k * width + place];
+            }
+        }
+        for (k, rate) in self.family.rates(Self::numbers(w), self.scales)?.iter().enumerate() {
+            for (row, slope) in ring.by_number(frame, rate)?.into_iter().enumerate() {
+                rows[row * length + length - N + k] = slope;
+            }
+        }
+        Some((miss, rows))
     }
 }
 
-impl Equations for MachineEquations {
+/// The weights of the unknowns of a ring, for the largest coordinates and velocities `sizes`.
+fn weights(machine: &Machine, ring: &MachineRing, sizes: (f64, f64)) -> Vec<f64> {
+    #[allow(clippy::cast_precision_loss)] // a few dozen
+    let m = ring.len() as f64;
+    let width = StateShape::of(machine).size() + 1;
+    let n = machine.n();
+    let weight = |i: usize| {
+        let size = match i {
+            0 => 1.0,
+            i if i <= n => sizes.0,
+            i if i <= 2 * n => sizes.1,
+            _ => sizes.0,
+        };
+        1.0 / (m * size * size).max(f64::MIN_POSITIVE)
+    };
+    (0..ring.len() * width).map(|i| weight(i % width)).collect()
+}
+
+impl<const N: usize> Equations for MachineEquations<N> {
     fn weights(&self) -> &[f64] {
         &self.weights
     }
 
     fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
         let (machine, ring) = self.split(w)?;
-        let frame = MachineFrame::new(&machine);
-        let (miss, mut rows) = linear::linearised(&frame, &ring, w)?;
-        let length = w.len();
-        let slopes = ring.by_number(&frame, &self.family.rate(*w.last()?, self.scale)?)?;
-        for (row, slope) in slopes.into_iter().enumerate() {
-            rows[row * length + length - 1] = slope;
-        }
-        Some((miss, rows))
+        self.linearised(&MachineFrame::new(&machine), &ring, w)
     }
 }
 
@@ -121,8 +178,8 @@ mod tests {
             let frame = MachineFrame::new(&machine);
             let ring = MachineRing::of(&frame, &cycle.strobes[0], (cycle.label.periods, cycle.period)).unwrap();
             let (family, _) = MachineFamily::of_path(&machine, "stop.stop.gap").unwrap();
-            let equations = MachineEquations::new((&machine, family), ring.clone(), cycle.sizes, 0.5);
-            let w = MachineEquations::join(&machine, &ring, gap);
+            let equations = MachineEquations::new((&machine, family), ring.clone(), cycle.sizes, [0.5]);
+            let w = MachineEquations::join(&machine, &ring, [gap]);
             let (miss, rows) = equations.at(&w).unwrap();
             assert!(miss.iter().all(|miss| miss.abs() < 1e-12), "{miss:?}");
             let length = w.len();
@@ -245,8 +302,8 @@ mod tests {
                 let value = machine.number(&path).unwrap();
                 let (family, _) = MachineFamily::of_path(&machine, &path).unwrap();
                 // without springs another stiffness is not allowed
-                let Some(rate) = family.rate(value, 1.0) else { continue };
-                let exact = ring.by_number(&frame, &rate).unwrap();
+                let Some(rates) = family.rates([value], [1.0]) else { continue };
+                let exact = ring.by_number(&frame, &rates[0]).unwrap();
                 let at = |h: f64| {
                     let machine = family.at(value + h)?;
                     Some(misses(&ring.with(&machine, &unknowns), &MachineFrame::new(&machine)))

@@ -28,13 +28,13 @@ fn flip_of_half(
     value: f64,
 ) -> Option<(Vec<f64>, MachineCycle)> {
     let half = ring.half();
-    let guess = MachineEquations::join(machine, &half, value);
-    let equations = MachineEquations::new((machine, equations.family.clone()), half, sizes, equations.scale);
+    let guess = MachineEquations::join(machine, &half, [value]);
+    let equations = MachineEquations::new((machine, equations.family.clone()), half, sizes, equations.scales);
     let once = MachineProblem { equations, range: *range };
-    let solved = secant::zero(&once, &guess, |w| once.test(MINUS_ONE, w, || None))?;
+    let solved = secant::zero(&once.equations, &guess, |w| once.test(MINUS_ONE, w, || None))?;
     let (machine, half) = once.equations.split(&solved)?;
     let (ring, cycle) = repeated(&MachineFrame::new(&machine), &half)?;
-    Some((MachineEquations::join(&machine, &ring, *solved.last()?), cycle))
+    Some((MachineEquations::join(&machine, &ring, [*solved.last()?]), cycle))
 }
 
 /// The motion of a cycle over twice its period, as a ring and as a cycle.

@@ -2,9 +2,8 @@
 //!
 //! | idea | file |
 //! |---|---|
-//! | a machine as a function of one number | [`MachineFamily`] |
-//! | what these equations share with those of curves | `linear` |
-//! | the equations of all events, with a number of the machine among the unknowns | `equations` |
+//! | a machine as a function of numbers | [`MachineFamily`] |
+//! | the equations of all events, with one or two numbers of the machine among the unknowns | `equations` |
 //! | the problem that the tracer solves: test functions, admissible solutions | `problem` |
 //! | a point of a branch, and its events | [`MachinePoint`], [`MachineBranchEvent`] |
 //! | where a tracer begins | `beginning` |
@@ -34,7 +33,6 @@ mod equations;
 mod family;
 mod halving;
 mod joined;
-mod linear;
 mod matched;
 mod meeting;
 mod point;
@@ -50,9 +48,9 @@ pub(crate) use change::{Difference, difference};
 pub(crate) use closest::closest;
 pub(crate) use complete_chatter::{ADAPTED, CompleteChatter};
 pub(crate) use edge::edge;
+pub(crate) use equations::MachineEquations;
 pub use family::MachineFamily;
 pub(crate) use joined::join;
-pub(crate) use linear::{linearised, weigh, weights};
 pub(crate) use matched::matched;
 pub use point::{MachineBranchEvent, MachinePoint};
 pub(crate) use problem::{CLOSED, Judged, judge, over_pairs, seen_on};

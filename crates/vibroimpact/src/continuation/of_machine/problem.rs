@@ -4,7 +4,6 @@
 use super::equations::MachineEquations;
 use super::matched::matched;
 use crate::continuation::branches::{COARSE, RULES};
-use crate::continuation::trace::equations::Equations;
 use crate::continuation::trace::tracer::{Problem, Solution, StepRules};
 use crate::math::{Lu, Matrix, Multiplier, general_eigenvalues};
 use crate::orbit::{MachineCycle, MachineFrame, MachineLap, MachineRing, RingEvent, events_of};
@@ -43,16 +42,6 @@ pub(crate) const PACE: usize = 0;
 pub(crate) const PLUS_ONE: usize = 1;
 pub(crate) const MINUS_ONE: usize = 2;
 pub(crate) const TORUS: usize = 3;
-
-impl Equations for MachineProblem {
-    fn weights(&self) -> &[f64] {
-        self.equations.weights()
-    }
-
-    fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
-        self.equations.at(w)
-    }
-}
 
 /// A motion with the same events that misses its beginning by more than this is another one.
 pub(crate) const CLOSED: f64 = 1e-5;
@@ -101,7 +90,7 @@ impl MachineProblem {
         let mut multipliers = general_eigenvalues(&turn)?;
         let even = if turn.rows().is_multiple_of(2) { 1.0 } else { -1.0 };
         let torus = over_pairs(&multipliers, ring.rounding(frame, &turn));
-        let pace = tangent.last().map_or(0.0, |last| last / self.equations.scale);
+        let pace = tangent.last().map_or(0.0, |last| last / self.equations.scales[0]);
         let values = vec![pace, even * shifted_determinant(&turn, -1.0), shifted_determinant(&turn, 1.0), torus];
         multipliers.truncate(frame.multipliers());
         Some((values, multipliers, rising))
@@ -139,6 +128,11 @@ pub(crate) fn judge(
 
 impl Problem for MachineProblem {
     type Known = Judged;
+    type Equations = MachineEquations;
+
+    fn equations(&self) -> &MachineEquations {
+        &self.equations
+    }
 
     fn rules(&self) -> StepRules {
         RULES
@@ -157,7 +151,7 @@ impl Problem for MachineProblem {
 
     fn test(&self, j: usize, w: &[f64], tangent: impl Fn() -> Option<Vec<f64>>) -> Option<f64> {
         if j == PACE {
-            return Some(tangent()?.last()? / self.equations.scale);
+            return Some(tangent()?.last()? / self.equations.scales[0]);
         }
         let (machine, ring) = self.equations.split(w)?;
         Some(self.values(&MachineFrame::new(&machine), &ring, &[])?.0[j])

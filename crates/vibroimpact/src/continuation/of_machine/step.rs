@@ -199,7 +199,7 @@ impl EventBranch {
         let equations = &self.tracer.problem.equations;
         let machine = equations.family.at(last(&inside.w))?;
         let stops = machine.stops().len();
-        let here = |at: &MachineSolution| (last(&at.w) - last(&inside.w)).abs() <= HERE * equations.scale;
+        let here = |at: &MachineSolution| (last(&at.w) - last(&inside.w)).abs() <= HERE * equations.scales[0];
         (0..stops + machine.joints().len()).find_map(|place| {
             let rest = Difference::Rest { place, joint: place >= stops, begins: false };
             at_rest(&self.tracer, inside, &rest).filter(|(at, _)| here(at))

@@ -15,9 +15,12 @@ use core::f64::consts::TAU;
 use core::fmt::Debug;
 
 /// Equations whose curves of solutions are traced, with the test functions on their solutions.
-pub(crate) trait Problem: Equations + Clone + Debug {
+pub(crate) trait Problem: Clone + Debug {
     /// What is known of a solution apart from its unknowns and test functions.
     type Known: Clone + Debug;
+    type Equations: Equations;
+
+    fn equations(&self) -> &Self::Equations;
 
     /// The rules for accepting steps and for the sign of a test function.
     fn rules(&self) -> StepRules;
@@ -131,7 +134,7 @@ impl<P: Problem> Tracer<P> {
 
     /// The tangent at the solution `w`, in the direction of the current tangent; `None` if it is not unique.
     pub(crate) fn tangent_at(&self, w: &[f64]) -> Option<Vec<f64>> {
-        tangent(&self.problem, w, &self.problem.row(&self.here.tangent))
+        tangent(self.problem.equations(), w, &self.problem.equations().row(&self.here.tangent))
     }
 
     /// The solution `w` with its tangent and test functions; `None` if one of them cannot be computed.
@@ -179,8 +182,8 @@ impl<P: Problem> Tracer<P> {
         };
         let off: Vec<f64> = w.iter().zip(&guess).map(|(w, g)| w - g).collect();
         let along = self.tangent_at(&w)?;
-        let cosine = self.problem.dot(&along, &here.tangent);
-        if !(self.problem.length(&off) <= rules.stray * h + rules.rounding && cosine >= rules.bend) {
+        let cosine = self.problem.equations().dot(&along, &here.tangent);
+        if !(self.problem.equations().length(&off) <= rules.stray * h + rules.rounding && cosine >= rules.bend) {
             return None;
         }
         let there = self.solution_along(w, along)?;
@@ -198,7 +201,7 @@ impl<P: Problem> Tracer<P> {
         // the length is measured along the tangent, because a correction to the end of a range is not perpendicular to
         // it
         let length = match self.problem.range() {
-            Some(_) => h + self.problem.dot(&here.tangent, &off),
+            Some(_) => h + self.problem.equations().dot(&here.tangent, &off),
             None => h,
         };
         let mut step = Step { there, length, on_end: end.is_some(), crossed: Vec::new(), growth };
@@ -209,16 +212,16 @@ impl<P: Problem> Tracer<P> {
 
     /// The solution near `guess` at the distance `h` along the current tangent, and the number of corrections.
     fn across(&self, guess: &[f64], h: f64) -> Option<(Vec<f64>, u32)> {
-        let row = self.problem.row(&self.here.tangent);
-        let level = self.problem.dot(&self.here.tangent, &self.here.w) + h;
-        correct(&self.problem, guess, &row, level)
+        let row = self.problem.equations().row(&self.here.tangent);
+        let level = self.problem.equations().dot(&self.here.tangent, &self.here.w) + h;
+        correct(self.problem.equations(), guess, &row, level)
     }
 
     /// The solution near `guess` whose last unknown is exactly `end`, and the number of corrections.
     pub(crate) fn on_end(&self, guess: &[f64], end: f64) -> Option<(Vec<f64>, u32)> {
         let mut row = vec![0.0; guess.len()];
         *row.last_mut()? = 1.0;
-        let (mut w, corrections) = correct(&self.problem, guess, &row, end)?;
+        let (mut w, corrections) = correct(self.problem.equations(), guess, &row, end)?;
         *w.last_mut()? = end;
         Some((w, corrections))
     }
@@ -295,7 +298,7 @@ impl<P: Problem> Tracer<P> {
     /// The distance of the solution `w` from the current solution, along the tangent.
     pub(crate) fn ahead(&self, w: &[f64]) -> f64 {
         let off: Vec<f64> = w.iter().zip(&self.here.w).map(|(a, b)| a - b).collect();
-        self.problem.dot(&self.here.tangent, &off)
+        self.problem.equations().dot(&self.here.tangent, &off)
     }
 
     /// Whether the solution `begin` lies between the current solution and `there`, so that the curve is closed. The
@@ -305,7 +308,7 @@ impl<P: Problem> Tracer<P> {
             let mut off: Vec<f64> = solution.w.iter().zip(&begin.w).map(|(a, b)| a - b).collect();
             let turns = TAU * (off[0] / TAU).round();
             off[..self.problem.phases()].iter_mut().step_by(2).for_each(|theta| *theta -= turns);
-            (self.problem.dot(&off, &begin.tangent), self.problem.length(&off))
+            (self.problem.equations().dot(&off, &begin.tangent), self.problem.equations().length(&off))
         };
         // the numbers of unknowns can differ: then these are other equations
         if begin.w.len() != there.w.len() {
@@ -317,7 +320,7 @@ impl<P: Problem> Tracer<P> {
 
     /// Whether the curve closes on the step to `there`: it passes `begin` in the same direction.
     pub(crate) fn closes(&self, begin: &Solution<P::Known>, there: &Solution<P::Known>) -> bool {
-        self.passes(begin, there) && self.problem.dot(&begin.tangent, &there.tangent) > 0.5
+        self.passes(begin, there) && self.problem.equations().dot(&begin.tangent, &there.tangent) > 0.5
     }
 
     /// Makes `there` the current solution.
@@ -329,7 +332,7 @@ impl<P: Problem> Tracer<P> {
         self.here = there;
         // new weights change the length of the tangent, which has to be 1
         if self.problem.weigh(&self.here.w) {
-            let length = self.problem.length(&self.here.tangent);
+            let length = self.problem.equations().length(&self.here.tangent);
             self.here.tangent.iter_mut().for_each(|t| *t /= length);
         }
     }
