@@ -2,7 +2,7 @@
 //!
 //! | idea | folder |
 //! |---|---|
-//! | tracing a curve of solutions step by step, and locating the zeros of test functions on it | `trace` |
+//! | tracing a curve of solutions step by step, the zeros of test functions on it, and the driver of every branch and curve | `trace` |
 //! | the equations of cycles with one or two parameters among the unknowns | `equations` |
 //! | branches: how a cycle changes with one parameter | [`Branch`], [`BranchEvent`], [`SolutionPoint`] |
 //! | curves of folds, flips and grazing impacts in a plane of two parameters | [`Curve`], [`CurvePoint`], [`Frame`] |
@@ -12,14 +12,14 @@
 
 mod branches;
 mod curves;
-mod curves_of_machine;
 mod equations;
-mod of_machine;
+mod machine;
 mod regions;
 mod trace;
 
 pub use branches::{Branch, BranchError, BranchEvent, BranchOptions, Change, Direction, SolutionPoint, Touch};
 pub use curves::{Curve, CurveEvent, CurveKind, CurveOptions, CurvePoint, Frame};
-pub use curves_of_machine::{MachineCurve, MachineCurvePoint, MachinePlane};
-pub use of_machine::{MachineBranch, MachineBranchEvent, MachineFamily, MachinePoint};
+pub use machine::{
+    MachineBranch, MachineBranchEvent, MachineCurve, MachineCurvePoint, MachineFamily, MachinePlane, MachinePoint,
+};
 pub use regions::{Bound, Polygon, Region, RegionKind, RegionOptions, Vertex, region, region_while};

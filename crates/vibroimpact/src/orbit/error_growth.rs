@@ -10,7 +10,7 @@
 //! errors grow noticeably, neighbours at the distance of a few roundings are followed from the release on: all must come
 //! back.
 //!
-//! This rule is one for the oscillator (`release_errors`) and for machines (`of_machine::rounding`).
+//! This rule is one for the oscillator (`release_errors`) and for machines (`machine::rounding`).
 
 /// New errors of each step, relative to the sizes of coordinates and velocities.
 pub(super) const NEW: f64 = 2.0 * f64::EPSILON;

@@ -15,7 +15,7 @@
 //! | whether a solution is admissible, and its distance from a stop | [`earlier_contact`], `clearance` |
 //! | whether the speed of an impact is zero to within rounding | `grazing` |
 //! | the steady motion without impacts | [`without_impacts`] |
-//! | periodic motions of machines | `of_machine` |
+//! | periodic motions of machines | `machine` |
 //! | all orbits with a label, from many starting guesses | [`find`] |
 
 mod clearance;
@@ -28,8 +28,8 @@ mod floquet;
 mod free;
 mod grazing;
 mod label;
+mod machine;
 mod newton;
-mod of_machine;
 mod one_impact;
 mod physical;
 mod refine;
@@ -44,10 +44,10 @@ pub(crate) use find::struck;
 pub use find::{FindOptions, find, find_while};
 pub use free::without_impacts;
 pub use label::{Count, Label, LabelError};
-pub(crate) use of_machine::{
+pub(crate) use machine::{
     Chatter, MachineFrame, MachineLap, MachineRing, Rebound, RingEvent, crossing, events_of, rounding_decides,
 };
-pub use of_machine::{MachineCycle, find_machine_while};
+pub use machine::{MachineCycle, find_machine_while};
 pub use one_impact::{OneImpact, one_impact};
 pub use physical::{EarlierContact, Orbit, earlier_contact};
 pub use refine::refine;

@@ -7,7 +7,9 @@ use super::plane::MachinePlane;
 use super::problem::CurveProblem;
 use crate::continuation::branches::BranchError;
 use crate::continuation::curves::{CurveKind, check};
-use crate::continuation::of_machine::{CompleteChatter, MachineBranchEvent, MachineEquations, MachinePoint, closest};
+use crate::continuation::machine::branch::{
+    CompleteChatter, MachineBranchEvent, MachineEquations, MachinePoint, closest,
+};
 use crate::events::standing_back;
 use crate::machine::Machine;
 use crate::orbit::{MachineFrame, MachineRing, RingEvent};

@@ -1,7 +1,7 @@
 //! A machine as a function of two numbers, and a frame in their plane.
 
 use crate::continuation::curves::{Ranges, scales};
-use crate::continuation::of_machine::MachineFamily;
+use crate::continuation::machine::branch::MachineFamily;
 use crate::machine::{Machine, MachineError};
 use core::ops::RangeInclusive;
 

@@ -10,7 +10,9 @@ use super::problem::{CurveProblem, CurveSolution, Watched};
 use crate::continuation::branches::BranchError;
 use crate::continuation::curves::{CurveEvent, CurveKind, CurveOptions};
 use crate::continuation::equations::plane_tracer::{beginning, first_step};
-use crate::continuation::of_machine::{ADAPTED, Difference, Judged, MachineEquations, MachinePoint, difference, edge};
+use crate::continuation::machine::branch::{
+    ADAPTED, Difference, Judged, MachineEquations, MachinePoint, difference, edge,
+};
 use crate::continuation::trace::driver::{Driver, Path};
 use crate::continuation::trace::equations::{correct, tangent};
 use crate::continuation::trace::tracer::{Step, Tracer};
