@@ -113,7 +113,7 @@ impl ImpactBranch {
         if s <= from || s >= to {
             return;
         }
-        let Some(at) = self.tracer.between(step, s).and_then(|w| self.tracer.solution(w)) else { return };
+        let Some(at) = self.tracer.at(step, s) else { return };
         let holds = |j: usize| {
             let crossed = passed.iter().any(|(_, what)| *what == Some(j));
             let expected = if crossed { self.tracer.sign(step.there.values[j]) } else { self.tracer.signs[j] };
@@ -171,7 +171,7 @@ impl ImpactBranch {
         let (before, after) = (last(&here.w), last(&there.w));
         let end = if after > high { high } else { low };
         let share = (end - before) / (after - before);
-        let guess: Vec<f64> = here.w.iter().zip(&there.w).map(|(a, b)| a + (b - a) * share).collect();
+        let guess = self.tracer.chord(there, share);
         match self.tracer.on_end(&guess, end).and_then(|(w, _)| self.tracer.solution(w)) {
             Some(at) => self.end(&at, BranchEvent::EndOfRange),
             None => self.finish(BranchEvent::NoConvergence),

@@ -10,7 +10,7 @@ use super::problem::{BranchProblem, BranchSolution, BranchTracer};
 use crate::continuation::equations::cycle_equations::CycleEquations;
 use crate::continuation::equations::test_functions::TestFunction;
 use crate::continuation::trace::driver::{Driver, Path, PathEvent};
-use crate::continuation::trace::equations::tangent;
+use crate::continuation::trace::equations::{tangent, unit};
 use crate::continuation::trace::tracer::{Step, Tracer, last};
 use crate::orbit::{Cycle, Orbit, Ring, solve};
 use crate::system::{Oscillator, ParameterPath, SystemError};
@@ -77,10 +77,7 @@ impl ImpactBranch {
         let (ring, _) = solve(osc, ring).ok_or(BranchError::NoCycle)?;
         let equations = CycleEquations::new(osc, varying, &ring, scale(&range, value)?);
         let w = CycleEquations::join(&ring, value);
-        let mut row = equations.parameter_row();
-        if direction == Direction::Down {
-            row.iter_mut().for_each(|r| *r = -*r);
-        }
+        let row = unit(w.len(), w.len() - 1, if direction == Direction::Up { 1.0 } else { -1.0 });
         let along = tangent(&equations, &w, &row).ok_or(BranchError::NoCycle)?;
         Self::begin(equations, w, along, &range, options)
     }

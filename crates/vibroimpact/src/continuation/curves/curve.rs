@@ -168,7 +168,7 @@ impl ConditionCurve {
             sort_by(&mut step.crossed, |a, b| a.0.total_cmp(&b.0));
         }
         for &(at, what) in &step.crossed {
-            let Some(spot) = self.tracer.between(&step, at).and_then(|w| self.tracer.solution(w)) else {
+            let Some(spot) = self.tracer.at(&step, at) else {
                 return self.finish(CurveEvent::NoConvergence);
             };
             let Some(condition) = what.map(|j| self.tracer.problem.watched[j]) else {
@@ -217,7 +217,7 @@ impl ConditionCurve {
     fn cusp(&self, step: &Step<()>) -> Option<f64> {
         let (p, q) = self.course(&self.tracer.here);
         let along = |(r, s): (f64, f64)| p * r + q * s;
-        let at = |s: f64| Some(along(self.course(&self.tracer.solution(self.tracer.between(step, s)?)?)));
+        let at = |s: f64| Some(along(self.course(&self.tracer.at(step, s)?)));
         root::between(at, (0.0, along((p, q))), (step.length, along(self.course(&step.there))), 1e-13)
     }
 

@@ -1,6 +1,6 @@
 //! The equations of a cycle with one parameter, or a line through two parameters, among the unknowns.
 
-use crate::continuation::trace::equations::Equations;
+use crate::continuation::trace::equations::{Equations, unit};
 use crate::orbit::{Block, Ring, blocks, by_parameter, fill};
 use crate::system::{Oscillator, Parameter, ParameterPath, Side};
 
@@ -43,11 +43,7 @@ impl CycleEquations {
 
     /// The row that selects the parameter.
     pub(crate) fn parameter_row(&self) -> Vec<f64> {
-        let mut row = vec![0.0; self.weights.len()];
-        if let Some(last) = row.last_mut() {
-            *last = 1.0;
-        }
-        row
+        unit(self.weights.len(), self.weights.len() - 1, 1.0)
     }
 
     /// The vector of unknowns of a ring and a parameter value.

@@ -1,7 +1,7 @@
 //! Tracing curves in a plane of parameters: the equations with one condition, and other conditions as test functions.
 
 use super::plane_equations::{Condition, Plane};
-use crate::continuation::trace::equations::{Equations, correct, tangent};
+use crate::continuation::trace::equations::{Equations, correct, tangent, unit};
 use crate::continuation::trace::step_length::StepLength;
 use crate::continuation::trace::tracer::{Problem, Solution, StepRules, Tracer};
 
@@ -37,11 +37,7 @@ impl PlaneTracer {
 /// Where a curve through the solution near `w` begins, on the curve itself, and the row that gives its direction: that in
 /// which one of both numbers, the last unknowns, increases (`way` 1) or decreases (-1).
 pub(crate) fn beginning<E: Equations>(equations: &E, w: &[f64], way: f64) -> Option<(Vec<f64>, Vec<f64>)> {
-    let row = |at: usize| {
-        let mut row = vec![0.0; w.len()];
-        row[at] = way;
-        row
-    };
+    let row = |at: usize| unit(w.len(), at, way);
     // a number that changes only by rounding determines no direction
     let usable = |least: f64| {
         let pace = |at: usize| Some(equations.weights()[at].sqrt() * tangent(equations, w, &row(at))?[at].abs());

@@ -4,7 +4,7 @@ use super::polygon::Bound;
 use super::seed::Seed;
 use super::sheet_walk::{REPEATED, SheetWalk};
 use crate::continuation::equations::plane_equations::{Condition, Plane};
-use crate::continuation::trace::equations::tangent;
+use crate::continuation::trace::equations::{tangent, unit};
 use crate::continuation::trace::tracer::Step;
 use crate::orbit::{Floquet, Orbit, ring_cycle, solve};
 
@@ -53,9 +53,7 @@ impl SheetWalk<'_> {
     pub(crate) fn across(&self, fold: &[f64], below: bool) -> Option<(Seed, (f64, f64))> {
         let mut plane = self.plane.clone();
         plane.condition = self.bounds.iter().find(|(.., bound)| *bound == Bound::Fold)?.0;
-        let mut row = vec![0.0; fold.len()];
-        let width = row.len();
-        row[width - 2] = 1.0;
+        let row = unit(fold.len(), fold.len() - 2, 1.0);
         let along = tangent(&plane, fold, &row)?;
         // in the plane, perpendicular to the curve of folds
         let (x, y) = plane.scaled(&along);

@@ -8,7 +8,7 @@ use super::singular::{ASIDE, Partner, partner, walls};
 use crate::continuation::curves::Frame;
 use crate::continuation::equations::plane_equations::{Condition, Plane};
 use crate::continuation::equations::plane_tracer::{PlaneSolution, PlaneTracer};
-use crate::continuation::trace::equations::Equations;
+use crate::continuation::trace::equations::{Equations, unit};
 use crate::continuation::trace::tracer::Step;
 use crate::orbit::{Floquet, blocks};
 
@@ -174,15 +174,12 @@ impl<'a> SheetWalk<'a> {
         let width = w.len();
         // at least one of these unknowns changes along the curve
         for unknown in [width - 2, width - 1, 0, 1] {
-            let mut row = vec![0.0; width];
-            row[unknown] = 1.0;
-            let Some(forth) = self.along(condition, w, &row) else { continue };
+            let Some(forth) = self.along(condition, w, &unit(width, unknown, 1.0)) else { continue };
             let pace = plane.row(&forth.here.tangent)[unknown].abs();
             if pace < 1e-6 {
                 continue;
             }
-            row[unknown] = -1.0;
-            let back = self.along(condition, w, &row)?;
+            let back = self.along(condition, w, &unit(width, unknown, -1.0))?;
             return Some([forth, back]);
         }
         None
@@ -207,7 +204,7 @@ impl<'a> SheetWalk<'a> {
             let bound = self.bounds[active].2;
             if let Some(&(s, Some(j))) = step.crossed.first() {
                 // the first point of the edge may lie before the corner
-                let Some(corner) = walk.between(&step, s).and_then(|w| walk.solution(w)) else { break };
+                let Some(corner) = walk.at(&step, s) else { break };
                 if active == first && walk.passes(&begin, &corner) {
                     edge.closed = true;
                     break;

@@ -142,3 +142,123 @@ impl<P: Path> Iterator for Driver<P> {
         self.pending.pop_front()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::equations::Equations;
+    use super::super::step_length::StepLength;
+    use super::super::tracer::StepRules;
+    use super::*;
+
+    /// The unit circle, without test functions.
+    #[derive(Clone, Debug)]
+    struct Circle;
+
+    impl Equations for Circle {
+        fn weights(&self) -> &[f64] {
+            &[1.0, 1.0]
+        }
+
+        fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
+            Some((vec![w[0] * w[0] + w[1] * w[1] - 1.0], vec![2.0 * w[0], 2.0 * w[1], 0.0, 0.0]))
+        }
+    }
+
+    impl Problem for Circle {
+        type Known = ();
+        type Equations = Self;
+
+        fn equations(&self) -> &Self {
+            self
+        }
+
+        fn rules(&self) -> StepRules {
+            StepRules {
+                stray: 0.3,
+                rounding: 0.0,
+                bend: 0.9,
+                straight: 0.99,
+                few: 3,
+                many: 5,
+                zero: 1e-11,
+                beside: 0.0,
+            }
+        }
+
+        fn tests(&self) -> usize {
+            0
+        }
+
+        fn look(&self, _w: &[f64], _tangent: &[f64]) -> Option<(Vec<f64>, ())> {
+            Some((Vec::new(), ()))
+        }
+
+        fn test(&self, _j: usize, _w: &[f64], _tangent: impl Fn() -> Option<Vec<f64>>) -> Option<f64> {
+            None
+        }
+
+        fn resolution(&self, _j: usize) -> f64 {
+            1e-12
+        }
+
+        fn phases(&self) -> usize {
+            0
+        }
+    }
+
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    enum End {
+        Closed,
+        StepLimit,
+        NoConvergence,
+    }
+
+    impl PathEvent for End {
+        const CLOSED: Self = Self::Closed;
+        const STEP_LIMIT: Self = Self::StepLimit;
+        const NO_CONVERGENCE: Self = Self::NoConvergence;
+    }
+
+    /// Once round the circle, with an exact limit or not.
+    #[derive(Clone, Debug)]
+    struct Round<const EXACT: bool>;
+
+    impl<const EXACT: bool> Path for Round<EXACT> {
+        type Problem = Circle;
+        type Event = End;
+        type Point = (Vec<f64>, Option<End>);
+
+        const EXACT: bool = EXACT;
+
+        fn point(_driver: &Driver<Self>, at: &PathSolution<Self>, event: Option<End>) -> Option<Self::Point> {
+            Some((at.w.clone(), event))
+        }
+
+        fn go_through(driver: &mut Driver<Self>, step: Step<()>) {
+            driver.take(step.there);
+        }
+    }
+
+    fn round<const EXACT: bool>(most: u32) -> Vec<(Vec<f64>, Option<End>)> {
+        let step = StepLength { now: 0.1, longest: 0.2, shortest: 1e-9 };
+        let tracer = Tracer::new(Circle, vec![1.0, 0.0], vec![0.0, 1.0], step).unwrap();
+        Driver::new(Round::<EXACT>, tracer, most).unwrap().collect()
+    }
+
+    #[test]
+    fn a_closed_path_ends_where_it_began() {
+        let points = round::<true>(1000);
+        let (last, others) = points.split_last().unwrap();
+        assert!(others.iter().all(|(_, event)| event.is_none()) && last.1 == Some(End::Closed));
+        assert!(points.len() > 30 && (last.0[0] - 1.0).abs() < 0.03, "{points:?}");
+        assert_eq!(round::<false>(1000), points);
+    }
+
+    #[test]
+    fn the_largest_number_of_points() {
+        let (exact, other) = (round::<true>(10), round::<false>(10));
+        assert_eq!((exact.len(), exact[9].1), (10, Some(End::StepLimit)));
+        // the first point does not count, and the last one is repeated
+        assert_eq!((other.len(), &other[11].0, other[11].1), (12, &other[10].0, Some(End::StepLimit)));
+    }
+}

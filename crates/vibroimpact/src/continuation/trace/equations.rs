@@ -43,6 +43,11 @@ const SETTLED: f64 = 1e-9;
 /// A correction longer than this would lead to another solution and is refused.
 const ASTRAY: f64 = 1.0;
 
+/// The row that selects unknown `k` of so many, with this factor.
+pub(crate) fn unit(width: usize, k: usize, factor: f64) -> Vec<f64> {
+    (0..width).map(|i| if i == k { factor } else { 0.0 }).collect()
+}
+
 /// The solution near `guess` at which the product of `row` and the unknowns is `level`, with the number of corrections;
 /// `None` if Newton's method does not converge.
 pub(crate) fn correct<E: Equations>(equations: &E, guess: &[f64], row: &[f64], level: f64) -> Option<(Vec<f64>, u32)> {
@@ -74,8 +79,7 @@ pub(crate) fn tangent<E: Equations>(equations: &E, w: &[f64], row: &[f64]) -> Op
     let width = w.len();
     let (_, mut rows) = equations.at(w)?;
     rows[width * (width - 1)..].copy_from_slice(row);
-    let mut along = vec![0.0; width];
-    along[width - 1] = 1.0;
+    let mut along = unit(width, width - 1, 1.0);
     Lu::new(rows, width)?.solve(&mut along);
     let length = equations.length(&along);
     if !(length > 0.0 && length.is_finite()) {

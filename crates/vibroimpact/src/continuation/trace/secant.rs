@@ -1,6 +1,6 @@
 //! The zero of a test function over the number, the last unknown, among the solutions with given values of it.
 
-use super::equations::{Equations, correct};
+use super::equations::{Equations, correct, unit};
 
 /// The first change of the number, relative to 1 plus its size.
 const FIRST: f64 = 1e-7;
@@ -13,8 +13,7 @@ pub(in crate::continuation) fn zero(
     w: &[f64],
     test: impl Fn(&[f64]) -> Option<f64>,
 ) -> Option<Vec<f64>> {
-    let mut row = vec![0.0; w.len()];
-    *row.last_mut()? = 1.0;
+    let row = unit(w.len(), w.len() - 1, 1.0);
     let at = |near: &[f64], value: f64| -> Option<(Vec<f64>, f64)> {
         let (w, _) = correct(equations, near, &row, value)?;
         let test = test(&w)?;

@@ -7,7 +7,7 @@
 //! changed sign, its zero is bracketed along the step. Every point that is tried is a converged solution, so an event
 //! is correct to rounding.
 
-use super::equations::{Equations, correct, tangent};
+use super::equations::{Equations, correct, tangent, unit};
 use super::root;
 use super::step_length::StepLength;
 use crate::math::sort_by;
@@ -219,8 +219,7 @@ impl<P: Problem> Tracer<P> {
 
     /// The solution near `guess` whose last unknown is exactly `end`, and the number of corrections.
     pub(crate) fn on_end(&self, guess: &[f64], end: f64) -> Option<(Vec<f64>, u32)> {
-        let mut row = vec![0.0; guess.len()];
-        *row.last_mut()? = 1.0;
+        let row = unit(guess.len(), guess.len() - 1, 1.0);
         let (mut w, corrections) = correct(self.problem.equations(), guess, &row, end)?;
         *w.last_mut()? = end;
         Some((w, corrections))
@@ -257,9 +256,18 @@ impl<P: Problem> Tracer<P> {
 
     /// The solution at the distance `s` along a step.
     pub(crate) fn between(&self, step: &Step<P::Known>, s: f64) -> Option<Vec<f64>> {
-        let share = s / step.length;
-        let guess: Vec<f64> = self.here.w.iter().zip(&step.there.w).map(|(a, b)| a + (b - a) * share).collect();
+        let guess = self.chord(&step.there, s / step.length);
         Some(self.across(&guess, s)?.0)
+    }
+
+    /// The point at this share of the chord to a solution.
+    pub(crate) fn chord(&self, there: &Solution<P::Known>, share: f64) -> Vec<f64> {
+        self.here.w.iter().zip(&there.w).map(|(a, b)| a + (b - a) * share).collect()
+    }
+
+    /// The solution at the distance `s` along a step, with its tangent and test functions.
+    pub(crate) fn at(&self, step: &Step<P::Known>, s: f64) -> Option<Solution<P::Known>> {
+        self.solution(self.between(step, s)?)
     }
 
     /// The distance along a step at which test function `j` is zero. It must change sign on the step.

@@ -9,7 +9,7 @@ use super::equations::MachineEquations;
 use super::joined::join;
 use super::problem::{MachineProblem, MachineSolution};
 use super::rest::{RestZero, rest_zero};
-use crate::continuation::trace::equations::{Equations, correct, tangent};
+use crate::continuation::trace::equations::{Equations, correct, tangent, unit};
 use crate::continuation::trace::tracer::{Tracer, last};
 use crate::orbit::{MachineFrame, MachineRing};
 
@@ -63,8 +63,7 @@ pub(super) fn zero_near(
     most: f64,
     value: impl Fn(&MachineFrame<'_>, &MachineRing) -> Option<f64>,
 ) -> Option<Vec<f64>> {
-    let mut row = vec![0.0; guess.len()];
-    *row.last_mut()? = 1.0;
+    let row = unit(guess.len(), guess.len() - 1, 1.0);
     let (from, _) = correct(equations, guess, &row, last(guess))?;
     let along = tangent(equations, &from, &row)?;
     let (row, level) = (equations.row(&along), equations.dot(&along, &from));

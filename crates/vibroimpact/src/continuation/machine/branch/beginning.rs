@@ -2,7 +2,7 @@
 
 use super::problem::MachineProblem;
 use crate::continuation::branches::BranchOptions;
-use crate::continuation::trace::equations::{correct, tangent};
+use crate::continuation::trace::equations::{correct, tangent, unit};
 use crate::continuation::trace::tracer::Tracer;
 
 /// The tracer from the solution near `w` with this value of the number; the number changes in direction `up` first.
@@ -13,12 +13,10 @@ pub(super) fn begun(
     up: f64,
     options: BranchOptions,
 ) -> Option<Tracer<MachineProblem>> {
-    let mut row = vec![0.0; w.len()];
-    *row.last_mut()? = 1.0;
-    let (w, _) = correct(&problem.equations, w, &row, value)?;
-    *row.last_mut()? = up;
-    let along = tangent(&problem.equations, &w, &row)?;
-    traced(problem, w, along, options)
+    let row = |factor| unit(w.len(), w.len() - 1, factor);
+    let (there, _) = correct(&problem.equations, w, &row(1.0), value)?;
+    let along = tangent(&problem.equations, &there, &row(up))?;
+    traced(problem, there, along, options)
 }
 
 /// The tracer from a solution along a unit tangent.

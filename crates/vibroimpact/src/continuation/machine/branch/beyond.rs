@@ -14,7 +14,7 @@ use super::problem::{MachineProblem, MachineSolution};
 use super::summed::same_in_turn;
 use super::touch::speed_before;
 use crate::continuation::branches::BranchOptions;
-use crate::continuation::trace::equations::{Equations, correct, tangent};
+use crate::continuation::trace::equations::{Equations, correct, tangent, unit};
 use crate::continuation::trace::tracer::{Tracer, last};
 use crate::events::Place;
 use crate::machine::{Machine, Opening, StopLaw};
@@ -179,8 +179,7 @@ fn disappearing(
     let next = next.shortest(&frame, sizes);
     let problem = with_ring(tracer, machine, next, sizes);
     let w = MachineEquations::join(machine, &problem.equations.ring, [last(&at.w)]);
-    let mut row = vec![0.0; w.len()];
-    *row.last_mut()? = if last(&at.tangent) < 0.0 { -1.0 } else { 1.0 };
+    let row = unit(w.len(), w.len() - 1, forward(at));
     let along = tangent(&problem.equations, &w, &row)?;
     let back: Vec<f64> = along.iter().map(|t| -t).collect();
     first_step(&problem, &w, &[along, back], options)
@@ -240,8 +239,7 @@ pub(super) fn across(
         let width = frame.shape.size() + 1;
         let new = (0..events.len()).filter(|k| !ring.events.contains(&events[*k])).map(|k| k * width);
         let solved = core::iter::once(guess.len() - 1).chain(new).find_map(|fixed| {
-            let mut row = vec![0.0; guess.len()];
-            row[fixed] = 1.0;
+            let row = unit(guess.len(), fixed, 1.0);
             let (w, _) = correct(&problem.equations, &guess, &row, guess[fixed])?;
             Some((tangent(&problem.equations, &w, &row)?, w))
         });
@@ -276,7 +274,7 @@ fn admissible(mut tracer: Tracer<MachineProblem>) -> Option<Tracer<MachineProble
             let (mut low, mut high) = (0.0, step.length);
             while high - low > 1e-12 * step.length {
                 let middle = 0.5 * (low + high);
-                match tracer.between(&step, middle).and_then(|w| tracer.solution(w)) {
+                match tracer.at(&step, middle) {
                     Some(at) if at.known.physical() => (high, there) = (middle, at),
                     _ => low = middle,
                 }

@@ -10,7 +10,7 @@ pub(crate) fn edge<P: Problem>(
     outside: f64,
     admissible: impl Fn(&P::Known) -> bool,
 ) -> Option<(f64, Solution<P::Known>, P::Known)> {
-    let at = |s: f64| tracer.between(step, s).and_then(|w| tracer.solution(w));
+    let at = |s: f64| tracer.at(step, s);
     let (mut low, mut high) = (0.0, outside);
     let mut inside = tracer.here.clone();
     let mut beyond =

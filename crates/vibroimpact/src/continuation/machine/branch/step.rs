@@ -54,7 +54,7 @@ impl EventBranch {
         let until = edge - ASIDE * step.length;
         let mut crossed: Vec<Crossing> = step.crossed.iter().copied().filter(|(s, _)| *s < until).collect();
         if until > 0.0
-            && let Some(inside) = self.tracer.between(step, until).and_then(|w| self.tracer.solution(w))
+            && let Some(inside) = self.tracer.at(step, until)
         {
             crossed.extend(self.tracer.hidden(&[PLUS_ONE, MINUS_ONE, TORUS], &crossed, (until, &inside)));
             sort_by(&mut crossed, |a, b| a.0.total_cmp(&b.0));
@@ -135,17 +135,14 @@ impl EventBranch {
 
     /// The solution at which the number turns back and a cycle repeats itself after half its period.
     fn halving(&self, step: &Step<Judged>, s: f64) -> Option<MachineSolution> {
-        let w = self.tracer.between(step, s).unwrap_or_else(|| {
-            let share = s / step.length;
-            self.tracer.here.w.iter().zip(&step.there.w).map(|(a, b)| a + (b - a) * share).collect()
-        });
+        let w = self.tracer.between(step, s).unwrap_or_else(|| self.tracer.chord(&step.there, s / step.length));
         halved(&self.tracer.problem, &self.tracer.here, &w)
     }
 
     /// An inadmissible solution within a step.
     fn hidden(&self, step: &Step<Judged>) -> Option<f64> {
         (1..32).map(|k| step.length * f64::from(k) / 32.0).find(|s| {
-            let at = self.tracer.between(step, *s).and_then(|w| self.tracer.solution(w));
+            let at = self.tracer.at(step, *s);
             at.is_none_or(|solution| !solution.known.physical())
         })
     }

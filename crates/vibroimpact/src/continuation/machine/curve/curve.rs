@@ -14,7 +14,7 @@ use crate::continuation::machine::branch::{
     ADAPTED, Difference, Judged, MachineEquations, MachinePoint, difference, edge,
 };
 use crate::continuation::trace::driver::{Driver, Path};
-use crate::continuation::trace::equations::{correct, tangent};
+use crate::continuation::trace::equations::{correct, tangent, unit};
 use crate::continuation::trace::tracer::{Step, Tracer};
 use crate::orbit::MachineFrame;
 
@@ -121,7 +121,7 @@ impl EventCurve {
             if *s >= until + if what == Watched::Release { INEXACT * step.length } else { 0.0 } {
                 continue;
             }
-            let Some(at) = self.tracer.between(&step, *s).and_then(|w| self.tracer.solution(w)) else { continue };
+            let Some(at) = self.tracer.at(&step, *s) else { continue };
             match self.tracer.problem.event(what) {
                 None => {
                     let edge = self.on_edge(&at, f64::INFINITY).unwrap_or(at);
@@ -151,8 +151,7 @@ impl EventCurve {
             let way = self.tracer.problem.equations.course(&self.tracer.here.tangent);
             let length = w.len();
             let (at, by) = if way.0.abs() > way.1.abs() { (length - 2, way.0) } else { (length - 1, way.1) };
-            let mut row = vec![0.0; length];
-            row[at] = by.signum();
+            let row = unit(length, at, by.signum());
             let Some((w, _)) = correct(&problem.equations, &w, &row, by.signum() * w[at]) else { break };
             let step = self.tracer.step;
             let next = tangent(&problem.equations, &w, &row).and_then(|along| Tracer::new(problem, w, along, step));
@@ -221,9 +220,8 @@ impl EventCurve {
         let ranges = &problem.equations.ranges;
         let range = if which == 0 { &ranges.0 } else { &ranges.1 };
         let end = if upper { *range.end() } else { *range.start() };
-        let mut row = vec![0.0; at.w.len()];
         let column = at.w.len() - 2 + which;
-        row[column] = 1.0;
+        let row = unit(at.w.len(), column, 1.0);
         let (mut w, _) = correct(&problem.equations, &at.w, &row, end)?;
         w[column] = end;
         self.tracer.solution(w)
