@@ -35,14 +35,14 @@ def ask(vibro: Callable[..., Any]) -> Callable[..., dict[str, Any]]:
 
 @pytest.mark.parametrize(("osc", "flags"), SYSTEMS, ids=lambda of: repr(of) if isinstance(of, vi.Oscillator) else "")
 def test_settle_simulate_attractors(ask: Callable[..., Any], osc: vi.Oscillator, flags: tuple[object, ...]) -> None:
-    assert vi.settle(osc, v=0.5, phase=1).to_dict() == ask("settle", *flags, "--v", 0.5, "--phase", 1)["motion"]
+    assert vi.settle(osc, v=0.5, phase=1).to_dict() == ask("settle", *flags, "--v", 0.5, "--phase", 1)
     told = ask("simulate", *flags, "--impacts", 60)
     found = vi.simulate(osc, impacts=60)
     assert found.to_dict() == told and json.loads(found.plan) == told["plan"]
     told = ask("attractors", *flags, "--starts", 60)
     found = vi.attractors(osc, starts=60)
     assert [motion.to_dict() for motion in found] == told["motions"]
-    assert {name: list(of) for name, of in found.box.items()} == told["box"] and json.loads(found.plan) == told["plan"]
+    assert found.box == told["box"] and json.loads(found.plan) == told["plan"]
 
 
 def test_machines(ask: Callable[..., Any]) -> None:
@@ -50,7 +50,7 @@ def test_machines(ask: Callable[..., Any]) -> None:
     flags = ("--mass-kg", 2, "--stiffness-n-per-m", 800, "--force-n", 4, "--frequency-hz", 2.5, "--gap-m", 0.003,
              "--restitution", 0.6, "--damping-ns-per-m", 3)
     told = ask("settle", *flags)
-    assert vi.settle(osc).to_dict() == told["motion"] and osc.units is not None
+    assert vi.settle(osc).to_dict()["motion"] == told["motion"] and osc.units is not None
     assert (osc.units.length_m, osc.units.time_s) == (told["system"]["scales"]["length_m"], told["system"]["scales"]["time_s"])
 
 
@@ -74,7 +74,7 @@ def test_branch_of_an_orbit_that_rests(ask: Callable[..., Any]) -> None:
     told = ask("branch", "--inverse-beta", 1.11, "--gap", -0.5, "--restitution", 0.5, "--label", "inf/1", "--vary", "gap",
                "--to", -0.2)
     found = vi.branch(vi.Oscillator(inverse_beta=1.11, gap=-0.5, restitution=0.5), "gap", -0.2, label="inf/1")
-    assert found.events[-1].kind == "end of rest" and len(found.rests[0]) == 1
+    assert found.events[-1].kind == "end of rest" and found.cycles[0].kind.tolist().count("release") == 1
     assert found.to_dict() == {name: told[name] for name in found.to_dict()}
 
 
