@@ -12,7 +12,7 @@
 //! each of them at a time of its own, so the second term is a sum over the guards. The parts are those of each guard alone.
 //! If events do not act on each other, this is exact. If they do, as two stops under one rigid bar, neighbours that reach
 //! them one after another can end anywhere, and the derivative is that of the motions which keep them together: what
-//! is left over is divided equally.
+//! is left over is divided equally among those that act on each other.
 
 use super::passage::Passage;
 use super::place::{Place, Structures};
@@ -272,45 +272,106 @@ fn jump((reset, reset_rate): (&Matrix, &[f64]), flow_before: &[f64], flow_after:
 }
 
 impl EventLaw<'_> {
-    /// The parts of several guards of the change of the flow, whose sum is `jump`: what each of them does alone, and an
-    /// equal part of the rest.
+    /// The parts of several guards of the change of the flow, whose sum is `jump_of_all`: what each of them does alone, and an
+    /// equal part of the rest of those that act on each other.
     fn shares(
         &self,
         shape: &StateShape,
         normal: &Normal,
-        (before, after): (&Place, &Place),
+        states: (&Place, &Place),
         (flow_before, jump_of_all): (&[f64], &[f64]),
         structure: &mut dyn FnMut(&[ContactState]) -> Option<Arc<Structure>>,
     ) -> Option<Vec<Vec<f64>>> {
-        let stops = before.surfaces.len();
-        let contacts: Vec<usize> = self.guards.iter().map(|g| self.structure.guards[*g].kind.place(stops)).collect();
-        let mut left = jump_of_all.to_vec();
-        let mut shares = Vec::with_capacity(contacts.len());
-        for (g, contact) in self.guards.iter().zip(&contacts) {
-            let others = |j: usize| contacts.contains(&j) && j != *contact;
-            let pushed: Vec<(usize, f64)> = self.pushed.iter().copied().filter(|(j, _)| !others(*j)).collect();
-            let alone = EventLaw { structure: self.structure, guards: &[*g], pushed: &pushed, rounds: &[] };
-            let mut reached = before.clone();
-            reached.v = alone.rebound(normal, before)?;
-            reached.states[*contact] = after.states[*contact];
-            if *contact < stops {
-                reached.surfaces[*contact] = after.surfaces[*contact];
-            }
-            let share = match structure(&reached.states) {
-                Some(next) => {
-                    let (reset, rate) = alone.reset(shape, normal, before, &reached)?;
-                    jump((&reset, &rate), flow_before, &shape.flow(&next, normal, &reached))
-                }
-                None => vec![0.0; left.len()],
-            };
-            add_scaled(&mut left, -1.0, &share);
-            shares.push(share);
+        let mut shares = Vec::with_capacity(self.guards.len());
+        for k in 0..self.guards.len() {
+            shares.push(self.share(shape, normal, states, (flow_before, &[k]), structure)?);
         }
-        let mut part = 1.0;
-        shares.iter().skip(1).for_each(|_| part += 1.0);
-        shares.iter_mut().for_each(|share| add_scaled(share, 1.0 / part, &left));
+        let groups = self.groups(normal, states.0.surfaces.len());
+        let mut left = jump_of_all.to_vec();
+        for group in &groups {
+            let mut own = match &group[..] {
+                _ if groups.len() == 1 => left.clone(),
+                [alone] => shares[*alone].clone(),
+                several => self.share(shape, normal, states, (flow_before, several), structure)?,
+            };
+            if groups.len() > 1 {
+                add_scaled(&mut left, -1.0, &own);
+            } else {
+                left.fill(0.0);
+            }
+            group.iter().for_each(|k| add_scaled(&mut own, -1.0, &shares[*k]));
+            let part = 1.0 / count(group);
+            group.iter().for_each(|k| add_scaled(&mut shares[*k], part, &own));
+        }
+        let part = 1.0 / count(&shares);
+        shares.iter_mut().for_each(|share| add_scaled(share, part, &left));
         Some(shares)
     }
+
+    /// The change of the flow if only these of the guards were zero.
+    fn share(
+        &self,
+        shape: &StateShape,
+        normal: &Normal,
+        (before, after): (&Place, &Place),
+        (flow_before, members): (&[f64], &[usize]),
+        structure: &mut dyn FnMut(&[ContactState]) -> Option<Arc<Structure>>,
+    ) -> Option<Vec<f64>> {
+        let stops = before.surfaces.len();
+        let contact = |k: &usize| self.structure.guards[self.guards[*k]].kind.place(stops);
+        let contacts: Vec<usize> = members.iter().map(contact).collect();
+        let others: Vec<usize> =
+            (0..self.guards.len()).map(|k| contact(&k)).filter(|j| !contacts.contains(j)).collect();
+        let guards: Vec<usize> = members.iter().map(|k| self.guards[*k]).collect();
+        let of_round = |round: &[(usize, f64)]| {
+            round.iter().copied().filter(|(j, _)| !others.contains(j)).collect::<Vec<(usize, f64)>>()
+        };
+        let rounds: Vec<Vec<(usize, f64)>> = self.in_rounds().map(of_round).collect();
+        let counts: Vec<usize> = rounds.iter().map(Vec::len).collect();
+        let in_turn = !self.rounds.is_empty() && members.len() > 1;
+        let own = EventLaw {
+            structure: self.structure,
+            guards: &guards,
+            pushed: &rounds.concat(),
+            rounds: if in_turn { &counts } else { &[] },
+        };
+        let mut reached = before.clone();
+        reached.v = own.rebound(normal, before)?;
+        for contact in contacts {
+            reached.states[contact] = after.states[contact];
+            if contact < stops {
+                reached.surfaces[contact] = after.surfaces[contact];
+            }
+        }
+        let Some(next) = structure(&reached.states) else { return Some(vec![0.0; flow_before.len()]) };
+        let (reset, rate) = own.reset(shape, normal, before, &reached)?;
+        Some(jump((&reset, &rate), flow_before, &shape.flow(&next, normal, &reached)))
+    }
+
+    /// The guards that act on each other by impulses, whose directions are not at right angles, as places in the list of guards.
+    fn groups(&self, normal: &Normal, stops: usize) -> Vec<Vec<usize>> {
+        let direction = |k: usize| &normal.directions[self.structure.guards[self.guards[k]].kind.place(stops)];
+        let act = |i: usize, j: usize| {
+            let (a, b) = (direction(i), direction(j));
+            dot(a, b).abs() > ACTING * (dot(a, a) * dot(b, b)).sqrt()
+        };
+        let mut groups: Vec<Vec<usize>> = Vec::new();
+        for k in 0..self.guards.len() {
+            let (with, mut others): (Vec<Vec<usize>>, Vec<Vec<usize>>) =
+                groups.into_iter().partition(|group| group.iter().any(|other| act(*other, k)));
+            others.push(with.into_iter().flatten().chain([k]).collect());
+            groups = others;
+        }
+        groups
+    }
+}
+
+/// Directions act on each other if the cosine between them is larger.
+const ACTING: f64 = 1e-12;
+
+#[allow(clippy::cast_precision_loss)] // guards
+fn count<T>(of: &[T]) -> f64 {
+    of.len() as f64
 }
 
 impl EventLaw<'_> {
