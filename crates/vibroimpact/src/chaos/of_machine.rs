@@ -2,7 +2,7 @@
 
 use super::dimension;
 use super::exponents::{ExponentOptions, exponents_while};
-use crate::events::{MachineLimits, MachineMotion, MachineStart};
+use crate::events::{MachineMotion, MachineStart};
 use crate::lyapunov::{MEASURED_IMPACTS, MachineMeasure, MachineSpectrum, Measured};
 use crate::machine::{Machine, MachineError};
 use crate::math::sort_by;
@@ -96,14 +96,14 @@ pub fn machine_exponents_while(
         }
         MachineVerdict::NoImpact(_) | MachineVerdict::Stuck(_) => {
             // those of the structure in its last regime
-            let mut motion = MachineMotion::new(machine, start, MachineLimits::default())?;
+            let frame = MachineFrame::new(machine);
+            let mut motion = MachineMotion::new(machine, start, frame.limits())?;
             while motion.step().is_some() {
                 motion.take_events();
                 if !go_on() {
                     return Ok(None);
                 }
             }
-            let frame = MachineFrame::new(machine);
             let place = motion.place();
             let rates = frame.structure(&place.states).and_then(|structure| structure.growth(machine.n()));
             let spectrum = rates.map(|rates| exact(rates, 0.0));
@@ -123,7 +123,7 @@ fn measured(
     go_on: &dyn Fn() -> bool,
 ) -> Result<Option<MachineExponents>, MachineError> {
     let system = Recorded::new(MachineFrame::new(machine));
-    let mut motion = MachineMotion::new(machine, start, MachineLimits::default())?;
+    let mut motion = MachineMotion::new(machine, start, system.frame.limits())?;
     let mut measure: Option<MachineMeasure> = None;
     let mut seen = 0_u32;
     let mut tail = MachineTail::end(motion.place());

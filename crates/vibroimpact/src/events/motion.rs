@@ -446,7 +446,7 @@ impl<'a> MachineMotion<'a> {
 
     /// The same motion without a search for events later than this after the beginning of a flight.
     pub(crate) fn limited(self, time: f64) -> Self {
-        Self { limits: MachineLimits { time: time.min(self.limits.time), ..self.limits }, ..self }
+        Self { limits: MachineLimits { time, ..self.limits }, ..self }
     }
 
     fn within(machine: &'a Machine, normal: Normal, place: Place) -> Self {

@@ -129,6 +129,9 @@ pub(crate) struct Structure {
     fastest: f64,
 }
 
+/// A mode whose stiffness is less than this part of the largest one moves freely.
+const SOFT: f64 = 1e-12;
+
 impl Structure {
     /// `None` if the constraints depend on each other.
     pub(crate) fn new(machine: &Machine, normal: &Normal, states: &[ContactState]) -> Option<Self> {
@@ -487,6 +490,13 @@ impl Structure {
     /// The fastest rate of the free motion and of the forcing.
     pub(crate) const fn fastest(&self) -> f64 {
         self.fastest
+    }
+
+    /// The slowest rate of the modes with stiffness; `None` if there is none.
+    pub(crate) fn slowest(&self) -> Option<f64> {
+        let stiff = |least: f64| self.modes.iter().map(|mode| mode.k).filter(move |k| *k > least);
+        let least = SOFT * stiff(0.0).fold(0.0, f64::max);
+        stiff(least).min_by(f64::total_cmp).map(f64::sqrt)
     }
 
     /// $`w\cdot x`$ and its rate.

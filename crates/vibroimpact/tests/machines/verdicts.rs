@@ -164,3 +164,23 @@ fn f42r_a_motion_that_decays_on_a_compliant_stop_ends() {
     assert!(settled.events < 1000, "{}", settled.events);
     assert_eq!(settled.verdict.closed(), vec![0]);
 }
+
+/// N of the paper beside a body that comes to rest, with times in units of a hundred thousandth and of a hundred thousand: a flight of
+/// more than 10000 units of time was not searched, and the motion undecided.
+#[test]
+fn f42u_the_longest_flight_has_no_unit() {
+    for time in [1.0, 1e5, 1e-5] {
+        let unit = 1.0 / (time * time);
+        let parts = MachineParts::new(["a", "b"])
+            .with_mass(0, 1.0)
+            .with_mass(1, 1.0)
+            .with_link(&[1.0, 0.0], unit, 0.0)
+            .with_link(&[0.0, 1.0], unit, 0.3 / time)
+            .with_frequency(1.0 / 1.8 / time)
+            .with_force(0, 1, 0.0, unit)
+            .with_rigid_stop("stop", &[1.0, 0.0], 0.25, 0.5);
+        let machine = Machine::new(parts).unwrap();
+        let found = settle_machine(&machine, &MachineStart::default(), &SettleOptions::default()).unwrap().verdict;
+        assert_eq!(found.label(), "4/1", "{time}");
+    }
+}

@@ -4,7 +4,7 @@ use super::border::on_border;
 use super::cycle::MachineCycle;
 use super::frame::MachineFrame;
 use super::near_returns::near_returns;
-use crate::events::{MachineLimits, MachineMotion, MachineStart};
+use crate::events::{MachineMotion, MachineStart};
 use crate::machine::Machine;
 use crate::math::sort_by;
 use crate::orbit::Label;
@@ -49,7 +49,7 @@ fn forced(
     // of all labels of as many periods
     let mut known: Vec<MachineCycle> = Vec::new();
     for start in starts {
-        let Ok(mut motion) = MachineMotion::new(frame.machine, &start, MachineLimits::default()) else { continue };
+        let Ok(mut motion) = MachineMotion::new(frame.machine, &start, frame.limits()) else { continue };
         let mut seen = 0;
         for after in AFTER {
             while motion.time() < after * period && seen < EVENTS && motion.step().is_some() {
@@ -90,13 +90,13 @@ fn unforced(
         Some(())
     };
     for start in starts {
-        let Ok(motion) = MachineMotion::new(frame.machine, &start, MachineLimits::default()) else { continue };
+        let Ok(motion) = MachineMotion::new(frame.machine, &start, frame.limits()) else { continue };
         from(&mut known, motion)?;
     }
     let stable: Vec<MachineCycle> = known.iter().filter(|cycle| cycle.stable()).take(BETWEEN).cloned().collect();
     for (i, j) in (0..stable.len()).flat_map(|i| (0..i).map(move |j| (i, j))) {
         if let Some(place) = on_border(frame, (&stable[i], &stable[j]), go_on).into_iter().next() {
-            from(&mut known, frame.resume(place))?;
+            from(&mut known, frame.resume(place).limited(frame.limits().time))?;
         }
     }
     Some(of_label(known, label))

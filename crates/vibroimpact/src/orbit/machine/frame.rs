@@ -2,7 +2,7 @@
 //! regimes.
 
 use crate::arc::Modes;
-use crate::events::{MachineMotion, Place, StateShape, Structures};
+use crate::events::{MachineLimits, MachineMotion, Place, StateShape, Structures};
 use crate::machine::Machine;
 use crate::math::{Matrix, add_scaled, dot};
 use crate::orbit::rounding;
@@ -43,6 +43,21 @@ impl<'a> MachineFrame<'a> {
     pub(crate) fn new(machine: &'a Machine) -> Self {
         let (normal, shape) = (Normal::new(machine), StateShape::of(machine));
         Self { machine, normal, shape, structures: RefCell::default() }
+    }
+
+    /// Limits of motions that do not depend on the unit of time: the longest flight is that in which the forcing, or without forcing the
+    /// slowest mode with all stops open, turns by as many radians as the default one has units of time. Of free bodies they are the
+    /// default ones.
+    pub(crate) fn limits(&self) -> MachineLimits {
+        let limits = MachineLimits::default();
+        let rate = self.machine.parts().frequency.or_else(|| self.open().and_then(|open| open.slowest()));
+        rate.map_or(limits, |rate| MachineLimits { time: limits.time / rate, ..limits })
+    }
+
+    /// The structure with all stops open, and all joints sliding.
+    fn open(&self) -> Option<Arc<Structure>> {
+        let (stops, joints) = (self.machine.stops().len(), self.machine.joints().len());
+        self.structure(&[vec![ContactState::Open; stops], vec![ContactState::Forward; joints]].concat())
     }
 
     /// The motion from a state.

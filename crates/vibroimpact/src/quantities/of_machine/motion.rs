@@ -128,7 +128,7 @@ pub fn machine_quantities(machine: &Machine, verdict: &MachineVerdict) -> Option
 /// The quantities of the motion from a state over a time, after which it repeats.
 fn over_time(frame: &MachineFrame<'_>, from: &Place, time: f64) -> Option<MachineQuantities> {
     let mut tally = MachineTally::new(frame);
-    let mut motion = frame.resume(from.clone());
+    let mut motion = frame.resume(from.clone()).limited(frame.limits().time);
     let mut steps = 0;
     loop {
         let (begin, left) = (motion.place().clone(), time - motion.time());
@@ -206,7 +206,7 @@ fn steady(frame: &MachineFrame<'_>, from: &Place) -> Option<MachineQuantities> {
 fn measured(machine: &Machine, tail: &MachineTail) -> Option<MachineQuantities> {
     let frame = MachineFrame::new(machine);
     let mut tally = MachineTally::new(&frame);
-    let mut motion = frame.resume(tail.from.clone());
+    let mut motion = frame.resume(tail.from.clone()).limited(frame.limits().time);
     let wanted = tail.steps.min(FEWEST as u64);
     let mut blocks = Vec::new();
     for count in 1..=tail.steps {

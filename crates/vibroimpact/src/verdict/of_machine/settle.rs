@@ -8,7 +8,7 @@ use super::outcome::{MachineSettled, MachineUndecided, MachineVerdict};
 use super::reduced::Reduced;
 use super::returns::{Recorded, Step};
 use super::tail::MachineTail;
-use crate::events::{MachineEnd, MachineLimits, MachineMotion, MachineStart};
+use crate::events::{MachineEnd, MachineMotion, MachineStart};
 use crate::machine::{Machine, MachineError};
 use crate::orbit::MachineFrame;
 use std::sync::Arc;
@@ -107,8 +107,8 @@ pub(super) fn settle_alone<'a>(
 ) -> Result<Option<MachineSettled>, MachineError> {
     // chatters and contacts take many events in each period
     let options = &SettleOptions { longest: options.longest.saturating_mul(EVENTS_PER_IMPACT), ..*options };
-    let mut motion = MachineMotion::new(machine, start, MachineLimits::default())?;
     let system = Recorded::new(MachineFrame::new(machine));
+    let mut motion = MachineMotion::new(machine, start, system.frame.limits())?;
     let mut record: Record<Recorded<'a>> = Record::default();
     let mut sizes: std::collections::VecDeque<(f64, f64)> = std::collections::VecDeque::new();
     let mut events = 0_u64;
