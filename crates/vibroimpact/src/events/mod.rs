@@ -53,4 +53,4 @@ pub(crate) use saltation::{EventLaw, LinearEvent, StateShape, step_derivative};
 pub use sample::MachineSample;
 pub use samples::MachineSamples;
 pub use stretches::MachineStretches;
-pub(crate) use tangents::{FrameChange, TangentStep, stretched, tangent_steps};
+pub(crate) use tangents::{FrameChange, Metric, TangentStep, stretched, tangent_steps};

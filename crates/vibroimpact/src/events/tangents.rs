@@ -1,5 +1,7 @@
 //! Differences of neighbouring motions along a motion: an orthonormal frame of them, and how each is stretched.
 //!
+//! Lengths are those of a [`Metric`], because coordinates, velocities and surfaces have units of their own.
+//!
 //! A frame $`Q`$ becomes $`AQ = Q_+R`$ with the derivative $`A`$ of a flight or of an event. The elements of the diagonal of $`R`$
 //! are the stretches. Those of a flight are found with the digits of all directions that decay (`graded_flight`), so a
 //! stretch is no rounding error however small it is. It is 0 only where neighbouring motions become the same: where the structure
@@ -19,6 +21,40 @@ use std::sync::Arc;
 const VANISHED: f64 = 1e-12;
 /// A structure without modes is followed in parts of this time at the fastest rate of decay.
 const PART: f64 = 4.0;
+
+/// The squares of the weights of the components of a difference: its length is the root of their sum. Without weights all are 1.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Metric(Vec<f64>);
+
+impl Metric {
+    /// A velocity weighs as the way in the time in which the motion goes on by a radian: of the forcing, or else of the fastest mode with all stops
+    /// open. A surface weighs as the coordinates that move the body by as much. So lengths do not depend on units of mass, length and time.
+    pub(crate) fn of(shape: &StateShape, machine: &Machine, normal: &Normal, fastest: f64) -> Self {
+        let rate = machine.parts().frequency.unwrap_or(fastest);
+        let velocity = if rate > 0.0 { 1.0 / (rate * rate) } else { 1.0 };
+        let surfaces = shape.surfaces.iter().map(|j| 1.0 / normal.squares[*j]);
+        let states = (0..2 * shape.n).map(|i| if i < shape.n { 1.0 } else { velocity });
+        Self(states.chain(surfaces).collect())
+    }
+
+    pub(crate) fn product(&self, a: &[f64], b: &[f64]) -> f64 {
+        if self.0.is_empty() {
+            return dot(a, b);
+        }
+        self.0.iter().zip(a.iter().zip(b)).map(|(weight, (a, b))| weight * (a * b)).sum()
+    }
+
+    /// The largest element of a matrix, relative to the weights of its row and column.
+    fn largest(&self, of: &Matrix) -> f64 {
+        if self.0.is_empty() {
+            return of.largest();
+        }
+        let element = |i: usize, j: usize| of[(i, j)].abs() * (self.0[i] / self.0[j]).sqrt();
+        (0..of.rows())
+            .flat_map(|i| (0..of.columns()).map(move |j| (i, j)))
+            .fold(0.0, |most, (i, j)| most.max(element(i, j)))
+    }
+}
 
 /// A part of a motion, to first order.
 #[derive(Clone, Debug)]
@@ -74,37 +110,37 @@ pub(crate) fn tangent_steps(
 }
 
 impl TangentStep {
-    /// Moves a frame, which is orthonormal again then, without the vectors that vanish. `remove` takes away what is no
+    /// Moves a frame, which is orthonormal again then by the metric, without the vectors that vanish. `remove` takes away what is no
     /// difference of motions.
     pub(crate) fn carry(
         &self,
         shape: &StateShape,
         normal: &Normal,
         frame: &mut Vec<Vec<f64>>,
-        remove: &impl Fn(&mut Vec<f64>),
+        (metric, remove): (&Metric, &impl Fn(&mut Vec<f64>)),
     ) -> Vec<FrameChange> {
         match self {
             Self::Event(derivative, forgets) => {
                 let vectors = frame.iter().map(|vector| derivative.apply(vector)).collect();
-                let least = if *forgets { VANISHED * derivative.largest() } else { 0.0 };
-                vec![orthonormal(frame, (vectors, remove), least)]
+                let least = if *forgets { VANISHED * metric.largest(derivative) } else { 0.0 };
+                vec![orthonormal(frame, (vectors, remove), (metric, least))]
             }
             Self::Flight(structure, from, time) => {
                 if frame.is_empty() {
                     return Vec::new();
                 }
-                if let Some(stretch) = graded(shape, normal, (structure, from, *time), frame, remove) {
+                if let Some(stretch) = graded(shape, normal, (structure, from, *time), frame, (metric, remove)) {
                     return vec![stretch];
                 }
                 let parts = (structure.contraction() * time / PART).ceil().max(1.0);
                 let part = shape.transition(structure, normal, from, time / parts);
-                let least = VANISHED * part.largest();
+                let least = VANISHED * metric.largest(&part);
                 let mut stretches = Vec::new();
                 let mut k = 0.0;
                 while k < parts {
                     let vectors = frame.iter().map(|vector| part.apply(vector)).collect();
                     // only the first part can find vectors that the constraints do not allow
-                    stretches.push(orthonormal(frame, (vectors, remove), if k == 0.0 { least } else { 0.0 }));
+                    stretches.push(orthonormal(frame, (vectors, remove), (metric, if k == 0.0 { least } else { 0.0 })));
                     k += 1.0;
                 }
                 stretches
@@ -119,7 +155,7 @@ fn graded(
     normal: &Normal,
     (structure, from, time): (&Structure, &Place, f64),
     frame: &mut Vec<Vec<f64>>,
-    remove: &impl Fn(&mut Vec<f64>),
+    (metric, remove): (&Metric, &impl Fn(&mut Vec<f64>)),
 ) -> Option<FrameChange> {
     let (mut rows, mut back) = structure.graded(normal, time, frame)?;
     let size = shape.size();
@@ -135,7 +171,7 @@ fn graded(
     let factors = rows.factors(frame.len());
     let there: Vec<usize> = (0..frame.len()).filter(|j| factors.scales[*j] > f64::NEG_INFINITY).collect();
     let vectors = there.iter().map(|j| combined(&back, &factors.lower[*j])).collect();
-    let FrameChange { left, kept, .. } = orthonormal(frame, (vectors, remove), 0.0);
+    let FrameChange { left, kept, .. } = orthonormal(frame, (vectors, remove), (metric, 0.0));
     let kept: Vec<usize> = kept.iter().map(|j| there[*j]).collect();
     let mut right = Matrix::zeros(kept.len(), kept.len());
     for (i, row) in kept.iter().enumerate() {
@@ -151,7 +187,7 @@ fn graded(
 fn orthonormal(
     frame: &mut Vec<Vec<f64>>,
     (vectors, remove): (Vec<Vec<f64>>, &impl Fn(&mut Vec<f64>)),
-    least: f64,
+    (metric, least): (&Metric, f64),
 ) -> FrameChange {
     frame.clear();
     let (mut rows, mut kept): (Vec<Vec<f64>>, Vec<usize>) = Default::default();
@@ -161,12 +197,12 @@ fn orthonormal(
         // twice, because once leaves rounding errors of the original length
         for _ in 0..2 {
             for (share, other) in shares.iter_mut().zip(frame.iter()) {
-                let part = dot(other, &vector);
+                let part = metric.product(other, &vector);
                 add_scaled(&mut vector, -part, other);
                 *share += part;
             }
         }
-        let length = dot(&vector, &vector).sqrt();
+        let length = metric.product(&vector, &vector).sqrt();
         if length > least {
             vector.iter_mut().for_each(|x| *x /= length);
             shares.push(length);
@@ -192,11 +228,12 @@ pub(crate) fn stretched(
     normal: &Normal,
     steps: &[TangentStep],
     frame: &mut Vec<Vec<f64>>,
+    metric: &Metric,
 ) -> Vec<f64> {
     let mut logs = vec![0.0; frame.len()];
     let mut there: Vec<usize> = (0..frame.len()).collect();
     for step in steps {
-        for stretch in step.carry(shape, normal, frame, &|_| ()) {
+        for stretch in step.carry(shape, normal, frame, (metric, &|_: &mut Vec<f64>| ())) {
             let kept: Vec<usize> = stretch.kept.iter().map(|k| there[*k]).collect();
             there.iter().filter(|k| !kept.contains(k)).for_each(|k| logs[*k] = f64::NEG_INFINITY);
             kept.iter().enumerate().for_each(|(k, place)| logs[*place] += stretch.log(k));

@@ -2,11 +2,13 @@
 //!
 //! A frame of $`2n`$ orthonormal tangent vectors is moved by the derivative of each step and made orthonormal again; the
 //! mean logarithms of the lengths are the exponents (G. Benettin, L. Galgani, A. Giorgilli and J.-M. Strelcyn, Meccanica
-//! 15 (1980) 9-20, doi:10.1007/BF02128236). The error bar is three standard errors of the mean of 25 blocks.
+//! 15 (1980) 9-20, doi:10.1007/BF02128236). The error bar is three standard errors of the mean of 25 blocks. Lengths do not
+//! depend on units (`events::Metric`), because they count in the mean of each block and where the frame begins anew.
 
 use super::measure::{LogSum, mean};
 use super::{Measured, TRANSIENT};
-use crate::math::{Wide, add_scaled, dot, sort_by};
+use crate::events::Metric;
+use crate::math::{Wide, add_scaled, sort_by};
 
 /// The Lyapunov exponents of a motion of a machine.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,8 +43,9 @@ const FEWEST: usize = 5;
 /// A measurement in progress; steps are added one by one.
 #[derive(Clone, Debug)]
 pub(crate) struct MachineMeasure {
-    /// Orthonormal tangent vectors.
+    /// Orthonormal tangent vectors, by the metric.
     frame: Vec<Vec<f64>>,
+    metric: Metric,
     size: usize,
     logs: Vec<LogSum>,
     /// Which of them are minus infinity in this block.
@@ -63,11 +66,18 @@ struct Block {
 }
 
 impl MachineMeasure {
-    /// A measurement over this number of steps, of `exponents` exponents in a state of `size` components.
-    pub(crate) fn new(size: usize, exponents: usize, steps: u32) -> Self {
-        let unit = |k: usize| (0..size).map(|i| if i == k { 1.0 } else { 0.0 }).collect();
+    /// A measurement over this number of steps, of `exponents` exponents in a state of `size` components with lengths by a metric.
+    pub(crate) fn new((size, metric): (usize, Metric), exponents: usize, steps: u32) -> Self {
+        let unit = |k: usize| {
+            let mut vector = vec![0.0; size];
+            vector[k] = 1.0;
+            let length = metric.product(&vector, &vector).sqrt();
+            vector[k] /= length;
+            vector
+        };
         Self {
             frame: (0..exponents).map(unit).collect(),
+            metric,
             size,
             logs: vec![LogSum::default(); exponents],
             lost: vec![false; exponents],
@@ -92,9 +102,14 @@ impl MachineMeasure {
 
     /// Adds a step with this time and number of closings. `carry` moves the frame of tangent vectors and says by how much each
     /// is stretched; it leaves out those that vanish, whose logarithms are minus infinity.
-    pub(crate) fn add(&mut self, carry: impl FnOnce(&mut Vec<Vec<f64>>) -> Vec<f64>, time: f64, closings: f64) {
+    pub(crate) fn add(
+        &mut self,
+        carry: impl FnOnce(&mut Vec<Vec<f64>>, &Metric) -> Vec<f64>,
+        time: f64,
+        closings: f64,
+    ) {
         let mut last = 0;
-        for (k, log) in carry(&mut self.frame).into_iter().enumerate() {
+        for (k, log) in carry(&mut self.frame, &self.metric).into_iter().enumerate() {
             if log > f64::NEG_INFINITY {
                 self.logs[k].add(log);
                 self.logs.swap(last, k);
@@ -130,10 +145,10 @@ impl MachineMeasure {
         // twice, because once leaves rounding errors of the original length
         for _ in 0..2 {
             for other in &self.frame {
-                add_scaled(vector, -dot(other, vector), other);
+                add_scaled(vector, -self.metric.product(other, vector), other);
             }
         }
-        let length = dot(vector, vector).sqrt();
+        let length = self.metric.product(vector, vector).sqrt();
         if length > 0.0 {
             vector.iter_mut().for_each(|x| *x /= length);
         }
@@ -146,7 +161,8 @@ impl MachineMeasure {
         for i in 0..self.size {
             let mut unit = vec![0.0; self.size];
             unit[i] = 1.0;
-            let length = self.orthonormal(&mut unit);
+            let whole = self.metric.product(&unit, &unit).sqrt();
+            let length = self.orthonormal(&mut unit) / whole;
             if length > best.0 {
                 best = (length, unit);
             }

@@ -4,7 +4,7 @@ use vibroimpact::chaos::{MachineExponents, machine_exponents_while};
 use vibroimpact::events::{MachineEventKind, MachineStart};
 use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::orbit::MachineCycle;
-use vibroimpact::verdict::MachineVerdict;
+use vibroimpact::verdict::{MachineVerdict, SettleOptions, settle_machine};
 
 fn found(parts: MachineParts) -> (MachineExponents, Vec<f64>) {
     let machine = Machine::new(parts).unwrap();
@@ -198,4 +198,39 @@ fn f42s_exponents_of_a_machine_beside_itself() {
     };
     let (one, two) = (largest(1), largest(2));
     assert!((one.value - two.value).abs() < one.error + two.error, "{one:?} {two:?}");
+}
+
+/// Exponents in other units of time, mass and length: the same numbers per radian of the forcing, also where the differences of motions vanish
+/// again and again and the measurement begins anew. Each beginning counted the unit of time.
+#[test]
+fn f42t_exponents_do_not_depend_on_units() {
+    let measured = |mass: f64, length: f64, time: f64| {
+        let (stiffness, force) = (mass / (time * time), mass * length / (time * time));
+        let law = StopLaw::Compliant {
+            stiffness: 47.6 * stiffness,
+            damping: 0.0,
+            preload: 0.75 * force,
+            opening: Opening::Position,
+        };
+        let mut parts = MachineParts::new(["b1", "b2"]).with_frequency(0.669 / time);
+        for (i, own) in [[1.0, 0.0], [0.0, 1.0]].iter().enumerate() {
+            parts = parts
+                .with_mass(i, mass)
+                .with_link(own, stiffness, 0.1 * mass / time)
+                .with_force(i, 1, 0.0, [0.81, 0.457][i] * force)
+                .with_stop(&format!("s{i}"), own, 0.0, law);
+        }
+        let parts = parts.with_rigid_stop("c", &[1.0, -1.0], 0.0, 0.58);
+        let watch = SettleOptions { chaos_after: 64, chaos_over: 250, ..SettleOptions::at_most(120) };
+        let machine = Machine::new(parts).unwrap();
+        let found = settle_machine(&machine, &MachineStart::default(), &watch).unwrap().verdict;
+        let MachineVerdict::Undecided { spectrum: Some(spectrum), .. } = found else { panic!("{}", found.label()) };
+        spectrum.exponents.iter().map(|of| of.value * time).collect::<Vec<f64>>()
+    };
+    let plain = measured(1.0, 1.0, 1.0);
+    for (mass, length, time) in [(4.0, 0.5, 8.0), (4.0, 1.0, 1.0), (1.0, 1.0, 1.0 / 1024.0)] {
+        for (one, other) in plain.iter().zip(measured(mass, length, time)) {
+            assert!((one - other).abs() < 1e-6 * (1.0 + one.abs()) || one == &other, "{plain:?} {other} in {time}");
+        }
+    }
 }

@@ -2,7 +2,7 @@
 //! regimes.
 
 use crate::arc::Modes;
-use crate::events::{MachineLimits, MachineMotion, Place, StateShape, Structures};
+use crate::events::{MachineLimits, MachineMotion, Metric, Place, StateShape, Structures};
 use crate::machine::Machine;
 use crate::math::{Matrix, add_scaled, dot};
 use crate::orbit::rounding;
@@ -190,6 +190,12 @@ impl<'a> MachineFrame<'a> {
         self.unforced()
             && self.normal.translations.is_empty()
             && self.machine.joints().iter().all(|joint| joint.belt == 0.0)
+    }
+
+    /// The lengths of differences of states.
+    pub(crate) fn metric(&self) -> Metric {
+        let fastest = self.open().map_or(0.0, |open| open.fastest());
+        Metric::of(&self.shape, self.machine, &self.normal, fastest)
     }
 
     /// The time of so many forcing periods; without forcing the time `otherwise`.

@@ -10,7 +10,7 @@
 
 use super::frame::MachineFrame;
 use super::lap::MachineLap;
-use crate::events::{FrameChange, Place, TangentStep, tangent_steps};
+use crate::events::{FrameChange, Metric, Place, TangentStep, tangent_steps};
 use crate::math::{Matrix, Multiplier, add_scaled, dot, exp, general_eigenvalues, ln, sort_by};
 
 /// A multiplier and the logarithm of its modulus, which says how small it is where it underflows; minus infinity if it is 0.
@@ -80,12 +80,13 @@ fn by_frames(
         vectors.insert(0, along.clone());
     }
     let mut basis = independent(&vectors);
+    let metric = Metric::default();
     for round in 0..ROUNDS {
         let before = basis.clone();
         let mut changes: Vec<FrameChange> = Vec::new();
         let mut whole = true;
         for part in &parts {
-            for change in part.carry(&frame.shape, &frame.normal, &mut basis, &remove) {
+            for change in part.carry(&frame.shape, &frame.normal, &mut basis, (&metric, &remove)) {
                 whole &= change.kept.len() == change.kept.iter().max().map_or(0, |last| last + 1);
                 changes.push(change);
             }

@@ -1,7 +1,7 @@
 //! What the record of a motion needs to know of a machine: its returns are its steps from event to event.
 
 use super::super::recurring::{Diverging, Recurring};
-use crate::events::{MachineEvent, MachineMotion, Passage, Place, stretched, tangent_steps};
+use crate::events::{MachineEvent, MachineMotion, Metric, Passage, Place, stretched, tangent_steps};
 use crate::lyapunov::{MachineMeasure, MachineSpectrum};
 use crate::math::dot;
 use crate::orbit::{MachineCycle, MachineFrame, MachineLap, Stability, crossing, rounding_decides};
@@ -88,7 +88,7 @@ impl Recurring for Recorded<'_> {
     }
 
     fn measure(&self, _: &Arc<Step>, over: u32) -> MachineMeasure {
-        MachineMeasure::new(self.frame.shape.size(), 2 * self.frame.shape.n, over)
+        MachineMeasure::new((self.frame.shape.size(), self.frame.metric()), 2 * self.frame.shape.n, over)
     }
 
     fn add(&self, measure: &mut MachineMeasure, next: &Arc<Step>, interval: f64) -> bool {
@@ -98,7 +98,9 @@ impl Recurring for Recorded<'_> {
         });
         // a grazing contact has no derivative and is passed over
         if let Some(steps) = steps {
-            let carry = |vectors: &mut Vec<Vec<f64>>| stretched(&frame.shape, &frame.normal, &steps, vectors);
+            let carry = |vectors: &mut Vec<Vec<f64>>, metric: &Metric| {
+                stretched(&frame.shape, &frame.normal, &steps, vectors, metric)
+            };
             measure.add(carry, interval, f64::from(next.closings));
         }
         measure.complete()
