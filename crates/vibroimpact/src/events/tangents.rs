@@ -27,8 +27,9 @@ const PART: f64 = 4.0;
 pub(crate) struct Metric(Vec<f64>);
 
 impl Metric {
-    /// A velocity weighs as the way in the time in which the motion goes on by a radian: of the forcing, or else of the fastest mode with all stops
-    /// open. A surface weighs as the coordinates that move the body by as much. So lengths do not depend on units of mass, length and time.
+    /// A velocity weighs as the way in the time in which the forcing, or without forcing the fastest mode with all stops open, goes on
+    /// by a radian. A surface weighs as the coordinates that move the body by as much. So lengths do not depend on units of mass,
+    /// length and time; of free bodies without forcing they depend on that of time.
     pub(crate) fn of(shape: &StateShape, machine: &Machine, normal: &Normal, fastest: f64) -> Self {
         let rate = machine.parts().frequency.unwrap_or(fastest);
         let velocity = if rate > 0.0 { 1.0 / (rate * rate) } else { 1.0 };
