@@ -237,6 +237,6 @@ fn f42n_a_closed_stop_that_opens_for_no_time() {
             matches!(events.as_slice(), [(event, _), (MachineBranchEvent::EndOfRange, _)] if *event == grazing),
             "{events:?}"
         );
-        assert!((events[0].1 - 0.123_374_360_093_306_278).abs() < 2e-15, "{events:?}");
+        assert!((events[0].1 - 0.123_374_360_093_306_28).abs() < 2e-15, "{events:?}");
     }
 }

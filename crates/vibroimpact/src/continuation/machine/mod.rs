@@ -3,11 +3,11 @@
 //!
 //! | idea | folder |
 //! |---|---|
-//! | the branch of a cycle in one number of a machine | `branch` |
-//! | the curve of an event in a plane of two numbers | `curve` |
+//! | the branch of a cycle in one number of a machine | `branches` |
+//! | the curve of an event in a plane of two numbers | `curves` |
 
-mod branch;
-mod curve;
+mod branches;
+mod curves;
 
-pub use branch::{MachineBranch, MachineBranchEvent, MachineFamily, MachinePoint};
-pub use curve::{MachineCurve, MachineCurvePoint, MachinePlane};
+pub use branches::{MachineBranch, MachineBranchEvent, MachineFamily, MachinePoint};
+pub use curves::{MachineCurve, MachineCurvePoint, MachinePlane};

@@ -110,8 +110,8 @@ impl<P: Path> Driver<P> {
     pub(crate) fn take(&mut self, there: PathSolution<P>) {
         let closes = |begin| self.tracer.closes(begin, &there);
         let closed = self.count > SHORTEST_LOOP && self.begin.as_ref().is_some_and(closes);
-        self.tracer.take(there.clone());
-        self.add(&there, closed.then_some(P::Event::CLOSED));
+        self.tracer.take(there);
+        self.add(&self.tracer.here.clone(), closed.then_some(P::Event::CLOSED));
         self.over |= closed;
     }
 

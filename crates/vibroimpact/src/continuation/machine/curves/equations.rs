@@ -3,7 +3,7 @@
 use super::borders::Borders;
 use super::condition::{Condition, turned};
 use crate::continuation::curves::Ranges;
-use crate::continuation::machine::branch::MachineEquations;
+use crate::continuation::machine::branches::MachineEquations;
 use crate::continuation::trace::equations::Equations;
 use crate::machine::Machine;
 use crate::orbit::{MachineFrame, MachineRing};

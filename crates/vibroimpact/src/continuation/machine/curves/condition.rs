@@ -2,7 +2,7 @@
 
 use super::borders::Borders;
 use super::moment::Moment;
-use crate::continuation::machine::branch::{CompleteChatter, Limit, limits, touches};
+use crate::continuation::machine::branches::{CompleteChatter, Limit, limits, touches};
 use crate::math::{Matrix, Multiplier, general_eigenvalues, hypot, sort_by};
 use crate::orbit::{MachineFrame, MachineRing};
 

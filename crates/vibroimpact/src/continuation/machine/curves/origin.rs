@@ -7,7 +7,7 @@ use super::plane::MachinePlane;
 use super::problem::CurveProblem;
 use crate::continuation::branches::BranchError;
 use crate::continuation::curves::{CurveKind, check};
-use crate::continuation::machine::branch::{
+use crate::continuation::machine::branches::{
     CompleteChatter, MachineBranchEvent, MachineEquations, MachinePoint, closest,
 };
 use crate::events::standing_back;

@@ -10,7 +10,7 @@ use super::problem::{CurveProblem, CurveSolution, Watched};
 use crate::continuation::branches::BranchError;
 use crate::continuation::curves::{CurveEvent, CurveKind, CurveOptions};
 use crate::continuation::equations::plane_tracer::{beginning, first_step};
-use crate::continuation::machine::branch::{
+use crate::continuation::machine::branches::{
     ADAPTED, Difference, Judged, MachineEquations, MachinePoint, difference, edge,
 };
 use crate::continuation::trace::driver::{Driver, Path};

@@ -6,7 +6,7 @@ use super::condition::{Condition, multipliers, pair};
 use super::equations::CurveEquations;
 use crate::continuation::curves::{CurveEvent, CurveKind};
 use crate::continuation::equations::plane_tracer::PLANE_RULES;
-use crate::continuation::machine::branch::{Judged, MachineEquations, judge, over_pairs};
+use crate::continuation::machine::branches::{Judged, MachineEquations, judge, over_pairs};
 use crate::continuation::trace::tracer::{Problem, Solution, StepRules};
 use crate::machine::StopLaw;
 use crate::math::{Matrix, Multiplier, dot};

@@ -5,7 +5,7 @@
 //! symmetric cycle lose their flight at once.
 
 use super::condition::Condition;
-use crate::continuation::machine::branch::{RestZero, closest, join, rest_zero, size};
+use crate::continuation::machine::branches::{RestZero, closest, join, rest_zero, size};
 use crate::orbit::{MachineFrame, MachineRing, RingEvent};
 
 /// Prepares the signature of a ring close to an event at which a rest of this contact begins or ends, and gives the

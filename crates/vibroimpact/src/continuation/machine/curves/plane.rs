@@ -1,7 +1,7 @@
 //! A machine as a function of two numbers, and a frame in their plane.
 
 use crate::continuation::curves::{Ranges, scales};
-use crate::continuation::machine::branch::MachineFamily;
+use crate::continuation::machine::branches::MachineFamily;
 use crate::machine::{Machine, MachineError};
 use core::ops::RangeInclusive;
 

@@ -5,7 +5,7 @@
 //! equations say.
 
 use super::moment::{Moment, OnFlight};
-use crate::continuation::machine::branch::{CLOSED, Judged, matched, seen_on};
+use crate::continuation::machine::branches::{CLOSED, Judged, matched, seen_on};
 use crate::events::Place;
 use crate::math::Multiplier;
 use crate::orbit::{Chatter, MachineCycle, MachineFrame, MachineLap, MachineRing, RingEvent};
