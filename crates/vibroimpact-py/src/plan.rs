@@ -63,7 +63,11 @@ pub(crate) fn answer_json(py: Python<'_>, plan: &str) -> Result<String, Trouble>
     let watch = Watch { what: "computing an answer", total: 1, progress: None, threads: 0 };
     door::run(py, watch, move |control| {
         Ok(match plan {
-            StudyPlan::Oscillator(plan) => vibroimpact_report::answer(&plan, Units::default(), control)?.json(),
+            // results of this package are nondimensional
+            StudyPlan::Oscillator(plan) => {
+                let plan = Plan { units: None, ..*plan };
+                vibroimpact_report::answer(&plan, Units::default(), control)?.json()
+            }
             StudyPlan::Machine(plan) => {
                 let name = plan.machine.title.as_deref().unwrap_or("machine");
                 vibroimpact_report::machine_answer(name, &plan, control)?.json()
