@@ -121,6 +121,7 @@ class Margins(Result):
 
         return _margin_bars.plot(self, ax)
 
+
 def margins(
     system: System,
     *,

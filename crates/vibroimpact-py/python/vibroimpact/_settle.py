@@ -1,8 +1,10 @@
 """Settling of motions, from one start or from arrays of starts."""
 
+import copy
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from os import PathLike
 from typing import TYPE_CHECKING, Any, overload
 
@@ -76,6 +78,11 @@ class Settled(Motion):
         found = self._whole.get("chaotic_transient")
         return None if found is None else {**found, "exponents": all_measured(found["exponents"])}
 
+    @cached_property
+    def _complete(self) -> dict[str, Any]:
+        """The object that the command prints with --json, computed once: its harmonics and transient take another settling."""
+        return answer(self.plan)
+
     @property
     def harmonics(self) -> list[dict[str, float]]:
         """The spectrum of the position."""
@@ -89,7 +96,7 @@ class Settled(Motion):
 
     def to_dict(self) -> dict[str, Any]:
         """The object that the command prints with --json, which is computed again for its harmonics and transient."""
-        return answer(self.plan)
+        return copy.deepcopy(self._complete)
 
 
 def settle(
