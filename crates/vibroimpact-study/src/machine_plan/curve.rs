@@ -189,7 +189,8 @@ pub(super) fn curve(
     })?;
     let corners = [vec![vary.from, and.from], vec![vary.to, and.from], vec![vary.from, and.to], vec![vary.to, and.to]];
     let varied = VariedMachine::new(source, [vary, and].into_iter().map(|stretch| stretch.path.as_str()), &corners);
-    let plane = MachinePlane::new(move |p, q| varied.at(&[p, q]), (vary.from..=vary.to, and.from..=and.to));
+    let family = varied.family(|values: [f64; 2]| values.to_vec());
+    let plane = MachinePlane::of(family, (vary.from..=vary.to, and.from..=and.to));
     let at = (events[through].value, source.number(&and.path).map_err(PlanError::from)?);
     let options = CurveOptions { longest: LONGEST, points: asked.points };
     let [forth, back] = MachineCurve::through(&plane, at, &events[through], options)

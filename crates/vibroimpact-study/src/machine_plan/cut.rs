@@ -82,7 +82,7 @@ impl MachineCut {
     pub(super) fn family(&self, source: &MachineSource) -> MachineFamily {
         let samples = [self.ends.0, 0.5 * (self.ends.0 + self.ends.1), self.ends.1].map(|at| self.values(at).collect());
         let (cut, varied) = (self.clone(), VariedMachine::new(source, self.paths(), &samples));
-        MachineFamily::new(move |value| varied.at(&cut.values(value).collect::<Vec<f64>>()))
+        varied.family(move |[value]| cut.values(value).collect())
     }
 
     /// Checks that the second number is another one, that its values are finite, and both paths.

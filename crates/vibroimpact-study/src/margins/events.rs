@@ -114,7 +114,9 @@ pub(crate) fn margins(
     let scopes = plan.scopes(system)?;
     for scope in &scopes {
         let path = match (scope.parameter, system.machine) {
-            (parameter @ Parameter::Physical(_), Some(machine)) => machine.line(parameter, None).map_err(PlanError::from)?,
+            (parameter @ Parameter::Physical(_), Some(machine)) => {
+                machine.line(parameter, None).map_err(PlanError::from)?
+            }
             (parameter, _) => ParameterPath::from(parameter),
         };
         let end = |direction| nearest(&osc, &cycle, (scope, path.clone()), direction, control);

@@ -302,6 +302,12 @@ impl Reduction {
         [Side::Upper, Side::Lower].into_iter().find(|side| self.stop(*side) == Some(stop))
     }
 
+    /// Whether the stops of another reduction of the same machine have the same sides.
+    pub(crate) fn same_sides(&self, other: &Self) -> bool {
+        let stops = |of: &Self| [Side::Upper, Side::Lower].map(|side| of.stop(side));
+        self.sign == other.sign && stops(self) == stops(other)
+    }
+
     /// The number of the stop on that side; `None` if there is none.
     #[must_use]
     pub fn stop(&self, side: Side) -> Option<usize> {

@@ -59,6 +59,9 @@ pub enum SystemError {
     /// A second parameter on a line of oscillators that follow from another number.
     #[error("{0} cannot vary in proportion: the line is that of another number")]
     OwnLine(&'static str),
+    /// A machine that is no oscillator, at this value of a number.
+    #[error("at {0} the machine is no oscillator")]
+    NoOscillator(f64),
     /// Two parameters on one line that are the same.
     #[error("{0} and {1} cannot vary together: a line goes through two different parameters")]
     Together(&'static str, &'static str),

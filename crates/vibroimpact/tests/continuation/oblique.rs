@@ -93,7 +93,8 @@ fn either_parameter_tells_the_place() {
     let osc = Oscillator::from_inverse_beta(1.0, 1.0, 0.5).unwrap();
     let one = ParameterPath::from(Parameter::InverseBeta).with(Parameter::Gap, 4.0).unwrap();
     let other = ParameterPath::from(Parameter::Gap).with(Parameter::InverseBeta, 0.25).unwrap();
-    let (by_frequency, by_gap) = (branch(&osc, Label::new(1, 1), &one, 1.4), branch(&osc, Label::new(1, 1), &other, 2.6));
+    let (by_frequency, by_gap) =
+        (branch(&osc, Label::new(1, 1), &one, 1.4), branch(&osc, Label::new(1, 1), &other, 2.6));
     let (a, b) = (events(&by_frequency), events(&by_gap));
     assert!(!a.is_empty() && a.len() == b.len(), "{} and {}", a.len(), b.len());
     for (a, b) in a.iter().zip(b) {

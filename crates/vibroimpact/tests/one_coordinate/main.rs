@@ -6,6 +6,7 @@
 mod branches;
 mod events;
 mod reduced;
+mod reduced_branches;
 mod verdicts;
 
 use vibroimpact::events::MachineStart;

@@ -56,8 +56,7 @@ impl Branch {
         let (osc, ring, flights) = solved(osc, point, &varying)?;
         let direction = carried(&osc, &ring, &flights, 1.0).ok_or(BranchError::NoCycle)?;
         let back: Vec<f64> = direction.iter().map(|d| -d).collect();
-        let leaving =
-            |direction| leave(&osc, &ring, (varying.clone(), point.value), range.clone(), direction, options);
+        let leaving = |direction| leave(&osc, &ring, (varying.clone(), point.value), range.clone(), direction, options);
         Ok([leaving(direction)?, leaving(back)?])
     }
 }

@@ -5,9 +5,14 @@
 //! |---|---|
 //! | the branch of a cycle in one number of a machine | `branches` |
 //! | the curve of an event in a plane of two numbers | `curves` |
+//! | both, of a machine that is an oscillator those of the oscillator | [`MachineBranch`], [`MachineCurve`] |
 
 mod branches;
 mod curves;
+mod reduced_branch;
+mod reduced_curve;
 
-pub use branches::{MachineBranch, MachineBranchEvent, MachineFamily, MachinePoint};
-pub use curves::{MachineCurve, MachineCurvePoint, MachinePlane};
+pub use branches::{MachineBranchEvent, MachineFamily, MachinePoint};
+pub use curves::{MachineCurvePoint, MachinePlane};
+pub use reduced_branch::MachineBranch;
+pub use reduced_curve::MachineCurve;

@@ -8,7 +8,7 @@ use core::ops::RangeInclusive;
 /// A machine for each point of a plane of two numbers, and a rectangular frame in this plane.
 #[derive(Clone, Debug)]
 pub struct MachinePlane {
-    pub(super) family: MachineFamily<2>,
+    pub(crate) family: MachineFamily<2>,
     /// The ranges of both numbers.
     pub ranges: (RangeInclusive<f64>, RangeInclusive<f64>),
 }
