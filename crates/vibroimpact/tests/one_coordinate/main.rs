@@ -57,6 +57,7 @@ impl Random {
     }
 }
 
+#[derive(Clone)]
 struct System {
     oscillator: Oscillator,
     start: Start,

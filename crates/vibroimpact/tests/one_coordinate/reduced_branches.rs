@@ -61,9 +61,10 @@ const NUMBERS: [(&str, Parameter); 3] = [
 #[test]
 fn branches_to_the_last_digit() {
     let (mut branches, mut points, mut events) = (0, 0, 0);
-    for (k, system) in systems().enumerate() {
+    let labels = [Label::new(1, 1), Label::new(2, 1), Label::new(1, 2), Label::new(1, 3)];
+    let each = systems().flat_map(|system| labels.map(|label| (label, system.clone())));
+    for (k, (label, system)) in each.enumerate() {
         let (machine, osc) = (system.machine(), &system.oscillator);
-        let label = [Label::new(1, 1), Label::new(2, 1), Label::new(1, 2)][k % 3];
         let orbits: Vec<_> = find(osc, label, FindOptions::default()).into_iter().filter(|of| of.physical).collect();
         let own = find_machine_while(&machine, label, [], &|| true).unwrap();
         if orbits.iter().any(|orbit| !orbit.cycle.rests.is_empty()) {
@@ -76,10 +77,10 @@ fn branches_to_the_last_digit() {
         let (family, value) = MachineFamily::of_path(&machine, path).unwrap();
         let least = if parameter == Parameter::Gap { value - SPAN } else { value * (1.0 - SPAN) };
         let most = if parameter == Parameter::Restitution { (value + SPAN).min(1.0) } else { value + SPAN };
-        if least >= most || value > most {
+        if least >= most || value > most || machine.with(path, least).is_err() {
             continue;
         }
-        let direction = if k % 2 == 0 { Direction::Up } else { Direction::Down };
+        let direction = if k % 3 == 0 { Direction::Up } else { Direction::Down };
         let options = BranchOptions::default();
         let of_oscillator = Branch::new(osc, &orbit.cycle, parameter, least..=most, direction, options);
         let Ok(of_oscillator) = of_oscillator else { continue };
@@ -111,6 +112,10 @@ fn curves_to_the_last_digit() {
         let (family, value) = MachineFamily::of_path(&machine, "stop.upper.gap").unwrap();
         let options = BranchOptions::default();
         let at = (&family, value);
+        // beyond the other stop the machine is no oscillator
+        if machine.with("stop.upper.gap", gap - 1.0).is_err() {
+            continue;
+        }
         let Ok(branch) = Branch::new(osc, &orbit.cycle, Parameter::Gap, ranges.0.clone(), Direction::Up, options)
         else {
             continue;
@@ -142,7 +147,8 @@ fn curves_to_the_last_digit() {
                             .map(|event| event.name()),
                     )
                 );
-                assert!(same_cycle(&one.cycle, &other.cycle) && one.residual < 1e-6, "{}", system.text);
+                assert!(same_cycle(&one.cycle, &other.cycle), "{}: {one:?} {other:?}", system.text);
+                assert!(one.residual < 1e-6 || one.event.is_some(), "{}: {one:?}", system.text);
                 points += 1;
                 last = one.event;
             }

@@ -6,11 +6,13 @@
 //! | the branch of a cycle in one number of a machine | `branches` |
 //! | the curve of an event in a plane of two numbers | `curves` |
 //! | both, of a machine that is an oscillator those of the oscillator | [`MachineBranch`], [`MachineCurve`] |
+//! | the plane of these oscillators, for curves and regions | [`MachinePlane::reduced`] |
 
 mod branches;
 mod curves;
 mod reduced_branch;
 mod reduced_curve;
+mod reduced_plane;
 
 pub use branches::{MachineBranchEvent, MachineFamily, MachinePoint};
 pub use curves::{MachineCurvePoint, MachinePlane};

@@ -7,7 +7,7 @@ use super::branches::{MachineBranchEvent, MachinePoint};
 use super::curves::{MachineCurvePoint, MachinePlane, UnreducedCurve};
 use super::reduced_branch::oscillator;
 use crate::continuation::branches::{BranchError, BranchEvent, SolutionPoint};
-use crate::continuation::curves::{Curve, CurveEvent, CurveKind, CurveOptions, CurvePoint, Frame};
+use crate::continuation::curves::{Curve, CurveEvent, CurveKind, CurveOptions, CurvePoint};
 use crate::math::hypot;
 use crate::orbit::MachineCycle;
 use crate::system::{OscillatorFamily, Side};
@@ -84,9 +84,6 @@ struct ReducedCurve {
     left: u32,
 }
 
-/// Points along each side of the frame at which the machine must be an oscillator.
-const POINTS: u32 = 3;
-
 impl ReducedCurve {
     /// `None` for another event, if the machine is no oscillator somewhere in the frame, or if no curve is found.
     fn through(
@@ -100,25 +97,13 @@ impl ReducedCurve {
             MachineBranchEvent::Flip => BranchEvent::Flip,
             _ => return None,
         };
-        let (family, second) = (plane.family.clone(), values.1);
-        let reduction = family.reduction(values.into())?;
-        let at = |range: &core::ops::RangeInclusive<f64>, k: u32| {
-            range.start() + (range.end() - range.start()) * f64::from(k) / f64::from(POINTS - 1)
-        };
-        let same = |k: u32| {
-            let there = [at(&plane.ranges.0, k % POINTS), at(&plane.ranges.1, k / POINTS)];
-            family.reduction(there).is_some_and(|other| other.same_sides(&reduction))
-        };
-        if !(0..POINTS * POINTS).all(same) {
-            return None;
-        }
-        let cycle = point.cycle.to_oscillator(&reduction)?;
+        let (osc, frame) = plane.reduced(values)?;
+        let cycle = point.cycle.to_oscillator(&plane.family.reduction(values.into())?)?;
         let there = SolutionPoint { value: values.0, cycle, physical: true, event: Some(event) };
-        let line = family.clone();
-        let line = OscillatorFamily::new(move |[p]| oscillator(&line, [p, second]), [values.0]);
-        let over = OscillatorFamily::new(move |values| oscillator(&family, values), values.into());
-        let frame = Frame { plane: over.into(), ranges: plane.ranges.clone() };
-        let both = Curve::through(&reduction.oscillator, &there, line, &frame, options).ok()?;
+        // the line to the event, along the first number
+        let (family, second) = (plane.family.clone(), values.1);
+        let line = OscillatorFamily::new(move |[first]| oscillator(&family, [first, second]), [values.0]);
+        let both = Curve::through(&osc, &there, line, &frame, options).ok()?;
         let stops = point.cycle.counts.len();
         Some(both.map(|curve| Self { curve, plane: plane.clone(), stops, left: options.points }))
     }
