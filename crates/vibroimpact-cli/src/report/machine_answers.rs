@@ -5,6 +5,7 @@ use crate::report::diagram;
 use crate::report::lyapunov::said;
 use crate::report::machine_curve;
 use crate::report::margins;
+use crate::report::region;
 use crate::report::response;
 use crate::report::words::ROUNDING_DECIDES;
 use core::fmt::Write;
@@ -86,6 +87,9 @@ pub(crate) fn text(answer: &MachineAnswer) -> String {
         MachineResults::Curve(found) => text.push_str(&machine_curve::text(machine, &answer.plan.task, found)),
         MachineResults::Margins(found) => {
             text.push_str(&margins::of_machine(found, machine, motion(machine, &found.motion)));
+        }
+        MachineResults::Region(found) => {
+            text.push_str(&region::of_machine(found, &answer.plan.task, &answer.plan.machine));
         }
         MachineResults::Response(found) => {
             let view = answer.response(found);

@@ -75,7 +75,8 @@ impl Frame {
     }
 
     /// Whether a condition holds wherever the plane has an oscillator, by some points inside the frame.
-    pub(crate) fn everywhere(&self, osc: &Oscillator, holds: impl Fn(&Oscillator) -> bool) -> bool {
+    #[must_use]
+    pub fn everywhere(&self, osc: &Oscillator, holds: impl Fn(&Oscillator) -> bool) -> bool {
         let at = |k: u32| self.node((k % SAMPLES, k / SAMPLES), (SAMPLES, SAMPLES));
         (0..SAMPLES * SAMPLES).filter_map(|k| self.plane.set(osc, at(k)).ok()).all(|osc| holds(&osc))
     }
