@@ -331,6 +331,9 @@ impl Reduction {
 
     /// The motion $`s`$ of the stops at a phase of the machine, and its rate.
     fn swing(&self, phase: f64) -> (f64, f64) {
+        if self.swing == (0.0, 0.0) {
+            return (0.0, 0.0);
+        }
         let (sin, cos) = sin_cos(phase);
         let (of_sin, of_cos) = self.swing;
         (of_sin * sin + of_cos * cos, self.frequency * (of_sin * cos - of_cos * sin))

@@ -9,7 +9,7 @@ use crate::continuation::branches::{
     Branch, BranchError, BranchEvent, BranchOptions, Change, Direction, SolutionPoint,
 };
 use crate::machine::Reduction;
-use crate::orbit::MachineCycle;
+use crate::orbit::{Cycle, MachineCycle};
 use crate::system::{Oscillator, OscillatorFamily, SystemError};
 use core::ops::RangeInclusive;
 
@@ -76,7 +76,7 @@ impl Iterator for MachineBranch {
                     self.0 = Method::Unreduced(Box::new(further));
                     self.next()
                 }
-                None => Some(branch.no_convergence()),
+                None => branch.no_convergence(),
             },
         }
     }
@@ -90,8 +90,8 @@ struct ReducedBranch {
     range: RangeInclusive<f64>,
     options: BranchOptions,
     stops: usize,
-    /// The last point without an event, and the direction in which the number changed to it.
-    last: (f64, MachineCycle),
+    /// The value and the cycle at the last point without an event, and the direction in which the number changed to it.
+    last: (f64, Cycle),
     direction: Direction,
     count: u32,
     over: bool,
@@ -139,13 +139,14 @@ impl ReducedBranch {
         let followed = BranchOptions { keep_signature: false, ..options };
         let (osc, reduced) = (&reduction.oscillator, cycle.to_oscillator(&reduction)?);
         let branch = Branch::new(osc, &reduced, path, range.clone(), direction, followed).ok()?;
+        let last = (value, reduced);
         Some(Self {
             branch,
             family: family.clone(),
             range: range.clone(),
             options,
             stops: cycle.counts.len(),
-            last: (value, cycle.clone()),
+            last,
             direction,
             count: 0,
             over: false,
@@ -156,8 +157,8 @@ impl ReducedBranch {
         if self.over {
             return Step::Over;
         }
-        let Some(point) = self.branch.next() else { return Step::Beyond };
-        let Some(mut point) = self.converted(&point) else { return Step::Beyond };
+        let Some(of_oscillator) = self.branch.next() else { return Step::Beyond };
+        let Some(mut point) = self.converted(&of_oscillator) else { return Step::Beyond };
         self.count += 1;
         if self.count >= self.options.points && !point.event.is_some_and(|event| event.ends()) {
             point.event = Some(MachineBranchEvent::StepLimit);
@@ -167,7 +168,7 @@ impl ReducedBranch {
             if point.value != self.last.0 {
                 self.direction = if point.value > self.last.0 { Direction::Up } else { Direction::Down };
             }
-            self.last = (point.value, point.cycle.clone());
+            self.last = (of_oscillator.value, of_oscillator.cycle);
         }
         Step::Point(Box::new(point))
     }
@@ -190,19 +191,25 @@ impl ReducedBranch {
     fn beyond(&self) -> Option<UnreducedBranch> {
         let points = self.options.points.checked_sub(self.count)?;
         let options = BranchOptions { points: points + 1, ..self.options };
-        let (value, cycle) = &self.last;
+        let (value, cycle) = self.here()?;
         let mut further =
-            UnreducedBranch::new((&self.family, *value), cycle, &self.range, self.direction, options).ok()?;
+            UnreducedBranch::new((&self.family, value), &cycle, &self.range, self.direction, options).ok()?;
         // the first point is the last one
         further.next()?;
         Some(further)
     }
 
+    /// The last point without an event.
+    fn here(&self) -> Option<(f64, MachineCycle)> {
+        let reduction = self.family.reduction([self.last.0])?;
+        Some((self.last.0, MachineCycle::of_oscillator(&reduction, self.stops, &self.last.1)?))
+    }
+
     /// The end where the machine does not go on.
-    fn no_convergence(&mut self) -> MachinePoint {
+    fn no_convergence(&mut self) -> Option<MachinePoint> {
         self.over = true;
-        let (value, cycle) = self.last.clone();
-        MachinePoint { value, cycle, event: Some(MachineBranchEvent::NoConvergence) }
+        let (value, cycle) = self.here()?;
+        Some(MachinePoint { value, cycle, event: Some(MachineBranchEvent::NoConvergence) })
     }
 }
 
