@@ -200,8 +200,7 @@ impl Store {
         let store = Self::as_begun(shelf, &plan, &root, found)?;
         // another version may write the same plan as another text
         if store.is_ours() && store.plan.hash() != hash {
-            let why =
-                format!("its plan has the name {}, not {}: one of them was changed", store.plan.hash(), hash);
+            let why = format!("its plan has the name {}, not {}: one of them was changed", store.plan.hash(), hash);
             return Err(store.defect(ROOT, why));
         }
         Ok(store)

@@ -634,5 +634,9 @@ fn a_difference_has_its_size() {
     store.write_tile(0, &columns).unwrap();
     let found = store.verify(1000, 0, &control(1)).unwrap();
     let [damage] = found.damage.as_slice() else { panic!("{found:?}") };
-    assert!(damage.what.contains("1 of ") && damage.what.contains("differ, by 1.0e-12 of their size"), "{}", damage.what);
+    assert!(
+        damage.what.contains("1 of ") && damage.what.contains("differ, by 1.0e-12 of their size"),
+        "{}",
+        damage.what
+    );
 }

@@ -64,12 +64,16 @@ impl Study {
     pub fn new(plan: impl Into<StudyPlan>) -> Result<Self, PlanError> {
         let plan = plan.into();
         plan.check()?;
-        let fill = match &plan {
-            StudyPlan::Oscillator(plan) => Self::of_oscillator(plan),
-            StudyPlan::Machine(plan) => Self::of_machine(plan),
-        }?;
+        Ok(Self::of(match &plan {
+            StudyPlan::Oscillator(plan) => Self::of_oscillator(plan)?,
+            StudyPlan::Machine(plan) => Self::of_machine(plan)?,
+        }))
+    }
+
+    /// The study of a fill, with all its fields.
+    fn of(fill: Box<dyn fill::Columns>) -> Self {
         let kept = (0..fill.fields().len()).collect();
-        Ok(Self { fill, kept })
+        Self { fill, kept }
     }
 
     /// The same study with tiles of these lengths along the dimensions of its grid, and only the fields that `has` names: as a
