@@ -33,7 +33,7 @@ fn typed(line: &str, folder: &Path) -> std::process::Output {
 #[test]
 fn shown_output_is_real_output() {
     let mut shown = 0;
-    let pages = ["README.md", "docs/tour.md", "docs/machines-in-si.md", "docs/basins.md"];
+    let pages = ["README.md", "docs/tour.md", "docs/units.md", "docs/basins.md"];
     let blocks = pages.map(|name| blocks(&page(name), "console")).concat();
     for block in blocks {
         // pages may name the same file
