@@ -28,9 +28,12 @@ use vibroimpact_study::{DEFAULT_GRID, MachineRegionPlan, MachineTask, Plan, Regi
     override_usage = "vibro region --label m/n --inverse-beta A:B --gap A:B --restitution E [OPTIONS]\n       \
         vibro region --machine NAME|FILE --label m/n --axis PATH=A:B --axis PATH=A:B [OPTIONS]",
     after_help = "Examples:\n  \
-        vibro region --label 1/1 --inverse-beta 0.4:2 --gap -1:5 --restitution 0.5 --csv region.csv --plot region.png\n  \
-        vibro region --label 1/2 --inverse-beta 1.11 --gap 0:3 --restitution 0.2:0.9 --plot plane.png\n  \
-        vibro region --machine hammer.toml --label 1/1 --axis frequency=30:60 --axis stop.wall.gap=0.001:0.01 --csv -",
+        vibro region --label 1/1 --inverse-beta 0.4:2 --gap -1:5 --restitution 0.5 \\\n    \
+        --csv region.csv --plot region.png\n  \
+        vibro region --label 1/2 --inverse-beta 1.11 --gap 0:3 \\\n    \
+        --restitution 0.2:0.9 --plot plane.png\n  \
+        vibro region --machine fukaya-irie-1971 --label 1/1 \\\n    \
+        --axis inverse_beta=0.4:2 --axis delta=-1:5 --csv region.csv",
     mut_arg("csv", |arg| arg.help(
         "Write one row a vertex to this file; - for stdout. Columns: region (existence or stability), polygon, \
         hole, sheet (below: multipliers below +1, or above), both parameters, and what bounds the region from \
