@@ -4,12 +4,15 @@ use crate::machine::{Machine, MachineError, MachineParts, Reduction, VariedReduc
 use core::fmt;
 use std::sync::Arc;
 
+/// A function of N numbers, which need not be allowed.
+type Function<const N: usize, T> = Arc<dyn Fn([f64; N]) -> Option<T> + Send + Sync>;
+
 /// A machine for each value of a number, or of N numbers.
 #[derive(Clone)]
 pub struct MachineFamily<const N: usize = 1> {
-    machine: Arc<dyn Fn([f64; N]) -> Option<Machine> + Send + Sync>,
+    machine: Function<N, Machine>,
     /// The oscillators that the machines are, where they need no machines.
-    reduction: Option<Arc<dyn Fn([f64; N]) -> Option<Reduction> + Send + Sync>>,
+    reduction: Option<Function<N, Reduction>>,
 }
 
 impl MachineFamily {
@@ -54,7 +57,10 @@ impl<const N: usize> MachineFamily<N> {
         let values = Arc::new(values);
         let varied = VariedReduction::new(machine, &paths);
         let of = values.clone();
-        let reduction = varied.map(|varied| Arc::new(move |numbers| varied.at(&of(numbers))) as Arc<_>);
+        let reduction: Option<Function<N, Reduction>> = match varied {
+            Some(varied) => Some(Arc::new(move |numbers| varied.at(&of(numbers)))),
+            None => None,
+        };
         let parts = machine.parts().clone();
         let machine = move |numbers| {
             let mut parts = parts.clone();
