@@ -1,6 +1,6 @@
 //! Orbits, branches and curves of machines that are oscillators, compared with those of the oscillator to the last digit.
 
-use crate::{System, systems};
+use crate::{System, is_long, systems};
 use vibroimpact::continuation::{
     Branch, BranchEvent, BranchOptions, Curve, CurveEvent, CurveOptions, Direction, Frame, MachineBranch,
     MachineBranchEvent, MachineCurve, MachineFamily, MachinePlane, MachinePoint, SolutionPoint,
@@ -101,13 +101,17 @@ fn branches_to_the_last_digit() {
 #[test]
 fn curves_to_the_last_digit() {
     let (mut curves, mut points) = (0, 0);
-    for system in systems() {
+    let most = if is_long() { 64 } else { 16 };
+    let labels = [Label::new(1, 1), Label::new(2, 1), Label::new(1, 2), Label::new(1, 3)];
+    let ways = labels.map(|label| [Direction::Up, Direction::Down].map(|way| (label, way)));
+    for (system, (label, way)) in
+        systems().flat_map(|system| ways.as_flattened().iter().map(move |way| (system.clone(), *way)))
+    {
         let (machine, osc) = (system.machine(), &system.oscillator);
         let gap = osc.gap();
-        let orbits: Vec<_> =
-            find(osc, Label::new(1, 1), FindOptions::default()).into_iter().filter(|of| of.physical).collect();
+        let orbits: Vec<_> = find(osc, label, FindOptions::default()).into_iter().filter(|of| of.physical).collect();
         let Some(orbit) = orbits.last().filter(|orbit| orbit.cycle.rests.is_empty()) else { continue };
-        let own = find_machine_while(&machine, Label::new(1, 1), [], &|| true).unwrap();
+        let own = find_machine_while(&machine, label, [], &|| true).unwrap();
         let ranges = (gap - 1.0..=gap + 1.0, 0.8 * osc.beta()..=1.25 * osc.beta());
         let (family, value) = MachineFamily::of_path(&machine, "stop.upper.gap").unwrap();
         let options = BranchOptions::default();
@@ -116,14 +120,13 @@ fn curves_to_the_last_digit() {
         if machine.with("stop.upper.gap", gap - 1.0).is_err() {
             continue;
         }
-        let Ok(branch) = Branch::new(osc, &orbit.cycle, Parameter::Gap, ranges.0.clone(), Direction::Up, options)
-        else {
+        let Ok(branch) = Branch::new(osc, &orbit.cycle, Parameter::Gap, ranges.0.clone(), way, options) else {
             continue;
         };
         let is = |event| matches!(event, Some(BranchEvent::Fold | BranchEvent::Flip));
         let mut branch = branch.take_while(|point| point.cycle.rests.is_empty());
         let Some(event) = branch.find(|point| is(point.event)) else { continue };
-        let own = MachineBranch::new(at, own.last().unwrap(), &ranges.0, Direction::Up, options).unwrap();
+        let own = MachineBranch::new(at, own.last().unwrap(), &ranges.0, way, options).unwrap();
         let is = |event| matches!(event, Some(MachineBranchEvent::Fold | MachineBranchEvent::Flip));
         let Some(own) = own.into_iter().find(|point| is(point.event)) else { continue };
         assert_eq!(own.value, event.value, "{}", system.text);
@@ -141,17 +144,19 @@ fn curves_to_the_last_digit() {
                 let name = limit.or(other.event).map(|event| event.name());
                 assert_eq!((one.values, one.event.map(|event| event.name())), (other.values, name));
                 assert!(same_cycle(&one.cycle, &other.cycle), "{}: {one:?} {other:?}", system.text);
-                assert!(one.residual < 1e-4 || one.event.is_some(), "{}: {one:?}", system.text);
+                // where all speeds vanish the multipliers change without bound
+                let slow = one.cycle.events.iter().any(|event| event.speed < 1e-3);
+                assert!(slow || one.residual < 1e-4 || one.event.is_some(), "{}: {one:?}", system.text);
                 points += 1;
             }
             assert!(own.last().is_some_and(|last| last.event.is_some()), "{}", system.text);
         }
         curves += 1;
-        if curves == 64 {
+        if curves == most {
             break;
         }
     }
-    assert!(curves == 64 && points > 1000, "{curves} curves, {points} points");
+    assert!(curves == most && points > 1000, "{curves} curves, {points} points");
 }
 
 /// The machine of the review: the branch of 4/1 over the gap takes about as long as that of its oscillator.
