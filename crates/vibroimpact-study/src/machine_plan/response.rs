@@ -19,7 +19,7 @@ use vibroimpact::orbit::MachineCycle;
 use vibroimpact::quantities::{
     MachineQuantities, machine_cycle_quantities, machine_quantities, machine_quantity_paths,
 };
-use vibroimpact::verdict::MachineVerdict;
+use vibroimpact::verdict::Verdict;
 
 /// A quantity of all motions over the values of one number of a machine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -105,13 +105,13 @@ impl Ground<'_> {
             state = verdict.reached(&machine).unwrap_or(state);
             let row = ResponseRow {
                 value,
-                label: verdict.label(),
+                label: verdict.label().into_owned(),
                 admissible: true,
                 stability: verdict.stability(&machine),
                 event: None,
                 quantities: self.all(machine_quantities(&machine, &verdict)),
             };
-            motions.push((row, if let MachineVerdict::Periodic(cycle) = verdict { Some(cycle) } else { None }));
+            motions.push((row, if let Verdict::Periodic(cycle) = verdict { Some(cycle) } else { None }));
             (control.progress)((before + motions.len()) as u64);
         }
         Ok(motions)

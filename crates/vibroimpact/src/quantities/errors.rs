@@ -31,7 +31,7 @@ use crate::verdict::Verdict;
 #[must_use]
 pub fn errors_of_verdict(osc: &Oscillator, verdict: &Verdict) -> Option<Quantities> {
     let Verdict::Chaotic(chaos) = verdict else { return None };
-    of_tail(osc, &chaos.spectrum.tail)
+    of_tail(osc, &chaos.tail)
 }
 
 /// The error bars from the last impacts of a run.
@@ -104,7 +104,7 @@ mod tests {
         assert!(!all.is_empty());
         for (osc, chaos) in all {
             let values = of_verdict(&osc, &Verdict::Chaotic(chaos)).unwrap();
-            let (_, blocks) = blocks_of(&osc, &chaos.spectrum.tail).unwrap();
+            let (_, blocks) = blocks_of(&osc, &chaos.tail).unwrap();
             assert_eq!(blocks.len(), FEWEST);
             for quantity in Quantity::ALL {
                 let Some(mean) = Mean::of(quantity, osc.beta(), osc.damping()) else { continue };
@@ -123,7 +123,7 @@ mod tests {
             panic!("chaotic")
         };
         // stretches of 1000 impacts, one after another
-        let mut tail = chaos.spectrum.tail;
+        let mut tail = chaos.tail;
         let means: Vec<Quantity> = Quantity::ALL.into_iter().filter(|quantity| quantity.is_mean()).collect();
         let mut runs = Vec::new();
         for _ in 0..40 {

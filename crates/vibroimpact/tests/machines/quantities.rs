@@ -8,7 +8,7 @@ use vibroimpact::quantities::{
     machine_quantities, of_verdict,
 };
 use vibroimpact::regime::ContactState;
-use vibroimpact::verdict::{MachineVerdict, SettleOptions, Verdict, settle, settle_machine};
+use vibroimpact::verdict::{SettleOptions, Verdict, settle, settle_machine};
 use vibroimpact::{Oscillator, Side, Start};
 
 /// Numbers in [0, 1), the same in every run.
@@ -120,7 +120,7 @@ fn chaos_has_the_quantities_of_the_oscillator_within_error_bars() {
     let machine = of(&osc);
     let expected = settle(&osc, Start::at_rest(&osc), &SettleOptions::default()).verdict;
     let verdict = settle_machine(&machine, &MachineStart::default(), &SettleOptions::default()).unwrap().verdict;
-    assert!(matches!(verdict, MachineVerdict::Chaotic { .. }), "{}", verdict.label());
+    assert!(matches!(verdict, Verdict::Chaotic(_)), "{}", verdict.label());
     let (want, errors) = (of_verdict(&osc, &expected).unwrap(), errors_of_verdict(&osc, &expected).unwrap());
     let found = machine_quantities(&machine, &verdict).unwrap();
     let mut compared = 0;
@@ -354,7 +354,7 @@ fn by_waveform(machine: &Machine, cycle: &MachineCycle) -> Vec<(String, f64)> {
 fn settled(machine: &Machine) -> Option<MachineCycle> {
     let options = SettleOptions { chaos_over: 0, max_impacts: 1_500, ..SettleOptions::default() };
     match settle_machine(machine, &MachineStart::default(), &options).ok()?.verdict {
-        MachineVerdict::Periodic(cycle) => Some(cycle),
+        Verdict::Periodic(cycle) => Some(cycle),
         _ => None,
     }
 }

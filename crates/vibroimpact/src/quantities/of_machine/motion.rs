@@ -4,13 +4,14 @@ use super::quantity::{MachinePart, MachineQuantity, machine_quantity};
 use super::sums::{MachineSums, mean};
 use super::tally::MachineTally;
 use crate::events::{MachineEnd, Place};
-use crate::lyapunov::Measured;
 use crate::lyapunov::blocks::FEWEST;
+use crate::lyapunov::{Measured, Tail};
 use crate::machine::{Machine, MachineError};
 use crate::orbit::{MachineCycle, MachineFrame, MachineLap};
 use crate::quantities::quantity::Quantity;
 use crate::regime::ContactState;
-use crate::verdict::{MachineTail, MachineVerdict};
+use crate::verdict::Verdict;
+use crate::verdict::machine::State;
 
 /// The quantities of a motion of a machine, in its own units: of the whole machine, of the forces of each order, of its
 /// stops, friction joints and coordinates ([`MachinePart::quantities`] lists those of each).
@@ -116,12 +117,12 @@ pub fn machine_cycle_quantities(machine: &Machine, cycle: &MachineCycle) -> Opti
 /// `None` for an undecided motion. A motion without a further event that does not settle, as one without damping,
 /// depends on its start: only what its stops do not do is known.
 #[must_use]
-pub fn machine_quantities(machine: &Machine, verdict: &MachineVerdict) -> Option<MachineQuantities> {
+pub fn machine_quantities(machine: &Machine, verdict: &Verdict<Machine>) -> Option<MachineQuantities> {
     match verdict {
-        MachineVerdict::Periodic(cycle) => machine_cycle_quantities(machine, cycle),
-        MachineVerdict::NoImpact(tail) | MachineVerdict::Stuck(tail) => Some(quiet(machine, &tail.from)),
-        MachineVerdict::Chaotic { tail, .. } => measured(machine, tail),
-        MachineVerdict::Undecided { .. } => None,
+        Verdict::Periodic(cycle) => machine_cycle_quantities(machine, cycle),
+        Verdict::NoImpact(last) | Verdict::Stuck(last) => Some(quiet(machine, &last.place)),
+        Verdict::Chaotic(chaos) => measured(machine, &chaos.tail),
+        Verdict::Undecided(_) => None,
     }
 }
 
@@ -203,13 +204,13 @@ fn steady(frame: &MachineFrame<'_>, from: &Place) -> Option<MachineQuantities> {
 }
 
 /// The quantities of a chaotic motion over its last steps.
-fn measured(machine: &Machine, tail: &MachineTail) -> Option<MachineQuantities> {
+fn measured(machine: &Machine, tail: &Tail<State>) -> Option<MachineQuantities> {
     let frame = MachineFrame::new(machine);
     let mut tally = MachineTally::new(&frame);
-    let mut motion = frame.resume(tail.from.clone()).limited(frame.limits().time);
-    let wanted = tail.steps.min(FEWEST as u64);
+    let mut motion = frame.resume(tail.from.place.clone()).limited(frame.limits().time);
+    let wanted = tail.impacts.min(FEWEST as u64);
     let mut blocks = Vec::new();
-    for count in 1..=tail.steps {
+    for count in 1..=tail.impacts {
         let begin = motion.place().clone();
         let passage = motion.step()?;
         if motion.end().is_some() {
@@ -219,7 +220,7 @@ fn measured(machine: &Machine, tail: &MachineTail) -> Option<MachineQuantities> 
         tally.event(&passage, &motion.take_events());
         tally.chatter(&passage, f64::INFINITY);
         // block k ends with step number (k + 1) n / wanted
-        if count >= (blocks.len() as u64 + 1) * tail.steps / wanted {
+        if count >= (blocks.len() as u64 + 1) * tail.impacts / wanted {
             blocks.push(tally.take());
         }
     }
