@@ -13,7 +13,8 @@ use vibroimpact::continuation::MachinePoint;
 use vibroimpact::events::{MachineEnd, MachineLimits};
 use vibroimpact::machine::{Machine, StopLaw};
 use vibroimpact::orbit::MachineCycle;
-use vibroimpact::quantities::{MachinePart, MachineQuantity, Quantity, machine_quantities};
+use vibroimpact::quantities::machine::Part;
+use vibroimpact::quantities::{Quantity, machine_quantities};
 use vibroimpact::verdict::{Chaos, Stability, Undecided, UndecidedCause, Verdict};
 use vibroimpact_report::MachineAnswer;
 use vibroimpact_report::json::undecided;
@@ -174,26 +175,26 @@ fn motion(machine: &Machine, verdict: &Verdict<Machine>) -> String {
 fn quantities(machine: &Machine, verdict: &Verdict<Machine>) -> String {
     let Some(found) = machine_quantities(machine, verdict) else { return String::new() };
     let mut text = String::new();
-    let whole = |quantity| found.get(MachinePart::Whole, quantity);
+    let whole = |quantity| found.get(Part::Whole, quantity);
     let lost = [
-        (MachineQuantity::Common(Quantity::ImpactPower), "impacts"),
-        (MachineQuantity::ContactPower, "dampers of stops"),
-        (MachineQuantity::FrictionPower, "friction"),
-        (MachineQuantity::Common(Quantity::DampingPower), "damping"),
+        (Quantity::ImpactPower, "impacts"),
+        (Quantity::ContactPower, "dampers of stops"),
+        (Quantity::FrictionPower, "friction"),
+        (Quantity::DampingPower, "damping"),
     ];
-    let power = whole(MachineQuantity::Common(Quantity::Power));
+    let power = whole(Quantity::Power);
     let lost = lost.map(|(quantity, name)| (whole(quantity), name)).into_iter().filter(|(lost, _)| *lost > 0.0);
     let lost: Vec<String> = lost.map(|(lost, name)| format!("{} in {name}", short(lost))).collect();
     if power.is_finite() && !lost.is_empty() {
         let _ = writeln!(text, "  power {}: lost {}", short(power), lost.join(", "));
     }
     for (j, stop) in machine.stops().iter().enumerate() {
-        let of = |quantity| found.get(MachinePart::Stop(j), quantity);
-        let speed = of(MachineQuantity::Common(Quantity::ImpactSpeedMax));
+        let of = |quantity| found.get(Part::Stop(j), quantity);
+        let speed = of(Quantity::ImpactSpeedMax);
         if speed > 0.0 {
             let (what, most) = match stop.law {
-                StopLaw::Rigid { .. } => ("impulse", MachineQuantity::Common(Quantity::ImpulseMax)),
-                StopLaw::Compliant { .. } => ("force", MachineQuantity::ForceMax),
+                StopLaw::Rigid { .. } => ("impulse", Quantity::ImpulseMax),
+                StopLaw::Compliant { .. } => ("force", Quantity::ForceMax),
             };
             let _ =
                 writeln!(text, "  {}: speed at most {}, {what} at most {}", stop.name, short(speed), short(of(most)));

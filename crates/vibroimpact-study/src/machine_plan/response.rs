@@ -16,9 +16,8 @@ use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 use vibroimpact::math::sort_by;
 use vibroimpact::orbit::MachineCycle;
-use vibroimpact::quantities::{
-    MachineQuantities, machine_cycle_quantities, machine_quantities, machine_quantity_paths,
-};
+use vibroimpact::quantities::machine::Quantities;
+use vibroimpact::quantities::{machine_cycle_quantities, machine_quantities, machine_quantity_paths};
 use vibroimpact::verdict::Verdict;
 
 /// A quantity of all motions over the values of one number of a machine.
@@ -78,7 +77,7 @@ impl Ground<'_> {
         self.varied.at(&[value])
     }
 
-    fn all(&self, found: Option<MachineQuantities>) -> Vec<f64> {
+    fn all(&self, found: Option<Quantities>) -> Vec<f64> {
         found.map_or_else(|| vec![f64::NAN; self.names.len()], |found| found.iter().map(|(.., of)| of.value).collect())
     }
 

@@ -68,7 +68,7 @@ pub fn of_arrivals(
         if tally.flights() {
             tally.add(&Segment::Flight { flight: Flight::new(osc, from.rebound(osc)), duration: *duration });
         } else {
-            tally.time += duration;
+            tally.pass(*duration);
         }
         tally.add(&Segment::Impact { side: state.side, speed: state.velocity });
         from = *state;
