@@ -28,7 +28,7 @@ pub(super) fn kaplan_yorke(exponents: &[Measured], exact_sum: f64, blocks: &[Blo
     }
     let (mut whole, mut sum) = (0.0, 0.0);
     for (j, of) in exponents.iter().enumerate() {
-        if sum + of.value < 0.0 && !(exact_sum >= 0.0) {
+        if sum + of.value < 0.0 && (exact_sum.is_nan() || exact_sum < 0.0) {
             let part = if blocks.is_empty() {
                 Measured::exact(-sum / of.value)
             } else {

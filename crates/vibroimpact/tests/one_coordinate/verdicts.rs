@@ -54,7 +54,7 @@ fn the_same_motions() {
             _ if expected.label() == found.label() => others += 1,
             // after a long flight without impact the oscillator claims nothing beyond
             (Verdict::NoImpact(NoImpact::ForPeriods(_)) | Verdict::Undecided(_), _) | (_, Verdict::Undecided(_)) => {
-                undecided += 1
+                undecided += 1;
             }
             _ if beside(&system, &options).any(|label| label == found.label()) => sensitive += 1,
             _ => fault("labels".to_owned()),

@@ -122,24 +122,12 @@ pub(super) fn settle_alone(
         if !go_on() {
             return Ok(None);
         }
-        match follow.step(options) {
-            Stepped::On => {}
-            Stepped::Decided(verdict) => return Ok(Some(follow.settled(verdict))),
-            Stepped::NoMore => break,
+        if let Some(verdict) = follow.step(options) {
+            return Ok(Some(follow.settled(verdict)));
         }
     }
     let verdict = follow.last_look(options);
     Ok(Some(follow.settled(verdict)))
-}
-
-/// What a step of a motion shows.
-enum Stepped {
-    /// Nothing yet.
-    On,
-    /// The motion.
-    Decided(Verdict<Machine>),
-    /// There is no further step.
-    NoMore,
 }
 
 /// The record of a motion that a machine follows itself.
@@ -183,9 +171,9 @@ impl<'a> Follow<'a> {
         count < most || options.extend && self.record.undecided_measurement() && count < 3 * most
     }
 
-    /// Follows the motion by a step.
-    fn step(&mut self, options: &SettleOptions) -> Stepped {
-        let Some((step, seen)) = Step::next(&mut self.motion) else { return Stepped::NoMore };
+    /// Follows the motion by a step; returns the verdict if it is decided.
+    fn step(&mut self, options: &SettleOptions) -> Option<Verdict<Machine>> {
+        let Some((step, seen)) = Step::next(&mut self.motion) else { return Some(self.last_look(options)) };
         self.events += seen.len() as u64;
         let before = core::mem::replace(&mut self.time, self.motion.time());
         if let Some(end) = self.motion.end() {
@@ -193,27 +181,28 @@ impl<'a> Follow<'a> {
             let verdict = match end {
                 MachineEnd::Never => Verdict::NoImpact(last),
                 MachineEnd::Stuck => Verdict::Stuck(last),
-                end => return Stepped::Decided(self.undecided(UndecidedCause::Ended(end))),
+                end => return Some(self.undecided(UndecidedCause::Ended(end))),
             };
             self.time = before;
-            return Stepped::Decided(verdict);
+            return Some(verdict);
         }
         self.measure_size(&step);
         let (interval, step) = (step.passage.time(), Arc::new(step));
         self.record.push(options, step.clone(), interval);
-        if let Some(verdict) = self.release(&step) {
-            return Stepped::Decided(verdict);
+        let released = self.release(&step);
+        if released.is_some() {
+            return released;
         }
         if self.record.count().is_multiple_of(64) {
             self.system.frame.keep(&self.motion);
         }
         match self.record.decide(&self.system, options, &step, interval) {
-            Some(Shown::Cycle(cycle)) => return Stepped::Decided(Verdict::Periodic(cycle)),
+            Some(Shown::Cycle(cycle)) => return Some(Verdict::Periodic(cycle)),
             // chaos of a machine is often a transient of thousands of events: the motion is followed to the end of the budget
             Some(Shown::Chaos((spectrum, ()))) => self.over = Some(self.chaos(spectrum)),
             None => {}
         }
-        Stepped::On
+        None
     }
 
     /// Includes a step in the size of the motion, to which distances are relative.
