@@ -103,7 +103,7 @@ pub struct Exponents<S: System = Oscillator> {
     /// The measured sum of all. Its error is smaller than theirs, because they are correlated.
     pub sum: Measured,
     /// The exact sum: $`2\,\overline{\ln\varepsilon}\,\nu - 2\zeta`$ with the impacts that were measured. The
-    /// difference from `sum` is the rounding error of the measurement. NaN for a machine.
+    /// difference from `sum` is the rounding error of the measurement. NaN for a machine whose exponents are measured.
     pub identity: f64,
     /// Impacts per unit of time; infinite with a complete chatter in each period of a cycle, NaN if impacts fade away. Of a
     /// machine, closings of stops.
