@@ -33,7 +33,7 @@ use vibroimpact_study::{DEFAULT_GRID, MachineRegionPlan, MachineTask, Plan, Regi
         vibro region --label 1/2 --inverse-beta 1.11 --gap 0:3 \\\n    \
         --restitution 0.2:0.9 --plot plane.png\n  \
         vibro region --machine fukaya-irie-1971 --label 1/1 \\\n    \
-        --axis inverse_beta=0.4:2 --axis delta=-1:5 --csv region.csv",
+        --axis inverse_beta=1.05:1.2 --axis delta=1:2.5 --csv machine-region.csv",
     mut_arg("csv", |arg| arg.help(
         "Write one row a vertex to this file; - for stdout. Columns: region (existence or stability), polygon, \
         hole, sheet (below: multipliers below +1, or above), both parameters, and what bounds the region from \
