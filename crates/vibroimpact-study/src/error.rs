@@ -292,6 +292,12 @@ pub enum PlanError {
         "a basin needs an axis over x, v or phase\nhint: which motions there are at points of a plane of parameters is a map"
     )]
     NoStartAxis,
+    /// A task of a machine for an oscillator.
+    #[error("the task is one of a machine, and the system is an oscillator")]
+    OfMachine,
+    /// A task of an oscillator for a machine.
+    #[error("the task is one of an oscillator, and the system is a machine")]
+    OfOscillator,
     /// A task without a grid, which cannot be stored as a study.
     #[error(
         "a plan that asks to {0} fills no grid, so there is nothing to store\nhint: tasks for a store are map, basin, attractors, diagram and lyapunov"

@@ -8,7 +8,7 @@
 //! | idea | file |
 //! |---|---|
 //! | a plan, and the one function that turns it into its result | [`Plan`], [`run`], [`Results`] |
-//! | the parts of a plan: system, start, task | [`SystemPlan`], [`StartPlan`], [`Task`] |
+//! | the parts of a plan: system, start, task | [`System`], [`SystemPlan`], [`StartPlan`], [`Task`] |
 //! | numbers as people type them | [`typed`] |
 //! | `A:B:N`, N values from A to B; a quantity and the values it takes | [`Span`], [`Axis`] |
 //! | a grid and its tiles, the arrays over it | [`Grid`], [`Field`] |
@@ -30,7 +30,7 @@
 //! | a parameter and its range; a line through one or two of them | [`Stretch`], [`Cut`] |
 //! | the parameters of the core in plans | [`Parameter`], `parameter` |
 //! | machines as they are written, and their catalogue | [`machine`] |
-//! | a plan of a machine, and the one function that turns it into its result | [`MachinePlan`], [`run_machine`] |
+//! | the tasks of machines, and their results | [`MachineTask`], [`MachineResults`] |
 //! | an oscillator in SI units; the units of a plan | [`PhysicalPlan`], [`UnitsPlan`] |
 //! | the quantities of a motion that a plan asks for | [`Quantity`], `quantity` |
 
@@ -96,9 +96,9 @@ pub use machine_plan::{
     MachineAxis, MachineBasin, MachineBasinPlan, MachineBranchPlan, MachineBranched, MachineCurvePlan, MachineCut,
     MachineDiagram, MachineDiagramPlan, MachineDiagramPoint, MachineDiagramStep, MachineEventCurve, MachineFollowed,
     MachineFollowedEvent, MachineLine, MachineLyapunovPlan, MachineManyPlan, MachineMap, MachineMapPlan,
-    MachineMargins, MachineMarginsPlan, MachineOrigin, MachinePlan, MachineResponsePlan, MachineResults,
+    MachineMargins, MachineMarginsPlan, MachineOrigin, MachineResponsePlan, MachineResults,
     MachineSection, MachineShare, MachineSimulated, MachineStretch, MachineTarget, MachineTask, NumberEvent,
-    NumberMargin, events_with_states, is_machine_plan, machine_label, run_machine,
+    NumberMargin, events_with_states, machine_label,
 };
 pub use map::{MapPlan, MapPoint, RegionMap, Share};
 pub use margins::{
@@ -108,6 +108,7 @@ pub use margins::{
 pub use parameter::{Parameter, is_length};
 pub use physical::PhysicalPlan;
 pub use plan::{Plan, Task};
+pub use plan_text::is_machine_plan;
 pub use points::{DrawnPoints, ListedColumn, PointRange, PointRule, PointsPlan};
 pub use quantity::{Quantities, Quantity, unknown as unknown_quantity};
 pub use region::{DEFAULT_GRID, RegionPlan, Regions, stability_regions};
@@ -117,8 +118,8 @@ pub use simulate::{SEARCH_LIMIT, Simulated, simulate};
 pub use simulate_many::{real_numbers, simulate_points};
 pub use span::Span;
 pub use stretch::Stretch;
-pub use study::{Study, StudyPlan};
-pub use system::{SecondStop, StartPlan, SystemPlan};
+pub use study::Study;
+pub use system::{SecondStop, StartPlan, System, SystemPlan};
 pub use text::{TextError, TextPlace};
 pub use unit::Unit;
 pub use units::{FramePlan, UnitsPlan, natural_hertz};

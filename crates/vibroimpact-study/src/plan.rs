@@ -4,36 +4,54 @@
 //! documented here. Unknown fields are errors, so a misspelt parameter is not ignored.
 
 use crate::limits::{MOST_STARTS, PLAN_VERSION, starts};
+use crate::machine::MachineSource;
+use crate::machine_plan::MachineTask;
 use crate::map::check_impacts;
 use crate::simulate::most_impacts;
 use crate::{
     BasinPlan, BranchPlan, CurvePlan, DiagramPlan, LyapunovPlan, MapPlan, MarginsPlan, Parameter, PlanError,
-    RegionPlan, ResponsePlan, StartPlan, SystemPlan, UnitsPlan,
+    RegionPlan, ResponsePlan, StartPlan, System, SystemPlan, UnitsPlan,
 };
 use serde::{Deserialize, Serialize};
 use vibroimpact::Label;
 
 /// A question: a system and a task.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, try_from = "crate::plan_text::PlanText")]
+///
+/// ```
+/// use vibroimpact_study::{Control, Plan, Results, run};
+/// let plan = Plan::from_text(r#"
+///     version = 1
+///     [start]
+///     q = [0.5]
+///     [machine]
+///     bodies = { ball = 1 }
+///     constant = { ball = -1 }
+///     stop = [{ name = "floor", between = ["ground", "ball"], gap = 0, restitution = 0.5 }]
+///     [task.simulate]
+///     impacts = 3
+/// "#)?;
+/// let Results::Machine(results) = run(&plan, &Control::default())? else { unreachable!() };
+/// let vibroimpact_study::MachineResults::Simulate(found) = results else { unreachable!() };
+/// assert_eq!(found.events.iter().map(|event| event.time).collect::<Vec<_>>(), [1.0, 2.0, 2.5]);
+/// assert_eq!(Plan::from_text(&plan.to_toml())?, plan);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// The version of the fields, [`PLAN_VERSION`].
     pub version: u32,
-    /// The oscillator. What varies on an axis has its first value here, and need not be written; for a region, what varies
-    /// has its smallest value.
-    pub system: SystemPlan,
+    /// The system. What varies on an axis over an oscillator has its first value here, and need not be written; for a
+    /// region, what varies has its smallest value.
+    pub system: System,
     /// The task that is computed for the system.
     pub task: Task,
     /// Points of a tile along each axis, where results are stored; each task has a size of its own when absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tile: Option<u32>,
     /// Tiles of a shard along each axis, where results are stored; 1 for no shards. When absent, a store has shards if it
     /// has more than 4096 tiles.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<u32>,
     /// The physical units in which results are reported; nondimensional when absent. Numbers of the plan are
-    /// nondimensional, in these units, unless their names end in a unit.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// nondimensional, in these units, unless their names end in a unit. A machine has the units of its numbers.
     pub units: Option<UnitsPlan>,
 }
 
@@ -69,8 +87,31 @@ pub(crate) fn check_shard(shard: Option<u32>) -> Result<(), PlanError> {
 impl Plan {
     /// A plan of the current version.
     #[must_use]
-    pub const fn new(system: SystemPlan, task: Task) -> Self {
-        Self { version: PLAN_VERSION, system, task, tile: None, shard: None, units: None }
+    pub fn new(system: impl Into<System>, task: impl Into<Task>) -> Self {
+        Self { version: PLAN_VERSION, system: system.into(), task: task.into(), tile: None, shard: None, units: None }
+    }
+
+    /// The oscillator; `None` for a machine.
+    #[must_use]
+    pub const fn oscillator(&self) -> Option<&SystemPlan> {
+        self.system.oscillator()
+    }
+
+    /// The machine; `None` for an oscillator.
+    #[must_use]
+    pub fn machine(&self) -> Option<&MachineSource> {
+        self.system.machine()
+    }
+
+    /// Whether the task fills a grid over axes, which a store keeps.
+    #[must_use]
+    pub const fn fills_a_grid(&self) -> bool {
+        match &self.task {
+            Task::Basin(_) | Task::Map(_) | Task::Diagram(_) => true,
+            Task::Lyapunov(lyapunov) => !lyapunov.axes.is_empty(),
+            Task::Machine(task) => task.fills_a_grid(),
+            _ => false,
+        }
     }
 
     /// An identifier of the content: the first 16 digits of the SHA-256 of the plan as JSON.
@@ -83,6 +124,13 @@ impl Plan {
     #[must_use]
     pub fn title(&self) -> String {
         let over = |axes: &[crate::Axis]| axes.iter().map(|axis| axis.vary.name()).collect::<Vec<_>>().join(", ");
+        if let System::Machine(machine) = &self.system {
+            let name = machine.title.as_deref().unwrap_or("a machine");
+            return match &self.task {
+                Task::Machine(task) => task.title(name),
+                _ => name.to_owned(),
+            };
+        }
         match &self.task {
             Task::Map(map) => format!("motions of an impact oscillator over {}", over(&map.axes)),
             Task::Basin(basin) => {
@@ -113,7 +161,9 @@ impl Plan {
             Task::Simulate { impacts, periods, .. } => *impacts = Some(most_impacts(*impacts, *periods)),
             Task::Region(region) => {
                 let (p, q) = (region.across, region.up);
-                plan.system = plan.system.with(p.parameter, p.from)?.with(q.parameter, q.from)?;
+                if let System::Oscillator(system) = &mut plan.system {
+                    *system = system.with(p.parameter, p.from)?.with(q.parameter, q.from)?;
+                }
             }
             _ => {}
         }
@@ -130,6 +180,7 @@ impl Plan {
             Task::Diagram(diagram) => Some(((diagram.over.count() as u64).saturating_mul(diagram.runs()), "motions")),
             Task::Region(_) => Some((2, "regions")),
             Task::Response(response) => Some((response.motions(), "motions")),
+            Task::Machine(task) => task.work(),
             _ => None,
         }
     }
@@ -142,14 +193,34 @@ impl Plan {
         if self.version != PLAN_VERSION {
             return Err(PlanError::Version(self.version));
         }
-        let osc = self.system.oscillator()?;
         check_tile(self.tile)?;
         check_shard(self.shard)?;
-        if let Some(units) = &self.units {
-            units.check(&self.system)?;
+        match &self.system {
+            System::Oscillator(system) => {
+                if let Some(units) = &self.units {
+                    units.check(system)?;
+                }
+                self.task.check(system)
+            }
+            System::Machine(machine) => self.task.of_machine()?.check(machine),
         }
-        match &self.task {
-            Task::Simulate { start, impacts, periods } => {
+    }
+}
+
+impl Task {
+    /// The task of a machine.
+    ///
+    /// # Errors
+    /// [`PlanError::OfOscillator`] for a task of an oscillator.
+    pub(crate) const fn of_machine(&self) -> Result<&MachineTask, PlanError> {
+        if let Self::Machine(task) = self { Ok(task) } else { Err(PlanError::OfOscillator) }
+    }
+
+    /// Checks the task of an oscillator.
+    fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
+        let osc = system.oscillator()?;
+        match self {
+            Self::Simulate { start, impacts, periods } => {
                 if let Some(n) = impacts.filter(|n| !(1..=10_000_000).contains(n)) {
                     return Err(PlanError::Impacts(n));
                 }
@@ -158,21 +229,22 @@ impl Plan {
                 }
                 start.start(&osc).map(|_| ())
             }
-            Task::Settle { start, impacts } => {
+            Self::Settle { start, impacts } => {
                 check_impacts(*impacts)?;
                 start.start(&osc).map(|_| ())
             }
-            Task::Attractors { starts: n, impacts, .. } => starts(*n, MOST_STARTS).and(check_impacts(*impacts)),
-            Task::Orbit { label } => Ok(label.parse::<Label>().map(|_| ())?),
-            Task::Basin(basin) => basin.check(&self.system),
-            Task::Map(map) => map.check(&self.system),
-            Task::Diagram(diagram) => diagram.check(&self.system),
-            Task::Lyapunov(lyapunov) => lyapunov.check(&self.system),
-            Task::Branch(branch) => branch.check(&self.system),
-            Task::Curve(curve) => curve.check(&self.system),
-            Task::Region(region) => region.check(&self.system),
-            Task::Response(response) => response.check(&self.system),
-            Task::Margins(margins) => margins.check(&self.system),
+            Self::Attractors { starts: n, impacts, .. } => starts(*n, MOST_STARTS).and(check_impacts(*impacts)),
+            Self::Orbit { label } => Ok(label.parse::<Label>().map(|_| ())?),
+            Self::Basin(basin) => basin.check(system),
+            Self::Map(map) => map.check(system),
+            Self::Diagram(diagram) => diagram.check(system),
+            Self::Lyapunov(lyapunov) => lyapunov.check(system),
+            Self::Branch(branch) => branch.check(system),
+            Self::Curve(curve) => curve.check(system),
+            Self::Region(region) => region.check(system),
+            Self::Response(response) => response.check(system),
+            Self::Margins(margins) => margins.check(system),
+            Self::Machine(_) => Err(PlanError::OfMachine),
         }
     }
 }
@@ -231,6 +303,15 @@ pub enum Task {
     Response(ResponsePlan),
     /// The distances of a motion from its nearest events.
     Margins(MarginsPlan),
+    /// A task of a machine.
+    #[serde(skip)]
+    Machine(MachineTask),
+}
+
+impl From<MachineTask> for Task {
+    fn from(task: MachineTask) -> Self {
+        Self::Machine(task)
+    }
 }
 
 #[cfg(test)]
@@ -238,10 +319,19 @@ mod tests {
     use super::*;
     use crate::Stretch;
 
+    const SYSTEM: SystemPlan = SystemPlan {
+        beta: None,
+        inverse_beta: Some(1.3),
+        gap: 0.75,
+        restitution: 0.5,
+        damping: 0.0,
+        second_stop: None,
+        machine: None,
+    };
+
     fn plan() -> Plan {
-        let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.75, restitution: 0.5, ..SystemPlan::default() };
         let basin = BasinPlan::plane("-3:0.75:4".parse().unwrap(), "-1:1:3".parse().unwrap(), 0.0);
-        Plan::new(system, Task::Basin(basin))
+        Plan::new(SYSTEM, Task::Basin(basin))
     }
 
     #[test]
@@ -256,10 +346,10 @@ mod tests {
     #[test]
     fn nonsense_is_refused_before_anything_runs() {
         let mut beyond = plan();
-        beyond.system.gap = 0.5;
+        beyond.system = SystemPlan { gap: 0.5, ..SYSTEM }.into();
         assert!(beyond.check().unwrap_err().to_string().contains("beyond the stop"));
         let mut twice = plan();
-        twice.system.beta = Some(1.0);
+        twice.system = SystemPlan { beta: Some(1.0), ..SYSTEM }.into();
         assert_eq!(twice.check(), Err(PlanError::Frequency("twice")));
         let mut later = plan();
         later.version = 2;
@@ -305,7 +395,8 @@ mod tests {
         let (across, up) = (over(Parameter::Beta, 0.5, 0.6), over(Parameter::Gap, -1.0, 2.0));
         let region = Task::Region(RegionPlan { label: "1/1".into(), across, up, grid: 3 });
         let region = Plan { task: region, ..plan() };
-        let system = region.complete().unwrap().system;
+        let complete = region.complete().unwrap();
+        let system = complete.oscillator().unwrap();
         assert_eq!((system.beta, system.inverse_beta, system.gap), (Some(0.5), None, -1.0));
         assert_eq!(region.work(), Some((2, "regions")));
     }

@@ -9,8 +9,8 @@ use crate::region::regions;
 use crate::response::response;
 use crate::simulate::simulate;
 use crate::{
-    Basin, Branches, Control, Diagram, EventCurve, MotionMargins, Plan, PlanError, RegionMap, Regions, ResponseCurves,
-    RunError, Simulated, Stopped, Task,
+    Basin, Branches, Control, Diagram, EventCurve, MachineResults, MotionMargins, Plan, PlanError, RegionMap, Regions,
+    ResponseCurves, RunError, Simulated, Stopped, System, SystemPlan, Task, machine_plan,
 };
 use core::sync::atomic::{AtomicU64, Ordering};
 use vibroimpact::chaos::{Exponents, Section, exponents_while, section_while};
@@ -48,6 +48,8 @@ pub enum Results {
     Response(ResponseCurves),
     /// The distances of a motion from its nearest events.
     Margins(MotionMargins),
+    /// The result of a task of a machine.
+    Machine(MachineResults),
 }
 
 /// Number of impacts of one motion between two reports.
@@ -71,7 +73,16 @@ const TELL: u64 = 1024;
 /// single result; it is computed as a [`Study`](crate::Study).
 pub fn run(plan: &Plan, control: &Control<'_>) -> Result<Results, RunError> {
     plan.check()?;
-    let system = &plan.system;
+    match &plan.system {
+        System::Oscillator(system) => run_oscillator(system, plan, control),
+        System::Machine(machine) => {
+            Ok(Results::Machine(machine_plan::run(machine, plan.task.of_machine()?, control)?))
+        }
+    }
+}
+
+/// Computes the result of the task of an oscillator, which was checked.
+fn run_oscillator(system: &SystemPlan, plan: &Plan, control: &Control<'_>) -> Result<Results, RunError> {
     let osc = system.oscillator()?;
     // one motion reports its impacts
     let impacts = AtomicU64::new(0);
@@ -123,5 +134,6 @@ pub fn run(plan: &Plan, control: &Control<'_>) -> Result<Results, RunError> {
         Task::Region(task) => Results::Region(regions(system, task, control)?),
         Task::Response(task) => Results::Response(response(system, task, control)?),
         Task::Margins(task) => Results::Margins(margins(system, task, control)?),
+        Task::Machine(_) => return Err(PlanError::OfMachine.into()),
     })
 }

@@ -268,7 +268,7 @@ fn origins(points: &[MachinePoint]) -> impl Iterator<Item = MachinePoint> + '_ {
 mod tests {
     use super::*;
     use crate::machine::CATALOGUE;
-    use crate::{MachinePlan, MachineResults, MachineTask, run_machine};
+    use crate::{MachineResults, MachineTask, Plan, Results, run};
 
     fn hammer() -> MachineSource {
         CATALOGUE.iter().find(|entry| entry.name == "two-mass-hammer").unwrap().source().unwrap()
@@ -280,8 +280,8 @@ mod tests {
     }
 
     fn followed(source: &MachineSource, plan: &MachineBranchPlan) -> MachineBranched {
-        let plan = MachinePlan::new(source.clone(), MachineTask::Branch(plan.clone()));
-        let MachineResults::Branch(found) = run_machine(&plan, &Control::default()).unwrap() else { panic!() };
+        let plan = Plan::new(source.clone(), MachineTask::Branch(plan.clone()));
+        let Results::Machine(MachineResults::Branch(found)) = run(&plan, &Control::default()).unwrap() else { panic!() };
         found
     }
 
@@ -320,8 +320,8 @@ mod tests {
         // the stable one by default
         assert_eq!(begins(None), two);
         let refused = |plan: MachineBranchPlan| {
-            let plan = MachinePlan::new(source.clone(), MachineTask::Branch(plan));
-            run_machine(&plan, &Control::default()).unwrap_err().to_string()
+            let plan = Plan::new(source.clone(), MachineTask::Branch(plan));
+            run(&plan, &Control::default()).unwrap_err().to_string()
         };
         for orbit in [0, 3] {
             let said = refused(of(Some(orbit)));

@@ -211,13 +211,13 @@ pub(super) fn curve(
 mod tests {
     use super::*;
     use crate::machine::CATALOGUE;
-    use crate::{MachinePlan, MachineResults, MachineTask, run_machine};
+    use crate::{MachineResults, MachineTask, Plan, Results, run};
 
-    fn plan(kind: MachineFollowedEvent, event: Option<u32>) -> MachinePlan {
+    fn plan(kind: MachineFollowedEvent, event: Option<u32>) -> Plan {
         let entry = CATALOGUE.iter().find(|entry| entry.name == "bouncing-ball").unwrap();
         let source = entry.source().unwrap().with("Gamma", 1.2).unwrap();
         let stretch = |path: &str, from, to| MachineStretch { path: path.to_owned(), from, to };
-        MachinePlan::new(
+        Plan::new(
             source,
             MachineTask::Curve(MachineCurvePlan {
                 label: Some("1/1".to_owned()),
@@ -236,8 +236,8 @@ mod tests {
     fn the_ball_on_a_table() {
         let plan = plan(MachineFollowedEvent::Fold, None);
         let text = serde_json::to_string(&plan).unwrap();
-        assert_eq!(serde_json::from_str::<MachinePlan>(&text).unwrap(), plan);
-        let MachineResults::Curve(found) = run_machine(&plan, &Control::default()).unwrap() else { panic!() };
+        assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan);
+        let Results::Machine(MachineResults::Curve(found)) = run(&plan, &Control::default()).unwrap() else { panic!() };
         assert!(found.points.len() > 20 && found.points[found.begin].event.is_none());
         for point in &found.points {
             let (gamma, e) = point.values;
@@ -248,7 +248,7 @@ mod tests {
 
     #[test]
     fn nonsense_is_refused() {
-        let told = |plan: &MachinePlan| run_machine(plan, &Control::default()).unwrap_err().to_string();
+        let told = |plan: &Plan| run(plan, &Control::default()).unwrap_err().to_string();
         assert!(told(&plan(MachineFollowedEvent::Torus, None)).starts_with("no torus was found on the branch of 1/1"));
         assert!(
             told(&plan(MachineFollowedEvent::Flip, Some(4))).starts_with("there is no flip number 4 on the branch")

@@ -121,14 +121,14 @@ fn settled(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{DrawnPoints, MachinePlan, MachineResults, MachineTask, PointRange, PointRule, run_machine};
+    use crate::{DrawnPoints, Plan, MachineResults, MachineTask, PointRange, PointRule, Results, run};
 
     fn settled(source: &MachineSource, points: PointsPlan<String>) -> MachineMap {
         let fields = vec!["power".to_owned()];
         let task = MachineTask::SettleMany(MachineManyPlan { points, impacts: None, fields });
-        let plan = MachinePlan::new(source.clone(), task);
-        assert_eq!(MachinePlan::from_text(&plan.to_toml(), crate::machine::no_files).unwrap(), plan);
-        let MachineResults::Map(found) = run_machine(&plan, &Control::default()).unwrap() else { panic!() };
+        let plan = Plan::new(source.clone(), task);
+        assert_eq!(Plan::from_text(&plan.to_toml()).unwrap(), plan);
+        let Results::Machine(MachineResults::Map(found)) = run(&plan, &Control::default()).unwrap() else { panic!() };
         found
     }
 
@@ -146,11 +146,10 @@ mod tests {
         let columns = found.points.clone();
         for (k, cell) in found.cells.iter().enumerate() {
             let [frequency, head] = [0, 1].map(|column| columns[column].values[k]);
-            let alone =
-                MachinePlan::new(source.with("frequency", frequency).unwrap(), MachineTask::Settle { impacts: None });
-            let alone =
-                alone.starting(&MachineStart { q: vec![0.0, head], qdot: vec![0.0; 2], ..MachineStart::default() });
-            let MachineResults::Settle(alone) = run_machine(&alone, &Control::default()).unwrap() else { panic!() };
+            let start = MachineStart { q: vec![0.0, head], qdot: vec![0.0; 2], ..MachineStart::default() };
+            let there = source.with("frequency", frequency).unwrap().starting(&start);
+            let alone = Plan::new(there, MachineTask::Settle { impacts: None });
+            let Results::Machine(MachineResults::Settle(alone)) = run(&alone, &Control::default()).unwrap() else { panic!() };
             assert_eq!(cell[0].label(), alone.verdict.label(), "{k}");
             assert!(cell[0].quantities[0].is_finite());
         }

@@ -191,7 +191,7 @@ fn margin(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{MachineBranchPlan, MachinePlan, MachineResults, MachineTask, run_machine};
+    use crate::{MachineBranchPlan, Plan, MachineResults, MachineTask, Results, run};
 
     /// The nearest events are those of the branches in each number alone.
     #[test]
@@ -199,9 +199,9 @@ mod tests {
         let source = MachineSource::open("two-mass-hammer").unwrap();
         let vary = vec!["frequency".to_owned(), "stop.anvil.gap".to_owned(), "stop.anvil.restitution".to_owned()];
         let task = MachineTask::Margins(MachineMarginsPlan { label: None, vary: vary.clone(), within: 2.0 });
-        let plan = MachinePlan::new(source.clone(), task);
-        assert_eq!(MachinePlan::from_text(&plan.to_toml(), crate::machine::no_files).unwrap(), plan);
-        let MachineResults::Margins(found) = run_machine(&plan, &Control::default()).unwrap() else { panic!() };
+        let plan = Plan::new(source.clone(), task);
+        assert_eq!(Plan::from_text(&plan.to_toml()).unwrap(), plan);
+        let Results::Machine(MachineResults::Margins(found)) = run(&plan, &Control::default()).unwrap() else { panic!() };
         assert_eq!(found.motion.label(), "1/1");
         let mut events = 0;
         for (margin, path) in found.numbers.iter().zip(vary) {
@@ -215,8 +215,8 @@ mod tests {
                     points: 5000,
                     follow: 0,
                 };
-                let plan = MachinePlan::new(source.clone(), MachineTask::Branch(branch));
-                let MachineResults::Branch(branch) = run_machine(&plan, &Control::default()).unwrap() else { panic!() };
+                let plan = Plan::new(source.clone(), MachineTask::Branch(branch));
+                let Results::Machine(MachineResults::Branch(branch)) = run(&plan, &Control::default()).unwrap() else { panic!() };
                 let first = branch.points.iter().find(|point| point.event.is_some()).unwrap();
                 match event {
                     Some(event) => {

@@ -1,10 +1,10 @@
-//! Plans of machines: a machine as it is written, where it starts, and what is computed.
+//! The tasks of machines, their plans and their results.
 //!
 //! | idea | file |
 //! |---|---|
-//! | a plan, its checks | [`MachinePlan`], [`MachineTask`], `plan` |
+//! | the tasks, their checks | [`MachineTask`], `plan` |
 //! | a plan as TOML and JSON | `text` |
-//! | the function that turns a plan into its result | [`run_machine`], [`MachineResults`], `run` |
+//! | the results | [`MachineResults`], `run` |
 //! | what motions settle into | `verdicts` |
 //! | Lyapunov exponents | [`MachineLyapunovPlan`], `lyapunov` |
 //! | points of an attractor in two sections | [`MachineSection`], `section` |
@@ -51,9 +51,10 @@ pub use lyapunov::MachineLyapunovPlan;
 pub use many::MachineManyPlan;
 pub use margins::{MachineMargins, MachineMarginsPlan, NumberEvent, NumberMargin};
 pub use orbits::label as machine_label;
-pub use plan::{MachinePlan, MachineTask};
+pub use plan::MachineTask;
 pub use response::MachineResponsePlan;
-pub use run::{MachineResults, run_machine};
+pub use run::MachineResults;
+pub(crate) use run::run;
 pub use section::MachineSection;
 pub use simulate::{MachineSimulated, events_with_states};
-pub use text::is_machine_plan;
+pub(crate) use text::MachinePlanText;

@@ -1,4 +1,4 @@
-//! A plan of a machine: everything on which a result depends, and nothing else.
+//! The tasks of machines.
 
 use super::axis::MachineAxis;
 use super::branch::MachineBranchPlan;
@@ -13,48 +13,11 @@ use super::simulate::{check, most_events};
 use super::{orbits, verdicts};
 use crate::machine::{MachineSource, Named, NumberText, StartText, VectorText};
 use crate::map::check_impacts;
-use crate::plan::{check_shard, check_tile, hash_of};
-use crate::{PLAN_VERSION, PlanError};
+use crate::PlanError;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vibroimpact::events::{MachineLimits, MachineMotion, MachineStart};
 use vibroimpact::machine::Machine;
-
-/// A question about a machine.
-///
-/// ```
-/// use vibroimpact_study::{Control, MachinePlan, MachineResults, run_machine};
-/// let plan = MachinePlan::from_text(r#"
-///     version = 1
-///     [start]
-///     q = [0.5]
-///     [machine]
-///     bodies = { ball = 1 }
-///     constant = { ball = -1 }
-///     stop = [{ name = "floor", between = ["ground", "ball"], gap = 0, restitution = 0.5 }]
-///     [task.simulate]
-///     impacts = 3
-/// "#, vibroimpact_study::machine::no_files)?;
-/// let MachineResults::Simulate(found) = run_machine(&plan, &Control::default())? else { unreachable!() };
-/// assert_eq!(found.events.iter().map(|event| event.time).collect::<Vec<_>>(), [1.0, 2.0, 2.5]);
-/// assert_eq!(MachinePlan::from_text(&plan.to_toml(), vibroimpact_study::machine::no_files)?, plan);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "super::text::MachinePlanText", into = "super::text::MachinePlanText")]
-pub struct MachinePlan {
-    /// The version of the fields, [`PLAN_VERSION`].
-    pub version: u32,
-    /// The machine as it is written. Its table `[start]` is where the motion starts; at rest at 0 when absent.
-    pub machine: MachineSource,
-    /// What is computed.
-    pub task: MachineTask,
-    /// Points of a tile along each axis, where results are stored; each task has a size of its own when absent.
-    pub tile: Option<u32>,
-    /// Tiles of a shard along each axis, where results are stored; 1 for no shards. When absent, a store has shards if it
-    /// has more than 4096 tiles.
-    pub shard: Option<u32>,
-}
 
 /// What is computed for a machine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -115,47 +78,16 @@ const fn one() -> u64 {
     1
 }
 
-impl MachinePlan {
-    /// A plan of the current version.
-    #[must_use]
-    pub const fn new(machine: MachineSource, task: MachineTask) -> Self {
-        Self { version: PLAN_VERSION, machine, task, tile: None, shard: None }
-    }
-
-    /// The same plan with another start. Vectors that are empty are 0.
-    #[must_use]
-    pub fn starting(mut self, start: &MachineStart) -> Self {
-        let vector = |values: &[f64]| {
-            let list = values.iter().map(|value| NumberText::Value(*value)).collect();
-            (!values.is_empty()).then_some(VectorText::List(list))
-        };
-        let phase = (start.phase != 0.0).then_some(NumberText::Value(start.phase));
-        // contacts have names in a machine only; another file is refused later
-        let contacts = if start.contacts.is_empty() { None } else { self.machine.parts().ok() };
-        let contacts = contacts.map(|parts| StartText::of(start, &parts).contacts).unwrap_or_default();
-        let exact = Named(start.exact.clone());
-        let text = StartText { q: vector(&start.q), qdot: vector(&start.qdot), phase, contacts, exact };
-        self.machine.start = (text != StartText::default()).then_some(text);
-        self
-    }
-
-    /// An identifier of the content: the first 16 digits of the SHA-256 of the plan as JSON.
-    #[must_use]
-    pub fn hash(&self) -> String {
-        hash_of(self)
-    }
-
-    /// A title in words.
-    #[must_use]
-    pub fn title(&self) -> String {
-        let name = self.machine.title.as_deref().unwrap_or("a machine");
+impl MachineTask {
+    /// A title in words, of a machine with this title.
+    pub(crate) fn title(&self, name: &str) -> String {
         let over = |axes: &[MachineAxis]| axes.iter().map(|axis| axis.vary.as_str()).collect::<Vec<_>>().join(", ");
-        match &self.task {
-            MachineTask::Basin(basin) => format!("motions that starts lead to over {}: {name}", over(&basin.axes)),
-            MachineTask::Diagram(diagram) => format!("orbit diagram over {}: {name}", diagram.vary),
-            MachineTask::Response(response) => format!("response over {}: {name}", response.vary),
-            MachineTask::Map(map) => format!("motions over {}: {name}", over(&map.axes)),
-            MachineTask::Lyapunov(MachineLyapunovPlan { axes, .. }) if !axes.is_empty() => {
+        match self {
+            Self::Basin(basin) => format!("motions that starts lead to over {}: {name}", over(&basin.axes)),
+            Self::Diagram(diagram) => format!("orbit diagram over {}: {name}", diagram.vary),
+            Self::Response(response) => format!("response over {}: {name}", response.vary),
+            Self::Map(map) => format!("motions over {}: {name}", over(&map.axes)),
+            Self::Lyapunov(MachineLyapunovPlan { axes, .. }) if !axes.is_empty() => {
                 format!("Lyapunov exponents over {}: {name}", over(axes))
             }
             _ => name.to_owned(),
@@ -163,19 +95,18 @@ impl MachinePlan {
     }
 
     /// The amount of work and its unit, for tasks that report progress: `(400, "points")`.
-    #[must_use]
-    pub fn work(&self) -> Option<(u64, &'static str)> {
-        match &self.task {
-            MachineTask::Attractors { starts, .. } => Some((*starts, "starts")),
-            MachineTask::Basin(basin) => Some((MachineAxis::points(&basin.axes), "starts")),
-            MachineTask::Map(map) => Some((MachineAxis::points(&map.axes), "points")),
-            MachineTask::Response(response) => Some((response.motions(), "motions")),
-            MachineTask::SettleMany(many) => Some((many.points.count(), "points")),
-            MachineTask::Lyapunov(lyapunov) => match lyapunov.axes.as_slice() {
+    pub(crate) fn work(&self) -> Option<(u64, &'static str)> {
+        match self {
+            Self::Attractors { starts, .. } => Some((*starts, "starts")),
+            Self::Basin(basin) => Some((MachineAxis::points(&basin.axes), "starts")),
+            Self::Map(map) => Some((MachineAxis::points(&map.axes), "points")),
+            Self::Response(response) => Some((response.motions(), "motions")),
+            Self::SettleMany(many) => Some((many.points.count(), "points")),
+            Self::Lyapunov(lyapunov) => match lyapunov.axes.as_slice() {
                 [] => None,
                 axes => Some((MachineAxis::points(axes), "points")),
             },
-            MachineTask::Diagram(diagram) => {
+            Self::Diagram(diagram) => {
                 Some(((diagram.over.count() as u64).saturating_mul(diagram.direction.runs()), "motions"))
             }
             _ => None,
@@ -185,8 +116,8 @@ impl MachinePlan {
     /// The number of events after which a simulation ends; `None` for other tasks.
     #[must_use]
     pub fn most_events(&self) -> Option<u64> {
-        match self.task {
-            MachineTask::Simulate { impacts, periods } => Some(most_events(impacts, periods)),
+        match self {
+            Self::Simulate { impacts, periods } => Some(most_events(*impacts, *periods)),
             _ => None,
         }
     }
@@ -194,37 +125,68 @@ impl MachinePlan {
     /// The paths of the quantities that the task reports beside labels.
     #[must_use]
     pub fn fields(&self) -> &[String] {
-        match &self.task {
-            MachineTask::Basin(basin) => &basin.fields,
-            MachineTask::Map(map) => &map.fields,
-            MachineTask::SettleMany(many) => &many.fields,
+        match self {
+            Self::Basin(basin) => &basin.fields,
+            Self::Map(map) => &map.fields,
+            Self::SettleMany(many) => &many.fields,
             _ => &[],
         }
     }
 
     /// Whether the task fills a grid, which a store keeps.
-    #[must_use]
-    pub const fn fills_a_grid(&self) -> bool {
-        match &self.task {
-            MachineTask::Basin(_) | MachineTask::Map(_) | MachineTask::Diagram(_) => true,
-            MachineTask::Lyapunov(lyapunov) => !lyapunov.axes.is_empty(),
+    pub(crate) const fn fills_a_grid(&self) -> bool {
+        match self {
+            Self::Basin(_) | Self::Map(_) | Self::Diagram(_) => true,
+            Self::Lyapunov(lyapunov) => !lyapunov.axes.is_empty(),
             _ => false,
         }
     }
 
-    /// The plan as JSON.
-    #[must_use]
-    pub fn json(&self) -> String {
-        // finite numbers and texts can always be written as JSON
-        serde_json::to_string(self).unwrap_or_default()
-    }
-
-    /// The start, with a number for each coordinate and velocity.
+    /// Checks everything that can be checked without running the task.
     ///
     /// # Errors
-    /// [`PlanError::Machine`] with the path of the first number that has no meaning.
-    pub fn start(&self) -> Result<MachineStart, PlanError> {
-        Ok(self.machine.start()?.into())
+    /// [`PlanError`] names the first invalid value.
+    pub(crate) fn check(&self, source: &MachineSource) -> Result<(), PlanError> {
+        let (machine, _) = match self {
+            Self::Map(_) | Self::Diagram(_) | Self::Response(_) | Self::SettleMany(_) => source.described()?,
+            // each point has its own start
+            Self::Lyapunov(MachineLyapunovPlan { axes, .. }) if !axes.is_empty() => source.described()?,
+            _ => source.problem()?,
+        };
+        match self {
+            Self::Simulate { impacts, periods } => check(&machine, (*impacts, *periods)),
+            Self::Settle { impacts } => check_impacts(*impacts),
+            Self::Attractors { starts, impacts, .. } => verdicts::check_starts(*starts, *impacts),
+            Self::Lyapunov(lyapunov) => lyapunov.check(source, &machine),
+            Self::Orbit { label } => orbits::label(&machine, label).map(|_| ()),
+            Self::Branch(branch) => branch.check(source, &machine),
+            Self::Curve(curve) => curve.check(source, &machine),
+            Self::SettleMany(many) => many.check(source, &machine),
+            Self::Margins(margins) => margins.check(source, &machine),
+            Self::Response(response) => response.check(source, &machine),
+            Self::Basin(basin) => basin.check(&machine),
+            Self::Map(map) => map.check(source),
+            Self::Diagram(diagram) => diagram.check(source),
+        }
+    }
+}
+
+impl MachineSource {
+    /// The same machine with another start. Vectors that are empty are 0.
+    #[must_use]
+    pub fn starting(mut self, start: &MachineStart) -> Self {
+        let vector = |values: &[f64]| {
+            let list = values.iter().map(|value| NumberText::Value(*value)).collect();
+            (!values.is_empty()).then_some(VectorText::List(list))
+        };
+        let phase = (start.phase != 0.0).then_some(NumberText::Value(start.phase));
+        // contacts have names in a machine only; another file is refused later
+        let contacts = if start.contacts.is_empty() { None } else { self.parts().ok() };
+        let contacts = contacts.map(|parts| StartText::of(start, &parts).contacts).unwrap_or_default();
+        let exact = Named(start.exact.clone());
+        let text = StartText { q: vector(&start.q), qdot: vector(&start.qdot), phase, contacts, exact };
+        self.start = (text != StartText::default()).then_some(text);
+        self
     }
 
     /// The machine, checked, and the start, which may lie beyond a rigid stop. The tasks that vary a number have their own
@@ -233,7 +195,7 @@ impl MachinePlan {
     /// # Errors
     /// [`PlanError::Machine`] with the path of the first number that is not allowed.
     pub fn described(&self) -> Result<(Machine, MachineStart), PlanError> {
-        Ok((self.machine.machine()?, self.start()?))
+        Ok((self.machine()?, self.start()?.into()))
     }
 
     /// The machine and the start, both checked.
@@ -245,40 +207,5 @@ impl MachinePlan {
         let limits = MachineLimits::default();
         MachineMotion::new(&machine, &start, limits).map_err(|error| PlanError::Machine(error.into()))?;
         Ok((machine, start))
-    }
-
-    /// Checks everything that can be checked without running the plan.
-    ///
-    /// # Errors
-    /// [`PlanError`] names the first invalid value.
-    pub fn check(&self) -> Result<(), PlanError> {
-        if self.version != PLAN_VERSION {
-            return Err(PlanError::Version(self.version));
-        }
-        check_tile(self.tile)?;
-        check_shard(self.shard)?;
-        let (machine, _) = match &self.task {
-            MachineTask::Map(_) | MachineTask::Diagram(_) | MachineTask::Response(_) | MachineTask::SettleMany(_) => {
-                self.described()?
-            }
-            // each point has its own start
-            MachineTask::Lyapunov(MachineLyapunovPlan { axes, .. }) if !axes.is_empty() => self.described()?,
-            _ => self.problem()?,
-        };
-        match &self.task {
-            MachineTask::Simulate { impacts, periods } => check(&machine, (*impacts, *periods)),
-            MachineTask::Settle { impacts } => check_impacts(*impacts),
-            MachineTask::Attractors { starts, impacts, .. } => verdicts::check_starts(*starts, *impacts),
-            MachineTask::Lyapunov(lyapunov) => lyapunov.check(&self.machine, &machine),
-            MachineTask::Orbit { label } => orbits::label(&machine, label).map(|_| ()),
-            MachineTask::Branch(branch) => branch.check(&self.machine, &machine),
-            MachineTask::Curve(curve) => curve.check(&self.machine, &machine),
-            MachineTask::SettleMany(many) => many.check(&self.machine, &machine),
-            MachineTask::Margins(margins) => margins.check(&self.machine, &machine),
-            MachineTask::Response(response) => response.check(&self.machine, &machine),
-            MachineTask::Basin(basin) => basin.check(&machine),
-            MachineTask::Map(map) => map.check(&self.machine),
-            MachineTask::Diagram(diagram) => diagram.check(&self.machine),
-        }
     }
 }

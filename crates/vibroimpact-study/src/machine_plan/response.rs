@@ -208,12 +208,12 @@ const CLOSE: f64 = 1e-6;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{MachinePlan, MachineResults, MachineTask, Span, run_machine};
+    use crate::{Plan, MachineResults, MachineTask, Span, Results, run};
 
     fn response(name: &str, plan: MachineResponsePlan) -> ResponseCurves {
-        let plan = MachinePlan::new(MachineSource::open(name).unwrap(), MachineTask::Response(plan));
-        let plan = MachinePlan::from_text(&plan.to_toml(), crate::machine::no_files).unwrap();
-        let MachineResults::Response(found) = run_machine(&plan, &Control::default()).unwrap() else { panic!() };
+        let plan = Plan::new(MachineSource::open(name).unwrap(), MachineTask::Response(plan));
+        let plan = Plan::from_text(&plan.to_toml()).unwrap();
+        let Results::Machine(MachineResults::Response(found)) = run(&plan, &Control::default()).unwrap() else { panic!() };
         found
     }
 

@@ -1,14 +1,15 @@
-//! The function that computes the result of a plan of a machine. The command and the Python package call it.
+//! The results of the tasks of machines.
 
 use super::branch::{self, MachineBranched};
 use super::curve::{self, MachineEventCurve};
 use super::diagram::MachineDiagram;
 use super::grid::{MachineBasin, MachineMap};
 use super::margins::MachineMargins;
-use super::plan::{MachinePlan, MachineTask};
+use super::plan::MachineTask;
 use super::section::{self, MachineSection};
 use super::simulate::{MachineSimulated, simulate};
 use super::{many, margins, orbits, response, verdicts};
+use crate::machine::MachineSource;
 use crate::{Control, ResponseCurves, RunError, in_memory};
 use vibroimpact::chaos::MachineExponents;
 use vibroimpact::orbit::MachineCycle;
@@ -43,15 +44,14 @@ pub enum MachineResults {
     Diagram(MachineDiagram),
 }
 
-/// Checks a plan of a machine and computes its result.
-///
-/// # Errors
-/// [`RunError`] for an invalid plan, or when stopped.
-pub fn run_machine(plan: &MachinePlan, control: &Control<'_>) -> Result<MachineResults, RunError> {
-    plan.check()?;
-    // the plan was checked
-    let (machine, start) = plan.described()?;
-    Ok(match &plan.task {
+/// Computes the result of a task of a machine, which was checked.
+pub(crate) fn run(
+    source: &MachineSource,
+    task: &MachineTask,
+    control: &Control<'_>,
+) -> Result<MachineResults, RunError> {
+    let (machine, start) = source.described()?;
+    Ok(match task {
         MachineTask::Simulate { impacts, periods } => {
             MachineResults::Simulate(simulate(&machine, &start, (*impacts, *periods), control)?)
         }
@@ -71,26 +71,26 @@ pub fn run_machine(plan: &MachinePlan, control: &Control<'_>) -> Result<MachineR
             MachineResults::Orbit(orbits::orbits(&machine, orbits::label(&machine, label)?, control)?)
         }
         MachineTask::Branch(asked) => {
-            MachineResults::Branch(branch::branch(&plan.machine, (&machine, &start), asked, control)?)
+            MachineResults::Branch(branch::branch(source, (&machine, &start), asked, control)?)
         }
         MachineTask::Curve(asked) => {
-            MachineResults::Curve(curve::curve(&plan.machine, (&machine, &start), asked, control)?)
+            MachineResults::Curve(curve::curve(source, (&machine, &start), asked, control)?)
         }
         MachineTask::SettleMany(asked) => {
-            MachineResults::Map(many::many(&plan.machine, (&machine, &start), asked, control)?)
+            MachineResults::Map(many::many(source, (&machine, &start), asked, control)?)
         }
         MachineTask::Margins(asked) => {
-            MachineResults::Margins(margins::margins(&plan.machine, (&machine, &start), asked, control)?)
+            MachineResults::Margins(margins::margins(source, (&machine, &start), asked, control)?)
         }
         MachineTask::Response(asked) => {
-            MachineResults::Response(response::response(&plan.machine, (&machine, &start), asked, control)?)
+            MachineResults::Response(response::response(source, (&machine, &start), asked, control)?)
         }
         MachineTask::Basin(basin) => {
             MachineResults::Basin(in_memory::machine_basin((&machine, &start), basin, control)?)
         }
-        MachineTask::Map(map) => MachineResults::Map(in_memory::machine_map(&plan.machine, map, control)?),
+        MachineTask::Map(map) => MachineResults::Map(in_memory::machine_map(source, map, control)?),
         MachineTask::Diagram(diagram) => {
-            MachineResults::Diagram(in_memory::machine_diagram(&plan.machine, diagram, control)?)
+            MachineResults::Diagram(in_memory::machine_diagram(source, diagram, control)?)
         }
     })
 }

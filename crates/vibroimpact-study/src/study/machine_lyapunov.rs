@@ -95,10 +95,10 @@ impl Spectra for Machines {
 mod tests {
     use crate::machine::no_files;
     use crate::study::{Sheet, Study, in_memory};
-    use crate::{Control, MachinePlan, MachineResults, MachineTask, PlanError, RunError, run_machine};
+    use crate::{Control, MachineResults, MachineTask, Plan, PlanError, Results, RunError, run};
 
     /// A forced mass with a stop at a gap of 0.3; `start` and the axes are written into it.
-    fn plan(start: &str, axes: &str) -> MachinePlan {
+    fn plan(start: &str, axes: &str) -> Plan {
         let text = format!(
             "version = 1\ntile = 2\nstart = {{ q = {{ mass = {start} }} }}\n[machine]\nbodies = {{ mass = 1 }}\nfrequency = 0.9\n\
              link = [{{ between = [\"ground\", \"mass\"], stiffness = 1, damping = 0.05 }}]\n\
@@ -106,7 +106,7 @@ mod tests {
              stop = [{{ name = \"wall\", at = \"mass\", gap = 0.3, restitution = 0.6 }}]\n\
              [task.lyapunov]\nimpacts = 400\ntransient = 100\n{axes}"
         );
-        MachinePlan::from_text(&text, no_files).unwrap()
+        Plan::from_text(&text).unwrap()
     }
 
     fn numbers<'a>(sheet: &'a Sheet, name: &str) -> &'a [f64] {
@@ -135,7 +135,7 @@ mod tests {
                 assert!(alone.check().is_err());
                 continue;
             }
-            let MachineResults::Lyapunov(direct, None) = run_machine(&alone, &Control::default()).unwrap() else {
+            let Results::Machine(MachineResults::Lyapunov(direct, None)) = run(&alone, &Control::default()).unwrap() else {
                 panic!()
             };
             let spectrum = direct.spectrum.unwrap();
@@ -155,7 +155,7 @@ mod tests {
             let error = axis(vary).check().unwrap_err().to_string();
             assert!(error.contains(told), "{error}");
         }
-        let refused = run_machine(&axis("phase"), &Control::default());
+        let refused = run(&axis("phase"), &Control::default());
         assert!(matches!(refused, Err(RunError::Plan(PlanError::WrongAxis { .. }))), "{refused:?}");
         assert_eq!(
             Study::new(&plan("0", "")).err().unwrap(),

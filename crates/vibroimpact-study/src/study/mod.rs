@@ -16,7 +16,6 @@ mod machine_lyapunov;
 mod machine_map;
 mod map;
 mod memory;
-mod plan;
 mod reason;
 mod refine;
 mod remarks;
@@ -36,7 +35,6 @@ pub(crate) use fill::{Fill, on_axis};
 pub use machine_diagram::machine_diagram_of;
 pub(crate) use memory::tiles_of;
 pub use memory::{Sheet, check_memory, in_memory};
-pub use plan::StudyPlan;
 pub(crate) use refine::Cell;
 pub use remarks::{closed_of, has_closed};
 pub use some_points::{PointColumns, points_until};
@@ -46,7 +44,10 @@ pub(crate) use {basin::BasinFill, machine_basin::MachineBasinFill, map::MapFill}
 
 use crate::diagram::Show;
 use crate::map::options;
-use crate::{Block, Column, DiagramPlan, Field, Grid, MachinePlan, MachineTask, Plan, PlanError, Task};
+use crate::machine::MachineSource;
+use crate::{
+    Block, Column, DiagramPlan, Field, Grid, MachineTask, Plan, PlanError, System, SystemPlan, Task,
+};
 use lyapunov::LyapunovFill;
 
 /// A plan that fills a grid.
@@ -59,26 +60,25 @@ impl Study {
     ///
     /// # Errors
     /// [`PlanError`] for an invalid plan, or for a task without a grid.
-    pub fn new(plan: impl Into<StudyPlan>) -> Result<Self, PlanError> {
-        let plan = plan.into();
+    pub fn new(plan: &Plan) -> Result<Self, PlanError> {
         plan.check()?;
-        match &plan {
-            StudyPlan::Oscillator(plan) => Self::of_oscillator(plan),
-            StudyPlan::Machine(plan) => Self::of_machine(plan),
+        match &plan.system {
+            System::Oscillator(system) => Self::of_oscillator(system, plan),
+            System::Machine(machine) => Self::of_machine(machine, plan.task.of_machine()?, plan.tile),
         }
     }
 
-    fn of_machine(plan: &MachinePlan) -> Result<Self, PlanError> {
+    fn of_machine(source: &MachineSource, task: &MachineTask, tile: Option<u32>) -> Result<Self, PlanError> {
         let none = |what| Err(PlanError::NoMachineStudy(what));
-        let fill: Box<dyn fill::Columns> = match &plan.task {
+        let fill: Box<dyn fill::Columns> = match task {
             MachineTask::Basin(basin) => {
-                let (machine, start) = plan.problem()?;
-                Box::new(MachineBasinFill::new((&machine, &start), basin, plan.tile)?)
+                let (machine, start) = source.problem()?;
+                Box::new(MachineBasinFill::new((&machine, &start), basin, tile)?)
             }
-            MachineTask::Map(map) => Box::new(MapFill::of_machine(&plan.machine, map, plan.tile)),
-            MachineTask::Diagram(diagram) => Box::new(SweepFill::of_machine(&plan.machine, diagram, plan.tile)),
+            MachineTask::Map(map) => Box::new(MapFill::of_machine(source, map, tile)),
+            MachineTask::Diagram(diagram) => Box::new(SweepFill::of_machine(source, diagram, tile)),
             MachineTask::Lyapunov(lyapunov) if !lyapunov.axes.is_empty() => {
-                Box::new(LyapunovFill::of_machine(&plan.machine, lyapunov, plan.tile)?)
+                Box::new(LyapunovFill::of_machine(source, lyapunov, tile)?)
             }
             MachineTask::Lyapunov(_) => return none("measure the exponents of one motion"),
             MachineTask::Simulate { .. } => return none("simulate"),
@@ -94,17 +94,17 @@ impl Study {
         Ok(Self { fill })
     }
 
-    fn of_oscillator(plan: &Plan) -> Result<Self, PlanError> {
+    fn of_oscillator(system: &SystemPlan, plan: &Plan) -> Result<Self, PlanError> {
         let tile = plan.tile;
         let fill: Box<dyn fill::Columns> = match &plan.task {
-            Task::Map(map) => Box::new(MapFill::new(&plan.system, map, tile)),
-            Task::Basin(basin) => Box::new(BasinFill::plane(&plan.system, basin, tile)?),
+            Task::Map(map) => Box::new(MapFill::new(system, map, tile)),
+            Task::Basin(basin) => Box::new(BasinFill::plane(system, basin, tile)?),
             Task::Attractors { starts, seed, impacts } => {
-                Box::new(BasinFill::scattered(&plan.system, (*starts, *seed), &options(*impacts), tile)?)
+                Box::new(BasinFill::scattered(system, (*starts, *seed), &options(*impacts), tile)?)
             }
-            Task::Lyapunov(lyapunov) => Box::new(LyapunovFill::new(&plan.system, lyapunov, tile)),
+            Task::Lyapunov(lyapunov) => Box::new(LyapunovFill::new(system, lyapunov, tile)),
             Task::Diagram(DiagramPlan { show: Show::Quantity(_), .. }) => return Err(PlanError::NoStoredQuantity),
-            Task::Diagram(diagram) => Box::new(SweepFill::new(&plan.system, diagram, tile)),
+            Task::Diagram(diagram) => Box::new(SweepFill::new(system, diagram, tile)),
             Task::Simulate { .. } => return Err(PlanError::NoStudy("simulate")),
             Task::Settle { .. } => return Err(PlanError::NoStudy("settle")),
             Task::Orbit { .. } => return Err(PlanError::NoStudy("find orbits")),
@@ -113,6 +113,7 @@ impl Study {
             Task::Region(_) => return Err(PlanError::NoStudy("find a region")),
             Task::Response(_) => return Err(PlanError::NoStudy("find a response")),
             Task::Margins(_) => return Err(PlanError::NoStudy("find margins")),
+            Task::Machine(_) => return Err(PlanError::OfMachine),
         };
         Ok(Self { fill })
     }

@@ -19,6 +19,11 @@ impl<'t> Document<'t> {
         if text.trim_start().starts_with('{') { Self::json(text) } else { Self::toml(text) }
     }
 
+    /// A value whose text is not known, so that errors have a path only.
+    pub(crate) const fn of(value: Value) -> Self {
+        Self { text: "", is_json: true, value }
+    }
+
     /// Parses JSON.
     pub(crate) fn json(text: &'t str) -> Result<Self, TextError> {
         let value = serde_json::from_str(text).map_err(|error| {
