@@ -49,17 +49,18 @@ impl<'a> BranchQuantity<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use vibroimpact_study::{Control, MachinePlan, MachineResults, MachineTask, run_machine};
+    use vibroimpact_study::{Control, MachineResults, MachineTask, Plan, Results, run};
 
     /// The belt carries the mass to x = fs, and from there it swings about x = f with the speed V at the beginning.
     #[test]
     fn the_largest_displacement_of_stick_slip() {
         let source = MachineSource::open("stick-slip").unwrap();
         let task: MachineTask = serde_json::from_str(r#"{"branch": {"vary": "V", "to": 0.5}}"#).unwrap();
-        let plan = MachinePlan::new(source.clone(), task);
-        let MachineTask::Branch(branch) = &plan.task else { panic!() };
+        let plan = Plan::new(source.clone(), task.clone());
+        let MachineTask::Branch(branch) = &task else { panic!() };
         let (machine, cut) = (source.machine().unwrap(), branch.cut(&source).unwrap());
-        let MachineResults::Branch(found) = run_machine(&plan, &Control::default()).unwrap() else { panic!() };
+        let Results::Machine(results) = run(&plan, &Control::default()).unwrap() else { panic!() };
+        let MachineResults::Branch(found) = results else { panic!() };
         let quantity = BranchQuantity::of(&machine, &source, &cut, &found).unwrap();
         assert_eq!(quantity.path, "q.mass.displacement_max");
         let (holds, slides) = (source.number("fs").unwrap(), source.number("f").unwrap());

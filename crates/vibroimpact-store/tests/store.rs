@@ -52,7 +52,7 @@ fn every_kind_of_study_is_stored() {
         let plan = Plan::new(system, task);
         let (folder, _) = whole(&plan);
         let store = Store::open(Arc::new(Folder::new(folder.path()))).unwrap();
-        assert_eq!(store.plan().oscillator(), Some(&plan.canonical().unwrap()));
+        assert_eq!(store.plan(), &plan.canonical().unwrap());
         let found = store.verify(1000, 0, &control(2)).unwrap();
         assert_eq!((found.damage, found.open), (vec![], 0));
         assert!(store.field(field).is_some());

@@ -53,6 +53,7 @@ pub(crate) fn check(plan: &Plan) -> Result<(), Refusal> {
         Task::Region(region) => within("grid", u64::from(region.grid), 100),
         Task::Margins(margins) => within("lines", u64::from(margins.lines), 10_000),
         Task::Settle { .. } | Task::Orbit { .. } | Task::Curve(_) => Ok(()),
+        Task::Machine(_) => Err(Refusal::machine()),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::args::{MachineArgs, OutputArgs, StoreArgs, SystemArgs, whole};
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, respond};
+use crate::commands::respond::{self, Question};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
@@ -52,7 +52,7 @@ pub(crate) struct Attractors {
 pub(super) fn run(args: &Attractors, session: &Session) -> Result<(), Failure> {
     let task = || Ok(MachineTask::Attractors { starts: args.starts, seed: args.seed, impacts: args.impacts });
     if let Some(answer) =
-        of_machine::asked(&args.machine, None, task, args.output.files(), (None, of_machine::usual), session)
+        respond::if_machine(&args.machine, None, task, args.output.files(), (None, respond::usual), session)
     {
         return answer;
     }
@@ -60,5 +60,5 @@ pub(super) fn run(args: &Attractors, session: &Session) -> Result<(), Failure> {
     let task = Task::Attractors { starts: args.starts, seed: args.seed, impacts: args.impacts };
     let plan = args.store.tiled(Plan::new(asked.system, task))?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
-    respond::run(&plan, asked.units, (outputs, Shown::default()), Some(&args.store), session)
+    respond::run(&Question::new(plan, asked.units), (outputs, Shown::default()), Some(&args.store), session)
 }

@@ -5,7 +5,7 @@ use crate::args::{
     number, whole,
 };
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, respond};
+use crate::commands::respond::{self, Question};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
@@ -93,7 +93,7 @@ pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
     };
     let shown = |drawn| Ok(Shown { colour: args.colour.coloured(drawn)?, ..Shown::default() });
     if let Some(answer) =
-        of_machine::asked(&args.machine, start, task, args.output.files(), (Some(&args.store), shown), session)
+        respond::if_machine(&args.machine, start, task, args.output.files(), (Some(&args.store), shown), session)
     {
         return answer;
     }
@@ -109,10 +109,8 @@ pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
         fields: args.colour.with(&args.fields).quantities()?,
         ..plane
     };
-    let axes = task.axes.clone();
     let plan = args.store.tiled(Plan::new(asked.system, Task::Basin(task)))?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
-    outputs.drawable(&axes, 2)?;
     let shown = Shown { colour: args.colour.coloured(outputs.drawn())?, ..Shown::default() };
-    respond::run(&plan, units, (outputs, shown), Some(&args.store), session)
+    respond::run(&Question::new(plan, units), (outputs, shown), Some(&args.store), session)
 }

@@ -5,7 +5,7 @@ use crate::args::{
     varied, whole,
 };
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, respond};
+use crate::commands::respond::{self, Question};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
@@ -120,7 +120,7 @@ pub(super) fn run(args: &Branch, session: &Session) -> Result<(), Failure> {
     let task = || Ok(MachineTask::Branch(args.of_machine()));
     let start = Some((&args.of_machine, None));
     if let Some(answer) =
-        of_machine::asked(&args.machine, start, task, args.output.files(), (None, |_| Ok(shown.clone())), session)
+        respond::if_machine(&args.machine, start, task, args.output.files(), (None, |_| Ok(shown.clone())), session)
     {
         return answer;
     }
@@ -144,5 +144,5 @@ pub(super) fn run(args: &Branch, session: &Session) -> Result<(), Failure> {
     let plan = Plan::new(asked.system, Task::Branch(task));
     plan.check()?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
-    respond::run(&plan, asked.units, (outputs, shown), None, session)
+    respond::run(&Question::new(plan, asked.units), (outputs, shown), None, session)
 }

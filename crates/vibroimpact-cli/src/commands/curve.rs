@@ -4,7 +4,7 @@ use crate::args::{
     MachineArgs, Named, OutputArgs, Over, StartOfMachineArgs, SystemArgs, VariedOver, of_oscillator, whole,
 };
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, respond};
+use crate::commands::respond::{self, Question};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::{Args, ValueEnum};
@@ -158,7 +158,7 @@ pub(super) fn run(args: &Curve, session: &Session) -> Result<(), Failure> {
     let start = Some((&args.of_machine, None));
     let task = || Ok(args.of_machine());
     if let Some(answer) =
-        of_machine::asked(&args.machine, start, task, args.output.files(), (None, |_| Ok(Shown::default())), session)
+        respond::if_machine(&args.machine, start, task, args.output.files(), (None, |_| Ok(Shown::default())), session)
     {
         return answer;
     }
@@ -169,5 +169,5 @@ pub(super) fn run(args: &Curve, session: &Session) -> Result<(), Failure> {
     let plan = Plan::new(asked.system, Task::Curve(args.plan((&over.0, &over.1), &asked.units, &parameters)?));
     plan.check()?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
-    respond::run(&plan, asked.units, (outputs, Shown::default()), None, session)
+    respond::run(&Question::new(plan, asked.units), (outputs, Shown::default()), None, session)
 }

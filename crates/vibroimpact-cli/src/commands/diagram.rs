@@ -5,7 +5,7 @@ use crate::args::{
     number, quantity, varied, whole,
 };
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, respond};
+use crate::commands::respond::{self, Question};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::{Args, ValueEnum};
@@ -14,7 +14,7 @@ use vibroimpact_report::scene::{BifurcationEvent, bifurcation, machine_bifurcati
 use vibroimpact_report::{Asked, Shown};
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
 use vibroimpact_study::{
-    DiagramPlan, MachineDiagramPlan, MachinePlan, MachineTask, Plan, PlanError, Stretch, Task, Values,
+    DiagramPlan, MachineDiagramPlan, MachineTask, Plan, PlanError, Stretch, Task, Values,
 };
 
 /// The orbit diagram: impacts or states after the transient, over one parameter or along a line through two
@@ -187,7 +187,7 @@ pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
     }
     let task = || args.of_machine();
     let start = Some((&args.of_machine, args.phase));
-    if let Some(answer) = of_machine::asked(
+    if let Some(answer) = respond::if_machine(
         &args.machine,
         start,
         task,
@@ -224,7 +224,7 @@ pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
     if let Some(labels) = &args.branches {
         return with_branches((&Asked { units, ..asked }, &task), labels, outputs, session);
     }
-    respond::run(&plan, units, (outputs, Shown::default()), Some(&args.store), session)
+    respond::run(&Question::new(plan, units), (outputs, Shown::default()), Some(&args.store), session)
 }
 
 /// The diagram with the branches of these labels; without labels of those found on the line.
@@ -254,7 +254,7 @@ fn with_branches(
 /// The diagram of a machine with the branches of these labels; without labels of those found on the line.
 fn machine_with_branches(args: &Diagram, name: &str, labels: &[String], session: &Session) -> Result<(), Failure> {
     let start = Some((&args.of_machine, args.phase));
-    let plan = MachinePlan::new(args.machine.source(start)?, args.of_machine()?);
+    let plan = Plan::new(args.machine.source(start)?, args.of_machine()?);
     let outputs = Outputs::reserve(args.output.files(), session)?;
     let given = given(labels);
     let found = session.watched(None, |control| machine_bifurcation(name, &plan, given.as_deref(), control));

@@ -4,14 +4,14 @@ use crate::args::{
     MachineArgs, OutputArgs, StartArgs, StartOfMachineArgs, StoreArgs, StudyAxesArgs, SystemArgs, whole,
 };
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, respond, stored};
+use crate::commands::respond::{self, Question};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use vibroimpact::chaos::{DEFAULT_IMPACTS, DEFAULT_TRANSIENT};
 use vibroimpact_report::{ReportError, Shown};
 use vibroimpact_study::{
-    Coordinate, DEFAULT_POINTS, LyapunovPlan, MachineLyapunovPlan, MachineTask, Plan, StudyPlan, Task,
+    Coordinate, DEFAULT_POINTS, LyapunovPlan, MachineLyapunovPlan, MachineTask, Plan, Task,
 };
 
 /// The Lyapunov exponents of the motion from a start, with error bars, and the dimension of its attractor
@@ -101,7 +101,7 @@ pub(super) fn run(args: &Lyapunov, session: &Session) -> Result<(), Failure> {
     };
     let store = study.then_some(&args.store);
     if let Some(answer) =
-        of_machine::asked(&args.machine, start, task, args.output.files(), (store, of_machine::usual), session)
+        respond::if_machine(&args.machine, start, task, args.output.files(), (store, respond::usual), session)
     {
         return answer;
     }
@@ -116,13 +116,7 @@ pub(super) fn run(args: &Lyapunov, session: &Session) -> Result<(), Failure> {
     if asked.units.plan().is_some() && task.axes.iter().any(|axis| matches!(axis.vary, Coordinate::X | Coordinate::V)) {
         return Err(Failure::bad("an axis of x or v is nondimensional\nhint: without --units si"));
     }
-    let axes = task.axes.clone();
-    let plan = Plan { units: asked.units.plan(), ..Plan::new(asked.system, Task::Lyapunov(task)) };
-    let plan = args.store.tiled(plan)?;
+    let plan = args.store.tiled(Plan::new(asked.system, Task::Lyapunov(task)))?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
-    if !study {
-        return respond::run(&plan, asked.units, (outputs, Shown::default()), None, session);
-    }
-    outputs.drawable(&axes, 1)?;
-    stored::filled(&StudyPlan::from(&plan), args.store.filling(), (outputs, Shown::default()), session)
+    respond::run(&Question::new(plan, asked.units), (outputs, Shown::default()), store, session)
 }

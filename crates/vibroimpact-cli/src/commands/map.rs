@@ -4,7 +4,7 @@ use crate::args::{
     ColourArgs, FieldsArgs, MachineArgs, MachineAxesArgs, OutputArgs, OverlayArgs, RangedSystemArgs, StoreArgs, whole,
 };
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, respond};
+use crate::commands::respond::{self, Question};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
@@ -96,7 +96,7 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
     };
     let shown = |drawn| Ok(Shown { colour: args.colour.coloured(drawn)?, ..Shown::default() });
     if let Some(answer) =
-        of_machine::asked(&args.machine, None, task, args.output.files(), (Some(&args.store), shown), session)
+        respond::if_machine(&args.machine, None, task, args.output.files(), (Some(&args.store), shown), session)
     {
         return answer;
     }
@@ -115,12 +115,10 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
         impacts: args.impacts,
         fields: args.colour.with(&args.fields).quantities()?,
     };
-    let axes = task.axes.clone();
     let plan = args.store.tiled(Plan::new(system, Task::Map(task)))?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
-    outputs.drawable(&axes, 1)?;
     let colour = args.colour.coloured(outputs.drawn())?;
     let overlay = args.overlay.overlay(outputs.drawn(), colour.is_some())?;
     let shown = Shown { colour, overlay, ..Shown::default() };
-    respond::run(&plan, units, (outputs, shown), Some(&args.store), session)
+    respond::run(&Question::new(plan, units), (outputs, shown), Some(&args.store), session)
 }

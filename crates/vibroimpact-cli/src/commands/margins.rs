@@ -5,7 +5,7 @@ use crate::args::{
     number, varied, whole,
 };
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, respond};
+use crate::commands::respond::{self, Question};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
@@ -93,9 +93,9 @@ pub(super) fn run(args: &Margins, session: &Session) -> Result<(), Failure> {
         let vary = args.vary.iter().map(Varied::path).collect();
         Ok(MachineTask::Margins(MachineMarginsPlan { label: args.label.clone(), vary, within: args.within }))
     };
-    let usual = (None, of_machine::usual);
+    let usual = (None, respond::usual);
     let start = Some((&args.of_machine, args.start.phase));
-    if let Some(answer) = of_machine::asked(&args.machine, start, task, args.output.files(), usual, session) {
+    if let Some(answer) = respond::if_machine(&args.machine, start, task, args.output.files(), usual, session) {
         return answer;
     }
     let (asked, vary) = args.varied()?;
@@ -107,7 +107,7 @@ pub(super) fn run(args: &Margins, session: &Session) -> Result<(), Failure> {
     let plan = Plan::new(asked.system, Task::Margins(task));
     plan.check()?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
-    respond::run(&plan, asked.units, (outputs, Shown::default()), None, session)
+    respond::run(&Question::new(plan, asked.units), (outputs, Shown::default()), None, session)
 }
 
 impl Margins {

@@ -2,7 +2,7 @@
 
 use crate::args::{MachineArgs, OutputArgs, SystemArgs};
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, respond};
+use crate::commands::respond::{self, Question};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
@@ -51,7 +51,7 @@ pub(crate) struct Orbit {
 pub(super) fn run(args: &Orbit, session: &Session) -> Result<(), Failure> {
     let task = || Ok(MachineTask::Orbit { label: args.label.clone() });
     if let Some(answer) =
-        of_machine::asked(&args.machine, None, task, args.output.files(), (None, of_machine::usual), session)
+        respond::if_machine(&args.machine, None, task, args.output.files(), (None, respond::usual), session)
     {
         return answer;
     }
@@ -60,5 +60,5 @@ pub(super) fn run(args: &Orbit, session: &Session) -> Result<(), Failure> {
     let plan = Plan::new(asked.system, task);
     plan.check()?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
-    respond::run(&plan, asked.units, (outputs, Shown::default()), None, session)
+    respond::run(&Question::new(plan, asked.units), (outputs, Shown::default()), None, session)
 }

@@ -4,12 +4,13 @@ use crate::args::{FigureArgs, Files};
 use crate::failure::Failure;
 use crate::files::Target;
 use crate::picture::Picture;
+use crate::commands::respond::none;
 use crate::session::Session;
 use std::path::Path;
 use vibroimpact_plot::Figure;
-use vibroimpact_report::figure::plane::{Plane, PlaneAxis};
+use vibroimpact_report::figure::plane::{Plane, PlaneAxis, Sides};
 use vibroimpact_report::{Table, Units};
-use vibroimpact_study::Axis;
+use vibroimpact_study::{MachineTask, Plan, Task};
 
 /// The outputs of a command.
 pub(super) struct Outputs {
@@ -45,28 +46,25 @@ impl Outputs {
         Ok(Self { csv, picture, json })
     }
 
-    /// Refuses axes over which no figure can be drawn, before the computation. Some figures need one axis only.
-    pub(super) fn drawable(&self, axes: &[Axis], fewest: usize) -> Result<(), Failure> {
-        match axes {
-            _ if self.picture.is_none() => {}
-            [axis] if fewest == 1 => {
-                PlaneAxis::of(axis, &Units::default())?;
-            }
-            axes => {
-                Plane::of(axes, &Units::default())?;
-            }
+    /// Refuses a table or a figure that the answer to a plan does not have, before the computation.
+    pub(super) fn check(&self, plan: &Plan) -> Result<(), Failure> {
+        let without_points = match &plan.task {
+            Task::Lyapunov(task) => task.axes.is_empty() && task.points.is_none(),
+            Task::Machine(MachineTask::Lyapunov(task)) => task.axes.is_empty() && task.points.is_none(),
+            _ => false,
+        };
+        if without_points && self.drawn() {
+            return Err(none("figure"));
         }
-        Ok(())
+        if without_points && self.csv.is_some() {
+            return Err(none("table"));
+        }
+        if self.drawn() { drawable(&plan.task) } else { Ok(()) }
     }
 
     /// Whether a figure was requested.
     pub(super) const fn drawn(&self) -> bool {
         self.picture.is_some()
-    }
-
-    /// Whether a table was requested.
-    pub(super) const fn tabled(&self) -> bool {
-        self.csv.is_some()
     }
 
     /// Whether a table or a figure was requested.
@@ -120,4 +118,21 @@ impl Outputs {
             }
         }
     }
+}
+
+/// Refuses axes over which no figure can be drawn. Some figures need one axis only.
+fn drawable(task: &Task) -> Result<(), Failure> {
+    let units = Units::default();
+    match task {
+        Task::Basin(task) => Plane::of(&task.axes, &units).map(drop)?,
+        Task::Map(task) => Sides::of(&task.axes, &units).map(drop)?,
+        Task::Lyapunov(task) => task.axes.iter().try_for_each(|axis| PlaneAxis::of(axis, &units).map(drop))?,
+        Task::Machine(MachineTask::Basin(task)) => Sides::of_machine(&task.axes).map(drop)?,
+        Task::Machine(MachineTask::Map(task)) => Sides::of_machine(&task.axes).map(drop)?,
+        Task::Machine(MachineTask::Lyapunov(task)) => {
+            task.axes.iter().try_for_each(|axis| PlaneAxis::of_machine(axis).map(drop))?;
+        }
+        _ => {}
+    }
+    Ok(())
 }

@@ -2,7 +2,7 @@
 
 use crate::args::{AxesArgs, Convention, OutputArgs, PhysicalArgs, SystemStretchesArgs, of_oscillator, whole};
 use crate::commands::outputs::Outputs;
-use crate::commands::respond;
+use crate::commands::respond::{self, Question};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
@@ -84,5 +84,5 @@ pub(super) fn run(args: &Region, session: &Session) -> Result<(), Failure> {
     let plan = Plan::new(asked.system, Task::Region(task));
     plan.check()?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
-    respond::run(&plan, asked.units, (outputs, Shown::default()), None, session)
+    respond::run(&Question::new(plan, asked.units), (outputs, Shown::default()), None, session)
 }

@@ -2,7 +2,7 @@
 
 use crate::args::{MachineArgs, MachineAxesArgs, OutputArgs, RangedSystemArgs, StartOfMachineArgs, quantity, whole};
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, respond};
+use crate::commands::respond::{self, Question};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
@@ -80,8 +80,8 @@ pub(super) fn run(args: &Response, session: &Session) -> Result<(), Failure> {
             impacts: args.impacts,
         }))
     };
-    let (start, look) = (Some((&args.start, None)), (None, of_machine::usual));
-    if let Some(answer) = of_machine::asked(&args.machine, start, task, args.output.files(), look, session) {
+    let (start, look) = (Some((&args.start, None)), (None, respond::usual));
+    if let Some(answer) = respond::if_machine(&args.machine, start, task, args.output.files(), look, session) {
         return answer;
     }
     let Asked { system, units } = args.system.asked()?;
@@ -101,5 +101,5 @@ pub(super) fn run(args: &Response, session: &Session) -> Result<(), Failure> {
     let plan = Plan::new(system, Task::Response(task));
     plan.check()?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
-    respond::run(&plan, units, (outputs, Shown::default()), None, session)
+    respond::run(&Question::new(plan, units), (outputs, Shown::default()), None, session)
 }

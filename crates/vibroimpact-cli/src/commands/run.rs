@@ -1,9 +1,9 @@
 //! `vibro run`: fills a store with the study of a plan in a file.
 
-use super::of_machine as of_machine_plan;
 use super::stored;
 use crate::args::{BudgetArgs, ColourArgs, Filling, OutputArgs, OverlayArgs, Tiles};
 use crate::commands::outputs::Outputs;
+use crate::commands::respond::{self, Question};
 use crate::failure::Failure;
 use crate::hints;
 use crate::machine_file;
@@ -12,7 +12,7 @@ use clap::Args;
 use std::path::{Path, PathBuf};
 use vibroimpact_report::Shown;
 use vibroimpact_store::Part;
-use vibroimpact_study::{MachinePlan, PlanError, Study, StudyPlan};
+use vibroimpact_study::{Plan, PlanError, Study};
 
 /// Run a study from a plan, into a store that can be resumed
 ///
@@ -53,14 +53,12 @@ pub(crate) struct Run {
 }
 
 /// Reads and checks the plan in a file.
-pub(super) fn read(path: &Path) -> Result<StudyPlan, Failure> {
-    let plan = StudyPlan::from_text(&text(path)?, |other| machine_file::beside(path, other));
+pub(super) fn read(path: &Path) -> Result<Plan, Failure> {
+    let plan = Plan::from_text_and_files(&text(path)?, |other| machine_file::beside(path, other));
     let plan = plan.map_err(|error| named(path, &error))?;
-    match &plan {
-        StudyPlan::Oscillator(plan) => plan.check()?,
-        // a machine is in the file, so the file is named
-        StudyPlan::Machine(plan) => plan.check().map_err(|error| named(path, &error))?,
-    }
+    // a machine is in the file, so the file is named
+    let checked = plan.check();
+    if plan.machine().is_some() { checked.map_err(|error| named(path, &error))? } else { checked? }
     Ok(plan)
 }
 
@@ -78,15 +76,15 @@ fn named(path: &Path, error: &PlanError) -> Failure {
 }
 
 /// The plan of a machine that fills no grid: its result is printed.
-fn run_machine(args: &Run, plan: &MachinePlan, session: &Session) -> Result<(), Failure> {
+fn run_machine(args: &Run, plan: Plan, session: &Session) -> Result<(), Failure> {
     if args.store.is_some() || args.tiles.is_some() || args.budget.get().is_some() {
-        return Err(Study::new(plan).err().map_or_else(|| Failure::bad("the plan fills no store"), Failure::from));
+        return Err(Study::new(&plan).err().map_or_else(|| Failure::bad("the plan fills no store"), Failure::from));
     }
     args.colour.coloured(false)?;
     args.overlay.overlay(false, false)?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
     let name = args.plan.file_stem().map_or_else(|| "machine".into(), |stem| stem.to_string_lossy());
-    of_machine_plan::run(&name, plan, (outputs, Shown::default()), session)
+    respond::run(&Question::of_machine(plan, &name), (outputs, Shown::default()), None, session)
 }
 
 /// The default place of the store of a plan.
@@ -97,10 +95,8 @@ pub(super) fn default_store(plan: &Path) -> String {
 
 pub(super) fn run(args: &Run, session: &Session) -> Result<(), Failure> {
     let plan = read(&args.plan)?;
-    if let StudyPlan::Machine(machine) = &plan
-        && !machine.fills_a_grid()
-    {
-        return run_machine(args, machine, session);
+    if plan.machine().is_some() && !plan.fills_a_grid() {
+        return run_machine(args, plan, session);
     }
     let outputs = Outputs::reserve(args.output.files(), session)?;
     let place = args.store.clone().unwrap_or_else(|| default_store(&args.plan));

@@ -2,12 +2,12 @@
 
 use crate::args::{MachineArgs, OutputArgs, StartArgs, StartOfMachineArgs, SystemArgs, number, whole};
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, respond};
+use crate::commands::respond::{self, Question};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::{Args, ValueEnum};
 use vibroimpact::verdict::{PaperRule, paper_rule};
-use vibroimpact_report::Shown;
+use vibroimpact_report::{Answer, Shown};
 use vibroimpact_report::scene::View;
 use vibroimpact_study::{MachineTask, Plan, Results, Task};
 
@@ -106,7 +106,7 @@ pub(super) fn run(args: &Settle, session: &Session) -> Result<(), Failure> {
         Rule::Paper => Err(Failure::bad("--rule paper is for oscillators: the paper has no machines")),
     };
     let look = |_: bool| args.look();
-    if let Some(answer) = of_machine::asked(&args.machine, start, task, args.output.files(), (None, look), session) {
+    if let Some(answer) = respond::if_machine(&args.machine, start, task, args.output.files(), (None, look), session) {
         return answer;
     }
     let asked = args.system.asked()?;
@@ -116,8 +116,10 @@ pub(super) fn run(args: &Settle, session: &Session) -> Result<(), Failure> {
     let rule = args.paper_rule()?;
     let shown = args.look()?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
-    let mut answer = respond::compute(&plan, asked.units, session)?;
-    if let (Some(rule), Results::Settle(start, _)) = (rule, &answer.results) {
+    let mut answer = respond::compute(&Question::new(plan, asked.units), session)?;
+    if let (Some(rule), Answer::Oscillator(answer)) = (rule, &mut answer)
+        && let Results::Settle(start, _) = &answer.results
+    {
         answer.paper_rule = Some((rule, paper_rule(&answer.osc, *start, rule)));
     }
     respond::tell(&answer, (outputs, shown), session)

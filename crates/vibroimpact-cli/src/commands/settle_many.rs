@@ -5,7 +5,7 @@ use crate::args::{
     SystemStretchesArgs, TableArgs, VariedOver, whole,
 };
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, stored};
+use crate::commands::{respond, stored};
 use crate::failure::Failure;
 use crate::points_file;
 use crate::session::Session;
@@ -15,7 +15,7 @@ use std::path::PathBuf;
 use vibroimpact_report::{Asked, Shown, Units};
 use vibroimpact_study::{
     BasinPlan, Coordinate, DrawnPoints, ListedColumn, MachineManyPlan, MachineStretch, MachineTask, Parameter, Plan,
-    PointRange, PointRule, PointsPlan, StartPlan, StudyPlan, Task,
+    PointRange, PointRule, PointsPlan, StartPlan, Task,
 };
 
 /// Which motion each of many systems and starts leads to: points from a table, or drawn from ranges
@@ -243,9 +243,9 @@ pub(super) fn run(args: &SettleMany, session: &Session) -> Result<(), Failure> {
         let (impacts, fields) = (args.impacts, args.fields.paths());
         Ok(MachineTask::SettleMany(MachineManyPlan { points: args.points_of_machine()?, impacts, fields }))
     };
-    let usual = (None, of_machine::usual);
+    let usual = (None, respond::usual);
     let start = Some((&args.start_of_machine, None));
-    if let Some(answer) = of_machine::asked(&args.of_machine, start, task, args.output.files(), usual, session) {
+    if let Some(answer) = respond::if_machine(&args.of_machine, start, task, args.output.files(), usual, session) {
         return answer;
     }
     let (asked, points) = match (&args.points, args.sample) {
@@ -260,7 +260,7 @@ pub(super) fn run(args: &SettleMany, session: &Session) -> Result<(), Failure> {
         ..BasinPlan::of_points(points, args.start(&asked.units))
     };
     let plan = Plan { units: asked.units.plan(), ..Plan::new(asked.system, Task::Basin(task)) };
-    let plan = StudyPlan::from(&args.store.tiled(plan)?);
+    let plan = args.store.tiled(plan)?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
     stored::filled(&plan, args.store.filling(), (outputs, Shown::default()), session)
 }

@@ -2,12 +2,12 @@
 
 use crate::args::{MachineArgs, OutputArgs, StartArgs, StartOfMachineArgs, SystemArgs, number, whole};
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, respond};
+use crate::commands::respond::{self, Question};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use vibroimpact_report::Shown;
-use vibroimpact_study::{MachinePlan, MachineTask, Plan, Task};
+use vibroimpact_study::{MachineTask, Plan, Task};
 
 /// Follow a motion event by event: impacts, grazes, sticking, release
 ///
@@ -58,11 +58,12 @@ pub(crate) struct Simulate {
 pub(super) fn run(args: &Simulate, session: &Session) -> Result<(), Failure> {
     if let Some(name) = &args.machine.machine {
         let task = MachineTask::Simulate { impacts: args.impacts, periods: args.periods };
-        let plan = MachinePlan::new(args.machine.source(Some((&args.of_machine, args.start.phase)))?, task);
+        let plan = Plan::new(args.machine.source(Some((&args.of_machine, args.start.phase)))?, task);
         plan.check()?;
         let step = checked(args.step)?;
         let outputs = Outputs::reserve(args.output.files(), session)?;
-        return of_machine::run(name, &plan, (outputs, Shown { step, ..Shown::default() }), session);
+        let shown = Shown { step, ..Shown::default() };
+        return respond::run(&Question::of_machine(plan, name), (outputs, shown), None, session);
     }
     let asked = args.system.asked()?;
     let start = args.start.plan(&asked.units);
@@ -71,7 +72,7 @@ pub(super) fn run(args: &Simulate, session: &Session) -> Result<(), Failure> {
     plan.check()?;
     let step = checked(args.step.map(|step| step / asked.units.time()))?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
-    respond::run(&plan, asked.units, (outputs, Shown { step, ..Shown::default() }), None, session)
+    respond::run(&Question::new(plan, asked.units), (outputs, Shown { step, ..Shown::default() }), None, session)
 }
 
 /// The time between points of a waveform, if it is one.

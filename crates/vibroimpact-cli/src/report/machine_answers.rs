@@ -15,13 +15,13 @@ use vibroimpact::machine::{Machine, StopLaw};
 use vibroimpact::orbit::MachineCycle;
 use vibroimpact::quantities::{MachinePart, MachineQuantity, Quantity, machine_quantities};
 use vibroimpact::verdict::{MachineUndecided, MachineVerdict, Stability};
-use vibroimpact_report::MachineAnswer;
+use vibroimpact_report::answer::machine::Answer;
 use vibroimpact_report::json::undecided;
 use vibroimpact_report::number::short;
 use vibroimpact_study::{MachineResults, counted};
 
 /// The answer, with a line for each motion, event or exponent.
-pub(crate) fn text(answer: &MachineAnswer) -> String {
+pub(crate) fn text(answer: &Answer) -> String {
     let machine = &answer.machine;
     let mut text = String::new();
     match &answer.results {

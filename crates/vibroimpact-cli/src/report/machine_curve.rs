@@ -4,11 +4,11 @@ use crate::report::words::table;
 use core::fmt::Write;
 use vibroimpact::machine::Machine;
 use vibroimpact_report::number::{precise, short};
-use vibroimpact_study::{MachineEventCurve, MachineStretch, MachineTask, counted};
+use vibroimpact_study::{MachineEventCurve, MachineStretch, MachineTask, Task, counted};
 
 /// The description of a curve, and the events on it from one end to the other.
-pub(crate) fn text(machine: &Machine, task: &MachineTask, found: &MachineEventCurve) -> String {
-    let MachineTask::Curve(plan) = task else { return String::new() };
+pub(crate) fn text(machine: &Machine, task: &Task, found: &MachineEventCurve) -> String {
+    let Task::Machine(MachineTask::Curve(plan)) = task else { return String::new() };
     let over =
         |stretch: &MachineStretch| format!("{} from {} to {}", stretch.path, short(stretch.from), short(stretch.to));
     let mut text = format!("{} of {}\n", found.kind.name(), found.label);

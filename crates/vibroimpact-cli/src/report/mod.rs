@@ -27,13 +27,47 @@ mod undecided;
 mod words;
 
 use crate::failure::Failure;
+use vibroimpact::events::MachineEnd;
+use vibroimpact::verdict::{MachineUndecided, MachineVerdict};
 use vibroimpact_report::Answer;
+use vibroimpact_report::answer::oscillator;
 use vibroimpact_report::response::ResponseView;
-use vibroimpact_study::{Results, Task};
+use vibroimpact_study::{MachineResults, Results, SEARCH_LIMIT, Task};
 
 /// The text that a command prints, unless JSON or a table on stdout was requested.
 pub(crate) fn text(answer: &Answer) -> Result<String, Failure> {
-    let Answer { plan, asked, osc, results, paper_rule } = answer;
+    match answer {
+        Answer::Oscillator(answer) => of_oscillator(answer),
+        Answer::Machine(answer) => Ok(match &answer.results {
+            MachineResults::Simulate(found) => machine_events::events(&answer.machine, found),
+            _ => machine_answers::text(answer),
+        }),
+    }
+}
+
+/// Whether the motion is not known to its end, because a search for the next event used all its steps.
+pub(crate) fn ended_by_search(answer: &Answer) -> bool {
+    let ended = |verdict: &MachineVerdict| {
+        matches!(
+            verdict,
+            MachineVerdict::Undecided { why: MachineUndecided::Ended(MachineEnd::SearchLimit), .. }
+        )
+    };
+    match answer {
+        Answer::Oscillator(answer) => {
+            matches!(&answer.results, Results::Simulate(_, found) if found.reason == SEARCH_LIMIT)
+        }
+        Answer::Machine(answer) => match &answer.results {
+            MachineResults::Simulate(found) => found.reason == SEARCH_LIMIT,
+            MachineResults::Settle(found) => ended(&found.verdict),
+            MachineResults::Lyapunov(found, _) => ended(&found.motion),
+            _ => false,
+        },
+    }
+}
+
+fn of_oscillator(answer: &oscillator::Answer) -> Result<String, Failure> {
+    let oscillator::Answer { asked, osc, results, paper_rule, plan } = answer;
     let units = &asked.units;
     let system = || words::system(asked, osc) + "\n";
     let from = |start| words::system(asked, osc) + &words::start(start, units);
@@ -45,7 +79,7 @@ pub(crate) fn text(answer: &Answer) -> Result<String, Failure> {
         }
         (Task::Orbit { label }, Results::Orbit(found)) => system() + &orbit::text(found, label, osc, units),
         (_, Results::Basin(found)) => system() + &basin::text(found, osc),
-        (_, Results::Map(found)) => map::text(found, plan.system.second_stop.is_some()),
+        (_, Results::Map(found)) => map::text(found, asked.system.second_stop.is_some()),
         (_, Results::Diagram(found)) => diagram::text(found, units),
         (_, Results::Lyapunov(start, found, _)) => from(start) + "\n" + &lyapunov::text(found, units),
         (Task::Branch(task), Results::Branch(found)) => {
@@ -66,6 +100,7 @@ pub(crate) fn text(answer: &Answer) -> Result<String, Failure> {
 
 /// Hints for the next command.
 pub(crate) fn hints(answer: &Answer) -> Vec<String> {
+    let Answer::Oscillator(answer) = answer else { return Vec::new() };
     let next = match answer.results {
         Results::Settle(..) => Some("`vibro attractors` shows what other starts lead to"),
         Results::Attractors(_) => {

@@ -1,7 +1,7 @@
 //! What decides more, where motions are undecided.
 
 use vibroimpact::verdict::{SettleOptions, Undecided, Verdict};
-use vibroimpact_report::Answer;
+use vibroimpact_report::answer::oscillator::Answer;
 use vibroimpact_study::{Results, Task};
 
 /// The largest budget of impacts.

@@ -151,6 +151,8 @@ fn budget(plan: &Plan) -> u64 {
         }
         // two branches for each parameter, and steps along each line
         Task::Margins(margins) => 12 * 20_000 + u64::from(margins.lines).saturating_mul(1_000),
+        // the plans that are drawn are of oscillators
+        Task::Machine(_) => u64::MAX,
     }
 }
 

@@ -5,18 +5,19 @@ use crate::figure::overlay::Overlay;
 use crate::figure::plane::{Plane, PlaneAxis, Sides, varied};
 use crate::figure::point_motion::{PointMotion, group};
 use crate::figure::{basin, diagram, map, quantity_name, shares, title_without};
-use crate::machine_answer::machine_title;
+use crate::answer::machine::machine_title;
 use crate::{AnswerError, Asked, ReportError, Units};
 use std::collections::BTreeMap;
 use vibroimpact::QuantityKind;
 use vibroimpact::math::sort_by_key;
 use vibroimpact_plot::{Colour, Figure, FigureAxis, Line, Panel, SERIES, plain};
+use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::study::{
-    NOT_COMPUTED, REFUSED, StudyArrays, StudyPlan, diagram_of, label_of, machine_diagram_of,
+    NOT_COMPUTED, REFUSED, StudyArrays, diagram_of, label_of, machine_diagram_of,
 };
 use vibroimpact_study::{
-    BasinPlan, Column, Control, LyapunovPlan, MachineBasinPlan, MachineLyapunovPlan, MachineMapPlan, MachinePlan,
-    MachineTask, MapPlan, Plan, Task,
+    BasinPlan, Column, Control, LyapunovPlan, MachineBasinPlan, MachineLyapunovPlan, MachineMapPlan,
+    MachineTask, MapPlan, Plan, System, SystemPlan, Task,
 };
 
 /// Draws the figure of a study; that of a map or basin in the colours of a quantity, if one is given, and that of a map
@@ -31,11 +32,12 @@ pub fn figure<A: StudyArrays, E: From<A::Error> + From<ReportError> + From<Answe
     overlay: &Overlay,
     control: &Control<'_>,
 ) -> Result<Figure, E> {
-    let whole = match store.plan() {
-        StudyPlan::Oscillator(plan) => plan.as_ref(),
-        StudyPlan::Machine(plan) => return of_machine(store, plan, colour),
+    let whole = store.plan();
+    let system = match &whole.system {
+        System::Oscillator(system) => system,
+        System::Machine(machine) => return of_machine(store, machine, &whole.task, colour),
     };
-    let mut figure = of_oscillator::<A, E>(store, whole, colour, overlay.cells())?;
+    let mut figure = of_oscillator::<A, E>(store, (system, whole), colour, overlay.cells())?;
     overlay.add(&mut figure, whole, control)?;
     Ok(figure)
 }
@@ -43,11 +45,11 @@ pub fn figure<A: StudyArrays, E: From<A::Error> + From<ReportError> + From<Answe
 /// Draws the figure of a study of the oscillator without what lies over it.
 fn of_oscillator<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     store: &A,
-    whole: &Plan,
+    (system, whole): (&SystemPlan, &Plan),
     colour: Option<&Coloured>,
     cells: (bool, bool),
 ) -> Result<Figure, E> {
-    let asked = Asked { system: whole.system, units: Units::of_plan(whole) };
+    let asked = Asked { system: *system, units: Units::of_plan(whole) };
     match (&whole.task, colour) {
         (Task::Map(MapPlan { axes, fields, .. }) | Task::Basin(BasinPlan { axes, fields, .. }), Some(colour)) => {
             let quantity = asked_for(fields, &colour.field)?;
@@ -99,13 +101,15 @@ fn columns<A: StudyArrays, E: From<A::Error>>(store: &A) -> Result<Vec<Column>, 
 /// Draws the figure of a study of a machine.
 fn of_machine<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     store: &A,
-    plan: &MachinePlan,
+    machine: &MachineSource,
+    task: &Task,
     colour: Option<&Coloured>,
 ) -> Result<Figure, E> {
-    let title = machine_title(&plan.machine, "machine");
+    let title = machine_title(machine, "machine");
+    let Task::Machine(task) = task else { return Err(ReportError::Scattered.into()) };
     if let Some(colour) = colour {
         let (MachineTask::Map(MachineMapPlan { axes, fields, .. })
-        | MachineTask::Basin(MachineBasinPlan { axes, fields, .. })) = &plan.task
+        | MachineTask::Basin(MachineBasinPlan { axes, fields, .. })) = task
         else {
             return Err(ReportError::NoColours.into());
         };
@@ -114,7 +118,7 @@ fn of_machine<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
         let names = (plain(&colour.field), title);
         return Ok(coloured::of_points(&Sides::of_machine(axes)?, &points, colour, names)?);
     }
-    match &plan.task {
+    match task {
         MachineTask::Map(map) => match Sides::of_machine(&map.axes)? {
             Sides::Line(side) => Ok(shares::draw(&side, &points::<A, E>(store, None)?, title)),
             Sides::Plane(plane) => of_map(store, &plane, title, Overlay::default().cells()),

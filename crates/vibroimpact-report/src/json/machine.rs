@@ -16,15 +16,17 @@ use super::settle::SettleAnswer;
 use super::simulate::SimulateAnswer;
 use super::system::SystemObject;
 use crate::response::ResponseView;
-use crate::{MachineAnswer, PROGRAM};
+use crate::PROGRAM;
+use crate::answer::machine::Answer;
 use serde::ser::Error;
 use serde::{Serialize, Serializer};
-use vibroimpact_study::{MachineResults, MachineTask};
+use vibroimpact_study::{MachineResults, MachineTask, Task};
 
-impl Serialize for MachineAnswer {
+impl Serialize for Answer {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let Self { machine, results, plan, .. } = self;
-        match (&plan.task, results) {
+        let Self { machine, results, plan, source, .. } = self;
+        let Task::Machine(task) = &plan.task else { return Err(Error::custom(OTHER)) };
+        match (task, results) {
             (MachineTask::Simulate { periods, .. }, MachineResults::Simulate(found)) => {
                 self.document(SimulateAnswer::of_machine((machine, &self.start), *periods, found), to)
             }
@@ -35,8 +37,8 @@ impl Serialize for MachineAnswer {
             (_, MachineResults::Orbit(found)) => self.document(OrbitAnswer::of_machine(machine, found), to),
             (_, MachineResults::Lyapunov(found, _)) => self.document(LyapunovAnswer::of_machine(machine, found), to),
             (MachineTask::Branch(task), MachineResults::Branch(found)) => {
-                let cut = task.cut(&plan.machine).map_err(Error::custom)?;
-                self.document(BranchAnswer::of_machine((machine, &plan.machine), task, &cut, found), to)
+                let cut = task.cut(source).map_err(Error::custom)?;
+                self.document(BranchAnswer::of_machine((machine, source), task, &cut, found), to)
             }
             (MachineTask::Curve(task), MachineResults::Curve(found)) => {
                 self.document(CurveAnswer::of_machine(machine, task, found), to)
@@ -53,11 +55,14 @@ impl Serialize for MachineAnswer {
             (MachineTask::SettleMany(_), MachineResults::Map(found)) => {
                 self.document(MapAnswer::of_machine(machine, (1, 0), found), to)
             }
-            // `machine_answer` combines each plan with its own results, so this does not occur
-            _ => Err(Error::custom("the results belong to another task than the plan's")),
+            // `answer` combines each plan with its own results, so this does not occur
+            _ => Err(Error::custom(OTHER)),
         }
     }
 }
+
+/// A plan with results of another one.
+const OTHER: &str = "the results belong to another task than the plan's";
 
 /// Whether a task has one start, or all of its starts agree in what varies on no axis.
 const fn begins(task: &MachineTask) -> bool {
@@ -78,12 +83,13 @@ const fn begins(task: &MachineTask) -> bool {
     }
 }
 
-impl MachineAnswer {
+impl Answer {
     /// Writes the object with this answer.
     fn document<S: Serializer, T: Serialize>(&self, result: T, to: S) -> Result<S::Ok, S::Error> {
         let Self { name, plan, machine, start, .. } = self;
         let system = SystemObject::of_machine(name, machine);
-        let start = begins(&plan.task).then(|| StateObject::of(machine, start));
+        let begins = matches!(&plan.task, Task::Machine(task) if begins(task));
+        let start = begins.then(|| StateObject::of(machine, start));
         Document { system, start, units: None, result, plan, program: PROGRAM }.serialize(to)
     }
 }

@@ -22,7 +22,7 @@ use vibroimpact_study::{
 #[must_use]
 pub fn command(plan: &Plan) -> Option<Vec<String>> {
     let plan = plan.complete().ok()?;
-    let system = &plan.system;
+    let system = plan.oscillator()?;
     let units = &Units::of_plan(&plan);
     if units.si != system.machine.is_some() || (units.si && !varied(&plan.task).all(of_machine)) {
         return None;
@@ -52,6 +52,7 @@ pub fn command(plan: &Plan) -> Option<Vec<String>> {
             line.unless_amplitude(task.quantity).given("impacts", task.impacts)
         }
         Task::Margins(task) => margins(system, task, units),
+        Task::Machine(_) => return None,
     };
     let (refine, name) = match &plan.task {
         Task::Map(task) => (task.refine, "map.zarr"),

@@ -65,6 +65,7 @@ pub fn python(plan: &Plan) -> Option<String> {
             ("found", call.given("impacts", task.impacts))
         }
         Task::Margins(task) => ("margins", margins(task)),
+        Task::Machine(_) => return None,
     };
     let told = match &plan.task {
         Task::Lyapunov(task) if !task.axes.is_empty() => {
@@ -72,7 +73,7 @@ pub fn python(plan: &Plan) -> Option<String> {
         }
         _ => format!("{name} = {}\n", call.text()),
     };
-    Some(format!("import vibroimpact as vi\n\nosc = {}\n{told}", oscillator(&plan.system)))
+    Some(format!("import vibroimpact as vi\n\nosc = {}\n{told}", oscillator(plan.oscillator()?)))
 }
 
 /// The same lines, and one view of the motion into which a start settles. For other tasks as [`python`].

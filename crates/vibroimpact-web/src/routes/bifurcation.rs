@@ -39,7 +39,8 @@ pub(super) async fn diagram(
     let (done, points) = (Done::default(), asked.points);
     // parameters that vary have their first value
     let canonical = asked.plan.canonical()?;
-    let asked = vibroimpact_report::Asked { system: canonical.system, units: Units::of_plan(&canonical) };
+    let system = *canonical.oscillator().ok_or_else(Refusal::machine)?;
+    let asked = vibroimpact_report::Asked { system, units: Units::of_plan(&canonical) };
     let told = done.clone();
     let work = async move {
         let tell = move |now| told.store(now, Ordering::Relaxed);

@@ -1,12 +1,11 @@
-//! A plan, its result, and everything that is reported of it: the JSON object, the table and the figure.
+//! The answer to a plan of an oscillator.
 
-use crate::figure::coloured::{self, Coloured};
-use crate::figure::overlay::Overlay;
-use crate::figure::{self, title};
+use crate::answer::Shown;
+use crate::figure::{self, coloured, title};
 use crate::json::margins::ParameterObject;
 use crate::response::ResponseView;
 use crate::scene::{View, Viewed, phase_portrait};
-use crate::{AnswerError, Asked, ReportError, Table, Units, json, table};
+use crate::{AnswerError, Asked, ReportError, Table, json, table};
 use serde::ser::Error as _;
 use serde::{Serialize, Serializer};
 use vibroimpact::verdict::{CountedMotion, PaperRule, PaperVerdict};
@@ -14,7 +13,7 @@ use vibroimpact::{Oscillator, Parameter};
 use vibroimpact_plot::Figure;
 use vibroimpact_study::{Control, ParameterMargin, Plan, Results, Task, run};
 
-/// A plan and its result, in memory. Its [`Serialize`] form is the JSON object that the command prints with `--json`.
+/// A plan of an oscillator and its result.
 #[derive(Clone, Debug)]
 pub struct Answer {
     /// The plan, [complete](Plan::complete).
@@ -27,42 +26,6 @@ pub struct Answer {
     pub results: Results,
     /// The verdict of the rule of the 1971 paper on a settled motion, if requested.
     pub paper_rule: Option<(PaperRule, PaperVerdict)>,
-}
-
-/// Options for the figure and the table of an answer.
-#[derive(Clone, Debug)]
-pub struct Shown {
-    /// The view of a settled motion, a simulated motion or an attractor.
-    pub view: Option<View>,
-    /// Time between the points of a simulated waveform. Default: a hundredth of the forcing period.
-    pub step: Option<f64>,
-    /// Whether to simulate the orbit diagram and to draw it behind a branch.
-    pub diagram: bool,
-    /// Whether to draw the inadmissible solutions of a branch.
-    pub inadmissible: bool,
-    /// The quantity whose values are the colours of a map or basin.
-    pub colour: Option<Coloured>,
-    /// The layers of a map, and a point and a line over it.
-    pub overlay: Overlay,
-}
-
-impl Default for Shown {
-    fn default() -> Self {
-        Self { view: None, step: None, diagram: true, inadmissible: false, colour: None, overlay: Overlay::default() }
-    }
-}
-
-/// Runs a plan in memory, like [`run`]. The units of the plan, if it has any, are those of the results; `units` are
-/// those of a plan without units.
-///
-/// # Errors
-/// [`AnswerError`] for an invalid plan, or when stopped.
-pub fn answer(plan: &Plan, units: Units, control: &Control<'_>) -> Result<Answer, AnswerError> {
-    let plan = plan.complete()?;
-    let results = run(&plan, control)?;
-    let (system, osc) = (plan.system, plan.system.oscillator()?);
-    let units = if plan.units.is_some() { Units::of_plan(&plan) } else { units };
-    Ok(Answer { asked: Asked { system, units }, osc, results, plan, paper_rule: None })
 }
 
 impl Serialize for Answer {
@@ -106,23 +69,18 @@ impl Serialize for Answer {
 }
 
 impl Answer {
-    /// The line that the command prints with `--json`, without the line break.
-    #[must_use]
-    pub fn json(&self) -> String {
-        // texts and numbers can always be written as JSON
-        serde_json::to_string(self).unwrap_or_default()
-    }
-
-    /// The same without what takes longest to compute: the harmonics and the transient of a settled motion.
+    /// The JSON object without what takes longest to compute: the harmonics and the transient of a settled motion.
     #[must_use]
     pub fn brief(&self) -> String {
-        let Results::Settle(start, found) = &self.results else { return self.json() };
+        // texts and numbers can always be written as JSON
+        let Results::Settle(start, found) = &self.results else {
+            return serde_json::to_string(self).unwrap_or_default();
+        };
         let object = json::settle::brief(&self.asked, &self.plan, (&self.osc, start), found);
         serde_json::to_string(&object).unwrap_or_default()
     }
 
-    /// The figure that the command draws with `--plot`. For a settled motion it shows the motion after the transient;
-    /// for exponents it shows both sections, if points of them were requested. `None` for a view that the answer does not have. The orbit diagram behind a branch is computed here.
+    /// As [`Answer::figure`](super::Answer::figure).
     ///
     /// # Errors
     /// [`AnswerError`] for a result that cannot be drawn, or when stopped.
@@ -201,8 +159,7 @@ impl Answer {
         }))
     }
 
-    /// The table that the command writes with `--csv`; for a simulation the waveform. `None` for
-    /// exponents without points of their sections.
+    /// As [`Answer::table`](super::Answer::table).
     ///
     /// # Errors
     /// [`AnswerError`] for a result that cannot be tabulated.
@@ -241,6 +198,7 @@ impl Answer {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{Units, answer};
     use core::sync::atomic::AtomicBool;
     use core::sync::atomic::Ordering;
     use vibroimpact_study::PlanError;
