@@ -111,11 +111,7 @@ impl schemars::JsonSchema for Coordinate {
 
 impl<'de> Deserialize<'de> for Coordinate {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let name = String::deserialize(from)?;
-        Self::named(&name).ok_or_else(|| {
-            let known = crate::parameter::names().join(", ");
-            D::Error::custom(format!("`{name}` cannot vary; what can is {known}, x, v and phase"))
-        })
+        crate::name::deserialize(from)
     }
 }
 
@@ -278,11 +274,19 @@ impl<'de> Deserialize<'de> for Values {
 /// What varies over which values.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Axis {
+#[schemars(rename = "Axis")]
+pub struct Axis<V = Coordinate> {
     /// What varies.
-    pub vary: Coordinate,
+    pub vary: V,
     /// Its values.
     pub over: Values,
+}
+
+impl<V> Axis<V> {
+    /// The same with another name of what varies.
+    pub(crate) fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<Axis<W>, E> {
+        Ok(Axis { vary: name(&self.vary)?, over: self.over.clone() })
+    }
 }
 
 impl Axis {
@@ -375,7 +379,7 @@ pub(crate) fn none_twice(varied: impl IntoIterator<Item = Coordinate>) -> Result
 }
 
 /// Number of points of the grid over the axes; `u64::MAX` if it is larger.
-pub(crate) fn points(axes: &[Axis]) -> u64 {
+pub(crate) fn points<V>(axes: &[Axis<V>]) -> u64 {
     axes.iter().fold(1, |points, axis| u64::saturating_mul(points, axis.over.count() as u64))
 }
 

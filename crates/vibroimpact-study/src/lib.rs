@@ -30,7 +30,7 @@
 //! | a parameter and its range; a line through one or two of them | [`Stretch`], [`Cut`] |
 //! | the parameters of the core in plans | [`Parameter`], `parameter` |
 //! | machines as they are written, and their catalogue | [`machine`] |
-//! | the tasks of machines, and their results | [`MachineTask`], [`MachineResults`] |
+//! | the tasks of machines, and their results | [`MachineResults`] |
 //! | an oscillator in SI units; the units of a plan | [`PhysicalPlan`], [`UnitsPlan`] |
 //! | the quantities of a motion that a plan asks for | [`Quantity`], `quantity` |
 
@@ -55,6 +55,7 @@ pub mod machine;
 mod machine_plan;
 mod map;
 mod margins;
+mod name;
 mod parameter;
 mod physical;
 mod plan;
@@ -70,6 +71,7 @@ mod span;
 mod stretch;
 pub mod study;
 mod system;
+mod task;
 mod text;
 pub mod typed;
 mod unit;
@@ -83,7 +85,7 @@ pub use by_stop::ImpactsByStop;
 pub use chosen::Chosen;
 pub use control::{Control, Meter, Stopped, TileMeter, tiles};
 pub use curve::{CurvePlan, EventCurve, FollowedEvent};
-pub use cut::{Cut, Target};
+pub use cut::Cut;
 pub use diagram::{Diagram, DiagramPlan};
 pub use error::{PlanError, RunError};
 pub use event_columns::{END_REASONS, EventColumns, REAL_COLUMNS};
@@ -93,21 +95,20 @@ pub use grid::{Block, Dimension, Grid, number, place};
 pub use limits::PLAN_VERSION;
 pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
 pub use machine_plan::{
-    MachineAxis, MachineBasin, MachineBasinPlan, MachineBranchPlan, MachineBranched, MachineCurvePlan, MachineCut,
-    MachineDiagram, MachineDiagramPlan, MachineDiagramPoint, MachineDiagramStep, MachineEventCurve, MachineFollowed,
-    MachineFollowedEvent, MachineLine, MachineLyapunovPlan, MachineManyPlan, MachineMap, MachineMapPlan,
-    MachineMargins, MachineMarginsPlan, MachineOrigin, MachineResponsePlan, MachineResults,
-    MachineSection, MachineShare, MachineSimulated, MachineStretch, MachineTarget, MachineTask, NumberEvent,
-    NumberMargin, events_with_states, machine_label,
+    MachineBasin, MachineBranched, MachineDiagram, MachineDiagramPoint, MachineDiagramStep, MachineEventCurve,
+    MachineFollowed, MachineLine, MachineMap, MachineMargins, MachineOrigin, MachineResults, MachineSection,
+    MachineShare, MachineSimulated, ManyPlan, NumberEvent, NumberMargin, events_with_states, machine_label,
+    most_events,
 };
 pub use map::{MapPlan, MapPoint, RegionMap, Share};
 pub use margins::{
     BoxEdge, DEFAULT_LINES, DEFAULT_WITHIN, Loss, MarginEnd, MarginsPlan, MotionBox, MotionMargins, ParameterMargin,
     ScaledParameter, Scope,
 };
+pub use name::{Name, Variable};
 pub use parameter::{Parameter, is_length};
 pub use physical::PhysicalPlan;
-pub use plan::{Plan, Task};
+pub use plan::Plan;
 pub use plan_text::is_machine_plan;
 pub use points::{DrawnPoints, ListedColumn, PointRange, PointRule, PointsPlan};
 pub use quantity::{Quantities, Quantity, unknown as unknown_quantity};
@@ -117,9 +118,10 @@ pub use run::{Results, run};
 pub use simulate::{SEARCH_LIMIT, Simulated, simulate};
 pub use simulate_many::{real_numbers, simulate_points};
 pub use span::Span;
-pub use stretch::Stretch;
+pub use stretch::{Stretch, Target};
 pub use study::Study;
 pub use system::{SecondStop, StartPlan, System, SystemPlan};
+pub use task::Task;
 pub use text::{TextError, TextPlace};
 pub use unit::Unit;
 pub use units::{FramePlan, UnitsPlan, natural_hertz};

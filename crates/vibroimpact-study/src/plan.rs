@@ -3,16 +3,16 @@
 //! Threads, output files and progress reports are not part of a plan. Each absent field has one meaning, which is
 //! documented here. Unknown fields are errors, so a misspelt parameter is not ignored.
 
+use crate::diagram::Show;
 use crate::limits::{MOST_STARTS, PLAN_VERSION, starts};
 use crate::machine::MachineSource;
-use crate::machine_plan::MachineTask;
 use crate::map::check_impacts;
-use crate::simulate::most_impacts;
+use crate::name::{Name, Variable};
+use crate::simulate::{check_lengths, most_impacts};
 use crate::{
-    BasinPlan, BranchPlan, CurvePlan, DiagramPlan, LyapunovPlan, MapPlan, MarginsPlan, Parameter, PlanError,
-    RegionPlan, ResponsePlan, StartPlan, System, SystemPlan, UnitsPlan,
+    Axis, Coordinate, Parameter, PlanError, PointsPlan, Quantity, System, SystemPlan, Task, UnitsPlan, machine_plan,
 };
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use vibroimpact::Label;
 
 /// A question: a system and a task.
@@ -106,12 +106,7 @@ impl Plan {
     /// Whether the task fills a grid over axes, which a store keeps.
     #[must_use]
     pub const fn fills_a_grid(&self) -> bool {
-        match &self.task {
-            Task::Basin(_) | Task::Map(_) | Task::Diagram(_) => true,
-            Task::Lyapunov(lyapunov) => !lyapunov.axes.is_empty(),
-            Task::Machine(task) => task.fills_a_grid(),
-            _ => false,
-        }
+        self.task.fills_a_grid()
     }
 
     /// An identifier of the content: the first 16 digits of the SHA-256 of the plan as JSON.
@@ -123,30 +118,9 @@ impl Plan {
     /// A title in words.
     #[must_use]
     pub fn title(&self) -> String {
-        let over = |axes: &[crate::Axis]| axes.iter().map(|axis| axis.vary.name()).collect::<Vec<_>>().join(", ");
-        if let System::Machine(machine) = &self.system {
-            let name = machine.title.as_deref().unwrap_or("a machine");
-            return match &self.task {
-                Task::Machine(task) => task.title(name),
-                _ => name.to_owned(),
-            };
-        }
-        match &self.task {
-            Task::Map(map) => format!("motions of an impact oscillator over {}", over(&map.axes)),
-            Task::Basin(basin) => {
-                let of_points = basin.points.iter().flat_map(crate::PointsPlan::varied);
-                let all = of_points.chain(basin.axes.iter().map(|axis| axis.vary));
-                let names: Vec<_> = all.map(crate::Coordinate::name).collect();
-                let points = if basin.points.is_some() { "points of " } else { "" };
-                format!("motions an impact oscillator settles into over {points}{}", names.join(", "))
-            }
-            Task::Attractors { .. } => "motions an impact oscillator settles into from scattered starts".to_owned(),
-            Task::Diagram(diagram) => {
-                let names: Vec<_> = diagram.cut().parameters().map(Parameter::name).collect();
-                format!("orbit diagram of an impact oscillator over {}", names.join(" and "))
-            }
-            Task::Lyapunov(_) => "Lyapunov exponents of an impact oscillator".to_owned(),
-            _ => "an impact oscillator".to_owned(),
+        match &self.system {
+            System::Oscillator(_) => self.task.title_of_oscillator(),
+            System::Machine(machine) => self.task.title_of_machine(machine.title.as_deref().unwrap_or("a machine")),
         }
     }
 
@@ -174,14 +148,11 @@ impl Plan {
     #[must_use]
     pub fn work(&self) -> Option<(u64, &'static str)> {
         match &self.task {
-            Task::Attractors { starts, .. } => Some((*starts, "starts")),
-            Task::Basin(basin) => Some((basin.starts(), "starts")),
-            Task::Map(map) => Some((map.points(), "points")),
-            Task::Diagram(diagram) => Some(((diagram.over.count() as u64).saturating_mul(diagram.runs()), "motions")),
-            Task::Region(_) => Some((2, "regions")),
-            Task::Response(response) => Some((response.motions(), "motions")),
-            Task::Machine(task) => task.work(),
-            _ => None,
+            // exponents over axes of an oscillator are a study only
+            Task::Lyapunov(lyapunov) if self.machine().is_some() && !lyapunov.axes.is_empty() => {
+                Some((crate::axis::points(&lyapunov.axes), "points"))
+            }
+            task => task.work(),
         }
     }
 
@@ -202,18 +173,74 @@ impl Plan {
                 }
                 self.task.check(system)
             }
-            System::Machine(machine) => self.task.of_machine()?.check(machine),
+            System::Machine(machine) => self.task.check_machine(machine),
         }
     }
 }
 
 impl Task {
-    /// The task of a machine.
-    ///
-    /// # Errors
-    /// [`PlanError::OfOscillator`] for a task of an oscillator.
-    pub(crate) const fn of_machine(&self) -> Result<&MachineTask, PlanError> {
-        if let Self::Machine(task) = self { Ok(task) } else { Err(PlanError::OfOscillator) }
+    fn title_of_oscillator(&self) -> String {
+        match self {
+            Self::Map(map) => format!("motions of an impact oscillator over {}", over(&map.axes, ", ")),
+            Self::Basin(basin) => {
+                let points = basin.points.iter().flat_map(PointsPlan::varied);
+                let all = points.chain(basin.axes.iter().map(|axis| axis.vary.clone()));
+                let names: Vec<String> = all.map(|varied| varied.text().to_owned()).collect();
+                let points = if basin.points.is_some() { "points of " } else { "" };
+                format!("motions an impact oscillator settles into over {points}{}", names.join(", "))
+            }
+            Self::Attractors { .. } => "motions an impact oscillator settles into from scattered starts".to_owned(),
+            Self::Diagram(diagram) => {
+                let also = diagram.also.as_ref().map(|also| format!(" and {}", also.parameter.text()));
+                let also = also.unwrap_or_default();
+                format!("orbit diagram of an impact oscillator over {}{also}", diagram.vary.text())
+            }
+            Self::Lyapunov(_) => "Lyapunov exponents of an impact oscillator".to_owned(),
+            _ => "an impact oscillator".to_owned(),
+        }
+    }
+
+    fn title_of_machine(&self, name: &str) -> String {
+        match self {
+            Self::Basin(basin) => format!("motions that starts lead to over {}: {name}", over(&basin.axes, ", ")),
+            Self::Diagram(diagram) => format!("orbit diagram over {}: {name}", diagram.vary.text()),
+            Self::Response(response) => format!("response over {}: {name}", response.vary.text()),
+            Self::Map(map) => format!("motions over {}: {name}", over(&map.axes, ", ")),
+            Self::Lyapunov(lyapunov) if !lyapunov.axes.is_empty() => {
+                format!("Lyapunov exponents over {}: {name}", over(&lyapunov.axes, ", "))
+            }
+            _ => name.to_owned(),
+        }
+    }
+
+    /// Checks the task of a machine.
+    fn check_machine(&self, source: &MachineSource) -> Result<(), PlanError> {
+        if self.start().is_some_and(Option::is_some) {
+            return Err(PlanError::StartTwice);
+        }
+        let own_starts = match self {
+            Self::Map(_) | Self::Diagram(_) | Self::Response(_) | Self::SettleMany(_) => true,
+            Self::Lyapunov(lyapunov) => !lyapunov.axes.is_empty(),
+            _ => false,
+        };
+        // points with starts of their own do not need that of the machine
+        let (machine, _) = if own_starts { source.described()? } else { source.problem()? };
+        match self {
+            Self::Simulate { impacts, periods, .. } => machine_plan::check_simulate(&machine, (*impacts, *periods)),
+            Self::Settle { impacts, .. } => check_impacts(*impacts),
+            Self::Attractors { starts, impacts, .. } => machine_plan::check_starts(*starts, *impacts),
+            Self::Lyapunov(plan) => plan.typed::<String>()?.check(source, &machine),
+            Self::Orbit { label } => machine_plan::machine_label(&machine, label).map(|_| ()),
+            Self::Branch(plan) => plan.typed::<String>()?.check(source, &machine),
+            Self::Curve(plan) => plan.typed::<String>()?.check(source, &machine),
+            Self::SettleMany(plan) => plan.typed::<String>()?.check(source, &machine),
+            Self::Margins(plan) => plan.typed::<String>()?.check(source, &machine),
+            Self::Response(plan) => plan.typed::<String, String>()?.check(source, &machine),
+            Self::Basin(plan) => plan.typed::<String, String>()?.check(&machine),
+            Self::Map(plan) => plan.typed::<String, String>()?.check(source),
+            Self::Diagram(plan) => plan.typed::<String, String>()?.check(source),
+            Self::Region(_) => Err(PlanError::OfOscillator),
+        }
     }
 
     /// Checks the task of an oscillator.
@@ -221,103 +248,38 @@ impl Task {
         let osc = system.oscillator()?;
         match self {
             Self::Simulate { start, impacts, periods } => {
-                if let Some(n) = impacts.filter(|n| !(1..=10_000_000).contains(n)) {
-                    return Err(PlanError::Impacts(n));
-                }
-                if let Some(n) = periods.filter(|n| !(*n > 0.0 && *n <= 1e9)) {
-                    return Err(PlanError::Periods(n));
-                }
-                start.start(&osc).map(|_| ())
+                check_lengths(*impacts, *periods)?;
+                start.unwrap_or_default().start(&osc).map(|_| ())
             }
             Self::Settle { start, impacts } => {
                 check_impacts(*impacts)?;
-                start.start(&osc).map(|_| ())
+                start.unwrap_or_default().start(&osc).map(|_| ())
             }
             Self::Attractors { starts: n, impacts, .. } => starts(*n, MOST_STARTS).and(check_impacts(*impacts)),
             Self::Orbit { label } => Ok(label.parse::<Label>().map(|_| ())?),
-            Self::Basin(basin) => basin.check(system),
-            Self::Map(map) => map.check(system),
-            Self::Diagram(diagram) => diagram.check(system),
-            Self::Lyapunov(lyapunov) => lyapunov.check(system),
-            Self::Branch(branch) => branch.check(system),
-            Self::Curve(curve) => curve.check(system),
+            Self::Basin(basin) => basin.typed::<Coordinate, Quantity>()?.check(system),
+            Self::Map(map) => map.typed::<Coordinate, Quantity>()?.check(system),
+            Self::Diagram(diagram) => diagram.typed::<Parameter, Show>()?.check(system),
+            Self::Lyapunov(lyapunov) => lyapunov.typed::<Coordinate>()?.check(system),
+            Self::Branch(branch) => branch.typed::<Parameter>()?.check(system),
+            Self::Curve(curve) => curve.typed::<Parameter>()?.check(system),
             Self::Region(region) => region.check(system),
-            Self::Response(response) => response.check(system),
-            Self::Margins(margins) => margins.check(system),
-            Self::Machine(_) => Err(PlanError::OfMachine),
+            Self::Response(response) => response.typed::<Parameter, Quantity>()?.check(system),
+            Self::Margins(margins) => margins.typed::<Parameter>()?.check(system),
+            Self::SettleMany(_) => Err(PlanError::OfMachine),
         }
     }
 }
 
-/// A task: what is computed for a system.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Task {
-    /// The events of a motion.
-    Simulate {
-        /// Where to start.
-        start: StartPlan,
-        /// The largest number of impacts.
-        impacts: Option<u64>,
-        /// The largest number of forcing periods.
-        periods: Option<f64>,
-    },
-    /// What a motion settles into.
-    Settle {
-        /// Where to start.
-        start: StartPlan,
-        /// Impacts to follow it for, at most, as for a map; the default of `SettleOptions` when absent.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        impacts: Option<u32>,
-    },
-    /// The motions that scattered starts settle into, and their shares.
-    Attractors {
-        /// How many starts.
-        starts: u64,
-        /// Which sequence of them.
-        seed: u64,
-        /// Impacts to follow each start for, at most, as for a map; the default of `SettleOptions` when absent.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        impacts: Option<u32>,
-    },
-    /// The periodic orbits of a label.
-    Orbit {
-        /// m/n.
-        label: String,
-    },
-    /// Which motion each start of a plane leads to.
-    Basin(BasinPlan),
-    /// Which motions there are at each point of a parameter plane.
-    Map(MapPlan),
-    /// The motion after its transient at each value of a parameter.
-    Diagram(DiagramPlan),
-    /// The Lyapunov exponents of a motion.
-    Lyapunov(LyapunovPlan),
-    /// A branch of periodic orbits in one parameter.
-    Branch(BranchPlan),
-    /// A curve of events in two.
-    Curve(CurvePlan),
-    /// Where a motion exists and is stable in a plane of two.
-    Region(RegionPlan),
-    /// A quantity of all motions over one parameter.
-    Response(ResponsePlan),
-    /// The distances of a motion from its nearest events.
-    Margins(MarginsPlan),
-    /// A task of a machine.
-    #[serde(skip)]
-    Machine(MachineTask),
-}
-
-impl From<MachineTask> for Task {
-    fn from(task: MachineTask) -> Self {
-        Self::Machine(task)
-    }
+/// The names of axes.
+fn over(axes: &[Axis<Variable>], between: &str) -> String {
+    axes.iter().map(|axis| axis.vary.text()).collect::<Vec<_>>().join(between)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Stretch;
+    use crate::{BasinPlan, Parameter, RegionPlan, StartPlan, Stretch};
 
     const SYSTEM: SystemPlan = SystemPlan {
         beta: None,
@@ -331,7 +293,7 @@ mod tests {
 
     fn plan() -> Plan {
         let basin = BasinPlan::plane("-3:0.75:4".parse().unwrap(), "-1:1:3".parse().unwrap(), 0.0);
-        Plan::new(SYSTEM, Task::Basin(basin))
+        Plan::new(SYSTEM, basin)
     }
 
     #[test]
@@ -359,10 +321,7 @@ mod tests {
         for (task, sentence) in [
             (Task::Orbit { label: "3/0".into() }, "label `3/0`"),
             (simulate(Some(0), None), "impacts = 0"),
-            (
-                Task::Settle { start: StartPlan::default(), impacts: Some(0) },
-                "impacts = 0 lies outside 1 <= impacts <= 1000000",
-            ),
+            (Task::Settle { start: None, impacts: Some(0) }, "impacts = 0 lies outside 1 <= impacts <= 1000000"),
             (Task::Attractors { starts: 1, seed: 0, impacts: Some(1_000_001) }, "impacts = 1000001"),
             (simulate(None, Some(f64::NAN)), "periods = NaN"),
         ] {
@@ -402,6 +361,6 @@ mod tests {
     }
 
     fn simulate(impacts: Option<u64>, periods: Option<f64>) -> Task {
-        Task::Simulate { start: StartPlan::default(), impacts, periods }
+        Task::Simulate { start: None, impacts, periods }
     }
 }

@@ -4,13 +4,13 @@
 
 use crate::machine::{headed_toml, no_files};
 use crate::machine_plan::MachinePlanText;
-use crate::plan::{Plan, Task};
+use crate::name::{Name, Variable};
+use crate::plan::Plan;
 use crate::system::{SecondStop, System, SystemPlan};
 use crate::text::{Document, Value};
-use crate::{Axis, Coordinate, Parameter, PhysicalPlan, PlanError, UnitsPlan};
+use crate::{Axis, Coordinate, DiagramPlan, Parameter, PhysicalPlan, PlanError, PointsPlan, Quantity, Task, UnitsPlan};
 use schemars::JsonSchema;
 use serde::de::Error as _;
-use serde::ser::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use vibroimpact::PhysicalParameter;
 
@@ -65,29 +65,88 @@ struct OscillatorText {
 }
 
 impl Task {
-    /// The parameters that vary, with their first values.
-    fn varied(&self) -> Vec<(Parameter, f64)> {
-        let on = |axes: &[Axis]| {
-            let first = |axis: &Axis| match axis.vary {
-                Coordinate::Parameter(parameter) if axis.over.count() > 0 => Some((parameter, axis.over.at(0))),
-                _ => None,
-            };
-            axes.iter().filter_map(first).collect::<Vec<_>>()
+    /// The parameters of an oscillator that vary, with their first values.
+    fn varied(&self) -> Result<Vec<(Parameter, f64)>, PlanError> {
+        let parameter = |(vary, value): (&Variable, f64)| match Coordinate::of(vary.text()) {
+            Ok(Coordinate::Parameter(parameter)) => Some((parameter, value)),
+            _ => None,
         };
-        match self {
-            Self::Map(map) => on(&map.axes),
+        let on = |axes: &[Axis<Variable>]| {
+            let axes = axes.iter().filter(|axis| axis.over.count() > 0);
+            axes.filter_map(|axis| parameter((&axis.vary, axis.over.at(0)))).collect::<Vec<_>>()
+        };
+        Ok(match self {
             Self::Basin(basin) => {
                 let points = basin.points.iter().filter(|points| points.count() > 0);
-                points.flat_map(|points| points.parameters(0)).chain(on(&basin.axes)).collect()
+                let first = |points: &PointsPlan<Variable>| {
+                    let value = |column| (points.vary(column), points.at(column, 0));
+                    let first: Vec<(Variable, f64)> = (0..points.width()).map(value).collect();
+                    first.iter().filter_map(|(vary, value)| parameter((vary, *value))).collect::<Vec<_>>()
+                };
+                points.flat_map(first).chain(on(&basin.axes)).collect()
             }
-            Self::Lyapunov(lyapunov) => on(&lyapunov.axes),
             // an empty list is refused later
-            Self::Diagram(diagram) if diagram.over.count() > 0 => diagram.cut().values(diagram.over.at(0)).collect(),
-            Self::Response(response) => vec![(response.vary, response.over.at(0))],
+            Self::Diagram(diagram) if diagram.over.count() > 0 => {
+                let diagram: DiagramPlan = diagram.typed()?;
+                diagram.cut().values(diagram.over.at(0)).collect()
+            }
+            Self::Response(response) => parameter((&response.vary, response.over.at(0))).into_iter().collect(),
             // the first value of a branch is that of the system
-            _ => Vec::new(),
-        }
+            task => on(task.axes()),
+        })
     }
+
+    /// The task as it is stored for an oscillator: what is not given has its usual value.
+    fn filled(mut self) -> Self {
+        if let Some(start) = self.start_mut() {
+            start.get_or_insert_default();
+        }
+        if let Self::Lyapunov(plan) = &mut self {
+            let (impacts, transient) = plan.lengths();
+            (plan.impacts, plan.transient) = (Some(impacts), Some(transient));
+        }
+        self
+    }
+
+    /// Reads the task of a system, written as JSON.
+    ///
+    /// # Errors
+    /// As for [`Plan::from_text`].
+    pub fn from_json(text: &str, system: &System) -> Result<Self, PlanError> {
+        let mut document = Document::json(text)?;
+        let is_machine = system.machine().is_some();
+        if is_machine {
+            fill_for_machine(&mut document, &[]);
+        }
+        of_system(document.read()?, is_machine, &document)
+    }
+}
+
+/// What tasks of machines have where a plan does not say it.
+fn fill_for_machine(document: &mut Document<'_>, task: &[&str]) {
+    document.fill(&[task, &["map"]].concat(), "seed", Value::Unsigned(1));
+    document.fill(&[task, &["diagram"]].concat(), "show", Value::Text("speed".to_owned()));
+}
+
+/// The task with the names of an oscillator, or of a machine. An error has the position of the name.
+fn of_system(task: Task, is_machine: bool, document: &Document<'_>) -> Result<Task, PlanError> {
+    if is_machine {
+        let path = |name: &Variable| Ok(Variable::Path(name.text().to_owned()));
+        return task.named(&path, &|quantity: &String| Ok(quantity.clone()));
+    }
+    let placed = |name: &str, error: PlanError| match error {
+        PlanError::Name(why) => document.wrong_text(name, &why).into(),
+        other => other,
+    };
+    let coordinate = |name: &Variable| {
+        let found = Coordinate::of(name.text()).map(Variable::Coordinate);
+        found.map_err(|error| placed(name.text(), error))
+    };
+    let quantity = |name: &String| {
+        let found = Quantity::of(name).map(|quantity| quantity.name().to_owned());
+        found.map_err(|error| placed(name, error))
+    };
+    task.named(&coordinate, &quantity)
 }
 
 impl Plan {
@@ -121,7 +180,7 @@ impl Plan {
         text: &str,
         files: impl FnOnce(&str) -> Result<String, String>,
     ) -> Result<Self, PlanError> {
-        Self::of_document(&Document::parse(text)?, files)
+        Self::of_document(Document::parse(text)?, files)
     }
 
     /// Reads a plan written as JSON.
@@ -129,17 +188,22 @@ impl Plan {
     /// # Errors
     /// As for [`Self::from_text`].
     pub fn from_json(text: &str) -> Result<Self, PlanError> {
-        Self::of_document(&Document::json(text)?, no_files)
+        Self::of_document(Document::json(text)?, no_files)
     }
 
     fn of_document(
-        document: &Document<'_>,
+        mut document: Document<'_>,
         files: impl FnOnce(&str) -> Result<String, String>,
     ) -> Result<Self, PlanError> {
         if !document.has_machine() {
-            return document.read::<PlanText>()?.try_into();
+            let mut text = document.read::<PlanText>()?;
+            text.task = of_system(text.task, false, &document)?;
+            return text.try_into();
         }
-        let mut plan = Self::from(document.read::<MachinePlanText>()?);
+        fill_for_machine(&mut document, &["task"]);
+        let mut text = document.read::<MachinePlanText>()?;
+        text.task = of_system(text.task, true, &document)?;
+        let mut plan = Self::from(text);
         if let System::Machine(machine) = &mut plan.system {
             machine.read_modes(files)?;
         }
@@ -178,11 +242,12 @@ impl Plan {
     /// [`PlanError::NoSecondStop`] for a parameter of a second stop if there is none.
     pub fn canonical(&self) -> Result<Self, PlanError> {
         let System::Oscillator(system) = &self.system else { return Ok(self.clone()) };
-        let system = system.with_all(self.task.varied())?;
+        let system = system.with_all(self.task.varied()?)?;
         let own = |units: UnitsPlan| {
             UnitsPlan::of_system(&system).map_or(units, |own| UnitsPlan { hertz: units.hertz, ..own })
         };
-        Ok(Self { system: system.into(), units: self.units.map(own), ..self.clone() })
+        let (task, units) = (self.task.clone().filled(), self.units.map(own));
+        Ok(Self { system: system.into(), task, units, ..*self })
     }
 }
 
@@ -208,17 +273,14 @@ impl Serialize for Plan {
                 let (version, tile, shard, units) = (*version, *tile, *shard, *units);
                 WrittenPlan { version, system, task, tile, shard, units }.serialize(to)
             }
-            System::Machine(machine) => {
-                let task = task.of_machine().map_err(S::Error::custom)?;
-                MachinePlanText::new(*version, machine, task, (*tile, *shard)).serialize(to)
-            }
+            System::Machine(machine) => MachinePlanText::new(*version, machine, task, (*tile, *shard)).serialize(to),
         }
     }
 }
 
 impl<'de> Deserialize<'de> for Plan {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        Self::of_document(&Document::of(Value::deserialize(from)?), no_files).map_err(D::Error::custom)
+        Self::of_document(Document::of(Value::deserialize(from)?), no_files).map_err(D::Error::custom)
     }
 }
 
@@ -268,7 +330,7 @@ impl TryFrom<PlanText> for Plan {
     type Error = PlanError;
 
     fn try_from(written: PlanText) -> Result<Self, PlanError> {
-        let varied = written.task.varied();
+        let varied = written.task.varied()?;
         let varies = |parameter| varied.iter().any(|(other, _)| *other == parameter);
         let asked = written.system;
         if let Some(system) = asked.of_machine(&varied)? {

@@ -37,7 +37,7 @@ impl RegionPlan {
     /// # Errors
     /// [`PlanError`] names the first invalid value.
     pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
-        followable(&self.label)?;
+        followable(Some(&self.label))?;
         if !(2..=MOST_GRID).contains(&self.grid) {
             return Err(PlanError::Grid { given: self.grid, most: MOST_GRID });
         }
@@ -120,7 +120,7 @@ pub fn stability_regions(
     control: &Control<'_>,
 ) -> Result<Vec<Region>, RunError> {
     check_plane(system, across, up)?;
-    let wanted = labels.iter().map(|label| Ok((followable(label)?, RegionKind::Stability)));
+    let wanted = labels.iter().map(|label| Ok((followable(Some(label))?, RegionKind::Stability)));
     let wanted = wanted.collect::<Result<Vec<_>, PlanError>>()?;
     Plane::new(system, across, up, grid)?.regions(&wanted, control)
 }
@@ -132,7 +132,7 @@ pub fn stability_regions(
 /// step.
 pub(crate) fn regions(system: &SystemPlan, plan: &RegionPlan, control: &Control<'_>) -> Result<Regions, RunError> {
     plan.check(system)?;
-    let label = followable(&plan.label)?;
+    let label = followable(Some(&plan.label))?;
     let plane = Plane::new(system, &plan.across, &plan.up, plan.grid)?;
     let mut both =
         plane.regions(&[(label, RegionKind::Existence), (label, RegionKind::Stability)], control)?.into_iter();

@@ -9,8 +9,8 @@ use crate::region::regions;
 use crate::response::response;
 use crate::simulate::simulate;
 use crate::{
-    Basin, Branches, Control, Diagram, EventCurve, MachineResults, MotionMargins, Plan, PlanError, RegionMap, Regions,
-    ResponseCurves, RunError, Simulated, Stopped, System, SystemPlan, Task, machine_plan,
+    Basin, Branches, Control, Diagram, EventCurve, LyapunovPlan, MachineResults, MotionMargins, Plan, PlanError,
+    RegionMap, Regions, ResponseCurves, RunError, Simulated, Stopped, System, SystemPlan, Task, machine_plan,
 };
 use core::sync::atomic::{AtomicU64, Ordering};
 use vibroimpact::chaos::{Exponents, Section, exponents_while, section_while};
@@ -75,9 +75,7 @@ pub fn run(plan: &Plan, control: &Control<'_>) -> Result<Results, RunError> {
     plan.check()?;
     match &plan.system {
         System::Oscillator(system) => run_oscillator(system, plan, control),
-        System::Machine(machine) => {
-            Ok(Results::Machine(machine_plan::run(machine, plan.task.of_machine()?, control)?))
-        }
+        System::Machine(machine) => Ok(Results::Machine(machine_plan::run(machine, &plan.task, control)?)),
     }
 }
 
@@ -99,11 +97,11 @@ fn run_oscillator(system: &SystemPlan, plan: &Plan, control: &Control<'_>) -> Re
     }
     Ok(match &plan.task {
         Task::Simulate { start, impacts, periods } => {
-            let start = start.start(&osc)?;
+            let start = start.unwrap_or_default().start(&osc)?;
             Results::Simulate(start, simulate(&osc, start, (*impacts, *periods), control)?)
         }
         Task::Settle { start, impacts } => {
-            let start = start.start(&osc)?;
+            let start = start.unwrap_or_default().start(&osc)?;
             Results::Settle(start, settle_while(&osc, start, &options(*impacts), &go_on).ok_or(stopped)?)
         }
         Task::Attractors { starts, seed, impacts } => {
@@ -113,27 +111,28 @@ fn run_oscillator(system: &SystemPlan, plan: &Plan, control: &Control<'_>) -> Re
             let label: Label = label.parse().map_err(PlanError::from)?;
             Results::Orbit(find_while(&osc, label, FindOptions::default(), &go_on).ok_or(stopped)?)
         }
-        Task::Basin(task) => Results::Basin(basin(system, task, control)?),
-        Task::Map(task) => Results::Map(map(system, task, control)?),
-        Task::Diagram(task) => Results::Diagram(diagram(system, task, control)?),
+        Task::Basin(task) => Results::Basin(basin(system, &task.typed()?, control)?),
+        Task::Map(task) => Results::Map(map(system, &task.typed()?, control)?),
+        Task::Diagram(task) => Results::Diagram(diagram(system, &task.typed()?, control)?),
         Task::Lyapunov(task) => {
+            let task: LyapunovPlan = task.typed()?;
             if let Some(axis) = task.axes.first() {
                 let (task, known) = ("measurement of one motion", "none: over axes it is a study");
                 return Err(PlanError::WrongAxis { task, name: axis.vary.name().into(), known }.into());
             }
-            let start = task.start.start(&osc)?;
+            let start = task.start().start(&osc)?;
             let section = match task.points {
-                Some(points) => Some(section_while(&osc, start, task.transient, points, &go_on).ok_or(stopped)?),
+                Some(points) => Some(section_while(&osc, start, task.lengths().1, points, &go_on).ok_or(stopped)?),
                 None => None,
             };
             let exponents = exponents_while(&osc, start, &task.options(), &go_on).ok_or(stopped)?;
             Results::Lyapunov(start, exponents, section)
         }
-        Task::Branch(task) => Results::Branch(branches(system, task, control)?),
-        Task::Curve(task) => Results::Curve(curve(system, task, control)?),
+        Task::Branch(task) => Results::Branch(branches(system, &task.typed()?, control)?),
+        Task::Curve(task) => Results::Curve(curve(system, &task.typed()?, control)?),
         Task::Region(task) => Results::Region(regions(system, task, control)?),
-        Task::Response(task) => Results::Response(response(system, task, control)?),
-        Task::Margins(task) => Results::Margins(margins(system, task, control)?),
-        Task::Machine(_) => return Err(PlanError::OfMachine.into()),
+        Task::Response(task) => Results::Response(response(system, &task.typed()?, control)?),
+        Task::Margins(task) => Results::Margins(margins(system, &task.typed()?, control)?),
+        Task::SettleMany(_) => return Err(PlanError::OfMachine.into()),
     })
 }

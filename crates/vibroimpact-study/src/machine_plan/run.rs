@@ -5,17 +5,16 @@ use super::curve::{self, MachineEventCurve};
 use super::diagram::MachineDiagram;
 use super::grid::{MachineBasin, MachineMap};
 use super::margins::MachineMargins;
-use super::plan::MachineTask;
 use super::section::{self, MachineSection};
 use super::simulate::{MachineSimulated, simulate};
 use super::{many, margins, orbits, response, verdicts};
 use crate::machine::MachineSource;
-use crate::{Control, ResponseCurves, RunError, in_memory};
+use crate::{Control, LyapunovPlan, PlanError, ResponseCurves, RunError, Task, in_memory};
 use vibroimpact::chaos::MachineExponents;
 use vibroimpact::orbit::MachineCycle;
 use vibroimpact::verdict::{Census, MachineSettled, MachineVerdict};
 
-/// The result of a [`MachineTask`], one variant for each.
+/// The result of a [`Task`] of a machine.
 #[derive(Clone, Debug)]
 pub enum MachineResults {
     /// The events of the motion.
@@ -45,52 +44,48 @@ pub enum MachineResults {
 }
 
 /// Computes the result of a task of a machine, which was checked.
-pub(crate) fn run(
-    source: &MachineSource,
-    task: &MachineTask,
-    control: &Control<'_>,
-) -> Result<MachineResults, RunError> {
+pub(crate) fn run(source: &MachineSource, task: &Task, control: &Control<'_>) -> Result<MachineResults, RunError> {
     let (machine, start) = source.described()?;
     Ok(match task {
-        MachineTask::Simulate { impacts, periods } => {
+        Task::Simulate { impacts, periods, .. } => {
             MachineResults::Simulate(simulate(&machine, &start, (*impacts, *periods), control)?)
         }
-        MachineTask::Settle { impacts } => {
-            MachineResults::Settle(verdicts::settle(&machine, &start, *impacts, control)?)
-        }
-        MachineTask::Attractors { starts, seed, impacts } => {
+        Task::Settle { impacts, .. } => MachineResults::Settle(verdicts::settle(&machine, &start, *impacts, control)?),
+        Task::Attractors { starts, seed, impacts } => {
             MachineResults::Attractors(verdicts::attractors(&machine, (*starts, *seed, *impacts), control)?)
         }
-        MachineTask::Lyapunov(lyapunov) => {
+        Task::Lyapunov(lyapunov) => {
+            let lyapunov: LyapunovPlan<String> = lyapunov.typed()?;
             let found = lyapunov.run(&machine, &start, control)?;
-            let before = u64::from(lyapunov.lengths().1);
+            let before = u64::from(lyapunov.events().1);
             let section = |points| section::section(&machine, &start, (before, points), control);
             MachineResults::Lyapunov(found, lyapunov.points.map(section).transpose()?)
         }
-        MachineTask::Orbit { label } => {
+        Task::Orbit { label } => {
             MachineResults::Orbit(orbits::orbits(&machine, orbits::label(&machine, label)?, control)?)
         }
-        MachineTask::Branch(asked) => {
-            MachineResults::Branch(branch::branch(source, (&machine, &start), asked, control)?)
+        Task::Branch(asked) => {
+            MachineResults::Branch(branch::branch(source, (&machine, &start), &asked.typed()?, control)?)
         }
-        MachineTask::Curve(asked) => {
-            MachineResults::Curve(curve::curve(source, (&machine, &start), asked, control)?)
+        Task::Curve(asked) => {
+            MachineResults::Curve(curve::curve(source, (&machine, &start), &asked.typed()?, control)?)
         }
-        MachineTask::SettleMany(asked) => {
-            MachineResults::Map(many::many(source, (&machine, &start), asked, control)?)
+        Task::SettleMany(asked) => {
+            MachineResults::Map(many::many(source, (&machine, &start), &asked.typed()?, control)?)
         }
-        MachineTask::Margins(asked) => {
-            MachineResults::Margins(margins::margins(source, (&machine, &start), asked, control)?)
+        Task::Margins(asked) => {
+            MachineResults::Margins(margins::margins(source, (&machine, &start), &asked.typed()?, control)?)
         }
-        MachineTask::Response(asked) => {
-            MachineResults::Response(response::response(source, (&machine, &start), asked, control)?)
+        Task::Response(asked) => {
+            MachineResults::Response(response::response(source, (&machine, &start), &asked.typed()?, control)?)
         }
-        MachineTask::Basin(basin) => {
-            MachineResults::Basin(in_memory::machine_basin((&machine, &start), basin, control)?)
+        Task::Basin(basin) => {
+            MachineResults::Basin(in_memory::machine_basin((&machine, &start), &basin.typed()?, control)?)
         }
-        MachineTask::Map(map) => MachineResults::Map(in_memory::machine_map(source, map, control)?),
-        MachineTask::Diagram(diagram) => {
-            MachineResults::Diagram(in_memory::machine_diagram(source, diagram, control)?)
+        Task::Map(map) => MachineResults::Map(in_memory::machine_map(source, &map.typed()?, control)?),
+        Task::Diagram(diagram) => {
+            MachineResults::Diagram(in_memory::machine_diagram(source, &diagram.typed()?, control)?)
         }
+        Task::Region(_) => return Err(PlanError::OfOscillator.into()),
     })
 }

@@ -1,8 +1,7 @@
 //! A plan of a machine as TOML and JSON: the tables of a machine file, a version and a task.
 
-use super::plan::MachineTask;
-use crate::Plan;
 use crate::machine::{MachineSource, MachineText, Named, StartText};
+use crate::{Plan, Task};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -42,7 +41,7 @@ pub(crate) struct MachinePlanText {
     /// The machine.
     machine: MachineText,
     /// What is computed.
-    task: MachineTask,
+    pub(crate) task: Task,
 }
 
 impl From<MachinePlanText> for Plan {
@@ -50,7 +49,7 @@ impl From<MachinePlanText> for Plan {
         let MachinePlanText { version, title, source, summary, parameters, set, start, machine, task, tile, shard } =
             text;
         let machine = MachineSource { title, source, summary, parameters, set, start, machine };
-        Self { version, system: machine.into(), task: task.into(), tile, shard, units: None }
+        Self { version, system: machine.into(), task, tile, shard, units: None }
     }
 }
 
@@ -59,7 +58,7 @@ impl MachinePlanText {
     pub(crate) fn new(
         version: u32,
         machine: &MachineSource,
-        task: &MachineTask,
+        task: &Task,
         (tile, shard): (Option<u32>, Option<u32>),
     ) -> Self {
         let MachineSource { title, source, summary, parameters, set, start, machine } = machine.clone();
@@ -82,12 +81,8 @@ mod tests {
             let (n, path) = (source.parts().unwrap().n(), source.paths().unwrap().pop().unwrap());
             let changed = source.with(&path, source.number(&path).unwrap() * 1.25).unwrap();
             let task = MachineTask::Simulate { impacts: None, periods: Some(2.5) };
-            let start = MachineStart {
-                q: vec![0.1 + 0.2; n],
-                qdot: vec![-1e-300; n],
-                phase: 1.0,
-                ..MachineStart::default()
-            };
+            let start =
+                MachineStart { q: vec![0.1 + 0.2; n], qdot: vec![-1e-300; n], phase: 1.0, ..MachineStart::default() };
             let plan = Plan::new(changed.starting(&start), task);
             let (toml, json) = (plan.to_toml(), serde_json::to_string(&plan).unwrap());
             assert_eq!(Plan::from_text(&toml), Ok(plan.clone()), "{toml}");

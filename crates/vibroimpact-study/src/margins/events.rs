@@ -104,7 +104,7 @@ pub(crate) fn margins(
             (None, Verdict::Periodic(chosen.orbit.cycle))
         }
         None => {
-            let start = plan.start.start(&osc)?;
+            let start = plan.start().start(&osc)?;
             let settled = settle_while(&osc, start, &SettleOptions::default(), &go_on).ok_or(stopped)?;
             (Some(start), settled.verdict)
         }
@@ -126,7 +126,7 @@ pub(crate) fn margins(
     }
     if cycle.stable() {
         let largest = largest(&all.parameters);
-        all.motion_box = Some(tried_box(system, &cycle, (&scopes, largest), plan.lines, control)?);
+        all.motion_box = Some(tried_box(system, &cycle, (&scopes, largest), plan.lines(), control)?);
     }
     Ok(all)
 }
@@ -354,7 +354,7 @@ mod tests {
         );
         // the start decides which motion it is
         let other = StartPlan { v: 1.0, ..StartPlan::default() };
-        let plan = Plan::new(SYSTEM, Task::Margins(MarginsPlan { start: other, ..MarginsPlan::default() }));
+        let plan = Plan::new(SYSTEM, Task::Margins(MarginsPlan { start: Some(other), ..MarginsPlan::default() }));
         assert!(matches!(crate::run(&plan, &Control::default()), Ok(crate::Results::Margins(_))));
     }
 

@@ -1,8 +1,8 @@
 //! Access to the arrays of a study over its whole grid, independent of where they are stored.
 
 use super::Study;
-use crate::Plan;
 use crate::Column;
+use crate::Plan;
 
 /// Read access to the arrays of a study; implemented by stores.
 pub trait StudyArrays {

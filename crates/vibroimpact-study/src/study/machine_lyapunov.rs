@@ -4,8 +4,8 @@ use super::fill::{Along, along_machine, machine_grid, on_axis};
 use super::lyapunov::{LyapunovFill, Spectra, Spectrum, TILE};
 use super::map::side;
 use crate::machine::MachineSource;
-use crate::machine_plan::{MachineLyapunovPlan, StartAxis};
-use crate::{MachineAxis, PlanError, Unit};
+use crate::machine_plan::StartAxis;
+use crate::{Axis, LyapunovPlan, PlanError, Unit};
 use vibroimpact::chaos::machine_exponents_while;
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
@@ -13,7 +13,7 @@ use vibroimpact::machine::Machine;
 /// A machine and its start over axes.
 pub(super) struct Machines {
     source: MachineSource,
-    plan: MachineLyapunovPlan,
+    plan: LyapunovPlan<String>,
     /// For each axis where it stands in a start; `None` for a number of the machine.
     places: Vec<Option<StartAxis>>,
     directions: usize,
@@ -22,7 +22,7 @@ pub(super) struct Machines {
 impl LyapunovFill<Machines> {
     pub(super) fn of_machine(
         source: &MachineSource,
-        plan: &MachineLyapunovPlan,
+        plan: &LyapunovPlan<String>,
         tile: Option<u32>,
     ) -> Result<Self, PlanError> {
         let machine = source.machine()?;
@@ -37,9 +37,9 @@ impl Machines {
     /// The machine and the start at a point.
     fn problem(&self, index: &[usize]) -> Result<(Machine, MachineStart), PlanError> {
         let values = || self.plan.axes.iter().zip(&self.places).enumerate();
-        let at = |k: usize, axis: &MachineAxis| axis.over.at(on_axis(index, k));
+        let at = |k: usize, axis: &Axis<String>| axis.over.at(on_axis(index, k));
         let numbers = values().filter(|(_, (_, place))| place.is_none()).map(|(k, (axis, _))| (axis, at(k, axis)));
-        let source = MachineAxis::with_values(&self.source, numbers)?;
+        let source = Axis::<String>::with_values(&self.source, numbers)?;
         let (machine, mut start) = (source.machine()?, MachineStart::from(source.start()?));
         for (k, (axis, place)) in values() {
             if let Some(place) = place {
@@ -78,7 +78,7 @@ impl Spectra for Machines {
 
     fn at(&self, index: &[usize]) -> Option<Spectrum> {
         let (machine, start) = self.problem(index).ok()?;
-        let found = machine_exponents_while(&machine, &start, self.plan.lengths(), &|| true).ok()??;
+        let found = machine_exponents_while(&machine, &start, self.plan.events(), &|| true).ok()??;
         let Some(spectrum) = found.spectrum else {
             return Some(Spectrum { exponents: Vec::new(), further: vec![f64::NAN; 2], grounds: 0 });
         };
@@ -135,7 +135,8 @@ mod tests {
                 assert!(alone.check().is_err());
                 continue;
             }
-            let Results::Machine(MachineResults::Lyapunov(direct, None)) = run(&alone, &Control::default()).unwrap() else {
+            let Results::Machine(MachineResults::Lyapunov(direct, None)) = run(&alone, &Control::default()).unwrap()
+            else {
                 panic!()
             };
             let spectrum = direct.spectrum.unwrap();

@@ -43,11 +43,9 @@ pub use tables::{Cells, EachCount, StudyTable, Tiles};
 pub(crate) use {basin::BasinFill, machine_basin::MachineBasinFill, map::MapFill};
 
 use crate::diagram::Show;
-use crate::map::options;
 use crate::machine::MachineSource;
-use crate::{
-    Block, Column, DiagramPlan, Field, Grid, MachineTask, Plan, PlanError, System, SystemPlan, Task,
-};
+use crate::map::options;
+use crate::{Block, Column, DiagramPlan, Field, Grid, Plan, PlanError, System, SystemPlan, Task};
 use lyapunov::LyapunovFill;
 
 /// A plan that fills a grid.
@@ -64,32 +62,22 @@ impl Study {
         plan.check()?;
         match &plan.system {
             System::Oscillator(system) => Self::of_oscillator(system, plan),
-            System::Machine(machine) => Self::of_machine(machine, plan.task.of_machine()?, plan.tile),
+            System::Machine(machine) => Self::of_machine(machine, &plan.task, plan.tile),
         }
     }
 
-    fn of_machine(source: &MachineSource, task: &MachineTask, tile: Option<u32>) -> Result<Self, PlanError> {
-        let none = |what| Err(PlanError::NoMachineStudy(what));
+    fn of_machine(source: &MachineSource, task: &Task, tile: Option<u32>) -> Result<Self, PlanError> {
         let fill: Box<dyn fill::Columns> = match task {
-            MachineTask::Basin(basin) => {
+            Task::Basin(basin) => {
                 let (machine, start) = source.problem()?;
-                Box::new(MachineBasinFill::new((&machine, &start), basin, tile)?)
+                Box::new(MachineBasinFill::new((&machine, &start), &basin.typed()?, tile)?)
             }
-            MachineTask::Map(map) => Box::new(MapFill::of_machine(source, map, tile)),
-            MachineTask::Diagram(diagram) => Box::new(SweepFill::of_machine(source, diagram, tile)),
-            MachineTask::Lyapunov(lyapunov) if !lyapunov.axes.is_empty() => {
-                Box::new(LyapunovFill::of_machine(source, lyapunov, tile)?)
+            Task::Map(map) => Box::new(MapFill::of_machine(source, &map.typed()?, tile)),
+            Task::Diagram(diagram) => Box::new(SweepFill::of_machine(source, &diagram.typed()?, tile)),
+            Task::Lyapunov(lyapunov) if !lyapunov.axes.is_empty() => {
+                Box::new(LyapunovFill::of_machine(source, &lyapunov.typed()?, tile)?)
             }
-            MachineTask::Lyapunov(_) => return none("measure the exponents of one motion"),
-            MachineTask::Simulate { .. } => return none("simulate"),
-            MachineTask::Settle { .. } => return none("settle"),
-            MachineTask::Attractors { .. } => return none("find attractors"),
-            MachineTask::Orbit { .. } => return none("find orbits"),
-            MachineTask::Branch(_) => return none("follow a branch"),
-            MachineTask::Curve(_) => return none("follow a curve"),
-            MachineTask::Response(_) => return none("compute a response"),
-            MachineTask::Margins(_) => return none("compute margins"),
-            MachineTask::SettleMany(_) => return none("settle points"),
+            other => return Err(PlanError::NoMachineStudy(other.verb())),
         };
         Ok(Self { fill })
     }
@@ -97,23 +85,20 @@ impl Study {
     fn of_oscillator(system: &SystemPlan, plan: &Plan) -> Result<Self, PlanError> {
         let tile = plan.tile;
         let fill: Box<dyn fill::Columns> = match &plan.task {
-            Task::Map(map) => Box::new(MapFill::new(system, map, tile)),
-            Task::Basin(basin) => Box::new(BasinFill::plane(system, basin, tile)?),
+            Task::Map(map) => Box::new(MapFill::new(system, &map.typed()?, tile)),
+            Task::Basin(basin) => Box::new(BasinFill::plane(system, &basin.typed()?, tile)?),
             Task::Attractors { starts, seed, impacts } => {
                 Box::new(BasinFill::scattered(system, (*starts, *seed), &options(*impacts), tile)?)
             }
-            Task::Lyapunov(lyapunov) => Box::new(LyapunovFill::new(system, lyapunov, tile)),
-            Task::Diagram(DiagramPlan { show: Show::Quantity(_), .. }) => return Err(PlanError::NoStoredQuantity),
-            Task::Diagram(diagram) => Box::new(SweepFill::new(system, diagram, tile)),
-            Task::Simulate { .. } => return Err(PlanError::NoStudy("simulate")),
-            Task::Settle { .. } => return Err(PlanError::NoStudy("settle")),
-            Task::Orbit { .. } => return Err(PlanError::NoStudy("find orbits")),
-            Task::Branch(_) => return Err(PlanError::NoStudy("follow a branch")),
-            Task::Curve(_) => return Err(PlanError::NoStudy("follow a curve")),
-            Task::Region(_) => return Err(PlanError::NoStudy("find a region")),
-            Task::Response(_) => return Err(PlanError::NoStudy("find a response")),
-            Task::Margins(_) => return Err(PlanError::NoStudy("find margins")),
-            Task::Machine(_) => return Err(PlanError::OfMachine),
+            Task::Lyapunov(lyapunov) => Box::new(LyapunovFill::new(system, &lyapunov.typed()?, tile)),
+            Task::Diagram(diagram) => {
+                let diagram: DiagramPlan = diagram.typed()?;
+                if let Show::Quantity(_) = diagram.show {
+                    return Err(PlanError::NoStoredQuantity);
+                }
+                Box::new(SweepFill::new(system, &diagram, tile))
+            }
+            other => return Err(PlanError::NoStudy(other.verb())),
         };
         Ok(Self { fill })
     }

@@ -53,6 +53,26 @@ impl<'t> Document<'t> {
         T::deserialize(&self.value).map_err(|wrong| self.error(wrong))
     }
 
+    /// Gives a table a value if it has none of this name.
+    pub(crate) fn fill(&mut self, table: &[&str], name: &str, value: Value) {
+        let mut here = Some(&mut self.value);
+        for step in table {
+            here = here.and_then(|value| value.get_mut(step));
+        }
+        if let Some(Value::Table(entries)) = here
+            && !entries.iter().any(|(known, _)| known == name)
+        {
+            entries.push((name.to_owned(), value));
+        }
+    }
+
+    /// The error of a text of the task, with its position.
+    pub(crate) fn wrong_text(&self, text: &str, why: &str) -> TextError {
+        let mut steps = self.value.way_to(text).unwrap_or_default();
+        steps.reverse();
+        self.error(Wrong { message: why.to_owned(), steps, of_name: false })
+    }
+
     fn error(&self, mut wrong: Wrong) -> TextError {
         wrong.steps.reverse();
         let bytes = if self.is_json { in_json } else { in_toml };
