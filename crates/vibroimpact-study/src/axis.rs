@@ -1,6 +1,7 @@
 //! An axis of a grid: the quantity that varies and the values that it takes.
 
 use crate::limits::MOST_CELLS;
+use crate::name::{Name, Variable};
 use crate::{Block, Parameter, PlanError, Span, StartPlan, SystemPlan, Unit};
 use core::fmt;
 use serde::de::{Error, SeqAccess, Visitor};
@@ -301,6 +302,14 @@ impl Axis {
     pub fn parameter(parameter: Parameter, over: impl Into<Values>) -> Self {
         Self::new(Coordinate::Parameter(parameter), over)
     }
+}
+
+/// Axes with the names of a system.
+///
+/// # Errors
+/// [`PlanError::Name`] for a name that the system does not have.
+pub fn typed_axes<W: Name>(axes: &[Axis<Variable>]) -> Result<Vec<Axis<W>>, PlanError> {
+    axes.iter().map(|axis| axis.named(&|name: &Variable| W::of(name.text()))).collect()
 }
 
 /// The error for axes with more results than one run keeps in memory.

@@ -78,7 +78,7 @@ mod unit;
 mod units;
 mod words;
 
-pub use axis::{Axis, Coordinate, Values};
+pub use axis::{Axis, Coordinate, Values, typed_axes};
 pub use basin::{Basin, BasinPlan};
 pub use branch::{BranchPlan, Branches, DEFAULT_BRANCH_POINTS, Followed, Origin};
 pub use by_stop::ImpactsByStop;
@@ -98,7 +98,7 @@ pub use machine_plan::{
     MachineBasin, MachineBranched, MachineDiagram, MachineDiagramPoint, MachineDiagramStep, MachineEventCurve,
     MachineFollowed, MachineLine, MachineMap, MachineMargins, MachineOrigin, MachineResults, MachineSection,
     MachineShare, MachineSimulated, ManyPlan, NumberEvent, NumberMargin, events_with_states, machine_label,
-    most_events,
+    most_events, quantity_path,
 };
 pub use map::{MapPlan, MapPoint, RegionMap, Share};
 pub use margins::{

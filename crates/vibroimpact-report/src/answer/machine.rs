@@ -14,8 +14,8 @@ use vibroimpact::verdict::{CountedMotion, MachineVerdict};
 use vibroimpact_plot::{Figure, plain};
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{
-    Control, MachineBranchPlan, MachineDiagram, MachineResults, MachineSimulated, MachineTask, Plan, PlanError,
-    ResponseCurves, Results, Task, run,
+    BranchPlan, Control, MachineDiagram, MachineResults, MachineSimulated, Plan, PlanError, ResponseCurves, Results,
+    Task, Variable, run,
 };
 
 /// The largest number of characters of a title over an axis of ordinary width.
@@ -91,15 +91,15 @@ impl Answer {
                 }
             }
             MachineResults::Branch(found) => {
-                let Task::Machine(MachineTask::Branch(plan)) = &self.plan.task else { return Ok(None) };
-                let cut = plan.cut(&self.source)?;
+                let Task::Branch(plan) = &self.plan.task else { return Ok(None) };
+                let cut = plan.typed::<String>()?.cut(&self.source)?;
                 let quantity = BranchQuantity::of(&self.machine, &self.source, &cut, found);
                 let path = quantity.as_ref().map(|quantity| quantity.path.as_str());
                 let behind = if shown.diagram { self.behind(plan, path, control)? } else { None };
                 figure::branch::of_machine(found.all(), &cut, (quantity.as_ref(), behind.as_ref()), title)
             }
             MachineResults::Curve(found) => {
-                let Task::Machine(MachineTask::Curve(plan)) = &self.plan.task else { return Ok(None) };
+                let Task::Curve(plan) = &self.plan.task else { return Ok(None) };
                 figure::curve::of_machine(found, plan, title)
             }
             MachineResults::Response(found) => {
@@ -135,7 +135,7 @@ impl Answer {
     /// The response as it is told; `None` if the plan is that of another task.
     #[must_use]
     pub fn response<'a>(&'a self, found: &'a ResponseCurves) -> Option<ResponseView<'a>> {
-        let Task::Machine(MachineTask::Response(plan)) = &self.plan.task else { return None };
+        let Task::Response(plan) = &self.plan.task else { return None };
         Some(ResponseView::of_machine(found, plan, &self.machine))
     }
 
@@ -143,16 +143,15 @@ impl Answer {
     /// where no branch can come either.
     fn behind(
         &self,
-        plan: &MachineBranchPlan,
+        plan: &BranchPlan<Variable>,
         quantity: Option<&str>,
         control: &Control<'_>,
     ) -> Result<Option<MachineDiagram>, AnswerError> {
-        let mut diagram = plan.diagram(&self.source)?;
+        let mut diagram = plan.typed::<String>()?.diagram(&self.source)?;
         if let Some(path) = quantity {
             path.clone_into(&mut diagram.show);
         }
-        let task = MachineTask::Diagram(diagram);
-        let plan = Plan { task: task.into(), ..self.plan.clone() };
+        let plan = Plan { task: diagram.into(), ..self.plan.clone() };
         if plan.check().is_err() {
             return Ok(None);
         }
@@ -206,11 +205,11 @@ impl Answer {
             },
             MachineResults::Attractors(census) => table::machine_tables::attractors(&self.machine, census),
             MachineResults::Branch(found) => {
-                let Task::Machine(MachineTask::Branch(plan)) = &self.plan.task else { return Ok(None) };
-                table::machine_branch::table(&self.machine, &plan.cut(&self.source)?, found)
+                let Task::Branch(plan) = &self.plan.task else { return Ok(None) };
+                table::machine_branch::table(&self.machine, &plan.typed::<String>()?.cut(&self.source)?, found)
             }
             MachineResults::Curve(found) => {
-                let Task::Machine(MachineTask::Curve(plan)) = &self.plan.task else { return Ok(None) };
+                let Task::Curve(plan) = &self.plan.task else { return Ok(None) };
                 table::machine_curve::table(&self.machine, plan, found)
             }
             MachineResults::Margins(found) => table::margins::of_machine(found, &self.machine),

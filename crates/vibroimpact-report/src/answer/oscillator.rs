@@ -11,7 +11,7 @@ use serde::{Serialize, Serializer};
 use vibroimpact::verdict::{CountedMotion, PaperRule, PaperVerdict};
 use vibroimpact::{Oscillator, Parameter};
 use vibroimpact_plot::Figure;
-use vibroimpact_study::{Control, ParameterMargin, Plan, Results, Task, run};
+use vibroimpact_study::{BranchPlan, Control, Name, ParameterMargin, Plan, Results, Task, run};
 
 /// A plan of an oscillator and its result.
 #[derive(Clone, Debug)]
@@ -49,17 +49,20 @@ impl Serialize for Answer {
                 json::lyapunov::document(asked, plan, (osc, start), found).serialize(to)
             }
             (Task::Branch(task), Results::Branch(found)) => {
-                let cut = task.cut(&asked.system).map_err(S::Error::custom)?;
+                let cut =
+                    task.typed::<Parameter>().and_then(|task| task.cut(&asked.system)).map_err(S::Error::custom)?;
                 json::branch::document(asked, plan, osc, found, &cut).serialize(to)
             }
             (Task::Curve(task), Results::Curve(found)) => {
-                json::curve::document(asked, plan, osc, (task, found)).serialize(to)
+                let task = task.typed().map_err(S::Error::custom)?;
+                json::curve::document(asked, plan, osc, (&task, found)).serialize(to)
             }
             (Task::Region(task), Results::Region(found)) => {
                 json::region::document(asked, plan, osc, (task, found)).serialize(to)
             }
             (Task::Response(task), Results::Response(found)) => {
-                json::response::document(asked, plan, osc, (task, found)).serialize(to)
+                let object = json::response::document(asked, plan, osc, (task, found));
+                object.map_err(S::Error::custom)?.serialize(to)
             }
             (_, Results::Margins(found)) => json::margins::document(asked, plan, osc, found).serialize(to),
             // `answer` combines each plan with its own results, so this does not occur
@@ -123,12 +126,14 @@ impl Answer {
             (_, Results::Map(found)) => figure::map::figure_with(found, asked, shown.overlay.cells())?,
             (_, Results::Diagram(found)) => figure::diagram::figure(found, asked)?,
             (Task::Response(task), Results::Response(found)) => {
-                let view = ResponseView::of_oscillator(found, task, &asked.units);
-                figure::response::figure(&view, figure::title_without(asked, &[task.vary]))
+                let view = ResponseView::of_oscillator(found, task, &asked.units)?;
+                let vary = Parameter::of(task.vary.text())?;
+                figure::response::figure(&view, figure::title_without(asked, &[vary]))
             }
             (Task::Branch(task), Results::Branch(found)) => {
+                let task: BranchPlan = task.typed()?;
                 let behind = if shown.diagram {
-                    let plan = Plan::new(asked.system, Task::Diagram(task.diagram(&asked.system)?));
+                    let plan = Plan::new(asked.system, task.diagram(&asked.system)?);
                     if let Results::Diagram(behind) = run(&plan, control)? { Some(behind) } else { None }
                 } else {
                     None
@@ -136,7 +141,7 @@ impl Answer {
                 let cut = task.cut(&asked.system)?;
                 figure::branch::figure(&found.followed, &cut, behind.as_ref(), shown.inadmissible, asked)?
             }
-            (Task::Curve(task), Results::Curve(found)) => figure::curve::figure(found, task, asked),
+            (Task::Curve(task), Results::Curve(found)) => figure::curve::figure(found, &task.typed()?, asked),
             (Task::Region(task), Results::Region(found)) => figure::region::figure(found, task, asked),
             (_, Results::Attractors(census)) => {
                 let share = |found: &CountedMotion| (found.verdict.label().into_owned(), census.share(found));
@@ -182,12 +187,12 @@ impl Answer {
             (_, Results::Diagram(found)) => table::diagram::table(found, *units)?,
             (_, Results::Lyapunov(_, _, Some(points))) => table::section::table(points, osc, *units),
             (Task::Branch(task), Results::Branch(found)) => {
-                table::branch::table(found, &task.cut(&asked.system)?, units)
+                table::branch::table(found, &task.typed::<Parameter>()?.cut(&asked.system)?, units)
             }
-            (Task::Curve(task), Results::Curve(found)) => table::curve::table(found, task, units),
+            (Task::Curve(task), Results::Curve(found)) => table::curve::table(found, task.typed()?, units),
             (Task::Region(task), Results::Region(found)) => table::region::table(found, task, units),
             (Task::Response(task), Results::Response(found)) => {
-                table::response::table(ResponseView::of_oscillator(found, task, units))
+                table::response::table(ResponseView::of_oscillator(found, task, units)?)
             }
             (_, Results::Margins(found)) => table::margins::table(found, *units),
             _ => return Ok(None),
@@ -227,7 +232,7 @@ mod tests {
         let control = Control { stop: &stop, ..Control::default() };
         let start = StartPlan::default();
         for task in [
-            Task::Settle { start, impacts: None },
+            Task::Settle { start: Some(start), impacts: None },
             Task::Orbit { label: "1/1".into() },
             Task::Attractors { starts: 9, seed: 1, impacts: None },
         ] {

@@ -4,8 +4,8 @@
 use super::bifurcation::{
     BifurcationEvent, FOLLOW, LOOKS, MOST_LABELS, NEAR, POINTS, SAMPLES, SEED, STARTS, distinct, most_first,
 };
-use crate::branch_quantity::BranchQuantity;
 use crate::answer::machine::machine_title;
+use crate::branch_quantity::BranchQuantity;
 use crate::table::{Table, bifurcation as bifurcation_table};
 use crate::{AnswerError, ReportError, figure};
 use std::collections::BTreeMap;
@@ -19,8 +19,8 @@ use vibroimpact::verdict::{
 use vibroimpact_plot::Figure;
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{
-    Control, MachineCut, MachineDiagram, MachineDiagramPlan, MachineLine, MachineOrigin, MachineResults, MachineTask,
-    Plan, Results, RunError, Span, System, Task, machine_label, run, tiles,
+    Control, Cut, DiagramPlan, MachineDiagram, MachineLine, MachineOrigin, MachineResults, Plan, Results, RunError,
+    Span, System, Task, machine_label, run, tiles,
 };
 
 /// Starts from which orbits of a given label are searched at each value.
@@ -95,10 +95,11 @@ pub fn machine_bifurcation(
     control: &Control<'_>,
 ) -> Result<MachineBifurcation, AnswerError> {
     plan.check()?;
-    let (System::Machine(source), Task::Machine(MachineTask::Diagram(diagram))) = (&plan.system, &plan.task) else {
+    let (System::Machine(source), Task::Diagram(diagram)) = (&plan.system, &plan.task) else {
         // the command asks for no other task
         return Err(ReportError::NoLabels.into());
     };
+    let diagram: DiagramPlan<String, String> = diagram.typed()?;
     let (machine, _) = source.described()?;
     if diagram.shows_states() || (diagram.shows_closings() && machine.stops().is_empty()) {
         let coordinate = machine.parts().coordinates.first().cloned().unwrap_or_default();
@@ -109,7 +110,7 @@ pub fn machine_bifurcation(
     let cut = diagram.cut();
     let mut seeds = match &given {
         Some(labels) => orbits(source, &cut, labels, control)?,
-        None => motions(source, &cut, diagram, control)?,
+        None => motions(source, &cut, &diagram, control)?,
     };
     let labels: Vec<String> = match named {
         Some(labels) => labels.to_vec(),
@@ -151,7 +152,7 @@ type Seeds = Vec<(f64, Vec<(MachineCycle, u64)>)>;
 /// `count` values along a line, with what is found at each.
 fn along(
     source: &MachineSource,
-    (cut, count): (&MachineCut, u32),
+    (cut, count): (&Cut<String>, u32),
     control: &Control<'_>,
     find: impl Fn(&Machine) -> Vec<(MachineCycle, u64)> + Sync,
 ) -> Result<Seeds, AnswerError> {
@@ -173,7 +174,12 @@ fn along(
 }
 
 /// The orbits with these labels along a line.
-fn orbits(source: &MachineSource, cut: &MachineCut, labels: &[Label], control: &Control<'_>) -> Result<Seeds, AnswerError> {
+fn orbits(
+    source: &MachineSource,
+    cut: &Cut<String>,
+    labels: &[Label],
+    control: &Control<'_>,
+) -> Result<Seeds, AnswerError> {
     along(source, (cut, LOOKS), control, |machine| {
         let starts = || (0..ORBIT_STARTS).map(|k| scattered_machine_starts(machine, SEED, k));
         let of = |label: &Label| find_machine_while(machine, *label, starts(), &|| !control.stopping());
@@ -184,8 +190,8 @@ fn orbits(source: &MachineSource, cut: &MachineCut, labels: &[Label], control: &
 /// The cycles into which a few starts settle along a line. Those without closings have no speeds to be shown.
 fn motions(
     source: &MachineSource,
-    cut: &MachineCut,
-    diagram: &MachineDiagramPlan,
+    cut: &Cut<String>,
+    diagram: &DiagramPlan<String, String>,
     control: &Control<'_>,
 ) -> Result<Seeds, AnswerError> {
     let options = SettleOptions::default();
@@ -240,7 +246,11 @@ mod tests {
     use super::*;
 
     fn plan(name: &str, task: &str) -> Plan {
-        Plan::new(MachineSource::open(name).unwrap(), serde_json::from_str::<MachineTask>(task).unwrap())
+        let machine = MachineSource::open(name).unwrap().into();
+        Plan {
+            task: Task::from_json(task, &machine).unwrap(),
+            ..Plan::new(machine, Task::Orbit { label: "1/1".into() })
+        }
     }
 
     /// The values of events of a kind and a label.

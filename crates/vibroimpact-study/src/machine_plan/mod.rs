@@ -46,6 +46,7 @@ pub(crate) use grid::{StartAxis, check_memory, values_of};
 pub use many::ManyPlan;
 pub use margins::{MachineMargins, NumberEvent, NumberMargin};
 pub use orbits::label as machine_label;
+pub use response::quantity_path;
 pub use run::MachineResults;
 pub(crate) use run::run;
 pub use section::MachineSection;

@@ -18,14 +18,14 @@ use vibroimpact::quantities::{
 };
 use vibroimpact::verdict::MachineVerdict;
 
-impl ResponsePlan<String, String> {
-    /// The path of the quantity.
-    #[must_use]
-    pub fn path(&self, machine: &Machine) -> String {
-        let first = machine.parts().coordinates.first().map_or("", String::as_str);
-        self.quantity.clone().unwrap_or_else(|| format!("q.{first}.displacement_amplitude"))
-    }
+/// The path of the quantity of a response: the displacement amplitude of the first coordinate if none is given.
+#[must_use]
+pub fn quantity_path(given: Option<&str>, machine: &Machine) -> String {
+    let first = || machine.parts().coordinates.first().map_or("", String::as_str);
+    given.map_or_else(|| format!("q.{}.displacement_amplitude", first()), str::to_owned)
+}
 
+impl ResponsePlan<String, String> {
     /// Checks everything that can be checked without running the plan.
     ///
     /// # Errors
@@ -33,7 +33,7 @@ impl ResponsePlan<String, String> {
     pub fn check(&self, source: &MachineSource, machine: &Machine) -> Result<(), PlanError> {
         check_values(&self.over, "the number")?;
         check_impacts(self.impacts)?;
-        check_fields(machine, &[self.path(machine)])?;
+        check_fields(machine, &[quantity_path(self.quantity.as_deref(), machine)])?;
         let (from, to) = self.over.extent();
         [from, to]
             .into_iter()
@@ -131,7 +131,7 @@ pub(super) fn response(
             branches.extend((!points.is_empty()).then_some(points));
         }
     }
-    let shown = plan.path(machine).replace('-', "_");
+    let shown = quantity_path(plan.quantity.as_deref(), machine).replace('-', "_");
     Ok(ResponseCurves {
         shown: names.iter().position(|name| *name == shown).unwrap_or(0),
         up: up.into_iter().map(|(row, _)| row).collect(),

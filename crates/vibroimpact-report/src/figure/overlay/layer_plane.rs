@@ -5,7 +5,8 @@ use crate::Units;
 use vibroimpact::PhysicalParameter;
 use vibroimpact::continuation::{Polygon, Region};
 use vibroimpact_study::{
-    Axis, Control, Coordinate, Parameter, Plan, PlanError, RunError, Stretch, System, SystemPlan, Task, stability_regions,
+    Axis, Control, Coordinate, MapPlan, Parameter, Plan, PlanError, RunError, Stretch, System, SystemPlan, Task,
+    stability_regions,
 };
 
 /// Motions whose regions are drawn by default: those of the 1971 paper, and those that begin at their flips.
@@ -35,6 +36,7 @@ impl LayerPlane {
     pub fn of(plan: &Plan) -> Result<Option<Self>, PlanError> {
         let plan = plan.complete()?;
         let (System::Oscillator(system), Task::Map(map)) = (&plan.system, &plan.task) else { return Ok(None) };
+        let map: MapPlan = map.typed()?;
         let stretch = |axis: &Axis| match (axis.vary, axis.over.extent()) {
             (Coordinate::Parameter(parameter), (from, to)) => Some(Stretch { parameter, from, to }),
             _ => None,
