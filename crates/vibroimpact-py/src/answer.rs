@@ -7,12 +7,11 @@ use crate::machine::{MachineFile, Start, start};
 use crate::oscillator::Oscillator;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
-use serde::de::DeserializeOwned;
 use vibroimpact::chaos::Section;
 use vibroimpact_report::json::event::side;
 use vibroimpact_report::{Answer, Units};
 use vibroimpact_study::{
-    MachineDiagram, MachineDiagramStep, MachineResults, MachineSection, MachineTask, MarginsPlan, Parameter, Plan,
+    MachineDiagram, MachineDiagramStep, MachineResults, MachineSection, MarginsPlan, Name, Parameter, Plan, PlanError,
     Quantity, ResponseCurves, ResponseRow, Results, SystemPlan, Task,
 };
 
@@ -134,26 +133,27 @@ pub(crate) struct AnswerFields<'py> {
     response: Option<ResponseFields<'py>>,
 }
 
-/// The task that JSON describes.
-fn task<T: DeserializeOwned>(text: &str) -> Result<T, Trouble> {
-    serde_json::from_str(text).map_err(|error| {
+/// The plan of a task, which is JSON, for a system.
+fn planned_task(system: vibroimpact_study::System, text: &str) -> Result<Plan, Trouble> {
+    let task = Task::from_json(text, &system).map_err(|error| match error {
         // JSON is written by this package, so a position in it does not help the user
-        let said = error.to_string();
-        Trouble::question(said.rsplit_once(" at line ").map_or(said.as_str(), |(said, _)| said).to_owned())
-    })
+        PlanError::Text(error) => Trouble::question(error.without_place().to_string()),
+        other => other.into(),
+    })?;
+    Ok(Plan::new(system, task))
 }
 
 /// The checked plan of a task, which is JSON, for a system. The start of a machine is given; that of an oscillator is in the task.
 fn planned(system: &System<'_>, from: Option<Start>, text: &str, tile: Option<u32>) -> Result<Plan, Trouble> {
     let plan = match system {
-        System::Oscillator(osc) => Plan::new(osc.plan, task::<Task>(text)?),
+        System::Oscillator(osc) => planned_task(osc.plan.into(), text)?,
         System::Machine(file) => {
             // a start of the wrong size is refused by its path
             let machine = match from {
                 Some(from) => file.0.clone().starting(&start(file, from)?),
                 None => file.0.clone(),
             };
-            Plan::new(machine, task::<MachineTask>(text)?)
+            planned_task(machine.into(), text)?
         }
     };
     let plan = Plan { tile, ..plan };
@@ -199,7 +199,8 @@ pub(crate) fn answer<'py>(
                 fields.section = Some(SectionFields::of_oscillator(py, &of.osc, points)?);
             }
             (Task::Response(task), Results::Response(found)) => {
-                fields.response = Some(ResponseFields::of_oscillator(py, found, task.vary, &of.asked.system)?);
+                let vary = Parameter::of(task.vary.text())?;
+                fields.response = Some(ResponseFields::of_oscillator(py, found, vary, &of.asked.system)?);
             }
             _ => {}
         },

@@ -8,9 +8,7 @@ use pyo3::prelude::*;
 use vibroimpact::events::{MachineLimits, MachineSample, MachineSamples, MachineStart};
 use vibroimpact::regime::ContactState;
 use vibroimpact_study::machine::{CATALOGUE, MachineProblem, MachineSource, MachineTextError, StartText};
-use vibroimpact_study::{
-    MachineResults, MachineTask, Plan, PlanError, Results, System, Task, events_with_states, run,
-};
+use vibroimpact_study::{MachineResults, Plan, PlanError, Results, System, Task, events_with_states, most_events, run};
 
 /// A machine file that describes a machine.
 #[pyclass(frozen, module = "vibroimpact._core")]
@@ -153,8 +151,7 @@ pub(crate) fn start(file: &MachineFile, (q, qdot, phase): Start) -> Result<Machi
 #[pyfunction]
 pub(crate) fn machine_state(py: Python<'_>, plan: &str, event: usize) -> Result<String, Trouble> {
     let plan = crate::plan::read(plan)?;
-    let (System::Machine(machine), Task::Machine(MachineTask::Simulate { periods, .. })) = (plan.system, plan.task)
-    else {
+    let (System::Machine(machine), Task::Simulate { periods, .. }) = (plan.system, plan.task) else {
         return Err(Trouble::question("this is no plan that simulates a machine".to_owned()));
     };
     let (machine, start) = machine.problem()?;
@@ -188,9 +185,9 @@ pub(crate) fn simulate_machine<'py>(
     progress: Option<Py<PyAny>>,
 ) -> Result<Fields<'py>, Trouble> {
     // a start of the wrong size is refused by its path
-    let (source, task) = (file.0.clone().starting(&start(file, from)?), MachineTask::Simulate { impacts, periods });
-    let (machine, most) = (source.machine()?, task.most_events().unwrap_or(1));
-    let plan = Plan::new(source, task);
+    let source = file.0.clone().starting(&start(file, from)?);
+    let (machine, most) = (source.machine()?, most_events(impacts, periods));
+    let plan = Plan::new(source, Task::Simulate { start: None, impacts, periods });
     let text = crate::simulate::text(&plan)?;
     let watch = Watch::one("following a machine", most, progress);
     let Results::Machine(MachineResults::Simulate(found)) =

@@ -8,9 +8,7 @@ use pyo3::prelude::*;
 use std::collections::HashMap;
 use vibroimpact::PhysicalParameter;
 use vibroimpact_report::Units;
-use vibroimpact_study::{
-    Axis, Coordinate, Parameter, Plan, PlanError, StartPlan, SystemPlan, Task,
-};
+use vibroimpact_study::{Axis, Coordinate, Parameter, Plan, PlanError, StartPlan, SystemPlan, Task, Variable};
 
 /// The plan of a text, in the form in which it is stored.
 pub(crate) fn read(text: &str) -> Result<Plan, Trouble> {
@@ -169,15 +167,19 @@ pub(crate) fn coordinate_words(name: &str) -> Result<(&'static str, &'static str
 pub(crate) fn fixed_coordinates(text: &str) -> Result<Vec<Fixed>, Trouble> {
     let plan = read(text)?;
     let Some(system) = plan.oscillator() else { return Ok(Vec::new()) };
-    let on = |axes: &[Axis]| axes.iter().map(|axis| axis.vary).collect::<Vec<_>>();
+    let known = |name: Variable| if let Variable::Coordinate(coordinate) = name { Some(coordinate) } else { None };
+    let on = |axes: &[Axis<Variable>]| axes.iter().filter_map(|axis| known(axis.vary.clone())).collect::<Vec<_>>();
     let (varied, start) = match &plan.task {
         Task::Map(map) => (on(&map.axes), None),
         Task::Basin(basin) => {
             let points = basin.points.iter().flat_map(vibroimpact_study::PointsPlan::varied);
-            (points.chain(on(&basin.axes)).collect(), Some(basin.start))
+            (points.filter_map(known).chain(on(&basin.axes)).collect(), basin.start)
         }
-        Task::Lyapunov(lyapunov) => (on(&lyapunov.axes), Some(lyapunov.start)),
-        Task::Diagram(diagram) => (diagram.cut().parameters().map(Coordinate::Parameter).collect(), None),
+        Task::Lyapunov(lyapunov) => (on(&lyapunov.axes), lyapunov.start),
+        Task::Diagram(diagram) => {
+            let also = diagram.also.as_ref().map(|also| also.parameter.clone());
+            (core::iter::once(diagram.vary.clone()).chain(also).filter_map(known).collect(), None)
+        }
         _ => (Vec::new(), None),
     };
     let is_frequency = |of: &Coordinate| matches!(of, Coordinate::Parameter(parameter) if parameter.is_frequency());

@@ -314,7 +314,7 @@ mod tests {
     #[test]
     fn a_plan_survives_json_and_nonsense_is_refused() {
         let (system, good) = plan();
-        let whole = Plan::new(system, Task::Branch(good.clone().into()));
+        let whole = Plan::new(system, Task::from(good.clone()));
         assert_eq!(whole.check(), Ok(()));
         let text = serde_json::to_string(&whole).unwrap();
         assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), whole);

@@ -304,7 +304,7 @@ mod tests {
     #[test]
     fn nonsense_is_refused() {
         let (system, good) = plan();
-        let whole = Plan::new(system, Task::Curve(good.clone().into()));
+        let whole = Plan::new(system, Task::from(good.clone()));
         assert_eq!(whole.check(), Ok(()));
         let text = serde_json::to_string(&whole).unwrap();
         assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), whole);

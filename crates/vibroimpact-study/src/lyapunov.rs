@@ -120,7 +120,7 @@ mod tests {
     #[test]
     fn a_plan_survives_json_and_short_ones_are_filled_in() {
         let system = SystemPlan { inverse_beta: Some(1.11), gap: 3.0, restitution: 0.5, ..SystemPlan::default() };
-        let plan = Plan::new(system, Task::Lyapunov(GOOD.into()));
+        let plan = Plan::new(system, Task::from(GOOD));
         assert_eq!(plan.check(), Ok(()));
         let text = serde_json::to_string(&plan).unwrap();
         assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan);

@@ -5,7 +5,7 @@ use super::parameter_flag::{ParameterFlag, Varied};
 use crate::failure::Failure;
 use core::str::FromStr;
 use vibroimpact_study::typed::{self, decimal, meant};
-use vibroimpact_study::{MachineStretch, MachineTarget, Parameter, Stretch};
+use vibroimpact_study::{Parameter, Stretch};
 
 /// `A:B`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -135,27 +135,6 @@ impl<T: Copy> VariedNamed<T> {
     /// A parameter of the oscillator.
     pub(crate) fn of_oscillator(&self) -> Result<Named<T>, Failure> {
         Ok(Named(self.0.parameter()?, self.1))
-    }
-}
-
-impl VariedOver {
-    /// A number of a machine.
-    pub(crate) fn stretch(&self) -> MachineStretch {
-        MachineStretch { path: self.0.path(), from: self.1.0, to: self.1.1 }
-    }
-}
-
-impl VariedNamed<Ends> {
-    /// A number of a machine.
-    pub(crate) fn stretch(&self) -> MachineStretch {
-        MachineStretch { path: self.0.path(), from: self.1.0, to: self.1.1 }
-    }
-}
-
-impl VariedNamed<Value> {
-    /// A number of a machine.
-    pub(crate) fn target(&self) -> MachineTarget {
-        MachineTarget { path: self.0.path(), to: self.1.0 }
     }
 }
 

@@ -1,16 +1,16 @@
 //! The output files of a command: a table, a figure, or both. They are reserved before the computation.
 
 use crate::args::{FigureArgs, Files};
+use crate::commands::respond::none;
 use crate::failure::Failure;
 use crate::files::Target;
 use crate::picture::Picture;
-use crate::commands::respond::none;
 use crate::session::Session;
 use std::path::Path;
 use vibroimpact_plot::Figure;
 use vibroimpact_report::figure::plane::{Plane, PlaneAxis, Sides};
 use vibroimpact_report::{Table, Units};
-use vibroimpact_study::{MachineTask, Plan, Task};
+use vibroimpact_study::{Plan, Task, typed_axes};
 
 /// The outputs of a command.
 pub(super) struct Outputs {
@@ -50,7 +50,6 @@ impl Outputs {
     pub(super) fn check(&self, plan: &Plan) -> Result<(), Failure> {
         let without_points = match &plan.task {
             Task::Lyapunov(task) => task.axes.is_empty() && task.points.is_none(),
-            Task::Machine(MachineTask::Lyapunov(task)) => task.axes.is_empty() && task.points.is_none(),
             _ => false,
         };
         if without_points && self.drawn() {
@@ -59,7 +58,7 @@ impl Outputs {
         if without_points && self.csv.is_some() {
             return Err(none("table"));
         }
-        if self.drawn() { drawable(&plan.task) } else { Ok(()) }
+        if self.drawn() { drawable(plan) } else { Ok(()) }
     }
 
     /// Whether a figure was requested.
@@ -121,17 +120,17 @@ impl Outputs {
 }
 
 /// Refuses axes over which no figure can be drawn. Some figures need one axis only.
-fn drawable(task: &Task) -> Result<(), Failure> {
-    let units = Units::default();
-    match task {
-        Task::Basin(task) => Plane::of(&task.axes, &units).map(drop)?,
-        Task::Map(task) => Sides::of(&task.axes, &units).map(drop)?,
-        Task::Lyapunov(task) => task.axes.iter().try_for_each(|axis| PlaneAxis::of(axis, &units).map(drop))?,
-        Task::Machine(MachineTask::Basin(task)) => Sides::of_machine(&task.axes).map(drop)?,
-        Task::Machine(MachineTask::Map(task)) => Sides::of_machine(&task.axes).map(drop)?,
-        Task::Machine(MachineTask::Lyapunov(task)) => {
-            task.axes.iter().try_for_each(|axis| PlaneAxis::of_machine(axis).map(drop))?;
+fn drawable(plan: &Plan) -> Result<(), Failure> {
+    let (units, is_machine) = (Units::default(), plan.machine().is_some());
+    let (axes, paths) = (typed_axes(plan.task.axes()), typed_axes::<String>(plan.task.axes())?);
+    match &plan.task {
+        Task::Basin(_) | Task::Map(_) if is_machine => Sides::of_machine(&paths).map(drop)?,
+        Task::Lyapunov(_) if is_machine => {
+            paths.iter().try_for_each(|axis| PlaneAxis::of_machine(axis).map(drop))?;
         }
+        Task::Basin(_) => Plane::of(&axes?, &units).map(drop)?,
+        Task::Map(_) => Sides::of(&axes?, &units).map(drop)?,
+        Task::Lyapunov(_) => axes?.iter().try_for_each(|axis| PlaneAxis::of(axis, &units).map(drop))?,
         _ => {}
     }
     Ok(())

@@ -1,13 +1,15 @@
 //! `vibro region`: the regions of a plane of two parameters in which a motion exists and in which it is stable.
 
-use crate::args::{AxesArgs, Convention, OutputArgs, PhysicalArgs, SystemStretchesArgs, of_oscillator, whole};
+use crate::args::{
+    AskedSystem, AxesArgs, Convention, OutputArgs, PhysicalArgs, SystemStretchesArgs, of_oscillator, whole,
+};
 use crate::commands::outputs::Outputs;
-use crate::commands::respond::{self, Question};
+use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use vibroimpact_report::{Asked, Shown};
-use vibroimpact_study::{DEFAULT_GRID, Plan, RegionPlan, Stretch, Task};
+use vibroimpact_study::{DEFAULT_GRID, RegionPlan, Stretch};
 
 /// Where a motion exists and where it is stable, over two parameters: closed polygons
 ///
@@ -81,8 +83,7 @@ pub(super) fn run(args: &Region, session: &Session) -> Result<(), Failure> {
     let (asked, over) = args.system.asked((&args.machine, args.units), &[], of_oscillator)?;
     let (across, up) = args.plane(&asked, over)?;
     let task = RegionPlan { label: args.label.clone(), across, up, grid: args.grid };
-    let plan = Plan::new(asked.system, Task::Region(task));
-    plan.check()?;
+    let question = AskedSystem::Oscillator(asked).question(task)?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
-    respond::run(&Question::new(plan, asked.units), (outputs, Shown::default()), None, session)
+    respond::run(&question, (outputs, Shown::default()), None, session)
 }

@@ -1,60 +1,13 @@
 //! Common part of the commands with one answer: compute it, write the files, and print the report.
 
-use crate::args::{Files, MachineArgs, StartOfMachineArgs, StoreArgs};
+use crate::args::{Question, StoreArgs};
 use crate::commands::outputs::Outputs;
 use crate::commands::stored;
 use crate::failure::Failure;
 use crate::report;
 use crate::session::Session;
-use vibroimpact_report::{Answer, AnswerError, Shown, Units, answer};
-use vibroimpact_study::{Control, MachineTask, Plan, Stopped, Task};
-
-/// A plan, the units of its results, and the name of its machine.
-pub(super) struct Question<'a> {
-    pub(super) plan: Plan,
-    units: Units,
-    machine: Option<&'a str>,
-}
-
-impl<'a> Question<'a> {
-    /// Of an oscillator, with results in these units.
-    pub(super) fn new(plan: Plan, units: Units) -> Self {
-        Self { plan: Plan { units: units.plan().or(plan.units), ..plan }, units, machine: None }
-    }
-
-    /// Of a machine with this name.
-    pub(super) fn of_machine(plan: Plan, name: &'a str) -> Self {
-        Self { plan, units: Units::default(), machine: Some(name) }
-    }
-}
-
-/// The look of the table and the figure of a command that has no flags for it.
-#[allow(clippy::unnecessary_wraps, reason = "other looks may be refused")]
-pub(super) fn usual(_: bool) -> Result<Shown, Failure> {
-    Ok(Shown::default())
-}
-
-/// Runs this task of a machine from this start, if the command names a machine; `None` otherwise. Grids may have a store. `shown`
-/// says how the table and the figure look; its argument is whether there is a figure.
-pub(super) fn if_machine(
-    machine: &MachineArgs,
-    start: Option<(&StartOfMachineArgs, Option<f64>)>,
-    task: impl FnOnce() -> Result<MachineTask, Failure>,
-    files: Files<'_>,
-    (store, shown): (Option<&StoreArgs>, impl FnOnce(bool) -> Result<Shown, Failure>),
-    session: &Session,
-) -> Option<Result<(), Failure>> {
-    let name = machine.machine.as_deref()?;
-    let answer = || {
-        let (tile, shard) = store.map_or((None, None), |store| (store.tile, store.shard));
-        let plan = Plan { tile, shard, ..Plan::new(machine.source(start)?, task()?) };
-        plan.check()?;
-        let outputs = Outputs::reserve(files, session)?;
-        let shown = shown(outputs.drawn())?;
-        run(&Question::of_machine(plan, name), (outputs, shown), store, session)
-    };
-    Some(answer())
-}
+use vibroimpact_report::{Answer, AnswerError, Shown, answer};
+use vibroimpact_study::{Control, Stopped, Task};
 
 /// Computes the answer to a question and reports it. With --store, the plan fills the store instead. Exponents over axes are a
 /// study, with a store or in memory.
@@ -68,7 +21,7 @@ pub(super) fn run(
     stored::check_overlay(&shown.overlay, plan, shown.colour.is_some())?;
     outputs.check(plan)?;
     let filling = store.and_then(StoreArgs::filling);
-    let exponents = matches!(plan.task, Task::Lyapunov(_) | Task::Machine(MachineTask::Lyapunov(_)));
+    let exponents = matches!(plan.task, Task::Lyapunov(_));
     if filling.is_some() || exponents && plan.fills_a_grid() {
         return stored::filled(plan, filling, (outputs, shown), session);
     }

@@ -1,16 +1,16 @@
 //! `vibro run`: fills a store with the study of a plan in a file.
 
 use super::stored;
-use crate::args::{BudgetArgs, ColourArgs, Filling, OutputArgs, OverlayArgs, Tiles};
+use crate::args::{BudgetArgs, ColourArgs, Filling, OutputArgs, OverlayArgs, Question, Tiles};
 use crate::commands::outputs::Outputs;
-use crate::commands::respond::{self, Question};
+use crate::commands::respond;
 use crate::failure::Failure;
 use crate::hints;
 use crate::machine_file;
 use crate::session::Session;
 use clap::Args;
 use std::path::{Path, PathBuf};
-use vibroimpact_report::Shown;
+use vibroimpact_report::{Shown, Units};
 use vibroimpact_store::Part;
 use vibroimpact_study::{Plan, PlanError, Study};
 
@@ -58,7 +58,11 @@ pub(super) fn read(path: &Path) -> Result<Plan, Failure> {
     let plan = plan.map_err(|error| named(path, &error))?;
     // a machine is in the file, so the file is named
     let checked = plan.check();
-    if plan.machine().is_some() { checked.map_err(|error| named(path, &error))? } else { checked? }
+    if plan.machine().is_some() {
+        checked.map_err(|error| named(path, &error))?
+    } else {
+        checked?
+    }
     Ok(plan)
 }
 
@@ -84,7 +88,8 @@ fn run_machine(args: &Run, plan: Plan, session: &Session) -> Result<(), Failure>
     args.overlay.overlay(false, false)?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
     let name = args.plan.file_stem().map_or_else(|| "machine".into(), |stem| stem.to_string_lossy());
-    respond::run(&Question::of_machine(plan, &name), (outputs, Shown::default()), None, session)
+    let question = Question { plan, units: Units::default(), machine: Some(&name) };
+    respond::run(&question, (outputs, Shown::default()), None, session)
 }
 
 /// The default place of the store of a plan.

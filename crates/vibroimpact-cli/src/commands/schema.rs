@@ -3,8 +3,8 @@
 use crate::failure::Failure;
 use crate::session::Session;
 use vibroimpact_report::json;
-use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::Plan;
+use vibroimpact_study::machine::MachineSource;
 
 /// Print the JSON schema of plans, of machine files, of plans of machines or of answers, for editors and other programs
 #[derive(Clone, Debug, clap::Args)]

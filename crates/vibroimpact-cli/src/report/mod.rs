@@ -32,7 +32,7 @@ use vibroimpact::verdict::{MachineUndecided, MachineVerdict};
 use vibroimpact_report::Answer;
 use vibroimpact_report::answer::oscillator;
 use vibroimpact_report::response::ResponseView;
-use vibroimpact_study::{MachineResults, Results, SEARCH_LIMIT, Task};
+use vibroimpact_study::{MachineResults, Name, Parameter, Results, SEARCH_LIMIT, Task};
 
 /// The text that a command prints, unless JSON or a table on stdout was requested.
 pub(crate) fn text(answer: &Answer) -> Result<String, Failure> {
@@ -48,10 +48,7 @@ pub(crate) fn text(answer: &Answer) -> Result<String, Failure> {
 /// Whether the motion is not known to its end, because a search for the next event used all its steps.
 pub(crate) fn ended_by_search(answer: &Answer) -> bool {
     let ended = |verdict: &MachineVerdict| {
-        matches!(
-            verdict,
-            MachineVerdict::Undecided { why: MachineUndecided::Ended(MachineEnd::SearchLimit), .. }
-        )
+        matches!(verdict, MachineVerdict::Undecided { why: MachineUndecided::Ended(MachineEnd::SearchLimit), .. })
     };
     match answer {
         Answer::Oscillator(answer) => {
@@ -83,13 +80,14 @@ fn of_oscillator(answer: &oscillator::Answer) -> Result<String, Failure> {
         (_, Results::Diagram(found)) => diagram::text(found, units),
         (_, Results::Lyapunov(start, found, _)) => from(start) + "\n" + &lyapunov::text(found, units),
         (Task::Branch(task), Results::Branch(found)) => {
-            system() + &branch::text(found, &task.cut(&asked.system)?, units)
+            system() + &branch::text(found, &task.typed::<Parameter>()?.cut(&asked.system)?, units)
         }
-        (Task::Curve(task), Results::Curve(found)) => system() + &curve::text(found, task, units),
+        (Task::Curve(task), Results::Curve(found)) => system() + &curve::text(found, &task.typed()?, units),
         (Task::Region(task), Results::Region(found)) => region::text(found, task, asked),
-        (Task::Response(task), Results::Response(found)) => {
-            response::text(&ResponseView::of_oscillator(found, task, units), &branch::named(task.vary, units))
-        }
+        (Task::Response(task), Results::Response(found)) => response::text(
+            &ResponseView::of_oscillator(found, task, units)?,
+            &branch::named(Parameter::of(task.vary.text())?, units),
+        ),
         (_, Results::Margins(found)) => match &found.start {
             Some(start) => from(start) + "\n" + &margins::text(found, osc, units),
             None => system() + &margins::text(found, osc, units),

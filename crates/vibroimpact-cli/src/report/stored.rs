@@ -20,7 +20,8 @@ use vibroimpact_study::study::{
     Along, NO_MOTION, NOT_COMPUTED, REFUSED, UNDECIDED, diagram_of, label_of, machine_diagram_of,
 };
 use vibroimpact_study::{
-    Axis, Block, Column, Dimension, Field, MachineTask, Plan, PlanError, PointsPlan, Quantity, System, Task, Values,
+    Axis, Block, Column, Dimension, Field, Plan, PlanError, PointsPlan, Quantity, System, Task, Values, Variable,
+    typed_axes,
 };
 
 /// A JSON object about a store.
@@ -132,7 +133,8 @@ pub(crate) fn title(plan: &Plan) -> String {
 
 /// The name of a dimension as in the header of the table.
 fn column_of(dimension: &Dimension, plan: &Plan) -> String {
-    let axis = plan_axes(plan).iter().find(|axis| axis.vary.name() == dimension.name);
+    let axes = plan_axes(plan);
+    let axis = axes.iter().find(|axis| axis.vary.name() == dimension.name);
     axis.map_or_else(|| dimension.name.clone(), |axis| Units::of_plan(plan).column_of_coordinate(axis.vary).to_owned())
 }
 
@@ -147,11 +149,13 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
     let plan = store.plan();
     match (&plan.system, &plan.task) {
         (System::Oscillator(_), Task::Diagram(task)) => {
-            let found = diagram_of(task, &columns().map_err(io::Error::other)?);
+            let task = task.typed().map_err(io::Error::other)?;
+            let found = diagram_of(&task, &columns().map_err(io::Error::other)?);
             return diagram::table(&found, Units::of_plan(plan)).map_err(io::Error::other)?.write(out);
         }
-        (System::Machine(machine), Task::Machine(MachineTask::Diagram(task))) => {
-            let found = machine_diagram_of(task, &columns().map_err(io::Error::other)?);
+        (System::Machine(machine), Task::Diagram(task)) => {
+            let task = task.typed().map_err(io::Error::other)?;
+            let found = machine_diagram_of(&task, &columns().map_err(io::Error::other)?);
             let (machine, _) = machine.described().map_err(io::Error::other)?;
             return diagram::of_machine(&found, &machine).write(out);
         }
@@ -159,7 +163,7 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
     }
     let (study, all) = (store.study(), store.study().fields());
     let units = Units::of_plan(plan);
-    let asked: &[String] = if let Task::Machine(task) = &plan.task { task.fields() } else { &[] };
+    let asked: &[String] = if plan.machine().is_some() { plan.task.fields() } else { &[] };
     let short = |field: &Field| {
         is_short(field)
             || Quantity::from_name(&field.name).is_some()
@@ -188,8 +192,9 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
     let mut head: Vec<String> = study.grid().dimensions.iter().rev().map(name).collect();
     head.extend(further.iter().map(|of| units.column(&of.name, of.unit.kind())));
     let points = plan_points(store.plan());
-    let columns =
-        points.into_iter().flat_map(|points| points.varied().map(|vary| Axis::new(vary, Values::Listed(Vec::new()))));
+    let known = |name: Variable| if let Variable::Coordinate(coordinate) = name { Some(coordinate) } else { None };
+    let columns = points.into_iter().flat_map(PointsPlan::varied).filter_map(known);
+    let columns = columns.map(|vary| Axis::new(vary, Values::Listed(Vec::new())));
     let varied: Vec<Axis> = axes.iter().cloned().chain(columns).collect();
     let of_points = |index: &[usize]| {
         let dimensions = &study.grid().dimensions;
@@ -242,19 +247,18 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
 }
 
 /// The points of a plan, if it has any.
-fn plan_points(plan: &Plan) -> Option<&PointsPlan> {
+fn plan_points(plan: &Plan) -> Option<&PointsPlan<Variable>> {
     match &plan.task {
         Task::Basin(basin) => basin.points.as_ref(),
         _ => None,
     }
 }
 
-/// The axes of a plan of the oscillator.
-fn plan_axes(plan: &Plan) -> &[Axis] {
-    match &plan.task {
-        Task::Map(map) => &map.axes,
-        Task::Basin(basin) => &basin.axes,
-        _ => &[],
+/// The axes of a map or a basin of an oscillator.
+fn plan_axes(plan: &Plan) -> Vec<Axis> {
+    match (&plan.system, &plan.task) {
+        (System::Oscillator(_), Task::Map(_) | Task::Basin(_)) => typed_axes(plan.task.axes()).unwrap_or_default(),
+        _ => Vec::new(),
     }
 }
 

@@ -78,13 +78,9 @@ fn of_machines() {
     same("response --machine two-mass-hammer --axis frequency=1:1.2:3");
     same(&format!("lyapunov {hammer} --impacts 100 --points 30"));
     same("lyapunov --machine impact-pair --impacts 1000 --points 300");
-    same(&format!(
-        "branch {hammer} --label 2/1 --orbit 1 --vary frequency --to 1.1 --also b=0.52 --follow 1"
-    ));
+    same(&format!("branch {hammer} --label 2/1 --orbit 1 --vary frequency --to 1.1 --also b=0.52 --follow 1"));
     same(&format!("diagram {hammer} --vary b --over 0.4:0.6:5 --also frequency=1:1.06 --transient 50"));
-    same(&format!(
-        "curve {hammer} --label 2/1 --orbit 2 --kind fold --vary frequency=1:1.1 --and b=0.45:0.55"
-    ));
+    same(&format!("curve {hammer} --label 2/1 --orbit 2 --kind fold --vary frequency=1:1.1 --and b=0.45:0.55"));
     same("map --machine two-mass-hammer --axis frequency=0.9:1.2:4 --starts 2");
     same(&format!("basin {hammer} --axis q.head=-1:0.5:4"));
 }

@@ -301,7 +301,7 @@ mod tests {
             transient: 7,
             keep: 3,
         };
-        let plan = Plan::new(system, Task::Diagram(task.into()));
+        let plan = Plan::new(system, Task::from(task));
         let text = serde_json::to_string(&plan).unwrap();
         assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan);
         let short: DiagramPlan = serde_json::from_str(r#"{"vary": "inverse_beta", "over": "1:2:3"}"#).unwrap();

@@ -167,7 +167,7 @@ mod tests {
     fn a_plan_survives_json_and_short_ones_are_filled_in() {
         let gap = ScaledParameter { parameter: Parameter::Gap, scale: Some(0.1) };
         let task = MarginsPlan { label: Some("1/1".into()), vary: vec![gap], ..MarginsPlan::default() };
-        let plan = Plan::new(SYSTEM, Task::Margins(task.into()));
+        let plan = Plan::new(SYSTEM, Task::from(task));
         assert_eq!(plan.check(), Ok(()));
         let text = serde_json::to_string(&plan).unwrap();
         assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan);

@@ -84,7 +84,7 @@ mod tests {
         let even = ResponsePlan::new(Parameter::Gap, "0.5:1.5:5".parse::<Span>().unwrap());
         let ranged = response(&system, &even, &Control::default()).unwrap();
         assert_eq!(found.up[2].label, ranged.up[2].label);
-        let plan = Plan::new(system, Task::Response(listed.into()));
+        let plan = Plan::new(system, Task::from(listed));
         assert_eq!((Plan::from_text(&plan.to_toml()).unwrap(), plan.check()), (plan.clone(), Ok(())));
         let twice = ResponsePlan::new(Parameter::Gap, Values::Listed(vec![0.5, 0.5]));
         assert!(twice.check(&system).unwrap_err().to_string().contains("0.5"));

@@ -14,7 +14,7 @@ use serde::Deserialize;
 use serde_json::json;
 use vibroimpact_report::Units;
 use vibroimpact_report::scene::{BifurcationEvent, bifurcation};
-use vibroimpact_study::Task;
+use vibroimpact_study::{DiagramPlan, Task};
 
 /// Labels of motions separated by commas. Default: those found on the line.
 #[derive(Deserialize)]
@@ -33,9 +33,10 @@ pub(super) async fn diagram(
     asked: PlanRequest,
 ) -> Result<Response, Refusal> {
     wanted.check()?;
-    let Task::Diagram(diagram) = asked.plan.task.clone() else {
+    let Task::Diagram(diagram) = &asked.plan.task else {
         return Err(Refusal::bad("a bifurcation diagram is drawn along the line of a diagram"));
     };
+    let diagram: DiagramPlan = diagram.typed()?;
     let (done, points) = (Done::default(), asked.points);
     // parameters that vary have their first value
     let canonical = asked.plan.canonical()?;
