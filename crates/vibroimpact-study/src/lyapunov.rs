@@ -111,9 +111,9 @@ mod tests {
 
     const GOOD: LyapunovPlan = LyapunovPlan {
         axes: Vec::new(),
-        start: StartPlan { x: Some(0.5), v: -1.0, phase: 2.0 },
-        impacts: 2000,
-        transient: 0,
+        start: Some(StartPlan { x: Some(0.5), v: -1.0, phase: 2.0 }),
+        impacts: Some(2000),
+        transient: Some(0),
         points: Some(7),
     };
 
@@ -126,7 +126,7 @@ mod tests {
         assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan);
         assert!(serde_json::from_str::<Plan>(&text.replace("transient", "transeint")).is_err());
         let short: LyapunovPlan = serde_json::from_str("{}").unwrap();
-        assert_eq!((short.impacts, short.transient, short.points), (DEFAULT_IMPACTS, DEFAULT_TRANSIENT, None));
+        assert_eq!((short.lengths(), short.points), ((DEFAULT_IMPACTS, DEFAULT_TRANSIENT), None));
     }
 
     #[test]
@@ -134,11 +134,11 @@ mod tests {
         let system = SystemPlan { inverse_beta: Some(1.11), gap: 3.0, restitution: 0.5, ..SystemPlan::default() };
         let beyond = StartPlan { x: Some(3.5), ..StartPlan::default() };
         for (plan, sentence) in [
-            (LyapunovPlan { impacts: 999, ..GOOD }, "impacts = 999 lies outside 1000 <= impacts <= 10000000"),
-            (LyapunovPlan { impacts: 10_000_001, ..GOOD }, "impacts = 10000001 lies outside"),
-            (LyapunovPlan { transient: 1_000_001, ..GOOD }, "transient = 1000001 lies outside 0 <= transient"),
+            (LyapunovPlan { impacts: Some(999), ..GOOD }, "impacts = 999 lies outside 1000 <= impacts <= 10000000"),
+            (LyapunovPlan { impacts: Some(10_000_001), ..GOOD }, "impacts = 10000001 lies outside"),
+            (LyapunovPlan { transient: Some(1_000_001), ..GOOD }, "transient = 1000001 lies outside 0 <= transient"),
             (LyapunovPlan { points: Some(0), ..GOOD }, "points = 0 lies outside 1 <= points <= 100000"),
-            (LyapunovPlan { start: beyond, ..GOOD }, "start x = 3.5 lies beyond the stop"),
+            (LyapunovPlan { start: Some(beyond), ..GOOD }, "start x = 3.5 lies beyond the stop"),
         ] {
             let message = plan.check(&system).unwrap_err().to_string();
             assert!(message.starts_with(sentence), "{message}");

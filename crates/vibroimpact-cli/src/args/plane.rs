@@ -104,9 +104,6 @@ impl FromStr for Value {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Named<T>(pub(crate) ParameterFlag, pub(crate) T);
 
-/// `PARAMETER=A:B`.
-pub(crate) type Over = Named<Interval>;
-
 impl<T: FromStr<Err: core::fmt::Display>> FromStr for Named<T> {
     type Err = String;
 
@@ -194,7 +191,7 @@ mod tests {
         assert!("1,5".parse::<Place>().is_err_and(|why| why.ends_with("\nhint: write 1.5")));
         assert!("25:15".parse::<Place>().is_err_and(|why| why.ends_with("\nhint: write 15:25")));
         for bad in ["gap", "gap=", "mass=1:2", "=1:2", "gap=2:1", "gap:1=2"] {
-            assert!(bad.parse::<Over>().is_err(), "{bad}");
+            assert!(bad.parse::<Named<Interval>>().is_err(), "{bad}");
         }
     }
 }

@@ -234,7 +234,7 @@ fn origins(points: &[MachinePoint]) -> impl Iterator<Item = MachinePoint> + '_ {
 mod tests {
     use super::*;
     use crate::machine::CATALOGUE;
-    use crate::{MachineResults, MachineTask, Plan, Results, run};
+    use crate::{MachineResults, Plan, Results, Task, run};
 
     fn hammer() -> MachineSource {
         CATALOGUE.iter().find(|entry| entry.name == "two-mass-hammer").unwrap().source().unwrap()
@@ -246,7 +246,7 @@ mod tests {
     }
 
     fn followed(source: &MachineSource, plan: &BranchPlan<String>) -> MachineBranched {
-        let plan = Plan::new(source.clone(), MachineTask::Branch(plan.clone()));
+        let plan = Plan::new(source.clone(), Task::from(plan.clone()));
         let Results::Machine(MachineResults::Branch(found)) = run(&plan, &Control::default()).unwrap() else {
             panic!()
         };
@@ -288,7 +288,7 @@ mod tests {
         // the stable one by default
         assert_eq!(begins(None), two);
         let refused = |plan: BranchPlan<String>| {
-            let plan = Plan::new(source.clone(), MachineTask::Branch(plan));
+            let plan = Plan::new(source.clone(), Task::from(plan));
             run(&plan, &Control::default()).unwrap_err().to_string()
         };
         for orbit in [0, 3] {

@@ -152,7 +152,7 @@ pub(super) fn curve(
 mod tests {
     use super::*;
     use crate::machine::CATALOGUE;
-    use crate::{MachineResults, MachineTask, Plan, Results, run};
+    use crate::{MachineResults, Plan, Results, Task, run};
 
     fn plan(kind: FollowedEvent, event: Option<u32>) -> Plan {
         let entry = CATALOGUE.iter().find(|entry| entry.name == "bouncing-ball").unwrap();
@@ -160,14 +160,14 @@ mod tests {
         let stretch = |path: &str, from, to| Stretch { parameter: path.to_owned(), from, to };
         Plan::new(
             source,
-            MachineTask::Curve(CurvePlan {
+            Task::from(CurvePlan {
                 label: Some("1/1".to_owned()),
                 orbit: None,
                 kind,
                 vary: stretch("Gamma", 0.2, 3.0),
                 and: stretch("e", 0.2, 0.9),
                 event,
-                points: 500,
+                points: Some(500),
             }),
         )
     }
@@ -194,8 +194,11 @@ mod tests {
         assert!(told(&plan(FollowedEvent::Flip, Some(4))).starts_with("there is no flip number 4 on the branch"));
         let changed = |of: &dyn Fn(&mut Stretch<String>, &mut Stretch<String>)| {
             let mut plan = plan(FollowedEvent::Fold, None);
-            let MachineTask::Curve(CurvePlan { vary, and, .. }) = &mut plan.task else { panic!() };
+            let Task::Curve(asked) = &plan.task else { panic!() };
+            let mut asked: CurvePlan<String> = asked.typed().unwrap();
+            let CurvePlan { vary, and, .. } = &mut asked;
             of(vary, and);
+            plan.task = asked.into();
             told(&plan)
         };
         assert!(changed(&|_, and| and.to = 1.5).contains("restitution"), "{}", changed(&|_, and| and.to = 1.5));

@@ -130,11 +130,11 @@ fn settled(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{DrawnPoints, MachineResults, MachineTask, Plan, PointRange, PointRule, Results, run};
+    use crate::{DrawnPoints, MachineResults, Plan, PointRange, PointRule, Results, Task, run};
 
     fn settled(source: &MachineSource, points: PointsPlan<String>) -> MachineMap {
         let fields = vec!["power".to_owned()];
-        let task = MachineTask::SettleMany(ManyPlan { points, impacts: None, fields });
+        let task = Task::from(ManyPlan { points, impacts: None, fields });
         let plan = Plan::new(source.clone(), task);
         assert_eq!(Plan::from_text(&plan.to_toml()).unwrap(), plan);
         let Results::Machine(MachineResults::Map(found)) = run(&plan, &Control::default()).unwrap() else { panic!() };
@@ -157,7 +157,7 @@ mod tests {
             let [frequency, head] = [0, 1].map(|column| columns[column].values[k]);
             let start = MachineStart { q: vec![0.0, head], qdot: vec![0.0; 2], ..MachineStart::default() };
             let there = source.with("frequency", frequency).unwrap().starting(&start);
-            let alone = Plan::new(there, MachineTask::Settle { impacts: None });
+            let alone = Plan::new(there, Task::Settle { start: None, impacts: None });
             let Results::Machine(MachineResults::Settle(alone)) = run(&alone, &Control::default()).unwrap() else {
                 panic!()
             };

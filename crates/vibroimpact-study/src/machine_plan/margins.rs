@@ -166,14 +166,15 @@ fn margin(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{BranchPlan, MachineResults, MachineTask, Plan, Results, run};
+    use crate::{BranchPlan, MachineResults, Plan, Results, ScaledParameter, Task, run};
 
     /// The nearest events are those of the branches in each number alone.
     #[test]
     fn the_first_events_of_branches() {
         let source = MachineSource::open("two-mass-hammer").unwrap();
         let vary = vec!["frequency".to_owned(), "stop.anvil.gap".to_owned(), "stop.anvil.restitution".to_owned()];
-        let task = MachineTask::Margins(MarginsPlan { label: None, vary: vary.clone(), within: 2.0 });
+        let scaled = vary.iter().map(|path| ScaledParameter { parameter: path.clone(), scale: None });
+        let task = Task::from(MarginsPlan { vary: scaled.collect(), ..MarginsPlan::default() });
         let plan = Plan::new(source.clone(), task);
         assert_eq!(Plan::from_text(&plan.to_toml()).unwrap(), plan);
         let Results::Machine(MachineResults::Margins(found)) = run(&plan, &Control::default()).unwrap() else {
@@ -192,7 +193,7 @@ mod tests {
                     points: 5000,
                     follow: 0,
                 };
-                let plan = Plan::new(source.clone(), MachineTask::Branch(branch));
+                let plan = Plan::new(source.clone(), Task::from(branch));
                 let Results::Machine(MachineResults::Branch(branch)) = run(&plan, &Control::default()).unwrap() else {
                     panic!()
                 };

@@ -182,10 +182,10 @@ const CLOSE: f64 = 1e-6;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{MachineResults, MachineTask, Plan, Results, Span, run};
+    use crate::{MachineResults, Plan, Results, Span, Task, run};
 
     fn response(name: &str, plan: ResponsePlan<String, String>) -> ResponseCurves {
-        let plan = Plan::new(MachineSource::open(name).unwrap(), MachineTask::Response(plan));
+        let plan = Plan::new(MachineSource::open(name).unwrap(), Task::from(plan));
         let plan = Plan::from_text(&plan.to_toml()).unwrap();
         let Results::Machine(MachineResults::Response(found)) = run(&plan, &Control::default()).unwrap() else {
             panic!()

@@ -80,7 +80,7 @@ mod tests {
             let source = entry.source().unwrap();
             let (n, path) = (source.parts().unwrap().n(), source.paths().unwrap().pop().unwrap());
             let changed = source.with(&path, source.number(&path).unwrap() * 1.25).unwrap();
-            let task = MachineTask::Simulate { impacts: None, periods: Some(2.5) };
+            let task = Task::Simulate { start: None, impacts: None, periods: Some(2.5) };
             let start =
                 MachineStart { q: vec![0.1 + 0.2; n], qdot: vec![-1e-300; n], phase: 1.0, ..MachineStart::default() };
             let plan = Plan::new(changed.starting(&start), task);
@@ -92,7 +92,7 @@ mod tests {
             assert!(toml.starts_with("version = 1\n") && toml.contains("[task.simulate]\nperiods = 2.5\n"), "{toml}");
         }
         let source = CATALOGUE[0].source().unwrap();
-        let plan = Plan::new(source, MachineTask::Attractors { starts: 1, seed: u64::MAX, impacts: None });
+        let plan = Plan::new(source, Task::Attractors { starts: 1, seed: u64::MAX, impacts: None });
         assert_eq!(Plan::from_text(&plan.to_toml()), Ok(plan));
         assert!(
             !is_machine_plan("version = 1\n[system]\nbeta = 1\n") && !is_machine_plan("{") && !is_machine_plan("[")

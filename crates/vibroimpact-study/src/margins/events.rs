@@ -259,7 +259,7 @@ mod tests {
         for margin in &all.parameters {
             for (end, limit) in margin.ends().into_iter().zip([margin.scope.low, margin.scope.high]) {
                 let task = BranchPlan {
-                    label: "1/1".into(),
+                    label: Some("1/1".into()),
                     vary: margin.scope.parameter,
                     to: limit,
                     also: None,

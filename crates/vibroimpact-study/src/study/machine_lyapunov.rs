@@ -93,9 +93,8 @@ impl Spectra for Machines {
 
 #[cfg(test)]
 mod tests {
-    use crate::machine::no_files;
     use crate::study::{Sheet, Study, in_memory};
-    use crate::{Control, MachineResults, MachineTask, Plan, PlanError, Results, RunError, run};
+    use crate::{Control, MachineResults, Plan, PlanError, Results, RunError, Task, run};
 
     /// A forced mass with a stop at a gap of 0.3; `start` and the axes are written into it.
     fn plan(start: &str, axes: &str) -> Plan {
@@ -127,8 +126,9 @@ mod tests {
         for (k, grounds) in grounds.iter().enumerate() {
             let (x, gap) = ([-0.5, 0.0, 0.5, 1.0][k % 4], [0.6, 0.2, 0.0][k / 4]);
             let exponents = &numbers(&found, "exponent")[2 * k..2 * k + 2];
-            let mut alone = plan(&x.to_string(), "");
-            alone.machine = alone.machine.with("stop.wall.gap", gap).unwrap();
+            let alone = plan(&x.to_string(), "");
+            let there = alone.machine().unwrap().with("stop.wall.gap", gap).unwrap();
+            let alone = Plan { system: there.into(), ..alone };
             if x > gap {
                 refused += 1;
                 assert!(*grounds == 3 && exponents.iter().all(|value| value.is_nan()), "{x} {gap}");
@@ -162,6 +162,6 @@ mod tests {
             Study::new(&plan("0", "")).err().unwrap(),
             PlanError::NoMachineStudy("measure the exponents of one motion")
         );
-        assert!(matches!(axis("phase").task, MachineTask::Lyapunov(plan) if plan.axes.len() == 1));
+        assert!(matches!(axis("phase").task, Task::Lyapunov(plan) if plan.axes.len() == 1));
     }
 }

@@ -69,7 +69,7 @@ fn cycles_that_nobody_knew_of_are_numbered_at_the_end() {
     let plan = Plan { tile: Some(8), ..Plan::new(S, task) };
     let Task::Basin(basin) = &plan.task else { panic!() };
     let told = in_memory(Study::new(&plan).unwrap(), &Control::default()).unwrap();
-    let untold = BasinFill::plane(&S, basin, plan.tile).unwrap().forgetful();
+    let untold = BasinFill::plane(&S, &basin.typed().unwrap(), plan.tile).unwrap().forgetful();
     let untold = in_memory(Study { fill: Box::new(untold) }, &Control::default()).unwrap();
     let (a, b) = (columns(&told, "cycle").whole(), columns(&untold, "cycle").whole());
     assert!(b.iter().all(|n| (0..2).contains(n)), "{b:?}");
@@ -149,7 +149,7 @@ fn a_map_is_that_of_its_points() {
 fn refinement_computes_less_and_the_same() {
     let plan = BasinPlan::plane(span("-4:0.75:200"), span("-4:4:200"), 0.0);
     let full = sheet(S, Task::from(plan.clone()), Some(100), 2);
-    let fine = sheet(S, Task::Basin(BasinPlan { refine: Some(8), ..plan.into() }), Some(100), 2);
+    let fine = sheet(S, Task::from(BasinPlan { refine: Some(8), ..plan }), Some(100), 2);
     let Column::I8(computed) = columns(&fine, "computed") else { panic!() };
     let (a, b) = (columns(&full, "label").whole(), columns(&fine, "label").whole());
     let mut own = 0;
@@ -166,7 +166,7 @@ fn refinement_computes_less_and_the_same() {
     let system = SystemPlan { inverse_beta: Some(1.0), gap: 0.0, ..S };
     let plan = MapPlan::plane(span("0.6:1.4:33"), span("-0.5:2:33"), 4, 1);
     let full = sheet(system, Task::from(plan.clone()), None, 2);
-    let fine = sheet(system, Task::Map(MapPlan { refine: Some(4), ..plan.into() }), None, 2);
+    let fine = sheet(system, Task::from(MapPlan { refine: Some(4), ..plan }), None, 2);
     let Column::I8(computed) = columns(&fine, "computed") else { panic!() };
     for name in ["label", "share", "speed", "multiplier"] {
         for (k, one) in computed.iter().enumerate().filter(|(_, one)| **one == 1) {
@@ -193,7 +193,8 @@ fn scattered_starts_exponents_and_three_axes() {
     let gaps = Axis::parameter(Parameter::Gap, Values::Listed(vec![3.0, 2.0]));
     let speeds = Axis::new(Coordinate::V, span("-1:1:3"));
     let u = SystemPlan { inverse_beta: Some(1.11), gap: 3.0, ..S };
-    let plan = LyapunovPlan { axes: vec![gaps.clone(), speeds.clone()], impacts: 2000, ..LyapunovPlan::default() };
+    let plan =
+        LyapunovPlan { axes: vec![gaps.clone(), speeds.clone()], impacts: Some(2000), ..LyapunovPlan::default() };
     let found = sheet(u, Task::from(plan), None, 2);
     let exponents = columns(&found, "exponent").real();
     assert_eq!(exponents.len(), 12);
@@ -270,7 +271,7 @@ fn a_diagram_is_that_of_its_steps() {
 
 #[test]
 fn questions_without_a_grid_are_no_studies() {
-    let refusal = Study::new(&Plan::new(S, Task::Settle { start: StartPlan::default(), impacts: None })).err().unwrap();
+    let refusal = Study::new(&Plan::new(S, Task::Settle { start: None, impacts: None })).err().unwrap();
     assert!(refusal.to_string().starts_with("a plan that asks to settle fills no grid"), "{refusal}");
 }
 
