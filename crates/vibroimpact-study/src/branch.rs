@@ -41,12 +41,17 @@ pub struct BranchPlan<V = Parameter> {
     /// Which of the orbits, counted from 1, the fastest last; when absent the stable one, else the fastest motion.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub orbit: Option<u32>,
-    /// How many of the branches that begin at flips and branch points are followed as well.
-    #[serde(default)]
+    /// How many of the branches that begin at flips and branch points are followed as well: 0 to 100.
+    #[serde(default, skip_serializing_if = "is_zero")]
     pub follow: u32,
     /// Points of each branch at most.
     #[serde(default = "points")]
     pub points: u32,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref)] // serde passes a reference
+const fn is_zero(count: &u32) -> bool {
+    *count == 0
 }
 
 const fn points() -> u32 {

@@ -107,7 +107,7 @@ mod tests {
             (
                 "impacts",
                 "impact",
-                "task.simulate.impact: unknown field `impact`, expected `impacts` or `periods` (line 5, column 1)",
+                "task.simulate.impact: unknown field `impact`, expected one of `start`, `impacts`, `periods` (line 5, column 1)",
             ),
             ("[task.simulate]", "[task.settel]", "task.settel: unknown"),
             ("version = 1", "version = 2", "the plan has version 2"),

@@ -170,7 +170,7 @@ mod tests {
         let plan = Plan::new(SYSTEM, Task::from(task));
         assert_eq!(plan.check(), Ok(()));
         let text = serde_json::to_string(&plan).unwrap();
-        assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan);
+        assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan.canonical().unwrap());
         assert!(serde_json::from_str::<Plan>(&text.replace("\"scale\"", "\"skale\"")).is_err());
         assert_eq!(serde_json::from_str::<MarginsPlan>("{}").unwrap(), MarginsPlan::default());
     }
