@@ -182,7 +182,7 @@ class Machine:
         return self._of(self._file.with_numbers([(path, float(value)) for path, value in given.items()]))
 
     def starting(self, state: Mapping[str, Any]) -> "Machine":
-        """The same machine with another start: a state with its contacts, such as `MachineSimulation.state` returns and
+        """The same machine with another start: a state with its contacts, such as `Simulation.state` returns and
         `Motion.state` is. A motion that goes on from the state of an event is the motion, to the last bit.
 
         Examples

@@ -137,6 +137,10 @@ impl Fill for MachineBasinFill {
         &self.grid
     }
 
+    fn grid_mut(&mut self) -> &mut Grid {
+        &mut self.grid
+    }
+
     fn coordinates(&self) -> Vec<Along> {
         along_machine(&self.plan.axes)
     }

@@ -51,6 +51,8 @@ use lyapunov::LyapunovFill;
 /// A plan that fills a grid.
 pub struct Study {
     fill: Box<dyn fill::Columns>,
+    /// The numbers of the fields that are stored, among those that are computed.
+    kept: Vec<usize>,
 }
 
 impl Study {
@@ -60,14 +62,42 @@ impl Study {
     /// [`PlanError`] for an invalid plan, or for a task without a grid.
     pub fn new(plan: &Plan) -> Result<Self, PlanError> {
         plan.check()?;
-        match &plan.system {
-            System::Oscillator(system) => Self::of_oscillator(system, plan),
-            System::Machine(machine) => Self::of_machine(machine, &plan.task, plan.tile),
-        }
+        Ok(Self::of(match &plan.system {
+            System::Oscillator(system) => Self::of_oscillator(system, plan)?,
+            System::Machine(machine) => Self::of_machine(machine, &plan.task, plan.tile)?,
+        }))
     }
 
-    fn of_machine(source: &MachineSource, task: &Task, tile: Option<u32>) -> Result<Self, PlanError> {
-        let fill: Box<dyn fill::Columns> = match task {
+    /// The study of a fill, with all its fields.
+    fn of(fill: Box<dyn fill::Columns>) -> Self {
+        let kept = (0..fill.fields().len()).collect();
+        Self { fill, kept }
+    }
+
+    /// The same study with tiles of these lengths along the dimensions of its grid, and only the fields that `has` names: as a
+    /// store has it that a version with other defaults began.
+    #[must_use]
+    pub fn with_tiles(mut self, lengths: &[usize], has: impl Fn(&str) -> bool) -> Self {
+        for (dimension, tile) in self.fill.grid_mut().dimensions.iter_mut().zip(lengths) {
+            dimension.tile = (*tile).clamp(1, dimension.count);
+        }
+        self.kept.retain({
+            let fields = self.fill.fields();
+            move |k| has(&fields[*k].name)
+        });
+        self
+    }
+
+    /// Those columns of a tile that are stored.
+    fn stored(&self, columns: Vec<Column>) -> Vec<Column> {
+        if self.kept.len() == columns.len() {
+            return columns;
+        }
+        columns.into_iter().enumerate().filter(|(k, _)| self.kept.contains(k)).map(|(_, column)| column).collect()
+    }
+
+    fn of_machine(source: &MachineSource, task: &Task, tile: Option<u32>) -> Result<Box<dyn fill::Columns>, PlanError> {
+        Ok(match task {
             Task::Basin(basin) => {
                 let (machine, start) = source.problem()?;
                 Box::new(MachineBasinFill::new((&machine, &start), &basin.typed()?, tile)?)
@@ -78,13 +108,12 @@ impl Study {
                 Box::new(LyapunovFill::of_machine(source, &lyapunov.typed()?, tile)?)
             }
             other => return Err(PlanError::NoMachineStudy(other.verb())),
-        };
-        Ok(Self { fill })
+        })
     }
 
-    fn of_oscillator(system: &SystemPlan, plan: &Plan) -> Result<Self, PlanError> {
+    fn of_oscillator(system: &SystemPlan, plan: &Plan) -> Result<Box<dyn fill::Columns>, PlanError> {
         let tile = plan.tile;
-        let fill: Box<dyn fill::Columns> = match &plan.task {
+        Ok(match &plan.task {
             Task::Map(map) => Box::new(MapFill::new(system, &map.typed()?, tile)),
             Task::Basin(basin) => Box::new(BasinFill::plane(system, &basin.typed()?, tile)?),
             Task::Attractors { starts, seed, impacts } => {
@@ -99,8 +128,7 @@ impl Study {
                 Box::new(SweepFill::new(system, &diagram, tile))
             }
             other => return Err(PlanError::NoStudy(other.verb())),
-        };
-        Ok(Self { fill })
+        })
     }
 
     /// The grid and its tiles.
@@ -118,14 +146,15 @@ impl Study {
     /// The fields (arrays) of the study.
     #[must_use]
     pub fn fields(&self) -> Vec<Field> {
-        self.fill.fields()
+        let fields = self.fill.fields();
+        self.kept.iter().map(|k| fields[*k].clone()).collect()
     }
 
     /// The columns of tile number `k`, one for each field; `None` if stopped. `tick` is called for each point and
     /// returns whether to stop.
     #[must_use]
     pub fn tile(&self, k: u64, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
-        self.fill.fill(&self.grid().tile(k), tick)
+        self.block(&self.grid().tile(k), tick)
     }
 
     /// The columns of some points of a map, one for each field, in the order of `points`, which are numbers in row-major
@@ -135,13 +164,15 @@ impl Study {
     #[must_use]
     pub fn points(&self, points: &[usize], tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
         let whole = self.grid().whole();
-        self.fill.points(&points.iter().map(|k| whole.index(*k)).collect::<Vec<_>>(), tick)
+        let points: Vec<_> = points.iter().map(|k| whole.index(*k)).collect();
+        self.fill.points(&points, tick).map(|columns| self.stored(columns))
     }
 
     /// Whether a tile can be continued after a part of it: the sweeps of an orbit diagram, which carry their state.
     #[must_use]
     pub fn continues(&self) -> bool {
-        self.fill.continues()
+        // what goes on needs all columns of the part before
+        self.fill.continues() && self.kept.len() == self.fill.fields().len()
     }
 
     /// As [`Study::tile`], continued from what was computed of the tile before; `keep` is called for each further part.
@@ -167,7 +198,7 @@ impl Study {
     /// cost more than its part of a tile.
     #[must_use]
     pub fn block(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
-        self.fill.fill(block, tick)
+        self.fill.fill(block, tick).map(|columns| self.stored(columns))
     }
 
     /// The tables of the whole study, when all tiles are complete. Cycles with preliminary numbers are numbered, and
