@@ -206,141 +206,52 @@ fn text<Q: Name>(name: &Q) -> Result<String, Infallible> {
     Ok(name.text().to_owned())
 }
 
-impl LyapunovPlan<Variable> {
-    /// The plan with the names of a system.
-    ///
-    /// # Errors
-    /// [`PlanError`] for a name that the system does not have.
-    pub fn typed<W: Name>(&self) -> Result<LyapunovPlan<W>, PlanError> {
-        self.named(&of_system)
-    }
+/// Plans with names of what varies: with those of a system, and as tasks of any system.
+macro_rules! with_names {
+    ($($plan:ident => $task:ident),*) => {$(
+        impl $plan<Variable> {
+            /// The plan with the names of a system.
+            ///
+            /// # Errors
+            /// [`PlanError::Name`] for a name that the system does not have.
+            pub fn typed<W: Name>(&self) -> Result<$plan<W>, PlanError> {
+                self.named(&of_system)
+            }
+        }
+
+        impl<V: Clone + Into<Variable>> From<$plan<V>> for Task {
+            fn from(plan: $plan<V>) -> Self {
+                let Ok(plan) = plan.named(&of_any);
+                Self::$task(plan)
+            }
+        }
+    )*};
 }
 
-impl<V: Clone + Into<Variable>> From<LyapunovPlan<V>> for Task {
-    fn from(plan: LyapunovPlan<V>) -> Self {
-        let Ok(plan) = plan.named(&of_any);
-        Self::Lyapunov(plan)
-    }
+/// The same of plans that have names of quantities too.
+macro_rules! with_quantities {
+    ($($plan:ident => $task:ident),*) => {$(
+        impl $plan<Variable, String> {
+            /// The plan with the names of a system.
+            ///
+            /// # Errors
+            /// [`PlanError::Name`] for a name that the system does not have.
+            pub fn typed<W: Name, R: Name>(&self) -> Result<$plan<W, R>, PlanError> {
+                self.named(&of_system, &quantity)
+            }
+        }
+
+        impl<V: Clone + Into<Variable>, Q: Name> From<$plan<V, Q>> for Task {
+            fn from(plan: $plan<V, Q>) -> Self {
+                let Ok(plan) = plan.named(&of_any, &text);
+                Self::$task(plan)
+            }
+        }
+    )*};
 }
 
-impl BranchPlan<Variable> {
-    /// The plan with the names of a system.
-    ///
-    /// # Errors
-    /// [`PlanError`] for a name that the system does not have.
-    pub fn typed<W: Name>(&self) -> Result<BranchPlan<W>, PlanError> {
-        self.named(&of_system)
-    }
-}
-
-impl<V: Clone + Into<Variable>> From<BranchPlan<V>> for Task {
-    fn from(plan: BranchPlan<V>) -> Self {
-        let Ok(plan) = plan.named(&of_any);
-        Self::Branch(plan)
-    }
-}
-
-impl CurvePlan<Variable> {
-    /// The plan with the names of a system.
-    ///
-    /// # Errors
-    /// [`PlanError`] for a name that the system does not have.
-    pub fn typed<W: Name>(&self) -> Result<CurvePlan<W>, PlanError> {
-        self.named(&of_system)
-    }
-}
-
-impl<V: Clone + Into<Variable>> From<CurvePlan<V>> for Task {
-    fn from(plan: CurvePlan<V>) -> Self {
-        let Ok(plan) = plan.named(&of_any);
-        Self::Curve(plan)
-    }
-}
-
-impl MarginsPlan<Variable> {
-    /// The plan with the names of a system.
-    ///
-    /// # Errors
-    /// [`PlanError`] for a name that the system does not have.
-    pub fn typed<W: Name>(&self) -> Result<MarginsPlan<W>, PlanError> {
-        self.named(&of_system)
-    }
-}
-
-impl<V: Clone + Into<Variable>> From<MarginsPlan<V>> for Task {
-    fn from(plan: MarginsPlan<V>) -> Self {
-        let Ok(plan) = plan.named(&of_any);
-        Self::Margins(plan)
-    }
-}
-
-impl ManyPlan<Variable> {
-    /// The plan with the names of a system.
-    ///
-    /// # Errors
-    /// [`PlanError`] for a name that the system does not have.
-    pub fn typed<W: Name>(&self) -> Result<ManyPlan<W>, PlanError> {
-        self.named(&of_system)
-    }
-}
-
-impl<V: Clone + Into<Variable>> From<ManyPlan<V>> for Task {
-    fn from(plan: ManyPlan<V>) -> Self {
-        let Ok(plan) = plan.named(&of_any);
-        Self::SettleMany(plan)
-    }
-}
-
-impl BasinPlan<Variable, String> {
-    /// The plan with the names of a system.
-    ///
-    /// # Errors
-    /// [`PlanError`] for a name that the system does not have.
-    pub fn typed<W: Name, R: Name>(&self) -> Result<BasinPlan<W, R>, PlanError> {
-        self.named(&of_system, &quantity)
-    }
-}
-
-impl<V: Clone + Into<Variable>, Q: Name> From<BasinPlan<V, Q>> for Task {
-    fn from(plan: BasinPlan<V, Q>) -> Self {
-        let Ok(plan) = plan.named(&of_any, &text);
-        Self::Basin(plan)
-    }
-}
-
-impl MapPlan<Variable, String> {
-    /// The plan with the names of a system.
-    ///
-    /// # Errors
-    /// [`PlanError`] for a name that the system does not have.
-    pub fn typed<W: Name, R: Name>(&self) -> Result<MapPlan<W, R>, PlanError> {
-        self.named(&of_system, &quantity)
-    }
-}
-
-impl<V: Clone + Into<Variable>, Q: Name> From<MapPlan<V, Q>> for Task {
-    fn from(plan: MapPlan<V, Q>) -> Self {
-        let Ok(plan) = plan.named(&of_any, &text);
-        Self::Map(plan)
-    }
-}
-
-impl ResponsePlan<Variable, String> {
-    /// The plan with the names of a system.
-    ///
-    /// # Errors
-    /// [`PlanError`] for a name that the system does not have.
-    pub fn typed<W: Name, R: Name>(&self) -> Result<ResponsePlan<W, R>, PlanError> {
-        self.named(&of_system, &quantity)
-    }
-}
-
-impl<V: Clone + Into<Variable>, Q: Name> From<ResponsePlan<V, Q>> for Task {
-    fn from(plan: ResponsePlan<V, Q>) -> Self {
-        let Ok(plan) = plan.named(&of_any, &text);
-        Self::Response(plan)
-    }
-}
+with_names!(LyapunovPlan => Lyapunov, BranchPlan => Branch, CurvePlan => Curve, MarginsPlan => Margins, ManyPlan => SettleMany);
+with_quantities!(BasinPlan => Basin, MapPlan => Map, ResponsePlan => Response);
 
 impl DiagramPlan<Variable, ShowText> {
     /// The plan with the names of a system.
