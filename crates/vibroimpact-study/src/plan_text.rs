@@ -118,7 +118,8 @@ impl Task {
         if is_machine {
             fill_for_machine(&mut document, &[]);
         }
-        of_system(document.read()?, is_machine, &document)
+        let task = of_system(document.read()?, is_machine, &document)?;
+        Ok(if is_machine { task } else { task.filled() })
     }
 }
 
