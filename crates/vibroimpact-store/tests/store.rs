@@ -589,7 +589,7 @@ fn f09_metadata_of_unfinished_and_older_stores() {
 #[test]
 fn a_store_of_other_defaults_is_resumed_and_verified() {
     let plan = MapPlan::plane("0.6:1.4:13".parse().unwrap(), "0:2:9".parse().unwrap(), 2, 1);
-    let plan = Plan::new(S, Task::Map(plan));
+    let plan = Plan::new(S, Task::from(plan));
     let smaller = Plan { tile: Some(3), ..plan.clone() };
     let hashes = [&plan, &smaller].map(|plan| plan.canonical().unwrap().hash());
     let folder = tempfile::tempdir().unwrap();

@@ -1,7 +1,6 @@
 //! STORE: the store for the results of a grid, which is filled tile by tile.
 
 use super::whole;
-use crate::failure::Failure;
 use clap::Args;
 use core::str::FromStr;
 use std::time::{Duration, Instant};
