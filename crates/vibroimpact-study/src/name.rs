@@ -31,6 +31,7 @@ pub trait Name: Clone + PartialEq + fmt::Debug {
     fn of(name: &str) -> Result<Self, PlanError>;
 
     /// The key of the name in a table of a range.
+    #[must_use]
     fn key(&self) -> &'static str {
         "parameter"
     }

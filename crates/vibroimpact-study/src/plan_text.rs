@@ -118,7 +118,7 @@ impl Task {
         if is_machine {
             fill_for_machine(&mut document, &[]);
         }
-        let task = of_system(document.read()?, is_machine, &document)?;
+        let task = of_system(&document.read()?, is_machine, &document)?;
         Ok(if is_machine { task } else { task.filled() })
     }
 }
@@ -130,7 +130,7 @@ fn fill_for_machine(document: &mut Document<'_>, task: &[&str]) {
 }
 
 /// The task with the names of an oscillator, or of a machine. An error has the position of the name.
-fn of_system(task: Task, is_machine: bool, document: &Document<'_>) -> Result<Task, PlanError> {
+fn of_system(task: &Task, is_machine: bool, document: &Document<'_>) -> Result<Task, PlanError> {
     if is_machine {
         let path = |name: &Variable| Ok(Variable::Path(name.text().to_owned()));
         return task.named(&path, &|quantity: &String| Ok(quantity.clone()));
@@ -198,12 +198,12 @@ impl Plan {
     ) -> Result<Self, PlanError> {
         if !document.has_machine() {
             let mut text = document.read::<PlanText>()?;
-            text.task = of_system(text.task, false, &document)?;
+            text.task = of_system(&text.task, false, &document)?;
             return text.try_into();
         }
         fill_for_machine(&mut document, &["task"]);
         let mut text = document.read::<MachinePlanText>()?;
-        text.task = of_system(text.task, true, &document)?;
+        text.task = of_system(&text.task, true, &document)?;
         let mut plan = Self::from(text);
         if let System::Machine(machine) = &mut plan.system {
             machine.read_modes(files)?;

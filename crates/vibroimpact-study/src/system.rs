@@ -8,6 +8,7 @@ use vibroimpact::{DrivenOscillator, Oscillator, Reduced, Scales, Side, Start};
 /// The system of a plan. Its numbers have names in both: those of an oscillator as `gap`, those of a machine as
 /// `stop.wall.gap`.
 #[derive(Clone, Debug, PartialEq)]
+#[allow(clippy::large_enum_variant, reason = "an oscillator is copied where it is needed")]
 pub enum System {
     /// An oscillator, nondimensional or a body in SI units.
     Oscillator(SystemPlan),

@@ -191,6 +191,7 @@ fn of_system<W: Name>(name: &Variable) -> Result<W, PlanError> {
 }
 
 /// A quantity, as that of a system.
+#[allow(clippy::ptr_arg, reason = "names in plans are strings")]
 fn quantity<R: Name>(name: &String) -> Result<R, PlanError> {
     R::of(name)
 }

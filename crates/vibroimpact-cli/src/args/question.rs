@@ -9,6 +9,7 @@ use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{Axis, Plan, StartPlan, Stretch, Target, Task, Variable};
 
 /// The system of a command.
+#[allow(clippy::large_enum_variant, reason = "there is one of them")]
 pub(crate) enum AskedSystem<'a> {
     /// An oscillator, and the units of the results.
     Oscillator(Asked),

@@ -59,12 +59,10 @@ pub(super) fn read(path: &Path) -> Result<Plan, Failure> {
     let plan = plan.map_err(|error| named(path, &error))?;
     // a machine is in the file, so the file is named
     let checked = plan.check();
-    if plan.machine().is_some() {
-        checked.map_err(|error| named(path, &error))?
-    } else {
-        checked?
+    match checked {
+        Err(error) if plan.machine().is_some() => Err(named(path, &error)),
+        checked => Ok(checked.map(|()| plan)?),
     }
-    Ok(plan)
 }
 
 fn text(path: &Path) -> Result<String, Failure> {
