@@ -12,9 +12,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 use std::{fs, io};
 use vibroimpact_store::{Folder, Item, Part, Shelf, Store, StoreError, costs_beside};
-use vibroimpact_study::{
-    Axis, Control, DiagramPlan, LyapunovPlan, MapPlan, Parameter, Plan, StartPlan, SystemPlan, Task,
-};
+use vibroimpact_study::{Axis, Control, DiagramPlan, LyapunovPlan, MapPlan, Parameter, Plan, SystemPlan, Task};
 
 #[test]
 fn the_same_bytes_for_any_threads_and_parts() {

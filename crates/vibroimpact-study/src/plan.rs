@@ -279,7 +279,7 @@ fn over(axes: &[Axis<Variable>], between: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{BasinPlan, Parameter, RegionPlan, StartPlan, Stretch};
+    use crate::{BasinPlan, Parameter, RegionPlan, Stretch};
 
     const SYSTEM: SystemPlan = SystemPlan {
         beta: None,
