@@ -5,9 +5,9 @@ use crate::rules;
 use proptest::prelude::*;
 use serde_json::Value;
 use vibroimpact_cases::{Budget, Case, FAMILIES, faults};
-use vibroimpact_report::machine_answer;
+use vibroimpact_report::{Units, answer};
 use vibroimpact_study::machine::{MachineSource, no_files};
-use vibroimpact_study::{Control, MachinePlan, MachineTask};
+use vibroimpact_study::{Control, Plan, Task};
 
 /// The family of degenerate machines.
 #[derive(Clone, Copy, Debug)]
@@ -39,17 +39,18 @@ impl Property for Machines {
         if read.parts() != case.machine.parts() {
             return Err("its file is another machine".to_owned());
         }
-        let simulate = asked(&source, MachineTask::Simulate { impacts: Some(EVENTS), periods: None }, "simulate")?;
+        let simulate =
+            asked(&source, Task::Simulate { start: None, impacts: Some(EVENTS), periods: None }, "simulate")?;
         ended(&case, simulate["end"].as_str().unwrap_or_default())?;
-        asked(&source, MachineTask::Settle { impacts: Some(SETTLED) }, "settle")?;
+        asked(&source, Task::Settle { start: None, impacts: Some(SETTLED) }, "settle")?;
         Ok(())
     }
 }
 
 /// The answer to a question about a machine, which has all that programs need.
-fn asked(source: &MachineSource, task: MachineTask, name: &str) -> Result<Value, String> {
-    let plan = MachinePlan::new(source.clone(), task);
-    let answer = machine_answer("drawn", &plan, &Control::default()).map_err(|why| format!("{name}: {why}"))?;
+fn asked(source: &MachineSource, task: Task, name: &str) -> Result<Value, String> {
+    let plan = Plan::new(source.clone(), task);
+    let answer = answer(&plan, Units::default(), &Control::default()).map_err(|why| format!("{name}: {why}"))?;
     let object = rules::object(answer.json().as_bytes())?;
     rules::answer(name, &object)?;
     Ok(object)

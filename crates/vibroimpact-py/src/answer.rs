@@ -7,13 +7,12 @@ use crate::machine::{MachineFile, Start, start};
 use crate::oscillator::Oscillator;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
-use serde::de::DeserializeOwned;
 use vibroimpact::chaos::Section;
 use vibroimpact_report::json::event::side;
-use vibroimpact_report::{Units, machine_answer};
+use vibroimpact_report::{Answer, Units};
 use vibroimpact_study::{
-    MachineDiagram, MachineDiagramStep, MachinePlan, MachineResults, MachineSection, MarginsPlan, Parameter, Plan,
-    Quantity, ResponseCurves, ResponseRow, Results, StudyPlan, SystemPlan, Task,
+    MachineDiagram, MachineDiagramStep, MachineResults, MachineSection, MarginsPlan, Name, Parameter, Plan, PlanError,
+    Quantity, ResponseCurves, ResponseRow, Results, SystemPlan, Task,
 };
 
 /// A system about which a question is asked.
@@ -134,29 +133,30 @@ pub(crate) struct AnswerFields<'py> {
     response: Option<ResponseFields<'py>>,
 }
 
-/// The task that JSON describes.
-fn task<T: DeserializeOwned>(text: &str) -> Result<T, Trouble> {
-    serde_json::from_str(text).map_err(|error| {
+/// The plan of a task, which is JSON, for a system.
+fn planned_task(system: vibroimpact_study::System, text: &str) -> Result<Plan, Trouble> {
+    let task = Task::from_json(text, &system).map_err(|error| match error {
         // JSON is written by this package, so a position in it does not help the user
-        let said = error.to_string();
-        Trouble::question(said.rsplit_once(" at line ").map_or(said.as_str(), |(said, _)| said).to_owned())
-    })
+        PlanError::Text(error) => Trouble::question(error.without_place().to_string()),
+        other => other.into(),
+    })?;
+    Ok(Plan::new(system, task))
 }
 
 /// The checked plan of a task, which is JSON, for a system. The start of a machine is given; that of an oscillator is in the task.
-fn planned(system: &System<'_>, from: Option<Start>, text: &str, tile: Option<u32>) -> Result<StudyPlan, Trouble> {
+fn planned(system: &System<'_>, from: Option<Start>, text: &str, tile: Option<u32>) -> Result<Plan, Trouble> {
     let plan = match system {
-        System::Oscillator(osc) => StudyPlan::from(&Plan { tile, ..Plan::new(osc.plan, task(text)?) }),
+        System::Oscillator(osc) => planned_task(osc.plan.into(), text)?,
         System::Machine(file) => {
-            let plan = MachinePlan { tile, ..MachinePlan::new(file.0.clone(), task(text)?) };
             // a start of the wrong size is refused by its path
-            let plan = match from {
-                Some(from) => plan.starting(&start(file, from)?),
-                None => plan,
+            let machine = match from {
+                Some(from) => file.0.clone().starting(&start(file, from)?),
+                None => file.0.clone(),
             };
-            StudyPlan::from(&plan)
+            planned_task(machine.into(), text)?
         }
     };
+    let plan = Plan { tile, ..plan };
     plan.check()?;
     Ok(plan)
 }
@@ -188,45 +188,36 @@ pub(crate) fn answer<'py>(
     let plan = planned(&system, from, task, None)?;
     drop(system);
     let watch = Watch { what: "computing an answer", total, progress, threads };
-    match plan {
-        StudyPlan::Oscillator(plan) => {
-            let (json, of) = door::run(py, watch, move |control| {
-                let answer = vibroimpact_report::answer(&plan, Units::default(), control)?;
-                Ok((answer.brief(), answer))
-            })?;
-            let mut fields = AnswerFields { json, ..AnswerFields::default() };
-            match (&of.plan.task, &of.results) {
-                (_, Results::Lyapunov(_, _, Some(points))) => {
-                    fields.section = Some(SectionFields::of_oscillator(py, &of.osc, points)?);
-                }
-                (Task::Response(task), Results::Response(found)) => {
-                    fields.response = Some(ResponseFields::of_oscillator(py, found, task.vary, &of.asked.system)?);
-                }
-                _ => {}
+    let (json, answer) = door::run(py, watch, move |control| {
+        let answer = vibroimpact_report::answer(&plan, Units::default(), control)?.named("");
+        Ok((answer.brief(), answer))
+    })?;
+    let mut fields = AnswerFields { json, ..AnswerFields::default() };
+    match answer {
+        Answer::Oscillator(of) => match (&of.plan.task, &of.results) {
+            (_, Results::Lyapunov(_, _, Some(points))) => {
+                fields.section = Some(SectionFields::of_oscillator(py, &of.osc, points)?);
             }
-            Ok(fields)
-        }
-        StudyPlan::Machine(plan) => {
-            let (json, of) = door::run(py, watch, move |control| {
-                let answer = machine_answer("", &plan, control)?;
-                Ok((answer.json(), answer))
-            })?;
-            let mut fields = AnswerFields { json, ..AnswerFields::default() };
-            match &of.results {
-                MachineResults::Lyapunov(_, Some(points)) => {
-                    let stops = points.closings.iter().map(|at| of.machine.name_of(at.place).to_owned()).collect();
-                    fields.section = Some(SectionFields::of_machine(py, points, stops, of.machine.n())?);
-                }
-                MachineResults::Diagram(found) => fields.diagram = Some(DiagramFields::new(py, found)),
-                MachineResults::Response(found) => {
-                    let units = vec![""; found.quantities.len()];
-                    fields.response = Some(ResponseFields::new(py, found, units, |row, k| row.quantities[k])?);
-                }
-                _ => {}
+            (Task::Response(task), Results::Response(found)) => {
+                let vary = Parameter::of(task.vary.text())?;
+                fields.response = Some(ResponseFields::of_oscillator(py, found, vary, &of.asked.system)?);
             }
-            Ok(fields)
-        }
+            _ => {}
+        },
+        Answer::Machine(of) => match &of.results {
+            MachineResults::Lyapunov(_, Some(points)) => {
+                let stops = points.closings.iter().map(|at| of.machine.name_of(at.place).to_owned()).collect();
+                fields.section = Some(SectionFields::of_machine(py, points, stops, of.machine.n())?);
+            }
+            MachineResults::Diagram(found) => fields.diagram = Some(DiagramFields::new(py, found)),
+            MachineResults::Response(found) => {
+                let units = vec![""; found.quantities.len()];
+                fields.response = Some(ResponseFields::new(py, found, units, |row, k| row.quantities[k])?);
+            }
+            _ => {}
+        },
     }
+    Ok(fields)
 }
 
 /// The names of the parameters of an oscillator, the frequency in the form in which it was given.

@@ -3,7 +3,7 @@
 use crate::columns::column;
 use crate::door::{self, Watch};
 use crate::error::Trouble;
-use crate::plan::{points, read_any};
+use crate::plan::{points, read};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use std::collections::BTreeSet;
@@ -115,7 +115,7 @@ pub(crate) fn fill<'py>(
     threads: usize,
     progress: Option<Py<PyAny>>,
 ) -> Result<Variables<'py>, Trouble> {
-    let plan = read_any(plan)?;
+    let plan = read(plan)?;
     let watch = Watch { what: "computing a study", total: points(&plan), progress, threads };
     let sheet = door::run(py, watch, move |control| Ok(in_memory(Study::new(&plan)?, control)?))?;
     Ok(variables(py, sheet)?)

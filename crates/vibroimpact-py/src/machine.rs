@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use vibroimpact::events::{MachineLimits, MachineSample, MachineSamples, MachineStart};
 use vibroimpact::regime::ContactState;
 use vibroimpact_study::machine::{CATALOGUE, MachineProblem, MachineSource, MachineTextError, StartText};
-use vibroimpact_study::{MachinePlan, MachineResults, MachineTask, PlanError, events_with_states, run_machine};
+use vibroimpact_study::{MachineResults, Plan, PlanError, Results, System, Task, events_with_states, most_events, run};
 
 /// A machine file that describes a machine.
 #[pyclass(frozen, module = "vibroimpact._core")]
@@ -151,12 +151,11 @@ pub(crate) fn start(file: &MachineFile, (q, qdot, phase): Start) -> Result<Machi
 /// The state, as JSON, from which a motion goes on after event number `event` of the simulation of a plan, which is JSON.
 #[pyfunction]
 pub(crate) fn machine_state(py: Python<'_>, plan: &str, event: usize) -> Result<String, Trouble> {
-    let plan: MachinePlan = serde_json::from_str(plan)
-        .map_err(|error| Trouble::question(format!("this is no plan of a machine: {error}")))?;
-    let MachineTask::Simulate { periods, .. } = plan.task else {
-        return Err(PlanError::NoStudy("simulate").into());
+    let plan = crate::plan::read(plan)?;
+    let (System::Machine(machine), Task::Simulate { periods, .. }) = (plan.system, plan.task) else {
+        return Err(Trouble::question("this is no plan that simulates a machine".to_owned()));
     };
-    let (machine, start) = plan.problem()?;
+    let (machine, start) = machine.problem()?;
     door::run(py, Watch::alone("following a machine"), move |control| {
         let mut events = events_with_states(&machine, &start, periods)?.take_while(|_| !control.stopping());
         let state = events.nth(event).and_then(|event| event.state);
@@ -187,12 +186,14 @@ pub(crate) fn simulate_machine<'py>(
     progress: Option<Py<PyAny>>,
 ) -> Result<Fields<'py>, Trouble> {
     // a start of the wrong size is refused by its path
-    let plan =
-        MachinePlan::new(file.0.clone(), MachineTask::Simulate { impacts, periods }).starting(&start(file, from)?);
-    plan.check()?;
-    let (machine, text) = (plan.machine.machine()?, plan.json());
-    let watch = Watch::one("following a machine", plan.most_events().unwrap_or(1), progress);
-    let MachineResults::Simulate(found) = door::run(py, watch, move |control| Ok(run_machine(&plan, control)?))? else {
+    let source = file.0.clone().starting(&start(file, from)?);
+    let (machine, most) = (source.machine()?, most_events(impacts, periods));
+    let plan = Plan::new(source, Task::Simulate { start: None, impacts, periods });
+    let text = crate::simulate::text(&plan)?;
+    let watch = Watch::one("following a machine", most, progress);
+    let Results::Machine(MachineResults::Simulate(found)) =
+        door::run(py, watch, move |control| Ok(run(&plan, control)?))?
+    else {
         return Err(PlanError::NoStudy("simulate").into()); // the task of the plan is to simulate
     };
     let (n, events) = (machine.n(), &found.events);

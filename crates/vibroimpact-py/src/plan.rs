@@ -8,11 +8,9 @@ use pyo3::prelude::*;
 use std::collections::HashMap;
 use vibroimpact::PhysicalParameter;
 use vibroimpact_report::Units;
-use vibroimpact_study::{
-    Axis, Coordinate, Parameter, Plan, PlanError, StartPlan, StudyPlan, SystemPlan, Task, is_machine_plan,
-};
+use vibroimpact_study::{Axis, Coordinate, Parameter, Plan, PlanError, StartPlan, SystemPlan, Task, Variable};
 
-/// The plan of a text.
+/// The plan of a text, in the form in which it is stored.
 pub(crate) fn read(text: &str) -> Result<Plan, Trouble> {
     let plan = Plan::from_text(text).map_err(|error| match error {
         // JSON is written by this package, so a position in it does not help the user
@@ -26,25 +24,12 @@ pub(crate) fn read(text: &str) -> Result<Plan, Trouble> {
     Ok(plan)
 }
 
-/// The plan of a text, which may be one of a machine.
-pub(crate) fn read_any(text: &str) -> Result<StudyPlan, Trouble> {
-    if !is_machine_plan(text) {
-        return read(text).map(|plan| StudyPlan::from(&plan));
-    }
-    let plan = StudyPlan::from_json(text)?;
-    plan.check()?;
-    Ok(plan)
-}
-
 /// Number of points of the grid of a plan; 0 for a plan without a grid.
-pub(crate) fn points(plan: &StudyPlan) -> u64 {
-    let work = match plan {
-        StudyPlan::Machine(plan) => plan.work(),
-        StudyPlan::Oscillator(plan) => match &plan.task {
-            Task::Lyapunov(lyapunov) => return lyapunov.axes.iter().map(|axis| axis.over.count() as u64).product(),
-            Task::Region(_) => None,
-            _ => plan.work(),
-        },
+pub(crate) fn points(plan: &Plan) -> u64 {
+    let work = match &plan.task {
+        Task::Lyapunov(lyapunov) => return lyapunov.axes.iter().map(|axis| axis.over.count() as u64).product(),
+        Task::Region(_) => None,
+        _ => plan.work(),
     };
     work.map_or(0, |(points, _)| points)
 }
@@ -52,27 +37,19 @@ pub(crate) fn points(plan: &StudyPlan) -> u64 {
 /// The plan in the form in which it is stored, its hash, its title, and the number of points of its grid.
 #[pyfunction]
 pub(crate) fn checked_plan(text: &str) -> Result<(String, String, String, u64), Trouble> {
-    let plan = read_any(text)?;
+    let plan = read(text)?;
     Ok((crate::simulate::text(&plan)?, plan.hash(), plan.title(), points(&plan)))
 }
 
 /// The object that the command prints with `--json` for a plan, which is computed.
 #[pyfunction]
 pub(crate) fn answer_json(py: Python<'_>, plan: &str) -> Result<String, Trouble> {
-    let plan = read_any(plan)?;
+    let plan = read(plan)?;
     let watch = Watch { what: "computing an answer", total: 1, progress: None, threads: 0 };
     door::run(py, watch, move |control| {
-        Ok(match plan {
-            // results of this package are nondimensional
-            StudyPlan::Oscillator(plan) => {
-                let plan = Plan { units: None, ..*plan };
-                vibroimpact_report::answer(&plan, Units::default(), control)?.json()
-            }
-            StudyPlan::Machine(plan) => {
-                let name = plan.machine.title.as_deref().unwrap_or("machine");
-                vibroimpact_report::machine_answer(name, &plan, control)?.json()
-            }
-        })
+        // results of this package are nondimensional
+        let plan = Plan { units: None, ..plan };
+        Ok(vibroimpact_report::answer(&plan, Units::default(), control)?.json())
     })
 }
 
@@ -88,6 +65,7 @@ pub(crate) fn system_fields(osc: Oscillator) -> Result<String, Trouble> {
 #[allow(clippy::needless_pass_by_value)] // arguments from Python
 pub(crate) fn scales_over(text: &str, names: Vec<String>, values: Vec<Vec<f64>>) -> Result<[Vec<f64>; 3], Trouble> {
     let plan = read(text)?;
+    let system = plan.oscillator().ok_or(Trouble::Defect("the scales of a machine"))?;
     let parameters = names.iter().map(|name| crate::axis::parameter(name)).collect::<Result<Vec<_>, _>>()?;
     let count = values.iter().map(Vec::len).product();
     let mut found = [(); 3].map(|()| Vec::with_capacity(count));
@@ -102,8 +80,8 @@ pub(crate) fn scales_over(text: &str, names: Vec<String>, values: Vec<Vec<f64>>)
                 value
             })
             .collect();
-        let system = plan.system.with_all(parameters.iter().copied().zip(place.into_iter().rev()));
-        let scales = system.ok().and_then(|system| system.scales());
+        let there = system.with_all(parameters.iter().copied().zip(place.into_iter().rev()));
+        let scales = there.ok().and_then(|there| there.scales());
         let of = scales.map_or([f64::NAN; 3], |scales| [scales.length_m, scales.time_s, scales.mass_kg]);
         found.iter_mut().zip(of).for_each(|(column, value)| column.push(value));
     }
@@ -187,20 +165,25 @@ pub(crate) fn coordinate_words(name: &str) -> Result<(&'static str, &'static str
 /// rest, are not-a-number.
 #[pyfunction]
 pub(crate) fn fixed_coordinates(text: &str) -> Result<Vec<Fixed>, Trouble> {
-    let StudyPlan::Oscillator(plan) = read_any(text)? else { return Ok(Vec::new()) };
-    let on = |axes: &[Axis]| axes.iter().map(|axis| axis.vary).collect::<Vec<_>>();
+    let plan = read(text)?;
+    let Some(system) = plan.oscillator() else { return Ok(Vec::new()) };
+    let known = |name: Variable| if let Variable::Coordinate(coordinate) = name { Some(coordinate) } else { None };
+    let on = |axes: &[Axis<Variable>]| axes.iter().filter_map(|axis| known(axis.vary.clone())).collect::<Vec<_>>();
     let (varied, start) = match &plan.task {
         Task::Map(map) => (on(&map.axes), None),
         Task::Basin(basin) => {
             let points = basin.points.iter().flat_map(vibroimpact_study::PointsPlan::varied);
-            (points.chain(on(&basin.axes)).collect(), Some(basin.start))
+            (points.filter_map(known).chain(on(&basin.axes)).collect(), basin.start)
         }
-        Task::Lyapunov(lyapunov) => (on(&lyapunov.axes), Some(lyapunov.start)),
-        Task::Diagram(diagram) => (diagram.cut().parameters().map(Coordinate::Parameter).collect(), None),
+        Task::Lyapunov(lyapunov) => (on(&lyapunov.axes), lyapunov.start),
+        Task::Diagram(diagram) => {
+            let also = diagram.also.as_ref().map(|also| also.parameter.clone());
+            (core::iter::once(diagram.vary.clone()).chain(also).filter_map(known).collect(), None)
+        }
         _ => (Vec::new(), None),
     };
     let is_frequency = |of: &Coordinate| matches!(of, Coordinate::Parameter(parameter) if parameter.is_frequency());
     let varies = |of: Coordinate| varied.contains(&of) || (is_frequency(&of) && varied.iter().any(is_frequency));
-    let all = all_coordinates(&plan.system, start).into_iter();
+    let all = all_coordinates(system, start).into_iter();
     Ok(all.filter(|(of, _)| !varies(*of)).map(described).collect())
 }

@@ -9,8 +9,7 @@ use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use vibroimpact_study::study::in_memory;
 use vibroimpact_study::{
-    BasinPlan, Coordinate, DrawnPoints, ListedColumn, Plan, PointsPlan, Quantity, Study, StudyPlan, Task,
-    unknown_quantity,
+    BasinPlan, Coordinate, DrawnPoints, ListedColumn, Plan, PointsPlan, Quantity, Study, unknown_quantity,
 };
 
 /// The column with this name.
@@ -43,9 +42,9 @@ pub(crate) fn settle_points<'py>(
     let fields = fields.iter().map(quantity).collect::<Result<_, _>>()?;
     let total = points.count();
     let task = BasinPlan { impacts, fields, transient, ..BasinPlan::of_points(points, start_plan(start)) };
-    let plan = StudyPlan::Oscillator(Box::new(Plan::new(osc.plan, Task::Basin(task))));
+    let plan = Plan::new(osc.plan, task);
     let watch = Watch { what: "settling motions", total, progress, threads };
-    let sheet = door::run(py, watch, move |control| Ok(in_memory(Study::new(plan)?, control)?))?;
+    let sheet = door::run(py, watch, move |control| Ok(in_memory(Study::new(&plan)?, control)?))?;
     Ok(arrays(py, sheet)?)
 }
 

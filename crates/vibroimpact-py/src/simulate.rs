@@ -57,7 +57,7 @@ pub(crate) fn simulate<'py>(
     periods: Option<f64>,
     progress: Option<Py<PyAny>>,
 ) -> Result<Fields<'py>, Trouble> {
-    let plan = Plan::new(osc.plan, Task::Simulate { start: start_plan(start), impacts, periods }).complete()?;
+    let plan = Plan::new(osc.plan, Task::Simulate { start: Some(start_plan(start)), impacts, periods }).complete()?;
     let total = if let Task::Simulate { impacts: Some(impacts), .. } = plan.task { impacts } else { 1 };
     let watch = Watch::one("following a motion", total, progress);
     let found =

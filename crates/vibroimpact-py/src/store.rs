@@ -2,7 +2,7 @@
 
 use crate::door::{self, Watch};
 use crate::error::Trouble;
-use crate::plan::read_any;
+use crate::plan::read;
 use crate::simulate::text;
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
@@ -73,7 +73,7 @@ impl Store {
     #[new]
     #[pyo3(signature = (place, plan=None))]
     fn new(py: Python<'_>, place: String, plan: Option<&str>) -> Result<Self, Trouble> {
-        let plan = plan.map(read_any).transpose()?;
+        let plan = plan.map(read).transpose()?;
         let store = door::run(py, Watch::alone("opening a store"), move |_| {
             let shelf = place_of(&place)?;
             let store = match plan {
@@ -197,7 +197,7 @@ pub(crate) fn estimate_plan(
     budget: f64,
     threads: usize,
 ) -> Result<String, Trouble> {
-    let plan = read_any(plan)?;
+    let plan = read(plan)?;
     let sampling = Sampling { blocks: sample, time: Duration::try_from_secs_f64(budget).unwrap_or(Duration::MAX) };
     let watch = Watch { what: "estimating a study", total: 1, progress: None, threads };
     text(&door::run(py, watch, move |control| Ok(estimate(&plan, sampling, control)?))?)

@@ -4,7 +4,7 @@ use vibroimpact::continuation::MachinePoint;
 use vibroimpact::machine::Machine;
 use vibroimpact::quantities::{Quantity, machine_cycle_quantities};
 use vibroimpact_study::machine::MachineSource;
-use vibroimpact_study::{MachineBranched, MachineCut};
+use vibroimpact_study::{Cut, MachineBranched};
 
 /// The largest displacement of the first coordinate, or its largest velocity where the displacement is not defined, as in a
 /// machine that moves on as a whole.
@@ -13,13 +13,18 @@ pub struct BranchQuantity<'a> {
     /// Its path.
     pub path: String,
     source: &'a MachineSource,
-    cut: MachineCut,
+    cut: Cut<String>,
 }
 
 impl<'a> BranchQuantity<'a> {
     /// That of the branches of a machine; `None` if it has stops.
     #[must_use]
-    pub fn of(machine: &Machine, source: &'a MachineSource, cut: &MachineCut, found: &MachineBranched) -> Option<Self> {
+    pub fn of(
+        machine: &Machine,
+        source: &'a MachineSource,
+        cut: &Cut<String>,
+        found: &MachineBranched,
+    ) -> Option<Self> {
         if !machine.stops().is_empty() {
             return None;
         }
@@ -31,7 +36,7 @@ impl<'a> BranchQuantity<'a> {
 
     /// The quantity at a path.
     #[must_use]
-    pub fn at_path(path: String, source: &'a MachineSource, cut: &MachineCut) -> Self {
+    pub fn at_path(path: String, source: &'a MachineSource, cut: &Cut<String>) -> Self {
         Self { path, source, cut: cut.clone() }
     }
 
@@ -49,17 +54,17 @@ impl<'a> BranchQuantity<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use vibroimpact_study::{Control, MachinePlan, MachineResults, MachineTask, run_machine};
+    use vibroimpact_study::{BranchPlan, Control, MachineResults, Plan, Results, run};
 
     /// The belt carries the mass to x = fs, and from there it swings about x = f with the speed V at the beginning.
     #[test]
     fn the_largest_displacement_of_stick_slip() {
         let source = MachineSource::open("stick-slip").unwrap();
-        let task: MachineTask = serde_json::from_str(r#"{"branch": {"vary": "V", "to": 0.5}}"#).unwrap();
-        let plan = MachinePlan::new(source.clone(), task);
-        let MachineTask::Branch(branch) = &plan.task else { panic!() };
+        let branch: BranchPlan<String> = serde_json::from_str(r#"{"vary": "V", "to": 0.5}"#).unwrap();
+        let plan = Plan::new(source.clone(), branch.clone());
         let (machine, cut) = (source.machine().unwrap(), branch.cut(&source).unwrap());
-        let MachineResults::Branch(found) = run_machine(&plan, &Control::default()).unwrap() else { panic!() };
+        let Results::Machine(results) = run(&plan, &Control::default()).unwrap() else { panic!() };
+        let MachineResults::Branch(found) = results else { panic!() };
         let quantity = BranchQuantity::of(&machine, &source, &cut, &found).unwrap();
         assert_eq!(quantity.path, "q.mass.displacement_max");
         let (holds, slides) = (source.number("fs").unwrap(), source.number("f").unwrap());

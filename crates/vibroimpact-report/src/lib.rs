@@ -6,7 +6,6 @@
 //! | idea | file |
 //! |---|---|
 //! | a plan, its result, and everything that is reported of it | [`answer()`], [`Answer`], [`Shown`] |
-//! | the same for a plan of a machine | [`machine_answer()`], [`MachineAnswer`] |
 //! | what stands for a cycle on a branch of a machine without stops | [`BranchQuantity`] |
 //! | the system of a question, and the units of results | [`Asked`], [`Units`] |
 //! | the JSON objects of the commands, one for each, whatever the system | [`json`] |
@@ -23,7 +22,6 @@ mod branch_quantity;
 mod error;
 pub mod figure;
 pub mod json;
-mod machine_answer;
 pub mod number;
 pub mod question;
 pub mod response;
@@ -34,7 +32,6 @@ mod units;
 pub use answer::{Answer, Shown, answer};
 pub use branch_quantity::BranchQuantity;
 pub use error::{AnswerError, ReportError};
-pub use machine_answer::{MachineAnswer, machine_answer};
 pub use table::Table;
 pub use units::{Asked, Units};
 

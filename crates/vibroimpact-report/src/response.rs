@@ -4,7 +4,9 @@ use crate::Units;
 use crate::figure::{named, quantity_name};
 use vibroimpact::machine::Machine;
 use vibroimpact::quantities::machine_quantity;
-use vibroimpact_study::{MachineResponsePlan, Parameter, Quantity, ResponseCurves, ResponsePlan, ResponseRow, Values};
+use vibroimpact_study::{
+    Name, Parameter, PlanError, Quantity, ResponseCurves, ResponsePlan, ResponseRow, Values, Variable, quantity_path,
+};
 
 /// A response with the names and the units of its report.
 #[derive(Clone, Debug)]
@@ -31,31 +33,39 @@ pub struct ResponseView<'a> {
 
 impl<'a> ResponseView<'a> {
     /// Of an oscillator, in its units.
-    #[must_use]
-    pub fn of_oscillator(found: &'a ResponseCurves, plan: &'a ResponsePlan, units: &Units) -> Self {
-        Self {
+    ///
+    /// # Errors
+    /// [`PlanError`] for what is no parameter.
+    pub fn of_oscillator(
+        found: &'a ResponseCurves,
+        asked: &'a ResponsePlan<Variable, String>,
+        units: &Units,
+    ) -> Result<Self, PlanError> {
+        let plan: ResponsePlan = asked.typed()?;
+        let quantity = plan.quantity();
+        Ok(Self {
             found,
             vary: units.name_of(plan.vary),
-            over: &plan.over,
+            over: &asked.over,
             column: units.column_of(plan.vary).to_owned(),
             axis: named(plan.vary, units),
-            quantity: plan.quantity.description().to_owned(),
-            ordinate: quantity_name(plan.quantity, units),
+            quantity: quantity.description().to_owned(),
+            ordinate: quantity_name(quantity, units),
             columns: Quantity::ALL.map(|quantity| units.column(quantity.name(), quantity.kind())).to_vec(),
             units: Some((*units, plan.vary)),
-        }
+        })
     }
 
     /// Of a machine, in the units of its numbers.
     #[must_use]
-    pub fn of_machine(found: &'a ResponseCurves, plan: &'a MachineResponsePlan, machine: &Machine) -> Self {
-        let path = plan.quantity(machine);
+    pub fn of_machine(found: &'a ResponseCurves, plan: &'a ResponsePlan<Variable, String>, machine: &Machine) -> Self {
+        let path = quantity_path(plan.quantity.as_deref(), machine);
         Self {
             found,
-            vary: &plan.vary,
+            vary: plan.vary.text(),
             over: &plan.over,
-            column: plan.vary.clone(),
-            axis: plan.vary.clone(),
+            column: plan.vary.text().to_owned(),
+            axis: plan.vary.text().to_owned(),
             quantity: machine_quantity(machine, &path)
                 .map_or_else(|_| path.clone(), |(part, of)| part.description(of).to_owned()),
             ordinate: found.quantities[found.shown].clone(),

@@ -54,7 +54,7 @@ impl Units {
     #[must_use]
     pub fn of_plan(plan: &Plan) -> Self {
         let units = plan.units.as_ref().map_or_else(Self::default, Self::from);
-        Self { machine: plan.system.machine, ..units }
+        Self { machine: plan.oscillator().and_then(|system| system.machine), ..units }
     }
 
     /// The units where a parameter has this value: the units of a machine depend on its mass, its stiffness and all that

@@ -15,14 +15,14 @@ fn map(points: u32) -> Plan {
     let over = |from: f64, to: f64| vibroimpact_study::Span::new(from, to, points).unwrap();
     let task = MapPlan::plane(over(0.4, 2.0), over(0.0, 5.0), 2, 1);
     let system = SystemPlan { inverse_beta: Some(0.4), restitution: 0.5, ..SystemPlan::default() };
-    Plan { tile: Some(points), ..Plan::new(system, Task::Map(task)) }
+    Plan { tile: Some(points), ..Plan::new(system, Task::from(task)) }
 }
 
 fn basin(points: u32) -> Plan {
     let over = |from: f64, to: f64| vibroimpact_study::Span::new(from, to, points).unwrap();
     let task = BasinPlan::plane(over(-4.0, 0.75), over(-4.0, 4.0), 0.0);
     let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.75, restitution: 0.5, ..SystemPlan::default() };
-    Plan { tile: Some(points), ..Plan::new(system, Task::Basin(task)) }
+    Plan { tile: Some(points), ..Plan::new(system, Task::from(task)) }
 }
 
 fn tiles(criterion: &mut Criterion) {

@@ -13,7 +13,8 @@ use serde::Serialize;
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
-use vibroimpact_study::study::{Cells, Study, StudyPlan};
+use vibroimpact_study::Plan;
+use vibroimpact_study::study::{Cells, Study};
 use vibroimpact_study::{Block, Column, Control, Field, Grid, NumberType};
 
 /// How a study is sampled.
@@ -80,11 +81,11 @@ struct Probe {
 ///
 /// # Errors
 /// [`StoreError`] for a plan that is invalid or has no grid, when stopped, or when no point was finished in time.
-pub fn estimate(plan: impl Into<StudyPlan>, sampling: Sampling, control: &Control<'_>) -> Result<Estimate, StoreError> {
-    let plan = plan.into().canonical()?;
+pub fn estimate(plan: &Plan, sampling: Sampling, control: &Control<'_>) -> Result<Estimate, StoreError> {
+    let plan = plan.canonical()?;
     let study = Study::new(&plan)?;
     let unreachable = |why| StoreError::Unreachable { place: "the study".into(), why };
-    let shards = Shards::of(study.grid(), plan.shard());
+    let shards = Shards::of(study.grid(), plan.shard);
     let layout = Layout::new(&study, shards);
     let grid = study.grid();
     let probes = sample(&study, sampling, control)?;

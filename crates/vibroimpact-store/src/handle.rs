@@ -4,7 +4,8 @@ use crate::costs::Costs;
 use crate::layout::Layout;
 use crate::shelf::Shelf;
 use std::sync::Arc;
-use vibroimpact_study::study::{Study, StudyPlan};
+use vibroimpact_study::Plan;
+use vibroimpact_study::study::Study;
 
 /// The latest format of stores that this program knows: 1 without shards, 2 with shards. A store with a later format is
 /// refused.
@@ -17,7 +18,7 @@ pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// A study and the place where it is stored.
 pub struct Store {
     pub(crate) shelf: Arc<dyn Shelf>,
-    pub(crate) plan: StudyPlan,
+    pub(crate) plan: Plan,
     pub(crate) study: Study,
     pub(crate) layout: Layout,
     /// The version that began it.

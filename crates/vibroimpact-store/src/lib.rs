@@ -94,7 +94,8 @@ use std::io;
 use std::path::Path;
 use std::sync::Arc;
 use vibroimpact_study::Column;
-use vibroimpact_study::study::{Cells, Study, StudyPlan};
+use vibroimpact_study::Plan;
+use vibroimpact_study::study::{Cells, Study};
 
 /// The shelf at a place: a folder or `s3://bucket/prefix`.
 ///
@@ -140,8 +141,8 @@ impl Store {
     /// # Errors
     /// [`StoreError`] for a plan that is invalid or has no grid, a place that cannot be used, or a store of another
     /// plan.
-    pub fn create(shelf: Arc<dyn Shelf>, plan: impl Into<StudyPlan>) -> Result<Self, StoreError> {
-        let plan = &plan.into().canonical()?;
+    pub fn create(shelf: Arc<dyn Shelf>, plan: &Plan) -> Result<Self, StoreError> {
+        let plan = &plan.canonical()?;
         let store = Self::over(shelf, plan, VERSION.to_owned(), FORMAT)?;
         let mut fresh = false;
         match store.root() {
@@ -191,7 +192,7 @@ impl Store {
         let place = shelf.name();
         let root = read_root(shelf.as_ref())?;
         let found = Found::of(&root, &place)?;
-        let plan = StudyPlan::from_json(&found.plan).map_err(|error| StoreError::Damaged {
+        let plan = Plan::from_json(&found.plan).map_err(|error| StoreError::Damaged {
             place,
             key: ROOT.into(),
             why: format!("its plan does not read: {error}"),
@@ -209,7 +210,7 @@ impl Store {
     /// The store of a plan with this root: with the shards, tiles and fields with which it was begun.
     fn as_begun(
         shelf: Arc<dyn Shelf>,
-        plan: &StudyPlan,
+        plan: &Plan,
         root: &Value,
         Found { version, format, .. }: Found,
     ) -> Result<Self, StoreError> {
@@ -223,12 +224,12 @@ impl Store {
         Ok(Self::of(store.shelf, plan, study, store.begun_by, format))
     }
 
-    fn over(shelf: Arc<dyn Shelf>, plan: &StudyPlan, begun_by: String, format: u64) -> Result<Self, StoreError> {
+    fn over(shelf: Arc<dyn Shelf>, plan: &Plan, begun_by: String, format: u64) -> Result<Self, StoreError> {
         Ok(Self::of(shelf, plan, Study::new(plan)?, begun_by, format))
     }
 
-    fn of(shelf: Arc<dyn Shelf>, plan: &StudyPlan, study: Study, begun_by: String, format: u64) -> Self {
-        let shards = if format == PLAIN { None } else { Shards::of(study.grid(), plan.shard()) };
+    fn of(shelf: Arc<dyn Shelf>, plan: &Plan, study: Study, begun_by: String, format: u64) -> Self {
+        let shards = if format == PLAIN { None } else { Shards::of(study.grid(), plan.shard) };
         let layout = Layout::new(&study, shards);
         Self { shelf, plan: plan.clone(), study, layout, begun_by, costs: None }
     }
@@ -246,7 +247,7 @@ impl Store {
 
     /// The plan of the study.
     #[must_use]
-    pub const fn plan(&self) -> &StudyPlan {
+    pub const fn plan(&self) -> &Plan {
         &self.plan
     }
 

@@ -1,13 +1,14 @@
 //! The contents of a store as arrays in memory, for figures and tables.
 
 use crate::{Store, StoreError};
-use vibroimpact_study::study::{StudyArrays, StudyPlan};
+use vibroimpact_study::Plan;
+use vibroimpact_study::study::StudyArrays;
 use vibroimpact_study::{Block, Column, Study};
 
 impl StudyArrays for Store {
     type Error = StoreError;
 
-    fn plan(&self) -> &StudyPlan {
+    fn plan(&self) -> &Plan {
         self.plan()
     }
 

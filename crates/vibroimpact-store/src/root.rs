@@ -7,7 +7,8 @@ use crate::shelf::Shelf;
 use crate::{FORMAT, Store, StoreError};
 use serde_json::{Map, Value, json};
 use std::io;
-use vibroimpact_study::study::{Cells, StudyPlan};
+use vibroimpact_study::study::Cells;
+use vibroimpact_study::{Plan, System};
 
 /// The key of the root, which describes the whole store. It is the last of the initial objects to be written.
 pub(crate) const ROOT: &str = "zarr.json";
@@ -94,10 +95,10 @@ impl Store {
 }
 
 /// The sources of what a study is about.
-fn references(plan: &StudyPlan) -> &str {
-    match plan {
-        StudyPlan::Oscillator(_) => "Fukaya and Irie (1971); every motion is settled to a proved verdict",
-        StudyPlan::Machine(plan) => plan.machine.source.as_deref().unwrap_or_default(),
+fn references(plan: &Plan) -> &str {
+    match &plan.system {
+        System::Oscillator(_) => "Fukaya and Irie (1971); every motion is settled to a proved verdict",
+        System::Machine(machine) => machine.source.as_deref().unwrap_or_default(),
     }
 }
 

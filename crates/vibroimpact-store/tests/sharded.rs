@@ -177,7 +177,7 @@ impl Shelf for Meanwhile {
 #[test]
 fn tiles_that_move_while_they_are_read_are_found() {
     let basin = BasinPlan::plane("-4:0.75:6".parse().unwrap(), "-4:4:4".parse().unwrap(), 0.0);
-    let plan = Plan { shard: Some(2), tile: Some(2), ..Plan::new(S, Task::Basin(basin)) };
+    let plan = Plan { shard: Some(2), tile: Some(2), ..Plan::new(S, Task::from(basin)) };
     let (kept, want) = whole(&plan);
     let complete = again(kept.path());
     let study = complete.study();

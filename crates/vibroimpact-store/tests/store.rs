@@ -12,9 +12,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 use std::{fs, io};
 use vibroimpact_store::{Folder, Item, Part, Shelf, Store, StoreError, costs_beside};
-use vibroimpact_study::{
-    Axis, Control, DiagramPlan, LyapunovPlan, MapPlan, Parameter, Plan, StartPlan, SystemPlan, Task,
-};
+use vibroimpact_study::{Axis, Control, DiagramPlan, LyapunovPlan, MapPlan, Parameter, Plan, SystemPlan, Task};
 
 #[test]
 fn the_same_bytes_for_any_threads_and_parts() {
@@ -38,21 +36,21 @@ fn the_same_bytes_for_any_threads_and_parts() {
 fn every_kind_of_study_is_stored() {
     let u = SystemPlan { inverse_beta: Some(1.11), gap: 3.0, ..S };
     let gaps = || Axis::parameter(Parameter::Gap, "2:3:3".parse::<vibroimpact_study::Span>().unwrap());
-    let exponents = LyapunovPlan { axes: vec![gaps()], impacts: 1000, ..LyapunovPlan::default() };
+    let exponents = LyapunovPlan { axes: vec![gaps()], impacts: Some(1000), ..LyapunovPlan::default() };
     let diagram: DiagramPlan =
         serde_json::from_str(r#"{"vary":"gap","over":"0:2:20","transient":50,"keep":8}"#).unwrap();
     let refined =
         MapPlan { refine: Some(4), ..MapPlan::plane("0.6:1.4:13".parse().unwrap(), "0:2:9".parse().unwrap(), 2, 1) };
     for (system, task, field) in [
         (S, Task::Attractors { starts: 300, seed: 1, impacts: None }, "cycle"),
-        (u, Task::Lyapunov(exponents), "exponent"),
-        (S, Task::Diagram(diagram), "velocity"),
-        (S, Task::Map(refined), "computed"),
+        (u, Task::from(exponents), "exponent"),
+        (S, Task::from(diagram), "velocity"),
+        (S, Task::from(refined), "computed"),
     ] {
         let plan = Plan::new(system, task);
         let (folder, _) = whole(&plan);
         let store = Store::open(Arc::new(Folder::new(folder.path()))).unwrap();
-        assert_eq!(store.plan().oscillator(), Some(&plan.canonical().unwrap()));
+        assert_eq!(store.plan(), &plan.canonical().unwrap());
         let found = store.verify(1000, 0, &control(2)).unwrap();
         assert_eq!((found.damage, found.open), (vec![], 0));
         assert!(store.field(field).is_some());
@@ -99,7 +97,7 @@ fn f10_points_are_counted_with_refinement() {
     let side = |text: &str| text.parse::<vibroimpact_study::Span>().unwrap();
     let task = |refine| MapPlan { refine, ..MapPlan::plane(side("0.6:1.4:64"), side("0:2:64"), 2, 1) };
     for refine in [None, Some(8)] {
-        let plan = Plan { tile: Some(16), ..Plan::new(S, Task::Map(task(refine))) };
+        let plan = Plan { tile: Some(16), ..Plan::new(S, Task::from(task(refine))) };
         let (folder, stop, told) = (tempfile::tempdir().unwrap(), AtomicBool::new(false), AtomicU64::new(0));
         let store = open(folder.path(), &plan);
         let progress = |done: u64| {
@@ -276,7 +274,7 @@ fn a_wrong_tile_is_found_by_computing_it_again() {
 fn fz3_a_chunk_that_differs_beyond_the_edge_of_the_grid_is_damaged() {
     let task = MapPlan::plane("0.6:1.4:9".parse().unwrap(), "-0.5:2:5".parse().unwrap(), 2, 1);
     let system = SystemPlan { inverse_beta: Some(0.6), gap: -0.5, ..S };
-    let (folder, want) = whole(&Plan { tile: Some(4), ..Plan::new(system, Task::Map(task)) });
+    let (folder, want) = whole(&Plan { tile: Some(4), ..Plan::new(system, Task::from(task)) });
     assert_ne!(want["label/c/0/2/0"], want["label/c/1/2/0"]);
     fs::copy(folder.path().join("label/c/0/2/0"), folder.path().join("label/c/1/2/0")).unwrap();
     let store = Store::open(Arc::new(Folder::new(folder.path()))).unwrap();
@@ -405,7 +403,7 @@ fn refusals() {
     // a store of another plan
     assert!(refused(&basin(), folder.path()).contains("holds another plan"));
     // a plan without a grid
-    let settle = Plan::new(S, Task::Settle { start: StartPlan::default(), impacts: None });
+    let settle = Plan::new(S, Task::Settle { start: None, impacts: None });
     assert!(refused(&settle, folder.path()).contains("fills no grid"));
     assert!(files(folder.path()) == want);
     // a folder with other files
@@ -589,7 +587,7 @@ fn f09_metadata_of_unfinished_and_older_stores() {
 #[test]
 fn a_store_of_other_defaults_is_resumed_and_verified() {
     let plan = MapPlan::plane("0.6:1.4:13".parse().unwrap(), "0:2:9".parse().unwrap(), 2, 1);
-    let plan = Plan::new(S, Task::Map(plan));
+    let plan = Plan::new(S, Task::from(plan));
     let smaller = Plan { tile: Some(3), ..plan.clone() };
     let hashes = [&plan, &smaller].map(|plan| plan.canonical().unwrap().hash());
     let folder = tempfile::tempdir().unwrap();

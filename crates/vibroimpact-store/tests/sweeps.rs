@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Instant;
 use vibroimpact_store::{Folder, Part, Store, StoreError};
 use vibroimpact_study::machine::CATALOGUE;
-use vibroimpact_study::{Control, MachinePlan, PLAN_VERSION, Plan, StudyPlan, Task};
+use vibroimpact_study::{Control, Plan, Task};
 
 /// Orbit diagrams of two sweeps with 15 values, of a range or listed.
 fn plans() -> [Plan; 3] {
@@ -102,9 +102,10 @@ fn damaged_parts_are_computed_again() {
 fn sweeps_of_machines_too() {
     let machine = CATALOGUE.iter().find(|entry| entry.name == "soft-stop").unwrap().source().unwrap();
     let task = r#"{"diagram":{"vary":"frequency","over":"0.7:0.9:6","transient":20,"keep":8}}"#;
-    let task = serde_json::from_str(task).unwrap();
-    let plan = StudyPlan::from(&MachinePlan { version: PLAN_VERSION, machine, task, tile: None, shard: None });
-    let store = |folder: &Path| Store::create(Arc::new(Folder::new(folder)), plan.clone()).unwrap();
+    let machine = machine.into();
+    let task = Task::from_json(task, &machine).unwrap();
+    let plan = Plan::new(machine, task);
+    let store = |folder: &Path| Store::create(Arc::new(Folder::new(folder)), &plan).unwrap();
     let (one, two) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     store(one.path()).run(Part::ALL, &control(1)).unwrap();
     let mut runs = 1;

@@ -1,6 +1,7 @@
 //! An axis of a grid: the quantity that varies and the values that it takes.
 
 use crate::limits::MOST_CELLS;
+use crate::name::{Name, Variable};
 use crate::{Block, Parameter, PlanError, Span, StartPlan, SystemPlan, Unit};
 use core::fmt;
 use serde::de::{Error, SeqAccess, Visitor};
@@ -111,11 +112,7 @@ impl schemars::JsonSchema for Coordinate {
 
 impl<'de> Deserialize<'de> for Coordinate {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let name = String::deserialize(from)?;
-        Self::named(&name).ok_or_else(|| {
-            let known = crate::parameter::names().join(", ");
-            D::Error::custom(format!("`{name}` cannot vary; what can is {known}, x, v and phase"))
-        })
+        crate::name::deserialize(from)
     }
 }
 
@@ -278,11 +275,19 @@ impl<'de> Deserialize<'de> for Values {
 /// What varies over which values.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Axis {
+#[schemars(rename = "Axis")]
+pub struct Axis<V = Coordinate> {
     /// What varies.
-    pub vary: Coordinate,
+    pub vary: V,
     /// Its values.
     pub over: Values,
+}
+
+impl<V> Axis<V> {
+    /// The same with another name of what varies.
+    pub(crate) fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<Axis<W>, E> {
+        Ok(Axis { vary: name(&self.vary)?, over: self.over.clone() })
+    }
 }
 
 impl Axis {
@@ -297,6 +302,14 @@ impl Axis {
     pub fn parameter(parameter: Parameter, over: impl Into<Values>) -> Self {
         Self::new(Coordinate::Parameter(parameter), over)
     }
+}
+
+/// Axes with the names of a system.
+///
+/// # Errors
+/// [`PlanError::Name`] for a name that the system does not have.
+pub fn typed_axes<W: Name>(axes: &[Axis<Variable>]) -> Result<Vec<Axis<W>>, PlanError> {
+    axes.iter().map(|axis| axis.named(&|name: &Variable| W::of(name.text()))).collect()
 }
 
 /// The error for axes with more results than one run keeps in memory.
@@ -375,7 +388,7 @@ pub(crate) fn none_twice(varied: impl IntoIterator<Item = Coordinate>) -> Result
 }
 
 /// Number of points of the grid over the axes; `u64::MAX` if it is larger.
-pub(crate) fn points(axes: &[Axis]) -> u64 {
+pub(crate) fn points<V>(axes: &[Axis<V>]) -> u64 {
     axes.iter().fold(1, |points, axis| u64::saturating_mul(points, axis.over.count() as u64))
 }
 

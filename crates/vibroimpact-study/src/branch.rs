@@ -1,8 +1,9 @@
 //! Branches of periodic orbits in one parameter or along a line through two, and the branches that begin at their flips
 //! and branch points.
 
-use crate::chosen::{Chosen, choose};
+use crate::chosen::{Chosen, choose, label};
 use crate::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
+use crate::name::{Name, Written};
 use crate::{
     Control, Cut, DiagramPlan, Parameter, PlanError, RunError, Span, Stopped, Stretch, SystemPlan, Target, limits,
 };
@@ -21,33 +22,50 @@ pub(crate) const DIAGRAM_VALUES: u32 = 401;
 
 /// An orbit that is followed in one parameter, or along a line through two.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct BranchPlan {
-    /// m/n of the orbit at the system given, `inf/n` for one with a complete chatter.
-    pub label: String,
-    /// The parameter that varies, from its value in the system.
-    #[serde(with = "crate::parameter")]
-    #[schemars(with = "crate::parameter::Name")]
-    pub vary: Parameter,
+#[serde(deny_unknown_fields, bound = "V: Name")]
+#[schemars(rename = "BranchPlan", bound = "V: Name")]
+pub struct BranchPlan<V = Parameter> {
+    /// m/n of the orbit at the system given, `inf/n` for one with a complete chatter, m/T of a machine without forcing. A machine
+    /// has that of the motion from its start when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub label: Option<String>,
+    /// The number that varies, from its value in the system.
+    #[serde(with = "crate::name")]
+    #[schemars(with = "Written<V>")]
+    pub vary: V,
     /// The other end of its range.
     pub to: f64,
-    /// A second parameter that varies with it, in proportion, from its value in the system.
+    /// A second number that varies with it, in proportion, from its value in the system.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub also: Option<Target>,
+    pub also: Option<Target<V>>,
     /// Which of the orbits, counted from 1, the fastest last; when absent the stable one, else the fastest motion.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub orbit: Option<u32>,
-    /// How many of the branches that begin at flips and branch points are followed as well.
-    #[serde(default)]
+    /// How many of the branches that begin at flips and branch points are followed as well: 0 to 100.
+    #[serde(default, skip_serializing_if = "is_zero")]
     pub follow: u32,
     /// Points of each branch at most.
     #[serde(default = "points")]
     pub points: u32,
 }
 
-/// The default of plans of branches and curves, also of machines.
-pub(crate) const fn points() -> u32 {
+#[allow(clippy::trivially_copy_pass_by_ref)] // serde passes a reference
+const fn is_zero(count: &u32) -> bool {
+    *count == 0
+}
+
+const fn points() -> u32 {
     DEFAULT_BRANCH_POINTS
+}
+
+impl<V> BranchPlan<V> {
+    /// The same with other names of the numbers that vary.
+    pub(crate) fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<BranchPlan<W>, E> {
+        let Self { label, to, orbit, follow, points, .. } = self;
+        let also = self.also.as_ref().map(|also| also.named(name)).transpose()?;
+        let (label, vary) = (label.clone(), name(&self.vary)?);
+        Ok(BranchPlan { label, vary, to: *to, also, orbit: *orbit, follow: *follow, points: *points })
+    }
 }
 
 impl BranchPlan {
@@ -56,7 +74,7 @@ impl BranchPlan {
     /// # Errors
     /// [`PlanError`] names the first invalid value.
     pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
-        let _: Label = self.label.parse()?;
+        label(self.label.as_deref())?;
         let cut = self.cut(system)?;
         cut.check(system)?;
         if cut.ends.0 == self.to {
@@ -136,7 +154,7 @@ pub(crate) fn branches(system: &SystemPlan, plan: &BranchPlan, control: &Control
     let cut = plan.cut(system)?;
     let vary = cut.varying(system, cut.ends.0)?;
     let from = vary.get(&osc).map_err(PlanError::from)?;
-    let label = plan.label.parse().map_err(PlanError::from)?;
+    let label = label(plan.label.as_deref())?;
     let stopped = |done: usize| Stopped { done: done as u64, total: u64::from(plan.follow) + 1 };
     let chosen = choose(&osc, label, plan.orbit, &|| !control.stopping())?.ok_or_else(|| stopped(0))?;
     let range = from.min(plan.to)..=from.max(plan.to);
@@ -232,7 +250,7 @@ mod tests {
     fn plan() -> (SystemPlan, BranchPlan) {
         let system = SystemPlan { inverse_beta: Some(1.11), gap: 1.5, restitution: 0.5, ..SystemPlan::default() };
         let branch = BranchPlan {
-            label: "1/1".into(),
+            label: Some("1/1".into()),
             vary: Parameter::Gap,
             to: 2.5,
             also: None,
@@ -287,7 +305,7 @@ mod tests {
     #[test]
     fn an_orbit_that_rests() {
         let system = SystemPlan { inverse_beta: Some(1.11), gap: -0.5, restitution: 0.5, ..SystemPlan::default() };
-        let plan = BranchPlan { label: "inf/1".into(), to: -0.2, ..plan().1 };
+        let plan = BranchPlan { label: Some("inf/1".into()), to: -0.2, ..plan().1 };
         let found = branches(&system, &plan, &Control::default()).unwrap();
         let [branch] = found.followed.as_slice() else { panic!("{} branches", found.followed.len()) };
         let last = branch.points.last().unwrap();
@@ -301,14 +319,14 @@ mod tests {
     #[test]
     fn a_plan_survives_json_and_nonsense_is_refused() {
         let (system, good) = plan();
-        let whole = Plan::new(system, Task::Branch(good.clone()));
+        let whole = Plan::new(system, Task::from(good.clone()));
         assert_eq!(whole.check(), Ok(()));
         let text = serde_json::to_string(&whole).unwrap();
         assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), whole);
         let short: BranchPlan = serde_json::from_str(r#"{"label": "1/1", "vary": "gap", "to": 2.5}"#).unwrap();
         assert_eq!(short, good);
         for (branch, sentence) in [
-            (BranchPlan { label: "1/0".into(), ..good.clone() }, "label `1/0` is not m/n"),
+            (BranchPlan { label: Some("1/0".into()), ..good.clone() }, "label `1/0` is not m/n"),
             (BranchPlan { to: 1.5, ..good.clone() }, "gap is to go from 1.5 to 1.5"),
             (BranchPlan { to: f64::NAN, ..good.clone() }, "gap delta = NaN"),
             (BranchPlan { vary: Parameter::SecondGap, ..good.clone() }, "second_gap is to vary"),

@@ -17,12 +17,20 @@ pub struct Chosen {
     pub count: u32,
 }
 
-/// Parses a label and checks that its orbits can be followed: the number of impacts must be finite.
+/// The label of the orbit of an oscillator at which a branch or a curve begins.
 ///
 /// # Errors
-/// [`PlanError`] for a text that is no label, and for `inf/n`.
-pub(crate) fn followable(label: &str) -> Result<Label, PlanError> {
-    let label: Label = label.parse()?;
+/// [`PlanError`] if there is none, or for a text that is no label.
+pub(crate) fn label(text: Option<&str>) -> Result<Label, PlanError> {
+    Ok(text.ok_or(PlanError::NoLabel)?.parse()?)
+}
+
+/// The same; its orbits can be followed in two parameters, so the number of impacts is finite.
+///
+/// # Errors
+/// As [`label`], and for `inf/n`.
+pub(crate) fn followable(text: Option<&str>) -> Result<Label, PlanError> {
+    let label = label(text)?;
     match label.impacts {
         Count::Finite(_) => Ok(label),
         Count::Infinite => Err(BranchError::Rests.into()),
@@ -89,6 +97,7 @@ mod tests {
         // without damping the motion without impacts is one of a continuous family
         let error = chosen(&far, Label::new(0, 1), None).unwrap_err().to_string();
         assert!(error.starts_with("without damping the steady motion without impacts"), "{error}");
-        assert!(followable("inf/1").is_err() && followable("1/0").is_err() && followable("2/1").is_ok());
+        assert!(followable(Some("inf/1")).is_err() && followable(Some("1/0")).is_err() && followable(None).is_err());
+        assert!(followable(Some("2/1")).is_ok());
     }
 }

@@ -2,8 +2,9 @@
 //! the first parameter.
 
 use crate::chosen::{Chosen, choose, followable};
+use crate::name::Name;
 use crate::stretch::check_plane;
-use crate::{Control, PlanError, RunError, Stopped, Stretch, SystemPlan};
+use crate::{Control, Parameter, PlanError, RunError, Stopped, Stretch, SystemPlan, limits};
 use serde::{Deserialize, Serialize};
 use vibroimpact::continuation::{
     Branch, BranchEvent, BranchOptions, Curve, CurveEvent, CurveOptions, CurvePoint, Direction, SolutionPoint,
@@ -11,16 +12,24 @@ use vibroimpact::continuation::{
 use vibroimpact::math::sort_by;
 use vibroimpact::{Label, Oscillator, ParameterPath};
 
-/// What holds along a curve.
+/// What holds along a curve. Torus, corner, sticking and holding are of machines only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FollowedEvent {
-    /// A multiplier is +1 and the parameters turn.
+    /// A multiplier is +1 and the numbers turn.
     Fold,
     /// A multiplier is -1.
     Flip,
-    /// An impact has speed zero.
+    /// A pair of complex multipliers lies on the unit circle.
+    Torus,
+    /// A stop is touched with speed zero.
     Grazing,
+    /// Two events happen at the same time.
+    Corner,
+    /// A rest on a stop begins or ends to be a part of the orbit.
+    Sticking,
+    /// A friction joint begins or ends to hold in the orbit.
+    Holding,
 }
 
 impl FollowedEvent {
@@ -30,7 +39,11 @@ impl FollowedEvent {
         match self {
             Self::Fold => "fold",
             Self::Flip => "flip",
+            Self::Torus => "torus",
             Self::Grazing => "grazing",
+            Self::Corner => "corner",
+            Self::Sticking => "sticking",
+            Self::Holding => "holding",
         }
     }
 
@@ -39,28 +52,43 @@ impl FollowedEvent {
             Self::Fold => matches!(event, BranchEvent::Fold),
             Self::Flip => matches!(event, BranchEvent::Flip),
             Self::Grazing => matches!(event, BranchEvent::Grazing { .. } | BranchEvent::LossOfContact { .. }),
+            Self::Torus | Self::Corner | Self::Sticking | Self::Holding => false,
         }
     }
 }
 
 /// A curve through an event of the branch of an orbit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct CurvePlan {
-    /// m/n of the orbit at the system given.
-    pub label: String,
+#[serde(deny_unknown_fields, bound = "V: Name")]
+#[schemars(rename = "CurvePlan", bound = "V: Name")]
+pub struct CurvePlan<V = Parameter> {
+    /// The label of the orbit at the system given; a machine has that of the motion from its start when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub label: Option<String>,
     /// What holds along the curve.
     pub kind: FollowedEvent,
-    /// The parameter in which the orbit is followed to the event, and its range.
-    pub vary: Stretch,
+    /// The number in which the orbit is followed to the event, and its range.
+    pub vary: Stretch<V>,
     /// The other one.
-    pub and: Stretch,
+    pub and: Stretch<V>,
     /// Which of the orbits, as for a branch.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub orbit: Option<u32>,
     /// Which of the events of that kind, counted from 1 from small values to large; when absent the nearest.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub event: Option<u32>,
+    /// The largest number of points in each direction: 2 to 100000. 20000, or 5000 of a machine, when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub points: Option<u32>,
+}
+
+impl<V> CurvePlan<V> {
+    /// The same with other names of the numbers that vary.
+    pub(crate) fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<CurvePlan<W>, E> {
+        let Self { label, kind, orbit, event, points, .. } = self;
+        let (label, vary, and) = (label.clone(), self.vary.named(name)?, self.and.named(name)?);
+        Ok(CurvePlan { label, kind: *kind, vary, and, orbit: *orbit, event: *event, points: *points })
+    }
 }
 
 impl CurvePlan {
@@ -69,7 +97,11 @@ impl CurvePlan {
     /// # Errors
     /// [`PlanError`] names the first invalid value.
     pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
-        followable(&self.label)?;
+        followable(self.label.as_deref())?;
+        if !matches!(self.kind, FollowedEvent::Fold | FollowedEvent::Flip | FollowedEvent::Grazing) {
+            return Err(PlanError::NoCurve(self.kind.name()));
+        }
+        self.points.map_or(Ok(()), limits::branch_points)?;
         check_plane(system, &self.vary, &self.and)?;
         for stretch in [&self.vary, &self.and] {
             let value = system.value(stretch.parameter)?;
@@ -105,7 +137,7 @@ pub struct EventCurve {
 pub(crate) fn curve(system: &SystemPlan, plan: &CurvePlan, control: &Control<'_>) -> Result<EventCurve, RunError> {
     plan.check(system)?;
     let osc = system.oscillator()?;
-    let label = followable(&plan.label)?;
+    let label = followable(plan.label.as_deref())?;
     let chosen = choose(&osc, label, plan.orbit, &|| !control.stopping())?.ok_or(Stopped { done: 0, total: 2 })?;
     let going = || !control.stopping();
     let stopped = |done| if going() { Ok(()) } else { Err(Stopped { done, total: 2 }) };
@@ -134,7 +166,8 @@ pub(crate) fn curve(system: &SystemPlan, plan: &CurvePlan, control: &Control<'_>
         count: events.len(),
         asked: plan.event,
     })?;
-    let options = CurveOptions::default();
+    let usual = CurveOptions::default();
+    let options = CurveOptions { points: plan.points.unwrap_or(usual.points), ..usual };
     let frame = plan.vary.frame(&plan.and, &system.with_all([(plan.vary.parameter, events[through].value)])?)?;
     let [forth, back] = Curve::through(&osc, &events[through], line, &frame, options).map_err(PlanError::from)?;
     let forth: Vec<CurvePoint> = forth.take_while(|_| going()).collect();
@@ -187,7 +220,18 @@ mod tests {
         let system = SystemPlan { inverse_beta: Some(1.11), gap: 1.5, restitution: 0.5, ..SystemPlan::default() };
         let vary = Stretch { parameter: Parameter::Gap, from: 0.0, to: 3.0 };
         let and = Stretch { parameter: Parameter::InverseBeta, from: 1.05, to: 1.2 };
-        (system, CurvePlan { label: "1/1".into(), kind: FollowedEvent::Flip, vary, and, orbit: None, event: None })
+        (
+            system,
+            CurvePlan {
+                label: Some("1/1".into()),
+                kind: FollowedEvent::Flip,
+                vary,
+                and,
+                orbit: None,
+                event: None,
+                points: None,
+            },
+        )
     }
 
     #[test]
@@ -222,8 +266,15 @@ mod tests {
         let system = SystemPlan::of_machine(machine.driven().unwrap()).unwrap();
         let over = |number, from, to| Stretch { parameter: physical(number), from, to };
         let flip = |vary, and| {
-            let plan =
-                CurvePlan { label: "1/1".into(), kind: FollowedEvent::Flip, vary, and, orbit: None, event: None };
+            let plan = CurvePlan {
+                label: Some("1/1".into()),
+                kind: FollowedEvent::Flip,
+                vary,
+                and,
+                orbit: None,
+                event: None,
+                points: None,
+            };
             curve(&system, &plan, &Control::default()).unwrap()
         };
         use vibroimpact::PhysicalParameter::{Force, Gap, Stiffness};
@@ -254,7 +305,7 @@ mod tests {
     #[test]
     fn nonsense_is_refused() {
         let (system, good) = plan();
-        let whole = Plan::new(system, Task::Curve(good.clone()));
+        let whole = Plan::new(system, Task::from(good.clone()));
         assert_eq!(whole.check(), Ok(()));
         let text = serde_json::to_string(&whole).unwrap();
         assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), whole);

@@ -1,7 +1,6 @@
 //! A line in the space of parameters: one parameter varies between two values, and a second one may vary in proportion.
 
 use crate::{Parameter, PlanError, Stretch, SystemPlan};
-use serde::{Deserialize, Serialize};
 use vibroimpact::{Oscillator, ParameterPath, SystemError};
 
 /// The line of an orbit diagram or a branch. A point on it is given by the value of the first parameter.
@@ -16,25 +15,13 @@ use vibroimpact::{Oscillator, ParameterPath, SystemError};
 /// # Ok::<(), vibroimpact_study::PlanError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cut {
+pub struct Cut<V = Parameter> {
     /// The parameter that varies.
-    pub vary: Parameter,
+    pub vary: V,
     /// Its values at the two ends of the line.
     pub ends: (f64, f64),
     /// The second parameter, if any, with its values at the same ends.
-    pub also: Option<Stretch>,
-}
-
-/// A parameter that varies from its value in the system to another one.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Target {
-    /// The parameter.
-    #[serde(with = "crate::parameter")]
-    #[schemars(with = "crate::parameter::Name")]
-    pub parameter: Parameter,
-    /// Where it goes.
-    pub to: f64,
+    pub also: Option<Stretch<V>>,
 }
 
 impl Cut {

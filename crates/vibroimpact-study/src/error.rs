@@ -297,6 +297,30 @@ pub enum PlanError {
         "a basin needs an axis over x, v or phase\nhint: which motions there are at points of a plane of parameters is a map"
     )]
     NoStartAxis,
+    /// A name of nothing that the system has.
+    #[error("{0}")]
+    Name(String),
+    /// A branch or a curve of an oscillator without the label of an orbit.
+    #[error("the label of the orbit to follow is not given\nhint: label m/n, for example 1/1")]
+    NoLabel,
+    /// A curve that only machines have.
+    #[error("an oscillator has no curve of {0}; its curves are fold, flip and grazing")]
+    NoCurve(&'static str),
+    /// The scales or the lines of a box, which margins of machines do not have.
+    #[error("margins of a machine have no box, so no scales and no lines")]
+    NoBox,
+    /// Points of a machine in a basin, or transients of its motions.
+    #[error("a basin of a machine has axes only\nhint: the task settle_many has points")]
+    NoPoints,
+    /// A start in the task of a machine.
+    #[error("the start of a machine is its table `start`, and the task has one too")]
+    StartTwice,
+    /// A task of a machine for an oscillator.
+    #[error("the task is one of a machine, and the system is an oscillator")]
+    OfMachine,
+    /// A task of an oscillator for a machine.
+    #[error("the task is one of an oscillator, and the system is a machine")]
+    OfOscillator,
     /// A task without a grid, which cannot be stored as a study.
     #[error(
         "a plan that asks to {0} fills no grid, so there is nothing to store\nhint: tasks for a store are map, basin, attractors, diagram and lyapunov"

@@ -8,7 +8,7 @@
 //! | idea | file |
 //! |---|---|
 //! | a plan, and the one function that turns it into its result | [`Plan`], [`run`], [`Results`] |
-//! | the parts of a plan: system, start, task | [`SystemPlan`], [`StartPlan`], [`Task`] |
+//! | the parts of a plan: system, start, task | [`System`], [`SystemPlan`], [`StartPlan`], [`Task`] |
 //! | numbers as people type them | [`typed`] |
 //! | `A:B:N`, N values from A to B; a quantity and the values it takes | [`Span`], [`Axis`] |
 //! | a grid and its tiles, the arrays over it | [`Grid`], [`Field`] |
@@ -30,7 +30,7 @@
 //! | a parameter and its range; a line through one or two of them | [`Stretch`], [`Cut`] |
 //! | the parameters of the core in plans | [`Parameter`], `parameter` |
 //! | machines as they are written, and their catalogue | [`machine`] |
-//! | a plan of a machine, and the one function that turns it into its result | [`MachinePlan`], [`run_machine`] |
+//! | the tasks of machines, and their results | [`MachineResults`] |
 //! | an oscillator in SI units; the units of a plan | [`PhysicalPlan`], [`UnitsPlan`] |
 //! | the quantities of a motion that a plan asks for | [`Quantity`], `quantity` |
 
@@ -55,6 +55,7 @@ pub mod machine;
 mod machine_plan;
 mod map;
 mod margins;
+mod name;
 mod parameter;
 mod physical;
 mod plan;
@@ -70,20 +71,21 @@ mod span;
 mod stretch;
 pub mod study;
 mod system;
+mod task;
 mod text;
 pub mod typed;
 mod unit;
 mod units;
 mod words;
 
-pub use axis::{Axis, Coordinate, Values};
+pub use axis::{Axis, Coordinate, Values, typed_axes};
 pub use basin::{Basin, BasinPlan};
 pub use branch::{BranchPlan, Branches, DEFAULT_BRANCH_POINTS, Followed, Origin};
 pub use by_stop::ImpactsByStop;
 pub use chosen::Chosen;
 pub use control::{Control, Meter, Stopped, TileMeter, tiles};
 pub use curve::{CurvePlan, EventCurve, FollowedEvent};
-pub use cut::{Cut, Target};
+pub use cut::Cut;
 pub use diagram::{Diagram, DiagramPlan};
 pub use error::{PlanError, RunError};
 pub use event_columns::{END_REASONS, EventColumns, REAL_COLUMNS};
@@ -93,21 +95,21 @@ pub use grid::{Block, Dimension, Grid, number, place};
 pub use limits::PLAN_VERSION;
 pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
 pub use machine_plan::{
-    MachineAxis, MachineBasin, MachineBasinPlan, MachineBranchPlan, MachineBranched, MachineCurvePlan, MachineCut,
-    MachineDiagram, MachineDiagramPlan, MachineDiagramPoint, MachineDiagramStep, MachineEventCurve, MachineFollowed,
-    MachineFollowedEvent, MachineLine, MachineLyapunovPlan, MachineManyPlan, MachineMap, MachineMapPlan,
-    MachineMargins, MachineMarginsPlan, MachineOrigin, MachinePlan, MachineRegionPlan, MachineResponsePlan,
-    MachineResults, MachineSection, MachineShare, MachineSimulated, MachineStretch, MachineTarget, MachineTask,
-    NumberEvent, NumberMargin, events_with_states, is_machine_plan, machine_label, run_machine,
+    MachineBasin, MachineBranched, MachineDiagram, MachineDiagramPoint, MachineDiagramStep, MachineEventCurve,
+    MachineFollowed, MachineLine, MachineMap, MachineMargins, MachineOrigin, MachineResults, MachineSection,
+    MachineShare, MachineSimulated, ManyPlan, NumberEvent, NumberMargin, events_with_states, machine_label,
+    most_events, quantity_path,
 };
 pub use map::{MapPlan, MapPoint, RegionMap, Share};
 pub use margins::{
     BoxEdge, DEFAULT_LINES, DEFAULT_WITHIN, Loss, MarginEnd, MarginsPlan, MotionBox, MotionMargins, ParameterMargin,
     ScaledParameter, Scope,
 };
+pub use name::{Name, Variable};
 pub use parameter::{Parameter, is_length};
 pub use physical::PhysicalPlan;
-pub use plan::{Plan, Task};
+pub use plan::Plan;
+pub use plan_text::is_machine_plan;
 pub use points::{DrawnPoints, ListedColumn, PointRange, PointRule, PointsPlan};
 pub use quantity::{Quantities, Quantity, unknown as unknown_quantity};
 pub use region::{DEFAULT_GRID, RegionPlan, Regions, stability_regions};
@@ -116,9 +118,10 @@ pub use run::{Results, run};
 pub use simulate::{SEARCH_LIMIT, Simulated, simulate};
 pub use simulate_many::{real_numbers, simulate_points};
 pub use span::Span;
-pub use stretch::Stretch;
-pub use study::{Study, StudyPlan};
-pub use system::{SecondStop, StartPlan, SystemPlan};
+pub use stretch::{Stretch, Target};
+pub use study::Study;
+pub use system::{SecondStop, StartPlan, System, SystemPlan};
+pub use task::Task;
 pub use text::{TextError, TextPlace};
 pub use unit::Unit;
 pub use units::{FramePlan, UnitsPlan, natural_hertz};

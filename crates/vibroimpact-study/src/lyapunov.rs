@@ -11,44 +11,46 @@ pub const DEFAULT_POINTS: u64 = 5_000;
 
 /// The exponents of the motion from a start, or from each start of each system of a grid.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct LyapunovPlan {
+#[serde(deny_unknown_fields, bound(serialize = "V: Serialize", deserialize = "V: Deserialize<'de>"))]
+#[schemars(rename = "LyapunovPlan", bound = "V: schemars::JsonSchema + Serialize")]
+pub struct LyapunovPlan<V = Coordinate> {
     /// What varies, parameters and coordinates of the start; nothing when absent. The first runs fastest.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub axes: Vec<Axis>,
-    /// Where to start, as far as it is on no axis.
-    #[serde(default)]
-    pub start: StartPlan,
-    /// Impacts to measure over.
-    #[serde(default = "impacts")]
-    pub impacts: u64,
-    /// Impacts to pass before; for the stroboscopic section forcing periods.
-    #[serde(default = "transient")]
-    pub transient: u64,
+    pub axes: Vec<Axis<V>>,
+    /// Where an oscillator starts, as far as it is on no axis; at rest when absent. A machine has a start of its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub start: Option<StartPlan>,
+    /// Impacts to measure over: 1000 to 10000000, 100000 when absent; of a machine events, 25 to 10000000, 20000 when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub impacts: Option<u64>,
+    /// Impacts to pass before, of a machine events: up to 1000000, 1000 when absent. For the stroboscopic section forcing periods.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub transient: Option<u64>,
     /// Points to show of each section; none when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub points: Option<u64>,
 }
 
-impl Default for LyapunovPlan {
-    /// From rest, over [`DEFAULT_IMPACTS`] after [`DEFAULT_TRANSIENT`], without sections.
+impl<V> Default for LyapunovPlan<V> {
+    /// From rest, of usual lengths, without sections.
     fn default() -> Self {
-        Self {
-            axes: Vec::new(),
-            start: StartPlan::default(),
-            impacts: DEFAULT_IMPACTS,
-            transient: DEFAULT_TRANSIENT,
-            points: None,
-        }
+        Self { axes: Vec::new(), start: None, impacts: None, transient: None, points: None }
     }
 }
 
-const fn impacts() -> u64 {
-    DEFAULT_IMPACTS
-}
+impl<V> LyapunovPlan<V> {
+    /// The same with other names of what varies.
+    pub(crate) fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<LyapunovPlan<W>, E> {
+        let Self { start, impacts, transient, points, .. } = self;
+        let axes = self.axes.iter().map(|axis| axis.named(name)).collect::<Result<_, E>>()?;
+        Ok(LyapunovPlan { axes, start: *start, impacts: *impacts, transient: *transient, points: *points })
+    }
 
-const fn transient() -> u64 {
-    DEFAULT_TRANSIENT
+    /// The impacts of an oscillator to measure over, and those to pass before.
+    #[must_use]
+    pub fn lengths(&self) -> (u64, u64) {
+        (self.impacts.unwrap_or(DEFAULT_IMPACTS), self.transient.unwrap_or(DEFAULT_TRANSIENT))
+    }
 }
 
 /// Maximum number of axes.
@@ -66,11 +68,12 @@ impl LyapunovPlan {
     /// # Errors
     /// [`PlanError`] names the first invalid value.
     pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
-        if !(FEWEST_IMPACTS..=MOST_IMPACTS).contains(&self.impacts) {
-            return Err(PlanError::Measured { given: self.impacts, least: FEWEST_IMPACTS, most: MOST_IMPACTS });
+        let (impacts, transient) = self.lengths();
+        if !(FEWEST_IMPACTS..=MOST_IMPACTS).contains(&impacts) {
+            return Err(PlanError::Measured { given: impacts, least: FEWEST_IMPACTS, most: MOST_IMPACTS });
         }
-        if self.transient > MOST_TRANSIENT {
-            return Err(PlanError::Transient { given: self.transient, most: MOST_TRANSIENT });
+        if transient > MOST_TRANSIENT {
+            return Err(PlanError::Transient { given: transient, most: MOST_TRANSIENT });
         }
         limits::section(self.points)?;
         axis::check(
@@ -81,16 +84,23 @@ impl LyapunovPlan {
         )?;
         for corner in axis::corners(&self.axes) {
             let there = axis::system_at(system, &self.axes, |k| corner[k])?;
-            let start = axis::start_at((system, &there), &self.start, &self.axes, |k| corner[k]);
+            let start = axis::start_at((system, &there), &self.start(), &self.axes, |k| corner[k]);
             start.start(&there.oscillator()?)?;
         }
         Ok(())
     }
 
+    /// The coordinates of the start that are on no axis.
+    #[must_use]
+    pub fn start(&self) -> StartPlan {
+        self.start.unwrap_or_default()
+    }
+
     /// The lengths of the transient and of the measurement.
     #[must_use]
-    pub const fn options(&self) -> ExponentOptions {
-        ExponentOptions::new(self.impacts, self.transient)
+    pub fn options(&self) -> ExponentOptions {
+        let (impacts, transient) = self.lengths();
+        ExponentOptions::new(impacts, transient)
     }
 }
 
@@ -101,22 +111,22 @@ mod tests {
 
     const GOOD: LyapunovPlan = LyapunovPlan {
         axes: Vec::new(),
-        start: StartPlan { x: Some(0.5), v: -1.0, phase: 2.0 },
-        impacts: 2000,
-        transient: 0,
+        start: Some(StartPlan { x: Some(0.5), v: -1.0, phase: 2.0 }),
+        impacts: Some(2000),
+        transient: Some(0),
         points: Some(7),
     };
 
     #[test]
     fn a_plan_survives_json_and_short_ones_are_filled_in() {
         let system = SystemPlan { inverse_beta: Some(1.11), gap: 3.0, restitution: 0.5, ..SystemPlan::default() };
-        let plan = Plan::new(system, Task::Lyapunov(GOOD));
+        let plan = Plan::new(system, Task::from(GOOD));
         assert_eq!(plan.check(), Ok(()));
         let text = serde_json::to_string(&plan).unwrap();
         assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan);
         assert!(serde_json::from_str::<Plan>(&text.replace("transient", "transeint")).is_err());
         let short: LyapunovPlan = serde_json::from_str("{}").unwrap();
-        assert_eq!((short.impacts, short.transient, short.points), (DEFAULT_IMPACTS, DEFAULT_TRANSIENT, None));
+        assert_eq!((short.lengths(), short.points), ((DEFAULT_IMPACTS, DEFAULT_TRANSIENT), None));
     }
 
     #[test]
@@ -124,11 +134,11 @@ mod tests {
         let system = SystemPlan { inverse_beta: Some(1.11), gap: 3.0, restitution: 0.5, ..SystemPlan::default() };
         let beyond = StartPlan { x: Some(3.5), ..StartPlan::default() };
         for (plan, sentence) in [
-            (LyapunovPlan { impacts: 999, ..GOOD }, "impacts = 999 lies outside 1000 <= impacts <= 10000000"),
-            (LyapunovPlan { impacts: 10_000_001, ..GOOD }, "impacts = 10000001 lies outside"),
-            (LyapunovPlan { transient: 1_000_001, ..GOOD }, "transient = 1000001 lies outside 0 <= transient"),
+            (LyapunovPlan { impacts: Some(999), ..GOOD }, "impacts = 999 lies outside 1000 <= impacts <= 10000000"),
+            (LyapunovPlan { impacts: Some(10_000_001), ..GOOD }, "impacts = 10000001 lies outside"),
+            (LyapunovPlan { transient: Some(1_000_001), ..GOOD }, "transient = 1000001 lies outside 0 <= transient"),
             (LyapunovPlan { points: Some(0), ..GOOD }, "points = 0 lies outside 1 <= points <= 100000"),
-            (LyapunovPlan { start: beyond, ..GOOD }, "start x = 3.5 lies beyond the stop"),
+            (LyapunovPlan { start: Some(beyond), ..GOOD }, "start x = 3.5 lies beyond the stop"),
         ] {
             let message = plan.check(&system).unwrap_err().to_string();
             assert!(message.starts_with(sentence), "{message}");

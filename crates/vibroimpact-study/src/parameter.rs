@@ -1,7 +1,6 @@
 //! The parameters of the core, as they are written in plans.
 
 use crate::{PlanError, SecondStop, SystemPlan};
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
 pub use vibroimpact::Parameter;
 use vibroimpact::{PhysicalParameter, SystemError};
 
@@ -9,30 +8,6 @@ use vibroimpact::{PhysicalParameter, SystemError};
 #[must_use]
 pub const fn is_length(parameter: Parameter) -> bool {
     matches!(parameter, Parameter::Gap | Parameter::SecondGap)
-}
-
-/// In a plan a parameter is written as its name.
-pub(crate) fn serialize<S: Serializer>(parameter: &Parameter, to: S) -> Result<S::Ok, S::Error> {
-    parameter.name().serialize(to)
-}
-
-/// The name of a parameter, for the schema of plans.
-pub(crate) struct Name;
-
-impl schemars::JsonSchema for Name {
-    fn schema_name() -> std::borrow::Cow<'static, str> {
-        "Parameter".into()
-    }
-
-    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        schemars::json_schema!({ "type": "string", "enum": names() })
-    }
-}
-
-pub(crate) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Parameter, D::Error> {
-    let name = String::deserialize(from)?;
-    Parameter::from_name(&name)
-        .ok_or_else(|| serde::de::Error::custom(format!("`{name}` is no parameter; there are {}", names().join(", "))))
 }
 
 /// The names of all parameters, those of a machine last.
@@ -148,8 +123,9 @@ mod tests {
 
     #[test]
     fn names_are_those_of_the_core() {
+        use serde::{Deserialize, Serialize};
         #[derive(Serialize, Deserialize)]
-        struct Named(#[serde(with = "crate::parameter")] Parameter);
+        struct Named(#[serde(with = "crate::name")] Parameter);
         for parameter in Parameter::ALL {
             let text = serde_json::to_value(Named(parameter)).unwrap();
             assert_eq!(text, parameter.name());

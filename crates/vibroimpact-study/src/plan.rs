@@ -3,37 +3,56 @@
 //! Threads, output files and progress reports are not part of a plan. Each absent field has one meaning, which is
 //! documented here. Unknown fields are errors, so a misspelt parameter is not ignored.
 
+use crate::diagram::Show;
 use crate::limits::{MOST_STARTS, PLAN_VERSION, starts};
+use crate::machine::MachineSource;
 use crate::map::check_impacts;
-use crate::simulate::most_impacts;
+use crate::name::{Name, Variable};
+use crate::simulate::{check_lengths, most_impacts};
 use crate::{
-    BasinPlan, BranchPlan, CurvePlan, DiagramPlan, LyapunovPlan, MapPlan, MarginsPlan, Parameter, PlanError,
-    RegionPlan, ResponsePlan, StartPlan, SystemPlan, UnitsPlan,
+    Axis, Coordinate, Parameter, PlanError, PointsPlan, Quantity, RegionPlan, System, SystemPlan, Task, UnitsPlan,
+    machine_plan,
 };
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use vibroimpact::Label;
 
 /// A question: a system and a task.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, try_from = "crate::plan_text::PlanText")]
+///
+/// ```
+/// use vibroimpact_study::{Control, Plan, Results, run};
+/// let plan = Plan::from_text(r#"
+///     version = 1
+///     [start]
+///     q = [0.5]
+///     [machine]
+///     bodies = { ball = 1 }
+///     constant = { ball = -1 }
+///     stop = [{ name = "floor", between = ["ground", "ball"], gap = 0, restitution = 0.5 }]
+///     [task.simulate]
+///     impacts = 3
+/// "#)?;
+/// let Results::Machine(results) = run(&plan, &Control::default())? else { unreachable!() };
+/// let vibroimpact_study::MachineResults::Simulate(found) = results else { unreachable!() };
+/// assert_eq!(found.events.iter().map(|event| event.time).collect::<Vec<_>>(), [1.0, 2.0, 2.5]);
+/// assert_eq!(Plan::from_text(&plan.to_toml())?, plan);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// The version of the fields, [`PLAN_VERSION`].
     pub version: u32,
-    /// The oscillator. What varies on an axis has its first value here, and need not be written; for a region, what varies
-    /// has its smallest value.
-    pub system: SystemPlan,
+    /// The system. What varies on an axis over an oscillator has its first value here, and need not be written; for a
+    /// region, what varies has its smallest value.
+    pub system: System,
     /// The task that is computed for the system.
     pub task: Task,
     /// Points of a tile along each axis, where results are stored; each task has a size of its own when absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tile: Option<u32>,
     /// Tiles of a shard along each axis, where results are stored; 1 for no shards. When absent, a store has shards if it
     /// has more than 4096 tiles.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<u32>,
     /// The physical units in which results are reported; nondimensional when absent. Numbers of the plan are
-    /// nondimensional, in these units, unless their names end in a unit.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// nondimensional, in these units, unless their names end in a unit. A machine has the units of its numbers.
     pub units: Option<UnitsPlan>,
 }
 
@@ -69,8 +88,26 @@ pub(crate) fn check_shard(shard: Option<u32>) -> Result<(), PlanError> {
 impl Plan {
     /// A plan of the current version.
     #[must_use]
-    pub const fn new(system: SystemPlan, task: Task) -> Self {
-        Self { version: PLAN_VERSION, system, task, tile: None, shard: None, units: None }
+    pub fn new(system: impl Into<System>, task: impl Into<Task>) -> Self {
+        Self { version: PLAN_VERSION, system: system.into(), task: task.into(), tile: None, shard: None, units: None }
+    }
+
+    /// The oscillator; `None` for a machine.
+    #[must_use]
+    pub const fn oscillator(&self) -> Option<&SystemPlan> {
+        self.system.oscillator()
+    }
+
+    /// The machine; `None` for an oscillator.
+    #[must_use]
+    pub fn machine(&self) -> Option<&MachineSource> {
+        self.system.machine()
+    }
+
+    /// Whether the task fills a grid over axes, which a store keeps.
+    #[must_use]
+    pub const fn fills_a_grid(&self) -> bool {
+        self.task.fills_a_grid()
     }
 
     /// An identifier of the content: the first 16 digits of the SHA-256 of the plan as JSON.
@@ -82,23 +119,9 @@ impl Plan {
     /// A title in words.
     #[must_use]
     pub fn title(&self) -> String {
-        let over = |axes: &[crate::Axis]| axes.iter().map(|axis| axis.vary.name()).collect::<Vec<_>>().join(", ");
-        match &self.task {
-            Task::Map(map) => format!("motions of an impact oscillator over {}", over(&map.axes)),
-            Task::Basin(basin) => {
-                let of_points = basin.points.iter().flat_map(crate::PointsPlan::varied);
-                let all = of_points.chain(basin.axes.iter().map(|axis| axis.vary));
-                let names: Vec<_> = all.map(crate::Coordinate::name).collect();
-                let points = if basin.points.is_some() { "points of " } else { "" };
-                format!("motions an impact oscillator settles into over {points}{}", names.join(", "))
-            }
-            Task::Attractors { .. } => "motions an impact oscillator settles into from scattered starts".to_owned(),
-            Task::Diagram(diagram) => {
-                let names: Vec<_> = diagram.cut().parameters().map(Parameter::name).collect();
-                format!("orbit diagram of an impact oscillator over {}", names.join(" and "))
-            }
-            Task::Lyapunov(_) => "Lyapunov exponents of an impact oscillator".to_owned(),
-            _ => "an impact oscillator".to_owned(),
+        match &self.system {
+            System::Oscillator(_) => self.task.title_of_oscillator(),
+            System::Machine(machine) => self.task.title_of_machine(machine.title.as_deref().unwrap_or("a machine")),
         }
     }
 
@@ -112,8 +135,10 @@ impl Plan {
         match &mut plan.task {
             Task::Simulate { impacts, periods, .. } => *impacts = Some(most_impacts(*impacts, *periods)),
             Task::Region(region) => {
-                let (p, q) = (region.across, region.up);
-                plan.system = plan.system.with(p.parameter, p.from)?.with(q.parameter, q.from)?;
+                if let System::Oscillator(system) = &mut plan.system {
+                    let RegionPlan { across: p, up: q, .. } = region.typed::<Parameter>()?;
+                    *system = system.with(p.parameter, p.from)?.with(q.parameter, q.from)?;
+                }
             }
             _ => {}
         }
@@ -124,13 +149,11 @@ impl Plan {
     #[must_use]
     pub fn work(&self) -> Option<(u64, &'static str)> {
         match &self.task {
-            Task::Attractors { starts, .. } => Some((*starts, "starts")),
-            Task::Basin(basin) => Some((basin.starts(), "starts")),
-            Task::Map(map) => Some((map.points(), "points")),
-            Task::Diagram(diagram) => Some(((diagram.over.count() as u64).saturating_mul(diagram.runs()), "motions")),
-            Task::Region(_) => Some((2, "regions")),
-            Task::Response(response) => Some((response.motions(), "motions")),
-            _ => None,
+            // exponents over axes of an oscillator are a study only
+            Task::Lyapunov(lyapunov) if self.machine().is_some() && !lyapunov.axes.is_empty() => {
+                Some((crate::axis::points(&lyapunov.axes), "points"))
+            }
+            task => task.work(),
         }
     }
 
@@ -142,106 +165,136 @@ impl Plan {
         if self.version != PLAN_VERSION {
             return Err(PlanError::Version(self.version));
         }
-        let osc = self.system.oscillator()?;
         check_tile(self.tile)?;
         check_shard(self.shard)?;
-        if let Some(units) = &self.units {
-            units.check(&self.system)?;
-        }
-        match &self.task {
-            Task::Simulate { start, impacts, periods } => {
-                if let Some(n) = impacts.filter(|n| !(1..=10_000_000).contains(n)) {
-                    return Err(PlanError::Impacts(n));
+        match &self.system {
+            System::Oscillator(system) => {
+                if let Some(units) = &self.units {
+                    units.check(system)?;
                 }
-                if let Some(n) = periods.filter(|n| !(*n > 0.0 && *n <= 1e9)) {
-                    return Err(PlanError::Periods(n));
-                }
-                start.start(&osc).map(|_| ())
+                self.task.check(system)
             }
-            Task::Settle { start, impacts } => {
-                check_impacts(*impacts)?;
-                start.start(&osc).map(|_| ())
-            }
-            Task::Attractors { starts: n, impacts, .. } => starts(*n, MOST_STARTS).and(check_impacts(*impacts)),
-            Task::Orbit { label } => Ok(label.parse::<Label>().map(|_| ())?),
-            Task::Basin(basin) => basin.check(&self.system),
-            Task::Map(map) => map.check(&self.system),
-            Task::Diagram(diagram) => diagram.check(&self.system),
-            Task::Lyapunov(lyapunov) => lyapunov.check(&self.system),
-            Task::Branch(branch) => branch.check(&self.system),
-            Task::Curve(curve) => curve.check(&self.system),
-            Task::Region(region) => region.check(&self.system),
-            Task::Response(response) => response.check(&self.system),
-            Task::Margins(margins) => margins.check(&self.system),
+            System::Machine(machine) => self.task.check_machine(machine),
         }
     }
 }
 
-/// A task: what is computed for a system.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Task {
-    /// The events of a motion.
-    Simulate {
-        /// Where to start.
-        start: StartPlan,
-        /// The largest number of impacts.
-        impacts: Option<u64>,
-        /// The largest number of forcing periods.
-        periods: Option<f64>,
-    },
-    /// What a motion settles into.
-    Settle {
-        /// Where to start.
-        start: StartPlan,
-        /// Impacts to follow it for, at most, as for a map; the default of `SettleOptions` when absent.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        impacts: Option<u32>,
-    },
-    /// The motions that scattered starts settle into, and their shares.
-    Attractors {
-        /// How many starts.
-        starts: u64,
-        /// Which sequence of them.
-        seed: u64,
-        /// Impacts to follow each start for, at most, as for a map; the default of `SettleOptions` when absent.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        impacts: Option<u32>,
-    },
-    /// The periodic orbits of a label.
-    Orbit {
-        /// m/n.
-        label: String,
-    },
-    /// Which motion each start of a plane leads to.
-    Basin(BasinPlan),
-    /// Which motions there are at each point of a parameter plane.
-    Map(MapPlan),
-    /// The motion after its transient at each value of a parameter.
-    Diagram(DiagramPlan),
-    /// The Lyapunov exponents of a motion.
-    Lyapunov(LyapunovPlan),
-    /// A branch of periodic orbits in one parameter.
-    Branch(BranchPlan),
-    /// A curve of events in two.
-    Curve(CurvePlan),
-    /// Where a motion exists and is stable in a plane of two.
-    Region(RegionPlan),
-    /// A quantity of all motions over one parameter.
-    Response(ResponsePlan),
-    /// The distances of a motion from its nearest events.
-    Margins(MarginsPlan),
+impl Task {
+    fn title_of_oscillator(&self) -> String {
+        match self {
+            Self::Map(map) => format!("motions of an impact oscillator over {}", over(&map.axes, ", ")),
+            Self::Basin(basin) => {
+                let points = basin.points.iter().flat_map(PointsPlan::varied);
+                let all = points.chain(basin.axes.iter().map(|axis| axis.vary.clone()));
+                let names: Vec<String> = all.map(|varied| varied.text().to_owned()).collect();
+                let points = if basin.points.is_some() { "points of " } else { "" };
+                format!("motions an impact oscillator settles into over {points}{}", names.join(", "))
+            }
+            Self::Attractors { .. } => "motions an impact oscillator settles into from scattered starts".to_owned(),
+            Self::Diagram(diagram) => {
+                let also = diagram.also.as_ref().map(|also| format!(" and {}", also.parameter.text()));
+                let also = also.unwrap_or_default();
+                format!("orbit diagram of an impact oscillator over {}{also}", diagram.vary.text())
+            }
+            Self::Lyapunov(_) => "Lyapunov exponents of an impact oscillator".to_owned(),
+            _ => "an impact oscillator".to_owned(),
+        }
+    }
+
+    fn title_of_machine(&self, name: &str) -> String {
+        match self {
+            Self::Basin(basin) => format!("motions that starts lead to over {}: {name}", over(&basin.axes, ", ")),
+            Self::Diagram(diagram) => format!("orbit diagram over {}: {name}", diagram.vary.text()),
+            Self::Response(response) => format!("response over {}: {name}", response.vary.text()),
+            Self::Map(map) => format!("motions over {}: {name}", over(&map.axes, ", ")),
+            Self::Lyapunov(lyapunov) if !lyapunov.axes.is_empty() => {
+                format!("Lyapunov exponents over {}: {name}", over(&lyapunov.axes, ", "))
+            }
+            _ => name.to_owned(),
+        }
+    }
+
+    /// Checks the task of a machine.
+    fn check_machine(&self, source: &MachineSource) -> Result<(), PlanError> {
+        if self.start().is_some_and(Option::is_some) {
+            return Err(PlanError::StartTwice);
+        }
+        let own_starts = match self {
+            Self::Map(_) | Self::Diagram(_) | Self::Response(_) | Self::SettleMany(_) => true,
+            Self::Lyapunov(lyapunov) => !lyapunov.axes.is_empty(),
+            _ => false,
+        };
+        // points with starts of their own do not need that of the machine
+        let (machine, _) = if own_starts { source.described()? } else { source.problem()? };
+        match self {
+            Self::Simulate { impacts, periods, .. } => machine_plan::check_simulate(&machine, (*impacts, *periods)),
+            Self::Settle { impacts, .. } => check_impacts(*impacts),
+            Self::Attractors { starts, impacts, .. } => machine_plan::check_starts(*starts, *impacts),
+            Self::Lyapunov(plan) => plan.typed::<String>()?.check(source, &machine),
+            Self::Orbit { label } => machine_plan::machine_label(&machine, label).map(|_| ()),
+            Self::Branch(plan) => plan.typed::<String>()?.check(source, &machine),
+            Self::Curve(plan) => plan.typed::<String>()?.check(source, &machine),
+            Self::SettleMany(plan) => plan.typed::<String>()?.check(source, &machine),
+            Self::Margins(plan) => plan.typed::<String>()?.check(source, &machine),
+            Self::Response(plan) => plan.typed::<String, String>()?.check(source, &machine),
+            Self::Basin(plan) => plan.typed::<String, String>()?.check(&machine),
+            Self::Map(plan) => plan.typed::<String, String>()?.check(source),
+            Self::Diagram(plan) => plan.typed::<String, String>()?.check(source),
+            Self::Region(plan) => plan.typed::<String>()?.check(source),
+        }
+    }
+
+    /// Checks the task of an oscillator.
+    fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
+        let osc = system.oscillator()?;
+        match self {
+            Self::Simulate { start, impacts, periods } => {
+                check_lengths(*impacts, *periods)?;
+                start.unwrap_or_default().start(&osc).map(|_| ())
+            }
+            Self::Settle { start, impacts } => {
+                check_impacts(*impacts)?;
+                start.unwrap_or_default().start(&osc).map(|_| ())
+            }
+            Self::Attractors { starts: n, impacts, .. } => starts(*n, MOST_STARTS).and(check_impacts(*impacts)),
+            Self::Orbit { label } => Ok(label.parse::<Label>().map(|_| ())?),
+            Self::Basin(basin) => basin.typed::<Coordinate, Quantity>()?.check(system),
+            Self::Map(map) => map.typed::<Coordinate, Quantity>()?.check(system),
+            Self::Diagram(diagram) => diagram.typed::<Parameter, Show>()?.check(system),
+            Self::Lyapunov(lyapunov) => lyapunov.typed::<Coordinate>()?.check(system),
+            Self::Branch(branch) => branch.typed::<Parameter>()?.check(system),
+            Self::Curve(curve) => curve.typed::<Parameter>()?.check(system),
+            Self::Region(region) => region.typed::<Parameter>()?.check(system),
+            Self::Response(response) => response.typed::<Parameter, Quantity>()?.check(system),
+            Self::Margins(margins) => margins.typed::<Parameter>()?.check(system),
+            Self::SettleMany(_) => Err(PlanError::OfMachine),
+        }
+    }
+}
+
+/// The names of axes.
+fn over(axes: &[Axis<Variable>], between: &str) -> String {
+    axes.iter().map(|axis| axis.vary.text()).collect::<Vec<_>>().join(between)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Stretch;
+    use crate::{BasinPlan, Parameter, Stretch};
+
+    const SYSTEM: SystemPlan = SystemPlan {
+        beta: None,
+        inverse_beta: Some(1.3),
+        gap: 0.75,
+        restitution: 0.5,
+        damping: 0.0,
+        second_stop: None,
+        machine: None,
+    };
 
     fn plan() -> Plan {
-        let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.75, restitution: 0.5, ..SystemPlan::default() };
         let basin = BasinPlan::plane("-3:0.75:4".parse().unwrap(), "-1:1:3".parse().unwrap(), 0.0);
-        Plan::new(system, Task::Basin(basin))
+        Plan::new(SYSTEM, basin)
     }
 
     #[test]
@@ -256,10 +309,10 @@ mod tests {
     #[test]
     fn nonsense_is_refused_before_anything_runs() {
         let mut beyond = plan();
-        beyond.system.gap = 0.5;
+        beyond.system = SystemPlan { gap: 0.5, ..SYSTEM }.into();
         assert!(beyond.check().unwrap_err().to_string().contains("beyond the stop"));
         let mut twice = plan();
-        twice.system.beta = Some(1.0);
+        twice.system = SystemPlan { beta: Some(1.0), ..SYSTEM }.into();
         assert_eq!(twice.check(), Err(PlanError::Frequency("twice")));
         let mut later = plan();
         later.version = 2;
@@ -269,10 +322,7 @@ mod tests {
         for (task, sentence) in [
             (Task::Orbit { label: "3/0".into() }, "label `3/0`"),
             (simulate(Some(0), None), "impacts = 0"),
-            (
-                Task::Settle { start: StartPlan::default(), impacts: Some(0) },
-                "impacts = 0 lies outside 1 <= impacts <= 1000000",
-            ),
+            (Task::Settle { start: None, impacts: Some(0) }, "impacts = 0 lies outside 1 <= impacts <= 1000000"),
             (Task::Attractors { starts: 1, seed: 0, impacts: Some(1_000_001) }, "impacts = 1000001"),
             (simulate(None, Some(f64::NAN)), "periods = NaN"),
         ] {
@@ -303,14 +353,15 @@ mod tests {
         assert_eq!(impacts, Some(1_000_000));
         let over = |parameter, from, to| Stretch { parameter, from, to };
         let (across, up) = (over(Parameter::Beta, 0.5, 0.6), over(Parameter::Gap, -1.0, 2.0));
-        let region = Task::Region(RegionPlan { label: "1/1".into(), across, up, grid: 3 });
+        let region = Task::from(RegionPlan { label: "1/1".into(), across, up, grid: 3 });
         let region = Plan { task: region, ..plan() };
-        let system = region.complete().unwrap().system;
+        let complete = region.complete().unwrap();
+        let system = complete.oscillator().unwrap();
         assert_eq!((system.beta, system.inverse_beta, system.gap), (Some(0.5), None, -1.0));
         assert_eq!(region.work(), Some((2, "regions")));
     }
 
     fn simulate(impacts: Option<u64>, periods: Option<f64>) -> Task {
-        Task::Simulate { start: StartPlan::default(), impacts, periods }
+        Task::Simulate { start: None, impacts, periods }
     }
 }

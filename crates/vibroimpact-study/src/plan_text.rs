@@ -1,14 +1,20 @@
-//! A plan as it is written by hand: parameters that vary on an axis need not be given in the system.
+//! Plans as text, in TOML and JSON. An oscillator is a table `system`, and its start is a part of the task; a machine is a table
+//! `machine` with the other tables of a machine file, its start among them. Parameters of an oscillator that vary on an axis need
+//! not be given.
 
-use crate::plan::{Plan, Task};
-use crate::system::{SecondStop, SystemPlan};
-use crate::text::Document;
-use crate::{Axis, Coordinate, Parameter, PhysicalPlan, PlanError, UnitsPlan};
+use crate::machine::{headed_toml, no_files};
+use crate::machine_plan::MachinePlanText;
+use crate::name::{Name, Variable};
+use crate::plan::Plan;
+use crate::system::{SecondStop, System, SystemPlan};
+use crate::text::{Document, Value};
+use crate::{Axis, Coordinate, DiagramPlan, Parameter, PhysicalPlan, PlanError, PointsPlan, Quantity, Task, UnitsPlan};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use vibroimpact::PhysicalParameter;
 
-/// What is asked, of which system. What varies on an axis need not be given in the system.
+/// A plan of an oscillator. What varies on an axis need not be given in the system.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PlanText {
@@ -17,7 +23,7 @@ pub(crate) struct PlanText {
     version: u32,
     /// The oscillator.
     #[serde(default)]
-    system: System,
+    system: OscillatorText,
     /// What is asked of it.
     task: Task,
     /// Points of a tile along each axis, where results are stored; each task has a size of its own when absent.
@@ -38,7 +44,7 @@ pub(crate) struct PlanText {
 /// The oscillator: exactly one of beta and inverse_beta, one or two stops.
 #[derive(Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct System {
+struct OscillatorText {
     /// Frequency ratio omega / omega_n, positive.
     beta: Option<f64>,
     /// Its inverse, the abscissa of the 1971 paper.
@@ -59,29 +65,89 @@ struct System {
 }
 
 impl Task {
-    /// The parameters that vary, with their first values.
-    fn varied(&self) -> Vec<(Parameter, f64)> {
-        let on = |axes: &[Axis]| {
-            let first = |axis: &Axis| match axis.vary {
-                Coordinate::Parameter(parameter) if axis.over.count() > 0 => Some((parameter, axis.over.at(0))),
-                _ => None,
-            };
-            axes.iter().filter_map(first).collect::<Vec<_>>()
+    /// The parameters of an oscillator that vary, with their first values.
+    fn varied(&self) -> Result<Vec<(Parameter, f64)>, PlanError> {
+        let parameter = |(vary, value): (&Variable, f64)| match Coordinate::of(vary.text()) {
+            Ok(Coordinate::Parameter(parameter)) => Some((parameter, value)),
+            _ => None,
         };
-        match self {
-            Self::Map(map) => on(&map.axes),
+        let on = |axes: &[Axis<Variable>]| {
+            let axes = axes.iter().filter(|axis| axis.over.count() > 0);
+            axes.filter_map(|axis| parameter((&axis.vary, axis.over.at(0)))).collect::<Vec<_>>()
+        };
+        Ok(match self {
             Self::Basin(basin) => {
                 let points = basin.points.iter().filter(|points| points.count() > 0);
-                points.flat_map(|points| points.parameters(0)).chain(on(&basin.axes)).collect()
+                let first = |points: &PointsPlan<Variable>| {
+                    let value = |column| (points.vary(column), points.at(column, 0));
+                    let first: Vec<(Variable, f64)> = (0..points.width()).map(value).collect();
+                    first.iter().filter_map(|(vary, value)| parameter((vary, *value))).collect::<Vec<_>>()
+                };
+                points.flat_map(first).chain(on(&basin.axes)).collect()
             }
-            Self::Lyapunov(lyapunov) => on(&lyapunov.axes),
             // an empty list is refused later
-            Self::Diagram(diagram) if diagram.over.count() > 0 => diagram.cut().values(diagram.over.at(0)).collect(),
-            Self::Response(response) => vec![(response.vary, response.over.at(0))],
+            Self::Diagram(diagram) if diagram.over.count() > 0 => {
+                let diagram: DiagramPlan = diagram.typed()?;
+                diagram.cut().values(diagram.over.at(0)).collect()
+            }
+            Self::Response(response) => parameter((&response.vary, response.over.at(0))).into_iter().collect(),
             // the first value of a branch is that of the system
-            _ => Vec::new(),
-        }
+            task => on(task.axes()),
+        })
     }
+
+    /// The task as it is stored for an oscillator: what is not given has its usual value.
+    fn filled(mut self) -> Self {
+        if let Some(start) = self.start_mut() {
+            start.get_or_insert_default();
+        }
+        if let Self::Lyapunov(plan) = &mut self {
+            let (impacts, transient) = plan.lengths();
+            (plan.impacts, plan.transient) = (Some(impacts), Some(transient));
+        }
+        self
+    }
+
+    /// Reads the task of a system, written as JSON.
+    ///
+    /// # Errors
+    /// As for [`Plan::from_text`].
+    pub fn from_json(text: &str, system: &System) -> Result<Self, PlanError> {
+        let mut document = Document::json(text)?;
+        let is_machine = system.machine().is_some();
+        if is_machine {
+            fill_for_machine(&mut document, &[]);
+        }
+        let task = of_system(&document.read()?, is_machine, &document)?;
+        Ok(if is_machine { task } else { task.filled() })
+    }
+}
+
+/// What tasks of machines have where a plan does not say it.
+fn fill_for_machine(document: &mut Document<'_>, task: &[&str]) {
+    document.fill(&[task, &["map"]].concat(), "seed", Value::Unsigned(1));
+    document.fill(&[task, &["diagram"]].concat(), "show", Value::Text("speed".to_owned()));
+}
+
+/// The task with the names of an oscillator, or of a machine. An error has the position of the name.
+fn of_system(task: &Task, is_machine: bool, document: &Document<'_>) -> Result<Task, PlanError> {
+    if is_machine {
+        let path = |name: &Variable| Ok(Variable::Path(name.text().to_owned()));
+        return task.named(&path, &|quantity: &String| Ok(quantity.clone()));
+    }
+    let placed = |name: &str, error: PlanError| match error {
+        PlanError::Name(why) => document.wrong_text(name, &why).into(),
+        other => other,
+    };
+    let coordinate = |name: &Variable| {
+        let found = Coordinate::of(name.text()).map(Variable::Coordinate);
+        found.map_err(|error| placed(name.text(), error))
+    };
+    let quantity = |name: &String| {
+        let found = Quantity::of(name).map(|quantity| quantity.name().to_owned());
+        found.map_err(|error| placed(name, error))
+    };
+    task.named(&coordinate, &quantity)
 }
 
 impl Plan {
@@ -103,7 +169,19 @@ impl Plan {
     /// [`PlanError::Text`] has the path of the part, the line and the column, and what is expected there;
     /// [`PlanError::Missing`] and others name a number that the system lacks.
     pub fn from_text(text: &str) -> Result<Self, PlanError> {
-        Self::of_document(&Document::parse(text)?)
+        Self::from_text_and_files(text, no_files)
+    }
+
+    /// Reads a plan written as TOML or, where it begins with a brace, as JSON. `files` returns the text of a file that a
+    /// machine names, or says why not.
+    ///
+    /// # Errors
+    /// As for [`Self::from_text`], and [`PlanError::Machine`] for a file that cannot be read.
+    pub fn from_text_and_files(
+        text: &str,
+        files: impl FnOnce(&str) -> Result<String, String>,
+    ) -> Result<Self, PlanError> {
+        Self::of_document(Document::parse(text)?, files)
     }
 
     /// Reads a plan written as JSON.
@@ -111,21 +189,47 @@ impl Plan {
     /// # Errors
     /// As for [`Self::from_text`].
     pub fn from_json(text: &str) -> Result<Self, PlanError> {
-        Self::of_document(&Document::json(text)?)
+        Self::of_document(Document::json(text)?, no_files)
     }
 
-    pub(crate) fn of_document(document: &Document<'_>) -> Result<Self, PlanError> {
-        document.read::<PlanText>()?.try_into()
+    fn of_document(
+        mut document: Document<'_>,
+        files: impl FnOnce(&str) -> Result<String, String>,
+    ) -> Result<Self, PlanError> {
+        if !document.has_machine() {
+            let mut text = document.read::<PlanText>()?;
+            text.task = of_system(&text.task, false, &document)?;
+            return text.try_into();
+        }
+        fill_for_machine(&mut document, &["task"]);
+        let mut text = document.read::<MachinePlanText>()?;
+        text.task = of_system(&text.task, true, &document)?;
+        let mut plan = Self::from(text);
+        if let System::Machine(machine) = &mut plan.system {
+            machine.read_modes(files)?;
+        }
+        Ok(plan)
     }
 
-    /// The plan as TOML.
+    /// The plan as TOML. Numbers have all their digits.
     #[must_use]
     pub fn to_toml(&self) -> String {
-        // numbers, texts and lists of them can always be written as TOML
-        toml::to_string_pretty(self).unwrap_or_default()
+        match self.system {
+            // numbers, texts and lists of them can always be written as TOML
+            System::Oscillator(_) => toml::to_string_pretty(self).unwrap_or_default(),
+            System::Machine(_) => headed_toml(self),
+        }
     }
 
-    /// The JSON schema of plans, for editors and other programs.
+    /// The JSON schema of plans of machines, for editors and other programs.
+    #[must_use]
+    pub fn machine_schema() -> serde_json::Value {
+        let mut schema = schemars::schema_for!(MachinePlanText).to_value();
+        schema["title"] = "a plan of vibroimpact for a machine".into();
+        schema
+    }
+
+    /// The JSON schema of plans of oscillators, for editors and other programs.
     #[must_use]
     pub fn schema() -> serde_json::Value {
         let mut schema = schemars::schema_for!(PlanText).to_value();
@@ -138,15 +242,56 @@ impl Plan {
     /// # Errors
     /// [`PlanError::NoSecondStop`] for a parameter of a second stop if there is none.
     pub fn canonical(&self) -> Result<Self, PlanError> {
-        let system = self.system.with_all(self.task.varied())?;
+        let System::Oscillator(system) = &self.system else { return Ok(self.clone()) };
+        let system = system.with_all(self.task.varied()?)?;
         let own = |units: UnitsPlan| {
             UnitsPlan::of_system(&system).map_or(units, |own| UnitsPlan { hertz: units.hertz, ..own })
         };
-        Ok(Self { system, units: self.units.map(own), ..self.clone() })
+        let (task, units) = (self.task.clone().filled(), self.units.map(own));
+        Ok(Self { system: system.into(), task, units, ..*self })
     }
 }
 
-impl System {
+/// A plan of an oscillator as it is written by this program.
+#[derive(Serialize)]
+struct WrittenPlan<'a> {
+    version: u32,
+    system: &'a SystemPlan,
+    task: &'a Task,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tile: Option<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    shard: Option<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    units: Option<UnitsPlan>,
+}
+
+impl Serialize for Plan {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let Self { version, system, task, tile, shard, units } = self;
+        match system {
+            System::Oscillator(system) => {
+                let (version, tile, shard, units) = (*version, *tile, *shard, *units);
+                WrittenPlan { version, system, task, tile, shard, units }.serialize(to)
+            }
+            System::Machine(machine) => MachinePlanText::new(*version, machine, task, (*tile, *shard)).serialize(to),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Plan {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        Self::of_document(Document::of(Value::deserialize(from)?), no_files).map_err(D::Error::custom)
+    }
+}
+
+/// Whether a text is a plan of a machine: it has a table `machine`.
+#[must_use]
+pub fn is_machine_plan(text: &str) -> bool {
+    Document::parse(text).is_ok_and(|document| document.has_machine())
+}
+
+impl OscillatorText {
     /// The system of a machine; `None` if none is given. The numbers of a machine that vary have their first values.
     fn of_machine(&self, varied: &[(Parameter, f64)]) -> Result<Option<SystemPlan>, PlanError> {
         let Some(mut machine) = self.machine else { return Ok(None) };
@@ -186,7 +331,7 @@ impl TryFrom<PlanText> for Plan {
     type Error = PlanError;
 
     fn try_from(written: PlanText) -> Result<Self, PlanError> {
-        let varied = written.task.varied();
+        let varied = written.task.varied()?;
         let varies = |parameter| varied.iter().any(|(other, _)| *other == parameter);
         let asked = written.system;
         if let Some(system) = asked.of_machine(&varied)? {
@@ -194,7 +339,7 @@ impl TryFrom<PlanText> for Plan {
             let hertz = written.units.is_none_or(|units| units.hertz);
             let units = UnitsPlan::of_system(&system).map(|units| UnitsPlan { hertz, ..units });
             let (version, tile, shard) = (written.version, written.tile, written.shard);
-            return Self { version, system, task: written.task, tile, shard, units }.canonical();
+            return Self { version, system: system.into(), task: written.task, tile, shard, units }.canonical();
         }
         let needed = [(Parameter::Gap, asked.gap), (Parameter::Restitution, asked.restitution)];
         let mut missing: Vec<&str> = (needed.iter())
@@ -219,7 +364,7 @@ impl TryFrom<PlanText> for Plan {
             machine: None,
         };
         let (version, tile, shard, units) = (written.version, written.tile, written.shard, written.units);
-        Self { version, system, task: written.task, tile, shard, units }.canonical()
+        Self { version, system: system.into(), task: written.task, tile, shard, units }.canonical()
     }
 }
 
@@ -258,7 +403,8 @@ mod tests {
         let text = r#"{"version":1,"system":{"restitution":0.5},"task":{"map":{"starts":4,"axes":[
             {"vary":"inverse_beta","over":"0.4:2:9"},{"vary":"gap","over":[0.5,1.5]}]}}}"#;
         let plan: Plan = serde_json::from_str(text).unwrap();
-        assert_eq!((plan.system.inverse_beta, plan.system.gap), (Some(0.4), 0.5));
+        let system = plan.oscillator().unwrap();
+        assert_eq!((system.inverse_beta, system.gap), (Some(0.4), 0.5));
         assert_eq!(plan.check(), Ok(()));
         // the printed plan is complete, and reads as the same plan
         let full = serde_json::to_string(&plan).unwrap();

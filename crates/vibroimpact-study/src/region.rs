@@ -1,6 +1,7 @@
 //! The regions of a plane of two parameters in which a motion exists and in which it is stable.
 
 use crate::chosen::followable;
+use crate::name::Name;
 use crate::stretch::check_plane;
 use crate::{Control, Parameter, PlanError, RunError, Stretch, SystemPlan, tiles};
 use serde::{Deserialize, Serialize};
@@ -14,14 +15,15 @@ const MOST_GRID: u32 = 400;
 
 /// The regions of a motion in a plane.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct RegionPlan {
+#[serde(deny_unknown_fields, bound = "V: Name")]
+#[schemars(rename = "RegionPlan", bound = "V: Name")]
+pub struct RegionPlan<V = Parameter> {
     /// m/n.
     pub label: String,
-    /// The parameter on the abscissa and its range.
-    pub across: Stretch,
-    /// The parameter on the ordinate and its range.
-    pub up: Stretch,
+    /// The number on the abscissa and its range.
+    pub across: Stretch<V>,
+    /// The number on the ordinate and its range.
+    pub up: Stretch<V>,
     /// Number of grid points in each direction at which orbits are searched. Smaller parts of a region may be missed.
     #[serde(default = "grid")]
     pub grid: u32,
@@ -29,6 +31,20 @@ pub struct RegionPlan {
 
 pub(crate) const fn grid() -> u32 {
     DEFAULT_GRID
+}
+
+impl<V> RegionPlan<V> {
+    /// The same with other names of the numbers that vary.
+    pub(crate) fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<RegionPlan<W>, E> {
+        let (label, across, up) = (self.label.clone(), self.across.named(name)?, self.up.named(name)?);
+        Ok(RegionPlan { label, across, up, grid: self.grid })
+    }
+
+    /// Whether it is the motion without impacts, whose region follows from its amplitude.
+    #[must_use]
+    pub fn clears(&self) -> bool {
+        self.label.parse() == Ok(Label::new(0, 1))
+    }
 }
 
 impl RegionPlan {
@@ -55,17 +71,11 @@ impl RegionPlan {
             && system.second_stop.is_none_or(|stop| elastic(Parameter::SecondRestitution, stop.restitution));
         undamped && (self.clears() || lossless)
     }
-
-    /// Whether it is the motion without impacts, whose region follows from its amplitude.
-    #[must_use]
-    pub fn clears(&self) -> bool {
-        self.label.parse() == Ok(Label::new(0, 1))
-    }
 }
 
 /// Checks the label of a region and its grid.
 pub(crate) fn check(label: &str, grid: u32) -> Result<(), PlanError> {
-    followable(label)?;
+    followable(Some(label))?;
     if !(2..=MOST_GRID).contains(&grid) {
         return Err(PlanError::Grid { given: grid, most: MOST_GRID });
     }
@@ -137,7 +147,7 @@ pub fn stability_regions(
     control: &Control<'_>,
 ) -> Result<Vec<Region>, RunError> {
     check_plane(system, across, up)?;
-    let wanted = labels.iter().map(|label| Ok((followable(label)?, RegionKind::Stability)));
+    let wanted = labels.iter().map(|label| Ok((followable(Some(label))?, RegionKind::Stability)));
     let wanted = wanted.collect::<Result<Vec<_>, PlanError>>()?;
     Plane::new(system, across, up, grid)?.regions(&wanted, control)
 }
@@ -149,7 +159,7 @@ pub fn stability_regions(
 /// step.
 pub(crate) fn regions(system: &SystemPlan, plan: &RegionPlan, control: &Control<'_>) -> Result<Regions, RunError> {
     plan.check(system)?;
-    let label = followable(&plan.label)?;
+    let label = followable(Some(&plan.label))?;
     Plane::new(system, &plan.across, &plan.up, plan.grid)?.both(label, control)
 }
 
@@ -221,7 +231,7 @@ mod tests {
         let (mass, force) = (Parameter::Physical(Mass), Parameter::Physical(Force));
         let plan =
             RegionPlan { label: "1/1".into(), across: over(mass, 0.7, 0.95), up: over(force, 10.0, 60.0), grid: 12 };
-        assert_eq!(Plan::new(system, Task::Region(plan.clone())).check(), Ok(()));
+        assert_eq!(Plan::new(system, plan.clone()).check(), Ok(()));
         let found = regions(&system, &plan, &Control::default()).unwrap();
         let plain = SystemPlan { machine: None, ..system };
         let known = RegionPlan {
@@ -281,7 +291,7 @@ mod tests {
     #[test]
     fn a_plan_survives_json_and_nonsense_is_refused() {
         let (system, good) = plan();
-        let whole = Plan::new(system, Task::Region(good.clone()));
+        let whole = Plan::new(system, good.clone());
         assert_eq!(whole.check(), Ok(()));
         let text = serde_json::to_string(&whole).unwrap();
         assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), whole);

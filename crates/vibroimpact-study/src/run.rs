@@ -9,8 +9,8 @@ use crate::region::regions;
 use crate::response::response;
 use crate::simulate::simulate;
 use crate::{
-    Basin, Branches, Control, Diagram, EventCurve, MotionMargins, Plan, PlanError, RegionMap, Regions, ResponseCurves,
-    RunError, Simulated, Stopped, Task,
+    Basin, Branches, Control, Diagram, EventCurve, LyapunovPlan, MachineResults, MotionMargins, Plan, PlanError,
+    RegionMap, Regions, ResponseCurves, RunError, Simulated, Stopped, System, SystemPlan, Task, machine_plan,
 };
 use core::sync::atomic::{AtomicU64, Ordering};
 use vibroimpact::chaos::{Exponents, Section, exponents_while, section_while};
@@ -48,6 +48,8 @@ pub enum Results {
     Response(ResponseCurves),
     /// The distances of a motion from its nearest events.
     Margins(MotionMargins),
+    /// The result of a task of a machine.
+    Machine(MachineResults),
 }
 
 /// Number of impacts of one motion between two reports.
@@ -71,7 +73,14 @@ const TELL: u64 = 1024;
 /// single result; it is computed as a [`Study`](crate::Study).
 pub fn run(plan: &Plan, control: &Control<'_>) -> Result<Results, RunError> {
     plan.check()?;
-    let system = &plan.system;
+    match &plan.system {
+        System::Oscillator(system) => run_oscillator(system, plan, control),
+        System::Machine(machine) => Ok(Results::Machine(machine_plan::run(machine, &plan.task, control)?)),
+    }
+}
+
+/// Computes the result of the task of an oscillator, which was checked.
+fn run_oscillator(system: &SystemPlan, plan: &Plan, control: &Control<'_>) -> Result<Results, RunError> {
     let osc = system.oscillator()?;
     // one motion reports its impacts
     let impacts = AtomicU64::new(0);
@@ -88,11 +97,11 @@ pub fn run(plan: &Plan, control: &Control<'_>) -> Result<Results, RunError> {
     }
     Ok(match &plan.task {
         Task::Simulate { start, impacts, periods } => {
-            let start = start.start(&osc)?;
+            let start = start.unwrap_or_default().start(&osc)?;
             Results::Simulate(start, simulate(&osc, start, (*impacts, *periods), control)?)
         }
         Task::Settle { start, impacts } => {
-            let start = start.start(&osc)?;
+            let start = start.unwrap_or_default().start(&osc)?;
             Results::Settle(start, settle_while(&osc, start, &options(*impacts), &go_on).ok_or(stopped)?)
         }
         Task::Attractors { starts, seed, impacts } => {
@@ -102,26 +111,28 @@ pub fn run(plan: &Plan, control: &Control<'_>) -> Result<Results, RunError> {
             let label: Label = label.parse().map_err(PlanError::from)?;
             Results::Orbit(find_while(&osc, label, FindOptions::default(), &go_on).ok_or(stopped)?)
         }
-        Task::Basin(task) => Results::Basin(basin(system, task, control)?),
-        Task::Map(task) => Results::Map(map(system, task, control)?),
-        Task::Diagram(task) => Results::Diagram(diagram(system, task, control)?),
+        Task::Basin(task) => Results::Basin(basin(system, &task.typed()?, control)?),
+        Task::Map(task) => Results::Map(map(system, &task.typed()?, control)?),
+        Task::Diagram(task) => Results::Diagram(diagram(system, &task.typed()?, control)?),
         Task::Lyapunov(task) => {
+            let task: LyapunovPlan = task.typed()?;
             if let Some(axis) = task.axes.first() {
                 let (task, known) = ("measurement of one motion", "none: over axes it is a study");
                 return Err(PlanError::WrongAxis { task, name: axis.vary.name().into(), known }.into());
             }
-            let start = task.start.start(&osc)?;
+            let start = task.start().start(&osc)?;
             let section = match task.points {
-                Some(points) => Some(section_while(&osc, start, task.transient, points, &go_on).ok_or(stopped)?),
+                Some(points) => Some(section_while(&osc, start, task.lengths().1, points, &go_on).ok_or(stopped)?),
                 None => None,
             };
             let exponents = exponents_while(&osc, start, &task.options(), &go_on).ok_or(stopped)?;
             Results::Lyapunov(start, exponents, section)
         }
-        Task::Branch(task) => Results::Branch(branches(system, task, control)?),
-        Task::Curve(task) => Results::Curve(curve(system, task, control)?),
-        Task::Region(task) => Results::Region(regions(system, task, control)?),
-        Task::Response(task) => Results::Response(response(system, task, control)?),
-        Task::Margins(task) => Results::Margins(margins(system, task, control)?),
+        Task::Branch(task) => Results::Branch(branches(system, &task.typed()?, control)?),
+        Task::Curve(task) => Results::Curve(curve(system, &task.typed()?, control)?),
+        Task::Region(task) => Results::Region(regions(system, &task.typed()?, control)?),
+        Task::Response(task) => Results::Response(response(system, &task.typed()?, control)?),
+        Task::Margins(task) => Results::Margins(margins(system, &task.typed()?, control)?),
+        Task::SettleMany(_) => return Err(PlanError::OfMachine.into()),
     })
 }

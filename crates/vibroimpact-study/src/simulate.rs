@@ -1,6 +1,6 @@
 //! The events of one motion, up to a number of impacts or forcing periods, and the reason why the list ends.
 
-use crate::{Control, Stopped};
+use crate::{Control, PlanError, Stopped};
 use vibroimpact::flight::SearchLimits;
 use vibroimpact::motion::{End, Event, EventKind, Motion};
 use vibroimpact::verdict::NoImpact;
@@ -37,6 +37,17 @@ pub struct Simulated {
 #[must_use]
 pub(crate) fn most_impacts(impacts: Option<u64>, periods: Option<f64>) -> u64 {
     impacts.unwrap_or(if periods.is_some() { MOST_IMPACTS } else { DEFAULT_IMPACTS })
+}
+
+/// Checks the numbers of events and of forcing periods of a simulation.
+pub(crate) fn check_lengths(impacts: Option<u64>, periods: Option<f64>) -> Result<(), PlanError> {
+    if let Some(n) = impacts.filter(|n| !(1..=10_000_000).contains(n)) {
+        return Err(PlanError::Impacts(n));
+    }
+    match periods.filter(|n| !(*n > 0.0 && *n <= 1e9)) {
+        Some(n) => Err(PlanError::Periods(n)),
+        None => Ok(()),
+    }
 }
 
 /// The reason why a list of events ends, the time at which it ends, and why there are no more impacts, if this is decided.

@@ -1,23 +1,83 @@
-//! A parameter and its range.
+//! A number and its range.
 
+use crate::name::{Name, Written};
 use crate::{Parameter, PlanError, SystemPlan};
 use core::ops::RangeInclusive;
-use serde::{Deserialize, Serialize};
+use serde::ser::SerializeStruct;
+use serde::{Deserialize, Serialize, Serializer};
 use vibroimpact::continuation::Frame;
 use vibroimpact::{PhysicalParameter, SystemError};
 
-/// A parameter from one value to another; as the side of a plane, to a larger one.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Stretch {
-    /// The parameter.
-    #[serde(with = "crate::parameter")]
-    #[schemars(with = "crate::parameter::Name")]
-    pub parameter: Parameter,
+/// A number from one value to another; as the side of a plane, to a larger one.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields, bound = "V: Name")]
+#[schemars(rename = "Stretch", bound = "V: Name", transform = either_key)]
+pub struct Stretch<V = Parameter> {
+    /// The parameter of an oscillator; `path` is that of a number of a machine.
+    #[serde(with = "crate::name", alias = "path")]
+    #[schemars(with = "Written<V>")]
+    pub parameter: V,
     /// Its first value.
     pub from: f64,
     /// Its last value.
     pub to: f64,
+}
+
+/// A number that varies from its value in the system to another one.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields, bound = "V: Name")]
+#[schemars(rename = "Target", bound = "V: Name", transform = either_key)]
+pub struct Target<V = Parameter> {
+    /// The parameter of an oscillator; `path` is that of a number of a machine.
+    #[serde(with = "crate::name", alias = "path")]
+    #[schemars(with = "Written<V>")]
+    pub parameter: V,
+    /// Where it goes.
+    pub to: f64,
+}
+
+/// The schema of a table whose number is called `parameter` or `path`.
+fn either_key(schema: &mut schemars::Schema) {
+    if let Some(properties) = schema.get_mut("properties").and_then(|properties| properties.as_object_mut()) {
+        let number = properties.get("parameter").cloned().unwrap_or_default();
+        properties.insert("path".to_owned(), number);
+    }
+    if let Some(required) = schema.get_mut("required").and_then(|required| required.as_array_mut()) {
+        required.retain(|name| name != "parameter");
+    }
+}
+
+impl<V: Name> Serialize for Stretch<V> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let mut table = to.serialize_struct("Stretch", 3)?;
+        table.serialize_field(self.parameter.key(), self.parameter.text())?;
+        table.serialize_field("from", &self.from)?;
+        table.serialize_field("to", &self.to)?;
+        table.end()
+    }
+}
+
+impl<V: Name> Serialize for Target<V> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let mut table = to.serialize_struct("Target", 2)?;
+        table.serialize_field(self.parameter.key(), self.parameter.text())?;
+        table.serialize_field("to", &self.to)?;
+        table.end()
+    }
+}
+
+impl<V> Stretch<V> {
+    /// The same with another name of the number.
+    pub(crate) fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<Stretch<W>, E> {
+        Ok(Stretch { parameter: name(&self.parameter)?, from: self.from, to: self.to })
+    }
+}
+
+impl<V> Target<V> {
+    /// The same with another name of the number.
+    pub(crate) fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<Target<W>, E> {
+        Ok(Target { parameter: name(&self.parameter)?, to: self.to })
+    }
 }
 
 impl Stretch {

@@ -1,8 +1,46 @@
 //! The oscillator and the start of a plan.
 
 use crate::PlanError;
+use crate::machine::MachineSource;
 use serde::{Deserialize, Serialize};
 use vibroimpact::{DrivenOscillator, Oscillator, Reduced, Scales, Side, Start};
+
+/// The system of a plan. Its numbers have names in both: those of an oscillator as `gap`, those of a machine as
+/// `stop.wall.gap`.
+#[derive(Clone, Debug, PartialEq)]
+#[allow(clippy::large_enum_variant, reason = "an oscillator is copied where it is needed")]
+pub enum System {
+    /// An oscillator, nondimensional or a body in SI units.
+    Oscillator(SystemPlan),
+    /// A machine as it is written. Its table `[start]` is where the motion starts; at rest at 0 when absent.
+    Machine(Box<MachineSource>),
+}
+
+impl From<SystemPlan> for System {
+    fn from(system: SystemPlan) -> Self {
+        Self::Oscillator(system)
+    }
+}
+
+impl From<MachineSource> for System {
+    fn from(machine: MachineSource) -> Self {
+        Self::Machine(Box::new(machine))
+    }
+}
+
+impl System {
+    /// The oscillator; `None` for a machine.
+    #[must_use]
+    pub const fn oscillator(&self) -> Option<&SystemPlan> {
+        if let Self::Oscillator(system) = self { Some(system) } else { None }
+    }
+
+    /// The machine; `None` for an oscillator.
+    #[must_use]
+    pub fn machine(&self) -> Option<&MachineSource> {
+        if let Self::Machine(machine) = self { Some(machine) } else { None }
+    }
+}
 
 /// The oscillator: exactly one of `beta` and `inverse_beta`, one or two stops.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]

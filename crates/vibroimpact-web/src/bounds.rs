@@ -22,6 +22,9 @@ pub(crate) fn check(plan: &Plan) -> Result<(), Refusal> {
             "{what} = {given} is more than the explorer computes at once, {most}\nhint: `vibro run` computes studies of any size, and resumes them"
         )))
     };
+    if plan.machine().is_some() {
+        return Err(Refusal::machine());
+    }
     match &plan.task {
         Task::Map(map) => {
             within("points", map.points(), MOST_POINTS)?;
@@ -37,7 +40,8 @@ pub(crate) fn check(plan: &Plan) -> Result<(), Refusal> {
         Task::Response(response) => within("motions", response.motions(), 2_000),
         Task::Lyapunov(lyapunov) => {
             // exponents over axes are a study, which is refused
-            let impacts = lyapunov.impacts.saturating_add(lyapunov.transient);
+            let (impacts, transient) = lyapunov.lengths();
+            let impacts = impacts.saturating_add(transient);
             within("impacts", impacts.saturating_add(lyapunov.points.unwrap_or(0)), MOST_IMPACTS)
         }
         Task::Simulate { impacts, periods, .. } => {
@@ -51,8 +55,9 @@ pub(crate) fn check(plan: &Plan) -> Result<(), Refusal> {
         }
         Task::Branch(branch) => within("points", u64::from(branch.points), 20_000),
         Task::Region(region) => within("grid", u64::from(region.grid), 100),
-        Task::Margins(margins) => within("lines", u64::from(margins.lines), 10_000),
+        Task::Margins(margins) => within("lines", u64::from(margins.lines()), 10_000),
         Task::Settle { .. } | Task::Orbit { .. } | Task::Curve(_) => Ok(()),
+        Task::SettleMany(_) => Err(Refusal::machine()),
     }
 }
 

@@ -23,6 +23,11 @@ impl Refusal {
         Self::new(StatusCode::BAD_REQUEST, sentence)
     }
 
+    /// A question about a machine, which the page does not draw.
+    pub(crate) fn machine() -> Self {
+        Self::bad("the explorer shows oscillators only\nhint: `vibro run` computes plans of machines")
+    }
+
     /// A valid question that exceeds the limits.
     pub(crate) fn too_much(sentence: impl Into<String>) -> Self {
         Self::new(StatusCode::UNPROCESSABLE_ENTITY, sentence)

@@ -6,7 +6,7 @@ use axum::http::{Request, header};
 use serde_json::Value;
 use tower::ServiceExt;
 use vibroimpact::verdict::settle;
-use vibroimpact_study::{Axis, Plan, Task};
+use vibroimpact_study::{Axis, BasinPlan, MapPlan, Plan, Task};
 use vibroimpact_web::{Explorer, app};
 
 const PORT: u16 = 8411;
@@ -64,15 +64,18 @@ fn read(bytes: &[u8]) -> Tile {
 /// The label of the motion at a point of a plan of a map or basin, found alone, with the budget of the plan.
 fn alone(plan: &Plan, column: usize, row: usize) -> String {
     let index = |k: usize| [column, row][k];
+    let system = plan.oscillator().unwrap();
     let (osc, start, options) = match &plan.task {
         Task::Map(map) => {
-            let osc = map.oscillator(&plan.system, index).unwrap();
+            let map: MapPlan = map.typed().unwrap();
+            let osc = map.oscillator(system, index).unwrap();
             (osc, vibroimpact::Start { x: 0.0_f64.min(osc.gap()), v: 0.0, phase: 0.0 }, map.options())
         }
         Task::Basin(basin) => {
+            let basin: BasinPlan = basin.typed().unwrap();
             let at = |axis: &Axis, k: usize| axis.over.at(index(k));
             let (x, v) = (at(&basin.axes[0], 0), at(&basin.axes[1], 1));
-            (plan.system.oscillator().unwrap(), vibroimpact::Start { x, v, phase: 0.0 }, basin.options())
+            (system.oscillator().unwrap(), vibroimpact::Start { x, v, phase: 0.0 }, basin.options())
         }
         _ => unreachable!(),
     };

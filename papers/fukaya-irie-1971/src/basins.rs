@@ -60,7 +60,7 @@ pub(crate) fn run(run: &mut Run<'_>) -> Result<Shares, Error> {
             restitution: 0.5,
             ..SystemPlan::default()
         };
-        let plan = Plan::new(system, Task::Basin(plan));
+        let plan = Plan::new(system, Task::from(plan));
         let Results::Basin(basin) = vibroimpact_study::run(&plan, run.control)? else {
             return Err(Error::Unexpected("a basin came out as something else"));
         };

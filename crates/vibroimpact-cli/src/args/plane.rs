@@ -5,7 +5,7 @@ use super::parameter_flag::{ParameterFlag, Varied};
 use crate::failure::Failure;
 use core::str::FromStr;
 use vibroimpact_study::typed::{self, decimal, meant};
-use vibroimpact_study::{MachineStretch, MachineTarget, Parameter, Stretch};
+use vibroimpact_study::{Parameter, Stretch};
 
 /// `A:B`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,9 +104,6 @@ impl FromStr for Value {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Named<T>(pub(crate) ParameterFlag, pub(crate) T);
 
-/// `PARAMETER=A:B`.
-pub(crate) type Over = Named<Interval>;
-
 impl<T: FromStr<Err: core::fmt::Display>> FromStr for Named<T> {
     type Err = String;
 
@@ -135,27 +132,6 @@ impl<T: Copy> VariedNamed<T> {
     /// A parameter of the oscillator.
     pub(crate) fn of_oscillator(&self) -> Result<Named<T>, Failure> {
         Ok(Named(self.0.parameter()?, self.1))
-    }
-}
-
-impl VariedOver {
-    /// A number of a machine.
-    pub(crate) fn stretch(&self) -> MachineStretch {
-        MachineStretch { path: self.0.path(), from: self.1.0, to: self.1.1 }
-    }
-}
-
-impl VariedNamed<Ends> {
-    /// A number of a machine.
-    pub(crate) fn stretch(&self) -> MachineStretch {
-        MachineStretch { path: self.0.path(), from: self.1.0, to: self.1.1 }
-    }
-}
-
-impl VariedNamed<Value> {
-    /// A number of a machine.
-    pub(crate) fn target(&self) -> MachineTarget {
-        MachineTarget { path: self.0.path(), to: self.1.0 }
     }
 }
 
@@ -215,7 +191,7 @@ mod tests {
         assert!("1,5".parse::<Place>().is_err_and(|why| why.ends_with("\nhint: write 1.5")));
         assert!("25:15".parse::<Place>().is_err_and(|why| why.ends_with("\nhint: write 15:25")));
         for bad in ["gap", "gap=", "mass=1:2", "=1:2", "gap=2:1", "gap:1=2"] {
-            assert!(bad.parse::<Over>().is_err(), "{bad}");
+            assert!(bad.parse::<Named<Interval>>().is_err(), "{bad}");
         }
     }
 }

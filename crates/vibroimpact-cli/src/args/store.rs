@@ -1,12 +1,10 @@
 //! STORE: the store for the results of a grid, which is filled tile by tile.
 
 use super::whole;
-use crate::failure::Failure;
 use clap::Args;
 use core::str::FromStr;
 use std::time::{Duration, Instant};
 use vibroimpact_store::Part;
-use vibroimpact_study::Plan;
 use vibroimpact_study::typed::duration;
 
 #[derive(Clone, Debug, Args)]
@@ -80,13 +78,6 @@ impl StoreArgs {
     pub(crate) fn filling(&self) -> Option<Filling<'_>> {
         let place = self.store.as_deref()?;
         Some(Filling { place, part: Part::ALL, budget: self.budget })
-    }
-
-    /// The plan with the requested sizes of tiles and shards.
-    pub(crate) fn tiled(&self, plan: Plan) -> Result<Plan, Failure> {
-        let plan = Plan { tile: self.tile, shard: self.shard, ..plan };
-        plan.check()?;
-        Ok(plan)
     }
 }
 

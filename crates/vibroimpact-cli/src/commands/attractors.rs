@@ -2,12 +2,12 @@
 
 use crate::args::{MachineArgs, OutputArgs, StoreArgs, SystemArgs, whole};
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, respond};
+use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use vibroimpact_report::Shown;
-use vibroimpact_study::{MachineTask, Plan, Task};
+use vibroimpact_study::Task;
 
 /// The steady motions that many scattered starts lead to, and their shares
 ///
@@ -50,15 +50,9 @@ pub(crate) struct Attractors {
 }
 
 pub(super) fn run(args: &Attractors, session: &Session) -> Result<(), Failure> {
-    let task = || Ok(MachineTask::Attractors { starts: args.starts, seed: args.seed, impacts: args.impacts });
-    if let Some(answer) =
-        of_machine::asked(&args.machine, None, task, args.output.files(), (None, of_machine::usual), session)
-    {
-        return answer;
-    }
-    let asked = args.system.asked()?;
+    let system = args.machine.or_oscillator(None, || args.system.asked())?;
     let task = Task::Attractors { starts: args.starts, seed: args.seed, impacts: args.impacts };
-    let plan = args.store.tiled(Plan::new(asked.system, task))?;
+    let question = system.stored(task, Some(&args.store))?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
-    respond::run(&plan, asked.units, (outputs, Shown::default()), Some(&args.store), session)
+    respond::run(&question, (outputs, Shown::default()), Some(&args.store), session)
 }

@@ -5,12 +5,12 @@ use crate::args::{
     number, whole,
 };
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, respond};
+use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use vibroimpact_report::Shown;
-use vibroimpact_study::{BasinPlan, MachineBasinPlan, MachineTask, Plan, Span, Task};
+use vibroimpact_study::{Axis, BasinPlan, Coordinate, Span, StartPlan, Variable};
 
 /// Which motion each start of a plane of positions and velocities leads to
 ///
@@ -86,33 +86,30 @@ pub(crate) struct Basin {
 
 pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
     let start = Some((&args.of_machine, args.phase));
-    let task = || {
-        let (axes, refine, impacts) = (args.axes.axes(), args.refine, args.impacts);
-        let fields = args.colour.with(&args.fields).paths();
-        Ok(MachineTask::Basin(MachineBasinPlan { axes, refine, impacts, fields }))
+    let system = args.machine.or_oscillator(start, || args.system.asked())?;
+    let units = system.units();
+    let (axes, start) = if system.is_machine() {
+        (args.axes.axes(), None)
+    } else {
+        let (Some(x), Some(v)) = (&args.x, &args.v) else {
+            return Err(Failure::bad("a basin needs --x A:B:N and --v A:B:N"));
+        };
+        let (x, v) = (x.scaled(units.length())?, v.scaled(units.velocity())?);
+        let start = StartPlan { phase: args.phase.unwrap_or(0.0), ..StartPlan::default() };
+        let axis = |vary: Coordinate, over: Span| Axis { vary: Variable::from(vary), over: over.into() };
+        (vec![axis(Coordinate::X, x), axis(Coordinate::V, v)], Some(start))
     };
-    let shown = |drawn| Ok(Shown { colour: args.colour.coloured(drawn)?, ..Shown::default() });
-    if let Some(answer) =
-        of_machine::asked(&args.machine, start, task, args.output.files(), (Some(&args.store), shown), session)
-    {
-        return answer;
-    }
-    let (Some(x), Some(v)) = (&args.x, &args.v) else {
-        return Err(Failure::bad("a basin needs --x A:B:N and --v A:B:N"));
-    };
-    let asked = args.system.asked()?;
-    let units = asked.units;
-    let plane = BasinPlan::plane(x.scaled(units.length())?, v.scaled(units.velocity())?, args.phase.unwrap_or(0.0));
     let task = BasinPlan {
+        axes,
+        points: None,
+        start,
         refine: args.refine,
         impacts: args.impacts,
-        fields: args.colour.with(&args.fields).quantities()?,
-        ..plane
+        fields: system.fields(&args.colour, &args.fields)?,
+        transient: false,
     };
-    let axes = task.axes.clone();
-    let plan = args.store.tiled(Plan::new(asked.system, Task::Basin(task)))?;
+    let question = system.stored(task, Some(&args.store))?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
-    outputs.drawable(&axes, 2)?;
     let shown = Shown { colour: args.colour.coloured(outputs.drawn())?, ..Shown::default() };
-    respond::run(&plan, units, (outputs, shown), Some(&args.store), session)
+    respond::run(&question, (outputs, shown), Some(&args.store), session)
 }

@@ -1,16 +1,15 @@
 //! `vibro branch`: a branch of periodic orbits in one parameter, through its events.
 
 use crate::args::{
-    MachineArgs, Named, OutputArgs, ParameterFlag, StartOfMachineArgs, SystemArgs, Value, Varied, VariedNamed, number,
-    varied, whole,
+    MachineArgs, OutputArgs, StartOfMachineArgs, SystemArgs, Value, Varied, VariedNamed, number, varied, whole,
 };
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, respond};
+use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use vibroimpact_report::Shown;
-use vibroimpact_study::{BranchPlan, DEFAULT_BRANCH_POINTS, MachineBranchPlan, MachineTask, Plan, Target, Task};
+use vibroimpact_study::{BranchPlan, DEFAULT_BRANCH_POINTS, Target};
 
 /// Follow an orbit in one parameter, stable or unstable, with all events on the branch
 ///
@@ -99,51 +98,25 @@ pub(crate) struct Branch {
     output: OutputArgs,
 }
 
-impl Branch {
-    fn of_machine(&self) -> MachineBranchPlan {
-        MachineBranchPlan {
-            label: self.label.clone(),
-            orbit: self.orbit,
-            vary: self.vary.path(),
-            to: self.to,
-            also: self.also.as_ref().map(VariedNamed::target),
-            points: self.points,
-            follow: self.follow,
-        }
-    }
-}
-
 pub(super) fn run(args: &Branch, session: &Session) -> Result<(), Failure> {
     if args.output.plot.is_none() && (args.no_diagram || args.show_virtual) {
         return Err(Failure::bad("--no-diagram and --virtual say how the figure is drawn\nhint: --plot FILE"));
     }
     let shown = Shown { diagram: !args.no_diagram, inadmissible: args.show_virtual, ..Shown::default() };
-    let task = || Ok(MachineTask::Branch(args.of_machine()));
-    let start = Some((&args.of_machine, None));
-    if let Some(answer) =
-        of_machine::asked(&args.machine, start, task, args.output.files(), (None, |_| Ok(shown.clone())), session)
-    {
-        return answer;
-    }
-    let also = args.also.as_ref().map(VariedNamed::of_oscillator).transpose()?;
-    let named = args.vary.parameter()?;
-    let second = also.map(|Named(named, _)| named);
-    let asked = args.system.over(&[named].into_iter().chain(second).collect::<Vec<_>>())?;
-    let vary = named.parameter;
+    let varied = || core::iter::once(&args.vary).chain(args.also.iter().map(|also| &also.0));
+    let oscillator = || args.system.over(&varied().map(Varied::parameter).collect::<Result<Vec<_>, _>>()?);
+    let system = args.machine.or_oscillator(Some((&args.of_machine, None)), oscillator)?;
+    let Target { parameter: vary, to } = system.target(&args.vary, args.to)?;
     let task = BranchPlan {
-        label: args.label.clone().unwrap_or_default(),
+        label: args.label.clone(),
         vary,
-        to: args.to / asked.units.of(vary),
-        also: also.map(|Named(ParameterFlag { parameter, .. }, Value(to))| Target {
-            parameter,
-            to: to / asked.units.of(parameter),
-        }),
+        to,
+        also: system.also(args.also.as_ref())?,
         orbit: args.orbit,
         follow: args.follow,
         points: args.points,
     };
-    let plan = Plan::new(asked.system, Task::Branch(task));
-    plan.check()?;
+    let question = system.question(task)?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
-    respond::run(&plan, asked.units, (outputs, shown), None, session)
+    respond::run(&question, (outputs, shown), None, session)
 }

@@ -1,18 +1,15 @@
 //! `vibro curve`: a fold, flip or grazing impact of an orbit in a plane of two parameters.
 
 use crate::args::{
-    MachineArgs, Named, OutputArgs, Over, StartOfMachineArgs, SystemArgs, VariedOver, of_oscillator, whole,
+    MachineArgs, OutputArgs, ParameterFlag, StartOfMachineArgs, SystemArgs, Varied, VariedOver, of_oscillator, whole,
 };
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, respond};
+use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::{Args, ValueEnum};
-use vibroimpact_report::{Shown, Units};
-use vibroimpact_study::{
-    CurvePlan, DEFAULT_BRANCH_POINTS, FollowedEvent, MachineCurvePlan, MachineFollowedEvent, MachineTask, Parameter,
-    Plan, Stretch, Task,
-};
+use vibroimpact_report::{Asked, Shown};
+use vibroimpact_study::{CurvePlan, FollowedEvent, Parameter};
 
 /// The curve of an event of an orbit over two parameters: fold, flip or grazing
 ///
@@ -83,8 +80,8 @@ pub(crate) struct Curve {
     #[arg(long, value_parser = whole::<u32>, value_name = "K", allow_hyphen_values = true, help_heading = "Curve")]
     event: Option<u32>,
 
-    /// Points in each direction at most, 2 to 100000, for a machine
-    #[arg(long, value_parser = whole::<u32>, value_name = "N", requires = "machine", allow_hyphen_values = true, help_heading = "Curve")]
+    /// Points in each direction at most, 2 to 100000 [default: 20000; of a machine 5000]
+    #[arg(long, value_parser = whole::<u32>, value_name = "N", allow_hyphen_values = true, help_heading = "Curve")]
     points: Option<u32>,
 
     #[command(flatten)]
@@ -109,66 +106,54 @@ enum Kind {
     Holding,
 }
 
-impl Curve {
-    fn plan(&self, (vary, and): (&Over, &Over), units: &Units, parameters: &[Parameter]) -> Result<CurvePlan, Failure> {
-        let stretch = |k: usize, Named(_, range): &Over| {
-            let (parameter, unit) = (parameters[k], units.of(parameters[k]));
-            Stretch { parameter, from: range.0 / unit, to: range.1 / unit }
-        };
-        Ok(CurvePlan {
-            label: self.label.clone().unwrap_or_default(),
-            kind: match self.kind {
-                Kind::Fold => FollowedEvent::Fold,
-                Kind::Flip => FollowedEvent::Flip,
-                Kind::Grazing => FollowedEvent::Grazing,
-                Kind::Torus | Kind::Corner | Kind::Sticking | Kind::Holding => {
-                    return Err(Failure::bad(
-                        "torus, corner, sticking and holding are curves of machines\nhint: --machine NAME|FILE",
-                    ));
-                }
-            },
-            vary: stretch(0, vary),
-            and: stretch(1, and),
-            orbit: self.orbit,
-            event: self.event,
-        })
+impl From<Kind> for FollowedEvent {
+    fn from(kind: Kind) -> Self {
+        match kind {
+            Kind::Fold => Self::Fold,
+            Kind::Flip => Self::Flip,
+            Kind::Grazing => Self::Grazing,
+            Kind::Torus => Self::Torus,
+            Kind::Corner => Self::Corner,
+            Kind::Sticking => Self::Sticking,
+            Kind::Holding => Self::Holding,
+        }
     }
+}
 
-    fn of_machine(&self) -> MachineTask {
-        MachineTask::Curve(MachineCurvePlan {
-            label: self.label.clone(),
-            orbit: self.orbit,
-            kind: match self.kind {
-                Kind::Fold => MachineFollowedEvent::Fold,
-                Kind::Flip => MachineFollowedEvent::Flip,
-                Kind::Grazing => MachineFollowedEvent::Grazing,
-                Kind::Torus => MachineFollowedEvent::Torus,
-                Kind::Corner => MachineFollowedEvent::Corner,
-                Kind::Sticking => MachineFollowedEvent::Sticking,
-                Kind::Holding => MachineFollowedEvent::Holding,
-            },
-            vary: self.vary.stretch(),
-            and: self.and.stretch(),
-            event: self.event,
-            points: self.points.unwrap_or(DEFAULT_BRANCH_POINTS),
-        })
+impl Curve {
+    /// The oscillator, and both parameters in which its curve is followed.
+    fn oscillator(&self) -> Result<(Asked, [Parameter; 2]), Failure> {
+        if let Kind::Torus | Kind::Corner | Kind::Sticking | Kind::Holding = self.kind {
+            return Err(Failure::bad(
+                "torus, corner, sticking and holding are curves of machines\nhint: --machine NAME|FILE",
+            ));
+        }
+        let varied = [self.vary.0.parameter()?, self.and.0.parameter()?];
+        let mut asked = self.system.over(&varied)?;
+        let parameters = of_oscillator(&mut asked, &varied);
+        Ok((asked, [parameters[0], parameters[1]]))
     }
 }
 
 pub(super) fn run(args: &Curve, session: &Session) -> Result<(), Failure> {
-    let start = Some((&args.of_machine, None));
-    let task = || Ok(args.of_machine());
-    if let Some(answer) =
-        of_machine::asked(&args.machine, start, task, args.output.files(), (None, |_| Ok(Shown::default())), session)
-    {
-        return answer;
-    }
-    let over = (args.vary.of_oscillator()?, args.and.of_oscillator()?);
-    let varied = [over.0.0, over.1.0];
-    let mut asked = args.system.over(&varied)?;
-    let parameters = of_oscillator(&mut asked, &varied);
-    let plan = Plan::new(asked.system, Task::Curve(args.plan((&over.0, &over.1), &asked.units, &parameters)?));
-    plan.check()?;
+    let mut varied = [args.vary.0.clone(), args.and.0.clone()];
+    let oscillator = || {
+        let (asked, parameters) = args.oscillator()?;
+        varied = parameters.map(|parameter| Varied::Parameter(ParameterFlag { parameter }));
+        Ok(asked)
+    };
+    let system = args.machine.or_oscillator(Some((&args.of_machine, None)), oscillator)?;
+    let [vary, and] = &varied;
+    let task = CurvePlan {
+        label: args.label.clone(),
+        kind: args.kind.into(),
+        vary: system.stretch(vary, args.vary.ends())?,
+        and: system.stretch(and, args.and.ends())?,
+        orbit: args.orbit,
+        event: args.event,
+        points: args.points,
+    };
+    let question = system.question(task)?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
-    respond::run(&plan, asked.units, (outputs, Shown::default()), None, session)
+    respond::run(&question, (outputs, Shown::default()), None, session)
 }

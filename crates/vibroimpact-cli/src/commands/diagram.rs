@@ -1,21 +1,19 @@
 //! `vibro diagram`: the orbit diagram, the motion after its transient at each value of a parameter.
 
 use crate::args::{
-    Ends, MachineArgs, Named, OutputArgs, StartOfMachineArgs, StoreArgs, SystemArgs, Varied, VariedNamed, axis_values,
-    number, quantity, varied, whole,
+    AskedSystem, Ends, MachineArgs, Named, OutputArgs, Question, StartOfMachineArgs, StoreArgs, SystemArgs, Varied,
+    VariedNamed, axis_values, number, quantity, varied, whole,
 };
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, respond};
+use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::{Args, ValueEnum};
 use vibroimpact_report::number::short;
 use vibroimpact_report::scene::{BifurcationEvent, bifurcation, machine_bifurcation};
 use vibroimpact_report::{Asked, Shown};
-use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
-use vibroimpact_study::{
-    DiagramPlan, MachineDiagramPlan, MachinePlan, MachineTask, Plan, PlanError, Stretch, Task, Values,
-};
+use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, ShowText, SweepDirection};
+use vibroimpact_study::{DiagramPlan, PlanError, System, Task, Values, Variable};
 
 /// The orbit diagram: impacts or states after the transient, over one parameter or along a line through two
 ///
@@ -155,19 +153,6 @@ impl Diagram {
             Way::Scatter => SweepDirection::Scatter { starts: self.starts.unwrap_or(8), seed: self.seed.unwrap_or(1) },
         })
     }
-
-    /// The task of a machine.
-    fn of_machine(&self) -> Result<MachineTask, Failure> {
-        Ok(MachineTask::Diagram(MachineDiagramPlan {
-            vary: self.vary.path(),
-            over: self.over.clone(),
-            also: self.also.as_ref().map(VariedNamed::<Ends>::stretch),
-            show: self.show.clone().unwrap_or_else(|| "speed".to_owned()),
-            direction: self.direction()?,
-            transient: self.transient,
-            keep: self.keep,
-        }))
-    }
 }
 
 /// The labels of `--branches`; `None` for those found on the line.
@@ -184,89 +169,78 @@ fn listed(events: &[BifurcationEvent], (column, unit): (&str, f64)) -> String {
     events.iter().map(row).collect()
 }
 
+impl Diagram {
+    /// The oscillator, whose parameters that vary have their first values.
+    fn oscillator(&self) -> Result<Asked, Failure> {
+        let first = (self.vary.parameter()?, self.over.ends().0, ["vary", "over"]);
+        let also = self.also.as_ref().map(VariedNamed::of_oscillator).transpose()?;
+        let second = also.map(|Named(named, ends)| (named, ends.0, ["also", "also"]));
+        self.system.varied(&[first].into_iter().chain(second).collect::<Vec<_>>())
+    }
+
+    /// The plan of a diagram of this system.
+    fn plan(&self, system: &AskedSystem<'_>) -> Result<DiagramPlan<Variable, ShowText>, Failure> {
+        let show = match &self.show {
+            Some(path) if system.is_machine() => ShowText::Word(path.clone()),
+            None if system.is_machine() => ShowText::Word("speed".to_owned()),
+            text => what(text.as_deref())?.into(),
+        };
+        let (vary, unit) = system.variable(&self.vary)?;
+        Ok(DiagramPlan {
+            vary,
+            over: if system.is_machine() { self.over.clone() } else { self.over.scaled(unit)? },
+            also: system.ends(self.also.as_ref())?,
+            show,
+            direction: self.direction()?,
+            transient: self.transient,
+            keep: self.keep,
+        })
+    }
+}
+
 pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
-    if let (Some(name), Some(labels)) = (&args.machine.machine, &args.branches) {
-        return machine_with_branches(args, name, labels, session);
-    }
-    let task = || args.of_machine();
-    let start = Some((&args.of_machine, args.phase));
-    if let Some(answer) = of_machine::asked(
-        &args.machine,
-        start,
-        task,
-        args.output.files(),
-        (Some(&args.store), |_| Ok(Shown::default())),
-        session,
-    ) {
-        return answer;
-    }
-    let (named, show) = (args.vary.parameter()?, what(args.show.as_deref())?);
-    let first = (named, args.over.ends().0, ["vary", "over"]);
-    let also = args.also.as_ref().map(VariedNamed::of_oscillator).transpose()?;
-    let second = also.map(|Named(named, ends)| (named, ends.0, ["also", "also"]));
-    let asked = args.system.varied(&[first].into_iter().chain(second).collect::<Vec<_>>())?;
-    let (units, vary) = (asked.units, named.parameter);
-    let stretch = |Named(named, Ends(from, to)): Named<Ends>| {
-        let unit = units.of(named.parameter);
-        Stretch { parameter: named.parameter, from: from / unit, to: to / unit }
-    };
-    let task = DiagramPlan {
-        vary,
-        over: args.over.scaled(units.of(vary))?,
-        also: also.map(stretch),
-        show,
-        direction: args.direction()?,
-        transient: args.transient,
-        keep: args.keep,
-    };
-    if args.store.store.is_some() && matches!(show, Show::Quantity(_)) {
+    let system = args.machine.or_oscillator(Some((&args.of_machine, args.phase)), || args.oscillator())?;
+    let task = args.plan(&system)?;
+    if args.store.store.is_some() && matches!(task.show, ShowText::Quantity { .. }) {
         return Err(PlanError::NoStoredQuantity.into());
     }
-    let plan = args.store.tiled(Plan::new(asked.system, Task::Diagram(task.clone())))?;
+    let question = system.stored(task, Some(&args.store))?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
     if let Some(labels) = &args.branches {
-        return with_branches((&Asked { units, ..asked }, &task), labels, outputs, session);
+        return with_branches(&question, given(labels).as_deref(), outputs, session);
     }
-    respond::run(&plan, units, (outputs, Shown::default()), Some(&args.store), session)
+    respond::run(&question, (outputs, Shown::default()), Some(&args.store), session)
 }
 
 /// The diagram with the branches of these labels; without labels of those found on the line.
 fn with_branches(
-    (asked, task): (&Asked, &DiagramPlan),
-    labels: &[String],
+    question: &Question<'_>,
+    labels: Option<&[String]>,
     outputs: Outputs,
     session: &Session,
 ) -> Result<(), Failure> {
-    if matches!(task.show, Show::Quantity(_)) {
-        return Err(Failure::bad("--branches has speeds or positions\nhint: --show velocity or --show strobe"));
-    }
-    task.check(&asked.system)?;
-    let given = given(labels);
-    let found = session.watched(None, |control| bifurcation(asked, task, given.as_deref(), control));
-    let found = found.map_err(|error| respond::stopped(error, None))?;
+    let (plan, units) = (&question.plan, question.units);
+    let stopped = |error| respond::stopped(error, None);
     let silent = outputs.any();
-    outputs.write(session, || Ok(found.table()?), || Ok(found.figure()?))?;
-    if silent {
-        return Ok(());
-    }
-    let axis = (asked.units.column_of(task.vary), asked.units.of(task.vary));
-    session.print(&listed(&found.events(), axis))?;
-    Ok(())
-}
-
-/// The diagram of a machine with the branches of these labels; without labels of those found on the line.
-fn machine_with_branches(args: &Diagram, name: &str, labels: &[String], session: &Session) -> Result<(), Failure> {
-    let start = Some((&args.of_machine, args.phase));
-    let plan = MachinePlan::new(args.machine.source(start)?, args.of_machine()?);
-    let outputs = Outputs::reserve(args.output.files(), session)?;
-    let given = given(labels);
-    let found = session.watched(None, |control| machine_bifurcation(name, &plan, given.as_deref(), control));
-    let found = found.map_err(|error| respond::stopped(error, None))?;
-    let silent = outputs.any();
-    outputs.write(session, || Ok(found.table()), || Ok(found.figure()))?;
-    if silent {
-        return Ok(());
-    }
-    session.print(&listed(&found.events(), (&found.behind.plan.vary, 1.0)))?;
-    Ok(())
+    let text = match (&plan.system, &plan.task) {
+        (System::Oscillator(system), Task::Diagram(task)) => {
+            let task: DiagramPlan = task.typed()?;
+            if matches!(task.show, Show::Quantity(_)) {
+                return Err(Failure::bad("--branches has speeds or positions\nhint: --show velocity or --show strobe"));
+            }
+            let asked = Asked { system: *system, units };
+            let found =
+                session.watched(None, |control| bifurcation(&asked, &task, labels, control)).map_err(stopped)?;
+            outputs.write(session, || Ok(found.table()?), || Ok(found.figure()?))?;
+            listed(&found.events(), (units.column_of(task.vary), units.of(task.vary)))
+        }
+        _ => {
+            let name = question.machine.unwrap_or_default();
+            let found = session.watched(None, |control| machine_bifurcation(name, plan, labels, control));
+            let found = found.map_err(stopped)?;
+            outputs.write(session, || Ok(found.table()), || Ok(found.figure()))?;
+            listed(&found.events(), (&found.behind.plan.vary, 1.0))
+        }
+    };
+    if silent { Ok(()) } else { session.print(&text) }
 }

@@ -11,7 +11,7 @@ use serde::Serialize;
 use std::path::PathBuf;
 use std::time::Duration;
 use vibroimpact_store::{Estimate as Found, Sampling, estimate};
-use vibroimpact_study::{StudyPlan, counted};
+use vibroimpact_study::{Plan, counted};
 
 /// What a study will cost: processor time, time on this machine, files, bytes and memory
 ///
@@ -41,7 +41,7 @@ pub(crate) struct Estimate {
 struct EstimateFields<'a> {
     #[serde(flatten)]
     found: Found,
-    plan: &'a StudyPlan,
+    plan: &'a Plan,
     plan_hash: String,
 }
 
@@ -56,7 +56,7 @@ pub(super) fn run(args: &Estimate, session: &Session) -> Result<(), Failure> {
     session.print_json(&EstimateFields { found, plan: &plan, plan_hash })
 }
 
-fn text(plan: &StudyPlan, found: &Found) -> String {
+fn text(plan: &Plan, found: &Found) -> String {
     let time = |seconds: f64| clock(Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX));
     format!(
         "{}\n{} in {}\n\

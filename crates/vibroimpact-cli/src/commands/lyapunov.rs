@@ -4,15 +4,12 @@ use crate::args::{
     MachineArgs, OutputArgs, StartArgs, StartOfMachineArgs, StoreArgs, StudyAxesArgs, SystemArgs, whole,
 };
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, respond, stored};
+use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
-use vibroimpact::chaos::{DEFAULT_IMPACTS, DEFAULT_TRANSIENT};
 use vibroimpact_report::{ReportError, Shown};
-use vibroimpact_study::{
-    Coordinate, DEFAULT_POINTS, LyapunovPlan, MachineLyapunovPlan, MachineTask, Plan, StudyPlan, Task,
-};
+use vibroimpact_study::{Axis, Coordinate, DEFAULT_POINTS, LyapunovPlan, Variable};
 
 /// The Lyapunov exponents of the motion from a start, with error bars, and the dimension of its attractor
 ///
@@ -74,7 +71,6 @@ pub(crate) struct Lyapunov {
 }
 
 pub(super) fn run(args: &Lyapunov, session: &Session) -> Result<(), Failure> {
-    let start = Some((&args.of_machine, args.start.phase));
     let study = args.axes.count() > 0;
     if !study && args.store.store.is_some() {
         return Err(Failure::bad("one motion needs no store\nhint: --axis gap=0:5:41 for the exponents over an axis"));
@@ -96,35 +92,17 @@ pub(super) fn run(args: &Lyapunov, session: &Session) -> Result<(), Failure> {
         }));
     }
     let points = shown.then(|| args.points.unwrap_or(DEFAULT_POINTS));
-    let task = || {
-        let count = |given: Option<u64>| given.map(|given| u32::try_from(given).unwrap_or(u32::MAX));
-        let (impacts, transient) = (count(args.impacts), count(args.transient));
-        Ok(MachineTask::Lyapunov(MachineLyapunovPlan { axes: args.axes.of_machine(), impacts, transient, points }))
-    };
-    let store = study.then_some(&args.store);
-    if let Some(answer) =
-        of_machine::asked(&args.machine, start, task, args.output.files(), (store, of_machine::usual), session)
-    {
-        return answer;
-    }
-    let asked = args.system.asked()?;
-    let task = LyapunovPlan {
-        axes: args.axes.of_oscillator()?,
-        start: args.start.plan(&asked.units),
-        impacts: args.impacts.unwrap_or(DEFAULT_IMPACTS),
-        transient: args.transient.unwrap_or(DEFAULT_TRANSIENT),
-        points,
-    };
-    if asked.units.plan().is_some() && task.axes.iter().any(|axis| matches!(axis.vary, Coordinate::X | Coordinate::V)) {
+    let start = Some((&args.of_machine, args.start.phase));
+    let system = args.machine.or_oscillator(start, || args.system.asked())?;
+    let axes = system.axes(&args.axes)?;
+    let measured = |axis: &Axis<Variable>| matches!(axis.vary, Variable::Coordinate(Coordinate::X | Coordinate::V));
+    if system.units().plan().is_some() && axes.iter().any(measured) {
         return Err(Failure::bad("an axis of x or v is nondimensional\nhint: without --units si"));
     }
-    let axes = task.axes.clone();
-    let plan = Plan { units: asked.units.plan(), ..Plan::new(asked.system, Task::Lyapunov(task)) };
-    let plan = args.store.tiled(plan)?;
+    let (start, impacts, transient) = (system.start(&args.start), args.impacts, args.transient);
+    let task = LyapunovPlan { axes, start, impacts, transient, points };
+    let store = study.then_some(&args.store);
+    let question = system.stored(task, store)?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
-    if !study {
-        return respond::run(&plan, asked.units, (outputs, Shown::default()), None, session);
-    }
-    outputs.drawable(&axes, 1)?;
-    stored::filled(&StudyPlan::from(&plan), args.store.filling(), (outputs, Shown::default()), session)
+    respond::run(&question, (outputs, Shown::default()), store, session)
 }

@@ -4,12 +4,12 @@ use crate::args::{
     ColourArgs, FieldsArgs, MachineArgs, MachineAxesArgs, OutputArgs, OverlayArgs, RangedSystemArgs, StoreArgs, whole,
 };
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, respond};
+use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
-use vibroimpact_report::{Asked, Shown};
-use vibroimpact_study::{MachineMapPlan, MachineTask, MapPlan, Plan, Task};
+use vibroimpact_report::Shown;
+use vibroimpact_study::{Axis, MapPlan};
 
 /// Which motions exist at each point of a plane of parameters
 ///
@@ -85,28 +85,17 @@ pub(crate) struct Map {
 }
 
 pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
-    if args.machine.machine.is_some() && args.overlay.any() {
+    let system = args.machine.or_oscillator(None, || args.plane.asked())?;
+    if system.is_machine() && args.overlay.any() {
         return Err(Failure::bad("--layers, --mark and --line are for maps without --machine"));
     }
-    let task = || {
-        Ok(MachineTask::Map(MachineMapPlan {
-            axes: args.machine_axes.axes(),
-            starts: args.starts,
-            seed: args.seed,
-            refine: args.refine,
-            impacts: args.impacts,
-            fields: args.colour.with(&args.fields).paths(),
-        }))
+    let axes = if system.is_machine() {
+        args.machine_axes.axes()
+    } else {
+        let axes = args.plane.axes()?.into_iter().map(|axis| Axis { vary: axis.vary.into(), over: axis.over });
+        axes.collect()
     };
-    let shown = |drawn| Ok(Shown { colour: args.colour.coloured(drawn)?, ..Shown::default() });
-    if let Some(answer) =
-        of_machine::asked(&args.machine, None, task, args.output.files(), (Some(&args.store), shown), session)
-    {
-        return answer;
-    }
-    let Asked { system, units } = args.plane.asked()?;
-    let axes = args.plane.axes()?;
-    if axes.is_empty() {
+    if axes.is_empty() && !system.is_machine() {
         return Err(Failure::bad(
             "nothing varies\nhint: give one of the parameters a range, --gap 0:5:41; `vibro attractors` answers for one point",
         ));
@@ -117,14 +106,11 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
         seed: args.seed,
         refine: args.refine,
         impacts: args.impacts,
-        fields: args.colour.with(&args.fields).quantities()?,
+        fields: system.fields(&args.colour, &args.fields)?,
     };
-    let axes = task.axes.clone();
-    let plan = args.store.tiled(Plan::new(system, Task::Map(task)))?;
+    let question = system.stored(task, Some(&args.store))?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
-    outputs.drawable(&axes, 1)?;
     let colour = args.colour.coloured(outputs.drawn())?;
     let overlay = args.overlay.overlay(outputs.drawn(), colour.is_some())?;
-    let shown = Shown { colour, overlay, ..Shown::default() };
-    respond::run(&plan, units, (outputs, shown), Some(&args.store), session)
+    respond::run(&question, (outputs, Shown { colour, overlay, ..Shown::default() }), Some(&args.store), session)
 }

@@ -5,15 +5,12 @@ use crate::args::{
     number, varied, whole,
 };
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, respond};
+use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use vibroimpact_report::{Asked, Shown};
-use vibroimpact_study::{
-    DEFAULT_LINES, DEFAULT_WITHIN, MachineMarginsPlan, MachineTask, MarginsPlan, Parameter, Plan, ScaledParameter,
-    StartPlan, Task,
-};
+use vibroimpact_study::{DEFAULT_LINES, DEFAULT_WITHIN, MarginsPlan, Parameter, ScaledParameter, StartPlan, Variable};
 
 /// How far a motion is from the events that end or change it
 ///
@@ -89,25 +86,28 @@ pub(crate) struct Margins {
 }
 
 pub(super) fn run(args: &Margins, session: &Session) -> Result<(), Failure> {
-    let task = || {
-        let vary = args.vary.iter().map(Varied::path).collect();
-        Ok(MachineTask::Margins(MachineMarginsPlan { label: args.label.clone(), vary, within: args.within }))
+    let mut vary: Vec<ScaledParameter<Variable>> = Vec::new();
+    let oscillator = || {
+        let (asked, varied) = args.varied()?;
+        let name = |one: ScaledParameter| ScaledParameter { parameter: one.parameter.into(), scale: one.scale };
+        vary = varied.into_iter().map(name).collect();
+        Ok(asked)
     };
-    let usual = (None, of_machine::usual);
-    let start = Some((&args.of_machine, args.start.phase));
-    if let Some(answer) = of_machine::asked(&args.machine, start, task, args.output.files(), usual, session) {
-        return answer;
+    let system = args.machine.or_oscillator(Some((&args.of_machine, args.start.phase)), oscillator)?;
+    let path = |varied: &Varied| ScaledParameter { parameter: Variable::Path(varied.path()), scale: None };
+    let machine = system.is_machine();
+    if machine {
+        vary = args.vary.iter().map(path).collect();
     }
-    let (asked, vary) = args.varied()?;
-    let start = args.start.plan(&asked.units);
-    if args.label.is_some() && start != StartPlan::default() {
+    let start = system.start(&args.start);
+    if args.label.is_some() && start.is_some_and(|start| start != StartPlan::default()) {
         return Err(Failure::bad("--label cannot go together with a start\nhint: --label, or --x, --v and --phase"));
     }
-    let task = MarginsPlan { start, label: args.label.clone(), vary, within: args.within, lines: args.lines };
-    let plan = Plan::new(asked.system, Task::Margins(task));
-    plan.check()?;
+    let lines = (!machine).then_some(args.lines);
+    let task = MarginsPlan { start, label: args.label.clone(), vary, within: args.within, lines };
+    let question = system.question(task)?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
-    respond::run(&plan, asked.units, (outputs, Shown::default()), None, session)
+    respond::run(&question, (outputs, Shown::default()), None, session)
 }
 
 impl Margins {

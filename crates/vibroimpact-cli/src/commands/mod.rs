@@ -16,7 +16,6 @@ mod machine;
 mod man;
 mod map;
 mod margins;
-mod of_machine;
 mod orbit;
 mod outputs;
 mod plot;

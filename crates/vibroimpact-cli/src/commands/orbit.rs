@@ -2,12 +2,12 @@
 
 use crate::args::{MachineArgs, OutputArgs, SystemArgs};
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, respond};
+use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use vibroimpact_report::Shown;
-use vibroimpact_study::{MachineTask, Plan, Task};
+use vibroimpact_study::Task;
 
 /// All periodic orbits with m impacts in n forcing periods, stable or unstable
 ///
@@ -49,16 +49,8 @@ pub(crate) struct Orbit {
 }
 
 pub(super) fn run(args: &Orbit, session: &Session) -> Result<(), Failure> {
-    let task = || Ok(MachineTask::Orbit { label: args.label.clone() });
-    if let Some(answer) =
-        of_machine::asked(&args.machine, None, task, args.output.files(), (None, of_machine::usual), session)
-    {
-        return answer;
-    }
-    let asked = args.system.asked()?;
-    let task = Task::Orbit { label: args.label.clone() };
-    let plan = Plan::new(asked.system, task);
-    plan.check()?;
+    let system = args.machine.or_oscillator(None, || args.system.asked())?;
+    let question = system.question(Task::Orbit { label: args.label.clone() })?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
-    respond::run(&plan, asked.units, (outputs, Shown::default()), None, session)
+    respond::run(&question, (outputs, Shown::default()), None, session)
 }

@@ -1,15 +1,16 @@
 //! The output files of a command: a table, a figure, or both. They are reserved before the computation.
 
 use crate::args::{FigureArgs, Files};
+use crate::commands::respond::none;
 use crate::failure::Failure;
 use crate::files::Target;
 use crate::picture::Picture;
 use crate::session::Session;
 use std::path::Path;
 use vibroimpact_plot::Figure;
-use vibroimpact_report::figure::plane::{Plane, PlaneAxis};
+use vibroimpact_report::figure::plane::{Plane, PlaneAxis, Sides};
 use vibroimpact_report::{Table, Units};
-use vibroimpact_study::Axis;
+use vibroimpact_study::{Plan, Task, typed_axes};
 
 /// The outputs of a command.
 pub(super) struct Outputs {
@@ -45,28 +46,24 @@ impl Outputs {
         Ok(Self { csv, picture, json })
     }
 
-    /// Refuses axes over which no figure can be drawn, before the computation. Some figures need one axis only.
-    pub(super) fn drawable(&self, axes: &[Axis], fewest: usize) -> Result<(), Failure> {
-        match axes {
-            _ if self.picture.is_none() => {}
-            [axis] if fewest == 1 => {
-                PlaneAxis::of(axis, &Units::default())?;
-            }
-            axes => {
-                Plane::of(axes, &Units::default())?;
-            }
+    /// Refuses a table or a figure that the answer to a plan does not have, before the computation.
+    pub(super) fn check(&self, plan: &Plan) -> Result<(), Failure> {
+        let without_points = match &plan.task {
+            Task::Lyapunov(task) => task.axes.is_empty() && task.points.is_none(),
+            _ => false,
+        };
+        if without_points && self.drawn() {
+            return Err(none("figure"));
         }
-        Ok(())
+        if without_points && self.csv.is_some() {
+            return Err(none("table"));
+        }
+        if self.drawn() { drawable(plan) } else { Ok(()) }
     }
 
     /// Whether a figure was requested.
     pub(super) const fn drawn(&self) -> bool {
         self.picture.is_some()
-    }
-
-    /// Whether a table was requested.
-    pub(super) const fn tabled(&self) -> bool {
-        self.csv.is_some()
     }
 
     /// Whether a table or a figure was requested.
@@ -120,4 +117,21 @@ impl Outputs {
             }
         }
     }
+}
+
+/// Refuses axes over which no figure can be drawn. Some figures need one axis only.
+fn drawable(plan: &Plan) -> Result<(), Failure> {
+    let (units, is_machine) = (Units::default(), plan.machine().is_some());
+    let (axes, paths) = (typed_axes(plan.task.axes()), typed_axes::<String>(plan.task.axes())?);
+    match &plan.task {
+        Task::Basin(_) | Task::Map(_) if is_machine => Sides::of_machine(&paths).map(drop)?,
+        Task::Lyapunov(_) if is_machine => {
+            paths.iter().try_for_each(|axis| PlaneAxis::of_machine(axis).map(drop))?;
+        }
+        Task::Basin(_) => Plane::of(&axes?, &units).map(drop)?,
+        Task::Map(_) => Sides::of(&axes?, &units).map(drop)?,
+        Task::Lyapunov(_) => axes?.iter().try_for_each(|axis| PlaneAxis::of(axis, &units).map(drop))?,
+        _ => {}
+    }
+    Ok(())
 }

@@ -4,12 +4,12 @@ use crate::args::{
     AxesArgs, Convention, MachineArgs, OutputArgs, PhysicalArgs, SystemStretchesArgs, VariedOver, of_oscillator, whole,
 };
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, respond};
+use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use vibroimpact_report::{Asked, Shown};
-use vibroimpact_study::{DEFAULT_GRID, MachineRegionPlan, MachineTask, Plan, RegionPlan, Stretch, Task};
+use vibroimpact_study::{DEFAULT_GRID, RegionPlan, Stretch, Variable};
 
 /// Where a motion exists and where it is stable, over two parameters: closed polygons
 ///
@@ -95,30 +95,33 @@ impl Region {
 }
 
 impl Region {
-    fn of_machine(&self) -> Result<MachineTask, Failure> {
+    /// The plane of two numbers of a machine.
+    fn of_machine(&self) -> Result<[Stretch<Variable>; 2], Failure> {
         let [across, up] = self.axis.as_slice() else {
             return Err(Failure::bad(format!(
                 "a plane has two numbers, and --axis PATH=A:B is given {} times\nhint: --axis frequency=30:60 --axis stop.wall.gap=0.001:0.01",
                 self.axis.len()
             )));
         };
-        let (across, up) = (across.stretch(), up.stretch());
-        Ok(MachineTask::Region(MachineRegionPlan { label: self.label.clone(), across, up, grid: self.grid }))
+        Ok([across, up].map(|over| {
+            let (from, to) = over.ends();
+            Stretch { parameter: Variable::Path(over.0.path()), from, to }
+        }))
     }
 }
 
 pub(super) fn run(args: &Region, session: &Session) -> Result<(), Failure> {
-    let task = || args.of_machine();
-    if let Some(answer) =
-        of_machine::asked(&args.of_machine, None, task, args.output.files(), (None, of_machine::usual), session)
-    {
-        return answer;
-    }
-    let (asked, over) = args.system.asked((&args.machine, args.units), &[], of_oscillator)?;
-    let (across, up) = args.plane(&asked, over)?;
+    let mut plane = None;
+    let system = args.of_machine.or_oscillator(None, || {
+        let (asked, over) = args.system.asked((&args.machine, args.units), &[], of_oscillator)?;
+        let (across, up) = args.plane(&asked, over)?;
+        plane =
+            Some([across, up].map(|side| Stretch { parameter: side.parameter.into(), from: side.from, to: side.to }));
+        Ok(asked)
+    })?;
+    let [across, up] = plane.map_or_else(|| args.of_machine(), Ok)?;
     let task = RegionPlan { label: args.label.clone(), across, up, grid: args.grid };
-    let plan = Plan::new(asked.system, Task::Region(task));
-    plan.check()?;
+    let question = system.question(task)?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
-    respond::run(&plan, asked.units, (outputs, Shown::default()), None, session)
+    respond::run(&question, (outputs, Shown::default()), None, session)
 }

@@ -1,35 +1,41 @@
 //! Common part of the commands with one answer: compute it, write the files, and print the report.
 
-use crate::args::StoreArgs;
+use crate::args::{Question, StoreArgs};
 use crate::commands::outputs::Outputs;
 use crate::commands::stored;
 use crate::failure::Failure;
 use crate::report;
 use crate::session::Session;
-use vibroimpact_report::{Answer, AnswerError, Shown, Units, answer};
-use vibroimpact_study::{Control, Plan, Results, SEARCH_LIMIT, Stopped, StudyPlan};
+use vibroimpact_report::{Answer, AnswerError, Shown, answer};
+use vibroimpact_study::{Control, Stopped, Task};
 
-/// Computes the answer of a plan and reports it. With --store, the plan fills the store instead.
+/// Computes the answer to a question and reports it. With --store, the plan fills the store instead. Exponents over axes are a
+/// study, with a store or in memory.
 pub(super) fn run(
-    plan: &Plan,
-    units: Units,
+    question: &Question<'_>,
     (outputs, shown): (Outputs, Shown),
     store: Option<&StoreArgs>,
     session: &Session,
 ) -> Result<(), Failure> {
-    shown.overlay.check(&in_units(plan, &units), shown.colour.is_some())?;
-    if let Some(filling) = store.and_then(StoreArgs::filling) {
-        return stored::run(&StudyPlan::from(&in_units(plan, &units)), &filling, (outputs, shown), session);
+    let plan = &question.plan;
+    stored::check_overlay(&shown.overlay, plan, shown.colour.is_some())?;
+    outputs.check(plan)?;
+    let filling = store.and_then(StoreArgs::filling);
+    let exponents = matches!(plan.task, Task::Lyapunov(_));
+    if filling.is_some() || exponents && plan.fills_a_grid() {
+        return stored::filled(plan, filling, (outputs, shown), session);
     }
-    let answer = compute(plan, units, session)?;
+    let answer = compute(question, session)?;
     tell(&answer, (outputs, shown), session)
 }
 
-/// Computes the answer of a plan, with a progress bar if the plan reports progress.
-pub(super) fn compute(plan: &Plan, units: Units, session: &Session) -> Result<Answer, Failure> {
-    let plan = &in_units(plan, &units);
+/// Computes the answer to a question, with a progress bar if its plan reports progress.
+pub(super) fn compute(question: &Question<'_>, session: &Session) -> Result<Answer, Failure> {
+    let Question { plan, units, machine } = question;
     let work = plan.work();
-    session.watched(work, |control| answer(plan, units, control)).map_err(|error| stopped(error, work))
+    let answer = session.watched(work, |control| answer(plan, *units, control));
+    let answer = answer.map_err(|error| stopped(error, work))?;
+    Ok(if let Some(name) = machine { answer.named(name) } else { answer })
 }
 
 /// The failure of an answer. If it was stopped, it says how much of the work was done.
@@ -44,17 +50,11 @@ pub(super) fn stopped(error: AnswerError, work: Option<(u64, &str)>) -> Failure 
     }
 }
 
-/// The plan with the units of its results, if they are SI units.
-fn in_units(plan: &Plan, units: &Units) -> Plan {
-    Plan { units: units.plan().or(plan.units), ..plan.clone() }
-}
-
 /// Writes the files, then prints the JSON object, or the text unless the table is on stdout. For a grid with an output
 /// file no text is printed.
 pub(super) fn tell(answer: &Answer, (outputs, shown): (Outputs, Shown), session: &Session) -> Result<(), Failure> {
-    let grid = matches!(answer.results, Results::Basin(_) | Results::Map(_) | Results::Diagram(_));
+    let grid = answer.plan().fills_a_grid();
     let (json, files, table) = (outputs.json(), outputs.any_file(), outputs.table_on_stdout());
-    let none = |what: &str| Failure::bad(format!("this question has no {what}"));
     // the orbit diagram behind a branch is computed with its figure
     let behind = |control: &Control<'_>| answer.figure(&shown, control);
     outputs.write(
@@ -70,14 +70,16 @@ pub(super) fn tell(answer: &Answer, (outputs, shown): (Outputs, Shown), session:
             session.note(&format!("hint: {hint}"));
         }
     }
-    match &answer.results {
-        Results::Simulate(_, found) if found.reason == SEARCH_LIMIT => Err(search_limit()),
-        _ => Ok(()),
-    }
+    if report::ended_by_search(answer) { Err(search_limit()) } else { Ok(()) }
+}
+
+/// The failure of a question without a table or a figure.
+pub(super) fn none(what: &str) -> Failure {
+    Failure::bad(format!("this question has no {what}"))
 }
 
 /// The failure of a motion whose next event was not found. What was found before it is printed.
-pub(super) fn search_limit() -> Failure {
+fn search_limit() -> Failure {
     Failure::Failed(
         "the search for the next event used all its steps: the motion is not known after the last event\nhint: numbers that lie many orders of magnitude apart make the search long; what is printed before is right"
             .to_owned(),

@@ -2,12 +2,12 @@
 
 use crate::args::{MachineArgs, MachineAxesArgs, OutputArgs, RangedSystemArgs, StartOfMachineArgs, quantity, whole};
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, respond};
+use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
-use vibroimpact_report::{Asked, Shown};
-use vibroimpact_study::{Coordinate, MachineResponsePlan, MachineTask, Plan, ResponsePlan, Task};
+use vibroimpact_report::Shown;
+use vibroimpact_study::{Axis, ResponsePlan};
 
 /// The response over a number, such as the frequency: a quantity of all motions, from branches and sweeps
 ///
@@ -67,42 +67,23 @@ pub(crate) struct Response {
 }
 
 pub(super) fn run(args: &Response, session: &Session) -> Result<(), Failure> {
-    let task = || {
-        let axes = args.machine_axes.axes();
-        let [axis] = axes.as_slice() else {
-            return Err(Failure::bad(format!(
-                "a response is over one number, and there are {} axes\nhint: --axis frequency=0.5:1.5:201",
-                axes.len()
-            )));
-        };
-        let (vary, over) = (axis.vary.clone(), axis.over.clone());
-        Ok(MachineTask::Response(MachineResponsePlan {
-            vary,
-            over,
-            quantity: args.quantity.clone(),
-            impacts: args.impacts,
-        }))
+    let system = args.machine.or_oscillator(Some((&args.start, None)), || args.system.asked())?;
+    let (axes, quantity) = if system.is_machine() {
+        (args.machine_axes.axes(), args.quantity.clone())
+    } else {
+        let named = args.quantity.as_deref().map(|name| quantity(name).map_err(Failure::bad)).transpose()?;
+        let axes = args.system.axes()?.into_iter().map(|axis| Axis { vary: axis.vary.into(), over: axis.over });
+        (axes.collect(), named.map(|named| named.name().to_owned()))
     };
-    let (start, look) = (Some((&args.start, None)), (None, of_machine::usual));
-    if let Some(answer) = of_machine::asked(&args.machine, start, task, args.output.files(), look, session) {
-        return answer;
-    }
-    let Asked { system, units } = args.system.asked()?;
-    let axes = args.system.axes()?;
     let [axis] = axes.as_slice() else {
         return Err(Failure::bad(format!(
-            "a response is over one parameter, and ranges are given for {}\nhint: --beta 0.5:1.5:201; `vibro map` takes several",
+            "a response is over one number, and ranges are given for {}\nhint: --beta 0.5:1.5:201, or of a machine --axis frequency=0.5:1.5:201; `vibro map` takes several",
             axes.len()
         )));
     };
-    let Coordinate::Parameter(vary) = axis.vary else {
-        return Err(Failure::bad("a response is over a parameter of the system\nhint: --beta 0.5:1.5:201"));
-    };
-    let task = ResponsePlan::new(vary, axis.over.clone());
-    let named = args.quantity.as_deref().map(|name| quantity(name).map_err(Failure::bad)).transpose()?;
-    let task = ResponsePlan { quantity: named.unwrap_or(task.quantity), impacts: args.impacts, ..task };
-    let plan = Plan::new(system, Task::Response(task));
-    plan.check()?;
+    let task =
+        ResponsePlan { quantity, impacts: args.impacts, ..ResponsePlan::new(axis.vary.clone(), axis.over.clone()) };
+    let question = system.question(task)?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
-    respond::run(&plan, units, (outputs, Shown::default()), None, session)
+    respond::run(&question, (outputs, Shown::default()), None, session)
 }

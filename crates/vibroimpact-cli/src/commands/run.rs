@@ -1,18 +1,18 @@
 //! `vibro run`: fills a store with the study of a plan in a file.
 
-use super::of_machine as of_machine_plan;
 use super::stored;
-use crate::args::{BudgetArgs, ColourArgs, Filling, OutputArgs, OverlayArgs, Tiles};
+use crate::args::{BudgetArgs, ColourArgs, Filling, OutputArgs, OverlayArgs, Question, Tiles};
 use crate::commands::outputs::Outputs;
+use crate::commands::respond;
 use crate::failure::Failure;
 use crate::hints;
 use crate::machine_file;
 use crate::session::Session;
 use clap::Args;
 use std::path::{Path, PathBuf};
-use vibroimpact_report::Shown;
+use vibroimpact_report::{Shown, Units};
 use vibroimpact_store::Part;
-use vibroimpact_study::{MachinePlan, PlanError, Study, StudyPlan};
+use vibroimpact_study::{Plan, PlanError, Study};
 
 /// Run a study from a plan, into a store that can be resumed
 ///
@@ -54,15 +54,15 @@ pub(crate) struct Run {
 }
 
 /// Reads and checks the plan in a file.
-pub(super) fn read(path: &Path) -> Result<StudyPlan, Failure> {
-    let plan = StudyPlan::from_text(&text(path)?, |other| machine_file::beside(path, other));
+pub(super) fn read(path: &Path) -> Result<Plan, Failure> {
+    let plan = Plan::from_text_and_files(&text(path)?, |other| machine_file::beside(path, other));
     let plan = plan.map_err(|error| named(path, &error))?;
-    match &plan {
-        StudyPlan::Oscillator(plan) => plan.check()?,
-        // a machine is in the file, so the file is named
-        StudyPlan::Machine(plan) => plan.check().map_err(|error| named(path, &error))?,
+    // a machine is in the file, so the file is named
+    let checked = plan.check();
+    match checked {
+        Err(error) if plan.machine().is_some() => Err(named(path, &error)),
+        checked => Ok(checked.map(|()| plan)?),
     }
-    Ok(plan)
 }
 
 fn text(path: &Path) -> Result<String, Failure> {
@@ -79,15 +79,16 @@ fn named(path: &Path, error: &PlanError) -> Failure {
 }
 
 /// The plan of a machine that fills no grid: its result is printed.
-fn run_machine(args: &Run, plan: &MachinePlan, session: &Session) -> Result<(), Failure> {
+fn run_machine(args: &Run, plan: Plan, session: &Session) -> Result<(), Failure> {
     if args.store.is_some() || args.tiles.is_some() || args.budget.get().is_some() {
-        return Err(Study::new(plan).err().map_or_else(|| Failure::bad("the plan fills no store"), Failure::from));
+        return Err(Study::new(&plan).err().map_or_else(|| Failure::bad("the plan fills no store"), Failure::from));
     }
     args.colour.coloured(false)?;
     args.overlay.overlay(false, false)?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
     let name = args.plan.file_stem().map_or_else(|| "machine".into(), |stem| stem.to_string_lossy());
-    of_machine_plan::run(&name, plan, (outputs, Shown::default()), session)
+    let question = Question { plan, units: Units::default(), machine: Some(&name) };
+    respond::run(&question, (outputs, Shown::default()), None, session)
 }
 
 /// The default place of the store of a plan.
@@ -98,10 +99,8 @@ pub(super) fn default_store(plan: &Path) -> String {
 
 pub(super) fn run(args: &Run, session: &Session) -> Result<(), Failure> {
     let plan = read(&args.plan)?;
-    if let StudyPlan::Machine(machine) = &plan
-        && !machine.fills_a_grid()
-    {
-        return run_machine(args, machine, session);
+    if plan.machine().is_some() && !plan.fills_a_grid() {
+        return run_machine(args, plan, session);
     }
     let outputs = Outputs::reserve(args.output.files(), session)?;
     let place = args.store.clone().unwrap_or_else(|| default_store(&args.plan));

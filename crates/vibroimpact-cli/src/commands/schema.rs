@@ -3,8 +3,8 @@
 use crate::failure::Failure;
 use crate::session::Session;
 use vibroimpact_report::json;
+use vibroimpact_study::Plan;
 use vibroimpact_study::machine::MachineSource;
-use vibroimpact_study::{MachinePlan, Plan};
 
 /// Print the JSON schema of plans, of machine files, of plans of machines or of answers, for editors and other programs
 #[derive(Clone, Debug, clap::Args)]
@@ -30,7 +30,7 @@ pub(super) fn run(args: &Schema, session: &Session) -> Result<(), Failure> {
             Failure::bad(format!("`{verb}` has no schema of an answer\nhint: one of {}", known.join(", ")))
         })?,
         (_, true, _) => MachineSource::schema(),
-        (_, _, true) => MachinePlan::schema(),
+        (_, _, true) => Plan::machine_schema(),
         _ => Plan::schema(),
     };
     let text = serde_json::to_string_pretty(&schema)

@@ -2,14 +2,14 @@
 
 use crate::args::{MachineArgs, OutputArgs, StartArgs, StartOfMachineArgs, SystemArgs, number, whole};
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, respond};
+use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::{Args, ValueEnum};
 use vibroimpact::verdict::{PaperRule, paper_rule};
-use vibroimpact_report::Shown;
 use vibroimpact_report::scene::View;
-use vibroimpact_study::{MachineTask, Plan, Results, Task};
+use vibroimpact_report::{Answer, Shown};
+use vibroimpact_study::{Results, Task};
 
 /// What the motion from a start settles into, and on what grounds
 ///
@@ -103,23 +103,19 @@ enum Rule {
 
 pub(super) fn run(args: &Settle, session: &Session) -> Result<(), Failure> {
     let start = Some((&args.of_machine, args.start.phase));
-    let task = || match args.rule {
-        Rule::Confirmed => Ok(MachineTask::Settle { impacts: args.impacts }),
-        Rule::Paper => Err(Failure::bad("--rule paper is for oscillators: the paper has no machines")),
-    };
-    let look = |_: bool| args.look();
-    if let Some(answer) = of_machine::asked(&args.machine, start, task, args.output.files(), (None, look), session) {
-        return answer;
+    let system = args.machine.or_oscillator(start, || args.system.asked())?;
+    if system.is_machine() && args.rule == Rule::Paper {
+        return Err(Failure::bad("--rule paper is for oscillators: the paper has no machines"));
     }
-    let asked = args.system.asked()?;
-    let start = args.start.plan(&asked.units);
-    let plan = Plan::new(asked.system, Task::Settle { start, impacts: args.impacts });
-    plan.check()?;
+    let start = system.start(&args.start);
+    let question = system.question(Task::Settle { start, impacts: args.impacts })?;
     let rule = args.paper_rule()?;
     let shown = args.look()?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
-    let mut answer = respond::compute(&plan, asked.units, session)?;
-    if let (Some(rule), Results::Settle(start, _)) = (rule, &answer.results) {
+    let mut answer = respond::compute(&question, session)?;
+    if let (Some(rule), Answer::Oscillator(answer)) = (rule, &mut answer)
+        && let Results::Settle(start, _) = &answer.results
+    {
         answer.paper_rule = Some((rule, paper_rule(&answer.osc, *start, rule)));
     }
     respond::tell(&answer, (outputs, shown), session)

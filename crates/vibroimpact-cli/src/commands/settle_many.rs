@@ -5,7 +5,7 @@ use crate::args::{
     SystemStretchesArgs, TableArgs, VariedOver, whole,
 };
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, stored};
+use crate::commands::{respond, stored};
 use crate::failure::Failure;
 use crate::points_file;
 use crate::session::Session;
@@ -14,8 +14,8 @@ use core::str::FromStr;
 use std::path::PathBuf;
 use vibroimpact_report::{Asked, Shown, Units};
 use vibroimpact_study::{
-    BasinPlan, Coordinate, DrawnPoints, ListedColumn, MachineManyPlan, MachineStretch, MachineTask, Parameter, Plan,
-    PointRange, PointRule, PointsPlan, StartPlan, StudyPlan, Task,
+    BasinPlan, Coordinate, DrawnPoints, ListedColumn, ManyPlan, Parameter, PointRange, PointRule, PointsPlan,
+    StartPlan, Task,
 };
 
 /// Which motion each of many systems and starts leads to: points from a table, or drawn from ranges
@@ -130,8 +130,8 @@ impl SettleMany {
             (Some(path), _) => Ok(PointsPlan::Listed(points_file::read_for_machine(path)?)),
             (None, Some(Drawn(rule, count))) => {
                 let range = |over: &VariedOver| {
-                    let MachineStretch { path: vary, from, to } = over.stretch();
-                    PointRange { vary, from, to }
+                    let (from, to) = over.ends();
+                    PointRange { vary: over.0.path(), from, to }
                 };
                 if self.over.is_empty() {
                     return Err(Failure::bad(
@@ -141,7 +141,7 @@ impl SettleMany {
                 let over = self.over.iter().map(range).collect();
                 Ok(PointsPlan::Drawn(DrawnPoints { rule, count, seed: self.seed, over }))
             }
-            (None, None) => Err(Failure::bad("there are no points\nhint: --points FILE.csv, or --sample lhs:N")),
+            (None, None) => Err(without_points()),
         }
     }
 
@@ -240,33 +240,40 @@ impl SettleMany {
 }
 
 pub(super) fn run(args: &SettleMany, session: &Session) -> Result<(), Failure> {
-    let task = || {
-        if args.store.filling().is_some() || args.transient {
+    let mut points = None;
+    let oscillator = || {
+        let (asked, of_oscillator) = match (&args.points, args.sample) {
+            (Some(path), _) => args.listed(points_file::read(path)?)?,
+            (None, Some(drawn)) => args.drawn(drawn)?,
+            (None, None) => return Err(without_points()),
+        };
+        points = Some(of_oscillator);
+        Ok(asked)
+    };
+    let system = args.of_machine.or_oscillator(Some((&args.start_of_machine, None)), oscillator)?;
+    let fields = system.paths(&args.fields)?;
+    let task: Task = match points {
+        Some(points) => {
+            let task = BasinPlan { impacts: args.impacts, ..BasinPlan::of_points(points, args.start(&system.units())) };
+            BasinPlan { fields: args.fields.quantities()?, transient: args.transient, ..task }.into()
+        }
+        None if args.store.filling().is_some() || args.transient => {
             return Err(Failure::bad("--store and --transient are for points of oscillators\nhint: --csv FILE"));
         }
-        let (impacts, fields) = (args.impacts, args.fields.paths());
-        Ok(MachineTask::SettleMany(MachineManyPlan { points: args.points_of_machine()?, impacts, fields }))
+        None => ManyPlan { points: args.points_of_machine()?, impacts: args.impacts, fields }.into(),
     };
-    let usual = (None, of_machine::usual);
-    let start = Some((&args.start_of_machine, None));
-    if let Some(answer) = of_machine::asked(&args.of_machine, start, task, args.output.files(), usual, session) {
-        return answer;
-    }
-    let (asked, points) = match (&args.points, args.sample) {
-        (Some(path), _) => args.listed(points_file::read(path)?)?,
-        (None, Some(drawn)) => args.drawn(drawn)?,
-        (None, None) => return Err(Failure::bad("there are no points\nhint: --points FILE.csv, or --sample lhs:N")),
-    };
-    let task = BasinPlan {
-        impacts: args.impacts,
-        fields: args.fields.quantities()?,
-        transient: args.transient,
-        ..BasinPlan::of_points(points, args.start(&asked.units))
-    };
-    let plan = Plan { units: asked.units.plan(), ..Plan::new(asked.system, Task::Basin(task)) };
-    let plan = StudyPlan::from(&args.store.tiled(plan)?);
+    let question = system.stored(task, Some(&args.store))?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
-    stored::filled(&plan, args.store.filling(), (outputs, Shown::default()), session)
+    let looks = (outputs, Shown::default());
+    // the points of an oscillator are a study
+    if question.machine.is_some() {
+        return respond::run(&question, looks, None, session);
+    }
+    stored::filled(&question.plan, args.store.filling(), looks, session)
+}
+
+fn without_points() -> Failure {
+    Failure::bad("there are no points\nhint: --points FILE.csv, or --sample lhs:N")
 }
 
 #[cfg(test)]

@@ -2,12 +2,12 @@
 
 use crate::args::{MachineArgs, OutputArgs, StartArgs, StartOfMachineArgs, SystemArgs, number, whole};
 use crate::commands::outputs::Outputs;
-use crate::commands::{of_machine, respond};
+use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use vibroimpact_report::Shown;
-use vibroimpact_study::{MachinePlan, MachineTask, Plan, Task};
+use vibroimpact_study::Task;
 
 /// Follow a motion event by event: impacts, grazes, sticking, release
 ///
@@ -58,25 +58,15 @@ pub(crate) struct Simulate {
 }
 
 pub(super) fn run(args: &Simulate, session: &Session) -> Result<(), Failure> {
-    if let Some(name) = &args.machine.machine {
-        let task = MachineTask::Simulate { impacts: args.impacts, periods: args.periods };
-        let plan = MachinePlan::new(args.machine.source(Some((&args.of_machine, args.start.phase)))?, task);
-        plan.check()?;
-        let step = checked(args.step)?;
-        let outputs = Outputs::reserve(args.output.files(), session)?;
-        return of_machine::run(name, &plan, (outputs, Shown { step, ..Shown::default() }), session);
-    }
-    let asked = args.system.asked()?;
-    let start = args.start.plan(&asked.units);
-    let task = Task::Simulate { start, impacts: args.impacts, periods: args.periods };
-    let plan = Plan::new(asked.system, task);
-    plan.check()?;
-    let step = checked(args.step.map(|step| step / asked.units.time()))?;
+    let start = Some((&args.of_machine, args.start.phase));
+    let system = args.machine.or_oscillator(start, || args.system.asked())?;
+    let (start, time) = (system.start(&args.start), system.units().time());
+    let question = system.question(Task::Simulate { start, impacts: args.impacts, periods: args.periods })?;
+    let step = checked(args.step.map(|step| step / time))?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
-    respond::run(&plan, asked.units, (outputs, Shown { step, ..Shown::default() }), None, session)
+    respond::run(&question, (outputs, Shown { step, ..Shown::default() }), None, session)
 }
 
-/// The time between points of a waveform, if it is one.
 fn checked(step: Option<f64>) -> Result<Option<f64>, Failure> {
     match step {
         Some(step) if !(step > 0.0 && step.is_finite()) => {

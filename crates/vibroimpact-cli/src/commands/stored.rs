@@ -12,7 +12,7 @@ use vibroimpact_report::figure::overlay::Overlay;
 use vibroimpact_report::figure::stored::figure;
 use vibroimpact_store::{Memory, Part, Ran, Store, StoreError, costs_beside, shelf};
 use vibroimpact_study::study::check_memory;
-use vibroimpact_study::{Control, Study, StudyPlan, counted};
+use vibroimpact_study::{Control, Plan, Study, System, counted};
 
 /// The fields about the store in a JSON object.
 #[derive(Serialize)]
@@ -38,7 +38,7 @@ pub(super) fn open(place: &str) -> Result<Store, Failure> {
 }
 
 /// Opens the store of a plan, and creates it if absent.
-fn begin(plan: &StudyPlan, place: &str) -> Result<Store, Failure> {
+fn begin(plan: &Plan, place: &str) -> Result<Store, Failure> {
     Ok(Store::create(shelf(place)?, plan)?.with_costs(costs_beside(place)?))
 }
 
@@ -87,17 +87,17 @@ impl Filled {
 }
 
 /// Refuses what the figure of a study cannot show.
-pub(super) fn check_overlay(overlay: &Overlay, plan: &StudyPlan, coloured: bool) -> Result<(), Failure> {
-    match plan {
-        StudyPlan::Oscillator(plan) => Ok(overlay.check(plan, coloured)?),
-        StudyPlan::Machine(_) if overlay.plain() => Ok(()),
-        StudyPlan::Machine(_) => Err(Failure::bad("--layers, --mark and --line are for maps without --machine")),
+pub(super) fn check_overlay(overlay: &Overlay, plan: &Plan, coloured: bool) -> Result<(), Failure> {
+    match &plan.system {
+        System::Oscillator(_) => Ok(overlay.check(plan, coloured)?),
+        System::Machine(_) if overlay.plain() => Ok(()),
+        System::Machine(_) => Err(Failure::bad("--layers, --mark and --line are for maps without --machine")),
     }
 }
 
 /// Fills a store according to the flags of a command, then writes the requested outputs from it.
 pub(super) fn run(
-    plan: &StudyPlan,
+    plan: &Plan,
     filling: &Filling<'_>,
     (outputs, shown): (Outputs, Shown),
     session: &Session,
@@ -114,7 +114,7 @@ pub(super) fn run(
 
 /// Computes a study, in a store if one is named, and writes the requested outputs.
 pub(super) fn filled(
-    plan: &StudyPlan,
+    plan: &Plan,
     filling: Option<Filling<'_>>,
     outputs: (Outputs, Shown),
     session: &Session,
@@ -126,7 +126,7 @@ pub(super) fn filled(
 }
 
 /// Computes a study in memory, and writes the requested outputs.
-fn run_in_memory(plan: &StudyPlan, (outputs, shown): (Outputs, Shown), session: &Session) -> Result<(), Failure> {
+fn run_in_memory(plan: &Plan, (outputs, shown): (Outputs, Shown), session: &Session) -> Result<(), Failure> {
     // before anything is allocated
     check_memory(&Study::new(plan)?)?;
     let store = Store::create(Arc::new(Memory::default()), plan)?;

@@ -17,7 +17,8 @@ pub(crate) fn text(found: &EventCurve, plan: &CurvePlan, units: &Units) -> Strin
         format!("{} from {} to {}", name(stretch.parameter), short(stretch.from * unit), short(stretch.to * unit))
     };
     let (p, kind) = (plan.vary.parameter, plan.kind.name());
-    let mut text = format!("{kind} of {} ({})\n", plan.label.trim(), chosen(&found.chosen));
+    let mut text =
+        format!("{kind} of {} ({})\n", plan.label.as_deref().unwrap_or_default().trim(), chosen(&found.chosen));
     let found_at: Vec<String> = found.events.iter().map(|event| precise(event.value * units.of(p))).collect();
     let which =
         if found_at.len() > 1 { format!(", the curve is that of number {}", found.through + 1) } else { String::new() };
@@ -39,7 +40,8 @@ pub(crate) fn text(found: &EventCurve, plan: &CurvePlan, units: &Units) -> Strin
             // at an event itself rounding decides, so the neighbouring points are used
             let beside = [k.checked_sub(1).and_then(|k| all.get(k)), all.get(k + 1)];
             let physical = point.physical || beside.into_iter().flatten().any(|point| point.physical);
-            let motion = if physical { plan.label.trim() } else { "inadmissible" }.to_owned();
+            let motion =
+                if physical { plan.label.as_deref().unwrap_or_default().trim() } else { "inadmissible" }.to_owned();
             Some(vec![point.event?.name().into(), precise(p), precise(q), motion])
         })
         .collect();

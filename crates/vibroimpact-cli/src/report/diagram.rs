@@ -6,7 +6,7 @@ use vibroimpact_report::Units;
 use vibroimpact_report::json::diagram::{Counts, counts, machine_counts};
 use vibroimpact_report::number::short;
 use vibroimpact_study::diagram::Show;
-use vibroimpact_study::{Diagram, MachineDiagram, MachineStretch, Stretch, counted};
+use vibroimpact_study::{Diagram, MachineDiagram, Stretch, counted};
 
 /// The parameters that vary, and one row for each sweep.
 pub(crate) fn text(found: &Diagram, units: &Units) -> String {
@@ -63,7 +63,7 @@ pub(crate) fn of_machine(found: &MachineDiagram) -> String {
     let plan = &found.plan;
     let (from, to) = plan.over.ends();
     let noun = if plan.shows_closings() { "closing" } else { "forcing period" };
-    let also = plan.also.as_ref().map_or_else(String::new, |MachineStretch { path, from, to }| {
+    let also = plan.also.as_ref().map_or_else(String::new, |Stretch { parameter: path, from, to }| {
         format!(", {path} from {} to {}", short(*from), short(*to))
     });
     format!(

@@ -17,13 +17,13 @@ use vibroimpact::orbit::MachineCycle;
 use vibroimpact::quantities::machine::Part;
 use vibroimpact::quantities::{Quantity, machine_quantities};
 use vibroimpact::verdict::{Chaos, Stability, Undecided, UndecidedCause, Verdict};
-use vibroimpact_report::MachineAnswer;
+use vibroimpact_report::answer::machine::Answer;
 use vibroimpact_report::json::undecided;
 use vibroimpact_report::number::short;
-use vibroimpact_study::{MachineResults, counted};
+use vibroimpact_study::{MachineResults, Task, counted};
 
 /// The answer, with a line for each motion, event or exponent.
-pub(crate) fn text(answer: &MachineAnswer) -> String {
+pub(crate) fn text(answer: &Answer) -> String {
     let machine = &answer.machine;
     let mut text = String::new();
     match &answer.results {
@@ -90,7 +90,11 @@ pub(crate) fn text(answer: &MachineAnswer) -> String {
             text.push_str(&margins::of_machine(found, machine, motion(machine, &found.motion)));
         }
         MachineResults::Region(found) => {
-            text.push_str(&region::of_machine(found, &answer.plan.task, &answer.plan.machine));
+            if let Task::Region(plan) = &answer.plan.task
+                && let Ok(plan) = plan.typed()
+            {
+                text.push_str(&region::of_machine(found, &plan, &answer.source));
+            }
         }
         MachineResults::Response(found) => {
             let view = answer.response(found);

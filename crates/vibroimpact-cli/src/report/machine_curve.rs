@@ -4,21 +4,27 @@ use crate::report::words::table;
 use core::fmt::Write;
 use vibroimpact::machine::Machine;
 use vibroimpact_report::number::{precise, short};
-use vibroimpact_study::{MachineEventCurve, MachineStretch, MachineTask, counted};
+use vibroimpact_study::{MachineEventCurve, Name, Stretch, Task, Variable, counted};
 
 /// The description of a curve, and the events on it from one end to the other.
-pub(crate) fn text(machine: &Machine, task: &MachineTask, found: &MachineEventCurve) -> String {
-    let MachineTask::Curve(plan) = task else { return String::new() };
-    let over =
-        |stretch: &MachineStretch| format!("{} from {} to {}", stretch.path, short(stretch.from), short(stretch.to));
+pub(crate) fn text(machine: &Machine, task: &Task, found: &MachineEventCurve) -> String {
+    let Task::Curve(plan) = task else { return String::new() };
+    let over = |stretch: &Stretch<Variable>| {
+        format!("{} from {} to {}", stretch.parameter.text(), short(stretch.from), short(stretch.to))
+    };
     let mut text = format!("{} of {}\n", found.kind.name(), found.label);
     let found_at: Vec<String> = found.events.iter().map(|event| precise(event.value)).collect();
     let which =
         if found_at.len() > 1 { format!(", the curve is that of number {}", found.through + 1) } else { String::new() };
-    let _ = writeln!(text, "  found at {} {}{which}", plan.vary.path, found_at.join(", "));
+    let _ = writeln!(text, "  found at {} {}{which}", plan.vary.parameter.text(), found_at.join(", "));
     let points = counted(found.points.len() as u64, "point");
     let _ = writeln!(text, "  followed over {}, {}: {points}", over(&plan.vary), over(&plan.and));
-    let heads = ["<event".to_owned(), plan.vary.path.clone(), plan.and.path.clone(), "<motion".into()];
+    let heads = [
+        "<event".to_owned(),
+        plan.vary.parameter.text().to_owned(),
+        plan.and.parameter.text().to_owned(),
+        "<motion".into(),
+    ];
     let rows: Vec<Vec<String>> = found
         .points
         .iter()

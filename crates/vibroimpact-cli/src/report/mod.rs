@@ -27,13 +27,45 @@ mod undecided;
 mod words;
 
 use crate::failure::Failure;
+use vibroimpact::events::MachineEnd;
+use vibroimpact::machine::Machine;
+use vibroimpact::verdict::{Undecided, UndecidedCause, Verdict};
 use vibroimpact_report::Answer;
+use vibroimpact_report::answer::oscillator;
 use vibroimpact_report::response::ResponseView;
-use vibroimpact_study::{Results, Task};
+use vibroimpact_study::{MachineResults, Name, Parameter, Results, SEARCH_LIMIT, Task};
 
 /// The text that a command prints, unless JSON or a table on stdout was requested.
 pub(crate) fn text(answer: &Answer) -> Result<String, Failure> {
-    let Answer { plan, asked, osc, results, paper_rule } = answer;
+    match answer {
+        Answer::Oscillator(answer) => of_oscillator(answer),
+        Answer::Machine(answer) => Ok(match &answer.results {
+            MachineResults::Simulate(found) => machine_events::events(&answer.machine, found),
+            _ => machine_answers::text(answer),
+        }),
+    }
+}
+
+/// Whether the motion is not known to its end, because a search for the next event used all its steps.
+pub(crate) fn ended_by_search(answer: &Answer) -> bool {
+    let ended = |verdict: &Verdict<Machine>| {
+        matches!(verdict, Verdict::Undecided(Undecided { why: UndecidedCause::Ended(MachineEnd::SearchLimit), .. }))
+    };
+    match answer {
+        Answer::Oscillator(answer) => {
+            matches!(&answer.results, Results::Simulate(_, found) if found.reason == SEARCH_LIMIT)
+        }
+        Answer::Machine(answer) => match &answer.results {
+            MachineResults::Simulate(found) => found.reason == SEARCH_LIMIT,
+            MachineResults::Settle(found) => ended(&found.verdict),
+            MachineResults::Lyapunov(found, _) => ended(&found.motion),
+            _ => false,
+        },
+    }
+}
+
+fn of_oscillator(answer: &oscillator::Answer) -> Result<String, Failure> {
+    let oscillator::Answer { asked, osc, results, paper_rule, plan } = answer;
     let units = &asked.units;
     let system = || words::system(asked, osc) + "\n";
     let from = |start| words::system(asked, osc) + &words::start(start, units);
@@ -45,17 +77,18 @@ pub(crate) fn text(answer: &Answer) -> Result<String, Failure> {
         }
         (Task::Orbit { label }, Results::Orbit(found)) => system() + &orbit::text(found, label, osc, units),
         (_, Results::Basin(found)) => system() + &basin::text(found, osc),
-        (_, Results::Map(found)) => map::text(found, plan.system.second_stop.is_some()),
+        (_, Results::Map(found)) => map::text(found, asked.system.second_stop.is_some()),
         (_, Results::Diagram(found)) => diagram::text(found, units),
         (_, Results::Lyapunov(start, found, _)) => from(start) + "\n" + &lyapunov::text(found, osc.period(), units),
         (Task::Branch(task), Results::Branch(found)) => {
-            system() + &branch::text(found, &task.cut(&asked.system)?, units)
+            system() + &branch::text(found, &task.typed::<Parameter>()?.cut(&asked.system)?, units)
         }
-        (Task::Curve(task), Results::Curve(found)) => system() + &curve::text(found, task, units),
-        (Task::Region(task), Results::Region(found)) => region::text(found, task, asked),
-        (Task::Response(task), Results::Response(found)) => {
-            response::text(&ResponseView::of_oscillator(found, task, units), &branch::named(task.vary, units))
-        }
+        (Task::Curve(task), Results::Curve(found)) => system() + &curve::text(found, &task.typed()?, units),
+        (Task::Region(task), Results::Region(found)) => region::text(found, &task.typed()?, asked),
+        (Task::Response(task), Results::Response(found)) => response::text(
+            &ResponseView::of_oscillator(found, task, units)?,
+            &branch::named(Parameter::of(task.vary.text())?, units),
+        ),
         (_, Results::Margins(found)) => match &found.start {
             Some(start) => from(start) + "\n" + &margins::text(found, osc, units),
             None => system() + &margins::text(found, osc, units),
@@ -66,6 +99,7 @@ pub(crate) fn text(answer: &Answer) -> Result<String, Failure> {
 
 /// Hints for the next command.
 pub(crate) fn hints(answer: &Answer) -> Vec<String> {
+    let Answer::Oscillator(answer) = answer else { return Vec::new() };
     let next = match answer.results {
         Results::Settle(..) => Some("`vibro attractors` shows what other starts lead to"),
         Results::Attractors(_) => {

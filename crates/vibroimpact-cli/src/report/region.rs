@@ -9,7 +9,7 @@ use vibroimpact_report::number::short;
 use vibroimpact_report::table::region::both;
 use vibroimpact_report::{Asked, Units};
 use vibroimpact_study::machine::MachineSource;
-use vibroimpact_study::{MachineStretch, MachineTask, Parameter, RegionPlan, Regions, Stretch};
+use vibroimpact_study::{Parameter, RegionPlan, Regions, Stretch};
 
 /// The text of the range of a parameter.
 fn over(stretch: &Stretch, units: &Units) -> String {
@@ -28,11 +28,11 @@ pub(crate) fn text(found: &Regions, plan: &RegionPlan, Asked { system, units }: 
 }
 
 /// The same of a machine.
-pub(crate) fn of_machine(found: &Regions, task: &MachineTask, source: &MachineSource) -> String {
-    let MachineTask::Region(plan) = task else { return String::new() };
-    let over =
-        |stretch: &MachineStretch| format!("{} from {} to {}", stretch.path, short(stretch.from), short(stretch.to));
-    let names = [plan.across.path.clone(), plan.up.path.clone()];
+pub(crate) fn of_machine(found: &Regions, plan: &RegionPlan<String>, source: &MachineSource) -> String {
+    let over = |stretch: &Stretch<String>| {
+        format!("{} from {} to {}", stretch.parameter, short(stretch.from), short(stretch.to))
+    };
+    let names = [plan.across.parameter.clone(), plan.up.parameter.clone()];
     let text = format!("{} over {}, {}\n", plan.label.trim(), over(&plan.across), over(&plan.up));
     text + &polygons(found, (&names, (1.0, 1.0), plan.grid), (plan.neutral(source), false))
 }

@@ -3,7 +3,7 @@
 
 use std::io;
 use vibroimpact_store::{Store, StoreError};
-use vibroimpact_study::study::{StudyPlan, closed_of, has_closed};
+use vibroimpact_study::study::{closed_of, has_closed};
 use vibroimpact_study::{Column, Field};
 
 /// The fields of a store that say more of some labels, where there are such motions.
@@ -20,7 +20,7 @@ pub(super) struct Remarks {
 impl Remarks {
     /// The remarks of a store with these fields.
     pub(super) fn of(store: &Store, fields: &[Field], failed: impl Fn(&StoreError) -> io::Error) -> io::Result<Self> {
-        let StudyPlan::Machine(plan) = store.plan() else { return Ok(Self::default()) };
+        let Some(machine) = store.plan().machine() else { return Ok(Self::default()) };
         // whether there is a motion with a remark in a field
         let some = |k: usize| {
             let mut some = false;
@@ -41,7 +41,7 @@ impl Remarks {
         if let Some(k) = seen {
             seen = some(k)?.then_some(k);
         }
-        let (machine, _) = plan.described().map_err(io::Error::other)?;
+        let (machine, _) = machine.described().map_err(io::Error::other)?;
         Ok(Self { stops: machine.stops().iter().map(|stop| stop.name.clone()).collect(), closed, seen })
     }
 

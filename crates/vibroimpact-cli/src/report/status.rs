@@ -8,7 +8,7 @@ use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 use std::time::{Duration, SystemTime};
 use vibroimpact_store::{Progress, RegionCost, Store, TileCosts};
-use vibroimpact_study::{Grid, StudyPlan, counted};
+use vibroimpact_study::{Grid, Plan, counted};
 
 /// The progress of a store.
 pub(crate) struct Status<'a> {
@@ -54,7 +54,7 @@ struct StatusFields<'a> {
     missing_left_out: u64,
     bytes: u64,
     begun_by: &'a str,
-    plan: &'a StudyPlan,
+    plan: &'a Plan,
     plan_hash: String,
 }
 

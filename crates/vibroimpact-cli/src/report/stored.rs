@@ -17,10 +17,11 @@ use vibroimpact_report::table::diagram;
 use vibroimpact_report::{PROGRAM, Units};
 use vibroimpact_store::{Store, StoreError};
 use vibroimpact_study::study::{
-    Along, NO_MOTION, NOT_COMPUTED, REFUSED, StudyPlan, UNDECIDED, diagram_of, label_of, machine_diagram_of,
+    Along, NO_MOTION, NOT_COMPUTED, REFUSED, UNDECIDED, diagram_of, label_of, machine_diagram_of,
 };
 use vibroimpact_study::{
-    Axis, Block, Column, Dimension, Field, MachineTask, PlanError, PointsPlan, Quantity, Task, Values,
+    Axis, Block, Column, Dimension, Field, Plan, PlanError, PointsPlan, Quantity, System, Task, Values, Variable,
+    typed_axes,
 };
 
 /// A JSON object about a store.
@@ -31,7 +32,7 @@ pub(crate) struct StoredFields<'a, Filled: Serialize> {
     points: u64,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     labels: Vec<LabelCount>,
-    plan: &'a StudyPlan,
+    plan: &'a Plan,
     plan_hash: String,
     program: &'static str,
 }
@@ -121,8 +122,8 @@ pub(crate) fn summary(store: &Store) -> Result<String, Failure> {
 }
 
 /// The title of a plan, with the axes in the units of the results.
-pub(crate) fn title(plan: &StudyPlan) -> String {
-    let (title, units) = (plan.title(), units_of(plan));
+pub(crate) fn title(plan: &Plan) -> String {
+    let (title, units) = (plan.title(), Units::of_plan(plan));
     let names: Vec<&str> = plan_axes(plan).iter().map(|axis| units.column_of_coordinate(axis.vary)).collect();
     match title.split_once(" over ") {
         Some((what, _)) if !names.is_empty() => format!("{what} over {}", names.join(", ")),
@@ -130,15 +131,11 @@ pub(crate) fn title(plan: &StudyPlan) -> String {
     }
 }
 
-/// The units of the results of a plan; the numbers of a machine are in its own.
-fn units_of(plan: &StudyPlan) -> Units {
-    plan.oscillator().map(Units::of_plan).unwrap_or_default()
-}
-
 /// The name of a dimension as in the header of the table.
-fn column_of(dimension: &Dimension, plan: &StudyPlan) -> String {
-    let axis = plan_axes(plan).iter().find(|axis| axis.vary.name() == dimension.name);
-    axis.map_or_else(|| dimension.name.clone(), |axis| units_of(plan).column_of_coordinate(axis.vary).to_owned())
+fn column_of(dimension: &Dimension, plan: &Plan) -> String {
+    let axes = plan_axes(plan);
+    let axis = axes.iter().find(|axis| axis.vary.name() == dimension.name);
+    axis.map_or_else(|| dimension.name.clone(), |axis| Units::of_plan(plan).column_of_coordinate(axis.vary).to_owned())
 }
 
 /// The fields of a short table, which are those of the command without a store.
@@ -149,27 +146,24 @@ const SHORT: [&str; 2] = ["label", "share"];
 /// For an orbit diagram the table is that of `vibro diagram`.
 pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Result<()> {
     let columns = || (0..store.study().fields().len()).map(|k| store.column(k)).collect::<Result<Vec<_>, _>>();
-    match store.plan() {
-        StudyPlan::Oscillator(plan) => {
-            if let Task::Diagram(task) = &plan.task {
-                let found = diagram_of(task, &columns().map_err(io::Error::other)?);
-                return diagram::table(&found, units_of(store.plan())).map_err(io::Error::other)?.write(out);
-            }
+    let plan = store.plan();
+    match (&plan.system, &plan.task) {
+        (System::Oscillator(_), Task::Diagram(task)) => {
+            let task = task.typed().map_err(io::Error::other)?;
+            let found = diagram_of(&task, &columns().map_err(io::Error::other)?);
+            return diagram::table(&found, Units::of_plan(plan)).map_err(io::Error::other)?.write(out);
         }
-        StudyPlan::Machine(plan) => {
-            if let MachineTask::Diagram(task) = &plan.task {
-                let found = machine_diagram_of(task, &columns().map_err(io::Error::other)?);
-                let (machine, _) = plan.described().map_err(io::Error::other)?;
-                return diagram::of_machine(&found, &machine).write(out);
-            }
+        (System::Machine(machine), Task::Diagram(task)) => {
+            let task = task.typed().map_err(io::Error::other)?;
+            let found = machine_diagram_of(&task, &columns().map_err(io::Error::other)?);
+            let (machine, _) = machine.described().map_err(io::Error::other)?;
+            return diagram::of_machine(&found, &machine).write(out);
         }
+        _ => {}
     }
     let (study, all) = (store.study(), store.study().fields());
-    let units = units_of(store.plan());
-    let asked: &[String] = match store.plan() {
-        StudyPlan::Machine(plan) => plan.fields(),
-        StudyPlan::Oscillator(_) => &[],
-    };
+    let units = Units::of_plan(plan);
+    let asked: &[String] = if plan.machine().is_some() { plan.task.fields() } else { &[] };
     let short = |field: &Field| {
         is_short(field)
             || Quantity::from_name(&field.name).is_some()
@@ -198,8 +192,9 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
     let mut head: Vec<String> = study.grid().dimensions.iter().rev().map(name).collect();
     head.extend(further.iter().map(|of| units.column(&of.name, of.unit.kind())));
     let points = plan_points(store.plan());
-    let columns =
-        points.into_iter().flat_map(|points| points.varied().map(|vary| Axis::new(vary, Values::Listed(Vec::new()))));
+    let known = |name: Variable| if let Variable::Coordinate(coordinate) = name { Some(coordinate) } else { None };
+    let columns = points.into_iter().flat_map(PointsPlan::varied).filter_map(known);
+    let columns = columns.map(|vary| Axis::new(vary, Values::Listed(Vec::new())));
     let varied: Vec<Axis> = axes.iter().cloned().chain(columns).collect();
     let of_points = |index: &[usize]| {
         let dimensions = &study.grid().dimensions;
@@ -252,19 +247,18 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
 }
 
 /// The points of a plan, if it has any.
-fn plan_points(plan: &StudyPlan) -> Option<&PointsPlan> {
-    match plan.oscillator().map(|plan| &plan.task) {
-        Some(Task::Basin(basin)) => basin.points.as_ref(),
+fn plan_points(plan: &Plan) -> Option<&PointsPlan<Variable>> {
+    match &plan.task {
+        Task::Basin(basin) => basin.points.as_ref(),
         _ => None,
     }
 }
 
-/// The axes of a plan of the oscillator.
-fn plan_axes(plan: &StudyPlan) -> &[Axis] {
-    match plan.oscillator().map(|plan| &plan.task) {
-        Some(Task::Map(map)) => &map.axes,
-        Some(Task::Basin(basin)) => &basin.axes,
-        _ => &[],
+/// The axes of a map or a basin of an oscillator.
+fn plan_axes(plan: &Plan) -> Vec<Axis> {
+    match (&plan.system, &plan.task) {
+        (System::Oscillator(_), Task::Map(_) | Task::Basin(_)) => typed_axes(plan.task.axes()).unwrap_or_default(),
+        _ => Vec::new(),
     }
 }
 

@@ -1,7 +1,7 @@
 //! What decides more, where motions are undecided.
 
 use vibroimpact::verdict::{SettleOptions, Undecided, UndecidedCause, Verdict};
-use vibroimpact_report::Answer;
+use vibroimpact_report::answer::oscillator::Answer;
 use vibroimpact_study::{Results, Task};
 
 /// The largest budget of impacts.
@@ -21,8 +21,9 @@ pub(super) fn hint(answer: &Answer) -> Option<String> {
         Task::Response(task) => (task.impacts, true),
         Task::Lyapunov(task) => {
             let open = matches!(&answer.results, Results::Lyapunov(_, found, _) if unsettled(&found.motion));
-            let longer = task.impacts.saturating_mul(10).min(MOST_MEASURED);
-            return (open && longer > task.impacts).then(|| format!("--impacts {longer} measures over more impacts"));
+            let (impacts, _) = task.lengths();
+            let longer = impacts.saturating_mul(10).min(MOST_MEASURED);
+            return (open && longer > impacts).then(|| format!("--impacts {longer} measures over more impacts"));
         }
         _ => return None,
     };

@@ -3,9 +3,9 @@
 use super::{json, vibro};
 use std::collections::BTreeSet;
 use std::fs;
-use vibroimpact_report::{Shown, machine_answer};
+use vibroimpact_report::{Shown, Units, answer};
 use vibroimpact_study::machine::{CATALOGUE, MachineSource, no_files};
-use vibroimpact_study::{Control, MachinePlan, MachineTask};
+use vibroimpact_study::{Control, Plan, Task};
 
 fn printed(line: &str) -> String {
     let output = vibro(line).output().expect("vibro runs");
@@ -114,7 +114,7 @@ fn the_schema_of_plans_of_machines() {
     let schema: serde_json::Value = serde_json::from_str(&printed("schema --machine-plan")).unwrap();
     assert_eq!(schema["additionalProperties"], false);
     assert_eq!(schema["required"], serde_json::json!(["version", "machine", "task"]));
-    assert!(schema["$defs"]["MachineTask"].to_string().contains("periods"), "{schema}");
+    assert!(schema["$defs"]["Task"].to_string().contains("periods"), "{schema}");
 }
 
 /// The contact of SDND101 has a closed form: half a period of the mass on both springs.
@@ -158,7 +158,7 @@ fn printed_plans_run_again() {
         "--machine cantilever --phase 2",
     ] {
         let told = json(&format!("simulate {line}"));
-        let plan = MachinePlan::from_text(&told["plan"].to_string(), no_files).unwrap();
+        let plan = Plan::from_text(&told["plan"].to_string()).unwrap();
         for (name, text) in [("plan.json", told["plan"].to_string()), ("plan.toml", plan.to_toml())] {
             let file = folder.path().join(name);
             fs::write(&file, text).unwrap();
@@ -215,8 +215,8 @@ fn waveforms() {
 #[test]
 fn the_command_answers_as_the_library_does() {
     let source = MachineSource::from_text(&printed("machine show impact-damper --written"), no_files).unwrap();
-    let plan = MachinePlan::new(source, MachineTask::Simulate { impacts: Some(30), periods: None });
-    let answer = machine_answer("impact-damper", &plan, &Control::default()).unwrap();
+    let plan = Plan::new(source, Task::Simulate { start: None, impacts: Some(30), periods: None });
+    let answer = answer(&plan, Units::default(), &Control::default()).unwrap().named("impact-damper");
     let line = "simulate --machine impact-damper --impacts 30";
     assert_eq!(printed(&format!("{line} --json")), answer.json() + "\n");
     let mut table = Vec::new();

@@ -163,8 +163,8 @@ fn f10_the_command_of_a_view_draws_that_view() {
         &json!({ "inverse_beta": 1.3, "gap": 0.75, "restitution": 0.5 }),
         &json!({ "settle": { "start": { "v": 1.0 } } }),
     );
-    let (asked, osc) =
-        (Asked { system: plan.system, units: Units::default() }, plan.system.oscillator().expect("a system"));
+    let system = *plan.oscillator().expect("an oscillator");
+    let (asked, osc) = (Asked { system, units: Units::default() }, system.oscillator().expect("a system"));
     let start = vibroimpact::Start { v: 1.0, ..vibroimpact::Start::at_rest(&osc) };
     let settled = settle(&osc, start, &SettleOptions::default());
     for view in View::ALL {

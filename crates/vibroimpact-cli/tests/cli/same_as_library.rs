@@ -4,8 +4,8 @@ use crate::{S, vibro};
 use serde_json::Value;
 use vibroimpact::Scales;
 use vibroimpact_plot::Figure;
-use vibroimpact_report::{Shown, Table, Units, answer, machine_answer};
-use vibroimpact_study::{Control, MachinePlan, Plan};
+use vibroimpact_report::{Shown, Table, Units, answer};
+use vibroimpact_study::{Control, Plan};
 
 /// A system in physical units: omega_n = 20 rad/s, F/k = 0.005 m.
 const MACHINE: &str =
@@ -62,16 +62,8 @@ fn same(line: &str) {
     let plan: Plan = serde_json::from_value(written.object["plan"].clone()).expect("a plan");
     let control = Control::default();
     let told = answer(&plan, units(&written.object), &control).expect("it was answered before");
-    let (table, figure) = (told.table(&Shown::default()), told.figure(&Shown::default(), &control));
-    written.is(line, told.json(), table.expect("it was written before"), figure.expect("it was drawn before"));
-}
-
-/// The same for a machine of the catalogue.
-fn same_of_machine(line: &str) {
-    let written = Written::by(line);
-    let plan: MachinePlan = serde_json::from_value(written.object["plan"].clone()).expect("a plan");
-    let (control, name) = (Control::default(), written.object["system"]["name"].as_str().expect("a name"));
-    let told = machine_answer(name, &plan, &control).expect("it was answered before");
+    // a machine of the catalogue is called by its name
+    let told = told.named(written.object["system"]["name"].as_str().unwrap_or_default());
     let (table, figure) = (told.table(&Shown::default()), told.figure(&Shown::default(), &control));
     written.is(line, told.json(), table.expect("it was written before"), figure.expect("it was drawn before"));
 }
@@ -79,25 +71,21 @@ fn same_of_machine(line: &str) {
 #[test]
 fn of_machines() {
     let hammer = "--machine two-mass-hammer --set frequency=1.06";
-    same_of_machine(&format!("simulate {hammer} --impacts 20"));
-    same_of_machine(&format!("attractors {hammer} --starts 10"));
-    same_of_machine(&format!("orbit {hammer} --label 1/1"));
-    same_of_machine(&format!("margins {hammer} --vary b"));
-    same_of_machine("response --machine two-mass-hammer --axis frequency=1:1.2:3");
-    same_of_machine(&format!("lyapunov {hammer} --impacts 100 --points 30"));
-    same_of_machine("lyapunov --machine impact-pair --impacts 1000 --points 300");
-    same_of_machine(&format!(
-        "branch {hammer} --label 2/1 --orbit 1 --vary frequency --to 1.1 --also b=0.52 --follow 1"
-    ));
-    same_of_machine(&format!("diagram {hammer} --vary b --over 0.4:0.6:5 --also frequency=1:1.06 --transient 50"));
-    same_of_machine(&format!(
-        "curve {hammer} --label 2/1 --orbit 2 --kind fold --vary frequency=1:1.1 --and b=0.45:0.55"
-    ));
+    same(&format!("simulate {hammer} --impacts 20"));
+    same(&format!("attractors {hammer} --starts 10"));
+    same(&format!("orbit {hammer} --label 1/1"));
+    same(&format!("margins {hammer} --vary b"));
+    same("response --machine two-mass-hammer --axis frequency=1:1.2:3");
+    same(&format!("lyapunov {hammer} --impacts 100 --points 30"));
+    same("lyapunov --machine impact-pair --impacts 1000 --points 300");
+    same(&format!("branch {hammer} --label 2/1 --orbit 1 --vary frequency --to 1.1 --also b=0.52 --follow 1"));
+    same(&format!("diagram {hammer} --vary b --over 0.4:0.6:5 --also frequency=1:1.06 --transient 50"));
+    same(&format!("curve {hammer} --label 2/1 --orbit 2 --kind fold --vary frequency=1:1.1 --and b=0.45:0.55"));
     let one = "--machine fukaya-irie-1971 --set inverse_beta=1.11";
-    same_of_machine(&format!("region {one} --label 1/1 --axis inverse_beta=1.05:1.2 --axis delta=1:2.5 --grid 4"));
-    same_of_machine(&format!("branch {one} --set delta=1 --label 1/1 --vary delta --to 2.5 --follow 1"));
-    same_of_machine("map --machine two-mass-hammer --axis frequency=0.9:1.2:4 --starts 2");
-    same_of_machine(&format!("basin {hammer} --axis q.head=-1:0.5:4"));
+    same(&format!("region {one} --label 1/1 --axis inverse_beta=1.05:1.2 --axis delta=1:2.5 --grid 4"));
+    same(&format!("branch {one} --set delta=1 --label 1/1 --vary delta --to 2.5 --follow 1"));
+    same("map --machine two-mass-hammer --axis frequency=0.9:1.2:4 --starts 2");
+    same(&format!("basin {hammer} --axis q.head=-1:0.5:4"));
 }
 
 #[test]

@@ -10,16 +10,14 @@ use crate::case::Property;
 use crate::limits::{Limits, ProcessEnd, run};
 use crate::rules;
 use proptest::prelude::*;
-use serde_json::Value;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 use tempfile::TempDir;
 use vibroimpact_report::question::quoted;
-use vibroimpact_report::{Units, answer, machine_answer};
-use vibroimpact_study::machine::no_files;
-use vibroimpact_study::{Control, MachinePlan, Plan};
+use vibroimpact_report::{Units, answer};
+use vibroimpact_study::{Control, Plan};
 
 /// A command line, and whether its budget is very large.
 #[derive(Clone, Debug)]
@@ -150,29 +148,16 @@ fn told(verb: &str, stdout: &[u8], stored: bool, plain: bool) -> Result<(), Stri
         return Ok(());
     }
     rules::answer(verb, &object)?;
-    if object["system"]["kind"] == "machine" {
-        return again_from_plan(object["system"]["name"].as_str().unwrap_or_default(), &object, stdout);
-    }
     // a plan has the units of a machine only if its results are in them
     let nondimensional = object.get("system").is_none_or(|system| system.get("scales").is_none());
     let reproducible = nondimensional || object.get("units").is_some_and(|units| units == "si");
     let Some(plan) = object.get("plan").filter(|_| plain && reproducible) else { return Ok(()) };
     let plan = Plan::from_text(&plan.to_string()).map_err(|why| format!("the plan it prints does not read: {why}"))?;
     let asked = answer(&plan, Units::default(), &Control { threads: 1, ..Control::default() });
-    let second = asked.map_err(|why| format!("the plan it prints is refused: {why}"))?.json();
+    let second = asked.map_err(|why| format!("the plan it prints is refused: {why}"))?;
+    let second = second.named(object["system"]["name"].as_str().unwrap_or_default()).json();
     let first = String::from_utf8_lossy(stdout);
     same(first.trim_end().as_bytes(), second.as_bytes()).map_err(|why| format!("its plan gives another answer: {why}"))
-}
-
-/// Checks that the plan of an answer about a machine gives the same object.
-fn again_from_plan(name: &str, object: &Value, stdout: &[u8]) -> Result<(), String> {
-    let Some(plan) = object.get("plan") else { return Ok(()) };
-    let plan = MachinePlan::from_text(&plan.to_string(), no_files);
-    let plan = plan.map_err(|why| format!("the plan it prints does not read: {why}"))?;
-    let asked = machine_answer(name, &plan, &Control { threads: 1, ..Control::default() });
-    let second = asked.map_err(|why| format!("the plan it prints is refused: {why}"))?.json();
-    same(String::from_utf8_lossy(stdout).trim_end().as_bytes(), second.as_bytes())
-        .map_err(|why| format!("its plan gives another answer: {why}"))
 }
 
 /// Checks that the same line with another number of threads gives the same bytes.

@@ -142,7 +142,8 @@ fn budget(plan: &Plan) -> u64 {
             (diagram.over.count() as u64).saturating_mul(diagram.runs()).saturating_mul(each)
         }
         Task::Lyapunov(lyapunov) => {
-            lyapunov.impacts.saturating_add(lyapunov.transient).saturating_add(lyapunov.points.unwrap_or(0))
+            let (impacts, transient) = lyapunov.lengths();
+            impacts.saturating_add(transient).saturating_add(lyapunov.points.unwrap_or(0))
         }
         // its branches have up to 40 times 6000 points
         Task::Response(response) => response.motions().saturating_mul(5000).saturating_add(100 * 240_000),
@@ -150,7 +151,9 @@ fn budget(plan: &Plan) -> u64 {
             u64::from(branch.points).saturating_mul(u64::from(branch.follow) + 1).saturating_mul(100)
         }
         // two branches for each parameter, and steps along each line
-        Task::Margins(margins) => 12 * 20_000 + u64::from(margins.lines).saturating_mul(1_000),
+        Task::Margins(margins) => 12 * 20_000 + u64::from(margins.lines()).saturating_mul(1_000),
+        // the plans that are drawn are of oscillators
+        Task::SettleMany(_) => u64::MAX,
     }
 }
 

@@ -15,7 +15,7 @@ use vibroimpact_plot::{
 };
 use vibroimpact_study::diagram::{Diagram, Show};
 
-use vibroimpact_study::{Cut, Followed, MachineCut, MachineDiagram, counted};
+use vibroimpact_study::{Cut, Followed, MachineDiagram, counted};
 
 /// Colour of the orbit diagram from simulation.
 const GREY: Colour = Colour::hex(0xb0_b0b0);
@@ -86,7 +86,7 @@ pub fn figure(
 #[must_use]
 pub fn of_machine<'a>(
     branches: impl Iterator<Item = &'a [MachinePoint]>,
-    cut: &MachineCut,
+    cut: &Cut<String>,
     (quantity, behind): (Option<&BranchQuantity<'_>>, Option<&MachineDiagram>),
     title: String,
 ) -> Figure {

@@ -5,7 +5,7 @@ use crate::figure::styles::{CURVE_MARKS, EVENT_COLOURS, MACHINE_CURVE_MARKS, MAC
 use crate::figure::{label, named, title_without};
 use std::collections::BTreeMap;
 use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, Shape, Stroke, plain};
-use vibroimpact_study::{CurvePlan, EventCurve, MachineCurvePlan, MachineEventCurve, MachineStretch, Stretch};
+use vibroimpact_study::{CurvePlan, EventCurve, MachineEventCurve, Name, Stretch, Variable};
 
 /// Size of a mark.
 const MARK: f64 = 13.0;
@@ -30,15 +30,16 @@ pub fn figure(found: &EventCurve, plan: &CurvePlan, asked: &Asked) -> Figure {
             (name, shape)
         }),
     });
-    let name = format!("{} of {}", plan.kind.name(), label(plan.label.trim()));
+    let name = format!("{} of {}", plan.kind.name(), label(plan.label.as_deref().unwrap_or_default().trim()));
     let axes = (axis(&plan.vary, x), axis(&plan.and, y));
     picture(axes, &drawn.collect::<Vec<_>>(), (colour, &name), found.begin).title(title_without(asked, &[p, q]))
 }
 
 /// The figure of `vibro curve --machine`.
 #[must_use]
-pub fn of_machine(found: &MachineEventCurve, plan: &MachineCurvePlan, title: String) -> Figure {
-    let axis = |stretch: &MachineStretch| FigureAxis::new(plain(&stretch.path)).range(stretch.from, stretch.to);
+pub fn of_machine(found: &MachineEventCurve, plan: &CurvePlan<Variable>, title: String) -> Figure {
+    let axis =
+        |stretch: &Stretch<Variable>| FigureAxis::new(plain(stretch.parameter.text())).range(stretch.from, stretch.to);
     let colour = MACHINE_EVENT_COLOURS.iter().find(|(kind, _)| *kind == plan.kind);
     let drawn = found.points.iter().map(|point| Drawn {
         at: point.values,

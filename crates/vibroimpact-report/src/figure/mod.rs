@@ -29,7 +29,7 @@ use crate::{Asked, Units};
 use vibroimpact::PhysicalParameter;
 use vibroimpact::quantities::Quantity;
 use vibroimpact_plot::{Colour, SERIES, plain};
-use vibroimpact_study::{Cut, MachineCut, Parameter};
+use vibroimpact_study::{Cut, Parameter};
 
 /// The title of a figure: the parameters, with the frequency in the form in which it was given, in the units of the
 /// results.
@@ -101,8 +101,8 @@ pub fn along(cut: &Cut, units: &Units) -> String {
 
 /// The name of an axis along a line through numbers of a machine.
 #[must_use]
-pub fn along_machine(cut: &MachineCut) -> String {
-    let also = cut.also.as_ref().map(|also| (plain(&also.path), (also.from, also.to)));
+pub fn along_machine(cut: &Cut<String>) -> String {
+    let also = cut.also.as_ref().map(|also| (plain(&also.parameter), (also.from, also.to)));
     along_line(plain(&cut.vary), cut.ends, also)
 }
 

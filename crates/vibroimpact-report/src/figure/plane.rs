@@ -3,7 +3,7 @@
 use crate::figure::named;
 use crate::{ReportError, Units};
 use vibroimpact_plot::{FigureAxis, plain};
-use vibroimpact_study::{Axis as Along, Coordinate, MachineAxis, Parameter, Values};
+use vibroimpact_study::{Axis as Along, Axis, Coordinate, Parameter, Values};
 
 /// Maximum number of points along one axis of a figure.
 const MOST: usize = 16_384;
@@ -67,7 +67,7 @@ impl Sides {
     ///
     /// # Errors
     /// [`ReportError::Axes`] if there are not one or two axes, and [`ReportError::Values`] for more than 16384 values.
-    pub fn of_machine(axes: &[MachineAxis]) -> Result<Self, ReportError> {
+    pub fn of_machine(axes: &[Axis<String>]) -> Result<Self, ReportError> {
         match axes {
             [axis] => Ok(Self::Line(PlaneAxis::of_machine(axis)?)),
             [x, y] => Ok(Self::Plane(Plane { x: PlaneAxis::of_machine(x)?, y: PlaneAxis::of_machine(y)? })),
@@ -113,7 +113,7 @@ impl PlaneAxis {
     ///
     /// # Errors
     /// [`ReportError::Values`] for more than 16384 values.
-    pub fn of_machine(axis: &MachineAxis) -> Result<Self, ReportError> {
+    pub fn of_machine(axis: &Axis<String>) -> Result<Self, ReportError> {
         short_enough(axis.over.count())?;
         Self::new(plain(&axis.vary), &axis.over)
     }

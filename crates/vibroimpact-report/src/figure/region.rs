@@ -9,7 +9,7 @@ use vibroimpact_plot::{
     ClassStyle, Colour, Figure, FigureAxis, FilledRegion, Legend, Line, Panel, Stroke, class_style, plain,
 };
 use vibroimpact_study::machine::MachineSource;
-use vibroimpact_study::{MachineRegionPlan, MachineStretch, RegionPlan, Regions, Stretch};
+use vibroimpact_study::{RegionPlan, Regions, Stretch};
 
 /// Colour of the region where the motion exists and is unstable.
 const EXISTS: Colour = Colour::hex(0xec_ecec);
@@ -39,8 +39,8 @@ pub fn figure(found: &Regions, plan: &RegionPlan, asked: &Asked) -> Figure {
 
 /// The same of a machine.
 #[must_use]
-pub fn of_machine(found: &Regions, plan: &MachineRegionPlan, source: &MachineSource, title: String) -> Figure {
-    let axis = |stretch: &MachineStretch| FigureAxis::new(plain(&stretch.path)).range(stretch.from, stretch.to);
+pub fn of_machine(found: &Regions, plan: &RegionPlan<String>, source: &MachineSource, title: String) -> Figure {
+    let axis = |stretch: &Stretch<String>| FigureAxis::new(plain(&stretch.parameter)).range(stretch.from, stretch.to);
     drawn(found, [axis(&plan.across), axis(&plan.up)], (plan.label.trim(), plan.neutral(source)), title)
 }
 

@@ -1,23 +1,19 @@
 //! The figure of a store, equal to that of the command for the same question.
 
+use crate::answer::machine::machine_title;
 use crate::figure::coloured::{self, Coloured, Value, asked_for, place};
 use crate::figure::overlay::Overlay;
 use crate::figure::plane::{Plane, PlaneAxis, Sides, varied};
 use crate::figure::point_motion::{PointMotion, group};
 use crate::figure::{basin, diagram, map, quantity_name, shares, title_without};
-use crate::machine_answer::machine_title;
 use crate::{AnswerError, Asked, ReportError, Units};
 use std::collections::BTreeMap;
 use vibroimpact::QuantityKind;
 use vibroimpact::math::sort_by_key;
 use vibroimpact_plot::{Colour, Figure, FigureAxis, Line, Panel, SERIES, plain};
-use vibroimpact_study::study::{
-    NOT_COMPUTED, REFUSED, StudyArrays, StudyPlan, diagram_of, label_of, machine_diagram_of,
-};
-use vibroimpact_study::{
-    BasinPlan, Column, Control, LyapunovPlan, MachineBasinPlan, MachineLyapunovPlan, MachineMapPlan, MachinePlan,
-    MachineTask, MapPlan, Plan, Task,
-};
+use vibroimpact_study::machine::MachineSource;
+use vibroimpact_study::study::{NOT_COMPUTED, REFUSED, StudyArrays, diagram_of, label_of, machine_diagram_of};
+use vibroimpact_study::{Axis, Column, Control, Plan, Quantity, System, SystemPlan, Task, typed_axes};
 
 /// Draws the figure of a study; that of a map or basin in the colours of a quantity, if one is given, and that of a map
 /// with what lies over it.
@@ -31,11 +27,12 @@ pub fn figure<A: StudyArrays, E: From<A::Error> + From<ReportError> + From<Answe
     overlay: &Overlay,
     control: &Control<'_>,
 ) -> Result<Figure, E> {
-    let whole = match store.plan() {
-        StudyPlan::Oscillator(plan) => plan.as_ref(),
-        StudyPlan::Machine(plan) => return of_machine(store, plan, colour),
+    let whole = store.plan();
+    let system = match &whole.system {
+        System::Oscillator(system) => system,
+        System::Machine(machine) => return of_machine(store, machine, &whole.task, colour),
     };
-    let mut figure = of_oscillator::<A, E>(store, whole, colour, overlay.cells())?;
+    let mut figure = of_oscillator::<A, E>(store, (system, whole), colour, overlay.cells())?;
     overlay.add(&mut figure, whole, control)?;
     Ok(figure)
 }
@@ -43,28 +40,31 @@ pub fn figure<A: StudyArrays, E: From<A::Error> + From<ReportError> + From<Answe
 /// Draws the figure of a study of the oscillator without what lies over it.
 fn of_oscillator<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     store: &A,
-    whole: &Plan,
+    (system, whole): (&SystemPlan, &Plan),
     colour: Option<&Coloured>,
     cells: (bool, bool),
 ) -> Result<Figure, E> {
-    let asked = Asked { system: whole.system, units: Units::of_plan(whole) };
+    let asked = Asked { system: *system, units: Units::of_plan(whole) };
+    let axes: Vec<Axis> = typed_axes(whole.task.axes()).map_err(ReportError::from)?;
     match (&whole.task, colour) {
-        (Task::Map(MapPlan { axes, fields, .. }) | Task::Basin(BasinPlan { axes, fields, .. }), Some(colour)) => {
-            let quantity = asked_for(fields, &colour.field)?;
-            let unit = |point: usize| asked.units.at_point(axes, point).of_quantity(quantity);
+        (Task::Map(_) | Task::Basin(_), Some(colour)) => {
+            let fields: Vec<Quantity> =
+                whole.task.fields().iter().filter_map(|name| Quantity::from_name(name)).collect();
+            let quantity = asked_for(&fields, &colour.field)?;
+            let unit = |point: usize| asked.units.at_point(&axes, point).of_quantity(quantity);
             let points = points::<A, E>(store, Some((quantity.name(), &unit)))?;
-            let names = (quantity_name(quantity, &asked.units), title_without(&asked, &varied(axes)));
-            Ok(coloured::of_points(&Sides::of(axes, &asked.units)?, &points, colour, names)?)
+            let names = (quantity_name(quantity, &asked.units), title_without(&asked, &varied(&axes)));
+            Ok(coloured::of_points(&Sides::of(&axes, &asked.units)?, &points, colour, names)?)
         }
         (_, Some(_)) => Err(ReportError::NoColours.into()),
-        (Task::Map(plan), None) => {
-            let title = title_without(&asked, &varied(&plan.axes));
-            match Sides::of(&plan.axes, &asked.units)? {
+        (Task::Map(_), None) => {
+            let title = title_without(&asked, &varied(&axes));
+            match Sides::of(&axes, &asked.units)? {
                 Sides::Line(side) => Ok(shares::draw(&side, &points::<A, E>(store, None)?, title)),
                 Sides::Plane(plane) => of_map(store, &plane, title, cells),
             }
         }
-        (task, None) => of_task(store, task, &asked),
+        (task, None) => of_task(store, task, &axes, &asked),
     }
 }
 
@@ -72,21 +72,23 @@ fn of_oscillator<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
 fn of_task<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     store: &A,
     task: &Task,
+    axes: &[Axis],
     asked: &Asked,
 ) -> Result<Figure, E> {
     match task {
-        Task::Basin(plan) => {
-            of_basin(store, &Sides::of(&plan.axes, &asked.units)?, title_without(asked, &varied(&plan.axes)))
-        }
-        Task::Lyapunov(LyapunovPlan { axes, .. }) => {
-            let [axis] = axes.as_slice() else { return Err(ReportError::Exponents.into()) };
+        Task::Basin(_) => of_basin(store, &Sides::of(axes, &asked.units)?, title_without(asked, &varied(axes))),
+        Task::Lyapunov(_) => {
+            let [axis] = axes else { return Err(ReportError::Exponents.into()) };
             let unit = |point: usize| asked.units.at_point(axes, point).of_kind(QuantityKind::Rate);
             let in_si = asked.units.named("Lyapunov exponents", QuantityKind::Rate.unit());
             let name = if asked.units.si { in_si.as_str() } else { PER_TIME };
             let side = PlaneAxis::of(axis, &asked.units)?;
             of_exponents(store, &side, (name, &unit), title_without(asked, &varied(axes)))
         }
-        Task::Diagram(plan) => Ok(diagram::figure(&diagram_of(plan, &columns::<A, E>(store)?), asked)?),
+        Task::Diagram(plan) => {
+            let plan = plan.typed().map_err(ReportError::from)?;
+            Ok(diagram::figure(&diagram_of(&plan, &columns::<A, E>(store)?), asked)?)
+        }
         _ => Err(ReportError::Scattered.into()),
     }
 }
@@ -99,31 +101,32 @@ fn columns<A: StudyArrays, E: From<A::Error>>(store: &A) -> Result<Vec<Column>, 
 /// Draws the figure of a study of a machine.
 fn of_machine<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     store: &A,
-    plan: &MachinePlan,
+    machine: &MachineSource,
+    task: &Task,
     colour: Option<&Coloured>,
 ) -> Result<Figure, E> {
-    let title = machine_title(&plan.machine, "machine");
+    let title = machine_title(machine, "machine");
+    let axes: Vec<Axis<String>> = typed_axes(task.axes()).map_err(ReportError::from)?;
     if let Some(colour) = colour {
-        let (MachineTask::Map(MachineMapPlan { axes, fields, .. })
-        | MachineTask::Basin(MachineBasinPlan { axes, fields, .. })) = &plan.task
-        else {
+        if !matches!(task, Task::Map(_) | Task::Basin(_)) {
             return Err(ReportError::NoColours.into());
-        };
-        place(fields, &colour.field)?;
+        }
+        place(task.fields(), &colour.field)?;
         let points = points::<A, E>(store, Some((&colour.field, &|_| 1.0)))?;
         let names = (plain(&colour.field), title);
-        return Ok(coloured::of_points(&Sides::of_machine(axes)?, &points, colour, names)?);
+        return Ok(coloured::of_points(&Sides::of_machine(&axes)?, &points, colour, names)?);
     }
-    match &plan.task {
-        MachineTask::Map(map) => match Sides::of_machine(&map.axes)? {
+    match task {
+        Task::Map(_) => match Sides::of_machine(&axes)? {
             Sides::Line(side) => Ok(shares::draw(&side, &points::<A, E>(store, None)?, title)),
             Sides::Plane(plane) => of_map(store, &plane, title, Overlay::default().cells()),
         },
-        MachineTask::Basin(basin) => of_basin(store, &Sides::of_machine(&basin.axes)?, title),
-        MachineTask::Diagram(diagram) => {
-            Ok(diagram::of_machine(&machine_diagram_of(diagram, &columns::<A, E>(store)?), title)?)
+        Task::Basin(_) => of_basin(store, &Sides::of_machine(&axes)?, title),
+        Task::Diagram(diagram) => {
+            let diagram = diagram.typed().map_err(ReportError::from)?;
+            Ok(diagram::of_machine(&machine_diagram_of(&diagram, &columns::<A, E>(store)?), title)?)
         }
-        MachineTask::Lyapunov(MachineLyapunovPlan { axes, .. }) => {
+        Task::Lyapunov(_) => {
             let [axis] = axes.as_slice() else { return Err(ReportError::Exponents.into()) };
             of_exponents(store, &PlaneAxis::of_machine(axis)?, (PER_TIME, &|_| 1.0), title)
         }

@@ -3,7 +3,7 @@
 
 use vibroimpact::continuation::Bound;
 use vibroimpact_plot::{Colour, Dash, SERIES, Shape};
-use vibroimpact_study::{FollowedEvent, MachineFollowedEvent};
+use vibroimpact_study::FollowedEvent;
 
 /// The colours of curves of events in two parameters.
 pub const EVENT_COLOURS: [(FollowedEvent, Colour); 3] =
@@ -50,14 +50,14 @@ pub const CURVE_MARKS: [(&str, Shape); 10] = [
 ];
 
 /// The colours of curves of events of machines.
-pub const MACHINE_EVENT_COLOURS: [(MachineFollowedEvent, Colour); 7] = [
-    (MachineFollowedEvent::Fold, SERIES[1]),
-    (MachineFollowedEvent::Flip, SERIES[0]),
-    (MachineFollowedEvent::Torus, SERIES[3]),
-    (MachineFollowedEvent::Grazing, SERIES[2]),
-    (MachineFollowedEvent::Corner, SERIES[5]),
-    (MachineFollowedEvent::Sticking, SERIES[4]),
-    (MachineFollowedEvent::Holding, SERIES[6]),
+pub const MACHINE_EVENT_COLOURS: [(FollowedEvent, Colour); 7] = [
+    (FollowedEvent::Fold, SERIES[1]),
+    (FollowedEvent::Flip, SERIES[0]),
+    (FollowedEvent::Torus, SERIES[3]),
+    (FollowedEvent::Grazing, SERIES[2]),
+    (FollowedEvent::Corner, SERIES[5]),
+    (FollowedEvent::Sticking, SERIES[4]),
+    (FollowedEvent::Holding, SERIES[6]),
 ];
 
 /// The marks of points of codimension two on curves of machines, by name. Ends of a curve have no mark.

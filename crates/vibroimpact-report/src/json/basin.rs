@@ -9,7 +9,7 @@ use serde::Serialize;
 use vibroimpact::machine::Machine;
 use vibroimpact::math::sort_by_key;
 use vibroimpact::{Oscillator, Start};
-use vibroimpact_study::{Basin, MachineBasin, Plan};
+use vibroimpact_study::{Basin, MachineBasin, Plan, StartPlan};
 
 /// The answer to `vibro basin`. Coordinates on no axis are those of the start.
 #[derive(JsonSchema, Serialize)]
@@ -84,8 +84,8 @@ pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &Bas
     let order = by_count(found);
     let mut places = vec![0; order.len()];
     order.iter().enumerate().for_each(|(place, motion)| places[*motion] = place);
-    let start =
-        Start { x: task.start.x.unwrap_or_else(|| Start::at_rest(osc).x), v: task.start.v, phase: task.start.phase };
+    let StartPlan { x, v, phase } = task.start();
+    let start = Start { x: x.unwrap_or_else(|| Start::at_rest(osc).x), v, phase };
     let shared = order.into_iter().map(|m| SharedMotion {
         motion: MotionObject::of_oscillator(&found.motions[m].verdict, osc, units),
         share: found.share(m),

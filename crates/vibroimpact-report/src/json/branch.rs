@@ -15,7 +15,7 @@ use vibroimpact::continuation::{BranchEvent, MachineBranchEvent, MachinePoint, S
 use vibroimpact::machine::Machine;
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{
-    Branches, Chosen, Cut, EventRecord, Followed, MachineBranchPlan, MachineBranched, MachineCut, Plan, SystemPlan,
+    BranchPlan, Branches, Chosen, Cut, EventRecord, Followed, MachineBranched, Name, Plan, SystemPlan, Variable,
 };
 
 /// The answer to `vibro branch`.
@@ -186,8 +186,8 @@ impl<'a> BranchAnswer<'a> {
     /// Those of a machine, for branches along this line.
     pub(super) fn of_machine(
         (machine, source): (&'a Machine, &MachineSource),
-        task: &'a MachineBranchPlan,
-        cut: &MachineCut,
+        task: &'a BranchPlan<Variable>,
+        cut: &Cut<String>,
         found: &'a MachineBranched,
     ) -> Self {
         let quantity = BranchQuantity::of(machine, source, cut, found);
@@ -206,11 +206,11 @@ impl<'a> BranchAnswer<'a> {
         };
         Self {
             label: found.points.first().map_or_else(String::new, |point| point.cycle.label.to_string()),
-            vary: &task.vary,
+            vary: task.vary.text(),
             from: cut.ends.0,
             to: cut.ends.1,
             also: (task.also.as_ref().zip(cut.also.as_ref())).map(|(own, also)| Pair {
-                parameter: &own.path,
+                parameter: own.parameter.text(),
                 from: also.from,
                 to: also.to,
             }),
@@ -245,7 +245,7 @@ impl<'a> PointObject<'a> {
     fn of_machine(
         MachinePoint { value, cycle, .. }: &'a MachinePoint,
         machine: &'a Machine,
-        cut: &MachineCut,
+        cut: &Cut<String>,
         quantity: Option<&BranchQuantity<'_>>,
     ) -> Self {
         let point = &MachinePoint { value: *value, cycle: cycle.clone(), event: None };
@@ -272,7 +272,7 @@ fn both(point: &SolutionPoint, cut: &Cut, units: &Units) -> Option<[f64; 2]> {
     Some([values.next()?, values.next()?])
 }
 
-fn both_of_machine(value: f64, cut: &MachineCut) -> Option<[f64; 2]> {
+fn both_of_machine(value: f64, cut: &Cut<String>) -> Option<[f64; 2]> {
     cut.values(value).nth(1).map(|second| [value, second])
 }
 
@@ -294,7 +294,7 @@ impl<'a> BranchEventObject<'a> {
         k: usize,
         points: &[MachinePoint],
         event: MachineBranchEvent,
-        (machine, cut): (&'a Machine, &MachineCut),
+        (machine, cut): (&'a Machine, &Cut<String>),
     ) -> Self {
         Self {
             kind: event.name(),

@@ -10,7 +10,7 @@ use serde::Serialize;
 use vibroimpact::Oscillator;
 use vibroimpact::continuation::{CurveKind, CurvePoint, MachineCurvePoint};
 use vibroimpact::machine::Machine;
-use vibroimpact_study::{CurvePlan, EventCurve, MachineCurvePlan, MachineEventCurve, Plan};
+use vibroimpact_study::{CurvePlan, EventCurve, MachineEventCurve, Name, Plan, Variable};
 
 /// The answer to `vibro curve`. Pairs of values are in the order of `parameters`.
 #[derive(JsonSchema, Serialize)]
@@ -85,7 +85,7 @@ impl<'a> CurveAnswer<'a> {
     fn of_oscillator(found: &EventCurve, plan: &CurvePlan, Asked { system, units }: &Asked) -> Self {
         let points = found.points.iter();
         Self {
-            label: plan.label.trim().to_owned(),
+            label: plan.label.as_deref().unwrap_or_default().trim().to_owned(),
             kind: plan.kind.name(),
             parameters: [plan.vary.parameter, plan.and.parameter].map(|parameter| units.name_of(parameter)),
             of: Vec::new(),
@@ -121,7 +121,11 @@ impl<'a> CurveAnswer<'a> {
                 .collect(),
         }
     }
-    pub(super) fn of_machine(machine: &'a Machine, plan: &'a MachineCurvePlan, found: &'a MachineEventCurve) -> Self {
+    pub(super) fn of_machine(
+        machine: &'a Machine,
+        plan: &'a CurvePlan<Variable>,
+        found: &'a MachineEventCurve,
+    ) -> Self {
         let pair = |(p, q): (f64, f64)| [p, q];
         let event = |(k, point): (usize, &MachineCurvePoint)| {
             let event = point.event?;
@@ -147,7 +151,7 @@ impl<'a> CurveAnswer<'a> {
                 CurveKind::Corner { first, second } => vec![machine.name_of(first), machine.name_of(second)],
                 _ => Vec::new(),
             },
-            parameters: [&plan.vary.path, &plan.and.path],
+            parameters: [plan.vary.parameter.text(), plan.and.parameter.text()],
             orbit: ChosenObject::of_machine(found.among),
             found_at: found.events.iter().map(|event| event.value).collect(),
             through: Through { event: found.through + 1, point: found.begin },

@@ -8,7 +8,7 @@ use serde::Serialize;
 use vibroimpact::Oscillator;
 use vibroimpact::machine::Machine;
 use vibroimpact_study::diagram::{Diagram, MotionKind, Sweep, SweepDirection};
-use vibroimpact_study::{MachineDiagram, MachineDiagramPlan, Plan};
+use vibroimpact_study::{DiagramPlan, MachineDiagram, Plan};
 
 /// The answer to `vibro diagram`.
 #[derive(JsonSchema, Serialize)]
@@ -40,7 +40,7 @@ pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &Dia
 
 impl<'a> DiagramAnswer<'a> {
     pub(super) fn of_machine(machine: &Machine, found: &'a MachineDiagram) -> Self {
-        let MachineDiagramPlan { vary, over, also, .. } = &found.plan;
+        let DiagramPlan { vary, over, also, .. } = &found.plan;
         Self {
             vary,
             over: Place::over(over, 1.0),

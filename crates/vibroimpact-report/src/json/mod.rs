@@ -30,7 +30,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use system::SystemObject;
 use vibroimpact::{Oscillator, Start};
-use vibroimpact_study::{Axis, Coordinate, Cut, MachineAxis, MachineStretch, Parameter, Plan, Span, Stretch, Values};
+use vibroimpact_study::{Axis, Coordinate, Cut, Parameter, Plan, Span, Stretch, Values};
 
 /// The object that a command prints: the system, the start, the fields of the command, and the plan.
 #[derive(JsonSchema, Serialize)]
@@ -94,8 +94,8 @@ struct Pair<'a> {
 }
 
 impl<'a> Pair<'a> {
-    fn of_machine(also: &'a MachineStretch) -> Self {
-        Self { parameter: &also.path, from: also.from, to: also.to }
+    fn of_machine(also: &'a Stretch<String>) -> Self {
+        Self { parameter: &also.parameter, from: also.from, to: also.to }
     }
 }
 
@@ -123,7 +123,7 @@ struct AxisObject<'a> {
 }
 
 impl<'a> AxisObject<'a> {
-    fn of_machine(axes: &'a [MachineAxis]) -> Vec<Self> {
+    fn of_machine(axes: &'a [Axis<String>]) -> Vec<Self> {
         axes.iter().map(|axis| Self { vary: &axis.vary, over: Place::over(&axis.over, 1.0) }).collect()
     }
 

@@ -7,7 +7,7 @@ use serde::Serialize;
 use vibroimpact::Oscillator;
 use vibroimpact::continuation::{Polygon, Region, Vertex};
 use vibroimpact_study::machine::MachineSource;
-use vibroimpact_study::{MachineRegionPlan, Plan, RegionPlan, Regions};
+use vibroimpact_study::{Plan, RegionPlan, Regions};
 
 /// The answer to `vibro region`. Pairs of values are in the order of `parameters`.
 #[derive(JsonSchema, Serialize)]
@@ -63,10 +63,10 @@ impl RegionAnswer {
 
 impl RegionAnswer {
     /// The same of a machine.
-    pub(super) fn of_machine(found: &Regions, plan: &MachineRegionPlan, source: &MachineSource) -> Self {
+    pub(super) fn of_machine(found: &Regions, plan: &RegionPlan<String>, source: &MachineSource) -> Self {
         Self {
             label: plan.label.trim().to_owned(),
-            parameters: [plan.across.path.clone(), plan.up.path.clone()],
+            parameters: [plan.across.parameter.clone(), plan.up.parameter.clone()],
             neutrally_stable: plan.neutral(source),
             existence: RegionObject::new(&found.existence, (1.0, 1.0)),
             stability: RegionObject::new(&found.stability, (1.0, 1.0)),

@@ -6,7 +6,7 @@ use crate::{Asked, Units};
 use schemars::JsonSchema;
 use serde::Serialize;
 use vibroimpact::Oscillator;
-use vibroimpact_study::{Plan, ResponseCurves, ResponsePlan, ResponseRow};
+use vibroimpact_study::{Name, Parameter, Plan, PlanError, ResponseCurves, ResponsePlan, ResponseRow, Variable};
 
 /// The answer to `vibro response`.
 #[derive(JsonSchema, Serialize)]
@@ -45,16 +45,19 @@ struct PointObject {
 }
 
 /// The object of `vibro response`.
-#[must_use]
+///
+/// # Errors
+/// [`PlanError`] for what is no parameter.
 pub fn document<'a>(
     asked: &Asked,
     plan: &'a Plan,
     osc: &Oscillator,
-    (task, found): (&'a ResponsePlan, &'a ResponseCurves),
-) -> impl Serialize + use<'a> {
+    (task, found): (&'a ResponsePlan<Variable, String>, &'a ResponseCurves),
+) -> Result<impl Serialize + use<'a>, PlanError> {
     let units: &Units = &asked.units;
-    let view = ResponseView::of_oscillator(found, task, units);
-    Document::over(asked, osc, &[task.vary], plan, ResponseAnswer::new(&view))
+    let view = ResponseView::of_oscillator(found, task, units)?;
+    let vary = Parameter::of(task.vary.text())?;
+    Ok(Document::over(asked, osc, &[vary], plan, ResponseAnswer::new(&view)))
 }
 
 impl<'a> ResponseAnswer<'a> {

@@ -8,7 +8,8 @@ use vibroimpact::{DrivenOscillator, PhysicalParameter, Shaking};
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
 use vibroimpact_study::{
     Axis, BasinPlan, BranchPlan, Coordinate, CurvePlan, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan, LyapunovPlan,
-    MapPlan, MarginsPlan, Parameter, Plan, Quantity, RegionPlan, StartPlan, Stretch, SystemPlan, Target, Task, Values,
+    MapPlan, MarginsPlan, Name, Parameter, Plan, Quantity, RegionPlan, ResponsePlan, StartPlan, Stretch, SystemPlan,
+    Target, Task, Values, Variable,
 };
 
 /// The words of the `vibro` command for a plan, beginning with `vibro`. Its flags give exactly this plan: in nondimensional
@@ -22,36 +23,38 @@ use vibroimpact_study::{
 #[must_use]
 pub fn command(plan: &Plan) -> Option<Vec<String>> {
     let plan = plan.complete().ok()?;
-    let system = &plan.system;
+    let system = plan.oscillator()?;
     let units = &Units::of_plan(&plan);
     if units.si != system.machine.is_some() || (units.si && !varied(&plan.task).all(of_machine)) {
         return None;
     }
     let mut line = match &plan.task {
         Task::Simulate { start, impacts, periods } => {
-            let line = Line::new("simulate").system(system, &[]).start(start, units);
+            let line = Line::new("simulate").system(system, &[]).start(&start.unwrap_or_default(), units);
             line.given("impacts", *impacts).given("periods", periods.map(number))
         }
         Task::Settle { start, impacts } => {
-            Line::new("settle").system(system, &[]).start(start, units).given("impacts", *impacts)
+            Line::new("settle").system(system, &[]).start(&start.unwrap_or_default(), units).given("impacts", *impacts)
         }
         Task::Attractors { starts, seed, impacts } => {
             let line = Line::new("attractors").system(system, &[]).flag("starts", starts);
             line.unless("seed", *seed, 1).given("impacts", *impacts)
         }
         Task::Orbit { label } => Line::new("orbit").system(system, &[]).flag("label", label),
-        Task::Basin(task) => basin(system, task, units)?,
-        Task::Map(task) => map(system, task)?,
-        Task::Diagram(task) => diagram(system, task)?,
-        Task::Lyapunov(task) => lyapunov(system, task, units)?,
-        Task::Branch(task) => branch(system, task),
-        Task::Curve(task) => curve(system, task),
-        Task::Region(task) => region(system, task),
+        Task::Basin(task) => basin(system, &task.typed().ok()?, units)?,
+        Task::Map(task) => map(system, &task.typed().ok()?)?,
+        Task::Diagram(task) => diagram(system, &task.typed().ok()?)?,
+        Task::Lyapunov(task) => lyapunov(system, &task.typed().ok()?, units)?,
+        Task::Branch(task) => branch(system, &task.typed().ok()?),
+        Task::Curve(task) => curve(system, &task.typed().ok()?),
+        Task::Region(task) => region(system, &task.typed().ok()?),
         Task::Response(task) => {
+            let task: ResponsePlan = task.typed().ok()?;
             let line = Line::new("response").system(system, &[(task.vary, Some(values(&task.over)?))]);
-            line.unless_amplitude(task.quantity).given("impacts", task.impacts)
+            line.unless_amplitude(task.quantity()).given("impacts", task.impacts)
         }
-        Task::Margins(task) => margins(system, task, units),
+        Task::Margins(task) => margins(system, &task.typed().ok()?, units),
+        Task::SettleMany(_) => return None,
     };
     let (refine, name) = match &plan.task {
         Task::Map(task) => (task.refine, "map.zarr"),
@@ -70,17 +73,24 @@ pub fn command(plan: &Plan) -> Option<Vec<String>> {
 
 /// The parameters that vary.
 fn varied(task: &Task) -> impl Iterator<Item = Parameter> {
-    let list: Vec<Parameter> = match task {
-        Task::Map(map) => map.axes.iter().filter_map(|axis| parameter(axis.vary)).collect(),
-        Task::Diagram(diagram) => diagram.cut().parameters().collect(),
-        Task::Branch(branch) => core::iter::once(branch.vary).chain(branch.also.map(|also| also.parameter)).collect(),
-        Task::Curve(curve) => vec![curve.vary.parameter, curve.and.parameter],
-        Task::Region(region) => vec![region.across.parameter, region.up.parameter],
-        Task::Response(response) => vec![response.vary],
-        Task::Margins(margins) => margins.vary.iter().map(|one| one.parameter).collect(),
+    let on = |axes: &[Axis<Variable>]| axes.iter().map(|axis| axis.vary.clone()).collect();
+    let names: Vec<Variable> = match task {
+        Task::Map(map) => on(&map.axes),
+        Task::Diagram(diagram) => {
+            let also = diagram.also.as_ref().map(|also| also.parameter.clone());
+            core::iter::once(diagram.vary.clone()).chain(also).collect()
+        }
+        Task::Branch(branch) => {
+            let also = branch.also.as_ref().map(|also| also.parameter.clone());
+            core::iter::once(branch.vary.clone()).chain(also).collect()
+        }
+        Task::Curve(curve) => vec![curve.vary.parameter.clone(), curve.and.parameter.clone()],
+        Task::Region(region) => [&region.across, &region.up].map(|side| side.parameter.clone()).to_vec(),
+        Task::Response(response) => vec![response.vary.clone()],
+        Task::Margins(margins) => margins.vary.iter().map(|one| one.parameter.clone()).collect(),
         _ => Vec::new(),
     };
-    list.into_iter()
+    names.into_iter().filter_map(|name| Parameter::of(name.text()).ok())
 }
 
 const fn parameter(vary: Coordinate) -> Option<Parameter> {
@@ -199,11 +209,12 @@ fn basin(system: &SystemPlan, task: &BasinPlan, units: &Units) -> Option<Line> {
     let plane = x.vary == Coordinate::X && v.vary == Coordinate::V;
     let (Values::Span(x), Values::Span(v)) = (&x.over, &v.over) else { return None };
     // a fixed value of a quantity on an axis is ignored in computations, but makes the plan a different one
-    if !plane || task.start.x.is_some() || task.start.v.to_bits() != 0 {
+    let start = task.start();
+    if !plane || start.x.is_some() || start.v.to_bits() != 0 {
         return None;
     }
     let (x, v) = (shown_span(x, units.length()).ok()?, shown_span(v, units.velocity()).ok()?);
-    let line = Line::new("basin").system(system, &[]).flag("x", x).flag("v", v).zero("phase", task.start.phase);
+    let line = Line::new("basin").system(system, &[]).flag("x", x).flag("v", v).zero("phase", start.phase);
     Some(line.given("impacts", task.impacts).fields(&task.fields))
 }
 
@@ -260,8 +271,8 @@ fn diagram(system: &SystemPlan, task: &DiagramPlan) -> Option<Line> {
 }
 
 fn lyapunov(system: &SystemPlan, task: &LyapunovPlan, units: &Units) -> Option<Line> {
-    let usual = LyapunovPlan::default();
-    let mut line = Line::new("lyapunov").system(system, &[]).start(&task.start, units);
+    let usual: LyapunovPlan = LyapunovPlan::default();
+    let mut line = Line::new("lyapunov").system(system, &[]).start(&task.start(), units);
     // the command takes these nondimensional only
     let measured = |axis: &Axis| matches!(axis.vary, Coordinate::X | Coordinate::V);
     if units.plan().is_some() && task.axes.iter().any(measured) {
@@ -270,7 +281,11 @@ fn lyapunov(system: &SystemPlan, task: &LyapunovPlan, units: &Units) -> Option<L
     for axis in &task.axes {
         line = line.flag("axis", format!("{}={}", axis.vary.name().replace('_', "-"), values(&axis.over)?));
     }
-    let line = line.unless("impacts", task.impacts, usual.impacts).unless("transient", task.transient, usual.transient);
+    let line = line.unless("impacts", task.lengths().0, usual.lengths().0).unless(
+        "transient",
+        task.lengths().1,
+        usual.lengths().1,
+    );
     Some(match task.points {
         Some(points) => line.flag("points", points).flag("plot", "attractor.svg"),
         None => line,
@@ -278,18 +293,18 @@ fn lyapunov(system: &SystemPlan, task: &LyapunovPlan, units: &Units) -> Option<L
 }
 
 fn margins(system: &SystemPlan, task: &MarginsPlan, units: &Units) -> Line {
-    let usual = MarginsPlan::default();
-    let line = Line::new("margins").system(system, &[]).given("label", task.label.as_ref()).start(&task.start, units);
+    let usual: MarginsPlan = MarginsPlan::default();
+    let line = Line::new("margins").system(system, &[]).given("label", task.label.as_ref()).start(&task.start(), units);
     let names: Vec<String> = task.vary.iter().map(|one| flag(one.parameter)).collect();
     let line = line.given("vary", (!names.is_empty()).then(|| names.join(",")));
     let scales = task.vary.iter().filter_map(|one| Some((one.parameter, one.scale?)));
     let line = scales.fold(line, |line, (of, scale)| line.flag("scale", format!("{}={}", flag(of), number(scale))));
     let line = if task.within == usual.within { line } else { line.flag("within", number(task.within)) };
-    line.unless("lines", task.lines, usual.lines)
+    line.unless("lines", task.lines(), usual.lines())
 }
 
 fn branch(system: &SystemPlan, task: &BranchPlan) -> Line {
-    let line = Line::new("branch").system(system, &[]).flag("label", &task.label);
+    let line = Line::new("branch").system(system, &[]).given("label", task.label.as_ref());
     let line = line.flag("vary", flag(task.vary)).flag("to", number(task.to));
     let also = |also: Target| format!("{}={}", flag(also.parameter), number(also.to));
     let line = line.given("also", task.also.map(also));
@@ -307,9 +322,10 @@ fn over(stretch: &Stretch) -> String {
 }
 
 fn curve(system: &SystemPlan, task: &CurvePlan) -> Line {
-    let line = Line::new("curve").system(system, &[]).flag("label", &task.label).flag("kind", task.kind.name());
+    let line =
+        Line::new("curve").system(system, &[]).given("label", task.label.as_ref()).flag("kind", task.kind.name());
     let line = line.flag("vary", over(&task.vary)).flag("and", over(&task.and));
-    line.given("orbit", task.orbit).given("event", task.event)
+    line.given("orbit", task.orbit).given("event", task.event).given("points", task.points)
 }
 
 fn region(system: &SystemPlan, task: &RegionPlan) -> Line {

@@ -6,8 +6,9 @@ use crate::scene::{SECTION_POINTS, View};
 use vibroimpact::DrivenOscillator;
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
 use vibroimpact_study::{
-    Axis, BasinPlan, Coordinate, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan, LyapunovPlan, MarginsPlan,
-    PhysicalPlan, Plan, Quantity, StartPlan, Stretch, SystemPlan, Target, Task, Values,
+    Axis, BasinPlan, BranchPlan, Coordinate, CurvePlan, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan, LyapunovPlan,
+    MapPlan, MarginsPlan, PhysicalPlan, Plan, Quantity, RegionPlan, ResponsePlan, StartPlan, Stretch, SystemPlan,
+    Target, Task, Values,
 };
 
 /// A few lines of Python for a plan, whose numbers are nondimensional unless their names end in a unit; `None` for an invalid plan, and for a study of points.
@@ -24,47 +25,55 @@ pub fn python(plan: &Plan) -> Option<String> {
     }
     let (name, call) = match &plan.task {
         Task::Simulate { start, impacts, periods } => {
-            let call = Call::new("simulate").start(start);
+            let call = Call::new("simulate").start(&start.unwrap_or_default());
             ("motion", call.given("impacts", *impacts).given("periods", periods.map(number)))
         }
-        Task::Settle { start, impacts } => ("motion", Call::new("settle").start(start).given("impacts", *impacts)),
+        Task::Settle { start, impacts } => {
+            ("motion", Call::new("settle").start(&start.unwrap_or_default()).given("impacts", *impacts))
+        }
         Task::Attractors { starts, seed, impacts } => {
             let call = Call::new("attractors").named("starts", starts).unless("seed", *seed, 1);
             ("motions", call.given("impacts", *impacts))
         }
         Task::Orbit { label } => ("orbits", Call::new("orbits").then(text(label))),
-        Task::Basin(task) => ("basin", basin(task)),
+        Task::Basin(task) => ("basin", basin(&task.typed().ok()?)),
         Task::Map(task) => {
+            let task: MapPlan = task.typed().ok()?;
             let call = Call::new("region_map").then(axes(&task.axes)).named("starts", task.starts);
             let call = call.unless("seed", task.seed, 1).given("refine", task.refine);
             ("motions", call.given("impacts", task.impacts).given("fields", names(&task.fields)))
         }
-        Task::Diagram(task) => ("diagram", diagram(task)),
-        Task::Lyapunov(task) => ("exponents", lyapunov(task)),
+        Task::Diagram(task) => ("diagram", diagram(&task.typed().ok()?)),
+        Task::Lyapunov(task) => ("exponents", lyapunov(&task.typed().ok()?)),
         Task::Branch(task) => {
+            let task: BranchPlan = task.typed().ok()?;
             let call = Call::new("branch").then(text(task.vary.name())).then(number(task.to));
-            let call = call.named("label", text(&task.label));
+            let call = call.given("label", task.label.as_deref().map(text));
             let also = |also: Target| mapping(core::iter::once((also.parameter.name(), number(also.to))));
             let call = call.given("also", task.also.map(also));
             let call = call.given("orbit", task.orbit).unless("follow", task.follow, 0);
             ("branch", call.unless("points", task.points, DEFAULT_BRANCH_POINTS))
         }
         Task::Curve(task) => {
+            let task: CurvePlan = task.typed().ok()?;
             let call = Call::new("curve").then(text(task.kind.name())).then(plane(&task.vary, &task.and));
-            let call = call.named("label", text(&task.label));
-            ("curve", call.given("orbit", task.orbit).given("event", task.event))
+            let call = call.given("label", task.label.as_deref().map(text));
+            ("curve", call.given("orbit", task.orbit).given("event", task.event).given("points", task.points))
         }
         Task::Region(task) => {
+            let task: RegionPlan = task.typed().ok()?;
             let call = Call::new("region").then(text(&task.label)).then(plane(&task.across, &task.up));
             ("region", call.unless("grid", task.grid, DEFAULT_GRID))
         }
         Task::Response(task) => {
+            let task: ResponsePlan = task.typed().ok()?;
             let call = Call::new("response").then(text(task.vary.name())).then(values(&task.over));
-            let usual = task.quantity == Quantity::DisplacementAmplitude;
-            let call = call.given("quantity", (!usual).then(|| text(task.quantity.name())));
+            let usual = task.quantity() == Quantity::DisplacementAmplitude;
+            let call = call.given("quantity", (!usual).then(|| text(task.quantity().name())));
             ("found", call.given("impacts", task.impacts))
         }
-        Task::Margins(task) => ("margins", margins(task)),
+        Task::Margins(task) => ("margins", margins(&task.typed().ok()?)),
+        Task::SettleMany(_) => return None,
     };
     let told = match &plan.task {
         Task::Lyapunov(task) if !task.axes.is_empty() => {
@@ -72,7 +81,7 @@ pub fn python(plan: &Plan) -> Option<String> {
         }
         _ => format!("{name} = {}\n", call.text()),
     };
-    Some(format!("import vibroimpact as vi\n\nosc = {}\n{told}", oscillator(&plan.system)))
+    Some(format!("import vibroimpact as vi\n\nosc = {}\n{told}", oscillator(plan.oscillator()?)))
 }
 
 /// The same lines, and one view of the motion into which a start settles. For other tasks as [`python`].
@@ -85,7 +94,10 @@ pub fn python_showing(plan: &Plan, view: View) -> Option<String> {
         View::Phase => "t, x, v = motion.waveform()  # of a periodic motion, v over x".to_owned(),
         View::Multipliers => "motion.multipliers".to_owned(),
         View::Sections => {
-            format!("{}.plot_sections()", Call::new("lyapunov").start(start).named("points", SECTION_POINTS).text())
+            format!(
+                "{}.plot_sections()",
+                Call::new("lyapunov").start(&start.unwrap_or_default()).named("points", SECTION_POINTS).text()
+            )
         }
     };
     Some(format!("{text}{shown}\n"))
@@ -216,7 +228,7 @@ fn basin(task: &BasinPlan) -> Call {
         call = call.named(axis.vary.name(), values(&axis.over));
     }
     let varies = |coordinate| task.axes.iter().any(|axis| axis.vary == coordinate);
-    let start = &task.start;
+    let start = &task.start();
     // a fixed value of a quantity on an axis is ignored
     let call = call.given("x", start.x.filter(|_| !varies(Coordinate::X)).map(number));
     let call = if varies(Coordinate::V) { call } else { call.zero("v", start.v) };
@@ -244,24 +256,28 @@ fn diagram(task: &DiagramPlan) -> Call {
 }
 
 fn margins(task: &MarginsPlan) -> Call {
-    let usual = MarginsPlan::default();
-    let call = Call::new("margins").start(&task.start).given("label", task.label.as_deref().map(text));
+    let usual: MarginsPlan = MarginsPlan::default();
+    let call = Call::new("margins").start(&task.start()).given("label", task.label.as_deref().map(text));
     let names: Vec<String> = task.vary.iter().map(|one| text(one.parameter.name())).collect();
     let call = call.given("vary", (!names.is_empty()).then(|| format!("[{}]", names.join(", "))));
     let scales: Vec<_> = task.vary.iter().filter_map(|one| Some((one.parameter.name(), number(one.scale?)))).collect();
     let call = call.given("scale", (!scales.is_empty()).then(|| mapping(scales.into_iter())));
     let call = if task.within == usual.within { call } else { call.named("within", number(task.within)) };
-    call.unless("lines", task.lines, usual.lines)
+    call.unless("lines", task.lines(), usual.lines())
 }
 
 fn lyapunov(task: &LyapunovPlan) -> Call {
-    let usual = LyapunovPlan::default();
+    let usual: LyapunovPlan = LyapunovPlan::default();
     let call = if task.axes.is_empty() {
-        Call::new("lyapunov").start(&task.start)
+        Call::new("lyapunov").start(&task.start())
     } else {
-        Call::new("Plan.lyapunov").then(axes(&task.axes)).start(&task.start)
+        Call::new("Plan.lyapunov").then(axes(&task.axes)).start(&task.start())
     };
-    let call = call.unless("impacts", task.impacts, usual.impacts).unless("transient", task.transient, usual.transient);
+    let call = call.unless("impacts", task.lengths().0, usual.lengths().0).unless(
+        "transient",
+        task.lengths().1,
+        usual.lengths().1,
+    );
     if task.axes.is_empty() { call.given("points", task.points) } else { call }
 }
 

@@ -12,7 +12,7 @@ use vibroimpact::verdict::{Count, SettleOptions, Verdict, attractors};
 use vibroimpact_plot::Figure;
 use vibroimpact_study::diagram::Diagram;
 use vibroimpact_study::{
-    BranchPlan, Control, DiagramPlan, Followed, Plan, Results, RunError, Span, Stopped, Target, Task, run, tiles,
+    BranchPlan, Control, DiagramPlan, Followed, Plan, Results, RunError, Span, Stopped, Target, run, tiles,
 };
 
 /// Number of values along the line at which motions are searched, if no labels are given.
@@ -100,7 +100,7 @@ pub fn bifurcation(
             &found[..found.len().min(MOST_LABELS)]
         }
     };
-    let Results::Diagram(behind) = run(&Plan::new(asked.system, Task::Diagram(plan.clone())), control)? else {
+    let Results::Diagram(behind) = run(&Plan::new(asked.system, plan.clone()), control)? else {
         // the task of this plan has no other result
         return Err(ReportError::NoLabels.into());
     };
@@ -163,9 +163,9 @@ fn follow(
         let system = cut.system(&asked.system, value)?;
         for end in [from, to].into_iter().filter(|end| *end != value) {
             let also = cut.values(end).nth(1).map(|(parameter, to)| Target { parameter, to });
-            let label = label.to_owned();
+            let label = Some(label.to_owned());
             let task = BranchPlan { label, vary: cut.vary, to: end, also, orbit: None, follow: FOLLOW, points: POINTS };
-            match run(&Plan::new(system, Task::Branch(task)), control) {
+            match run(&Plan::new(system, task), control) {
                 Ok(Results::Branch(found)) => followed.extend(found.followed),
                 Ok(_) => {}
                 Err(RunError::Stopped(stopped)) => return Err(stopped.into()),
@@ -294,7 +294,7 @@ mod tests {
             });
             lines.flat_map(|line| line.ys.clone()).filter(|y| !y.is_nan()).collect()
         };
-        let behind = Plan::new(asked.system, Task::Diagram(strobes.clone()));
+        let behind = Plan::new(asked.system, strobes.clone());
         let Results::Diagram(behind) = run(&behind, &control).unwrap() else { panic!("another result") };
         let positions: Vec<f64> = behind
             .steps

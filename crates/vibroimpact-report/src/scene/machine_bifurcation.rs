@@ -4,8 +4,8 @@
 use super::bifurcation::{
     BifurcationEvent, FOLLOW, LOOKS, MOST_LABELS, NEAR, POINTS, SAMPLES, SEED, STARTS, distinct, most_first,
 };
+use crate::answer::machine::machine_title;
 use crate::branch_quantity::BranchQuantity;
-use crate::machine_answer::machine_title;
 use crate::table::{Table, bifurcation as bifurcation_table};
 use crate::{AnswerError, ReportError, figure};
 use std::collections::BTreeMap;
@@ -19,8 +19,8 @@ use vibroimpact::verdict::{
 use vibroimpact_plot::Figure;
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{
-    Control, MachineCut, MachineDiagram, MachineDiagramPlan, MachineLine, MachineOrigin, MachinePlan, MachineResults,
-    MachineTask, RunError, Span, machine_label, run_machine, tiles,
+    Control, Cut, DiagramPlan, MachineDiagram, MachineLine, MachineOrigin, MachineResults, Plan, Results, RunError,
+    Span, System, Task, machine_label, run, tiles,
 };
 
 /// Starts from which orbits of a given label are searched at each value.
@@ -90,16 +90,17 @@ impl MachineBifurcation {
 /// [`AnswerError`] for an invalid plan or label, for a coordinate at phase 0, which branches do not have, or when stopped.
 pub fn machine_bifurcation(
     name: &str,
-    plan: &MachinePlan,
+    plan: &Plan,
     named: Option<&[String]>,
     control: &Control<'_>,
 ) -> Result<MachineBifurcation, AnswerError> {
     plan.check()?;
-    let MachineTask::Diagram(diagram) = &plan.task else {
+    let (System::Machine(source), Task::Diagram(diagram)) = (&plan.system, &plan.task) else {
         // the command asks for no other task
         return Err(ReportError::NoLabels.into());
     };
-    let (machine, _) = plan.described()?;
+    let diagram: DiagramPlan<String, String> = diagram.typed()?;
+    let (machine, _) = source.described()?;
     if diagram.shows_states() || (diagram.shows_closings() && machine.stops().is_empty()) {
         let coordinate = machine.parts().coordinates.first().cloned().unwrap_or_default();
         return Err(ReportError::NoBranchValue { show: diagram.show.clone(), coordinate }.into());
@@ -108,8 +109,8 @@ pub fn machine_bifurcation(
     let given: Option<Vec<Label>> = named.map(parsed).transpose()?;
     let cut = diagram.cut();
     let mut seeds = match &given {
-        Some(labels) => orbits(plan, &cut, labels, control)?,
-        None => motions(plan, &cut, diagram, control)?,
+        Some(labels) => orbits(source, &cut, labels, control)?,
+        None => motions(source, &cut, &diagram, control)?,
     };
     let labels: Vec<String> = match named {
         Some(labels) => labels.to_vec(),
@@ -117,11 +118,11 @@ pub fn machine_bifurcation(
     };
     let known = |label: Label| labels.contains(&label.to_string());
     seeds.iter_mut().for_each(|(_, cycles)| cycles.retain(|(cycle, _)| known(cycle.label)));
-    let MachineResults::Diagram(behind) = run_machine(plan, control)? else {
+    let Results::Machine(MachineResults::Diagram(behind)) = run(plan, control)? else {
         // the task of this plan has no other result
         return Err(ReportError::NoLabels.into());
     };
-    let line = MachineLine::new(&plan.machine, &cut, POINTS);
+    let line = MachineLine::new(source, &cut, POINTS);
     let mut branches: Vec<Vec<MachinePoint>> = Vec::new();
     let mut seen: Vec<MachineOrigin> = Vec::new();
     for (value, cycle) in seeds.iter().flat_map(|(value, cycles)| cycles.iter().map(move |(cycle, _)| (*value, cycle)))
@@ -142,7 +143,7 @@ pub fn machine_bifurcation(
         }
     }
     branches.retain(|points| points.iter().any(|point| known(point.cycle.label)));
-    Ok(MachineBifurcation { behind, branches, name: name.to_owned(), source: plan.machine.clone(), machine })
+    Ok(MachineBifurcation { behind, branches, name: name.to_owned(), source: (**source).clone(), machine })
 }
 
 /// Cycles at a value of the number, and for how many starts each stands.
@@ -150,8 +151,8 @@ type Seeds = Vec<(f64, Vec<(MachineCycle, u64)>)>;
 
 /// `count` values along a line, with what is found at each.
 fn along(
-    plan: &MachinePlan,
-    (cut, count): (&MachineCut, u32),
+    source: &MachineSource,
+    (cut, count): (&Cut<String>, u32),
     control: &Control<'_>,
     find: impl Fn(&Machine) -> Vec<(MachineCycle, u64)> + Sync,
 ) -> Result<Seeds, AnswerError> {
@@ -161,7 +162,7 @@ fn along(
         let mut found = Vec::new();
         for value in range.filter_map(|k| u32::try_from(k).ok()).map(|k| over.at(k)) {
             // a value at which there is no machine has no cycles
-            let machine = cut.source(&plan.machine, value).and_then(|source| Ok(source.machine()?));
+            let machine = cut.source(source, value).and_then(|source| Ok(source.machine()?));
             found.push((value, machine.map_or_else(|_| Vec::new(), |machine| find(&machine))));
             if tick() {
                 break;
@@ -173,8 +174,13 @@ fn along(
 }
 
 /// The orbits with these labels along a line.
-fn orbits(plan: &MachinePlan, cut: &MachineCut, labels: &[Label], control: &Control<'_>) -> Result<Seeds, AnswerError> {
-    along(plan, (cut, LOOKS), control, |machine| {
+fn orbits(
+    source: &MachineSource,
+    cut: &Cut<String>,
+    labels: &[Label],
+    control: &Control<'_>,
+) -> Result<Seeds, AnswerError> {
+    along(source, (cut, LOOKS), control, |machine| {
         let starts = || (0..ORBIT_STARTS).map(|k| scattered_machine_starts(machine, SEED, k));
         let of = |label: &Label| find_machine_while(machine, *label, starts(), &|| !control.stopping());
         labels.iter().flat_map(|label| of(label).unwrap_or_default()).map(|cycle| (cycle, 1)).collect()
@@ -183,13 +189,13 @@ fn orbits(plan: &MachinePlan, cut: &MachineCut, labels: &[Label], control: &Cont
 
 /// The cycles into which a few starts settle along a line. Those without closings have no speeds to be shown.
 fn motions(
-    plan: &MachinePlan,
-    cut: &MachineCut,
-    diagram: &MachineDiagramPlan,
+    source: &MachineSource,
+    cut: &Cut<String>,
+    diagram: &DiagramPlan<String, String>,
     control: &Control<'_>,
 ) -> Result<Seeds, AnswerError> {
     let options = SettleOptions::default();
-    along(plan, (cut, SAMPLES), control, |machine| {
+    along(source, (cut, SAMPLES), control, |machine| {
         let mut census = Census::default();
         for k in 0..STARTS {
             let start = scattered_machine_starts(machine, SEED, k);
@@ -239,8 +245,12 @@ fn passes(branch: &[MachinePoint], cycle: &MachineCycle, value: f64) -> bool {
 mod tests {
     use super::*;
 
-    fn plan(name: &str, task: &str) -> MachinePlan {
-        MachinePlan::new(MachineSource::open(name).unwrap(), serde_json::from_str(task).unwrap())
+    fn plan(name: &str, task: &str) -> Plan {
+        let machine = MachineSource::open(name).unwrap().into();
+        Plan {
+            task: Task::from_json(task, &machine).unwrap(),
+            ..Plan::new(machine, Task::Orbit { label: "1/1".into() })
+        }
     }
 
     /// The values of events of a kind and a label.

@@ -9,8 +9,8 @@ use vibroimpact_study::{CurvePlan, EventCurve};
 
 /// The table of `vibro curve`.
 #[must_use]
-pub fn table<'a>(found: &'a EventCurve, plan: &'a CurvePlan, units: &'a Units) -> Table<'a> {
-    Table::new(columns(plan, units), rows(found, plan, units))
+pub fn table<'a>(found: &'a EventCurve, plan: CurvePlan, units: &'a Units) -> Table<'a> {
+    Table::new(columns(&plan, units), rows(found, plan, units))
 }
 
 /// The columns of the table.
@@ -20,9 +20,9 @@ fn columns(plan: &CurvePlan, units: &Units) -> String {
 }
 
 /// One row for each point, from one end to the other.
-fn rows<'a>(found: &'a EventCurve, plan: &'a CurvePlan, units: &'a Units) -> impl Iterator<Item = String> + 'a {
+fn rows<'a>(found: &'a EventCurve, plan: CurvePlan, units: &'a Units) -> impl Iterator<Item = String> + 'a {
     found.points.iter().map(move |point| {
-        let [p, q] = values(point, plan, units);
+        let [p, q] = values(point, &plan, units);
         let event = point.event.map_or("", |event| event.name());
         let head = format!("{},{},{},{},{event}", Number(p), Number(q), point.cycle.label, point.physical);
         let units = units.at_both((plan.vary.parameter, plan.and.parameter), point.values);

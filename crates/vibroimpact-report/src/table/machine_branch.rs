@@ -5,7 +5,7 @@ use super::machine_tables::{drifts, numbered, push, push_drift};
 use crate::number::Number;
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::MachineCycle;
-use vibroimpact_study::{MachineBranched, MachineCut};
+use vibroimpact_study::{Cut, MachineBranched};
 
 /// The columns of the closings of stops, and without forcing of the period, which the label says otherwise.
 pub(super) fn closing_columns(machine: &Machine) -> impl Iterator<Item = String> {
@@ -16,7 +16,7 @@ pub(super) fn closing_columns(machine: &Machine) -> impl Iterator<Item = String>
 /// One row a point: number of the branch, the numbers that vary, label, whether it is admissible and stable, its stability, event,
 /// stop of the event, fastest closing, multipliers, the drift of a machine that can be translated, of each closing the phase, speed and stop,
 /// and without forcing the period.
-pub(crate) fn table<'a>(machine: &'a Machine, cut: &MachineCut, found: &'a MachineBranched) -> Table<'a> {
+pub(crate) fn table<'a>(machine: &'a Machine, cut: &Cut<String>, found: &'a MachineBranched) -> Table<'a> {
     let own = ["label", "admissible", "stable", "stability", "event", "stop", "fastest"];
     let heads = core::iter::once("branch").chain(cut.paths()).chain(own).map(str::to_owned);
     let drifting = found.all().flatten().any(|point| point.cycle.translations() > 0);

@@ -5,14 +5,22 @@ use super::machine_branch::{closing_columns, closings};
 use super::machine_tables::{numbered, push};
 use crate::number::Number;
 use vibroimpact::machine::Machine;
-use vibroimpact_study::{MachineCurvePlan, MachineEventCurve};
+use vibroimpact_study::{CurvePlan, MachineEventCurve, Name, Variable};
 
 /// One row a point: both numbers, label, whether it is admissible, event, stop of the event, residual of the condition, phase of
 /// the touch, multipliers, of each closing besides the touch the phase, speed and stop, and without
 /// forcing the period.
-pub(crate) fn table<'a>(machine: &'a Machine, plan: &MachineCurvePlan, found: &'a MachineEventCurve) -> Table<'a> {
-    let names =
-        [plan.vary.path.as_str(), plan.and.path.as_str(), "label", "admissible", "event", "stop", "residual", "touch"];
+pub(crate) fn table<'a>(machine: &'a Machine, plan: &CurvePlan<Variable>, found: &'a MachineEventCurve) -> Table<'a> {
+    let names = [
+        plan.vary.parameter.text(),
+        plan.and.parameter.text(),
+        "label",
+        "admissible",
+        "event",
+        "stop",
+        "residual",
+        "touch",
+    ];
     let header = names.map(str::to_owned).into_iter().chain(numbered(machine)).chain(closing_columns(machine));
     let header = header.collect::<Vec<_>>().join(",");
     let rows = found.points.iter().map(|point| {

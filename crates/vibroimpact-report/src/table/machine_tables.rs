@@ -7,7 +7,7 @@ use vibroimpact::math::Multiplier;
 use vibroimpact::orbit::MachineCycle;
 use vibroimpact::quantities::{machine_quantities, machine_quantity_paths};
 use vibroimpact::verdict::{Census, Verdict};
-use vibroimpact_study::{MachineAxis, MachineBasin, MachineMap, MachineShare};
+use vibroimpact_study::{Axis, MachineBasin, MachineMap, MachineShare};
 
 /// The names of stops with blanks between, after a comma.
 fn stops_of(machine: &Machine, stops: &[usize]) -> String {
@@ -118,13 +118,13 @@ pub(super) fn push(row: &mut String, multipliers: Option<&Vec<Multiplier>>, n: u
     }
 }
 
-fn heads(axes: &[MachineAxis]) -> Vec<&str> {
+fn heads(axes: &[Axis<String>]) -> Vec<&str> {
     axes.iter().map(|axis| axis.vary.as_str()).collect()
 }
 
 /// The values at point `k`, each followed by a comma.
-fn values(axes: &[MachineAxis], k: usize) -> String {
-    MachineAxis::at(axes, k as u64).into_iter().map(|value| format!("{},", Number(value))).collect()
+fn values(axes: &[Axis<String>], k: usize) -> String {
+    Axis::<String>::at(axes, k as u64).into_iter().map(|value| format!("{},", Number(value))).collect()
 }
 
 /// The values of quantities, each after a comma; empty where they are not defined or infinite.
@@ -133,7 +133,7 @@ fn quantities(values: &[f64]) -> String {
     values.iter().map(cell).collect()
 }
 
-fn header<'a>(axes: &'a [MachineAxis], own: &[&'a str], fields: &'a [String]) -> String {
+fn header<'a>(axes: &'a [Axis<String>], own: &[&'a str], fields: &'a [String]) -> String {
     let fields = fields.iter().map(String::as_str);
     heads(axes).into_iter().chain(own.iter().copied()).chain(fields).collect::<Vec<_>>().join(",")
 }

@@ -5,7 +5,7 @@ use crate::Units;
 use crate::json::region::{sheet, unit};
 use crate::number::Number;
 use vibroimpact::continuation::Region;
-use vibroimpact_study::{MachineRegionPlan, RegionPlan, Regions};
+use vibroimpact_study::{RegionPlan, Regions};
 
 /// Both regions with their names.
 #[must_use]
@@ -22,8 +22,8 @@ pub fn table<'a>(found: &'a Regions, plan: &RegionPlan, units: &Units) -> Table<
 
 /// The same of a machine.
 #[must_use]
-pub fn of_machine<'a>(found: &'a Regions, plan: &MachineRegionPlan) -> Table<'a> {
-    Table::new(columns([&plan.across.path, &plan.up.path]), rows(found, (1.0, 1.0)))
+pub fn of_machine<'a>(found: &'a Regions, plan: &RegionPlan<String>) -> Table<'a> {
+    Table::new(columns([&plan.across.parameter, &plan.up.parameter]), rows(found, (1.0, 1.0)))
 }
 
 /// The columns of the table.

@@ -23,21 +23,21 @@ pub const S: SystemPlan = SystemPlan {
 /// A basin of 20 tiles.
 pub fn basin() -> Plan {
     let task = BasinPlan::plane("-4:0.75:45".parse().unwrap(), "-4:4:37".parse().unwrap(), 0.0);
-    Plan { tile: Some(10), ..Plan::new(S, Task::Basin(task)) }
+    Plan { tile: Some(10), ..Plan::new(S, Task::from(task)) }
 }
 
 /// A basin of 9 tiles with cycles that the survey does not find.
 pub fn rare() -> Plan {
     let task = BasinPlan::plane("-0.6:-0.4:24".parse().unwrap(), "-4:4:24".parse().unwrap(), 0.0);
     let weak = SystemPlan { beta: Some(2.8), inverse_beta: None, gap: 0.1, restitution: 0.97, damping: 0.01, ..S };
-    Plan { tile: Some(8), ..Plan::new(weak, Task::Basin(task)) }
+    Plan { tile: Some(8), ..Plan::new(weak, Task::from(task)) }
 }
 
 /// A map of 12 tiles.
 pub fn map() -> Plan {
     let task = MapPlan::plane("0.6:1.4:13".parse().unwrap(), "-0.5:2:9".parse().unwrap(), 4, 1);
     let system = SystemPlan { inverse_beta: Some(0.6), gap: -0.5, ..S };
-    Plan { tile: Some(4), ..Plan::new(system, Task::Map(task)) }
+    Plan { tile: Some(4), ..Plan::new(system, Task::from(task)) }
 }
 
 /// The store of a plan in a folder.

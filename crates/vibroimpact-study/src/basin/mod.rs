@@ -56,7 +56,7 @@ pub fn start(osc: &Oscillator, plan: &BasinPlan, k: u64) -> Start {
         rest /= count;
     }
     let same = SystemPlan::default();
-    start_at(osc, (&same, &same), (&plan.start, &plan.axes), |k| place[k])
+    start_at(osc, (&same, &same), (&plan.start(), &plan.axes), |k| place[k])
 }
 
 /// The start at a point of the axes, given the oscillator at that point. `systems` are that of the plan and that at the

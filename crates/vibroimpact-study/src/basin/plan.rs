@@ -5,21 +5,26 @@ use crate::map::{check_impacts, check_refine, options};
 use crate::quantity::Quantity;
 use crate::{PlanError, PointsPlan, Span, StartPlan, SystemPlan};
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use vibroimpact::verdict::SettleOptions;
 
 /// The starts of a basin: a grid over coordinates of the start, and perhaps over parameters, or points of both.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct BasinPlan {
+#[serde(
+    deny_unknown_fields,
+    bound(serialize = "V: Serialize, Q: Serialize", deserialize = "V: Deserialize<'de>, Q: Deserialize<'de>")
+)]
+#[schemars(rename = "BasinPlan", bound = "V: schemars::JsonSchema + Serialize, Q: schemars::JsonSchema + Serialize")]
+pub struct BasinPlan<V = Coordinate, Q = Quantity> {
     /// What varies; the first runs fastest and is drawn to the right, the second upwards.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub axes: Vec<Axis>,
+    pub axes: Vec<Axis<V>>,
     /// Points of parameters and starts, each with the whole grid over the axes, if there are any axes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub points: Option<PointsPlan>,
-    /// The coordinates that are on no axis.
-    #[serde(default)]
-    pub start: StartPlan,
+    pub points: Option<PointsPlan<V>>,
+    /// The coordinates of an oscillator that are on no axis; at rest when absent. Those of a machine are in its start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub start: Option<StartPlan>,
     /// Where results are stored: compute every K-th point first, K being this number, and the points between only where neighbours
     /// differ. All of them when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -29,9 +34,8 @@ pub struct BasinPlan {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub impacts: Option<u32>,
     /// Quantities of each motion to report beside its label.
-    #[serde(default, with = "crate::quantity", skip_serializing_if = "Vec::is_empty")]
-    #[schemars(with = "crate::quantity::Names")]
-    pub fields: Vec<Quantity>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub fields: Vec<Q>,
     /// Whether to report the number of impacts after which each motion was decided. Many starts of one system take longer
     /// then.
     #[serde(default, skip_serializing_if = "core::ops::Not::not")]
@@ -41,7 +45,38 @@ pub struct BasinPlan {
 /// Maximum number of axes.
 const MOST_AXES: usize = 4;
 
+impl<V, Q> BasinPlan<V, Q> {
+    /// The same with other names of what varies and of quantities.
+    pub(crate) fn named<W, R, E>(
+        &self,
+        name: &impl Fn(&V) -> Result<W, E>,
+        quantity: &impl Fn(&Q) -> Result<R, E>,
+    ) -> Result<BasinPlan<W, R>, E> {
+        let Self { start, refine, impacts, transient, .. } = self;
+        let axes = self.axes.iter().map(|axis| axis.named(name)).collect::<Result<_, E>>()?;
+        let points = self.points.as_ref().map(|points| points.named(name)).transpose()?;
+        let fields = self.fields.iter().map(quantity).collect::<Result<_, E>>()?;
+        let (start, refine, impacts, transient) = (*start, *refine, *impacts, *transient);
+        Ok(BasinPlan { axes, points, start, refine, impacts, fields, transient })
+    }
+}
+
+impl<V: Clone + Into<Cow<'static, str>>, Q> BasinPlan<V, Q> {
+    /// Total number of starts.
+    #[must_use]
+    pub fn starts(&self) -> u64 {
+        let points = self.points.as_ref().map_or(1, PointsPlan::count);
+        points.saturating_mul(axis::points(&self.axes))
+    }
+}
+
 impl BasinPlan {
+    /// The coordinates of the start that are on no axis.
+    #[must_use]
+    pub fn start(&self) -> StartPlan {
+        self.start.unwrap_or_default()
+    }
+
     /// A plane of positions and velocities at one phase.
     #[must_use]
     pub fn plane(x: Span, v: Span, phase: f64) -> Self {
@@ -49,7 +84,7 @@ impl BasinPlan {
         Self {
             axes,
             points: None,
-            start: StartPlan { phase, ..StartPlan::default() },
+            start: Some(StartPlan { phase, ..StartPlan::default() }),
             refine: None,
             impacts: None,
             fields: Vec::new(),
@@ -63,7 +98,7 @@ impl BasinPlan {
         Self {
             axes: Vec::new(),
             points: Some(points),
-            start,
+            start: Some(start),
             refine: None,
             impacts: None,
             fields: Vec::new(),
@@ -89,14 +124,14 @@ impl BasinPlan {
             axis::none_twice(points.varied().chain(self.axes.iter().map(|axis| axis.vary)))?;
             if points.one_system() && self.axes.is_empty() {
                 let osc = system.oscillator()?;
-                return points.check(system, &self.start, |_, start| start.start(&osc).map(|_| ()));
+                return points.check(system, &self.start(), |_, start| start.start(&osc).map(|_| ()));
             }
-            return points.check(system, &self.start, |there, start| self.corners(there, start));
+            return points.check(system, &self.start(), |there, start| self.corners(there, start));
         }
         if !self.axes.iter().any(|axis| axis.vary.is_start()) {
             return Err(PlanError::NoStartAxis);
         }
-        self.corners(system, &self.start)
+        self.corners(system, &self.start())
     }
 
     /// Checks the corners of the grid over the axes, from a start of a system.
@@ -116,13 +151,6 @@ impl BasinPlan {
     #[must_use]
     pub fn options(&self) -> SettleOptions {
         options(self.impacts)
-    }
-
-    /// Total number of starts.
-    #[must_use]
-    pub fn starts(&self) -> u64 {
-        let points = self.points.as_ref().map_or(1, PointsPlan::count);
-        points.saturating_mul(axis::points(&self.axes))
     }
 
     /// Whether all starts belong to one system, that is, no axis varies a parameter.

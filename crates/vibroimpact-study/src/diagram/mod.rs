@@ -14,8 +14,8 @@ mod strobes;
 
 pub use follow::{DiagramPoint, MotionKind};
 pub(crate) use follow::{SAME, carried_state};
-pub use plan::{DEFAULT_KEEP, DEFAULT_TRANSIENT, DiagramPlan, Show, SweepDirection};
-pub(crate) use plan::{check_order, check_shown, even, keep, transient};
+pub use plan::{DEFAULT_KEEP, DEFAULT_TRANSIENT, DiagramPlan, Show, ShowText, SweepDirection};
+pub(crate) use plan::{check_order, check_shown, even};
 pub(crate) use settled::state_on;
 
 use crate::{PlanError, SystemPlan, Values};

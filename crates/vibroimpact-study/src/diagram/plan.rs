@@ -1,6 +1,7 @@
 //! The plan of an orbit diagram: the parameter and its values, the starts, and the points to show.
 
 use crate::limits::{MOST_STARTS, starts};
+use crate::name::{Name, Written};
 use crate::quantity::Quantity;
 use crate::{Cut, Parameter, PlanError, Span, Stretch, SystemPlan, Values};
 use serde::{Deserialize, Serialize};
@@ -13,21 +14,25 @@ pub const DEFAULT_KEEP: u64 = 64;
 
 /// One parameter over rising or falling values, and what is shown of the motion at each value.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct DiagramPlan {
-    /// The parameter that varies; its value in the system counts for nothing.
-    #[serde(with = "crate::parameter")]
-    #[schemars(with = "crate::parameter::Name")]
-    pub vary: Parameter,
+#[serde(
+    deny_unknown_fields,
+    bound(serialize = "V: Name, S: Serialize", deserialize = "V: Name, S: Deserialize<'de> + Default")
+)]
+#[schemars(rename = "DiagramPlan", bound = "V: Name, S: schemars::JsonSchema + Default + Serialize")]
+pub struct DiagramPlan<V = Parameter, S = Show> {
+    /// The number that varies; its value in the system counts for nothing.
+    #[serde(with = "crate::name")]
+    #[schemars(with = "Written<V>")]
+    pub vary: V,
     /// Its values, which rise or fall.
     pub over: Values,
     /// A second parameter that varies with it, in proportion, from its value at the first to its value at the last: the
     /// diagram along any line through two parameters.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub also: Option<Stretch>,
-    /// What is shown.
+    pub also: Option<Stretch<V>>,
+    /// What is shown; velocity, or speed of a machine, when absent.
     #[serde(default)]
-    pub show: Show,
+    pub show: S,
     /// How the starts at each value are chosen.
     #[serde(default)]
     pub direction: SweepDirection,
@@ -40,11 +45,11 @@ pub struct DiagramPlan {
     pub keep: u64,
 }
 
-pub(crate) const fn transient() -> u64 {
+const fn transient() -> u64 {
     DEFAULT_TRANSIENT
 }
 
-pub(crate) const fn keep() -> u64 {
+const fn keep() -> u64 {
     DEFAULT_KEEP
 }
 
@@ -59,10 +64,76 @@ pub enum Show {
     Strobe,
     /// One value of the settled motion: that of this quantity.
     Quantity(
-        #[serde(with = "crate::quantity::one")]
-        #[schemars(with = "crate::quantity::Name")]
+        #[serde(with = "crate::name")]
+        #[schemars(with = "Written<Quantity>")]
         Quantity,
     ),
+}
+
+/// What is shown as a plan has it. Of an oscillator it is `velocity`, `strobe` or a quantity. Of a machine it is `speed`, the phase
+/// and speed of each closing of a stop; the value of `q.COORDINATE` or `qdot.COORDINATE` once in every forcing period, at phase 0; or
+/// a quantity of the settled motion by its path.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(
+    untagged,
+    deny_unknown_fields,
+    expecting = "`velocity`, `strobe`, a table with a `quantity`, or a path of a machine"
+)]
+pub enum ShowText {
+    /// A word, or a path of a machine.
+    Word(String),
+    /// A quantity of an oscillator.
+    Quantity {
+        /// Its name.
+        quantity: String,
+    },
+}
+
+impl Default for ShowText {
+    fn default() -> Self {
+        Self::Word("velocity".to_owned())
+    }
+}
+
+impl From<Show> for ShowText {
+    fn from(show: Show) -> Self {
+        match show {
+            Show::Velocity => Self::Word("velocity".to_owned()),
+            Show::Strobe => Self::Word("strobe".to_owned()),
+            Show::Quantity(quantity) => Self::Quantity { quantity: quantity.name().to_owned() },
+        }
+    }
+}
+
+impl From<String> for ShowText {
+    fn from(path: String) -> Self {
+        Self::Word(path)
+    }
+}
+
+impl TryFrom<&ShowText> for Show {
+    type Error = PlanError;
+
+    fn try_from(text: &ShowText) -> Result<Self, PlanError> {
+        match text {
+            ShowText::Word(word) if word == "velocity" => Ok(Self::Velocity),
+            ShowText::Word(word) if word == "strobe" => Ok(Self::Strobe),
+            ShowText::Word(word) => {
+                let shown: String = word.chars().take(60).collect();
+                Err(PlanError::Name(format!("`{shown}` is neither velocity nor strobe nor a table with a quantity")))
+            }
+            ShowText::Quantity { quantity } => Ok(Self::Quantity(Quantity::of(quantity)?)),
+        }
+    }
+}
+
+impl TryFrom<&ShowText> for String {
+    type Error = PlanError;
+
+    fn try_from(text: &ShowText) -> Result<Self, PlanError> {
+        let (ShowText::Word(path) | ShowText::Quantity { quantity: path }) = text;
+        Ok(path.clone())
+    }
 }
 
 /// How the starts at each value are chosen.
@@ -146,6 +217,26 @@ pub(crate) fn even(over: &Values, (from, to): (f64, f64), k: u32) -> Option<f64>
     if over.is_logarithmic() { None } else { Some(Span::new(from, to, over.count()).ok()?.at(k)) }
 }
 
+impl<V, S> DiagramPlan<V, S> {
+    /// The same with other names of the numbers that vary and of what is shown.
+    pub(crate) fn named<W, T, E>(
+        &self,
+        name: &impl Fn(&V) -> Result<W, E>,
+        show: &impl Fn(&S) -> Result<T, E>,
+    ) -> Result<DiagramPlan<W, T>, E> {
+        let Self { direction, transient, keep, .. } = self;
+        let also = self.also.as_ref().map(|also| also.named(name)).transpose()?;
+        let (vary, over, show) = (name(&self.vary)?, self.over.clone(), show(&self.show)?);
+        Ok(DiagramPlan { vary, over, also, show, direction: *direction, transient: *transient, keep: *keep })
+    }
+
+    /// Number of motions followed at each value.
+    #[must_use]
+    pub const fn runs(&self) -> u64 {
+        self.direction.runs()
+    }
+}
+
 impl DiagramPlan {
     /// Checks everything that can be checked without running the plan.
     ///
@@ -189,12 +280,6 @@ impl DiagramPlan {
     pub fn system(&self, system: &SystemPlan, k: u32) -> Result<SystemPlan, PlanError> {
         system.with_all(self.values(k))
     }
-
-    /// Number of motions followed at each value.
-    #[must_use]
-    pub const fn runs(&self) -> u64 {
-        self.direction.runs()
-    }
 }
 
 #[cfg(test)]
@@ -216,7 +301,7 @@ mod tests {
             transient: 7,
             keep: 3,
         };
-        let plan = Plan::new(system, Task::Diagram(task));
+        let plan = Plan::new(system, Task::from(task));
         let text = serde_json::to_string(&plan).unwrap();
         assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan);
         let short: DiagramPlan = serde_json::from_str(r#"{"vary": "inverse_beta", "over": "1:2:3"}"#).unwrap();

@@ -2,7 +2,7 @@
 
 use crate::diagram::{Diagram, DiagramPlan, Sweep, SweepDirection};
 use crate::machine::MachineSource;
-use crate::machine_plan::{MachineDiagram, MachineDiagramPlan};
+use crate::machine_plan::MachineDiagram;
 use crate::study::{SweepFill, Swept, tiles_of};
 use crate::{Control, RunError, SystemPlan};
 use vibroimpact::math::sort_by_key;
@@ -29,7 +29,7 @@ pub(crate) fn diagram(system: &SystemPlan, plan: &DiagramPlan, control: &Control
 /// [`RunError`] for an invalid plan, or when stopped.
 pub(crate) fn machine_diagram(
     source: &MachineSource,
-    plan: &MachineDiagramPlan,
+    plan: &DiagramPlan<String, String>,
     control: &Control<'_>,
 ) -> Result<MachineDiagram, RunError> {
     plan.check(source)?;

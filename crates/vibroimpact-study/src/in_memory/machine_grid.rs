@@ -2,11 +2,9 @@
 
 use super::join::{Joined, Part, joined};
 use crate::machine::MachineSource;
-use crate::machine_plan::{
-    MachineBasin, MachineBasinPlan, MachineMap, MachineMapPlan, MachineShare, check_memory, values_of,
-};
+use crate::machine_plan::{MachineBasin, MachineMap, MachineShare, check_memory, values_of};
 use crate::study::{Cell, Fill, MachineBasinFill, MapFill, tiles_of};
-use crate::{Control, RunError};
+use crate::{BasinPlan, Control, MapPlan, RunError};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::{Undecided, UndecidedCause, Verdict};
@@ -17,11 +15,11 @@ use vibroimpact::verdict::{Undecided, UndecidedCause, Verdict};
 /// [`RunError`] for an invalid plan, or when stopped.
 pub(crate) fn machine_basin(
     problem: (&Machine, &MachineStart),
-    plan: &MachineBasinPlan,
+    plan: &BasinPlan<String, String>,
     control: &Control<'_>,
 ) -> Result<MachineBasin, RunError> {
     check_memory(&plan.axes, 1)?;
-    let task = MachineBasinFill::new(problem, &MachineBasinPlan { refine: None, ..plan.clone() }, None)?;
+    let task = MachineBasinFill::new(problem, &BasinPlan { refine: None, ..plan.clone() }, None)?;
     let whole = task.grid().whole();
     let mut seen_events = vec![None; whole.points()];
     let parts = tiles_of(&task, control)?.into_iter().map(|(block, tile)| {
@@ -48,14 +46,14 @@ pub(crate) fn machine_basin(
 /// [`RunError`] for an invalid plan, or when stopped.
 pub(crate) fn machine_map(
     source: &MachineSource,
-    plan: &MachineMapPlan,
+    plan: &MapPlan<String, String>,
     control: &Control<'_>,
 ) -> Result<MachineMap, RunError> {
     check_memory(&plan.axes, plan.starts)?;
     // one point a tile, because one point may take a thousand times as long as another; oscillators share lanes
     let alone = source.machine().is_ok_and(|machine| machine.reduced().is_none());
     let tile = if alone { Some(1) } else { None };
-    let task = MapFill::of_machine(source, &MachineMapPlan { refine: None, ..plan.clone() }, tile);
+    let task = MapFill::of_machine(source, &MapPlan { refine: None, ..plan.clone() }, tile);
     let whole = task.grid().whole();
     let mut cells: Vec<Vec<MachineShare>> = vec![Vec::new(); whole.points()];
     for (block, tile) in tiles_of(&task, control)? {

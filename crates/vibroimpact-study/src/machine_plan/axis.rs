@@ -1,21 +1,9 @@
 //! An axis of a grid over a machine: a number by its path, or a part of the start.
 
 use crate::machine::MachineSource;
-use crate::{PlanError, Values};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::{Axis, PlanError};
 
-/// An axis of a grid.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MachineAxis {
-    /// The path of a number, or `q.COORDINATE`, `qdot.COORDINATE` or `phase` of the start.
-    pub vary: String,
-    /// Its values.
-    pub over: Values,
-}
-
-impl MachineAxis {
+impl Axis<String> {
     /// One line of text that describes the axis.
     #[must_use]
     pub(crate) fn long_name(&self) -> String {
@@ -36,11 +24,6 @@ impl MachineAxis {
         values: impl IntoIterator<Item = (&'a Self, f64)>,
     ) -> Result<MachineSource, PlanError> {
         Ok(source.with_all(values.into_iter().map(|(axis, value)| (axis.vary.as_str(), value)))?)
-    }
-
-    /// The number of points of the grid over some axes.
-    pub(crate) fn points(axes: &[Self]) -> u64 {
-        axes.iter().fold(1, |product, axis| product.saturating_mul(axis.over.count() as u64))
     }
 
     /// The values of all axes at point number `k` of their grid; the first axis varies fastest.

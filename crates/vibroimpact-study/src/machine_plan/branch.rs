@@ -1,16 +1,12 @@
 //! Branches of a machine in one number or along a line through two, and the branches that begin at their flips and branch
 //! points.
 
-use super::cut::{MachineCut, MachineStretch, MachineTarget};
-use super::diagram::MachineDiagramPlan;
 use super::orbits::{self, ChosenCycle};
 use crate::branch::{DIAGRAM_VALUES, MOST_FOLLOWED};
 use crate::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, SweepDirection};
 use crate::machine::MachineSource;
-use crate::{Control, PlanError, RunError, Span, Stopped, limits};
+use crate::{BranchPlan, Control, Cut, DiagramPlan, PlanError, RunError, Span, Stopped, Stretch, Target, limits};
 use core::ops::RangeInclusive;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 use vibroimpact::continuation::{
     BranchOptions, Direction, MachineBranch, MachineBranchEvent, MachineFamily, MachinePoint,
@@ -18,36 +14,6 @@ use vibroimpact::continuation::{
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::MachineCycle;
-
-/// An orbit that is followed in one number, or along a line through two.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MachineBranchPlan {
-    /// The label of the orbit at the machine; that of the motion from the start when absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub label: Option<String>,
-    /// Which of the orbits with the label, counted from 1, the fastest last; when absent the stable one, else the fastest.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub orbit: Option<u32>,
-    /// The path of the number that varies, from its value in the machine.
-    pub vary: String,
-    /// The other end of its range.
-    pub to: f64,
-    /// A second number that varies with it, in proportion, from its value in the machine.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub also: Option<MachineTarget>,
-    /// The largest number of points of each branch: 2 to 100000.
-    #[serde(default = "crate::branch::points")]
-    pub points: u32,
-    /// How many of the branches that begin at flips and branch points are followed: 0 to 100.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub follow: u32,
-}
-
-#[allow(clippy::trivially_copy_pass_by_ref)] // serde wants it
-const fn is_zero(count: &u32) -> bool {
-    *count == 0
-}
 
 /// A branch of a machine, and the branches that begin on it.
 #[derive(Clone, Debug)]
@@ -79,9 +45,9 @@ impl MachineBranched {
     }
 }
 
-impl MachineBranchPlan {
+impl BranchPlan<String> {
     /// Checks the orbit, the numbers that vary and their ranges.
-    pub(super) fn check(&self, source: &MachineSource, machine: &Machine) -> Result<(), PlanError> {
+    pub(crate) fn check(&self, source: &MachineSource, machine: &Machine) -> Result<(), PlanError> {
         if self.follow > MOST_FOLLOWED {
             return Err(PlanError::Follow { given: self.follow, most: MOST_FOLLOWED });
         }
@@ -101,23 +67,23 @@ impl MachineBranchPlan {
     ///
     /// # Errors
     /// [`PlanError::Machine`] if a path leads to no number.
-    pub fn cut(&self, source: &MachineSource) -> Result<MachineCut, PlanError> {
-        let from = |MachineTarget { path, to }: &MachineTarget| {
-            source.number(path).map(|from| MachineStretch { path: path.clone(), from, to: *to })
+    pub fn cut(&self, source: &MachineSource) -> Result<Cut<String>, PlanError> {
+        let from = |Target { parameter: path, to }: &Target<String>| {
+            source.number(path).map(|from| Stretch { parameter: path.clone(), from, to: *to })
         };
         let also = self.also.as_ref().map(from).transpose()?;
-        Ok(MachineCut { vary: self.vary.clone(), ends: (source.number(&self.vary)?, self.to), also })
+        Ok(Cut { vary: self.vary.clone(), ends: (source.number(&self.vary)?, self.to), also })
     }
 
     /// The plan of an orbit diagram over the same range.
     ///
     /// # Errors
     /// [`PlanError`] for an invalid plan.
-    pub fn diagram(&self, source: &MachineSource) -> Result<MachineDiagramPlan, PlanError> {
-        let MachineCut { vary, ends, also } = self.cut(source)?;
+    pub fn diagram(&self, source: &MachineSource) -> Result<DiagramPlan<String, String>, PlanError> {
+        let Cut { vary, ends, also } = self.cut(source)?;
         let over = Span::new(ends.0, ends.1, DIAGRAM_VALUES)?.into();
         let (direction, transient, keep) = (SweepDirection::Both, DEFAULT_TRANSIENT, DEFAULT_KEEP);
-        Ok(MachineDiagramPlan { vary, over, also, show: super::diagram::speed(), direction, transient, keep })
+        Ok(DiagramPlan { vary, over, also, show: super::diagram::speed(), direction, transient, keep })
     }
 }
 
@@ -125,7 +91,7 @@ impl MachineBranchPlan {
 pub(super) fn branch(
     source: &MachineSource,
     problem: (&Machine, &MachineStart),
-    plan: &MachineBranchPlan,
+    plan: &BranchPlan<String>,
     control: &Control<'_>,
 ) -> Result<MachineBranched, RunError> {
     let cut = plan.cut(source)?;
@@ -154,7 +120,7 @@ const SAME: f64 = 1e-7;
 impl MachineLine {
     /// A line, and the largest number of points of each branch.
     #[must_use]
-    pub fn new(source: &MachineSource, cut: &MachineCut, points: u32) -> Self {
+    pub fn new(source: &MachineSource, cut: &Cut<String>, points: u32) -> Self {
         let (from, to) = cut.ends;
         let family = cut.family(source);
         let options = BranchOptions { points, ..BranchOptions::default() };
@@ -268,20 +234,22 @@ fn origins(points: &[MachinePoint]) -> impl Iterator<Item = MachinePoint> + '_ {
 mod tests {
     use super::*;
     use crate::machine::CATALOGUE;
-    use crate::{MachinePlan, MachineResults, MachineTask, run_machine};
+    use crate::{MachineResults, Plan, Results, Task, run};
 
     fn hammer() -> MachineSource {
         CATALOGUE.iter().find(|entry| entry.name == "two-mass-hammer").unwrap().source().unwrap()
     }
 
-    fn asked(vary: &str, to: f64, also: Option<(&str, f64)>) -> MachineBranchPlan {
-        let also = also.map(|(path, to)| MachineTarget { path: path.to_owned(), to });
-        MachineBranchPlan { label: None, orbit: None, vary: vary.to_owned(), to, also, points: 500, follow: 0 }
+    fn asked(vary: &str, to: f64, also: Option<(&str, f64)>) -> BranchPlan<String> {
+        let also = also.map(|(path, to)| Target { parameter: path.to_owned(), to });
+        BranchPlan { label: None, orbit: None, vary: vary.to_owned(), to, also, points: 500, follow: 0 }
     }
 
-    fn followed(source: &MachineSource, plan: &MachineBranchPlan) -> MachineBranched {
-        let plan = MachinePlan::new(source.clone(), MachineTask::Branch(plan.clone()));
-        let MachineResults::Branch(found) = run_machine(&plan, &Control::default()).unwrap() else { panic!() };
+    fn followed(source: &MachineSource, plan: &BranchPlan<String>) -> MachineBranched {
+        let plan = Plan::new(source.clone(), Task::from(plan.clone()));
+        let Results::Machine(MachineResults::Branch(found)) = run(&plan, &Control::default()).unwrap() else {
+            panic!()
+        };
         found
     }
 
@@ -308,7 +276,7 @@ mod tests {
     #[test]
     fn the_number_of_the_orbit() {
         let source = hammer().with("frequency", 1.06).unwrap();
-        let of = |orbit| MachineBranchPlan { label: Some("2/1".into()), orbit, ..asked("frequency", 1.065, None) };
+        let of = |orbit| BranchPlan { label: Some("2/1".into()), orbit, ..asked("frequency", 1.065, None) };
         let begins = |orbit| {
             let found = followed(&source, &of(orbit));
             let first = &found.points[0].cycle;
@@ -319,15 +287,15 @@ mod tests {
         assert!(one.2 < two.2);
         // the stable one by default
         assert_eq!(begins(None), two);
-        let refused = |plan: MachineBranchPlan| {
-            let plan = MachinePlan::new(source.clone(), MachineTask::Branch(plan));
-            run_machine(&plan, &Control::default()).unwrap_err().to_string()
+        let refused = |plan: BranchPlan<String>| {
+            let plan = Plan::new(source.clone(), Task::from(plan));
+            run(&plan, &Control::default()).unwrap_err().to_string()
         };
         for orbit in [0, 3] {
             let said = refused(of(Some(orbit)));
             assert!(said.starts_with(&format!("there is no orbit 2/1 number {orbit}; found: 2")), "{said}");
         }
-        let unlabelled = MachineBranchPlan { label: None, ..of(Some(1)) };
+        let unlabelled = BranchPlan { label: None, ..of(Some(1)) };
         assert!(refused(unlabelled).starts_with("the number of an orbit is given without a label"));
         let twice = asked("frequency", 1.0, Some(("frequency", 1.1)));
         assert!(refused(twice).starts_with("frequency and frequency cannot vary together"));
@@ -337,16 +305,12 @@ mod tests {
 
     #[test]
     fn a_plan_survives_json() {
-        let full = MachineBranchPlan {
-            label: Some("2/1".into()),
-            orbit: Some(1),
-            follow: 2,
-            ..asked("b", 0.7, Some(("mu", 0.6)))
-        };
+        let full =
+            BranchPlan { label: Some("2/1".into()), orbit: Some(1), follow: 2, ..asked("b", 0.7, Some(("mu", 0.6))) };
         let text = serde_json::to_string(&full).unwrap();
-        assert_eq!(serde_json::from_str::<MachineBranchPlan>(&text).unwrap(), full);
+        assert_eq!(serde_json::from_str::<BranchPlan<String>>(&text).unwrap(), full);
         let short = r#"{"vary":"b","to":0.7,"points":500}"#;
-        let plan: MachineBranchPlan = serde_json::from_str(short).unwrap();
+        let plan: BranchPlan<String> = serde_json::from_str(short).unwrap();
         assert_eq!(plan, asked("b", 0.7, None));
         assert_eq!(serde_json::to_string(&plan).unwrap(), short);
     }

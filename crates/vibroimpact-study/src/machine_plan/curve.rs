@@ -1,12 +1,12 @@
 //! Curves of events of an orbit of a machine in a plane of two of its numbers. A curve begins at an event on a branch in the
 //! first one.
 
-use super::cut::{MachineCut, MachineStretch, check_plane, plane};
+use super::cut::{check_plane, plane};
 use super::orbits;
 use crate::machine::MachineSource;
-use crate::{Control, PlanError, RunError, Stopped, limits};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::{
+    Control, CurvePlan, Cut, DEFAULT_BRANCH_POINTS, FollowedEvent, PlanError, RunError, Stopped, Stretch, limits,
+};
 use vibroimpact::Label;
 use vibroimpact::continuation::{
     BranchOptions, CurveEvent, CurveKind, CurveOptions, Direction, MachineBranch, MachineBranchEvent, MachineCurve,
@@ -16,78 +16,19 @@ use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 use vibroimpact::math::sort_by;
 
-/// What holds along a curve of a machine.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum MachineFollowedEvent {
-    /// A multiplier is +1 and the numbers turn.
-    Fold,
-    /// A multiplier is -1.
-    Flip,
-    /// A pair of complex multipliers lies on the unit circle.
-    Torus,
-    /// A stop is touched with speed zero.
-    Grazing,
-    /// Two events happen at the same time.
-    Corner,
-    /// A rest on a stop begins or ends to be a part of the orbit.
-    Sticking,
-    /// A friction joint begins or ends to hold in the orbit.
-    Holding,
-}
-
-impl MachineFollowedEvent {
-    /// Its name in plans and tables.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Fold => "fold",
-            Self::Flip => "flip",
-            Self::Torus => "torus",
-            Self::Grazing => "grazing",
-            Self::Corner => "corner",
-            Self::Sticking => "sticking",
-            Self::Holding => "holding",
+/// Whether an event of a branch is of a kind.
+const fn is(kind: FollowedEvent, event: MachineBranchEvent) -> bool {
+    match kind {
+        FollowedEvent::Fold => matches!(event, MachineBranchEvent::Fold),
+        FollowedEvent::Flip => matches!(event, MachineBranchEvent::Flip),
+        FollowedEvent::Torus => matches!(event, MachineBranchEvent::Torus),
+        FollowedEvent::Grazing => {
+            matches!(event, MachineBranchEvent::Grazing { .. } | MachineBranchEvent::LossOfContact { .. })
         }
+        FollowedEvent::Corner => matches!(event, MachineBranchEvent::Corner { .. }),
+        FollowedEvent::Sticking => matches!(event, MachineBranchEvent::Sticking { .. }),
+        FollowedEvent::Holding => matches!(event, MachineBranchEvent::Holding { .. }),
     }
-
-    const fn is(self, event: MachineBranchEvent) -> bool {
-        match self {
-            Self::Fold => matches!(event, MachineBranchEvent::Fold),
-            Self::Flip => matches!(event, MachineBranchEvent::Flip),
-            Self::Torus => matches!(event, MachineBranchEvent::Torus),
-            Self::Grazing => {
-                matches!(event, MachineBranchEvent::Grazing { .. } | MachineBranchEvent::LossOfContact { .. })
-            }
-            Self::Corner => matches!(event, MachineBranchEvent::Corner { .. }),
-            Self::Sticking => matches!(event, MachineBranchEvent::Sticking { .. }),
-            Self::Holding => matches!(event, MachineBranchEvent::Holding { .. }),
-        }
-    }
-}
-
-/// A curve of an event of an orbit over two numbers.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MachineCurvePlan {
-    /// The label of the orbit at the machine; that of the motion from the start when absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub label: Option<String>,
-    /// Which of the orbits with the label, counted from 1, the fastest last; when absent the stable one, else the fastest.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub orbit: Option<u32>,
-    /// What holds along the curve.
-    pub kind: MachineFollowedEvent,
-    /// The number in which the orbit is followed to the event, and its range.
-    pub vary: MachineStretch,
-    /// The other one.
-    pub and: MachineStretch,
-    /// Which of the events of that kind, counted from 1 from small values to large; the nearest when absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub event: Option<u32>,
-    /// The largest number of points in each direction: 2 to 100000.
-    #[serde(default = "crate::branch::points")]
-    pub points: u32,
 }
 
 /// A curve, followed in both directions from the event at which it begins.
@@ -113,19 +54,19 @@ pub struct MachineEventCurve {
 /// The longest step: longer than that of the oscillator, because a point takes more work.
 const LONGEST: f64 = 0.1;
 
-impl MachineCurvePlan {
+impl CurvePlan<String> {
     /// Checks the label, both numbers and their ranges.
-    pub(super) fn check(&self, source: &MachineSource, machine: &Machine) -> Result<(), PlanError> {
+    pub(crate) fn check(&self, source: &MachineSource, machine: &Machine) -> Result<(), PlanError> {
         orbits::check(machine, (self.label.as_deref(), self.orbit))?;
         let Self { vary, and, points, .. } = self;
-        for MachineStretch { path, from, to } in [vary, and] {
+        for Stretch { parameter: path, from, to } in [vary, and] {
             let value = source.number(path).map_err(PlanError::from)?;
             let (path, from, to) = (path.clone(), *from, *to);
             if from < to && !(from..=to).contains(&value) {
                 return Err(PlanError::MachineOutside { path, value, from, to });
             }
         }
-        limits::branch_points(*points)?;
+        points.map_or(Ok(()), limits::branch_points)?;
         check_plane(source, vary, and)
     }
 }
@@ -134,17 +75,17 @@ impl MachineCurvePlan {
 pub(super) fn curve(
     source: &MachineSource,
     (machine, start): (&Machine, &MachineStart),
-    asked: &MachineCurvePlan,
+    asked: &CurvePlan<String>,
     control: &Control<'_>,
 ) -> Result<MachineEventCurve, RunError> {
-    let MachineCurvePlan { vary, and, .. } = asked;
+    let CurvePlan { vary, and, .. } = asked;
     let chosen = orbits::chosen((machine, start), (asked.label.as_deref(), asked.orbit), control)?;
     let cycle = &chosen.cycle;
     let label = cycle.label;
     let stopped = |done| if control.stopping() { Err(Stopped { done, total: 2 }) } else { Ok(()) };
     stopped(0)?;
-    let own = source.number(&vary.path).map_err(PlanError::from)?;
-    let family = MachineCut { vary: vary.path.clone(), ends: (vary.from, vary.to), also: None }.family(source);
+    let own = source.number(&vary.parameter).map_err(PlanError::from)?;
+    let family = Cut { vary: vary.parameter.clone(), ends: (vary.from, vary.to), also: None }.family(source);
     let mut events: Vec<MachinePoint> = Vec::new();
     for (direction, end) in [(Direction::Up, vary.to), (Direction::Down, vary.from)] {
         if own == end {
@@ -155,7 +96,7 @@ pub(super) fn curve(
             .map_err(|error| PlanError::MachineBranch(error.to_string()))?;
         for point in branch.take_while(|point| point.cycle.label == label && !control.stopping()) {
             let known = |other: &MachinePoint| (other.value - point.value).abs() <= 1e-9 * (1.0 + point.value.abs());
-            if point.event.is_some_and(|event| asked.kind.is(event)) && !events.iter().any(known) {
+            if point.event.is_some_and(|event| is(asked.kind, event)) && !events.iter().any(known) {
                 events.push(point);
             }
         }
@@ -170,15 +111,15 @@ pub(super) fn curve(
     let through = through.ok_or_else(|| PlanError::NoMachineEvent {
         kind: asked.kind.name(),
         label,
-        path: vary.path.clone(),
+        path: vary.parameter.clone(),
         from: vary.from,
         to: vary.to,
         count: events.len(),
         asked: asked.event,
     })?;
     let plane = plane(source, vary, and);
-    let at = (events[through].value, source.number(&and.path).map_err(PlanError::from)?);
-    let options = CurveOptions { longest: LONGEST, points: asked.points };
+    let at = (events[through].value, source.number(&and.parameter).map_err(PlanError::from)?);
+    let options = CurveOptions { longest: LONGEST, points: asked.points.unwrap_or(DEFAULT_BRANCH_POINTS) };
     let [forth, back] = MachineCurve::through(&plane, at, &events[through], options)
         .map_err(|error| PlanError::MachineBranch(error.to_string()))?;
     let kind = forth.kind();
@@ -198,22 +139,22 @@ pub(super) fn curve(
 mod tests {
     use super::*;
     use crate::machine::CATALOGUE;
-    use crate::{MachinePlan, MachineResults, MachineTask, run_machine};
+    use crate::{MachineResults, Plan, Results, Task, run};
 
-    fn plan(kind: MachineFollowedEvent, event: Option<u32>) -> MachinePlan {
+    fn plan(kind: FollowedEvent, event: Option<u32>) -> Plan {
         let entry = CATALOGUE.iter().find(|entry| entry.name == "bouncing-ball").unwrap();
         let source = entry.source().unwrap().with("Gamma", 1.2).unwrap();
-        let stretch = |path: &str, from, to| MachineStretch { path: path.to_owned(), from, to };
-        MachinePlan::new(
+        let stretch = |path: &str, from, to| Stretch { parameter: path.to_owned(), from, to };
+        Plan::new(
             source,
-            MachineTask::Curve(MachineCurvePlan {
+            Task::from(CurvePlan {
                 label: Some("1/1".to_owned()),
                 orbit: None,
                 kind,
                 vary: stretch("Gamma", 0.2, 3.0),
                 and: stretch("e", 0.2, 0.9),
                 event,
-                points: 500,
+                points: Some(500),
             }),
         )
     }
@@ -221,10 +162,10 @@ mod tests {
     /// The fold of the ball on a table in closed form.
     #[test]
     fn the_ball_on_a_table() {
-        let plan = plan(MachineFollowedEvent::Fold, None);
+        let plan = plan(FollowedEvent::Fold, None);
         let text = serde_json::to_string(&plan).unwrap();
-        assert_eq!(serde_json::from_str::<MachinePlan>(&text).unwrap(), plan);
-        let MachineResults::Curve(found) = run_machine(&plan, &Control::default()).unwrap() else { panic!() };
+        assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan);
+        let Results::Machine(MachineResults::Curve(found)) = run(&plan, &Control::default()).unwrap() else { panic!() };
         assert!(found.points.len() > 20 && found.points[found.begin].event.is_none());
         for point in &found.points {
             let (gamma, e) = point.values;
@@ -235,15 +176,16 @@ mod tests {
 
     #[test]
     fn nonsense_is_refused() {
-        let told = |plan: &MachinePlan| run_machine(plan, &Control::default()).unwrap_err().to_string();
-        assert!(told(&plan(MachineFollowedEvent::Torus, None)).starts_with("no torus was found on the branch of 1/1"));
-        assert!(
-            told(&plan(MachineFollowedEvent::Flip, Some(4))).starts_with("there is no flip number 4 on the branch")
-        );
-        let changed = |of: &dyn Fn(&mut MachineStretch, &mut MachineStretch)| {
-            let mut plan = plan(MachineFollowedEvent::Fold, None);
-            let MachineTask::Curve(MachineCurvePlan { vary, and, .. }) = &mut plan.task else { panic!() };
+        let told = |plan: &Plan| run(plan, &Control::default()).unwrap_err().to_string();
+        assert!(told(&plan(FollowedEvent::Torus, None)).starts_with("no torus was found on the branch of 1/1"));
+        assert!(told(&plan(FollowedEvent::Flip, Some(4))).starts_with("there is no flip number 4 on the branch"));
+        let changed = |of: &dyn Fn(&mut Stretch<String>, &mut Stretch<String>)| {
+            let mut plan = plan(FollowedEvent::Fold, None);
+            let Task::Curve(asked) = &plan.task else { panic!() };
+            let mut asked: CurvePlan<String> = asked.typed().unwrap();
+            let CurvePlan { vary, and, .. } = &mut asked;
             of(vary, and);
+            plan.task = asked.into();
             told(&plan)
         };
         assert!(changed(&|_, and| and.to = 1.5).contains("restitution"), "{}", changed(&|_, and| and.to = 1.5));

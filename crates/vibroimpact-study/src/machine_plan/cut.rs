@@ -1,58 +1,14 @@
 //! A line in the space of the numbers of a machine: one varies between two values, and a second one may vary in proportion.
 
-use crate::PlanError;
 use crate::cut::in_proportion;
 use crate::machine::{MachineSource, VariedMachine};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::{Cut, PlanError, Stretch};
 use vibroimpact::continuation::{MachineFamily, MachinePlane};
 
-/// A number of a machine, and its values at two ends.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MachineStretch {
-    /// The path of the number.
-    pub path: String,
-    /// Its first value; of a curve the smallest one.
-    pub from: f64,
-    /// Its last value; of a curve the largest one.
-    pub to: f64,
-}
-
-/// A number of a machine that varies from its value there to another one.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MachineTarget {
-    /// The path of the number.
-    pub path: String,
-    /// Where it goes.
-    pub to: f64,
-}
-
-/// The line of an orbit diagram or a branch of a machine. A point on it is given by the value of the first number.
-///
-/// ```
-/// use vibroimpact_study::{MachineCut, MachineStretch, machine::CATALOGUE};
-/// let source = CATALOGUE.iter().find(|entry| entry.name == "two-mass-hammer").unwrap().source()?;
-/// let also = Some(MachineStretch { path: "stop.anvil.gap".into(), from: 0.5, to: 1.5 });
-/// let halfway = MachineCut { vary: "frequency".into(), ends: (1.0, 2.0), also }.source(&source, 1.5)?;
-/// assert_eq!((halfway.number("frequency")?, halfway.number("stop.anvil.gap")?), (1.5, 1.0));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-#[derive(Clone, Debug, PartialEq)]
-pub struct MachineCut {
-    /// The path of the number that varies.
-    pub vary: String,
-    /// Its values at the two ends of the line.
-    pub ends: (f64, f64),
-    /// The second number, if any, with its values at the same ends.
-    pub also: Option<MachineStretch>,
-}
-
-impl MachineCut {
+impl Cut<String> {
     /// The paths of the numbers that vary, one or two.
     pub fn paths(&self) -> impl Iterator<Item = &str> {
-        core::iter::once(self.vary.as_str()).chain(self.also.as_ref().map(|also| also.path.as_str()))
+        core::iter::once(self.vary.as_str()).chain(self.also.as_ref().map(|also| also.parameter.as_str()))
     }
 
     /// The values of the numbers that vary, where the first has the value `value`.
@@ -88,7 +44,7 @@ impl MachineCut {
     /// Checks that the second number is another one, that its values are finite, and both paths.
     pub(super) fn check(&self, source: &MachineSource) -> Result<(), PlanError> {
         source.number(&self.vary)?;
-        let Some(MachineStretch { path, from, to }) = &self.also else { return Ok(()) };
+        let Some(Stretch { parameter: path, from, to }) = &self.also else { return Ok(()) };
         if *path == self.vary {
             return Err(PlanError::MachineTogether(path.clone()));
         }
@@ -103,31 +59,32 @@ impl MachineCut {
 /// Checks that two numbers and their ranges span a plane of machines.
 pub(super) fn check_plane(
     source: &MachineSource,
-    one: &MachineStretch,
-    other: &MachineStretch,
+    one: &Stretch<String>,
+    other: &Stretch<String>,
 ) -> Result<(), PlanError> {
-    for MachineStretch { path, from, to } in [one, other] {
+    for Stretch { parameter: path, from, to } in [one, other] {
         source.number(path)?;
         if !(from.is_finite() && to.is_finite() && from < to) {
             return Err(PlanError::MachineStretch { path: path.clone(), from: *from, to: *to });
         }
     }
-    if one.path == other.path {
-        return Err(PlanError::MachineAxisTwice(one.path.clone()));
+    if one.parameter == other.parameter {
+        return Err(PlanError::MachineAxisTwice(one.parameter.clone()));
     }
     for p in [one.from, one.to] {
         for q in [other.from, other.to] {
-            source.with(&one.path, p)?.with(&other.path, q)?.machine()?;
+            source.with(&one.parameter, p)?.with(&other.parameter, q)?.machine()?;
         }
     }
     Ok(())
 }
 
 /// The plane of two numbers over their ranges.
-pub(super) fn plane(source: &MachineSource, one: &MachineStretch, other: &MachineStretch) -> MachinePlane {
+pub(super) fn plane(source: &MachineSource, one: &Stretch<String>, other: &Stretch<String>) -> MachinePlane {
     let corners: Vec<Vec<f64>> =
         [one.from, one.to].iter().flat_map(|p| [vec![*p, other.from], vec![*p, other.to]]).collect();
-    let varied = VariedMachine::new(source, [one, other].into_iter().map(|stretch| stretch.path.as_str()), &corners);
+    let varied =
+        VariedMachine::new(source, [one, other].into_iter().map(|stretch| stretch.parameter.as_str()), &corners);
     let family = varied.family(|values: [f64; 2]| values.to_vec());
     MachinePlane::of(family, (one.from..=one.to, other.from..=other.to))
 }

@@ -1,44 +1,15 @@
 //! The orbit diagram of a machine: its motion after the transient at each value of a number.
 
 use super::after_transient::{Followed, closings, settled, strobes};
-use super::cut::{MachineCut, MachineStretch};
 use crate::diagram::{MotionKind, Sweep, SweepDirection, check_order, check_shown, even};
 use crate::machine::MachineSource;
-use crate::{PlanError, Values};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::{Cut, DiagramPlan, PlanError};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 use vibroimpact::quantities::machine_quantity;
 use vibroimpact::verdict::scattered_machine_starts;
 
 pub use super::after_transient::MachineDiagramPoint;
-
-/// A number of a machine over rising or falling values, or a line through two, and what is shown of the motion at each value.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MachineDiagramPlan {
-    /// The path of the number that varies.
-    pub vary: String,
-    /// Its values, which rise or fall.
-    pub over: Values,
-    /// A second number that varies with it in proportion, with its values at the first and at the last value of `over`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub also: Option<MachineStretch>,
-    /// What is shown: `speed`, the phase and speed of each closing of a stop; the value of `q.COORDINATE` or
-    /// `qdot.COORDINATE` once in every forcing period, at phase 0; or a quantity of the settled motion by its path.
-    #[serde(default = "speed")]
-    pub show: String,
-    /// How the starts at each value are chosen.
-    #[serde(default)]
-    pub direction: SweepDirection,
-    /// Closings (`speed`) or forcing periods before anything is shown.
-    #[serde(default = "crate::diagram::transient")]
-    pub transient: u64,
-    /// Closings or periods shown at each value, at most: a motion that repeats itself is shown once.
-    #[serde(default = "crate::diagram::keep")]
-    pub keep: u64,
-}
 
 /// What is shown of closings.
 const SPEED: &str = "speed";
@@ -77,12 +48,12 @@ pub struct MachineDiagramStep {
 #[derive(Clone, Debug, PartialEq)]
 pub struct MachineDiagram {
     /// The plan.
-    pub plan: MachineDiagramPlan,
+    pub plan: DiagramPlan<String, String>,
     /// The motions.
     pub steps: Vec<MachineDiagramStep>,
 }
 
-impl MachineDiagramPlan {
+impl DiagramPlan<String, String> {
     /// Whether closings are shown, each with its phase and stop.
     #[must_use]
     pub fn shows_closings(&self) -> bool {
@@ -120,8 +91,8 @@ impl MachineDiagramPlan {
 
     /// The line over which the machine varies.
     #[must_use]
-    pub fn cut(&self) -> MachineCut {
-        MachineCut { vary: self.vary.clone(), ends: self.over.ends(), also: self.also.clone() }
+    pub fn cut(&self) -> Cut<String> {
+        Cut { vary: self.vary.clone(), ends: self.over.ends(), also: self.also.clone() }
     }
 
     /// The values of the numbers that vary at value number `k`. If the values are evenly spaced, those of the second number are
@@ -151,7 +122,7 @@ impl MachineDiagramPlan {
 /// machine file. A state beyond a rigid stop that has moved is put onto it.
 pub(crate) fn step(
     source: &MachineSource,
-    plan: &MachineDiagramPlan,
+    plan: &DiagramPlan<String, String>,
     (index, sweep): (u32, Sweep),
     before: Option<MachineStart>,
 ) -> Result<(MachineDiagramStep, MachineStart), PlanError> {

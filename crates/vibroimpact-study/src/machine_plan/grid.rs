@@ -1,70 +1,22 @@
 //! Plans and results of basins over coordinates, and of maps over numbers, of a machine.
 
-use super::axis::MachineAxis;
 use super::verdicts::check_starts;
 use crate::limits::MOST_CELLS;
 use crate::machine::MachineSource;
 use crate::map::{check_impacts, check_refine};
 use crate::study::label_of;
-use crate::{ListedColumn, PlanError};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::{Axis, BasinPlan, ListedColumn, MapPlan, PlanError};
 use std::collections::{BTreeMap, BTreeSet};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 use vibroimpact::quantities::{machine_quantities, machine_quantity};
 use vibroimpact::verdict::Verdict;
 
-/// Starts of a machine over a grid.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MachineBasinPlan {
-    /// One to four of `q.COORDINATE`, `qdot.COORDINATE` and `phase`; the first varies fastest. The others are those of the
-    /// start.
-    pub axes: Vec<MachineAxis>,
-    /// Where results are stored: compute every K-th point first, K being this number, and the points between only where neighbours
-    /// differ. All of them when absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub refine: Option<u32>,
-    /// Budget of events for each start: 1 to 1000000. 20000 when absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub impacts: Option<u32>,
-    /// Quantities of each motion to report beside its label, by path: `power`, `stop.wall.impact_speed_max`.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub fields: Vec<String>,
-}
-
-/// Scattered starts at each point of a grid over numbers of a machine.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MachineMapPlan {
-    /// One to four paths; the first varies fastest.
-    pub axes: Vec<MachineAxis>,
-    /// The number of starts at each point.
-    pub starts: u64,
-    /// Which sequence of starts.
-    #[serde(default = "one")]
-    pub seed: u64,
-    /// As for a basin.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub refine: Option<u32>,
-    /// Budget of events for each start: 1 to 1000000. 20000 when absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub impacts: Option<u32>,
-    /// Quantities of each motion to report beside its label, by path: `power`, `stop.wall.impact_speed_max`.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub fields: Vec<String>,
-}
-
-const fn one() -> u64 {
-    1
-}
-
 /// The motion of each start of a grid.
 #[derive(Clone, Debug)]
 pub struct MachineBasin {
     /// The axes; the first varies fastest.
-    pub axes: Vec<MachineAxis>,
+    pub axes: Vec<Axis<String>>,
     /// The motions, in the order of their first start.
     pub motions: Vec<Verdict<Machine>>,
     /// The motion of each start as an index; `None` where a start lies beyond a rigid stop.
@@ -81,7 +33,7 @@ pub struct MachineBasin {
 #[derive(Clone, Debug)]
 pub struct MachineMap {
     /// The axes; the first varies fastest.
-    pub axes: Vec<MachineAxis>,
+    pub axes: Vec<Axis<String>>,
     /// The points as columns, where they are no grid; empty for a grid.
     pub points: Vec<ListedColumn<String>>,
     /// The motions at each point, the most frequent first. Two motions of one label have a row each. Empty where the numbers
@@ -147,7 +99,7 @@ impl MachineMap {
     #[must_use]
     pub fn at(&self, k: usize) -> Vec<f64> {
         let columns = self.points.iter().map(|column| column.values[k]);
-        MachineAxis::at(&self.axes, k as u64).into_iter().chain(columns).collect()
+        Axis::<String>::at(&self.axes, k as u64).into_iter().chain(columns).collect()
     }
 
     /// The smallest number of events over which chaos was seen at a point; `None` if it was seen at none.
@@ -217,7 +169,7 @@ impl StartAxis {
     }
 }
 
-pub(super) fn check_axes(axes: &[MachineAxis]) -> Result<(), PlanError> {
+pub(super) fn check_axes(axes: &[Axis<String>]) -> Result<(), PlanError> {
     if axes.is_empty() || axes.len() > 4 {
         return Err(PlanError::MachineAxes(axes.len()));
     }
@@ -238,17 +190,20 @@ pub(super) fn none_twice(varied: impl Iterator<Item = String>) -> Result<(), Pla
 }
 
 /// Refuses a grid whose results do not fit in memory; a store has no such limit.
-pub(crate) fn check_memory(axes: &[MachineAxis], starts: u64) -> Result<(), PlanError> {
-    let total = MachineAxis::points(axes).saturating_mul(starts);
+pub(crate) fn check_memory(axes: &[Axis<String>], starts: u64) -> Result<(), PlanError> {
+    let total = crate::axis::points(axes).saturating_mul(starts);
     if total > MOST_CELLS { Err(PlanError::Memory { numbers: total, most: MOST_CELLS }) } else { Ok(()) }
 }
 
-impl MachineBasinPlan {
+impl BasinPlan<String, String> {
     /// Checks everything that can be checked without running the plan.
     ///
     /// # Errors
     /// [`PlanError`] names the first invalid value.
     pub fn check(&self, machine: &Machine) -> Result<(), PlanError> {
+        if self.points.is_some() || self.transient {
+            return Err(PlanError::NoPoints);
+        }
         check_axes(&self.axes)?;
         for axis in &self.axes {
             StartAxis::of(machine, &axis.vary)?;
@@ -275,7 +230,7 @@ pub(crate) fn values_of(machine: &Machine, verdict: &Verdict<Machine>, fields: &
     fields.iter().map(value).collect()
 }
 
-impl MachineMapPlan {
+impl MapPlan<String, String> {
     /// Checks everything that can be checked without running the plan.
     ///
     /// # Errors

@@ -15,10 +15,11 @@ use vibroimpact::verdict::{CountedMotion, settle_each_machine};
 /// Points of numbers of a machine and of its start.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct MachineManyPlan {
+#[schemars(rename = "ManyPlan")]
+pub struct ManyPlan<V = String> {
     /// The points. What varies is the path of a number of the machine, or `q.COORDINATE`, `qdot.COORDINATE` or `phase` of the
     /// start; what does not is that of the machine and of its start.
-    pub points: PointsPlan<String>,
+    pub points: PointsPlan<V>,
     /// Budget of events for each start: 1 to 1000000. 20000 when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub impacts: Option<u32>,
@@ -27,10 +28,18 @@ pub struct MachineManyPlan {
     pub fields: Vec<String>,
 }
 
+impl<V> ManyPlan<V> {
+    /// The same with other names of what varies.
+    pub(crate) fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<ManyPlan<W>, E> {
+        let (points, fields) = (self.points.named(name)?, self.fields.clone());
+        Ok(ManyPlan { points, impacts: self.impacts, fields })
+    }
+}
+
 /// Maximum number of points, whose motions are in memory.
 const MOST: u64 = 10_000_000;
 
-impl MachineManyPlan {
+impl ManyPlan<String> {
     /// Checks everything that can be checked without running the plan.
     ///
     /// # Errors
@@ -56,7 +65,7 @@ impl MachineManyPlan {
 pub(super) fn many(
     source: &MachineSource,
     (machine, start): (&Machine, &MachineStart),
-    plan: &MachineManyPlan,
+    plan: &ManyPlan<String>,
     control: &Control<'_>,
 ) -> Result<MachineMap, RunError> {
     let count = plan.points.count();
@@ -93,7 +102,7 @@ pub(super) fn many(
 /// The motion at each of some points; `None` if stopped. Points of the same machine after each other are settled together.
 fn settled(
     points: impl Iterator<Item = Option<(Machine, MachineStart)>>,
-    plan: &MachineManyPlan,
+    plan: &ManyPlan<String>,
     go_on: &dyn Fn() -> bool,
 ) -> Option<Vec<Option<MachineShare>>> {
     let mut problems: Vec<(Machine, Vec<MachineStart>)> = Vec::new();
@@ -121,14 +130,14 @@ fn settled(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{DrawnPoints, MachinePlan, MachineResults, MachineTask, PointRange, PointRule, run_machine};
+    use crate::{DrawnPoints, MachineResults, Plan, PointRange, PointRule, Results, Task, run};
 
     fn settled(source: &MachineSource, points: PointsPlan<String>) -> MachineMap {
         let fields = vec!["power".to_owned()];
-        let task = MachineTask::SettleMany(MachineManyPlan { points, impacts: None, fields });
-        let plan = MachinePlan::new(source.clone(), task);
-        assert_eq!(MachinePlan::from_text(&plan.to_toml(), crate::machine::no_files).unwrap(), plan);
-        let MachineResults::Map(found) = run_machine(&plan, &Control::default()).unwrap() else { panic!() };
+        let task = Task::from(ManyPlan { points, impacts: None, fields });
+        let plan = Plan::new(source.clone(), task);
+        assert_eq!(Plan::from_text(&plan.to_toml()).unwrap(), plan);
+        let Results::Machine(MachineResults::Map(found)) = run(&plan, &Control::default()).unwrap() else { panic!() };
         found
     }
 
@@ -146,11 +155,12 @@ mod tests {
         let columns = found.points.clone();
         for (k, cell) in found.cells.iter().enumerate() {
             let [frequency, head] = [0, 1].map(|column| columns[column].values[k]);
-            let alone =
-                MachinePlan::new(source.with("frequency", frequency).unwrap(), MachineTask::Settle { impacts: None });
-            let alone =
-                alone.starting(&MachineStart { q: vec![0.0, head], qdot: vec![0.0; 2], ..MachineStart::default() });
-            let MachineResults::Settle(alone) = run_machine(&alone, &Control::default()).unwrap() else { panic!() };
+            let start = MachineStart { q: vec![0.0, head], qdot: vec![0.0; 2], ..MachineStart::default() };
+            let there = source.with("frequency", frequency).unwrap().starting(&start);
+            let alone = Plan::new(there, Task::Settle { start: None, impacts: None });
+            let Results::Machine(MachineResults::Settle(alone)) = run(&alone, &Control::default()).unwrap() else {
+                panic!()
+            };
             assert_eq!(cell[0].label(), alone.verdict.label(), "{k}");
             assert!(cell[0].quantities[0].is_finite());
         }
@@ -158,7 +168,7 @@ mod tests {
         let found = settled(&source, PointsPlan::Listed(vec![listed(vec![0.0, 9.0])]));
         assert!(found.cells[0].len() == 1 && found.cells[1].is_empty());
         let twice = PointsPlan::Listed(vec![listed(vec![0.0]), listed(vec![0.0])]);
-        let plan = MachineManyPlan { points: twice, impacts: None, fields: Vec::new() };
+        let plan = ManyPlan { points: twice, impacts: None, fields: Vec::new() };
         assert!(plan.check(&source, &source.machine().unwrap()).unwrap_err().to_string().contains("q.head"));
     }
 }

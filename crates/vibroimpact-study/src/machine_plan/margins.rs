@@ -1,41 +1,16 @@
 //! How far a cycle of a machine is from the nearest event of its branch in each of its numbers.
 
 use super::branch::MachineLine;
-use super::cut::MachineCut;
 use super::orbits;
 use super::verdicts::settle;
 use crate::machine::MachineSource;
 use crate::margins::check_within;
-use crate::{Control, PlanError, RunError};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::{Control, Cut, MarginsPlan, PlanError, RunError};
 use vibroimpact::continuation::{Direction, MachinePoint};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::MachineCycle;
 use vibroimpact::verdict::Verdict;
-
-/// The distances of a cycle of a machine from its nearest events.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MachineMarginsPlan {
-    /// m/n of the motion instead of the one from the start: the stable orbit, else the fastest one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub label: Option<String>,
-    /// The paths of the numbers that vary; when absent the parameters of the file, and the numbers that are written as such and are
-    /// not 0, without directions.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub vary: Vec<String>,
-    /// The range of a number goes from its value divided by this number to its value times this number; a restitution goes from
-    /// 0 to 1.
-    #[serde(default = "within")]
-    #[schemars(range(min = 1, max = 100))]
-    pub within: f64,
-}
-
-const fn within() -> f64 {
-    crate::DEFAULT_WITHIN
-}
 
 /// The largest number of points of a branch.
 const MOST_POINTS: u32 = 20_000;
@@ -105,11 +80,11 @@ impl MachineMargins {
     }
 }
 
-impl MachineMarginsPlan {
+impl MarginsPlan<String> {
     /// The numbers that vary.
     fn paths(&self, source: &MachineSource) -> Result<Vec<String>, PlanError> {
         if !self.vary.is_empty() {
-            return Ok(self.vary.clone());
+            return Ok(self.vary.iter().map(|one| one.parameter.clone()).collect());
         }
         Ok(source.free_numbers()?.0.into_iter().map(|(path, _)| path).collect())
     }
@@ -121,7 +96,10 @@ impl MachineMarginsPlan {
     pub fn check(&self, source: &MachineSource, machine: &Machine) -> Result<(), PlanError> {
         check_within(self.within)?;
         orbits::check(machine, (self.label.as_deref(), None))?;
-        self.vary.iter().try_for_each(|path| Ok(source.number(path).map(drop)?))
+        if self.lines.is_some() || self.vary.iter().any(|one| one.scale.is_some()) {
+            return Err(PlanError::NoBox);
+        }
+        self.vary.iter().try_for_each(|one| Ok(source.number(&one.parameter).map(drop)?))
     }
 }
 
@@ -129,7 +107,7 @@ impl MachineMarginsPlan {
 pub(super) fn margins(
     source: &MachineSource,
     (machine, start): (&Machine, &MachineStart),
-    plan: &MachineMarginsPlan,
+    plan: &MarginsPlan<String>,
     control: &Control<'_>,
 ) -> Result<MachineMargins, RunError> {
     let motion = match &plan.label {
@@ -174,11 +152,8 @@ fn margin(
     let [low, high] = ends.map(allowed);
     let mut found = NumberMargin { path, value, low, high, down: None, up: None };
     if low < high {
-        let line = MachineLine::new(
-            source,
-            &MachineCut { vary: found.path.clone(), ends: (low, high), also: None },
-            MOST_POINTS,
-        );
+        let line =
+            MachineLine::new(source, &Cut { vary: found.path.clone(), ends: (low, high), also: None }, MOST_POINTS);
         let nearest =
             |end: f64, way| if end == value { Ok(None) } else { line.first_event((value, cycle), way, control) };
         let event = |(point, after)| NumberEvent { point, after };
@@ -191,22 +166,25 @@ fn margin(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{MachineBranchPlan, MachinePlan, MachineResults, MachineTask, run_machine};
+    use crate::{BranchPlan, MachineResults, Plan, Results, ScaledParameter, Task, run};
 
     /// The nearest events are those of the branches in each number alone.
     #[test]
     fn the_first_events_of_branches() {
         let source = MachineSource::open("two-mass-hammer").unwrap();
         let vary = vec!["frequency".to_owned(), "stop.anvil.gap".to_owned(), "stop.anvil.restitution".to_owned()];
-        let task = MachineTask::Margins(MachineMarginsPlan { label: None, vary: vary.clone(), within: 2.0 });
-        let plan = MachinePlan::new(source.clone(), task);
-        assert_eq!(MachinePlan::from_text(&plan.to_toml(), crate::machine::no_files).unwrap(), plan);
-        let MachineResults::Margins(found) = run_machine(&plan, &Control::default()).unwrap() else { panic!() };
+        let scaled = vary.iter().map(|path| ScaledParameter { parameter: path.clone(), scale: None });
+        let task = Task::from(MarginsPlan { vary: scaled.collect(), ..MarginsPlan::default() });
+        let plan = Plan::new(source.clone(), task);
+        assert_eq!(Plan::from_text(&plan.to_toml()).unwrap(), plan);
+        let Results::Machine(MachineResults::Margins(found)) = run(&plan, &Control::default()).unwrap() else {
+            panic!()
+        };
         assert_eq!(found.motion.label(), "1/1");
         let mut events = 0;
         for (margin, path) in found.numbers.iter().zip(vary) {
             for (_, limit, event) in margin.ends() {
-                let branch = MachineBranchPlan {
+                let branch = BranchPlan {
                     label: None,
                     orbit: None,
                     vary: path.clone(),
@@ -215,8 +193,10 @@ mod tests {
                     points: 5000,
                     follow: 0,
                 };
-                let plan = MachinePlan::new(source.clone(), MachineTask::Branch(branch));
-                let MachineResults::Branch(branch) = run_machine(&plan, &Control::default()).unwrap() else { panic!() };
+                let plan = Plan::new(source.clone(), Task::from(branch));
+                let Results::Machine(MachineResults::Branch(branch)) = run(&plan, &Control::default()).unwrap() else {
+                    panic!()
+                };
                 let first = branch.points.iter().find(|point| point.event.is_some()).unwrap();
                 match event {
                     Some(event) => {

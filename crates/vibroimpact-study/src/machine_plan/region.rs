@@ -1,35 +1,17 @@
 //! The regions of a plane of two numbers of a machine in which a motion exists and in which it is stable: those of the oscillator
 //! that the machine is.
 
-use super::cut::{MachineStretch, check_plane, plane};
+use super::cut::{check_plane, plane};
 use crate::chosen::followable;
 use crate::machine::MachineSource;
 use crate::region::{self, Plane};
-use crate::{Control, PlanError, Regions, RunError};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-use vibroimpact::Label;
+use crate::{Control, PlanError, RegionPlan, Regions, RunError};
 use vibroimpact::Oscillator;
 use vibroimpact::continuation::Frame;
 
-/// The regions of a motion in a plane of two numbers.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MachineRegionPlan {
-    /// m/n.
-    pub label: String,
-    /// The number on the abscissa and its range.
-    pub across: MachineStretch,
-    /// The number on the ordinate and its range.
-    pub up: MachineStretch,
-    /// Number of grid points in each direction at which orbits are searched. Smaller parts of a region may be missed.
-    #[serde(default = "crate::region::grid")]
-    pub grid: u32,
-}
-
-impl MachineRegionPlan {
+impl RegionPlan<String> {
     /// Checks everything that can be checked without running the plan.
-    pub(super) fn check(&self, source: &MachineSource) -> Result<(), PlanError> {
+    pub(crate) fn check(&self, source: &MachineSource) -> Result<(), PlanError> {
         region::check(&self.label, self.grid)?;
         check_plane(source, &self.across, &self.up)?;
         self.plane(source).map(|_| ())
@@ -49,27 +31,22 @@ impl MachineRegionPlan {
         let loses = |osc: &Oscillator| osc.stops().any(|(_, stop)| stop.restitution < 1.0);
         frame.everywhere(&osc, |osc| osc.damping() == 0.0 && (self.clears() || !loses(osc)))
     }
-
-    /// Whether it is the motion without impacts.
-    fn clears(&self) -> bool {
-        self.label.parse() == Ok(Label::new(0, 1))
-    }
 }
 
 /// Computes both regions.
 pub(super) fn regions(
     source: &MachineSource,
-    plan: &MachineRegionPlan,
+    plan: &RegionPlan<String>,
     control: &Control<'_>,
 ) -> Result<Regions, RunError> {
     let (osc, frame) = plan.plane(source)?;
-    Plane::of(osc, frame, plan.grid).both(followable(&plan.label)?, control)
+    Plane::of(osc, frame, plan.grid).both(followable(Some(&plan.label))?, control)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{MachinePlan, MachineResults, MachineTask, Parameter, RegionPlan, Stretch, SystemPlan, run_machine};
+    use crate::{MachineResults, Parameter, Plan, Results, Stretch, System, SystemPlan, run};
 
     const MACHINE: &str = r#"
         [machine]
@@ -88,18 +65,18 @@ mod tests {
         restitution = 0.5
     "#;
 
-    fn plan(change: impl Fn(&mut MachineRegionPlan)) -> MachinePlan {
+    fn plan(change: impl Fn(&mut RegionPlan<String>)) -> Plan {
         let source = MachineSource::from_text(MACHINE, crate::machine::no_files).unwrap();
-        let stretch = |path: &str, from, to| MachineStretch { path: path.to_owned(), from, to };
+        let stretch = |path: &str, from, to| Stretch { parameter: path.to_owned(), from, to };
         let across = stretch("frequency", 0.83, 0.95);
         let up = stretch("stop.wall.gap", 1.0, 2.5);
-        let mut region = MachineRegionPlan { label: "1/1".to_owned(), across, up, grid: 5 };
+        let mut region = RegionPlan { label: "1/1".to_owned(), across, up, grid: 5 };
         change(&mut region);
-        MachinePlan::new(source, MachineTask::Region(region))
+        Plan::new(source, region)
     }
 
-    fn regions(plan: &MachinePlan) -> Regions {
-        let MachineResults::Region(found) = run_machine(plan, &Control::default()).unwrap() else { panic!() };
+    fn regions(plan: &Plan) -> Regions {
+        let Results::Machine(MachineResults::Region(found)) = run(plan, &Control::default()).unwrap() else { panic!() };
         found
     }
 
@@ -108,7 +85,7 @@ mod tests {
     fn those_of_the_oscillator() {
         let plan = plan(|_| ());
         let text = serde_json::to_string(&plan).unwrap();
-        assert_eq!(serde_json::from_str::<MachinePlan>(&text).unwrap(), plan);
+        assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan);
         let found = regions(&plan);
         let system = SystemPlan { beta: Some(0.9), gap: 1.0, restitution: 0.5, ..SystemPlan::default() };
         let over = |parameter, from, to| Stretch { parameter, from, to };
@@ -132,12 +109,12 @@ mod tests {
     #[test]
     fn other_machines_are_refused() {
         let source = |name| MachineSource::open(name).unwrap();
-        let refused = |plan: MachinePlan| run_machine(&plan, &Control::default()).unwrap_err().to_string();
-        let hammer = MachinePlan {
-            machine: source("two-mass-hammer"),
+        let refused = |plan: Plan| run(&plan, &Control::default()).unwrap_err().to_string();
+        let hammer = Plan {
+            system: System::from(source("two-mass-hammer")),
             ..plan(|plan| {
-                plan.across = MachineStretch { path: "frequency".into(), from: 0.9, to: 1.3 };
-                plan.up = MachineStretch { path: "b".into(), from: 0.4, to: 0.6 };
+                plan.across = Stretch { parameter: "frequency".into(), from: 0.9, to: 1.3 };
+                plan.up = Stretch { parameter: "b".into(), from: 0.4, to: 0.6 };
             })
         };
         assert!(refused(hammer).starts_with("regions are those of machines of one coordinate on a spring"));

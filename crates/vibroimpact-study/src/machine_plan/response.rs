@@ -2,15 +2,12 @@
 //! which their cycles lie.
 
 use super::branch::MachineLine;
-use super::cut::MachineCut;
 use super::grid::check_fields;
 use super::verdicts::settle;
 use crate::machine::{MachineSource, VariedMachine};
 use crate::map::check_impacts;
 use crate::response::{MOST_BRANCHES, MOST_POINTS, check_values};
-use crate::{Control, PlanError, ResponseCurves, ResponseRow, RunError, Values};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::{Control, Cut, PlanError, ResponseCurves, ResponsePlan, ResponseRow, RunError};
 use vibroimpact::continuation::{Direction, MachineBranchEvent, MachinePoint};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
@@ -20,36 +17,14 @@ use vibroimpact::quantities::machine::Quantities;
 use vibroimpact::quantities::{machine_cycle_quantities, machine_quantities, machine_quantity_paths};
 use vibroimpact::verdict::Verdict;
 
-/// A quantity of all motions over the values of one number of a machine.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MachineResponsePlan {
-    /// The path of the number that varies.
-    pub vary: String,
-    /// Its values, in any order.
-    pub over: Values,
-    /// The path of the quantity that is reported; the displacement amplitude of the first coordinate when absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub quantity: Option<String>,
-    /// Events to follow each motion of a sweep for, at most: 1 to 1000000. 20000 when absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub impacts: Option<u32>,
+/// The path of the quantity of a response: the displacement amplitude of the first coordinate if none is given.
+#[must_use]
+pub fn quantity_path(given: Option<&str>, machine: &Machine) -> String {
+    let first = || machine.parts().coordinates.first().map_or("", String::as_str);
+    given.map_or_else(|| format!("q.{}.displacement_amplitude", first()), str::to_owned)
 }
 
-impl MachineResponsePlan {
-    /// The path of the quantity.
-    #[must_use]
-    pub fn quantity(&self, machine: &Machine) -> String {
-        let first = machine.parts().coordinates.first().map_or("", String::as_str);
-        self.quantity.clone().unwrap_or_else(|| format!("q.{first}.displacement_amplitude"))
-    }
-
-    /// The number of motions of both sweeps.
-    #[must_use]
-    pub fn motions(&self) -> u64 {
-        2 * self.over.count() as u64
-    }
-
+impl ResponsePlan<String, String> {
     /// Checks everything that can be checked without running the plan.
     ///
     /// # Errors
@@ -57,7 +32,7 @@ impl MachineResponsePlan {
     pub fn check(&self, source: &MachineSource, machine: &Machine) -> Result<(), PlanError> {
         check_values(&self.over, "the number")?;
         check_impacts(self.impacts)?;
-        check_fields(machine, &[self.quantity(machine)])?;
+        check_fields(machine, &[quantity_path(self.quantity.as_deref(), machine)])?;
         let (from, to) = self.over.extent();
         [from, to]
             .into_iter()
@@ -68,7 +43,7 @@ impl MachineResponsePlan {
 /// The machines over the values, and all quantities of their motions.
 struct Ground<'a> {
     varied: VariedMachine,
-    plan: &'a MachineResponsePlan,
+    plan: &'a ResponsePlan<String, String>,
     names: &'a [String],
 }
 
@@ -135,7 +110,7 @@ impl Ground<'_> {
 pub(super) fn response(
     source: &MachineSource,
     (machine, start): (&Machine, &MachineStart),
-    plan: &MachineResponsePlan,
+    plan: &ResponsePlan<String, String>,
     control: &Control<'_>,
 ) -> Result<ResponseCurves, RunError> {
     let names = machine_quantity_paths(machine);
@@ -145,8 +120,7 @@ pub(super) fn response(
     let ground = Ground { varied, plan, names: &names };
     let up = ground.sweep(start, true, 0, control)?;
     let down = ground.sweep(start, false, up.len(), control)?;
-    let line =
-        MachineLine::new(source, &MachineCut { vary: plan.vary.clone(), ends: (from, to), also: None }, MOST_POINTS);
+    let line = MachineLine::new(source, &Cut { vary: plan.vary.clone(), ends: (from, to), also: None }, MOST_POINTS);
     let mut branches: Vec<Vec<MachinePoint>> = Vec::new();
     for (row, cycle) in up.iter().chain(&down) {
         let Some(cycle) = cycle.as_ref().filter(|_| branches.len() < MOST_BRANCHES) else { continue };
@@ -156,7 +130,7 @@ pub(super) fn response(
             branches.extend((!points.is_empty()).then_some(points));
         }
     }
-    let shown = plan.quantity(machine).replace('-', "_");
+    let shown = quantity_path(plan.quantity.as_deref(), machine).replace('-', "_");
     Ok(ResponseCurves {
         shown: names.iter().position(|name| *name == shown).unwrap_or(0),
         up: up.into_iter().map(|(row, _)| row).collect(),
@@ -207,12 +181,14 @@ const CLOSE: f64 = 1e-6;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{MachinePlan, MachineResults, MachineTask, Span, run_machine};
+    use crate::{MachineResults, Plan, Results, Span, Task, run};
 
-    fn response(name: &str, plan: MachineResponsePlan) -> ResponseCurves {
-        let plan = MachinePlan::new(MachineSource::open(name).unwrap(), MachineTask::Response(plan));
-        let plan = MachinePlan::from_text(&plan.to_toml(), crate::machine::no_files).unwrap();
-        let MachineResults::Response(found) = run_machine(&plan, &Control::default()).unwrap() else { panic!() };
+    fn response(name: &str, plan: ResponsePlan<String, String>) -> ResponseCurves {
+        let plan = Plan::new(MachineSource::open(name).unwrap(), Task::from(plan));
+        let plan = Plan::from_text(&plan.to_toml()).unwrap();
+        let Results::Machine(MachineResults::Response(found)) = run(&plan, &Control::default()).unwrap() else {
+            panic!()
+        };
         found
     }
 
@@ -221,7 +197,7 @@ mod tests {
     fn sweeps_lie_on_branches() {
         let over = "0.9:1.2:7".parse::<Span>().unwrap().into();
         let quantity = Some("stop.anvil.impact-speed-max".to_owned());
-        let plan = MachineResponsePlan { vary: "frequency".to_owned(), over, quantity, impacts: None };
+        let plan = ResponsePlan { vary: "frequency".to_owned(), over, quantity, impacts: None };
         let found = response("two-mass-hammer", plan);
         assert_eq!((found.up.len(), found.down.len()), (7, 7));
         assert_eq!(found.quantities[found.shown], "stop.anvil.impact_speed_max");

@@ -1,21 +1,21 @@
-//! The function that computes the result of a plan of a machine. The command and the Python package call it.
+//! The results of the tasks of machines.
 
 use super::branch::{self, MachineBranched};
 use super::curve::{self, MachineEventCurve};
 use super::diagram::MachineDiagram;
 use super::grid::{MachineBasin, MachineMap};
 use super::margins::MachineMargins;
-use super::plan::{MachinePlan, MachineTask};
 use super::section::{self, MachineSection};
 use super::simulate::{MachineSimulated, simulate};
 use super::{many, margins, orbits, region, response, verdicts};
-use crate::{Control, Regions, ResponseCurves, RunError, in_memory};
+use crate::machine::MachineSource;
+use crate::{Control, LyapunovPlan, Regions, ResponseCurves, RunError, Task, in_memory};
 use vibroimpact::chaos::Exponents;
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::MachineCycle;
 use vibroimpact::verdict::{Census, Settled};
 
-/// The result of a [`MachineTask`], one variant for each.
+/// The result of a [`Task`] of a machine.
 #[derive(Clone, Debug)]
 pub enum MachineResults {
     /// The events of the motion.
@@ -46,55 +46,49 @@ pub enum MachineResults {
     Diagram(MachineDiagram),
 }
 
-/// Checks a plan of a machine and computes its result.
-///
-/// # Errors
-/// [`RunError`] for an invalid plan, or when stopped.
-pub fn run_machine(plan: &MachinePlan, control: &Control<'_>) -> Result<MachineResults, RunError> {
-    plan.check()?;
-    // the plan was checked
-    let (machine, start) = plan.described()?;
-    Ok(match &plan.task {
-        MachineTask::Simulate { impacts, periods } => {
+/// Computes the result of a task of a machine, which was checked.
+pub(crate) fn run(source: &MachineSource, task: &Task, control: &Control<'_>) -> Result<MachineResults, RunError> {
+    let (machine, start) = source.described()?;
+    Ok(match task {
+        Task::Simulate { impacts, periods, .. } => {
             MachineResults::Simulate(simulate(&machine, &start, (*impacts, *periods), control)?)
         }
-        MachineTask::Settle { impacts } => {
-            MachineResults::Settle(verdicts::settle(&machine, &start, *impacts, control)?)
-        }
-        MachineTask::Attractors { starts, seed, impacts } => {
+        Task::Settle { impacts, .. } => MachineResults::Settle(verdicts::settle(&machine, &start, *impacts, control)?),
+        Task::Attractors { starts, seed, impacts } => {
             MachineResults::Attractors(verdicts::attractors(&machine, (*starts, *seed, *impacts), control)?)
         }
-        MachineTask::Lyapunov(lyapunov) => {
+        Task::Lyapunov(lyapunov) => {
+            let lyapunov: LyapunovPlan<String> = lyapunov.typed()?;
             let found = lyapunov.run(&machine, &start, control)?;
-            let before = u64::from(lyapunov.lengths().1);
+            let before = u64::from(lyapunov.events().1);
             let section = |points| section::section(&machine, &start, (before, points), control);
             MachineResults::Lyapunov(found, lyapunov.points.map(section).transpose()?)
         }
-        MachineTask::Orbit { label } => {
+        Task::Orbit { label } => {
             MachineResults::Orbit(orbits::orbits(&machine, orbits::label(&machine, label)?, control)?)
         }
-        MachineTask::Branch(asked) => {
-            MachineResults::Branch(branch::branch(&plan.machine, (&machine, &start), asked, control)?)
+        Task::Branch(asked) => {
+            MachineResults::Branch(branch::branch(source, (&machine, &start), &asked.typed()?, control)?)
         }
-        MachineTask::Curve(asked) => {
-            MachineResults::Curve(curve::curve(&plan.machine, (&machine, &start), asked, control)?)
+        Task::Curve(asked) => {
+            MachineResults::Curve(curve::curve(source, (&machine, &start), &asked.typed()?, control)?)
         }
-        MachineTask::SettleMany(asked) => {
-            MachineResults::Map(many::many(&plan.machine, (&machine, &start), asked, control)?)
+        Task::SettleMany(asked) => {
+            MachineResults::Map(many::many(source, (&machine, &start), &asked.typed()?, control)?)
         }
-        MachineTask::Margins(asked) => {
-            MachineResults::Margins(margins::margins(&plan.machine, (&machine, &start), asked, control)?)
+        Task::Margins(asked) => {
+            MachineResults::Margins(margins::margins(source, (&machine, &start), &asked.typed()?, control)?)
         }
-        MachineTask::Region(asked) => MachineResults::Region(region::regions(&plan.machine, asked, control)?),
-        MachineTask::Response(asked) => {
-            MachineResults::Response(response::response(&plan.machine, (&machine, &start), asked, control)?)
+        Task::Region(asked) => MachineResults::Region(region::regions(source, &asked.typed()?, control)?),
+        Task::Response(asked) => {
+            MachineResults::Response(response::response(source, (&machine, &start), &asked.typed()?, control)?)
         }
-        MachineTask::Basin(basin) => {
-            MachineResults::Basin(in_memory::machine_basin((&machine, &start), basin, control)?)
+        Task::Basin(basin) => {
+            MachineResults::Basin(in_memory::machine_basin((&machine, &start), &basin.typed()?, control)?)
         }
-        MachineTask::Map(map) => MachineResults::Map(in_memory::machine_map(&plan.machine, map, control)?),
-        MachineTask::Diagram(diagram) => {
-            MachineResults::Diagram(in_memory::machine_diagram(&plan.machine, diagram, control)?)
+        Task::Map(map) => MachineResults::Map(in_memory::machine_map(source, &map.typed()?, control)?),
+        Task::Diagram(diagram) => {
+            MachineResults::Diagram(in_memory::machine_diagram(source, &diagram.typed()?, control)?)
         }
     })
 }

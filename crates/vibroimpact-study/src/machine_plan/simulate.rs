@@ -1,6 +1,6 @@
 //! The events of a motion of a machine, up to a number of events or forcing periods, and the reason why the list ends.
 
-use crate::simulate::{SEARCH_LIMIT, TELL};
+use crate::simulate::{SEARCH_LIMIT, TELL, check_lengths};
 use crate::{Control, PlanError, RunError, Stopped};
 use vibroimpact::events::{MachineEnd, MachineEvent, MachineLimits, MachineMotion, MachineStart};
 use vibroimpact::machine::Machine;
@@ -24,19 +24,17 @@ pub struct MachineSimulated {
 }
 
 /// Checks the limits of a task.
-pub(super) fn check(machine: &Machine, (impacts, periods): (Option<u64>, Option<f64>)) -> Result<(), PlanError> {
-    if let Some(n) = impacts.filter(|n| !(1..=10_000_000).contains(n)) {
-        return Err(PlanError::Impacts(n));
-    }
-    match periods {
-        Some(n) if !(n > 0.0 && n <= 1e9) => Err(PlanError::Periods(n)),
-        Some(_) if machine.period().is_none() => Err(PlanError::Unforced),
-        _ => Ok(()),
-    }
+pub(crate) fn check_simulate(
+    machine: &Machine,
+    (impacts, periods): (Option<u64>, Option<f64>),
+) -> Result<(), PlanError> {
+    check_lengths(impacts, periods)?;
+    if periods.is_some() && machine.period().is_none() { Err(PlanError::Unforced) } else { Ok(()) }
 }
 
 /// The number of events after which a motion is not followed further.
-pub(super) fn most_events(impacts: Option<u64>, periods: Option<f64>) -> u64 {
+#[must_use]
+pub fn most_events(impacts: Option<u64>, periods: Option<f64>) -> u64 {
     impacts.unwrap_or(if periods.is_some() { EVENTS_IN_PERIODS } else { EVENTS })
 }
 

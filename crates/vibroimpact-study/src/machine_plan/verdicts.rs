@@ -19,7 +19,7 @@ pub(super) fn refused(error: MachineError) -> RunError {
 }
 
 /// Checks a number of starts and a budget of events.
-pub(super) fn check_starts(starts: u64, impacts: Option<u32>) -> Result<(), PlanError> {
+pub(crate) fn check_starts(starts: u64, impacts: Option<u32>) -> Result<(), PlanError> {
     limits::starts(starts, limits::MOST_STARTS)?;
     check_impacts(impacts)
 }

@@ -13,13 +13,17 @@ const MOST_AT_A_POINT: u64 = 10_000_000;
 
 /// The points of a map: a grid over two parameters or more, several starts each.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MapPlan {
+#[serde(
+    deny_unknown_fields,
+    bound(serialize = "V: Serialize, Q: Serialize", deserialize = "V: Deserialize<'de>, Q: Deserialize<'de>")
+)]
+#[schemars(rename = "MapPlan", bound = "V: schemars::JsonSchema + Serialize, Q: schemars::JsonSchema + Serialize")]
+pub struct MapPlan<V = Coordinate, Q = Quantity> {
     /// What varies; the first runs fastest and is drawn to the right, the second upwards.
-    pub axes: Vec<Axis>,
+    pub axes: Vec<Axis<V>>,
     /// Starts per point: the first at rest, the second on the free motion if it clears the stops, the others scattered.
     pub starts: u64,
-    /// Which sequence of them.
+    /// Which sequence of them; 0, of a machine 1, when absent.
     #[serde(default)]
     pub seed: u64,
     /// Where results are stored: compute every K-th point first, K being this number, and the points between only where neighbours
@@ -31,9 +35,8 @@ pub struct MapPlan {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub impacts: Option<u32>,
     /// Quantities of each motion to report beside its label.
-    #[serde(default, with = "crate::quantity", skip_serializing_if = "Vec::is_empty")]
-    #[schemars(with = "crate::quantity::Names")]
-    pub fields: Vec<Quantity>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub fields: Vec<Q>,
 }
 
 /// Maximum number of axes.
@@ -72,6 +75,26 @@ pub(crate) fn options(impacts: Option<u32>) -> SettleOptions {
     impacts.map_or_else(SettleOptions::default, SettleOptions::at_most)
 }
 
+impl<V, Q> MapPlan<V, Q> {
+    /// The same with other names of what varies and of quantities.
+    pub(crate) fn named<W, R, E>(
+        &self,
+        name: &impl Fn(&V) -> Result<W, E>,
+        quantity: &impl Fn(&Q) -> Result<R, E>,
+    ) -> Result<MapPlan<W, R>, E> {
+        let Self { starts, seed, refine, impacts, .. } = self;
+        let axes = self.axes.iter().map(|axis| axis.named(name)).collect::<Result<_, E>>()?;
+        let fields = self.fields.iter().map(quantity).collect::<Result<_, E>>()?;
+        Ok(MapPlan { axes, starts: *starts, seed: *seed, refine: *refine, impacts: *impacts, fields })
+    }
+
+    /// Total number of points.
+    #[must_use]
+    pub fn points(&self) -> u64 {
+        axis::points(&self.axes)
+    }
+}
+
 impl MapPlan {
     /// A map over inverse frequency ratio and gap, the plane of the 1971 paper.
     #[must_use]
@@ -100,12 +123,6 @@ impl MapPlan {
     #[must_use]
     pub fn options(&self) -> SettleOptions {
         options(self.impacts)
-    }
-
-    /// Total number of points.
-    #[must_use]
-    pub fn points(&self) -> u64 {
-        axis::points(&self.axes)
     }
 
     /// The oscillator at a point, given by its place on each axis. Other parameters are those of `system`.

@@ -104,7 +104,7 @@ pub(crate) fn margins(
             (None, Verdict::Periodic(chosen.orbit.cycle))
         }
         None => {
-            let start = plan.start.start(&osc)?;
+            let start = plan.start().start(&osc)?;
             let settled = settle_while(&osc, start, &SettleOptions::default(), &go_on).ok_or(stopped)?;
             (Some(start), settled.verdict)
         }
@@ -128,7 +128,7 @@ pub(crate) fn margins(
     }
     if cycle.stable() {
         let largest = largest(&all.parameters);
-        all.motion_box = Some(tried_box(system, &cycle, (&scopes, largest), plan.lines, control)?);
+        all.motion_box = Some(tried_box(system, &cycle, (&scopes, largest), plan.lines(), control)?);
     }
     Ok(all)
 }
@@ -261,7 +261,7 @@ mod tests {
         for margin in &all.parameters {
             for (end, limit) in margin.ends().into_iter().zip([margin.scope.low, margin.scope.high]) {
                 let task = BranchPlan {
-                    label: "1/1".into(),
+                    label: Some("1/1".into()),
                     vary: margin.scope.parameter,
                     to: limit,
                     also: None,
@@ -356,7 +356,7 @@ mod tests {
         );
         // the start decides which motion it is
         let other = StartPlan { v: 1.0, ..StartPlan::default() };
-        let plan = Plan::new(SYSTEM, Task::Margins(MarginsPlan { start: other, ..MarginsPlan::default() }));
+        let plan = Plan::new(SYSTEM, Task::Margins(MarginsPlan { start: Some(other), ..MarginsPlan::default() }));
         assert!(matches!(crate::run(&plan, &Control::default()), Ok(crate::Results::Margins(_))));
     }
 

@@ -1,6 +1,7 @@
 //! The plan for the margins of a motion.
 
 use super::scope::{ScaledParameter, Scope};
+use crate::name::Name;
 use crate::{Parameter, PlanError, StartPlan, SystemPlan};
 use serde::{Deserialize, Serialize};
 use vibroimpact::{Amplitude, Damping, Label, PhysicalParameter};
@@ -16,51 +17,65 @@ const MOST_LINES: u32 = 100_000;
 
 /// The distances of a motion from its nearest events, and a box of parameters in which it was found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MarginsPlan {
-    /// Where the motion starts. It is the motion into which this start settles.
-    #[serde(default)]
-    pub start: StartPlan,
+#[serde(deny_unknown_fields, bound = "V: Name")]
+#[schemars(rename = "MarginsPlan", bound = "V: Name")]
+pub struct MarginsPlan<V = Parameter> {
+    /// Where the motion of an oscillator starts, at rest when absent: it is the motion into which this start settles. A machine
+    /// has a start of its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub start: Option<StartPlan>,
     /// m/n of the motion instead of a start: the stable orbit, else the fastest one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub label: Option<String>,
-    /// The parameters that vary; all of the system when absent.
+    /// The numbers that vary. All parameters of an oscillator when absent; of a machine the parameters of its file, and the
+    /// numbers that are written as such and are not 0, without directions.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub vary: Vec<ScaledParameter>,
+    pub vary: Vec<ScaledParameter<V>>,
     /// The range of a parameter goes from its value divided by this number to its value times this number; a
     /// restitution goes from 0 to 1.
     #[serde(default = "within")]
     #[schemars(range(min = 1, max = 100))]
     pub within: f64,
     /// Number of lines from the centre of the box to scattered points of its surface, besides those to the centres of
-    /// its faces and to its corners.
-    #[serde(default = "lines")]
+    /// its faces and to its corners; 200 when absent. Margins of a machine have no box.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(max = 100_000))]
-    pub lines: u32,
+    pub lines: Option<u32>,
 }
 
 const fn within() -> f64 {
     DEFAULT_WITHIN
 }
 
-const fn lines() -> u32 {
-    DEFAULT_LINES
+impl<V> MarginsPlan<V> {
+    /// The same with other names of the numbers that vary.
+    pub(crate) fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<MarginsPlan<W>, E> {
+        let Self { start, within, lines, .. } = self;
+        let vary = self.vary.iter().map(|one| one.named(name)).collect::<Result<_, E>>()?;
+        Ok(MarginsPlan { start: *start, label: self.label.clone(), vary, within: *within, lines: *lines })
+    }
+
+    /// The number of lines to scattered points.
+    #[must_use]
+    pub fn lines(&self) -> u32 {
+        self.lines.unwrap_or(DEFAULT_LINES)
+    }
 }
 
-impl Default for MarginsPlan {
+impl<V> Default for MarginsPlan<V> {
     /// Of the motion from rest, in all parameters.
     fn default() -> Self {
-        Self {
-            start: StartPlan::default(),
-            label: None,
-            vary: Vec::new(),
-            within: DEFAULT_WITHIN,
-            lines: DEFAULT_LINES,
-        }
+        Self { start: None, label: None, vary: Vec::new(), within: DEFAULT_WITHIN, lines: None }
     }
 }
 
 impl MarginsPlan {
+    /// Where the motion starts.
+    #[must_use]
+    pub fn start(&self) -> StartPlan {
+        self.start.unwrap_or_default()
+    }
+
     /// The parameters of a system, the frequency in the form in which it is given. A machine has its numbers in SI units,
     /// without those that are 0.
     #[must_use]
@@ -97,13 +112,13 @@ impl MarginsPlan {
     /// [`PlanError`] names the first invalid value.
     pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
         match &self.label {
-            Some(_) if self.start != StartPlan::default() => return Err(PlanError::LabelAndStart),
+            Some(_) if self.start() != StartPlan::default() => return Err(PlanError::LabelAndStart),
             Some(label) => label.parse::<Label>().map(|_| ())?,
-            None => self.start.start(&system.oscillator()?).map(|_| ())?,
+            None => self.start().start(&system.oscillator()?).map(|_| ())?,
         }
         check_within(self.within)?;
-        if self.lines > MOST_LINES {
-            return Err(PlanError::Lines { given: self.lines, most: MOST_LINES });
+        if self.lines() > MOST_LINES {
+            return Err(PlanError::Lines { given: self.lines(), most: MOST_LINES });
         }
         for (k, one) in self.vary.iter().enumerate() {
             let same = |other: &&ScaledParameter| other.parameter.same_number(one.parameter);
@@ -152,10 +167,10 @@ mod tests {
     fn a_plan_survives_json_and_short_ones_are_filled_in() {
         let gap = ScaledParameter { parameter: Parameter::Gap, scale: Some(0.1) };
         let task = MarginsPlan { label: Some("1/1".into()), vary: vec![gap], ..MarginsPlan::default() };
-        let plan = Plan::new(SYSTEM, Task::Margins(task));
+        let plan = Plan::new(SYSTEM, Task::from(task));
         assert_eq!(plan.check(), Ok(()));
         let text = serde_json::to_string(&plan).unwrap();
-        assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan);
+        assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan.canonical().unwrap());
         assert!(serde_json::from_str::<Plan>(&text.replace("\"scale\"", "\"skale\"")).is_err());
         assert_eq!(serde_json::from_str::<MarginsPlan>("{}").unwrap(), MarginsPlan::default());
     }
@@ -179,12 +194,12 @@ mod tests {
         for (plan, sentence) in [
             (MarginsPlan { label: Some("1/0".into()), ..good.clone() }, "label `1/0` is not m/n"),
             (
-                MarginsPlan { label: Some("1/1".into()), start: moving, ..good.clone() },
+                MarginsPlan { label: Some("1/1".into()), start: Some(moving), ..good.clone() },
                 "the motion is given twice, by its label and by a start",
             ),
             (MarginsPlan { within: 1.0, ..good.clone() }, "within = 1 lies outside 1 < within <= 100"),
             (MarginsPlan { within: f64::NAN, ..good.clone() }, "within = NaN lies outside"),
-            (MarginsPlan { lines: 100_001, ..good.clone() }, "lines = 100001 lies outside 0 <= lines <= 100000"),
+            (MarginsPlan { lines: Some(100_001), ..good.clone() }, "lines = 100001 lies outside 0 <= lines <= 100000"),
             (MarginsPlan { vary: twice, ..good.clone() }, "beta and inverse_beta are both to vary"),
             (MarginsPlan { vary: vary(Parameter::Gap, Some(0.0)), ..good.clone() }, "the scale of gap is 0"),
             (MarginsPlan { vary: vary(Parameter::SecondGap, None), ..good.clone() }, "second_gap is to vary, but"),

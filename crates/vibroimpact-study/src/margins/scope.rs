@@ -1,20 +1,82 @@
 //! The range of a parameter in which events are looked for, and its scale in the box.
 
+use crate::name::Name;
 use crate::{Parameter, PlanError, SystemPlan};
-use serde::{Deserialize, Serialize};
+use core::fmt;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Error, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::borrow::Cow;
 use vibroimpact::PhysicalParameter;
 
-/// A parameter that varies, and its scale in the box.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct ScaledParameter {
-    /// The parameter.
-    #[serde(with = "crate::parameter")]
-    #[schemars(with = "crate::parameter::Name")]
-    pub parameter: Parameter,
-    /// The change of the parameter that counts as 1; its absolute value when absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+/// A number that varies, and its scale in the box. Without a scale, the path of a number of a machine is written alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScaledParameter<V = Parameter> {
+    /// The number.
+    pub parameter: V,
+    /// The change of the number that counts as 1; its absolute value when absent.
     pub scale: Option<f64>,
+}
+
+/// A number with its scale as it is written.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct ScaledText {
+    #[serde(alias = "path")]
+    parameter: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    scale: Option<f64>,
+}
+
+impl<V> ScaledParameter<V> {
+    /// The same with another name of the number.
+    pub(super) fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<ScaledParameter<W>, E> {
+        Ok(ScaledParameter { parameter: name(&self.parameter)?, scale: self.scale })
+    }
+}
+
+impl<V: Name> Serialize for ScaledParameter<V> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        if self.parameter.key() == "path" && self.scale.is_none() {
+            return self.parameter.text().serialize(to);
+        }
+        ScaledText { parameter: self.parameter.text().to_owned(), scale: self.scale }.serialize(to)
+    }
+}
+
+impl<'de, V: Name> Deserialize<'de> for ScaledParameter<V> {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        struct Either;
+        impl<'de> Visitor<'de> for Either {
+            type Value = ScaledText;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a name, or a table with `parameter` and `scale`")
+            }
+
+            fn visit_str<E>(self, text: &str) -> Result<ScaledText, E> {
+                Ok(ScaledText { parameter: text.to_owned(), scale: None })
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, table: A) -> Result<ScaledText, A::Error> {
+                ScaledText::deserialize(MapAccessDeserializer::new(table))
+            }
+        }
+        let ScaledText { parameter, scale } = from.deserialize_any(Either)?;
+        Ok(Self { parameter: V::of(&parameter).map_err(D::Error::custom)?, scale })
+    }
+}
+
+impl<V: Name> JsonSchema for ScaledParameter<V> {
+    fn schema_name() -> Cow<'static, str> {
+        "ScaledParameter".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let (name, table) = (V::schema(), generator.subschema_for::<ScaledText>());
+        schemars::json_schema!({ "anyOf": [name, table] })
+    }
 }
 
 /// A parameter that varies: its value, its range and its scale.

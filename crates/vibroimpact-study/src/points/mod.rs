@@ -29,6 +29,21 @@ pub enum PointsPlan<V = Coordinate> {
 /// The name of the dimension of points.
 pub(crate) const DIMENSION: &str = "sample";
 
+impl<V> PointsPlan<V> {
+    /// The same with other names of what varies.
+    pub(crate) fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<PointsPlan<W>, E> {
+        let column = |of: &ListedColumn<V>| Ok(ListedColumn { vary: name(&of.vary)?, values: of.values.clone() });
+        let range = |of: &PointRange<V>| Ok(PointRange { vary: name(&of.vary)?, from: of.from, to: of.to });
+        Ok(match self {
+            Self::Listed(columns) => PointsPlan::Listed(columns.iter().map(column).collect::<Result<_, E>>()?),
+            Self::Drawn(DrawnPoints { rule, count, seed, over }) => {
+                let over = over.iter().map(range).collect::<Result<_, E>>()?;
+                PointsPlan::Drawn(DrawnPoints { rule: *rule, count: *count, seed: *seed, over })
+            }
+        })
+    }
+}
+
 impl<V: Clone + Into<Cow<'static, str>>> PointsPlan<V> {
     /// The number of points.
     #[must_use]

@@ -41,7 +41,7 @@ pub(crate) fn response(
     let rows = |motions: Vec<SweptMotion>| motions.into_iter().map(|motion| motion.row).collect();
     Ok(ResponseCurves {
         quantities: Quantity::ALL.map(|quantity| quantity.name().to_owned()).to_vec(),
-        shown: Quantity::ALL.iter().position(|quantity| *quantity == plan.quantity).unwrap_or(0),
+        shown: Quantity::ALL.iter().position(|quantity| *quantity == plan.quantity()).unwrap_or(0),
         up: rows(up),
         down: rows(down),
         branches,
@@ -84,7 +84,7 @@ mod tests {
         let even = ResponsePlan::new(Parameter::Gap, "0.5:1.5:5".parse::<Span>().unwrap());
         let ranged = response(&system, &even, &Control::default()).unwrap();
         assert_eq!(found.up[2].label, ranged.up[2].label);
-        let plan = Plan::new(system, Task::Response(listed));
+        let plan = Plan::new(system, Task::from(listed));
         assert_eq!((Plan::from_text(&plan.to_toml()).unwrap(), plan.check()), (plan.clone(), Ok(())));
         let twice = ResponsePlan::new(Parameter::Gap, Values::Listed(vec![0.5, 0.5]));
         assert!(twice.check(&system).unwrap_err().to_string().contains("0.5"));
@@ -95,7 +95,7 @@ mod tests {
     fn a_plan_survives_its_text() {
         let short = r#"{"version":1,"system":{"inverse_beta":1.3,"restitution":0.5},"task":{"response":{"vary":"gap","over":"0.5:1:3"}}}"#;
         let plan = Plan::from_text(short).unwrap();
-        assert_eq!((plan.system.gap, plan.check()), (0.5, Ok(())));
+        assert_eq!((plan.oscillator().unwrap().gap, plan.check()), (0.5, Ok(())));
         assert_eq!(Plan::from_text(&plan.to_toml()).unwrap(), plan);
         for (over, sentence) in [("1:1:1", "gap is to go from 1 to 1"), ("0:nan:3", "the plan does not read")] {
             let text = short.replace("0.5:1:3", over);

@@ -1,53 +1,68 @@
 //! The plan of a response.
 
 use crate::map::check_impacts;
+use crate::name::{Name, Written};
 use crate::quantity::Quantity;
 use crate::{Cut, Parameter, PlanError, SystemPlan, Values};
 use serde::{Deserialize, Serialize};
 
 /// A quantity of all motions over the values of one parameter.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct ResponsePlan {
-    /// The parameter that varies; its value in the system counts for nothing.
-    #[serde(with = "crate::parameter")]
-    #[schemars(with = "crate::parameter::Name")]
-    pub vary: Parameter,
+#[serde(deny_unknown_fields, bound(serialize = "V: Name, Q: Serialize", deserialize = "V: Name, Q: Deserialize<'de>"))]
+#[schemars(rename = "ResponsePlan", bound = "V: Name, Q: schemars::JsonSchema")]
+pub struct ResponsePlan<V = Parameter, Q = Quantity> {
+    /// The number that varies; its value in the system counts for nothing.
+    #[serde(with = "crate::name")]
+    #[schemars(with = "Written<V>")]
+    pub vary: V,
     /// Its values, in any order.
     pub over: Values,
-    /// The quantity that is reported.
-    #[serde(default = "amplitude", with = "crate::quantity::one")]
-    #[schemars(with = "crate::quantity::Name")]
-    pub quantity: Quantity,
+    /// The quantity that is reported; the displacement amplitude, of a machine that of the first coordinate, when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub quantity: Option<Q>,
     /// Impacts to follow each motion of a sweep for, at most, as for a map; the default of `SettleOptions` when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub impacts: Option<u32>,
 }
 
-const fn amplitude() -> Quantity {
-    Quantity::DisplacementAmplitude
-}
-
 /// Maximum number of values.
 const MOST_VALUES: u32 = 100_000;
 
-impl ResponsePlan {
-    /// The displacement amplitude over a parameter.
+impl<V, Q> ResponsePlan<V, Q> {
+    /// The displacement amplitude over a number.
     #[must_use]
-    pub fn new(vary: Parameter, over: impl Into<Values>) -> Self {
-        Self { vary, over: over.into(), quantity: amplitude(), impacts: None }
-    }
-
-    /// The line over which the parameter varies, from the smaller to the larger end.
-    #[must_use]
-    pub fn cut(&self) -> Cut {
-        Cut { vary: self.vary, ends: self.over.extent(), also: None }
+    pub fn new(vary: V, over: impl Into<Values>) -> Self {
+        Self { vary, over: over.into(), quantity: None, impacts: None }
     }
 
     /// The number of motions of both sweeps.
     #[must_use]
     pub fn motions(&self) -> u64 {
         2 * self.over.count() as u64
+    }
+
+    /// The same with another name of the number that varies and of the quantity.
+    pub(crate) fn named<W, R, E>(
+        &self,
+        name: &impl Fn(&V) -> Result<W, E>,
+        quantity: &impl Fn(&Q) -> Result<R, E>,
+    ) -> Result<ResponsePlan<W, R>, E> {
+        let quantity = self.quantity.as_ref().map(quantity).transpose()?;
+        Ok(ResponsePlan { vary: name(&self.vary)?, over: self.over.clone(), quantity, impacts: self.impacts })
+    }
+}
+
+impl ResponsePlan {
+    /// The quantity that is reported.
+    #[must_use]
+    pub fn quantity(&self) -> Quantity {
+        self.quantity.unwrap_or(Quantity::DisplacementAmplitude)
+    }
+
+    /// The line over which the parameter varies, from the smaller to the larger end.
+    #[must_use]
+    pub fn cut(&self) -> Cut {
+        Cut { vary: self.vary, ends: self.over.extent(), also: None }
     }
 
     /// Checks everything that can be checked without running the plan.

@@ -1,7 +1,8 @@
 //! Access to the arrays of a study over its whole grid, independent of where they are stored.
 
-use super::{Study, StudyPlan};
+use super::Study;
 use crate::Column;
+use crate::Plan;
 
 /// Read access to the arrays of a study; implemented by stores.
 pub trait StudyArrays {
@@ -9,7 +10,7 @@ pub trait StudyArrays {
     type Error;
 
     /// The plan of the study.
-    fn plan(&self) -> &StudyPlan;
+    fn plan(&self) -> &Plan;
 
     /// The study.
     fn study(&self) -> &Study;

@@ -2,7 +2,7 @@
 
 use super::cycles;
 use crate::grid::{Dimension, Index};
-use crate::{Axis, Block, Column, Extra, Field, Grid, MachineAxis, NumberType, Unit};
+use crate::{Axis, Block, Column, Extra, Field, Grid, NumberType, Unit};
 use std::borrow::Cow;
 
 /// The coordinate values along a dimension of the grid.
@@ -201,14 +201,14 @@ pub(super) fn along(axes: &[Axis]) -> Vec<Along> {
 
 /// The same for a grid over a machine, by default with tiles of sides from the least to the most. Where points take a hundred times as
 /// long, tiles are as small as one point where an axis is short.
-pub(super) fn machine_grid(axes: &[MachineAxis], asked: Option<u32>, sides: (usize, usize)) -> Grid {
-    let dimension = |axis: &MachineAxis| dimension(&axis.vary, axis.over.count(), asked, sides);
+pub(super) fn machine_grid(axes: &[Axis<String>], asked: Option<u32>, sides: (usize, usize)) -> Grid {
+    let dimension = |axis: &Axis<String>| dimension(&axis.vary, axis.over.count(), asked, sides);
     Grid { dimensions: axes.iter().rev().map(dimension).collect() }
 }
 
 /// The coordinate values of the axes of a grid over a machine.
-pub(super) fn along_machine(axes: &[MachineAxis]) -> Vec<Along> {
-    let one = |axis: &MachineAxis| Along {
+pub(super) fn along_machine(axes: &[Axis<String>]) -> Vec<Along> {
+    let one = |axis: &Axis<String>| Along {
         name: axis.vary.clone(),
         dimension: axis.vary.clone(),
         values: axis.over.all(),

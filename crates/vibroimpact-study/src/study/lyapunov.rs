@@ -113,7 +113,7 @@ impl Spectra for Oscillators {
         let (place, axes) = (|axis: usize| on_axis(index, axis), &self.plan.axes);
         let there = axis::system_at(&self.system, axes, place).ok()?;
         let osc = there.oscillator().ok()?;
-        let start = axis::start_at((&self.system, &there), &self.plan.start, axes, place).start(&osc).ok()?;
+        let start = axis::start_at((&self.system, &there), &self.plan.start(), axes, place).start(&osc).ok()?;
         let found = exponents(&osc, start, &self.plan.options());
         let impacts = found.impact_rate.scaled(osc.period());
         Some(Spectrum {

@@ -8,9 +8,9 @@ use super::refine::{self, Cell};
 use super::remarks;
 use super::stored_motion::StoredMotion;
 use crate::field::{Column, Field};
-use crate::machine_plan::{MachineBasinPlan, StartAxis, values_of};
+use crate::machine_plan::{StartAxis, values_of};
 use crate::map::options;
-use crate::{Block, Grid, PlanError};
+use crate::{BasinPlan, Block, Grid, PlanError};
 use core::cell::RefCell;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -36,7 +36,7 @@ const FEW: u64 = 500;
 pub(crate) struct MachineBasinFill {
     machine: Machine,
     start: MachineStart,
-    plan: MachineBasinPlan,
+    plan: BasinPlan<String, String>,
     places: Vec<StartAxis>,
     options: SettleOptions,
     grid: Grid,
@@ -62,7 +62,7 @@ type Leads = (i32, i32);
 impl MachineBasinFill {
     pub(crate) fn new(
         (machine, start): (&Machine, &MachineStart),
-        plan: &MachineBasinPlan,
+        plan: &BasinPlan<String, String>,
         tile: Option<u32>,
     ) -> Result<Self, PlanError> {
         let places = plan.axes.iter().map(|axis| StartAxis::of(machine, &axis.vary)).collect::<Result<_, _>>()?;

@@ -5,20 +5,20 @@ use super::sweeps::{KINDS, SweepFill, Swept, in_order};
 use crate::diagram::{MotionKind, Sweep, SweepDirection};
 use crate::field::{Column, Extra, Field, NumberType};
 use crate::machine::MachineSource;
-use crate::machine_plan::{MachineDiagram, MachineDiagramPlan, MachineDiagramPoint, MachineDiagramStep, diagram_step};
-use crate::{MachineAxis, PlanError, Unit, Values};
+use crate::machine_plan::{MachineDiagram, MachineDiagramPoint, MachineDiagramStep, diagram_step};
+use crate::{Axis, DiagramPlan, PlanError, Unit, Values};
 use vibroimpact::events::{ContactStart, MachineStart};
 use vibroimpact::regime::ContactState;
 
 /// Machines over a number.
 pub(crate) struct MachineSweep {
     source: MachineSource,
-    plan: MachineDiagramPlan,
+    plan: DiagramPlan<String, String>,
     keep: usize,
 }
 
 impl SweepFill<MachineSweep> {
-    pub(crate) fn of_machine(source: &MachineSource, plan: &MachineDiagramPlan, tile: Option<u32>) -> Self {
+    pub(crate) fn of_machine(source: &MachineSource, plan: &DiagramPlan<String, String>, tile: Option<u32>) -> Self {
         let keep = usize::try_from(plan.keep).unwrap_or(usize::MAX);
         Self::of(MachineSweep { source: source.clone(), plan: plan.clone(), keep }, tile)
     }
@@ -33,12 +33,17 @@ impl Swept for MachineSweep {
     }
 
     fn varied(&self) -> Vec<Along> {
-        let mut along = along_machine(&[MachineAxis { vary: self.plan.vary.clone(), over: self.plan.over.clone() }]);
+        let mut along = along_machine(&[Axis { vary: self.plan.vary.clone(), over: self.plan.over.clone() }]);
         // the values of the second number are a second coordinate of the same dimension
         if let (Some(also), Some(first)) = (&self.plan.also, along.first()) {
             let second = |k: u32| self.plan.values(k).nth(1).unwrap_or(f64::NAN);
             let values = (0..).take(self.plan.over.count()).map(second).collect();
-            along.push(Along { name: also.path.clone(), dimension: first.dimension.clone(), values, ..first.clone() });
+            along.push(Along {
+                name: also.parameter.clone(),
+                dimension: first.dimension.clone(),
+                values,
+                ..first.clone()
+            });
         }
         along
     }
@@ -149,7 +154,7 @@ impl Swept for MachineSweep {
 ///
 /// Motions of tiles that are not complete are left out.
 #[must_use]
-pub fn machine_diagram_of(plan: &MachineDiagramPlan, columns: &[Column]) -> MachineDiagram {
+pub fn machine_diagram_of(plan: &DiagramPlan<String, String>, columns: &[Column]) -> MachineDiagram {
     let (count, keep) = (plan.over.count(), usize::try_from(plan.keep).unwrap_or(usize::MAX));
     let kinds = columns.first().map_or(&[][..], Column::flags);
     let real = |k: usize| columns.get(k).map_or(&[][..], Column::real);

@@ -4,8 +4,8 @@ use super::fill::{Along, along_machine, machine_grid, on_axis};
 use super::lyapunov::{LyapunovFill, Spectra, Spectrum, TILE};
 use super::map::side;
 use crate::machine::MachineSource;
-use crate::machine_plan::{MachineLyapunovPlan, StartAxis};
-use crate::{MachineAxis, PlanError, Unit};
+use crate::machine_plan::StartAxis;
+use crate::{Axis, LyapunovPlan, PlanError, Unit};
 use vibroimpact::chaos::{Grounds, machine_exponents_while};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
@@ -13,7 +13,7 @@ use vibroimpact::machine::Machine;
 /// A machine and its start over axes.
 pub(super) struct Machines {
     source: MachineSource,
-    plan: MachineLyapunovPlan,
+    plan: LyapunovPlan<String>,
     /// For each axis where it stands in a start; `None` for a number of the machine.
     places: Vec<Option<StartAxis>>,
     directions: usize,
@@ -22,7 +22,7 @@ pub(super) struct Machines {
 impl LyapunovFill<Machines> {
     pub(super) fn of_machine(
         source: &MachineSource,
-        plan: &MachineLyapunovPlan,
+        plan: &LyapunovPlan<String>,
         tile: Option<u32>,
     ) -> Result<Self, PlanError> {
         let machine = source.machine()?;
@@ -37,9 +37,9 @@ impl Machines {
     /// The machine and the start at a point.
     fn problem(&self, index: &[usize]) -> Result<(Machine, MachineStart), PlanError> {
         let values = || self.plan.axes.iter().zip(&self.places).enumerate();
-        let at = |k: usize, axis: &MachineAxis| axis.over.at(on_axis(index, k));
+        let at = |k: usize, axis: &Axis<String>| axis.over.at(on_axis(index, k));
         let numbers = values().filter(|(_, (_, place))| place.is_none()).map(|(k, (axis, _))| (axis, at(k, axis)));
-        let source = MachineAxis::with_values(&self.source, numbers)?;
+        let source = Axis::<String>::with_values(&self.source, numbers)?;
         let (machine, mut start) = (source.machine()?, MachineStart::from(source.start()?));
         for (k, (axis, place)) in values() {
             if let Some(place) = place {
@@ -78,7 +78,7 @@ impl Spectra for Machines {
 
     fn at(&self, index: &[usize]) -> Option<Spectrum> {
         let (machine, start) = self.problem(index).ok()?;
-        let found = machine_exponents_while(&machine, &start, self.plan.lengths(), &|| true).ok()??;
+        let found = machine_exponents_while(&machine, &start, self.plan.events(), &|| true).ok()??;
         let closings = found.impact_rate.scaled(machine.period().unwrap_or(f64::NAN));
         Some(Spectrum {
             grounds: match found.grounds {
@@ -94,12 +94,11 @@ impl Spectra for Machines {
 
 #[cfg(test)]
 mod tests {
-    use crate::machine::no_files;
     use crate::study::{Sheet, Study, in_memory};
-    use crate::{Control, MachinePlan, MachineResults, MachineTask, PlanError, RunError, run_machine};
+    use crate::{Control, MachineResults, Plan, PlanError, Results, RunError, Task, run};
 
     /// A forced mass with a stop at a gap of 0.3; `start` and the axes are written into it.
-    fn plan(start: &str, axes: &str) -> MachinePlan {
+    fn plan(start: &str, axes: &str) -> Plan {
         let text = format!(
             "version = 1\ntile = 2\nstart = {{ q = {{ mass = {start} }} }}\n[machine]\nbodies = {{ mass = 1 }}\nfrequency = 0.9\n\
              link = [{{ between = [\"ground\", \"mass\"], stiffness = 1, damping = 0.05 }}]\n\
@@ -107,7 +106,7 @@ mod tests {
              stop = [{{ name = \"wall\", at = \"mass\", gap = 0.3, restitution = 0.6 }}]\n\
              [task.lyapunov]\nimpacts = 400\ntransient = 100\n{axes}"
         );
-        MachinePlan::from_text(&text, no_files).unwrap()
+        Plan::from_text(&text).unwrap()
     }
 
     fn numbers<'a>(sheet: &'a Sheet, name: &str) -> &'a [f64] {
@@ -128,15 +127,17 @@ mod tests {
         for (k, grounds) in grounds.iter().enumerate() {
             let (x, gap) = ([-0.5, 0.0, 0.5, 1.0][k % 4], [0.6, 0.2, 0.0][k / 4]);
             let exponents = &numbers(&found, "exponent")[2 * k..2 * k + 2];
-            let mut alone = plan(&x.to_string(), "");
-            alone.machine = alone.machine.with("stop.wall.gap", gap).unwrap();
+            let alone = plan(&x.to_string(), "");
+            let there = alone.machine().unwrap().with("stop.wall.gap", gap).unwrap();
+            let alone = Plan { system: there.into(), ..alone };
             if x > gap {
                 refused += 1;
                 assert!(*grounds == 3 && exponents.iter().all(|value| value.is_nan()), "{x} {gap}");
                 assert!(alone.check().is_err());
                 continue;
             }
-            let MachineResults::Lyapunov(direct, None) = run_machine(&alone, &Control::default()).unwrap() else {
+            let Results::Machine(MachineResults::Lyapunov(direct, None)) = run(&alone, &Control::default()).unwrap()
+            else {
                 panic!()
             };
             assert_eq!(exponents, direct.exponents.iter().map(|found| found.value).collect::<Vec<_>>());
@@ -155,12 +156,12 @@ mod tests {
             let error = axis(vary).check().unwrap_err().to_string();
             assert!(error.contains(told), "{error}");
         }
-        let refused = run_machine(&axis("phase"), &Control::default());
+        let refused = run(&axis("phase"), &Control::default());
         assert!(matches!(refused, Err(RunError::Plan(PlanError::WrongAxis { .. }))), "{refused:?}");
         assert_eq!(
             Study::new(&plan("0", "")).err().unwrap(),
             PlanError::NoMachineStudy("measure the exponents of one motion")
         );
-        assert!(matches!(axis("phase").task, MachineTask::Lyapunov(plan) if plan.axes.len() == 1));
+        assert!(matches!(axis("phase").task, Task::Lyapunov(plan) if plan.axes.len() == 1));
     }
 }

@@ -8,9 +8,9 @@ use super::stored_motion::StoredMotion;
 use crate::field::{Extra, Field};
 use crate::grid::Index;
 use crate::machine::MachineSource;
-use crate::machine_plan::{MachineMapPlan, MachineShare, values_of};
+use crate::machine_plan::{MachineShare, values_of};
 use crate::map::options;
-use crate::{MachineAxis, PlanError, Unit};
+use crate::{Axis, MapPlan, PlanError, Unit};
 use vibroimpact::events::MachineStart;
 use vibroimpact::lanes::Width;
 use vibroimpact::machine::Machine;
@@ -26,14 +26,14 @@ const WIDE_TILE: (usize, usize) = (8, 32);
 /// Machines over numbers.
 pub(crate) struct MachinesOver {
     source: MachineSource,
-    plan: MachineMapPlan,
+    plan: MapPlan<String, String>,
     options: SettleOptions,
     /// Number of stops.
     stops: usize,
 }
 
 impl MapFill<MachinesOver> {
-    pub(crate) fn of_machine(source: &MachineSource, plan: &MachineMapPlan, tile: Option<u32>) -> Self {
+    pub(crate) fn of_machine(source: &MachineSource, plan: &MapPlan<String, String>, tile: Option<u32>) -> Self {
         let machine = source.machine().ok();
         let reduced = machine.as_ref().is_some_and(|machine| machine.reduced().is_some());
         let (least, most) = if reduced { WIDE_TILE } else { TILE };
@@ -47,8 +47,8 @@ impl MapFill<MachinesOver> {
 impl MachinesOver {
     /// The description of the machine at a point.
     fn source<'a>(&'a self, index: &[usize]) -> Result<MachineSource, PlanError> {
-        let value = |(k, axis): (usize, &'a MachineAxis)| (axis, axis.over.at(on_axis(index, k)));
-        MachineAxis::with_values(&self.source, self.plan.axes.iter().enumerate().map(value))
+        let value = |(k, axis): (usize, &'a Axis<String>)| (axis, axis.over.at(on_axis(index, k)));
+        Axis::<String>::with_values(&self.source, self.plan.axes.iter().enumerate().map(value))
     }
 
     /// The machine at a point, with its scattered starts.

@@ -16,7 +16,6 @@ mod machine_lyapunov;
 mod machine_map;
 mod map;
 mod memory;
-mod plan;
 mod reason;
 mod refine;
 mod remarks;
@@ -36,7 +35,6 @@ pub(crate) use fill::{Fill, on_axis};
 pub use machine_diagram::machine_diagram_of;
 pub(crate) use memory::tiles_of;
 pub use memory::{Sheet, check_memory, in_memory};
-pub use plan::StudyPlan;
 pub(crate) use refine::Cell;
 pub use remarks::{closed_of, has_closed};
 pub use some_points::{PointColumns, points_until};
@@ -45,8 +43,9 @@ pub use tables::{Cells, EachCount, StudyTable, Tiles};
 pub(crate) use {basin::BasinFill, machine_basin::MachineBasinFill, map::MapFill};
 
 use crate::diagram::Show;
+use crate::machine::MachineSource;
 use crate::map::options;
-use crate::{Block, Column, DiagramPlan, Field, Grid, MachinePlan, MachineTask, Plan, PlanError, Task};
+use crate::{Block, Column, DiagramPlan, Field, Grid, Plan, PlanError, System, SystemPlan, Task};
 use lyapunov::LyapunovFill;
 
 /// A plan that fills a grid.
@@ -61,12 +60,11 @@ impl Study {
     ///
     /// # Errors
     /// [`PlanError`] for an invalid plan, or for a task without a grid.
-    pub fn new(plan: impl Into<StudyPlan>) -> Result<Self, PlanError> {
-        let plan = plan.into();
+    pub fn new(plan: &Plan) -> Result<Self, PlanError> {
         plan.check()?;
-        Ok(Self::of(match &plan {
-            StudyPlan::Oscillator(plan) => Self::of_oscillator(plan)?,
-            StudyPlan::Machine(plan) => Self::of_machine(plan)?,
+        Ok(Self::of(match &plan.system {
+            System::Oscillator(system) => Self::of_oscillator(system, plan)?,
+            System::Machine(machine) => Self::of_machine(machine, &plan.task, plan.tile)?,
         }))
     }
 
@@ -98,51 +96,38 @@ impl Study {
         columns.into_iter().enumerate().filter(|(k, _)| self.kept.contains(k)).map(|(_, column)| column).collect()
     }
 
-    fn of_machine(plan: &MachinePlan) -> Result<Box<dyn fill::Columns>, PlanError> {
-        let none = |what| Err(PlanError::NoMachineStudy(what));
-        Ok(match &plan.task {
-            MachineTask::Basin(basin) => {
-                let (machine, start) = plan.problem()?;
-                Box::new(MachineBasinFill::new((&machine, &start), basin, plan.tile)?)
+    fn of_machine(source: &MachineSource, task: &Task, tile: Option<u32>) -> Result<Box<dyn fill::Columns>, PlanError> {
+        Ok(match task {
+            Task::Basin(basin) => {
+                let (machine, start) = source.problem()?;
+                Box::new(MachineBasinFill::new((&machine, &start), &basin.typed()?, tile)?)
             }
-            MachineTask::Map(map) => Box::new(MapFill::of_machine(&plan.machine, map, plan.tile)),
-            MachineTask::Diagram(diagram) => Box::new(SweepFill::of_machine(&plan.machine, diagram, plan.tile)),
-            MachineTask::Lyapunov(lyapunov) if !lyapunov.axes.is_empty() => {
-                Box::new(LyapunovFill::of_machine(&plan.machine, lyapunov, plan.tile)?)
+            Task::Map(map) => Box::new(MapFill::of_machine(source, &map.typed()?, tile)),
+            Task::Diagram(diagram) => Box::new(SweepFill::of_machine(source, &diagram.typed()?, tile)),
+            Task::Lyapunov(lyapunov) if !lyapunov.axes.is_empty() => {
+                Box::new(LyapunovFill::of_machine(source, &lyapunov.typed()?, tile)?)
             }
-            MachineTask::Lyapunov(_) => return none("measure the exponents of one motion"),
-            MachineTask::Simulate { .. } => return none("simulate"),
-            MachineTask::Settle { .. } => return none("settle"),
-            MachineTask::Attractors { .. } => return none("find attractors"),
-            MachineTask::Orbit { .. } => return none("find orbits"),
-            MachineTask::Branch(_) => return none("follow a branch"),
-            MachineTask::Curve(_) => return none("follow a curve"),
-            MachineTask::Region(_) => return none("find regions"),
-            MachineTask::Response(_) => return none("compute a response"),
-            MachineTask::Margins(_) => return none("compute margins"),
-            MachineTask::SettleMany(_) => return none("settle points"),
+            other => return Err(PlanError::NoMachineStudy(other.verb())),
         })
     }
 
-    fn of_oscillator(plan: &Plan) -> Result<Box<dyn fill::Columns>, PlanError> {
+    fn of_oscillator(system: &SystemPlan, plan: &Plan) -> Result<Box<dyn fill::Columns>, PlanError> {
         let tile = plan.tile;
         Ok(match &plan.task {
-            Task::Map(map) => Box::new(MapFill::new(&plan.system, map, tile)),
-            Task::Basin(basin) => Box::new(BasinFill::plane(&plan.system, basin, tile)?),
+            Task::Map(map) => Box::new(MapFill::new(system, &map.typed()?, tile)),
+            Task::Basin(basin) => Box::new(BasinFill::plane(system, &basin.typed()?, tile)?),
             Task::Attractors { starts, seed, impacts } => {
-                Box::new(BasinFill::scattered(&plan.system, (*starts, *seed), &options(*impacts), tile)?)
+                Box::new(BasinFill::scattered(system, (*starts, *seed), &options(*impacts), tile)?)
             }
-            Task::Lyapunov(lyapunov) => Box::new(LyapunovFill::new(&plan.system, lyapunov, tile)),
-            Task::Diagram(DiagramPlan { show: Show::Quantity(_), .. }) => return Err(PlanError::NoStoredQuantity),
-            Task::Diagram(diagram) => Box::new(SweepFill::new(&plan.system, diagram, tile)),
-            Task::Simulate { .. } => return Err(PlanError::NoStudy("simulate")),
-            Task::Settle { .. } => return Err(PlanError::NoStudy("settle")),
-            Task::Orbit { .. } => return Err(PlanError::NoStudy("find orbits")),
-            Task::Branch(_) => return Err(PlanError::NoStudy("follow a branch")),
-            Task::Curve(_) => return Err(PlanError::NoStudy("follow a curve")),
-            Task::Region(_) => return Err(PlanError::NoStudy("find a region")),
-            Task::Response(_) => return Err(PlanError::NoStudy("find a response")),
-            Task::Margins(_) => return Err(PlanError::NoStudy("find margins")),
+            Task::Lyapunov(lyapunov) => Box::new(LyapunovFill::new(system, &lyapunov.typed()?, tile)),
+            Task::Diagram(diagram) => {
+                let diagram: DiagramPlan = diagram.typed()?;
+                if let Show::Quantity(_) = diagram.show {
+                    return Err(PlanError::NoStoredQuantity);
+                }
+                Box::new(SweepFill::new(system, &diagram, tile))
+            }
+            other => return Err(PlanError::NoStudy(other.verb())),
         })
     }
 

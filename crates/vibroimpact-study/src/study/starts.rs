@@ -67,13 +67,13 @@ impl Starts {
             Self::Grid(plan) => plan,
         };
         let place = |k: usize| on_axis(index, k);
-        let Some(points) = &plan.points else { return start_at(osc, systems, (&plan.start, &plan.axes), place) };
+        let Some(points) = &plan.points else { return start_at(osc, systems, (&plan.start(), &plan.axes), place) };
         if points.one_system() {
-            return start_at(osc, systems, (&points.start(&plan.start, index[0]), &plan.axes), place);
+            return start_at(osc, systems, (&points.start(&plan.start(), index[0]), &plan.axes), place);
         }
         // the axes are in the units of the system at the point
         let Ok(base) = of_point(systems.0, points, index[0]) else { return Start::at_rest(osc) };
-        let start: StartPlan = points.start_in((systems.0, &base), &plan.start, index[0]);
+        let start: StartPlan = points.start_in((systems.0, &base), &plan.start(), index[0]);
         start_at(osc, (&base, systems.1), (&start, &plan.axes), place)
     }
 

@@ -40,7 +40,7 @@ fn columns<'a>(sheet: &'a Sheet, name: &str) -> &'a Column {
 #[test]
 fn a_basin_is_that_of_the_starts_one_by_one() {
     let plan = BasinPlan::plane(span("-4:0.75:37"), span("-4:4:29"), 0.3);
-    let found = sheet(S, Task::Basin(plan.clone()), Some(10), 2);
+    let found = sheet(S, Task::from(plan.clone()), Some(10), 2);
     let direct = crate::in_memory::basin(&S, &plan, &Control::default()).unwrap();
     let labels: Vec<String> = columns(&found, "label").whole().iter().map(|c| label_of(*c).unwrap()).collect();
     let want: Vec<String> = (0..37 * 29).map(|k| direct.label(k).into_owned()).collect();
@@ -57,7 +57,7 @@ fn a_basin_is_that_of_the_starts_one_by_one() {
         assert_eq!(shares[cycle as usize], motion.count as f64 / (37.0 * 29.0));
     }
     for (tile, threads) in [(1, 2), (7, 1), (64, 3), (300, 8)] {
-        let other = sheet(S, Task::Basin(plan.clone()), Some(tile), threads);
+        let other = sheet(S, Task::from(plan.clone()), Some(tile), threads);
         assert!(other.columns == found.columns && other.tables == found.tables, "{tile}");
     }
 }
@@ -65,11 +65,11 @@ fn a_basin_is_that_of_the_starts_one_by_one() {
 /// With an empty survey all cycles are numbered at the end.
 #[test]
 fn cycles_that_nobody_knew_of_are_numbered_at_the_end() {
-    let task = Task::Basin(BasinPlan::plane(span("-4:0.75:20"), span("-4:4:20"), 0.0));
+    let task = Task::from(BasinPlan::plane(span("-4:0.75:20"), span("-4:4:20"), 0.0));
     let plan = Plan { tile: Some(8), ..Plan::new(S, task) };
     let Task::Basin(basin) = &plan.task else { panic!() };
     let told = in_memory(Study::new(&plan).unwrap(), &Control::default()).unwrap();
-    let untold = BasinFill::plane(&S, basin, plan.tile).unwrap().forgetful();
+    let untold = BasinFill::plane(&S, &basin.typed().unwrap(), plan.tile).unwrap().forgetful();
     let untold = in_memory(Study::of(Box::new(untold)), &Control::default()).unwrap();
     let (a, b) = (columns(&told, "cycle").whole(), columns(&untold, "cycle").whole());
     assert!(b.iter().all(|n| (0..2).contains(n)), "{b:?}");
@@ -129,7 +129,7 @@ fn every_conclusion_is_the_same() {
 fn a_map_is_that_of_its_points() {
     let system = SystemPlan { inverse_beta: Some(1.0), gap: 0.0, ..S };
     let plan = MapPlan::plane(span("0.6:1.4:9"), span("-0.5:2:7"), 6, 1);
-    let found = sheet(system, Task::Map(plan.clone()), Some(4), 2);
+    let found = sheet(system, Task::from(plan.clone()), Some(4), 2);
     let direct = crate::in_memory::map(&system, &plan, &Control::default()).unwrap();
     let (labels, shares) = (columns(&found, "label").whole(), columns(&found, "share").real());
     for (k, point) in direct.points.iter().enumerate() {
@@ -148,8 +148,8 @@ fn a_map_is_that_of_its_points() {
 #[test]
 fn refinement_computes_less_and_the_same() {
     let plan = BasinPlan::plane(span("-4:0.75:200"), span("-4:4:200"), 0.0);
-    let full = sheet(S, Task::Basin(plan.clone()), Some(100), 2);
-    let fine = sheet(S, Task::Basin(BasinPlan { refine: Some(8), ..plan }), Some(100), 2);
+    let full = sheet(S, Task::from(plan.clone()), Some(100), 2);
+    let fine = sheet(S, Task::from(BasinPlan { refine: Some(8), ..plan }), Some(100), 2);
     let Column::I8(computed) = columns(&fine, "computed") else { panic!() };
     let (a, b) = (columns(&full, "label").whole(), columns(&fine, "label").whole());
     let mut own = 0;
@@ -165,8 +165,8 @@ fn refinement_computes_less_and_the_same() {
 
     let system = SystemPlan { inverse_beta: Some(1.0), gap: 0.0, ..S };
     let plan = MapPlan::plane(span("0.6:1.4:33"), span("-0.5:2:33"), 4, 1);
-    let full = sheet(system, Task::Map(plan.clone()), None, 2);
-    let fine = sheet(system, Task::Map(MapPlan { refine: Some(4), ..plan }), None, 2);
+    let full = sheet(system, Task::from(plan.clone()), None, 2);
+    let fine = sheet(system, Task::from(MapPlan { refine: Some(4), ..plan }), None, 2);
     let Column::I8(computed) = columns(&fine, "computed") else { panic!() };
     for name in ["label", "share", "speed", "multiplier"] {
         for (k, one) in computed.iter().enumerate().filter(|(_, one)| **one == 1) {
@@ -193,8 +193,9 @@ fn scattered_starts_exponents_and_three_axes() {
     let gaps = Axis::parameter(Parameter::Gap, Values::Listed(vec![3.0, 2.0]));
     let speeds = Axis::new(Coordinate::V, span("-1:1:3"));
     let u = SystemPlan { inverse_beta: Some(1.11), gap: 3.0, ..S };
-    let plan = LyapunovPlan { axes: vec![gaps.clone(), speeds.clone()], impacts: 2000, ..LyapunovPlan::default() };
-    let found = sheet(u, Task::Lyapunov(plan), None, 2);
+    let plan =
+        LyapunovPlan { axes: vec![gaps.clone(), speeds.clone()], impacts: Some(2000), ..LyapunovPlan::default() };
+    let found = sheet(u, Task::from(plan), None, 2);
     let exponents = columns(&found, "exponent").real();
     assert_eq!(exponents.len(), 12);
     // each row is one velocity, with gap 3 (chaos at U) and gap 2 (1/2 at T)
@@ -203,14 +204,14 @@ fn scattered_starts_exponents_and_three_axes() {
     }
     let axes = vec![speeds, Axis::new(Coordinate::X, span("-1:0:2")), gaps];
     let basin = BasinPlan { axes, ..no_axes() };
-    let found = sheet(u, Task::Basin(basin), None, 1);
+    let found = sheet(u, Task::from(basin), None, 1);
     assert!(found.tables.is_empty() && found.fields.len() == 1);
     let labels = columns(&found, "label").whole();
     let second = crate::SecondStop { gap: 1.0, restitution: 0.5 };
     let two = SystemPlan { second_stop: Some(second), ..u };
     let over = vec![Axis::new(Coordinate::V, span("-9:9:5")), Axis::parameter(Parameter::SecondGap, span("1:2:2"))];
     let starts = BasinPlan { axes: over, ..no_axes() };
-    let between = sheet(two, Task::Basin(starts), None, 1);
+    let between = sheet(two, Task::from(starts), None, 1);
     for (k, found) in columns(&between, "label").whole().iter().enumerate() {
         let gap = if k < 5 { 1.0 } else { 2.0 };
         let system = SystemPlan { second_stop: Some(crate::SecondStop { gap, ..second }), ..u };
@@ -239,13 +240,13 @@ fn a_diagram_is_that_of_its_steps() {
             transient: 100,
             keep: 6,
         };
-        let found = sheet(S, Task::Diagram(plan.clone()), None, 2);
+        let found = sheet(S, Task::from(plan.clone()), None, 2);
         let direct = crate::in_memory::diagram(&S, &plan, &Control::default()).unwrap();
         assert_eq!(diagram_of(&plan, &found.columns), direct);
         let beside = found.study.coordinates().into_iter().find(|along| along.name == "damping");
         assert_eq!(beside.map(|along| (along.dimension, along.values[10])), also.map(|_| ("gap".into(), 0.01)));
         let strobes = DiagramPlan { show: Show::Strobe, ..plan.clone() };
-        let held = sheet(S, Task::Diagram(strobes.clone()), None, 2);
+        let held = sheet(S, Task::from(strobes.clone()), None, 2);
         assert_eq!(
             diagram_of(&strobes, &held.columns),
             crate::in_memory::diagram(&S, &strobes, &Control::default()).unwrap()
@@ -270,7 +271,7 @@ fn a_diagram_is_that_of_its_steps() {
 
 #[test]
 fn questions_without_a_grid_are_no_studies() {
-    let refusal = Study::new(&Plan::new(S, Task::Settle { start: StartPlan::default(), impacts: None })).err().unwrap();
+    let refusal = Study::new(&Plan::new(S, Task::Settle { start: None, impacts: None })).err().unwrap();
     assert!(refusal.to_string().starts_with("a plan that asks to settle fills no grid"), "{refusal}");
 }
 
@@ -286,7 +287,7 @@ fn some_points() -> PointsPlan {
 fn points_are_settled_as_one_by_one() {
     let (points, start) = (some_points(), StartPlan { x: None, v: 0.0, phase: 0.5 });
     let plan = BasinPlan { transient: true, ..BasinPlan::of_points(points.clone(), start) };
-    let found = sheet(S, Task::Basin(plan.clone()), Some(7), 2);
+    let found = sheet(S, Task::from(plan.clone()), Some(7), 2);
     let (labels, reasons) = (columns(&found, "label").whole(), columns(&found, "reason").flags());
     let (transients, largest) = (columns(&found, "transient").whole(), columns(&found, "multiplier_1_re").real());
     for k in 0..90 {
@@ -299,7 +300,7 @@ fn points_are_settled_as_one_by_one() {
         assert!((largest[k] - modulus).abs() < 1e-9 || largest[k].is_nan() && modulus.is_nan());
     }
     assert!(labels.iter().collect::<std::collections::HashSet<_>>().len() > 2);
-    let other = sheet(S, Task::Basin(plan), Some(64), 3);
+    let other = sheet(S, Task::from(plan), Some(64), 3);
     assert_eq!(columns(&other, "label").whole(), labels);
     assert_eq!(columns(&other, "transient").whole(), transients);
     let names: Vec<String> = found.study.coordinates().into_iter().map(|of| of.name).collect();
@@ -310,13 +311,13 @@ fn points_are_settled_as_one_by_one() {
 #[test]
 fn points_of_one_system_are_a_basin() {
     let plane = BasinPlan::plane(span("-4:0.75:25"), span("-4:4:24"), 0.0);
-    let direct = sheet(S, Task::Basin(plane), None, 2);
+    let direct = sheet(S, Task::from(plane), None, 2);
     let column = |vary, of: fn(usize) -> f64| ListedColumn { vary, values: (0..600).map(of).collect() };
     let points = PointsPlan::Listed(vec![
         column(Coordinate::X, |k| -4.0 + 4.75 * (k % 25) as f64 / 24.0),
         column(Coordinate::V, |k| -4.0 + 8.0 * (k / 25) as f64 / 23.0),
     ]);
-    let found = sheet(S, Task::Basin(BasinPlan::of_points(points, StartPlan::default())), Some(100), 2);
+    let found = sheet(S, Task::from(BasinPlan::of_points(points, StartPlan::default())), Some(100), 2);
     assert_eq!(columns(&found, "label").whole(), columns(&direct, "label").whole());
     assert_eq!(found.tables.len(), direct.tables.len());
 }
@@ -334,10 +335,10 @@ fn points_with_axes() {
     let plane = BasinPlan::plane(span("-1:0.5:3"), span("-1:1:2"), 0.25);
     let plan = BasinPlan { points: Some(points.clone()), ..plane.clone() };
     assert_eq!(plan.starts(), 30);
-    let found = sheet(S, Task::Basin(plan), None, 2);
+    let found = sheet(S, Task::from(plan), None, 2);
     for k in 0..5 {
         let (_, gap) = points.parameters(k).next().unwrap();
-        let alone = sheet(SystemPlan { gap, ..S }, Task::Basin(plane.clone()), None, 1);
+        let alone = sheet(SystemPlan { gap, ..S }, Task::from(plane.clone()), None, 1);
         assert_eq!(columns(&found, "label").whole()[6 * k..6 * k + 6], *columns(&alone, "label").whole());
     }
 }
@@ -347,7 +348,7 @@ fn points_that_make_no_sense() {
     let start = StartPlan::default();
     let listed = |vary, values: Vec<f64>| ListedColumn { vary, values };
     let gap = Coordinate::Parameter(Parameter::Gap);
-    let of = |columns| Plan::new(S, Task::Basin(BasinPlan::of_points(PointsPlan::Listed(columns), start)));
+    let of = |columns| Plan::new(S, Task::from(BasinPlan::of_points(PointsPlan::Listed(columns), start)));
     for (plan, sentence) in [
         (of(vec![]), "points = 0 lies outside 1 <= points <= 1000000000"),
         (of(vec![listed(gap, vec![1.0]), listed(Coordinate::V, vec![1.0, 2.0])]), "gap has 1 values and v has 2"),
@@ -359,8 +360,8 @@ fn points_that_make_no_sense() {
         assert!(message.starts_with(sentence), "{message}");
     }
     let refined = BasinPlan { refine: Some(4), ..BasinPlan::of_points(some_points(), start) };
-    assert_eq!(Plan::new(S, Task::Basin(refined)).check(), Err(PlanError::PointsRefined));
-    let fine = Plan::new(S, Task::Basin(BasinPlan::of_points(some_points(), start)));
+    assert_eq!(Plan::new(S, Task::from(refined)).check(), Err(PlanError::PointsRefined));
+    let fine = Plan::new(S, Task::from(BasinPlan::of_points(some_points(), start)));
     assert!(matches!(crate::run(&fine, &Control::default()), Err(crate::RunError::Plan(PlanError::WrongAxis { .. }))));
     for text in [fine.to_toml(), serde_json::to_string(&fine).unwrap()] {
         assert_eq!(Plan::from_text(&text).unwrap(), fine);

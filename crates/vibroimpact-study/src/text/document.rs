@@ -19,6 +19,11 @@ impl<'t> Document<'t> {
         if text.trim_start().starts_with('{') { Self::json(text) } else { Self::toml(text) }
     }
 
+    /// A value whose text is not known, so that errors have a path only.
+    pub(crate) const fn of(value: Value) -> Self {
+        Self { text: "", is_json: true, value }
+    }
+
     /// Parses JSON.
     pub(crate) fn json(text: &'t str) -> Result<Self, TextError> {
         let value = serde_json::from_str(text).map_err(|error| {
@@ -46,6 +51,26 @@ impl<'t> Document<'t> {
     /// What the text describes.
     pub(crate) fn read<T: DeserializeOwned>(&self) -> Result<T, TextError> {
         T::deserialize(&self.value).map_err(|wrong| self.error(wrong))
+    }
+
+    /// Gives a table a value if it has none of this name.
+    pub(crate) fn fill(&mut self, table: &[&str], name: &str, value: Value) {
+        let mut here = Some(&mut self.value);
+        for step in table {
+            here = here.and_then(|value| value.get_mut(step));
+        }
+        if let Some(Value::Table(entries)) = here
+            && !entries.iter().any(|(known, _)| known == name)
+        {
+            entries.push((name.to_owned(), value));
+        }
+    }
+
+    /// The error of a text of the task, with its position.
+    pub(crate) fn wrong_text(&self, text: &str, why: &str) -> TextError {
+        let mut steps = self.value.way_to(text).unwrap_or_default();
+        steps.reverse();
+        self.error(Wrong { message: why.to_owned(), steps, of_name: false })
     }
 
     fn error(&self, mut wrong: Wrong) -> TextError {

@@ -1,5 +1,6 @@
 //! A value of TOML or JSON, with names in the order in which they are written and numbers with all their bits.
 
+use super::reader::Step;
 use core::fmt;
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use serde::ser::{Serialize, Serializer};
@@ -40,6 +41,28 @@ impl Value {
     pub(crate) fn get(&self, name: &str) -> Option<&Self> {
         let Self::Table(table) = self else { return None };
         table.iter().find(|(known, _)| known == name).map(|(_, value)| value)
+    }
+}
+
+impl Value {
+    /// The value of a name in a table, to be changed.
+    pub(super) fn get_mut(&mut self, name: &str) -> Option<&mut Self> {
+        let Self::Table(table) = self else { return None };
+        table.iter_mut().find(|(known, _)| known == name).map(|(_, value)| value)
+    }
+
+    /// The steps to the first value that is this text.
+    pub(super) fn way_to(&self, text: &str) -> Option<Vec<Step>> {
+        let within = |step: Step, value: &Self| {
+            let rest = value.way_to(text)?;
+            Some([step].into_iter().chain(rest).collect())
+        };
+        match self {
+            Self::Text(own) => (own == text).then(Vec::new),
+            Self::List(list) => list.iter().enumerate().find_map(|(k, value)| within(Step::Item(k), value)),
+            Self::Table(table) => table.iter().find_map(|(name, value)| within(Step::Name(name.clone()), value)),
+            _ => None,
+        }
     }
 }
 

@@ -14,7 +14,7 @@ use serde::Deserialize;
 use serde_json::json;
 use vibroimpact_report::Units;
 use vibroimpact_report::scene::{BifurcationEvent, bifurcation};
-use vibroimpact_study::Task;
+use vibroimpact_study::{DiagramPlan, Task};
 
 /// Labels of motions separated by commas. Default: those found on the line.
 #[derive(Deserialize)]
@@ -33,13 +33,15 @@ pub(super) async fn diagram(
     asked: PlanRequest,
 ) -> Result<Response, Refusal> {
     wanted.check()?;
-    let Task::Diagram(diagram) = asked.plan.task.clone() else {
+    let Task::Diagram(diagram) = &asked.plan.task else {
         return Err(Refusal::bad("a bifurcation diagram is drawn along the line of a diagram"));
     };
+    let diagram: DiagramPlan = diagram.typed()?;
     let (done, points) = (Done::default(), asked.points);
     // parameters that vary have their first value
     let canonical = asked.plan.canonical()?;
-    let asked = vibroimpact_report::Asked { system: canonical.system, units: Units::of_plan(&canonical) };
+    let system = *canonical.oscillator().ok_or_else(Refusal::machine)?;
+    let asked = vibroimpact_report::Asked { system, units: Units::of_plan(&canonical) };
     let told = done.clone();
     let work = async move {
         let tell = move |now| told.store(now, Ordering::Relaxed);

@@ -9,7 +9,7 @@ use axum::extract::State;
 use axum::response::Response;
 use serde::Deserialize;
 use vibroimpact_report::scene::SampledMotion;
-use vibroimpact_report::{Units, answer as ask};
+use vibroimpact_report::{Answer, Units, answer as ask};
 use vibroimpact_study::{Control, Results};
 
 /// Number of forcing periods by default, and the allowed range.
@@ -37,6 +37,7 @@ pub(super) async fn motion(
     let name = format!("motion {} {periods}", plan.hash());
     let work = move |control: &Control<'_>| {
         let answer = ask(&plan, Units::default(), control)?;
+        let Answer::Oscillator(answer) = &answer else { return Err(Refusal::machine()) };
         let (osc, units) = (&answer.osc, &answer.asked.units);
         let motion = match &answer.results {
             Results::Simulate(start, _) => SampledMotion::new(osc, (*start, 0.0), periods, units),

@@ -17,7 +17,7 @@ use core::time::Duration;
 use serde::Deserialize;
 use std::time::Instant;
 use vibroimpact_study::study::{Sheet, in_memory};
-use vibroimpact_study::{Axis, Control, Plan, RunError, Span, Study, Task, Values};
+use vibroimpact_study::{Axis, Control, Plan, RunError, Span, Study, Task, Values, Variable};
 
 /// Number of points of the first attempt, which has no time limit.
 const FIRST: f64 = 32.0;
@@ -87,12 +87,8 @@ fn before(end: Instant, plan: &Plan, control: &Control<'_>) -> Result<Sheet, Run
     in_memory(Study::new(plan)?, &Control { stop: &stop, progress: &late, threads: control.threads })
 }
 
-fn axes(plan: &Plan) -> &[Axis] {
-    match &plan.task {
-        Task::Map(map) => &map.axes,
-        Task::Basin(basin) => &basin.axes,
-        _ => &[],
-    }
+fn axes(plan: &Plan) -> &[Axis<Variable>] {
+    plan.task.axes()
 }
 
 /// Number of points of a plan.

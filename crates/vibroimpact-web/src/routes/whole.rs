@@ -16,7 +16,7 @@ use core::time::Duration;
 use serde::Deserialize;
 use std::time::Instant;
 use vibroimpact_study::study::{UNDECIDED, points_until};
-use vibroimpact_study::{Column, Control, Field, MapPlan, Plan, Study, Task};
+use vibroimpact_study::{Column, Control, Field, MapPlan, Plan, Study, Task, Variable};
 
 /// Number of starts that one thread settles together. Chaotic ones take 4 s. With 256 of them the time is a fifth longer,
 /// because more lanes are empty at the end of each group; with more, a request that is cancelled loses more.
@@ -72,7 +72,7 @@ pub(super) async fn whole(
 }
 
 /// The keys of the tiles that were computed before, and whether their budget is that of the plan. Larger budgets are left out.
-fn earlier(plan: &Plan, map: &MapPlan, after: &str) -> Result<Vec<(String, bool)>, Refusal> {
+fn earlier(plan: &Plan, map: &MapPlan<Variable, String>, after: &str) -> Result<Vec<(String, bool)>, Refusal> {
     let one = |text: &str| {
         let (impacts, refine) = text.split_once(':').map_or((text, None), |(impacts, refine)| (impacts, Some(refine)));
         let number = |text: &str| text.trim().parse::<u32>();

@@ -91,7 +91,7 @@ fn simulated() -> Result<(Vec<f64>, Vec<f64>), Error> {
         transient: diagram::DEFAULT_TRANSIENT,
         keep: diagram::DEFAULT_KEEP,
     };
-    let Results::Diagram(found) = run(&Plan::new(system, Task::Diagram(plan)), &Control::default())? else {
+    let Results::Diagram(found) = run(&Plan::new(system, Task::from(plan)), &Control::default())? else {
         return Err(Error::Unexpected("a diagram came out as something else"));
     };
     let mut places = Vec::new();

@@ -5,7 +5,8 @@ use crate::Units;
 use vibroimpact::PhysicalParameter;
 use vibroimpact::continuation::{Polygon, Region};
 use vibroimpact_study::{
-    Axis, Control, Coordinate, Parameter, Plan, PlanError, RunError, Stretch, SystemPlan, Task, stability_regions,
+    Axis, Control, Coordinate, MapPlan, Parameter, Plan, PlanError, RunError, Stretch, System, SystemPlan, Task,
+    stability_regions,
 };
 
 /// Motions whose regions are drawn by default: those of the 1971 paper, and those that begin at their flips.
@@ -34,14 +35,15 @@ impl LayerPlane {
     /// [`PlanError`] for an invalid plan.
     pub fn of(plan: &Plan) -> Result<Option<Self>, PlanError> {
         let plan = plan.complete()?;
-        let Task::Map(map) = &plan.task else { return Ok(None) };
+        let (System::Oscillator(system), Task::Map(map)) = (&plan.system, &plan.task) else { return Ok(None) };
+        let map: MapPlan = map.typed()?;
         let stretch = |axis: &Axis| match (axis.vary, axis.over.extent()) {
             (Coordinate::Parameter(parameter), (from, to)) => Some(Stretch { parameter, from, to }),
             _ => None,
         };
         Ok(match map.axes.iter().map(stretch).collect::<Option<Vec<_>>>().as_deref() {
             Some([across, up]) => {
-                Some(Self { system: plan.system, units: Units::of_plan(&plan), across: *across, up: *up })
+                Some(Self { system: *system, units: Units::of_plan(&plan), across: *across, up: *up })
             }
             _ => None,
         })

@@ -11,7 +11,7 @@ pub use layer_plane::{LayerPlane, REGION_LABELS, Rings};
 use crate::figure::plane::{Plane, PlaneAxis};
 use crate::{AnswerError, ReportError, Units};
 use vibroimpact_plot::{Anchor, Colour, Dash, Figure, Line, Panel, Points, Shape, Text};
-use vibroimpact_study::{Axis, Control, Plan, PlanError, Task};
+use vibroimpact_study::{Axis, Control, Plan, PlanError, typed_axes};
 
 const RED: Colour = Colour::hex(0x8c_1d18);
 const LINE: Colour = Colour::hex(0xb5_221b);
@@ -143,12 +143,12 @@ impl OfMap {
     fn new(plan: &Plan) -> Result<Option<Self>, PlanError> {
         let Some(plane) = LayerPlane::of(plan)? else { return Ok(None) };
         let plan = plan.complete()?;
-        let frame = Plane::of(Self::axes(&plan), &Units::of_plan(&plan)).ok();
+        let frame = Plane::of(&Self::axes(&plan), &Units::of_plan(&plan)).ok();
         Ok(frame.map(|frame| Self { plan, plane, frame }))
     }
 
-    fn axes(plan: &Plan) -> &[Axis] {
-        if let Task::Map(map) = &plan.task { &map.axes } else { &[] }
+    fn axes(plan: &Plan) -> Vec<Axis> {
+        typed_axes(plan.task.axes()).unwrap_or_default()
     }
 
     fn layer(&self, layer: Layer, coloured: bool) -> Result<(), ReportError> {

@@ -3,12 +3,13 @@
 use crate::Units;
 use vibroimpact::scenario::PAPER;
 use vibroimpact::{PhysicalParameter, Scales};
-use vibroimpact_study::{Axis, Coordinate, MapPlan, Parameter, Plan, SystemPlan, Task, natural_hertz};
+use vibroimpact_study::{Axis, Coordinate, Parameter, Plan, System, SystemPlan, Task, natural_hertz, typed_axes};
 
 /// The points that lie in the plane of a complete plan, with their positions in the units of the axes.
 pub(super) fn named(plan: &Plan) -> Vec<(&'static str, [f64; 2])> {
-    let (system, units) = (&plan.system, Units::of_plan(plan));
-    let Task::Map(MapPlan { axes, .. }) = &plan.task else { return Vec::new() };
+    let units = Units::of_plan(plan);
+    let (System::Oscillator(system), Task::Map(map)) = (&plan.system, &plan.task) else { return Vec::new() };
+    let Ok(axes) = typed_axes::<Coordinate>(&map.axes) else { return Vec::new() };
     // other frames have other gaps
     if units.frame.is_some() || system.second_stop.is_some() {
         return Vec::new();

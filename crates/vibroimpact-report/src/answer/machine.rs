@@ -1,20 +1,21 @@
-//! A plan of a machine, its result, and everything that is reported of it: the JSON object, the table and the figure.
+//! The answer to a plan of a machine.
 
 use crate::AnswerError;
+use crate::answer::Shown;
 use crate::branch_quantity::BranchQuantity;
 use crate::figure::coloured;
 use crate::json::margins::ParameterObject;
 use crate::response::ResponseView;
 use crate::scene::{self, View};
-use crate::{ReportError, Shown, Table, figure, table};
+use crate::{ReportError, Table, figure, table};
 use vibroimpact::events::{MachineLimits, MachineMotion, MachineStart};
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::{CountedMotion, Verdict};
 use vibroimpact_plot::{Figure, plain};
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{
-    Control, MachineBranchPlan, MachineDiagram, MachinePlan, MachineResults, MachineSimulated, MachineTask, PlanError,
-    ResponseCurves, run_machine,
+    BranchPlan, Control, MachineDiagram, MachineResults, MachineSimulated, Plan, PlanError, ResponseCurves, Results,
+    Task, Variable, run,
 };
 
 /// The largest number of characters of a title over an axis of ordinary width.
@@ -25,30 +26,21 @@ const PERIODS: f64 = 24.0;
 /// The largest number of events in the waveform of a settled motion.
 const MOST_EVENTS: usize = 200_000;
 
-/// A plan of a machine and its result. Its [`Serialize`](serde::Serialize) form is the JSON object that the command
-/// prints with `--json`.
+/// A plan of a machine and its result.
 #[derive(Clone, Debug)]
-pub struct MachineAnswer {
+pub struct Answer {
     /// The name under which the machine was asked for.
     pub name: String,
     /// The plan.
-    pub plan: MachinePlan,
+    pub plan: Plan,
+    /// The machine of the plan as it is written.
+    pub source: MachineSource,
     /// The machine of the plan.
     pub machine: Machine,
     /// The start of the plan, with a number for each coordinate and velocity.
     pub start: MachineStart,
     /// The result.
     pub results: MachineResults,
-}
-
-/// Runs a plan of a machine, like [`run_machine`].
-///
-/// # Errors
-/// [`AnswerError`] for an invalid plan, or when stopped.
-pub fn machine_answer(name: &str, plan: &MachinePlan, control: &Control<'_>) -> Result<MachineAnswer, AnswerError> {
-    let results = run_machine(plan, control)?;
-    let (machine, start) = plan.described()?;
-    Ok(MachineAnswer { name: name.to_owned(), plan: plan.clone(), machine, start, results })
 }
 
 /// The title of a figure of ordinary width: that of the machine file. A long title is cut at its first colon, or replaced
@@ -60,27 +52,19 @@ pub(crate) fn machine_title(machine: &MachineSource, name: &str) -> String {
     plain(fits.unwrap_or(name))
 }
 
-impl MachineAnswer {
-    /// The line that the command prints with `--json`, without the line break.
-    #[must_use]
-    pub fn json(&self) -> String {
-        // texts and numbers can always be written as JSON
-        serde_json::to_string(self).unwrap_or_default()
-    }
-
+impl Answer {
     /// The title of a figure: that of the machine file, or the name.
     #[must_use]
     pub fn title(&self) -> String {
-        self.plan.machine.title.clone().unwrap_or_else(|| self.name.clone())
+        self.source.title.clone().unwrap_or_else(|| self.name.clone())
     }
 
-    /// The figure that the command draws with `--plot`, that of a map or basin in the colours of a quantity, if one is given;
-    /// `None` for a task without one. The orbit diagram behind a branch is computed here.
+    /// As [`Answer::figure`](super::Answer::figure).
     ///
     /// # Errors
     /// [`AnswerError`] for a result that cannot be drawn, or when stopped.
     pub fn figure(&self, shown: &Shown, control: &Control<'_>) -> Result<Option<Figure>, AnswerError> {
-        let title = machine_title(&self.plan.machine, &self.name);
+        let title = machine_title(&self.source, &self.name);
         if let Some(colour) = &shown.colour {
             return Ok(Some(match &self.results {
                 MachineResults::Basin(found) => coloured::of_machine_basin(found, colour, title)?,
@@ -109,20 +93,20 @@ impl MachineAnswer {
                 }
             }
             MachineResults::Branch(found) => {
-                let MachineTask::Branch(plan) = &self.plan.task else { return Ok(None) };
-                let cut = plan.cut(&self.plan.machine)?;
-                let quantity = BranchQuantity::of(&self.machine, &self.plan.machine, &cut, found);
+                let Task::Branch(plan) = &self.plan.task else { return Ok(None) };
+                let cut = plan.typed::<String>()?.cut(&self.source)?;
+                let quantity = BranchQuantity::of(&self.machine, &self.source, &cut, found);
                 let path = quantity.as_ref().map(|quantity| quantity.path.as_str());
                 let behind = if shown.diagram { self.behind(plan, path, control)? } else { None };
                 figure::branch::of_machine(found.all(), &cut, (quantity.as_ref(), behind.as_ref()), title)
             }
             MachineResults::Curve(found) => {
-                let MachineTask::Curve(plan) = &self.plan.task else { return Ok(None) };
+                let Task::Curve(plan) = &self.plan.task else { return Ok(None) };
                 figure::curve::of_machine(found, plan, title)
             }
             MachineResults::Region(found) => {
-                let MachineTask::Region(plan) = &self.plan.task else { return Ok(None) };
-                figure::region::of_machine(found, plan, &self.plan.machine, title)
+                let Task::Region(plan) = &self.plan.task else { return Ok(None) };
+                figure::region::of_machine(found, &plan.typed()?, &self.source, title)
             }
             MachineResults::Response(found) => {
                 let Some(view) = self.response(found) else { return Ok(None) };
@@ -157,7 +141,7 @@ impl MachineAnswer {
     /// The response as it is told; `None` if the plan is that of another task.
     #[must_use]
     pub fn response<'a>(&'a self, found: &'a ResponseCurves) -> Option<ResponseView<'a>> {
-        let MachineTask::Response(plan) = &self.plan.task else { return None };
+        let Task::Response(plan) = &self.plan.task else { return None };
         Some(ResponseView::of_machine(found, plan, &self.machine))
     }
 
@@ -165,21 +149,20 @@ impl MachineAnswer {
     /// where no branch can come either.
     fn behind(
         &self,
-        plan: &MachineBranchPlan,
+        plan: &BranchPlan<Variable>,
         quantity: Option<&str>,
         control: &Control<'_>,
     ) -> Result<Option<MachineDiagram>, AnswerError> {
-        let mut diagram = plan.diagram(&self.plan.machine)?;
+        let mut diagram = plan.typed::<String>()?.diagram(&self.source)?;
         if let Some(path) = quantity {
             path.clone_into(&mut diagram.show);
         }
-        let task = MachineTask::Diagram(diagram);
-        let plan = MachinePlan { task, ..self.plan.clone() };
+        let plan = Plan { task: diagram.into(), ..self.plan.clone() };
         if plan.check().is_err() {
             return Ok(None);
         }
-        let found = run_machine(&plan, control)?;
-        Ok(if let MachineResults::Diagram(found) = found { Some(found) } else { None })
+        let found = run(&plan, control)?;
+        Ok(if let Results::Machine(MachineResults::Diagram(found)) = found { Some(found) } else { None })
     }
 
     /// A state of a settled motion, and the time over which it is shown: one period of a cycle, [`PERIODS`] forcing periods of
@@ -205,8 +188,7 @@ impl MachineAnswer {
         Ok(figure::machine_waveform::figure(&self.machine, from, &found, title)?)
     }
 
-    /// The table that the command writes with `--csv`; `None` for a task without one. Points of a waveform are a hundredth of
-    /// the forcing period apart by default, or a thousandth of the whole time without forcing.
+    /// As [`Answer::table`](super::Answer::table).
     ///
     /// # Errors
     /// [`AnswerError`] for a result that cannot be tabulated.
@@ -229,17 +211,17 @@ impl MachineAnswer {
             },
             MachineResults::Attractors(census) => table::machine_tables::attractors(&self.machine, census),
             MachineResults::Branch(found) => {
-                let MachineTask::Branch(plan) = &self.plan.task else { return Ok(None) };
-                table::machine_branch::table(&self.machine, &plan.cut(&self.plan.machine)?, found)
+                let Task::Branch(plan) = &self.plan.task else { return Ok(None) };
+                table::machine_branch::table(&self.machine, &plan.typed::<String>()?.cut(&self.source)?, found)
             }
             MachineResults::Curve(found) => {
-                let MachineTask::Curve(plan) = &self.plan.task else { return Ok(None) };
+                let Task::Curve(plan) = &self.plan.task else { return Ok(None) };
                 table::machine_curve::table(&self.machine, plan, found)
             }
             MachineResults::Margins(found) => table::margins::of_machine(found, &self.machine),
             MachineResults::Region(found) => {
-                let MachineTask::Region(plan) = &self.plan.task else { return Ok(None) };
-                table::region::of_machine(found, plan)
+                let Task::Region(plan) = &self.plan.task else { return Ok(None) };
+                table::region::of_machine(found, &plan.typed()?)
             }
             MachineResults::Response(found) => {
                 let Some(view) = self.response(found) else { return Ok(None) };

@@ -7,7 +7,7 @@ use crate::{machine_file, state_file};
 use clap::Args;
 use core::str::FromStr;
 use vibroimpact_study::machine::{MachineSource, NumberText, StartText, VectorText};
-use vibroimpact_study::{Axis, Coordinate, MachineAxis};
+use vibroimpact_study::{Axis, Coordinate, Variable};
 
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Machine")]
@@ -62,19 +62,19 @@ impl StudyAxesArgs {
     }
 
     /// As axes of a machine.
-    pub(crate) fn of_machine(&self) -> Vec<MachineAxis> {
+    pub(crate) fn of_machine(&self) -> Vec<Axis<Variable>> {
         typed(&self.axis)
     }
 
     /// As axes of an oscillator.
-    pub(crate) fn of_oscillator(&self) -> Result<Vec<Axis>, Failure> {
-        let axis = |AxisFlag(MachineAxis { vary, over }): &AxisFlag| {
+    pub(crate) fn of_oscillator(&self) -> Result<Vec<Axis<Variable>>, Failure> {
+        let axis = |AxisFlag(Axis { vary, over }): &AxisFlag| {
             let vary = Coordinate::named(&vary.replace('-', "_")).ok_or_else(|| {
                 Failure::bad(format!(
                     "`{vary}` cannot vary\nhint: a parameter, such as gap or inverse-beta, or x, v or phase"
                 ))
             })?;
-            Ok(Axis { vary, over: over.clone() })
+            Ok(Axis { vary: vary.into(), over: over.clone() })
         };
         self.axis.iter().map(axis).collect()
     }
@@ -82,7 +82,7 @@ impl StudyAxesArgs {
 
 /// An axis as it is typed.
 #[derive(Clone, Debug)]
-pub(crate) struct AxisFlag(MachineAxis);
+pub(crate) struct AxisFlag(Axis<String>);
 
 impl FromStr for AxisFlag {
     type Err = String;
@@ -90,16 +90,18 @@ impl FromStr for AxisFlag {
     fn from_str(text: &str) -> Result<Self, String> {
         let (vary, over) =
             text.split_once('=').ok_or("an axis is PATH=A:B:N, for example stop.wall.gap=0:2:41".to_owned())?;
-        Ok(Self(MachineAxis { vary: vary.trim().to_owned(), over: axis_values(over)? }))
+        Ok(Self(Axis { vary: vary.trim().to_owned(), over: axis_values(over)? }))
     }
 }
 
-fn typed(flags: &[AxisFlag]) -> Vec<MachineAxis> {
-    flags.iter().map(|AxisFlag(axis)| axis.clone()).collect()
+fn typed(flags: &[AxisFlag]) -> Vec<Axis<Variable>> {
+    let axis =
+        |AxisFlag(Axis { vary, over }): &AxisFlag| Axis { vary: Variable::Path(vary.clone()), over: over.clone() };
+    flags.iter().map(axis).collect()
 }
 
 impl MachineAxesArgs {
-    pub(crate) fn axes(&self) -> Vec<MachineAxis> {
+    pub(crate) fn axes(&self) -> Vec<Axis<Variable>> {
         typed(&self.axis)
     }
 }

@@ -1,20 +1,19 @@
-//! A plan, its result, and everything that is reported of it: the JSON object, the table and the figure.
+//! The answer to a plan of an oscillator.
 
-use crate::figure::coloured::{self, Coloured};
-use crate::figure::overlay::Overlay;
-use crate::figure::{self, title};
+use crate::answer::Shown;
+use crate::figure::{self, coloured, title};
 use crate::json::margins::ParameterObject;
 use crate::response::ResponseView;
 use crate::scene::{View, Viewed, phase_portrait};
-use crate::{AnswerError, Asked, ReportError, Table, Units, json, table};
+use crate::{AnswerError, Asked, ReportError, Table, json, table};
 use serde::ser::Error as _;
 use serde::{Serialize, Serializer};
 use vibroimpact::verdict::{CountedMotion, PaperRule, PaperVerdict};
 use vibroimpact::{Oscillator, Parameter};
 use vibroimpact_plot::Figure;
-use vibroimpact_study::{Control, ParameterMargin, Plan, Results, Task, run};
+use vibroimpact_study::{BranchPlan, Control, Name, ParameterMargin, Plan, Results, Task, run};
 
-/// A plan and its result, in memory. Its [`Serialize`] form is the JSON object that the command prints with `--json`.
+/// A plan of an oscillator and its result.
 #[derive(Clone, Debug)]
 pub struct Answer {
     /// The plan, [complete](Plan::complete).
@@ -27,42 +26,6 @@ pub struct Answer {
     pub results: Results,
     /// The verdict of the rule of the 1971 paper on a settled motion, if requested.
     pub paper_rule: Option<(PaperRule, PaperVerdict)>,
-}
-
-/// Options for the figure and the table of an answer.
-#[derive(Clone, Debug)]
-pub struct Shown {
-    /// The view of a settled motion, a simulated motion or an attractor.
-    pub view: Option<View>,
-    /// Time between the points of a simulated waveform. Default: a hundredth of the forcing period.
-    pub step: Option<f64>,
-    /// Whether to simulate the orbit diagram and to draw it behind a branch.
-    pub diagram: bool,
-    /// Whether to draw the inadmissible solutions of a branch.
-    pub inadmissible: bool,
-    /// The quantity whose values are the colours of a map or basin.
-    pub colour: Option<Coloured>,
-    /// The layers of a map, and a point and a line over it.
-    pub overlay: Overlay,
-}
-
-impl Default for Shown {
-    fn default() -> Self {
-        Self { view: None, step: None, diagram: true, inadmissible: false, colour: None, overlay: Overlay::default() }
-    }
-}
-
-/// Runs a plan in memory, like [`run`]. The units of the plan, if it has any, are those of the results; `units` are
-/// those of a plan without units.
-///
-/// # Errors
-/// [`AnswerError`] for an invalid plan, or when stopped.
-pub fn answer(plan: &Plan, units: Units, control: &Control<'_>) -> Result<Answer, AnswerError> {
-    let plan = plan.complete()?;
-    let results = run(&plan, control)?;
-    let (system, osc) = (plan.system, plan.system.oscillator()?);
-    let units = if plan.units.is_some() { Units::of_plan(&plan) } else { units };
-    Ok(Answer { asked: Asked { system, units }, osc, results, plan, paper_rule: None })
 }
 
 impl Serialize for Answer {
@@ -86,17 +49,21 @@ impl Serialize for Answer {
                 json::lyapunov::document(asked, plan, (osc, start), found).serialize(to)
             }
             (Task::Branch(task), Results::Branch(found)) => {
-                let cut = task.cut(&asked.system).map_err(S::Error::custom)?;
+                let cut =
+                    task.typed::<Parameter>().and_then(|task| task.cut(&asked.system)).map_err(S::Error::custom)?;
                 json::branch::document(asked, plan, osc, found, &cut).serialize(to)
             }
             (Task::Curve(task), Results::Curve(found)) => {
-                json::curve::document(asked, plan, osc, (task, found)).serialize(to)
+                let task = task.typed().map_err(S::Error::custom)?;
+                json::curve::document(asked, plan, osc, (&task, found)).serialize(to)
             }
             (Task::Region(task), Results::Region(found)) => {
-                json::region::document(asked, plan, osc, (task, found)).serialize(to)
+                let task = task.typed().map_err(S::Error::custom)?;
+                json::region::document(asked, plan, osc, (&task, found)).serialize(to)
             }
             (Task::Response(task), Results::Response(found)) => {
-                json::response::document(asked, plan, osc, (task, found)).serialize(to)
+                let object = json::response::document(asked, plan, osc, (task, found));
+                object.map_err(S::Error::custom)?.serialize(to)
             }
             (_, Results::Margins(found)) => json::margins::document(asked, plan, osc, found).serialize(to),
             // `answer` combines each plan with its own results, so this does not occur
@@ -106,23 +73,18 @@ impl Serialize for Answer {
 }
 
 impl Answer {
-    /// The line that the command prints with `--json`, without the line break.
-    #[must_use]
-    pub fn json(&self) -> String {
-        // texts and numbers can always be written as JSON
-        serde_json::to_string(self).unwrap_or_default()
-    }
-
-    /// The same without what takes longest to compute: the harmonics and the transient of a settled motion.
+    /// The JSON object without what takes longest to compute: the harmonics and the transient of a settled motion.
     #[must_use]
     pub fn brief(&self) -> String {
-        let Results::Settle(start, found) = &self.results else { return self.json() };
+        // texts and numbers can always be written as JSON
+        let Results::Settle(start, found) = &self.results else {
+            return serde_json::to_string(self).unwrap_or_default();
+        };
         let object = json::settle::brief(&self.asked, &self.plan, (&self.osc, start), found);
         serde_json::to_string(&object).unwrap_or_default()
     }
 
-    /// The figure that the command draws with `--plot`. For a settled motion it shows the motion after the transient;
-    /// for exponents it shows both sections, if points of them were requested. `None` for a view that the answer does not have. The orbit diagram behind a branch is computed here.
+    /// As [`Answer::figure`](super::Answer::figure).
     ///
     /// # Errors
     /// [`AnswerError`] for a result that cannot be drawn, or when stopped.
@@ -165,12 +127,14 @@ impl Answer {
             (_, Results::Map(found)) => figure::map::figure_with(found, asked, shown.overlay.cells())?,
             (_, Results::Diagram(found)) => figure::diagram::figure(found, asked)?,
             (Task::Response(task), Results::Response(found)) => {
-                let view = ResponseView::of_oscillator(found, task, &asked.units);
-                figure::response::figure(&view, figure::title_without(asked, &[task.vary]))
+                let view = ResponseView::of_oscillator(found, task, &asked.units)?;
+                let vary = Parameter::of(task.vary.text())?;
+                figure::response::figure(&view, figure::title_without(asked, &[vary]))
             }
             (Task::Branch(task), Results::Branch(found)) => {
+                let task: BranchPlan = task.typed()?;
                 let behind = if shown.diagram {
-                    let plan = Plan::new(asked.system, Task::Diagram(task.diagram(&asked.system)?));
+                    let plan = Plan::new(asked.system, task.diagram(&asked.system)?);
                     if let Results::Diagram(behind) = run(&plan, control)? { Some(behind) } else { None }
                 } else {
                     None
@@ -178,8 +142,8 @@ impl Answer {
                 let cut = task.cut(&asked.system)?;
                 figure::branch::figure(&found.followed, &cut, behind.as_ref(), shown.inadmissible, asked)?
             }
-            (Task::Curve(task), Results::Curve(found)) => figure::curve::figure(found, task, asked),
-            (Task::Region(task), Results::Region(found)) => figure::region::figure(found, task, asked),
+            (Task::Curve(task), Results::Curve(found)) => figure::curve::figure(found, &task.typed()?, asked),
+            (Task::Region(task), Results::Region(found)) => figure::region::figure(found, &task.typed()?, asked),
             (_, Results::Attractors(census)) => {
                 let share = |found: &CountedMotion| (found.verdict.label().into_owned(), census.share(found));
                 figure::bars::shares(&census.by_share().into_iter().map(share).collect::<Vec<_>>(), title(asked))
@@ -201,8 +165,7 @@ impl Answer {
         }))
     }
 
-    /// The table that the command writes with `--csv`; for a simulation the waveform. `None` for
-    /// exponents without points of their sections.
+    /// As [`Answer::table`](super::Answer::table).
     ///
     /// # Errors
     /// [`AnswerError`] for a result that cannot be tabulated.
@@ -225,12 +188,12 @@ impl Answer {
             (_, Results::Diagram(found)) => table::diagram::table(found, *units)?,
             (_, Results::Lyapunov(_, _, Some(points))) => table::section::table(points, osc, *units),
             (Task::Branch(task), Results::Branch(found)) => {
-                table::branch::table(found, &task.cut(&asked.system)?, units)
+                table::branch::table(found, &task.typed::<Parameter>()?.cut(&asked.system)?, units)
             }
-            (Task::Curve(task), Results::Curve(found)) => table::curve::table(found, task, units),
-            (Task::Region(task), Results::Region(found)) => table::region::table(found, task, units),
+            (Task::Curve(task), Results::Curve(found)) => table::curve::table(found, task.typed()?, units),
+            (Task::Region(task), Results::Region(found)) => table::region::table(found, &task.typed()?, units),
             (Task::Response(task), Results::Response(found)) => {
-                table::response::table(ResponseView::of_oscillator(found, task, units))
+                table::response::table(ResponseView::of_oscillator(found, task, units)?)
             }
             (_, Results::Margins(found)) => table::margins::table(found, *units),
             _ => return Ok(None),
@@ -241,6 +204,7 @@ impl Answer {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{Units, answer};
     use core::sync::atomic::AtomicBool;
     use core::sync::atomic::Ordering;
     use vibroimpact_study::PlanError;
@@ -269,7 +233,7 @@ mod tests {
         let control = Control { stop: &stop, ..Control::default() };
         let start = StartPlan::default();
         for task in [
-            Task::Settle { start, impacts: None },
+            Task::Settle { start: Some(start), impacts: None },
             Task::Orbit { label: "1/1".into() },
             Task::Attractors { starts: 9, seed: 1, impacts: None },
         ] {

@@ -1,0 +1,205 @@
+//! Names in plans: of what varies, and of quantities. A plan has them as they are written; a task reads them as names of the
+//! numbers of its system, an oscillator or a machine.
+
+use crate::parameter::names;
+use crate::{Coordinate, Parameter, PlanError, Quantity};
+use core::fmt;
+use core::marker::PhantomData;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::borrow::Cow;
+
+/// What varies in a plan, as its name.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Variable {
+    /// A parameter of an oscillator, or a coordinate of its start.
+    Coordinate(Coordinate),
+    /// The path of a number of a machine, or of its start.
+    Path(String),
+}
+
+/// The name of something in a plan.
+pub trait Name: Clone + PartialEq + fmt::Debug {
+    /// The name as text.
+    fn text(&self) -> &str;
+
+    /// What has this name.
+    ///
+    /// # Errors
+    /// [`PlanError::Name`] if nothing has.
+    fn of(name: &str) -> Result<Self, PlanError>;
+
+    /// The key of the name in a table of a range.
+    #[must_use]
+    fn key(&self) -> &'static str {
+        "parameter"
+    }
+
+    /// The schema of names in a plan.
+    fn schema() -> Schema {
+        json_schema!({ "type": "string" })
+    }
+}
+
+impl Name for Parameter {
+    fn text(&self) -> &str {
+        self.name()
+    }
+
+    fn of(name: &str) -> Result<Self, PlanError> {
+        Self::from_name(name).ok_or_else(|| {
+            PlanError::Name(format!("`{}` is no parameter; there are {}", short(name), names().join(", ")))
+        })
+    }
+
+    fn schema() -> Schema {
+        json_schema!({ "type": "string", "enum": names() })
+    }
+}
+
+impl Name for Coordinate {
+    fn text(&self) -> &str {
+        self.name()
+    }
+
+    fn of(name: &str) -> Result<Self, PlanError> {
+        Self::named(name).ok_or_else(|| {
+            let known = names().join(", ");
+            PlanError::Name(format!("`{}` cannot vary; what can is {known}, x, v and phase", short(name)))
+        })
+    }
+}
+
+impl Name for Quantity {
+    fn text(&self) -> &str {
+        self.name()
+    }
+
+    fn of(name: &str) -> Result<Self, PlanError> {
+        Self::from_name(name).ok_or_else(|| PlanError::Name(crate::quantity::unknown(name)))
+    }
+
+    fn schema() -> Schema {
+        json_schema!({ "type": "string", "enum": Self::ALL.map(Self::name) })
+    }
+}
+
+impl Name for String {
+    fn text(&self) -> &str {
+        self
+    }
+
+    fn of(name: &str) -> Result<Self, PlanError> {
+        Ok(name.to_owned())
+    }
+
+    fn key(&self) -> &'static str {
+        "path"
+    }
+}
+
+/// It is read as a parameter or a coordinate where there is one with this name.
+impl Name for Variable {
+    fn text(&self) -> &str {
+        match self {
+            Self::Coordinate(coordinate) => coordinate.name(),
+            Self::Path(path) => path,
+        }
+    }
+
+    fn of(name: &str) -> Result<Self, PlanError> {
+        Ok(Coordinate::named(name).map_or_else(|| Self::Path(name.to_owned()), Self::Coordinate))
+    }
+
+    fn key(&self) -> &'static str {
+        if let Self::Path(_) = self { "path" } else { "parameter" }
+    }
+
+    fn schema() -> Schema {
+        let known: Vec<&str> = names().into_iter().chain(["x", "v", "phase"]).collect();
+        json_schema!({
+            "description": "A parameter of an oscillator or a coordinate of its start, or the path of a number of a machine or of its start.",
+            "anyOf": [{ "type": "string", "enum": known }, { "type": "string" }],
+        })
+    }
+}
+
+impl From<Parameter> for Variable {
+    fn from(parameter: Parameter) -> Self {
+        Self::Coordinate(Coordinate::Parameter(parameter))
+    }
+}
+
+impl From<Coordinate> for Variable {
+    fn from(coordinate: Coordinate) -> Self {
+        Self::Coordinate(coordinate)
+    }
+}
+
+impl From<String> for Variable {
+    fn from(path: String) -> Self {
+        Self::Path(path)
+    }
+}
+
+impl From<Variable> for Cow<'static, str> {
+    fn from(variable: Variable) -> Self {
+        match variable {
+            Variable::Coordinate(coordinate) => coordinate.name().into(),
+            Variable::Path(path) => path.into(),
+        }
+    }
+}
+
+impl Serialize for Variable {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        serialize(self, to)
+    }
+}
+
+impl<'de> Deserialize<'de> for Variable {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        deserialize(from)
+    }
+}
+
+impl JsonSchema for Variable {
+    fn schema_name() -> Cow<'static, str> {
+        "Variable".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        Self::schema()
+    }
+}
+
+fn short(name: &str) -> String {
+    name.chars().take(60).collect()
+}
+
+/// A name is written as text.
+pub(crate) fn serialize<N: Name, S: Serializer>(name: &N, to: S) -> Result<S::Ok, S::Error> {
+    name.text().serialize(to)
+}
+
+pub(crate) fn deserialize<'de, N: Name, D: Deserializer<'de>>(from: D) -> Result<N, D::Error> {
+    N::of(&String::deserialize(from)?).map_err(D::Error::custom)
+}
+
+/// A name for the schema of plans.
+pub(crate) struct Written<N>(PhantomData<N>);
+
+impl<N: Name> JsonSchema for Written<N> {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "Name".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        N::schema()
+    }
+}
