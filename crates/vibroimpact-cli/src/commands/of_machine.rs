@@ -4,7 +4,7 @@ use crate::args::{Files, MachineArgs, StartOfMachineArgs, StoreArgs};
 use crate::commands::outputs::Outputs;
 use crate::commands::{respond, stored};
 use crate::failure::Failure;
-use crate::report::{machine_answers, machine_events};
+use crate::report;
 use crate::session::Session;
 use vibroimpact::events::MachineEnd;
 use vibroimpact::verdict::{MachineUndecided, MachineVerdict};
@@ -99,10 +99,7 @@ pub(super) fn run(
     if json {
         session.print_json(&answer)?;
     } else if !(table || files && plan.fills_a_grid()) {
-        match &answer.results {
-            MachineResults::Simulate(found) => session.print(&machine_events::events(&answer.machine, found))?,
-            _ => session.print(&machine_answers::text(&answer))?,
-        }
+        session.print(&report::text_of_machine(&answer)?)?;
     }
     let search_limit = match &answer.results {
         MachineResults::Simulate(found) => found.reason == SEARCH_LIMIT,

@@ -9,11 +9,9 @@ mod diagram;
 mod leading;
 mod lyapunov;
 pub(crate) mod machine;
-pub(crate) mod machine_answers;
-pub(crate) mod machine_curve;
-pub(crate) mod machine_events;
 mod map;
 mod margins;
+mod motion;
 mod orbit;
 mod region;
 mod remarks;
@@ -27,9 +25,9 @@ mod undecided;
 mod words;
 
 use crate::failure::Failure;
-use vibroimpact_report::Answer;
 use vibroimpact_report::response::ResponseView;
-use vibroimpact_study::{Results, Task};
+use vibroimpact_report::{Answer, MachineAnswer};
+use vibroimpact_study::{MachineResults, MachineTask, Results, Task};
 
 /// The text that a command prints, unless JSON or a table on stdout was requested.
 pub(crate) fn text(answer: &Answer) -> Result<String, Failure> {
@@ -60,6 +58,34 @@ pub(crate) fn text(answer: &Answer) -> Result<String, Failure> {
             Some(start) => from(start) + "\n" + &margins::text(found, osc, units),
             None => system() + &margins::text(found, osc, units),
         },
+        _ => return Err(Failure::Failed("the results belong to another task than the plan's".into())),
+    })
+}
+
+/// The same of a machine.
+pub(crate) fn text_of_machine(answer: &MachineAnswer) -> Result<String, Failure> {
+    let MachineAnswer { plan, machine, results, .. } = answer;
+    Ok(match (&plan.task, results) {
+        (MachineTask::Simulate { periods, .. }, MachineResults::Simulate(found)) => {
+            simulate::of_machine(found, *periods, machine)
+        }
+        (_, MachineResults::Settle(found)) => settle::of_machine(found, machine),
+        (_, MachineResults::Attractors(found)) => attractors::of_machine(found, machine),
+        (MachineTask::Orbit { label }, MachineResults::Orbit(found)) => orbit::of_machine(found, label, machine),
+        (_, MachineResults::Lyapunov(found, _)) => lyapunov::of_machine(found, machine),
+        (MachineTask::Branch(task), MachineResults::Branch(found)) => {
+            branch::of_machine(found, &task.cut(&plan.machine)?, machine)
+        }
+        (MachineTask::Curve(task), MachineResults::Curve(found)) => curve::of_machine(found, task, machine),
+        (_, MachineResults::Margins(found)) => margins::of_machine(found, machine),
+        (_, MachineResults::Response(found)) => {
+            answer.response(found).map_or_else(String::new, |view| response::text(&view, view.vary))
+        }
+        (_, MachineResults::Basin(found)) => basin::of_machine(found, machine),
+        (_, MachineResults::Diagram(found)) => diagram::of_machine(found),
+        (MachineTask::Map(task), MachineResults::Map(found)) => map::of_machine(found, task.starts),
+        // points that are no grid have one start each
+        (_, MachineResults::Map(found)) => map::of_machine(found, 1),
         _ => return Err(Failure::Failed("the results belong to another task than the plan's".into())),
     })
 }

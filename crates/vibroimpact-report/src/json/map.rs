@@ -134,7 +134,7 @@ impl<'a> MapAnswer<'a> {
             seed,
             coexisting: found.cells.iter().filter(|cell| cell.len() > 1).count(),
             seen_events: found.seen_events(),
-            labels: counted(found.cells.iter().map(|cell| cell.iter().map(|motion| (motion.label(), motion.share)))),
+            labels: counts_of_machine(found),
             points: found.cells.iter().enumerate().map(point).collect(),
         }
     }
@@ -151,6 +151,12 @@ pub fn coexisting(found: &RegionMap) -> usize {
 pub fn counts(found: &RegionMap) -> Vec<LabelCount> {
     let label = |motion: &Share| (motion.verdict.label().into_owned(), motion.share);
     counted(found.points.iter().map(|point| point.motions.iter().map(label)))
+}
+
+/// The same of a machine.
+#[must_use]
+pub fn counts_of_machine(found: &MachineMap) -> Vec<LabelCount> {
+    counted(found.cells.iter().map(|cell| cell.iter().map(|motion| (motion.label(), motion.share))))
 }
 
 /// The same of the labels and shares at all points.
