@@ -346,7 +346,7 @@ fn stays_on(osc: &Oscillator, start: Start, cycle: &Cycle, followed: u64) -> boo
 type Family = fn(&mut u64) -> Oscillator;
 
 /// How many verdicts of a family are refuted: of all but chaos, of chaos, and how many are chaos.
-#[allow(clippy::print_stdout)] // README quotes the shares
+#[allow(clippy::print_stdout)] // docs/tour.md quotes the shares
 fn refuted(name: &str, count: u64, system: Family) -> (u64, u64, u64) {
     let (mut seed, mut wrong, mut transient, mut chaotic) = (7, 0, 0, 0);
     for k in 0..count {
@@ -371,7 +371,7 @@ fn refuted(name: &str, count: u64, system: Family) -> (u64, u64, u64) {
 }
 
 /// 5000 systems with `VIBROIMPACT_LONG=1`, which takes a few minutes. Chaos is claimed for as long as it was seen; the shares that ended later
-/// stand in README.md.
+/// stand in docs/tour.md.
 #[test]
 fn f01_no_verdict_is_refuted_by_its_own_motion() {
     let counts: [u64; 3] = if long() { [1040, 1200, 2760] } else { [60, 150, 60] };

@@ -21,8 +21,10 @@ use vibroimpact_study::{DEFAULT_GRID, Plan, RegionPlan, Stretch, Task};
 #[command(
     override_usage = "vibro region --label m/n --inverse-beta A:B --gap A:B --restitution E [OPTIONS]",
     after_help = "Examples:\n  \
-        vibro region --label 1/1 --inverse-beta 0.4:2 --gap -1:5 --restitution 0.5 --csv region.csv --plot region.png\n  \
-        vibro region --label 1/2 --inverse-beta 1.11 --gap 0:3 --restitution 0.2:0.9 --plot plane.png",
+        vibro region --label 1/1 --inverse-beta 0.4:2 --gap -1:5 --restitution 0.5 \\\n    \
+        --csv region.csv --plot region.png\n  \
+        vibro region --label 1/2 --inverse-beta 1.11 --gap 0:3 \\\n    \
+        --restitution 0.2:0.9 --plot plane.png",
     mut_arg("csv", |arg| arg.help(
         "Write one row a vertex to this file; - for stdout. Columns: region (existence or stability), polygon, \
         hole, sheet (below: multipliers below +1, or above), both parameters, and what bounds the region from \
