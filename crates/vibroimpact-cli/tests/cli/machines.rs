@@ -534,7 +534,10 @@ fn curves() {
         found["events"].as_array().unwrap().iter().map(|event| event["kind"].as_str().unwrap()).collect();
     assert_eq!(kinds, ["end of box", "end of box"]);
     let text = printed(line);
-    assert!(text.starts_with("flip of 1/1 (orbit 1 of 2)\n  found at Gamma 1.5268") && text.contains("end of box"), "{text}");
+    assert!(
+        text.starts_with("flip of 1/1 (orbit 1 of 2)\n  found at Gamma 1.5268") && text.contains("end of box"),
+        "{text}"
+    );
     let folder = tempfile::tempdir().unwrap();
     let (svg, csv) = (folder.path().join("curve.svg"), folder.path().join("curve.csv"));
     printed(&format!("{line} --points 20 --plot {} --csv {}", svg.display(), csv.display()));

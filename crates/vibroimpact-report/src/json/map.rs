@@ -1,19 +1,23 @@
 //! The labels of a map and their frequencies, and the motions at its points.
 
 use super::event::side;
-use super::{AxisObject, Document};
-use crate::Asked;
+use super::{AxisObject, Document, name_of};
+use crate::{Asked, Units};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
-use vibroimpact::Oscillator;
 use vibroimpact::machine::Machine;
+use vibroimpact::quantities::Quantity;
 use vibroimpact::verdict::Verdict;
+use vibroimpact::{Oscillator, Start};
 use vibroimpact_plot::{GROUPS, legend_group};
-use vibroimpact_study::{Coordinate, MachineMap, MachineShare, MapPoint, Parameter, Plan, RegionMap, Share};
+use vibroimpact_study::{
+    Axis, BasinPlan, Coordinate, MachineMap, MachineShare, MapPoint, Parameter, Plan, PlanError, PointsPlan, RegionMap,
+    Share, Values,
+};
 
-/// The answer to `vibro map`.
+/// The answer to `vibro map`, and to `vibro settle-many`, whose points are on no axes.
 #[derive(JsonSchema, Serialize)]
 pub(super) struct MapAnswer<'a> {
     axes: Vec<AxisObject<'a>>,
@@ -107,6 +111,57 @@ pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &Reg
         points,
     };
     Document::over(asked, osc, &varied, plan, answer)
+}
+
+/// The object of `vibro settle-many`, which is that of a map without axes and with one start at each point. Of each point there is a
+/// label, or none where its numbers are not allowed, and a value of each field of the plan, nondimensional.
+///
+/// # Errors
+/// [`PlanError`] for a system that is not allowed.
+pub fn of_points<'a>(
+    plan: &'a Plan,
+    task: &BasinPlan,
+    points: &PointsPlan,
+    labels: &[Option<String>],
+    values: &[Vec<f64>],
+) -> Result<impl Serialize + use<'a>, PlanError> {
+    let (units, osc) = (Units::of_plan(plan), plan.system.oscillator()?);
+    let asked = Asked { system: plan.system, units };
+    let varied: Vec<Coordinate> = points.varied().collect();
+    let columns: Vec<Axis> = varied.iter().map(|vary| Axis::new(*vary, Values::Listed(Vec::new()))).collect();
+    let point = |(k, label): (usize, &Option<String>)| {
+        let of = |(column, vary): (usize, &Coordinate)| {
+            let value = points.at(column, k) * units.of_coordinate(*vary);
+            (name_of(*vary, &units).to_owned(), value.into())
+        };
+        let there = units.over(&columns, |column| points.at(column, k));
+        let quantity = |(field, values): (&Quantity, &Vec<f64>)| {
+            (field.name().to_owned(), (values[k] * there.of_quantity(*field)).into())
+        };
+        let motion = label.as_ref().map(|label| ShareObject {
+            label: label.clone(),
+            share: 1.0,
+            stops: Vec::new(),
+            seen_events: None,
+            quantities: task.fields.iter().zip(values).map(quantity).collect(),
+        });
+        PointObject { at: varied.iter().enumerate().map(of).collect(), motions: motion.into_iter().collect() }
+    };
+    let answer = MapAnswer {
+        axes: Vec::new(),
+        starts: 1,
+        seed: 0,
+        coexisting: 0,
+        seen_events: None,
+        labels: counted(labels.iter().map(|label| label.iter().map(|label| (label.clone(), 1.0)))),
+        points: labels.iter().enumerate().map(point).collect(),
+    };
+    let of_system =
+        |vary: &Coordinate| if let Coordinate::Parameter(parameter) = vary { Some(*parameter) } else { None };
+    let varied: Vec<Parameter> = varied.iter().filter_map(of_system).collect();
+    let start = task.start;
+    let start = Start { x: start.x.unwrap_or_else(|| Start::at_rest(&osc).x), v: start.v, phase: start.phase };
+    Ok(Document::over(&asked, &osc, &varied, plan, answer).start(&start, &units))
 }
 
 impl<'a> MapAnswer<'a> {
