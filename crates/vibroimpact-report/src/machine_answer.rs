@@ -118,6 +118,10 @@ impl MachineAnswer {
                 let MachineTask::Curve(plan) = &self.plan.task else { return Ok(None) };
                 figure::curve::of_machine(found, plan, title)
             }
+            MachineResults::Region(found) => {
+                let MachineTask::Region(plan) = &self.plan.task else { return Ok(None) };
+                figure::region::of_machine(found, plan, &self.plan.machine, title)
+            }
             MachineResults::Response(found) => {
                 let Some(view) = self.response(found) else { return Ok(None) };
                 figure::response::figure(&view, title)
@@ -231,6 +235,10 @@ impl MachineAnswer {
                 table::curve::of_machine(&self.machine, plan, found)
             }
             MachineResults::Margins(found) => table::margins::of_machine(found, &self.machine),
+            MachineResults::Region(found) => {
+                let MachineTask::Region(plan) = &self.plan.task else { return Ok(None) };
+                table::region::of_machine(found, plan)
+            }
             MachineResults::Response(found) => {
                 let Some(view) = self.response(found) else { return Ok(None) };
                 table::response::table(view)

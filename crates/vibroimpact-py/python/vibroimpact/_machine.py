@@ -19,6 +19,7 @@ from vibroimpact._grid import basin, orbit_diagram, region_map
 from vibroimpact._lyapunov import lyapunov
 from vibroimpact._margins import margins
 from vibroimpact._orbits import orbits
+from vibroimpact._region import region
 from vibroimpact._response import response
 from vibroimpact._settle import settle
 from vibroimpact._simulate import simulate
@@ -275,6 +276,7 @@ class Machine:
     orbits = orbits
     branch = branch
     curve = curve
+    region = region
     margins = margins
     response = response
     basin = basin

@@ -8,8 +8,8 @@ use super::margins::MachineMargins;
 use super::plan::{MachinePlan, MachineTask};
 use super::section::{self, MachineSection};
 use super::simulate::{MachineSimulated, simulate};
-use super::{many, margins, orbits, response, verdicts};
-use crate::{Control, ResponseCurves, RunError, in_memory};
+use super::{many, margins, orbits, region, response, verdicts};
+use crate::{Control, Regions, ResponseCurves, RunError, in_memory};
 use vibroimpact::chaos::MachineExponents;
 use vibroimpact::orbit::MachineCycle;
 use vibroimpact::verdict::{Census, MachineSettled, MachineVerdict};
@@ -33,6 +33,8 @@ pub enum MachineResults {
     Curve(MachineEventCurve),
     /// The margins.
     Margins(MachineMargins),
+    /// Both regions.
+    Region(Regions),
     /// The response.
     Response(ResponseCurves),
     /// The basin.
@@ -82,6 +84,7 @@ pub fn run_machine(plan: &MachinePlan, control: &Control<'_>) -> Result<MachineR
         MachineTask::Margins(asked) => {
             MachineResults::Margins(margins::margins(&plan.machine, (&machine, &start), asked, control)?)
         }
+        MachineTask::Region(asked) => MachineResults::Region(region::regions(&plan.machine, asked, control)?),
         MachineTask::Response(asked) => {
             MachineResults::Response(response::response(&plan.machine, (&machine, &start), asked, control)?)
         }

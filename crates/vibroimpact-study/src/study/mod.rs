@@ -117,6 +117,7 @@ impl Study {
             MachineTask::Orbit { .. } => return none("find orbits"),
             MachineTask::Branch(_) => return none("follow a branch"),
             MachineTask::Curve(_) => return none("follow a curve"),
+            MachineTask::Region(_) => return none("find regions"),
             MachineTask::Response(_) => return none("compute a response"),
             MachineTask::Margins(_) => return none("compute margins"),
             MachineTask::SettleMany(_) => return none("settle points"),

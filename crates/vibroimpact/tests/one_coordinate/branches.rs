@@ -60,7 +60,7 @@ fn the_same_branches() {
         };
         let own: Vec<_> = own.collect();
         let (family, value) = MachineFamily::of_path(&machine, "stop.upper.gap").unwrap();
-        let other = match MachineBranch::new((&family, value), &found, &range, direction, branch) {
+        let other = match MachineBranch::unreduced((&family, value), &found, &range, direction, branch) {
             Ok(other) => other.collect::<Vec<_>>(),
             Err(error) => {
                 differ.push(format!("{} {}: {error:?}", system.text, cycle.label));
@@ -101,7 +101,7 @@ fn a_halving_is_the_flip_of_the_half() {
     let (family, value) = MachineFamily::of_path(&machine, "stop.upper.gap").unwrap();
     let branch = BranchOptions::default();
     let found = [Direction::Up, Direction::Down].into_iter().find_map(|direction| {
-        let points = MachineBranch::new((&family, value), &cycle, &(1.6..=2.2), direction, branch).unwrap();
+        let points = MachineBranch::unreduced((&family, value), &cycle, &(1.6..=2.2), direction, branch).unwrap();
         points.last().filter(|point| point.event == Some(MachineBranchEvent::Halving))
     });
     let halving = found.unwrap();
@@ -138,7 +138,7 @@ fn a_chatter_begins_and_ends_at_its_limit() {
         let settled = settle_unreduced(&machine, &at(from).machine_start(), &SettleOptions::default()).unwrap();
         let MachineVerdict::Periodic(cycle) = settled.verdict else { panic!("{}", settled.verdict.label()) };
         let (family, value) = MachineFamily::of_path(&machine, "stop.upper.gap").unwrap();
-        let branch = MachineBranch::new((&family, value), &cycle, &(0.95..=1.0), direction, options).unwrap();
+        let branch = MachineBranch::unreduced((&family, value), &cycle, &(0.95..=1.0), direction, options).unwrap();
         let events: Vec<(MachineBranchEvent, f64)> =
             branch.filter_map(|point| point.event.map(|event| (event, point.value))).collect();
         let limit = |event: &(MachineBranchEvent, f64)| matches!(event.0, MachineBranchEvent::Sticking { .. });
@@ -165,12 +165,13 @@ fn a_curve_of_complete_chatters() {
     let MachineVerdict::Periodic(cycle) = settled.verdict else { panic!("{}", settled.verdict.label()) };
     let (family, value) = MachineFamily::of_path(&machine, "stop.upper.gap").unwrap();
     let options = BranchOptions::default();
-    let mut branch = MachineBranch::new((&family, value), &cycle, &(0.95..=1.0), Direction::Down, options).unwrap();
+    let mut branch =
+        MachineBranch::unreduced((&family, value), &cycle, &(0.95..=1.0), Direction::Down, options).unwrap();
     let limit = |point: &MachinePoint| matches!(point.event, Some(MachineBranchEvent::Sticking { .. }));
     let point = branch.find(limit).unwrap();
     let plane = MachinePlane::new(make, (0.5..=1.5, 0.05..=0.9));
     let options = CurveOptions { longest: 0.1, points: 400 };
-    let [forth, back] = MachineCurve::through(&plane, (point.value, 0.35), &point, options).unwrap();
+    let [forth, back] = MachineCurve::unreduced(&plane, (point.value, 0.35), &point, options).unwrap();
     assert_eq!(forth.kind(), CurveKind::Sticking { stop: 0 });
     let (forth, back): (Vec<_>, Vec<_>) = (forth.collect(), back.collect());
     let ends: Vec<f64> = [&forth, &back].map(|points| points.last().unwrap().values.1).to_vec();

@@ -14,8 +14,8 @@ use crate::events::{MachineLimits, MachineMotion, MachineStart, Place};
 use crate::flight::Flight;
 use crate::lyapunov::{MachineSpectrum, Measured, Spectrum};
 use crate::machine::{Machine, Reduction};
-use crate::orbit::{Cycle, MachineCycle, MachineFrame};
-use crate::system::{Oscillator, Side, Start, phase};
+use crate::orbit::{Cycle, MachineCycle, MachineFrame, flying};
+use crate::system::{Oscillator, Side, Start};
 
 /// The time after a grazing contact at which the state of its motion is given, in units of the oscillator.
 const AFTER_GRAZE: f64 = 0.5;
@@ -118,27 +118,9 @@ impl<'a> Reduced<'a> {
 
     /// The cycle of the oscillator, closed by the machine; `None` if the machine gives it another label.
     fn closed(&self, cycle: &Cycle) -> Option<MachineCycle> {
-        let from = self.place(self.flying(cycle)?)?;
+        let from = self.place(flying(self.oscillator(), cycle)?)?;
         let found = MachineCycle::near(&MachineFrame::new(self.machine), &from, cycle.label.periods)?;
         (found.label == cycle.label).then_some(found)
-    }
-
-    /// A state of a cycle between two contacts.
-    fn flying(&self, cycle: &Cycle) -> Option<Start> {
-        let osc = self.oscillator();
-        let (flight, time) = match cycle.rests.last() {
-            // its impacts begin after this release
-            Some(rest) => {
-                let turn = phase::wrap(cycle.points.first()?.state.phase - rest.release);
-                (Flight::release(osc, rest.side, rest.release), turn / osc.beta())
-            }
-            None => {
-                let longest = cycle.points.iter().max_by(|a, b| a.interval.total_cmp(&b.interval))?;
-                (Flight::new(osc, longest.state.rebound(osc)), longest.interval)
-            }
-        };
-        let (x, v) = flight.state(0.5 * time);
-        Some(Start { x, v, phase: flight.phase_at(0.5 * time) })
     }
 
     /// A state of the motion that grazes the stop at a phase, to which ever gentler impacts tend; `None` with two stops, of which
