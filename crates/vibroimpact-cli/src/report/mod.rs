@@ -78,6 +78,7 @@ pub(crate) fn text_of_machine(answer: &MachineAnswer) -> Result<String, Failure>
         }
         (MachineTask::Curve(task), MachineResults::Curve(found)) => curve::of_machine(found, task, machine),
         (_, MachineResults::Margins(found)) => margins::of_machine(found, machine),
+        (_, MachineResults::Region(found)) => region::of_machine(found, &plan.task, &plan.machine),
         (_, MachineResults::Response(found)) => {
             answer.response(found).map_or_else(String::new, |view| response::text(&view, view.vary))
         }
