@@ -7,7 +7,7 @@ use crate::report::words::{multipliers, table};
 use vibroimpact::Oscillator;
 use vibroimpact::machine::Machine;
 use vibroimpact::quantities::Quantity;
-use vibroimpact::verdict::{Census, CountedMotion, MachineVerdict, StartBox};
+use vibroimpact::verdict::{Census, CountedMotion, StartBox};
 use vibroimpact_report::Units;
 use vibroimpact_report::number::{percent, short};
 
@@ -25,14 +25,14 @@ pub(crate) fn text(census: &Census, starts: u64, osc: &Oscillator, units: &Units
 }
 
 /// The same of a machine.
-pub(crate) fn of_machine(census: &Census<MachineVerdict>, machine: &Machine) -> String {
+pub(crate) fn of_machine(census: &Census<Machine>, machine: &Machine) -> String {
     format!("starts  {}\n\n", census.total()) + &rows(machine, census)
 }
 
 /// One row for each motion, and how certain the shares are.
-fn rows<T: Teller>(teller: &T, census: &Census<T::Verdict>) -> String {
+fn rows<T: Teller>(teller: &T, census: &Census<T::System>) -> String {
     let heads = ["share", "starts", "<label", "multipliers", "impact speed", "power in", "<meaning"].map(str::to_owned);
-    let row = |found: &&CountedMotion<T::Verdict>| {
+    let row = |found: &&CountedMotion<T::System>| {
         let verdict = &found.verdict;
         let all = teller.multipliers(verdict).filter(|all| !all.is_empty());
         vec![
@@ -45,7 +45,7 @@ fn rows<T: Teller>(teller: &T, census: &Census<T::Verdict>) -> String {
             teller.meaning(verdict) + &teller.by_stop(verdict),
         ]
     };
-    let undecided = |found: &&CountedMotion<T::Verdict>| teller.undecided(&found.verdict);
+    let undecided = |found: &&CountedMotion<T::System>| teller.undecided(&found.verdict);
     let motions = leading(census.by_share(), |found| census.share(found), undecided);
     let rows = motions.rows(row, "motion", (2, 0, heads.len()));
     table(&heads, &rows) + &certainty(census.by_share().iter().map(|found| found.count), census.total())

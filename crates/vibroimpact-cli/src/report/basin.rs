@@ -7,6 +7,7 @@ use crate::report::words::table;
 use vibroimpact::Oscillator;
 use vibroimpact::machine::Machine;
 use vibroimpact::math::sort_by_key;
+use vibroimpact::verdict::Verdict;
 use vibroimpact_report::Units;
 use vibroimpact_report::json::basin::by_count;
 use vibroimpact_report::number::{percent, short};
@@ -33,10 +34,10 @@ pub(crate) fn of_machine(found: &MachineBasin, machine: &Machine) -> String {
 }
 
 /// One row for each motion with the number and the share of its starts, and how certain the shares are.
-fn rows<T: Teller>(teller: &T, motions: Vec<(&T::Verdict, u64, f64)>) -> String {
+fn rows<T: Teller>(teller: &T, motions: Vec<(&Verdict<T::System>, u64, f64)>) -> String {
     let counts: Vec<u64> = motions.iter().map(|motion| motion.1).collect();
     let heads = ["share", "starts", "<label", "<meaning"].map(str::to_owned);
-    let row = |(verdict, count, share): &(&T::Verdict, u64, f64)| {
+    let row = |(verdict, count, share): &(&Verdict<T::System>, u64, f64)| {
         let meaning = teller.meaning(verdict) + &teller.by_stop(verdict);
         vec![percent(*share), count.to_string(), teller.label(verdict), meaning]
     };

@@ -3,7 +3,7 @@
 use crate::report::motion::Teller;
 use crate::report::words::{meaning, seconds, stop_name, table};
 use std::fmt::Write;
-use vibroimpact::chaos::{Exponents, Grounds, MachineExponents, Measured};
+use vibroimpact::chaos::{Exponents, Grounds, Measured};
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::NoImpact;
 use vibroimpact_report::Units;
@@ -75,17 +75,17 @@ impl Told {
 }
 
 /// The motion, its exponents, and how they were obtained.
-pub(crate) fn text(found: &Exponents, units: &Units) -> String {
+pub(crate) fn text(found: &Exponents, period: f64, units: &Units) -> String {
     let per_time = |of: Measured| scaled(of, 1.0 / units.time());
-    let [one, two] = found.exponents;
-    let exponents = [("larger exponent", one), ("smaller exponent", two), ("their sum", found.sum)];
+    let names = ["larger exponent", "smaller exponent", "their sum"];
+    let exponents = names.into_iter().zip(found.exponents.iter().copied().chain([found.sum]));
     let told = Told {
         motion: format!("{}: {}", found.motion.label(), meaning(&found.motion)),
         time: if units.si { "second" } else { "unit of time" },
-        exponents: exponents.map(|(name, of)| (name.to_owned(), per_time(of))).into(),
-        period: Some(found.period * units.time()),
-        impacts_per_period: Some(found.impacts_per_period),
-        dimensions: found.section_dimension.zip(found.flow_dimension()),
+        exponents: exponents.map(|(name, of)| (name.to_owned(), per_time(of))).collect(),
+        period: Some(period * units.time()),
+        impacts_per_period: Some(scaled(found.impact_rate, period)),
+        dimensions: found.section_dimension.zip(found.flow_dimension),
         space: "x, v and phase",
         grounds: grounds(found, units),
     };
@@ -93,22 +93,22 @@ pub(crate) fn text(found: &Exponents, units: &Units) -> String {
 }
 
 /// The same of a machine.
-pub(crate) fn of_machine(found: &MachineExponents, machine: &Machine) -> String {
-    let spectrum = found.spectrum.as_ref();
-    let exponents = spectrum.map_or(&[][..], |spectrum| &spectrum.exponents);
-    let forced = spectrum.zip(machine.period());
+pub(crate) fn of_machine(found: &Exponents<Machine>, machine: &Machine) -> String {
+    let ended = matches!(found.grounds, Grounds::Undecided { .. });
+    let exponents = found.exponents.iter().filter(|_| !ended).enumerate();
+    let period = machine.period().filter(|_| !ended);
     let told = Told {
         motion: format!("{}: {}", machine.label(&found.motion), machine.meaning(&found.motion)),
         time: "unit of time",
-        exponents: exponents.iter().enumerate().map(|(k, of)| (format!("exponent {}", k + 1), *of)).collect(),
+        exponents: exponents.map(|(k, of)| (format!("exponent {}", k + 1), *of)).collect(),
         period: machine.period(),
-        impacts_per_period: forced.map(|(spectrum, period)| scaled(spectrum.closings, period)),
-        dimensions: found.section_dimension(machine).zip(found.flow_dimension(machine)),
+        impacts_per_period: period.map(|period| scaled(found.impact_rate, period)),
+        dimensions: found.section_dimension.zip(found.flow_dimension),
         space: "coordinates, velocities and phase",
-        grounds: match (spectrum, found.exact) {
-            (None, _) => "the motion ended before".to_owned(),
-            (_, true) => "exact: those of a cycle, or of a motion without further events".to_owned(),
-            (Some(spectrum), false) => format!("measured over a time of {}", short(spectrum.time)),
+        grounds: match found.grounds {
+            Grounds::Undecided { .. } => "the motion ended before".to_owned(),
+            Grounds::Measured { time, .. } => format!("measured over a time of {}", short(time)),
+            _ => "exact: those of a cycle, or of a motion without further events".to_owned(),
         },
     };
     told.text()
@@ -137,6 +137,7 @@ fn grounds(found: &Exponents, units: &Units) -> String {
         Grounds::Sticks(at) => {
             format!("it comes to rest on the {} in every turn, and a release forgets all before it", stop_name(at))
         }
+        Grounds::Exact => "exact".into(),
         Grounds::Stuck(at) => format!("it rests on the {} for ever, whatever came before", stop_name(at)),
         Grounds::Touches(_) => "it only touches the stop, and a touch has no derivative".into(),
         Grounds::Undecided { impacts } => format!("the search ran out after {impacts} impacts"),

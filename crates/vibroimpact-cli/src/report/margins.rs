@@ -7,7 +7,7 @@ use std::fmt::Write;
 use vibroimpact::Oscillator;
 use vibroimpact::continuation::{BranchEvent, SolutionPoint};
 use vibroimpact::machine::Machine;
-use vibroimpact::verdict::Stability;
+use vibroimpact::verdict::{Stability, Verdict};
 use vibroimpact_report::Units;
 use vibroimpact_report::number::{percent, precise, short};
 use vibroimpact_study::{
@@ -46,7 +46,7 @@ pub(crate) fn text(found: &MotionMargins, osc: &Oscillator, units: &Units) -> St
     text
 }
 
-fn head<T: Teller>(teller: &T, motion: &T::Verdict, stability: Option<Stability>) -> String {
+fn head<T: Teller>(teller: &T, motion: &Verdict<T::System>, stability: Option<Stability>) -> String {
     let stable = stability.map_or_else(String::new, |stability| format!(", {stability}"));
     let (label, by_stop, meaning) = (teller.label(motion), teller.by_stop(motion), teller.meaning(motion));
     format!("{label}{by_stop}: {meaning}{stable}\n")

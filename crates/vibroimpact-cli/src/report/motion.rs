@@ -5,15 +5,14 @@ use crate::report::words::{
 };
 use core::fmt::Write;
 use vibroimpact::Oscillator;
-use vibroimpact::chaos::MachineSpectrum;
+use vibroimpact::chaos::{Measured, Spectrum};
 use vibroimpact::events::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits};
 use vibroimpact::machine::{Machine, StopLaw};
 use vibroimpact::math::Multiplier;
 use vibroimpact::orbit::MachineCycle;
-use vibroimpact::quantities::{
-    MachinePart, MachineQuantities, MachineQuantity, Quantity, machine_cycle_quantities, machine_quantities, of_verdict,
-};
-use vibroimpact::verdict::{Count, MachineUndecided, MachineVerdict, SteadyMotion, Verdict};
+use vibroimpact::quantities::machine::{Part, Quantities as PartQuantities};
+use vibroimpact::quantities::{Quantity, machine_cycle_quantities, machine_quantities, of_verdict};
+use vibroimpact::verdict::{Count, System, Undecided, UndecidedCause, Verdict};
 use vibroimpact_report::Units;
 use vibroimpact_report::json::undecided;
 use vibroimpact_report::number::short;
@@ -21,37 +20,37 @@ use vibroimpact_study::counted;
 
 /// A system whose motions are told.
 pub(super) trait Teller {
-    /// What is known of a motion.
-    type Verdict: SteadyMotion;
+    /// The kind of system.
+    type System: System;
 
-    fn label(&self, verdict: &Self::Verdict) -> String;
+    fn label(&self, verdict: &Verdict<Self::System>) -> String;
 
     /// The meaning, as a sentence without full stop.
-    fn meaning(&self, verdict: &Self::Verdict) -> String;
+    fn meaning(&self, verdict: &Verdict<Self::System>) -> String;
 
     /// The impacts on each of several stops in brackets, after a blank; empty where the label says it.
-    fn by_stop(&self, verdict: &Self::Verdict) -> String;
+    fn by_stop(&self, verdict: &Verdict<Self::System>) -> String;
 
-    fn multipliers(&self, verdict: &Self::Verdict) -> Option<Vec<Multiplier>>;
+    fn multipliers(&self, verdict: &Verdict<Self::System>) -> Option<Vec<Multiplier>>;
 
     /// A quantity with its unit; a dash where it is not defined.
-    fn quantity(&self, verdict: &Self::Verdict, quantity: Quantity) -> String;
+    fn quantity(&self, verdict: &Verdict<Self::System>, quantity: Quantity) -> String;
 
-    fn undecided(&self, verdict: &Self::Verdict) -> bool;
+    fn undecided(&self, verdict: &Verdict<Self::System>) -> bool;
 
     /// The events of a cycle, one row each.
-    fn events(&self, verdict: &Self::Verdict) -> String;
+    fn events(&self, verdict: &Verdict<Self::System>) -> String;
 
-    fn stability(&self, verdict: &Self::Verdict) -> Option<&'static str>;
+    fn stability(&self, verdict: &Verdict<Self::System>) -> Option<&'static str>;
 
     /// The quantities that matter most.
-    fn quantities(&self, verdict: &Self::Verdict) -> String;
+    fn quantities(&self, verdict: &Verdict<Self::System>) -> String;
 
     /// The grounds of the verdict.
-    fn grounds(&self, verdict: &Self::Verdict) -> String;
+    fn grounds(&self, verdict: &Verdict<Self::System>) -> String;
 
     /// The complete text of one motion.
-    fn motion(&self, verdict: &Self::Verdict) -> String {
+    fn motion(&self, verdict: &Verdict<Self::System>) -> String {
         let mut text = format!("{}{}: {}\n", self.label(verdict), self.by_stop(verdict), self.meaning(verdict));
         text.push_str(&self.events(verdict));
         if let Some(stability) = self.stability(verdict) {
@@ -70,7 +69,7 @@ pub(super) trait Teller {
 pub(super) struct InUnits<'a>(pub(super) &'a Oscillator, pub(super) &'a Units);
 
 impl Teller for InUnits<'_> {
-    type Verdict = Verdict;
+    type System = Oscillator;
 
     fn label(&self, verdict: &Verdict) -> String {
         verdict.label().into_owned()
@@ -113,86 +112,86 @@ impl Teller for InUnits<'_> {
     }
 
     fn grounds(&self, verdict: &Verdict) -> String {
-        words::grounds(verdict, self.1)
+        words::grounds(verdict, self.0, self.1)
     }
 }
 
 impl Teller for Machine {
-    type Verdict = MachineVerdict;
+    type System = Machine;
 
-    fn label(&self, verdict: &MachineVerdict) -> String {
-        verdict.label()
+    fn label(&self, verdict: &Verdict<Machine>) -> String {
+        verdict.label().into_owned()
     }
 
-    fn meaning(&self, verdict: &MachineVerdict) -> String {
+    fn meaning(&self, verdict: &Verdict<Machine>) -> String {
         match verdict {
-            MachineVerdict::Periodic(cycle) => meaning_of_cycle(cycle),
-            MachineVerdict::NoImpact(_) => {
+            Verdict::Periodic(cycle) => meaning_of_cycle(cycle),
+            Verdict::NoImpact(_) => {
                 let closed = closed(self, verdict);
                 let closed = if closed.is_empty() { closed } else { format!("; it stays on {closed}") };
                 format!("no more impacts, ever{closed}")
             }
-            MachineVerdict::Chaotic { events, .. } => format!("no repetition in {}", counted(*events, "event")),
-            MachineVerdict::Stuck(_) => format!("at rest on {} for ever", closed(self, verdict)),
-            MachineVerdict::Undecided { why: MachineUndecided::Unconfirmed, .. } => ROUNDING_DECIDES.to_owned(),
-            MachineVerdict::Undecided { .. } => "nothing could be shown within the budget".to_owned(),
+            Verdict::Chaotic(chaos) => format!("no repetition in {}", counted(chaos.impacts, "event")),
+            Verdict::Stuck(_) => format!("at rest on {} for ever", closed(self, verdict)),
+            Verdict::Undecided(Undecided { why: UndecidedCause::Unconfirmed, .. }) => ROUNDING_DECIDES.to_owned(),
+            Verdict::Undecided(_) => "nothing could be shown within the budget".to_owned(),
         }
     }
 
-    fn by_stop(&self, verdict: &MachineVerdict) -> String {
-        let MachineVerdict::Periodic(cycle) = verdict else { return String::new() };
+    fn by_stop(&self, verdict: &Verdict<Machine>) -> String {
+        let Verdict::Periodic(cycle) = verdict else { return String::new() };
         let counts: Vec<String> =
             self.stops().iter().zip(&cycle.counts).map(|(stop, count)| format!("{count} {}", stop.name)).collect();
         let said = counts.len() > 1 && cycle.counts.iter().any(|count| *count > 0);
         if said { format!(" ({})", counts.join(", ")) } else { String::new() }
     }
 
-    fn multipliers(&self, verdict: &MachineVerdict) -> Option<Vec<Multiplier>> {
-        if let MachineVerdict::Periodic(cycle) = verdict { Some(cycle.multipliers.clone()) } else { None }
+    fn multipliers(&self, verdict: &Verdict<Machine>) -> Option<Vec<Multiplier>> {
+        if let Verdict::Periodic(cycle) = verdict { Some(cycle.multipliers.clone()) } else { None }
     }
 
-    fn quantity(&self, verdict: &MachineVerdict, quantity: Quantity) -> String {
+    fn quantity(&self, verdict: &Verdict<Machine>, quantity: Quantity) -> String {
         let all = machine_quantities(self, verdict);
         let value = all.map_or(f64::NAN, |all| largest(&all, self, quantity));
         if value.is_finite() { short(value) } else { "-".to_owned() }
     }
 
-    fn undecided(&self, verdict: &MachineVerdict) -> bool {
-        matches!(verdict, MachineVerdict::Undecided { .. })
+    fn undecided(&self, verdict: &Verdict<Machine>) -> bool {
+        matches!(verdict, Verdict::Undecided(_))
     }
 
-    fn events(&self, verdict: &MachineVerdict) -> String {
-        let MachineVerdict::Periodic(cycle) = verdict else { return String::new() };
+    fn events(&self, verdict: &Verdict<Machine>) -> String {
+        let Verdict::Periodic(cycle) = verdict else { return String::new() };
         events_of_cycle(self, cycle)
     }
 
-    fn stability(&self, verdict: &MachineVerdict) -> Option<&'static str> {
-        let chaotic = matches!(verdict, MachineVerdict::Chaotic { .. });
+    fn stability(&self, verdict: &Verdict<Machine>) -> Option<&'static str> {
+        let chaotic = matches!(verdict, Verdict::Chaotic(_));
         let stability = verdict.stability(self);
         stability.map(|stability| words::in_words(Some(stability), false, chaotic))
     }
 
-    fn quantities(&self, verdict: &MachineVerdict) -> String {
-        let drift = if let MachineVerdict::Periodic(cycle) = verdict { drift(self, cycle) } else { String::new() };
+    fn quantities(&self, verdict: &Verdict<Machine>) -> String {
+        let drift = if let Verdict::Periodic(cycle) = verdict { drift(self, cycle) } else { String::new() };
         let found = match verdict {
-            MachineVerdict::Periodic(cycle) => machine_cycle_quantities(self, cycle),
+            Verdict::Periodic(cycle) => machine_cycle_quantities(self, cycle),
             _ => machine_quantities(self, verdict),
         };
         drift + &found.map_or_else(String::new, |found| quantities(self, &found))
     }
 
-    fn grounds(&self, verdict: &MachineVerdict) -> String {
+    fn grounds(&self, verdict: &Verdict<Machine>) -> String {
         match verdict {
-            MachineVerdict::Periodic(cycle) => {
+            Verdict::Periodic(cycle) => {
                 format!("Newton's method on its events returns to itself within {:.0e}", cycle.residual.max(1e-16))
             }
-            MachineVerdict::NoImpact(_) => "no stop and no joint changes its state any more".to_owned(),
-            MachineVerdict::Stuck(_) => "it rests, and no force ever pulls it off".to_owned(),
-            MachineVerdict::Chaotic { spectrum, .. } => largest_exponent(spectrum),
-            MachineVerdict::Undecided { why, events, spectrum } => {
+            Verdict::NoImpact(_) => "no stop and no joint changes its state any more".to_owned(),
+            Verdict::Stuck(_) => "it rests, and no force ever pulls it off".to_owned(),
+            Verdict::Chaotic(chaos) => largest_exponent(&chaos.spectrum),
+            Verdict::Undecided(Undecided { why, impacts: events, spectrum }) => {
                 let why = match why {
-                    MachineUndecided::Events | MachineUndecided::Unconfirmed => "the budget is used up".to_owned(),
-                    MachineUndecided::Ended(MachineEnd::NoEventWithin) => {
+                    UndecidedCause::Budget | UndecidedCause::Unconfirmed => "the budget is used up".to_owned(),
+                    UndecidedCause::Ended(MachineEnd::NoEventWithin) => {
                         let time = short(MachineLimits::default().time);
                         format!("no event within a time of {time} after the last one, and none is excluded later")
                     }
@@ -270,52 +269,52 @@ fn drift(machine: &Machine, cycle: &MachineCycle) -> String {
 }
 
 /// The names of the stops that stay closed for ever.
-fn closed(machine: &Machine, verdict: &MachineVerdict) -> String {
+fn closed(machine: &Machine, verdict: &Verdict<Machine>) -> String {
     let names = verdict.closed().into_iter().map(|stop| machine.name_of(stop));
     names.collect::<Vec<_>>().join(", ")
 }
 
 /// The largest exponent and the rate of closings of a motion without a cycle.
-fn largest_exponent(spectrum: &MachineSpectrum) -> String {
-    let told = |of: vibroimpact::chaos::Measured| format!("{} +- {}", short(of.value), short(of.error));
+fn largest_exponent(spectrum: &Spectrum<Vec<Measured>>) -> String {
+    let told = |of: Measured| format!("{} +- {}", short(of.value), short(of.error));
     let largest = spectrum.exponents.first().map_or_else(|| "none".to_owned(), |first| told(*first));
     format!(
         "largest Lyapunov exponent {largest} per unit of time, {} impacts per unit of time",
-        told(spectrum.closings)
+        told(spectrum.impact_rate)
     )
 }
 
 /// A quantity of all of a machine, or else the largest value at one of its stops.
-fn largest(all: &MachineQuantities, machine: &Machine, quantity: Quantity) -> f64 {
-    let of = |part| all.get(part, MachineQuantity::Common(quantity));
-    let whole = of(MachinePart::Whole);
-    let stops = (0..machine.stops().len()).map(|j| of(MachinePart::Stop(j)));
+fn largest(all: &PartQuantities, machine: &Machine, quantity: Quantity) -> f64 {
+    let of = |part| all.get(part, quantity);
+    let whole = of(Part::Whole);
+    let stops = (0..machine.stops().len()).map(|j| of(Part::Stop(j)));
     if whole.is_finite() { whole } else { stops.fold(f64::NAN, f64::max) }
 }
 
 /// Power and where it goes, and for each stop that closes the largest speed and the largest impulse, or force of a compliant one.
-fn quantities(machine: &Machine, found: &MachineQuantities) -> String {
+fn quantities(machine: &Machine, found: &PartQuantities) -> String {
     let mut text = String::new();
-    let whole = |quantity| found.get(MachinePart::Whole, quantity);
+    let whole = |quantity| found.get(Part::Whole, quantity);
     let lost = [
-        (MachineQuantity::Common(Quantity::ImpactPower), "impacts"),
-        (MachineQuantity::ContactPower, "dampers of stops"),
-        (MachineQuantity::FrictionPower, "friction"),
-        (MachineQuantity::Common(Quantity::DampingPower), "damping"),
+        (Quantity::ImpactPower, "impacts"),
+        (Quantity::ContactPower, "dampers of stops"),
+        (Quantity::FrictionPower, "friction"),
+        (Quantity::DampingPower, "damping"),
     ];
-    let power = whole(MachineQuantity::Common(Quantity::Power));
+    let power = whole(Quantity::Power);
     let lost = lost.map(|(quantity, name)| (whole(quantity), name)).into_iter().filter(|(lost, _)| *lost > 0.0);
     let lost: Vec<String> = lost.map(|(lost, name)| format!("{} in {name}", short(lost))).collect();
     if power.is_finite() && !lost.is_empty() {
         let _ = writeln!(text, "  power {}: lost {}", short(power), lost.join(", "));
     }
     for (j, stop) in machine.stops().iter().enumerate() {
-        let of = |quantity| found.get(MachinePart::Stop(j), quantity);
-        let speed = of(MachineQuantity::Common(Quantity::ImpactSpeedMax));
+        let of = |quantity| found.get(Part::Stop(j), quantity);
+        let speed = of(Quantity::ImpactSpeedMax);
         if speed > 0.0 {
             let (what, most) = match stop.law {
-                StopLaw::Rigid { .. } => ("impulse", MachineQuantity::Common(Quantity::ImpulseMax)),
-                StopLaw::Compliant { .. } => ("force", MachineQuantity::ForceMax),
+                StopLaw::Rigid { .. } => ("impulse", Quantity::ImpulseMax),
+                StopLaw::Compliant { .. } => ("force", Quantity::ForceMax),
             };
             let _ =
                 writeln!(text, "  {}: speed at most {}, {what} at most {}", stop.name, short(speed), short(of(most)));

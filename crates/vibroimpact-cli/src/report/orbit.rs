@@ -4,7 +4,7 @@ use crate::report::motion::{InUnits, Teller};
 use crate::report::words::{by_stop, impacts, multipliers, stop_name};
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::{MachineCycle, Orbit};
-use vibroimpact::verdict::{MachineVerdict, Verdict};
+use vibroimpact::verdict::Verdict;
 use vibroimpact::{Label, Oscillator};
 use vibroimpact_report::Units;
 use vibroimpact_report::number::short;
@@ -28,7 +28,7 @@ pub(crate) fn of_machine(cycles: &[MachineCycle], label: &str, machine: &Machine
     if cycles.is_empty() {
         return none(label.trim());
     }
-    numbered(cycles.iter().map(|cycle| machine.motion(&MachineVerdict::Periodic(cycle.clone()))))
+    numbered(cycles.iter().map(|cycle| machine.motion(&Verdict::Periodic(cycle.clone()))))
 }
 
 fn none(label: impl core::fmt::Display) -> String {

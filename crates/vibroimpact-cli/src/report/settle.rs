@@ -4,7 +4,7 @@ use crate::report::motion::{InUnits, Teller};
 use crate::report::words::seconds;
 use vibroimpact::Oscillator;
 use vibroimpact::machine::Machine;
-use vibroimpact::verdict::{MachineSettled, PaperRule, PaperVerdict, Settled};
+use vibroimpact::verdict::{PaperRule, PaperVerdict, Settled};
 use vibroimpact_report::Units;
 use vibroimpact_report::number::short;
 use vibroimpact_study::counted;
@@ -38,9 +38,9 @@ pub(crate) fn text(
 }
 
 /// The same of a machine.
-pub(crate) fn of_machine(settled: &MachineSettled, machine: &Machine) -> String {
+pub(crate) fn of_machine(settled: &Settled<Machine>, machine: &Machine) -> String {
     let mut text = machine.motion(&settled.verdict);
-    let events = counted(settled.events, "event");
+    let events = counted(settled.impacts, "event");
     text.push_str(&followed(&events, &short(settled.time), machine.undecided(&settled.verdict)));
     if settled.transient.is_some() {
         text.push_str("  chaotic before: a transient that has ended\n");

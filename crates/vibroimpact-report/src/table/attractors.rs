@@ -10,7 +10,7 @@ use vibroimpact::Oscillator;
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::MachineCycle;
 use vibroimpact::quantities::{Quantity, machine_quantities, machine_quantity_paths, of_verdict};
-use vibroimpact::verdict::{Census, MachineVerdict};
+use vibroimpact::verdict::{Census, Verdict};
 
 /// Label, share and number of the starts, real and imaginary part of both multipliers if the motion has any, and all
 /// quantities in these units.
@@ -28,7 +28,7 @@ pub fn table(found: &Census, osc: &Oscillator, units: &Units) -> Table<'static> 
 
 /// One row a motion: label, share, starts, counts of each stop, real and imaginary part of all multipliers, the drift of a
 /// machine that can be translated, all quantities by path.
-pub(crate) fn of_machine<'a>(machine: &'a Machine, census: &'a Census<MachineVerdict>) -> Table<'a> {
+pub(crate) fn of_machine<'a>(machine: &'a Machine, census: &'a Census<Machine>) -> Table<'a> {
     let stops = machine.stops().iter().map(|stop| format!("count.{}", stop.name));
     let paths = machine_quantity_paths(machine);
     let undefined = vec![f64::NAN; paths.len()];
@@ -60,9 +60,9 @@ pub(crate) fn of_machine<'a>(machine: &'a Machine, census: &'a Census<MachineVer
     Table::new(header, rows)
 }
 
-const fn cycle_of(verdict: &MachineVerdict) -> Option<&MachineCycle> {
+const fn cycle_of(verdict: &Verdict<Machine>) -> Option<&MachineCycle> {
     match verdict {
-        MachineVerdict::Periodic(cycle) => Some(cycle),
+        Verdict::Periodic(cycle) => Some(cycle),
         _ => None,
     }
 }

@@ -8,7 +8,7 @@ use crate::number::Number;
 use vibroimpact::Oscillator;
 use vibroimpact::machine::Machine;
 use vibroimpact::quantities::of_verdict;
-use vibroimpact::verdict::{CountedMotion, MachineVerdict};
+use vibroimpact::verdict::{CountedMotion, Verdict};
 use vibroimpact_study::{Basin, MachineAxis, MachineBasin, PlanError};
 
 /// The table of `vibro basin`: the quantities that vary, in the units and with exactly the numbers of the question, the
@@ -48,8 +48,8 @@ pub(crate) fn of_machine<'a>(machine: &'a Machine, found: &'a MachineBasin) -> T
     let remarks = remarks(found.motions.iter());
     let rows = found.cells.iter().enumerate().map(move |(k, cell)| {
         let motion = cell.map(|cell| &found.motions[cell]);
-        let label = motion.map_or_else(|| "refused".to_owned(), MachineVerdict::label);
-        let closed = motion.map_or_else(Vec::new, MachineVerdict::closed);
+        let label = motion.map_or_else(|| "refused".into(), Verdict::label);
+        let closed = motion.map_or_else(Vec::new, Verdict::closed);
         let remarks = remarks.cells(machine, &closed, found.seen_events[k]);
         let fields = cell.map_or_else(|| ",".repeat(found.fields.len()), |cell| finite(&found.quantities[cell]));
         format!("{}{label}{remarks}{fields}", values(&found.axes, k))

@@ -1,7 +1,7 @@
 //! What columns say of some motions of machines besides the label.
 
 use vibroimpact::machine::Machine;
-use vibroimpact::verdict::MachineVerdict;
+use vibroimpact::verdict::Verdict;
 
 /// The names of stops with blanks between, after a comma.
 fn stops_of(machine: &Machine, stops: &[usize]) -> String {
@@ -42,7 +42,7 @@ impl Remarks {
 }
 
 /// The remarks on the motions of a table of verdicts.
-pub(super) fn remarks<'a>(verdicts: impl Iterator<Item = &'a MachineVerdict>) -> Remarks {
+pub(super) fn remarks<'a>(verdicts: impl Iterator<Item = &'a Verdict<Machine>>) -> Remarks {
     let closed: Vec<(Vec<usize>, Option<u64>)> = verdicts.map(|one| (one.closed(), one.seen_events())).collect();
     Remarks::of(closed.iter().map(|(stops, events)| (stops.as_slice(), *events)))
 }

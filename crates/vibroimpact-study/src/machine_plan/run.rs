@@ -10,9 +10,10 @@ use super::section::{self, MachineSection};
 use super::simulate::{MachineSimulated, simulate};
 use super::{many, margins, orbits, region, response, verdicts};
 use crate::{Control, Regions, ResponseCurves, RunError, in_memory};
-use vibroimpact::chaos::MachineExponents;
+use vibroimpact::chaos::Exponents;
+use vibroimpact::machine::Machine;
 use vibroimpact::orbit::MachineCycle;
-use vibroimpact::verdict::{Census, MachineSettled, MachineVerdict};
+use vibroimpact::verdict::{Census, Settled};
 
 /// The result of a [`MachineTask`], one variant for each.
 #[derive(Clone, Debug)]
@@ -20,11 +21,11 @@ pub enum MachineResults {
     /// The events of the motion.
     Simulate(MachineSimulated),
     /// What the motion settles into.
-    Settle(MachineSettled),
+    Settle(Settled<Machine>),
     /// The distinct motions and their counts.
-    Attractors(Census<MachineVerdict>),
+    Attractors(Census<Machine>),
     /// The exponents, and the sections of the attractor if points of them were requested.
-    Lyapunov(MachineExponents, Option<MachineSection>),
+    Lyapunov(Exponents<Machine>, Option<MachineSection>),
     /// The orbits, the fastest last.
     Orbit(Vec<MachineCycle>),
     /// The branch.

@@ -7,7 +7,7 @@ use vibroimpact::continuation::{
 };
 use vibroimpact::events::MachineStart;
 use vibroimpact::orbit::one_impact;
-use vibroimpact::verdict::{MachineVerdict, SettleOptions, Verdict, settle, settle_unreduced};
+use vibroimpact::verdict::{SettleOptions, Verdict, settle, settle_unreduced};
 use vibroimpact::{Oscillator, Parameter, Start};
 
 /// How far the gap is changed.
@@ -43,8 +43,7 @@ fn the_same_branches() {
     for (place, system) in some().enumerate() {
         let machine = system.machine();
         let Verdict::Periodic(cycle) = settle(&system.oscillator, system.start, &options).verdict else { continue };
-        let MachineVerdict::Periodic(found) =
-            settle_unreduced(&machine, &system.machine_start(), &options).unwrap().verdict
+        let Verdict::Periodic(found) = settle_unreduced(&machine, &system.machine_start(), &options).unwrap().verdict
         else {
             continue;
         };
@@ -92,8 +91,7 @@ fn a_halving_is_the_flip_of_the_half() {
     let system = System { oscillator, start: Start::at_rest(&oscillator), text: String::new() };
     let machine = system.machine();
     let options = SettleOptions::default();
-    let MachineVerdict::Periodic(cycle) =
-        settle_unreduced(&machine, &system.machine_start(), &options).unwrap().verdict
+    let Verdict::Periodic(cycle) = settle_unreduced(&machine, &system.machine_start(), &options).unwrap().verdict
     else {
         panic!()
     };
@@ -136,7 +134,7 @@ fn a_chatter_begins_and_ends_at_its_limit() {
     {
         let machine = at(from).machine();
         let settled = settle_unreduced(&machine, &at(from).machine_start(), &SettleOptions::default()).unwrap();
-        let MachineVerdict::Periodic(cycle) = settled.verdict else { panic!("{}", settled.verdict.label()) };
+        let Verdict::Periodic(cycle) = settled.verdict else { panic!("{}", settled.verdict.label()) };
         let (family, value) = MachineFamily::of_path(&machine, "stop.upper.gap").unwrap();
         let branch = MachineBranch::unreduced((&family, value), &cycle, &(0.95..=1.0), direction, options).unwrap();
         let events: Vec<(MachineBranchEvent, f64)> =
@@ -162,7 +160,7 @@ fn a_curve_of_complete_chatters() {
     let make = move |gap: f64, e: f64| Some(of(gap, e)?.machine());
     let machine = make(1.0, 0.35).unwrap();
     let settled = settle_unreduced(&machine, &MachineStart::default(), &SettleOptions::default()).unwrap();
-    let MachineVerdict::Periodic(cycle) = settled.verdict else { panic!("{}", settled.verdict.label()) };
+    let Verdict::Periodic(cycle) = settled.verdict else { panic!("{}", settled.verdict.label()) };
     let (family, value) = MachineFamily::of_path(&machine, "stop.upper.gap").unwrap();
     let options = BranchOptions::default();
     let mut branch =
