@@ -166,7 +166,7 @@ pub(crate) fn regions(system: &SystemPlan, plan: &RegionPlan, control: &Control<
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Plan, Task};
+    use crate::Plan;
 
     fn plan() -> (SystemPlan, RegionPlan) {
         let system = SystemPlan { inverse_beta: Some(1.05), gap: 1.0, restitution: 0.5, ..SystemPlan::default() };

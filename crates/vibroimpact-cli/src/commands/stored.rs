@@ -147,6 +147,12 @@ fn tell(
     outputs.stream(session, |out| report::table(store, false, out), || session.watched(None, drawn))?;
     let left = filled.as_ref().is_some_and(|filled| filled.left > 0);
     if json {
+        // a store has its points itself
+        if filled.is_none()
+            && let Some(object) = report::points(store)?
+        {
+            return session.print_json(&object);
+        }
         return session.print_json(&report::StoredFields::new(store, filled)?);
     }
     if silent || left {

@@ -2,28 +2,48 @@
 
 use crate::report::certainty::certainty;
 use crate::report::leading::leading;
-use crate::report::words::{by_stop, meaning, table};
+use crate::report::motion::{InUnits, Teller};
+use crate::report::words::table;
 use vibroimpact::Oscillator;
+use vibroimpact::machine::Machine;
+use vibroimpact::math::sort_by_key;
 use vibroimpact::verdict::Verdict;
+use vibroimpact_report::Units;
 use vibroimpact_report::json::basin::by_count;
 use vibroimpact_report::number::{percent, short};
 use vibroimpact_study::basin::BasinMeasures;
-use vibroimpact_study::{Basin, counted};
+use vibroimpact_study::{Basin, MachineBasin, counted};
 
-/// One row for each motion.
+/// One row for each motion, and the measures of the basin.
 pub(crate) fn text(found: &Basin, osc: &Oscillator) -> String {
-    let heads = ["share", "starts", "<label", "<meaning"].map(str::to_owned);
-    let row = |m: &usize| {
-        let motion = &found.motions[*m];
-        let label = motion.verdict.label().into_owned();
-        let meaning = meaning(&motion.verdict) + &by_stop(&motion.verdict, osc);
-        vec![percent(found.share(*m)), motion.count.to_string(), label, meaning]
-    };
-    let undecided = |m: &usize| matches!(found.motions[*m].verdict, Verdict::Undecided(_));
-    let motions = leading(by_count(found), |m| found.share(*m), undecided);
-    let text = table(&heads, &motions.rows(row, "motion", (2, 0, heads.len())))
-        + &certainty(found.motions.iter().map(|motion| motion.count), found.cells.len() as u64);
+    let motions =
+        by_count(found).into_iter().map(|m| (&found.motions[m].verdict, found.motions[m].count, found.share(m)));
+    let units = Units::default();
+    let text = rows(&InUnits(osc, &units), motions.collect());
     text + &found.measures().map_or_else(String::new, |measures| sentences(&measures))
+}
+
+/// The same of a machine, and the number of starts that are not allowed.
+pub(crate) fn of_machine(found: &MachineBasin, machine: &Machine) -> String {
+    let shares = found.shares().into_iter().zip(&found.motions);
+    let mut motions: Vec<_> = shares.map(|((count, share), verdict)| (verdict, count, share)).collect();
+    sort_by_key(&mut motions, |motion| core::cmp::Reverse(motion.1));
+    let text = rows(machine, motions);
+    let refused = found.refused();
+    if refused == 0 { text } else { text + &format!("  {} beyond a rigid stop\n", counted(refused as u64, "start")) }
+}
+
+/// One row for each motion with the number and the share of its starts, and how certain the shares are.
+fn rows<T: Teller>(teller: &T, motions: Vec<(&Verdict<T::System>, u64, f64)>) -> String {
+    let counts: Vec<u64> = motions.iter().map(|motion| motion.1).collect();
+    let heads = ["share", "starts", "<label", "<meaning"].map(str::to_owned);
+    let row = |(verdict, count, share): &(&Verdict<T::System>, u64, f64)| {
+        let meaning = teller.meaning(verdict) + &teller.by_stop(verdict);
+        vec![percent(*share), count.to_string(), teller.label(verdict), meaning]
+    };
+    let motions = leading(motions, |motion| motion.2, |motion| teller.undecided(motion.0));
+    let total = counts.iter().sum();
+    table(&heads, &motions.rows(row, "motion", (2, 0, heads.len()))) + &certainty(counts.into_iter(), total)
 }
 
 /// The entropies and the uncertainty exponent.

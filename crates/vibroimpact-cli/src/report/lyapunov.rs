@@ -1,8 +1,10 @@
 //! Lyapunov exponents as text.
 
+use crate::report::motion::Teller;
 use crate::report::words::{meaning, seconds, stop_name, table};
 use std::fmt::Write;
 use vibroimpact::chaos::{Exponents, Grounds, Measured};
+use vibroimpact::machine::Machine;
 use vibroimpact::verdict::NoImpact;
 use vibroimpact_report::Units;
 use vibroimpact_report::json::lyapunov::scaled;
@@ -10,7 +12,7 @@ use vibroimpact_report::number::short;
 
 /// The text of a measured number: `0.01862 +- 0.00023`, rounded according to its error; `minus infinity`, `none`, or
 /// the number alone if it is exact.
-pub(super) fn said(of: Measured) -> String {
+fn said(of: Measured) -> String {
     if of.value == f64::NEG_INFINITY {
         "minus infinity".into()
     } else if of.error == 0.0 || !of.value.is_finite() {
@@ -25,32 +27,91 @@ pub(super) fn said(of: Measured) -> String {
     }
 }
 
+/// Exponents of any system, as they are told.
+struct Told {
+    /// The label and the meaning of the motion.
+    motion: String,
+    /// The unit of time.
+    time: &'static str,
+    /// The names of the exponents, and their values per unit of time.
+    exponents: Vec<(String, Measured)>,
+    /// The forcing period in these units; `None` without forcing.
+    period: Option<f64>,
+    impacts_per_period: Option<Measured>,
+    /// The dimensions of the section and of the flow.
+    dimensions: Option<(Measured, Measured)>,
+    /// The coordinates of the flow.
+    space: &'static str,
+    grounds: String,
+}
+
+impl Told {
+    fn text(self) -> String {
+        let mut heads = vec!["<".to_owned(), format!("<per {}", self.time)];
+        heads.extend(self.period.map(|_| "<per forcing period".to_owned()));
+        let row = |(name, of): &(String, Measured)| {
+            let per_period = self.period.map(|period| said(scaled(*of, period)));
+            [name.clone(), said(*of)].into_iter().chain(per_period).collect()
+        };
+        let rows: Vec<Vec<String>> = self.exponents.iter().map(row).collect();
+        let mut text = format!("{}\n", self.motion);
+        text.push_str(&if rows.is_empty() { "  no exponents\n".to_owned() } else { table(&heads, &rows) });
+        if let Some(impacts) = self.impacts_per_period {
+            let _ = writeln!(text, "  impacts per forcing period {}", said(impacts));
+        }
+        let _ = match self.dimensions {
+            Some((section, flow)) => writeln!(
+                text,
+                "  Kaplan-Yorke dimension {} of the stroboscopic section, {} of the flow in {}",
+                said(section),
+                said(flow),
+                self.space
+            ),
+            _ => writeln!(text, "  no Kaplan-Yorke dimension: the larger exponent is not known to differ from 0"),
+        };
+        let _ = writeln!(text, "  {}", self.grounds);
+        text
+    }
+}
+
 /// The motion, its exponents, and how they were obtained.
 pub(crate) fn text(found: &Exponents, period: f64, units: &Units) -> String {
-    let mut text = format!("{}: {}\n", found.motion.label(), meaning(&found.motion));
-    let per_time = |of: Measured| said(scaled(of, 1.0 / units.time()));
-    let heads = [
-        "<".into(),
-        format!("<per {}", if units.si { "second" } else { "unit of time" }),
-        "<per forcing period".into(),
-    ];
-    let row = |name: &str, of: Measured| vec![name.into(), per_time(of), said(scaled(of, period))];
-    let names = ["larger exponent", "smaller exponent"].into_iter().zip(&found.exponents);
-    let mut rows: Vec<Vec<String>> = names.map(|(name, of)| row(name, *of)).collect();
-    rows.push(row("their sum", found.sum));
-    text.push_str(&table(&heads, &rows));
-    let _ = writeln!(text, "  impacts per forcing period {}", said(scaled(found.impact_rate, period)));
-    let _ = match (found.section_dimension, found.flow_dimension) {
-        (Some(section), Some(flow)) => writeln!(
-            text,
-            "  Kaplan-Yorke dimension {} of the stroboscopic section, {} of the flow in x, v and phase",
-            said(section),
-            said(flow)
-        ),
-        _ => writeln!(text, "  no Kaplan-Yorke dimension: the larger exponent is not known to differ from 0"),
+    let per_time = |of: Measured| scaled(of, 1.0 / units.time());
+    let names = ["larger exponent", "smaller exponent", "their sum"];
+    let exponents = names.into_iter().zip(found.exponents.iter().copied().chain([found.sum]));
+    let told = Told {
+        motion: format!("{}: {}", found.motion.label(), meaning(&found.motion)),
+        time: if units.si { "second" } else { "unit of time" },
+        exponents: exponents.map(|(name, of)| (name.to_owned(), per_time(of))).collect(),
+        period: Some(period * units.time()),
+        impacts_per_period: Some(scaled(found.impact_rate, period)),
+        dimensions: found.section_dimension.zip(found.flow_dimension),
+        space: "x, v and phase",
+        grounds: grounds(found, units),
     };
-    let _ = writeln!(text, "  {}", grounds(found, units));
-    text
+    told.text()
+}
+
+/// The same of a machine.
+pub(crate) fn of_machine(found: &Exponents<Machine>, machine: &Machine) -> String {
+    let ended = matches!(found.grounds, Grounds::Undecided { .. });
+    let exponents = found.exponents.iter().filter(|_| !ended).enumerate();
+    let period = machine.period().filter(|_| !ended);
+    let told = Told {
+        motion: format!("{}: {}", machine.label(&found.motion), machine.meaning(&found.motion)),
+        time: "unit of time",
+        exponents: exponents.map(|(k, of)| (format!("exponent {}", k + 1), *of)).collect(),
+        period: machine.period(),
+        impacts_per_period: period.map(|period| scaled(found.impact_rate, period)),
+        dimensions: found.section_dimension.zip(found.flow_dimension),
+        space: "coordinates, velocities and phase",
+        grounds: match found.grounds {
+            Grounds::Undecided { .. } => "the motion ended before".to_owned(),
+            Grounds::Measured { time, .. } => format!("measured over a time of {}", short(time)),
+            _ => "exact: those of a cycle, or of a motion without further events".to_owned(),
+        },
+    };
+    told.text()
 }
 
 fn grounds(found: &Exponents, units: &Units) -> String {

@@ -4,20 +4,34 @@ use crate::report::stored::label_table;
 use crate::report::words::table;
 use std::collections::{BTreeMap, BTreeSet};
 use vibroimpact::verdict::Verdict;
-use vibroimpact_report::json::map::{LabelCount, coexisting, counts};
+use vibroimpact_report::json::map::{LabelCount, coexisting, counts, counts_of_machine};
 use vibroimpact_report::number::percent;
-use vibroimpact_study::{ImpactsByStop, RegionMap, counted};
+use vibroimpact_study::{ImpactsByStop, MachineMap, RegionMap, counted};
 
 /// The number of points, and one row for each label.
 pub(crate) fn text(found: &RegionMap, two_stops: bool) -> String {
     let labels = counts(found);
-    format!(
-        "{}, {} each; several motions coexist at {} of them\n\n{}",
-        counted(found.points.len() as u64, "point"),
-        counted(found.plan.starts, "start"),
-        coexisting(found),
-        if two_stops { by_stop(found, &labels) } else { label_table(&labels) }
-    )
+    let table = if two_stops { by_stop(found, &labels) } else { label_table(&labels) };
+    head(found.points.len(), found.plan.starts, coexisting(found)) + &table
+}
+
+/// The same of a machine, with as many starts at each point.
+pub(crate) fn of_machine(found: &MachineMap, starts: u64) -> String {
+    let several = found.cells.iter().filter(|cell| cell.len() > 1).count();
+    let mut text = head(found.cells.len(), starts, several) + &label_table(&counts_of_machine(found));
+    let refused = found.cells.iter().filter(|cell| cell.is_empty()).count();
+    if refused > 0 {
+        text.push_str(&format!("  {} refused\n", counted(refused as u64, "point")));
+    }
+    if let Some(events) = found.seen_events() {
+        text.push_str(&format!("  chaos was seen over at least {}\n", counted(events, "event")));
+    }
+    text
+}
+
+fn head(points: usize, starts: u64, several: usize) -> String {
+    let (points, starts) = (counted(points as u64, "point"), counted(starts, "start"));
+    format!("{points}, {starts} each; several motions coexist at {several} of them\n\n")
 }
 
 /// The table of labels with the impacts of their motions on each stop.

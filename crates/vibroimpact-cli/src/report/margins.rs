@@ -1,11 +1,13 @@
 //! The nearest events of a motion as text, and the box of parameters in which it was found.
 
 use crate::report::branch::{named, remark};
-use crate::report::words::{by_stop, meaning, table};
+use crate::report::motion::{InUnits, Teller};
+use crate::report::words::table;
 use std::fmt::Write;
 use vibroimpact::Oscillator;
 use vibroimpact::continuation::{BranchEvent, SolutionPoint};
 use vibroimpact::machine::Machine;
+use vibroimpact::verdict::{Stability, Verdict};
 use vibroimpact_report::Units;
 use vibroimpact_report::number::{percent, precise, short};
 use vibroimpact_study::{
@@ -15,9 +17,8 @@ use vibroimpact_study::{
 
 /// The motion, its nearest events in each parameter, and its box.
 pub(crate) fn text(found: &MotionMargins, osc: &Oscillator, units: &Units) -> String {
-    let stable = found.motion.stability(osc).map_or_else(String::new, |stability| format!(", {stability}"));
     let label = found.motion.label();
-    let mut text = format!("{label}{}: {}{stable}\n", by_stop(&found.motion, osc), meaning(&found.motion));
+    let mut text = head(&InUnits(osc, units), &found.motion, found.motion.stability(osc));
     if found.parameters.is_empty() {
         text.push_str("  it is no single periodic motion, so it has no branch to follow and no margins\n");
         return text;
@@ -45,9 +46,15 @@ pub(crate) fn text(found: &MotionMargins, osc: &Oscillator, units: &Units) -> St
     text
 }
 
-/// The motion of a machine, and its nearest events in each number; `motion` is what is told of the motion.
-pub(crate) fn of_machine(found: &MachineMargins, machine: &Machine, motion: String) -> String {
-    let mut text = motion;
+fn head<T: Teller>(teller: &T, motion: &Verdict<T::System>, stability: Option<Stability>) -> String {
+    let stable = stability.map_or_else(String::new, |stability| format!(", {stability}"));
+    let (label, by_stop, meaning) = (teller.label(motion), teller.by_stop(motion), teller.meaning(motion));
+    format!("{label}{by_stop}: {meaning}{stable}\n")
+}
+
+/// The motion of a machine, and its nearest events in each number.
+pub(crate) fn of_machine(found: &MachineMargins, machine: &Machine) -> String {
+    let mut text = head(machine, &found.motion, found.motion.stability(machine));
     if found.numbers.is_empty() {
         text.push_str("  it is no single periodic motion, so it has no branch to follow and no margins\n");
         return text;

@@ -9,11 +9,9 @@ mod diagram;
 mod leading;
 mod lyapunov;
 pub(crate) mod machine;
-pub(crate) mod machine_answers;
-pub(crate) mod machine_curve;
-pub(crate) mod machine_events;
 mod map;
 mod margins;
+mod motion;
 mod orbit;
 mod region;
 mod remarks;
@@ -31,6 +29,7 @@ use vibroimpact::events::MachineEnd;
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::{Undecided, UndecidedCause, Verdict};
 use vibroimpact_report::Answer;
+use vibroimpact_report::answer::machine::Answer as MachineAnswer;
 use vibroimpact_report::answer::oscillator;
 use vibroimpact_report::response::ResponseView;
 use vibroimpact_study::{MachineResults, Name, Parameter, Results, SEARCH_LIMIT, Task};
@@ -39,10 +38,7 @@ use vibroimpact_study::{MachineResults, Name, Parameter, Results, SEARCH_LIMIT, 
 pub(crate) fn text(answer: &Answer) -> Result<String, Failure> {
     match answer {
         Answer::Oscillator(answer) => of_oscillator(answer),
-        Answer::Machine(answer) => Ok(match &answer.results {
-            MachineResults::Simulate(found) => machine_events::events(&answer.machine, found),
-            _ => machine_answers::text(answer),
-        }),
+        Answer::Machine(answer) => of_machine(answer),
     }
 }
 
@@ -93,6 +89,35 @@ fn of_oscillator(answer: &oscillator::Answer) -> Result<String, Failure> {
             Some(start) => from(start) + "\n" + &margins::text(found, osc, units),
             None => system() + &margins::text(found, osc, units),
         },
+        _ => return Err(Failure::Failed("the results belong to another task than the plan's".into())),
+    })
+}
+
+/// The same of a machine.
+fn of_machine(answer: &MachineAnswer) -> Result<String, Failure> {
+    let MachineAnswer { plan, machine, results, source, .. } = answer;
+    Ok(match (&plan.task, results) {
+        (Task::Simulate { periods, .. }, MachineResults::Simulate(found)) => {
+            simulate::of_machine(found, *periods, machine)
+        }
+        (_, MachineResults::Settle(found)) => settle::of_machine(found, machine),
+        (_, MachineResults::Attractors(found)) => attractors::of_machine(found, machine),
+        (Task::Orbit { label }, MachineResults::Orbit(found)) => orbit::of_machine(found, label, machine),
+        (_, MachineResults::Lyapunov(found, _)) => lyapunov::of_machine(found, machine),
+        (Task::Branch(task), MachineResults::Branch(found)) => {
+            branch::of_machine(found, &task.typed::<String>()?.cut(source)?, machine)
+        }
+        (Task::Curve(task), MachineResults::Curve(found)) => curve::of_machine(found, task, machine),
+        (_, MachineResults::Margins(found)) => margins::of_machine(found, machine),
+        (Task::Region(task), MachineResults::Region(found)) => region::of_machine(found, &task.typed()?, source),
+        (_, MachineResults::Response(found)) => {
+            answer.response(found).map_or_else(String::new, |view| response::text(&view, view.vary))
+        }
+        (_, MachineResults::Basin(found)) => basin::of_machine(found, machine),
+        (_, MachineResults::Diagram(found)) => diagram::of_machine(found),
+        (Task::Map(task), MachineResults::Map(found)) => map::of_machine(found, task.starts),
+        // points that are no grid have one start each
+        (_, MachineResults::Map(found)) => map::of_machine(found, 1),
         _ => return Err(Failure::Failed("the results belong to another task than the plan's".into())),
     })
 }

@@ -1,8 +1,10 @@
 //! A settled motion as text.
 
-use crate::report::words::{motion, seconds};
+use crate::report::motion::{InUnits, Teller};
+use crate::report::words::seconds;
 use vibroimpact::Oscillator;
-use vibroimpact::verdict::{PaperRule, PaperVerdict, Settled, Verdict};
+use vibroimpact::machine::Machine;
+use vibroimpact::verdict::{PaperRule, PaperVerdict, Settled};
 use vibroimpact_report::Units;
 use vibroimpact_report::number::short;
 use vibroimpact_study::counted;
@@ -14,12 +16,12 @@ pub(crate) fn text(
     osc: &Oscillator,
     units: &Units,
 ) -> String {
-    let mut text = motion(&settled.verdict, osc, units);
-    text.push_str(&format!(
-        "  followed for {}, until time {}{}\n",
-        counted(settled.impacts, "impact"),
-        seconds(settled.time, units),
-        if matches!(settled.verdict, Verdict::Undecided(_)) { "; not settled by then" } else { "" }
+    let told = InUnits(osc, units);
+    let mut text = told.motion(&settled.verdict);
+    text.push_str(&followed(
+        &counted(settled.impacts, "impact"),
+        &seconds(settled.time, units),
+        told.undecided(&settled.verdict),
     ));
     if let Some(chaos) = settled.transient {
         text.push_str(&format!("  chaotic before: a transient that had ended at impact {}\n", chaos.impacts));
@@ -33,6 +35,23 @@ pub(crate) fn text(
         ));
     }
     text
+}
+
+/// The same of a machine.
+pub(crate) fn of_machine(settled: &Settled<Machine>, machine: &Machine) -> String {
+    let mut text = machine.motion(&settled.verdict);
+    let events = counted(settled.impacts, "event");
+    text.push_str(&followed(&events, &short(settled.time), machine.undecided(&settled.verdict)));
+    if settled.transient.is_some() {
+        text.push_str("  chaotic before: a transient that has ended\n");
+    }
+    text
+}
+
+/// How long a motion was followed.
+fn followed(events: &str, time: &str, undecided: bool) -> String {
+    let open = if undecided { "; not settled by then" } else { "" };
+    format!("  followed for {events}, until time {time}{open}\n")
 }
 
 fn said(verdict: PaperVerdict) -> String {

@@ -1,10 +1,13 @@
 //! The events of a motion as text.
 
+use crate::report::motion::kind_and_speed;
 use crate::report::words::{meaning, table};
+use vibroimpact::events::MachineEvent;
+use vibroimpact::machine::Machine;
 use vibroimpact::motion::EventKind;
 use vibroimpact_report::Asked;
 use vibroimpact_report::number::short;
-use vibroimpact_study::Simulated;
+use vibroimpact_study::{MachineSimulated, Simulated};
 
 /// The events, and the reason why the list ends.
 pub(crate) fn text(followed: &Simulated, asked: &Asked) -> String {
@@ -38,17 +41,51 @@ pub(crate) fn text(followed: &Simulated, asked: &Asked) -> String {
             row
         })
         .collect();
-    let mut text = if rows.is_empty() { "no events\n".to_owned() } else { table(&heads, &rows) };
-    let time = short(followed.time * units.time());
-    text.push_str(&match (followed.reason, &followed.horizon) {
-        ("no_more_impacts", Some(horizon)) => {
-            let why = vibroimpact::verdict::Verdict::NoImpact(*horizon);
-            format!("end     after time {time}: {}\n", meaning(&why))
+    let no_impact = followed.horizon.map(|horizon| meaning(&vibroimpact::verdict::Verdict::NoImpact(horizon)));
+    listed(&heads, &rows) + &end(followed.reason, &short(followed.time * units.time()), no_impact)
+}
+
+/// The same of a machine, with its coordinates and velocities after each event; of a motion that was followed for so many
+/// forcing periods.
+pub(crate) fn of_machine(followed: &MachineSimulated, periods: Option<f64>, machine: &Machine) -> String {
+    let forced = machine.period().is_some();
+    let coordinates = &machine.parts().coordinates;
+    let heads: Vec<String> = [Some("time"), forced.then_some("phase"), Some("<event"), Some("<stop"), Some("speed")]
+        .into_iter()
+        .flatten()
+        .map(str::to_owned)
+        .chain(coordinates.iter().cloned())
+        .chain(coordinates.iter().map(|name| format!("{name}'")))
+        .collect();
+    let row = |event: &MachineEvent| {
+        let begin = core::iter::once(short(event.time)).chain(forced.then(|| short(event.phase)));
+        let (kind, speed) = kind_and_speed(event);
+        let what = [kind, machine.name_of(event.place).to_owned(), speed];
+        begin.chain(what).chain(event.q.iter().chain(&event.qdot).map(|value| short(*value))).collect()
+    };
+    let rows: Vec<Vec<String>> = followed.events.iter().map(row).collect();
+    // without a number of periods a motion ends at the longest time between two events
+    let reason =
+        if followed.reason == "time_limit" && periods.is_none() { "no further event" } else { followed.reason };
+    listed(&heads, &rows) + &end(reason, &short(followed.time), None)
+}
+
+fn listed(heads: &[String], rows: &[Vec<String>]) -> String {
+    if rows.is_empty() { "no events\n".to_owned() } else { table(heads, rows) }
+}
+
+/// Why the list of events ends, and when; `no_impact` says why there are no more impacts.
+fn end(reason: &str, time: &str, no_impact: Option<String>) -> String {
+    match reason {
+        "no_more_impacts" => {
+            let why = no_impact.unwrap_or_else(|| "no more impacts, ever".to_owned());
+            format!("end     after time {time}: {why}\n")
         }
-        ("stuck", _) => format!("end     after time {time}: it stays on the stop for ever\n"),
-        ("impact_limit", _) => format!("end     at time {time}: the number of impacts asked for\n"),
-        ("time_limit", _) => format!("end     at time {time}: the number of periods asked for\n"),
-        _ => format!("end     after time {time}: the search for the next impact ran out of steps\n"),
-    });
-    text
+        "stuck" => format!("end     after time {time}: it stays on the stop for ever\n"),
+        "impact_limit" => format!("end     at time {time}: the number of impacts asked for\n"),
+        "event_limit" => format!("end     at time {time}: the number of events asked for\n"),
+        "time_limit" => format!("end     at time {time}: the number of periods asked for\n"),
+        "search_limit" => format!("end     after time {time}: the search for the next impact ran out of steps\n"),
+        other => format!("end     after time {time}: {}\n", other.replace('_', " ")),
+    }
 }

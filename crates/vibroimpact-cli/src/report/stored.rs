@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use std::io::{self, Write};
 use vibroimpact::QuantityKind;
 use vibroimpact::math::sort_by;
-use vibroimpact_report::json::map::LabelCount;
+use vibroimpact_report::json::map::{LabelCount, of_points};
 use vibroimpact_report::number::{Number, percent};
 use vibroimpact_report::table::diagram;
 use vibroimpact_report::{PROGRAM, Units};
@@ -20,8 +20,8 @@ use vibroimpact_study::study::{
     Along, NO_MOTION, NOT_COMPUTED, REFUSED, UNDECIDED, diagram_of, label_of, machine_diagram_of,
 };
 use vibroimpact_study::{
-    Axis, Block, Column, Dimension, Field, Plan, PlanError, PointsPlan, Quantity, System, Task, Values, Variable,
-    typed_axes,
+    Axis, BasinPlan, Block, Column, Dimension, Field, Plan, PlanError, PointsPlan, Quantity, System, Task, Values,
+    Variable, typed_axes,
 };
 
 /// A JSON object about a store.
@@ -48,6 +48,28 @@ impl<'a, Filled: Serialize> StoredFields<'a, Filled> {
             program: PROGRAM,
         })
     }
+}
+
+/// The JSON object of a study of points, with the motion at each; `None` for another study.
+pub(crate) fn points(store: &Store) -> Result<Option<impl Serialize>, Failure> {
+    let plan = store.plan();
+    let (Some(system), Task::Basin(task)) = (plan.oscillator(), &plan.task) else { return Ok(None) };
+    let task: BasinPlan = task.typed()?;
+    let Some(points) = &task.points else { return Ok(None) };
+    let column = |name: &str| match store.field(name) {
+        Some(k) => store.column(k).map_err(Failure::from),
+        None => Err(Failure::Failed(format!("the study has no field {name}"))),
+    };
+    let labels = match column("label")? {
+        Column::I32(codes) => codes.into_iter().map(label_of).collect::<Vec<_>>(),
+        _ => Vec::new(),
+    };
+    let values = task.fields.iter().map(|field| match column(field.name())? {
+        Column::F64(values) => Ok(values),
+        _ => Ok(vec![f64::NAN; labels.len()]),
+    });
+    let values = values.collect::<Result<Vec<_>, Failure>>()?;
+    Ok(Some(of_points((plan, system), &task, points, &labels, &values)?))
 }
 
 /// The text of a table of labels: the most frequent ones, and the others together.

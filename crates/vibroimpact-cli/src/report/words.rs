@@ -5,7 +5,7 @@ use vibroimpact::chaos::Measured;
 use vibroimpact::flight::Horizon;
 use vibroimpact::math::Multiplier;
 use vibroimpact::orbit::Cycle;
-use vibroimpact::quantities::{Quantities, Quantity, of_verdict};
+use vibroimpact::quantities::{Quantities, Quantity};
 use vibroimpact::verdict::{Count, NoImpact, Stability, Undecided, UndecidedCause, Verdict};
 use vibroimpact::{Oscillator, Side, Start};
 use vibroimpact_report::json::event::side;
@@ -94,7 +94,7 @@ pub(crate) fn table(heads: &[String], rows: &[Vec<String>]) -> String {
 }
 
 /// A count as text, such as `two impacts`.
-fn counted(n: u32, one: &str) -> String {
+pub(super) fn counted_word(n: u32, one: &str) -> String {
     const WORDS: [&str; 11] = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"];
     let number =
         usize::try_from(n).ok().and_then(|n| WORDS.get(n)).map_or_else(|| n.to_string(), |word| (*word).to_owned());
@@ -111,14 +111,15 @@ pub(crate) fn meaning(verdict: &Verdict) -> String {
         Verdict::Periodic(cycle) => {
             let periods = match cycle.label.periods {
                 1 => "every forcing period".to_owned(),
-                n => format!("every {}", counted(n, "forcing period")),
+                n => format!("every {}", counted_word(n, "forcing period")),
             };
             let rests = u32::try_from(cycle.rests.len()).unwrap_or(u32::MAX);
-            let rest = if rests == 0 { String::new() } else { format!(", and {} on the stop", counted(rests, "rest")) };
+            let rest =
+                if rests == 0 { String::new() } else { format!(", and {} on the stop", counted_word(rests, "rest")) };
             match cycle.label.impacts {
                 Count::Finite(0) if rests > 0 => format!("it rests on the stop once {periods}, without impacts"),
                 Count::Finite(0) => "the steady motion, without impacts".to_owned(),
-                Count::Finite(m) => format!("{}{rest} {periods}", counted(m, "impact")),
+                Count::Finite(m) => format!("{}{rest} {periods}", counted_word(m, "impact")),
                 Count::Infinite => format!("a complete chatter (infinitely many impacts){rest} {periods}"),
             }
         }
@@ -129,7 +130,8 @@ pub(crate) fn meaning(verdict: &Verdict) -> String {
             "ever gentler impacts: in the limit it only touches the stop".into()
         }
         Verdict::NoImpact(NoImpact::Landing { periods, .. }) => {
-            let periods = if *periods == 1 { "forcing period".to_owned() } else { counted(*periods, "forcing period") };
+            let periods =
+                if *periods == 1 { "forcing period".to_owned() } else { counted_word(*periods, "forcing period") };
             format!("it rests on the stop once every {periods}, without impacts")
         }
         Verdict::NoImpact(NoImpact::Grazing { .. }) => "it touches the stop without impact".into(),
@@ -155,17 +157,18 @@ pub(crate) const fn stop_name(side: Side) -> &'static str {
     }
 }
 
-const fn in_words(stability: Option<Stability>, verdict: &Verdict) -> &'static str {
-    match (stability, verdict) {
-        (Some(Stability::Neutral), Verdict::NoImpact(_)) => "neutral (no damping)",
-        (Some(_), Verdict::Chaotic(_)) => "every single motion in it is unstable",
-        (Some(stability), _) => stability.name(),
-        (None, _) => "open",
+/// A stability in words; of motions without impacts and without damping, and of chaotic ones.
+pub(super) const fn in_words(stability: Option<Stability>, undamped: bool, chaotic: bool) -> &'static str {
+    match stability {
+        Some(Stability::Neutral) if undamped => "neutral (no damping)",
+        Some(_) if chaotic => "every single motion in it is unstable",
+        Some(stability) => stability.name(),
+        None => "open",
     }
 }
 
 /// The grounds of a verdict.
-fn grounds(verdict: &Verdict, osc: &Oscillator, units: &Units) -> String {
+pub(super) fn grounds(verdict: &Verdict, osc: &Oscillator, units: &Units) -> String {
     match verdict {
         Verdict::Periodic(cycle) if cycle.points.is_empty() && cycle.rests.is_empty() => {
             "a closed form; it stays short of the stops".into()
@@ -230,37 +233,21 @@ fn measured(m: Measured, factor: f64) -> String {
     format!("{} +- {}", short(m.value * factor), short(m.error * factor))
 }
 
-/// The text of two multipliers: `0.44, 0.14` or `0.3 +- 0.4i (modulus 0.5)`.
-pub(crate) fn multipliers([a, b]: [Multiplier; 2]) -> String {
-    if a.im == 0.0 {
-        format!("{}, {}", short(a.re), short(b.re))
-    } else {
-        format!("{} +- {}i (modulus {})", short(a.re), short(a.im.abs()), short(a.modulus()))
+/// The text of multipliers: `0.44, 0.14`, or `0.3 +- 0.4i (modulus 0.5)` for a pair.
+pub(crate) fn multipliers(all: &[Multiplier]) -> String {
+    let paired =
+        |k: usize| all.get(k).zip(all.get(k + 1)).is_some_and(|(a, b)| a.im != 0.0 && a.re == b.re && a.im == -b.im);
+    let mut told = Vec::new();
+    let mut k = 0;
+    while let Some(a) = all.get(k) {
+        told.push(match (paired(k), a.im) {
+            (true, im) => format!("{} +- {}i (modulus {})", short(a.re), short(im.abs()), short(a.modulus())),
+            (false, 0.0) => short(a.re),
+            (false, im) => format!("{} + {}i (modulus {})", short(a.re), short(im), short(a.modulus())),
+        });
+        k += if paired(k) { 2 } else { 1 };
     }
-}
-
-/// The complete text of one motion.
-pub(crate) fn motion(verdict: &Verdict, osc: &Oscillator, units: &Units) -> String {
-    let mut text = format!("{}{}: {}\n", verdict.label(), by_stop(verdict, osc), meaning(verdict));
-    if let Verdict::Periodic(cycle) = verdict {
-        text.push_str(&impacts(cycle, osc, units));
-    }
-    let stability = verdict.stability(osc);
-    let verdict_of = in_words(stability, verdict);
-    match verdict.multipliers(osc) {
-        Some(m) => {
-            let _ = writeln!(text, "  {verdict_of}; multipliers {}", multipliers(m));
-        }
-        None if stability.is_some() => {
-            let _ = writeln!(text, "  {verdict_of}");
-        }
-        None => {}
-    }
-    if let Some(of) = of_verdict(osc, verdict) {
-        text.push_str(&quantities(&of, units));
-    }
-    let _ = writeln!(text, "  shown by: {}", grounds(verdict, osc, units));
-    text
+    told.join(", ")
 }
 
 /// The quantities of a motion that matter most; all of them are in the JSON.
@@ -355,7 +342,7 @@ mod tests {
 
     #[test]
     fn counts_in_words() {
-        assert_eq!(counted(1, "impact"), "one impact");
-        assert_eq!(counted(12, "impact"), "12 impacts");
+        assert_eq!(counted_word(1, "impact"), "one impact");
+        assert_eq!(counted_word(12, "impact"), "12 impacts");
     }
 }

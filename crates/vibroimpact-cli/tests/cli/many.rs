@@ -116,7 +116,12 @@ fn summaries_and_refusals() {
     let answer: Value =
         serde_json::from_str(&told(here, "settle-many --sample sobol:8 --beta 1 --gap 0.5:1 --restitution 0.5 --json"))
             .unwrap();
-    assert_eq!(answer["points"], 8);
+    let points = answer["points"].as_array().expect("a list");
+    let table = told(here, "settle-many --sample sobol:8 --beta 1 --gap 0.5:1 --restitution 0.5 --csv -");
+    let row = |point: &Value| format!("{},{}", point["gap"], point["motions"][0]["label"].as_str().unwrap());
+    let listed: Vec<String> = rows(&table).iter().skip(1).map(|row| row.join(",")).collect();
+    assert!(points.len() == 8 && listed == points.iter().map(row).collect::<Vec<_>>(), "{answer} {table}");
+    assert!(answer["system"]["gap"].is_null() && answer["system"]["restitution"] == 0.5, "{answer}");
     assert_eq!(answer["plan"]["task"]["basin"]["points"]["drawn"]["rule"], "sobol");
     fs::write(here.join("gaps.csv"), "gap\n0.5\n1\n").unwrap();
     fs::write(here.join("bad.csv"), "gap,mass\n0.5,1\n").unwrap();

@@ -139,7 +139,8 @@ fn an_elliptic_family_is_neutral() {
         orbits["orbits"].as_array().expect("a list").iter().map(|orbit| orbit["stability"].clone()).collect();
     assert_eq!(words, ["unstable", "neutral"]);
     assert_eq!(orbits["orbits"][1]["stable"], false);
-    assert!(printed(&format!("orbit {line} --label 2/1")).contains("2/1, neutral, period"));
+    let told = printed(&format!("orbit {line} --label 2/1"));
+    assert!(told.contains("\n  unstable; multipliers ") && told.contains("\n  neutral; multipliers "), "{told}");
     let branch = format!("branch {line} --label 2/1 --orbit 2 --vary eps --to 0.001");
     let answer = json(&branch);
     let points = answer["branches"][0]["points"].as_array().expect("a list");
@@ -148,7 +149,8 @@ fn an_elliptic_family_is_neutral() {
     );
     assert_eq!(kinds(&answer), ["end of range"]);
     let text = printed(&branch);
-    assert!(text.contains(&format!("0 of them stable, {} neutral", points.len())), "{text}");
+    assert!(text.starts_with("branch 1: 2/1 (orbit 2 of 2, neutral there), eps from "), "{text}");
+    assert!(text.contains(&format!(", {} points\n", points.len())) && text.contains(", 2/1 neutral: end of range\n"));
     let table = folder.path().join("branch.csv");
     let figure = folder.path().join("branch.svg");
     printed(&format!("{branch} --csv {} --plot {}", table.display(), figure.display()));
@@ -191,7 +193,7 @@ fn rests_name_their_stops() {
     );
     assert_eq!(motion["stops"], serde_json::json!(["left"]));
     assert!(settled["events_followed"].as_u64().unwrap() > 0 && settled["time_followed"].is_number());
-    assert!(printed(&format!("settle {line} --q=3,0")).contains("at rest on right, for ever"));
+    assert!(printed(&format!("settle {line} --q=3,0")).contains("at rest on right for ever"));
     let basin = format!("basin {line} --axis q.slider=-3:3:7 --axis q.hammer=-0.5:0.5:3");
     let answer = json(&basin);
     let motions = answer["motions"].as_array().expect("a list");
@@ -255,7 +257,9 @@ fn chaos_says_how_far_it_was_seen() {
     assert_eq!(short["motion"]["label"], "chaotic");
     let seen = short["motion"]["seen_events"].as_u64().unwrap();
     assert!(seen >= 2000 && short["events_followed"] == seen);
-    assert!(printed(&format!("settle {line} --impacts 2000")).contains(&format!("chaotic, seen over {seen} events")));
+    assert!(
+        printed(&format!("settle {line} --impacts 2000")).contains(&format!("chaotic: no repetition in {seen} events"))
+    );
     let line = format!("--machine {}", path.display());
     let map = format!("map {line} --axis stop.s0.gap=0.5865:0.587:2 --starts 1 --impacts 6000");
     let answer = json(&map);

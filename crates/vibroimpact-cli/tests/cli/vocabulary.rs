@@ -185,6 +185,8 @@ fn further_answers_are_as_their_schemas_say() {
     for line in [
         "map --restitution 0.5 --beta 0.8:0.9:2 --gap 0.5:1:2 --starts 3",
         "map --machine two-mass-hammer --axis frequency=0.8:1.2:2 --starts 2",
+        "settle-many --sample sobol:8 --beta 1 --gap 0.5:1 --restitution 0.5 --fields power",
+        "settle-many --machine two-mass-hammer --sample sobol:4 --over frequency=0.9:1.3 --fields power",
         "region --label 1/1 --inverse-beta 1.05:1.2 --gap 1:2.5 --restitution 0.5 --grid 4",
         "margins --machine two-mass-hammer --vary stop.anvil.gap,stop.anvil.restitution",
         "settle --inverse-beta 1.11 --gap 3 --restitution 0.5",

@@ -197,26 +197,26 @@ impl Answer {
             MachineResults::Simulate(found) => {
                 let until = found.shown_until;
                 let step = shown.step.unwrap_or_else(|| self.machine.period().unwrap_or(0.1 * until) / 100.0);
-                table::machine_waveform::table(&self.machine, &self.start, (until, step))?
+                table::waveform::of_machine(&self.machine, &self.start, (until, step))?
             }
             MachineResults::Settle(found) => match (shown.view.unwrap_or_default(), &found.verdict) {
                 (View::Waveform | View::Phase, verdict) => {
                     let (from, time) = self.steady(verdict)?;
                     let step = self.machine.period().unwrap_or(time) / 100.0;
-                    table::machine_waveform::table(&self.machine, &from, (time, step))?
+                    table::waveform::of_machine(&self.machine, &from, (time, step))?
                 }
                 (View::Multipliers, Verdict::Periodic(cycle)) => table::multipliers(&cycle.multipliers),
                 (View::Multipliers, other) => return Err(ReportError::NoMultipliers(other.label().into_owned()).into()),
                 (View::Sections, _) => return Err(ReportError::MachineSections.into()),
             },
-            MachineResults::Attractors(census) => table::machine_tables::attractors(&self.machine, census),
+            MachineResults::Attractors(census) => table::attractors::of_machine(&self.machine, census),
             MachineResults::Branch(found) => {
                 let Task::Branch(plan) = &self.plan.task else { return Ok(None) };
-                table::machine_branch::table(&self.machine, &plan.typed::<String>()?.cut(&self.source)?, found)
+                table::branch::of_machine(&self.machine, &plan.typed::<String>()?.cut(&self.source)?, found)
             }
             MachineResults::Curve(found) => {
                 let Task::Curve(plan) = &self.plan.task else { return Ok(None) };
-                table::machine_curve::table(&self.machine, plan, found)
+                table::curve::of_machine(&self.machine, plan, found)
             }
             MachineResults::Margins(found) => table::margins::of_machine(found, &self.machine),
             MachineResults::Region(found) => {
@@ -227,10 +227,10 @@ impl Answer {
                 let Some(view) = self.response(found) else { return Ok(None) };
                 table::response::table(view)
             }
-            MachineResults::Basin(found) => table::machine_tables::basin(&self.machine, found),
-            MachineResults::Map(found) => table::machine_tables::map(&self.machine, found),
+            MachineResults::Basin(found) => table::basin::of_machine(&self.machine, found),
+            MachineResults::Map(found) => table::map::of_machine(&self.machine, found),
             MachineResults::Diagram(found) => table::diagram::of_machine(found, &self.machine),
-            MachineResults::Lyapunov(_, Some(points)) => table::machine_section::table(&self.machine, points),
+            MachineResults::Lyapunov(_, Some(points)) => table::section::of_machine(&self.machine, points),
             MachineResults::Orbit(found) => table::orbits::of_machine(found, &self.machine),
             MachineResults::Lyapunov(..) => return Ok(None),
         }))

@@ -2,7 +2,7 @@
 //! forces.
 
 use crate::ReportError;
-use crate::table::machine_waveform::samples;
+use crate::table::waveform::samples;
 use vibroimpact::events::{MachineEvent, MachineEventKind, MachineSample, MachineStart};
 use vibroimpact::machine::{Machine, StopLaw};
 use vibroimpact::regime::ContactState;

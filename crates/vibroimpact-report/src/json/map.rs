@@ -1,19 +1,23 @@
 //! The labels of a map and their frequencies, and the motions at its points.
 
 use super::event::side;
-use super::{AxisObject, Document};
-use crate::Asked;
+use super::{AxisObject, Document, name_of};
+use crate::{Asked, Units};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
-use vibroimpact::Oscillator;
 use vibroimpact::machine::Machine;
+use vibroimpact::quantities::Quantity;
 use vibroimpact::verdict::Verdict;
+use vibroimpact::{Oscillator, Start};
 use vibroimpact_plot::{GROUPS, legend_group};
-use vibroimpact_study::{Coordinate, MachineMap, MachineShare, MapPoint, Parameter, Plan, RegionMap, Share};
+use vibroimpact_study::{
+    Axis, BasinPlan, Coordinate, MachineMap, MachineShare, MapPoint, Parameter, Plan, PlanError, PointsPlan, RegionMap,
+    Share, SystemPlan, Values,
+};
 
-/// The answer to `vibro map`.
+/// The answer to `vibro map`, and to `vibro settle-many`, whose points are on no axes.
 #[derive(JsonSchema, Serialize)]
 pub(super) struct MapAnswer<'a> {
     axes: Vec<AxisObject<'a>>,
@@ -109,6 +113,57 @@ pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &Reg
     Document::over(asked, osc, &varied, plan, answer)
 }
 
+/// The object of `vibro settle-many`, which is that of a map without axes and with one start at each point. Of each point there is a
+/// label, or none where its numbers are not allowed, and a value of each field of the plan, nondimensional.
+///
+/// # Errors
+/// [`PlanError`] for a system that is not allowed.
+pub fn of_points<'a>(
+    (plan, system): (&'a Plan, &SystemPlan),
+    task: &BasinPlan,
+    points: &PointsPlan,
+    labels: &[Option<String>],
+    values: &[Vec<f64>],
+) -> Result<impl Serialize + use<'a>, PlanError> {
+    let (units, osc) = (Units::of_plan(plan), system.oscillator()?);
+    let asked = Asked { system: *system, units };
+    let varied: Vec<Coordinate> = points.varied().collect();
+    let columns: Vec<Axis> = varied.iter().map(|vary| Axis::new(*vary, Values::Listed(Vec::new()))).collect();
+    let point = |(k, label): (usize, &Option<String>)| {
+        let of = |(column, vary): (usize, &Coordinate)| {
+            let value = points.at(column, k) * units.of_coordinate(*vary);
+            (name_of(*vary, &units).to_owned(), value.into())
+        };
+        let there = units.over(&columns, |column| points.at(column, k));
+        let quantity = |(field, values): (&Quantity, &Vec<f64>)| {
+            (field.name().to_owned(), (values[k] * there.of_quantity(*field)).into())
+        };
+        let motion = label.as_ref().map(|label| ShareObject {
+            label: label.clone(),
+            share: 1.0,
+            stops: Vec::new(),
+            seen_events: None,
+            quantities: task.fields.iter().zip(values).map(quantity).collect(),
+        });
+        PointObject { at: varied.iter().enumerate().map(of).collect(), motions: motion.into_iter().collect() }
+    };
+    let answer = MapAnswer {
+        axes: Vec::new(),
+        starts: 1,
+        seed: 0,
+        coexisting: 0,
+        seen_events: None,
+        labels: counted(labels.iter().map(|label| label.iter().map(|label| (label.clone(), 1.0)))),
+        points: labels.iter().enumerate().map(point).collect(),
+    };
+    let of_system =
+        |vary: &Coordinate| if let Coordinate::Parameter(parameter) = vary { Some(*parameter) } else { None };
+    let varied: Vec<Parameter> = varied.iter().filter_map(of_system).collect();
+    let start = task.start.unwrap_or_default();
+    let start = Start { x: start.x.unwrap_or_else(|| Start::at_rest(&osc).x), v: start.v, phase: start.phase };
+    Ok(Document::over(&asked, &osc, &varied, plan, answer).start(&start, &units))
+}
+
 impl<'a> MapAnswer<'a> {
     /// Those of a machine.
     pub(super) fn of_machine(machine: &'a Machine, (starts, seed): (u64, u64), found: &'a MachineMap) -> Self {
@@ -134,7 +189,7 @@ impl<'a> MapAnswer<'a> {
             seed,
             coexisting: found.cells.iter().filter(|cell| cell.len() > 1).count(),
             seen_events: found.seen_events(),
-            labels: counted(found.cells.iter().map(|cell| cell.iter().map(|motion| (motion.label(), motion.share)))),
+            labels: counts_of_machine(found),
             points: found.cells.iter().enumerate().map(point).collect(),
         }
     }
@@ -151,6 +206,12 @@ pub fn coexisting(found: &RegionMap) -> usize {
 pub fn counts(found: &RegionMap) -> Vec<LabelCount> {
     let label = |motion: &Share| (motion.verdict.label().into_owned(), motion.share);
     counted(found.points.iter().map(|point| point.motions.iter().map(label)))
+}
+
+/// The same of a machine.
+#[must_use]
+pub fn counts_of_machine(found: &MachineMap) -> Vec<LabelCount> {
+    counted(found.cells.iter().map(|cell| cell.iter().map(|motion| (motion.label(), motion.share))))
 }
 
 /// The same of the labels and shares at all points.

@@ -122,6 +122,14 @@ struct AxisObject<'a> {
     over: Place,
 }
 
+/// The path of what varies of an oscillator.
+fn name_of(vary: Coordinate, units: &Units) -> &'static str {
+    match vary {
+        Coordinate::Parameter(parameter) => units.name_of(parameter),
+        start => start.name(),
+    }
+}
+
 impl<'a> AxisObject<'a> {
     fn of_machine(axes: &'a [Axis<String>]) -> Vec<Self> {
         axes.iter().map(|axis| Self { vary: &axis.vary, over: Place::over(&axis.over, 1.0) }).collect()
@@ -129,12 +137,8 @@ impl<'a> AxisObject<'a> {
 
     /// In the units of the results.
     fn of_oscillator(axes: &[Axis], units: &Units) -> Vec<AxisObject<'static>> {
-        let name = |vary: Coordinate| match vary {
-            Coordinate::Parameter(parameter) => units.name_of(parameter),
-            start => start.name(),
-        };
         let object = |axis: &Axis| AxisObject {
-            vary: name(axis.vary),
+            vary: name_of(axis.vary, units),
             over: Place::over(&axis.over, units.of_coordinate(axis.vary)),
         };
         axes.iter().map(object).collect()

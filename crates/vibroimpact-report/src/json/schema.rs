@@ -21,7 +21,7 @@ use serde_json::Value;
 type Maker = fn() -> Value;
 
 /// The commands whose answers have a schema, with its maker.
-const SCHEMAS: [(&str, Maker); 13] = [
+const SCHEMAS: [(&str, Maker); 14] = [
     ("simulate", of::<SimulateAnswer<'static>>),
     ("settle", of::<SettleAnswer<'static>>),
     ("attractors", of::<AttractorsAnswer<'static>>),
@@ -35,6 +35,7 @@ const SCHEMAS: [(&str, Maker); 13] = [
     ("diagram", of::<DiagramAnswer<'static>>),
     ("map", of::<MapAnswer<'static>>),
     ("basin", of::<BasinAnswer<'static>>),
+    ("settle-many", of::<MapAnswer<'static>>),
 ];
 
 fn of<T: JsonSchema>() -> Value {

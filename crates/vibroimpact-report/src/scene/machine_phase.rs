@@ -1,7 +1,7 @@
 //! The phase portrait of a motion of a machine: the velocity of each coordinate over its displacement.
 
 use crate::ReportError;
-use crate::table::machine_waveform::samples;
+use crate::table::waveform::samples;
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 use vibroimpact_plot::{COLUMN, Dash, Figure, FigureAxis, Legend, Line, Panel, SERIES, plain};

@@ -1,81 +1,93 @@
 //! Branches of periodic orbits: one row for each point.
 
 use super::Table;
+use super::cycle::{Cells, Columns};
 use crate::Units;
 use crate::json::event::side;
 use crate::number::Number;
 use vibroimpact::QuantityKind;
-use vibroimpact::orbit::{Cycle, CyclePoint};
-use vibroimpact_study::{Branches, Cut, EventRecord};
+use vibroimpact::continuation::{MachinePoint, SolutionPoint};
+use vibroimpact::machine::Machine;
+use vibroimpact_study::{Branches, Cut, EventRecord, MachineBranched};
+
+/// A point of a branch of any system.
+struct Row<'a> {
+    branch: usize,
+    /// The values of what varies, in the units of the results.
+    values: Vec<f64>,
+    label: String,
+    admissible: bool,
+    stable: bool,
+    stability: &'static str,
+    event: &'static str,
+    /// The stop of the event.
+    stop: &'a str,
+    fastest: f64,
+    cycle: Cells<'a>,
+}
+
+/// The table with these names of what varies, of the fastest closing, and of the columns of cycles.
+fn written<'a>(
+    varied: impl Iterator<Item = String>,
+    fastest: &str,
+    columns: Columns,
+    rows: impl Iterator<Item = Row<'a>> + 'a,
+) -> Table<'a> {
+    let (varied, cycle) = (varied.collect::<Vec<_>>().join(","), columns.names());
+    let header = format!("branch,{varied},label,admissible,stable,stability,event,stop,{fastest},{cycle}");
+    let rows = rows.map(move |row| {
+        let Row { branch, label, admissible, stable, stability, event, stop, .. } = &row;
+        let values: String = row.values.iter().map(|value| format!("{},", Number(*value))).collect();
+        let (fastest, cycle) = (Number(row.fastest), columns.cells(&row.cycle));
+        format!("{branch},{values}{label},{admissible},{stable},{stability},{event},{stop},{fastest}{cycle}")
+    });
+    Table::new(header, rows)
+}
 
 /// The table of `vibro branch`.
 #[must_use]
 pub fn table<'a>(found: &'a Branches, cut: &Cut, units: &'a Units) -> Table<'a> {
-    Table::new(columns(cut, units), rows(found, *cut, units))
-}
-
-/// The columns of the table.
-fn columns(cut: &Cut, units: &Units) -> String {
-    let names: Vec<&str> = cut.parameters().map(|parameter| units.column_of(parameter)).collect();
+    let cut = *cut;
+    let row = move |branch: usize, point: &'a SolutionPoint| {
+        let there = units.at(cut.vary, point.value);
+        Row {
+            branch,
+            values: cut.values(point.value).map(|(parameter, value)| value * there.of(parameter)).collect(),
+            label: point.cycle.label.to_string(),
+            admissible: point.physical,
+            stable: point.stable(),
+            stability: point.stability().name(),
+            event: point.event.map_or("", |event| event.name()),
+            stop: point.event.and_then(|event| EventRecord::of(point, &event).side).map_or("", side),
+            fastest: point.cycle.fastest() * there.velocity(),
+            cycle: Cells::of_oscillator(&point.cycle, &there),
+        }
+    };
+    let branches = found.followed.iter().enumerate();
+    let rows = branches.flat_map(move |(k, branch)| branch.points.iter().map(move |point| row(k + 1, point)));
+    let varied = cut.parameters().map(|parameter| units.column_of(parameter).to_owned());
     let fastest = units.column("fastest", QuantityKind::Velocity);
-    format!(
-        "branch,{},label,admissible,stable,stability,event,stop,{fastest},{}",
-        names.join(","),
-        cycle_columns(units)
-    )
+    written(varied, &fastest, Columns::of_oscillator(units), rows)
 }
 
-/// The columns of the multipliers and impacts of a cycle.
-pub(super) fn cycle_columns(units: &Units) -> String {
-    let speeds = units.column("speeds", QuantityKind::Velocity);
-    format!("multiplier_1_re,multiplier_1_im,multiplier_2_re,multiplier_2_im,phases,{speeds},stops")
-}
-
-/// One row for each point. Phases, speeds and stops are lists separated by blanks.
-fn rows<'a>(found: &'a Branches, cut: Cut, units: &'a Units) -> impl Iterator<Item = String> + 'a {
-    found.followed.iter().enumerate().flat_map(move |(k, branch)| {
-        branch.points.iter().map(move |point| {
-            let event = point.event.map_or("", |event| event.name());
-            let stop = point.event.and_then(|event| EventRecord::of(point, &event).side).map_or("", side);
-            let units = units.at(cut.vary, point.value);
-            format!(
-                "{},{},{},{},{},{},{event},{stop},{},{}",
-                k + 1,
-                values(&cut, point.value, &units),
-                point.cycle.label,
-                point.physical,
-                point.stable(),
-                point.stability(),
-                Number(point.cycle.fastest() * units.velocity()),
-                cells(&point.cycle, &units)
-            )
-        })
-    })
-}
-
-/// The parameters at a point of a line, in the units of the results.
-fn values(cut: &Cut, value: f64, units: &Units) -> String {
-    let cells = cut.values(value).map(|(parameter, value)| Number(value * units.of(parameter)).to_string());
-    cells.collect::<Vec<_>>().join(",")
-}
-
-/// The text of a number; empty for a number that is not finite.
-fn finite(x: f64) -> String {
-    if x.is_finite() { Number(x).to_string() } else { String::new() }
-}
-
-/// Multipliers, phases, speeds and stops of the impacts of a cycle.
-pub(super) fn cells(cycle: &Cycle, units: &Units) -> String {
-    let list = |of: &dyn Fn(&CyclePoint) -> String| cycle.points.iter().map(of).collect::<Vec<_>>().join(" ");
-    let [a, b] = cycle.multipliers;
-    format!(
-        "{},{},{},{},{},{},{}",
-        finite(a.re),
-        finite(a.im),
-        finite(b.re),
-        finite(b.im),
-        list(&|point| Number(point.state.phase).to_string()),
-        list(&|point| Number(point.state.velocity * units.velocity()).to_string()),
-        list(&|point| side(point.state.side).to_owned())
-    )
+/// The same of a machine, with the drift of one that can be translated, and without forcing with the period.
+pub(crate) fn of_machine<'a>(machine: &'a Machine, cut: &Cut<String>, found: &'a MachineBranched) -> Table<'a> {
+    let drifting = found.all().flatten().any(|point| point.cycle.translations() > 0);
+    let varied: Vec<String> = cut.paths().map(str::to_owned).collect();
+    let cut = cut.clone();
+    let points = found.all().enumerate().flat_map(|(k, points)| points.iter().map(move |point| (k + 1, point)));
+    let rows = points.map(move |(branch, MachinePoint { value, cycle, event })| Row {
+        branch,
+        values: cut.values(*value).collect(),
+        label: cycle.label.to_string(),
+        // a branch ends where its orbit ceases to be admissible
+        admissible: true,
+        stable: cycle.stable(),
+        stability: cycle.stability().name(),
+        event: event.map_or("", |event| event.name()),
+        stop: event.and_then(|event| event.place()).map_or("", |place| machine.name_of(place)),
+        fastest: cycle.fastest(),
+        cycle: Cells::of_machine(cycle, machine),
+    });
+    written(varied.into_iter(), "fastest", Columns::of_machine(machine, drifting), rows)
 }

@@ -1,40 +1,57 @@
 //! The orbits with a label: one row for each.
 
 use super::Table;
-use super::branch::{cells, cycle_columns};
-use super::machine_branch::{closing_columns, closings};
-use super::machine_tables::{numbered, push};
+use super::cycle::{Cells, Columns};
 use crate::Units;
 use crate::number::Number;
-use vibroimpact::QuantityKind;
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::{MachineCycle, Orbit};
+use vibroimpact::verdict::Stability;
+use vibroimpact::{Label, QuantityKind};
+
+/// An orbit of any system.
+struct Row<'a> {
+    label: Label,
+    admissible: bool,
+    stability: Stability,
+    fastest: f64,
+    cycle: Cells<'a>,
+}
 
 /// Number, label, whether it is admissible and stable, its stability, fastest closing, multipliers, and of each closing the phase,
 /// speed and stop.
+fn written<'a>(fastest: &str, columns: Columns, rows: impl Iterator<Item = Row<'a>> + 'a) -> Table<'a> {
+    let header = format!("orbit,label,admissible,stable,stability,{fastest},{}", columns.names());
+    let rows = rows.enumerate().map(move |(k, Row { label, admissible, stability, fastest, cycle })| {
+        let (stable, cycle) = (admissible && stability.is_stable(), columns.cells(&cycle));
+        format!("{},{label},{admissible},{stable},{stability},{}{cycle}", k + 1, Number(fastest))
+    });
+    Table::new(header, rows)
+}
+
+/// The table of `vibro orbit`.
 #[must_use]
 pub fn table<'a>(found: &'a [Orbit], units: &'a Units) -> Table<'a> {
-    let fastest = units.column("fastest", QuantityKind::Velocity);
-    let rows = found.iter().enumerate().map(move |(k, orbit)| {
-        let (cycle, stable) = (&orbit.cycle, orbit.physical && orbit.cycle.stable());
-        let fastest = Number(cycle.fastest() * units.velocity());
-        let head = format!("{},{},{},{stable},{}", k + 1, cycle.label, orbit.physical, cycle.stability());
-        format!("{head},{fastest},{}", cells(cycle, units))
+    let rows = found.iter().map(|orbit| Row {
+        label: orbit.cycle.label,
+        admissible: orbit.physical,
+        stability: orbit.cycle.stability(),
+        fastest: orbit.cycle.fastest() * units.velocity(),
+        cycle: Cells::of_oscillator(&orbit.cycle, units),
     });
-    Table::new(format!("orbit,label,admissible,stable,stability,{fastest},{}", cycle_columns(units)), rows)
+    written(&units.column("fastest", QuantityKind::Velocity), Columns::of_oscillator(units), rows)
 }
 
 /// The same of a machine, and without forcing the period.
 #[must_use]
 pub fn of_machine<'a>(found: &'a [MachineCycle], machine: &'a Machine) -> Table<'a> {
-    let own = ["orbit", "label", "admissible", "stable", "stability", "fastest"].into_iter().map(str::to_owned);
-    let header = own.chain(numbered(machine)).chain(closing_columns(machine)).collect::<Vec<_>>().join(",");
-    let rows = found.iter().enumerate().map(move |(k, cycle)| {
-        let (stable, stability) = (cycle.stable(), cycle.stability());
-        let mut row = format!("{},{},true,{stable},{stability},{}", k + 1, cycle.label, Number(cycle.fastest()));
-        push(&mut row, Some(&cycle.multipliers), machine.n());
-        row.push_str(&closings(machine, cycle));
-        row
+    let rows = found.iter().map(|cycle| Row {
+        label: cycle.label,
+        // others are not found
+        admissible: true,
+        stability: cycle.stability(),
+        fastest: cycle.fastest(),
+        cycle: Cells::of_machine(cycle, machine),
     });
-    Table::new(header, rows)
+    written("fastest", Columns::of_machine(machine, false), rows)
 }

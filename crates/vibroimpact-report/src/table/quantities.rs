@@ -12,9 +12,12 @@ pub(super) fn columns(list: &[Quantity], units: &Units) -> String {
 /// The cells of a row, each after a comma. A quantity that is not defined or infinite is an
 /// empty cell.
 pub(super) fn cells(list: &[Quantity], of: Option<Quantities>, units: &Units) -> String {
-    let cell = |quantity: &Quantity| {
-        let value = of.map_or(f64::NAN, |of| units.value_of(&of, *quantity));
-        if !value.is_finite() { ",".to_owned() } else { format!(",{}", Number(value)) }
-    };
-    list.iter().map(cell).collect()
+    let value = |quantity: &Quantity| of.map_or(f64::NAN, |of| units.value_of(&of, *quantity));
+    finite(&list.iter().map(value).collect::<Vec<_>>())
+}
+
+/// Numbers, each after a comma; empty where they are not defined or infinite.
+pub(super) fn finite(values: &[f64]) -> String {
+    let cell = |value: &f64| if value.is_finite() { format!(",{}", Number(*value)) } else { ",".to_owned() };
+    values.iter().map(cell).collect()
 }

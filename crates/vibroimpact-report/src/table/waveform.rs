@@ -4,12 +4,24 @@ use super::Table;
 use crate::figure;
 use crate::number::Number;
 use crate::{ReportError, Units};
+use vibroimpact::events::{MachineLimits, MachineSamples, MachineStart};
+use vibroimpact::machine::{Machine, Opening, StopLaw};
 use vibroimpact::motion::sample;
 use vibroimpact::verdict::Settled;
 use vibroimpact::{Oscillator, QuantityKind, Start};
+use vibroimpact_study::PlanError;
+use vibroimpact_study::machine::contact_word;
 
-/// Maximum number of points of a waveform.
+/// Maximum number of points at equal steps.
 const MOST_POINTS: f64 = 1e7;
+
+/// Refuses more points.
+fn few_enough(until: f64, step: f64) -> Result<(), ReportError> {
+    if until / step > MOST_POINTS || until.is_nan() {
+        return Err(ReportError::Points { step, until, most: MOST_POINTS });
+    }
+    Ok(())
+}
 
 /// The table of `vibro simulate`: the motion from a start until a time, at equal steps and at its events.
 ///
@@ -21,9 +33,7 @@ pub fn table(
     (until, step): (f64, f64),
     units: Units,
 ) -> Result<Table<'static>, ReportError> {
-    if until / step > MOST_POINTS || until.is_nan() {
-        return Err(ReportError::Points { step, until, most: MOST_POINTS });
-    }
+    few_enough(until, step)?;
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // 1e7
     let wave = sample(osc, start, until, step, 3 * MOST_POINTS as usize);
     let rows = wave.into_iter().map(move |point| {
@@ -47,4 +57,67 @@ pub fn table(
 pub fn steady(osc: &Oscillator, start: Start, settled: &Settled, units: Units) -> Result<Table<'static>, ReportError> {
     let (from, (_, shown)) = figure::settle::steady(osc, start, settled);
     table(osc, from, (shown, osc.period() / 100.0), units)
+}
+
+/// The samples of a motion until a time, at equal steps, at its events and at the end.
+///
+/// # Errors
+/// [`ReportError::Points`] for more than ten million points, [`ReportError::Plan`] for an invalid start.
+pub fn samples<'a>(
+    machine: &'a Machine,
+    start: &MachineStart,
+    (until, step): (f64, f64),
+) -> Result<MachineSamples<'a>, ReportError> {
+    few_enough(until, step)?;
+    let limits = MachineLimits::default();
+    let limits = MachineLimits { time: limits.time.max(until), ..limits };
+    let step = if step > 0.0 { step } else { 1.0 };
+    MachineSamples::new(machine, start, limits, (until, step))
+        .map_err(|error| ReportError::Plan(PlanError::Machine(error.into())))
+}
+
+/// The table of `vibro simulate --machine`: time, coordinates, velocities, gaps of the stops, forces of stops and joints, how far
+/// the surfaces of damped stops stand back, and what stops and joints do.
+///
+/// # Errors
+/// As [`samples`].
+pub fn of_machine<'a>(machine: &'a Machine, start: &MachineStart, span: (f64, f64)) -> Result<Table<'a>, ReportError> {
+    let surfaces = recovering(machine);
+    let rows = samples(machine, start, span)?.map(move |sample| {
+        let mut row = Number(sample.time).to_string();
+        for value in sample.q.iter().chain(&sample.qdot).chain(&sample.gaps).chain(&sample.forces) {
+            row.push_str(&format!(",{}", Number(*value)));
+        }
+        for stop in &surfaces {
+            row.push_str(&format!(",{}", Number(sample.surfaces[*stop])));
+        }
+        for state in &sample.states {
+            row.push_str(&format!(",{}", contact_word(*state)));
+        }
+        row
+    });
+    Ok(Table::new(columns_of_machine(machine).join(","), rows))
+}
+
+/// The names of the columns.
+#[must_use]
+pub fn columns_of_machine(machine: &Machine) -> Vec<String> {
+    let coordinates = |what: &'static str| machine.parts().coordinates.iter().map(move |name| format!("{what}.{name}"));
+    let gaps = machine.stops().iter().map(|stop| format!("gap.{}", stop.name));
+    let contacts = machine.stops().len() + machine.joints().len();
+    let forces = (0..contacts).map(|place| format!("force.{}", machine.name_of(place)));
+    let surfaces = recovering(machine);
+    let surfaces = surfaces.iter().map(|stop| format!("surface.{}", machine.name_of(*stop)));
+    let states = (0..contacts).map(|place| format!("state.{}", machine.name_of(place)));
+    let time = core::iter::once("time".to_owned());
+    let motion = time.chain(coordinates("q")).chain(coordinates("qdot")).chain(gaps).chain(forces);
+    motion.chain(surfaces).chain(states).collect()
+}
+
+/// The stops whose surfaces can stand back.
+fn recovering(machine: &Machine) -> Vec<usize> {
+    let stops = machine.stops().iter().enumerate();
+    let recovers =
+        |law: &StopLaw| matches!(law, StopLaw::Compliant { damping, opening: Opening::Force, .. } if *damping > 0.0);
+    stops.filter(|(_, stop)| recovers(&stop.law)).map(|(j, _)| j).collect()
 }

@@ -1,0 +1,324 @@
+//! Motions of any system as text: what is the same of all of them.
+
+use crate::report::words::{
+    self, ROUNDING_DECIDES, by_stop, counted_word, meaning, quantities as quantities_of_oscillator, table,
+};
+use core::fmt::Write;
+use vibroimpact::Oscillator;
+use vibroimpact::chaos::{Measured, Spectrum};
+use vibroimpact::events::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits};
+use vibroimpact::machine::{Machine, StopLaw};
+use vibroimpact::math::Multiplier;
+use vibroimpact::orbit::MachineCycle;
+use vibroimpact::quantities::machine::{Part, Quantities as PartQuantities};
+use vibroimpact::quantities::{Quantity, machine_cycle_quantities, machine_quantities, of_verdict};
+use vibroimpact::verdict::{Count, System, Undecided, UndecidedCause, Verdict};
+use vibroimpact_report::Units;
+use vibroimpact_report::json::undecided;
+use vibroimpact_report::number::short;
+use vibroimpact_study::counted;
+
+/// A system whose motions are told.
+pub(super) trait Teller {
+    /// The kind of system.
+    type System: System;
+
+    fn label(&self, verdict: &Verdict<Self::System>) -> String;
+
+    /// The meaning, as a sentence without full stop.
+    fn meaning(&self, verdict: &Verdict<Self::System>) -> String;
+
+    /// The impacts on each of several stops in brackets, after a blank; empty where the label says it.
+    fn by_stop(&self, verdict: &Verdict<Self::System>) -> String;
+
+    fn multipliers(&self, verdict: &Verdict<Self::System>) -> Option<Vec<Multiplier>>;
+
+    /// A quantity with its unit; a dash where it is not defined.
+    fn quantity(&self, verdict: &Verdict<Self::System>, quantity: Quantity) -> String;
+
+    fn undecided(&self, verdict: &Verdict<Self::System>) -> bool;
+
+    /// The events of a cycle, one row each.
+    fn events(&self, verdict: &Verdict<Self::System>) -> String;
+
+    fn stability(&self, verdict: &Verdict<Self::System>) -> Option<&'static str>;
+
+    /// The quantities that matter most.
+    fn quantities(&self, verdict: &Verdict<Self::System>) -> String;
+
+    /// The grounds of the verdict.
+    fn grounds(&self, verdict: &Verdict<Self::System>) -> String;
+
+    /// The complete text of one motion.
+    fn motion(&self, verdict: &Verdict<Self::System>) -> String {
+        let mut text = format!("{}{}: {}\n", self.label(verdict), self.by_stop(verdict), self.meaning(verdict));
+        text.push_str(&self.events(verdict));
+        if let Some(stability) = self.stability(verdict) {
+            let multipliers = self.multipliers(verdict).filter(|all| !all.is_empty());
+            let told =
+                multipliers.map_or_else(String::new, |all| format!("; multipliers {}", words::multipliers(&all)));
+            let _ = writeln!(text, "  {stability}{told}");
+        }
+        text.push_str(&self.quantities(verdict));
+        let _ = writeln!(text, "  shown by: {}", self.grounds(verdict));
+        text
+    }
+}
+
+/// An oscillator, and the units in which its motions are told.
+pub(super) struct InUnits<'a>(pub(super) &'a Oscillator, pub(super) &'a Units);
+
+impl Teller for InUnits<'_> {
+    type System = Oscillator;
+
+    fn label(&self, verdict: &Verdict) -> String {
+        verdict.label().into_owned()
+    }
+
+    fn meaning(&self, verdict: &Verdict) -> String {
+        meaning(verdict)
+    }
+
+    fn by_stop(&self, verdict: &Verdict) -> String {
+        by_stop(verdict, self.0)
+    }
+
+    fn multipliers(&self, verdict: &Verdict) -> Option<Vec<Multiplier>> {
+        verdict.multipliers(self.0).map(Vec::from)
+    }
+
+    fn quantity(&self, verdict: &Verdict, quantity: Quantity) -> String {
+        of_verdict(self.0, verdict).map_or_else(|| "-".into(), |all| self.1.text(&all, quantity))
+    }
+
+    fn undecided(&self, verdict: &Verdict) -> bool {
+        matches!(verdict, Verdict::Undecided(_))
+    }
+
+    fn events(&self, verdict: &Verdict) -> String {
+        let Verdict::Periodic(cycle) = verdict else { return String::new() };
+        words::impacts(cycle, self.0, self.1)
+    }
+
+    fn stability(&self, verdict: &Verdict) -> Option<&'static str> {
+        let stability = verdict.stability(self.0);
+        let known = stability.is_some() || verdict.multipliers(self.0).is_some();
+        let (free, chaotic) = (matches!(verdict, Verdict::NoImpact(_)), matches!(verdict, Verdict::Chaotic(_)));
+        known.then(|| words::in_words(stability, free, chaotic))
+    }
+
+    fn quantities(&self, verdict: &Verdict) -> String {
+        of_verdict(self.0, verdict).map_or_else(String::new, |of| quantities_of_oscillator(&of, self.1))
+    }
+
+    fn grounds(&self, verdict: &Verdict) -> String {
+        words::grounds(verdict, self.0, self.1)
+    }
+}
+
+impl Teller for Machine {
+    type System = Machine;
+
+    fn label(&self, verdict: &Verdict<Machine>) -> String {
+        verdict.label().into_owned()
+    }
+
+    fn meaning(&self, verdict: &Verdict<Machine>) -> String {
+        match verdict {
+            Verdict::Periodic(cycle) => meaning_of_cycle(cycle),
+            Verdict::NoImpact(_) => {
+                let closed = closed(self, verdict);
+                let closed = if closed.is_empty() { closed } else { format!("; it stays on {closed}") };
+                format!("no more impacts, ever{closed}")
+            }
+            Verdict::Chaotic(chaos) => format!("no repetition in {}", counted(chaos.impacts, "event")),
+            Verdict::Stuck(_) => format!("at rest on {} for ever", closed(self, verdict)),
+            Verdict::Undecided(Undecided { why: UndecidedCause::Unconfirmed, .. }) => ROUNDING_DECIDES.to_owned(),
+            Verdict::Undecided(_) => "nothing could be shown within the budget".to_owned(),
+        }
+    }
+
+    fn by_stop(&self, verdict: &Verdict<Machine>) -> String {
+        let Verdict::Periodic(cycle) = verdict else { return String::new() };
+        let counts: Vec<String> =
+            self.stops().iter().zip(&cycle.counts).map(|(stop, count)| format!("{count} {}", stop.name)).collect();
+        let said = counts.len() > 1 && cycle.counts.iter().any(|count| *count > 0);
+        if said { format!(" ({})", counts.join(", ")) } else { String::new() }
+    }
+
+    fn multipliers(&self, verdict: &Verdict<Machine>) -> Option<Vec<Multiplier>> {
+        if let Verdict::Periodic(cycle) = verdict { Some(cycle.multipliers.clone()) } else { None }
+    }
+
+    fn quantity(&self, verdict: &Verdict<Machine>, quantity: Quantity) -> String {
+        let all = machine_quantities(self, verdict);
+        let value = all.map_or(f64::NAN, |all| largest(&all, self, quantity));
+        if value.is_finite() { short(value) } else { "-".to_owned() }
+    }
+
+    fn undecided(&self, verdict: &Verdict<Machine>) -> bool {
+        matches!(verdict, Verdict::Undecided(_))
+    }
+
+    fn events(&self, verdict: &Verdict<Machine>) -> String {
+        let Verdict::Periodic(cycle) = verdict else { return String::new() };
+        events_of_cycle(self, cycle)
+    }
+
+    fn stability(&self, verdict: &Verdict<Machine>) -> Option<&'static str> {
+        let chaotic = matches!(verdict, Verdict::Chaotic(_));
+        let stability = verdict.stability(self);
+        stability.map(|stability| words::in_words(Some(stability), false, chaotic))
+    }
+
+    fn quantities(&self, verdict: &Verdict<Machine>) -> String {
+        let drift = if let Verdict::Periodic(cycle) = verdict { drift(self, cycle) } else { String::new() };
+        let found = match verdict {
+            Verdict::Periodic(cycle) => machine_cycle_quantities(self, cycle),
+            _ => machine_quantities(self, verdict),
+        };
+        drift + &found.map_or_else(String::new, |found| quantities(self, &found))
+    }
+
+    fn grounds(&self, verdict: &Verdict<Machine>) -> String {
+        match verdict {
+            Verdict::Periodic(cycle) => {
+                format!("Newton's method on its events returns to itself within {:.0e}", cycle.residual.max(1e-16))
+            }
+            Verdict::NoImpact(_) => "no stop and no joint changes its state any more".to_owned(),
+            Verdict::Stuck(_) => "it rests, and no force ever pulls it off".to_owned(),
+            Verdict::Chaotic(chaos) => largest_exponent(&chaos.spectrum),
+            Verdict::Undecided(Undecided { why, impacts: events, spectrum }) => {
+                let why = match why {
+                    UndecidedCause::Budget | UndecidedCause::Unconfirmed => "the budget is used up".to_owned(),
+                    UndecidedCause::Ended(MachineEnd::NoEventWithin) => {
+                        let time = short(MachineLimits::default().time);
+                        format!("no event within a time of {time} after the last one, and none is excluded later")
+                    }
+                    why => undecided(*why).replace('_', " "),
+                };
+                let exponent = spectrum.as_ref().filter(|_| matches!(why.as_str(), "the budget is used up"));
+                let exponent =
+                    exponent.map_or_else(String::new, |spectrum| format!("; {}", largest_exponent(spectrum)));
+                format!("{} without a cycle: {why}{exponent}", counted(*events, "event"))
+            }
+        }
+    }
+}
+
+fn meaning_of_cycle(cycle: &MachineCycle) -> String {
+    let label = cycle.label;
+    let periods = match label.periods {
+        // without forcing
+        0 => format!("every {}", short(cycle.period)),
+        1 => "every forcing period".to_owned(),
+        n => format!("every {}", counted_word(n, "forcing period")),
+    };
+    match label.impacts {
+        Count::Finite(0) => format!("a steady motion without impacts, {periods}"),
+        Count::Finite(m) => format!("{} {periods}", counted_word(m, "impact")),
+        Count::Infinite => format!("a complete chatter (infinitely many impacts) {periods}"),
+    }
+}
+
+/// The name of an event of a machine and its speed. A joint slips forwards or backwards, without speed.
+pub(super) fn kind_and_speed(event: &MachineEvent) -> (String, String) {
+    let name = event.kind.name();
+    match event.kind {
+        MachineEventKind::Slip if event.speed < 0.0 => (format!("{name} backward"), "0".to_owned()),
+        MachineEventKind::Slip => (format!("{name} forward"), "0".to_owned()),
+        _ => (name.to_owned(), short(event.speed)),
+    }
+}
+
+/// Maximum number of events shown of a long cycle.
+const MOST_EVENTS: usize = 40;
+
+fn events_of_cycle(machine: &Machine, cycle: &MachineCycle) -> String {
+    if cycle.events.is_empty() {
+        return String::new();
+    }
+    let forced = machine.period().is_some();
+    let heads = ["event", if forced { "phase" } else { "time" }, "speed", "<kind", "<stop"].map(str::to_owned);
+    let row = |(k, event): (usize, &MachineEvent)| {
+        let place = if forced { event.phase } else { event.time };
+        let (kind, speed) = kind_and_speed(event);
+        vec![(k + 1).to_string(), short(place), speed, kind, machine.name_of(event.place).to_owned()]
+    };
+    let rows: Vec<Vec<String>> = cycle.events.iter().take(MOST_EVENTS).enumerate().map(row).collect();
+    let mut text = table(&heads, &rows);
+    if cycle.events.len() > MOST_EVENTS {
+        let _ = writeln!(text, "  ... and {} more", cycle.events.len() - MOST_EVENTS);
+    }
+    text
+}
+
+/// By how much a machine that can be translated moves on in one period.
+fn drift(machine: &Machine, cycle: &MachineCycle) -> String {
+    if cycle.translations() == 0 {
+        return String::new();
+    }
+    if cycle.drift.iter().all(|drift| *drift == 0.0) {
+        return "  drift: none\n".to_owned();
+    }
+    let by_name = |values: &[f64]| {
+        let names = machine.parts().coordinates.iter().zip(values);
+        names.map(|(name, value)| format!("{name} {}", short(*value))).collect::<Vec<_>>().join(", ")
+    };
+    format!("  drift: {}; mean velocity {}\n", by_name(&cycle.drift), by_name(&cycle.drift_velocity()))
+}
+
+/// The names of the stops that stay closed for ever.
+fn closed(machine: &Machine, verdict: &Verdict<Machine>) -> String {
+    let names = verdict.closed().into_iter().map(|stop| machine.name_of(stop));
+    names.collect::<Vec<_>>().join(", ")
+}
+
+/// The largest exponent and the rate of closings of a motion without a cycle.
+fn largest_exponent(spectrum: &Spectrum<Vec<Measured>>) -> String {
+    let told = |of: Measured| format!("{} +- {}", short(of.value), short(of.error));
+    let largest = spectrum.exponents.first().map_or_else(|| "none".to_owned(), |first| told(*first));
+    format!(
+        "largest Lyapunov exponent {largest} per unit of time, {} impacts per unit of time",
+        told(spectrum.impact_rate)
+    )
+}
+
+/// A quantity of all of a machine, or else the largest value at one of its stops.
+fn largest(all: &PartQuantities, machine: &Machine, quantity: Quantity) -> f64 {
+    let of = |part| all.get(part, quantity);
+    let whole = of(Part::Whole);
+    let stops = (0..machine.stops().len()).map(|j| of(Part::Stop(j)));
+    if whole.is_finite() { whole } else { stops.fold(f64::NAN, f64::max) }
+}
+
+/// Power and where it goes, and for each stop that closes the largest speed and the largest impulse, or force of a compliant one.
+fn quantities(machine: &Machine, found: &PartQuantities) -> String {
+    let mut text = String::new();
+    let whole = |quantity| found.get(Part::Whole, quantity);
+    let lost = [
+        (Quantity::ImpactPower, "impacts"),
+        (Quantity::ContactPower, "dampers of stops"),
+        (Quantity::FrictionPower, "friction"),
+        (Quantity::DampingPower, "damping"),
+    ];
+    let power = whole(Quantity::Power);
+    let lost = lost.map(|(quantity, name)| (whole(quantity), name)).into_iter().filter(|(lost, _)| *lost > 0.0);
+    let lost: Vec<String> = lost.map(|(lost, name)| format!("{} in {name}", short(lost))).collect();
+    if power.is_finite() && !lost.is_empty() {
+        let _ = writeln!(text, "  power {}: lost {}", short(power), lost.join(", "));
+    }
+    for (j, stop) in machine.stops().iter().enumerate() {
+        let of = |quantity| found.get(Part::Stop(j), quantity);
+        let speed = of(Quantity::ImpactSpeedMax);
+        if speed > 0.0 {
+            let (what, most) = match stop.law {
+                StopLaw::Rigid { .. } => ("impulse", Quantity::ImpulseMax),
+                StopLaw::Compliant { .. } => ("force", Quantity::ForceMax),
+            };
+            let _ =
+                writeln!(text, "  {}: speed at most {}, {what} at most {}", stop.name, short(speed), short(of(most)));
+        }
+    }
+    text
+}

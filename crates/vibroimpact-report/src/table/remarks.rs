@@ -1,0 +1,48 @@
+//! What columns say of some motions of machines besides the label.
+
+use vibroimpact::machine::Machine;
+use vibroimpact::verdict::Verdict;
+
+/// The names of stops with blanks between, after a comma.
+fn stops_of(machine: &Machine, stops: &[usize]) -> String {
+    format!(",{}", stops.iter().map(|stop| machine.name_of(*stop)).collect::<Vec<_>>().join(" "))
+}
+
+/// The columns that say more of some labels than the label, where such motions are in a table: the stops that stay closed for ever,
+/// and the number of events over which chaos was seen.
+#[derive(Clone, Copy)]
+pub(super) struct Remarks {
+    stops: bool,
+    events: bool,
+}
+
+impl Remarks {
+    pub(super) fn of<'a>(motions: impl Iterator<Item = (&'a [usize], Option<u64>)>) -> Self {
+        motions.fold(Self { stops: false, events: false }, |so_far, (stops, events)| Self {
+            stops: so_far.stops || !stops.is_empty(),
+            events: so_far.events || events.is_some(),
+        })
+    }
+
+    pub(super) fn heads(self) -> impl Iterator<Item = &'static str> {
+        [("stop", self.stops), ("seen_events", self.events)].into_iter().filter_map(|(name, here)| here.then_some(name))
+    }
+
+    /// The cells of a motion, each after a comma.
+    pub(super) fn cells(self, machine: &Machine, stops: &[usize], events: Option<u64>) -> String {
+        let mut cells = String::new();
+        if self.stops {
+            cells.push_str(&stops_of(machine, stops));
+        }
+        if self.events {
+            cells.push_str(&events.map_or_else(|| ",".to_owned(), |events| format!(",{events}")));
+        }
+        cells
+    }
+}
+
+/// The remarks on the motions of a table of verdicts.
+pub(super) fn remarks<'a>(verdicts: impl Iterator<Item = &'a Verdict<Machine>>) -> Remarks {
+    let closed: Vec<(Vec<usize>, Option<u64>)> = verdicts.map(|one| (one.closed(), one.seen_events())).collect();
+    Remarks::of(closed.iter().map(|(stops, events)| (stops.as_slice(), *events)))
+}
