@@ -67,7 +67,17 @@ impl Draw {
 fn machine(draw: &mut Draw) -> Option<Machine> {
     let n = 1 + draw.one_of(4);
     let unit = |k: usize, other: Option<usize>| -> Vec<f64> {
-        (0..n).map(|i| if i == k { 1.0 } else if Some(i) == other { -1.0 } else { 0.0 }).collect()
+        (0..n)
+            .map(|i| {
+                if i == k {
+                    1.0
+                } else if Some(i) == other {
+                    -1.0
+                } else {
+                    0.0
+                }
+            })
+            .collect()
     };
     let mut parts = MachineParts::new((0..n).map(|k| format!("x{k}"))).with_frequency(draw.number(0.4, 1.6));
     for k in 0..n {
@@ -103,6 +113,12 @@ fn machine(draw: &mut Draw) -> Option<Machine> {
     Machine::new(parts).ok()
 }
 
+/// The end of a range that is this part of a number away from it, or nearer by halves until the number is allowed.
+fn legal(machine: &Machine, path: &str, value: f64, part: f64) -> f64 {
+    let mut ends = (0..30).map(|k| value + part * value.abs() / f64::from(1_u32 << k));
+    ends.find(|end| machine.with(path, *end).is_ok()).unwrap_or(value)
+}
+
 /// What is counted over all branches.
 #[derive(Default)]
 struct Tally {
@@ -127,7 +143,7 @@ impl Tally {
         let numbers: Vec<_> = machine.numbers().into_iter().filter(|(_, value)| *value != 0.0).collect();
         let (path, value) = &numbers[draw.one_of(numbers.len())];
         let (up, down) = (draw.number(0.2, 0.6), draw.number(0.2, 0.6));
-        let range = value - down * value.abs()..=value + up * value.abs();
+        let range = legal(&machine, path, *value, -down)..=legal(&machine, path, *value, up);
         let direction = if draw.chance(0.5) { Direction::Up } else { Direction::Down };
         let Ok((family, value)) = MachineFamily::of_path(&machine, path) else { return false };
         if cycle.events.is_empty() || cycle.events.len() > LONGEST {
@@ -135,14 +151,13 @@ impl Tally {
         }
         let options = BranchOptions { points: POINTS, ..BranchOptions::default() };
         let begin = Instant::now();
-        let points: Vec<MachinePoint> =
-            match MachineBranch::new((&family, value), &cycle, &range, direction, options) {
-                Ok(branch) => branch.collect(),
-                Err(_) => {
-                    self.refused += 1;
-                    return false;
-                }
-            };
+        let points: Vec<MachinePoint> = match MachineBranch::new((&family, value), &cycle, &range, direction, options) {
+            Ok(branch) => branch.collect(),
+            Err(_) => {
+                self.refused += 1;
+                return false;
+            }
+        };
         let seconds = begin.elapsed().as_secs_f64();
         self.seconds += seconds;
         self.points += points.len();
@@ -245,7 +260,10 @@ fn same_list(a: &MachineCycle, b: &MachineCycle) -> bool {
 fn explains(event: &MachineBranchEvent) -> bool {
     !matches!(
         event,
-        MachineBranchEvent::Fold | MachineBranchEvent::BranchPoint | MachineBranchEvent::Flip | MachineBranchEvent::Torus
+        MachineBranchEvent::Fold
+            | MachineBranchEvent::BranchPoint
+            | MachineBranchEvent::Flip
+            | MachineBranchEvent::Torus
     )
 }
 
