@@ -4,7 +4,7 @@
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::Stability;
-use vibroimpact::verdict::{MachineVerdict, SettleOptions, settle_machine};
+use vibroimpact::verdict::{SettleOptions, Verdict, settle_machine};
 use vibroimpact_cases::{Budget, Case, DIFFERS, FAMILIES, Rewriting, Standard, VERDICTS_DIFFER, changed, rounded};
 
 fn long() -> bool {
@@ -73,9 +73,9 @@ fn is_of_a_rounding(case: &Case, verdict: &str, options: &SettleOptions) -> bool
 const ROUNDED: u64 = 60;
 
 /// The verdict on a motion, and its label.
-fn settled((machine, start): (&Machine, &MachineStart), options: &SettleOptions) -> (MachineVerdict, String) {
+fn settled((machine, start): (&Machine, &MachineStart), options: &SettleOptions) -> (Verdict<Machine>, String) {
     let verdict = settle_machine(machine, start, options).unwrap().verdict;
-    let label = verdict.label();
+    let label = verdict.label().into_owned();
     (verdict, label)
 }
 

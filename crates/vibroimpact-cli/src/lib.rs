@@ -10,6 +10,7 @@ mod complain;
 mod exit;
 mod failure;
 mod files;
+mod help;
 mod hints;
 mod machine_file;
 mod measure;
@@ -24,7 +25,7 @@ mod state_file;
 mod unit_table;
 mod units_typed;
 
-use clap::Parser;
+use clap::{CommandFactory, FromArgMatches};
 use std::ffi::OsString;
 use std::path::PathBuf;
 
@@ -36,7 +37,8 @@ use std::path::PathBuf;
 pub fn run(words: &[OsString], program: Option<PathBuf>) -> u8 {
     exit::no_backtraces();
     program::remember(program);
-    let line = match commands::CommandLine::try_parse_from(words) {
+    let parsed = help::shown(commands::CommandLine::command()).try_get_matches_from(words);
+    let line = match parsed.and_then(|found| commands::CommandLine::from_arg_matches(&found)) {
         Ok(line) => line,
         Err(refusal) => {
             let words: Vec<String> = words.iter().map(|word| word.to_string_lossy().into_owned()).collect();

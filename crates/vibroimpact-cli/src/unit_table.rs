@@ -50,6 +50,23 @@ impl Factor {
 }
 
 impl UnitKind {
+    /// All of them, with what they measure.
+    pub(crate) const ALL: [(Self, &'static str); 13] = [
+        (Self::Mass, "mass"),
+        (Self::Stiffness, "stiffness"),
+        (Self::DampingCoefficient, "damping coefficient"),
+        (Self::Force, "force"),
+        (Self::Frequency, "frequency"),
+        (Self::AngularFrequency, "angular frequency"),
+        (Self::Length, "length"),
+        (Self::Velocity, "velocity"),
+        (Self::Acceleration, "acceleration"),
+        (Self::Unbalance, "unbalance"),
+        (Self::Ratio, "ratio"),
+        (Self::Time, "time"),
+        (Self::Angle, "angle"),
+    ];
+
     /// The units with their factors; the SI unit comes first. They are in the form of [`plain`].
     pub(crate) const fn units(self) -> &'static [(&'static str, Factor)] {
         match self {

@@ -1,4 +1,4 @@
-//! Runs every `vibro` line of the README, and of the page on machines, and compares its output with what they show.
+//! Runs every `vibro` line of the README, and of the pages on questions and on machines, and compares its output with what they show.
 
 use assert_cmd::Command;
 use std::fs;
@@ -12,10 +12,6 @@ fn blocks(text: &str, language: &str) -> Vec<String> {
 
 fn page(name: &str) -> String {
     fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(name)).expect("it is in the workspace")
-}
-
-fn readme() -> String {
-    page("README.md")
 }
 
 fn vibro(line: &str, folder: &Path) -> std::process::Output {
@@ -37,9 +33,8 @@ fn typed(line: &str, folder: &Path) -> std::process::Output {
 #[test]
 fn shown_output_is_real_output() {
     let mut shown = 0;
-    let blocks = [readme(), page("docs/machines-in-si.md"), page("docs/basins.md")]
-        .map(|page| blocks(&page, "console"))
-        .concat();
+    let pages = ["README.md", "docs/tour.md", "docs/units.md", "docs/basins.md"];
+    let blocks = pages.map(|name| blocks(&page(name), "console")).concat();
     for block in blocks {
         // pages may name the same file
         let folder = tempfile::tempdir().unwrap();
@@ -59,30 +54,30 @@ fn shown_output_is_real_output() {
     assert!(shown > 60, "{shown} lines");
 }
 
+/// Runs the lines of a page in one folder, and returns it.
+fn ran(name: &str, least: usize) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let blocks = blocks(&page(name), "sh").concat();
+    let lines: Vec<&str> = blocks.lines().filter(|line| line.starts_with("vibro ")).collect();
+    for line in &lines {
+        let output = vibro(line, folder.path());
+        assert!(output.status.success(), "{line}\n{}", String::from_utf8_lossy(&output.stderr));
+    }
+    assert!(lines.len() >= least, "{name}: {} lines", lines.len());
+    folder
+}
+
 #[test]
 fn every_command_line_runs() {
-    let folder = tempfile::tempdir().unwrap();
-    let mut ran = 0;
-    for block in blocks(&readme(), "sh") {
-        for line in block.lines().filter(|line| line.starts_with("vibro ")) {
-            let output = vibro(line, folder.path());
-            assert!(output.status.success(), "{line}\n{}", String::from_utf8_lossy(&output.stderr));
-            ran += 1;
-        }
-    }
-    assert!(ran >= 4);
-    for file in [
-        "basin.csv",
-        "basin.png",
-        "map.csv",
-        "map.svg",
-        "diagram.csv",
-        "diagram.png",
-        "attractor.png",
-        "region.csv",
-        "region.png",
+    let readme = ran("README.md", 1);
+    let tour = ran("docs/tour.md", 12);
+    for (folder, files) in [
+        (&readme, &["map.csv", "map.svg"][..]),
+        (&tour, &["basin.csv", "basin.png", "diagram.csv", "diagram.png", "attractor.png", "region.csv", "region.png"]),
     ] {
-        assert!(folder.path().join(file).exists(), "{file}");
+        for file in files {
+            assert!(folder.path().join(file).exists(), "{file}");
+        }
     }
 }
 

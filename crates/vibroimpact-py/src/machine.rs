@@ -3,6 +3,7 @@
 use crate::columns::column;
 use crate::door::{self, Watch};
 use crate::error::Trouble;
+use crate::simulate::checked_step;
 use numpy::{Element, IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use vibroimpact::events::{MachineLimits, MachineSample, MachineSamples, MachineStart};
@@ -225,9 +226,6 @@ pub(crate) struct WaveformFields<'py> {
     contact: Bound<'py, PyArray2<bool>>,
 }
 
-/// Maximum number of points of a waveform.
-const MOST_POINTS: f64 = 1e7;
-
 /// The waveform of a machine up to a time, at equal steps, and on both sides of each event if asked.
 #[pyfunction]
 pub(crate) fn machine_waveform<'py>(
@@ -238,12 +236,7 @@ pub(crate) fn machine_waveform<'py>(
     step: f64,
     events: bool,
 ) -> Result<WaveformFields<'py>, Trouble> {
-    if !(step > 0.0 && step.is_finite() && until / step <= MOST_POINTS) {
-        return Err(Trouble::question(format!(
-            "step = {step} gives {} points over a time of {until}; between 0 and {MOST_POINTS} are allowed",
-            until / step
-        )));
-    }
+    let step = checked_step(step, until)?;
     let machine = file.0.machine()?;
     let (n, stops, joints) = (machine.n(), machine.stops().len(), machine.joints().len());
     let start = start(file, from)?;

@@ -7,8 +7,8 @@ use crate::oscillator::Oscillator;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use serde::Serialize;
-use vibroimpact::Side;
-use vibroimpact::motion::{EventKind, sample};
+use vibroimpact::motion::{EventKind, Sample, sample, states_at};
+use vibroimpact::{Side, Start};
 use vibroimpact_report::json::motion::horizon;
 use vibroimpact_study::{Plan, Results, StartPlan, Task};
 
@@ -106,35 +106,41 @@ pub(crate) fn simulate<'py>(
 /// Maximum number of points of a waveform.
 const MOST_POINTS: f64 = 1e7;
 
+/// Checks the step of a waveform.
+pub(crate) fn checked_step(step: f64, until: f64) -> Result<f64, Trouble> {
+    if step > 0.0 && step.is_finite() && until / step <= MOST_POINTS {
+        return Ok(step);
+    }
+    Err(Trouble::question(format!(
+        "step = {step} gives {} points over a time of {until}; between 0 and {MOST_POINTS} are allowed",
+        until / step
+    )))
+}
+
 /// Times, positions and velocities.
 type Waveform<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
 
-/// The waveform from a start up to a time.
+/// The waveform from a start up to a time: at equal steps, or at steps of at most this and on both sides of each event.
 #[pyfunction]
 pub(crate) fn waveform<'py>(
     py: Python<'py>,
     osc: Oscillator,
     start: StartArgument,
     until: f64,
-    points_per_period: f64,
+    step: f64,
+    events: bool,
 ) -> Result<Waveform<'py>, Trouble> {
-    let osc = osc.osc;
+    let (osc, step) = (osc.osc, checked_step(step, until)?);
     let start = start_plan(start).start(&osc)?;
-    if !(points_per_period >= 1.0 && points_per_period.is_finite()) {
-        return Err(Trouble::question(format!(
-            "points_per_period = {points_per_period} lies outside 1 <= points_per_period < infinity"
-        )));
-    }
-    let step = osc.period() / points_per_period;
-    let points = until / step;
-    if !(until >= 0.0 && points <= MOST_POINTS) {
-        return Err(Trouble::question(format!(
-            "points_per_period = {points_per_period} gives {points} points over a time of {until}; at most {MOST_POINTS} are allowed\nhint: fewer points, or a shorter time"
-        )));
-    }
     let wave = door::run(py, Watch::alone("drawing a waveform"), move |_| {
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // 1e7
-        Ok(sample(&osc, start, until, step, 3 * MOST_POINTS as usize))
+        if events {
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // 1e7
+            return Ok(sample(&osc, start, until, step, 3 * MOST_POINTS as usize));
+        }
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss)] // 1e7
+        let times: Vec<f64> = (0..=(until / step) as u64).map(|k| k as f64 * step).collect();
+        let at = |(time, state): (&f64, Option<Start>)| state.map(|Start { x, v, .. }| Sample { time: *time, x, v });
+        Ok(times.iter().zip(states_at(&osc, start, &times)).filter_map(at).collect())
     })?;
     Ok((
         column(py, wave.iter().map(|point| point.time)),

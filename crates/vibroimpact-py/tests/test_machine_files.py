@@ -113,7 +113,7 @@ def test_a_contact_in_closed_form() -> None:
     rate = math.sqrt(1.01e4)
     assert motion.kind.tolist() == ["close", "open"] and motion.stop.tolist() == ["stop", "stop"]
     assert motion.time[1] == pytest.approx(math.pi / rate, rel=1e-14) and motion.speed[0] == 1
-    wave = motion.waveform(1e-4)
+    wave = motion.waveform(1e-4, events=False)
     pressed = wave.contact[:, 0]
     assert np.allclose(wave.force[pressed, 0], 1e6 * np.sin(rate * wave.time[pressed]) / rate, rtol=0, atol=1e-8)
     assert np.allclose(wave.q[:, 0], -wave.gap[:, 0], rtol=0, atol=1e-17) and len(wave) == 313
@@ -122,7 +122,7 @@ def test_a_contact_in_closed_form() -> None:
 def test_a_waveform_is_even_and_has_the_events() -> None:
     motion = two().simulate(periods=10)
     assert len(motion) > 10 and {"impact", "slip"} <= set(motion.kind.tolist())
-    wave = motion.waveform(0.125)
+    wave = motion.waveform(0.125, events=False)
     assert np.array_equal(wave.time, 0.125 * np.arange(len(wave))) and wave.time[-1] <= motion.end_time
     assert wave.q.shape == wave.qdot.shape == (len(wave), 2)
     assert wave.gap.shape == (len(wave), 1) and wave.force.shape == (len(wave), 2)

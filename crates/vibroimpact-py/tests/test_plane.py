@@ -43,3 +43,16 @@ def test_points_inside_a_region_are_orbits() -> None:
     assert found.existence.contains(inverses[:, None], gaps[None, :]).shape == (40, 40)
     assert pickle.loads(pickle.dumps(found)).to_dict() == found.to_dict()
     assert vi.region(osc, "1/1", {"inverse_beta": "0.6:0.95", "gap": (0.5, 3)}, grid=8, threads=1).to_dict() == found.to_dict()
+
+
+def test_a_machine_that_is_an_oscillator_has_its_regions() -> None:
+    machine = vi.Machine.named("fukaya-irie-1971")
+    found = machine.region("1/1", {"inverse_beta": (0.6, 0.95), "delta": (0.5, 3)}, grid=5)
+    osc = vi.Oscillator(beta=1, gap=0, restitution=0.5)
+    known = vi.region(osc, "1/1", {"inverse_beta": (0.6, 0.95), "gap": (0.5, 3)}, grid=5)
+    inverses, gaps = np.meshgrid(np.linspace(0.607, 0.943, 20), np.linspace(0.53, 2.97, 20))
+    for own, other in ((found.existence, known.existence), (found.stability, known.stability)):
+        np.testing.assert_array_equal(own.contains(inverses, gaps), other.contains(inverses, gaps))
+    assert found.parameters == ("inverse_beta", "delta") and found.system is machine
+    with pytest.raises(vi.QuestionError, match="regions are those of machines of one coordinate"):
+        vi.Machine.named("two-mass-hammer").region("1/1", {"frequency": (0.9, 1.3), "b": (0.4, 0.6)})

@@ -55,7 +55,8 @@ def test_a_motion_closes_on_itself(n: vi.Oscillator) -> None:
     # 4/1: the fourth impact after the first one is the first one again
     assert abs(sim.phase[3] - motion.cycle.phase[0]) < 1e-12
     assert abs(sim.speed[3] - motion.cycle.speed[0]) < 1e-12
-    t, xs, vs = motion.waveform()
+    wave = motion.waveform()
+    t, xs, vs = wave.time, wave.q[:, 0], wave.qdot[:, 0]
     assert t[-1] == n.period and abs(xs[-1] - xs[0]) < 1e-12
 
 

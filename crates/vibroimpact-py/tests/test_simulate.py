@@ -56,17 +56,18 @@ def test_impacts_as_an_integrator_finds_them(osc: vi.Oscillator, start: tuple[fl
     assert sim.kind.tolist() == ["impact"] * 8 and sim.end == "impact_limit"
     np.testing.assert_allclose(sim.time, [t for t, _, _ in expected], atol=1e-8)
     np.testing.assert_allclose(sim.speed, [u for _, u, _ in expected], atol=1e-8)
-    assert sim.side.tolist() == [side for _, _, side in expected]
     wrapped = (osc.beta * sim.time + phase) % (2 * math.pi)
     np.testing.assert_allclose(sim.phase, wrapped, atol=1e-12)
-    restitution = np.where(sim.side > 0, osc.restitution, osc.second_restitution or 0.0)
-    np.testing.assert_array_equal(sim.qdot[:, 0], -sim.side * restitution * sim.speed)
-    assert sim.stop.tolist() == ["upper" if side > 0 else "lower" for side in sim.side]
+    assert sim.stop.tolist() == ["upper" if side > 0 else "lower" for _, _, side in expected]
+    side = np.where(sim.stop == "upper", 1, -1)
+    restitution = np.where(side > 0, osc.restitution, osc.second_restitution or 0.0)
+    np.testing.assert_array_equal(sim.qdot[:, 0], -side * restitution * sim.speed)
 
 
 def test_waveform_obeys_the_equation_and_the_stop(n: vi.Oscillator) -> None:
     sim = vi.simulate(n, periods=6)
-    t, x, v = sim.waveform(400)
+    wave = sim.waveform(n.period / 400)
+    t, x, v = wave.time, wave.q[:, 0], wave.qdot[:, 0]
     # the time of each leg is a sum, so two legs may differ by a rounding error
     assert t[0] == 0 and t[-1] == sim.end_time and np.all(np.diff(t) > -1e-13) and x.max() <= n.gap + 1e-14
     # central differences in free flight, between events
@@ -105,3 +106,29 @@ def test_it_can_be_pickled(n: vi.Oscillator) -> None:
     sim = vi.simulate(n, x=-1, impacts=50)
     again = pickle.loads(pickle.dumps(sim))
     assert again.to_dict() == sim.to_dict() and again.plan == sim.plan and repr(again) == repr(sim)
+
+
+def test_a_waveform_has_gaps_contacts_and_forces() -> None:
+    osc = vi.Oscillator(inverse_beta=1.11, gap=-0.5, restitution=0.5)
+    sim = vi.simulate(osc, periods=3)
+    wave = sim.waveform()
+    assert wave.q.shape == wave.gap.shape == wave.force.shape == (len(wave), 1) and len(wave.to_dataframe()) == len(wave)
+    np.testing.assert_array_equal(wave.gap[:, 0], osc.gap - wave.q[:, 0])
+    np.testing.assert_allclose(np.sin(wave.phase - osc.beta * wave.time), 0, atol=1e-12)
+    rests = wave.contact[:, 0]
+    # pressed by what force and spring leave, from each stick to the next release
+    np.testing.assert_allclose(wave.force[rests, 0], np.sin(wave.phase[rests]) - osc.gap, atol=1e-12)
+    assert rests.any() and not wave.force[~rests].any()
+    even = sim.waveform(0.125, events=False)
+    np.testing.assert_array_equal(even.time, 0.125 * np.arange(len(even)))
+    assert even.time[-1] <= sim.end_time < even.time[-1] + 0.125
+    np.testing.assert_allclose(even.q[:, 0], np.interp(even.time, wave.time, wave.q[:, 0]), atol=5e-3)
+    # the same body as a machine
+    machine = vi.Machine(
+        coordinates=["x"], mass=[1], stiffness=[1], frequency=osc.beta, forces=[{"at": "x", "sin": 1}],
+        stops={"stop": {"at": "x", "gap": -0.5, "restitution": 0.5}}, start={"q": [-0.5]},
+    )
+    other = machine.simulate(periods=3).waveform(0.125, events=False)
+    for name in ("q", "qdot", "gap", "force"):
+        np.testing.assert_allclose(getattr(even, name), getattr(other, name), atol=1e-9, err_msg=name)
+    assert vi.simulate(osc, impacts=3).state(0)["q"] == [osc.gap]

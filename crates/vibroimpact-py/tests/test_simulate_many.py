@@ -31,7 +31,7 @@ def test_events_are_those_of_each_alone(osc: vi.Oscillator, limits: dict[str, An
         count = row["count"].item()
         assert count == len(sim) and ds.vibro.labels("end").values[k] == sim.end and row["end_time"].item() == sim.end_time
         assert ds.vibro.labels("kind").values[k, :count].tolist() == sim.kind.tolist()
-        for name, of in (("time", sim.time), ("event_phase", sim.phase), ("velocity_before", np.where(sim.kind == "impact", sim.speed, np.nan)), ("side", sim.side)):
+        for name, of in (("time", sim.time), ("event_phase", sim.phase), ("velocity_before", np.where(sim.kind == "impact", sim.speed, np.nan)), ("side", np.where(sim.stop == "upper", 1, -1))):
             assert np.array_equal(row[name].values[:count], of, equal_nan=of.dtype.kind == "f")
         assert np.isnan(row["time"].values[count:]).all() and (ds.vibro.labels("kind").values[k, count:] == "").all()
 
@@ -45,13 +45,14 @@ def test_states_at_times_are_those_of_the_events(osc: vi.Oscillator) -> None:
         struck = sim.kind == "impact"
         # the impacts of a chatter after the last one listed are summed, and the mass counts as at rest meanwhile
         struck[:-1] &= sim.kind[1:] != "stick"
-        walls = np.where(sim.side > 0, osc.gap, -(osc.second_gap or 0.0))
+        walls = np.where(sim.stop == "upper", osc.gap, -(osc.second_gap or 0.0))
         np.testing.assert_allclose(ds["position"].values[struck], walls[struck], rtol=0, atol=1e-13)
         np.testing.assert_allclose(ds["velocity"].values[struck], sim.qdot[struck, 0], rtol=0, atol=1e-13)
         off = (ds["force_phase"].values - sim.phase + np.pi) % (2 * np.pi) - np.pi
         assert np.abs(off).max() < 1e-13
         # between the events they are those of the waveform
-        t, x, v = sim.waveform(50)
+        dense = sim.waveform(osc.period / 50)
+        t, x, v = dense.time, dense.q[:, 0], dense.qdot[:, 0]
         inside = np.abs(t[:, None] - sim.time).min(axis=1) > 1e-9
         wave = vi.simulate_many(osc, starts=start, at=t[inside]).isel(sample=0)
         np.testing.assert_allclose(wave["position"].values, x[inside], rtol=0, atol=1e-13)

@@ -9,7 +9,7 @@ use crate::scene::{self, View};
 use crate::{ReportError, Shown, Table, figure, table};
 use vibroimpact::events::{MachineLimits, MachineMotion, MachineStart};
 use vibroimpact::machine::Machine;
-use vibroimpact::verdict::{CountedMotion, MachineVerdict};
+use vibroimpact::verdict::{CountedMotion, Verdict};
 use vibroimpact_plot::{Figure, plain};
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{
@@ -99,10 +99,12 @@ impl MachineAnswer {
                 match (shown.view.unwrap_or_default(), &found.verdict) {
                     (View::Waveform, _) => self.waveform(&from, time, title)?,
                     (View::Phase, _) => scene::portrait(&self.machine, (&from, time), title)?,
-                    (View::Multipliers, MachineVerdict::Periodic(cycle)) => {
+                    (View::Multipliers, Verdict::Periodic(cycle)) => {
                         scene::multipliers(&cycle.multipliers, &cycle.stabilities()).title(title)
                     }
-                    (View::Multipliers, other) => return Err(ReportError::NoMultipliers(other.label()).into()),
+                    (View::Multipliers, other) => {
+                        return Err(ReportError::NoMultipliers(other.label().into_owned()).into());
+                    }
                     (View::Sections, _) => return Err(ReportError::MachineSections.into()),
                 }
             }
@@ -118,6 +120,10 @@ impl MachineAnswer {
                 let MachineTask::Curve(plan) = &self.plan.task else { return Ok(None) };
                 figure::curve::of_machine(found, plan, title)
             }
+            MachineResults::Region(found) => {
+                let MachineTask::Region(plan) = &self.plan.task else { return Ok(None) };
+                figure::region::of_machine(found, plan, &self.plan.machine, title)
+            }
             MachineResults::Response(found) => {
                 let Some(view) = self.response(found) else { return Ok(None) };
                 figure::response::figure(&view, title)
@@ -130,7 +136,7 @@ impl MachineAnswer {
                 figure::machine_section::figure(points, &self.machine, format!("{title}: {label}"))
             }
             MachineResults::Attractors(census) => {
-                let share = |found: &CountedMotion<MachineVerdict>| (found.verdict.label(), census.share(found));
+                let share = |found: &CountedMotion<Machine>| (found.verdict.label().into_owned(), census.share(found));
                 figure::bars::shares(&census.by_share().into_iter().map(share).collect::<Vec<_>>(), title)
             }
             MachineResults::Margins(found) => {
@@ -178,11 +184,11 @@ impl MachineAnswer {
 
     /// A state of a settled motion, and the time over which it is shown: one period of a cycle, [`PERIODS`] forcing periods of
     /// another motion.
-    fn steady(&self, verdict: &MachineVerdict) -> Result<(MachineStart, f64), ReportError> {
+    fn steady(&self, verdict: &Verdict<Machine>) -> Result<(MachineStart, f64), ReportError> {
         let none = || ReportError::NoCycle(figure::label(&verdict.label()));
         let from = verdict.reached(&self.machine).ok_or_else(none)?;
         let time = match verdict {
-            MachineVerdict::Periodic(cycle) => cycle.period,
+            Verdict::Periodic(cycle) => cycle.period,
             _ => PERIODS * self.machine.period().ok_or_else(none)?,
         };
         Ok((from, time))
@@ -217,8 +223,8 @@ impl MachineAnswer {
                     let step = self.machine.period().unwrap_or(time) / 100.0;
                     table::machine_waveform::table(&self.machine, &from, (time, step))?
                 }
-                (View::Multipliers, MachineVerdict::Periodic(cycle)) => table::multipliers(&cycle.multipliers),
-                (View::Multipliers, other) => return Err(ReportError::NoMultipliers(other.label()).into()),
+                (View::Multipliers, Verdict::Periodic(cycle)) => table::multipliers(&cycle.multipliers),
+                (View::Multipliers, other) => return Err(ReportError::NoMultipliers(other.label().into_owned()).into()),
                 (View::Sections, _) => return Err(ReportError::MachineSections.into()),
             },
             MachineResults::Attractors(census) => table::machine_tables::attractors(&self.machine, census),
@@ -231,6 +237,10 @@ impl MachineAnswer {
                 table::machine_curve::table(&self.machine, plan, found)
             }
             MachineResults::Margins(found) => table::margins::of_machine(found, &self.machine),
+            MachineResults::Region(found) => {
+                let MachineTask::Region(plan) = &self.plan.task else { return Ok(None) };
+                table::region::of_machine(found, plan)
+            }
             MachineResults::Response(found) => {
                 let Some(view) = self.response(found) else { return Ok(None) };
                 table::response::table(view)

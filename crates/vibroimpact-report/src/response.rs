@@ -57,7 +57,7 @@ impl<'a> ResponseView<'a> {
             column: plan.vary.clone(),
             axis: plan.vary.clone(),
             quantity: machine_quantity(machine, &path)
-                .map_or_else(|_| path.clone(), |(part, of)| of.description(part).to_owned()),
+                .map_or_else(|_| path.clone(), |(part, of)| part.description(of).to_owned()),
             ordinate: found.quantities[found.shown].clone(),
             columns: found.quantities.clone(),
             units: None,

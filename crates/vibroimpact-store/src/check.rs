@@ -6,8 +6,8 @@ use crate::{Store, StoreError, order};
 use rayon::prelude::*;
 use std::sync::Arc;
 use std::time::{Duration, SystemTime};
-use vibroimpact_study::Column;
-use vibroimpact_study::{Control, Meter};
+use vibroimpact_study::study::Study;
+use vibroimpact_study::{Column, Control, Meter};
 
 /// The progress of a store.
 #[derive(Clone, Debug, PartialEq)]
@@ -172,7 +172,10 @@ impl Store {
         let chosen = choose(&whole, sample, seed);
         let points = |tile: u64| grid.tile(tile).points() as u64;
         let meter = Meter::new(control, 0, chosen.iter().map(|tile| points(*tile)).sum());
-        let twin = Self::over(Arc::new(Memory::default()), &self.plan, self.begun_by.clone(), self.format())?;
+        let shelf = Arc::new(Memory::default());
+        let lengths: Vec<usize> = grid.dimensions.iter().map(|dimension| dimension.tile).collect();
+        let study = Study::new(&self.plan)?.with_tiles(&lengths, |name| self.field(name).is_some());
+        let twin = Self::of(shelf, &self.plan, study, self.begun_by.clone(), self.format());
         let concluded = self.concluded()?;
         let compared = pool.install(|| {
             let compare = |tile: &u64| -> Result<Option<Damage>, StoreError> {
@@ -242,11 +245,27 @@ impl Store {
                 _ => false,
             };
             if !same {
-                return Ok(Some(format!("`{}` is not what the plan gives", self.layout.key(tile, field))));
+                let by = match (&here, &there) {
+                    (Some((_, here)), Some((_, there))) => difference(here.real(), there.real()),
+                    _ => String::new(),
+                };
+                return Ok(Some(format!("`{}` is not what the plan gives{by}", self.layout.key(tile, field))));
             }
         }
         Ok(None)
     }
+}
+
+/// By how much numbers differ, relative to their size, so that the rounding of another version is told from a wrong result; empty
+/// where something else than finite numbers differs.
+fn difference(here: &[f64], there: &[f64]) -> String {
+    let differing: Vec<_> = here.iter().zip(there).filter(|(a, b)| a.to_bits() != b.to_bits()).collect();
+    let relative = |(a, b): &(&f64, &f64)| (*a - *b).abs() / a.abs().max(b.abs());
+    let most = differing.iter().map(relative).fold(0.0, |most: f64, by| if by.is_nan() { by } else { most.max(by) });
+    if differing.is_empty() || !most.is_finite() {
+        return String::new();
+    }
+    format!(": {} of {} numbers differ, by {most:.1e} of their size or less", differing.len(), here.len())
 }
 
 /// A random choice of tiles, determined by a seed.

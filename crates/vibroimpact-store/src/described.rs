@@ -112,10 +112,48 @@ impl Store {
         Ok(damage)
     }
 
+    /// The lengths of the tiles of a store whose root states others than its plan gives by default now. The metadata of the array
+    /// itself must agree; otherwise one of the two is damaged.
+    pub(crate) fn begun_tiles(&self, root: &Value) -> Result<Option<Vec<usize>>, StoreError> {
+        let Some(array) = self.layout.arrays.first() else { return Ok(None) };
+        let Some(stated) = described(root, &array.name) else { return Ok(None) };
+        let along = self.layout.grid.dimensions.len();
+        let lengths = |description: &Value| Some(chunk_of(description)?.get(..along)?.to_vec());
+        let tiles = lengths(stated).filter(|tiles| Some(tiles) != lengths(&array.description()).as_ref());
+        let Some(tiles) = tiles else { return Ok(None) };
+        let own = self.get(&array.description_key())?.and_then(|bytes| serde_json::from_slice::<Value>(&bytes).ok());
+        Ok(Some(tiles).filter(|tiles| own.as_ref().and_then(lengths).as_ref() == Some(tiles)))
+    }
+
+    /// The fields of the plan that a store was begun without, by a version that did not know them: neither its root nor an array
+    /// describes them.
+    pub(crate) fn absent_fields(&self, root: &Value) -> Result<Vec<String>, StoreError> {
+        let mut absent = Vec::new();
+        for array in self.layout.arrays.iter().filter(|array| described(root, &array.name).is_none()) {
+            if self.get(&array.description_key())?.is_none() {
+                absent.push(array.name.clone());
+            }
+        }
+        // a root that describes nothing is damaged
+        Ok(if absent.len() < self.layout.arrays.len() { absent } else { Vec::new() })
+    }
+
     /// Writes damaged metadata and coordinates again.
     pub(crate) fn mend_descriptions(&self) -> Result<(), StoreError> {
         if self.structural_damage()?.is_empty() { Ok(()) } else { self.describe() }
     }
+}
+
+/// The description of an array in the root.
+fn described<'a>(root: &'a Value, name: &str) -> Option<&'a Value> {
+    root.pointer("/consolidated_metadata/metadata")?.get(name)
+}
+
+/// The lengths of a chunk in a description: in a shard, those of the chunks within.
+fn chunk_of(description: &Value) -> Option<Vec<usize>> {
+    let inner = description.pointer("/codecs/0/configuration/chunk_shape");
+    let lengths = inner.or_else(|| description.pointer("/chunk_grid/configuration/chunk_shape"))?.as_array()?;
+    lengths.iter().map(|n| n.as_u64().and_then(|n| usize::try_from(n).ok())).collect()
 }
 
 fn of_store(what: String) -> Damage {

@@ -180,11 +180,7 @@ impl Store {
         if found.hash != self.plan.hash() {
             return Err(StoreError::OtherPlan { place: self.place(), theirs: found.hash, ours: self.plan.hash() });
         }
-        // a store that was begun without shards has none
-        if found.format == PLAIN && self.layout.shards.is_some() {
-            return Self::over(self.shelf, &self.plan, found.version, found.format);
-        }
-        Ok(Self { begun_by: found.version, ..self })
+        Self::as_begun(self.shelf, &self.plan, root, found)
     }
 
     /// Opens an existing store.
@@ -200,21 +196,41 @@ impl Store {
             key: ROOT.into(),
             why: format!("its plan does not read: {error}"),
         })?;
-        let store = Self::over(shelf, &plan, found.version, found.format)?;
+        let hash = found.hash.clone();
+        let store = Self::as_begun(shelf, &plan, &root, found)?;
         // another version may write the same plan as another text
-        if store.is_ours() && store.plan.hash() != found.hash {
-            let why =
-                format!("its plan has the name {}, not {}: one of them was changed", store.plan.hash(), found.hash);
+        if store.is_ours() && store.plan.hash() != hash {
+            let why = format!("its plan has the name {}, not {}: one of them was changed", store.plan.hash(), hash);
             return Err(store.defect(ROOT, why));
         }
         Ok(store)
     }
 
+    /// The store of a plan with this root: with the shards, tiles and fields with which it was begun.
+    fn as_begun(
+        shelf: Arc<dyn Shelf>,
+        plan: &StudyPlan,
+        root: &Value,
+        Found { version, format, .. }: Found,
+    ) -> Result<Self, StoreError> {
+        let store = Self::over(shelf, plan, version, format)?;
+        let (tiles, absent) = (store.begun_tiles(root)?, store.absent_fields(root)?);
+        if tiles.is_none() && absent.is_empty() {
+            return Ok(store);
+        }
+        let lengths = tiles.unwrap_or_default();
+        let study = store.study.with_tiles(&lengths, |name| !absent.iter().any(|absent| absent == name));
+        Ok(Self::of(store.shelf, plan, study, store.begun_by, format))
+    }
+
     fn over(shelf: Arc<dyn Shelf>, plan: &StudyPlan, begun_by: String, format: u64) -> Result<Self, StoreError> {
-        let study = Study::new(plan)?;
+        Ok(Self::of(shelf, plan, Study::new(plan)?, begun_by, format))
+    }
+
+    fn of(shelf: Arc<dyn Shelf>, plan: &StudyPlan, study: Study, begun_by: String, format: u64) -> Self {
         let shards = if format == PLAIN { None } else { Shards::of(study.grid(), plan.shard()) };
         let layout = Layout::new(&study, shards);
-        Ok(Self { shelf, plan: plan.clone(), study, layout, begun_by, costs: None })
+        Self { shelf, plan: plan.clone(), study, layout, begun_by, costs: None }
     }
 
     /// Number of tiles of a shard along each dimension; `None` for a store without shards.

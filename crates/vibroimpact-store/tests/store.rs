@@ -584,3 +584,59 @@ fn f09_metadata_of_unfinished_and_older_stores() {
         }
     }
 }
+
+/// A store keeps the tiles and the fields with which it was begun, though the defaults of a later version are others.
+#[test]
+fn a_store_of_other_defaults_is_resumed_and_verified() {
+    let plan = MapPlan::plane("0.6:1.4:13".parse().unwrap(), "0:2:9".parse().unwrap(), 2, 1);
+    let plan = Plan::new(S, Task::Map(plan));
+    let smaller = Plan { tile: Some(3), ..plan.clone() };
+    let hashes = [&plan, &smaller].map(|plan| plan.canonical().unwrap().hash());
+    let folder = tempfile::tempdir().unwrap();
+    open(folder.path(), &smaller).run(Part::new(1, 2).unwrap(), &control(1)).unwrap();
+    // the same root with the plan that leaves the length of the tiles to the default, and without one field
+    let root = folder.path().join("zarr.json");
+    let mut value: serde_json::Value = serde_json::from_slice(&fs::read(&root).unwrap()).unwrap();
+    assert_ne!(hashes[0], hashes[1]);
+    value["attributes"]["plan"] = serde_json::to_string(&plan.canonical().unwrap()).unwrap().into();
+    value["attributes"]["plan_hash"] = hashes[0].clone().into();
+    value["consolidated_metadata"]["metadata"].as_object_mut().unwrap().shift_remove("speed").unwrap();
+    fs::write(&root, format!("{value:#}\n")).unwrap();
+    fs::remove_dir_all(folder.path().join("speed")).unwrap();
+
+    let store = Store::open(Arc::new(Folder::new(folder.path()))).unwrap();
+    assert_eq!(store.study().grid().dimensions.iter().map(|of| of.tile).collect::<Vec<_>>(), [3, 3]);
+    assert!(store.field("speed").is_none() && store.field("share").is_some());
+    let found = store.verify(1000, 0, &control(1)).unwrap();
+    assert!(found.damage.is_empty() && found.open > 0 && found.recomputed > 0, "{found:?}");
+    // the command of the plan goes on with it, too
+    assert_eq!(open(folder.path(), &plan).run(Part::ALL, &control(2)).unwrap().left, 0);
+    let store = Store::open(Arc::new(Folder::new(folder.path()))).unwrap();
+    let found = store.verify(1000, 0, &control(1)).unwrap();
+    assert!(found.damage.is_empty() && found.open == 0, "{found:?}");
+    assert!(!folder.path().join("speed").exists());
+    let (whole, _) = whole(&plan);
+    let now = Store::open(Arc::new(Folder::new(whole.path()))).unwrap();
+    let share = |store: &Store| store.column(store.field("share").unwrap()).unwrap();
+    assert!(share(&store) == share(&now));
+}
+
+/// A number that another version rounded differently is told from a wrong one.
+#[test]
+fn a_difference_has_its_size() {
+    let (folder, _) = whole(&map());
+    let store = Store::open(Arc::new(Folder::new(folder.path()))).unwrap();
+    let (_, mut columns) = store.tile(0).unwrap();
+    let share = store.field("share").unwrap();
+    if let vibroimpact_study::Column::F64(values) = &mut columns[share] {
+        values[0] *= 1.0 + 1e-12;
+    }
+    store.write_tile(0, &columns).unwrap();
+    let found = store.verify(1000, 0, &control(1)).unwrap();
+    let [damage] = found.damage.as_slice() else { panic!("{found:?}") };
+    assert!(
+        damage.what.contains("1 of ") && damage.what.contains("differ, by 1.0e-12 of their size"),
+        "{}",
+        damage.what
+    );
+}

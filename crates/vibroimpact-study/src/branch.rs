@@ -142,7 +142,7 @@ pub(crate) fn branches(system: &SystemPlan, plan: &BranchPlan, control: &Control
     let range = from.min(plan.to)..=from.max(plan.to);
     let direction = if plan.to > from { Direction::Up } else { Direction::Down };
     let options = BranchOptions { points: plan.points, ..BranchOptions::default() };
-    let first = Branch::new(&osc, &chosen.orbit.cycle, vary, range.clone(), direction, options);
+    let first = Branch::new(&osc, &chosen.orbit.cycle, vary.clone(), range.clone(), direction, options);
     let ground = Ground { osc, vary, range, options, control };
     let points = ground.points(first.map_err(PlanError::from)?);
     let mut all = Branches { chosen, followed: vec![Followed { origin: None, points }], lost: Vec::new() };
@@ -172,9 +172,9 @@ impl Ground<'_, '_> {
     fn from(&self, point: &SolutionPoint) -> Result<Vec<Branch>, BranchError> {
         let range = self.range.clone();
         if point.event == Some(BranchEvent::Flip) {
-            return Ok(vec![Branch::from_flip(&self.osc, point, self.vary, range, self.options)?]);
+            return Ok(vec![Branch::from_flip(&self.osc, point, self.vary.clone(), range, self.options)?]);
         }
-        let both = Branch::from_branch_point(&self.osc, point, self.vary, range, self.options)?;
+        let both = Branch::from_branch_point(&self.osc, point, self.vary.clone(), range, self.options)?;
         Ok(both.into_iter().collect())
     }
 }

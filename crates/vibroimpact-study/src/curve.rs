@@ -109,12 +109,12 @@ pub(crate) fn curve(system: &SystemPlan, plan: &CurvePlan, control: &Control<'_>
     let chosen = choose(&osc, label, plan.orbit, &|| !control.stopping())?.ok_or(Stopped { done: 0, total: 2 })?;
     let going = || !control.stopping();
     let stopped = |done| if going() { Ok(()) } else { Err(Stopped { done, total: 2 }) };
-    let frame = plan.vary.frame(&plan.and, system)?;
-    let line = match system.machine.filter(|_| frame.plane.is_of_machines()) {
-        Some(machine) => ParameterPath::of_machine(machine, plan.vary.parameter),
+    let physical = plan.vary.physical().or(plan.and.physical());
+    let line = match system.machine.filter(|_| physical.is_some()) {
+        Some(machine) => machine.line(plan.vary.parameter, None).map_err(PlanError::from)?,
         None => plan.vary.parameter.into(),
     };
-    let events = events(&osc, &chosen, plan, (line, label), going)?;
+    let events = events(&osc, &chosen, plan, (&line, label), going)?;
     stopped(0)?;
     let own = system.value(plan.vary.parameter)?;
     let nearest = || {
@@ -135,6 +135,7 @@ pub(crate) fn curve(system: &SystemPlan, plan: &CurvePlan, control: &Control<'_>
         asked: plan.event,
     })?;
     let options = CurveOptions::default();
+    let frame = plan.vary.frame(&plan.and, &system.with_all([(plan.vary.parameter, events[through].value)])?)?;
     let [forth, back] = Curve::through(&osc, &events[through], line, &frame, options).map_err(PlanError::from)?;
     let forth: Vec<CurvePoint> = forth.take_while(|_| going()).collect();
     let closed = forth.last().is_some_and(|point| point.event == Some(CurveEvent::Closed));
@@ -153,7 +154,7 @@ fn events(
     osc: &Oscillator,
     chosen: &Chosen,
     plan: &CurvePlan,
-    (line, label): (ParameterPath, Label),
+    (line, label): (&ParameterPath, Label),
     going: impl Fn() -> bool,
 ) -> Result<Vec<SolutionPoint>, PlanError> {
     let own = line.get(osc)?;
@@ -165,7 +166,7 @@ fn events(
         let cycle = &chosen.orbit.cycle;
         // the inverse of a value at an end of the range may be rounded to a value outside
         let range = plan.vary.from.min(own)..=plan.vary.to.max(own);
-        let branch = Branch::new(osc, cycle, line, range, direction, BranchOptions::default())?;
+        let branch = Branch::new(osc, cycle, line.clone(), range, direction, BranchOptions::default())?;
         for point in branch.take_while(|point| point.cycle.label == label && going()) {
             let known = |other: &SolutionPoint| (other.value - point.value).abs() <= 1e-9 * (1.0 + point.value.abs());
             if point.event.is_some_and(|event| plan.kind.is(event)) && !events.iter().any(known) {

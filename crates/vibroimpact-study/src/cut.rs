@@ -76,18 +76,19 @@ impl Cut {
             Parameter::Physical(parameter) => Some(parameter),
             _ => None,
         });
-        let alone = match of_machine {
-            Some(parameter) => {
-                let there = self.system(system, value)?.machine;
-                ParameterPath::of_machine(there.ok_or(SystemError::NotPhysical(parameter.name()))?, self.vary)
-            }
-            None => ParameterPath::from(self.vary),
-        };
-        let Some(also) = self.also else { return Ok(alone) };
-        if first == last {
+        if self.also.is_some() && first == last {
             return Err(PlanError::Nowhere { name: self.vary.name(), value: first });
         }
-        Ok(alone.with(also.parameter, (also.to - also.from) / (last - first))?)
+        let also = self.also.map(|also| (also.parameter, (also.to - also.from) / (last - first)));
+        if let Some(parameter) = of_machine {
+            let there = self.system(system, value)?.machine.ok_or(SystemError::NotPhysical(parameter.name()))?;
+            return Ok(there.line(self.vary, also)?);
+        }
+        let alone = ParameterPath::from(self.vary);
+        Ok(match also {
+            Some((other, rate)) => alone.with(other, rate)?,
+            None => alone,
+        })
     }
 
     /// Checks the systems at both ends and that the two parameters form a line. If both ends are valid, every system

@@ -96,9 +96,9 @@ pub use machine_plan::{
     MachineAxis, MachineBasin, MachineBasinPlan, MachineBranchPlan, MachineBranched, MachineCurvePlan, MachineCut,
     MachineDiagram, MachineDiagramPlan, MachineDiagramPoint, MachineDiagramStep, MachineEventCurve, MachineFollowed,
     MachineFollowedEvent, MachineLine, MachineLyapunovPlan, MachineManyPlan, MachineMap, MachineMapPlan,
-    MachineMargins, MachineMarginsPlan, MachineOrigin, MachinePlan, MachineResponsePlan, MachineResults,
-    MachineSection, MachineShare, MachineSimulated, MachineStretch, MachineTarget, MachineTask, NumberEvent,
-    NumberMargin, events_with_states, is_machine_plan, machine_label, run_machine,
+    MachineMargins, MachineMarginsPlan, MachineOrigin, MachinePlan, MachineRegionPlan, MachineResponsePlan,
+    MachineResults, MachineSection, MachineShare, MachineSimulated, MachineStretch, MachineTarget, MachineTask,
+    NumberEvent, NumberMargin, events_with_states, is_machine_plan, machine_label, run_machine,
 };
 pub use map::{MapPlan, MapPoint, RegionMap, Share};
 pub use margins::{

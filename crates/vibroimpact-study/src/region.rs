@@ -27,7 +27,7 @@ pub struct RegionPlan {
     pub grid: u32,
 }
 
-const fn grid() -> u32 {
+pub(crate) const fn grid() -> u32 {
     DEFAULT_GRID
 }
 
@@ -37,10 +37,7 @@ impl RegionPlan {
     /// # Errors
     /// [`PlanError`] names the first invalid value.
     pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
-        followable(&self.label)?;
-        if !(2..=MOST_GRID).contains(&self.grid) {
-            return Err(PlanError::Grid { given: self.grid, most: MOST_GRID });
-        }
+        check(&self.label, self.grid)?;
         check_plane(system, &self.across, &self.up)
     }
 
@@ -66,6 +63,15 @@ impl RegionPlan {
     }
 }
 
+/// Checks the label of a region and its grid.
+pub(crate) fn check(label: &str, grid: u32) -> Result<(), PlanError> {
+    followable(label)?;
+    if !(2..=MOST_GRID).contains(&grid) {
+        return Err(PlanError::Grid { given: grid, most: MOST_GRID });
+    }
+    Ok(())
+}
+
 /// The regions of one motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Regions {
@@ -76,7 +82,7 @@ pub struct Regions {
 }
 
 /// The data common to the regions of several motions in one plane.
-struct Plane {
+pub(crate) struct Plane {
     osc: Oscillator,
     frame: Frame,
     options: RegionOptions,
@@ -85,9 +91,20 @@ struct Plane {
 impl Plane {
     fn new(system: &SystemPlan, across: &Stretch, up: &Stretch, grid: u32) -> Result<Self, PlanError> {
         let corner = system.with_all([(across.parameter, across.from), (up.parameter, up.from)])?;
-        let osc = corner.oscillator()?;
+        Ok(Self::of(corner.oscillator()?, across.frame(up, system)?, grid))
+    }
+
+    pub(crate) fn of(osc: Oscillator, frame: Frame, grid: u32) -> Self {
         let options = RegionOptions { grid: (grid, grid), ..RegionOptions::default() };
-        Ok(Self { osc, frame: across.frame(up, system)?, options })
+        Self { osc, frame, options }
+    }
+
+    /// Both regions of one motion.
+    pub(crate) fn both(&self, label: Label, control: &Control<'_>) -> Result<Regions, RunError> {
+        let wanted = [(label, RegionKind::Existence), (label, RegionKind::Stability)];
+        let mut both = self.regions(&wanted, control)?.into_iter();
+        let mut next = || both.next().unwrap_or(Region { polygons: Vec::new(), unresolved: Vec::new() });
+        Ok(Regions { existence: next(), stability: next() })
     }
 
     /// Computes several regions, each on a thread of its own.
@@ -133,11 +150,7 @@ pub fn stability_regions(
 pub(crate) fn regions(system: &SystemPlan, plan: &RegionPlan, control: &Control<'_>) -> Result<Regions, RunError> {
     plan.check(system)?;
     let label = followable(&plan.label)?;
-    let plane = Plane::new(system, &plan.across, &plan.up, plan.grid)?;
-    let mut both =
-        plane.regions(&[(label, RegionKind::Existence), (label, RegionKind::Stability)], control)?.into_iter();
-    let mut next = || both.next().unwrap_or(Region { polygons: Vec::new(), unresolved: Vec::new() });
-    Ok(Regions { existence: next(), stability: next() })
+    Plane::new(system, &plan.across, &plan.up, plan.grid)?.both(label, control)
 }
 
 #[cfg(test)]

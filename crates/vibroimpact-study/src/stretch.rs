@@ -4,7 +4,7 @@ use crate::{Parameter, PlanError, SystemPlan};
 use core::ops::RangeInclusive;
 use serde::{Deserialize, Serialize};
 use vibroimpact::continuation::Frame;
-use vibroimpact::{ParameterPlane, PhysicalParameter, SystemError};
+use vibroimpact::{PhysicalParameter, SystemError};
 
 /// A parameter from one value to another; as the side of a plane, to a larger one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -36,7 +36,7 @@ impl Stretch {
         let plane = match self.physical().or_else(|| other.physical()) {
             Some(number) => {
                 let machine = system.machine.ok_or(SystemError::NotPhysical(number.name()))?;
-                ParameterPlane::of_machine(machine, parameters)
+                machine.plane(parameters)?
             }
             None => parameters.into(),
         };

@@ -180,7 +180,7 @@ export async function the_waveform_at_the_pointer_is_previewed({ open }) {
   assert.ok(await page.locator("#preview").isHidden());
 }
 
-/** The machine of docs/machines-in-si.md: 0.8 kg, 12 N/mm, 30 N, 2 %, 1.5 mm, at 15.5 Hz, in the units of the command. */
+/** The body of docs/units.md: 0.8 kg, 12 N/mm, 30 N, 2 %, 1.5 mm, at 15.5 Hz, in the units of the command. */
 export async function results_are_in_si_units_of_a_machine({ open }) {
   const natural = Math.sqrt(12000 / 0.8) / (2 * Math.PI);
   const { page } = await open(`#point=1&beta=${15.5 / natural}&gap=0.6&restitution=0.65&damping=0.02&wave=settled&periods=3`);

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { drawn, hash, place, sharp, until } from "./page.mjs";
 
-/** The machine of docs/machines-in-si.md. */
+/** The body of docs/units.md. */
 const MACHINE = "machine=0.8,12000,30";
 const NATURAL = Math.sqrt(12000 / 0.8) / (2 * Math.PI);
 /** One unit of length, F/k, in mm. */

@@ -10,7 +10,7 @@ import { short } from "./ticks.js";
 import { quantities } from "./values.js";
 
 const NUMBERS = [["mass", "kg"], ["stiffness", "N/m"], ["force", "N"]];
-/** The machine of docs/machines-in-si.md. */
+/** The body of docs/units.md. */
 const EXAMPLE = [0.8, 12000, 30];
 
 const known = new Map();

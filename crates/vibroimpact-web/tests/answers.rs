@@ -230,7 +230,7 @@ async fn get(path: &str) -> (StatusCode, Value) {
     (status, serde_json::from_slice(&to_bytes(response.into_body(), usize::MAX).await.unwrap()).unwrap())
 }
 
-/// The units of the machine of docs/machines-in-si.md. With them in the plan, a motion is in metres and seconds.
+/// the units of the body of docs/units.md. With them in the plan, a motion is in metres and seconds.
 #[tokio::test]
 async fn a_machine_has_units() {
     let (status, told) = get("/api/units?mass_kg=0.8&stiffness_n_per_m=12000&force_n=30").await;

@@ -84,9 +84,9 @@ pub mod verdict;
 
 pub use orbit::Label;
 pub use system::{
-    Amplitude, Damping, DrivenOscillator, EquivalentOscillator, Excitation, Frequency, Oscillator, Parameter,
-    ParameterPath, ParameterPlane, PhysicalOscillator, PhysicalParameter, PhysicalStop, QuantityKind, Reduced, Scales,
-    Shaking, Side, Start, Stop, SystemError,
+    Amplitude, Damping, DrivenOscillator, EquivalentOscillator, Excitation, Frequency, Oscillator, OscillatorFamily,
+    Parameter, ParameterPath, ParameterPlane, PhysicalOscillator, PhysicalParameter, PhysicalStop, QuantityKind,
+    Reduced, Scales, Shaking, Side, Start, Stop, SystemError,
 };
 
 /// The listings of the README are compiled and run.

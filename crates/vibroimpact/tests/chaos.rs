@@ -47,13 +47,13 @@ fn the_sum_of_the_exponents_is_the_identity() {
     for parameters in CHAOTIC {
         let osc = system(parameters);
         let found = from_rest(&osc, 20_000);
-        let [one, two] = found.exponents;
+        let [one, two] = found.exponents[..] else { panic!("two") };
         assert!(one.value > one.error, "{parameters:?} is not chaotic: {one:?}");
         let expected = match osc.stop(Side::Lower) {
             Some(_) => found.identity,
             // one stop: from nothing but the rate
             None => {
-                let rate = found.impacts_per_period.value / osc.period();
+                let rate = found.impact_rate.value;
                 2.0 * osc.restitution().ln() * rate - 2.0 * osc.damping()
             }
         };
@@ -108,9 +108,9 @@ fn two_runs_at_u_agree_within_their_error_bars() {
     };
     agree(one.exponents[0], two.exponents[0]);
     agree(one.exponents[1], two.exponents[1]);
-    agree(one.impacts_per_period, two.impacts_per_period);
+    agree(one.impact_rate, two.impact_rate);
     agree(one.section_dimension.unwrap(), two.section_dimension.unwrap());
-    assert!((one.flow_dimension().unwrap().value - one.section_dimension.unwrap().value - 1.0).abs() < 1e-15);
+    assert!((one.flow_dimension.unwrap().value - one.section_dimension.unwrap().value - 1.0).abs() < 1e-15);
 }
 
 /// Many short runs scatter about a long one as their error bars say: neither wider nor much narrower.
@@ -118,7 +118,7 @@ fn two_runs_at_u_agree_within_their_error_bars() {
 fn error_bars_tell_the_scatter() {
     let osc = scenario::U.oscillator();
     let of = |found: &Exponents| {
-        [found.exponents[0], found.exponents[1], found.impacts_per_period, found.section_dimension.unwrap()]
+        [found.exponents[0], found.exponents[1], found.impact_rate, found.section_dimension.unwrap()]
     };
     let long = of(&from_rest(&osc, 1_000_000));
     let mut squares = [0.0; 4];
@@ -156,7 +156,7 @@ fn neighbours_part_at_the_larger_exponent() {
         let blocks: Vec<f64> = logarithms[500..].chunks(500).map(|part| part.iter().sum::<f64>() / 500.0).collect();
         let mean = blocks.iter().sum::<f64>() / 40.0;
         let error = 3.0 * (blocks.iter().map(|b| (b - mean) * (b - mean)).sum::<f64>() / (40.0 * 39.0)).sqrt();
-        let found = from_rest(&osc, 50_000).per_period()[0];
+        let found = from_rest(&osc, 50_000).exponents[0].scaled(osc.period());
         assert!((mean - found.value).abs() < error + found.error && error < 0.1 * mean, "{mean} +- {error} {found:?}");
     }
 }
@@ -169,7 +169,9 @@ fn cycles_have_the_exponents_of_their_multipliers() {
         let orbits = find(&osc, label.parse().unwrap(), FindOptions::default());
         let orbit = orbits.iter().find(|orbit| orbit.physical && orbit.cycle.stable()).unwrap();
         let length = f64::from(orbit.cycle.label.periods);
-        for (measured, multiplier) in found.per_period().iter().zip(orbit.cycle.multipliers) {
+        for (measured, multiplier) in
+            found.exponents.iter().map(|of| of.scaled(osc.period())).zip(orbit.cycle.multipliers)
+        {
             let expected = multiplier.modulus().ln() / length;
             assert!((measured.value - expected).abs() <= measured.error, "{}: {measured:?} {expected}", point.name);
             assert!(measured.error < 1e-2, "{measured:?}");
@@ -177,7 +179,7 @@ fn cycles_have_the_exponents_of_their_multipliers() {
         let Grounds::Measured { time, .. } = found.grounds else { panic!("{found:?}") };
         assert!(found.exponents[0].error * time >= 0.999_999, "another length would change that much");
         assert_eq!(found.section_dimension.map(|d| d.value), Some(0.0));
-        assert_eq!(found.flow_dimension().map(|d| d.value), Some(1.0));
+        assert_eq!(found.flow_dimension.map(|d| d.value), Some(1.0));
     }
 }
 
@@ -187,8 +189,8 @@ fn flights_without_impacts_are_exact() {
         let osc = Oscillator::from_inverse_beta(0.7, 4.0, 0.5).unwrap().with_damping(damping).unwrap();
         let found = from_rest(&osc, 1000);
         assert!(matches!(found.grounds, Grounds::Flight(NoImpact::Flight(_))), "{found:?}");
-        assert_eq!(found.exponents.map(|m| (m.value, m.error)), expected.map(|value| (value, 0.0)));
-        assert_eq!(found.impacts_per_period.value, 0.0);
+        assert_eq!(found.exponents, expected.map(|value| Measured { value, error: 0.0 }));
+        assert_eq!(found.impact_rate.value, 0.0);
         // an undamped flight attracts nothing
         assert_eq!(found.section_dimension.map(|d| d.value), (damping > 0.0).then_some(0.0));
     }
@@ -200,9 +202,9 @@ fn what_sticks_forgets_everything() {
         let osc = Oscillator::from_inverse_beta(inverse, gap, eps).unwrap();
         let found = from_rest(&osc, 5000);
         assert_eq!(found.grounds, Grounds::Sticks(Side::Upper), "{inverse} {gap} {eps}");
-        assert_eq!(found.exponents.map(|m| m.value), [f64::NEG_INFINITY; 2]);
+        assert_eq!(found.exponents, [Measured { value: f64::NEG_INFINITY, error: 0.0 }; 2]);
         assert_eq!(found.section_dimension.map(|d| d.value), Some(0.0));
-        found.impacts_per_period.value
+        found.impact_rate.value * osc.period()
     };
     assert_eq!(sticks(1.11, -0.5, 0.5), f64::INFINITY);
     // restitution 0: the mass sticks after one impact, or after two
@@ -265,7 +267,7 @@ fn touches_have_no_derivative() {
 fn elastic_chaos_keeps_area() {
     let osc = Oscillator::new(0.9, 0.5, 1.0).unwrap();
     let found = from_rest(&osc, 20_000);
-    let [one, two] = found.exponents;
+    let [one, two] = found.exponents[..] else { panic!("two") };
     assert!(one.value > one.error && (one.value + two.value).abs() < 1e-13, "{found:?}");
     assert_eq!((found.identity, found.section_dimension.map(|d| d.value)), (0.0, Some(2.0)));
 }
@@ -276,5 +278,5 @@ fn a_budget_that_runs_out_says_so() {
     let options = ExponentOptions { max_steps: 5_000, ..ExponentOptions::default() };
     let found = exponents(&osc, Start::at_rest(&osc), &options);
     assert!(matches!(found.grounds, Grounds::Undecided { impacts: 100..=5000 }), "{found:?}");
-    assert!(found.exponents[0].value.is_nan() && found.impacts_per_period.value.is_nan());
+    assert!(found.exponents[0].value.is_nan() && found.impact_rate.value.is_nan());
 }

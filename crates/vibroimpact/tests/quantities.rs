@@ -1,7 +1,7 @@
 //! Quantities of random attractors: the energy balance, and every quantity against a fine waveform.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may stop at what it did not expect")]
 
-use vibroimpact::chaos::{ExponentOptions, Spectrum, exponents};
+use vibroimpact::chaos::{ExponentOptions, Tail, exponents};
 use vibroimpact::lanes::Width;
 use vibroimpact::motion::{EventKind, Motion};
 use vibroimpact::quantities::{
@@ -178,9 +178,9 @@ fn chaos_that_ends_in_grazing_contacts() {
     let options = ExponentOptions { impacts: 1000, transient: 100, ..ExponentOptions::default() };
     let measured = exponents(&osc, start, &options);
     let Verdict::Chaotic(chaos) = &measured.motion else { panic!("{measured:?}") };
-    assert_eq!(chaos.spectrum.tail.impacts, 1000);
+    assert_eq!(chaos.tail.impacts, 1000);
     let found = of_verdict(&osc, &measured.motion).unwrap();
-    let rate = measured.impacts_per_period.value;
+    let rate = measured.impact_rate.value * osc.period();
     assert!((found.get(Quantity::ImpactsPerPeriod) - rate).abs() < 1e-9 * rate);
 }
 
@@ -198,7 +198,7 @@ fn the_tail_of_chaos_ends_with_its_last_impact() {
         let long = [300, 3000].map(|n| exponents(&osc, Start::at_rest(&osc), &ExponentOptions::new(n, 500)).motion);
         let verdicts = many.motions.into_iter().map(|found| found.verdict).chain([single]).chain(long);
         for verdict in verdicts {
-            let Verdict::Chaotic(Chaos { spectrum: Spectrum { last, tail, .. }, .. }) = verdict else { continue };
+            let Verdict::Chaotic(Chaos { tail: tail @ Tail { last, .. }, .. }) = verdict else { continue };
             let mut motion = Motion::after(&osc, &tail.from, Default::default());
             let impacts = motion.by_ref().filter_map(|event| match event.kind {
                 EventKind::Impact { velocity_before, .. } => Some((event.phase, velocity_before)),
@@ -252,7 +252,7 @@ fn kept_impacts_give_the_same_quantities() {
                     assert!(tail.is_empty());
                     continue;
                 };
-                assert!(tail.is_empty() || tail.len() as u64 == chaos.spectrum.tail.impacts);
+                assert!(tail.is_empty() || tail.len() as u64 == chaos.tail.impacts);
                 (chaotic, kept) = (chaotic + 1, kept + usize::from(!tail.is_empty()));
             }
         }

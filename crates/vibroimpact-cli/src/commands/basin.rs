@@ -22,8 +22,8 @@ use vibroimpact_study::{BasinPlan, MachineBasinPlan, MachineTask, Plan, Span, Ta
     override_usage = "vibro basin --beta B --gap D --restitution E --x A:B:N --v A:B:N [OPTIONS]\n       \
         vibro basin --machine NAME|FILE --axis q.NAME=A:B:N --axis qdot.NAME=A:B:N [OPTIONS]",
     after_help = "Example:\n  \
-        vibro basin --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --x -4:0.75:400 --v -4:4:400 \\\n    \
-        --csv basin.csv --plot basin.png",
+        vibro basin --inverse-beta 1.3 --gap 0.75 --restitution 0.5 \\\n    \
+        --x -4:0.75:400 --v -4:4:400 --csv basin.csv --plot basin.png",
     mut_arg("csv", |arg| arg.help(
         "Write one row a start, columns x, v, label and --fields, to this file; - for stdout. Of a machine also \
         the stops that stay closed for ever and the events over which chaos was seen"

@@ -27,11 +27,12 @@ use vibroimpact_study::{BranchPlan, DEFAULT_BRANCH_POINTS, MachineBranchPlan, Ma
     override_usage = "vibro branch --beta B --gap D --restitution E --label m/n --vary PARAMETER --to VALUE [OPTIONS]\n       \
         vibro branch --machine NAME|FILE [--label m/n] --vary PATH --to VALUE [OPTIONS]",
     after_help = "Examples:\n  \
-        vibro branch --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 --vary gap --to 2.5\n  \
-        vibro branch --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 --vary gap --to 2.5 \\\n    \
-        --follow 3 --csv branch.csv --plot branch.png\n  \
-        vibro branch --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 --vary gap --to 2.5 \\\n    \
-        --also inverse-beta=1.05",
+        vibro branch --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 \\\n    \
+        --vary gap --to 2.5\n  \
+        vibro branch --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 \\\n    \
+        --vary gap --to 2.5 --follow 3 --csv branch.csv --plot branch.png\n  \
+        vibro branch --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 \\\n    \
+        --vary gap --to 2.5 --also inverse-beta=1.05",
     mut_arg("csv", |arg| arg.help(
         "Write one row a point to this file; - for stdout. Columns: branch, the parameter, that of --also, label, \
         admissible, stable, stability, event, its stop, fastest closing, real and imaginary part of the \

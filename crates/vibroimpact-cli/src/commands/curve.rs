@@ -30,11 +30,12 @@ use vibroimpact_study::{
     override_usage = "vibro curve --beta B --gap D --restitution E --label m/n --kind KIND --vary PARAMETER=A:B --and PARAMETER=A:B [OPTIONS]\n       \
         vibro curve --machine NAME|FILE [--label m/n] --kind KIND --vary PATH=A:B --and PATH=A:B [OPTIONS]",
     after_help = "Examples: where 1/1 doubles its period; where it begins\n  \
-        vibro curve --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 --kind flip \\\n    \
-        --vary gap=0:3 --and inverse-beta=1.05:1.2 --plot flip.png\n  \
-        vibro curve --inverse-beta 0.7 --gap 2 --restitution 0.5 --label 1/1 --kind fold \\\n    \
-        --vary gap=1:5 --and inverse-beta=0.6:0.9 --csv fold.csv\n  \
-        vibro curve --machine bouncing-ball --set Gamma=1.2 --label 1/1 --kind flip --vary Gamma=0.2:4 --and e=0.2:0.9",
+        vibro curve --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 \\\n    \
+        --kind flip --vary gap=0:3 --and inverse-beta=1.05:1.2 --plot flip.png\n  \
+        vibro curve --inverse-beta 0.7 --gap 2 --restitution 0.5 --label 1/1 \\\n    \
+        --kind fold --vary gap=1:5 --and inverse-beta=0.6:0.9 --csv fold.csv\n  \
+        vibro curve --machine bouncing-ball --set Gamma=1.2 --label 1/1 \\\n    \
+        --kind flip --vary Gamma=0.2:4 --and e=0.2:0.9",
     mut_arg("csv", |arg| arg.help(
         "Write one row a point to this file; - for stdout. Columns: both parameters, label, admissible, event, \
         real and imaginary part of the multipliers, phases, speeds and stops of the closings (lists with blanks \

@@ -40,11 +40,14 @@ use vibroimpact_study::{
         --csv gap.csv --plot gap.png\n  \
         vibro diagram --gap 0 --restitution 0.8 --vary beta --over 2.5:3:401 \\\n    \
         --direction scatter --starts 20 --plot beta.png\n  \
-        vibro diagram --beta 0.9 --gap 2 --damping 0.05 --vary restitution --over 0:1:201 \\\n    \
-        --show strobe --csv strobe.csv\n  \
-        vibro diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 0:3:301 --show impact-speed-max --plot speed.png\n  \
-        vibro diagram --restitution 0.5 --vary inverse-beta --over 1.05:1.15:401 --also gap=1.5:3 --plot line.png\n  \
-        vibro diagram --machine two-mass-hammer --vary frequency --over 0.7:1.3:301 --branches --plot hammer.png",
+        vibro diagram --beta 0.9 --gap 2 --damping 0.05 --vary restitution \\\n    \
+        --over 0:1:201 --show strobe --csv strobe.csv\n  \
+        vibro diagram --inverse-beta 1.3 --restitution 0.5 --vary gap \\\n    \
+        --over 0:3:301 --show impact-speed-max --plot speed.png\n  \
+        vibro diagram --restitution 0.5 --vary inverse-beta --over 1.05:1.15:401 \\\n    \
+        --also gap=1.5:3 --plot line.png\n  \
+        vibro diagram --machine two-mass-hammer --vary frequency \\\n    \
+        --over 0.7:1.3:61 --branches --plot frequency.png",
     mut_arg("csv", |arg| arg.help(
         "Write one row a point to this file; - for stdout. Columns: the parameter, that of --also, sweep, kind, \
         stop, phase, speed; for strobe the parameters, sweep, kind, x, v; for a quantity the parameters, sweep, \

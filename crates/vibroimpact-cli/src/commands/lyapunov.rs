@@ -29,8 +29,10 @@ use vibroimpact_study::{
         vibro lyapunov --machine NAME|FILE [--set PATH=VALUE] [--q A,B --qdot A,B --phase P] [OPTIONS]",
     after_help = "Examples:\n  \
         vibro lyapunov --inverse-beta 1.11 --gap 3 --restitution 0.5\n  \
-        vibro lyapunov --inverse-beta 1.11 --gap 3 --restitution 0.5 --section section.csv --plot section.png\n  \
-        vibro lyapunov --inverse-beta 1.11 --gap 3 --restitution 0.5 --axis gap=2.5:3.5:101 --impacts 20000 --plot gap.png",
+        vibro lyapunov --inverse-beta 1.11 --gap 3 --restitution 0.5 \\\n    \
+        --section section.csv --plot section.png\n  \
+        vibro lyapunov --inverse-beta 1.11 --gap 3 --restitution 0.5 \\\n    \
+        --axis gap=2.5:3.5:101 --impacts 20000 --plot exponents.png",
     mut_arg("csv", |arg| arg.visible_alias("section").help(
         "Write the points of both sections of the attractor to this file; - for stdout. Columns: section \
         (closing, or strobe for the states at phase 0), stop, phase, speed of the closing, and positions and \

@@ -29,11 +29,15 @@ use vibroimpact_study::{MachineMapPlan, MachineTask, MapPlan, Plan, Task};
     override_usage = "vibro map --inverse-beta A:B:N --gap A:B:N --restitution E --starts N [OPTIONS]\n       \
         vibro map --machine NAME|FILE --axis PATH=A:B:N [--axis PATH=A:B:N] --starts N [OPTIONS]",
     after_help = "Examples:\n  \
-        vibro map --inverse-beta 0.4:2:33 --gap 0:5:41 --restitution 0.5 --starts 20 --csv map.csv --plot map.png\n  \
-        vibro map --inverse-beta 0.9:1.5:61 --gap 0.5:3:51 --restitution 0.5 --starts 4 --plot map.svg \\\n    \
+        vibro map --inverse-beta 0.4:2:33 --gap 0:5:41 --restitution 0.5 \\\n    \
+        --starts 4 --csv map.csv --plot map.png\n  \
+        vibro map --inverse-beta 0.9:1.5:31 --gap 0.5:3:26 --restitution 0.5 \\\n    \
+        --starts 4 --plot map.svg \\\n    \
         --layers regions,amplitude,stripes --mark 1.3,1 --line 1.1,1.5:1.1,2.5\n  \
-        vibro map --beta 0.1:10:60:log --restitution 0.2:0.9:40 --gap 1 --starts 8 --plot restitution.png\n  \
-        vibro map --inverse-beta 0.4:2:800 --gap 0:5:800 --restitution 0.5 --starts 8 --store map.zarr --refine 8",
+        vibro map --beta 0.1:10:30:log --restitution 0.2:0.9:20 --gap 1 --starts 4 \\\n    \
+        --plot restitution.png\n  \
+        vibro map --inverse-beta 0.4:2:161 --gap 0:5:161 --restitution 0.5 \\\n    \
+        --starts 4 --store map.zarr --refine 8",
     mut_arg("csv", |arg| arg.help(
         "Write one row a motion to this file; - for stdout. Columns: what varies, then label, share, and \
         --fields; of a machine also the stops that stay closed for ever and the events over which chaos was seen"

@@ -32,10 +32,10 @@ use vibroimpact_study::{
         vibro margins --machine NAME|FILE [--set PATH=VALUE] [--q A,B --qdot A,B | --label m/n] [OPTIONS]",
     after_help = "Examples:\n  \
         vibro margins --inverse-beta 1.11 --gap 1.5 --restitution 0.5\n  \
-        vibro margins --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 --vary gap,restitution \\\n    \
-        --scale gap=0.05 --csv margins.csv\n  \
-        vibro margins --mass-kg 0.8 --stiffness-n-per-m 12000 --force-n 30 --damping-ratio 0.02 \\\n    \
-        --gap-m 0.0015 --restitution 0.65 --frequency-hz 20\n  \
+        vibro margins --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 \\\n    \
+        --vary gap,restitution --scale gap=0.05 --csv margins.csv\n  \
+        vibro margins --mass-kg 0.8 --stiffness-n-per-m 12000 --force-n 30 \\\n    \
+        --damping-ratio 0.02 --gap-m 0.0015 --restitution 0.65 --frequency-hz 20\n  \
         vibro margins --machine two-mass-hammer --vary frequency,stop.anvil.gap",
     mut_arg("plot", |arg| arg.help(
         "Draw the change of each parameter to its nearest events as bars into this file, .svg, .png or .pdf"

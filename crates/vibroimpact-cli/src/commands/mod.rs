@@ -10,6 +10,7 @@ mod diagram;
 mod estimate;
 mod explore;
 mod export;
+mod help;
 mod lyapunov;
 mod machine;
 mod man;
@@ -49,11 +50,14 @@ use clap::{CommandFactory, Parser, Subcommand};
     name = "vibro",
     version,
     arg_required_else_help = true,
+    disable_help_subcommand = true,
     propagate_version = true,
     after_help = "Examples:\n  \
         vibro settle --inverse-beta 1.8 --gap 0.25 --restitution 0.5\n  \
         vibro attractors --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --starts 500\n  \
-        vibro basin --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --x -4:0.75:300 --v -4:4:300 --plot basin.png\n\n\
+        vibro basin --inverse-beta 1.3 --gap 0.75 --restitution 0.5 \\\n    \
+        --x -4:0.75:300 --v -4:4:300 --plot basin.png\n\n\
+        Topics: vibro help system, figure, store, units, quantities or machines\n\n\
         Exit codes: 0 done, 1 failed, 2 the question makes no sense, 130 stopped by Ctrl-C or a spent budget.\n\
         Data goes to stdout, everything else to stderr. `vibro COMMAND --help` explains each command."
 )]
@@ -96,6 +100,7 @@ enum Command {
     Reproduce(reproduce::Reproduce),
     Completions(completions::Completions),
     Man(man::Man),
+    Help(help::Help),
 }
 
 pub(crate) fn run(line: &CommandLine, session: &Session) -> Result<(), Failure> {
@@ -130,5 +135,6 @@ pub(crate) fn run(line: &CommandLine, session: &Session) -> Result<(), Failure> 
         Command::Reproduce(args) => reproduce::run(args, session),
         Command::Completions(args) => completions::run(*args, CommandLine::command(), session),
         Command::Man(args) => man::run(args, CommandLine::command(), session),
+        Command::Help(args) => help::run(args, CommandLine::command(), session),
     }
 }

@@ -7,7 +7,8 @@ use crate::failure::Failure;
 use crate::report::{machine_answers, machine_events};
 use crate::session::Session;
 use vibroimpact::events::MachineEnd;
-use vibroimpact::verdict::{MachineUndecided, MachineVerdict};
+use vibroimpact::machine::Machine;
+use vibroimpact::verdict::{Undecided, UndecidedCause, Verdict};
 use vibroimpact_report::figure::plane::{PlaneAxis, Sides};
 use vibroimpact_report::{Shown, machine_answer};
 use vibroimpact_study::{
@@ -113,6 +114,6 @@ pub(super) fn run(
     if search_limit { Err(respond::search_limit()) } else { Ok(()) }
 }
 
-fn ended_by_search(verdict: &MachineVerdict) -> bool {
-    matches!(verdict, MachineVerdict::Undecided { why: MachineUndecided::Ended(MachineEnd::SearchLimit), .. })
+fn ended_by_search(verdict: &Verdict<Machine>) -> bool {
+    matches!(verdict, Verdict::Undecided(Undecided { why: UndecidedCause::Ended(MachineEnd::SearchLimit), .. }))
 }

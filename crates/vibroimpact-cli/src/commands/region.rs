@@ -1,13 +1,15 @@
 //! `vibro region`: the regions of a plane of two parameters in which a motion exists and in which it is stable.
 
-use crate::args::{AxesArgs, Convention, OutputArgs, PhysicalArgs, SystemStretchesArgs, of_oscillator, whole};
+use crate::args::{
+    AxesArgs, Convention, MachineArgs, OutputArgs, PhysicalArgs, SystemStretchesArgs, VariedOver, of_oscillator, whole,
+};
 use crate::commands::outputs::Outputs;
-use crate::commands::respond;
+use crate::commands::{of_machine, respond};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use vibroimpact_report::{Asked, Shown};
-use vibroimpact_study::{DEFAULT_GRID, Plan, RegionPlan, Stretch, Task};
+use vibroimpact_study::{DEFAULT_GRID, MachineRegionPlan, MachineTask, Plan, RegionPlan, Stretch, Task};
 
 /// Where a motion exists and where it is stable, over two parameters: closed polygons
 ///
@@ -17,12 +19,21 @@ use vibroimpact_study::{DEFAULT_GRID, Plan, RegionPlan, Stretch, Task};
 /// touches a stop), merging (with an orbit of half the period), frame. The surface of orbits folds, so polygons of
 /// different sheets may overlap. The region of the motion without impacts, label 0, is known in closed form: its
 /// amplitude exceeds no gap, and a touch bounds it.
+///
+/// Of a machine any two numbers vary, by their paths. It must have one coordinate on a spring, forcing of order 1, no friction,
+/// and one rigid stop or two on opposite sides: then it is an oscillator, and its regions are computed as those of one.
 #[derive(Clone, Debug, Args)]
 #[command(
-    override_usage = "vibro region --label m/n --inverse-beta A:B --gap A:B --restitution E [OPTIONS]",
+    mut_arg("restitution", |arg| arg.required(false).required_unless_present("machine")),
+    override_usage = "vibro region --label m/n --inverse-beta A:B --gap A:B --restitution E [OPTIONS]\n       \
+        vibro region --machine NAME|FILE --label m/n --axis PATH=A:B --axis PATH=A:B [OPTIONS]",
     after_help = "Examples:\n  \
-        vibro region --label 1/1 --inverse-beta 0.4:2 --gap -1:5 --restitution 0.5 --csv region.csv --plot region.png\n  \
-        vibro region --label 1/2 --inverse-beta 1.11 --gap 0:3 --restitution 0.2:0.9 --plot plane.png",
+        vibro region --label 1/1 --inverse-beta 0.4:2 --gap -1:5 --restitution 0.5 \\\n    \
+        --csv region.csv --plot region.png\n  \
+        vibro region --label 1/2 --inverse-beta 1.11 --gap 0:3 \\\n    \
+        --restitution 0.2:0.9 --plot plane.png\n  \
+        vibro region --machine fukaya-irie-1971 --label 1/1 \\\n    \
+        --axis inverse_beta=0.4:2 --axis delta=-1:5 --csv region.csv",
     mut_arg("csv", |arg| arg.help(
         "Write one row a vertex to this file; - for stdout. Columns: region (existence or stability), polygon, \
         hole, sheet (below: multipliers below +1, or above), both parameters, and what bounds the region from \
@@ -45,6 +56,12 @@ pub(crate) struct Region {
 
     #[command(flatten)]
     machine: PhysicalArgs,
+    #[command(flatten)]
+    of_machine: MachineArgs,
+
+    /// What varies over a machine, once for each axis: the path of a number and its range
+    #[arg(long, value_name = "PATH=A:B", allow_hyphen_values = true, requires = "machine", help_heading = "Machine")]
+    axis: Vec<VariedOver>,
 
     /// Units of ranges and results
     #[arg(long, value_enum, value_name = "UNITS", default_value_t = Convention::Nondimensional, help_heading = "Plane")]
@@ -77,7 +94,26 @@ impl Region {
     }
 }
 
+impl Region {
+    fn of_machine(&self) -> Result<MachineTask, Failure> {
+        let [across, up] = self.axis.as_slice() else {
+            return Err(Failure::bad(format!(
+                "a plane has two numbers, and --axis PATH=A:B is given {} times\nhint: --axis frequency=30:60 --axis stop.wall.gap=0.001:0.01",
+                self.axis.len()
+            )));
+        };
+        let (across, up) = (across.stretch(), up.stretch());
+        Ok(MachineTask::Region(MachineRegionPlan { label: self.label.clone(), across, up, grid: self.grid }))
+    }
+}
+
 pub(super) fn run(args: &Region, session: &Session) -> Result<(), Failure> {
+    let task = || args.of_machine();
+    if let Some(answer) =
+        of_machine::asked(&args.of_machine, None, task, args.output.files(), (None, of_machine::usual), session)
+    {
+        return answer;
+    }
     let (asked, over) = args.system.asked((&args.machine, args.units), &[], of_oscillator)?;
     let (across, up) = args.plane(&asked, over)?;
     let task = RegionPlan { label: args.label.clone(), across, up, grid: args.grid };

@@ -25,11 +25,14 @@ use vibroimpact_study::{Coordinate, MachineResponsePlan, MachineTask, Plan, Resp
     override_usage = "vibro response --beta A:B:N --gap D --restitution E [OPTIONS]\n       \
         vibro response --machine NAME|FILE --axis PATH=A:B:N [OPTIONS]",
     after_help = "Examples:\n  \
-        vibro response --beta 0.5:1.5:201 --gap 1.5 --restitution 0.7 --damping 0.02 --plot response.png\n  \
-        vibro response --mass-kg 0.8 --stiffness-n-per-m 12000 --force-n 30 --damping-ratio 0.02 --gap-m 0.0015 \\\n    \
-        --restitution 0.65 --frequency-hz 15:25:201 --quantity impact-speed-max --csv response.csv --plot response.png\n  \
-        vibro response --machine two-mass-hammer --axis frequency=0.9:1.3:41 --quantity stop.anvil.impact-speed-max \\\n    \
-        --plot hammer.png",
+        vibro response --beta 0.5:1.5:201 --gap 1.5 --restitution 0.7 \\\n    \
+        --damping 0.02 --plot response.png\n  \
+        vibro response --mass-kg 0.8 --stiffness-n-per-m 12000 --force-n 30 \\\n    \
+        --damping-ratio 0.02 --gap-m 0.0015 \\\n    \
+        --restitution 0.65 --frequency-hz 15:25:201 --quantity impact-speed-max \\\n    \
+        --csv rattle.csv --plot rattle.png\n  \
+        vibro response --machine two-mass-hammer --axis frequency=0.9:1.3:41 \\\n    \
+        --quantity stop.anvil.impact-speed-max --plot hammer.png",
     mut_arg("csv", |arg| arg.help(
         "Write one row for each motion of a sweep and each point of a branch to this file; - for stdout. Columns: \
         curve (up, down or the number of a branch), the parameter, label, admissible, stable, stability, event, \

@@ -26,7 +26,8 @@ use vibroimpact_study::{MachinePlan, PlanError, Study, StudyPlan};
     mut_arg("json", |arg| arg.help("Print one JSON object with what was done")),
     after_help = "Examples:\n  \
     vibro run map.toml --store map.zarr --plot map.png\n  \
-    vibro run map.toml --store /scratch/map.zarr --tiles 3/16     the third of sixteen jobs"
+    vibro run map.toml --store /scratch/map.zarr \\\n    \
+    --tiles 3/16     the third of sixteen jobs"
 )]
 pub(crate) struct Run {
     /// The plan, TOML or JSON

@@ -22,10 +22,12 @@ use vibroimpact_study::{MachineTask, Plan, Results, Task};
         vibro settle --machine NAME|FILE [--set PATH=VALUE] [--q A,B --qdot A,B --phase P] [OPTIONS]",
     after_help = "Examples:\n  \
         vibro settle --inverse-beta 1.8 --gap 0.25 --restitution 0.5\n  \
-        vibro settle --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --v 1 --plot steady.svg\n  \
-        vibro settle --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --show phase --plot portrait.svg\n  \
-        vibro settle --mass-kg 2 --damping-ns-per-m 1 --stiffness-n-per-m 800 --force-n 4 --frequency-hz 4 \\\n    \
-        --gap-m 0.01 --restitution 0.5 --units si",
+        vibro settle --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --v 1 \\\n    \
+        --plot steady.svg\n  \
+        vibro settle --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --show phase \\\n    \
+        --plot portrait.svg\n  \
+        vibro settle --mass-kg 2 --damping-ns-per-m 1 --stiffness-n-per-m 800 \\\n    \
+        --force-n 4 --frequency-hz 4 --gap-m 0.01 --restitution 0.5 --units si",
     mut_arg("csv", |arg| arg.help(
         "Write the steady motion to this file, one row a point, columns t, x, v unless --show says otherwise; of \
         a machine those of `vibro simulate`; - for stdout"

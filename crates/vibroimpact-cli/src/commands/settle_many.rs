@@ -33,10 +33,14 @@ use vibroimpact_study::{
         vibro settle-many --points FILE.csv --restitution E [OPTIONS]\n       \
         vibro settle-many --machine NAME|FILE --sample lhs:N --over PATH=A:B [--over PATH=A:B] [OPTIONS]",
     after_help = "Examples:\n  \
-        vibro settle-many --sample lhs:1e4 --inverse-beta 0.6:2 --gap 0:2 --restitution 0.3:0.8 --v 0.5 --csv sample.csv\n  \
-        vibro settle-many --sample sobol:65536 --beta 1 --gap 1 --restitution 0.5 --x -4:1 --v -4:4 --store starts.zarr\n  \
-        vibro settle-many --points systems.csv --restitution 0.5 --fields impact-speed-max --csv -\n  \
-        vibro settle-many --machine two-mass-hammer --sample sobol:64 --over frequency=0.9:1.3 --over q.head=-1:0.4 --csv -"
+        vibro settle-many --sample lhs:2000 --inverse-beta 0.6:2 --gap 0:2 \\\n    \
+        --restitution 0.3:0.8 --v 0.5 --csv sample.csv\n  \
+        vibro settle-many --sample sobol:65536 --beta 1 --gap 1 --restitution 0.5 \\\n    \
+        --x -4:1 --v -4:4 --store starts.zarr\n  \
+        vibro settle-many --points systems.csv --restitution 0.5 \\\n    \
+        --fields impact-speed-max --csv -\n  \
+        vibro settle-many --machine two-mass-hammer --sample sobol:64 \\\n    \
+        --over frequency=0.9:1.3 --over q.head=-1:0.4 --csv -"
 )]
 #[command(group = clap::ArgGroup::new("of_points").required(true).args(["points", "sample"]))]
 pub(crate) struct SettleMany {

@@ -19,8 +19,10 @@ use vibroimpact_study::{MachinePlan, MachineTask, Plan, Task};
         vibro simulate --machine NAME|FILE [--set PATH=VALUE] [--q A,B --qdot A,B --phase P] [OPTIONS]",
     after_help = "Examples:\n  \
         vibro simulate --inverse-beta 1.8 --gap 0.25 --restitution 0.5 --impacts 20\n  \
-        vibro simulate --beta 0.9 --gap -0.5 --restitution 0.5 --periods 4 --plot chatter.svg\n  \
-        vibro simulate --beta 0.9 --gap 0.5 --restitution 0.7 --periods 10 --csv wave.csv --step 0.01\n  \
+        vibro simulate --beta 0.9 --gap -0.5 --restitution 0.5 --periods 4 \\\n    \
+        --plot chatter.svg\n  \
+        vibro simulate --beta 0.9 --gap 0.5 --restitution 0.7 --periods 10 \\\n    \
+        --csv wave.csv --step 0.01\n  \
         vibro simulate --machine soft-stop --impacts 10\n  \
         vibro simulate --machine two-mass-hammer --periods 10 --plot hammer.svg",
     mut_arg("csv", |arg| arg.help(

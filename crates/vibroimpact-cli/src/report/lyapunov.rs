@@ -26,7 +26,7 @@ pub(super) fn said(of: Measured) -> String {
 }
 
 /// The motion, its exponents, and how they were obtained.
-pub(crate) fn text(found: &Exponents, units: &Units) -> String {
+pub(crate) fn text(found: &Exponents, period: f64, units: &Units) -> String {
     let mut text = format!("{}: {}\n", found.motion.label(), meaning(&found.motion));
     let per_time = |of: Measured| said(scaled(of, 1.0 / units.time()));
     let heads = [
@@ -34,12 +34,13 @@ pub(crate) fn text(found: &Exponents, units: &Units) -> String {
         format!("<per {}", if units.si { "second" } else { "unit of time" }),
         "<per forcing period".into(),
     ];
-    let row = |name: &str, of: Measured| vec![name.into(), per_time(of), said(scaled(of, found.period))];
-    let [one, two] = found.exponents;
-    let rows = [row("larger exponent", one), row("smaller exponent", two), row("their sum", found.sum)];
+    let row = |name: &str, of: Measured| vec![name.into(), per_time(of), said(scaled(of, period))];
+    let names = ["larger exponent", "smaller exponent"].into_iter().zip(&found.exponents);
+    let mut rows: Vec<Vec<String>> = names.map(|(name, of)| row(name, *of)).collect();
+    rows.push(row("their sum", found.sum));
     text.push_str(&table(&heads, &rows));
-    let _ = writeln!(text, "  impacts per forcing period {}", said(found.impacts_per_period));
-    let _ = match (found.section_dimension, found.flow_dimension()) {
+    let _ = writeln!(text, "  impacts per forcing period {}", said(scaled(found.impact_rate, period)));
+    let _ = match (found.section_dimension, found.flow_dimension) {
         (Some(section), Some(flow)) => writeln!(
             text,
             "  Kaplan-Yorke dimension {} of the stroboscopic section, {} of the flow in x, v and phase",
@@ -75,6 +76,7 @@ fn grounds(found: &Exponents, units: &Units) -> String {
         Grounds::Sticks(at) => {
             format!("it comes to rest on the {} in every turn, and a release forgets all before it", stop_name(at))
         }
+        Grounds::Exact => "exact".into(),
         Grounds::Stuck(at) => format!("it rests on the {} for ever, whatever came before", stop_name(at)),
         Grounds::Touches(_) => "it only touches the stop, and a touch has no derivative".into(),
         Grounds::Undecided { impacts } => format!("the search ran out after {impacts} impacts"),

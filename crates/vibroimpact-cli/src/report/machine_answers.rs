@@ -5,16 +5,18 @@ use crate::report::diagram;
 use crate::report::lyapunov::said;
 use crate::report::machine_curve;
 use crate::report::margins;
+use crate::report::region;
 use crate::report::response;
 use crate::report::words::ROUNDING_DECIDES;
 use core::fmt::Write;
-use vibroimpact::chaos::MachineSpectrum;
+use vibroimpact::chaos::{Grounds, Measured};
 use vibroimpact::continuation::MachinePoint;
 use vibroimpact::events::{MachineEnd, MachineLimits};
 use vibroimpact::machine::{Machine, StopLaw};
 use vibroimpact::orbit::MachineCycle;
-use vibroimpact::quantities::{MachinePart, MachineQuantity, Quantity, machine_quantities};
-use vibroimpact::verdict::{MachineUndecided, MachineVerdict, Stability};
+use vibroimpact::quantities::machine::Part;
+use vibroimpact::quantities::{Quantity, machine_quantities};
+use vibroimpact::verdict::{Chaos, Stability, Undecided, UndecidedCause, Verdict};
 use vibroimpact_report::MachineAnswer;
 use vibroimpact_report::json::undecided;
 use vibroimpact_report::number::short;
@@ -31,7 +33,7 @@ pub(crate) fn text(answer: &MachineAnswer) -> String {
             text.push_str(&motion(machine, &found.verdict));
             text.push_str(&quantities(machine, &found.verdict));
             let _ =
-                writeln!(text, "  followed for {}, until time {}", counted(found.events, "event"), short(found.time));
+                writeln!(text, "  followed for {}, until time {}", counted(found.impacts, "event"), short(found.time));
             if found.transient.is_some() {
                 text.push_str("  chaotic before: a transient that has ended\n");
             }
@@ -55,11 +57,11 @@ pub(crate) fn text(answer: &MachineAnswer) -> String {
             }
         }
         MachineResults::Lyapunov(found, _) => {
-            match &found.spectrum {
-                Some(spectrum) => text.push_str(&exponents(spectrum)),
-                None => text.push_str("no exponents: the motion ended before\n"),
+            match found.grounds {
+                Grounds::Undecided { .. } => text.push_str("no exponents: the motion ended before\n"),
+                _ => text.push_str(&exponents(&found.exponents)),
             }
-            let dimensions = found.section_dimension(machine).zip(found.flow_dimension(machine));
+            let dimensions = found.section_dimension.zip(found.flow_dimension);
             if let Some((section, flow)) = dimensions.filter(|(section, _)| section.value > 0.0) {
                 let _ = writeln!(
                     text,
@@ -68,7 +70,7 @@ pub(crate) fn text(answer: &MachineAnswer) -> String {
                     said(flow)
                 );
             }
-            let how = if found.exact { "exact" } else { "measured" };
+            let how = if found.exact() { "exact" } else { "measured" };
             let seen = found.motion.seen_events();
             let seen = seen.map_or_else(String::new, |events| format!(", seen over {}", counted(events, "event")));
             let _ = writeln!(text, "  {how}; the motion is {}{seen}", found.motion.label());
@@ -86,6 +88,9 @@ pub(crate) fn text(answer: &MachineAnswer) -> String {
         MachineResults::Curve(found) => text.push_str(&machine_curve::text(machine, &answer.plan.task, found)),
         MachineResults::Margins(found) => {
             text.push_str(&margins::of_machine(found, machine, motion(machine, &found.motion)));
+        }
+        MachineResults::Region(found) => {
+            text.push_str(&region::of_machine(found, &answer.plan.task, &answer.plan.machine));
         }
         MachineResults::Response(found) => {
             let view = answer.response(found);
@@ -134,31 +139,31 @@ fn branch(machine: &Machine, points: &[MachinePoint]) -> String {
 }
 
 /// The names of the stops that stay closed for ever.
-fn closed(machine: &Machine, verdict: &MachineVerdict) -> String {
+fn closed(machine: &Machine, verdict: &Verdict<Machine>) -> String {
     let names = verdict.closed().into_iter().map(|stop| machine.name_of(stop));
     names.collect::<Vec<_>>().join(", ")
 }
 
-fn motion(machine: &Machine, verdict: &MachineVerdict) -> String {
+fn motion(machine: &Machine, verdict: &Verdict<Machine>) -> String {
     let stability = verdict.stability(machine).map_or_else(String::new, |stability| format!(", {stability}"));
     match verdict {
-        MachineVerdict::Periodic(cycle) => described(machine, cycle),
-        MachineVerdict::NoImpact(_) => {
+        Verdict::Periodic(cycle) => described(machine, cycle),
+        Verdict::NoImpact(_) => {
             let closed = closed(machine, verdict);
             let closed = if closed.is_empty() { closed } else { format!(", in contact with {closed}") };
             format!("0{stability}: no further event, for ever{closed}\n")
         }
-        MachineVerdict::Stuck(_) => {
+        Verdict::Stuck(_) => {
             format!("stuck{stability}: at rest on {}, for ever\n", closed(machine, verdict))
         }
-        MachineVerdict::Chaotic { spectrum, events, .. } => {
-            format!("chaotic, seen over {}\n{}", counted(*events, "event"), exponents(spectrum))
+        Verdict::Chaotic(Chaos { spectrum, impacts: events, .. }) => {
+            format!("chaotic, seen over {}\n{}", counted(*events, "event"), exponents(&spectrum.exponents))
         }
-        MachineVerdict::Undecided { why, events, .. } => {
+        Verdict::Undecided(Undecided { why, impacts: events, .. }) => {
             let why = match why {
-                MachineUndecided::Events => "the budget is used up".to_owned(),
-                MachineUndecided::Unconfirmed => ROUNDING_DECIDES.to_owned(),
-                MachineUndecided::Ended(MachineEnd::NoEventWithin) => {
+                UndecidedCause::Budget => "the budget is used up".to_owned(),
+                UndecidedCause::Unconfirmed => ROUNDING_DECIDES.to_owned(),
+                UndecidedCause::Ended(MachineEnd::NoEventWithin) => {
                     let time = short(MachineLimits::default().time);
                     format!("no event within a time of {time} after the last one, and none is excluded later")
                 }
@@ -171,29 +176,29 @@ fn motion(machine: &Machine, verdict: &MachineVerdict) -> String {
 
 /// The quantities that matter: power and where it goes, and for each stop that closes the largest speed and the largest
 /// impulse, or force of a compliant one.
-fn quantities(machine: &Machine, verdict: &MachineVerdict) -> String {
+fn quantities(machine: &Machine, verdict: &Verdict<Machine>) -> String {
     let Some(found) = machine_quantities(machine, verdict) else { return String::new() };
     let mut text = String::new();
-    let whole = |quantity| found.get(MachinePart::Whole, quantity);
+    let whole = |quantity| found.get(Part::Whole, quantity);
     let lost = [
-        (MachineQuantity::Common(Quantity::ImpactPower), "impacts"),
-        (MachineQuantity::ContactPower, "dampers of stops"),
-        (MachineQuantity::FrictionPower, "friction"),
-        (MachineQuantity::Common(Quantity::DampingPower), "damping"),
+        (Quantity::ImpactPower, "impacts"),
+        (Quantity::ContactPower, "dampers of stops"),
+        (Quantity::FrictionPower, "friction"),
+        (Quantity::DampingPower, "damping"),
     ];
-    let power = whole(MachineQuantity::Common(Quantity::Power));
+    let power = whole(Quantity::Power);
     let lost = lost.map(|(quantity, name)| (whole(quantity), name)).into_iter().filter(|(lost, _)| *lost > 0.0);
     let lost: Vec<String> = lost.map(|(lost, name)| format!("{} in {name}", short(lost))).collect();
     if power.is_finite() && !lost.is_empty() {
         let _ = writeln!(text, "  power {}: lost {}", short(power), lost.join(", "));
     }
     for (j, stop) in machine.stops().iter().enumerate() {
-        let of = |quantity| found.get(MachinePart::Stop(j), quantity);
-        let speed = of(MachineQuantity::Common(Quantity::ImpactSpeedMax));
+        let of = |quantity| found.get(Part::Stop(j), quantity);
+        let speed = of(Quantity::ImpactSpeedMax);
         if speed > 0.0 {
             let (what, most) = match stop.law {
-                StopLaw::Rigid { .. } => ("impulse", MachineQuantity::Common(Quantity::ImpulseMax)),
-                StopLaw::Compliant { .. } => ("force", MachineQuantity::ForceMax),
+                StopLaw::Rigid { .. } => ("impulse", Quantity::ImpulseMax),
+                StopLaw::Compliant { .. } => ("force", Quantity::ForceMax),
             };
             let _ =
                 writeln!(text, "  {}: speed at most {}, {what} at most {}", stop.name, short(speed), short(of(most)));
@@ -239,9 +244,9 @@ fn described(machine: &Machine, cycle: &MachineCycle) -> String {
     text
 }
 
-fn exponents(spectrum: &MachineSpectrum) -> String {
+fn exponents(all: &[Measured]) -> String {
     let mut text = String::new();
-    for (k, exponent) in spectrum.exponents.iter().enumerate() {
+    for (k, exponent) in all.iter().enumerate() {
         let value = if exponent.value == f64::NEG_INFINITY {
             "minus infinity".to_owned()
         } else {

@@ -47,7 +47,7 @@ pub(crate) fn text(answer: &Answer) -> Result<String, Failure> {
         (_, Results::Basin(found)) => system() + &basin::text(found, osc),
         (_, Results::Map(found)) => map::text(found, plan.system.second_stop.is_some()),
         (_, Results::Diagram(found)) => diagram::text(found, units),
-        (_, Results::Lyapunov(start, found, _)) => from(start) + "\n" + &lyapunov::text(found, units),
+        (_, Results::Lyapunov(start, found, _)) => from(start) + "\n" + &lyapunov::text(found, osc.period(), units),
         (Task::Branch(task), Results::Branch(found)) => {
             system() + &branch::text(found, &task.cut(&asked.system)?, units)
         }

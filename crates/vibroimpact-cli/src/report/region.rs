@@ -8,7 +8,8 @@ use vibroimpact_report::json::region::unit;
 use vibroimpact_report::number::short;
 use vibroimpact_report::table::region::both;
 use vibroimpact_report::{Asked, Units};
-use vibroimpact_study::{Parameter, RegionPlan, Regions, Stretch};
+use vibroimpact_study::machine::MachineSource;
+use vibroimpact_study::{MachineStretch, MachineTask, Parameter, RegionPlan, Regions, Stretch};
 
 /// The text of the range of a parameter.
 fn over(stretch: &Stretch, units: &Units) -> String {
@@ -19,19 +20,37 @@ fn over(stretch: &Stretch, units: &Units) -> String {
 /// Each polygon with its extent and the kinds of its boundary.
 pub(crate) fn text(found: &Regions, plan: &RegionPlan, Asked { system, units }: &Asked) -> String {
     let (across, up) = (over(&plan.across, units), over(&plan.up, units));
-    let mut text = format!("{} over {across}, {up}\n", plan.label.trim());
     let names = [plan.across.parameter, plan.up.parameter].map(|parameter| named(parameter, units));
-    let unit = unit(plan, units);
+    // over parameters of the oscillator the region of the motion without impacts is known in closed form
+    let closed_form = plan.clears() && ![plan.across, plan.up].iter().any(is_physical);
+    let text = format!("{} over {across}, {up}\n", plan.label.trim());
+    text + &polygons(found, (&names, unit(plan, units), plan.grid), (plan.neutral(system), closed_form))
+}
+
+/// The same of a machine.
+pub(crate) fn of_machine(found: &Regions, task: &MachineTask, source: &MachineSource) -> String {
+    let MachineTask::Region(plan) = task else { return String::new() };
+    let over =
+        |stretch: &MachineStretch| format!("{} from {} to {}", stretch.path, short(stretch.from), short(stretch.to));
+    let names = [plan.across.path.clone(), plan.up.path.clone()];
+    let text = format!("{} over {}, {}\n", plan.label.trim(), over(&plan.across), over(&plan.up));
+    text + &polygons(found, (&names, (1.0, 1.0), plan.grid), (plan.neutral(source), false))
+}
+
+/// The polygons of both regions over numbers with these names and units, or why there is none.
+fn polygons(
+    found: &Regions,
+    (names, unit, grid): (&[String; 2], (f64, f64), u32),
+    (neutral, closed_form): (bool, bool),
+) -> String {
+    let mut text = String::new();
     for (name, region) in both(found) {
         let none = match (region.polygons.is_empty(), name) {
             (false, _) => "",
-            (true, "stability") if plan.neutral(system) => {
+            (true, "stability") if neutral => {
                 ": none, the motion is neutral where it exists: without damping and losses at impacts nothing attracts"
             }
-            // over parameters of the oscillator this region is known in closed form
-            (true, _) if plan.clears() && ![plan.across, plan.up].iter().any(of_machine) => {
-                ": none, the amplitude of the motion without impacts exceeds a gap everywhere"
-            }
+            (true, _) if closed_form => ": none, the amplitude of the motion without impacts exceeds a gap everywhere",
             (true, _) => ": none found",
         };
         let _ = writeln!(text, "\n{name}{none}");
@@ -52,15 +71,15 @@ pub(crate) fn text(found: &Regions, plan: &RegionPlan, Asked { system, units }: 
                 text,
                 "  at {} of {} points of the grid the polygons and the search for orbits do not agree: a curve was lost there, or the orbits rest on a stop",
                 region.unresolved.len(),
-                u64::from(plan.grid).pow(2)
+                u64::from(grid).pow(2)
             );
         }
     }
     text
 }
 
-/// Whether a number of a machine varies.
-const fn of_machine(stretch: &Stretch) -> bool {
+/// Whether a number in SI units varies.
+const fn is_physical(stretch: &Stretch) -> bool {
     matches!(stretch.parameter, Parameter::Physical(_))
 }
 

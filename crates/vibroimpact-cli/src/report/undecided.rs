@@ -1,6 +1,6 @@
 //! What decides more, where motions are undecided.
 
-use vibroimpact::verdict::{SettleOptions, Undecided, Verdict};
+use vibroimpact::verdict::{SettleOptions, Undecided, UndecidedCause, Verdict};
 use vibroimpact_report::Answer;
 use vibroimpact_study::{Results, Task};
 
@@ -41,7 +41,7 @@ pub(super) fn hint(answer: &Answer) -> Option<String> {
 
 /// Whether the impacts of its budget were too few for a motion. A search for one contact is not longer with more impacts.
 const fn unsettled(verdict: &Verdict) -> bool {
-    matches!(verdict, Verdict::Undecided(Undecided::Impacts { .. }))
+    matches!(verdict, Verdict::Undecided(Undecided { why: UndecidedCause::Budget, .. }))
 }
 
 /// A larger budget than the one used, if there is one.

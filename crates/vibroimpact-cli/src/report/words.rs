@@ -6,7 +6,7 @@ use vibroimpact::flight::Horizon;
 use vibroimpact::math::Multiplier;
 use vibroimpact::orbit::Cycle;
 use vibroimpact::quantities::{Quantities, Quantity, of_verdict};
-use vibroimpact::verdict::{Count, NoImpact, Stability, Undecided, Verdict};
+use vibroimpact::verdict::{Count, NoImpact, Stability, Undecided, UndecidedCause, Verdict};
 use vibroimpact::{Oscillator, Side, Start};
 use vibroimpact_report::json::event::side;
 use vibroimpact_report::number::short;
@@ -136,7 +136,7 @@ pub(crate) fn meaning(verdict: &Verdict) -> String {
         Verdict::NoImpact(_) => "no more impacts, ever".into(),
         Verdict::Chaotic(chaos) => format!("no repetition in {} impacts", chaos.impacts),
         Verdict::Stuck(at) => format!("at rest on the {} for ever", stop_name(*at)),
-        Verdict::Undecided(Undecided::Unconfirmed { .. }) => ROUNDING_DECIDES.into(),
+        Verdict::Undecided(Undecided { why: UndecidedCause::Unconfirmed, .. }) => ROUNDING_DECIDES.into(),
         Verdict::Undecided(_) => "nothing could be shown within the budget".into(),
     }
 }
@@ -165,7 +165,7 @@ const fn in_words(stability: Option<Stability>, verdict: &Verdict) -> &'static s
 }
 
 /// The grounds of a verdict.
-fn grounds(verdict: &Verdict, units: &Units) -> String {
+fn grounds(verdict: &Verdict, osc: &Oscillator, units: &Units) -> String {
     match verdict {
         Verdict::Periodic(cycle) if cycle.points.is_empty() && cycle.rests.is_empty() => {
             "a closed form; it stays short of the stops".into()
@@ -202,22 +202,24 @@ fn grounds(verdict: &Verdict, units: &Units) -> String {
         Verdict::Chaotic(chaos) => format!(
             "largest Lyapunov exponent {} per unit of time, {} impacts per forcing period; no cycle, no second rest, no fading",
             measured(chaos.spectrum.exponents[0], 1.0 / units.time()),
-            measured(chaos.spectrum.impacts_per_period, 1.0)
+            measured(chaos.spectrum.impact_rate, osc.period())
         ),
         Verdict::Stuck(_) => "the force never pulls the mass off the stop".into(),
-        Verdict::Undecided(Undecided::Impacts { impacts, spectrum }) => format!(
-            "{impacts} impacts without a cycle{}",
-            spectrum.map_or_else(String::new, |s| format!(
-                ", and a largest Lyapunov exponent {} that does not exclude 0",
-                measured(s.exponents[0], 1.0 / units.time())
-            ))
-        ),
-        Verdict::Undecided(Undecided::Unconfirmed { impacts }) => {
+        Verdict::Undecided(Undecided { why: UndecidedCause::Budget | UndecidedCause::Ended(_), impacts, spectrum }) => {
+            format!(
+                "{impacts} impacts without a cycle{}",
+                spectrum.map_or_else(String::new, |s| format!(
+                    ", and a largest Lyapunov exponent {} that does not exclude 0",
+                    measured(s.exponents[0], 1.0 / units.time())
+                ))
+            )
+        }
+        Verdict::Undecided(Undecided { why: UndecidedCause::Unconfirmed, impacts, .. }) => {
             format!(
                 "{impacts} impacts; from the release to the next rest the rounding errors grow beyond what tells one motion from another"
             )
         }
-        Verdict::Undecided(Undecided::Search { periods }) => format!(
+        Verdict::Undecided(Undecided { why: UndecidedCause::Search { periods }, .. }) => format!(
             "a flight was followed for {} forcing periods without contact, too few to conclude",
             short(*periods)
         ),
@@ -257,7 +259,7 @@ pub(crate) fn motion(verdict: &Verdict, osc: &Oscillator, units: &Units) -> Stri
     if let Some(of) = of_verdict(osc, verdict) {
         text.push_str(&quantities(&of, units));
     }
-    let _ = writeln!(text, "  shown by: {}", grounds(verdict, units));
+    let _ = writeln!(text, "  shown by: {}", grounds(verdict, osc, units));
     text
 }
 

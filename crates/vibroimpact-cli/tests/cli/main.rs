@@ -9,6 +9,7 @@ mod edges;
 mod excitation;
 mod figures;
 mod files;
+mod help;
 mod lyapunov;
 mod machine_studies;
 mod machines;

@@ -140,7 +140,7 @@ fn what_is_refused() {
         assert_eq!(output.status.code(), Some(2), "{line}: {said}");
         assert!(said.contains(sentence), "{line}: {said}");
     }
-    let help = vibro("map --help").output().expect("vibro runs");
+    let help = vibro("help figure").output().expect("vibro runs");
     let help = String::from_utf8_lossy(&help.stdout).into_owned();
     for word in
         ["--layers <LAYER,...>", "--mark <X,Y>", "--line <X0,Y0:X1,Y1>", "The amplitude of the motion without stops"]

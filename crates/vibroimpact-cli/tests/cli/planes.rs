@@ -109,6 +109,37 @@ fn a_region_as_text_and_table_for_any_threads() {
     assert!(other.starts_with("region,polygon,hole,sheet,gap,restitution,bound\n") && other.lines().count() > 10);
 }
 
+/// The oscillator as a machine has the same regions, over numbers with paths.
+#[test]
+fn a_region_of_a_machine() {
+    let line = "region --machine fukaya-irie-1971 --label 1/1 --axis inverse_beta=1.05:1.2 --axis delta=1:2.5 --grid 4";
+    let (own, plain) = (json(line), json(REGION));
+    assert_eq!(own["parameters"], serde_json::json!(["inverse_beta", "delta"]));
+    assert_eq!((&own["label"], &own["neutrally_stable"]), (&plain["label"], &plain["neutrally_stable"]));
+    for kind in ["existence", "stability"] {
+        let polygons = |answer: &Value| answer[kind]["polygons"].clone();
+        let (own, plain) = (polygons(&own), polygons(&plain));
+        assert_eq!(own.as_array().unwrap().len(), plain.as_array().unwrap().len());
+        for k in 0..400 {
+            let at = (1.053 + 0.0071 * f64::from(k % 20), 1.037 + 0.073 * f64::from(k / 20));
+            assert_eq!(inside(&own, at), inside(&plain, at), "{kind} {at:?}");
+        }
+    }
+    let said = |line: &str| String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
+    let text = said(line);
+    assert!(text.starts_with("1/1 over inverse_beta from 1.05 to 1.2, delta from 1 to 2.5\n"), "{text}");
+    let table = said(&format!("{line} --csv -"));
+    assert!(
+        table.starts_with("region,polygon,hole,sheet,inverse_beta,delta,bound\nexistence,1,false,below,"),
+        "{table}"
+    );
+    let refused = |line: &str| String::from_utf8(vibro(line).output().unwrap().stderr).unwrap();
+    let other = refused("region --machine two-mass-hammer --label 1/1 --axis frequency=0.9:1.3 --axis b=0.4:0.6");
+    assert!(other.contains("regions are those of machines of one coordinate"), "{other}");
+    let one = refused("region --machine fukaya-irie-1971 --label 1/1 --axis delta=1:2.5");
+    assert!(one.contains("--axis PATH=A:B is given 1 times"), "{one}");
+}
+
 /// In physical units the region is the same, with gaps in metres. Ranges replace the values of the system.
 #[test]
 fn a_region_in_physical_units() {

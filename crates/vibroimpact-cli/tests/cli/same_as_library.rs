@@ -93,6 +93,9 @@ fn of_machines() {
     same_of_machine(&format!(
         "curve {hammer} --label 2/1 --orbit 2 --kind fold --vary frequency=1:1.1 --and b=0.45:0.55"
     ));
+    let one = "--machine fukaya-irie-1971 --set inverse_beta=1.11";
+    same_of_machine(&format!("region {one} --label 1/1 --axis inverse_beta=1.05:1.2 --axis delta=1:2.5 --grid 4"));
+    same_of_machine(&format!("branch {one} --set delta=1 --label 1/1 --vary delta --to 2.5 --follow 1"));
     same_of_machine("map --machine two-mass-hammer --axis frequency=0.9:1.2:4 --starts 2");
     same_of_machine(&format!("basin {hammer} --axis q.head=-1:0.5:4"));
 }

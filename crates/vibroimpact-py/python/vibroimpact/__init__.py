@@ -49,7 +49,6 @@ from vibroimpact._events import Events
 from vibroimpact._grid import basin, orbit_diagram, region_map
 from vibroimpact._lyapunov import Closings, Lyapunov, Strobes, lyapunov
 from vibroimpact._machine import Machine
-from vibroimpact._machine_simulation import MachineSimulation, MachineWaveform
 from vibroimpact._margins import MarginEnd, Margins, MotionBox, Nearest, ParameterMargin, margins
 from vibroimpact._motion import Measured, Motion
 from vibroimpact._orbits import EarlierContact, Orbit, Orbits, orbits
@@ -63,6 +62,7 @@ from vibroimpact._settle import Settled, Settlement, settle, settle_many
 from vibroimpact._simulate import Simulation, simulate
 from vibroimpact._simulate_many import simulate_many
 from vibroimpact._store import Ran, Status, Verified, open, resume, run, status, verify
+from vibroimpact._waveform import Waveform
 
 if TYPE_CHECKING:
     from vibroimpact._accessor import VibroAccessor
@@ -92,8 +92,6 @@ __all__ = [
     "Events",
     "Lyapunov",
     "Machine",
-    "MachineSimulation",
-    "MachineWaveform",
     "MarginEnd",
     "Margins",
     "Measured",
@@ -125,6 +123,7 @@ __all__ = [
     "Units",
     "Verified",
     "VibroAccessor",
+    "Waveform",
     "__version__",
     "attractors",
     "basin",

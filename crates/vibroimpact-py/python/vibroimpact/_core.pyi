@@ -177,7 +177,7 @@ def simulate(
     osc: Oscillator, start: _Start, impacts: int | None, periods: float | None, progress: _Progress
 ) -> _Fields: ...
 def waveform(
-    osc: Oscillator, start: _Start, until: float, points_per_period: float
+    osc: Oscillator, start: _Start, until: float, step: float, events: bool
 ) -> tuple[_Array, _Array, _Array]: ...
 def settle_many(
     osc: Oscillator, x: _Array, v: _Array, phase: _Array, threads: int, progress: _Progress

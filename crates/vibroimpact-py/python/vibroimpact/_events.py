@@ -21,6 +21,20 @@ def names_of(system: Any) -> tuple[list[str], list[str]]:
     return [f"q.{name}" for name in system.coordinates], [f"qdot.{name}" for name in system.coordinates]
 
 
+def stops_of(system: Any) -> tuple[str, ...]:
+    """The names of the stops."""
+    if isinstance(system, Oscillator):
+        return ("upper",) if system.second_gap is None else ("upper", "lower")
+    stops: tuple[str, ...] = system.stops
+    return stops
+
+
+def named_columns(system: Any, q: _Floats, qdot: _Floats) -> dict[str, _Floats]:
+    """Coordinates and velocities by their names."""
+    positions, velocities = names_of(system)
+    return {**dict(zip(positions, q.T)), **dict(zip(velocities, qdot.T))}
+
+
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
 class Events(Result):
     """The events of a cycle in order of time, beginning with the fastest closing of a stop.

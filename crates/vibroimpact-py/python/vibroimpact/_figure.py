@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.patches import Patch
 
+    from vibroimpact._waveform import Waveform
+
 SYMBOLS = {
     "beta": r"\beta",
     "inverse_beta": r"1/\beta",
@@ -159,16 +161,16 @@ def walls(ax: "Axes", osc: Oscillator, unit: float, ys: NDArray[np.float64]) -> 
 
 def waveform(
     osc: Oscillator,
-    wave: tuple[NDArray[np.float64], NDArray[np.float64]],
+    wave: "Waveform",
     impacts: tuple[NDArray[np.float64], NDArray[np.float64]],
     label: str | None,
     ax: "Axes | None",
     si: bool,
 ) -> "Axes":
-    """Draw the position over time, with the stops and the impacts, whose times and positions are given."""
+    """Draw the position of an oscillator over time, with the stops and the impacts, whose times and positions are given."""
     scale = Scale(osc, si)
     ax = new_axes(ax, (9.5, 3.6))
-    t, x = wave[0] * scale.time, wave[1] * scale.length
+    t, x = wave.time * scale.time, wave.q[:, 0] * scale.length
     ax.plot(t, x, color=SERIES[0], linewidth=1.5, label="position")
     times, at = impacts
     seen = times * scale.time <= t[-1] * (1 + 1e-12)

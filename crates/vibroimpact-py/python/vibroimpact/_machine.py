@@ -19,6 +19,7 @@ from vibroimpact._grid import basin, orbit_diagram, region_map
 from vibroimpact._lyapunov import lyapunov
 from vibroimpact._margins import margins
 from vibroimpact._orbits import orbits
+from vibroimpact._region import region
 from vibroimpact._response import response
 from vibroimpact._settle import settle
 from vibroimpact._simulate import simulate
@@ -182,7 +183,7 @@ class Machine:
         return self._of(self._file.with_numbers([(path, float(value)) for path, value in given.items()]))
 
     def starting(self, state: Mapping[str, Any]) -> "Machine":
-        """The same machine with another start: a state with its contacts, such as `MachineSimulation.state` returns and
+        """The same machine with another start: a state with its contacts, such as `Simulation.state` returns and
         `Motion.state` is. A motion that goes on from the state of an event is the motion, to the last bit.
 
         Examples
@@ -275,6 +276,7 @@ class Machine:
     orbits = orbits
     branch = branch
     curve = curve
+    region = region
     margins = margins
     response = response
     basin = basin

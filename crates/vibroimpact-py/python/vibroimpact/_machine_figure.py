@@ -25,8 +25,8 @@ def _intervals(time: NDArray[Any], closed: NDArray[Any]) -> list[tuple[float, fl
 
 
 def draw(motion: Any, axes: "Sequence[Axes] | None") -> "NDArray[Any]":
-    """Draw the coordinates of a `MachineSimulation`, and the contact forces if there are any."""
-    machine, until = motion.machine, motion.shown_until
+    """Draw the coordinates of a `Simulation` of a machine, and the contact forces if there are any."""
+    machine, until = motion.system, motion.shown_until
     # with very many events their sides are not seen
     wave = motion.waveform(until / _STEPS or 1.0, events=len(motion) <= _SIDES)
     names, stops, contacts = machine.coordinates, machine.stops, machine.stops + machine.joints
@@ -79,7 +79,7 @@ def draw(motion: Any, axes: "Sequence[Axes] | None") -> "NDArray[Any]":
 def _marked(motion: Any, stop: str, shown: int) -> list[int]:
     """The coordinates on which an impact is marked: those that its stop moves, if they are one or two, or else the one
     that it moves most."""
-    names = motion.machine.coordinates[:shown]
-    weights = [abs(motion.machine.number(f"stop.{stop}.direction.{name}")) for name in names]
+    names = motion.system.coordinates[:shown]
+    weights = [abs(motion.system.number(f"stop.{stop}.direction.{name}")) for name in names]
     moved = [k for k, weight in enumerate(weights) if weight > 0]
     return moved if len(moved) <= 2 else [weights.index(max(weights))]

@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact import _core
 from vibroimpact._ask import MachineLike
 from vibroimpact._core import Oscillator, QuestionError
 from vibroimpact._events import Events
 from vibroimpact._result import View
+from vibroimpact._simulate import simulate
+from vibroimpact._waveform import Waveform, waveform
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -215,24 +216,29 @@ class Motion(View):
             return {"x": float(q[0]), "v": float(qdot[0]), "phase": phase}
         return {"q": q.tolist(), "qdot": qdot.tolist(), "phase": phase}
 
-    def waveform(
-        self, points_per_period: float = 200, periods: float | None = None
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-        """Times, positions and velocities along a periodic motion of an oscillator, from just after its first impact.
+    def waveform(self, step: float | None = None, *, periods: float | None = None, events: bool = True) -> Waveform:
+        """The motion over time: of an oscillator from just after the first event of its cycle, of a machine from its `state`.
 
         Parameters
         ----------
-        points_per_period : float
-            Number of points in each forcing period. Every impact has one point before and one after it in addition.
+        step : float
+            Time between two points, at most. Default: a hundredth of a forcing period; without forcing a thousandth of the whole time.
         periods : float
-            Number of forcing periods; by default those of one period of the motion.
+            Number of forcing periods, without forcing of cycles; by default those of one period of the motion.
+        events : bool
+            Whether to add both sides of each event, at the same time, and the end. Without them the steps are equal.
         """
-        if not isinstance(self.system, Oscillator):
-            raise QuestionError("the waveform of a machine is that of a simulation\nhint: simulate(...).waveform(step)")
-        start = self.start()
-        turns = self.periods or 1
-        from_ = (start["x"], start["v"], start["phase"])
-        return _core.waveform(self.system, from_, (periods or turns) * self.system.period, points_per_period)
+        turns = 1 if periods is None else periods / (self.periods or 1)
+        until = turns * (self.period or self.system.period or 0.0)
+        if not until > 0.0:
+            raise QuestionError(f"the motion {self.label} has no period to show\nhint: simulate(...).waveform() shows it from its start")
+        if isinstance(self.system, Oscillator):
+            start = self.start()
+            return waveform(self.system, (start["x"], start["v"], start["phase"]), until, step, events)
+        if self.state is None:
+            raise QuestionError(f"the motion {self.label} has no state to start from\nhint: simulate it from its start")
+        machine = self.system.starting(self.state)
+        return waveform(machine, machine.start_of(), until, step, events)
 
     def plot(self, ax: "Axes | Any" = None, *, si: bool = False) -> Any:
         """Draw some periods of the motion: of an oscillator the position with the stops, of a machine the coordinates, and below
@@ -247,15 +253,15 @@ class Motion(View):
 
         turns = self.periods or 1
         periods = turns * max(2, math.ceil(_SHOWN / turns))
-        t, x, _ = self.waveform(periods=periods)
+        wave = self.waveform(self.system.period / 200, periods=periods)
         struck = np.zeros(0, dtype=np.intp) if self.sticks else np.flatnonzero(self.cycle.kind == "impact")
         period = turns * self.system.period
         times = np.concatenate([self.cycle.time[struck] + k * period for k in range(periods // turns + 1)])
         places = np.tile(self.cycle.q[struck, 0], periods // turns + 1)
-        return _figure.waveform(self.system, (t, x), (times, places), self.label, ax, si)
+        return _figure.waveform(self.system, wave, (times, places), self.label, ax, si)
 
     def _plot_machine(self, machine: MachineLike, axes: Any) -> "NDArray[Any]":
-        from vibroimpact import _machine_figure, _machine_simulation
+        from vibroimpact import _machine_figure
         from vibroimpact._figure import heading, named
 
         if self.state is None:
@@ -263,7 +269,6 @@ class Motion(View):
         turns = self.periods or 1
         impacts = max(_CYCLES * len(self.cycle), 1) if machine.period is None else None
         periods = None if impacts else turns * max(2, math.ceil(_SHOWN / turns))
-        start = self.state["q"], self.state["qdot"], self.state["phase"]
-        drawn = _machine_figure.draw(_machine_simulation.simulate(machine, start, impacts, periods, None), axes)
+        drawn = _machine_figure.draw(simulate(machine.starting(self.state), impacts=impacts, periods=periods), axes)
         drawn[0].set_title(f"{heading(machine)}: {named(self.label)}")
         return drawn

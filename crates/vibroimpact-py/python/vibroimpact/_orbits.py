@@ -14,6 +14,7 @@ from vibroimpact._motion import Motion
 from vibroimpact._palette import SERIES
 from vibroimpact._progress import Progress
 from vibroimpact._result import View
+from vibroimpact._waveform import Waveform
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -48,13 +49,11 @@ class Orbit(Motion):
     def _remark(self) -> str:
         return "" if self.admissible else ", inadmissible"
 
-    def waveform(
-        self, points_per_period: float = 200, periods: float | None = None
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    def waveform(self, step: float | None = None, *, periods: float | None = None, events: bool = True) -> Waveform:
         """As for a Motion. Raises QuestionError for an inadmissible solution."""
         if not self.admissible:
             raise QuestionError(f"this solution {self.label} is inadmissible: it passes through a stop on its way")
-        return Motion.waveform(self, points_per_period, periods)
+        return Motion.waveform(self, step, periods=periods, events=events)
 
 
 class Orbits(View):

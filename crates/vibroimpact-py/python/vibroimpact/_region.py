@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact import _core
-from vibroimpact._ask import ask
+from vibroimpact._ask import System, ask
 from vibroimpact._axis import Interval, numbers, plane
 from vibroimpact._core import Oscillator
 from vibroimpact._figure import named, new_axes
@@ -87,12 +87,12 @@ class Region(Result):
 
     Attributes
     ----------
-    osc : Oscillator
+    system : Oscillator or Machine
         The system; its values of the two parameters are ignored.
     label : str
         The label m/n of the motion.
     parameters : (str, str)
-        The parameters on the abscissa and the ordinate.
+        The parameters on the abscissa and the ordinate; of a machine the paths of numbers.
     ranges : ((float, float), (float, float))
         The ranges of the two parameters.
     neutrally_stable : bool
@@ -103,7 +103,7 @@ class Region(Result):
         The plan as JSON.
     """
 
-    osc: Oscillator
+    system: System
     label: str
     parameters: tuple[str, str]
     ranges: tuple[tuple[float, float], tuple[float, float]]
@@ -155,7 +155,7 @@ def _draw(of: Region, ax: "Axes | None") -> "Axes":
                     if label is not None:
                         ax.plot([], [], dash, color=colour, linewidth=2, label=label)
                         label = None
-    frame(ax, of.osc, of.parameters, of.ranges)
+    frame(ax, of.system, of.parameters, of.ranges)
     return ax
 
 
@@ -181,7 +181,7 @@ def _fill(ax: "Axes", part: Part, colour: str) -> None:
 
 
 def region(
-    osc: Oscillator,
+    system: System,
     label: str,
     over: Mapping[str, Interval],
     *,
@@ -196,13 +196,15 @@ def region(
 
     Parameters
     ----------
-    osc : Oscillator
-        The system; its values of the two parameters are ignored.
+    system : Oscillator or Machine
+        The system; its values of the two parameters are ignored. A machine must have one coordinate on a spring, forcing of
+        order 1, no friction, and one rigid stop or two on opposite sides.
     label : str
         The label "m/n" of the motion.
     over : mapping
-        Two parameters and their ranges, the abscissa first: {"inverse_beta": (0.4, 2), "gap": (-1, 5)}. Of a machine
-        in physical units also two of its numbers: {"mass_kg": (0.7, 0.95), "force_n": (10, 60)}.
+        Two parameters and their ranges, the abscissa first: {"inverse_beta": (0.4, 2), "gap": (-1, 5)}. With
+        physical units also two of them: {"mass_kg": (0.7, 0.95), "force_n": (10, 60)}. Of a machine paths:
+        {"frequency": (0.5, 1.5), "stop.wall.gap": (0, 2)}.
     grid : int
         Number of points of the grid in each direction, 2 to 400. Parts of the region between its points may be missed.
     threads : int
@@ -219,11 +221,12 @@ def region(
     True
     """
     first, second = plane(over)
-    sides = [{"parameter": name, "from": low, "to": high} for name, low, high in (first, second)]
+    kind = "parameter" if isinstance(system, Oscillator) else "path"
+    sides = [{kind: name, "from": low, "to": high} for name, low, high in (first, second)]
     task = {"label": label, "across": sides[0], "up": sides[1], "grid": whole("grid", grid, GRID)}
-    found = ask(osc, "region", task, total=2, threads=threads, progress=progress, what="regions")
+    found = ask(system, "region", task, total=2, threads=threads, progress=progress, what="regions")
     return Region(
-        osc, label.strip(), (first[0], second[0]), (first[1:], second[1:]), found["neutrally_stable"],
+        system, label.strip(), (first[0], second[0]), (first[1:], second[1:]), found["neutrally_stable"],
         _part(found["existence"]), _part(found["stability"]), json.dumps(found["plan"]),
     )
 

@@ -2,72 +2,83 @@
 
 import json
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, overload
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from vibroimpact import _core, _machine_simulation
-from vibroimpact._ask import MachineLike, Start, System
-from vibroimpact._core import Oscillator
-from vibroimpact._machine_simulation import MachineSimulation
+from vibroimpact import _core
+from vibroimpact._ask import MachineLike, Start, State, System
+from vibroimpact._core import Oscillator, QuestionError
+from vibroimpact._events import named_columns
 from vibroimpact._progress import Progress, watched
 from vibroimpact._result import Result
+from vibroimpact._waveform import Waveform, waveform
 from vibroimpact._whole import SIMULATED, maybe
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+_Floats = NDArray[np.float64]
 
-#: Kinds of events by their code.
+#: Kinds of events of an oscillator by their code.
 _KINDS = np.array(["impact", "graze", "stick", "release"])
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
 class Simulation(Result):
-    """The events of a motion of an oscillator as columns, and the reason why the list ends.
+    """The events of a motion as columns, and the reason why the list ends.
 
     Attributes
     ----------
-    system : Oscillator
+    system : Oscillator or Machine
         The system.
-    start : (float or None, float, float)
-        Position (None: at rest, or on the stop), velocity and phase of the start.
-    kind, stop : ndarray of str
-        "impact", "graze", "stick" or "release"; "upper" or "lower".
+    start : tuple
+        The start: position (None: at rest, or on the stop), velocity and phase; of a machine coordinates, velocities and phase.
+    kind : ndarray of str
+        "impact", "close", "open", "stick", "release", "slip", "hold", "graze" or "collapse".
+    stop : ndarray of str
+        The name of the stop or joint; of an oscillator "upper" or "lower".
     time, phase : ndarray
         Time and phase of each event; phases in radians in [0, 2 pi).
     speed : ndarray
-        Speed of an impact before it; 0 at other events.
-    q, qdot : ndarray, events x 1
-        Position, and velocity after the event.
+        Speed of closing before the event, 0 where nothing closes; of an opening that of separation; of a slip the direction, 1 or -1.
+    q, qdot : ndarray, events x coordinates
+        Coordinates, and velocities after the event.
+    with_ : tuple of tuples of str
+        Other stops of a machine that take part at the same time.
+    tie : ndarray of bool
+        Whether impacts at one time would lead elsewhere if one of the stops were struck first.
     depth : ndarray
-        For a graze: the remaining distance to the stop, which is 0 within rounding. Otherwise nan.
+        For a graze of an oscillator: the remaining distance to the stop, which is 0 within rounding. Otherwise nan.
     chatter : ndarray of bool
-        For a stick: whether it is the end of a complete chatter.
+        For a stick of an oscillator: whether it is the end of a complete chatter.
     error : ndarray
-        For a stick: the bound on the error of its time. Otherwise nan.
+        For a stick of an oscillator: the bound on the error of its time. Otherwise nan.
     end : str
-        Why the list ends: "impact_limit", "time_limit", "no_more_impacts", "stuck" or "search_limit".
+        Why the list ends: "impact_limit", "event_limit", "time_limit", "no_more_impacts", "stuck", "search_limit", "inconsistent" or
+        "collapse".
     end_time : float
         The time at which the list ends.
     horizon : dict or None
-        Why there are no more impacts, if this is decided.
+        Why an oscillator has no more impacts, if this is decided.
+    shown_until : float
+        The time up to which figures and waveforms show the motion.
     plan : str
         The plan as JSON.
     """
 
-    system: Oscillator
-    start: tuple[float | None, float, float]
-    code: NDArray[np.uint8]
-    time: NDArray[np.float64]
-    phase: NDArray[np.float64]
-    side: NDArray[np.int8]
-    speed: NDArray[np.float64]
-    q: NDArray[np.float64]
-    qdot: NDArray[np.float64]
-    depth: NDArray[np.float64]
+    system: System
+    start: tuple[Any, Any, float]
+    kind: NDArray[np.str_]
+    stop: NDArray[np.str_]
+    time: _Floats
+    phase: _Floats
+    speed: _Floats
+    q: _Floats
+    qdot: _Floats
+    with_: tuple[tuple[str, ...], ...]
+    tie: NDArray[np.bool_]
+    depth: _Floats
     chatter: NDArray[np.bool_]
-    error: NDArray[np.float64]
+    error: _Floats
     end: str
     end_time: float
     horizon: dict[str, Any] | None
@@ -80,51 +91,64 @@ class Simulation(Result):
     def __len__(self) -> int:
         return len(self.time)
 
-    @property
-    def kind(self) -> NDArray[np.str_]:
-        """The kind of each event."""
-        return _KINDS[self.code]
+    def state(self, event: int = -1) -> dict[str, Any]:
+        """The state from which the motion goes on after an event, the last by default: `q`, `qdot`, `phase`; of a machine also what
+        stops and joints do (`contacts`), and the digits that these leave out (`exact`). `Machine.starting` takes it.
 
-    @property
-    def stop(self) -> NDArray[np.str_]:
-        """The stop of each event."""
-        return np.where(self.side > 0, "upper", "lower")
+        Parameters
+        ----------
+        event : int
+            Number of the event, counted from 0, or from the end if it is negative.
+        """
+        number = range(len(self))[event]
+        if isinstance(self.system, Oscillator):
+            return {"q": self.q[number].tolist(), "qdot": self.qdot[number].tolist(), "phase": float(self.phase[number])}
+        found: dict[str, Any] = json.loads(_core.machine_state(self.plan, number))
+        return found
 
-    def waveform(
-        self, points_per_period: float = 100
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-        """Times, positions and velocities from the start to the end, with a point on each side of every event."""
-        return _core.waveform(self.system, self.start, self.shown_until, points_per_period)
+    def waveform(self, step: float | None = None, *, events: bool = True) -> Waveform:
+        """The motion over time, up to `shown_until`.
 
-    def plot(self, ax: "Axes | None" = None, *, si: bool = False) -> "Axes":
-        """Draw the position over time, with the stops and the impacts. `si` selects metres and seconds."""
+        Parameters
+        ----------
+        step : float
+            Time between two points, at most. Default: a hundredth of a forcing period; without forcing a thousandth of the whole time.
+        events : bool
+            Whether to add both sides of each event, at the same time, and the end. Without them the steps are equal.
+        """
+        return waveform(self.system, self.start, self.shown_until, step, events)
+
+    def plot(self, ax: Any = None, *, si: bool = False) -> Any:
+        """Draw the motion over time: of an oscillator the position with the stops and the impacts, of a machine the coordinates with
+        contacts and impacts, and below them the contact forces, if there are any.
+
+        `ax` is the axes to draw into, of a machine one or two. Returns the axes. `si` selects metres and seconds for an
+        oscillator with units.
+        """
+        if not isinstance(self.system, Oscillator):
+            from vibroimpact import _machine_figure
+
+            if si:
+                raise QuestionError("si=True is for an oscillator in physical units; a machine has its own units")
+            return _machine_figure.draw(self, ax)
         from vibroimpact import _figure
 
         fine = max(240.0, 240.0 * self.system.beta**-1) if self.system.beta < 1 else 240.0
-        points = min(fine, 400_000 * self.system.period / max(self.shown_until, 1e-300))
-        t, x, _ = self.waveform(max(points, 1.0))
-        struck = self.code == 0
-        return _figure.waveform(self.system, (t, x), (self.time[struck], self.q[struck, 0]), None, ax, si)
+        points = max(min(fine, 400_000 * self.system.period / max(self.shown_until, 1e-300)), 1.0)
+        wave = self.waveform(self.system.period / points)
+        struck = self.kind == "impact"
+        return _figure.waveform(self.system, wave, (self.time[struck], self.q[struck, 0]), None, ax, si)
 
     def _table(self) -> dict[str, Any]:
-        """One row for each event."""
-        names = ("kind", "stop", "time", "phase", "speed")
-        columns = {name: getattr(self, name) for name in names} | {"x": self.q[:, 0], "v": self.qdot[:, 0]}
-        return columns | {name: getattr(self, name) for name in ("depth", "chatter", "error")}
+        """One row for each event; coordinates and velocities by their paths."""
+        columns = {name: getattr(self, name) for name in ("kind", "stop", "time", "phase", "speed")}
+        columns |= named_columns(self.system, self.q, self.qdot)
+        if isinstance(self.system, Oscillator):
+            return columns | {"depth": self.depth, "chatter": self.chatter, "error": self.error}
+        return columns | {"with": [", ".join(names) for names in self.with_], "tie": self.tie}
 
-
-@overload
-def simulate(
-    system: Oscillator, *, x: float | None = None, v: float | None = None, phase: float | None = None,
-    impacts: int | None = None, periods: float | None = None, progress: Progress = None,
-) -> Simulation: ...
-
-
-@overload
-def simulate(
-    system: MachineLike, *, q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None,
-    impacts: int | None = None, periods: float | None = None, progress: Progress = None,
-) -> MachineSimulation: ...
+    def _draw(self, ax: Any) -> None:
+        self.plot(ax if isinstance(self.system, Oscillator) else [ax])
 
 
 def simulate(
@@ -138,7 +162,7 @@ def simulate(
     impacts: int | None = None,
     periods: float | None = None,
     progress: Progress = None,
-) -> Simulation | MachineSimulation:
+) -> Simulation:
     """Follow a motion event by event: impacts, grazing contacts, sticking and release, contact and slip.
 
     Parameters
@@ -163,8 +187,8 @@ def simulate(
     >>> sim = vi.simulate(vi.Oscillator(inverse_beta=1.8, gap=0.25, restitution=0.5), impacts=20)
     >>> sim.kind[:3].tolist(), sim.time[:3].round(4).tolist()
     (['impact', 'impact', 'impact'], [1.4598, 2.2409, 2.6025])
-    >>> t, position, velocity = sim.waveform()
-    >>> bool(position.max() <= 0.25 + 1e-12)
+    >>> wave = sim.waveform()
+    >>> bool(wave.q.max() <= 0.25 + 1e-12)
     True
     >>> motion = vi.Machine.named("sdnd101").simulate(impacts=2)
     >>> motion.kind.tolist(), motion.time.round(6).tolist()
@@ -176,11 +200,31 @@ def simulate(
     limit = maybe("impacts", impacts, SIMULATED)
     of = Start(system, x, v, q, qdot, phase)
     if not isinstance(system, Oscillator):
-        return _machine_simulation.simulate(system, of.of_machine or ([], [], 0.0), limit, periods, progress)
+        state = of.of_machine or ([], [], 0.0)
+        with watched(progress, "events") as tell:
+            return _of_machine(system, state, _core.simulate_machine(system._file, state, limit, periods, tell))
     start = (x, v or 0.0, phase or 0.0)
     with watched(progress, "impacts") as tell:
         fields = _core.simulate(system, start, limit, periods, tell)
-    horizon = fields.pop("horizon")
+    return _of_oscillator(system, start, fields)
+
+
+def _of_oscillator(system: Oscillator, start: tuple[float | None, float, float], fields: dict[str, Any]) -> Simulation:
+    """The events of an oscillator, from the fields of the compiled module."""
+    horizon, code, side = (fields.pop(name) for name in ("horizon", "code", "side"))
     return Simulation(
-        system=system, start=start, end=fields.pop("reason"), horizon=horizon and json.loads(horizon), **fields
+        system=system, start=start, kind=_KINDS[code], stop=np.where(side > 0, "upper", "lower"), end=fields.pop("reason"),
+        horizon=horizon and json.loads(horizon), with_=((),) * len(code), tie=np.zeros(len(code), dtype=np.bool_), **fields,
+    )
+
+
+def _of_machine(system: MachineLike, start: State, fields: dict[str, Any]) -> Simulation:
+    """The events of a machine."""
+    kind, stop = (np.array(fields.pop(name), dtype=np.str_) for name in ("kind", "stop"))
+    with_ = tuple(tuple(names) for names in fields.pop("with_"))
+    tie = np.array(fields.pop("tie"), dtype=np.bool_)
+    nothing, no = np.full(len(kind), np.nan), np.zeros(len(kind), dtype=np.bool_)
+    return Simulation(
+        system=system, start=start, kind=kind, stop=stop, with_=with_, tie=tie, depth=nothing, chatter=no, error=nothing, horizon=None,
+        **fields,
     )

@@ -38,7 +38,7 @@ pub fn of_machine(found: &MachineBasin, title: String) -> Result<Figure, ReportE
     let sides = Sides::of_machine(&found.axes)?;
     let shares = found.motions.iter().zip(found.shares());
     let motions: Vec<BasinMotion> =
-        shares.map(|(verdict, (_, share))| BasinMotion { label: verdict.label(), share }).collect();
+        shares.map(|(verdict, (_, share))| BasinMotion { label: verdict.label().into_owned(), share }).collect();
     let cell = |cell: &Option<usize>| cell.and_then(|m| u16::try_from(m).ok()).unwrap_or(u16::MAX);
     draw(&sides, &motions, found.cells.iter().map(cell).collect(), title)
 }

@@ -6,9 +6,10 @@ use crate::figure::styles::BOUND_STYLES;
 use crate::figure::{label, named, title_without};
 use vibroimpact::continuation::{Bound, Polygon, Region};
 use vibroimpact_plot::{
-    ClassStyle, Colour, Figure, FigureAxis, FilledRegion, Legend, Line, Panel, Stroke, class_style,
+    ClassStyle, Colour, Figure, FigureAxis, FilledRegion, Legend, Line, Panel, Stroke, class_style, plain,
 };
-use vibroimpact_study::{RegionPlan, Regions, Stretch};
+use vibroimpact_study::machine::MachineSource;
+use vibroimpact_study::{MachineRegionPlan, MachineStretch, RegionPlan, Regions, Stretch};
 
 /// Colour of the region where the motion exists and is unstable.
 const EXISTS: Colour = Colour::hex(0xec_ecec);
@@ -20,6 +21,7 @@ const THIN: f64 = 1.5;
 #[must_use]
 pub fn figure(found: &Regions, plan: &RegionPlan, asked: &Asked) -> Figure {
     let (units, title) = (&asked.units, title_without(asked, &[plan.across.parameter, plan.up.parameter]));
+    let neutral = plan.neutral(&asked.system);
     let axis = |stretch: &Stretch| {
         let unit = units.of(stretch.parameter);
         FigureAxis::new(named(stretch.parameter, units)).range(stretch.from * unit, stretch.to * unit)
@@ -32,11 +34,27 @@ pub fn figure(found: &Regions, plan: &RegionPlan, asked: &Asked) -> Figure {
         region
     };
     let found = &Regions { existence: scaled(&found.existence), stability: scaled(&found.stability) };
-    let mut panel = Panel::new(axis(&plan.across), axis(&plan.up));
-    let stable = class_style(plan.label.trim()).colour;
+    drawn(found, [axis(&plan.across), axis(&plan.up)], (plan.label.trim(), neutral), title)
+}
+
+/// The same of a machine.
+#[must_use]
+pub fn of_machine(found: &Regions, plan: &MachineRegionPlan, source: &MachineSource, title: String) -> Figure {
+    let axis = |stretch: &MachineStretch| FigureAxis::new(plain(&stretch.path)).range(stretch.from, stretch.to);
+    drawn(found, [axis(&plan.across), axis(&plan.up)], (plan.label.trim(), plan.neutral(source)), title)
+}
+
+/// Both regions of a motion with this label, which can be neutral.
+fn drawn(
+    found: &Regions,
+    [across, up]: [FigureAxis; 2],
+    (motion, neutral): (&str, bool),
+    title: impl Into<String>,
+) -> Figure {
+    let mut panel = Panel::new(across, up);
+    let stable = class_style(motion).colour;
     let mut legend = Legend::below();
-    let name = label(plan.label.trim());
-    let neutral = plan.neutral(&asked.system);
+    let name = label(motion);
     let exists = if neutral { "exists, neutral" } else { "exists, unstable" };
     for (region, colour, what) in [(&found.existence, EXISTS, exists), (&found.stability, stable, "stable")] {
         for area in areas(region) {

@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use vibroimpact::Oscillator;
 use vibroimpact::machine::Machine;
-use vibroimpact::verdict::{Census, MachineVerdict, StartBox};
+use vibroimpact::verdict::{Census, StartBox};
 use vibroimpact_study::Plan;
 
 /// The answer to `vibro attractors`.
@@ -59,7 +59,7 @@ pub fn document<'a>(
 }
 
 impl<'a> AttractorsAnswer<'a> {
-    pub(super) fn of_machine(machine: &'a Machine, seed: u64, census: &'a Census<MachineVerdict>) -> Self {
+    pub(super) fn of_machine(machine: &'a Machine, seed: u64, census: &'a Census<Machine>) -> Self {
         let shared = census.by_share().into_iter().map(|found| SharedMotion {
             motion: MotionObject::of_machine(machine, &found.verdict),
             share: census.share(found),

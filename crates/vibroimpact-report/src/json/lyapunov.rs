@@ -6,7 +6,7 @@ use super::motion::{Estimate, HorizonObject, MotionObject};
 use crate::{Asked, Units};
 use schemars::JsonSchema;
 use serde::Serialize;
-use vibroimpact::chaos::{Exponents, Grounds, MachineExponents, Measured};
+use vibroimpact::chaos::{Exponents, Grounds, Measured};
 use vibroimpact::machine::Machine;
 use vibroimpact::{Oscillator, Start};
 use vibroimpact_study::Plan;
@@ -69,47 +69,47 @@ impl<'a> LyapunovAnswer<'a> {
         let identity = found.identity / units.time();
         Self {
             motion: MotionObject::of_oscillator(&found.motion, osc, units).without_lyapunov(),
-            exponents: Some(found.exponents.map(per_time).into()),
-            exponents_per_period: Some(found.per_period().map(Estimate::from).into()),
-            exact: !matches!(found.grounds, Grounds::Measured { .. } | Grounds::Undecided { .. }),
+            exponents: Some(found.exponents.iter().map(|of| per_time(*of)).collect()),
+            exponents_per_period: Some(
+                found.exponents.iter().map(|of| Estimate::from(of.scaled(osc.period()))).collect(),
+            ),
+            exact: found.exact(),
             sum: Some(per_time(found.sum)),
             identity: identity.is_finite().then_some(identity),
-            impacts_per_period: Some(Estimate::from(found.impacts_per_period)),
+            impacts_per_period: Some(Estimate::from(found.impact_rate.scaled(osc.period()))),
             dimension: Dimensions {
                 section: found.section_dimension.map(Estimate::from),
-                flow: found.flow_dimension().map(Estimate::from),
+                flow: found.flow_dimension.map(Estimate::from),
             },
-            grounds: Some(match found.grounds {
+            grounds: match found.grounds {
                 Grounds::Measured { impacts, transient, time, blocks } => {
-                    GroundsObject::Measured { impacts, transient, time: time * units.time(), blocks }
+                    Some(GroundsObject::Measured { impacts, transient, time: time * units.time(), blocks })
                 }
-                Grounds::Flight(why) => GroundsObject::NoImpact { horizon: HorizonObject::new(&why) },
-                Grounds::Sticks(at) => GroundsObject::Sticks { stop: side(at) },
-                Grounds::Stuck(at) => GroundsObject::Stuck { stop: side(at) },
-                Grounds::Touches(why) => GroundsObject::Touches { horizon: HorizonObject::new(&why) },
-                Grounds::Undecided { impacts } => GroundsObject::Undecided { impacts },
-            }),
+                Grounds::Flight(why) => Some(GroundsObject::NoImpact { horizon: HorizonObject::new(&why) }),
+                Grounds::Sticks(at) => Some(GroundsObject::Sticks { stop: side(at) }),
+                Grounds::Stuck(at) => Some(GroundsObject::Stuck { stop: side(at) }),
+                Grounds::Touches(why) => Some(GroundsObject::Touches { horizon: HorizonObject::new(&why) }),
+                Grounds::Undecided { impacts } => Some(GroundsObject::Undecided { impacts }),
+                Grounds::Exact => None,
+            },
         }
     }
 
-    pub(super) fn of_machine(machine: &'a Machine, found: &'a MachineExponents) -> Self {
-        let spectrum = found.spectrum.as_ref();
-        let period = spectrum.zip(machine.period());
-        let all = |factor: f64| {
-            let exponents = spectrum.map_or(&[][..], |spectrum| &spectrum.exponents);
-            exponents.iter().map(|of| Estimate::from(scaled(*of, factor))).collect()
-        };
+    pub(super) fn of_machine(machine: &'a Machine, found: &'a Exponents<Machine>) -> Self {
+        let known = !matches!(found.grounds, Grounds::Undecided { .. });
+        let period = machine.period().filter(|_| known);
+        let all = |factor: f64| found.exponents.iter().map(|of| Estimate::from(scaled(*of, factor))).collect();
         Self {
             motion: MotionObject::of_machine(machine, &found.motion),
-            exponents: spectrum.map(|_| all(1.0)),
-            exponents_per_period: period.map(|(_, period)| all(period)),
-            impacts_per_period: period.map(|(spectrum, period)| Estimate::from(scaled(spectrum.closings, period))),
-            exact: found.exact,
+            exponents: known.then(|| all(1.0)),
+            exponents_per_period: period.map(all),
+            impacts_per_period: period.map(|period| Estimate::from(scaled(found.impact_rate, period))),
+            exact: found.exact(),
             sum: None,
             identity: None,
             dimension: Dimensions {
-                section: found.section_dimension(machine).map(Estimate::from),
-                flow: found.flow_dimension(machine).map(Estimate::from),
+                section: found.section_dimension.map(Estimate::from),
+                flow: found.flow_dimension.map(Estimate::from),
             },
             grounds: None,
         }

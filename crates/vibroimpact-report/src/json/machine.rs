@@ -11,6 +11,7 @@ use super::lyapunov::LyapunovAnswer;
 use super::map::MapAnswer;
 use super::margins::MarginsAnswer;
 use super::orbit::OrbitAnswer;
+use super::region::RegionAnswer;
 use super::response::ResponseAnswer;
 use super::settle::SettleAnswer;
 use super::simulate::SimulateAnswer;
@@ -42,6 +43,9 @@ impl Serialize for MachineAnswer {
                 self.document(CurveAnswer::of_machine(machine, task, found), to)
             }
             (_, MachineResults::Margins(found)) => self.document(MarginsAnswer::of_machine(machine, found), to),
+            (MachineTask::Region(task), MachineResults::Region(found)) => {
+                self.document(RegionAnswer::of_machine(found, task, &plan.machine), to)
+            }
             (MachineTask::Response(task), MachineResults::Response(found)) => {
                 self.document(ResponseAnswer::new(&ResponseView::of_machine(found, task, machine)), to)
             }
@@ -74,6 +78,7 @@ const fn begins(task: &MachineTask) -> bool {
         | MachineTask::Orbit { .. }
         | MachineTask::Map(_)
         | MachineTask::Diagram(_)
+        | MachineTask::Region(_)
         | MachineTask::Response(_) => false,
     }
 }

@@ -6,14 +6,14 @@ use crate::Units;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
-use vibroimpact::chaos::{MachineSpectrum, Measured};
+use vibroimpact::chaos::{Measured, Spectrum};
 use vibroimpact::events::MachineEnd;
 use vibroimpact::flight::Horizon;
 use vibroimpact::machine::Machine;
 use vibroimpact::math::Multiplier;
 use vibroimpact::orbit::{Cycle, MachineCycle};
 use vibroimpact::quantities::{errors_of_verdict, machine_cycle_quantities, machine_quantities, of_verdict};
-use vibroimpact::verdict::{Chaos, Count, MachineUndecided, MachineVerdict, NoImpact, Stability, Undecided, Verdict};
+use vibroimpact::verdict::{Chaos, Count, NoImpact, Stability, Undecided, UndecidedCause, Verdict};
 use vibroimpact::{Oscillator, Side};
 use vibroimpact_study::ImpactsByStop;
 
@@ -99,7 +99,7 @@ impl Estimate {
 }
 
 /// All exponents of a machine.
-pub(super) fn estimates(spectrum: &MachineSpectrum) -> Vec<Estimate> {
+pub(super) fn estimates(spectrum: &Spectrum<Vec<Measured>>) -> Vec<Estimate> {
     spectrum.exponents.iter().map(|exponent| Estimate::from(*exponent)).collect()
 }
 
@@ -118,8 +118,8 @@ impl ChaosObject {
         Self { events: Some(chaos.impacts), exponents: exponents.into() }
     }
 
-    pub(super) fn of_machine(spectrum: &MachineSpectrum) -> Self {
-        Self { events: None, exponents: estimates(spectrum) }
+    pub(super) fn of_machine(chaos: &Chaos<Machine>) -> Self {
+        Self { events: None, exponents: estimates(&chaos.spectrum) }
     }
 }
 
@@ -208,18 +208,15 @@ impl MotionObject<'_> {
                 stops: vec![side(*at)],
                 ..bare
             },
-            Verdict::Undecided(Undecided::Impacts { impacts, spectrum }) => Self {
-                why: Some("events"),
-                seen_events: Some(*impacts),
-                lyapunov: spectrum.as_ref().map(|spectrum| largest(&spectrum.exponents)),
+            Verdict::Undecided(Undecided { why: why @ UndecidedCause::Search { periods }, .. }) => Self {
+                why: Some(undecided(*why)),
+                horizon: Some(HorizonObject::new(&NoImpact::ForPeriods(*periods))),
                 ..bare
             },
-            Verdict::Undecided(Undecided::Unconfirmed { impacts }) => {
-                Self { why: Some("unconfirmed"), seen_events: Some(*impacts), ..bare }
-            }
-            Verdict::Undecided(Undecided::Search { periods }) => Self {
-                why: Some("search_limit"),
-                horizon: Some(HorizonObject::new(&NoImpact::ForPeriods(*periods))),
+            Verdict::Undecided(Undecided { why, impacts, spectrum }) => Self {
+                why: Some(undecided(*why)),
+                seen_events: Some(*impacts),
+                lyapunov: spectrum.as_ref().map(|spectrum| largest(&spectrum.exponents)),
                 ..bare
             },
         }
@@ -259,8 +256,8 @@ impl<'a> MotionObject<'a> {
     }
 
     /// The motion of a machine.
-    pub(super) fn of_machine(machine: &'a Machine, verdict: &'a MachineVerdict) -> Self {
-        if let MachineVerdict::Periodic(cycle) = verdict {
+    pub(super) fn of_machine(machine: &'a Machine, verdict: &'a Verdict<Machine>) -> Self {
+        if let Verdict::Periodic(cycle) = verdict {
             return Self::of_cycle(machine, cycle);
         }
         let found = machine_quantities(machine, verdict);
@@ -268,26 +265,24 @@ impl<'a> MotionObject<'a> {
         let stops: Vec<&str> = verdict.closed().into_iter().map(|stop| machine.name_of(stop)).collect();
         let plain = |kind| Self {
             kind,
-            label: verdict.label(),
+            label: verdict.label().into_owned(),
             stable: stability.map(Stability::is_stable),
             stability: stability.map(Stability::name),
             quantities: found.as_ref().map(|found| quantities::of_machine(machine, found)),
             ..Self::default()
         };
         match verdict {
-            MachineVerdict::Periodic(cycle) => Self::of_cycle(machine, cycle),
-            MachineVerdict::NoImpact(_) => Self { impacts: Some(0), stops, ..plain("no_impact") },
-            MachineVerdict::Stuck(_) => {
-                Self { impacts: Some(0), stop: stops.first().copied(), stops, ..plain("stuck") }
-            }
-            MachineVerdict::Chaotic { spectrum, events, .. } => Self {
+            Verdict::Periodic(cycle) => Self::of_cycle(machine, cycle),
+            Verdict::NoImpact(_) => Self { impacts: Some(0), stops, ..plain("no_impact") },
+            Verdict::Stuck(_) => Self { impacts: Some(0), stop: stops.first().copied(), stops, ..plain("stuck") },
+            Verdict::Chaotic(Chaos { spectrum, impacts: events, .. }) => Self {
                 quantities_error: found.as_ref().map(|found| quantities::errors_of_machine(machine, found)),
                 lyapunov: spectrum.exponents.first().map(|first| Estimate::from(*first)),
                 exponents: Some(estimates(spectrum)),
                 seen_events: Some(*events),
                 ..plain("chaotic")
             },
-            MachineVerdict::Undecided { why, spectrum, events } => Self {
+            Verdict::Undecided(Undecided { why, spectrum, impacts: events }) => Self {
                 exponents: spectrum.as_ref().map(estimates),
                 seen_events: Some(*events),
                 why: Some(undecided(*why)),
@@ -331,17 +326,17 @@ pub(crate) fn multipliers(of: &[Multiplier]) -> Vec<[f64; 2]> {
     of.iter().map(|multiplier| [multiplier.re, multiplier.im]).collect()
 }
 
-/// Why a motion of a machine is undecided.
+/// Why a motion is undecided.
 #[must_use]
-pub const fn undecided(why: MachineUndecided) -> &'static str {
+pub const fn undecided(why: UndecidedCause) -> &'static str {
     match why {
-        MachineUndecided::Events => "events",
-        MachineUndecided::Unconfirmed => "unconfirmed",
-        MachineUndecided::Ended(MachineEnd::NoEventWithin) => "time_limit",
-        MachineUndecided::Ended(MachineEnd::SearchLimit) => "search_limit",
-        MachineUndecided::Ended(MachineEnd::Inconsistent) => "inconsistent",
-        MachineUndecided::Ended(MachineEnd::Collapse) => "collapse",
-        MachineUndecided::Ended(MachineEnd::Never | MachineEnd::Stuck) => "no_more_impacts",
+        UndecidedCause::Budget => "events",
+        UndecidedCause::Unconfirmed => "unconfirmed",
+        UndecidedCause::Ended(MachineEnd::NoEventWithin) => "time_limit",
+        UndecidedCause::Search { .. } | UndecidedCause::Ended(MachineEnd::SearchLimit) => "search_limit",
+        UndecidedCause::Ended(MachineEnd::Inconsistent) => "inconsistent",
+        UndecidedCause::Ended(MachineEnd::Collapse) => "collapse",
+        UndecidedCause::Ended(MachineEnd::Never | MachineEnd::Stuck) => "no_more_impacts",
     }
 }
 

@@ -5,7 +5,8 @@ use crate::Units;
 use serde_json::{Map, Value};
 use vibroimpact::chaos::Measured;
 use vibroimpact::machine::Machine;
-use vibroimpact::quantities::{MachinePart, MachineQuantities, Quantities, Quantity};
+use vibroimpact::quantities::machine::{self, Part};
+use vibroimpact::quantities::{Quantities, Quantity};
 
 /// Those of an oscillator.
 pub(super) fn of_oscillator(found: &Quantities, units: &Units) -> Map<String, Value> {
@@ -19,18 +20,18 @@ pub(super) fn errors_of_oscillator(errors: &Quantities, units: &Units) -> Map<St
 }
 
 /// Those of a machine.
-pub(super) fn of_machine(machine: &Machine, found: &MachineQuantities) -> Map<String, Value> {
+pub(super) fn of_machine(machine: &Machine, found: &machine::Quantities) -> Map<String, Value> {
     by_part(machine, found, |measured| Some(Value::from(measured.value)))
 }
 
 /// Three standard errors of the means of a chaotic motion of a machine: only those that there are.
-pub(super) fn errors_of_machine(machine: &Machine, found: &MachineQuantities) -> Map<String, Value> {
+pub(super) fn errors_of_machine(machine: &Machine, found: &machine::Quantities) -> Map<String, Value> {
     by_part(machine, found, |measured| measured.error.is_finite().then(|| Value::from(measured.error)))
 }
 
 fn by_part(
     machine: &Machine,
-    found: &MachineQuantities,
+    found: &machine::Quantities,
     value: impl Fn(Measured) -> Option<Value>,
 ) -> Map<String, Value> {
     let mut all = Map::new();
@@ -38,14 +39,14 @@ fn by_part(
     for (part, quantity, measured) in found.iter() {
         let Some(value) = value(measured) else { continue };
         let (kind, name) = match part {
-            MachinePart::Whole => {
+            Part::Whole => {
                 all.insert(quantity.name().to_owned(), value);
                 continue;
             }
-            MachinePart::Force(order) => ("forces", order.to_string()),
-            MachinePart::Stop(j) => ("stops", machine.stops()[j].name.clone()),
-            MachinePart::Joint(j) => ("joints", machine.joints()[j].name.clone()),
-            MachinePart::Coordinate(i) => ("coordinates", machine.parts().coordinates[i].clone()),
+            Part::Force(order) => ("forces", order.to_string()),
+            Part::Stop(j) => ("stops", machine.stops()[j].name.clone()),
+            Part::Joint(j) => ("joints", machine.joints()[j].name.clone()),
+            Part::Coordinate(i) => ("coordinates", machine.parts().coordinates[i].clone()),
         };
         for (_, of) in parts.iter_mut().filter(|(own, _)| *own == kind) {
             if let Value::Object(own) = of.entry(name.as_str()).or_insert_with(|| Value::Object(Map::new())) {

@@ -6,13 +6,14 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use vibroimpact::Oscillator;
 use vibroimpact::continuation::{Polygon, Region, Vertex};
-use vibroimpact_study::{Plan, RegionPlan, Regions};
+use vibroimpact_study::machine::MachineSource;
+use vibroimpact_study::{MachineRegionPlan, Plan, RegionPlan, Regions};
 
 /// The answer to `vibro region`. Pairs of values are in the order of `parameters`.
 #[derive(JsonSchema, Serialize)]
 pub(super) struct RegionAnswer {
     label: String,
-    parameters: [&'static str; 2],
+    parameters: [String; 2],
     /// Whether no energy is lost, at impacts or between them. The motion is then neutrally stable wherever it exists.
     neutrally_stable: bool,
     existence: RegionObject,
@@ -52,10 +53,23 @@ impl RegionAnswer {
         let unit = unit(plan, units);
         Self {
             label: plan.label.trim().to_owned(),
-            parameters: [plan.across.parameter, plan.up.parameter].map(|parameter| units.name_of(parameter)),
+            parameters: [plan.across.parameter, plan.up.parameter].map(|of| units.name_of(of).to_owned()),
             neutrally_stable: plan.neutral(system),
             existence: RegionObject::new(&found.existence, unit),
             stability: RegionObject::new(&found.stability, unit),
+        }
+    }
+}
+
+impl RegionAnswer {
+    /// The same of a machine.
+    pub(super) fn of_machine(found: &Regions, plan: &MachineRegionPlan, source: &MachineSource) -> Self {
+        Self {
+            label: plan.label.trim().to_owned(),
+            parameters: [plan.across.path.clone(), plan.up.path.clone()],
+            neutrally_stable: plan.neutral(source),
+            existence: RegionObject::new(&found.existence, (1.0, 1.0)),
+            stability: RegionObject::new(&found.stability, (1.0, 1.0)),
         }
     }
 }

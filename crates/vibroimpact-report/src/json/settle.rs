@@ -9,7 +9,7 @@ use serde::Serialize;
 use serde_json::{Map, Value};
 use vibroimpact::machine::Machine;
 use vibroimpact::quantities::{Harmonic, harmonics, of_transient};
-use vibroimpact::verdict::{MachineSettled, PaperRule, PaperVerdict, Settled, Verdict};
+use vibroimpact::verdict::{PaperRule, PaperVerdict, Settled, Verdict};
 use vibroimpact::{Oscillator, Start};
 use vibroimpact_study::Plan;
 
@@ -133,10 +133,10 @@ impl SettleAnswer<'_> {
 }
 
 impl<'a> SettleAnswer<'a> {
-    pub(super) fn of_machine(machine: &'a Machine, settled: &'a MachineSettled) -> Self {
+    pub(super) fn of_machine(machine: &'a Machine, settled: &'a Settled<Machine>) -> Self {
         Self {
             motion: MotionObject::of_machine(machine, &settled.verdict),
-            events_followed: settled.events,
+            events_followed: settled.impacts,
             time_followed: settled.time,
             chaotic_transient: settled.transient.as_ref().map(ChaosObject::of_machine),
             harmonics: Vec::new(),

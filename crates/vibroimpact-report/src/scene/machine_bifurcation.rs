@@ -14,7 +14,7 @@ use vibroimpact::continuation::{Direction, MachineBranchEvent as E, MachinePoint
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::{MachineCycle, find_machine_while};
 use vibroimpact::verdict::{
-    Census, CountedMotion, MachineVerdict, SettleOptions, scattered_machine_starts, settle_machine_while,
+    Census, CountedMotion, SettleOptions, Verdict, scattered_machine_starts, settle_machine_while,
 };
 use vibroimpact_plot::Figure;
 use vibroimpact_study::machine::MachineSource;
@@ -198,8 +198,8 @@ fn motions(
                 census.add(&settled.verdict);
             }
         }
-        let cycle = |motion: &CountedMotion<MachineVerdict>| match &motion.verdict {
-            MachineVerdict::Periodic(cycle) => Some((cycle.clone(), motion.count)),
+        let cycle = |motion: &CountedMotion<Machine>| match &motion.verdict {
+            Verdict::Periodic(cycle) => Some((cycle.clone(), motion.count)),
             _ => None,
         };
         let shown = |(cycle, _): &(MachineCycle, u64)| !diagram.shows_closings() || cycle.fastest() > 0.0;

@@ -67,7 +67,7 @@ pub(crate) fn portrait(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use vibroimpact::verdict::{MachineVerdict, SettleOptions, settle_machine};
+    use vibroimpact::verdict::{SettleOptions, Verdict, settle_machine};
     use vibroimpact_plot::Mark;
     use vibroimpact_study::machine::MachineSource;
 
@@ -77,7 +77,7 @@ mod tests {
         let source = MachineSource::of_catalogue("two-mass-hammer").unwrap().with("omega", 1.06).unwrap();
         let machine = source.machine().unwrap();
         let found = settle_machine(&machine, &MachineStart::default(), &SettleOptions::default()).unwrap();
-        let MachineVerdict::Periodic(cycle) = &found.verdict else { panic!("{}", found.verdict.label()) };
+        let Verdict::Periodic(cycle) = &found.verdict else { panic!("{}", found.verdict.label()) };
         let figure = portrait(&machine, (&cycle.state, cycle.period), "hammer".into()).unwrap();
         assert_eq!(figure.panels.len(), 2);
         let lines: Vec<&Line> = figure.panels[1]

@@ -6,7 +6,7 @@ use vibroimpact::machine::Machine;
 use vibroimpact::math::Multiplier;
 use vibroimpact::orbit::MachineCycle;
 use vibroimpact::quantities::{machine_quantities, machine_quantity_paths};
-use vibroimpact::verdict::{Census, MachineVerdict};
+use vibroimpact::verdict::{Census, Verdict};
 use vibroimpact_study::{MachineAxis, MachineBasin, MachineMap, MachineShare};
 
 /// The names of stops with blanks between, after a comma.
@@ -48,14 +48,14 @@ impl Remarks {
 }
 
 /// The remarks on the motions of a table of verdicts.
-fn remarks<'a>(verdicts: impl Iterator<Item = &'a MachineVerdict>) -> Remarks {
+fn remarks<'a>(verdicts: impl Iterator<Item = &'a Verdict<Machine>>) -> Remarks {
     let closed: Vec<(Vec<usize>, Option<u64>)> = verdicts.map(|one| (one.closed(), one.seen_events())).collect();
     Remarks::of(closed.iter().map(|(stops, events)| (stops.as_slice(), *events)))
 }
 
 /// One row a motion: label, share, starts, counts of each stop, real and imaginary part of all multipliers, the drift of a
 /// machine that can be translated, all quantities by path.
-pub(crate) fn attractors<'a>(machine: &'a Machine, census: &'a Census<MachineVerdict>) -> Table<'a> {
+pub(crate) fn attractors<'a>(machine: &'a Machine, census: &'a Census<Machine>) -> Table<'a> {
     let stops = machine.stops().iter().map(|stop| format!("count.{}", stop.name));
     let paths = machine_quantity_paths(machine);
     let undefined = vec![f64::NAN; paths.len()];
@@ -85,9 +85,9 @@ pub(crate) fn attractors<'a>(machine: &'a Machine, census: &'a Census<MachineVer
     Table::new(header, rows)
 }
 
-const fn cycle_of(verdict: &MachineVerdict) -> Option<&MachineCycle> {
+const fn cycle_of(verdict: &Verdict<Machine>) -> Option<&MachineCycle> {
     match verdict {
-        MachineVerdict::Periodic(cycle) => Some(cycle),
+        Verdict::Periodic(cycle) => Some(cycle),
         _ => None,
     }
 }
@@ -143,8 +143,8 @@ pub(crate) fn basin<'a>(machine: &'a Machine, found: &'a MachineBasin) -> Table<
     let remarks = remarks(found.motions.iter());
     let rows = found.cells.iter().enumerate().map(move |(k, cell)| {
         let motion = cell.map(|cell| &found.motions[cell]);
-        let label = motion.map_or_else(|| "refused".to_owned(), MachineVerdict::label);
-        let closed = motion.map_or_else(Vec::new, MachineVerdict::closed);
+        let label = motion.map_or_else(|| "refused".into(), Verdict::label);
+        let closed = motion.map_or_else(Vec::new, Verdict::closed);
         let remarks = remarks.cells(machine, &closed, found.seen_events[k]);
         let values = cell.map_or_else(|| ",".repeat(found.fields.len()), |cell| quantities(&found.quantities[cell]));
         format!("{}{label}{remarks}{values}", self::values(&found.axes, k))

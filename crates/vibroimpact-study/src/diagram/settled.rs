@@ -37,7 +37,7 @@ pub(crate) fn state_on(osc: &Oscillator, verdict: &Verdict, start: Start) -> Sta
             (None, None) => start,
         },
         Verdict::Stuck(side) | Verdict::NoImpact(NoImpact::Landing { side, .. }) => on(*side, start.phase),
-        Verdict::Chaotic(chaos) => chaos.spectrum.last.rebound(osc),
+        Verdict::Chaotic(chaos) => chaos.tail.last.rebound(osc),
         // with damping all motions without impacts end in the same one; without, the last flight is the motion
         Verdict::NoImpact(_) if osc.damping() > 0.0 => Start::free_motion(osc).unwrap_or(start),
         Verdict::NoImpact(_) | Verdict::Undecided(_) => {

@@ -1,29 +1,29 @@
 //! The tiles of a basin joined: its motions in the order of the first start that leads to each.
 
 use crate::Block;
-use vibroimpact::verdict::{Census, CountedMotion, SteadyMotion};
+use vibroimpact::verdict::{Census, CountedMotion, System, Verdict};
 
 /// A tile: its motions, and for each start the index of its motion; `None` for a start without one.
-pub(super) struct Part<V> {
+pub(super) struct Part<S: System> {
     pub(super) block: Block,
-    pub(super) met: Census<V>,
+    pub(super) met: Census<S>,
     pub(super) cells: Vec<Option<u32>>,
 }
 
 /// The motions of all tiles, and for each start the index of its motion.
-pub(super) struct Joined<V> {
-    pub(super) motions: Vec<CountedMotion<V>>,
+pub(super) struct Joined<S: System> {
+    pub(super) motions: Vec<CountedMotion<S>>,
     pub(super) cells: Vec<Option<usize>>,
 }
 
 /// Joins the tiles of a grid. `settled` returns the verdict on the start at a point of the grid.
 ///
 /// The verdict on a motion is that of its first start, so it does not depend on the tiles.
-pub(super) fn joined<V: SteadyMotion>(
+pub(super) fn joined<S: System>(
     whole: &Block,
-    parts: impl IntoIterator<Item = Part<V>>,
-    settled: impl Fn(usize) -> V,
-) -> Joined<V> {
+    parts: impl IntoIterator<Item = Part<S>>,
+    settled: impl Fn(usize) -> Verdict<S>,
+) -> Joined<S> {
     let mut merged = Census::default();
     let mut cells: Vec<Option<usize>> = vec![None; whole.points()];
     // for each motion, the start whose verdict is in the census

@@ -9,7 +9,7 @@ use crate::study::{Cell, Fill, MachineBasinFill, MapFill, tiles_of};
 use crate::{Control, RunError};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
-use vibroimpact::verdict::{MachineUndecided, MachineVerdict};
+use vibroimpact::verdict::{Undecided, UndecidedCause, Verdict};
 
 /// Settles every start of a grid, without refinement.
 ///
@@ -33,10 +33,10 @@ pub(crate) fn machine_basin(
         Part { block, cells: tile.cells.iter().map(number).collect(), met: tile.met }
     });
     // a start that has a motion was settled before
-    let unknown = MachineVerdict::Undecided { why: MachineUndecided::Events, spectrum: None, events: 0 };
+    let unknown = Verdict::Undecided(Undecided { why: UndecidedCause::Budget, impacts: 0, spectrum: None });
     let first = |k| task.settled(&whole.index(k)).unwrap_or_else(|| unknown.clone());
     let Joined { motions, cells } = joined(&whole, parts, first);
-    let motions: Vec<MachineVerdict> = motions.into_iter().map(|found| found.verdict).collect();
+    let motions: Vec<Verdict<Machine>> = motions.into_iter().map(|found| found.verdict).collect();
     let quantities = motions.iter().map(|verdict| values_of(problem.0, verdict, &plan.fields)).collect();
     let (axes, fields) = (plan.axes.clone(), plan.fields.clone());
     Ok(MachineBasin { axes, motions, cells, seen_events, fields, quantities })

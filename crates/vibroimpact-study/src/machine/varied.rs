@@ -1,6 +1,7 @@
 //! A machine of a file with some of its numbers varied.
 
 use super::MachineSource;
+use vibroimpact::continuation::MachineFamily;
 use vibroimpact::machine::Machine;
 
 /// A machine as a function of the numbers at some paths.
@@ -23,6 +24,19 @@ impl VariedMachine {
         // a sample that is not allowed says nothing
         let same = samples.iter().all(|values| changed.at(values).is_some_and(|at| anew.at(values) == Some(at)));
         if same { changed } else { anew }
+    }
+
+    /// The machines with values that are a function of N numbers.
+    pub(crate) fn family<const N: usize>(
+        self,
+        values: impl Fn([f64; N]) -> Vec<f64> + Clone + Send + Sync + 'static,
+    ) -> MachineFamily<N> {
+        let changed =
+            self.expanded.as_ref().map(|one| MachineFamily::of_paths(one, self.paths.clone(), values.clone()));
+        match changed {
+            Some(Ok(family)) => family,
+            _ => MachineFamily::of(move |numbers| self.at(&values(numbers))),
+        }
     }
 
     /// The machine with these values; `None` if they are not allowed.

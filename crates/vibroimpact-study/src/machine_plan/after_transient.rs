@@ -10,7 +10,7 @@ use vibroimpact::events::{MachineEnd, MachineLimits, MachineMotion, MachineSampl
 use vibroimpact::machine::Machine;
 use vibroimpact::regime::ContactState;
 use vibroimpact::system::phase;
-use vibroimpact::verdict::{Count, MachineVerdict, settle_machine};
+use vibroimpact::verdict::{Count, Verdict, settle_machine};
 
 /// A point of the diagram of a machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -177,11 +177,11 @@ pub(super) fn settled(machine: &Machine, start: &MachineStart, quantity: &str) -
     let value = values_of(machine, &found, &[quantity.to_owned()])[0];
     let point = value.is_finite().then_some(MachineDiagramPoint { stop: None, phase: 0.0, value });
     let kind = match &found {
-        MachineVerdict::Periodic(cycle) if cycle.label.impacts == Count::Finite(0) => MotionKind::NoImpact,
-        MachineVerdict::Periodic(_) | MachineVerdict::Chaotic { .. } => MotionKind::Impacts,
-        MachineVerdict::NoImpact(_) => MotionKind::NoImpact,
-        MachineVerdict::Stuck(_) => MotionKind::Stuck,
-        MachineVerdict::Undecided { .. } => MotionKind::Undecided,
+        Verdict::Periodic(cycle) if cycle.label.impacts == Count::Finite(0) => MotionKind::NoImpact,
+        Verdict::Periodic(_) | Verdict::Chaotic(_) => MotionKind::Impacts,
+        Verdict::NoImpact(_) => MotionKind::NoImpact,
+        Verdict::Stuck(_) => MotionKind::Stuck,
+        Verdict::Undecided(_) => MotionKind::Undecided,
     };
     let last = found.reached(machine).unwrap_or_else(|| start.clone());
     Ok(Followed { kind, points: point.into_iter().collect(), last })

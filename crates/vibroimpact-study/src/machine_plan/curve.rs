@@ -1,16 +1,16 @@
 //! Curves of events of an orbit of a machine in a plane of two of its numbers. A curve begins at an event on a branch in the
 //! first one.
 
-use super::cut::{MachineCut, MachineStretch};
+use super::cut::{MachineCut, MachineStretch, check_plane, plane};
 use super::orbits;
-use crate::machine::{MachineSource, VariedMachine};
+use crate::machine::MachineSource;
 use crate::{Control, PlanError, RunError, Stopped, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vibroimpact::Label;
 use vibroimpact::continuation::{
     BranchOptions, CurveEvent, CurveKind, CurveOptions, Direction, MachineBranch, MachineBranchEvent, MachineCurve,
-    MachineCurvePoint, MachinePlane, MachinePoint,
+    MachineCurvePoint, MachinePoint,
 };
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
@@ -121,23 +121,12 @@ impl MachineCurvePlan {
         for MachineStretch { path, from, to } in [vary, and] {
             let value = source.number(path).map_err(PlanError::from)?;
             let (path, from, to) = (path.clone(), *from, *to);
-            if !(from.is_finite() && to.is_finite() && from < to) {
-                return Err(PlanError::MachineStretch { path, from, to });
-            }
-            if !(from..=to).contains(&value) {
+            if from < to && !(from..=to).contains(&value) {
                 return Err(PlanError::MachineOutside { path, value, from, to });
             }
         }
-        if vary.path == and.path {
-            return Err(PlanError::MachineAxisTwice(vary.path.clone()));
-        }
         limits::branch_points(*points)?;
-        for p in [vary.from, vary.to] {
-            for q in [and.from, and.to] {
-                source.with(&vary.path, p)?.with(&and.path, q)?.machine()?;
-            }
-        }
-        Ok(())
+        check_plane(source, vary, and)
     }
 }
 
@@ -187,9 +176,7 @@ pub(super) fn curve(
         count: events.len(),
         asked: asked.event,
     })?;
-    let corners = [vec![vary.from, and.from], vec![vary.to, and.from], vec![vary.from, and.to], vec![vary.to, and.to]];
-    let varied = VariedMachine::new(source, [vary, and].into_iter().map(|stretch| stretch.path.as_str()), &corners);
-    let plane = MachinePlane::new(move |p, q| varied.at(&[p, q]), (vary.from..=vary.to, and.from..=and.to));
+    let plane = plane(source, vary, and);
     let at = (events[through].value, source.number(&and.path).map_err(PlanError::from)?);
     let options = CurveOptions { longest: LONGEST, points: asked.points };
     let [forth, back] = MachineCurve::through(&plane, at, &events[through], options)

@@ -5,7 +5,7 @@ use crate::cut::in_proportion;
 use crate::machine::{MachineSource, VariedMachine};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use vibroimpact::continuation::MachineFamily;
+use vibroimpact::continuation::{MachineFamily, MachinePlane};
 
 /// A number of a machine, and its values at two ends.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -82,7 +82,7 @@ impl MachineCut {
     pub(super) fn family(&self, source: &MachineSource) -> MachineFamily {
         let samples = [self.ends.0, 0.5 * (self.ends.0 + self.ends.1), self.ends.1].map(|at| self.values(at).collect());
         let (cut, varied) = (self.clone(), VariedMachine::new(source, self.paths(), &samples));
-        MachineFamily::new(move |value| varied.at(&cut.values(value).collect::<Vec<f64>>()))
+        varied.family(move |[value]| cut.values(value).collect())
     }
 
     /// Checks that the second number is another one, that its values are finite, and both paths.
@@ -98,4 +98,36 @@ impl MachineCut {
         source.number(path)?;
         Ok(())
     }
+}
+
+/// Checks that two numbers and their ranges span a plane of machines.
+pub(super) fn check_plane(
+    source: &MachineSource,
+    one: &MachineStretch,
+    other: &MachineStretch,
+) -> Result<(), PlanError> {
+    for MachineStretch { path, from, to } in [one, other] {
+        source.number(path)?;
+        if !(from.is_finite() && to.is_finite() && from < to) {
+            return Err(PlanError::MachineStretch { path: path.clone(), from: *from, to: *to });
+        }
+    }
+    if one.path == other.path {
+        return Err(PlanError::MachineAxisTwice(one.path.clone()));
+    }
+    for p in [one.from, one.to] {
+        for q in [other.from, other.to] {
+            source.with(&one.path, p)?.with(&other.path, q)?.machine()?;
+        }
+    }
+    Ok(())
+}
+
+/// The plane of two numbers over their ranges.
+pub(super) fn plane(source: &MachineSource, one: &MachineStretch, other: &MachineStretch) -> MachinePlane {
+    let corners: Vec<Vec<f64>> =
+        [one.from, one.to].iter().flat_map(|p| [vec![*p, other.from], vec![*p, other.to]]).collect();
+    let varied = VariedMachine::new(source, [one, other].into_iter().map(|stretch| stretch.path.as_str()), &corners);
+    let family = varied.family(|values: [f64; 2]| values.to_vec());
+    MachinePlane::of(family, (one.from..=one.to, other.from..=other.to))
 }

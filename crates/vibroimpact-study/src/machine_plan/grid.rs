@@ -13,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 use vibroimpact::quantities::{machine_quantities, machine_quantity};
-use vibroimpact::verdict::MachineVerdict;
+use vibroimpact::verdict::Verdict;
 
 /// Starts of a machine over a grid.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -66,7 +66,7 @@ pub struct MachineBasin {
     /// The axes; the first varies fastest.
     pub axes: Vec<MachineAxis>,
     /// The motions, in the order of their first start.
-    pub motions: Vec<MachineVerdict>,
+    pub motions: Vec<Verdict<Machine>>,
     /// The motion of each start as an index; `None` where a start lies beyond a rigid stop.
     pub cells: Vec<Option<usize>>,
     /// The number of events over which chaos was seen from each start; `None` unless its motion is chaotic.
@@ -266,7 +266,7 @@ pub(super) fn check_fields(machine: &Machine, fields: &[String]) -> Result<(), P
 }
 
 /// The values of the fields for a motion; not-a-number where they are not defined.
-pub(crate) fn values_of(machine: &Machine, verdict: &MachineVerdict, fields: &[String]) -> Vec<f64> {
+pub(crate) fn values_of(machine: &Machine, verdict: &Verdict<Machine>, fields: &[String]) -> Vec<f64> {
     if fields.is_empty() {
         return Vec::new();
     }

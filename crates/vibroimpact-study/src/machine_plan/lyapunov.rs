@@ -7,7 +7,7 @@ use crate::machine::MachineSource;
 use crate::{Control, PlanError, RunError, Stopped, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use vibroimpact::chaos::{DEFAULT_EVENTS, DEFAULT_MACHINE_TRANSIENT, MachineExponents, machine_exponents_while};
+use vibroimpact::chaos::{DEFAULT_EVENTS, DEFAULT_MACHINE_TRANSIENT, Exponents, machine_exponents_while};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 
@@ -75,7 +75,7 @@ impl MachineLyapunovPlan {
         machine: &Machine,
         start: &MachineStart,
         control: &Control<'_>,
-    ) -> Result<MachineExponents, RunError> {
+    ) -> Result<Exponents<Machine>, RunError> {
         if let Some(axis) = self.axes.first() {
             let (task, known) = ("measurement of one motion", "none: over axes it is a study");
             return Err(PlanError::WrongAxis { task, name: axis.vary.clone().into(), known }.into());

@@ -13,7 +13,7 @@ use vibroimpact::continuation::{Direction, MachinePoint};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::MachineCycle;
-use vibroimpact::verdict::MachineVerdict;
+use vibroimpact::verdict::Verdict;
 
 /// The distances of a cycle of a machine from its nearest events.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -46,7 +46,7 @@ const HALVINGS: u32 = 12;
 #[derive(Clone, Debug)]
 pub struct MachineMargins {
     /// The motion.
-    pub motion: MachineVerdict,
+    pub motion: Verdict<Machine>,
     /// The nearest events in each number; empty for a motion that is no cycle.
     pub numbers: Vec<NumberMargin>,
 }
@@ -133,11 +133,11 @@ pub(super) fn margins(
     control: &Control<'_>,
 ) -> Result<MachineMargins, RunError> {
     let motion = match &plan.label {
-        Some(label) => MachineVerdict::Periodic(orbits::chosen((machine, start), (Some(label), None), control)?.cycle),
+        Some(label) => Verdict::Periodic(orbits::chosen((machine, start), (Some(label), None), control)?.cycle),
         None => settle(machine, start, None, control)?.verdict,
     };
     let mut numbers = Vec::new();
-    if let MachineVerdict::Periodic(cycle) = &motion {
+    if let Verdict::Periodic(cycle) = &motion {
         for path in plan.paths(source)? {
             numbers.push(margin(source, cycle, path, plan.within, control)?);
             (control.progress)(numbers.len() as u64);

@@ -13,6 +13,7 @@
 //! | branches of orbits | [`MachineBranchPlan`], [`MachineBranched`], `branch` |
 //! | which motion each of many points leads to | [`MachineManyPlan`], `many` |
 //! | how far a cycle is from its nearest events | [`MachineMarginsPlan`], [`MachineMargins`], `margins` |
+//! | where in a plane of two numbers a motion exists and is stable | [`MachineRegionPlan`], `region` |
 //! | a quantity of all motions over a number | [`MachineResponsePlan`], `response` |
 //! | curves of events over two numbers | [`MachineCurvePlan`], [`MachineEventCurve`], `curve` |
 //! | an axis of a grid | [`MachineAxis`] |
@@ -32,6 +33,7 @@ mod many;
 mod margins;
 mod orbits;
 mod plan;
+mod region;
 mod response;
 mod run;
 mod section;
@@ -52,6 +54,7 @@ pub use many::MachineManyPlan;
 pub use margins::{MachineMargins, MachineMarginsPlan, NumberEvent, NumberMargin};
 pub use orbits::label as machine_label;
 pub use plan::{MachinePlan, MachineTask};
+pub use region::MachineRegionPlan;
 pub use response::MachineResponsePlan;
 pub use run::{MachineResults, run_machine};
 pub use section::MachineSection;

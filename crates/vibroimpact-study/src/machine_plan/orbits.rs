@@ -6,7 +6,7 @@ use vibroimpact::Label;
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::{MachineCycle, find_machine_while};
-use vibroimpact::verdict::{MachineVerdict, scattered_machine_starts};
+use vibroimpact::verdict::{Verdict, scattered_machine_starts};
 
 /// Starts of the search for orbits.
 const STARTS: u64 = 48;
@@ -58,8 +58,8 @@ pub(super) fn chosen(
 ) -> Result<ChosenCycle, RunError> {
     let Some(text) = text else {
         return match settle(machine, start, None, control)?.verdict {
-            MachineVerdict::Periodic(cycle) => Ok(ChosenCycle { cycle, among: None }),
-            other => Err(PlanError::NotPeriodic(other.label()).into()),
+            Verdict::Periodic(cycle) => Ok(ChosenCycle { cycle, among: None }),
+            other => Err(PlanError::NotPeriodic(other.label().into_owned()).into()),
         };
     };
     let label = label(machine, text)?;

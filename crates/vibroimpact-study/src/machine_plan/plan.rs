@@ -8,6 +8,7 @@ use super::grid::{MachineBasinPlan, MachineMapPlan};
 use super::lyapunov::MachineLyapunovPlan;
 use super::many::MachineManyPlan;
 use super::margins::MachineMarginsPlan;
+use super::region::MachineRegionPlan;
 use super::response::MachineResponsePlan;
 use super::simulate::{check, most_events};
 use super::{orbits, verdicts};
@@ -101,6 +102,8 @@ pub enum MachineTask {
     SettleMany(MachineManyPlan),
     /// How far a cycle is from the nearest event in each number.
     Margins(MachineMarginsPlan),
+    /// Where in a plane of two numbers a motion exists, and where it is stable.
+    Region(MachineRegionPlan),
     /// A quantity of all motions over one number.
     Response(MachineResponsePlan),
     /// The motion to which each start of a grid leads.
@@ -153,6 +156,9 @@ impl MachinePlan {
         match &self.task {
             MachineTask::Basin(basin) => format!("motions that starts lead to over {}: {name}", over(&basin.axes)),
             MachineTask::Diagram(diagram) => format!("orbit diagram over {}: {name}", diagram.vary),
+            MachineTask::Region(MachineRegionPlan { label, across, up, .. }) => {
+                format!("region of {} over {}, {}: {name}", label.trim(), across.path, up.path)
+            }
             MachineTask::Response(response) => format!("response over {}: {name}", response.vary),
             MachineTask::Map(map) => format!("motions over {}: {name}", over(&map.axes)),
             MachineTask::Lyapunov(MachineLyapunovPlan { axes, .. }) if !axes.is_empty() => {
@@ -169,6 +175,7 @@ impl MachinePlan {
             MachineTask::Attractors { starts, .. } => Some((*starts, "starts")),
             MachineTask::Basin(basin) => Some((MachineAxis::points(&basin.axes), "starts")),
             MachineTask::Map(map) => Some((MachineAxis::points(&map.axes), "points")),
+            MachineTask::Region(_) => Some((2, "regions")),
             MachineTask::Response(response) => Some((response.motions(), "motions")),
             MachineTask::SettleMany(many) => Some((many.points.count(), "points")),
             MachineTask::Lyapunov(lyapunov) => match lyapunov.axes.as_slice() {
@@ -258,9 +265,11 @@ impl MachinePlan {
         check_tile(self.tile)?;
         check_shard(self.shard)?;
         let (machine, _) = match &self.task {
-            MachineTask::Map(_) | MachineTask::Diagram(_) | MachineTask::Response(_) | MachineTask::SettleMany(_) => {
-                self.described()?
-            }
+            MachineTask::Map(_)
+            | MachineTask::Diagram(_)
+            | MachineTask::Region(_)
+            | MachineTask::Response(_)
+            | MachineTask::SettleMany(_) => self.described()?,
             // each point has its own start
             MachineTask::Lyapunov(MachineLyapunovPlan { axes, .. }) if !axes.is_empty() => self.described()?,
             _ => self.problem()?,
@@ -275,6 +284,7 @@ impl MachinePlan {
             MachineTask::Curve(curve) => curve.check(&self.machine, &machine),
             MachineTask::SettleMany(many) => many.check(&self.machine, &machine),
             MachineTask::Margins(margins) => margins.check(&self.machine, &machine),
+            MachineTask::Region(region) => region.check(&self.machine),
             MachineTask::Response(response) => response.check(&self.machine, &machine),
             MachineTask::Basin(basin) => basin.check(&machine),
             MachineTask::Map(map) => map.check(&self.machine),

@@ -16,10 +16,9 @@ use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 use vibroimpact::math::sort_by;
 use vibroimpact::orbit::MachineCycle;
-use vibroimpact::quantities::{
-    MachineQuantities, machine_cycle_quantities, machine_quantities, machine_quantity_paths,
-};
-use vibroimpact::verdict::MachineVerdict;
+use vibroimpact::quantities::machine::Quantities;
+use vibroimpact::quantities::{machine_cycle_quantities, machine_quantities, machine_quantity_paths};
+use vibroimpact::verdict::Verdict;
 
 /// A quantity of all motions over the values of one number of a machine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -78,7 +77,7 @@ impl Ground<'_> {
         self.varied.at(&[value])
     }
 
-    fn all(&self, found: Option<MachineQuantities>) -> Vec<f64> {
+    fn all(&self, found: Option<Quantities>) -> Vec<f64> {
         found.map_or_else(|| vec![f64::NAN; self.names.len()], |found| found.iter().map(|(.., of)| of.value).collect())
     }
 
@@ -105,13 +104,13 @@ impl Ground<'_> {
             state = verdict.reached(&machine).unwrap_or(state);
             let row = ResponseRow {
                 value,
-                label: verdict.label(),
+                label: verdict.label().into_owned(),
                 admissible: true,
                 stability: verdict.stability(&machine),
                 event: None,
                 quantities: self.all(machine_quantities(&machine, &verdict)),
             };
-            motions.push((row, if let MachineVerdict::Periodic(cycle) = verdict { Some(cycle) } else { None }));
+            motions.push((row, if let Verdict::Periodic(cycle) = verdict { Some(cycle) } else { None }));
             (control.progress)((before + motions.len()) as u64);
         }
         Ok(motions)

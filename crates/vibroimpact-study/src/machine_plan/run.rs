@@ -8,11 +8,12 @@ use super::margins::MachineMargins;
 use super::plan::{MachinePlan, MachineTask};
 use super::section::{self, MachineSection};
 use super::simulate::{MachineSimulated, simulate};
-use super::{many, margins, orbits, response, verdicts};
-use crate::{Control, ResponseCurves, RunError, in_memory};
-use vibroimpact::chaos::MachineExponents;
+use super::{many, margins, orbits, region, response, verdicts};
+use crate::{Control, Regions, ResponseCurves, RunError, in_memory};
+use vibroimpact::chaos::Exponents;
+use vibroimpact::machine::Machine;
 use vibroimpact::orbit::MachineCycle;
-use vibroimpact::verdict::{Census, MachineSettled, MachineVerdict};
+use vibroimpact::verdict::{Census, Settled};
 
 /// The result of a [`MachineTask`], one variant for each.
 #[derive(Clone, Debug)]
@@ -20,11 +21,11 @@ pub enum MachineResults {
     /// The events of the motion.
     Simulate(MachineSimulated),
     /// What the motion settles into.
-    Settle(MachineSettled),
+    Settle(Settled<Machine>),
     /// The distinct motions and their counts.
-    Attractors(Census<MachineVerdict>),
+    Attractors(Census<Machine>),
     /// The exponents, and the sections of the attractor if points of them were requested.
-    Lyapunov(MachineExponents, Option<MachineSection>),
+    Lyapunov(Exponents<Machine>, Option<MachineSection>),
     /// The orbits, the fastest last.
     Orbit(Vec<MachineCycle>),
     /// The branch.
@@ -33,6 +34,8 @@ pub enum MachineResults {
     Curve(MachineEventCurve),
     /// The margins.
     Margins(MachineMargins),
+    /// Both regions.
+    Region(Regions),
     /// The response.
     Response(ResponseCurves),
     /// The basin.
@@ -82,6 +85,7 @@ pub fn run_machine(plan: &MachinePlan, control: &Control<'_>) -> Result<MachineR
         MachineTask::Margins(asked) => {
             MachineResults::Margins(margins::margins(&plan.machine, (&machine, &start), asked, control)?)
         }
+        MachineTask::Region(asked) => MachineResults::Region(region::regions(&plan.machine, asked, control)?),
         MachineTask::Response(asked) => {
             MachineResults::Response(response::response(&plan.machine, (&machine, &start), asked, control)?)
         }

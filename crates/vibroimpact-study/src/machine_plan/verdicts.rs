@@ -6,8 +6,7 @@ use vibroimpact::events::MachineStart;
 use vibroimpact::lanes::Width;
 use vibroimpact::machine::{Machine, MachineError};
 use vibroimpact::verdict::{
-    Census, KnownMotions, MachineSettled, MachineVerdict, scattered_machine_starts, settle_machine_many,
-    settle_machine_while,
+    Census, KnownMotions, Settled, scattered_machine_starts, settle_machine_many, settle_machine_while,
 };
 
 /// Starts of a tile.
@@ -31,7 +30,7 @@ pub(super) fn settle(
     start: &MachineStart,
     impacts: Option<u32>,
     control: &Control<'_>,
-) -> Result<MachineSettled, RunError> {
+) -> Result<Settled<Machine>, RunError> {
     let settled = settle_machine_while(machine, start, &options(impacts), &|| !control.stopping()).map_err(refused)?;
     settled.ok_or_else(|| Stopped { done: 0, total: 1 }.into())
 }
@@ -46,7 +45,7 @@ pub(super) fn attractors(
     machine: &Machine,
     (starts, seed, impacts): (u64, u64, Option<u32>),
     control: &Control<'_>,
-) -> Result<Census<MachineVerdict>, RunError> {
+) -> Result<Census<Machine>, RunError> {
     let (options, known) = (options(impacts), KnownMotions::default());
     let parts = tiles(starts, tile(machine), control, |range, tick| {
         let starts: Vec<MachineStart> = range.map(|k| scattered_machine_starts(machine, seed, k)).collect();

@@ -114,10 +114,12 @@ pub(crate) fn margins(
     let scopes = plan.scopes(system)?;
     for scope in &scopes {
         let path = match (scope.parameter, system.machine) {
-            (parameter @ Parameter::Physical(_), Some(machine)) => ParameterPath::of_machine(machine, parameter),
+            (parameter @ Parameter::Physical(_), Some(machine)) => {
+                machine.line(parameter, None).map_err(PlanError::from)?
+            }
             (parameter, _) => ParameterPath::from(parameter),
         };
-        let end = |direction| nearest(&osc, &cycle, (scope, path), direction, control);
+        let end = |direction| nearest(&osc, &cycle, (scope, path.clone()), direction, control);
         let (down, up) = (end(Direction::Down)?, end(Direction::Up)?);
         all.parameters.push(ParameterMargin { scope: *scope, down, up });
     }

@@ -37,7 +37,7 @@ pub(super) fn branches<'a>(
         if found.iter().any(|points| ground.passes(points, &osc, &cycle, motion.row.value)) {
             continue;
         }
-        found.push(ground.both_ways(&osc, &cycle, cut.varying(system, motion.row.value)?));
+        found.push(ground.both_ways(&osc, &cycle, &cut.varying(system, motion.row.value)?));
     }
     let row = |point: &SolutionPoint| {
         let quantities =
@@ -69,10 +69,10 @@ impl Ground<'_, '_> {
 
     /// The points of the branch through a cycle along a line that begins there, from the end of the branch downwards to
     /// the end upwards.
-    fn both_ways(&self, osc: &Oscillator, cycle: &Cycle, vary: ParameterPath) -> Vec<SolutionPoint> {
+    fn both_ways(&self, osc: &Oscillator, cycle: &Cycle, vary: &ParameterPath) -> Vec<SolutionPoint> {
         let options = BranchOptions { points: MOST_POINTS, ..BranchOptions::default() };
         let way = |direction| -> Vec<SolutionPoint> {
-            let branch = Branch::new(osc, cycle, vary, self.range.clone(), direction, options);
+            let branch = Branch::new(osc, cycle, vary.clone(), self.range.clone(), direction, options);
             // a cycle that cannot be followed, such as one at the end of the range, is no branch
             branch.map_or_else(|_| Vec::new(), |branch| branch.take_while(|_| !self.control.stopping()).collect())
         };

@@ -201,6 +201,10 @@ impl Fill for BasinFill {
         &self.grid
     }
 
+    fn grid_mut(&mut self) -> &mut Grid {
+        &mut self.grid
+    }
+
     fn coordinates(&self) -> Vec<Along> {
         self.starts.coordinates()
     }

@@ -8,7 +8,7 @@
 use crate::field::{Extra, Field, NumberType};
 use crate::unit::Unit;
 use vibroimpact::Label;
-use vibroimpact::verdict::{Count, MachineVerdict, Verdict};
+use vibroimpact::verdict::{Count, System, Verdict};
 
 /// The point has not been computed.
 pub const NOT_COMPUTED: i32 = -9;
@@ -60,24 +60,13 @@ pub(super) fn field(long_name: &'static str, extra: Vec<Extra>) -> Field {
 
 /// The code of a motion.
 #[must_use]
-pub fn code(verdict: &Verdict) -> i32 {
+pub fn code<S: System>(verdict: &Verdict<S>) -> i32 {
     match verdict {
-        Verdict::Periodic(cycle) => of(cycle.label),
+        Verdict::Periodic(cycle) => of(S::label(cycle)),
         Verdict::NoImpact(_) => NO_IMPACT,
         Verdict::Chaotic(_) => CHAOTIC,
         Verdict::Stuck(_) => STUCK,
         Verdict::Undecided(_) => UNDECIDED,
-    }
-}
-
-/// The code of a motion of a machine.
-pub(crate) fn of_machine(verdict: &MachineVerdict) -> i32 {
-    match verdict {
-        MachineVerdict::Periodic(cycle) => of(cycle.label),
-        MachineVerdict::NoImpact(_) => NO_IMPACT,
-        MachineVerdict::Chaotic { .. } => CHAOTIC,
-        MachineVerdict::Stuck(_) => STUCK,
-        MachineVerdict::Undecided { .. } => UNDECIDED,
     }
 }
 

@@ -11,7 +11,9 @@ use crate::Unit;
 use crate::field::{Column, Field};
 use crate::grid::Grid;
 use std::collections::BTreeMap;
-use vibroimpact::verdict::{Census, CountedMotion, MachineVerdict, Verdict};
+use vibroimpact::Oscillator;
+use vibroimpact::machine::Machine;
+use vibroimpact::verdict::{Census, CountedMotion, System, Verdict};
 
 /// Number of a motion that has none.
 pub(super) const NONE: i32 = -1;
@@ -33,7 +35,10 @@ pub(super) fn field(label: Field) -> Field {
 }
 
 /// The number of a motion in a tile. Cycles that the survey has not found are added to `unknown`.
-pub(super) fn number<V: StoredMotion>(known: &[V], unknown: &mut Census<V>, found: &CountedMotion<V>) -> i32 {
+pub(super) fn number<S: System>(known: &[Verdict<S>], unknown: &mut Census<S>, found: &CountedMotion<S>) -> i32
+where
+    Verdict<S>: StoredMotion,
+{
     if !found.verdict.is_numbered() {
         return NONE;
     }
@@ -53,19 +58,25 @@ const fn preliminary(n: i32) -> bool {
 const SAME: f64 = 1e-6;
 
 /// Whether two verdicts are the same cycle.
-pub(super) fn same<V: StoredMotion>(a: &V, b: &V) -> bool {
+pub(super) fn same<S: System>(a: &Verdict<S>, b: &Verdict<S>) -> bool
+where
+    Verdict<S>: StoredMotion,
+{
     a.is_numbered() && a.same_as(b, SAME)
 }
 
 /// The cycles found by a survey.
-pub(super) fn survey<V: StoredMotion>(found: &Census<V>) -> Vec<V> {
+pub(super) fn survey<S: System>(found: &Census<S>) -> Vec<Verdict<S>>
+where
+    Verdict<S>: StoredMotion,
+{
     found.motions().iter().filter(|found| found.verdict.is_numbered()).map(|found| found.verdict.clone()).collect()
 }
 
 /// The numbers of the cycles of an oscillator, or of a machine.
 pub(crate) enum Numbered<'a> {
-    Oscillator(Numbering<'a, Verdict>),
-    Machine(Numbering<'a, MachineVerdict>),
+    Oscillator(Numbering<'a, Oscillator>),
+    Machine(Numbering<'a, Machine>),
 }
 
 impl Numbered<'_> {
@@ -78,20 +89,23 @@ impl Numbered<'_> {
 }
 
 /// The data needed to number the cycles that the survey has not found.
-pub(crate) struct Numbering<'a, V> {
+pub(crate) struct Numbering<'a, S: System> {
     /// Index of the field that contains the numbers.
     pub(super) field: usize,
     /// The cycles of the survey.
-    pub(super) known: &'a [V],
+    pub(super) known: &'a [Verdict<S>],
     /// The names of the stops of a machine.
     pub(super) stops: Vec<String>,
     /// The cycles that only the given tile has found, in the order of their preliminary numbers.
-    pub(super) unknown: Box<dyn Fn(u64) -> Census<V> + 'a>,
+    pub(super) unknown: Box<dyn Fn(u64) -> Census<S> + 'a>,
 }
 
-impl<V: StoredMotion> Numbering<'_, V> {
+impl<S: System> Numbering<'_, S>
+where
+    Verdict<S>: StoredMotion,
+{
     fn conclude<T: Tiles>(&self, grid: &Grid, tiles: &mut T) -> Result<Vec<StudyTable>, T::Error> {
-        let mut cycles: Vec<V> = self.known.to_vec();
+        let mut cycles: Vec<Verdict<S>> = self.known.to_vec();
         let mut counts: BTreeMap<i32, u64> = BTreeMap::new();
         let mut add = |own: &[(i32, u64)]| own.iter().for_each(|(n, count)| *counts.entry(*n).or_default() += count);
         // the tiles with cycles that the survey has not found
@@ -135,7 +149,7 @@ impl<V: StoredMotion> Numbering<'_, V> {
         let count = |n: i32| counts.get(&n).copied().unwrap_or(0);
         let starts: Vec<u64> = (0..cycles.len()).map(|n| i32::try_from(n).map_or(0, count)).collect();
         let cycles: Vec<StoredCycle> = cycles.iter().filter_map(StoredMotion::stored_cycle).collect();
-        Ok(tables(&cycles, (&self.stops, &starts), (grid.points() - count(BEYOND), V::UNITS)))
+        Ok(tables(&cycles, (&self.stops, &starts), (grid.points() - count(BEYOND), Verdict::<S>::UNITS)))
     }
 }
 

@@ -28,6 +28,9 @@ pub(crate) trait Fill: Send + Sync {
     /// The grid and its tiles.
     fn grid(&self) -> &Grid;
 
+    /// The grid, so that its tiles can have other lengths.
+    fn grid_mut(&mut self) -> &mut Grid;
+
     /// The coordinate values of the dimensions that have any.
     fn coordinates(&self) -> Vec<Along>;
 
@@ -94,6 +97,7 @@ pub type Keep<'a> = &'a dyn Fn(bool, &dyn Fn() -> BegunTile);
 /// A [`Fill`] whose tiles are available only as columns, so that a study can contain any task.
 pub(super) trait Columns: Send + Sync {
     fn grid(&self) -> &Grid;
+    fn grid_mut(&mut self) -> &mut Grid;
     fn coordinates(&self) -> Vec<Along>;
     fn fields(&self) -> Vec<Field>;
     fn fill(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>>;
@@ -113,6 +117,10 @@ pub(super) trait Columns: Send + Sync {
 impl<F: Fill> Columns for F {
     fn grid(&self) -> &Grid {
         Fill::grid(self)
+    }
+
+    fn grid_mut(&mut self) -> &mut Grid {
+        Fill::grid_mut(self)
     }
 
     fn coordinates(&self) -> Vec<Along> {

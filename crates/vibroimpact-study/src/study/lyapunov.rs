@@ -77,7 +77,8 @@ const fn grounds(of: &Grounds) -> i8 {
     match of {
         Grounds::Undecided { .. } => 0,
         Grounds::Measured { .. } => 1,
-        Grounds::Flight(_) => 2,
+        // an oscillator has no others that are exact
+        Grounds::Flight(_) | Grounds::Exact => 2,
         Grounds::Sticks(_) => 3,
         Grounds::Stuck(_) => 4,
         Grounds::Touches(_) => 5,
@@ -114,9 +115,9 @@ impl Spectra for Oscillators {
         let osc = there.oscillator().ok()?;
         let start = axis::start_at((&self.system, &there), &self.plan.start, axes, place).start(&osc).ok()?;
         let found = exponents(&osc, start, &self.plan.options());
-        let impacts = found.impacts_per_period;
+        let impacts = found.impact_rate.scaled(osc.period());
         Some(Spectrum {
-            exponents: found.exponents.to_vec(),
+            exponents: found.exponents,
             further: vec![impacts.value, impacts.error, found.section_dimension.map_or(f64::NAN, |d| d.value)],
             grounds: grounds(&found.grounds),
         })
@@ -128,6 +129,10 @@ impl<S: Spectra> Fill for LyapunovFill<S> {
 
     fn grid(&self) -> &Grid {
         &self.grid
+    }
+
+    fn grid_mut(&mut self) -> &mut Grid {
+        &mut self.grid
     }
 
     fn coordinates(&self) -> Vec<Along> {

@@ -17,9 +17,9 @@ use std::sync::OnceLock;
 use vibroimpact::events::MachineStart;
 use vibroimpact::lanes::Width;
 use vibroimpact::machine::Machine;
+use vibroimpact::verdict::machine::Settlement;
 use vibroimpact::verdict::{
-    Census, CountedMotion, KnownMotions, MachineSettlement, MachineVerdict, SettleOptions, settle_machine,
-    settle_machine_many,
+    Census, CountedMotion, KnownMotions, SettleOptions, Verdict, settle_machine, settle_machine_many,
 };
 
 /// Default number of points of a tile along each of two axes, at least and at most; a start takes up to a second.
@@ -43,13 +43,13 @@ pub(crate) struct MachineBasinFill {
     /// The cycles with trapping regions.
     known: KnownMotions,
     /// The cycles with the same numbers in all tiles; computed when the first tile is stored.
-    survey: OnceLock<Vec<MachineVerdict>>,
+    survey: OnceLock<Vec<Verdict<Machine>>>,
 }
 
 /// The motions of one tile.
 pub(crate) struct MachineBasinTile {
     /// The motions, in the order of the first start that leads to each.
-    pub(crate) met: Census<MachineVerdict>,
+    pub(crate) met: Census<Machine>,
     /// For each start the index of its motion in `met`; `None` for a start beyond a rigid stop.
     pub(crate) cells: Vec<Cell<Option<u32>>>,
     /// For each start that was computed and is chaotic, the number of events over which chaos was seen.
@@ -87,7 +87,7 @@ impl MachineBasinFill {
     }
 
     /// The motions of starts; `None` if stopped.
-    fn many(&self, starts: &[MachineStart], tick: &dyn Fn() -> bool) -> Option<MachineSettlement> {
+    fn many(&self, starts: &[MachineStart], tick: &dyn Fn() -> bool) -> Option<Settlement> {
         settle_machine_many(&self.machine, starts, &self.known, &self.options, Width::best(), &|| true, tick)
     }
 
@@ -101,13 +101,13 @@ impl MachineBasinFill {
     }
 
     /// The verdict on the start at a point of the grid; `None` beyond a rigid stop.
-    pub(crate) fn settled(&self, index: &[usize]) -> Option<MachineVerdict> {
+    pub(crate) fn settled(&self, index: &[usize]) -> Option<Verdict<Machine>> {
         let settled = settle_machine(&self.machine, &self.start(index), &self.options);
         settled.ok().map(|settled| settled.verdict)
     }
 
     /// The cycles of the survey. Every tile computes the same ones.
-    fn survey(&self) -> &[MachineVerdict] {
+    fn survey(&self) -> &[Verdict<Machine>] {
         self.survey.get_or_init(|| {
             let mut census = Census::default();
             for found in self.many(&self.spread(SURVEY), &|| false).unwrap_or_default().motions {
@@ -118,10 +118,9 @@ impl MachineBasinFill {
     }
 
     /// The stored result of each motion of a tile, and the cycles that the survey has not found.
-    fn leads(&self, tile: &MachineBasinTile) -> (Vec<Leads>, Census<MachineVerdict>) {
+    fn leads(&self, tile: &MachineBasinTile) -> (Vec<Leads>, Census<Machine>) {
         let (mut unknown, known) = (Census::default(), self.survey());
-        let leads =
-            |found: &CountedMotion<MachineVerdict>| (found.verdict.code(), cycles::number(known, &mut unknown, found));
+        let leads = |found: &CountedMotion<Machine>| (found.verdict.code(), cycles::number(known, &mut unknown, found));
         (tile.met.motions().iter().map(leads).collect(), unknown)
     }
 }
@@ -135,6 +134,10 @@ impl Fill for MachineBasinFill {
 
     fn grid(&self) -> &Grid {
         &self.grid
+    }
+
+    fn grid_mut(&mut self) -> &mut Grid {
+        &mut self.grid
     }
 
     fn coordinates(&self) -> Vec<Along> {
@@ -195,7 +198,7 @@ impl Fill for MachineBasinFill {
         }
         columns.extend(remarked.into_iter().map(Column::I32));
         // those of a cycle that the survey has found are those of the survey, so that they are the same in all tiles
-        let same = |found: &MachineVerdict| self.survey().iter().find(|known| cycles::same(*known, found));
+        let same = |found: &Verdict<Machine>| self.survey().iter().find(|known| cycles::same(*known, found));
         let motions = tile.met.motions().iter().map(|found| same(&found.verdict).unwrap_or(&found.verdict));
         let values: Vec<Vec<f64>> =
             motions.map(|verdict| values_of(&self.machine, verdict, &self.plan.fields)).collect();

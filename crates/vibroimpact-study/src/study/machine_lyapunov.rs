@@ -6,7 +6,7 @@ use super::map::side;
 use crate::machine::MachineSource;
 use crate::machine_plan::{MachineLyapunovPlan, StartAxis};
 use crate::{MachineAxis, PlanError, Unit};
-use vibroimpact::chaos::machine_exponents_while;
+use vibroimpact::chaos::{Grounds, machine_exponents_while};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 
@@ -79,14 +79,15 @@ impl Spectra for Machines {
     fn at(&self, index: &[usize]) -> Option<Spectrum> {
         let (machine, start) = self.problem(index).ok()?;
         let found = machine_exponents_while(&machine, &start, self.plan.lengths(), &|| true).ok()??;
-        let Some(spectrum) = found.spectrum else {
-            return Some(Spectrum { exponents: Vec::new(), further: vec![f64::NAN; 2], grounds: 0 });
-        };
-        let period = machine.period().unwrap_or(f64::NAN);
+        let closings = found.impact_rate.scaled(machine.period().unwrap_or(f64::NAN));
         Some(Spectrum {
-            further: [spectrum.closings.value, spectrum.closings.error].map(|rate| rate * period).to_vec(),
-            exponents: spectrum.exponents,
-            grounds: if found.exact { 2 } else { 1 },
+            grounds: match found.grounds {
+                Grounds::Undecided { .. } => 0,
+                Grounds::Measured { .. } => 1,
+                _ => 2,
+            },
+            further: vec![closings.value, closings.error],
+            exponents: found.exponents,
         })
     }
 }
@@ -138,11 +139,10 @@ mod tests {
             let MachineResults::Lyapunov(direct, None) = run_machine(&alone, &Control::default()).unwrap() else {
                 panic!()
             };
-            let spectrum = direct.spectrum.unwrap();
-            assert_eq!(exponents, spectrum.exponents.iter().map(|found| found.value).collect::<Vec<_>>());
+            assert_eq!(exponents, direct.exponents.iter().map(|found| found.value).collect::<Vec<_>>());
             let rate = numbers(&found, "impacts_per_period")[k];
-            assert!((rate - spectrum.closings.value * core::f64::consts::TAU / 0.9).abs() < 1e-12);
-            assert_eq!(*grounds, if direct.exact { 2 } else { 1 });
+            assert!((rate - direct.impact_rate.value * core::f64::consts::TAU / 0.9).abs() < 1e-12);
+            assert_eq!(*grounds, if direct.exact() { 2 } else { 1 });
             measured += 1;
         }
         assert_eq!((measured, refused), (7, 5));

@@ -1,6 +1,6 @@
 //! The tiles of a map of a machine: the motions at each point of a grid over numbers of the machine.
 
-use super::code;
+use super::code::code;
 use super::fill::{Along, along_machine, machine_fields, machine_grid, on_axis};
 use super::map::{MapFill, Mapped, Motions, side};
 use super::remarks;
@@ -15,7 +15,7 @@ use vibroimpact::events::MachineStart;
 use vibroimpact::lanes::Width;
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::{
-    Census, CountedMotion, MachineVerdict, SettleOptions, scattered_machine_starts, settle_each_machine,
+    Census, CountedMotion, SettleOptions, Verdict, scattered_machine_starts, settle_each_machine,
 };
 
 /// Default number of points of a tile along each of two axes, at least and at most; the starts at a point take up to some seconds.
@@ -61,11 +61,11 @@ impl MachinesOver {
 
 impl MachineShare {
     /// A motion of a machine to which this share of the starts leads.
-    pub(crate) fn of(machine: &Machine, verdict: &MachineVerdict, share: f64, fields: &[String]) -> Self {
+    pub(crate) fn of(machine: &Machine, verdict: &Verdict<Machine>, share: f64, fields: &[String]) -> Self {
         let cycle = verdict.stored_cycle();
-        let fastest = if let MachineVerdict::Periodic(cycle) = verdict { cycle.fastest() } else { f64::NAN };
+        let fastest = if let Verdict::Periodic(cycle) = verdict { cycle.fastest() } else { f64::NAN };
         Self {
-            code: code::of_machine(verdict),
+            code: code(verdict),
             share,
             speed: fastest,
             multiplier: cycle.map_or(f64::NAN, |cycle| cycle.multiplier),
@@ -104,7 +104,7 @@ impl Mapped for MachinesOver {
             settlement.motions.iter().for_each(|motion| {
                 census.add_found(motion);
             });
-            let share = |of: &CountedMotion<MachineVerdict>| {
+            let share = |of: &CountedMotion<Machine>| {
                 MachineShare::of(machine, &of.verdict, census.share(of), &self.plan.fields)
             };
             *shares = census.by_share().into_iter().map(share).collect();

@@ -52,6 +52,8 @@ use lyapunov::LyapunovFill;
 /// A plan that fills a grid.
 pub struct Study {
     fill: Box<dyn fill::Columns>,
+    /// The numbers of the fields that are stored, among those that are computed.
+    kept: Vec<usize>,
 }
 
 impl Study {
@@ -62,15 +64,43 @@ impl Study {
     pub fn new(plan: impl Into<StudyPlan>) -> Result<Self, PlanError> {
         let plan = plan.into();
         plan.check()?;
-        match &plan {
-            StudyPlan::Oscillator(plan) => Self::of_oscillator(plan),
-            StudyPlan::Machine(plan) => Self::of_machine(plan),
-        }
+        Ok(Self::of(match &plan {
+            StudyPlan::Oscillator(plan) => Self::of_oscillator(plan)?,
+            StudyPlan::Machine(plan) => Self::of_machine(plan)?,
+        }))
     }
 
-    fn of_machine(plan: &MachinePlan) -> Result<Self, PlanError> {
+    /// The study of a fill, with all its fields.
+    fn of(fill: Box<dyn fill::Columns>) -> Self {
+        let kept = (0..fill.fields().len()).collect();
+        Self { fill, kept }
+    }
+
+    /// The same study with tiles of these lengths along the dimensions of its grid, and only the fields that `has` names: as a
+    /// store has it that a version with other defaults began.
+    #[must_use]
+    pub fn with_tiles(mut self, lengths: &[usize], has: impl Fn(&str) -> bool) -> Self {
+        for (dimension, tile) in self.fill.grid_mut().dimensions.iter_mut().zip(lengths) {
+            dimension.tile = (*tile).clamp(1, dimension.count);
+        }
+        self.kept.retain({
+            let fields = self.fill.fields();
+            move |k| has(&fields[*k].name)
+        });
+        self
+    }
+
+    /// Those columns of a tile that are stored.
+    fn stored(&self, columns: Vec<Column>) -> Vec<Column> {
+        if self.kept.len() == columns.len() {
+            return columns;
+        }
+        columns.into_iter().enumerate().filter(|(k, _)| self.kept.contains(k)).map(|(_, column)| column).collect()
+    }
+
+    fn of_machine(plan: &MachinePlan) -> Result<Box<dyn fill::Columns>, PlanError> {
         let none = |what| Err(PlanError::NoMachineStudy(what));
-        let fill: Box<dyn fill::Columns> = match &plan.task {
+        Ok(match &plan.task {
             MachineTask::Basin(basin) => {
                 let (machine, start) = plan.problem()?;
                 Box::new(MachineBasinFill::new((&machine, &start), basin, plan.tile)?)
@@ -87,16 +117,16 @@ impl Study {
             MachineTask::Orbit { .. } => return none("find orbits"),
             MachineTask::Branch(_) => return none("follow a branch"),
             MachineTask::Curve(_) => return none("follow a curve"),
+            MachineTask::Region(_) => return none("find regions"),
             MachineTask::Response(_) => return none("compute a response"),
             MachineTask::Margins(_) => return none("compute margins"),
             MachineTask::SettleMany(_) => return none("settle points"),
-        };
-        Ok(Self { fill })
+        })
     }
 
-    fn of_oscillator(plan: &Plan) -> Result<Self, PlanError> {
+    fn of_oscillator(plan: &Plan) -> Result<Box<dyn fill::Columns>, PlanError> {
         let tile = plan.tile;
-        let fill: Box<dyn fill::Columns> = match &plan.task {
+        Ok(match &plan.task {
             Task::Map(map) => Box::new(MapFill::new(&plan.system, map, tile)),
             Task::Basin(basin) => Box::new(BasinFill::plane(&plan.system, basin, tile)?),
             Task::Attractors { starts, seed, impacts } => {
@@ -113,8 +143,7 @@ impl Study {
             Task::Region(_) => return Err(PlanError::NoStudy("find a region")),
             Task::Response(_) => return Err(PlanError::NoStudy("find a response")),
             Task::Margins(_) => return Err(PlanError::NoStudy("find margins")),
-        };
-        Ok(Self { fill })
+        })
     }
 
     /// The grid and its tiles.
@@ -132,14 +161,15 @@ impl Study {
     /// The fields (arrays) of the study.
     #[must_use]
     pub fn fields(&self) -> Vec<Field> {
-        self.fill.fields()
+        let fields = self.fill.fields();
+        self.kept.iter().map(|k| fields[*k].clone()).collect()
     }
 
     /// The columns of tile number `k`, one for each field; `None` if stopped. `tick` is called for each point and
     /// returns whether to stop.
     #[must_use]
     pub fn tile(&self, k: u64, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
-        self.fill.fill(&self.grid().tile(k), tick)
+        self.block(&self.grid().tile(k), tick)
     }
 
     /// The columns of some points of a map, one for each field, in the order of `points`, which are numbers in row-major
@@ -149,13 +179,15 @@ impl Study {
     #[must_use]
     pub fn points(&self, points: &[usize], tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
         let whole = self.grid().whole();
-        self.fill.points(&points.iter().map(|k| whole.index(*k)).collect::<Vec<_>>(), tick)
+        let points: Vec<_> = points.iter().map(|k| whole.index(*k)).collect();
+        self.fill.points(&points, tick).map(|columns| self.stored(columns))
     }
 
     /// Whether a tile can be continued after a part of it: the sweeps of an orbit diagram, which carry their state.
     #[must_use]
     pub fn continues(&self) -> bool {
-        self.fill.continues()
+        // what goes on needs all columns of the part before
+        self.fill.continues() && self.kept.len() == self.fill.fields().len()
     }
 
     /// As [`Study::tile`], continued from what was computed of the tile before; `keep` is called for each further part.
@@ -181,7 +213,7 @@ impl Study {
     /// cost more than its part of a tile.
     #[must_use]
     pub fn block(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
-        self.fill.fill(block, tick)
+        self.fill.fill(block, tick).map(|columns| self.stored(columns))
     }
 
     /// The tables of the whole study, when all tiles are complete. Cycles with preliminary numbers are numbered, and

@@ -2,10 +2,11 @@
 
 use super::code;
 use crate::Unit;
-use vibroimpact::verdict::{MachineVerdict, SteadyMotion, Verdict};
+use vibroimpact::machine::Machine;
+use vibroimpact::verdict::Verdict;
 
 /// A verdict that can be stored.
-pub(crate) trait StoredMotion: SteadyMotion {
+pub(crate) trait StoredMotion {
     /// The units of velocity and time.
     const UNITS: [Unit; 2];
 
@@ -55,11 +56,11 @@ impl StoredMotion for Verdict {
     }
 }
 
-impl StoredMotion for MachineVerdict {
+impl StoredMotion for Verdict<Machine> {
     const UNITS: [Unit; 2] = [Unit::CONSISTENT; 2];
 
     fn code(&self) -> i32 {
-        code::of_machine(self)
+        code(self)
     }
 
     fn is_numbered(&self) -> bool {
@@ -68,7 +69,12 @@ impl StoredMotion for MachineVerdict {
 
     fn stored_cycle(&self) -> Option<StoredCycle> {
         let Self::Periodic(cycle) = self else {
-            let rest = |stops| StoredCycle { label: self.label(), stops, multiplier: f64::NAN, points: Vec::new() };
+            let rest = |stops| StoredCycle {
+                label: self.label().into_owned(),
+                stops,
+                multiplier: f64::NAN,
+                points: Vec::new(),
+            };
             return Some(self.closed()).filter(|stops| !stops.is_empty()).map(rest);
         };
         let ends = cycle.events.iter().skip(1).map(|event| event.time).chain([cycle.period]);

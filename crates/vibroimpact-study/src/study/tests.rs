@@ -70,7 +70,7 @@ fn cycles_that_nobody_knew_of_are_numbered_at_the_end() {
     let Task::Basin(basin) = &plan.task else { panic!() };
     let told = in_memory(Study::new(&plan).unwrap(), &Control::default()).unwrap();
     let untold = BasinFill::plane(&S, basin, plan.tile).unwrap().forgetful();
-    let untold = in_memory(Study { fill: Box::new(untold) }, &Control::default()).unwrap();
+    let untold = in_memory(Study::of(Box::new(untold)), &Control::default()).unwrap();
     let (a, b) = (columns(&told, "cycle").whole(), columns(&untold, "cycle").whole());
     assert!(b.iter().all(|n| (0..2).contains(n)), "{b:?}");
     // the same motions, possibly in another order
@@ -102,7 +102,7 @@ fn every_conclusion_is_the_same() {
         (S, BasinPlan::plane(span("-4:0.75:20"), span("-4:4:20"), 0.0)),
         (weak, BasinPlan::plane(span("-0.6:-0.4:24"), span("-4:4:24"), 0.0)),
     ] {
-        let study = Study { fill: Box::new(BasinFill::plane(&system, &basin, Some(8)).unwrap().forgetful()) };
+        let study = Study::of(Box::new(BasinFill::plane(&system, &basin, Some(8)).unwrap().forgetful()));
         let count = study.grid().tiles();
         let begun: Vec<Vec<Column>> = (0..count).map(|tile| study.tile(tile, &|| false).unwrap()).collect();
         let mut kept = Kept(begun.clone());

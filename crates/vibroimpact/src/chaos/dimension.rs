@@ -13,84 +13,67 @@
 use crate::lyapunov::Measured;
 use crate::lyapunov::blocks::{Block, MEASURE, quotient};
 
-/// The dimension of the section, from the exponents and the blocks over which they were measured; `None` if the larger
-/// exponent is not known to differ from 0.
-pub(super) fn of_section(exponents: &[Measured; 2], blocks: &[Block]) -> Option<Measured> {
-    let [one, two] = exponents;
-    if one.value < -one.error {
-        return Some(Measured::default());
-    }
-    // NaN does not exceed its error either
-    if !(one.value > one.error && two.value < 0.0) {
-        return None;
-    }
-    if blocks.iter().map(|block| block.area).sum::<f64>() >= 0.0 {
-        return Some(Measured { value: 2.0, error: 0.0 });
-    }
-    let part = quotient(blocks, MEASURE, |block| block.stretch[0], |block| -block.stretch[1]);
-    Some(Measured { value: 1.0 + part.value, error: part.error })
-}
-
 /// The dimension from all exponents, the largest first: with the largest j for which
-/// $`\lambda_1 + \dots + \lambda_j \ge 0`$ it is $`j + (\lambda_1 + \dots + \lambda_j)/|\lambda_{j+1}|`$, and the number of exponents if the
-/// sum of all is not negative. The error is a bound to first order. `None` if the largest exponent is not known to differ from 0.
-pub(super) fn of_exponents(exponents: &[Measured]) -> Option<Measured> {
+/// $`\lambda_1 + \dots + \lambda_j \ge 0`$ it is $`j + (\lambda_1 + \dots + \lambda_j)/|\lambda_{j+1}|`$, and the number of exponents if
+/// the sum of all, known exactly or NaN, is not negative. `blocks` are those of the measurement, from which the error comes; exact
+/// exponents have none. `None` if the largest exponent is not known to differ from 0.
+pub(super) fn kaplan_yorke(exponents: &[Measured], exact_sum: f64, blocks: &[Block]) -> Option<Measured> {
     let largest = exponents.first()?;
     if largest.value < -largest.error {
         return Some(Measured::default());
     }
+    // NaN does not exceed its error either
     if largest.value.is_nan() || largest.value <= largest.error {
         return None;
     }
-    let (mut whole, mut sum, mut error) = (0.0, 0.0, 0.0);
-    for of in exponents {
-        if sum + of.value < 0.0 {
-            // minus infinity adds nothing
-            let part = -sum / of.value;
-            let error = if of.value.is_finite() { (error + part * of.error) / -of.value } else { 0.0 };
-            return Some(Measured { value: whole + part, error });
+    let (mut whole, mut sum) = (0.0, 0.0);
+    for (j, of) in exponents.iter().enumerate() {
+        if sum + of.value < 0.0 && (exact_sum.is_nan() || exact_sum < 0.0) {
+            let part = if blocks.is_empty() {
+                Measured::exact(-sum / of.value)
+            } else {
+                // minus infinity adds nothing
+                quotient(blocks, MEASURE, |block| block.stretch[..j].iter().sum(), |block| -block.stretch[j])
+            };
+            return Some(Measured { value: whole + part.value, error: part.error });
         }
-        (whole, sum, error) = (whole + 1.0, sum + of.value, error + of.error);
+        (whole, sum) = (whole + 1.0, sum + of.value);
     }
-    Some(Measured { value: whole, error: 0.0 })
+    Some(Measured::exact(whole))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    /// The dimension from exponents of a run without scatter, each with this error.
+    fn dimension(values: &[f64], error: f64) -> Option<f64> {
+        let exponents: Vec<Measured> = values.iter().map(|value| Measured { value: *value, error }).collect();
+        let volume: f64 = values.iter().sum();
+        let blocks = vec![Block { stretch: values.to_vec(), volume, time: 1.0, impacts: 1.0 }; 64];
+        let measured = kaplan_yorke(&exponents, volume, &blocks).map(|of| of.value);
+        assert_eq!(kaplan_yorke(&exponents, volume, &[]).map(|of| of.value), measured);
+        measured
+    }
+
     #[test]
     fn of_many_exponents() {
-        let of = |values: &[f64]| {
-            let all: Vec<Measured> = values.iter().map(|value| Measured { value: *value, error: 0.01 }).collect();
-            of_exponents(&all).map(|found| (found.value, found.error))
-        };
-        assert_eq!(of(&[-0.1, -0.2]), Some((0.0, 0.0)));
-        assert_eq!(of(&[0.005, -0.2]), None);
-        assert_eq!(of(&[f64::NAN, -0.2]), None);
-        assert_eq!(of(&[0.25, -0.25]), Some((2.0, 0.0)));
-        assert_eq!(of(&[0.25, f64::NEG_INFINITY]), Some((1.0, 0.0)));
+        assert_eq!(dimension(&[-0.1, -0.2], 0.01), Some(0.0));
+        assert_eq!(dimension(&[0.005, -0.2], 0.01), None);
+        assert_eq!(dimension(&[f64::NAN, -0.2], 0.01), None);
+        assert_eq!(dimension(&[0.25, -0.25], 0.01), Some(2.0));
+        assert_eq!(dimension(&[0.25, f64::NEG_INFINITY], 0.01), Some(1.0));
         // the largest j is 3: 0.5 + 0.25 - 0.5 = 0.25
-        let (value, error) = of(&[0.5, 0.25, -0.5, -1.0]).unwrap();
-        assert!((value - 3.25).abs() < 1e-15 && (error - (0.03 + 0.25 * 0.01)).abs() < 1e-15);
-        // that of two exponents is the same
-        assert!((of(&[0.25, -0.5]).unwrap().0 - 1.5).abs() < 1e-15);
+        assert_eq!(dimension(&[0.5, 0.25, -0.5, -1.0], 0.01), Some(3.25));
     }
 
     #[test]
     fn by_the_signs_of_the_exponents() {
-        let exact = |value| Measured { value, error: 0.0 };
-        let of = |one: Measured, two: f64| {
-            let block = Block { stretch: [one.value, two], area: one.value + two, time: 1.0, impacts: 1.0 };
-            of_section(&[one, exact(two)], &[block; 64]).map(|d| d.value)
-        };
-        assert_eq!(of(exact(0.25), -0.5), Some(1.5));
-        assert_eq!(of(exact(0.25), f64::NEG_INFINITY), Some(1.0));
-        assert_eq!(of(exact(0.25), -0.25), Some(2.0));
-        assert_eq!(of(exact(-0.25), -0.5), Some(0.0));
-        assert_eq!(of(exact(f64::NEG_INFINITY), f64::NEG_INFINITY), Some(0.0));
-        assert_eq!(of(exact(0.0), 0.0), None);
-        assert_eq!(of(Measured { value: 0.1, error: 0.2 }, -0.5), None);
-        assert_eq!(of(exact(f64::NAN), f64::NAN), None);
+        assert_eq!(dimension(&[0.25, -0.5], 0.0), Some(1.5));
+        assert_eq!(dimension(&[-0.25, -0.5], 0.0), Some(0.0));
+        assert_eq!(dimension(&[f64::NEG_INFINITY; 2], 0.0), Some(0.0));
+        assert_eq!(dimension(&[0.0, 0.0], 0.0), None);
+        assert_eq!(dimension(&[0.1, -0.5], 0.2), None);
+        assert_eq!(dimension(&[f64::NAN; 2], 0.0), None);
     }
 }

@@ -15,13 +15,15 @@
 //! most once for each stop.
 
 use super::dimension;
-use super::run::Run;
+use super::run::Impacts;
 use crate::flight::SearchLimits;
 use crate::lyapunov::blocks::{Block, MEASURE, quotient};
-use crate::lyapunov::{Measured, Spectrum, Tail};
+use crate::lyapunov::{Measured, Run, Spectrum, Tail};
 use crate::motion::{EventKind, ImpactState, Motion};
 use crate::system::{Oscillator, Side, Start};
-use crate::verdict::{Chaos, Follow, NoImpact, Releases, SettleOptions, Undecided, Verdict, ended};
+use crate::verdict::{
+    Chaos, Follow, NoImpact, Releases, SettleOptions, System, Undecided, UndecidedCause, Verdict, ended,
+};
 
 /// The default number of impacts that are measured.
 pub const DEFAULT_IMPACTS: u64 = 100_000;
@@ -60,7 +62,7 @@ impl Default for ExponentOptions {
 /// How the exponents were obtained.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Grounds {
-    /// Measured over `impacts` impacts, after `transient` others.
+    /// Measured over `impacts` impacts, after `transient` others; of a machine that is followed itself, over events.
     Measured {
         /// Impacts measured.
         impacts: u64,
@@ -79,109 +81,108 @@ pub enum Grounds {
     Stuck(Side),
     /// The mass grazes a stop again and again, or its impacts fade away: there is no derivative and no exponent.
     Touches(NoImpact),
-    /// The search steps were used up before enough impacts were found.
+    /// Those of the cycle of a machine, from its multipliers, or of the structure in its last regime, exact.
+    Exact,
+    /// The search steps were used up before enough impacts were found, or the motion of a machine ended in another way.
     Undecided {
         /// Impacts found.
         impacts: u64,
     },
 }
 
-/// The exponents of a motion.
+/// The exponents of a motion of an oscillator or of a machine.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Exponents {
-    /// The verdict on the motion, as far as it was followed for the exponents: chaos if the larger exponent excludes 0
+pub struct Exponents<S: System = Oscillator> {
+    /// The verdict on the motion, as far as it was followed for the exponents: chaos if the largest exponent excludes 0
     /// and nothing else was shown.
-    pub motion: Verdict,
-    /// Lyapunov exponents per unit of (nondimensional) time, the larger first. Errors are three standard errors, and at
-    /// least 1 over the measured time. Minus infinity for a motion that sticks, NaN if there are none or none were
-    /// found; see [`Grounds`].
-    pub exponents: [Measured; 2],
-    /// The measured sum of both. Its error is smaller than theirs, because they are correlated.
+    pub motion: Verdict<S>,
+    /// Lyapunov exponents per unit of time, two for each coordinate, the largest first. Errors are three standard errors, and at
+    /// least 1 over the measured time. Minus infinity where neighbouring motions become the same, NaN if there are none or none
+    /// were found; see [`Grounds`].
+    pub exponents: Vec<Measured>,
+    /// The measured sum of all. Its error is smaller than theirs, because they are correlated.
     pub sum: Measured,
     /// The exact sum: $`2\,\overline{\ln\varepsilon}\,\nu - 2\zeta`$ with the impacts that were measured. The
-    /// difference from `sum` is the rounding error of the measurement.
+    /// difference from `sum` is the rounding error of the measurement. NaN for a machine whose exponents are measured.
     pub identity: f64,
-    /// Impacts per forcing period; infinite with a complete chatter in each period of a cycle, NaN if impacts fade
-    /// away.
-    pub impacts_per_period: Measured,
-    /// Kaplan-Yorke dimension of the stroboscopic section, 0 to 2; `None` if the larger exponent is not known to differ
-    /// from 0. That of the flow, in the space of position, velocity and phase, is larger by 1.
+    /// Impacts per unit of time; infinite with a complete chatter in each period of a cycle, NaN if impacts fade away. Of a
+    /// machine, closings of stops.
+    pub impact_rate: Measured,
+    /// Kaplan-Yorke dimension of the stroboscopic section, or of one across the flow without forcing; `None` if the largest
+    /// exponent is not known to differ from 0.
     pub section_dimension: Option<Measured>,
-    /// The forcing period.
-    pub period: f64,
+    /// The dimension of the flow in the space of coordinates, velocities and the phase of the forcing; `None` as for the section.
+    pub flow_dimension: Option<Measured>,
     /// How the exponents were obtained.
     pub grounds: Grounds,
 }
 
-impl Exponents {
-    /// The exponents per forcing period: the logarithms of the multipliers of the stroboscopic map.
+impl<S: System> Exponents<S> {
+    /// Whether they are exact, or measured.
     #[must_use]
-    pub fn per_period(&self) -> [Measured; 2] {
-        self.exponents.map(|m| Measured { value: m.value * self.period, error: m.error * self.period })
+    pub const fn exact(&self) -> bool {
+        !matches!(self.grounds, Grounds::Measured { .. } | Grounds::Undecided { .. })
     }
 
-    /// Kaplan-Yorke dimension of the flow in the space of position, velocity and phase, 1 to 3; `None` as for the
-    /// section.
-    #[must_use]
-    pub fn flow_dimension(&self) -> Option<Measured> {
-        self.section_dimension.map(|d| Measured { value: d.value + 1.0, error: d.error })
-    }
-
-    /// Exponents that are known exactly.
-    fn exact(osc: &Oscillator, values: [f64; 2], rate: f64, (motion, grounds): (Verdict, Grounds)) -> Self {
-        let exact = |value| Measured { value, error: 0.0 };
-        let exponents = values.map(exact);
-        let sum = values[0] + values[1];
-        Self {
-            motion,
-            exponents,
-            sum: exact(sum),
-            identity: sum,
-            impacts_per_period: exact(rate),
-            section_dimension: dimension::of_section(&exponents, &[]),
-            period: osc.period(),
-            grounds,
-        }
-    }
-
-    /// The exponents of a completed measurement.
-    fn measured(osc: &Oscillator, run: &Run, settled: Option<Verdict>, last: ImpactState) -> Self {
-        let (blocks, transient) = (run.blocks.as_slice(), run.transient);
-        let total = blocks.iter().fold(Block::default(), |sum, block| sum.plus(block));
-        let rate = |least: f64, of: &dyn Fn(&Block) -> f64| quotient(blocks, least, of, |block| block.time);
-        let mut exponents = [0, 1].map(|k| rate(MEASURE, &|b| b.stretch[k]));
-        if exponents[0].value < exponents[1].value {
-            // equal to within their errors
-            exponents.swap(0, 1);
-        }
-        let impacts = rate(0.0, &|b| b.impacts);
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a whole number, as it was counted
-        let count = total.impacts as u64;
-        let grounds = Grounds::Measured {
-            impacts: count,
-            transient,
-            time: total.time,
-            blocks: u32::try_from(blocks.len()).unwrap_or(u32::MAX),
-        };
-        let impacts_per_period = Measured { value: impacts.value * osc.period(), error: impacts.error * osc.period() };
-        let tail = run.tail.map_or(Tail::new(last), Tail::so_far);
-        let spectrum = Spectrum { exponents, impacts_per_period, time: total.time, last, tail };
-        let motion = settled.unwrap_or(if spectrum.chaotic() {
-            Verdict::Chaotic(Chaos { spectrum, impacts: run.seen })
+    /// The exponents of a motion with this rate of impacts, from blocks of a measurement, or exact without blocks. In the dimension
+    /// of the flow the phase counts as one if the motion is `forced`; without forcing one exponent is 0 along the motion.
+    pub(super) fn new(
+        motion: Verdict<S>,
+        (exponents, impact_rate): (Vec<Measured>, Measured),
+        (blocks, grounds): (&[Block], Grounds),
+        forced: bool,
+    ) -> Self {
+        let sum: f64 = exponents.iter().map(|of| of.value).sum();
+        let (sum, identity) = if blocks.is_empty() {
+            (Measured::exact(sum), sum)
         } else {
-            Verdict::Undecided(Undecided::Impacts { impacts: run.seen, spectrum: Some(spectrum) })
-        });
+            let sum = quotient(blocks, 0.0, |block| block.stretch.iter().sum(), |block| block.time);
+            let total = |of: fn(&Block) -> f64| blocks.iter().map(of).sum::<f64>();
+            (sum, total(|block| block.volume) / total(|block| block.time))
+        };
+        let dimension = dimension::kaplan_yorke(&exponents, identity, blocks);
+        let more = |by: f64| move |of: Measured| Measured { value: (of.value + by).max(0.0), error: of.error };
         Self {
             motion,
             exponents,
-            sum: rate(0.0, &|b| b.stretch[0] + b.stretch[1]),
-            identity: total.area / total.time,
-            impacts_per_period,
-            section_dimension: dimension::of_section(&exponents, blocks),
-            period: osc.period(),
+            sum,
+            identity,
+            impact_rate,
+            section_dimension: dimension.map(more(if forced { 0.0 } else { -1.0 })),
+            flow_dimension: dimension.map(more(if forced { 1.0 } else { 0.0 })),
             grounds,
         }
     }
+}
+
+/// How a measurement was made.
+pub(super) fn measured(run: &Run, blocks: &[Block]) -> Grounds {
+    let impacts = run.measured().unwrap_or(0);
+    let time = blocks.iter().map(|block| block.time).sum();
+    let blocks = u32::try_from(blocks.len()).unwrap_or(u32::MAX);
+    Grounds::Measured { impacts, transient: run.transient, time, blocks }
+}
+
+/// Exponents that are known exactly.
+fn exact(values: [f64; 2], rate: f64, (motion, grounds): (Verdict, Grounds)) -> Exponents {
+    let exponents = values.map(Measured::exact).into();
+    Exponents::new(motion, (exponents, Measured::exact(rate)), (&[], grounds), true)
+}
+
+/// The exponents of a completed measurement.
+fn of_run(found: &Impacts, settled: Option<Verdict>, last: ImpactState) -> Option<Exponents> {
+    let (spectrum, blocks) = found.run.spectrum(MEASURE)?;
+    let (exponents, impact_rate, impacts) = (spectrum.exponents, spectrum.impact_rate, found.seen);
+    let pair = Spectrum { exponents: [exponents[0], exponents[1]], impact_rate, time: spectrum.time };
+    let motion = settled.unwrap_or_else(|| {
+        if pair.chaotic() {
+            let tail = found.tail.map_or(Tail::new(last), |tail| tail.so_far());
+            return Verdict::Chaotic(Chaos { spectrum: pair, impacts, tail });
+        }
+        Verdict::Undecided(Undecided { why: UndecidedCause::Budget, impacts, spectrum: Some(pair) })
+    });
+    let grounds = measured(&found.run, &blocks);
+    Some(Exponents::new(motion, (exponents, impact_rate), (&blocks, grounds), true))
 }
 
 /// The Lyapunov exponents of the motion of `osc` from `start`.
@@ -190,7 +191,7 @@ impl Exponents {
 /// use vibroimpact::{Start, chaos::{ExponentOptions, exponents}, scenario};
 /// let osc = scenario::U.oscillator();                                  // U of the 1971 paper
 /// let found = exponents(&osc, Start::at_rest(&osc), &ExponentOptions::new(20_000, 1_000));
-/// let [one, two] = found.exponents;
+/// let [one, two] = found.exponents[..] else { panic!("two") };
 /// assert!(one.value > one.error && (found.sum.value - found.identity).abs() < 1e-9);
 /// let dimension = found.section_dimension.unwrap();                    // of the stroboscopic section
 /// assert!((dimension.value - (1.0 + one.value / -two.value)).abs() < 1e-12);
@@ -211,7 +212,7 @@ pub fn exponents_while(
     go_on: &dyn Fn() -> bool,
 ) -> Option<Exponents> {
     let mut motion = Motion::with_limits(osc, start, options.limits);
-    let mut run = Run::new(options.impacts, options.transient);
+    let mut run = Impacts::new(options.impacts, options.transient);
     let watch = SettleOptions { chaos_over: 0, limits: options.limits, ..SettleOptions::default() };
     let (mut follow, releases) = (Follow::default(), &mut Releases::default());
     let mut settled: Option<Verdict> = None;
@@ -220,7 +221,7 @@ pub fn exponents_while(
             return None;
         }
         let Some(event) = motion.next() else {
-            return Some(at_the_end(osc, ended(osc, motion.end(), options.limits), run.seen));
+            return Some(at_the_end(osc, ended(osc, motion.end(), options.limits, run.seen), run.seen));
         };
         let interval = motion.leg().map_or(0.0, |leg| leg.duration);
         run.since += interval;
@@ -230,12 +231,12 @@ pub fn exponents_while(
                 run.impact(osc, state);
                 if settled.is_none() {
                     settled = follow.impact(osc, &watch, state, interval);
-                    if settled.is_some() && run.measuring() {
+                    if settled.is_some() && run.run.measured() > Some(0) {
                         run.begin_again();
                     }
                 }
-                if run.complete() {
-                    return Some(Exponents::measured(osc, &run, settled, state));
+                if run.run.complete() {
+                    return of_run(&run, settled, state);
                 }
             }
             EventKind::Graze { .. } => {
@@ -252,7 +253,7 @@ pub fn exponents_while(
                     // a finite number of impacts in a period that rounding errors decide is not known
                     let known = rate == f64::INFINITY || !matches!(verdict, Verdict::Undecided(_));
                     let rate = if known { rate } else { f64::NAN };
-                    return Some(Exponents::exact(osc, [f64::NEG_INFINITY; 2], rate, (verdict.clone(), grounds)));
+                    return Some(exact([f64::NEG_INFINITY; 2], rate / osc.period(), (verdict.clone(), grounds)));
                 }
             }
             EventKind::Release => {
@@ -271,8 +272,8 @@ pub fn exponents_while(
 
 /// The exponents of a motion whose search steps were used up.
 fn spent(osc: &Oscillator, options: &ExponentOptions, settled: Option<Verdict>, impacts: u64) -> Exponents {
-    let motion = settled.unwrap_or_else(|| ended(osc, None, options.limits));
-    Exponents::exact(osc, [f64::NAN; 2], f64::NAN, (motion, Grounds::Undecided { impacts }))
+    let motion = settled.unwrap_or_else(|| ended(osc, None, options.limits, impacts));
+    exact([f64::NAN; 2], f64::NAN, (motion, Grounds::Undecided { impacts }))
 }
 
 /// The exponents of a motion with no further event.
@@ -285,7 +286,7 @@ fn at_the_end(osc: &Oscillator, end: Verdict, impacts: u64) -> Exponents {
         Verdict::Stuck(side) => ([f64::NEG_INFINITY; 2], 0.0, Grounds::Stuck(*side)),
         _ => ([f64::NAN; 2], f64::NAN, Grounds::Undecided { impacts }),
     };
-    Exponents::exact(osc, values, rate, (end, grounds))
+    exact(values, rate, (end, grounds))
 }
 
 /// The real parts of the characteristic exponents.

@@ -1,6 +1,6 @@
 //! Chaos: Lyapunov exponents through impacts, chatter and sticking, the dimension, and sections of the attractor.
 //!
-//! Two tangent vectors follow the motion and are made orthogonal again after each impact (Benettin et al. 1980,
+//! Two tangent vectors of an oscillator follow the motion and are made orthogonal again after each impact (Benettin et al. 1980,
 //! doi:10.1007/BF02128236; through impacts: P. Müller, Chaos Solitons Fractals 5 (1995) 1671-1681,
 //! doi:10.1016/0960-0779(94)00170-U). Per unit of time,
 //!
@@ -31,13 +31,13 @@
 
 mod dimension;
 mod exponents;
-mod of_machine;
+mod machine;
 mod run;
 mod section;
 
-pub use crate::lyapunov::{Arrivals, MachineSpectrum, Measured, Spectrum, Tail, lyapunov, tangent};
+pub use crate::lyapunov::{Arrivals, Measured, Spectrum, Tail, lyapunov, tangent};
 pub use exponents::{
     DEFAULT_IMPACTS, DEFAULT_TRANSIENT, ExponentOptions, Exponents, Grounds, exponents, exponents_while,
 };
-pub use of_machine::{DEFAULT_EVENTS, DEFAULT_MACHINE_TRANSIENT, MachineExponents, machine_exponents_while};
+pub use machine::{DEFAULT_EVENTS, DEFAULT_MACHINE_TRANSIENT, machine_exponents_while};
 pub use section::{Section, section, section_while};

@@ -80,7 +80,7 @@ impl Scratch {
 }
 
 /// The state of a machine at one time.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Place {
     /// Mass-normalised coordinates and velocities.
     pub(crate) x: Vec<f64>,

@@ -15,38 +15,69 @@
 //! $`|\sum B_k|`$.
 
 use super::Measured;
+use crate::math::{Wide, ln};
 
-/// The number of blocks of a run.
+/// The number of blocks of a run of which exponents are reported.
 pub(crate) const BLOCKS: u64 = 128;
 /// The smallest number of blocks from which a standard error is computed.
 pub(crate) const FEWEST: usize = 32;
+/// The number of blocks of a run that decides on chaos, which verdicts depend on.
+pub(crate) const VERDICT_BLOCKS: u64 = 25;
+/// The smallest number of blocks for a verdict. The same number of blocks at the end of the run must diverge by themselves;
+/// otherwise the divergence may have ended.
+pub(crate) const FEWEST_BLOCKS: usize = 5;
 /// The rounding error of a sum, relative to the sum of the absolute values.
 const ROUNDING: f64 = 1e-13;
 /// The change of the logarithm of a stretch if another measure of length is used.
 pub(crate) const MEASURE: f64 = 1.0;
 
 /// The sums over a block.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Block {
-    /// The logarithms of both stretches.
-    pub(crate) stretch: [f64; 2],
-    /// The logarithm of the change of area, exact.
-    pub(crate) area: f64,
+    /// The logarithms of the stretches of all tangent vectors.
+    pub(crate) stretch: Vec<f64>,
+    /// The logarithm of the change of volume, exact.
+    pub(crate) volume: f64,
     /// The time.
     pub(crate) time: f64,
     /// The number of impacts.
     pub(crate) impacts: f64,
 }
 
-impl Block {
-    /// The sums over both blocks together.
-    pub(crate) fn plus(&self, other: &Self) -> Self {
-        Self {
-            stretch: [self.stretch[0] + other.stretch[0], self.stretch[1] + other.stretch[1]],
-            area: self.area + other.area,
-            time: self.time + other.time,
-            impacts: self.impacts + other.impacts,
+/// The logarithm of a product of many factors. They are multiplied as long as the product neither overflows nor
+/// underflows.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LogSum {
+    product: f64,
+    sum: Wide,
+}
+
+impl Default for LogSum {
+    fn default() -> Self {
+        Self { product: 1.0, sum: Wide::default() }
+    }
+}
+
+impl LogSum {
+    /// Multiplies the product by `factor`, which must not be negative.
+    pub(crate) fn multiply(&mut self, factor: f64) {
+        let product = self.product * factor;
+        if (1e-100..=1e100).contains(&product) {
+            self.product = product;
+        } else {
+            self.sum += ln(self.product);
+            self.product = factor;
         }
+    }
+
+    /// Adds a factor given by its logarithm.
+    pub(crate) fn add(&mut self, logarithm: f64) {
+        self.sum += logarithm;
+    }
+
+    pub(crate) fn value(mut self) -> f64 {
+        self.sum += ln(self.product);
+        self.sum.value()
     }
 }
 
@@ -93,10 +124,10 @@ mod tests {
             let blocks: Vec<Block> = (0..BLOCKS)
                 .map(|_| {
                     x = memory * x + noise(&mut seed);
-                    Block { area: 0.3 + x, time: 1.0, ..Block::default() }
+                    Block { volume: 0.3 + x, time: 1.0, ..Block::default() }
                 })
                 .collect();
-            let found = quotient(&blocks, 0.0, |b| b.area, |b| b.time);
+            let found = quotient(&blocks, 0.0, |b| b.volume, |b| b.time);
             within += u32::from((found.value - 0.3).abs() <= found.error);
             width += found.error / 400.0;
         }
@@ -116,14 +147,15 @@ mod tests {
 
     #[test]
     fn infinite_sums_and_single_blocks() {
-        let one = Block { stretch: [0.5, f64::NEG_INFINITY], time: 2.0, ..Block::default() };
-        let found = quotient(&[one; 40], MEASURE, |b| b.stretch[1], |b| b.time);
+        let one = || Block { stretch: vec![0.5, f64::NEG_INFINITY], time: 2.0, ..Block::default() };
+        let run = |blocks: usize| core::iter::repeat_with(one).take(blocks).collect::<Vec<_>>();
+        let found = quotient(&run(40), MEASURE, |b| b.stretch[1], |b| b.time);
         assert_eq!(found, Measured { value: f64::NEG_INFINITY, error: 0.0 });
-        let found = quotient(&[one; 40], MEASURE, |b| b.stretch[0], |b| -b.stretch[1]);
+        let found = quotient(&run(40), MEASURE, |b| b.stretch[0], |b| -b.stretch[1]);
         assert_eq!((found.value, found.error), (0.0, 0.0));
-        let found = quotient(&[one], MEASURE, |b| b.stretch[0], |b| b.time);
+        let found = quotient(&run(1), MEASURE, |b| b.stretch[0], |b| b.time);
         assert_eq!((found.value, found.error), (0.25, f64::INFINITY));
-        let found = quotient(&[one; 40], MEASURE, |b| b.stretch[0], |b| b.time);
+        let found = quotient(&run(40), MEASURE, |b| b.stretch[0], |b| b.time);
         assert_eq!((found.value, found.error), (0.25, 1.0 / 80.0));
     }
 }

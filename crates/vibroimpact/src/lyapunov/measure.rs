@@ -5,63 +5,18 @@
 //! mean of 25 blocks. For numbers to publish use [`exponents`](crate::chaos::exponents()). The bits computed here must
 //! not change, because verdicts depend on them.
 
-use super::Tail;
+use super::blocks::{FEWEST_BLOCKS, LogSum, VERDICT_BLOCKS};
+use super::{Measured, Spectrum, Tail};
 use crate::flight::SearchLimits;
-use crate::math::{Matrix2, Wide, ln};
+use crate::math::{Matrix2, Wide};
 use crate::motion::{ABREAST, ImpactMap, ImpactState, Mapped, derivatives};
 use crate::system::Oscillator;
-
-/// A measured number with its error bar.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Measured {
-    /// The estimate.
-    pub value: f64,
-    /// Three standard errors.
-    pub error: f64,
-}
-
-/// The Lyapunov exponents of a motion.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spectrum {
-    /// Lyapunov exponents per unit of (nondimensional) time, the larger first.
-    pub exponents: [Measured; 2],
-    /// Impacts per forcing period.
-    pub impacts_per_period: Measured,
-    /// The time of the run.
-    pub time: f64,
-    /// The last impact of the run.
-    pub last: ImpactState,
-    /// The last impacts of the run, over which other quantities are measured.
-    pub tail: Tail,
-}
-
-/// The logarithm of the largest stretch during a transient: from a distance of one rounding error, $`2^{-53}`$ (a
-/// factor $`e^{36.7}`$), to the size of the motion, and a margin. A motion that leaves an unstable cycle slowly
-/// diverges for that long, so steadily that its error bar is narrow.
-pub(super) const TRANSIENT: f64 = 40.0;
-
-impl Spectrum {
-    /// Whether neighbours separate: the larger exponent exceeds its error bar.
-    #[must_use]
-    pub fn diverges(&self) -> bool {
-        self.exponents[0].value > self.exponents[0].error
-    }
-
-    /// Whether neighbours separate, over the whole run, by more than is possible on the way from an unstable cycle to a
-    /// stable one.
-    #[must_use]
-    pub fn chaotic(&self) -> bool {
-        self.diverges() && self.exponents[0].value * self.time > TRANSIENT
-    }
-}
 
 /// The limits of the search of each flight; the exponents of a motion with longer flights are not measured.
 const LIMITS: SearchLimits = SearchLimits { periods: 1000.0, steps: 2_000 };
 /// The number of blocks of the run.
-const BLOCKS: u32 = 25;
-/// The smallest number of blocks from which a standard error is computed. The same number of blocks at the end of the
-/// run must diverge by themselves; otherwise the divergence may have ended.
-const FEWEST: usize = 5;
+#[allow(clippy::cast_possible_truncation)] // a few dozen
+const BLOCKS: u32 = VERDICT_BLOCKS as u32;
 
 /// The Lyapunov exponents along the motion that arrives at `from`, over `impacts` further impacts. `None` if the motion
 /// sticks (then the larger exponent is minus infinity), if it has no further impact, or if the larger exponent is not
@@ -77,6 +32,11 @@ const FEWEST: usize = 5;
 /// ```
 #[must_use]
 pub fn lyapunov(osc: &Oscillator, from: ImpactState, impacts: u32) -> Option<Spectrum> {
+    measured(osc, from, impacts).map(|(spectrum, _)| spectrum)
+}
+
+/// The same, and the last impact.
+fn measured(osc: &Oscillator, from: ImpactState, impacts: u32) -> Option<(Spectrum, ImpactState)> {
     let mut measure = Measure::new(from, impacts);
     let mut map = ImpactMap::new(osc, LIMITS);
     while !measure.complete() {
@@ -85,7 +45,7 @@ pub fn lyapunov(osc: &Oscillator, from: ImpactState, impacts: u32) -> Option<Spe
         };
         measure.impact(osc, state, interval);
     }
-    measure.spectrum(osc)
+    Some((measure.spectrum(osc)?, measure.state))
 }
 
 /// A measurement in progress; impacts are added one by one.
@@ -138,6 +98,11 @@ impl Measure {
         self.left == 0
     }
 
+    /// The last impacts so far.
+    pub(crate) fn tail(&self) -> Tail {
+        self.tail.so_far()
+    }
+
     /// The number of impacts that are still missing.
     pub(crate) const fn left(&self) -> u32 {
         self.left
@@ -147,7 +112,7 @@ impl Measure {
     pub(crate) fn impact(&mut self, osc: &Oscillator, next: ImpactState, interval: f64) {
         self.state = next;
         self.left = self.left.saturating_sub(1);
-        self.tail.impact(next, u64::from(self.left));
+        self.tail.impact(&next, u64::from(self.left));
         self.pending.push((next, interval));
         if self.pending.len() == ABREAST || self.complete() {
             self.catch_up(osc);
@@ -198,73 +163,34 @@ impl Measure {
     }
 
     /// The exponents, and whether the motion is chaotic by this measurement: [`Spectrum::chaotic`] holds, and the last
-    /// fifth of the measurement diverges too. `None` for fewer than [`FEWEST`] blocks, or if the larger exponent is not
+    /// fifth of the measurement diverges too. `None` for fewer than [`FEWEST_BLOCKS`], or if the larger exponent is not
     /// finite.
     pub(crate) fn chaos(&self, osc: &Oscillator) -> Option<(Spectrum, bool)> {
         let blocks = self.blocks(osc);
-        let spectrum = self.over(osc, &blocks).filter(|_| blocks.len() >= FEWEST)?;
-        let last: f64 = blocks.iter().rev().take(FEWEST).map(|(means, t)| means[0] * t).sum();
+        let spectrum = Self::over(&blocks).filter(|_| blocks.len() >= FEWEST_BLOCKS)?;
+        let last: f64 = blocks.iter().rev().take(FEWEST_BLOCKS).map(|(means, t)| means[0] * t).sum();
         Some((spectrum, spectrum.chaotic() && last > 0.0))
     }
 
     /// The exponents of all complete blocks; `None` if the larger exponent is not finite.
     pub(crate) fn spectrum(&self, osc: &Oscillator) -> Option<Spectrum> {
-        self.over(osc, &self.blocks(osc))
+        Self::over(&self.blocks(osc))
     }
 
     /// The exponents over these blocks.
-    fn over(&self, osc: &Oscillator, blocks: &[([f64; 3], f64)]) -> Option<Spectrum> {
-        let of = |k: usize, scale: f64| {
-            let values: Vec<(f64, f64)> = blocks.iter().map(|(means, t)| (means[k] * scale, *t)).collect();
+    fn over(blocks: &[([f64; 3], f64)]) -> Option<Spectrum> {
+        let of = |k: usize| {
+            let values: Vec<(f64, f64)> = blocks.iter().map(|(means, t)| (means[k], *t)).collect();
             mean(&values)
         };
-        let exponents = [of(0, 1.0), of(1, 1.0)];
-        let impacts_per_period = of(2, osc.period());
+        let exponents = [of(0), of(1)];
         let time = blocks.iter().map(|(_, t)| t).sum();
-        let (last, tail) = (self.state, self.tail.so_far());
-        exponents[0].value.is_finite().then_some(Spectrum { exponents, impacts_per_period, time, last, tail })
-    }
-}
-
-/// The logarithm of a product of many factors. They are multiplied as long as the product neither overflows nor
-/// underflows.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct LogSum {
-    product: f64,
-    sum: Wide,
-}
-
-impl Default for LogSum {
-    fn default() -> Self {
-        Self { product: 1.0, sum: Wide::default() }
-    }
-}
-
-impl LogSum {
-    /// Multiplies the product by `factor`, which must not be negative.
-    pub(crate) fn multiply(&mut self, factor: f64) {
-        let product = self.product * factor;
-        if (1e-100..=1e100).contains(&product) {
-            self.product = product;
-        } else {
-            self.sum += ln(self.product);
-            self.product = factor;
-        }
-    }
-
-    /// Adds a factor given by its logarithm.
-    pub(crate) fn add(&mut self, logarithm: f64) {
-        self.sum += logarithm;
-    }
-
-    pub(crate) fn value(mut self) -> f64 {
-        self.sum += ln(self.product);
-        self.sum.value()
+        exponents[0].value.is_finite().then(|| Spectrum { exponents, impact_rate: of(2), time })
     }
 }
 
 /// The time-weighted mean of the blocks, with three standard errors.
-pub(super) fn mean(blocks: &[(f64, f64)]) -> Measured {
+fn mean(blocks: &[(f64, f64)]) -> Measured {
     let total: f64 = blocks.iter().map(|(_, t)| t).sum();
     let value = blocks.iter().map(|(x, t)| x * t).sum::<f64>() / total;
     #[allow(clippy::cast_precision_loss)] // a few dozen
@@ -289,12 +215,12 @@ mod tests {
         for (inverse, gap, eps, zeta) in [(1.11, 3.0, 0.5, 0.0), (1.11, 2.9, 0.5, 0.001), (1.15, 3.0, 0.6, 0.0)] {
             let osc = Oscillator::from_inverse_beta(inverse, gap, eps).unwrap().with_damping(zeta).unwrap();
             let from = ImpactState { phase: 1.4, velocity: 2.4, side: Side::Upper };
-            let spectrum = lyapunov(&osc, from, 20_000).unwrap();
+            let (spectrum, last) = measured(&osc, from, 20_000).unwrap();
             let [one, two] = spectrum.exponents;
-            let rate = spectrum.impacts_per_period.value / osc.period();
+            let rate = spectrum.impact_rate.value;
             let identity = 2.0 * eps.ln() * rate - 2.0 * zeta;
             // the area changes by U0/U1, which leaves a bounded number over t in the sum
-            let end = (from.velocity / spectrum.last.velocity).ln().abs() / (20_000.0 / rate);
+            let end = (from.velocity / last.velocity).ln().abs() / (20_000.0 / rate);
             assert!((one.value + two.value - identity).abs() <= 1e-9 + 1.01 * end, "{one:?} {two:?} {identity}");
         }
     }
@@ -308,6 +234,6 @@ mod tests {
         for (measured, want) in spectrum.exponents.iter().zip(expected) {
             assert!((measured.value - want).abs() < 2e-3, "{measured:?} {want}");
         }
-        assert!((spectrum.impacts_per_period.value - 2.0).abs() < 1e-9);
+        assert!((spectrum.impact_rate.value * osc.period() - 2.0).abs() < 1e-9);
     }
 }

@@ -1,22 +1,25 @@
-//! Lyapunov exponents along impacts: the growth of small differences.
+//! Lyapunov exponents along a motion: the growth of small differences.
 //!
 //! | idea | file |
 //! |---|---|
-//! | how neighbouring motions separate: flight and saltation | [`tangent`] |
-//! | error bars of a correlated run | `blocks` |
-//! | exponents along impacts, as measured for verdicts | [`lyapunov`] |
-//! | exponents along the motion of a machine | `of_machine` |
+//! | exponents and their error bars | [`Spectrum`], `blocks` |
+//! | tangent vectors, of any system | `frame` |
+//! | how neighbouring motions of an oscillator separate: flight and saltation | [`tangent`] |
+//! | a measurement of exponents in progress, of any system | `run` |
+//! | exponents along impacts, as measured for verdicts on an oscillator | [`lyapunov`] |
 //! | the last impacts of a run, from which the quantities of chaos are measured | [`Tail`] |
 
 pub(crate) mod blocks;
+mod frame;
 mod measure;
-mod of_machine;
+mod run;
+mod spectrum;
 mod tail;
 pub mod tangent;
 
+pub(crate) use frame::Frame;
 pub(crate) use measure::Measure;
-use measure::TRANSIENT;
-pub use measure::{Measured, Spectrum, lyapunov};
-pub(crate) use of_machine::MachineMeasure;
-pub use of_machine::MachineSpectrum;
+pub use measure::lyapunov;
+pub(crate) use run::Run;
+pub use spectrum::{Measured, Spectrum};
 pub use tail::{Arrivals, MEASURED_IMPACTS, Tail};

@@ -1,4 +1,4 @@
-//! The motion of neighbours: the derivative of a flight, its jump at an impact, and two tangent vectors.
+//! The motion of neighbours of an oscillator: the derivative of a flight, its jump at an impact, and two tangent vectors.
 //!
 //! A neighbour is described by its difference $`(\mathrm dx, \mathrm dv)`$ at the same time. In flight the force
 //! cancels, and
@@ -20,7 +20,8 @@
 //! motion; it is passed as a part of the flight. When the mass sticks, all neighbours become the same motion, and the
 //! derivative beyond is zero.
 
-use super::measure::LogSum;
+use super::frame::Frame;
+use crate::events::Metric;
 use crate::math::{Matrix2, ln, sin_cos};
 use crate::motion::ImpactState;
 use crate::system::Oscillator;
@@ -54,70 +55,50 @@ const MOST_PIECES: f64 = 1000.0;
 /// vectors, has lost ten of its digits. It is then computed from the exact change of area.
 const NARROW: f64 = 1e-10;
 
-/// Two perpendicular tangent vectors along a motion, and the logarithms of their stretches.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Frame {
-    /// The first vector; the second is perpendicular to it, counterclockwise.
-    first: [f64; 2],
-    stretch: [LogSum; 2],
-    /// Whether a stretch was by 0.
-    lost: [bool; 2],
+/// The tangent vectors of an oscillator at the beginning: both unit vectors of `(x, v)`, whose lengths are those of the plane.
+pub(crate) fn frame() -> Frame {
+    Frame::new(2, Metric::default(), 2)
 }
 
-impl Default for Frame {
-    fn default() -> Self {
-        Self { first: [1.0, 0.0], stretch: [LogSum::default(); 2], lost: [false; 2] }
+/// Moves the tangent vectors through a flight of time `s` and the impact `at` at its end; returns the logarithm of the exact change
+/// of area. These 2 x 2 maps take a tenth of the time of the general ones of a machine, and their area has all its digits.
+pub(crate) fn through(frame: &mut Frame, osc: &Oscillator, s: f64, at: &ImpactState) -> f64 {
+    let pieces = (s / LONGEST).ceil().clamp(1.0, MOST_PIECES);
+    let length = s / pieces;
+    let (piece, decay) = (flight(osc, length), -2.0 * osc.damping() * length);
+    let mut left = pieces;
+    while left > 1.0 {
+        frame.carry(|vectors, _| carried(vectors, piece, decay));
+        left -= 1.0;
     }
+    let eps = osc.stop(at.side).map_or(0.0, |stop| stop.restitution);
+    let (jump, area) = if at.velocity == 0.0 {
+        (Matrix2::IDENTITY, 0.0)
+    } else {
+        (saltation(osc, at), if eps > 0.0 { 2.0 * ln(eps) } else { f64::NEG_INFINITY })
+    };
+    frame.carry(|vectors, _| carried(vectors, jump.times(piece), area + decay));
+    area + decay * pieces
 }
 
-impl Frame {
-    /// Passes a flight of time `s` and the impact `at` at its end; returns the logarithm of the exact change of area.
-    pub(crate) fn through(&mut self, osc: &Oscillator, s: f64, at: &ImpactState) -> f64 {
-        let pieces = (s / LONGEST).ceil().clamp(1.0, MOST_PIECES);
-        let length = s / pieces;
-        let (piece, decay) = (flight(osc, length), -2.0 * osc.damping() * length);
-        let mut left = pieces;
-        while left > 1.0 {
-            self.carry(piece, decay);
-            left -= 1.0;
-        }
-        let eps = osc.stop(at.side).map_or(0.0, |stop| stop.restitution);
-        let (jump, area) = if at.velocity == 0.0 {
-            (Matrix2::IDENTITY, 0.0)
-        } else {
-            (saltation(osc, at), if eps > 0.0 { 2.0 * ln(eps) } else { f64::NEG_INFINITY })
-        };
-        self.carry(jump.times(piece), area + decay);
-        area + decay * pieces
+/// Applies a linear map to two perpendicular vectors, whose change of area has the logarithm `area`, and makes them orthonormal
+/// again; returns the logarithms of their stretches. Vectors that vanish are removed.
+fn carried(vectors: &mut Vec<Vec<f64>>, map: Matrix2, area: f64) -> [f64; 2] {
+    let [first, second] = [0, 1].map(|k| map.apply([vectors[k][0], vectors[k][1]]));
+    let along = (first[0] * first[0] + first[1] * first[1]).sqrt();
+    if along == 0.0 || !along.is_finite() {
+        vectors.clear();
+        return [f64::NEG_INFINITY; 2];
     }
-
-    /// Applies a linear map whose change of area is known; `area` is its logarithm.
-    fn carry(&mut self, map: Matrix2, area: f64) {
-        let [a, b] = self.first;
-        let (u, w) = (map.apply([a, b]), map.apply([-b, a]));
-        let along = (u[0] * u[0] + u[1] * u[1]).sqrt();
-        if along == 0.0 || !along.is_finite() {
-            // the vector is zero, or not finite
-            (self.lost, self.first) = ([true; 2], [1.0, 0.0]);
-            return;
-        }
-        self.first = [u[0] / along, u[1] / along];
-        self.stretch[0].multiply(along);
-        let across = (self.first[0] * w[1] - self.first[1] * w[0]).abs();
-        if area == f64::NEG_INFINITY {
-            self.lost[1] = true;
-        } else if across > NARROW * along {
-            self.stretch[1].multiply(across);
-        } else {
-            self.stretch[1].add(area - ln(along));
-        }
+    let [x, v] = [first[0] / along, first[1] / along];
+    vectors[0].copy_from_slice(&[x, v]);
+    if area == f64::NEG_INFINITY {
+        vectors.truncate(1);
+        return [ln(along), area];
     }
-
-    /// The logarithms of both stretches since the last call; minus infinity for a stretch by 0.
-    pub(crate) fn take(&mut self) -> [f64; 2] {
-        let (stretch, lost) = (core::mem::take(&mut self.stretch), core::mem::take(&mut self.lost));
-        [0, 1].map(|k| if lost[k] { f64::NEG_INFINITY } else { stretch[k].value() })
-    }
+    vectors[1].copy_from_slice(&[-v, x]);
+    let across = (x * second[1] - v * second[0]).abs();
+    [ln(along), if across > NARROW * along { ln(across) } else { area - ln(along) }]
 }
 
 #[cfg(test)]
@@ -204,13 +185,13 @@ mod tests {
     #[test]
     fn stretches_far_below_rounding_are_kept() {
         let osc = Oscillator::new(0.001, 0.5, 0.5).unwrap().with_damping(1.25).unwrap();
-        let mut frame = Frame::default();
+        let mut frame = frame();
         let at = ImpactState { phase: 0.3, velocity: 0.2, side: Side::Upper };
         let (mut total, s) = ([0.0, 0.0], 5000.0);
         for _ in 0..10 {
-            frame.through(&osc, s, &at);
-            let [a, b] = frame.take();
-            total = [total[0] + a, total[1] + b];
+            through(&mut frame, &osc, s, &at);
+            let stretch = frame.take();
+            total = [total[0] + stretch[0], total[1] + stretch[1]];
         }
         // exponents -1/2 and -2; each impact adds the same bounded amount to the first
         let saltation = 2.0 * 0.5_f64.ln();

@@ -23,4 +23,5 @@ pub use error::{MachineError, MachineFault};
 pub use modal::modal_damping;
 pub use parts::{FrictionJoint, HarmonicForce, HarmonicMotion, ImpactLaw, MachineParts, MachineStop, Opening, StopLaw};
 pub use reduced::Reduction;
+pub(crate) use reduced::VariedReduction;
 pub use value::Machine;

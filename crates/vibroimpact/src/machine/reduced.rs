@@ -12,9 +12,10 @@
 //! stop lies below is mirrored; of two the upper one has the positive direction. In a machine of unit mass, stiffness and force
 //! alone no number changes, not by its last bit.
 
-use super::{Machine, StopLaw};
+use super::{Machine, MachineParts, MachineStop, StopLaw};
 use crate::math::{atan2, hypot, sin_cos};
 use crate::system::{Oscillator, Side, Start, phase};
+use core::f64::consts::TAU;
 
 /// A start that is nearer to a stop than this part of the lengths is on it.
 const ROUNDED: f64 = 4.0 * f64::EPSILON;
@@ -45,6 +46,7 @@ pub struct Reduction {
     offset: f64,
     sign: f64,
     frequency: f64,
+    mass: f64,
     /// The motion of the stops: amplitudes of sine and cosine.
     swing: (f64, f64),
     upper: Wall,
@@ -62,30 +64,150 @@ struct Wall {
     direction: f64,
 }
 
+/// The numbers of a machine of one coordinate, with up to two rigid stops, from which its oscillator follows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Numbers {
+    mass: f64,
+    damping: f64,
+    stiffness: f64,
+    constant: f64,
+    frequency: f64,
+    /// Amplitudes of sine and cosine.
+    force: (f64, f64),
+    stops: [Option<RigidStop>; 2],
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct RigidStop {
+    direction: f64,
+    gap: f64,
+    restitution: f64,
+    /// Amplitudes of sine and cosine.
+    motion: (f64, f64),
+}
+
 impl Machine {
     /// The oscillator that the machine is; `None` unless it has one coordinate on a spring, forcing of order 1 alone that is not 0,
     /// one rigid stop or two on opposite sides, which move together if they move, no friction joints, and numbers that an
     /// [`Oscillator`] can have.
     #[must_use]
     pub fn reduced(&self) -> Option<Reduction> {
-        let parts = self.parts();
-        if self.n() != 1 || !parts.joints.is_empty() {
+        Numbers::of(self.parts())?.reduction()
+    }
+}
+
+/// The oscillators of a machine some of whose numbers vary.
+#[derive(Clone, Debug)]
+pub(crate) struct VariedReduction {
+    numbers: Numbers,
+    places: Vec<usize>,
+}
+
+impl VariedReduction {
+    /// The oscillators of machines with other numbers at these paths, which need no machines; `None` if a number is none of those
+    /// from which the oscillator follows.
+    pub(crate) fn new(machine: &Machine, paths: &[String]) -> Option<Self> {
+        let (parts, numbers) = (machine.parts(), Numbers::of(machine.parts())?);
+        let place = |path: &String| {
+            let mut changed = parts.clone();
+            let value = parts.number(path).ok()? + 1.0;
+            changed.set(path, value).ok()?;
+            let (before, after) = (numbers.list(), Numbers::of(&changed)?.list());
+            let mut differ = (0..COUNT).filter(|k| before[*k] != after[*k]);
+            differ.next().filter(|k| differ.next().is_none() && after[*k] == value)
+        };
+        Some(Self { numbers, places: paths.iter().map(place).collect::<Option<_>>()? })
+    }
+
+    /// With these values of the numbers.
+    pub(crate) fn at(&self, values: &[f64]) -> Option<Reduction> {
+        let mut list = self.numbers.list();
+        self.places.iter().zip(values).for_each(|(place, value)| list[*place] = *value);
+        self.numbers.with(&list).reduction()
+    }
+}
+
+/// The number of [`Numbers`] with two stops.
+const COUNT: usize = 17;
+
+impl Numbers {
+    fn of(parts: &MachineParts) -> Option<Self> {
+        if parts.n() != 1 || !parts.joints.is_empty() || parts.stops.len() > 2 {
             return None;
         }
-        let (m, c, k) = (parts.mass[(0, 0)], parts.damping[(0, 0)], parts.stiffness[(0, 0)]);
-        let frequency = parts.frequency.filter(|_| k > 0.0)?;
-        let force = first_order(parts.forces.iter().map(|force| (force.order, force.sin[0], force.cos[0])))?;
+        let stop = |of: &MachineStop| {
+            let StopLaw::Rigid { restitution } = of.law else { return None };
+            let motion = first_order(of.motion.iter().map(|motion| (motion.order, motion.sin, motion.cos)))?;
+            Some(RigidStop { direction: of.direction[0], gap: of.gap, restitution, motion })
+        };
+        let mut stops = [None; 2];
+        for (place, of) in stops.iter_mut().zip(&parts.stops) {
+            *place = Some(stop(of)?);
+        }
+        Some(Self {
+            mass: parts.mass[(0, 0)],
+            damping: parts.damping[(0, 0)],
+            stiffness: parts.stiffness[(0, 0)],
+            constant: parts.constant[0],
+            frequency: parts.frequency?,
+            force: first_order(parts.forces.iter().map(|force| (force.order, force.sin[0], force.cos[0])))?,
+            stops,
+        })
+    }
+
+    /// All numbers; 0 for those of stops that are not there.
+    fn list(&self) -> [f64; COUNT] {
+        let mut list = [0.0; COUNT];
+        let (one, stops) = list.split_at_mut(7);
+        one.copy_from_slice(&[
+            self.mass,
+            self.damping,
+            self.stiffness,
+            self.constant,
+            self.frequency,
+            self.force.0,
+            self.force.1,
+        ]);
+        for (own, stop) in stops.chunks_mut(5).zip(self.stops.iter().flatten()) {
+            own.copy_from_slice(&[stop.direction, stop.gap, stop.restitution, stop.motion.0, stop.motion.1]);
+        }
+        list
+    }
+
+    /// The same stops with other numbers.
+    fn with(&self, list: &[f64; COUNT]) -> Self {
+        let (one, stops) = list.split_at(7);
+        let mut changed = Self {
+            mass: one[0],
+            damping: one[1],
+            stiffness: one[2],
+            constant: one[3],
+            frequency: one[4],
+            force: (one[5], one[6]),
+            stops: self.stops,
+        };
+        for (stop, of) in changed.stops.iter_mut().flatten().zip(stops.chunks(5)) {
+            *stop = RigidStop { direction: of[0], gap: of[1], restitution: of[2], motion: (of[3], of[4]) };
+        }
+        changed
+    }
+
+    /// The oscillator; see [`Machine::reduced`].
+    fn reduction(&self) -> Option<Reduction> {
+        let Self { mass: m, damping: c, stiffness: k, frequency, force, .. } = *self;
+        if !(m > 0.0 && k > 0.0) {
+            return None;
+        }
         let mut walls: [Option<(Wall, f64)>; 2] = [None, None];
         let mut swing: Option<(f64, f64)> = None;
-        for (stop, of) in parts.stops.iter().enumerate() {
-            let (StopLaw::Rigid { restitution }, w) = (of.law, of.direction[0]) else { return None };
-            let moved = first_order(of.motion.iter().map(|motion| (motion.order, motion.sin, motion.cos)))?;
-            let own = (-moved.0 / w, -moved.1 / w);
+        for (stop, of) in self.stops.iter().flatten().enumerate() {
+            let w = of.direction;
+            let own = (-of.motion.0 / w, -of.motion.1 / w);
             if *swing.get_or_insert(own) != own {
                 return None;
             }
             let wall = Wall { stop, at: of.gap / w, direction: w.abs() };
-            if walls[usize::from(w < 0.0)].replace((wall, restitution)).is_some() {
+            if walls[usize::from(w < 0.0)].replace((wall, of.restitution)).is_some() {
                 return None;
             }
         }
@@ -96,7 +218,7 @@ impl Machine {
         let drive =
             (sign * (force.0 - (re * swing.0 - im * swing.1)), sign * (force.1 - (re * swing.1 + im * swing.0)));
         let amplitude = hypot(drive.0, drive.1);
-        let (length, time, offset) = (amplitude / k, (m / k).sqrt(), parts.constant[0] / k);
+        let (length, time, offset) = (amplitude / k, (m / k).sqrt(), self.constant / k);
         if !(length > 0.0 && length.is_finite()) {
             return None;
         }
@@ -114,6 +236,7 @@ impl Machine {
             offset,
             sign,
             frequency,
+            mass: m,
             swing,
             upper: first.0,
             lower: second.map(|(wall, _)| wall),
@@ -164,6 +287,27 @@ impl Reduction {
         self.sign
     }
 
+    /// The mass of the machine.
+    pub(crate) const fn mass(&self) -> f64 {
+        self.mass
+    }
+
+    /// The period of the forcing in the unit of time of the machine.
+    pub(crate) fn period(&self) -> f64 {
+        TAU / self.frequency
+    }
+
+    /// The side of a stop of the machine.
+    pub(crate) fn side(&self, stop: usize) -> Option<Side> {
+        [Side::Upper, Side::Lower].into_iter().find(|side| self.stop(*side) == Some(stop))
+    }
+
+    /// Whether the stops of another reduction of the same machine have the same sides.
+    pub(crate) fn same_sides(&self, other: &Self) -> bool {
+        let stops = |of: &Self| [Side::Upper, Side::Lower].map(|side| of.stop(side));
+        self.sign == other.sign && stops(self) == stops(other)
+    }
+
     /// The number of the stop on that side; `None` if there is none.
     #[must_use]
     pub fn stop(&self, side: Side) -> Option<usize> {
@@ -180,8 +324,16 @@ impl Reduction {
         speed * (self.length / self.time) * self.wall(side).map_or(1.0, |wall| wall.direction)
     }
 
+    /// The speed with which the mass of the oscillator arrives on a side, where the machine's stop closes with `speed`.
+    pub(crate) fn arrival(&self, side: Side, speed: f64) -> f64 {
+        speed / ((self.length / self.time) * self.wall(side).map_or(1.0, |wall| wall.direction))
+    }
+
     /// The motion $`s`$ of the stops at a phase of the machine, and its rate.
     fn swing(&self, phase: f64) -> (f64, f64) {
+        if self.swing == (0.0, 0.0) {
+            return (0.0, 0.0);
+        }
         let (sin, cos) = sin_cos(phase);
         let (of_sin, of_cos) = self.swing;
         (of_sin * sin + of_cos * cos, self.frequency * (of_sin * cos - of_cos * sin))

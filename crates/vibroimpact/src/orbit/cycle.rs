@@ -61,7 +61,8 @@ impl Cycle {
         Stability::each(&self.multipliers, self.rounding()).collect()
     }
 
-    fn rounding(&self) -> f64 {
+    /// The rounding error of the sum of its multipliers.
+    pub(crate) fn rounding(&self) -> f64 {
         let sum = self.multipliers[0].re + self.multipliers[1].re;
         rounding(self.points.len(), sum.abs())
     }

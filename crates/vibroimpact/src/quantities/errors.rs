@@ -1,7 +1,7 @@
 //! Error bars of the quantities of a chaotic motion.
 
-use super::mean::{Mean, Sums};
 use super::segment::follow;
+use super::sums::{Scale, Sums, mean_over};
 use super::verdict::EVENTS;
 use super::{Quantities, Quantity, Tally};
 use crate::flight::SearchLimits;
@@ -31,18 +31,24 @@ use crate::verdict::Verdict;
 #[must_use]
 pub fn errors_of_verdict(osc: &Oscillator, verdict: &Verdict) -> Option<Quantities> {
     let Verdict::Chaotic(chaos) = verdict else { return None };
-    of_tail(osc, &chaos.spectrum.tail)
+    of_tail(osc, &chaos.tail)
 }
 
 /// The error bars from the last impacts of a run.
 fn of_tail(osc: &Oscillator, tail: &Tail) -> Option<Quantities> {
     let (tally, blocks) = blocks_of(osc, tail)?;
     let error = |quantity: Quantity| {
-        let mean = Mean::of(quantity, osc.beta(), osc.damping()).filter(|_| tally.knows(quantity));
-        let of = mean.map(|mean| mean.over(&blocks)).filter(|of| of.value.is_finite());
-        of.map_or(f64::NAN, |of| of.error)
+        if !quantity.is_mean() || !tally.knows(quantity) {
+            return f64::NAN;
+        }
+        let mean = mean_over(&blocks, quantity, scale(osc));
+        if mean.value.is_finite() { mean.error } else { f64::NAN }
     };
     Some(Quantities::from_fn(error))
+}
+
+fn scale(osc: &Oscillator) -> Scale {
+    Scale { period: osc.period(), damping: 2.0 * osc.damping() }
 }
 
 /// The sums over the tail, and those over each of its blocks. `None` as for the quantities themselves.
@@ -104,11 +110,10 @@ mod tests {
         assert!(!all.is_empty());
         for (osc, chaos) in all {
             let values = of_verdict(&osc, &Verdict::Chaotic(chaos)).unwrap();
-            let (_, blocks) = blocks_of(&osc, &chaos.spectrum.tail).unwrap();
+            let (_, blocks) = blocks_of(&osc, &chaos.tail).unwrap();
             assert_eq!(blocks.len(), FEWEST);
-            for quantity in Quantity::ALL {
-                let Some(mean) = Mean::of(quantity, osc.beta(), osc.damping()) else { continue };
-                let (mean, value) = (mean.over(&blocks).value, values.get(quantity));
+            for quantity in Quantity::ALL.into_iter().filter(|quantity| quantity.is_mean()) {
+                let (mean, value) = (mean_over(&blocks, quantity, scale(&osc)).value, values.get(quantity));
                 assert!((mean - value).abs() <= 1e-10 * value.abs(), "{quantity:?}: {mean} {value}");
             }
         }
@@ -123,12 +128,12 @@ mod tests {
             panic!("chaotic")
         };
         // stretches of 1000 impacts, one after another
-        let mut tail = chaos.spectrum.tail;
+        let mut tail = chaos.tail;
         let means: Vec<Quantity> = Quantity::ALL.into_iter().filter(|quantity| quantity.is_mean()).collect();
         let mut runs = Vec::new();
         for _ in 0..40 {
             let (_, blocks) = blocks_of(&osc, &tail).unwrap();
-            let value = |quantity: &Quantity| Mean::of(*quantity, osc.beta(), osc.damping()).unwrap().over(&blocks);
+            let value = |quantity: &Quantity| mean_over(&blocks, *quantity, scale(&osc));
             runs.push(means.iter().map(value).collect::<Vec<_>>());
             let impacts =
                 Motion::after(&osc, &tail.from, SearchLimits::default()).filter_map(|event| match event.kind {

@@ -12,16 +12,17 @@
 //! | the parts of a cycle, and its quantities | [`of_cycle`], [`cycle_segments`] |
 //! | the quantities of a verdict, and of the way from a start | [`of_verdict`], [`of_transient`] |
 //! | error bars of the means of a chaotic motion | [`errors_of_verdict`] |
-//! | the same of machines | `of_machine`: [`machine_quantities`] |
+//! | means from sums, of an oscillator and of the parts of a machine | `sums` |
+//! | what is particular to machines | [`machine`] |
 //! | amplitudes and phases of the harmonics of a cycle | [`harmonics`] |
 
 mod cycle;
 mod errors;
 mod harmonic;
-mod mean;
-mod of_machine;
+pub mod machine;
 mod quantity;
 mod segment;
+mod sums;
 mod tally;
 mod verdict;
 
@@ -29,10 +30,7 @@ pub use crate::lyapunov::MEASURED_IMPACTS;
 pub use cycle::{cycle_segments, of_cycle};
 pub use errors::errors_of_verdict;
 pub use harmonic::{Harmonic, harmonics};
-pub use of_machine::{
-    MachinePart, MachineQuantities, MachineQuantity, machine_cycle_quantities, machine_quantities, machine_quantity,
-    machine_quantity_paths,
-};
+pub use machine::{machine_cycle_quantities, machine_quantities, machine_quantity, machine_quantity_paths};
 pub use quantity::Quantity;
 pub use segment::Segment;
 pub use tally::{Quantities, Tally};

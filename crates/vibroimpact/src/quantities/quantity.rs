@@ -4,7 +4,9 @@ use crate::flight::Extreme;
 use crate::system::QuantityKind;
 
 /// A quantity of a motion. For a periodic motion it refers to its smallest period, for chaos to the impacts that were
-/// followed.
+/// followed. The first ones are those of an oscillator, and a machine or a part of it has many of them; the last ones only parts of a
+/// machine have. There the impulses of a compliant stop are the integrals of its force, one for each contact; the work is that of a
+/// force, of a stop that moves or of a belt, on the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Quantity {
@@ -50,10 +52,30 @@ pub enum Quantity {
     AccelerationMax,
     /// The part of the time in which the mass sticks on a stop.
     StickingFraction,
+    /// What a stop takes in momentum in one forcing period: the impulses of impacts, contact force and reaction at rest
+    /// together. For a friction joint, the integral of its force.
+    MomentumPerPeriod,
+    /// The largest force: of a compliant stop, of a stop on which the machine rests, of a joint in absolute value.
+    ForceMax,
+    /// The part of the time in contact: closed or at rest on a stop.
+    ContactFraction,
+    /// The part of the time in which a friction joint holds.
+    HoldingFraction,
+    /// The energy lost in the dampers of compliant stops in one forcing period.
+    ContactLossPerPeriod,
+    /// The power lost in the dampers of compliant stops.
+    ContactPower,
+    /// The energy lost by sliding in one forcing period: force times relative velocity.
+    FrictionLossPerPeriod,
+    /// The power lost by sliding.
+    FrictionPower,
+    /// The mean velocity of a coordinate: by how much it moves on in a unit of time, and 0 over a cycle where no free
+    /// translation moves it.
+    VelocityMean,
 }
 
 impl Quantity {
-    /// All quantities, in the order of reports.
+    /// Those of an oscillator, in the order of reports.
     pub const ALL: [Self; 21] = [
         Self::ImpactSpeedMax,
         Self::ImpactSpeedMean,
@@ -103,10 +125,19 @@ impl Quantity {
             Self::VelocityRms => "velocity_rms",
             Self::AccelerationMax => "acceleration_max",
             Self::StickingFraction => "sticking_fraction",
+            Self::MomentumPerPeriod => "momentum_per_period",
+            Self::ForceMax => "force_max",
+            Self::ContactFraction => "contact_fraction",
+            Self::HoldingFraction => "holding_fraction",
+            Self::ContactLossPerPeriod => "contact_loss_per_period",
+            Self::ContactPower => "contact_power",
+            Self::FrictionLossPerPeriod => "friction_loss_per_period",
+            Self::FrictionPower => "friction_power",
+            Self::VelocityMean => "velocity_mean",
         }
     }
 
-    /// The quantity with this name; hyphens and underscores are equal.
+    /// The quantity of an oscillator with this name; hyphens and underscores are equal.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         let name = name.trim().replace('-', "_");
@@ -138,6 +169,15 @@ impl Quantity {
             Self::VelocityRms => "rms velocity",
             Self::AccelerationMax => "largest acceleration between impacts",
             Self::StickingFraction => "part of the time on a stop",
+            Self::MomentumPerPeriod => "impulse of all impacts, contact forces and reactions per forcing period",
+            Self::ForceMax => "largest force",
+            Self::ContactFraction => "part of the time in contact",
+            Self::HoldingFraction => "part of the time in which a joint holds",
+            Self::ContactLossPerPeriod => "energy lost in the dampers of stops per forcing period",
+            Self::ContactPower => "power lost in the dampers of stops",
+            Self::FrictionLossPerPeriod => "energy lost in friction per forcing period",
+            Self::FrictionPower => "power lost in friction",
+            Self::VelocityMean => "mean velocity",
         }
     }
 
@@ -155,6 +195,20 @@ impl Quantity {
                 | Self::ImpactLossPerPeriod
                 | Self::ImpactPower
                 | Self::StickingFraction
+                | Self::ContactFraction
+                | Self::HoldingFraction
+        )
+    }
+
+    /// Whether it depends on where a coordinate is, and not only on how it moves.
+    pub(super) const fn of_place(self) -> bool {
+        matches!(
+            self,
+            Self::DisplacementMin
+                | Self::DisplacementMax
+                | Self::DisplacementAmplitude
+                | Self::DisplacementMean
+                | Self::DisplacementRms
         )
     }
 
@@ -179,20 +233,31 @@ impl Quantity {
     #[must_use]
     pub const fn kind(self) -> QuantityKind {
         match self {
-            Self::ImpactSpeedMax | Self::ImpactSpeedMean | Self::VelocityMax | Self::VelocityRms => {
-                QuantityKind::Velocity
+            Self::ImpactSpeedMax
+            | Self::ImpactSpeedMean
+            | Self::VelocityMax
+            | Self::VelocityMean
+            | Self::VelocityRms => QuantityKind::Velocity,
+            Self::ImpactsPerPeriod | Self::StickingFraction | Self::ContactFraction | Self::HoldingFraction => {
+                QuantityKind::Number
             }
-            Self::ImpactsPerPeriod | Self::StickingFraction => QuantityKind::Number,
             Self::ImpactRate => QuantityKind::Rate,
-            Self::ImpulseMax | Self::ImpulsePerPeriod => QuantityKind::Impulse,
-            Self::ImpactLossPerPeriod | Self::DampingLossPerPeriod | Self::WorkPerPeriod => QuantityKind::Energy,
-            Self::ImpactPower | Self::DampingPower | Self::Power => QuantityKind::Power,
+            Self::ImpulseMax | Self::ImpulsePerPeriod | Self::MomentumPerPeriod => QuantityKind::Impulse,
+            Self::ImpactLossPerPeriod
+            | Self::ContactLossPerPeriod
+            | Self::FrictionLossPerPeriod
+            | Self::DampingLossPerPeriod
+            | Self::WorkPerPeriod => QuantityKind::Energy,
+            Self::ImpactPower | Self::ContactPower | Self::FrictionPower | Self::DampingPower | Self::Power => {
+                QuantityKind::Power
+            }
             Self::DisplacementMin
             | Self::DisplacementMax
             | Self::DisplacementAmplitude
             | Self::DisplacementMean
             | Self::DisplacementRms => QuantityKind::Length,
             Self::AccelerationMax => QuantityKind::Acceleration,
+            Self::ForceMax => QuantityKind::Force,
         }
     }
 }

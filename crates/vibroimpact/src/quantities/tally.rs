@@ -1,5 +1,6 @@
 //! Sums over the parts of a motion, and the quantities from them.
 
+use super::sums::{Sum, Sums};
 use super::{Quantity, Segment};
 use crate::contact::mirrored;
 use crate::flight::{Extreme, Extremes, FlightIntegrals};
@@ -13,10 +14,10 @@ use core::f64::consts::TAU;
 pub struct Quantities([f64; Quantity::ALL.len()]);
 
 impl Quantities {
-    /// The value of a quantity; NaN if it is not defined for this motion.
+    /// The value of a quantity; NaN if it is not defined for this motion, and for those that only parts of machines have.
     #[must_use]
     pub const fn get(&self, quantity: Quantity) -> f64 {
-        self.0[quantity as usize]
+        if (quantity as usize) < self.0.len() { self.0[quantity as usize] } else { f64::NAN }
     }
 
     /// All quantities with their values.
@@ -47,18 +48,14 @@ pub struct Tally<'a> {
     /// Whether a flight was left out of the integrals and extremes.
     skipped: bool,
     /// `None` if no quantity needs them.
-    pub(super) integrals: Option<FlightIntegrals>,
+    integrals: Option<FlightIntegrals>,
     extremes: Extremes,
     /// The responses at the points of the flights.
     panels: Panels,
-    pub(super) time: f64,
-    pub(super) sticking: f64,
-    pub(super) impacts: f64,
-    pub(super) speeds: f64,
+    /// All other sums.
+    sums: Sums,
     fastest: f64,
-    pub(super) impulse: f64,
     hardest: f64,
-    pub(super) lost: f64,
 }
 
 impl<'a> Tally<'a> {
@@ -82,14 +79,9 @@ impl<'a> Tally<'a> {
             integrals: integrals.then(FlightIntegrals::default),
             extremes: Extremes::only(&extremes),
             panels: Panels::default(),
-            time: 0.0,
-            sticking: 0.0,
-            impacts: 0.0,
-            speeds: 0.0,
+            sums: Sums::default(),
             fastest: 0.0,
-            impulse: 0.0,
             hardest: 0.0,
-            lost: 0.0,
         }
     }
 
@@ -107,11 +99,11 @@ impl<'a> Tally<'a> {
 
     /// Adds a part of the motion.
     pub fn add(&mut self, segment: &Segment) {
-        self.time += segment.duration();
+        self.pass(segment.duration());
         match *segment {
             Segment::Flight { flight, duration } => {
                 self.flown += duration * self.osc.beta().max(1.0 + 2.0 * self.osc.damping());
-                self.skipped |= self.flown > LONGEST + EACH_IMPACT * self.impacts;
+                self.skipped |= self.flown > LONGEST + EACH_IMPACT * self.sums[Sum::Impacts];
                 if !self.skipped {
                     if let Some(integrals) = &mut self.integrals {
                         add_integrals(integrals, &self.panels, &flight, duration);
@@ -122,7 +114,7 @@ impl<'a> Tally<'a> {
             Segment::Impact { side, speed } => self.impact(side, speed),
             Segment::Chatter { side, phase, rebound, duration } => self.chatter(side, phase, rebound, duration),
             Segment::Rest { side, duration, .. } => {
-                self.sticking += duration;
+                self.sums[Sum::Resting] += duration;
                 self.hold(side, duration);
             }
         }
@@ -130,12 +122,12 @@ impl<'a> Tally<'a> {
 
     fn impact(&mut self, side: Side, speed: f64) {
         let rebound = self.osc.stop(side).map_or(0.0, |stop| stop.rebound(speed));
-        self.impacts += 1.0;
-        self.speeds += speed;
+        self.sums[Sum::Impacts] += 1.0;
+        self.sums[Sum::Speeds] += speed;
         self.fastest = self.fastest.max(speed);
-        self.impulse += speed + rebound;
+        self.sums[Sum::Impulse] += speed + rebound;
         self.hardest = self.hardest.max(speed + rebound);
-        self.lost += 0.5 * (speed - rebound) * (speed + rebound);
+        self.sums[Sum::ImpactLoss] += 0.5 * (speed - rebound) * (speed + rebound);
     }
 
     /// The rest of a chatter. Over a flight of it with the rebound speed $`w`$, to leading order in $`w`$, the mass
@@ -157,16 +149,16 @@ impl<'a> Tally<'a> {
             integrals.work += work;
         }
         // the mass is at rest at the end, so all its energy is lost
-        self.lost += 0.5 * rebound * rebound + work - 2.0 * zeta * v_squared;
+        self.sums[Sum::ImpactLoss] += 0.5 * rebound * rebound + work - 2.0 * zeta * v_squared;
         // The impulses balance the force over this time, and the speed at its beginning. With h = beta t / 2, the
         // integral of sin(theta + beta s) is t sin(theta + h) sin(h) / h.
         let half = 0.5 * beta * duration;
         let (sin_half, cos_half) = sin_cos(half);
         let (sin_middle, ratio) = (sin * cos_half + cos * sin_half, if half > 0.0 { sin_half / half } else { 1.0 });
         let impulse = duration * (sin_middle * ratio - stop.gap) - rebound + 2.0 / 3.0 * k * cubes;
-        self.impulse += impulse;
-        self.speeds += impulse / (1.0 + eps);
-        self.impacts = f64::INFINITY;
+        self.sums[Sum::Impulse] += impulse;
+        self.sums[Sum::Speeds] += impulse / (1.0 + eps);
+        self.sums[Sum::Impacts] = f64::INFINITY;
         self.extremes.acceleration = self.extremes.acceleration.max(a);
         self.hold(side, duration);
     }
@@ -183,41 +175,38 @@ impl<'a> Tally<'a> {
 
     /// The number of impacts.
     #[must_use]
-    pub const fn impacts(&self) -> f64 {
-        self.impacts
+    pub fn impacts(&self) -> f64 {
+        self.sums[Sum::Impacts]
+    }
+
+    /// Adds a time of which only the length is needed.
+    pub(super) fn pass(&mut self, duration: f64) {
+        self.sums[Sum::Time] += duration;
+    }
+
+    /// The sums of all parts so far. The factor of [`Sum::Damping`] is $`2\zeta`$.
+    pub(super) fn sums(&self) -> Sums {
+        let FlightIntegrals { x, x_squared, v_squared, work } = self.integrals.unwrap_or_default();
+        let mut sums = self.sums;
+        (sums[Sum::X], sums[Sum::XSquared], sums[Sum::Work]) = (x, x_squared, work);
+        (sums[Sum::VSquared], sums[Sum::Damping]) = (v_squared, v_squared);
+        sums
     }
 
     /// The quantities of a motion whose parts, all added, take `periods` forcing periods.
     #[must_use]
     pub fn over(&self, periods: f64) -> Quantities {
-        let time = periods * TAU / self.osc.beta();
-        let integrals = self.integrals.unwrap_or_default();
-        let damped = 2.0 * self.osc.damping() * integrals.v_squared;
-        let mean_speed =
-            if self.impacts > 0.0 && self.impacts.is_finite() { self.speeds / self.impacts } else { f64::NAN };
-        let rms = |squares: f64| (squares.max(0.0) / time).sqrt();
+        let (sums, time) = (self.sums(), periods * TAU / self.osc.beta());
+        let Extremes { lowest, highest, speed, acceleration, .. } = self.extremes;
         let value = |quantity: Quantity| match quantity {
             Quantity::ImpactSpeedMax => self.fastest,
-            Quantity::ImpactSpeedMean => mean_speed,
-            Quantity::ImpactsPerPeriod => self.impacts / periods,
-            Quantity::ImpactRate => self.impacts / time,
             Quantity::ImpulseMax => self.hardest,
-            Quantity::ImpulsePerPeriod => self.impulse / periods,
-            Quantity::ImpactLossPerPeriod => self.lost / periods,
-            Quantity::ImpactPower => self.lost / time,
-            Quantity::DampingLossPerPeriod => damped / periods,
-            Quantity::DampingPower => damped / time,
-            Quantity::WorkPerPeriod => integrals.work / periods,
-            Quantity::Power => integrals.work / time,
-            Quantity::DisplacementMin => self.extremes.lowest,
-            Quantity::DisplacementMax => self.extremes.highest,
-            Quantity::DisplacementAmplitude => 0.5 * (self.extremes.highest - self.extremes.lowest),
-            Quantity::DisplacementMean => integrals.x / time,
-            Quantity::DisplacementRms => rms(integrals.x_squared),
-            Quantity::VelocityMax => self.extremes.speed.max(self.fastest),
-            Quantity::VelocityRms => rms(integrals.v_squared),
-            Quantity::AccelerationMax => self.extremes.acceleration,
-            Quantity::StickingFraction => self.sticking / time,
+            Quantity::DisplacementMin => lowest,
+            Quantity::DisplacementMax => highest,
+            Quantity::DisplacementAmplitude => 0.5 * (highest - lowest),
+            Quantity::VelocityMax => speed.max(self.fastest),
+            Quantity::AccelerationMax => acceleration,
+            mean => sums.mean(mean, time, periods, 2.0 * self.osc.damping()),
         };
         Quantities::from_fn(|quantity| if self.knows(quantity) { value(quantity) } else { f64::NAN })
     }
@@ -230,6 +219,6 @@ impl<'a> Tally<'a> {
     /// The same over the time of all parts.
     #[must_use]
     pub fn over_all(&self) -> Quantities {
-        self.over(self.time * self.osc.beta() / TAU)
+        self.over(self.sums[Sum::Time] * self.osc.beta() / TAU)
     }
 }

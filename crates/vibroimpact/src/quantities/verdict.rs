@@ -44,7 +44,7 @@ pub fn of_verdict_only(osc: &Oscillator, verdict: &Verdict, asked: &[Quantity]) 
             None => Some(Quantities::from_fn(quiet)),
         },
         Verdict::Stuck(side) => Some(stuck(osc, *side)),
-        Verdict::Chaotic(chaos) => measured(tally, osc, &chaos.spectrum.tail),
+        Verdict::Chaotic(chaos) => measured(tally, osc, &chaos.tail),
         Verdict::Undecided(_) => None,
     }
 }
@@ -63,12 +63,12 @@ pub fn of_arrivals(
         return of_verdict_only(osc, verdict, asked);
     }
     let mut tally = Tally::of_only(osc, asked).between_stops();
-    let mut from = chaos.spectrum.tail.from;
+    let mut from = chaos.tail.from;
     for (state, duration) in arrivals {
         if tally.flights() {
             tally.add(&Segment::Flight { flight: Flight::new(osc, from.rebound(osc)), duration: *duration });
         } else {
-            tally.time += duration;
+            tally.pass(*duration);
         }
         tally.add(&Segment::Impact { side: state.side, speed: state.velocity });
         from = *state;

@@ -13,7 +13,7 @@ const DEPENDENT: f64 = 1e-14;
 const UNSEEN: f64 = 1e-13;
 
 /// The free translations. Most machines have none, and then nothing here changes a number.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Translations {
     /// Orthonormal directions of them in mass-normalised coordinates.
     along: Vec<Vec<f64>>,

@@ -56,6 +56,12 @@ pub enum SystemError {
     /// A number of a machine, but the system is an oscillator without units.
     #[error("{0} is a number of a machine in SI units, and the system is nondimensional")]
     NotPhysical(&'static str),
+    /// A second parameter on a line of oscillators that follow from another number.
+    #[error("{0} cannot vary in proportion: the line is that of another number")]
+    OwnLine(&'static str),
+    /// A machine that is no oscillator, at this value of a number.
+    #[error("at {0} the machine is no oscillator")]
+    NoOscillator(f64),
     /// Two parameters on one line that are the same.
     #[error("{0} and {1} cannot vary together: a line goes through two different parameters")]
     Together(&'static str, &'static str),

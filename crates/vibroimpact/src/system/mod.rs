@@ -7,6 +7,7 @@
 //! | the same at several times side by side | `nearby` |
 //! | frequency ratios that are fractions | [`Oscillator::fraction`] |
 //! | its parameters by name, read and changed | [`Parameter`] |
+//! | an oscillator as a function of other numbers | [`OscillatorFamily`] |
 //! | a line through two parameters, a plane of two | [`ParameterPath`], [`ParameterPlane`] |
 //! | a start within the stops | [`Start`] |
 //! | conversion from physical units to nondimensional numbers and back | [`PhysicalOscillator`] |
@@ -21,6 +22,7 @@ mod excitation;
 mod free;
 mod nearby;
 mod oscillator;
+mod oscillator_family;
 mod parameter;
 mod parameter_path;
 mod parameter_plane;
@@ -38,6 +40,7 @@ pub use excitation::{Amplitude, EquivalentOscillator, Excitation, Shaking};
 pub(crate) use free::{FreeResponse, HEAVY, decay, versine};
 pub(crate) use nearby::Nearby;
 pub use oscillator::{Oscillator, Side, Stop};
+pub use oscillator_family::OscillatorFamily;
 pub use parameter::Parameter;
 pub use parameter_path::ParameterPath;
 pub use parameter_plane::ParameterPlane;

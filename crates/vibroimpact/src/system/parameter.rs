@@ -29,7 +29,7 @@ pub enum Parameter {
     /// Restitution $`\varepsilon_2`$ of the second stop, in [0, 1].
     SecondRestitution,
     /// A number of the machine in SI units. An oscillator alone does not have it: it varies through
-    /// [`ParameterPath::of_machine`](super::ParameterPath::of_machine).
+    /// [`DrivenOscillator::line`](super::DrivenOscillator::line).
     Physical(PhysicalParameter),
 }
 

@@ -1,10 +1,10 @@
-//! A plane of two parameters of an oscillator or of a machine.
+//! A plane of two parameters of an oscillator, or of oscillators that follow from two other numbers.
 
-use super::physical::rates;
-use super::{DrivenOscillator, Oscillator, Parameter, ParameterPath, SystemError};
+use super::parameter_path::value;
+use super::{Oscillator, OscillatorFamily, Parameter, ParameterPath, SystemError};
 
-/// Two parameters that vary. All other numbers have the values of the oscillator; in a plane of machines, those of the
-/// machine to which the plane belongs.
+/// Two parameters that vary; all other numbers have the values of the oscillator. Or the two numbers of an
+/// [`OscillatorFamily`].
 ///
 /// ```
 /// use vibroimpact::{Oscillator, Parameter, ParameterPlane};
@@ -14,56 +14,50 @@ use super::{DrivenOscillator, Oscillator, Parameter, ParameterPath, SystemError}
 /// assert_eq!((there.beta(), there.gap(), there.restitution()), (0.8, 2.0, 0.8));
 /// # Ok::<(), vibroimpact::SystemError>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ParameterPlane {
-    parameters: (Parameter, Parameter),
-    /// The machine whose numbers vary.
-    machine: Option<DrivenOscillator>,
+#[derive(Clone, Debug, PartialEq)]
+pub struct ParameterPlane(Plane);
+
+#[derive(Clone, Debug, PartialEq)]
+enum Plane {
+    Parameters(Parameter, Parameter),
+    Family(OscillatorFamily<2>),
 }
 
 impl From<(Parameter, Parameter)> for ParameterPlane {
-    fn from(parameters: (Parameter, Parameter)) -> Self {
-        Self { parameters, machine: None }
+    fn from((first, second): (Parameter, Parameter)) -> Self {
+        Self(Plane::Parameters(first, second))
+    }
+}
+
+impl From<OscillatorFamily<2>> for ParameterPlane {
+    fn from(family: OscillatorFamily<2>) -> Self {
+        Self(Plane::Family(family))
     }
 }
 
 impl ParameterPlane {
-    /// The plane in which two numbers of a machine vary, and all its other numbers do not.
+    /// The two parameters; `None` in the plane of a family, whose numbers are those of no oscillator.
     #[must_use]
-    pub const fn of_machine(machine: DrivenOscillator, parameters: (Parameter, Parameter)) -> Self {
-        Self { parameters, machine: Some(machine) }
+    pub const fn parameters(&self) -> Option<(Parameter, Parameter)> {
+        match &self.0 {
+            Plane::Parameters(first, second) => Some((*first, *second)),
+            Plane::Family(_) => None,
+        }
     }
 
-    /// The two parameters.
-    #[must_use]
-    pub const fn parameters(&self) -> (Parameter, Parameter) {
-        self.parameters
-    }
-
-    /// Whether its points are machines.
-    #[must_use]
-    pub const fn is_of_machines(&self) -> bool {
-        self.machine.is_some()
-    }
-
-    /// Whether one of its parameters fulfils a condition.
-    pub(crate) fn has(&self, condition: impl Fn(Parameter) -> bool) -> bool {
-        condition(self.parameters.0) || condition(self.parameters.1)
-    }
-
-    /// The oscillator at a point of the plane; `osc` has the numbers that do not vary, if the plane is not one of machines.
+    /// The oscillator at a point of the plane; `osc` has the numbers that do not vary, unless the plane is that of a family.
     ///
     /// # Errors
     /// [`SystemError`] for values that give no valid system.
     pub fn set(&self, osc: &Oscillator, (p, q): (f64, f64)) -> Result<Oscillator, SystemError> {
-        match &self.machine {
-            Some(machine) => Ok(machine.with(self.parameters.0, p)?.with(self.parameters.1, q)?.reduced()?.oscillator),
-            None => self.parameters.1.set(&self.parameters.0.set(osc, p)?, q),
+        match &self.0 {
+            Plane::Parameters(first, second) => second.set(&first.set(osc, p)?, q),
+            Plane::Family(family) => family.at([p, q]),
         }
     }
 
-    /// The oscillator at a place of a line, and the point of the plane there. The line is one of machines if the plane is,
-    /// and then the point is that of the machine of the plane, changed in the parameter of the line.
+    /// The oscillator at a place of a line through `osc`, and the point of the plane there. In the plane of a family it is
+    /// where that was given.
     ///
     /// # Errors
     /// [`SystemError`] for a value that gives no valid system, [`SystemError::NoSecondStop`] for a parameter of a second
@@ -71,46 +65,34 @@ impl ParameterPlane {
     pub(crate) fn on_line(
         &self,
         osc: &Oscillator,
-        line: ParameterPath,
-        value: f64,
+        line: &ParameterPath,
+        place: f64,
     ) -> Result<(Oscillator, (f64, f64)), SystemError> {
-        let (p, q) = self.parameters;
-        let osc = line.set(osc, value)?;
-        let changed = self.machine.map(|machine| machine.with(line.parameter(), value)).transpose()?;
-        let of = |parameter: Parameter| {
-            let value = match &changed {
-                Some(machine) => machine.value(parameter),
-                None => parameter.get(&osc),
-            };
-            value.ok_or(SystemError::NoSecondStop(parameter.name()))
+        let osc = line.set(osc, place)?;
+        let point = match &self.0 {
+            Plane::Parameters(first, second) => (value(*first, &osc)?, value(*second, &osc)?),
+            Plane::Family(family) => family.from().into(),
         };
-        Ok((osc, (of(p)?, of(q)?)))
+        Ok((osc, point))
     }
 
-    /// For each of the two parameters: the parameters of the oscillator that vary with it, with their change for a change
+    /// For each of the two numbers: the parameters of the oscillator that vary with it, with their change for a change
     /// of it by 1.
     ///
     /// # Errors
     /// [`SystemError`] for values that give no valid system.
     pub(crate) fn rates(&self, (p, q): (f64, f64)) -> Result<[Vec<(Parameter, f64)>; 2], SystemError> {
-        let Some(machine) = &self.machine else {
-            return Ok([vec![(self.parameters.0, 1.0)], vec![(self.parameters.1, 1.0)]]);
-        };
-        // the numbers of the machine do not depend on the oscillator given
-        let at = |p, q| -> Result<Oscillator, SystemError> {
-            Ok(machine.with(self.parameters.0, p)?.with(self.parameters.1, q)?.reduced()?.oscillator)
-        };
-        let size = |parameter| machine.value(parameter).map_or(0.0, f64::abs);
-        let along =
-            [rates(|p| at(p, q), p, size(self.parameters.0))?, rates(|q| at(p, q), q, size(self.parameters.1))?];
-        Ok(along.map(super::parameter_path::named))
+        match &self.0 {
+            Plane::Parameters(first, second) => Ok([vec![(*first, 1.0)], vec![(*second, 1.0)]]),
+            Plane::Family(family) => family.rates([p, q]),
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::{Damping, Excitation, Frequency, PhysicalOscillator, PhysicalParameter};
+    use crate::system::{Damping, DrivenOscillator, Excitation, Frequency, PhysicalOscillator, PhysicalParameter};
 
     const MACHINE: DrivenOscillator = DrivenOscillator {
         machine: PhysicalOscillator {
@@ -136,7 +118,7 @@ mod tests {
     fn numbers_of_a_machine_change_the_oscillator_as_by_hand() {
         use Parameter::{Beta, Damping as Ratio, Gap, Physical};
         let (mass, force) = (Physical(PhysicalParameter::Mass), Physical(PhysicalParameter::Force));
-        let plane = ParameterPlane::of_machine(MACHINE, (mass, force));
+        let plane = MACHINE.plane((mass, force)).unwrap();
         let osc = plane.set(&MACHINE.reduced().unwrap().oscillator, (1.1, 40.0)).unwrap();
         let near = |a: f64, b: f64| (a - b).abs() <= 1e-14 * b.abs();
         assert!(near(osc.beta(), core::f64::consts::TAU * 20.0 * (1.1_f64 / 12e3).sqrt()));
@@ -154,13 +136,13 @@ mod tests {
     #[test]
     fn a_place_of_a_line_is_a_point_of_the_plane() {
         let frequency = Parameter::Physical(PhysicalParameter::Frequency);
-        let plane = ParameterPlane::of_machine(MACHINE, (frequency, Parameter::Restitution));
+        let plane = MACHINE.with(frequency, 22.0).unwrap().plane((frequency, Parameter::Restitution)).unwrap();
         let osc = MACHINE.reduced().unwrap().oscillator;
-        let line = ParameterPath::of_machine(MACHINE, frequency);
-        let (there, point) = plane.on_line(&osc, line, 22.0).unwrap();
+        let line = MACHINE.line(frequency, None).unwrap();
+        let (there, point) = plane.on_line(&osc, &line, 22.0).unwrap();
         assert_eq!((point, there), ((22.0, 0.65), plane.set(&osc, (22.0, 0.65)).unwrap()));
         let second = ParameterPlane::from((Parameter::Gap, Parameter::SecondGap));
-        let refused = second.on_line(&osc, Parameter::Gap.into(), 1.0).unwrap_err();
+        let refused = second.on_line(&osc, &Parameter::Gap.into(), 1.0).unwrap_err();
         assert_eq!(refused, SystemError::NoSecondStop("second_gap"));
     }
 }

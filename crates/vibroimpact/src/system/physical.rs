@@ -1,7 +1,7 @@
 //! A machine with everything that drives it, and its numbers by name.
 
 use super::{
-    Amplitude, Damping, Excitation, Frequency, Oscillator, PhysicalOscillator, PhysicalStop, Scales, Shaking, Side,
+    Amplitude, Damping, Excitation, Frequency, Oscillator, PhysicalOscillator, PhysicalStop, Scales, Shaking,
     SystemError,
 };
 use core::f64::consts::TAU;
@@ -314,43 +314,10 @@ impl PhysicalParameter {
     }
 }
 
-/// The derivatives of [`numbers`] of the oscillator along a line of machines, at its place `value`; `size` is the size of
-/// a value. They are differences with a relative error of about $`10^{-10}`$; at the edge of the allowed range the
-/// difference is one-sided. Branches use them for their direction only, so that this error moves no solution.
-///
-/// # Errors
-/// The error of `along` if it has no system on either side.
-pub(super) fn rates(
-    along: impl Fn(f64) -> Result<Oscillator, SystemError>,
-    value: f64,
-    size: f64,
-) -> Result<[f64; 6], SystemError> {
-    let at = |value: f64| along(value).map(|osc| numbers(&osc));
-    let step = STEP * value.abs().max(size).max(f64::MIN_POSITIVE);
-    let (low, high) = (value - step, value + step);
-    let ((a, from), (b, to)) = match (at(low), at(high)) {
-        (Ok(a), Ok(b)) => ((a, low), (b, high)),
-        (Err(_), Ok(b)) => ((at(value)?, value), (b, high)),
-        (Ok(a), Err(_)) => ((a, low), (at(value)?, value)),
-        (Err(error), Err(_)) => return Err(error),
-    };
-    Ok(core::array::from_fn(|k| (b[k] - a[k]) / (to - from)))
-}
-
-/// The step of a difference, relative to the value: about the cube root of the rounding unit.
-const STEP: f64 = 6e-6;
-
-/// The numbers of an oscillator in the order of frequency ratio, gap, restitution, damping ratio, second gap and second
-/// restitution; 0 for those of a second stop that it does not have.
-fn numbers(osc: &Oscillator) -> [f64; 6] {
-    let second = osc.stop(Side::Lower);
-    let (gap, restitution) = second.map_or((0.0, 0.0), |stop| (stop.gap, stop.restitution));
-    [osc.beta(), osc.gap(), osc.restitution(), osc.damping(), gap, restitution]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::system::Parameter;
 
     const DRIVEN: DrivenOscillator = DrivenOscillator {
         machine: PhysicalOscillator {
@@ -392,6 +359,9 @@ mod tests {
     #[test]
     fn what_each_changes() {
         let plain = DrivenOscillator { excitation: Excitation::default(), ..DRIVEN };
+        use Parameter::{Beta, Damping, Gap, Restitution, SecondGap, SecondRestitution};
+        let all = [Beta, Gap, Restitution, Damping, SecondGap, SecondRestitution];
+        let numbers = |osc: &Oscillator| all.map(|parameter| parameter.get(osc).unwrap());
         let of = |driven: &DrivenOscillator| numbers(&driven.reduced().unwrap().oscillator);
         let before = of(&plain);
         for (parameter, powers) in [
@@ -403,8 +373,9 @@ mod tests {
         ] {
             let value = parameter.get(&plain).unwrap();
             let after = of(&parameter.set(&plain, 1.7 * value).unwrap());
-            let along = |value| parameter.set(&plain, value)?.reduced().map(|reduced| reduced.oscillator);
-            let rates = rates(along, value, 0.0).unwrap();
+            let rates = plain.line(Parameter::Physical(parameter), None).unwrap().rates(value).unwrap();
+            let rate = |of| rates.iter().find(|(own, _)| *own == of).map_or(0.0, |(_, rate)| *rate);
+            let rates = all.map(rate);
             for k in 0..6 {
                 let expected = before[k] * 1.7_f64.powf(powers[k]);
                 assert!((after[k] - expected).abs() < 1e-14 * expected.abs(), "{} {k}", parameter.name());

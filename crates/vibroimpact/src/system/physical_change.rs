@@ -1,6 +1,9 @@
-//! A machine with another value of a parameter, its own or one of its oscillator.
+//! A machine with another value of a parameter, its own or one of its oscillator; lines and planes of such machines.
 
-use super::{Damping, DrivenOscillator, Frequency, Parameter, PhysicalStop, Reduced, SystemError};
+use super::{
+    Damping, DrivenOscillator, Frequency, OscillatorFamily, Parameter, ParameterPath, ParameterPlane, PhysicalStop,
+    Reduced, SystemError,
+};
 
 impl DrivenOscillator {
     /// The same machine with another value of a parameter, of its own or of its oscillator, and all its other numbers.
@@ -42,6 +45,47 @@ impl DrivenOscillator {
             Parameter::Physical(parameter) => parameter.get(self),
             parameter => parameter.get(&self.reduced().ok()?.oscillator),
         }
+    }
+
+    fn known(&self, parameter: Parameter) -> Result<f64, SystemError> {
+        self.value(parameter).ok_or(SystemError::NoSecondStop(parameter.name()))
+    }
+
+    /// The line along which a parameter varies, and all other numbers of the machine do not, but for one that changes by a
+    /// rate when the parameter changes by 1. The numbers of the oscillator change together: with the mass, the frequency
+    /// ratio and, for a given damping coefficient, the damping ratio.
+    ///
+    /// # Errors
+    /// [`SystemError::NoSecondStop`] for a parameter that the machine does not have, [`SystemError::Together`] for two that
+    /// are the same, [`SystemError::Rate`] for a rate that is not finite.
+    pub fn line(self, parameter: Parameter, also: Option<(Parameter, f64)>) -> Result<ParameterPath, SystemError> {
+        let from = self.known(parameter)?;
+        let also = match also {
+            Some((other, _)) if parameter.same_number(other) => {
+                return Err(SystemError::Together(parameter.name(), other.name()));
+            }
+            Some((other, rate)) if !rate.is_finite() => return Err(SystemError::Rate { name: other.name(), rate }),
+            Some((other, rate)) => Some((other, rate, self.known(other)?)),
+            None => None,
+        };
+        let at = move |[value]: [f64; 1]| {
+            let changed = self.with(parameter, value)?;
+            let changed = match also {
+                Some((other, rate, second)) => changed.with(other, second + rate * (value - from))?,
+                None => changed,
+            };
+            changed.reduced().map(|reduced| reduced.oscillator)
+        };
+        Ok(OscillatorFamily::new(at, [from]).into())
+    }
+
+    /// The plane in which two parameters vary, and all other numbers of the machine do not.
+    ///
+    /// # Errors
+    /// [`SystemError::NoSecondStop`] for a parameter that the machine does not have.
+    pub fn plane(self, (first, second): (Parameter, Parameter)) -> Result<ParameterPlane, SystemError> {
+        let at = move |[p, q]: [f64; 2]| Ok(self.with(first, p)?.with(second, q)?.reduced()?.oscillator);
+        Ok(OscillatorFamily::new(at, [self.known(first)?, self.known(second)?]).into())
     }
 }
 

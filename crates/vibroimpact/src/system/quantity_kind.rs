@@ -13,6 +13,8 @@ pub enum QuantityKind {
     Velocity,
     /// An acceleration.
     Acceleration,
+    /// A force.
+    Force,
     /// An impulse.
     Impulse,
     /// An energy.
@@ -25,11 +27,12 @@ pub enum QuantityKind {
 
 impl QuantityKind {
     /// All kinds.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Number,
         Self::Length,
         Self::Velocity,
         Self::Acceleration,
+        Self::Force,
         Self::Impulse,
         Self::Energy,
         Self::Power,
@@ -46,6 +49,7 @@ impl QuantityKind {
             Self::Length => length_m,
             Self::Velocity => velocity,
             Self::Acceleration => velocity / time_s,
+            Self::Force => mass_kg * velocity / time_s,
             Self::Impulse => mass_kg * velocity,
             Self::Energy => mass_kg * velocity * velocity,
             Self::Power => mass_kg * velocity * velocity / time_s,
@@ -61,6 +65,7 @@ impl QuantityKind {
             Self::Length => "m",
             Self::Velocity => "m/s",
             Self::Acceleration => "m/s²",
+            Self::Force => "N",
             Self::Impulse => "N s",
             Self::Energy => "J",
             Self::Power => "W",
@@ -76,6 +81,7 @@ impl QuantityKind {
             Self::Length => "_m",
             Self::Velocity => "_m_per_s",
             Self::Acceleration => "_m_per_s2",
+            Self::Force => "_n",
             Self::Impulse => "_n_s",
             Self::Energy => "_j",
             Self::Power => "_w",
@@ -91,6 +97,7 @@ impl QuantityKind {
             Self::Length => "F/k",
             Self::Velocity => "omega_n F/k",
             Self::Acceleration => "omega_n^2 F/k",
+            Self::Force => "F",
             Self::Impulse => "m omega_n F/k",
             Self::Energy => "F^2/k",
             Self::Power => "omega_n F^2/k",
@@ -106,6 +113,7 @@ impl QuantityKind {
             Self::Length => "m",
             Self::Velocity => "m s-1",
             Self::Acceleration => "m s-2",
+            Self::Force => "N",
             Self::Impulse => "N s",
             Self::Energy => "J",
             Self::Power => "W",

@@ -85,7 +85,7 @@ impl<S: Source> Recorder for Settling<'_, S> {
     }
 
     fn end(&mut self, track: &mut Track, osc: &Oscillator, end: End) {
-        let verdict = ended(osc, Some(end), self.options.limits);
+        let verdict = ended(osc, Some(end), self.options.limits, track.follow.count() as u64);
         self.source.decided(track.place, verdict, &track.follow, self.options);
     }
 

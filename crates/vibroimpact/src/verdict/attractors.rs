@@ -1,41 +1,29 @@
 //! The distinct steady motions of a system, and the share of starts that lead to each.
 
 use super::options::SettleOptions;
-use super::outcome::Verdict;
+use super::outcome::{System, Verdict};
 use super::settle::settle;
 use crate::math::sort_by_key;
 use crate::system::{Oscillator, Start};
 use core::f64::consts::TAU;
 
-/// A verdict that can be told apart from another one: that on an oscillator, or that on a machine.
-pub trait SteadyMotion: Clone {
-    /// Whether both are the same motion; cycles are compared to within `tolerance`.
-    fn same_as(&self, other: &Self, tolerance: f64) -> bool;
-}
-
-impl SteadyMotion for Verdict {
-    fn same_as(&self, other: &Self, tolerance: f64) -> bool {
-        self.same_as(other, tolerance)
-    }
-}
-
 /// A steady motion and the number of starts that lead to it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CountedMotion<V = Verdict> {
+pub struct CountedMotion<S: System = Oscillator> {
     /// The verdict on the first start that leads to it.
-    pub verdict: V,
+    pub verdict: Verdict<S>,
     /// Starts that lead to it.
     pub count: u64,
 }
 
 /// The distinct motions of the starts counted so far. Two different cycles with the same label are counted separately.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Census<V = Verdict> {
-    found: Vec<CountedMotion<V>>,
+pub struct Census<S: System = Oscillator> {
+    found: Vec<CountedMotion<S>>,
     total: u64,
 }
 
-impl<V> Default for Census<V> {
+impl<S: System> Default for Census<S> {
     fn default() -> Self {
         Self { found: Vec::new(), total: 0 }
     }
@@ -45,9 +33,9 @@ impl<V> Default for Census<V> {
 /// rounding errors.
 pub(super) const SAME: f64 = 1e-6;
 
-impl<V: SteadyMotion> Census<V> {
+impl<S: System> Census<S> {
     /// Adds a motion of another census with all its starts, and returns its index here.
-    pub fn add_found(&mut self, found: &CountedMotion<V>) -> usize {
+    pub fn add_found(&mut self, found: &CountedMotion<S>) -> usize {
         let number = self.add(&found.verdict);
         self.found[number].count += found.count - 1;
         self.total += found.count - 1;
@@ -55,7 +43,7 @@ impl<V: SteadyMotion> Census<V> {
     }
 
     /// Adds one verdict and returns the index of its motion, in order of first appearance.
-    pub fn add(&mut self, verdict: &V) -> usize {
+    pub fn add(&mut self, verdict: &Verdict<S>) -> usize {
         self.total += 1;
         if let Some(k) = self.found.iter().position(|found| found.verdict.same_as(verdict, SAME)) {
             self.found[k].count += 1;
@@ -67,14 +55,14 @@ impl<V: SteadyMotion> Census<V> {
 
     /// The motions in order of first appearance.
     #[must_use]
-    pub fn motions(&self) -> &[CountedMotion<V>] {
+    pub fn motions(&self) -> &[CountedMotion<S>] {
         &self.found
     }
 
     /// The motions, the most frequent first.
     #[must_use]
-    pub fn by_share(&self) -> Vec<&CountedMotion<V>> {
-        let mut list: Vec<&CountedMotion<V>> = self.found.iter().collect();
+    pub fn by_share(&self) -> Vec<&CountedMotion<S>> {
+        let mut list: Vec<&CountedMotion<S>> = self.found.iter().collect();
         sort_by_key(&mut list, |found| core::cmp::Reverse(found.count));
         list
     }
@@ -88,7 +76,7 @@ impl<V: SteadyMotion> Census<V> {
     /// The fraction of starts that lead to a motion.
     #[must_use]
     #[allow(clippy::cast_precision_loss)] // counts below 2^53
-    pub fn share(&self, found: &CountedMotion<V>) -> f64 {
+    pub fn share(&self, found: &CountedMotion<S>) -> f64 {
         found.count as f64 / (self.total.max(1)) as f64
     }
 }

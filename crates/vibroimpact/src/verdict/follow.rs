@@ -6,7 +6,8 @@
 
 use super::graze_limit::Fading;
 use super::options::SettleOptions;
-use super::outcome::{Chaos, NoImpact, Undecided, Verdict};
+use super::oscillator::NoImpact;
+use super::outcome::{Chaos, Undecided, UndecidedCause, Verdict};
 use super::record::{LOOK, Record, Shown};
 use super::trapping_region::Depth;
 use crate::flight::SearchLimits;
@@ -51,7 +52,7 @@ impl Releases {
         known
             .get_or_insert_with(|| {
                 let AfterRelease::Cycle(cycle) = AfterRelease::new(osc, side, events)? else {
-                    return Some(Verdict::Undecided(Undecided::Unconfirmed { impacts: 0 }));
+                    return Some(undecided(UndecidedCause::Unconfirmed, 0));
                 };
                 let periods = cycle.label.periods;
                 let landing = cycle.points.is_empty();
@@ -127,7 +128,7 @@ impl Follow {
         }
         self.record.decide(osc, options, &state, since).map(|shown| match shown {
             Shown::Cycle(cycle) => Verdict::Periodic(cycle),
-            Shown::Chaos(spectrum) => Verdict::Chaotic(Chaos { spectrum, impacts: self.count() as u64 }),
+            Shown::Chaos((spectrum, tail)) => Verdict::Chaotic(Chaos { spectrum, impacts: self.count() as u64, tail }),
         })
     }
 
@@ -137,7 +138,7 @@ impl Follow {
     /// contacts, and with other limits of the search than the default ones.
     pub(crate) fn arrivals(&self, verdict: &Verdict, options: &SettleOptions) -> Arrivals {
         let Verdict::Chaotic(chaos) = verdict else { return Arrivals::new() };
-        let impacts = usize::try_from(chaos.spectrum.tail.impacts).unwrap_or(usize::MAX);
+        let impacts = usize::try_from(chaos.tail.impacts).unwrap_or(usize::MAX);
         let returns = &self.record.returns;
         let kept = returns.len().checked_sub(impacts);
         let grazed = self.grazed.is_some_and(|before| before + impacts >= self.count());
@@ -150,7 +151,7 @@ impl Follow {
     /// Chaos that was measured and has ended, if the motion has settled into something else.
     pub(crate) fn transient(&self, osc: &Oscillator) -> Option<Chaos> {
         let found = self.record.was_chaotic(osc);
-        found.map(|spectrum| Chaos { spectrum, impacts: self.count() as u64 }).or(self.over)
+        found.map(|(spectrum, tail)| Chaos { spectrum, impacts: self.count() as u64, tail }).or(self.over)
     }
 
     /// Records a grazing contact `interval` after the last event; returns the verdict if it is decided.
@@ -189,7 +190,7 @@ impl Follow {
         first.get_or_insert(now);
         let verdict = releases.verdict(osc, side, again);
         verdict.map(|verdict| match verdict {
-            Verdict::Undecided(_) => Verdict::Undecided(Undecided::Unconfirmed { impacts: now as u64 }),
+            Verdict::Undecided(of) => Verdict::Undecided(Undecided { impacts: now as u64, ..of }),
             verdict => verdict,
         })
     }
@@ -201,14 +202,20 @@ impl Follow {
             Some(cycle) => Verdict::Periodic(cycle),
             None => {
                 let impacts = self.count() as u64;
-                Verdict::Undecided(Undecided::Impacts { impacts, spectrum: self.record.latest(osc) })
+                let spectrum = self.record.latest(osc).map(|(spectrum, _)| spectrum);
+                Verdict::Undecided(Undecided { why: UndecidedCause::Budget, impacts, spectrum })
             }
         }
     }
 }
 
-/// The verdict on a motion that has ended.
-pub(crate) fn ended(osc: &Oscillator, end: Option<End>, limits: SearchLimits) -> Verdict {
+/// The verdict on a motion that is undecided without a measurement.
+const fn undecided(why: UndecidedCause, impacts: u64) -> Verdict {
+    Verdict::Undecided(Undecided { why, impacts, spectrum: None })
+}
+
+/// The verdict on a motion that has ended after so many impacts.
+pub(crate) fn ended(osc: &Oscillator, end: Option<End>, limits: SearchLimits, impacts: u64) -> Verdict {
     match end {
         Some(End::Never(why)) => Verdict::NoImpact(NoImpact::Flight(why)),
         Some(End::Stuck(side)) => Verdict::Stuck(side),
@@ -217,9 +224,9 @@ pub(crate) fn ended(osc: &Oscillator, end: Option<End>, limits: SearchLimits) ->
             if time >= 0.999 * limits.horizon(osc) {
                 Verdict::NoImpact(NoImpact::ForPeriods(periods.floor()))
             } else {
-                Verdict::Undecided(Undecided::Search { periods })
+                undecided(UndecidedCause::Search { periods }, impacts)
             }
         }
-        None => Verdict::Undecided(Undecided::Search { periods: 0.0 }),
+        None => undecided(UndecidedCause::Search { periods: 0.0 }, impacts),
     }
 }

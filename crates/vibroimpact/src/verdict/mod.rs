@@ -3,10 +3,11 @@
 //! | idea | file |
 //! |---|---|
 //! | the label m/n | [`Label`] |
-//! | the possible verdicts | [`Verdict`] |
+//! | the possible verdicts, of any [`System`] | [`Verdict`] |
+//! | what is particular to an oscillator | `oscillator` |
 //! | from a start to a verdict | [`settle`], `follow` |
 //! | the latest returns, recurrence, chaos: for the oscillator and for machines | `record`, `recurrence`, `recurring` |
-//! | the same for machines | `of_machine` |
+//! | what is particular to machines | [`machine`] |
 //! | many starts side by side: of one oscillator, of several; what both need | [`settle_many`], [`settle_each`], `abreast`, `settlement` |
 //! | the order in which many starts are launched | `launches` |
 //! | neighbourhoods of cycles that no motion leaves | `trapping_region` |
@@ -20,9 +21,10 @@ mod each;
 mod follow;
 pub mod graze_limit;
 mod launches;
+pub mod machine;
 mod many;
-mod of_machine;
 mod options;
+mod oscillator;
 mod outcome;
 mod paper_rule;
 mod record;
@@ -33,19 +35,18 @@ mod settlement;
 mod trapping_region;
 
 pub use crate::orbit::{Count, Label, LabelError, Stability};
-pub use attractors::{Census, CountedMotion, StartBox, SteadyMotion, attractors, scattered_starts};
+pub use attractors::{Census, CountedMotion, StartBox, attractors, scattered_starts};
 pub use each::{Counted, settle_each};
 pub(crate) use follow::{Follow, Releases, ended};
-pub use many::{KnownAttractors, settle_many};
-pub use of_machine::{
-    KnownMotions, MachineSettled, MachineSettlement, MachineTail, MachineUndecided, MachineVerdict,
-    scattered_machine_starts, settle_each_machine, settle_machine, settle_machine_many, settle_machine_while,
-    settle_unreduced,
+pub use machine::{
+    KnownMotions, scattered_machine_starts, settle_each_machine, settle_machine, settle_machine_many,
+    settle_machine_while, settle_unreduced,
 };
-pub(crate) use of_machine::{Recorded, Reduced, Step};
+pub(crate) use machine::{Recorded, Reduced, Step, settle_as};
+pub use many::{KnownAttractors, settle_many};
 pub use options::SettleOptions;
-pub use outcome::{Chaos, NoImpact, Reason, Undecided, Verdict};
+pub use oscillator::{NoImpact, Reason};
+pub use outcome::{Chaos, Settled, System, Undecided, UndecidedCause, Verdict};
 pub use paper_rule::{PaperRule, PaperVerdict, paper_rule};
-pub(crate) use recurring::Recurring;
-pub use settle::{Settled, settle, settle_while};
+pub use settle::{settle, settle_while};
 pub use settlement::{Ending, Settlement};

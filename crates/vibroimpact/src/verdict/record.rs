@@ -4,7 +4,7 @@
 
 use super::options::SettleOptions;
 use super::recurrence::{Candidate, candidates};
-use super::recurring::{Diverging, Recurring};
+use super::recurring::{Measurement, Recurring};
 
 /// The record of a motion.
 #[derive(Clone, Debug)]
@@ -24,7 +24,7 @@ pub(crate) struct Record<R: Recurring> {
     measure: Option<Box<R::Measure>>,
     /// The number of measurements completed since then, and the exponents of the latest one.
     windows: usize,
-    spectrum: Option<R::Spectrum>,
+    spectrum: Option<Measurement<R>>,
     /// Whether the latest one showed chaos.
     chaotic: bool,
 }
@@ -52,7 +52,7 @@ pub(crate) enum Shown<R: Recurring> {
     /// The motion is captured by this cycle.
     Cycle(R::Cycle),
     /// It is chaotic.
-    Chaos(R::Spectrum),
+    Chaos(Measurement<R>),
 }
 
 /// The lengths of successive measurements for chaos, in units of [`SettleOptions::chaos_over`]; weak chaos needs a
@@ -84,7 +84,7 @@ impl<R: Recurring> Record<R> {
         self.windows + 1 == WINDOWS.len()
             && !self.chaotic
             && self.measure.is_some()
-            && self.spectrum.as_ref().is_some_and(Diverging::diverges)
+            && self.spectrum.as_ref().is_some_and(|(spectrum, _)| spectrum.diverges())
     }
 
     /// The number of returns after which a decision other than a cycle is possible next: chaos, or the end of the
@@ -143,12 +143,12 @@ impl<R: Recurring> Record<R> {
     }
 
     /// Decides chaos from a complete measurement, or begins the next measurement.
-    fn judged(&mut self, system: &R, options: &SettleOptions, state: &R::Return) -> Option<R::Spectrum> {
-        let (spectrum, chaotic) = system.chaos(&*self.measure.take()?).unzip();
+    fn judged(&mut self, system: &R, options: &SettleOptions, state: &R::Return) -> Option<Measurement<R>> {
+        let (measured, chaotic) = system.chaos(&*self.measure.take()?).unzip();
         self.windows += 1;
-        self.spectrum.clone_from(&spectrum);
+        self.spectrum.clone_from(&measured);
         self.chaotic = chaotic == Some(true);
-        let chaos = spectrum.filter(|_| self.chaotic);
+        let chaos = measured.filter(|_| self.chaotic);
         if chaos.is_none() {
             self.measure = Some(Box::new(system.measure(state, window(options, self.windows))));
         }
@@ -156,24 +156,24 @@ impl<R: Recurring> Record<R> {
     }
 
     /// The exponents of the measurement in progress.
-    pub(super) fn so_far(&self, system: &R) -> Option<R::Spectrum> {
-        self.measure.as_ref().and_then(|measure| system.chaos(measure)).map(|(spectrum, _)| spectrum)
+    pub(super) fn so_far(&self, system: &R) -> Option<Measurement<R>> {
+        self.measure.as_ref().and_then(|measure| system.chaos(measure)).map(|(measured, _)| measured)
     }
 
     /// The exponents of the measurement in progress, or else of the last one.
-    pub(super) fn latest(&self, system: &R) -> Option<R::Spectrum> {
+    pub(super) fn latest(&self, system: &R) -> Option<Measurement<R>> {
         self.so_far(system).or_else(|| self.spectrum.clone())
     }
 
     /// Exponents of the measurement in progress or of the last one that show chaos.
-    pub(super) fn was_chaotic(&self, system: &R) -> Option<R::Spectrum> {
-        self.so_far(system).into_iter().chain(self.spectrum.clone()).find(Diverging::chaotic)
+    pub(super) fn was_chaotic(&self, system: &R) -> Option<Measurement<R>> {
+        self.so_far(system).into_iter().chain(self.spectrum.clone()).find(|(spectrum, _)| spectrum.chaotic())
     }
 
     /// The exponents of the measurement in progress, or else of the last one, if they show chaos.
-    pub(super) fn chaos(&self, system: &R) -> Option<R::Spectrum> {
+    pub(super) fn chaos(&self, system: &R) -> Option<Measurement<R>> {
         match self.measure.as_ref().and_then(|measure| system.chaos(measure)) {
-            Some((spectrum, chaotic)) => chaotic.then_some(spectrum),
+            Some((measured, chaotic)) => chaotic.then_some(measured),
             None => self.spectrum.clone().filter(|_| self.chaotic),
         }
     }

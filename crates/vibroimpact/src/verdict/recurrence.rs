@@ -1,7 +1,7 @@
 //! Recurrence of impacts, which suggests a period, and the test whether a motion is captured by a cycle.
 
-use super::recurring::{Diverging, Recurring};
-use crate::lyapunov::{Measure, Spectrum};
+use super::recurring::{Measurement, Recurring};
+use crate::lyapunov::{Measure, Measured, Tail};
 use crate::motion::ImpactState;
 use crate::orbit::{Cycle, Lap, Stability, cycle_distance, flight_limits, shoot_stable};
 use crate::system::Oscillator;
@@ -88,7 +88,8 @@ impl Recurring for Oscillator {
     type Return = ImpactState;
     type Cycle = Cycle;
     type Measure = Measure;
-    type Spectrum = Spectrum;
+    type Exponents = [Measured; 2];
+    type Tail = Tail;
 
     fn distance(&self, a: &ImpactState, b: &ImpactState) -> f64 {
         cycle_distance(a, b)
@@ -125,17 +126,7 @@ impl Recurring for Oscillator {
         measure.left()
     }
 
-    fn chaos(&self, measure: &Measure) -> Option<(Spectrum, bool)> {
-        measure.chaos(self)
-    }
-}
-
-impl Diverging for Spectrum {
-    fn diverges(&self) -> bool {
-        self.diverges()
-    }
-
-    fn chaotic(&self) -> bool {
-        self.chaotic()
+    fn chaos(&self, measure: &Measure) -> Option<(Measurement<Self>, bool)> {
+        measure.chaos(self).map(|(spectrum, chaotic)| ((spectrum, measure.tail()), chaotic))
     }
 }

@@ -1,15 +1,23 @@
 //! What the record of a motion needs to know of a system: of the oscillator, or of a machine.
 
+use crate::lyapunov::{Measured, Spectrum};
+use core::fmt::Debug;
+
+/// The exponents of a measurement, and what is kept of its last part.
+pub(crate) type Measurement<R> = (Spectrum<<R as Recurring>::Exponents>, <R as Recurring>::Tail);
+
 /// A system whose motions are recorded.
-pub(crate) trait Recurring {
+pub(crate) trait Recurring: Sized {
     /// A return.
     type Return: Clone;
     /// A confirmed cycle.
     type Cycle: Clone;
     /// A measurement of the Lyapunov exponents in progress.
     type Measure: Clone;
-    /// The exponents.
-    type Spectrum: Clone + Diverging;
+    /// A measured number for each exponent.
+    type Exponents: AsRef<[Measured]> + Clone + Debug;
+    /// What is kept of the last part of a measurement.
+    type Tail: Clone + Debug;
 
     /// The distance of two returns, relative to the motion; infinite if they are of different kinds.
     fn distance(&self, a: &Self::Return, b: &Self::Return) -> f64;
@@ -28,13 +36,5 @@ pub(crate) trait Recurring {
     /// The number of returns that are still missing.
     fn left(measure: &Self::Measure) -> u32;
     /// The exponents so far, and whether they show chaos.
-    fn chaos(&self, measure: &Self::Measure) -> Option<(Self::Spectrum, bool)>;
-}
-
-/// Exponents that tell whether neighbours separate.
-pub(crate) trait Diverging {
-    /// Whether the largest exponent exceeds its error bar.
-    fn diverges(&self) -> bool;
-    /// Whether neighbours separate, over the whole run, by more than on the way from one cycle to another.
-    fn chaotic(&self) -> bool;
+    fn chaos(&self, measure: &Self::Measure) -> Option<(Measurement<Self>, bool)>;
 }

@@ -23,25 +23,11 @@
 
 use super::follow::{Follow, Releases, ended};
 use super::options::SettleOptions;
-use super::outcome::{Chaos, Verdict};
+use super::outcome::{Settled, Verdict};
 use crate::lanes::PropagatorCache;
 use crate::lyapunov::Arrivals;
 use crate::motion::{EventKind, ImpactState, Motion};
 use crate::system::{Oscillator, Start};
-
-/// A verdict and how far the motion was followed.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Settled {
-    /// The verdict.
-    pub verdict: Verdict,
-    /// The number of impacts that were followed.
-    pub impacts: u64,
-    /// The time that was followed.
-    pub time: f64,
-    /// Chaos that was measured and has ended. It belongs to this start; other starts that lead to the same motion have
-    /// their own.
-    pub transient: Option<Chaos>,
-}
 
 /// The verdict on the motion of `osc` from `start`.
 ///
@@ -79,7 +65,7 @@ pub(super) fn settle_knowing(
 ) -> (Settled, Arrivals) {
     // only a verdict stops it
     drive(osc, start, options, releases, &|| true).unwrap_or_else(|| {
-        let verdict = ended(osc, None, options.limits);
+        let verdict = ended(osc, None, options.limits, 0);
         (Settled { verdict, impacts: 0, time: 0.0, transient: None }, Arrivals::new())
     })
 }
@@ -124,7 +110,7 @@ impl Drive<'_> {
         // every other event is followed by an impact or ends the motion; runs of grazing contacts are limited
         while follow.within(options) {
             let Some(event) = motion.advance(*cache) else {
-                return Some(ended(osc, motion.end(), options.limits));
+                return Some(ended(osc, motion.end(), options.limits, follow.count() as u64));
             };
             self.time = event.time;
             follow.steps = before + motion.steps();

@@ -2,7 +2,8 @@
 
 use super::CountedMotion;
 use super::attractors::SAME;
-use super::outcome::{Reason, Verdict};
+use super::oscillator::Reason;
+use super::outcome::Verdict;
 use crate::lyapunov::Arrivals;
 use crate::math::sort_by_key;
 

@@ -16,7 +16,8 @@ fn curve(osc: &Oscillator, label: Label, direction: Direction, name: &str, frame
     let orbits = find(osc, label, FindOptions::default());
     let begin = &orbits.iter().find(|o| o.physical).unwrap().cycle;
     let range = frame.ranges.1.clone();
-    let range = if frame.plane.parameters().1 == Parameter::Gap { range } else { -5.0..=8.0 };
+    let range =
+        if frame.plane.parameters().is_some_and(|(_, second)| second == Parameter::Gap) { range } else { -5.0..=8.0 };
     let mut branch = Branch::new(osc, begin, Parameter::Gap, range, direction, BranchOptions::default()).unwrap();
     let point = branch.find(|p| p.event.is_some_and(|e| e.name() == name)).unwrap();
     let ways = Curve::through(osc, &point, Parameter::Gap, frame, CurveOptions::default()).unwrap();

@@ -5,12 +5,12 @@ use vibroimpact::orbit::{Cycle, FindOptions, find, refine};
 use vibroimpact::{Label, Oscillator, Parameter, ParameterPath};
 
 /// The branch of the fastest motion called `label` along a line through `osc`, as far as `to`.
-fn branch(osc: &Oscillator, label: Label, line: ParameterPath, to: f64) -> Vec<SolutionPoint> {
+fn branch(osc: &Oscillator, label: Label, line: &ParameterPath, to: f64) -> Vec<SolutionPoint> {
     let orbits = find(osc, label, FindOptions::default());
     let orbit = orbits.iter().rfind(|orbit| orbit.physical).unwrap();
     let from = line.get(osc).unwrap();
     let (range, way) = if to > from { (from..=to, Direction::Up) } else { (to..=from, Direction::Down) };
-    Branch::new(osc, &orbit.cycle, line, range, way, BranchOptions::default()).unwrap().collect()
+    Branch::new(osc, &orbit.cycle, line.clone(), range, way, BranchOptions::default()).unwrap().collect()
 }
 
 fn events(points: &[SolutionPoint]) -> Vec<&SolutionPoint> {
@@ -32,7 +32,7 @@ fn alone(osc: &Oscillator, parameter: Parameter, from: f64, past: f64, near: &Cy
 
 /// How often an event on the line was met again in one of its parameters alone, from a little before it to a little behind:
 /// all of them are, in each.
-fn met_again(osc: &Oscillator, line: ParameterPath, points: &[SolutionPoint]) -> usize {
+fn met_again(osc: &Oscillator, line: &ParameterPath, points: &[SolutionPoint]) -> usize {
     let mut met = 0;
     for (k, event) in points.iter().enumerate() {
         let Some(kind) = event.event.filter(|event| !event.ends()) else { continue };
@@ -77,8 +77,8 @@ fn events_are_those_of_either_parameter() {
         (osc, with(Parameter::Gap, Parameter::Restitution, 0.1), -0.9, 2),
         (damped, with(Parameter::Gap, Parameter::Damping, -0.01), 9.0, 2),
     ] {
-        let points = branch(&osc, Label::new(1, 1), line, to);
-        let met = met_again(&osc, line, &points);
+        let points = branch(&osc, Label::new(1, 1), &line, to);
+        let met = met_again(&osc, &line, &points);
         assert!(
             met >= least,
             "{met} of {:?}",
@@ -93,7 +93,8 @@ fn either_parameter_tells_the_place() {
     let osc = Oscillator::from_inverse_beta(1.0, 1.0, 0.5).unwrap();
     let one = ParameterPath::from(Parameter::InverseBeta).with(Parameter::Gap, 4.0).unwrap();
     let other = ParameterPath::from(Parameter::Gap).with(Parameter::InverseBeta, 0.25).unwrap();
-    let (by_frequency, by_gap) = (branch(&osc, Label::new(1, 1), one, 1.4), branch(&osc, Label::new(1, 1), other, 2.6));
+    let (by_frequency, by_gap) =
+        (branch(&osc, Label::new(1, 1), &one, 1.4), branch(&osc, Label::new(1, 1), &other, 2.6));
     let (a, b) = (events(&by_frequency), events(&by_gap));
     assert!(!a.is_empty() && a.len() == b.len(), "{} and {}", a.len(), b.len());
     for (a, b) in a.iter().zip(b) {
@@ -107,8 +108,8 @@ fn either_parameter_tells_the_place() {
 fn a_rate_of_zero_is_the_parameter_alone() {
     let osc = Oscillator::from_inverse_beta(1.11, 1.5, 0.5).unwrap();
     let level = ParameterPath::from(Parameter::Gap).with(Parameter::Damping, 0.0).unwrap();
-    let alone = branch(&osc, Label::new(1, 1), Parameter::Gap.into(), 2.5);
-    assert_eq!(branch(&osc, Label::new(1, 1), level, 2.5), alone);
+    let alone = branch(&osc, Label::new(1, 1), &Parameter::Gap.into(), 2.5);
+    assert_eq!(branch(&osc, Label::new(1, 1), &level, 2.5), alone);
     assert_eq!(events(&alone).len(), 1);
 }
 
@@ -117,10 +118,10 @@ fn a_rate_of_zero_is_the_parameter_alone() {
 fn a_cycle_that_rests() {
     let osc = Oscillator::from_inverse_beta(1.11, -0.5, 0.5).unwrap();
     let line = ParameterPath::from(Parameter::Gap).with(Parameter::InverseBeta, 0.3).unwrap();
-    let points = branch(&osc, "inf/1".parse().unwrap(), line, -0.2);
+    let points = branch(&osc, "inf/1".parse().unwrap(), &line, -0.2);
     let end = points.last().unwrap();
     let alone = |osc: &Oscillator| {
-        let points = branch(osc, "inf/1".parse().unwrap(), Parameter::Gap.into(), -0.2);
+        let points = branch(osc, "inf/1".parse().unwrap(), &Parameter::Gap.into(), -0.2);
         points.last().unwrap().value
     };
     // in the gap alone, at the frequency the line ends with

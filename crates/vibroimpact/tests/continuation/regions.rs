@@ -38,7 +38,7 @@ struct Case {
 
 impl Case {
     fn at(&self, (p, q): (f64, f64)) -> Oscillator {
-        let (first, second) = self.frame.plane.parameters();
+        let (first, second) = self.frame.plane.parameters().unwrap();
         second.set(&first.set(&self.osc, p).unwrap(), q).unwrap()
     }
 

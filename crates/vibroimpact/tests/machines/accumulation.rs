@@ -4,7 +4,7 @@
 use std::f64::consts::{PI, TAU};
 use vibroimpact::events::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineMotion, MachineStart};
 use vibroimpact::machine::{Machine, MachineParts};
-use vibroimpact::verdict::{Count, MachineVerdict, SettleOptions, settle_machine};
+use vibroimpact::verdict::{Count, SettleOptions, Verdict, settle_machine};
 
 fn events(machine: &Machine, start: &MachineStart, most: usize) -> (Vec<MachineEvent>, Option<MachineEnd>) {
     let mut motion = MachineMotion::new(machine, start, MachineLimits::default()).unwrap();
@@ -124,7 +124,7 @@ fn equal_oscillators_chatter_together() {
     }
 }
 
-fn settled(machine: &Machine, start: &MachineStart) -> MachineVerdict {
+fn settled(machine: &Machine, start: &MachineStart) -> Verdict<Machine> {
     let options = SettleOptions { chaos_over: 0, max_impacts: 4_000, ..SettleOptions::default() };
     settle_machine(machine, start, &options).unwrap().verdict
 }
@@ -133,7 +133,7 @@ fn settled(machine: &Machine, start: &MachineStart) -> MachineVerdict {
 fn equal_oscillators_settle_alike() {
     for restitution in [0.2, 0.35, 0.5, 0.65, 0.8, 0.9] {
         let label = |machine: &Machine| match settled(machine, &MachineStart::default()) {
-            MachineVerdict::Periodic(cycle) => (cycle.label.impacts, cycle.label.periods),
+            Verdict::Periodic(cycle) => (cycle.label.impacts, cycle.label.periods),
             other => panic!("{restitution}: {other:?}"),
         };
         let (one, two) = (label(&copies(&[1.0], restitution)), label(&copies(&[1.0, 1.0], restitution)));
@@ -157,7 +157,7 @@ fn two_balls_chatter_together() {
     }
     let machine = Machine::new(parts).unwrap();
     let start = MachineStart { q: vec![1.0, 1.0], qdot: vec![], ..MachineStart::default() };
-    let MachineVerdict::Periodic(cycle) = settled(&machine, &start) else { panic!("no cycle") };
+    let Verdict::Periodic(cycle) = settled(&machine, &start) else { panic!("no cycle") };
     assert_eq!((cycle.label.impacts, cycle.label.periods), (Count::Infinite, 1));
 }
 
@@ -177,7 +177,7 @@ fn rubbing() -> Machine {
 #[test]
 fn a_chatter_with_friction_is_complete() {
     let machine = rubbing();
-    let MachineVerdict::Periodic(cycle) = settled(&machine, &MachineStart::default()) else { panic!("no cycle") };
+    let Verdict::Periodic(cycle) = settled(&machine, &MachineStart::default()) else { panic!("no cycle") };
     assert_eq!((cycle.label.impacts, cycle.label.periods), (Count::Infinite, 1));
     let release = PI - 0.2_f64.asin();
     let near = |event: &&MachineEvent| (event.phase - release).abs() < 1e-12;
@@ -320,7 +320,7 @@ fn a_press_with_a_guide_is_decided() {
             "{frequency}: {end:?}"
         );
         let verdict = settled(&machine, &MachineStart::default());
-        assert!(!matches!(verdict, MachineVerdict::Undecided { .. }), "{frequency}: {verdict:?}");
+        assert!(!matches!(verdict, Verdict::Undecided(_)), "{frequency}: {verdict:?}");
     }
 }
 

@@ -6,7 +6,7 @@ use vibroimpact::continuation::{
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::orbit::{FindOptions, MachineCycle, find, find_machine_while};
-use vibroimpact::verdict::{MachineVerdict, SettleOptions, Verdict, scattered_machine_starts, settle, settle_machine};
+use vibroimpact::verdict::{SettleOptions, Verdict, scattered_machine_starts, settle, settle_machine};
 use vibroimpact::{Label, Oscillator, Parameter, Side, Start};
 
 pub(crate) fn of(osc: &Oscillator) -> Machine {
@@ -33,9 +33,7 @@ fn the_same_events() {
         let Verdict::Periodic(cycle) = settle(&osc, Start { x, v, phase: 0.0 }, &options).verdict else { panic!() };
         let machine = of(&osc);
         let own = MachineStart { q: vec![x], qdot: vec![v], phase: 0.0, ..MachineStart::default() };
-        let MachineVerdict::Periodic(found) = settle_machine(&machine, &own, &options).unwrap().verdict else {
-            panic!()
-        };
+        let Verdict::Periodic(found) = settle_machine(&machine, &own, &options).unwrap().verdict else { panic!() };
         let range = range.0..=range.1;
         let expected: Vec<_> =
             Branch::new(&osc, &cycle, Parameter::Gap, range.clone(), direction, BranchOptions::default())
@@ -100,7 +98,7 @@ fn simulation_beside_events() {
     for case in 0..7 {
         let machine = random_machine(case, &mut random);
         let settled = settle_machine(&machine, &MachineStart::default(), &options).unwrap();
-        let MachineVerdict::Periodic(found) = settled.verdict else { continue };
+        let Verdict::Periodic(found) = settled.verdict else { continue };
         let limits = BranchOptions { points: 200, ..BranchOptions::default() };
         for (path, range, direction) in
             [("stop.stop.gap", -0.2..=2.0, Direction::Down), ("frequency", 0.35..=1.6, Direction::Up)]
@@ -122,7 +120,8 @@ fn simulation_beside_events() {
                     let mut start = other.cycle.state.clone();
                     start.q[0] += 1e-7;
                     let settled = settle_machine(&there, &start, &options).unwrap();
-                    let same = matches!(&settled.verdict, MachineVerdict::Periodic(cycle) if cycle.same_as(&other.cycle, 1e-6));
+                    let same =
+                        matches!(&settled.verdict, Verdict::Periodic(cycle) if cycle.same_as(&other.cycle, 1e-6));
                     assert_eq!(
                         same,
                         largest < 1.0,
@@ -147,7 +146,7 @@ fn doubled_beside_a_flip() {
     let osc = Oscillator::from_inverse_beta(1.11, 1.5, 0.5).unwrap();
     let machine = of(&osc);
     let settled = settle_machine(&machine, &MachineStart::default(), &SettleOptions::default()).unwrap();
-    let MachineVerdict::Periodic(cycle) = settled.verdict else { panic!() };
+    let Verdict::Periodic(cycle) = settled.verdict else { panic!() };
     let (family, gap) = MachineFamily::of_path(&machine, "stop.stop.gap").unwrap();
     let range = 1.0..=3.0;
     let mut branch =
@@ -220,7 +219,7 @@ fn torus_bifurcations() {
     let (mut found, mut inside, mut outside) = (0, 0, 0);
     for case in [13, 33] {
         let settled = settle_machine(&machines[case], &MachineStart::default(), &options).unwrap();
-        let MachineVerdict::Periodic(cycle) = settled.verdict else { panic!("case {case}") };
+        let Verdict::Periodic(cycle) = settled.verdict else { panic!("case {case}") };
         let (family, value) = MachineFamily::of_path(&machines[case], "frequency").unwrap();
         let branch =
             MachineBranch::new((&family, value), &cycle, &(0.35..=1.8), Direction::Up, BranchOptions::default())
@@ -239,7 +238,7 @@ fn torus_bifurcations() {
                 start.q[0] += 1e-6;
                 let there = family.at(other.value).unwrap();
                 let settled = settle_machine(&there, &start, &options).unwrap().verdict;
-                let same = matches!(&settled, MachineVerdict::Periodic(cycle) if cycle.same_as(&other.cycle, 1e-6));
+                let same = matches!(&settled, Verdict::Periodic(cycle) if cycle.same_as(&other.cycle, 1e-6));
                 assert_eq!(same, other.cycle.stable(), "case {case} at {}: {}", other.value, settled.label());
                 if same { inside += 1 } else { outside += 1 }
             }

@@ -7,11 +7,11 @@ use vibroimpact::events::MachineStart;
 use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::math::Matrix;
 use vibroimpact::orbit::MachineCycle;
-use vibroimpact::verdict::{MachineVerdict, SettleOptions, settle_machine};
+use vibroimpact::verdict::{SettleOptions, Verdict, settle_machine};
 
 fn settled(machine: &Machine, start: &MachineStart) -> Option<MachineCycle> {
     match settle_machine(machine, start, &SettleOptions::default()).unwrap().verdict {
-        MachineVerdict::Periodic(cycle) => Some(cycle),
+        Verdict::Periodic(cycle) => Some(cycle),
         _ => None,
     }
 }

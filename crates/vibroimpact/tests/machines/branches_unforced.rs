@@ -11,7 +11,7 @@ use vibroimpact::events::{MachineLimits, MachineMotion, MachineSamples, MachineS
 use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::orbit::{MachineCycle, find_machine_while};
 use vibroimpact::regime::ContactState;
-use vibroimpact::verdict::{Label, MachineVerdict, scattered_machine_starts};
+use vibroimpact::verdict::{Label, Verdict, scattered_machine_starts};
 
 /// Whether the long run is asked for.
 fn is_long() -> bool {
@@ -86,9 +86,9 @@ fn compared(machine: &Machine, path: &str, points: &[MachinePoint]) -> (u32, u32
         let mut start = cycle.state.clone();
         start.q[1] += 1e-8;
         let found = settled(&there, &start);
-        let same = matches!(&found, MachineVerdict::Periodic(found) if found.same_as(cycle, 1e-6));
+        let same = matches!(&found, Verdict::Periodic(found) if found.same_as(cycle, 1e-6));
         assert_eq!(same, cycle.stable(), "{path} {value}: {} {}", found.label(), cycle.label);
-        if let MachineVerdict::Periodic(found) = &found
+        if let Verdict::Periodic(found) = &found
             && same
         {
             assert!((found.period - cycle.period).abs() < 1e-11 * cycle.period);
@@ -141,7 +141,7 @@ fn the_smallest_period_beyond_a_grazing_contact() {
         assert!((cycle.period - after.period).abs() < 1e-12 * after.period);
         let there = machine.with("stop.stop.gap", *value).unwrap();
         let simulated = settled(&there, &cycle.state);
-        assert!(matches!(simulated, MachineVerdict::Periodic(found) if found.same_as(cycle, 1e-9)), "{value}");
+        assert!(matches!(simulated, Verdict::Periodic(found) if found.same_as(cycle, 1e-9)), "{value}");
     }
 }
 
@@ -264,7 +264,7 @@ fn limit_cycles_with_a_label() {
     assert!(stable.any(|value| (value - unstable).abs() < 1e-10), "{unstable}");
     for cycle in none.iter().chain(&one).filter(|cycle| cycle.stable()) {
         let simulated = settled(&machine, &cycle.state);
-        assert!(matches!(simulated, MachineVerdict::Periodic(found) if found.same_as(cycle, 1e-9)));
+        assert!(matches!(simulated, Verdict::Periodic(found) if found.same_as(cycle, 1e-9)));
     }
 }
 
@@ -308,7 +308,5 @@ fn the_begin_of_a_hold_that_changes_all_that_follows() {
     let before = &points[at - 1];
     // beyond, no motion with these events is left
     let beyond = settled(&machine.with("friction.belt.belt", value + 1e-6).unwrap(), &before.cycle.state);
-    assert!(
-        !matches!(beyond, MachineVerdict::Periodic(found) if (found.period / before.cycle.period - 1.0).abs() < 1e-2)
-    );
+    assert!(!matches!(beyond, Verdict::Periodic(found) if (found.period / before.cycle.period - 1.0).abs() < 1e-2));
 }

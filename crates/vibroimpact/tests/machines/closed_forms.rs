@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 use vibroimpact::continuation::{BranchOptions, Direction, MachineBranch, MachineBranchEvent, MachineFamily};
 use vibroimpact::events::{MachineEvent, MachineEventKind, MachineLimits, MachineMotion, MachineStart};
 use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts, Opening, StopLaw};
-use vibroimpact::verdict::{MachineVerdict, SettleOptions, settle_machine};
+use vibroimpact::verdict::{SettleOptions, Verdict, settle_machine};
 
 fn events(machine: &Machine, start: &MachineStart) -> impl Iterator<Item = MachineEvent> {
     MachineMotion::new(machine, start, MachineLimits::default()).unwrap()
@@ -48,7 +48,7 @@ fn ball_on_a_table() {
                 };
                 let settled = settle_machine(&machine, &start, &SettleOptions::default()).unwrap();
                 match settled.verdict {
-                    MachineVerdict::Periodic(cycle) if cycle.label.to_string() == format!("1/{n}") => Some(cycle),
+                    Verdict::Periodic(cycle) if cycle.label.to_string() == format!("1/{n}") => Some(cycle),
                     _ => None,
                 }
             })
@@ -80,7 +80,7 @@ fn coulomb_friction() {
     let machine = Machine::new(parts).unwrap();
     let start = MachineStart { q: vec![2.5], ..MachineStart::default() };
     let settled = settle_machine(&machine, &start, &SettleOptions::default()).unwrap();
-    let MachineVerdict::Periodic(cycle) = settled.verdict else { panic!("{settled:?}") };
+    let Verdict::Periodic(cycle) = settled.verdict else { panic!("{settled:?}") };
     // it turns round at its largest displacements
     let amplitude = cycle.events.iter().map(|event| event.q[0].abs()).fold(0.0, f64::max);
     assert!((amplitude - 2.626_104_875_723).abs() < 1e-12, "{amplitude}");
@@ -144,11 +144,11 @@ fn quiet_gears() {
             settle_machine(&gears(e), &start, &SettleOptions::default()).unwrap().verdict
         };
         assert!(
-            matches!(settled(limit * (1.0 - 1e-9)), MachineVerdict::Stuck(_)),
+            matches!(settled(limit * (1.0 - 1e-9)), Verdict::Stuck(_)),
             "{d} {:?}",
             settled(limit * (1.0 - 1e-9)).label()
         );
-        assert!(!matches!(settled(limit * (1.0 + 1e-9)), MachineVerdict::Stuck(_)), "{d}");
+        assert!(!matches!(settled(limit * (1.0 + 1e-9)), Verdict::Stuck(_)), "{d}");
     }
 }
 
@@ -205,7 +205,7 @@ fn a_light_impact_damper() {
             let phase = f64::from(k) * PI / 20.0;
             let start = MachineStart { qdot: vec![2.0], phase, ..MachineStart::default() };
             match settle_machine(&machine, &start, &SettleOptions::default()).unwrap().verdict {
-                MachineVerdict::Periodic(cycle) if cycle.label.to_string() == "2/1" => Some(cycle),
+                Verdict::Periodic(cycle) if cycle.label.to_string() == "2/1" => Some(cycle),
                 _ => None,
             }
         })

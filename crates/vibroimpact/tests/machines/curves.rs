@@ -11,15 +11,15 @@ use vibroimpact::continuation::{
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::{Machine, MachineParts};
 use vibroimpact::orbit::{MachineCycle, find_machine_while};
-use vibroimpact::verdict::{MachineVerdict, SettleOptions, Verdict, scattered_machine_starts, settle, settle_machine};
+use vibroimpact::verdict::{SettleOptions, Verdict, scattered_machine_starts, settle, settle_machine};
 use vibroimpact::{Label, Oscillator, Parameter, Start};
 
-fn settled(machine: &Machine, start: &MachineStart) -> MachineVerdict {
+fn settled(machine: &Machine, start: &MachineStart) -> Verdict<Machine> {
     settle_machine(machine, start, &SettleOptions::default()).unwrap().verdict
 }
 
 fn cycle(machine: &Machine, start: &MachineStart) -> MachineCycle {
-    let MachineVerdict::Periodic(cycle) = settled(machine, start) else { panic!("no cycle") };
+    let Verdict::Periodic(cycle) = settled(machine, start) else { panic!("no cycle") };
     cycle
 }
 
@@ -60,7 +60,7 @@ fn ball_on_a_table() {
         let (height, rate) = (between * phase.sin(), between * phase.cos());
         let start = MachineStart { q: vec![height + 1e-9], qdot: vec![rate + PI], phase, ..MachineStart::default() };
         match settled(&machine, &start) {
-            MachineVerdict::Periodic(cycle) if cycle.label.to_string() == "1/1" => Some(cycle),
+            Verdict::Periodic(cycle) if cycle.label.to_string() == "1/1" => Some(cycle),
             _ => None,
         }
     });

@@ -6,7 +6,7 @@ use vibroimpact::verdict::{SettleOptions, settle_machine};
 
 fn label(parts: MachineParts, start: &MachineStart) -> String {
     let machine = Machine::new(parts).unwrap();
-    settle_machine(&machine, start, &SettleOptions::default()).unwrap().verdict.label()
+    settle_machine(&machine, start, &SettleOptions::default()).unwrap().verdict.label().into_owned()
 }
 
 fn from_rest(parts: MachineParts) -> String {
@@ -89,7 +89,7 @@ fn drifts_towards_and_away() {
     let machine = Machine::new(body(1.0)).unwrap();
     let settled =
         settle_machine(&machine, &start, &SettleOptions { max_impacts: 1, ..SettleOptions::default() }).unwrap();
-    assert!(settled.events > 0, "{}", settled.verdict.label());
+    assert!(settled.impacts > 0, "{}", settled.verdict.label());
 }
 
 /// 5. Damping that couples modes which are nearly defective, so that the structure has no modes: the same answer.

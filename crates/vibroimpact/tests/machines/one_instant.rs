@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use vibroimpact::events::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineMotion, MachineStart};
 use vibroimpact::machine::{HarmonicMotion, ImpactLaw, Machine, MachineParts, Opening, StopLaw};
-use vibroimpact::verdict::{MachineVerdict, SettleOptions, settle_machine};
+use vibroimpact::verdict::{SettleOptions, Verdict, settle_machine};
 
 fn events(parts: &MachineParts, start: &MachineStart, count: usize) -> (Vec<MachineEvent>, Option<MachineEnd>) {
     let machine = Machine::new(parts.clone()).unwrap();
@@ -17,7 +17,11 @@ fn start(q: &[f64], qdot: &[f64]) -> MachineStart {
 }
 
 fn label(parts: &MachineParts, start: &MachineStart) -> String {
-    settle_machine(&Machine::new(parts.clone()).unwrap(), start, &SettleOptions::default()).unwrap().verdict.label()
+    settle_machine(&Machine::new(parts.clone()).unwrap(), start, &SettleOptions::default())
+        .unwrap()
+        .verdict
+        .label()
+        .into_owned()
 }
 
 /// Oscillators of mass and stiffness 1 with this damping, driven with amplitude 1.
@@ -235,7 +239,7 @@ fn f42i_an_oscillator_beside_itself() {
     let settle = |parts: &MachineParts| {
         let machine = Machine::new(parts.clone()).unwrap();
         let settled = settle_machine(&machine, &MachineStart::default(), &SettleOptions::default()).unwrap();
-        let MachineVerdict::Periodic(cycle) = settled.verdict else { panic!("periodic") };
+        let Verdict::Periodic(cycle) = settled.verdict else { panic!("periodic") };
         (cycle.label, cycle.multipliers)
     };
     let ((label_one, own), (label_two, all)) = (settle(&one), settle(&two));

@@ -4,11 +4,12 @@ use vibroimpact::events::{MachineLimits, MachineSample, MachineSamples, MachineS
 use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::orbit::MachineCycle;
 use vibroimpact::quantities::{
-    MachinePart, MachineQuantities, MachineQuantity, Quantity, errors_of_verdict, machine_cycle_quantities,
-    machine_quantities, of_verdict,
+    Quantity, errors_of_verdict,
+    machine::{self, Part},
+    machine_cycle_quantities, machine_quantities, of_verdict,
 };
 use vibroimpact::regime::ContactState;
-use vibroimpact::verdict::{MachineVerdict, SettleOptions, Verdict, settle, settle_machine};
+use vibroimpact::verdict::{SettleOptions, Verdict, settle, settle_machine};
 use vibroimpact::{Oscillator, Side, Start};
 
 /// Numbers in [0, 1), the same in every run.
@@ -38,15 +39,14 @@ fn of(osc: &Oscillator) -> Machine {
 }
 
 /// A quantity of the machine of one coordinate as that of the oscillator: what stops do is added up.
-fn as_of_oscillator(machine: &Machine, found: &MachineQuantities, quantity: Quantity) -> Option<f64> {
-    let common = MachineQuantity::Common(quantity);
-    let stops = || (0..machine.stops().len()).map(|j| found.get(MachinePart::Stop(j), common));
+fn as_of_oscillator(machine: &Machine, found: &machine::Quantities, quantity: Quantity) -> Option<f64> {
+    let stops = || (0..machine.stops().len()).map(|j| found.get(Part::Stop(j), quantity));
     Some(match quantity {
         Quantity::ImpactSpeedMean => return None,
         Quantity::ImpulseMax => stops().fold(0.0, f64::max),
         Quantity::ImpulsePerPeriod | Quantity::StickingFraction => stops().sum(),
-        _ if MachinePart::Whole.quantities().contains(&common) => found.get(MachinePart::Whole, common),
-        _ => found.get(MachinePart::Coordinate(0), common),
+        _ if Part::Whole.quantities().contains(&quantity) => found.get(Part::Whole, quantity),
+        _ => found.get(Part::Coordinate(0), quantity),
     })
 }
 
@@ -120,7 +120,7 @@ fn chaos_has_the_quantities_of_the_oscillator_within_error_bars() {
     let machine = of(&osc);
     let expected = settle(&osc, Start::at_rest(&osc), &SettleOptions::default()).verdict;
     let verdict = settle_machine(&machine, &MachineStart::default(), &SettleOptions::default()).unwrap().verdict;
-    assert!(matches!(verdict, MachineVerdict::Chaotic { .. }), "{}", verdict.label());
+    assert!(matches!(verdict, Verdict::Chaotic(_)), "{}", verdict.label());
     let (want, errors) = (of_verdict(&osc, &expected).unwrap(), errors_of_verdict(&osc, &expected).unwrap());
     let found = machine_quantities(&machine, &verdict).unwrap();
     let mut compared = 0;
@@ -133,7 +133,7 @@ fn chaos_has_the_quantities_of_the_oscillator_within_error_bars() {
         assert!((value - want).abs() <= 2.0 * errors.get(quantity) + 1e-12, "{quantity:?} {value} {want}");
         compared += 1;
     }
-    let power = found.measured(MachinePart::Whole, MachineQuantity::Common(Quantity::Power));
+    let power = found.measured(Part::Whole, Quantity::Power);
     let ratio = power.error / errors.get(Quantity::Power);
     assert!(compared > 12 && (0.3..3.0).contains(&ratio), "{compared} {ratio}");
 }
@@ -354,12 +354,12 @@ fn by_waveform(machine: &Machine, cycle: &MachineCycle) -> Vec<(String, f64)> {
 fn settled(machine: &Machine) -> Option<MachineCycle> {
     let options = SettleOptions { chaos_over: 0, max_impacts: 1_500, ..SettleOptions::default() };
     match settle_machine(machine, &MachineStart::default(), &options).ok()?.verdict {
-        MachineVerdict::Periodic(cycle) => Some(cycle),
+        Verdict::Periodic(cycle) => Some(cycle),
         _ => None,
     }
 }
 
-fn number(machine: &Machine, found: &MachineQuantities, path: &str) -> f64 {
+fn number(machine: &Machine, found: &machine::Quantities, path: &str) -> f64 {
     found.value(machine, path).unwrap()
 }
 

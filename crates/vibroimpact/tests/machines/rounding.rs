@@ -3,7 +3,7 @@
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts};
 use vibroimpact::orbit::{Count, Label, find_machine_while};
-use vibroimpact::verdict::{MachineUndecided, MachineVerdict, SettleOptions, settle_machine};
+use vibroimpact::verdict::{SettleOptions, Undecided, UndecidedCause, Verdict, settle_machine};
 
 fn ball(amplitude: f64, restitution: f64) -> Machine {
     let mut parts = MachineParts::new(["ball"])
@@ -15,7 +15,7 @@ fn ball(amplitude: f64, restitution: f64) -> Machine {
     Machine::new(parts).unwrap()
 }
 
-fn settled(machine: &Machine, q: f64, qdot: f64) -> MachineVerdict {
+fn settled(machine: &Machine, q: f64, qdot: f64) -> Verdict<Machine> {
     let start = MachineStart { q: vec![q], qdot: vec![qdot], phase: 0.0, ..MachineStart::default() };
     settle_machine(machine, &start, &SettleOptions::default()).unwrap().verdict
 }
@@ -25,12 +25,12 @@ fn settled(machine: &Machine, q: f64, qdot: f64) -> MachineVerdict {
 fn long_ways_from_a_release_to_a_rest() {
     for amplitude in [1.72, 5.0] {
         let verdict = settled(&ball(amplitude, 0.5), 3.0, 1.0);
-        let MachineVerdict::Undecided { why, .. } = verdict else { panic!("{amplitude}: {}", verdict.label()) };
-        assert_eq!(why, MachineUndecided::Unconfirmed, "{amplitude}");
+        let Verdict::Undecided(Undecided { why, .. }) = verdict else { panic!("{amplitude}: {}", verdict.label()) };
+        assert_eq!(why, UndecidedCause::Unconfirmed, "{amplitude}");
         // whatever the start
         for (q, qdot) in [(7.0, 0.0), (5.5, -0.3)] {
             let verdict = settled(&ball(amplitude, 0.5), q, qdot);
-            assert!(!matches!(verdict, MachineVerdict::Periodic(_)), "{amplitude} {q}: {}", verdict.label());
+            assert!(!matches!(verdict, Verdict::Periodic(_)), "{amplitude} {q}: {}", verdict.label());
         }
     }
 }

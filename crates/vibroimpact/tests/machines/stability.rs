@@ -6,10 +6,10 @@ use vibroimpact::events::MachineStart;
 use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::orbit::{MachineCycle, find_machine_while};
 use vibroimpact::verdict::{
-    Census, MachineVerdict, SettleOptions, Stability, SteadyMotion, scattered_machine_starts, settle_machine,
+    Census, Chaos, SettleOptions, Stability, Verdict, scattered_machine_starts, settle_machine,
 };
 
-fn settled(machine: &Machine, start: &MachineStart) -> MachineVerdict {
+fn settled(machine: &Machine, start: &MachineStart) -> Verdict<Machine> {
     settle_machine(machine, start, &SettleOptions::default()).unwrap().verdict
 }
 
@@ -37,7 +37,7 @@ fn on_orbit(eps: f64) -> MachineStart {
 fn an_elliptic_family_is_neutral_and_has_no_events() {
     let flip = 1.0 / (PI * PI - 1.0);
     for eps in [1e-3, 0.01, 0.05, 0.1, 0.11] {
-        let MachineVerdict::Periodic(cycle) = settled(&fermi(eps), &on_orbit(eps)) else { panic!("{eps}") };
+        let Verdict::Periodic(cycle) = settled(&fermi(eps), &on_orbit(eps)) else { panic!("{eps}") };
         assert_eq!((cycle.label.to_string().as_str(), cycle.stability()), ("2/1", Stability::Neutral), "{eps}");
         assert!(!cycle.stable());
         let trace: f64 = cycle.multipliers.iter().map(|one| one.re).sum();
@@ -45,7 +45,7 @@ fn an_elliptic_family_is_neutral_and_has_no_events() {
         assert!(cycle.events.iter().any(|event| event.place == 1 && (event.phase - FRAC_PI_2).abs() < 1e-9));
     }
     let family = MachineFamily::new(|eps| (eps > 0.0).then(|| fermi(eps)));
-    let MachineVerdict::Periodic(cycle) = settled(&fermi(0.05), &on_orbit(0.05)) else { panic!() };
+    let Verdict::Periodic(cycle) = settled(&fermi(0.05), &on_orbit(0.05)) else { panic!() };
     let branch = |range: core::ops::RangeInclusive<f64>, direction| {
         MachineBranch::new((&family, 0.05), &cycle, &range, direction, BranchOptions::default()).unwrap()
     };
@@ -154,7 +154,7 @@ fn motions_without_events_have_a_stability() {
     let rest = |parts: MachineParts| {
         let machine = Machine::new(parts).unwrap();
         let verdict = settled(&machine, &MachineStart::default());
-        assert!(matches!(verdict, MachineVerdict::NoImpact(_)), "{}", verdict.label());
+        assert!(matches!(verdict, Verdict::NoImpact(_)), "{}", verdict.label());
         verdict.stability(&machine)
     };
     assert_eq!(rest(parts(0.1)), Some(Stability::Stable));
@@ -191,7 +191,7 @@ fn rests_on_different_stops() {
     };
     for (slider, stop) in [(3.0, 0), (2.0, 0), (-3.0, 1), (-2.0, 1), (2.5, 0)] {
         let verdict = from(slider, 0.3);
-        assert_eq!((verdict.label().as_str(), verdict.closed()), ("stuck", vec![stop]), "{slider}");
+        assert_eq!((&*verdict.label(), verdict.closed()), ("stuck", vec![stop]), "{slider}");
         census.add(&verdict);
     }
     let counts: Vec<u64> = census.motions().iter().map(|found| found.count).collect();
@@ -208,7 +208,7 @@ fn cycles_beside_a_joint_that_holds() {
     for (slider, stop) in [(1.0, 0), (1.02, 0), (-1.0, 1)] {
         let start = MachineStart { q: vec![slider, 0.0], qdot: vec![0.0; 2], phase: 0.0, ..MachineStart::default() };
         let verdict = settled(&machine, &start);
-        let MachineVerdict::Periodic(cycle) = verdict else { panic!("{slider} {verdict:?}") };
+        let Verdict::Periodic(cycle) = verdict else { panic!("{slider} {verdict:?}") };
         assert_eq!(cycle.stability(), Stability::Neutral, "{:?}", cycle.multipliers);
         assert!(cycle.events.iter().all(|event| event.place == stop && (event.q[0] - slider).abs() < 1e-12));
         let one = cycle.multipliers.iter().filter(|m| (m.re - 1.0).abs() < 1e-12 && m.im == 0.0).count();
@@ -237,7 +237,7 @@ fn contacts_with_different_compliant_stops() {
         )
     };
     let (right, left) = (from(3.0), from(-3.0));
-    assert_eq!((right.label().as_str(), right.closed(), left.closed()), ("0", vec![0], vec![1]));
+    assert_eq!((&*right.label(), right.closed(), left.closed()), ("0", vec![0], vec![1]));
     assert!(!right.same_as(&left, 1.0) && right.same_as(&from(2.8), 1.0));
 }
 
@@ -292,14 +292,14 @@ fn chaos_lasts_as_long_as_the_budget() {
     });
     let long = |start: &MachineStart| {
         let whole = settled(start, 20_000);
-        (whole.verdict.label() == "9/4" && whole.events > 4_000).then_some(whole)
+        (whole.verdict.label() == "9/4" && whole.impacts > 4_000).then_some(whole)
     };
     let (start, whole) = starts.into_iter().find_map(|start| long(&start).map(|whole| (start, whole))).unwrap();
     // it ends within the default budget
-    assert!(whole.transient.is_some_and(|chaos| chaos.exponents[0].value > 0.0));
-    let budget = whole.events / 2;
+    assert!(whole.transient.is_some_and(|chaos| chaos.spectrum.exponents[0].value > 0.0));
+    let budget = whole.impacts / 2;
     let short = settled(&start, budget);
-    let MachineVerdict::Chaotic { events, .. } = &short.verdict else { panic!("{}", short.verdict.label()) };
-    assert!(*events >= budget && short.events == *events && short.verdict.seen_events() == Some(*events));
+    let Verdict::Chaotic(Chaos { impacts: events, .. }) = &short.verdict else { panic!("{}", short.verdict.label()) };
+    assert!(*events >= budget && short.impacts == *events && short.verdict.seen_events() == Some(*events));
     assert_eq!(short.verdict.stability(&machine), Some(Stability::Unstable));
 }

@@ -9,7 +9,7 @@ use vibroimpact::continuation::{
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::{Machine, MachineParts};
 use vibroimpact::orbit::MachineCycle;
-use vibroimpact::verdict::{MachineVerdict, SettleOptions, settle_machine};
+use vibroimpact::verdict::{SettleOptions, Verdict, settle_machine};
 
 /// An oscillator with dry friction (J. P. Den Hartog, Trans. ASME 53 (1931) 107-115).
 pub(crate) fn den_hartog(beta: f64, friction: f64) -> Machine {
@@ -24,7 +24,7 @@ pub(crate) fn den_hartog(beta: f64, friction: f64) -> Machine {
 
 fn settled(machine: &Machine, start: &MachineStart) -> MachineCycle {
     let verdict = settle_machine(machine, start, &SettleOptions::default()).unwrap().verdict;
-    let MachineVerdict::Periodic(cycle) = verdict else { panic!("{}", verdict.label()) };
+    let Verdict::Periodic(cycle) = verdict else { panic!("{}", verdict.label()) };
     cycle
 }
 

@@ -7,7 +7,7 @@ use vibroimpact::continuation::{
 };
 use vibroimpact::events::MachineStart;
 use vibroimpact::orbit::one_impact;
-use vibroimpact::verdict::{MachineVerdict, SettleOptions, Verdict, settle, settle_unreduced};
+use vibroimpact::verdict::{SettleOptions, Verdict, settle, settle_unreduced};
 use vibroimpact::{Oscillator, Parameter, Start};
 
 /// How far the gap is changed.
@@ -43,8 +43,7 @@ fn the_same_branches() {
     for (place, system) in some().enumerate() {
         let machine = system.machine();
         let Verdict::Periodic(cycle) = settle(&system.oscillator, system.start, &options).verdict else { continue };
-        let MachineVerdict::Periodic(found) =
-            settle_unreduced(&machine, &system.machine_start(), &options).unwrap().verdict
+        let Verdict::Periodic(found) = settle_unreduced(&machine, &system.machine_start(), &options).unwrap().verdict
         else {
             continue;
         };
@@ -60,7 +59,7 @@ fn the_same_branches() {
         };
         let own: Vec<_> = own.collect();
         let (family, value) = MachineFamily::of_path(&machine, "stop.upper.gap").unwrap();
-        let other = match MachineBranch::new((&family, value), &found, &range, direction, branch) {
+        let other = match MachineBranch::unreduced((&family, value), &found, &range, direction, branch) {
             Ok(other) => other.collect::<Vec<_>>(),
             Err(error) => {
                 differ.push(format!("{} {}: {error:?}", system.text, cycle.label));
@@ -92,8 +91,7 @@ fn a_halving_is_the_flip_of_the_half() {
     let system = System { oscillator, start: Start::at_rest(&oscillator), text: String::new() };
     let machine = system.machine();
     let options = SettleOptions::default();
-    let MachineVerdict::Periodic(cycle) =
-        settle_unreduced(&machine, &system.machine_start(), &options).unwrap().verdict
+    let Verdict::Periodic(cycle) = settle_unreduced(&machine, &system.machine_start(), &options).unwrap().verdict
     else {
         panic!()
     };
@@ -101,7 +99,7 @@ fn a_halving_is_the_flip_of_the_half() {
     let (family, value) = MachineFamily::of_path(&machine, "stop.upper.gap").unwrap();
     let branch = BranchOptions::default();
     let found = [Direction::Up, Direction::Down].into_iter().find_map(|direction| {
-        let points = MachineBranch::new((&family, value), &cycle, &(1.6..=2.2), direction, branch).unwrap();
+        let points = MachineBranch::unreduced((&family, value), &cycle, &(1.6..=2.2), direction, branch).unwrap();
         points.last().filter(|point| point.event == Some(MachineBranchEvent::Halving))
     });
     let halving = found.unwrap();
@@ -136,9 +134,9 @@ fn a_chatter_begins_and_ends_at_its_limit() {
     {
         let machine = at(from).machine();
         let settled = settle_unreduced(&machine, &at(from).machine_start(), &SettleOptions::default()).unwrap();
-        let MachineVerdict::Periodic(cycle) = settled.verdict else { panic!("{}", settled.verdict.label()) };
+        let Verdict::Periodic(cycle) = settled.verdict else { panic!("{}", settled.verdict.label()) };
         let (family, value) = MachineFamily::of_path(&machine, "stop.upper.gap").unwrap();
-        let branch = MachineBranch::new((&family, value), &cycle, &(0.95..=1.0), direction, options).unwrap();
+        let branch = MachineBranch::unreduced((&family, value), &cycle, &(0.95..=1.0), direction, options).unwrap();
         let events: Vec<(MachineBranchEvent, f64)> =
             branch.filter_map(|point| point.event.map(|event| (event, point.value))).collect();
         let limit = |event: &(MachineBranchEvent, f64)| matches!(event.0, MachineBranchEvent::Sticking { .. });
@@ -162,15 +160,16 @@ fn a_curve_of_complete_chatters() {
     let make = move |gap: f64, e: f64| Some(of(gap, e)?.machine());
     let machine = make(1.0, 0.35).unwrap();
     let settled = settle_unreduced(&machine, &MachineStart::default(), &SettleOptions::default()).unwrap();
-    let MachineVerdict::Periodic(cycle) = settled.verdict else { panic!("{}", settled.verdict.label()) };
+    let Verdict::Periodic(cycle) = settled.verdict else { panic!("{}", settled.verdict.label()) };
     let (family, value) = MachineFamily::of_path(&machine, "stop.upper.gap").unwrap();
     let options = BranchOptions::default();
-    let mut branch = MachineBranch::new((&family, value), &cycle, &(0.95..=1.0), Direction::Down, options).unwrap();
+    let mut branch =
+        MachineBranch::unreduced((&family, value), &cycle, &(0.95..=1.0), Direction::Down, options).unwrap();
     let limit = |point: &MachinePoint| matches!(point.event, Some(MachineBranchEvent::Sticking { .. }));
     let point = branch.find(limit).unwrap();
     let plane = MachinePlane::new(make, (0.5..=1.5, 0.05..=0.9));
     let options = CurveOptions { longest: 0.1, points: 400 };
-    let [forth, back] = MachineCurve::through(&plane, (point.value, 0.35), &point, options).unwrap();
+    let [forth, back] = MachineCurve::unreduced(&plane, (point.value, 0.35), &point, options).unwrap();
     assert_eq!(forth.kind(), CurveKind::Sticking { stop: 0 });
     let (forth, back): (Vec<_>, Vec<_>) = (forth.collect(), back.collect());
     let ends: Vec<f64> = [&forth, &back].map(|points| points.last().unwrap().values.1).to_vec();

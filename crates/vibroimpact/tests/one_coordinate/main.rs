@@ -6,6 +6,7 @@
 mod branches;
 mod events;
 mod reduced;
+mod reduced_branches;
 mod verdicts;
 
 use vibroimpact::events::MachineStart;
@@ -56,6 +57,7 @@ impl Random {
     }
 }
 
+#[derive(Clone)]
 struct System {
     oscillator: Oscillator,
     start: Start,

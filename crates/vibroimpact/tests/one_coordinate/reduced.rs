@@ -2,12 +2,13 @@
 
 use crate::verdicts::beside;
 use crate::{System, some, systems};
+use std::borrow::Cow;
 use vibroimpact::events::{MachineEventKind, MachineLimits, MachineMotion, MachineStart};
 use vibroimpact::lanes::Width;
 use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::motion::{EventKind, Motion};
 use vibroimpact::verdict::{
-    KnownMotions, MachineVerdict, NoImpact, SettleOptions, Verdict, settle, settle_each_machine, settle_machine,
+    Chaos, KnownMotions, NoImpact, SettleOptions, Verdict, settle, settle_each_machine, settle_machine,
     settle_machine_many, settle_unreduced,
 };
 use vibroimpact::{Oscillator, Side, Start, scenario};
@@ -219,7 +220,7 @@ fn compare(machine: &Machine, start: &MachineStart) -> Result<(String, String), 
     let found = settle_machine(machine, start, &options).unwrap().verdict;
     let own = settle_unreduced(machine, start, &options).unwrap().verdict;
     match (&found, &own) {
-        (MachineVerdict::Periodic(a), MachineVerdict::Periodic(b)) if a.label == b.label => {
+        (Verdict::Periodic(a), Verdict::Periodic(b)) if a.label == b.label => {
             let within = if a.counts.iter().sum::<u32>() > 0 && a.events.len() > 40 { 1e-6 } else { 1e-8 };
             if !near(a.fastest() / b.fastest(), 1.0, within) || a.counts != b.counts || !near(a.period, b.period, 1e-13)
             {
@@ -231,8 +232,8 @@ fn compare(machine: &Machine, start: &MachineStart) -> Result<(String, String), 
                 }
             }
         }
-        (MachineVerdict::Chaotic { spectrum: a, .. }, MachineVerdict::Chaotic { spectrum: b, .. }) => {
-            let closings = (&a.closings, &b.closings);
+        (Verdict::Chaotic(Chaos { spectrum: a, .. }), Verdict::Chaotic(Chaos { spectrum: b, .. })) => {
+            let closings = (&a.impact_rate, &b.impact_rate);
             for (one, two) in a.exponents.iter().zip(&b.exponents).chain([closings]) {
                 if (one.value - two.value).abs() > 2.0 * (one.error + two.error) {
                     return Err(format!("{one:?} and {two:?}"));
@@ -241,7 +242,7 @@ fn compare(machine: &Machine, start: &MachineStart) -> Result<(String, String), 
         }
         _ => {}
     }
-    Ok((found.label(), own.label()))
+    Ok((found.label().into_owned(), own.label().into_owned()))
 }
 
 /// The paper's points in any dress, from rest and elsewhere: with and without the reduction the same motions.
@@ -291,19 +292,19 @@ fn the_oscillators_verdicts() {
         let expected = settle(&oscillator, start, &options);
         let found = settle_machine(&system.machine(), &system.machine_start(), &options).unwrap();
         match (&expected.verdict, &found.verdict) {
-            (Verdict::Periodic(a), MachineVerdict::Periodic(b)) => {
+            (Verdict::Periodic(a), Verdict::Periodic(b)) => {
                 assert_eq!(a.label, b.label, "{}", system.text);
                 // the sum of a chatter has an error, which the motion after it enlarges
                 let within = if a.rests.is_empty() { 1e-12 } else { 1e-7 };
                 assert!(near(a.fastest(), b.fastest(), within), "{} {} {}", system.text, a.fastest(), b.fastest());
             }
-            (Verdict::Chaotic(a), MachineVerdict::Chaotic { spectrum, .. }) => {
+            (Verdict::Chaotic(a), Verdict::Chaotic(Chaos { spectrum, .. })) => {
                 assert_eq!(a.spectrum.exponents[..], spectrum.exponents[..], "{}", system.text);
             }
             _ => continue,
         }
         converted += 1;
-        assert_eq!((expected.impacts, expected.time), (found.events, found.time), "{}", system.text);
+        assert_eq!((expected.impacts, expected.time), (found.impacts, found.time), "{}", system.text);
     }
     assert!(converted > 30, "{converted}");
 }
@@ -349,7 +350,7 @@ fn a_basin() {
         let found = settle_machine_many(&machine, starts, known, &options, width, &|| true, &|| false).unwrap();
         let counted: u64 = found.motions.iter().map(|motion| motion.count).sum();
         assert_eq!((counted, found.seen.len()), (starts.len() as u64, starts.len()));
-        found.cells.iter().map(|cell| found.motions[cell.unwrap() as usize].verdict.label()).collect()
+        found.cells.iter().map(|cell| found.motions[cell.unwrap() as usize].verdict.label().into_owned()).collect()
     };
     let all = labels(&starts, &known, Width::best());
     assert_eq!(all.iter().filter(|label| *label == "1/1").count(), 1595);
@@ -384,7 +385,7 @@ fn many_machines() {
         }
         problems.push((machine, starts));
     }
-    let alone: Vec<Vec<Option<String>>> = problems
+    let alone: Vec<Vec<Option<Cow<'_, str>>>> = problems
         .iter()
         .map(|(machine, starts)| {
             let one = |start| settle_machine(machine, start, &options).ok().map(|found| found.verdict.label());

@@ -2,7 +2,7 @@
 
 use crate::{System, is_long, some};
 use vibroimpact::Start;
-use vibroimpact::verdict::{MachineVerdict, NoImpact, SettleOptions, Verdict, settle, settle_unreduced};
+use vibroimpact::verdict::{Chaos, NoImpact, SettleOptions, Verdict, settle, settle_unreduced};
 
 /// The labels of the motions of the oscillator from starts with a velocity that is wrong by up to 100 roundings.
 pub(crate) fn beside<'a>(system: &'a System, options: &'a SettleOptions) -> impl Iterator<Item = String> + 'a {
@@ -28,7 +28,7 @@ fn the_same_motions() {
         let mut fault =
             |what: String| differ.push(format!("{}: {} {}: {what}", system.text, expected.label(), found.label()));
         match (&expected, &found) {
-            (Verdict::Periodic(a), MachineVerdict::Periodic(b)) if a.label == b.label => {
+            (Verdict::Periodic(a), Verdict::Periodic(b)) if a.label == b.label => {
                 periodic += 1;
                 // the sum of a chatter has an error of 1e-10 of its duration, which the motion after it enlarges
                 let within = if a.rests.is_empty() { 1e-9 } else { 1e-7 };
@@ -43,7 +43,7 @@ fn the_same_motions() {
                     }
                 }
             }
-            (Verdict::Chaotic(a), MachineVerdict::Chaotic { spectrum, .. }) => {
+            (Verdict::Chaotic(a), Verdict::Chaotic(Chaos { spectrum, .. })) => {
                 chaotic += 1;
                 let (a, b) = (a.spectrum.exponents[0], spectrum.exponents[0]);
                 // three standard errors of each, over different lengths
@@ -53,8 +53,9 @@ fn the_same_motions() {
             }
             _ if expected.label() == found.label() => others += 1,
             // after a long flight without impact the oscillator claims nothing beyond
-            (Verdict::NoImpact(NoImpact::ForPeriods(_)) | Verdict::Undecided(_), _)
-            | (_, MachineVerdict::Undecided { .. }) => undecided += 1,
+            (Verdict::NoImpact(NoImpact::ForPeriods(_)) | Verdict::Undecided(_), _) | (_, Verdict::Undecided(_)) => {
+                undecided += 1;
+            }
             _ if beside(&system, &options).any(|label| label == found.label()) => sensitive += 1,
             _ => fault("labels".to_owned()),
         }

@@ -172,6 +172,7 @@ fn unit(machine: &Machine, key: &str) -> Option<f64> {
                 QuantityKind::Acceleration => velocity / time,
                 QuantityKind::Impulse => mass * velocity,
                 QuantityKind::Energy => mass * velocity * velocity,
+                QuantityKind::Force => mass * velocity / time,
                 QuantityKind::Power => mass * velocity * velocity / time,
                 QuantityKind::Rate => 1.0 / time,
             }

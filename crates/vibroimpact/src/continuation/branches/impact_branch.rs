@@ -69,7 +69,7 @@ impl ImpactBranch {
         direction: Direction,
         options: BranchOptions,
     ) -> Result<Self, BranchError> {
-        let value = place(osc, varying)?;
+        let value = place(osc, &varying)?;
         let ring = Ring::of(osc, cycle).ok_or(BranchError::Rests)?;
         if ring.len() == 0 && osc.damping() == 0.0 {
             return Err(BranchError::Undamped);
@@ -138,7 +138,7 @@ fn trace(
 }
 
 /// The value of the parameter, or the place on the line through two parameters, that belongs to an oscillator.
-pub(crate) fn place(osc: &Oscillator, varying: ParameterPath) -> Result<f64, BranchError> {
+pub(crate) fn place(osc: &Oscillator, varying: &ParameterPath) -> Result<f64, BranchError> {
     varying.get(osc).map_err(|error| match error {
         SystemError::NoSecondStop(name) => BranchError::NoSuchParameter(name),
         _ => BranchError::NoCycle,

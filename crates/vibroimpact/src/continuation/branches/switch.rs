@@ -31,7 +31,7 @@ impl Branch {
             return Err(BranchError::NotThere);
         }
         let varying = varying.into();
-        let (osc, ring, flights) = solved(osc, flip, varying)?;
+        let (osc, ring, flights) = solved(osc, flip, &varying)?;
         let once = carried(&osc, &ring, &flights, -1.0).ok_or(BranchError::NoCycle)?;
         let direction: Vec<f64> = once.iter().copied().chain(once.iter().map(|d| -d)).collect();
         leave(&osc, &ring.repeated(2), (varying, flip.value), range, direction, options)
@@ -53,11 +53,11 @@ impl Branch {
             return Err(BranchError::NotThere);
         }
         let varying = varying.into();
-        let (osc, ring, flights) = solved(osc, point, varying)?;
+        let (osc, ring, flights) = solved(osc, point, &varying)?;
         let direction = carried(&osc, &ring, &flights, 1.0).ok_or(BranchError::NoCycle)?;
         let back: Vec<f64> = direction.iter().map(|d| -d).collect();
-        let at = (varying, point.value);
-        Ok([leave(&osc, &ring, at, range.clone(), direction, options)?, leave(&osc, &ring, at, range, back, options)?])
+        let leaving = |direction| leave(&osc, &ring, (varying.clone(), point.value), range.clone(), direction, options);
+        Ok([leaving(direction)?, leaving(back)?])
     }
 }
 
@@ -65,7 +65,7 @@ impl Branch {
 fn solved(
     osc: &Oscillator,
     point: &SolutionPoint,
-    varying: ParameterPath,
+    varying: &ParameterPath,
 ) -> Result<(Oscillator, Ring, Vec<Block>), BranchError> {
     let osc = varying.set(osc, point.value).map_err(|_| BranchError::NoCycle)?;
     let ring = Ring::of(&osc, &point.cycle).ok_or(BranchError::Rests)?;

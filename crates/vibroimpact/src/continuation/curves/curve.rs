@@ -76,8 +76,8 @@ impl Path for ConditionPath {
 
 impl Curve {
     /// The two directions along the curve through an event of a branch of `osc` in `parameter`: a fold, a flip, a
-    /// grazing event or a loss of contact. `parameter` need not be one of those of `frame`. In a plane of machines it is
-    /// the line of that machine along which the branch was followed.
+    /// grazing event or a loss of contact. `parameter` need not be one of those of `frame`. The plane of a family must
+    /// have been given at the event.
     ///
     /// # Errors
     /// [`BranchError::NotThere`] for another event, [`BranchError::OutOfRange`] if the point lies outside the frame,
@@ -89,7 +89,7 @@ impl Curve {
         frame: &Frame,
         options: CurveOptions,
     ) -> Result<[Self; 2], BranchError> {
-        let (osc, (p, q)) = frame.plane.on_line(osc, parameter.into(), point.value).map_err(|error| match error {
+        let (osc, (p, q)) = frame.plane.on_line(osc, &parameter.into(), point.value).map_err(|error| match error {
             SystemError::NoSecondStop(name) => BranchError::NoSuchParameter(name),
             _ => BranchError::NoCycle,
         })?;
@@ -120,7 +120,7 @@ impl Curve {
             Condition::MinusOne => (CurveKind::Flip, None),
             _ => (CurveKind::Fold, None),
         };
-        let plane = Plane::new(&osc, frame.plane, frame.scales(), &ring, condition);
+        let plane = Plane::new(&osc, frame.plane.clone(), frame.scales(), &ring, condition);
         let mut watched: Vec<Condition> = frame.edges().to_vec();
         for k in 0..ring.len() {
             if grazing != Some(k) {

@@ -117,12 +117,11 @@ pub(crate) fn reason(tracer: &PlaneTracer, kind: CurveKind, trail: &Trail) -> Op
     let whole = turns.round();
     if m == 1 && osc.damping() == 0.0 && (turns - whole).abs() < NEAR {
         let n = f64::from(ring.periods);
-        if plane.over.is_of_machines() {
+        let Some((first, second)) = plane.over.parameters() else {
             return Some((solution(at_frequency(plane, here, n / whole)?), CurveEvent::WholePeriods));
-        }
+        };
         let mut w = here.w.clone();
         let (p, q) = (w.len() - 2, w.len() - 1);
-        let (first, second) = plane.over.parameters();
         for (at, parameter) in [(p, first), (q, second)] {
             let exact = match parameter {
                 Parameter::Beta => n / whole,
@@ -163,9 +162,11 @@ fn at_frequency(plane: &Plane, here: &PlaneSolution, beta: f64) -> Option<Vec<f6
 fn unbounded(tracer: &PlaneTracer, ring: &Ring) -> Option<Vec<f64>> {
     let (w, along) = (&tracer.here.w, &tracer.here.tangent);
     let (p, q) = (w.len() - 2, w.len() - 1);
-    let (eps, other) = match tracer.problem.plane.over.parameters() {
-        (Parameter::Restitution, _) => (p, q),
-        (_, Parameter::Restitution) => (q, p),
+    let rates = tracer.problem.plane.over.rates((w[p], w[q])).ok()?;
+    let is_restitution = |of: &[(Parameter, f64)]| matches!(of, [(Parameter::Restitution, rate)] if *rate == 1.0);
+    let (eps, other) = match rates.each_ref().map(|of| is_restitution(of)) {
+        [true, _] => (p, q),
+        [_, true] => (q, p),
         _ => return None,
     };
     let (osc, _) = tracer.problem.plane.split(w)?;

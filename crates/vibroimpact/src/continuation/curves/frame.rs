@@ -2,7 +2,7 @@
 
 use crate::continuation::branches::{BranchError, scale};
 use crate::continuation::equations::plane_equations::Condition;
-use crate::system::ParameterPlane;
+use crate::system::{Oscillator, ParameterPlane};
 use core::ops::RangeInclusive;
 
 /// The ranges of two numbers.
@@ -63,7 +63,7 @@ impl Frame {
             let by = share * (r.end() - r.start());
             r.start() + by..=r.end() - by
         };
-        Self { plane: self.plane, ranges: (shrink(&self.ranges.0), shrink(&self.ranges.1)) }
+        Self { plane: self.plane.clone(), ranges: (shrink(&self.ranges.0), shrink(&self.ranges.1)) }
     }
 
     /// The point `(i, j)` of a grid over the frame; no point lies on its edge.
@@ -74,11 +74,21 @@ impl Frame {
         (at(&self.ranges.0, i, columns), at(&self.ranges.1, j, rows))
     }
 
+    /// Whether a condition holds wherever the plane has an oscillator, by some points inside the frame.
+    #[must_use]
+    pub fn everywhere(&self, osc: &Oscillator, holds: impl Fn(&Oscillator) -> bool) -> bool {
+        let at = |k: u32| self.node((k % SAMPLES, k / SAMPLES), (SAMPLES, SAMPLES));
+        (0..SAMPLES * SAMPLES).filter_map(|k| self.plane.set(osc, at(k)).ok()).all(|osc| holds(&osc))
+    }
+
     /// Whether the frame contains a point.
     pub(crate) fn holds(&self, (p, q): (f64, f64)) -> bool {
         self.ranges.0.contains(&p) && self.ranges.1.contains(&q)
     }
 }
+
+/// The points at which a condition is checked, along each side of the frame.
+const SAMPLES: u32 = 3;
 
 /// A power of two, so that multiplication by it is exact: 1 for a scale that is not small, otherwise the smallest with
 /// which the product is not small.

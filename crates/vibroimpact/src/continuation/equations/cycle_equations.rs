@@ -28,7 +28,7 @@ impl CycleEquations {
 
     /// The equations for the signature of another `ring`.
     pub(crate) fn with(&self, ring: &Ring) -> Self {
-        Self::new(&self.osc, self.varying, ring, self.scale)
+        Self::new(&self.osc, self.varying.clone(), ring, self.scale)
     }
 
     /// The number of impacts.
@@ -83,7 +83,7 @@ impl Equations for CycleEquations {
 
     fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
         let (osc, ring, flights) = self.flights(w)?;
-        let rates: Vec<_> = self.varying.rates(*w.last()?).ok()?.collect();
+        let rates = self.varying.rates(*w.last()?).ok()?;
         let rows = slopes(&osc, &ring, &flights, &[rates])?;
         Some((flights.iter().flat_map(|b| b.miss).collect(), rows))
     }

@@ -5,9 +5,16 @@
 //! |---|---|
 //! | the branch of a cycle in one number of a machine | `branches` |
 //! | the curve of an event in a plane of two numbers | `curves` |
+//! | both, of a machine that is an oscillator those of the oscillator | [`MachineBranch`], [`MachineCurve`] |
+//! | the plane of these oscillators, for curves and regions | [`MachinePlane::reduced`] |
 
 mod branches;
 mod curves;
+mod reduced_branch;
+mod reduced_curve;
+mod reduced_plane;
 
-pub use branches::{MachineBranch, MachineBranchEvent, MachineFamily, MachinePoint};
-pub use curves::{MachineCurve, MachineCurvePoint, MachinePlane};
+pub use branches::{MachineBranchEvent, MachineFamily, MachinePoint};
+pub use curves::{MachineCurvePoint, MachinePlane};
+pub use reduced_branch::MachineBranch;
+pub use reduced_curve::MachineCurve;

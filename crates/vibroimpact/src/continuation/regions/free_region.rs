@@ -14,7 +14,7 @@
 //! $`\beta^2 = 1 - 2\zeta^2 \pm \sqrt{1/g^2 - 4\zeta^2(1-\zeta^2)}`$, or for the damping ratio. So the polygons need no
 //! search, and no part of the region is missed, however narrow the resonance is.
 //!
-//! Over numbers of a machine, such as its mass and its force, the limit has no such form. There the region is outlined on a
+//! Over other numbers, such as the mass and the force of a machine, the limit has no such form. There the region is outlined on a
 //! grid, and parts of it that are smaller than a cell can be missed.
 //!
 //! With damping the motion is stable wherever it exists. Without damping it is one of a continuum of motions without
@@ -30,8 +30,10 @@ use crate::system::{Oscillator, Parameter, Side};
 /// The region of the motion without impacts of `osc` in a frame of two parameters.
 pub(crate) fn free_region(osc: &Oscillator, kind: RegionKind, frame: &Frame, options: RegionOptions) -> Region {
     let mut region = Region { polygons: Vec::new(), unresolved: Vec::new() };
-    let (first, second) = frame.plane.parameters();
-    if frame.plane.is_of_machines() && frame.sensible() {
+    let Some((first, second)) = frame.plane.parameters() else {
+        if !frame.sensible() {
+            return region;
+        }
         let holds = |at: (f64, f64)| {
             let there = frame.plane.set(osc, at).ok();
             there.is_some_and(|osc| {
@@ -43,7 +45,7 @@ pub(crate) fn free_region(osc: &Oscillator, kind: RegionKind, frame: &Frame, opt
         let nodes = (0..rows).flat_map(|j| (0..columns).map(move |i| frame.node((i, j), options.grid)));
         region.unresolved = nodes.filter(|at| holds(*at) != region.contains(*at)).collect();
         return region;
-    }
+    };
     let damped = osc.damping() > 0.0 || [first, second].contains(&Parameter::Damping);
     if !frame.sensible() || (kind == RegionKind::Stability && !damped) {
         return region;
@@ -128,7 +130,7 @@ impl Limit {
                     let amplitude = Parameter::Damping.set(&self.osc, zeta).map(|osc| osc.free_amplitude());
                     breaks.extend(amplitude.ok().into_iter().chain(levels.iter().copied()));
                 }
-                // the region of this motion has no closed form over numbers of a machine
+                // a number in SI units is none of an oscillator
                 Parameter::Restitution | Parameter::SecondRestitution | Parameter::Physical(_) => {}
             }
         }

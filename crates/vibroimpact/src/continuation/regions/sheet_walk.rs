@@ -54,7 +54,7 @@ impl<'a> SheetWalk<'a> {
         go_on: &'a dyn Fn() -> bool,
     ) -> Option<Self> {
         let line = Condition::Line(0.0, 1.0, at.1);
-        let mut plane = Plane::new(&seed.osc, frame.plane, frame.scales(), &seed.ring, line);
+        let mut plane = Plane::new(&seed.osc, frame.plane.clone(), frame.scales(), &seed.ring, line);
         plane.relative = true;
         let w = Plane::join(&seed.ring, at);
         let flights = blocks(&seed.osc, &seed.ring)?;

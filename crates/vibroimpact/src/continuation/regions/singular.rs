@@ -3,7 +3,7 @@
 use super::seed::Seed;
 use crate::continuation::curves::Frame;
 use crate::continuation::equations::plane_equations::Condition;
-use crate::system::Side;
+use crate::system::{Oscillator, Side};
 
 /// The cycle obtained when a cycle is shifted by half its period, and mirrored if the two halves are on opposite stops.
 pub(crate) enum Partner {
@@ -15,24 +15,14 @@ pub(crate) enum Partner {
 
 /// The partner of a seed; `None` if it cannot have one, or if it is about to merge with it.
 pub(crate) fn partner(frame: &Frame, seed: &Seed) -> Option<Partner> {
-    use crate::system::Parameter::{Gap, Physical, Restitution, SecondGap, SecondRestitution};
     let (ring, m) = (&seed.ring, seed.ring.len());
     if !m.is_multiple_of(2) {
         return None;
     }
     let half = m / 2;
     let shifted = ring.periods.is_multiple_of(2) && (0..m).all(|k| ring.side(k) == ring.side(k + half));
-    let unequal = |p| match p {
-        Gap | Restitution | SecondGap | SecondRestitution => true,
-        // a constant force or a weight moves the rest position towards one stop; the weight follows the mass
-        Physical(p) => {
-            use crate::system::PhysicalParameter as Of;
-            matches!(p, Of::Gap | Of::SecondGap | Of::ConstantForce | Of::Gravity)
-        }
-        _ => false,
-    };
-    let alike = seed.osc.stop(Side::Lower).is_some_and(|lower| Some(lower) == seed.osc.stop(Side::Upper))
-        && !frame.plane.has(unequal);
+    let alike = |osc: &Oscillator| osc.stop(Side::Lower).is_some_and(|lower| Some(lower) == osc.stop(Side::Upper));
+    let alike = alike(&seed.osc) && frame.everywhere(&seed.osc, alike);
     let mirrored = alike && !ring.periods.is_multiple_of(2) && (0..m).all(|k| ring.side(k) != ring.side(k + half));
     if !(shifted || mirrored) {
         return None;
@@ -59,11 +49,8 @@ pub(crate) const ASIDE: f64 = 1e-3;
 /// cancel: two impacts are equal and half a natural period apart, which is possible only at some gaps, and next to
 /// these gaps the speeds vanish too.
 pub(crate) fn walls(frame: &Frame, seed: &Seed, at: (f64, f64)) -> Vec<Condition> {
-    use crate::system::Parameter::{Beta, Damping, InverseBeta, Physical};
-    use crate::system::PhysicalParameter::{DampingCoefficient, DampingRatio};
-    let (first, second) = frame.plane.parameters();
-    let damps = |p| matches!(p, Damping | Physical(DampingCoefficient | DampingRatio));
-    if seed.osc.damping() != 0.0 || frame.plane.has(damps) {
+    use crate::system::Parameter::{Beta, InverseBeta};
+    if seed.osc.damping() != 0.0 || !frame.everywhere(&seed.osc, |osc| osc.damping() == 0.0) {
         return Vec::new();
     }
     let n = f64::from(seed.ring.periods);
@@ -73,12 +60,12 @@ pub(crate) fn walls(frame: &Frame, seed: &Seed, at: (f64, f64)) -> Vec<Condition
         (k >= 1.0).then_some(k)
     };
     let near = [whole(-1.0, turns.floor()), whole(1.0, turns.floor() + 1.0)];
-    if frame.plane.is_of_machines() {
+    let Some((first, second)) = frame.plane.parameters() else {
         // the frequency ratio is a function of both numbers, or of none
         let beta = seed.osc.beta();
         let wall = |k: f64| Condition::Frequency { side: (beta - n / k).signum(), beta: n / k, by: INWARDS * beta };
         return near.into_iter().flatten().map(wall).collect();
-    }
+    };
     let mut walls = Vec::new();
     for (is_first, parameter, value, scale) in
         [(true, first, at.0, frame.scales().0), (false, second, at.1, frame.scales().1)]

@@ -16,7 +16,7 @@ use core::f64::consts::TAU;
 /// the positions of its parts to each other are the same again, and all of it is moved by the [drift](Self::drift). Such
 /// cycles are the same motion wherever the machine is. Their states are given where the parts along the free translations
 /// are 0 at [`state`](Self::state), which for one translation in all coordinates is the centre of mass.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct MachineCycle {
     /// The label m/n: m closings of stops (impacts, and beginnings of compliant contact) in n forcing periods; `inf/n` with
     /// a complete chatter. `m/T` without forcing: m closings in one period of the motion.

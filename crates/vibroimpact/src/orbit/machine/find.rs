@@ -4,6 +4,7 @@ use super::border::on_border;
 use super::cycle::MachineCycle;
 use super::frame::MachineFrame;
 use super::near_returns::near_returns;
+use super::reduced::orbits;
 use crate::events::{MachineMotion, MachineStart};
 use crate::machine::Machine;
 use crate::math::sort_by;
@@ -25,8 +26,25 @@ const BETWEEN: usize = 4;
 /// Further guesses lie on the border between the motions that lead to two stable orbits of as many forcing periods, whatever
 /// their number of impacts. Without forcing the guesses are motions that come close to an earlier state, also those
 /// on the border. An orbit to which no guess leads is not found.
+///
+/// The orbits of a machine that is an [oscillator](Machine::reduced) are those that [`find_while`](crate::orbit::find_while)
+/// finds; `starts` are not used then.
 #[must_use]
 pub fn find_machine_while(
+    machine: &Machine,
+    label: Label,
+    starts: impl IntoIterator<Item = MachineStart>,
+    go_on: &dyn Fn() -> bool,
+) -> Option<Vec<MachineCycle>> {
+    match orbits(&MachineFrame::new(machine), label, go_on)? {
+        Some(cycles) => Some(cycles),
+        None => find_unreduced(machine, label, starts, go_on),
+    }
+}
+
+/// The same, with a machine that is an oscillator followed as any other.
+#[must_use]
+pub fn find_unreduced(
     machine: &Machine,
     label: Label,
     starts: impl IntoIterator<Item = MachineStart>,

@@ -16,6 +16,7 @@
 //! | all with a label, from many guesses | [`find_machine_while`] |
 //! | a cycle | [`MachineCycle`] |
 //! | the same, by Newton's method on the state between two events | `closing` |
+//! | cycles of the oscillator that a machine is, in its numbers | `reduced` |
 
 mod border;
 mod chatters;
@@ -29,15 +30,17 @@ mod lap;
 mod multipliers;
 mod near_returns;
 mod of_motion;
+mod reduced;
 mod ring;
 mod rounding;
 
 pub(crate) use chatters::{Chatter, Rebound};
 pub(crate) use crossing::crossing;
 pub use cycle::MachineCycle;
-pub use find::find_machine_while;
+pub use find::{find_machine_while, find_unreduced};
 pub(crate) use frame::MachineFrame;
 pub(crate) use lap::MachineLap;
 pub(crate) use of_motion::events_of;
+pub(crate) use reduced::flying;
 pub(crate) use ring::{MachineRing, RingEvent};
 pub(crate) use rounding::rounding_decides;

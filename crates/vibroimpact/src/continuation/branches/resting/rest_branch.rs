@@ -55,7 +55,7 @@ impl RestBranch {
         direction: Direction,
         options: BranchOptions,
     ) -> Result<Self, BranchError> {
-        let value = place(osc, varying)?;
+        let value = place(osc, &varying)?;
         let scale = scale(&range, value)?;
         let side = cycle.rests.last().map_or(Side::Upper, |rest| rest.side);
         let excursion = Excursion::new(osc, side, DEFAULT_EVENTS, f64::INFINITY).ok_or(BranchError::NoCycle)?;

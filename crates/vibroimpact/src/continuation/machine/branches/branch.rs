@@ -16,10 +16,9 @@ use crate::orbit::{Chatter, MachineCycle, MachineFrame, MachineRing};
 use crate::regime::GuardKind;
 use core::ops::RangeInclusive;
 
-/// A branch: an iterator over its points, including its events. The last point has an event that
-/// [ends](MachineBranchEvent::ends) the branch.
+/// A branch by the equations of the machine.
 #[derive(Clone, Debug)]
-pub struct MachineBranch(EventBranch);
+pub(crate) struct UnreducedBranch(EventBranch);
 
 /// What a branch keeps beside its tracer.
 #[derive(Clone, Debug)]
@@ -77,13 +76,13 @@ impl Path for EventPath {
     }
 }
 
-impl MachineBranch {
+impl UnreducedBranch {
     /// The branch of `cycle`, a cycle of the machine of `family` at `value`, over `range`, beginning in `direction`. In the
     /// options the largest number of impacts is not used.
     ///
     /// # Errors
     /// [`BranchError`] if the branch cannot begin.
-    pub fn new(
+    pub(crate) fn new(
         (family, value): (&MachineFamily, f64),
         cycle: &MachineCycle,
         range: &RangeInclusive<f64>,
@@ -106,7 +105,7 @@ impl MachineBranch {
     }
 }
 
-impl Iterator for MachineBranch {
+impl Iterator for UnreducedBranch {
     type Item = MachinePoint;
 
     fn next(&mut self) -> Option<MachinePoint> {

@@ -134,7 +134,7 @@ mod tests {
     use crate::continuation::trace::equations::correct;
     use crate::events::MachineStart;
     use crate::machine::{HarmonicMotion, MachineParts, Opening, StopLaw};
-    use crate::verdict::{MachineVerdict, SettleOptions, settle_machine};
+    use crate::verdict::{SettleOptions, Verdict, settle_machine};
 
     fn machine(soft: bool) -> Machine {
         let parts = MachineParts::new(["a", "b"])
@@ -174,7 +174,7 @@ mod tests {
     fn derivatives_and_convergence() {
         for (machine, gap) in [(machine(false), 0.5), (machine(true), 0.5), (on_belt(), 0.65)] {
             let settled = settle_machine(&machine, &MachineStart::default(), &SettleOptions::default()).unwrap();
-            let MachineVerdict::Periodic(cycle) = settled.verdict else { panic!("{settled:?}") };
+            let Verdict::Periodic(cycle) = settled.verdict else { panic!("{settled:?}") };
             let frame = MachineFrame::new(&machine);
             let ring = MachineRing::of(&frame, &cycle.strobes[0], (cycle.label.periods, cycle.period)).unwrap();
             let (family, _) = MachineFamily::of_path(&machine, "stop.stop.gap").unwrap();
@@ -282,7 +282,7 @@ mod tests {
         let (mut kinds, mut compared) = (std::collections::BTreeSet::new(), 0);
         for (place, machine) in machines().into_iter().enumerate() {
             let settled = settle_machine(&machine, &MachineStart::default(), &SettleOptions::default()).unwrap();
-            let MachineVerdict::Periodic(cycle) = settled.verdict else { panic!("{place} {settled:?}") };
+            let Verdict::Periodic(cycle) = settled.verdict else { panic!("{place} {settled:?}") };
             let frame = MachineFrame::new(&machine);
             let ring = MachineRing::of(&frame, &cycle.strobes[0], (cycle.label.periods, cycle.period)).unwrap();
             kinds.extend(

@@ -19,7 +19,7 @@
 //! | two events that come so close that no further step converges | `meeting` |
 //! | the branch beyond such a change | `beyond` |
 //! | the cycle of twice the period beside a flip, and where it is the other one repeated | `switch`, `halving` |
-//! | the branch, and the events of a step | [`MachineBranch`], `step` |
+//! | the branch, and the events of a step | `branch`, `step` |
 
 mod at_rest;
 mod beginning;
@@ -43,7 +43,7 @@ mod summed;
 mod switch;
 mod touch;
 
-pub use branch::MachineBranch;
+pub(crate) use branch::UnreducedBranch;
 pub(crate) use change::{Difference, difference};
 pub(crate) use closest::closest;
 pub(crate) use complete_chatter::{ADAPTED, CompleteChatter};

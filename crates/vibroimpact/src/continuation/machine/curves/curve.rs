@@ -18,9 +18,9 @@ use crate::continuation::trace::equations::{correct, tangent, unit};
 use crate::continuation::trace::tracer::{Step, Tracer};
 use crate::orbit::MachineFrame;
 
-/// A curve of an event of a machine: an iterator over its points in one direction from the point at which it begins.
+/// A curve by the equations of the machine.
 #[derive(Clone, Debug)]
-pub struct MachineCurve(EventCurve);
+pub(crate) struct UnreducedCurve(EventCurve);
 
 /// A curve keeps nothing beside its tracer.
 #[derive(Clone, Debug)]
@@ -67,13 +67,13 @@ impl Path for EventPath {
     }
 }
 
-impl MachineCurve {
+impl UnreducedCurve {
     /// The two directions along the curve through an event of a branch; `values` are those of both numbers there.
     ///
     /// # Errors
     /// [`BranchError::NotThere`] for an event that begins no curve, [`BranchError::OutOfRange`] if the point lies outside the
     /// frame, [`BranchError::NoCycle`] if no curve is found through it.
-    pub fn through(
+    pub(crate) fn through(
         plane: &MachinePlane,
         values: (f64, f64),
         point: &MachinePoint,
@@ -93,12 +93,12 @@ impl MachineCurve {
 
     /// What holds along the curve.
     #[must_use]
-    pub const fn kind(&self) -> CurveKind {
+    pub(crate) const fn kind(&self) -> CurveKind {
         self.0.tracer.problem.kind
     }
 }
 
-impl Iterator for MachineCurve {
+impl Iterator for UnreducedCurve {
     type Item = MachineCurvePoint;
 
     fn next(&mut self) -> Option<MachineCurvePoint> {

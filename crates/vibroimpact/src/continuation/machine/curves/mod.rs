@@ -13,7 +13,7 @@
 //! | the same where a rest begins or ends | `origin_at_rest` |
 //! | why a curve ends | `end` |
 //! | a point of a curve | [`MachineCurvePoint`] |
-//! | the curve | [`MachineCurve`] |
+//! | the curve | `curve` |
 
 mod beside;
 mod borders;
@@ -28,6 +28,6 @@ mod plane;
 mod point;
 mod problem;
 
-pub use curve::MachineCurve;
+pub(crate) use curve::UnreducedCurve;
 pub use plane::MachinePlane;
 pub use point::MachineCurvePoint;

@@ -8,7 +8,7 @@ use core::ops::RangeInclusive;
 /// A machine for each point of a plane of two numbers, and a rectangular frame in this plane.
 #[derive(Clone, Debug)]
 pub struct MachinePlane {
-    pub(super) family: MachineFamily<2>,
+    pub(crate) family: MachineFamily<2>,
     /// The ranges of both numbers.
     pub ranges: (RangeInclusive<f64>, RangeInclusive<f64>),
 }
@@ -25,10 +25,14 @@ impl MachinePlane {
     /// # Errors
     /// [`MachineError`] if a path leads to no number.
     pub fn of_paths(machine: &Machine, (one, two): (&str, &str), ranges: Ranges) -> Result<Self, MachineError> {
-        machine.number(one)?;
-        machine.number(two)?;
-        let (machine, one, two) = (machine.clone(), one.to_owned(), two.to_owned());
-        Ok(Self::new(move |p, q| machine.with(&one, p).ok()?.with(&two, q).ok(), ranges))
+        let paths = vec![one.to_owned(), two.to_owned()];
+        Ok(Self { family: MachineFamily::of_paths(machine, paths, |values| values.to_vec())?, ranges })
+    }
+
+    /// The machines of a family.
+    #[must_use]
+    pub const fn of(family: MachineFamily<2>, ranges: Ranges) -> Self {
+        Self { family, ranges }
     }
 
     /// The change of each number that has length 1.

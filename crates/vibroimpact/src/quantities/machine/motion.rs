@@ -1,19 +1,21 @@
 //! The quantities of a steady motion of a machine.
 
-use super::quantity::{MachinePart, MachineQuantity, machine_quantity};
-use super::sums::{MachineSums, mean};
-use super::tally::MachineTally;
+use super::super::Quantity;
+use super::super::sums::{Scale, Sums, mean_over};
+use super::part::{Part, machine_quantity};
+use super::sums::PartSums;
+use super::tally::Tally;
 use crate::events::{MachineEnd, Place};
-use crate::lyapunov::Measured;
 use crate::lyapunov::blocks::FEWEST;
+use crate::lyapunov::{Measured, Tail};
 use crate::machine::{Machine, MachineError};
 use crate::orbit::{MachineCycle, MachineFrame, MachineLap};
-use crate::quantities::quantity::Quantity;
 use crate::regime::ContactState;
-use crate::verdict::{MachineTail, MachineVerdict};
+use crate::verdict::Verdict;
+use crate::verdict::machine::State;
 
 /// The quantities of a motion of a machine, in its own units: of the whole machine, of the forces of each order, of its
-/// stops, friction joints and coordinates ([`MachinePart::quantities`] lists those of each).
+/// stops, friction joints and coordinates ([`Part::quantities`] lists those of each).
 ///
 /// Powers balance: over a cycle the work of forces, moving stops and belts is what is lost in impacts, in the dampers of
 /// stops, in friction and in the damping of the structure. A constant force does no work over a cycle, except along a free
@@ -21,21 +23,21 @@ use crate::verdict::{MachineTail, MachineVerdict};
 /// not defined are NaN, as those per forcing period of a machine without forcing, and the displacements of coordinates
 /// that a free translation moves, because they depend on where the machine is.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MachineQuantities {
-    entries: Vec<(MachinePart, MachineQuantity, Measured)>,
+pub struct Quantities {
+    entries: Vec<(Part, Quantity, Measured)>,
 }
 
-impl MachineQuantities {
+impl Quantities {
     /// The value of a quantity of a part; NaN if it is not defined.
     #[must_use]
-    pub fn get(&self, part: MachinePart, quantity: MachineQuantity) -> f64 {
+    pub fn get(&self, part: Part, quantity: Quantity) -> f64 {
         self.measured(part, quantity).value
     }
 
     /// The value with its error: three standard errors of a mean over a chaotic motion, 0 where it is exact to rounding,
     /// NaN for an extreme of a chaotic motion.
     #[must_use]
-    pub fn measured(&self, part: MachinePart, quantity: MachineQuantity) -> Measured {
+    pub fn measured(&self, part: Part, quantity: Quantity) -> Measured {
         let found = self.entries.iter().find(|(own, name, _)| (*own, *name) == (part, quantity));
         found.map_or(Measured { value: f64::NAN, error: f64::NAN }, |(.., measured)| *measured)
     }
@@ -51,31 +53,35 @@ impl MachineQuantities {
     }
 
     /// All quantities with their values and errors, in the order of reports.
-    pub fn iter(&self) -> impl Iterator<Item = (MachinePart, MachineQuantity, Measured)> + '_ {
+    pub fn iter(&self) -> impl Iterator<Item = (Part, Quantity, Measured)> + '_ {
         self.entries.iter().copied()
     }
 
-    fn from_fn(machine: &Machine, value: impl Fn(MachinePart, MachineQuantity) -> Measured) -> Self {
-        let of = |part: MachinePart| part.quantities().iter().map(move |quantity| (part, *quantity));
-        let all = MachinePart::all(machine).into_iter().flat_map(of);
+    fn from_fn(machine: &Machine, value: impl Fn(Part, Quantity) -> Measured) -> Self {
+        let of = |part: Part| part.quantities().iter().map(move |quantity| (part, *quantity));
+        let all = Part::all(machine).into_iter().flat_map(of);
         Self { entries: all.map(|(part, quantity)| (part, quantity, value(part, quantity))).collect() }
     }
 
     /// Those of a motion whose sums over its blocks are these; `exact` if it is a whole motion.
-    fn of(machine: &Machine, tally: &MachineTally<'_>, blocks: &[MachineSums], exact: bool) -> Self {
+    fn of(machine: &Machine, tally: &Tally<'_>, blocks: &[PartSums], exact: bool) -> Self {
         let period = machine.period().unwrap_or(f64::NAN);
         // no free translation moves it, so over a cycle it comes back
-        let returns = |part| matches!(part, MachinePart::Coordinate(i) if !tally.moves_freely(i));
+        let returns = |part| matches!(part, Part::Coordinate(i) if !tally.moves_freely(i));
         Self::from_fn(machine, |part, quantity| {
-            let placeless = matches!(part, MachinePart::Coordinate(i) if tally.moves_freely(i) && quantity.of_place());
-            if placeless || tally.skipped && !quantity.of_events() {
+            let placeless = matches!(part, Part::Coordinate(i) if tally.moves_freely(i) && quantity.of_place());
+            if placeless || tally.skipped && !quantity.of_impacts() {
                 return Measured { value: f64::NAN, error: f64::NAN };
             }
-            if exact && quantity == MachineQuantity::VelocityMean && returns(part) {
+            if exact && quantity == Quantity::VelocityMean && returns(part) {
                 return Measured::default();
             }
-            let extreme = || Measured { value: tally.extremes.get(part, quantity), error: f64::NAN };
-            let Measured { value, error } = mean(blocks, (part, quantity), period).unwrap_or_else(extreme);
+            if !quantity.is_mean() {
+                let value = tally.extremes.get(part, quantity);
+                return Measured { value, error: if exact { 0.0 } else { f64::NAN } };
+            }
+            let sums: Vec<Sums> = blocks.iter().map(|block| block.of(part)).collect();
+            let Measured { value, error } = mean_over(&sums, quantity, Scale { period, damping: 1.0 });
             Measured { value, error: if exact { 0.0 } else { error } }
         })
     }
@@ -105,7 +111,7 @@ impl MachineQuantities {
 /// # Ok::<(), vibroimpact::machine::MachineError>(())
 /// ```
 #[must_use]
-pub fn machine_cycle_quantities(machine: &Machine, cycle: &MachineCycle) -> Option<MachineQuantities> {
+pub fn machine_cycle_quantities(machine: &Machine, cycle: &MachineCycle) -> Option<Quantities> {
     over_time(&MachineFrame::new(machine), cycle.strobes.first()?, cycle.period)
 }
 
@@ -116,18 +122,18 @@ pub fn machine_cycle_quantities(machine: &Machine, cycle: &MachineCycle) -> Opti
 /// `None` for an undecided motion. A motion without a further event that does not settle, as one without damping,
 /// depends on its start: only what its stops do not do is known.
 #[must_use]
-pub fn machine_quantities(machine: &Machine, verdict: &MachineVerdict) -> Option<MachineQuantities> {
+pub fn machine_quantities(machine: &Machine, verdict: &Verdict<Machine>) -> Option<Quantities> {
     match verdict {
-        MachineVerdict::Periodic(cycle) => machine_cycle_quantities(machine, cycle),
-        MachineVerdict::NoImpact(tail) | MachineVerdict::Stuck(tail) => Some(quiet(machine, &tail.from)),
-        MachineVerdict::Chaotic { tail, .. } => measured(machine, tail),
-        MachineVerdict::Undecided { .. } => None,
+        Verdict::Periodic(cycle) => machine_cycle_quantities(machine, cycle),
+        Verdict::NoImpact(last) | Verdict::Stuck(last) => Some(quiet(machine, &last.place)),
+        Verdict::Chaotic(chaos) => measured(machine, &chaos.tail),
+        Verdict::Undecided(_) => None,
     }
 }
 
 /// The quantities of the motion from a state over a time, after which it repeats.
-fn over_time(frame: &MachineFrame<'_>, from: &Place, time: f64) -> Option<MachineQuantities> {
-    let mut tally = MachineTally::new(frame);
+fn over_time(frame: &MachineFrame<'_>, from: &Place, time: f64) -> Option<Quantities> {
+    let mut tally = Tally::new(frame);
     let mut motion = frame.resume(from.clone()).limited(frame.limits().time);
     let mut steps = 0;
     loop {
@@ -152,7 +158,7 @@ fn over_time(frame: &MachineFrame<'_>, from: &Place, time: f64) -> Option<Machin
     frame.keep(&motion);
     tally.close();
     let whole = tally.take();
-    Some(MachineQuantities::of(frame.machine, &tally, &[whole], true))
+    Some(Quantities::of(frame.machine, &tally, &[whole], true))
 }
 
 /// The largest number of steps of a cycle.
@@ -164,20 +170,20 @@ const CLOSED: f64 = 1e-10;
 const ATTRACTS: f64 = 1.0 - 1e-9;
 
 /// The quantities of a motion without a further event, from one of its states.
-fn quiet(machine: &Machine, from: &Place) -> MachineQuantities {
+fn quiet(machine: &Machine, from: &Place) -> Quantities {
     let frame = MachineFrame::new(machine);
     steady(&frame, from).unwrap_or_else(|| {
         // nothing takes energy, so a motion that stays bounded gets none
         let open = from.states.iter().all(|state| *state == ContactState::Open);
         let idle = open && machine.parts().damping.largest() == 0.0;
-        let zero = |part: MachinePart, quantity: MachineQuantity| match (part, quantity) {
-            (_, MachineQuantity::Common(Quantity::ImpactSpeedMean)) => false,
-            (MachinePart::Stop(j), _) => from.states[j] == ContactState::Open,
-            (MachinePart::Whole, _) => idle || quantity.of_events(),
-            (MachinePart::Force(_), _) => idle,
-            (MachinePart::Joint(_) | MachinePart::Coordinate(_), _) => false,
+        let zero = |part: Part, quantity: Quantity| match (part, quantity) {
+            (_, Quantity::ImpactSpeedMean) => false,
+            (Part::Stop(j), _) => from.states[j] == ContactState::Open,
+            (Part::Whole, _) => idle || quantity.of_impacts(),
+            (Part::Force(_), _) => idle,
+            (Part::Joint(_) | Part::Coordinate(_), _) => false,
         };
-        MachineQuantities::from_fn(machine, |part, quantity| Measured {
+        Quantities::from_fn(machine, |part, quantity| Measured {
             value: if zero(part, quantity) { 0.0 } else { f64::NAN },
             error: 0.0,
         })
@@ -185,7 +191,7 @@ fn quiet(machine: &Machine, from: &Place) -> MachineQuantities {
 }
 
 /// Those of the steady motion or the rest to which it comes; `None` if it comes to none.
-fn steady(frame: &MachineFrame<'_>, from: &Place) -> Option<MachineQuantities> {
+fn steady(frame: &MachineFrame<'_>, from: &Place) -> Option<Quantities> {
     let structure = frame.structure(&from.states)?;
     let fastest = structure.fastest();
     let time = frame.machine.period().unwrap_or(if fastest > 0.0 { 1.0 / fastest } else { 1.0 });
@@ -203,13 +209,13 @@ fn steady(frame: &MachineFrame<'_>, from: &Place) -> Option<MachineQuantities> {
 }
 
 /// The quantities of a chaotic motion over its last steps.
-fn measured(machine: &Machine, tail: &MachineTail) -> Option<MachineQuantities> {
+fn measured(machine: &Machine, tail: &Tail<State>) -> Option<Quantities> {
     let frame = MachineFrame::new(machine);
-    let mut tally = MachineTally::new(&frame);
-    let mut motion = frame.resume(tail.from.clone()).limited(frame.limits().time);
-    let wanted = tail.steps.min(FEWEST as u64);
+    let mut tally = Tally::new(&frame);
+    let mut motion = frame.resume(tail.from.place.clone()).limited(frame.limits().time);
+    let wanted = tail.impacts.min(FEWEST as u64);
     let mut blocks = Vec::new();
-    for count in 1..=tail.steps {
+    for count in 1..=tail.impacts {
         let begin = motion.place().clone();
         let passage = motion.step()?;
         if motion.end().is_some() {
@@ -219,9 +225,9 @@ fn measured(machine: &Machine, tail: &MachineTail) -> Option<MachineQuantities> 
         tally.event(&passage, &motion.take_events());
         tally.chatter(&passage, f64::INFINITY);
         // block k ends with step number (k + 1) n / wanted
-        if count >= (blocks.len() as u64 + 1) * tail.steps / wanted {
+        if count >= (blocks.len() as u64 + 1) * tail.impacts / wanted {
             blocks.push(tally.take());
         }
     }
-    (!blocks.is_empty()).then(|| MachineQuantities::of(machine, &tally, &blocks, false))
+    (!blocks.is_empty()).then(|| Quantities::of(machine, &tally, &blocks, false))
 }

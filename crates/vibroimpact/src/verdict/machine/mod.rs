@@ -1,14 +1,13 @@
-//! Verdicts on motions of machines.
+//! What is particular to verdicts on motions of machines.
 //!
 //! | idea | file |
 //! |---|---|
+//! | states that a motion reaches | [`State`] |
 //! | what the record of a motion needs to know of a machine | `returns` |
-//! | the last part of a motion, for its quantities | [`MachineTail`] |
 //! | starts spread over the states of a machine | [`scattered_machine_starts`] |
-//! | the possible verdicts | [`MachineVerdict`] |
 //! | from a start to a verdict | [`settle_machine`] |
 //! | the same for a machine that is an oscillator | `reduced` |
-//! | many starts: of one machine, of several | [`settle_machine_many`], [`settle_each_machine`] |
+//! | many starts: of one machine, of several | [`settle_machine_many`], [`settle_each_machine`], [`Settlement`] |
 
 mod many;
 mod outcome;
@@ -16,12 +15,11 @@ mod reduced;
 mod returns;
 mod settle;
 mod starts;
-mod tail;
 
-pub use many::{KnownMotions, MachineSettlement, settle_each_machine, settle_machine_many};
-pub use outcome::{MachineSettled, MachineUndecided, MachineVerdict};
+pub use many::{KnownMotions, Settlement, settle_each_machine, settle_machine_many};
+pub use outcome::State;
 pub(crate) use reduced::Reduced;
 pub(crate) use returns::{Recorded, Step};
+pub(crate) use settle::settle_as;
 pub use settle::{settle_machine, settle_machine_while, settle_unreduced};
 pub use starts::scattered_machine_starts;
-pub use tail::MachineTail;

@@ -1,8 +1,8 @@
 //! What the record of a motion needs to know of a machine: its returns are its steps from event to event.
 
-use super::super::recurring::{Diverging, Recurring};
-use crate::events::{MachineEvent, MachineMotion, Metric, Passage, Place, stretched, tangent_steps};
-use crate::lyapunov::{MachineMeasure, MachineSpectrum};
+use super::super::recurring::{Measurement, Recurring};
+use crate::events::{MachineEvent, MachineMotion, Passage, Place, stretched, tangent_steps};
+use crate::lyapunov::{Frame, Measured, Run};
 use crate::math::dot;
 use crate::orbit::{MachineCycle, MachineFrame, MachineLap, Stability, crossing, rounding_decides};
 use crate::regime::GuardKind;
@@ -59,8 +59,10 @@ impl<'a> Recorded<'a> {
 impl Recurring for Recorded<'_> {
     type Return = Arc<Step>;
     type Cycle = MachineCycle;
-    type Measure = MachineMeasure;
-    type Spectrum = MachineSpectrum;
+    type Measure = Run;
+    type Exponents = Vec<Measured>;
+    /// It is kept by the record.
+    type Tail = ();
 
     fn distance(&self, a: &Arc<Step>, b: &Arc<Step>) -> f64 {
         if a.passage.guards != b.passage.guards || a.begin.states != b.begin.states {
@@ -87,35 +89,44 @@ impl Recurring for Recorded<'_> {
         self.captures(&last.end, cycle).unwrap_or(false)
     }
 
-    fn measure(&self, _: &Arc<Step>, over: u32) -> MachineMeasure {
-        MachineMeasure::new((self.frame.shape.size(), self.frame.metric()), 2 * self.frame.shape.n, over)
+    fn measure(&self, _: &Arc<Step>, over: u32) -> Run {
+        Run::for_verdict(self.tangents(), u64::from(over))
     }
 
-    fn add(&self, measure: &mut MachineMeasure, next: &Arc<Step>, interval: f64) -> bool {
-        let frame = &self.frame;
-        let steps = frame.with(|structures| {
-            tangent_steps(&frame.shape, frame.machine, &frame.normal, structures, (&next.begin, &next.passage))
-        });
-        // a grazing contact has no derivative and is passed over
-        if let Some(steps) = steps {
-            let carry = |vectors: &mut Vec<Vec<f64>>, metric: &Metric| {
-                stretched(&frame.shape, &frame.normal, &steps, vectors, metric)
-            };
-            measure.add(carry, interval, f64::from(next.closings));
-        }
+    fn add(&self, measure: &mut Run, next: &Arc<Step>, interval: f64) -> bool {
+        self.pass(measure, next, interval);
         measure.complete()
     }
 
-    fn left(measure: &MachineMeasure) -> u32 {
-        measure.left()
+    fn left(measure: &Run) -> u32 {
+        u32::try_from(measure.left()).unwrap_or(u32::MAX)
     }
 
-    fn chaos(&self, measure: &MachineMeasure) -> Option<(MachineSpectrum, bool)> {
-        measure.chaos()
+    fn chaos(&self, measure: &Run) -> Option<(Measurement<Self>, bool)> {
+        measure.chaos().map(|(spectrum, chaotic)| ((spectrum, ()), chaotic))
     }
 }
 
 impl Recorded<'_> {
+    /// Tangent vectors at the beginning of a measurement.
+    pub(crate) fn tangents(&self) -> Frame {
+        Frame::new(self.frame.shape.size(), self.frame.metric(), 2 * self.frame.shape.n)
+    }
+
+    /// Adds a step to a measurement. A grazing contact has no derivative and is passed over.
+    pub(crate) fn pass(&self, measure: &mut Run, step: &Step, interval: f64) {
+        let frame = &self.frame;
+        let steps = frame.with(|structures| {
+            tangent_steps(&frame.shape, frame.machine, &frame.normal, structures, (&step.begin, &step.passage))
+        });
+        let Some(steps) = steps else { return };
+        let carry = |tangents: &mut Frame| {
+            tangents.carry(|vectors, metric| stretched(&frame.shape, &frame.normal, &steps, vectors, metric));
+            f64::NAN
+        };
+        measure.add(carry, interval, f64::from(step.closings));
+    }
+
     /// The cycle of a motion that returns to a state after a time.
     pub(crate) fn same(&self, step: &Arc<Step>, after: f64) -> Option<MachineCycle> {
         if !(0.5..LONGEST + 0.5).contains(&self.periods(after)) {
@@ -204,16 +215,6 @@ impl Recorded<'_> {
             let apart = |strobe| self.frame.distance(strobe, &place, cycle.sizes);
             cycle.strobes.iter().map(apart).fold(f64::INFINITY, f64::min) <= AT_ROUNDING
         }) && periods < f64::from(PERIODS)
-    }
-}
-
-impl Diverging for MachineSpectrum {
-    fn diverges(&self) -> bool {
-        self.diverges()
-    }
-
-    fn chaotic(&self) -> bool {
-        self.chaotic()
     }
 }
 

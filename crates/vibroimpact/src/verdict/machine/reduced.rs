@@ -6,16 +6,16 @@
 //! impacts or at rest has a last state, and the limits of the search of the oscillator are not those of the machine.
 
 use super::super::options::SettleOptions;
-use super::super::outcome::{Chaos, NoImpact, Undecided, Verdict};
-use super::super::settle::Settled;
-use super::outcome::{MachineSettled, MachineUndecided, MachineVerdict};
-use super::tail::MachineTail;
+use super::super::oscillator::NoImpact;
+use super::super::outcome::{Chaos, Settled, Undecided, UndecidedCause, Verdict};
+use super::outcome::State;
 use crate::events::{MachineLimits, MachineMotion, MachineStart, Place};
 use crate::flight::Flight;
-use crate::lyapunov::{MachineSpectrum, Measured, Spectrum};
+use crate::lyapunov::{Measured, Spectrum, Tail};
 use crate::machine::{Machine, Reduction};
-use crate::orbit::{Cycle, MachineCycle, MachineFrame};
-use crate::system::{Oscillator, Side, Start, phase};
+use crate::motion::ImpactState;
+use crate::orbit::{Cycle, MachineCycle, MachineFrame, flying};
+use crate::system::{Oscillator, Side, Start};
 
 /// The time after a grazing contact at which the state of its motion is given, in units of the oscillator.
 const AFTER_GRAZE: f64 = 0.5;
@@ -24,7 +24,7 @@ const AFTER_GRAZE: f64 = 0.5;
 #[derive(Clone, Debug)]
 pub(super) enum Converted {
     /// This.
-    Verdict(Box<MachineVerdict>),
+    Verdict(Box<Verdict<Machine>>),
     /// The kind of the motion. The rest follows from the machine's own motion from any start that leads to it.
     Kind,
     /// Nothing.
@@ -41,6 +41,13 @@ pub(crate) struct Reduced<'a> {
 impl<'a> Reduced<'a> {
     pub(crate) fn new(machine: &'a Machine, options: &'a SettleOptions) -> Option<Self> {
         Some(Self { machine, reduction: machine.reduced()?, options })
+    }
+
+    /// The same with the start of the oscillator.
+    pub(crate) fn of(machine: &'a Machine, start: &MachineStart, options: &'a SettleOptions) -> Option<(Self, Start)> {
+        let reduced = Self::new(machine, options)?;
+        let from = reduced.start(start)?;
+        Some((reduced, from))
     }
 
     /// The oscillator.
@@ -62,35 +69,25 @@ impl<'a> Reduced<'a> {
     }
 
     /// The verdict on the motion from a start from which the oscillator settles so; `None` if the machine decides.
-    pub(super) fn settled(&self, settled: &Settled) -> Option<MachineSettled> {
+    pub(super) fn settled(&self, settled: &Settled) -> Option<Settled<Machine>> {
         let Converted::Verdict(verdict) = self.converted(&settled.verdict) else { return None };
-        Some(MachineSettled {
+        Some(Settled {
             verdict: *verdict,
-            events: settled.impacts,
-            time: settled.time * self.reduction.time(),
-            transient: settled.transient.map(|Chaos { spectrum, .. }| self.in_time(&spectrum)),
+            impacts: settled.impacts,
+            time: settled.time * self.time(),
+            transient: settled.transient.and_then(|chaos| self.chaos(&chaos)),
         })
     }
 
     /// What a verdict on the oscillator says of the machine.
     pub(super) fn converted(&self, verdict: &Verdict) -> Converted {
         let found = match verdict {
-            Verdict::Periodic(cycle) => self.closed(cycle).map(MachineVerdict::Periodic),
-            Verdict::Chaotic(Chaos { spectrum, impacts }) => {
-                self.place(spectrum.tail.from.rebound(self.oscillator())).map(|from| MachineVerdict::Chaotic {
-                    spectrum: self.in_time(spectrum),
-                    events: *impacts,
-                    tail: MachineTail { from, steps: spectrum.tail.impacts },
-                })
-            }
+            Verdict::Periodic(cycle) => self.closed(cycle).map(Verdict::Periodic),
+            Verdict::Chaotic(chaos) => self.chaos(chaos).map(Verdict::Chaotic),
             // with fewer impacts the search of long flights has used up its steps
-            Verdict::Undecided(Undecided::Impacts { impacts, .. })
-                if *impacts >= u64::from(self.options.max_impacts) =>
-            {
-                self.undecided(verdict)
-            }
+            Verdict::Undecided(of) if of.impacts >= u64::from(self.options.max_impacts) => self.undecided(verdict),
             Verdict::NoImpact(NoImpact::GrazeLimit { phase, .. }) => {
-                self.grazing(*phase).map(|from| MachineVerdict::NoImpact(MachineTail::end(&from)))
+                self.grazing(*phase).map(|place| Verdict::NoImpact(State { place }))
             }
             Verdict::Stuck(_) | Verdict::NoImpact(NoImpact::Flight(_)) => return Converted::Kind,
             Verdict::NoImpact(_) | Verdict::Undecided(_) => None,
@@ -99,7 +96,7 @@ impl<'a> Reduced<'a> {
     }
 
     /// The verdict on a motion that was measured, whatever the budget was.
-    pub(crate) fn measured(&self, verdict: &Verdict) -> Option<MachineVerdict> {
+    pub(crate) fn measured(&self, verdict: &Verdict) -> Option<Verdict<Machine>> {
         match self.converted(verdict) {
             Converted::Verdict(verdict) => Some(*verdict),
             Converted::Kind | Converted::Unknown => self.undecided(verdict),
@@ -107,38 +104,29 @@ impl<'a> Reduced<'a> {
     }
 
     /// The verdict on a motion that is undecided after some impacts.
-    fn undecided(&self, verdict: &Verdict) -> Option<MachineVerdict> {
-        let Verdict::Undecided(Undecided::Impacts { impacts, spectrum }) = verdict else { return None };
-        Some(MachineVerdict::Undecided {
-            why: MachineUndecided::Events,
+    fn undecided(&self, verdict: &Verdict) -> Option<Verdict<Machine>> {
+        let Verdict::Undecided(Undecided { why: UndecidedCause::Budget, impacts, spectrum }) = verdict else {
+            return None;
+        };
+        Some(Verdict::Undecided(Undecided {
+            why: UndecidedCause::Budget,
+            impacts: *impacts,
             spectrum: spectrum.map(|spectrum| self.in_time(&spectrum)),
-            events: *impacts,
-        })
+        }))
+    }
+
+    /// Chaos of the oscillator.
+    fn chaos(&self, Chaos { spectrum, impacts, tail }: &Chaos) -> Option<Chaos<Machine>> {
+        let state = |at: ImpactState| Some(State { place: self.place(at.rebound(self.oscillator()))? });
+        let tail = Tail { from: state(tail.from)?, last: state(tail.last)?, impacts: tail.impacts };
+        Some(Chaos { spectrum: self.in_time(spectrum), impacts: *impacts, tail })
     }
 
     /// The cycle of the oscillator, closed by the machine; `None` if the machine gives it another label.
     fn closed(&self, cycle: &Cycle) -> Option<MachineCycle> {
-        let from = self.place(self.flying(cycle)?)?;
+        let from = self.place(flying(self.oscillator(), cycle)?)?;
         let found = MachineCycle::near(&MachineFrame::new(self.machine), &from, cycle.label.periods)?;
         (found.label == cycle.label).then_some(found)
-    }
-
-    /// A state of a cycle between two contacts.
-    fn flying(&self, cycle: &Cycle) -> Option<Start> {
-        let osc = self.oscillator();
-        let (flight, time) = match cycle.rests.last() {
-            // its impacts begin after this release
-            Some(rest) => {
-                let turn = phase::wrap(cycle.points.first()?.state.phase - rest.release);
-                (Flight::release(osc, rest.side, rest.release), turn / osc.beta())
-            }
-            None => {
-                let longest = cycle.points.iter().max_by(|a, b| a.interval.total_cmp(&b.interval))?;
-                (Flight::new(osc, longest.state.rebound(osc)), longest.interval)
-            }
-        };
-        let (x, v) = flight.state(0.5 * time);
-        Some(Start { x, v, phase: flight.phase_at(0.5 * time) })
     }
 
     /// A state of the motion that grazes the stop at a phase, to which ever gentler impacts tend; `None` with two stops, of which
@@ -160,14 +148,18 @@ impl<'a> Reduced<'a> {
         Some(MachineMotion::new(self.machine, &start, MachineLimits::default()).ok()?.place().clone())
     }
 
+    /// The unit of the oscillator's time in that of the machine.
+    pub(crate) fn time(&self) -> f64 {
+        self.reduction.time()
+    }
+
     /// Exponents per unit of the machine's time.
-    fn in_time(&self, spectrum: &Spectrum) -> MachineSpectrum {
-        let per = |unit: f64, of: Measured| Measured { value: of.value / unit, error: of.error / unit };
-        let time = self.reduction.time();
-        MachineSpectrum {
-            exponents: spectrum.exponents.iter().map(|of| per(time, *of)).collect(),
-            closings: per(time * self.oscillator().period(), spectrum.impacts_per_period),
-            time: spectrum.time * time,
+    fn in_time(&self, Spectrum { exponents, impact_rate, time }: &Spectrum) -> Spectrum<Vec<Measured>> {
+        let rate = |of: &Measured| Measured { value: of.value / self.time(), error: of.error / self.time() };
+        Spectrum {
+            exponents: exponents.iter().map(rate).collect(),
+            impact_rate: rate(impact_rate),
+            time: time * self.time(),
         }
     }
 }

@@ -1,6 +1,8 @@
-//! Sums and extremes along a motion of a machine: its flights, its impacts, its summed chatters.
+//! Sums and extremes along a motion of a machine: its flights, its impacts, its summed chatters. An oscillator has its own, in closed form
+//! and side by side in lanes.
 
-use super::sums::{MachineExtremes, MachineSums};
+use super::super::sums::Sum;
+use super::sums::{Extremes, PartSums};
 use crate::arc::{MachineFlight, Modes};
 use crate::events::{MachineEvent, Passage, Place, contact_forces};
 use crate::machine::StopLaw;
@@ -15,10 +17,10 @@ const PANELS: usize = 200_000;
 
 /// Sums and extremes along a motion.
 #[derive(Clone, Debug)]
-pub(super) struct MachineTally<'a> {
+pub(super) struct Tally<'a> {
     frame: &'a MachineFrame<'a>,
-    pub(super) sums: MachineSums,
-    pub(super) extremes: MachineExtremes,
+    pub(super) sums: PartSums,
+    pub(super) extremes: Extremes,
     /// The number of panels that are left.
     left: usize,
     /// Whether a flight was left out of the integrals and extremes.
@@ -67,14 +69,14 @@ struct Leg<'b> {
     chatter: &'b [usize],
 }
 
-impl<'a> MachineTally<'a> {
+impl<'a> Tally<'a> {
     pub(super) fn new(frame: &'a MachineFrame<'a>) -> Self {
         let (machine, normal) = (frame.machine, &frame.normal);
         let contacts = machine.stops().len() + machine.joints().len();
         Self {
             frame,
-            sums: MachineSums::new(machine),
-            extremes: MachineExtremes::new(machine),
+            sums: PartSums::new(machine),
+            extremes: Extremes::new(machine),
             left: PANELS,
             skipped: false,
             gauss: Gauss::new(),
@@ -92,8 +94,8 @@ impl<'a> MachineTally<'a> {
     }
 
     /// The sums since this was last called.
-    pub(super) fn take(&mut self) -> MachineSums {
-        core::mem::replace(&mut self.sums, MachineSums::new(self.frame.machine))
+    pub(super) fn take(&mut self) -> PartSums {
+        core::mem::replace(&mut self.sums, PartSums::new(self.frame.machine))
     }
 
     /// Adds a flight from a state over a time. A chatter on the stops `chatter` is summed over it: then the reaction at rest
@@ -130,7 +132,8 @@ impl<'a> MachineTally<'a> {
         }
         let moved: Vec<f64> = self.point.x.iter().zip(&from.x).map(|(to, from)| to - from).collect();
         let part = normal.translations.part(&moved);
-        self.sums.constant += normal.force.iter().zip(part).map(|(force, moved)| force.constant * moved).sum::<f64>();
+        self.sums.structure[Sum::Work] +=
+            normal.force.iter().zip(part).map(|(force, moved)| force.constant * moved).sum::<f64>();
     }
 
     /// What a flight adds that needs no integral: times in contact, and the energy that surfaces lose which stand back. At
@@ -140,13 +143,13 @@ impl<'a> MachineTally<'a> {
         let (machine, stops) = (self.frame.machine, self.sums.stops.len());
         for (j, sums) in self.sums.stops.iter_mut().enumerate() {
             match from.states[j] {
-                ContactState::Closed => sums.closed += duration,
-                ContactState::Resting if !chatter.contains(&j) => sums.resting += duration,
+                ContactState::Closed => sums[Sum::Closed] += duration,
+                ContactState::Resting if !chatter.contains(&j) => sums[Sum::Resting] += duration,
                 _ => {}
             }
             if let (Some(surface), Some((k, ..))) = (from.surfaces[j], compliant(&machine.stops()[j].law)) {
                 let (kept, lost) = decay(surface.rate * duration);
-                sums.contact_loss += 0.5 * k * surface.size * surface.size * lost * (1.0 + kept);
+                sums[Sum::ContactLoss] += 0.5 * k * surface.size * surface.size * lost * (1.0 + kept);
             }
             let contact = &mut self.contacts[j];
             let closed = compliant(&machine.stops()[j].law).is_some()
@@ -167,7 +170,7 @@ impl<'a> MachineTally<'a> {
         }
         for (j, sums) in self.sums.joints.iter_mut().enumerate() {
             if from.states[stops + j] == ContactState::Holding {
-                sums.holding += duration;
+                sums[Sum::Holding] += duration;
             }
         }
     }
@@ -184,10 +187,10 @@ impl<'a> MachineTally<'a> {
         for (sums, all) in self.sums.coordinates.iter_mut().zip(self.values.chunks_exact(3)) {
             for (k, (_, weight)) in self.gauss.points.iter().enumerate() {
                 let (q, qdot) = (all[0][k], all[1][k]);
-                sums.x += half * weight * q;
-                sums.x_squared += half * weight * q * q;
-                sums.v += half * weight * qdot;
-                sums.v_squared += half * weight * qdot * qdot;
+                sums[Sum::X] += half * weight * q;
+                sums[Sum::XSquared] += half * weight * q * q;
+                sums[Sum::V] += half * weight * qdot;
+                sums[Sum::VSquared] += half * weight * qdot * qdot;
             }
         }
         self.go(leg, begin + length);
@@ -222,15 +225,15 @@ impl<'a> MachineTally<'a> {
         let (machine, normal) = (self.frame.machine, &self.frame.normal);
         let Point { v, drag, turns, forces, .. } = &mut self.point;
         normal.damping.apply_into(v, drag);
-        self.sums.damping += weight * dot(v, drag);
-        for (order, work) in &mut self.sums.forces {
+        self.sums.structure[Sum::Damping] += weight * dot(v, drag);
+        for (order, sums) in &mut self.sums.forces {
             let Some(h) = normal.orders.iter().position(|own| *own == f64::from(*order)) else { continue };
             let (sin, cos) = turns[h];
             let power = normal.force.iter().zip(v.iter()).map(|(force, v)| {
                 let (a, b) = force.harmonics[h];
                 (a * cos + b * sin) * v
             });
-            *work += weight * power.sum::<f64>();
+            sums[Sum::Work] += weight * power.sum::<f64>();
         }
         let stops = machine.stops().len();
         for (j, sums) in self.sums.stops.iter_mut().enumerate() {
@@ -238,28 +241,28 @@ impl<'a> MachineTally<'a> {
             let moves = self.walls[j].swing(turns);
             match leg.states[j] {
                 ContactState::Closed => {
-                    sums.impulse += force;
+                    sums[Sum::Impulse] += force;
                     if let Some((_, c, _)) = compliant(&machine.stops()[j].law) {
                         let rate = moves - dot(&normal.directions[j], v);
-                        sums.contact_loss += weight * c * rate * rate;
+                        sums[Sum::ContactLoss] += weight * c * rate * rate;
                     }
                 }
-                ContactState::Resting if leg.chatter.contains(&j) => sums.impulse += force,
-                ContactState::Resting => sums.rest_impulse += force,
+                ContactState::Resting if leg.chatter.contains(&j) => sums[Sum::Impulse] += force,
+                ContactState::Resting => sums[Sum::RestImpulse] += force,
                 _ => continue,
             }
             // a wall whose position falls pushes
-            sums.work -= force * moves;
+            sums[Sum::Work] -= force * moves;
             if let Some(impulse) = &mut self.contacts[j].now {
                 *impulse += force;
             }
         }
         for (j, sums) in self.sums.joints.iter_mut().enumerate() {
             let (joint, force) = (&machine.joints()[j], forces[stops + j]);
-            sums.impulse += weight * force;
-            sums.work -= weight * force * joint.belt;
+            sums[Sum::Impulse] += weight * force;
+            sums[Sum::Work] -= weight * force * joint.belt;
             if leg.states[stops + j] != ContactState::Holding {
-                sums.loss += weight * force * (dot(&normal.directions[stops + j], v) - joint.belt);
+                sums[Sum::FrictionLoss] += weight * force * (dot(&normal.directions[stops + j], v) - joint.belt);
             }
         }
     }
@@ -283,8 +286,8 @@ impl<'a> MachineTally<'a> {
     pub(super) fn event(&mut self, passage: &Passage, events: &[MachineEvent]) {
         for event in events.iter().filter(|event| event.closes()) {
             let sums = &mut self.sums.stops[event.place];
-            sums.closings += 1.0;
-            sums.speeds += event.speed;
+            sums[Sum::Impacts] += 1.0;
+            sums[Sum::Speeds] += event.speed;
             let most = &mut self.extremes.speeds[event.place];
             *most = most.max(event.speed);
         }
@@ -293,10 +296,10 @@ impl<'a> MachineTally<'a> {
         for blow in &passage.blows {
             let StopLaw::Rigid { restitution } = self.frame.machine.stops()[blow.stop].law else { continue };
             let sums = &mut self.sums.stops[blow.stop];
-            sums.impulse += blow.impulse;
+            sums[Sum::Impulse] += blow.impulse;
             // the mean of the velocities of the gap before and after, -(1 - e) U/2, times the impulse
-            sums.impact_loss += 0.5 * (1.0 - restitution) * blow.speed * blow.impulse;
-            sums.work -= blow.impulse * self.walls[blow.stop].swing(&turns);
+            sums[Sum::ImpactLoss] += 0.5 * (1.0 - restitution) * blow.speed * blow.impulse;
+            sums[Sum::Work] -= blow.impulse * self.walls[blow.stop].swing(&turns);
             let most = &mut self.extremes.impulses[blow.stop];
             *most = most.max(blow.impulse);
         }
@@ -350,20 +353,20 @@ impl<'a> MachineTally<'a> {
             let impulse = -dot(across, &change);
             if *held >= stops {
                 let joint = &mut self.sums.joints[*held - stops];
-                joint.impulse += impulse;
-                joint.work -= impulse * machine.joints()[*held - stops].belt;
+                joint[Sum::Impulse] += impulse;
+                joint[Sum::Work] -= impulse * machine.joints()[*held - stops].belt;
                 continue;
             }
             let sums = &mut self.sums.stops[*held];
             let moves = self.walls[*held].swing(&turns);
-            sums.work -= impulse * moves;
+            sums[Sum::Work] -= impulse * moves;
             if chatter.contains(held) {
-                sums.closings = f64::INFINITY;
-                sums.impulse += impulse;
+                sums[Sum::Impacts] = f64::INFINITY;
+                sums[Sum::Impulse] += impulse;
                 let rebound = moves - dot(&normal.directions[*held], &before);
-                sums.impact_loss -= 0.5 * rebound * impulse;
+                sums[Sum::ImpactLoss] -= 0.5 * rebound * impulse;
             } else {
-                sums.rest_impulse += impulse;
+                sums[Sum::RestImpulse] += impulse;
             }
         }
     }

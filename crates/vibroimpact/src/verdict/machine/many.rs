@@ -5,13 +5,12 @@
 //! All other starts are settled one after another. The verdict on a start is that of [`settle_machine`](super::settle_machine)
 //! either way, and a motion has the verdict on the first start that leads to it.
 
-use super::super::attractors::{CountedMotion, SAME, SteadyMotion};
+use super::super::attractors::{CountedMotion, SAME};
 use super::super::each::{Counted, settle_each};
 use super::super::many::{KnownAttractors, settle_many};
 use super::super::options::SettleOptions;
 use super::super::outcome::Verdict;
-use super::super::settlement::Settlement;
-use super::outcome::MachineVerdict;
+use super::super::settlement::Settlement as OscillatorSettlement;
 use super::reduced::{Converted, Reduced};
 use super::settle::settle_alone;
 use crate::events::MachineStart;
@@ -21,9 +20,9 @@ use crate::system::Start;
 
 /// The motions to which starts of one machine lead.
 #[derive(Clone, Debug, Default)]
-pub struct MachineSettlement {
+pub struct Settlement {
     /// The distinct motions, in the order of the first start that leads to each.
-    pub motions: Vec<CountedMotion<MachineVerdict>>,
+    pub motions: Vec<CountedMotion<Machine>>,
     /// The index of its motion for each start; `None` for a start that is not allowed.
     pub cells: Vec<Option<u32>>,
     /// For each start of a chaotic motion the number of events over which chaos was seen.
@@ -84,7 +83,7 @@ pub fn settle_machine_many(
     width: Width,
     go_on: &dyn Fn() -> bool,
     tick: &dyn Fn() -> bool,
-) -> Option<MachineSettlement> {
+) -> Option<Settlement> {
     let question = Question::new(machine, starts, (known, options));
     let settlement = question.reduced.as_ref().map(|reduced| {
         let range = 0..question.plain.len() as u64;
@@ -103,7 +102,7 @@ pub fn settle_each_machine(
     width: Width,
     go_on: &dyn Fn() -> bool,
     tick: &dyn Fn() -> bool,
-) -> Option<Vec<MachineSettlement>> {
+) -> Option<Vec<Settlement>> {
     let none = KnownMotions::default();
     let questions: Vec<Question<'_>> =
         problems.iter().map(|(machine, starts)| Question::new(machine, starts, (&none, options))).collect();
@@ -111,7 +110,7 @@ pub fn settle_each_machine(
         Some((k, (*question.reduced.as_ref()?.oscillator(), question.plain.len() as u64)))
     };
     let (places, systems): (Vec<usize>, Vec<Counted>) = questions.iter().enumerate().filter_map(counted).unzip();
-    let mut settlements: Vec<Option<Settlement>> = vec![None; questions.len()];
+    let mut settlements: Vec<Option<OscillatorSettlement>> = vec![None; questions.len()];
     let start = |system: usize, k: u64| questions[places[system]].start(k);
     let ended = settle_each(&systems, &start, options, false, width, &mut |system, settlement| {
         settlements[places[system]] = Some(settlement);
@@ -120,7 +119,7 @@ pub fn settle_each_machine(
     if !ended {
         return None;
     }
-    let settle = |(question, settlement): (&Question<'_>, Option<Settlement>)| {
+    let settle = |(question, settlement): (&Question<'_>, Option<OscillatorSettlement>)| {
         let found = question.settle(settlement, go_on, &|| false)?;
         // the others have been counted
         (question.reduced.is_some() || !tick()).then_some(found)
@@ -170,10 +169,10 @@ impl<'a> Question<'a> {
     /// The motions of all starts, where those of the oscillator are settled; `None` if stopped.
     fn settle(
         &self,
-        settlement: Option<Settlement>,
+        settlement: Option<OscillatorSettlement>,
         go_on: &dyn Fn() -> bool,
         tick: &dyn Fn() -> bool,
-    ) -> Option<MachineSettlement> {
+    ) -> Option<Settlement> {
         let settlement = settlement.unwrap_or_default();
         if settlement.cells.len() < self.plain.len() {
             return None;
@@ -183,7 +182,7 @@ impl<'a> Question<'a> {
         for (((place, _), cell), ending) in self.plain.iter().zip(&settlement.cells).zip(&settlement.endings) {
             leads[*place] = Some((*cell as usize, u64::from(ending.impacts)));
         }
-        let mut found = MachineSettlement::default();
+        let mut found = Settlement::default();
         // the number here of each motion of the oscillator, once it is known
         let mut numbers: Vec<Option<u32>> = vec![None; converted.len()];
         for (start, lead) in self.starts.iter().zip(leads) {
@@ -202,7 +201,7 @@ impl<'a> Question<'a> {
                 Err(_) => None,
             };
             let number = own.as_ref().map(|verdict| found.number(verdict));
-            found.lead(number, own.as_ref().and_then(MachineVerdict::seen_events));
+            found.lead(number, own.as_ref().and_then(Verdict::seen_events));
             if let (Some((motion, _)), Some(own)) = (lead, &own)
                 && matches!(converted[motion], Converted::Kind)
                 && own.label() == settlement.motions[motion].verdict.label()
@@ -218,9 +217,9 @@ impl<'a> Question<'a> {
     }
 }
 
-impl MachineSettlement {
+impl Settlement {
     /// The number of a motion; a new motion is added.
-    fn number(&mut self, verdict: &MachineVerdict) -> u32 {
+    fn number(&mut self, verdict: &Verdict<Machine>) -> u32 {
         let known = self.motions.iter().position(|found| found.verdict.same_as(verdict, SAME));
         let number = known.unwrap_or_else(|| {
             self.motions.push(CountedMotion { verdict: verdict.clone(), count: 0 });

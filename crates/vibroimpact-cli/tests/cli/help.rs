@@ -1,0 +1,65 @@
+//! Help: its examples run as they are written, and topics have what commands share.
+
+use crate::vibro;
+use std::fs;
+
+/// What a command prints.
+fn text(line: &str) -> String {
+    let output = vibro(line).output().expect("vibro runs");
+    assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).expect("text")
+}
+
+/// The examples of a command, each as one line.
+fn examples(command: &str) -> Vec<String> {
+    let help = text(&format!("{command} --help"));
+    let (_, examples) = help.split_once("\nExample").expect("examples");
+    let lines = examples.replace(" \\\n    ", " ");
+    lines.lines().filter_map(|line| line.trim().strip_prefix("vibro ").map(str::to_owned)).collect()
+}
+
+/// Those of questions, in the order of the list of commands, pasted one after another in a folder that is empty at first.
+#[test]
+fn examples_run_in_an_empty_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut ran = 0;
+    for command in [
+        "simulate",
+        "settle",
+        "settle-many",
+        "attractors",
+        "orbit",
+        "branch",
+        "curve",
+        "region",
+        "response",
+        "margins",
+        "basin",
+        "map",
+        "diagram",
+        "lyapunov",
+    ] {
+        // the table of the user
+        fs::write(folder.path().join("systems.csv"), "inverse_beta,gap\n1.3,0.75\n1.8,0.25\n").unwrap();
+        for line in examples(command) {
+            let output = vibro(&line).current_dir(&folder).output().expect("vibro runs");
+            assert!(output.status.success(), "vibro {line}\n{}", String::from_utf8_lossy(&output.stderr));
+            ran += 1;
+        }
+    }
+    assert!(ran > 35, "{ran} examples");
+}
+
+#[test]
+fn topics_and_commands_are_explained() {
+    let help = |of: &str| text(&format!("help {of}"));
+    assert_eq!(help("settle"), text("settle --help"));
+    assert!(help("machine show").contains("--toml") && help("").contains("vibro help units"));
+    assert!(help("system").contains("--stiffness-n-per-m <K>") && help("system").contains("--machine <NAME|FILE>"));
+    assert!(help("figure").contains("--greyscale") && help("figure").contains("--threads <N>"));
+    assert!(help("store").contains("--shard <N>") && help("units").contains("N/mm"));
+    assert!(help("quantities").contains("impact-speed-max") && help("machines").contains("two-mass-hammer"));
+    let unknown = vibro("help mass").output().expect("vibro runs");
+    assert_eq!(unknown.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&unknown.stderr).contains("no command and no topic `mass`\nhint: `vibro help`"));
+}

@@ -1,0 +1,332 @@
+//! The verdict on the motion of a machine from a start.
+
+use super::super::options::SettleOptions;
+use super::super::outcome::{Chaos, Settled, Undecided, UndecidedCause, Verdict};
+use super::super::record::{Record, Shown};
+use super::super::recurring::Recurring;
+use super::super::settle::settle_while;
+use super::outcome::State;
+use super::reduced::Reduced;
+use super::returns::{Recorded, Step};
+use crate::events::{MachineEnd, MachineMotion, MachineStart};
+use crate::lyapunov::{MEASURED_IMPACTS, Measured, Spectrum, Tail};
+use crate::machine::{Machine, MachineError};
+use crate::orbit::MachineFrame;
+use crate::system::Start;
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+/// The verdict on the motion of `machine` from `start`. In the options an impact stands for an event, and the limits of
+/// the search of the oscillator are not used.
+///
+/// A machine that [is an oscillator](Machine::reduced) is followed as that: the options then mean what they mean for
+/// [`settle`](crate::verdict::settle()), events are impacts, and chaos is decided as early as there. What the oscillator does not
+/// decide for the machine, and the motion from a start that says what its contacts do, is followed as that of any machine.
+///
+/// ```
+/// use vibroimpact::events::MachineStart;
+/// use vibroimpact::machine::{Machine, MachineParts};
+/// use vibroimpact::verdict::{SettleOptions, settle_machine};
+/// // N of the 1971 paper as a machine of one coordinate
+/// let parts = MachineParts::new(["mass"])
+///     .with_mass(0, 1.0)
+///     .with_link(&[1.0], 1.0, 0.0)
+///     .with_frequency(1.0 / 1.8)
+///     .with_force(0, 1, 0.0, 1.0)
+///     .with_rigid_stop("stop", &[1.0], 0.25, 0.5);
+/// let machine = Machine::new(parts)?;
+/// let settled = settle_machine(&machine, &MachineStart::default(), &SettleOptions::default())?;
+/// assert_eq!(settled.verdict.label(), "4/1");
+/// # Ok::<(), vibroimpact::machine::MachineError>(())
+/// ```
+///
+/// # Errors
+/// [`MachineError`] for an invalid start.
+pub fn settle_machine(
+    machine: &Machine,
+    start: &MachineStart,
+    options: &SettleOptions,
+) -> Result<Settled<Machine>, MachineError> {
+    unstopped(settle_machine_while(machine, start, options, &|| true))
+}
+
+/// The same, but stopped when `go_on` returns false, and then `None`. `go_on` is called at every step.
+///
+/// # Errors
+/// [`MachineError`] for an invalid start.
+pub fn settle_machine_while(
+    machine: &Machine,
+    start: &MachineStart,
+    options: &SettleOptions,
+    go_on: &dyn Fn() -> bool,
+) -> Result<Option<Settled<Machine>>, MachineError> {
+    let reduced = Reduced::of(machine, start, options);
+    settle_as(reduced.as_ref(), machine, start, options, go_on)
+}
+
+/// The same with the oscillator that the machine is, if it is one, and its start.
+pub(crate) fn settle_as(
+    reduced: Option<&(Reduced<'_>, Start)>,
+    machine: &Machine,
+    start: &MachineStart,
+    options: &SettleOptions,
+    go_on: &dyn Fn() -> bool,
+) -> Result<Option<Settled<Machine>>, MachineError> {
+    if let Some((reduced, from)) = reduced {
+        let Some(found) = settle_while(reduced.oscillator(), *from, options, go_on) else { return Ok(None) };
+        if let Some(found) = reduced.settled(&found) {
+            return Ok(Some(found));
+        }
+    }
+    settle_alone(machine, start, options, go_on)
+}
+
+/// The same as [`settle_machine`], but also a machine that is an oscillator is followed as any other: it takes a hundred times as
+/// long, and checks it.
+///
+/// # Errors
+/// [`MachineError`] for an invalid start.
+pub fn settle_unreduced(
+    machine: &Machine,
+    start: &MachineStart,
+    options: &SettleOptions,
+) -> Result<Settled<Machine>, MachineError> {
+    unstopped(settle_alone(machine, start, options, &|| true))
+}
+
+/// The verdict on a motion that was not stopped.
+fn unstopped(found: Result<Option<Settled<Machine>>, MachineError>) -> Result<Settled<Machine>, MachineError> {
+    let nothing = Undecided { why: UndecidedCause::Budget, impacts: 0, spectrum: None };
+    let nothing = || Settled { verdict: Verdict::Undecided(nothing), impacts: 0, time: 0.0, transient: None };
+    Ok(found?.unwrap_or_else(nothing))
+}
+
+/// How many events of a machine stand for one impact of the longest period that is searched for.
+const EVENTS_PER_IMPACT: u32 = 8;
+/// Two releases at states that differ by less are the same.
+const FORGOTTEN: f64 = 1e-9;
+/// The number of latest steps whose size distances are relative to.
+const RECENT: usize = 64;
+
+/// The verdict on the motion that the machine follows itself.
+pub(super) fn settle_alone(
+    machine: &Machine,
+    start: &MachineStart,
+    options: &SettleOptions,
+    go_on: &dyn Fn() -> bool,
+) -> Result<Option<Settled<Machine>>, MachineError> {
+    // chatters and contacts take many events in each period
+    let options = &SettleOptions { longest: options.longest.saturating_mul(EVENTS_PER_IMPACT), ..*options };
+    let mut follow = Follow::new(machine, start)?;
+    while follow.within(options) {
+        if !go_on() {
+            return Ok(None);
+        }
+        if let Some(verdict) = follow.step(options) {
+            return Ok(Some(follow.settled(verdict)));
+        }
+    }
+    let verdict = follow.last_look(options);
+    Ok(Some(follow.settled(verdict)))
+}
+
+/// The record of a motion that a machine follows itself.
+struct Follow<'a> {
+    system: Recorded<'a>,
+    motion: MachineMotion<'a>,
+    record: Record<Recorded<'a>>,
+    /// The sizes of coordinates and velocities at the latest steps.
+    sizes: VecDeque<(f64, f64)>,
+    events: u64,
+    time: f64,
+    /// The latest release from each stop, and its time.
+    releases: Vec<(Arc<Step>, f64)>,
+    /// Whether the motion has returned to a release whose cycle was not confirmed.
+    unconfirmed: bool,
+    /// The latest chaos, which may have ended.
+    over: Option<Chaos<Machine>>,
+}
+
+impl<'a> Follow<'a> {
+    fn new(machine: &'a Machine, start: &MachineStart) -> Result<Self, MachineError> {
+        let system = Recorded::new(MachineFrame::new(machine));
+        let motion = MachineMotion::new(machine, start, system.frame.limits())?;
+        Ok(Self {
+            system,
+            motion,
+            record: Record::default(),
+            sizes: VecDeque::new(),
+            events: 0,
+            time: 0.0,
+            releases: Vec::new(),
+            unconfirmed: false,
+            over: None,
+        })
+    }
+
+    /// Whether the budget permits more. A measurement that began because the one before diverged too little for a decision is
+    /// completed beyond the budget.
+    fn within(&self, options: &SettleOptions) -> bool {
+        let (count, most) = (self.record.count(), options.max_impacts as usize);
+        count < most || options.extend && self.record.undecided_measurement() && count < 3 * most
+    }
+
+    /// Follows the motion by a step; returns the verdict if it is decided.
+    fn step(&mut self, options: &SettleOptions) -> Option<Verdict<Machine>> {
+        let Some((step, seen)) = Step::next(&mut self.motion) else { return Some(self.last_look(options)) };
+        self.events += seen.len() as u64;
+        let before = core::mem::replace(&mut self.time, self.motion.time());
+        if let Some(end) = self.motion.end() {
+            let last = State::of(self.motion.place());
+            let verdict = match end {
+                MachineEnd::Never => Verdict::NoImpact(last),
+                MachineEnd::Stuck => Verdict::Stuck(last),
+                end => return Some(self.undecided(UndecidedCause::Ended(end))),
+            };
+            self.time = before;
+            return Some(verdict);
+        }
+        self.measure_size(&step);
+        let (interval, step) = (step.passage.time(), Arc::new(step));
+        self.record.push(options, step.clone(), interval);
+        let released = self.release(&step);
+        if released.is_some() {
+            return released;
+        }
+        if self.record.count().is_multiple_of(64) {
+            self.system.frame.keep(&self.motion);
+        }
+        match self.record.decide(&self.system, options, &step, interval) {
+            Some(Shown::Cycle(cycle)) => return Some(Verdict::Periodic(cycle)),
+            // chaos of a machine is often a transient of thousands of events: the motion is followed to the end of the budget
+            Some(Shown::Chaos((spectrum, ()))) => self.over = Some(self.chaos(spectrum)),
+            None => {}
+        }
+        None
+    }
+
+    /// Includes a step in the size of the motion, to which distances are relative.
+    fn measure_size(&mut self, step: &Step) {
+        self.sizes.push_back(self.system.frame.sizes(&step.begin));
+        if self.sizes.len() > RECENT {
+            self.sizes.pop_front();
+        }
+        self.system.sizes.set(self.sizes.iter().fold((0.0, 0.0), |(a, b), (x, v)| (x.max(a), v.max(b))));
+    }
+
+    /// What a step to a release from rest decides. A rest can make a motion forget its past: it is the same from one release to
+    /// another, however far apart.
+    fn release(&mut self, step: &Arc<Step>) -> Option<Verdict<Machine>> {
+        if !step.releases() {
+            return None;
+        }
+        let earlier = self.releases.iter().position(|(earlier, _)| earlier.passage.guards == step.passage.guards);
+        if let Some((earlier, then)) = earlier.map(|at| self.releases.swap_remove(at))
+            && self.system.distance(step, &earlier) < FORGOTTEN
+        {
+            if let Some(cycle) = self.system.same(step, self.time - then) {
+                return Some(Verdict::Periodic(cycle));
+            }
+            if self.system.rounding_decides(step, self.time - then) {
+                // from this release the motion is always the same, and a longer run shows no more of it
+                return Some(self.undecided(UndecidedCause::Unconfirmed));
+            }
+            self.unconfirmed |= step.was_still();
+        }
+        if step.was_still() {
+            self.over = self.transient();
+            self.record.forget();
+        }
+        self.releases.push((step.clone(), self.time));
+        None
+    }
+
+    /// Chaos with these exponents, and the last steps so far.
+    fn chaos(&self, spectrum: Spectrum<Vec<Measured>>) -> Chaos<Machine> {
+        let steps = &self.record.returns;
+        let count = steps.len().min(usize::try_from(MEASURED_IMPACTS).unwrap_or(usize::MAX));
+        let last = self.motion.place();
+        let from = steps[steps.len() - count..].first().map_or(last, |(step, _)| &step.begin);
+        let tail = Tail { from: State::of(from), last: State::of(last), impacts: count as u64 };
+        Chaos { spectrum, impacts: self.events, tail }
+    }
+
+    fn undecided(&self, why: UndecidedCause) -> Verdict<Machine> {
+        let spectrum = self.record.latest(&self.system).map(|(spectrum, ())| spectrum);
+        Verdict::Undecided(Undecided { why, impacts: self.events, spectrum })
+    }
+
+    /// Chaos that was measured and has ended, if the motion has settled into something else.
+    fn transient(&self) -> Option<Chaos<Machine>> {
+        let found = self.record.was_chaotic(&self.system);
+        found.map(|(spectrum, ())| self.chaos(spectrum)).or_else(|| self.over.clone())
+    }
+
+    /// The verdict when the budget is used up, after a last search for a recurrence.
+    fn last_look(&mut self, options: &SettleOptions) -> Verdict<Machine> {
+        let last = self.record.returns.last().map(|(step, _)| step.clone());
+        if let Some(cycle) = last.and_then(|step| self.record.look(&self.system, options, &step)) {
+            return Verdict::Periodic(cycle);
+        }
+        match self.record.chaos(&self.system) {
+            Some((spectrum, ())) if !self.unconfirmed => Verdict::Chaotic(self.chaos(spectrum)),
+            _ if self.unconfirmed => self.undecided(UndecidedCause::Unconfirmed),
+            _ => self.undecided(UndecidedCause::Budget),
+        }
+    }
+
+    /// The verdict, and how far the motion was followed.
+    fn settled(&self, verdict: Verdict<Machine>) -> Settled<Machine> {
+        let open = matches!(verdict, Verdict::Chaotic(_) | Verdict::Undecided(_));
+        let transient = if open { None } else { self.transient() };
+        Settled { verdict, impacts: self.events, time: self.time, transient }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine::MachineParts;
+    use crate::scenario;
+    use crate::verdict::settle;
+
+    fn of(osc: &crate::Oscillator) -> Machine {
+        let mut parts = MachineParts::new(["mass"])
+            .with_mass(0, 1.0)
+            .with_link(&[1.0], 1.0, 2.0 * osc.damping())
+            .with_frequency(osc.beta())
+            .with_force(0, 1, 0.0, 1.0);
+        for (side, stop) in osc.stops() {
+            parts = parts.with_rigid_stop(&format!("{side:?}"), &[side.sign()], stop.gap, stop.restitution);
+        }
+        Machine::new(parts).unwrap()
+    }
+
+    /// The paper's points as machines: the same labels, cycles and multipliers as the oscillator.
+    #[test]
+    fn the_papers_points() {
+        for point in scenario::PAPER {
+            let osc = point.oscillator();
+            let machine = of(&osc);
+            for (x, v) in [(0.0, 0.0), (-2.0, 0.0), (0.1, -1.0)] {
+                let start = Start { x, v, phase: 0.0 };
+                let expected = settle(&osc, start, &SettleOptions::default()).verdict;
+                let own = MachineStart { q: vec![x], qdot: vec![v], phase: 0.0, ..MachineStart::default() };
+                let found = settle_unreduced(&machine, &own, &SettleOptions::default()).unwrap().verdict;
+                assert_eq!(found.label(), expected.label(), "{} from {x} {v}", point.name);
+                if let (Verdict::Periodic(cycle), Verdict::Periodic(of)) = (&found, &expected) {
+                    assert!(cycle.residual < 1e-12);
+                    assert!((cycle.fastest() - of.fastest()).abs() < 1e-11, "{} {}", cycle.fastest(), of.fastest());
+                    for (a, b) in cycle.multipliers.iter().zip(of.multipliers) {
+                        let apart = (a.re - b.re).abs() + (a.im - b.im).abs();
+                        assert!(apart < 1e-9 || of.multipliers[0].modulus() == 0.0 && apart < 1e-3, "{a:?} {b:?}");
+                    }
+                }
+                if let (Verdict::Chaotic(own), Verdict::Chaotic(chaos)) = (&found, &expected) {
+                    let (a, b) = (own.spectrum.exponents[0], chaos.spectrum.exponents[0]);
+                    assert!((a.value - b.value).abs() < a.error + b.error, "{a:?} {b:?}");
+                }
+            }
+        }
+    }
+}
