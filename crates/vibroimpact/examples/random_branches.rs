@@ -15,7 +15,7 @@ use vibroimpact::continuation::{
 use vibroimpact::events::{MachineEventKind, MachineStart};
 use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::orbit::MachineCycle;
-use vibroimpact::verdict::{MachineVerdict, SettleOptions, settle_machine};
+use vibroimpact::verdict::{SettleOptions, Verdict, settle_machine};
 
 /// Points of a branch at most.
 const POINTS: u32 = 150;
@@ -139,7 +139,7 @@ impl Tally {
         let Ok(settled) = settle_machine(&machine, &MachineStart::default().within_stops(&machine), &options) else {
             return false;
         };
-        let MachineVerdict::Periodic(cycle) = settled.verdict else { return false };
+        let Verdict::Periodic(cycle) = settled.verdict else { return false };
         let numbers: Vec<_> = machine.numbers().into_iter().filter(|(_, value)| *value != 0.0).collect();
         let (path, value) = &numbers[draw.one_of(numbers.len())];
         let (up, down) = (draw.number(0.2, 0.6), draw.number(0.2, 0.6));
