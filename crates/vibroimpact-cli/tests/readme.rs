@@ -56,7 +56,7 @@ fn shown_output_is_real_output() {
 
 /// Runs the lines of a page in one folder, and returns it.
 fn ran(name: &str, least: usize) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempfile::tempdir().expect("a folder");
     let blocks = blocks(&page(name), "sh").concat();
     let lines: Vec<&str> = blocks.lines().filter(|line| line.starts_with("vibro ")).collect();
     for line in &lines {

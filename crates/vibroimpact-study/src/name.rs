@@ -37,6 +37,7 @@ pub trait Name: Clone + PartialEq + fmt::Debug {
     }
 
     /// The schema of names in a plan.
+    #[must_use]
     fn schema() -> Schema {
         json_schema!({ "type": "string" })
     }

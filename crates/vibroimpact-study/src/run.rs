@@ -21,6 +21,7 @@ use vibroimpact::{Label, Start};
 /// The result of a [`Task`], one variant for each.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
+#[allow(clippy::large_enum_variant, reason = "there is one of them for a plan")]
 pub enum Results {
     /// The start and the events of its motion.
     Simulate(Start, Simulated),
