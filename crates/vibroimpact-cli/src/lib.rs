@@ -37,7 +37,10 @@ use std::path::PathBuf;
 pub fn run(words: &[OsString], program: Option<PathBuf>) -> u8 {
     exit::no_backtraces();
     program::remember(program);
-    let parsed = help::shown(commands::CommandLine::command()).try_get_matches_from(words);
+    let command = commands::CommandLine::command();
+    // the help is rearranged only where it is asked for, because this takes longer than a short question
+    let helps = words.iter().any(|word| word == "-h" || word == "--help");
+    let parsed = if helps { help::shown(command) } else { command }.try_get_matches_from(words);
     let line = match parsed.and_then(|found| commands::CommandLine::from_arg_matches(&found)) {
         Ok(line) => line,
         Err(refusal) => {
