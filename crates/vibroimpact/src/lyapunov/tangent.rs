@@ -97,8 +97,8 @@ fn carried(vectors: &mut Vec<Vec<f64>>, map: Matrix2, area: f64) -> [f64; 2] {
         return [ln(along), area];
     }
     vectors[1].copy_from_slice(&[-v, x]);
-    let across = (x * second[1] - v * second[0]).abs();
-    [ln(along), if across > NARROW * along { ln(across) } else { area - ln(along) }]
+    let (across, stretch) = ((x * second[1] - v * second[0]).abs(), ln(along));
+    [stretch, if across > NARROW * along { ln(across) } else { area - stretch }]
 }
 
 #[cfg(test)]
