@@ -175,7 +175,7 @@ impl Store {
         let shelf = Arc::new(Memory::default());
         let lengths: Vec<usize> = grid.dimensions.iter().map(|dimension| dimension.tile).collect();
         let study = Study::new(&self.plan)?.with_tiles(&lengths, |name| self.field(name).is_some());
-        let twin = Self::of(shelf, &self.plan, study, self.begun_by.clone(), self.format());
+        let twin = Self::of(shelf, self.plan.clone(), study, self.begun_by.clone(), self.format());
         let concluded = self.concluded()?;
         let compared = pool.install(|| {
             let compare = |tile: &u64| -> Result<Option<Damage>, StoreError> {

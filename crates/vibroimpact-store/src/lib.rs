@@ -181,7 +181,7 @@ impl Store {
         if found.hash != self.plan.hash() {
             return Err(StoreError::OtherPlan { place: self.place(), theirs: found.hash, ours: self.plan.hash() });
         }
-        Self::as_begun(self.shelf, &self.plan, root, found)
+        Self::of(self.shelf, self.plan, self.study, found.version, found.format).with_layout_of(root, found.format)
     }
 
     /// Opens an existing store.
@@ -197,8 +197,8 @@ impl Store {
             key: ROOT.into(),
             why: format!("its plan does not read: {error}"),
         })?;
-        let hash = found.hash.clone();
-        let store = Self::as_begun(shelf, &plan, &root, found)?;
+        let Found { hash, version, format, .. } = found;
+        let store = Self::over(shelf, &plan, version, format)?.with_layout_of(&root, format)?;
         // another version may write the same plan as another text
         if store.is_ours() && store.plan.hash() != hash {
             let why = format!("its plan has the name {}, not {}: one of them was changed", store.plan.hash(), hash);
@@ -207,31 +207,25 @@ impl Store {
         Ok(store)
     }
 
-    /// The store of a plan with this root: with the shards, tiles and fields with which it was begun.
-    fn as_begun(
-        shelf: Arc<dyn Shelf>,
-        plan: &Plan,
-        root: &Value,
-        Found { version, format, .. }: Found,
-    ) -> Result<Self, StoreError> {
-        let store = Self::over(shelf, plan, version, format)?;
-        let (tiles, absent) = (store.begun_tiles(root)?, store.absent_fields(root)?);
+    /// This store with the tiles and fields with which one of this root and format was begun.
+    fn with_layout_of(self, root: &Value, format: u64) -> Result<Self, StoreError> {
+        let (tiles, absent) = (self.begun_tiles(root)?, self.absent_fields(root)?);
         if tiles.is_none() && absent.is_empty() {
-            return Ok(store);
+            return Ok(self);
         }
         let lengths = tiles.unwrap_or_default();
-        let study = store.study.with_tiles(&lengths, |name| !absent.iter().any(|absent| absent == name));
-        Ok(Self::of(store.shelf, plan, study, store.begun_by, format))
+        let study = self.study.with_tiles(&lengths, |name| !absent.iter().any(|absent| absent == name));
+        Ok(Self::of(self.shelf, self.plan, study, self.begun_by, format))
     }
 
     fn over(shelf: Arc<dyn Shelf>, plan: &Plan, begun_by: String, format: u64) -> Result<Self, StoreError> {
-        Ok(Self::of(shelf, plan, Study::new(plan)?, begun_by, format))
+        Ok(Self::of(shelf, plan.clone(), Study::new(plan)?, begun_by, format))
     }
 
-    fn of(shelf: Arc<dyn Shelf>, plan: &Plan, study: Study, begun_by: String, format: u64) -> Self {
+    fn of(shelf: Arc<dyn Shelf>, plan: Plan, study: Study, begun_by: String, format: u64) -> Self {
         let shards = if format == PLAIN { None } else { Shards::of(study.grid(), plan.shard) };
         let layout = Layout::new(&study, shards);
-        Self { shelf, plan: plan.clone(), study, layout, begun_by, costs: None }
+        Self { shelf, plan, study, layout, begun_by, costs: None }
     }
 
     /// Number of tiles of a shard along each dimension; `None` for a store without shards.

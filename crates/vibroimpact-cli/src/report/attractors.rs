@@ -7,7 +7,7 @@ use crate::report::words::{multipliers, table};
 use vibroimpact::Oscillator;
 use vibroimpact::machine::Machine;
 use vibroimpact::quantities::Quantity;
-use vibroimpact::verdict::{Census, CountedMotion, StartBox};
+use vibroimpact::verdict::{Census, CountedMotion, StartBox, Verdict};
 use vibroimpact_report::Units;
 use vibroimpact_report::number::{percent, short};
 
@@ -38,14 +38,14 @@ fn rows<T: Teller>(teller: &T, census: &Census<T::System>) -> String {
         vec![
             percent(census.share(found)),
             found.count.to_string(),
-            teller.label(verdict),
+            verdict.label().into_owned(),
             all.map_or_else(|| "-".into(), |all| multipliers(&all)),
             teller.quantity(verdict, Quantity::ImpactSpeedMax),
             teller.quantity(verdict, Quantity::Power),
             teller.meaning(verdict) + &teller.by_stop(verdict),
         ]
     };
-    let undecided = |found: &&CountedMotion<T::System>| teller.undecided(&found.verdict);
+    let undecided = |found: &&CountedMotion<T::System>| matches!(found.verdict, Verdict::Undecided(_));
     let motions = leading(census.by_share(), |found| census.share(found), undecided);
     let rows = motions.rows(row, "motion", (2, 0, heads.len()));
     table(&heads, &rows) + &certainty(census.by_share().iter().map(|found| found.count), census.total())

@@ -39,9 +39,9 @@ fn rows<T: Teller>(teller: &T, motions: Vec<(&Verdict<T::System>, u64, f64)>) ->
     let heads = ["share", "starts", "<label", "<meaning"].map(str::to_owned);
     let row = |(verdict, count, share): &(&Verdict<T::System>, u64, f64)| {
         let meaning = teller.meaning(verdict) + &teller.by_stop(verdict);
-        vec![percent(*share), count.to_string(), teller.label(verdict), meaning]
+        vec![percent(*share), count.to_string(), verdict.label().into_owned(), meaning]
     };
-    let motions = leading(motions, |motion| motion.2, |motion| teller.undecided(motion.0));
+    let motions = leading(motions, |motion| motion.2, |motion| matches!(motion.0, Verdict::Undecided(_)));
     let total = counts.iter().sum();
     table(&heads, &motions.rows(row, "motion", (2, 0, heads.len()))) + &certainty(counts.into_iter(), total)
 }

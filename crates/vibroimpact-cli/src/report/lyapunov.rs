@@ -98,7 +98,7 @@ pub(crate) fn of_machine(found: &Exponents<Machine>, machine: &Machine) -> Strin
     let exponents = found.exponents.iter().filter(|_| !ended).enumerate();
     let period = machine.period().filter(|_| !ended);
     let told = Told {
-        motion: format!("{}: {}", machine.label(&found.motion), machine.meaning(&found.motion)),
+        motion: format!("{}: {}", found.motion.label(), machine.meaning(&found.motion)),
         time: "unit of time",
         exponents: exponents.map(|(k, of)| (format!("exponent {}", k + 1), *of)).collect(),
         period: machine.period(),

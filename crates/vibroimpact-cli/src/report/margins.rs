@@ -48,7 +48,7 @@ pub(crate) fn text(found: &MotionMargins, osc: &Oscillator, units: &Units) -> St
 
 fn head<T: Teller>(teller: &T, motion: &Verdict<T::System>, stability: Option<Stability>) -> String {
     let stable = stability.map_or_else(String::new, |stability| format!(", {stability}"));
-    let (label, by_stop, meaning) = (teller.label(motion), teller.by_stop(motion), teller.meaning(motion));
+    let (label, by_stop, meaning) = (motion.label(), teller.by_stop(motion), teller.meaning(motion));
     format!("{label}{by_stop}: {meaning}{stable}\n")
 }
 

@@ -23,8 +23,6 @@ pub(super) trait Teller {
     /// The kind of system.
     type System: System;
 
-    fn label(&self, verdict: &Verdict<Self::System>) -> String;
-
     /// The meaning, as a sentence without full stop.
     fn meaning(&self, verdict: &Verdict<Self::System>) -> String;
 
@@ -35,8 +33,6 @@ pub(super) trait Teller {
 
     /// A quantity with its unit; a dash where it is not defined.
     fn quantity(&self, verdict: &Verdict<Self::System>, quantity: Quantity) -> String;
-
-    fn undecided(&self, verdict: &Verdict<Self::System>) -> bool;
 
     /// The events of a cycle, one row each.
     fn events(&self, verdict: &Verdict<Self::System>) -> String;
@@ -51,7 +47,7 @@ pub(super) trait Teller {
 
     /// The complete text of one motion.
     fn motion(&self, verdict: &Verdict<Self::System>) -> String {
-        let mut text = format!("{}{}: {}\n", self.label(verdict), self.by_stop(verdict), self.meaning(verdict));
+        let mut text = format!("{}{}: {}\n", verdict.label(), self.by_stop(verdict), self.meaning(verdict));
         text.push_str(&self.events(verdict));
         if let Some(stability) = self.stability(verdict) {
             let multipliers = self.multipliers(verdict).filter(|all| !all.is_empty());
@@ -71,10 +67,6 @@ pub(super) struct InUnits<'a>(pub(super) &'a Oscillator, pub(super) &'a Units);
 impl Teller for InUnits<'_> {
     type System = Oscillator;
 
-    fn label(&self, verdict: &Verdict) -> String {
-        verdict.label().into_owned()
-    }
-
     fn meaning(&self, verdict: &Verdict) -> String {
         meaning(verdict)
     }
@@ -89,10 +81,6 @@ impl Teller for InUnits<'_> {
 
     fn quantity(&self, verdict: &Verdict, quantity: Quantity) -> String {
         of_verdict(self.0, verdict).map_or_else(|| "-".into(), |all| self.1.text(&all, quantity))
-    }
-
-    fn undecided(&self, verdict: &Verdict) -> bool {
-        matches!(verdict, Verdict::Undecided(_))
     }
 
     fn events(&self, verdict: &Verdict) -> String {
@@ -118,10 +106,6 @@ impl Teller for InUnits<'_> {
 
 impl Teller for Machine {
     type System = Machine;
-
-    fn label(&self, verdict: &Verdict<Machine>) -> String {
-        verdict.label().into_owned()
-    }
 
     fn meaning(&self, verdict: &Verdict<Machine>) -> String {
         match verdict {
@@ -154,10 +138,6 @@ impl Teller for Machine {
         let all = machine_quantities(self, verdict);
         let value = all.map_or(f64::NAN, |all| largest(&all, self, quantity));
         if value.is_finite() { short(value) } else { "-".to_owned() }
-    }
-
-    fn undecided(&self, verdict: &Verdict<Machine>) -> bool {
-        matches!(verdict, Verdict::Undecided(_))
     }
 
     fn events(&self, verdict: &Verdict<Machine>) -> String {

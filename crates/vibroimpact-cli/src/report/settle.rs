@@ -4,7 +4,7 @@ use crate::report::motion::{InUnits, Teller};
 use crate::report::words::seconds;
 use vibroimpact::Oscillator;
 use vibroimpact::machine::Machine;
-use vibroimpact::verdict::{PaperRule, PaperVerdict, Settled};
+use vibroimpact::verdict::{PaperRule, PaperVerdict, Settled, Verdict};
 use vibroimpact_report::Units;
 use vibroimpact_report::number::short;
 use vibroimpact_study::counted;
@@ -21,7 +21,7 @@ pub(crate) fn text(
     text.push_str(&followed(
         &counted(settled.impacts, "impact"),
         &seconds(settled.time, units),
-        told.undecided(&settled.verdict),
+        matches!(settled.verdict, Verdict::Undecided(_)),
     ));
     if let Some(chaos) = settled.transient {
         text.push_str(&format!("  chaotic before: a transient that had ended at impact {}\n", chaos.impacts));
@@ -41,7 +41,7 @@ pub(crate) fn text(
 pub(crate) fn of_machine(settled: &Settled<Machine>, machine: &Machine) -> String {
     let mut text = machine.motion(&settled.verdict);
     let events = counted(settled.impacts, "event");
-    text.push_str(&followed(&events, &short(settled.time), machine.undecided(&settled.verdict)));
+    text.push_str(&followed(&events, &short(settled.time), matches!(settled.verdict, Verdict::Undecided(_))));
     if settled.transient.is_some() {
         text.push_str("  chaotic before: a transient that has ended\n");
     }
