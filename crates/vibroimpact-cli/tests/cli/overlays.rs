@@ -64,9 +64,9 @@ fn the_export_of_the_page_is_the_figure_of_its_command() {
             "#b5221b",
         ),
         (
-            "layers=paper,stripes,regions&mark=1.3,1&colour=power",
+            "layers=paper,stripes&mark=1.3,1&colour=power",
             &fields,
-            "--colour power --layers regions,paper --mark 1.3,1",
+            "--colour power --layers paper --mark 1.3,1",
             ">T<",
         ),
         ("layers=stripes&colour=power", &fields, "--colour power", ""),
