@@ -27,7 +27,8 @@ async function choosePoints(page, points) {
   await page.locator("#export-points").selectOption(points);
 }
 
-export async function exports_each_format({ open }) {
+/** Every view as a picture; as figures and tables they are those of commands. */
+export async function exports_each_view_as_png({ open }) {
   const { page } = await open("#point=1&inverse_beta=1.3&gap=0.75&line=1.3,1,1.2,2&impacts=200", { acceptDownloads: true });
   await drawn(page);
   await until("a verdict", async () => (await page.locator(".verdict .label").count()) === 1 && (await verdict(page)) === "2/1");
@@ -40,13 +41,7 @@ export async function exports_each_format({ open }) {
     await until(`the command of ${view}`, async () =>
       (await page.locator("#export pre").first().textContent()).startsWith("vibro "));
     assert.match(await page.locator("#export pre").last().textContent(), /import vibroimpact/);
-    const formats = view === "attractors" ? ["csv"] : ["svg", "png", "csv"];
-    for (const format of formats) {
-      const bytes = await saved(page, format);
-      if (format === "svg") assert.match(bytes.toString("utf8", 0, 200), /<svg /, view);
-      if (format === "png") assert.equal(bytes.toString("hex", 0, 4), "89504e47", view);
-      if (format === "csv") assert.match(bytes.toString("utf8", 0, 400), /^[a-z_#]/i, view);
-    }
+    if (view !== "attractors") assert.equal((await saved(page, "png")).toString("hex", 0, 4), "89504e47", view);
   }
 }
 
@@ -124,7 +119,7 @@ export async function figures_of_quantities_and_machines_are_those_of_their_comm
   try {
     for (const [hash, points, wanted] of [
       [`#${window}&colour=power&range=0,0.5&starts=2&of=smallest`, FEW, /--colour power --of smallest --colour-range 0:0\.5 --plot/],
-      [`#${window}&starts=2`, "200", /:200 (?!.*--refine).* --plot/],
+      ["#view=1.25,1.35,1.4,1.6&impacts=200&layers=stripes&starts=2", "200", /:200 (?!.*--refine).* --plot/],
       [`#${window}&machine=0.8,12000,30&colour=power`, FEW, /--mass-kg 0\.8 .*--frequency-hz \S+:40 .*--colour power/],
       ["#view=1,1.5,0.5,2.5&impacts=200&point=1&inverse_beta=1.3&gap=1&line=1.1,1.5,1.1,2.2&panel=line&layers=paper,amplitude,boundaries", FEW,
         /--layers amplitude,paper,boundaries --mark 1\.3,1 --line 1\.1,1\.5:1\.1,2\.2 --plot/],
