@@ -96,7 +96,10 @@ fn branches_to_the_last_digit() {
             break;
         }
     }
-    assert!(branches == most && points > 15 * most && events > most, "{branches} branches, {points} points, {events} events");
+    assert!(
+        branches == most && points > 15 * most && events > most,
+        "{branches} branches, {points} points, {events} events"
+    );
 }
 
 #[test]
