@@ -5,7 +5,7 @@ import { execFile } from "node:child_process";
 import { mkdtemp, readFile, readlink, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { promisify } from "node:util";
-import { drawn, pictures, sharp, until, verdict } from "./page.mjs";
+import { SMALL, drawn, pictures, sharp, until, verdict } from "./page.mjs";
 
 async function saved(page, format) {
   const [download] = await Promise.all([page.waitForEvent("download"), page.locator(`#export [data-format=${format}]`).click()]);
@@ -29,7 +29,7 @@ async function choosePoints(page, points) {
 
 /** Every view as a picture; as figures and tables they are those of commands. */
 export async function exports_each_view_as_png({ open }) {
-  const { page } = await open("#point=1&inverse_beta=1.3&gap=0.75&line=1.3,1,1.2,2&impacts=200", { acceptDownloads: true });
+  const { page } = await open("#point=1&inverse_beta=1.3&gap=0.75&line=1.3,1,1.2,2&impacts=200", { ...SMALL, acceptDownloads: true });
   await drawn(page);
   await until("a verdict", async () => (await page.locator(".verdict .label").count()) === 1 && (await verdict(page)) === "2/1");
   await page.locator("#export-button").click();
@@ -158,7 +158,7 @@ export async function every_export_is_that_of_its_command({ open, address }) {
       ["#machine=0.8,12000,30&x=beta&point=1&beta=0.77&gap=0.75&damping=0.02&start=0.1,0.2,0.3&view=0.7,1,0.4,2.2&line=0.7,1,0.8,1.2&layers=stripes&impacts=200&colour=displacement_max",
         "--mass-kg 0.8", /_(hz|m|s|m_per_s)\b|^re,im$|^section,/],
     ]) {
-      const { page } = await open(hash, { acceptDownloads: true });
+      const { page } = await open(hash, { ...SMALL, acceptDownloads: true });
       await drawn(page, hash.includes("colour"));
       await page.waitForSelector("#point .note:not(:empty)");
       if (hash.includes("colour")) await page.waitForSelector("[data-name=basin] .bar-colours[data-range]");
