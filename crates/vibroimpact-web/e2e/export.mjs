@@ -114,7 +114,7 @@ async function figureOfCommand(page, address, act) {
 export async function figures_of_quantities_and_machines_are_those_of_their_commands({ open, address }) {
   if (!process.env.VIBRO_PID) return;
   const folder = await mkdtemp(`${tmpdir()}/vibro-e2e-`);
-  const window = "view=1,1.3,0.5,1.1&impacts=200&layers=stripes";
+  const window = "view=1.25,1.35,0.7,0.8&impacts=200&layers=stripes";
   const regions = process.env.VIBROIMPACT_LONG === "1" ? "regions," : "";
   try {
     for (const [hash, points, wanted] of [
@@ -123,10 +123,10 @@ export async function figures_of_quantities_and_machines_are_those_of_their_comm
       [`#${window}&machine=0.8,12000,30&colour=power`, FEW, /--mass-kg 0\.8 .*--frequency-hz \S+:40 .*--colour power/],
       ["#view=1,1.5,0.5,2.5&impacts=200&point=1&inverse_beta=1.3&gap=1&line=1.1,1.5,1.1,2.2&panel=line&layers=paper,amplitude,boundaries", FEW,
         /--layers amplitude,paper,boundaries --mark 1\.3,1 --line 1\.1,1\.5:1\.1,2\.2 --plot/],
-      [`#machine=0.8,12000,30&x=beta&point=1&beta=0.77&gap=0.75&view=0.7,1,0.4,2.2&impacts=200&layers=${regions}paper,amplitude,stripes`, FEW,
+      [`#machine=0.8,12000,30&x=beta&point=1&beta=0.77&gap=0.75&view=0.74,0.82,0.6,1&impacts=200&layers=${regions}paper,amplitude,stripes`, FEW,
         new RegExp(`--mass-kg 0\\.8 .*--layers ${regions}amplitude,paper,stripes --mark \\S+,0\\.001875 --plot`)],
     ]) {
-      const { page } = await open(hash, { acceptDownloads: true, viewport: { width: 420, height: 360 } });
+      const { page } = await open(hash, { acceptDownloads: true, viewport: { width: 340, height: 290 } });
       await page.waitForSelector("#plane[data-picture]");
       if (hash.includes("colour")) await page.waitForSelector("#legend .bar-colours[data-range]");
       // the range of the colours in the command is that of the tiles that are there, so it changes until all are
