@@ -63,6 +63,7 @@
 //! Vibro-Impact
 //! System", Bulletin of the Faculty of Engineering, Hokkaido University 62 (1971) 31-39,
 //! <https://hdl.handle.net/2115/41063>.
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod arc;
 pub mod chaos;

@@ -65,44 +65,6 @@ fn the_core_is_pure() {
     assert_eq!(names, ["libm", "thiserror"]);
 }
 
-/// The last bit of a chaotic motion must not depend on the platform: no function of the platform's mathematics library.
-#[test]
-fn the_core_has_its_own_elementary_functions() {
-    let platform = [
-        ".sin()",
-        ".cos()",
-        ".tan()",
-        ".sin_cos()",
-        ".exp()",
-        ".exp_m1()",
-        ".ln()",
-        ".log10()",
-        ".asin()",
-        ".acos()",
-        ".atan2(",
-        ".hypot(",
-        ".powf(",
-        ".powi(",
-        ".mul_add(",
-        ".sinh()",
-        ".cosh()",
-    ];
-    let found = mentions(&crates().join("vibroimpact/src"), &platform);
-    assert!(found.is_empty(), "{}", found.join("\n"));
-}
-
-/// Vector instructions need `unsafe`; nothing else does.
-#[test]
-fn unsafe_is_kept_where_vectors_are() {
-    let mut files: Vec<String> = mentions(&crates().join("vibroimpact/src"), &["unsafe {"])
-        .iter()
-        .filter_map(|line| Some(line.split(".rs:").next()?.rsplit('/').next()?.to_owned()))
-        .collect();
-    files.sort();
-    files.dedup();
-    assert_eq!(files, ["avx2", "avx512", "crossing", "single", "width"]);
-}
-
 #[test]
 fn each_outside_thing_has_one_owner() {
     // threads belong to the study, disks to the store, pictures and reports own no files, the terminal belongs to the command
