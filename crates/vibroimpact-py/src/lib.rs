@@ -1,4 +1,4 @@
-//! The compiled module of the Python package `vibroimpact`: parse (Python to a plan), run (in [`door`]), report
+//! The compiled module of the Python package `vibroimpact`: parse (Python to a plan), run (in `door`), report
 //! (arrays).
 //!
 //! Each file has one family of functions. Checked parameters, plans and columns of numbers are here; results with

@@ -9,7 +9,7 @@ const HEADER: &str = "docs/katex-header.html";
 
 /// The command. With a target that needs the packages of the tests, here an example, all packages have the features that the
 /// lints checked them with, and are not checked again.
-const DOCUMENT: &str = "cargo doc --workspace --all-features --no-deps --lib --bin vibro --bin xtask --example branch";
+const DOCUMENT: &str = "cargo doc --workspace --all-features --no-deps --lib --bin xtask --example branch";
 
 /// Builds the documentation of every crate of the workspace.
 ///

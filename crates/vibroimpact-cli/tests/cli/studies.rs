@@ -229,7 +229,7 @@ fn a_budget_stops_a_run_and_the_status_says_how_far_it_is() {
     let watch = begin(folder.path(), "status s.zarr --watch --every 0.01s --json");
     let output = vibro("resume s.zarr --budget 0.000001s --json").current_dir(folder.path()).output().unwrap();
     assert_eq!((output.status.code(), output.stdout.len()), (Some(130), 0));
-    let map = "map --inverse-beta 0.6:1.9:16 --gap 0:3:16 --restitution 0.5 --starts 4 --tile 4 --store s.zarr";
+    let map = "map --inverse-beta 0.6:1.9:16 --gap 0:3:16 --restitution 0.5 --starts 4 --impacts 2000 --tile 4 --store s.zarr";
     assert_eq!(said(folder.path(), &format!("{map} --budget 0.000001s --plot a.png")).0, Some(130));
     assert!(!folder.path().join("a.png").exists());
     // what is there is drawn
