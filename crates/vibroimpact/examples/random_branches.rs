@@ -103,6 +103,12 @@ fn machine(draw: &mut Draw) -> Option<Machine> {
     Machine::new(parts).ok()
 }
 
+/// The end of a range that is this part of a number away from it, or nearer by halves until the number is allowed.
+fn legal(machine: &Machine, path: &str, value: f64, part: f64) -> f64 {
+    let mut ends = (0..30).map(|k| value + part * value.abs() / f64::from(1_u32 << k));
+    ends.find(|end| machine.with(path, *end).is_ok()).unwrap_or(value)
+}
+
 /// What is counted over all branches.
 #[derive(Default)]
 struct Tally {
@@ -127,7 +133,7 @@ impl Tally {
         let numbers: Vec<_> = machine.numbers().into_iter().filter(|(_, value)| *value != 0.0).collect();
         let (path, value) = &numbers[draw.one_of(numbers.len())];
         let (up, down) = (draw.number(0.2, 0.6), draw.number(0.2, 0.6));
-        let range = value - down * value.abs()..=value + up * value.abs();
+        let range = legal(&machine, path, *value, -down)..=legal(&machine, path, *value, up);
         let direction = if draw.chance(0.5) { Direction::Up } else { Direction::Down };
         let Ok((family, value)) = MachineFamily::of_path(&machine, path) else { return false };
         if cycle.events.is_empty() || cycle.events.len() > LONGEST {

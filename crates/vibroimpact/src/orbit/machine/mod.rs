@@ -39,5 +39,5 @@ pub use find::find_machine_while;
 pub(crate) use frame::MachineFrame;
 pub(crate) use lap::MachineLap;
 pub(crate) use of_motion::events_of;
-pub(crate) use ring::{MachineRing, RingEvent};
+pub(crate) use ring::{MachineBlock, MachineRing, RingEvent};
 pub(crate) use rounding::rounding_decides;

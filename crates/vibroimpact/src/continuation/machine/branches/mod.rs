@@ -4,7 +4,8 @@
 //! |---|---|
 //! | a machine as a function of numbers | [`MachineFamily`] |
 //! | the equations of all events, with one or two numbers of the machine among the unknowns | `equations` |
-//! | the problem that the tracer solves: test functions, admissible solutions | `problem` |
+//! | the test functions of events | `test_functions` |
+//! | the problem that the tracer solves, admissible solutions | `problem` |
 //! | a point of a branch, and its events | [`MachinePoint`], [`MachineBranchEvent`] |
 //! | where a tracer begins | `beginning` |
 //! | how the events of a motion differ from those of a signature | `change` |
@@ -41,6 +42,7 @@ mod rest;
 mod step;
 mod summed;
 mod switch;
+mod test_functions;
 mod touch;
 
 pub use branch::MachineBranch;

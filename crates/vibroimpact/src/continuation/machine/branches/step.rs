@@ -9,7 +9,7 @@ use super::joined::SHORT;
 use super::point::MachineBranchEvent;
 use super::problem::{Judged, MINUS_ONE, MachineSolution, PACE, PLUS_ONE, TORUS};
 use super::summed::{of_chatter, sums};
-use super::touch::{grazing, touching};
+use super::test_functions::TestFunction;
 use crate::continuation::trace::tracer::{Crossing, Problem, Step, last};
 use crate::math::{Multiplier, sort_by};
 use crate::orbit::RingEvent;
@@ -18,23 +18,62 @@ use crate::regime::GuardKind;
 impl EventBranch {
     /// Reports the events of a step in order, up to one that changes the signature or ends the branch.
     pub(super) fn go_through(&mut self, step: Step<Judged>) {
-        let edge = self.outside(&step).and_then(|outside| self.edge(&step, outside));
-        if !step.there.known.physical() && edge.is_none() {
+        let grazing = self.grazing(&step);
+        let edge = match &grazing {
+            Some(Grazing { before: Some(outside), .. }) => self.edge(&step, *outside),
+            Some(_) => None,
+            None => self.outside(&step).and_then(|outside| self.edge(&step, outside)),
+        };
+        if grazing.is_none() && !step.there.known.physical() && edge.is_none() {
             return self.finish(MachineBranchEvent::NoConvergence);
         }
-        for crossing in self.until_edge(&step, edge.as_ref().map(|(s, ..)| *s)) {
+        let crossed = match (&edge, &grazing) {
+            (Some((s, ..)), _) => self.until_edge(&step, *s),
+            (None, Some(grazing)) => step.crossed.iter().copied().filter(|(s, _)| *s < grazing.s).collect(),
+            (None, None) => step.crossed.clone(),
+        };
+        for crossing in crossed {
             if !self.report(&step, crossing) {
                 return;
             }
         }
         if let Some((_, at, found)) = edge {
-            return self.pass(&at, &found);
+            return self.pass(&at, &found, None);
+        }
+        if let Some(Grazing { at, zeros, .. }) = grazing {
+            return self.graze(&at, &zeros);
         }
         if step.on_end {
             return self.end(&step.there, MachineBranchEvent::EndOfRange);
         }
         self.take(step.there);
         self.adapt();
+    }
+
+    /// The first zero on a step of a function that has to be positive, if solutions beyond it are not admissible.
+    fn grazing(&self, step: &Step<Judged>) -> Option<Grazing> {
+        let needed = |(_, what): &&Crossing| {
+            what.is_some_and(|j| self.tracer.problem.tests[j].needed() && self.tracer.signs[j] == Some(true))
+        };
+        let &(s, _) = step.crossed.iter().find(needed)?;
+        let near = |by: f64| {
+            let place = s + by * step.length;
+            (0.0 < place && place < step.length).then(|| Some((place, self.tracer.at(step, place)?))).flatten()
+        };
+        let admissible = |at: &MachineSolution| at.known.physical();
+        if near(APART).map_or_else(|| admissible(&step.there), |(_, at)| admissible(&at)) {
+            return None;
+        }
+        let before = near(-APART).filter(|(_, at)| !admissible(at)).map(|(before, _)| before);
+        let together = step.crossed.iter().filter(needed).filter(|(other, _)| other - s < TOGETHER);
+        let zeros = together.filter_map(|(_, what)| what.map(|j| self.tracer.problem.tests[j])).collect();
+        let w = self.tracer.between(step, s)?;
+        let tangent = self.tracer.tangent_at(&w).unwrap_or_else(|| self.tracer.here.tangent.clone());
+        // rounding decides which events the motion has here: the cycle of the last point stands for it
+        let here = near(-APART).map_or_else(|| self.tracer.here.clone(), |(_, at)| at);
+        let known = if admissible(&here) { here.known } else { self.tracer.here.known.clone() };
+        let at = MachineSolution { w, tangent, values: self.tracer.here.values.clone(), known };
+        Some(Grazing { s, at, zeros, before })
     }
 
     /// The distance of an inadmissible solution on a step. Where the derivative is infinite between two admissible solutions,
@@ -47,10 +86,8 @@ impl EventBranch {
         if (plus - minus).abs() < 1e-9 { self.hidden(step) } else { None }
     }
 
-    /// The crossings of a step before its edge. At a grazing impact a multiplier is without limit, and its test functions change
-    /// sign without a zero.
-    fn until_edge(&self, step: &Step<Judged>, edge: Option<f64>) -> Vec<Crossing> {
-        let Some(edge) = edge else { return step.crossed.clone() };
+    /// The crossings of a step before its edge. Where the derivative is infinite, its test functions change sign without a zero.
+    fn until_edge(&self, step: &Step<Judged>, edge: f64) -> Vec<Crossing> {
         let until = edge - ASIDE * step.length;
         let mut crossed: Vec<Crossing> = step.crossed.iter().copied().filter(|(s, _)| *s < until).collect();
         if until > 0.0
@@ -83,7 +120,8 @@ impl EventBranch {
             Some(PLUS_ONE) if turns => MachineBranchEvent::Fold,
             Some(PLUS_ONE) => MachineBranchEvent::BranchPoint,
             Some(MINUS_ONE) => MachineBranchEvent::Flip,
-            Some(_) => MachineBranchEvent::Torus,
+            Some(TORUS) => MachineBranchEvent::Torus,
+            Some(_) => return true,
         };
         if let Some(at) = self.located(step, s, event)
             && is_at(&at.known.multipliers, event)
@@ -166,13 +204,11 @@ impl EventBranch {
                 .unwrap_or(found),
             _ => found,
         };
-        let found = grazing(&self.tracer, &inside, found);
         let found = of_chatter(&self.tracer, &inside, found);
         if let Some((at, found)) = self.interrupted(&inside, &found) {
             return Some((s, at, found));
         }
-        let (s, at) = touching(&self.tracer, step, (s, &inside), &found).unwrap_or((s, inside));
-        Some((s, at, found))
+        Some((s, inside, found))
     }
 
     /// The joint of a hold that lasts for some time and is missing beyond, because the velocity of its joint only touches zero at
@@ -203,6 +239,22 @@ impl EventBranch {
         })
     }
 }
+
+/// A zero on a step of functions that have to be positive.
+struct Grazing {
+    /// The distance along the step.
+    s: f64,
+    at: MachineSolution,
+    /// The functions that are zero there.
+    zeros: Vec<TestFunction>,
+    /// An inadmissible solution before it.
+    before: Option<f64>,
+}
+
+/// The distance, in parts of a step, from such a zero of the solutions that are compared.
+const APART: f64 = 1e-3;
+/// Zeros not farther apart than this along the step are one event.
+const TOGETHER: f64 = 1e-9;
 
 /// The distance along a step at which a test function is zero.
 fn crossing(step: &Step<Judged>, test: usize) -> Option<f64> {
