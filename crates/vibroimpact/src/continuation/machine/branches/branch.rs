@@ -127,7 +127,9 @@ impl EventBranch {
     /// Reports that these test functions are zero at `at` and goes on with the events beyond.
     pub(super) fn graze(&mut self, at: &MachineSolution, zeros: &[TestFunction]) {
         let ring = &self.tracer.problem.equations.ring;
-        let found = zeros.first().and_then(|zero| zero.difference(ring)).unwrap_or(Difference::Other { place: None });
+        let rate = zeros.iter().find(|zero| matches!(zero, TestFunction::Rate(_)));
+        let zero = rate.or(zeros.first()).and_then(|zero| zero.difference(ring));
+        let found = zero.unwrap_or(Difference::Other { place: None });
         let next = through_grazing(&self.tracer, at, zeros, &self.path.options);
         self.pass(at, &found, next);
     }

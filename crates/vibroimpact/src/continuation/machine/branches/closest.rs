@@ -34,6 +34,9 @@ pub(crate) fn closest(
         (value, rate)
     };
     let time = ring.time(leg, frame.machine);
+    if time <= 0.0 {
+        return None;
+    }
     let fastest = structure.fastest().max(structure.rates.last().copied().unwrap_or(0.0));
     let parts = (PARTS * time * fastest).clamp(LIMITS.0, LIMITS.1).ceil();
     let part = time / parts;
@@ -47,7 +50,14 @@ pub(crate) fn closest(
     let own = kind.place(stops);
     let standing = own < stops && from.surfaces[own].is_some();
     let begun = usize::from(standing || ring.events[leg].guard.place(stops) == own);
-    let turning = steps.windows(2).skip(begun).filter(|pair| pair[0].1 < 0.0 && pair[1].1 >= 0.0);
+    // a guard that begins at zero and falls at once ends the flight before, and one that rises to zero does not end this one:
+    // there the guard does not turn
+    let from_zero = begun > 0 && matches!(kind, GuardKind::Gap(_) | GuardKind::Depth(_) | GuardKind::Sliding(_));
+    let falls = steps.iter().skip(begun).take_while(|step| from_zero && step.1 < 0.0).count();
+    let ends = ring.events[(leg + 1) % ring.len()].guard == kind;
+    let rises = steps.iter().rev().take_while(|step| ends && step.1 >= 0.0).count();
+    let inner = steps.get(begun + falls..steps.len() - rises).unwrap_or_default();
+    let turning = inner.windows(2).filter(|pair| pair[0].1 < 0.0 && pair[1].1 >= 0.0);
     let minima = turning.filter_map(|pair| root::between(|s| Some(at(s).1), pair[0], pair[1], f64::EPSILON * time));
     let lowest = minima.map(|s| (at(s).0, s)).min_by(|a, b| a.0.total_cmp(&b.0));
     let (value, s) = lowest?;

@@ -10,7 +10,7 @@
 //! | where a tracer begins | `beginning` |
 //! | how the events of a motion differ from those of a signature | `change` |
 //! | where the solutions along a step cease to be admissible | `edge` |
-//! | where a flight comes closest to a stop or another guard, and where a cycle grazes it | `closest`, `touch` |
+//! | where a flight comes closest to a stop or another guard | `closest` |
 //! | where a rest on a stop, or the hold of a joint, begins or ends | `rest` |
 //! | a signature without flights that take no time where a rest begins or ends | `joined` |
 //! | the solution at which a rest begins or ends, to rounding | `at_rest` |
@@ -43,7 +43,6 @@ mod step;
 mod summed;
 mod switch;
 mod test_functions;
-mod touch;
 
 pub use branch::MachineBranch;
 pub(crate) use change::{Difference, difference};

@@ -68,11 +68,18 @@ impl EventBranch {
         let together = step.crossed.iter().filter(needed).filter(|(other, _)| other - s < TOGETHER);
         let zeros = together.filter_map(|(_, what)| what.map(|j| self.tracer.problem.tests[j])).collect();
         let w = self.tracer.between(step, s)?;
-        let tangent = self.tracer.tangent_at(&w).unwrap_or_else(|| self.tracer.here.tangent.clone());
-        // rounding decides which events the motion has here: the cycle of the last point stands for it
-        let here = near(-APART).map_or_else(|| self.tracer.here.clone(), |(_, at)| at);
-        let known = if admissible(&here) { here.known } else { self.tracer.here.known.clone() };
-        let at = MachineSolution { w, tangent, values: self.tracer.here.values.clone(), known };
+        // rounding decides which events the motion has here, and the number can turn: the solution just before stands for it
+        let mut last = self.tracer.here.clone();
+        let mut apart = APART;
+        while apart > NEAREST {
+            match near(-apart) {
+                Some((_, at)) if admissible(&at) => last = at,
+                Some(_) => break,
+                None => {}
+            }
+            apart *= 0.1;
+        }
+        let at = MachineSolution { w, ..last };
         Some(Grazing { s, at, zeros, before })
     }
 
@@ -252,7 +259,9 @@ struct Grazing {
 }
 
 /// The distance, in parts of a step, from such a zero of the solutions that are compared.
-const APART: f64 = 1e-3;
+const APART: f64 = 1e-2;
+/// The least distance of a solution whose cycle stands for the one at the zero.
+const NEAREST: f64 = 1e-12;
 /// Zeros not farther apart than this along the step are one event.
 const TOGETHER: f64 = 1e-9;
 

@@ -10,7 +10,7 @@ use crate::continuation::curves::{CurveKind, check};
 use crate::continuation::machine::branches::{
     CompleteChatter, MachineBranchEvent, MachineEquations, MachinePoint, closest,
 };
-use crate::events::standing_back;
+use crate::events::{Place, standing_back};
 use crate::machine::Machine;
 use crate::orbit::{MachineFrame, MachineRing, RingEvent};
 use crate::regime::{ContactState, GuardKind};
@@ -58,10 +58,12 @@ fn begin(
             (CurveKind::Torus, Some(Condition::Pair { cosine: pair(&all, nearest.re)?.2 }))
         }
         MachineBranchEvent::Grazing { stop, appears: true, .. } => {
-            let open = |leg: usize| ring.events[leg].after[stop] == ContactState::Open;
-            let legs = (0..ring.len()).filter(|leg| open(*leg));
-            let lowest = legs.filter_map(|leg| Some((leg, closest(&frame, &ring, (leg, GuardKind::Gap(stop)))?)));
-            let (leg, (gap, place)) = lowest.min_by(|a, b| a.1.0.abs().total_cmp(&b.1.0.abs()))?;
+            // by rounding the motion can have the impact that appears here
+            let without = |ring: &MachineRing| touched(&frame, ring, stop).is_some();
+            if !without(&ring) {
+                ring = both_sides().filter_map(beside).find(without)?;
+            }
+            let (leg, (gap, place)) = touched(&frame, &ring, stop)?;
             if gap.abs() > NEAR * sizes.0 {
                 return Some(Err(BranchError::NotThere));
             }
@@ -137,6 +139,13 @@ const FARTHER: [f64; 4] = [1e-5, 1e-4, 1e-3, 1e-2];
 
 /// A gap or a speed that is larger, relative to the motion, is not that of a grazing contact.
 const NEAR: f64 = 1e-3;
+
+/// The flight that comes closest to a stop, with the gap and the state there.
+fn touched(frame: &MachineFrame<'_>, ring: &MachineRing, stop: usize) -> Option<(usize, (f64, Place))> {
+    let open = (0..ring.len()).filter(|leg| ring.events[*leg].after[stop] == ContactState::Open);
+    let lowest = open.filter_map(|leg| Some((leg, closest(frame, ring, (leg, GuardKind::Gap(stop)))?)));
+    lowest.min_by(|a, b| a.1.0.abs().total_cmp(&b.1.0.abs()))
+}
 
 /// Replaces the slowest closing of a stop, with the opening that follows it, by a touch; returns the place of that. `None`
 /// if its speed is not below `slow`.
