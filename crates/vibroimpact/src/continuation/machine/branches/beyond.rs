@@ -35,7 +35,9 @@ pub(super) fn through_grazing(
     let (mut gone, mut new): (Vec<usize>, Vec<(usize, usize)>) = Default::default();
     for zero in zeros {
         match *zero {
-            TestFunction::Rate(k) if matches!(ring.events[k].guard, GuardKind::Gap(stop) if rebounds(stop)) => gone.push(k),
+            TestFunction::Rate(k) if matches!(ring.events[k].guard, GuardKind::Gap(stop) if rebounds(stop)) => {
+                gone.push(k)
+            }
             TestFunction::Clearance(leg, GuardKind::Gap(stop)) if rebounds(stop) => new.push((leg, stop)),
             _ => {}
         }
@@ -64,8 +66,9 @@ pub(super) fn with_ring(
     MachineProblem::new(&frame, equations, old.range, sizes)
 }
 
-/// The length of the first step beyond a grazing contact, at which the derivative can be infinite.
-const AHEAD: f64 = 1e-6;
+/// Lengths of the first step beyond a grazing contact. It is short, because a multiplier that is infinite there can pass -1 and 1
+/// close by; the second one is taken where the replay cannot tell an impact of so low a speed from a touch.
+const AHEAD: [f64; 2] = [1e-6, 1e-5];
 
 /// The solution a first step away in a direction, if it is admissible.
 fn first_step(
@@ -74,12 +77,14 @@ fn first_step(
     along: &[f64],
     options: &BranchOptions,
 ) -> Option<Tracer<MachineProblem>> {
-    let guess: Vec<f64> = w.iter().zip(along).map(|(w, t)| w + AHEAD * t).collect();
     let row = problem.equations.row(along);
-    let level = problem.equations.dot(along, w) + AHEAD;
-    let (next, _) = correct(&problem.equations, &guess, &row, level)?;
-    let along = tangent(&problem.equations, &next, &row)?;
-    traced(problem.clone(), next, along, *options).filter(|tracer| tracer.here.known.physical())
+    AHEAD.into_iter().find_map(|ahead| {
+        let guess: Vec<f64> = w.iter().zip(along).map(|(w, t)| w + ahead * t).collect();
+        let level = problem.equations.dot(along, w) + ahead;
+        let (next, _) = correct(&problem.equations, &guess, &row, level)?;
+        let along = tangent(&problem.equations, &next, &row)?;
+        traced(problem.clone(), next, along, *options).filter(|tracer| tracer.here.known.physical())
+    })
 }
 
 /// The phase of a contact that lasts for no time, to rounding: its equation is divided by its duration.

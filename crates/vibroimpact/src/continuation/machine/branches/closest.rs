@@ -3,6 +3,7 @@
 use crate::arc::Modes;
 use crate::continuation::trace::root;
 use crate::events::Place;
+use crate::math::sort_by;
 use crate::orbit::{MachineFrame, MachineRing};
 use crate::regime::GuardKind;
 
@@ -44,7 +45,14 @@ pub(crate) fn closest(
     early.reverse();
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // within the limits
     let later = (2..=parts as u32).map(|k| part * f64::from(k));
-    let steps: Vec<(f64, f64)> = core::iter::once(0.0).chain(early).chain(later).map(|s| (s, at(s).1)).collect();
+    let mut steps: Vec<(f64, f64)> = core::iter::once(0.0).chain(early).chain(later).map(|s| (s, at(s).1)).collect();
+    // a guard that falls, rises for a short time and falls on turns twice between two of these times
+    let rate = |s: f64| at(s).1;
+    let risen: Vec<(f64, f64)> = steps.windows(3).filter_map(|three| rise(three, rate)).collect();
+    if !risen.is_empty() {
+        steps.extend(risen);
+        sort_by(&mut steps, |a, b| a.0.total_cmp(&b.0));
+    }
     // at an event of the same contact, or in contact with a surface that stands back, the guard begins at zero
     let stops = frame.machine.stops().len();
     let own = kind.place(stops);
@@ -64,4 +72,27 @@ pub(crate) fn closest(
     let mut place = frame.moved(&from, &structure, s);
     place.phase = ring.theta(leg) + ring.frequency(frame.machine) * s;
     Some((value, place))
+}
+
+/// The largest rate of a falling guard is looked for where a parabola through three of its rates comes closer to zero than this part
+/// of the middle one, in so many steps.
+const CLOSE: f64 = 0.3;
+const STEPS: u32 = 30;
+
+/// A time between three times at which a guard rises, with its rate there, if it falls at all three.
+fn rise(three: &[(f64, f64)], rate: impl Fn(f64) -> f64) -> Option<(f64, f64)> {
+    let &[(mut low, a), (_, b), (mut high, c)] = three else { return None };
+    let bent = 2.0 * b - a - c;
+    if a >= 0.0 || b >= 0.0 || c >= 0.0 || b < a || b < c || b + (c - a) * (c - a) / (8.0 * bent) < CLOSE * b {
+        return None;
+    }
+    for _ in 0..STEPS {
+        let (one, two) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
+        let (at_one, at_two) = (rate(one), rate(two));
+        if at_one >= 0.0 || at_two >= 0.0 {
+            return Some(if at_one >= 0.0 { (one, at_one) } else { (two, at_two) });
+        }
+        if at_one < at_two { low = one } else { high = two }
+    }
+    None
 }

@@ -11,24 +11,36 @@ use super::problem::{Judged, MINUS_ONE, MachineSolution, PACE, PLUS_ONE, TORUS};
 use super::summed::{of_chatter, sums};
 use super::test_functions::TestFunction;
 use crate::continuation::trace::tracer::{Crossing, Problem, Step, last};
-use crate::math::{Multiplier, sort_by};
-use crate::orbit::RingEvent;
+use crate::math::Multiplier;
+use crate::orbit::{MachineFrame, RingEvent};
 use crate::regime::GuardKind;
 
 impl EventBranch {
     /// Reports the events of a step in order, up to one that changes the signature or ends the branch.
     pub(super) fn go_through(&mut self, step: Step<Judged>) {
-        let grazing = self.grazing(&step);
-        let edge = match &grazing {
-            Some(Grazing { before: Some(outside), .. }) => self.edge(&step, *outside),
-            Some(_) => None,
-            None => self.outside(&step).and_then(|outside| self.edge(&step, outside)),
+        let mut step = self.to_inadmissible(step);
+        let mut grazing = self.grazing(&step);
+        let mut edge = match &grazing {
+            Some(Grazing { before, .. }) => before.and_then(|outside| self.edge(&step, outside)),
+            None if step.there.known.physical() => None,
+            None => self.edge(&step, step.length),
         };
+        // a function that has to be positive can be so again at the end of the step
+        if grazing.is_none()
+            && let Some((s, ..)) = edge
+            && let Some(part) = self.tracer.part(&step, (s + JUST * step.length).min(step.length))
+            && let found @ Some(Grazing { before: None, .. }) = self.grazing(&part)
+        {
+            (step, grazing, edge) = (part, found, None);
+        }
         if grazing.is_none() && !step.there.known.physical() && edge.is_none() {
             return self.finish(MachineBranchEvent::NoConvergence);
         }
         let crossed = match (&edge, &grazing) {
-            (Some((s, ..)), _) => self.until_edge(&step, *s),
+            // where the derivative is infinite, its test functions change sign without a zero
+            (Some((s, ..)), _) => {
+                self.tracer.part(&step, s - ASIDE * step.length).map_or_else(Vec::new, |part| part.crossed)
+            }
             (None, Some(grazing)) => step.crossed.iter().copied().filter(|(s, _)| *s < grazing.s).collect(),
             (None, None) => step.crossed.clone(),
         };
@@ -48,6 +60,18 @@ impl EventBranch {
         }
         self.take(step.there);
         self.adapt();
+    }
+
+    /// A step up to the first inadmissible solution that is known on it. Where the derivative is infinite between two admissible
+    /// solutions, there are inadmissible ones between them.
+    fn to_inadmissible(&self, step: Step<Judged>) -> Step<Judged> {
+        let pole = match (crossing(&step, PLUS_ONE), crossing(&step, MINUS_ONE)) {
+            (Some(plus), Some(minus)) => step.there.known.physical() && (plus - minus).abs() < TOGETHER,
+            _ => false,
+        };
+        let places = (1..32).map(|k| step.length * f64::from(k) / 32.0);
+        let parts = places.filter(|_| pole).filter_map(|s| self.tracer.part(&step, s));
+        parts.into_iter().find(|part| !part.there.known.physical()).unwrap_or(step)
     }
 
     /// The first zero on a step of a function that has to be positive, if solutions beyond it are not admissible.
@@ -72,38 +96,26 @@ impl EventBranch {
         let mut last = self.tracer.here.clone();
         let mut apart = APART;
         while apart > NEAREST {
-            match near(-apart) {
-                Some((_, at)) if admissible(&at) => last = at,
-                Some(_) => break,
-                None => {}
+            if let Some((_, at)) = near(-apart).filter(|(_, at)| admissible(at)) {
+                last = at;
             }
-            apart *= 0.1;
+            apart *= 0.5;
         }
-        let at = MachineSolution { w, ..last };
+        let mut at = MachineSolution { w, ..last };
+        self.put_on(&mut at);
         Some(Grazing { s, at, zeros, before })
     }
 
-    /// The distance of an inadmissible solution on a step. Where the derivative is infinite between two admissible solutions,
-    /// there are inadmissible ones between them.
-    fn outside(&self, step: &Step<Judged>) -> Option<f64> {
-        if !step.there.known.physical() {
-            return Some(step.length);
-        }
-        let (plus, minus) = (crossing(step, PLUS_ONE)?, crossing(step, MINUS_ONE)?);
-        if (plus - minus).abs() < 1e-9 { self.hidden(step) } else { None }
-    }
-
-    /// The crossings of a step before its edge. Where the derivative is infinite, its test functions change sign without a zero.
-    fn until_edge(&self, step: &Step<Judged>, edge: f64) -> Vec<Crossing> {
-        let until = edge - ASIDE * step.length;
-        let mut crossed: Vec<Crossing> = step.crossed.iter().copied().filter(|(s, _)| *s < until).collect();
-        if until > 0.0
-            && let Some(inside) = self.tracer.at(step, until)
-        {
-            crossed.extend(self.tracer.hidden(&[PLUS_ONE, MINUS_ONE, TORUS], &crossed, (until, &inside)));
-            sort_by(&mut crossed, |a, b| a.0.total_cmp(&b.0));
-        }
-        crossed
+    /// Lets the cycle that stands for a solution pass through the state of that solution.
+    fn put_on(&self, at: &mut MachineSolution) -> Option<()> {
+        let (machine, ring) = self.tracer.problem.equations.split(&at.w)?;
+        let frame = MachineFrame::new(&machine);
+        let begin = ring.middle(&frame)?.1;
+        let cycle = at.known.cycle.as_mut()?;
+        cycle.state = begin.start(&machine, &frame.normal);
+        cycle.period = ring.period(&frame);
+        cycle.strobes = vec![begin];
+        Some(())
     }
 
     /// Reports the event at a crossing, if it is one; returns whether the branch goes on.
@@ -184,14 +196,6 @@ impl EventBranch {
         halved(&self.tracer.problem, &self.tracer.here, &w)
     }
 
-    /// An inadmissible solution within a step.
-    fn hidden(&self, step: &Step<Judged>) -> Option<f64> {
-        (1..32).map(|k| step.length * f64::from(k) / 32.0).find(|s| {
-            let at = self.tracer.at(step, *s);
-            at.is_none_or(|solution| !solution.known.physical())
-        })
-    }
-
     /// The last admissible solution before an inadmissible one on a step: its distance, the solution, and how the events
     /// differ beyond it.
     fn edge(&self, step: &Step<Judged>, outside: f64) -> Option<(f64, MachineSolution, Difference)> {
@@ -260,8 +264,10 @@ struct Grazing {
 
 /// The distance, in parts of a step, from such a zero of the solutions that are compared.
 const APART: f64 = 1e-2;
+/// The distance, in parts of a step, of a solution just beyond the last admissible one.
+const JUST: f64 = 1e-4;
 /// The least distance of a solution whose cycle stands for the one at the zero.
-const NEAREST: f64 = 1e-12;
+const NEAREST: f64 = 1e-15;
 /// Zeros not farther apart than this along the step are one event.
 const TOGETHER: f64 = 1e-9;
 

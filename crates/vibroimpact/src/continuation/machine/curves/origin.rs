@@ -72,9 +72,14 @@ fn begin(
             (CurveKind::Grazing { stop }, Some(touch(leg + 1)))
         }
         MachineBranchEvent::Grazing { stop, .. } | MachineBranchEvent::LossOfContact { stop } => {
-            let Some(at) = without_contact(&frame, &mut ring, (stop, NEAR * sizes.1)) else {
+            // by rounding the motion can miss the stop
+            let rings = core::iter::once(ring.clone()).chain(both_sides().filter_map(beside));
+            let slow = NEAR * sizes.1;
+            let without = |mut ring: MachineRing| Some((without_contact(&frame, &mut ring, (stop, slow))?, ring));
+            let Some((at, other)) = rings.into_iter().find_map(without) else {
                 return Some(Err(BranchError::NotThere));
             };
+            ring = other;
             (CurveKind::Grazing { stop }, Some(touch(at)))
         }
         MachineBranchEvent::Corner { first, second } => {
