@@ -12,7 +12,7 @@ use super::summed::{of_chatter, sums};
 use super::test_functions::TestFunction;
 use crate::continuation::trace::tracer::{Crossing, Problem, Step, last};
 use crate::math::Multiplier;
-use crate::orbit::{MachineFrame, RingEvent};
+use crate::orbit::RingEvent;
 use crate::regime::GuardKind;
 
 impl EventBranch {
@@ -93,29 +93,11 @@ impl EventBranch {
         let zeros = together.filter_map(|(_, what)| what.map(|j| self.tracer.problem.tests[j])).collect();
         let w = self.tracer.between(step, s)?;
         // rounding decides which events the motion has here, and the number can turn: the solution just before stands for it
-        let mut last = self.tracer.here.clone();
-        let mut apart = APART;
-        while apart > NEAREST {
-            if let Some((_, at)) = near(-apart).filter(|(_, at)| admissible(at)) {
-                last = at;
-            }
-            apart *= 0.5;
-        }
-        let mut at = MachineSolution { w, ..last };
-        self.put_on(&mut at);
+        let outside = (s + APART * step.length).min(step.length);
+        let last = edge(&self.tracer, step, outside, Judged::physical)
+            .map_or_else(|| self.tracer.here.clone(), |(_, last, _)| last);
+        let at = MachineSolution { w, ..last };
         Some(Grazing { s, at, zeros, before })
-    }
-
-    /// Lets the cycle that stands for a solution pass through the state of that solution.
-    fn put_on(&self, at: &mut MachineSolution) -> Option<()> {
-        let (machine, ring) = self.tracer.problem.equations.split(&at.w)?;
-        let frame = MachineFrame::new(&machine);
-        let begin = ring.middle(&frame)?.1;
-        let cycle = at.known.cycle.as_mut()?;
-        cycle.state = begin.start(&machine, &frame.normal);
-        cycle.period = ring.period(&frame);
-        cycle.strobes = vec![begin];
-        Some(())
     }
 
     /// Reports the event at a crossing, if it is one; returns whether the branch goes on.
@@ -266,8 +248,6 @@ struct Grazing {
 const APART: f64 = 1e-2;
 /// The distance, in parts of a step, of a solution just beyond the last admissible one.
 const JUST: f64 = 1e-4;
-/// The least distance of a solution whose cycle stands for the one at the zero.
-const NEAREST: f64 = 1e-15;
 /// Zeros not farther apart than this along the step are one event.
 const TOGETHER: f64 = 1e-9;
 
