@@ -1,7 +1,7 @@
 //! The branch of a cycle of a machine in one of its numbers.
 
 use super::beginning::begun;
-use super::beyond::{across, beyond, replayed, same_beyond, with_ring};
+use super::beyond::{across, replayed, same_beyond, through_grazing, with_ring};
 use super::change::Difference;
 use super::complete_chatter::{ADAPTED, CompleteChatter};
 use super::equations::MachineEquations;
@@ -9,6 +9,7 @@ use super::family::MachineFamily;
 use super::meeting::meeting;
 use super::point::{MachineBranchEvent, MachinePoint};
 use super::problem::{Judged, MachineProblem, MachineSolution};
+use super::test_functions::TestFunction;
 use crate::continuation::branches::{BranchError, BranchOptions, Direction, scale};
 use crate::continuation::trace::driver::{Driver, Path, PathEvent};
 use crate::continuation::trace::tracer::{Step, Tracer, last};
@@ -93,10 +94,11 @@ impl UnreducedBranch {
         let begin = || {
             let machine = &family.at(value)?;
             let times = (cycle.label.periods, cycle.period);
-            let ring = MachineRing::of(&MachineFrame::new(machine), cycle.strobes.first()?, times)?;
+            let frame = MachineFrame::new(machine);
+            let ring = MachineRing::of(&frame, cycle.strobes.first()?, times)?;
             let w = MachineEquations::join(machine, &ring, [value]);
             let equations = MachineEquations::new((machine, family.clone()), ring, cycle.sizes, [scale]);
-            let problem = MachineProblem { equations, range: (*range.start(), *range.end()) };
+            let problem = MachineProblem::new(&frame, equations, (*range.start(), *range.end()), cycle.sizes);
             let up = if direction == Direction::Up { 1.0 } else { -1.0 };
             let tracer = begun(problem, &w, value, up, options)?;
             Driver::new(EventPath { options, passed: Vec::new() }, tracer, options.points)
@@ -121,8 +123,18 @@ impl EventBranch {
         (single && self.tracer.problem.equations.ring.len() <= 2).then_some(stop)
     }
 
-    /// Reports the change of the events at `at` and goes on with the events beyond.
-    pub(super) fn pass(&mut self, at: &MachineSolution, found: &Difference) {
+    /// Reports that these test functions are zero at `at` and goes on with the events beyond.
+    pub(super) fn graze(&mut self, at: &MachineSolution, zeros: &[TestFunction]) {
+        let ring = &self.tracer.problem.equations.ring;
+        let rate = zeros.iter().find(|zero| matches!(zero, TestFunction::Rate(_)));
+        let zero = rate.or(zeros.first()).and_then(|zero| zero.difference(ring));
+        let found = zero.unwrap_or(Difference::Other { place: None });
+        let next = through_grazing(&self.tracer, at, zeros, &self.path.options);
+        self.pass(at, &found, next);
+    }
+
+    /// Reports the change of the events at `at` and goes on with the events beyond: with `next`, if that is known.
+    pub(super) fn pass(&mut self, at: &MachineSolution, found: &Difference, next: Option<Tracer<MachineProblem>>) {
         if let Some(stop) = self.lost(at, found) {
             return self.end(at, MachineBranchEvent::LossOfContact { stop });
         }
@@ -132,7 +144,7 @@ impl EventBranch {
         {
             return self.exchange(next);
         }
-        let Some(next) = beyond(&self.tracer, at, found, &self.path.options) else {
+        let Some(next) = next.or_else(|| replayed(&self.tracer, at, (&self.path.options, found))) else {
             let next = across(&self.tracer, at, &self.path.options);
             return self.jump(at, found, next);
         };
