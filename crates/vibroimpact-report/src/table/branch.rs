@@ -76,7 +76,7 @@ pub(crate) fn of_machine<'a>(machine: &'a Machine, cut: &Cut<String>, found: &'a
     let varied: Vec<String> = cut.paths().map(str::to_owned).collect();
     let cut = cut.clone();
     let points = found.all().enumerate().flat_map(|(k, points)| points.iter().map(move |point| (k + 1, point)));
-    let rows = points.map(move |(branch, MachinePoint { value, cycle, event })| Row {
+    let rows = points.map(move |(branch, MachinePoint { value, cycle, event, .. })| Row {
         branch,
         values: cut.values(*value).collect(),
         label: cycle.label.to_string(),

@@ -56,7 +56,8 @@ impl Path for EventPath {
     /// At an event rounding can make a solution inadmissible: the cycle of the last point stands for it.
     fn point(branch: &EventBranch, at: &MachineSolution, event: Option<MachineBranchEvent>) -> Option<MachinePoint> {
         let cycle = at.known.cycle.clone().or_else(|| branch.tracer.here.known.cycle.clone())?;
-        Some(MachinePoint { value: last(&at.w), cycle, event })
+        let ring = event.and_then(|_| Some(branch.tracer.problem.equations.split(&at.w)?.1));
+        Some(MachinePoint { value: last(&at.w), cycle, event, ring })
     }
 
     fn go_through(branch: &mut EventBranch, step: Step<Judged>) {

@@ -41,11 +41,13 @@ fn begin(
     let ring_at = |machine: &Machine| {
         MachineRing::of(&MachineFrame::new(machine), begin, (point.cycle.label.periods, point.cycle.period))
     };
-    // rounding can let a motion end at a limit, or miss a stop that it grazes
+    // a point of an oscillator has no solution of the machine's equations: its motion is followed, and rounding can let that end at
+    // a limit, or miss a stop that it grazes
     let beside = |by: f64| ring_at(&plane.family.machine([values.0 + by * plane.scales()[0], values.1])?);
     let both_sides = || BESIDE.into_iter().flat_map(|by| [by, -by]);
     let farther = || FARTHER.into_iter().flat_map(|by| [by, -by]);
-    let mut ring = ring_at(machine).or_else(|| both_sides().chain(farther()).find_map(beside))?;
+    let solved = || point.ring.clone().or_else(|| ring_at(machine));
+    let mut ring = solved().or_else(|| both_sides().chain(farther()).find_map(beside))?;
     let touch = |at: usize| Condition::Touch { at, size: sizes.1, contact: None, speed: sizes.1 };
     let (kind, condition) = match event {
         MachineBranchEvent::Fold => (CurveKind::Fold, None),
