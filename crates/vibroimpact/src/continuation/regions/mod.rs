@@ -20,6 +20,7 @@ mod seed;
 mod sheet_walk;
 mod singular;
 
+pub(crate) use outline::Outline;
 pub use options::{RegionKind, RegionOptions};
 pub use polygon::{Bound, Polygon, Region, Vertex};
 pub use region::{region, region_while};

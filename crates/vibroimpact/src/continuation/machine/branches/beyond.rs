@@ -36,7 +36,7 @@ pub(super) fn through_grazing(
     for zero in zeros {
         match *zero {
             TestFunction::Rate(k) if matches!(ring.events[k].guard, GuardKind::Gap(stop) if rebounds(stop)) => {
-                gone.push(k)
+                gone.push(k);
             }
             TestFunction::Clearance(leg, GuardKind::Gap(stop)) if rebounds(stop) => new.push((leg, stop)),
             _ => {}

@@ -5,6 +5,7 @@ use super::beyond::{across, replayed, same_beyond, through_grazing, with_ring};
 use super::change::Difference;
 use super::complete_chatter::{ADAPTED, CompleteChatter};
 use super::equations::MachineEquations;
+use super::explained::explained;
 use super::family::MachineFamily;
 use super::meeting::meeting;
 use super::point::{MachineBranchEvent, MachinePoint};
@@ -14,7 +15,6 @@ use crate::continuation::branches::{BranchError, BranchOptions, Direction, scale
 use crate::continuation::trace::driver::{Driver, Path, PathEvent};
 use crate::continuation::trace::tracer::{Step, Tracer, last};
 use crate::orbit::{Chatter, MachineCycle, MachineFrame, MachineRing};
-use crate::regime::GuardKind;
 use core::ops::RangeInclusive;
 
 /// A branch by the equations of the machine.
@@ -159,8 +159,6 @@ impl EventBranch {
             {
                 MachineBranchEvent::Change { place: Some(place) }
             }
-            Difference::Other { .. } => opened(ring, other)
-                .map_or(found.event(turns), |(stop, appears)| MachineBranchEvent::Grazing { stop, appears, turns }),
             _ => found.event(turns),
         };
         let complete = (0..ring.events.first().map_or(0, |event| event.back.len())).find_map(|stop| {
@@ -216,6 +214,9 @@ impl EventBranch {
         event: MachineBranchEvent,
         (next, landing): (Tracer<MachineProblem>, Option<MachineBranchEvent>),
     ) {
+        let turns = last(&next.here.tangent) * last(&at.tangent) < 0.0;
+        let rings = self.tracer.problem.equations.split(&at.w).zip(next.problem.equations.split(&next.here.w));
+        let event = rings.map_or(event, |((_, ring), (_, other))| explained(event, (&ring, &other), turns));
         let now = Passed { number: last(&at.w), unknowns: at.w.len(), rises: last(&at.tangent) > 0.0, event };
         let near = 1e-9 * self.tracer.problem.equations.scales[0];
         let same = |other: &Passed| {
@@ -230,22 +231,4 @@ impl EventBranch {
         self.exchange(next);
         self.add(&self.tracer.here.clone(), landing);
     }
-}
-
-/// The stop, if the only difference of two signatures is that a closed stop opens and closes again in one of them, and whether it does
-/// in the second one. At the event between both it only loses its force.
-fn opened(ring: &MachineRing, other: &MachineRing) -> Option<(usize, bool)> {
-    let guards = |ring: &MachineRing| ring.events.iter().map(|event| event.guard).collect::<Vec<_>>();
-    let (few, many) = (guards(ring), guards(other));
-    let (appears, few, many) = if few.len() < many.len() { (true, few, many) } else { (false, many, few) };
-    let m = many.len();
-    if few.len() + 2 != m {
-        return None;
-    }
-    (0..m).find_map(|k| {
-        let (GuardKind::Depth(stop) | GuardKind::Force(stop)) = many[k] else { return None };
-        let rest: Vec<GuardKind> = (2..m).map(|i| many[(k + i) % m]).collect();
-        let same = (0..few.len()).any(|shift| (0..few.len()).all(|i| few[(i + shift) % few.len()] == rest[i]));
-        (many[(k + 1) % m] == GuardKind::Gap(stop) && same).then_some((stop, appears))
-    })
 }

@@ -9,6 +9,7 @@
 //! | a point of a branch, and its events | [`MachinePoint`], [`MachineBranchEvent`] |
 //! | where a tracer begins | `beginning` |
 //! | how the events of a motion differ from those of a signature | `change` |
+//! | the event that explains how the cycles before and beyond differ | `explained` |
 //! | where the solutions along a step cease to be admissible | `edge` |
 //! | where a flight comes closest to a stop or another guard | `closest` |
 //! | where a rest on a stop, or the hold of a joint, begins or ends | `rest` |
@@ -31,6 +32,7 @@ mod closest;
 mod complete_chatter;
 mod edge;
 mod equations;
+mod explained;
 mod family;
 mod halving;
 mod joined;
