@@ -2,7 +2,7 @@
 
 use crate::figure::plane::{Plane, PlaneAxis, Sides};
 use crate::figure::{title, variant};
-use crate::{Asked, ReportError};
+use crate::{Asked, ReportError, Units};
 use vibroimpact::math::sort_by;
 use vibroimpact_plot::{ClassStyle, Colour, Figure, FigureAxis, Legend, Panel, Raster, Rect, Rects, class_style};
 use vibroimpact_study::{Basin, MachineBasin, counted};
@@ -35,7 +35,7 @@ pub fn figure(found: &Basin, asked: &Asked) -> Result<Figure, ReportError> {
 /// # Errors
 /// As [`figure`].
 pub fn of_machine(found: &MachineBasin, title: String) -> Result<Figure, ReportError> {
-    let sides = Sides::of_machine(&found.axes)?;
+    let sides = Sides::of(&found.axes, &Units::default())?;
     let shares = found.motions.iter().zip(found.shares());
     let motions: Vec<BasinMotion> =
         shares.map(|(verdict, (_, share))| BasinMotion { label: verdict.label().into_owned(), share }).collect();

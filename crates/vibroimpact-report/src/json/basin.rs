@@ -3,7 +3,7 @@
 use super::certainty::Certainty;
 use super::motion::{MotionObject, SharedMotion};
 use super::{AxisObject, Document};
-use crate::Asked;
+use crate::{Asked, Units};
 use schemars::JsonSchema;
 use serde::Serialize;
 use vibroimpact::machine::Machine;
@@ -16,7 +16,7 @@ use vibroimpact_study::{Basin, MachineBasin, Plan, StartPlan};
 pub(super) struct BasinAnswer<'a> {
     motions: Vec<SharedMotion<'a>>,
     starts: usize,
-    axes: Vec<AxisObject<'a>>,
+    axes: Vec<AxisObject>,
     /// Starts beyond a rigid stop.
     refused: usize,
     /// The number of the motion of each start, the first axis varying fastest; null beyond a rigid stop.
@@ -94,7 +94,7 @@ pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &Bas
     let answer = BasinAnswer {
         motions: shared.collect(),
         starts: found.cells.len(),
-        axes: AxisObject::of_oscillator(&task.axes, units),
+        axes: AxisObject::all(&task.axes, units),
         // refused with the plan
         refused: 0,
         cells: found.cells.iter().map(|motion| Some(places[usize::from(*motion)])).collect(),
@@ -113,7 +113,7 @@ impl<'a> BasinAnswer<'a> {
         Self {
             motions: motions.collect(),
             starts: found.cells.len(),
-            axes: AxisObject::of_machine(&found.axes),
+            axes: AxisObject::all(&found.axes, &Units::default()),
             refused: found.refused(),
             cells: found.cells.clone(),
             measures: None,

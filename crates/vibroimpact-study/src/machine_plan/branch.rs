@@ -3,7 +3,7 @@
 
 use super::orbits::{self, ChosenCycle};
 use crate::branch::{DIAGRAM_VALUES, MOST_FOLLOWED};
-use crate::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, SweepDirection};
+use crate::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, SPEED, SweepDirection};
 use crate::machine::MachineSource;
 use crate::{BranchPlan, Control, Cut, DiagramPlan, PlanError, RunError, Span, Stopped, Stretch, Target, limits};
 use core::ops::RangeInclusive;
@@ -83,7 +83,7 @@ impl BranchPlan<String> {
         let Cut { vary, ends, also } = self.cut(source)?;
         let over = Span::new(ends.0, ends.1, DIAGRAM_VALUES)?.into();
         let (direction, transient, keep) = (SweepDirection::Both, DEFAULT_TRANSIENT, DEFAULT_KEEP);
-        Ok(DiagramPlan { vary, over, also, show: super::diagram::speed(), direction, transient, keep })
+        Ok(DiagramPlan { vary, over, also, show: SPEED.to_owned(), direction, transient, keep })
     }
 }
 

@@ -4,9 +4,7 @@ use super::verdicts::check_starts;
 use crate::limits::MOST_CELLS;
 use crate::machine::MachineSource;
 use crate::map::{check_impacts, check_refine};
-use crate::study::label_of;
-use crate::{Axis, BasinPlan, ListedColumn, MapPlan, PlanError};
-use std::collections::{BTreeMap, BTreeSet};
+use crate::{Axis, BasinPlan, MapPlan, PlanError};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 use vibroimpact::quantities::{machine_quantities, machine_quantity};
@@ -29,47 +27,6 @@ pub struct MachineBasin {
     pub quantities: Vec<Vec<f64>>,
 }
 
-/// The motions at each point of a grid of numbers.
-#[derive(Clone, Debug)]
-pub struct MachineMap {
-    /// The axes; the first varies fastest.
-    pub axes: Vec<Axis<String>>,
-    /// The points as columns, where they are no grid; empty for a grid.
-    pub points: Vec<ListedColumn<String>>,
-    /// The motions at each point, the most frequent first. Two motions of one label have a row each. Empty where the numbers
-    /// are not allowed.
-    pub cells: Vec<Vec<MachineShare>>,
-    /// The paths of the quantities that the plan asks for.
-    pub fields: Vec<String>,
-}
-
-/// A motion at a point of a map.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MachineShare {
-    /// The [code](crate::study::code) of its label.
-    pub code: i32,
-    /// The share of the starts that lead to it, from 0 to 1.
-    pub share: f64,
-    /// The largest speed of a closing; not-a-number unless it is a cycle.
-    pub speed: f64,
-    /// The largest modulus of the multipliers; not-a-number unless it is a cycle.
-    pub multiplier: f64,
-    /// The stops that stay closed for ever, by their numbers from 0.
-    pub stops: Vec<usize>,
-    /// The number of events over which chaos was seen; `None` unless it is chaotic.
-    pub seen_events: Option<u64>,
-    /// A value of each field of the plan; not-a-number where it is not defined.
-    pub quantities: Vec<f64>,
-}
-
-impl MachineShare {
-    /// The label as text.
-    #[must_use]
-    pub fn label(&self) -> String {
-        label_of(self.code).unwrap_or_default()
-    }
-}
-
 impl MachineBasin {
     /// For each motion the number of starts that lead to it, and their share of all that are allowed.
     #[must_use]
@@ -85,39 +42,6 @@ impl MachineBasin {
     #[must_use]
     pub fn refused(&self) -> usize {
         self.cells.iter().filter(|cell| cell.is_none()).count()
-    }
-}
-
-impl MachineMap {
-    /// What varies.
-    pub fn varied(&self) -> impl Iterator<Item = &str> {
-        let columns = self.points.iter().map(|column| column.vary.as_str());
-        self.axes.iter().map(|axis| axis.vary.as_str()).chain(columns)
-    }
-
-    /// Its values at point number `k`.
-    #[must_use]
-    pub fn at(&self, k: usize) -> Vec<f64> {
-        let columns = self.points.iter().map(|column| column.values[k]);
-        Axis::<String>::at(&self.axes, k as u64).into_iter().chain(columns).collect()
-    }
-
-    /// The smallest number of events over which chaos was seen at a point; `None` if it was seen at none.
-    #[must_use]
-    pub fn seen_events(&self) -> Option<u64> {
-        self.cells.iter().flatten().filter_map(|motion| motion.seen_events).min()
-    }
-
-    /// The number of points at which each label occurs.
-    #[must_use]
-    pub fn labels(&self) -> BTreeMap<String, u64> {
-        let mut labels = BTreeMap::new();
-        for cell in &self.cells {
-            // two motions at a point can have one label
-            let here: BTreeSet<String> = cell.iter().map(MachineShare::label).collect();
-            here.into_iter().for_each(|label| *labels.entry(label).or_insert(0) += 1);
-        }
-        labels
     }
 }
 

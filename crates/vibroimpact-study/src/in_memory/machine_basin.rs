@@ -1,10 +1,9 @@
-//! Basins and maps of machines in memory: their tiles are joined.
+//! A basin of a machine in memory: its tiles are joined.
 
 use super::join::{Joined, Part, joined};
-use crate::machine::MachineSource;
-use crate::machine_plan::{MachineBasin, MachineMap, MachineShare, check_memory, values_of};
-use crate::study::{Cell, Fill, MachineBasinFill, MapFill, tiles_of};
-use crate::{BasinPlan, Control, MapPlan, RunError};
+use crate::machine_plan::{MachineBasin, check_memory, values_of};
+use crate::study::{Cell, Fill, MachineBasinFill, tiles_of};
+use crate::{BasinPlan, Control, RunError};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::{Undecided, UndecidedCause, Verdict};
@@ -38,31 +37,4 @@ pub(crate) fn machine_basin(
     let quantities = motions.iter().map(|verdict| values_of(problem.0, verdict, &plan.fields)).collect();
     let (axes, fields) = (plan.axes.clone(), plan.fields.clone());
     Ok(MachineBasin { axes, motions, cells, seen_events, fields, quantities })
-}
-
-/// Settles scattered starts at every point of a grid of numbers, without refinement.
-///
-/// # Errors
-/// [`RunError`] for an invalid plan, or when stopped.
-pub(crate) fn machine_map(
-    source: &MachineSource,
-    plan: &MapPlan<String, String>,
-    control: &Control<'_>,
-) -> Result<MachineMap, RunError> {
-    check_memory(&plan.axes, plan.starts)?;
-    // one point a tile, because one point may take a thousand times as long as another; oscillators share lanes
-    let alone = source.machine().is_ok_and(|machine| machine.reduced().is_none());
-    let tile = if alone { Some(1) } else { None };
-    let task = MapFill::of_machine(source, &MapPlan { refine: None, ..plan.clone() }, tile);
-    let whole = task.grid().whole();
-    let mut cells: Vec<Vec<MachineShare>> = vec![Vec::new(); whole.points()];
-    for (block, tile) in tiles_of(&task, control)? {
-        for (k, cell) in tile.into_iter().enumerate() {
-            // without refinement every point is computed; one whose numbers are not allowed has no motions
-            if let Cell::Computed(Ok(motions)) = cell {
-                cells[whole.number(&block.index(k))] = motions;
-            }
-        }
-    }
-    Ok(MachineMap { axes: plan.axes.clone(), points: Vec::new(), cells, fields: plan.fields.clone() })
 }
