@@ -440,7 +440,7 @@ pub(crate) fn none_twice(varied: impl IntoIterator<Item = Coordinate>) -> Result
             (a, b) => a == b,
         };
         if let Some(other) = varied[..k].iter().find(same) {
-            return Err(PlanError::SameParameter(other.name(), one.name()));
+            return Err(PlanError::SameParameter(other.name().into(), one.name().into()));
         }
     }
     Ok(())

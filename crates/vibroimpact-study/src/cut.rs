@@ -65,7 +65,7 @@ impl Cut {
             _ => None,
         });
         if self.also.is_some() && first == last {
-            return Err(PlanError::Nowhere { name: self.vary.name(), value: first });
+            return Err(PlanError::Nowhere { name: self.vary.name().into(), value: first });
         }
         let also = self.also.map(|also| (also.parameter, (also.to - also.from) / (last - first)));
         if let Some(parameter) = of_machine {

@@ -1,10 +1,9 @@
 //! The plan of an orbit diagram: the parameter and its values, the starts, and the points to show.
 
 use crate::cut::in_proportion;
-use crate::limits::{MOST_STARTS, starts};
 use crate::name::{Name, Written};
 use crate::quantity::Quantity;
-use crate::{Cut, Parameter, PlanError, Span, Stretch, SystemPlan, Values};
+use crate::{Cut, Parameter, PlanError, Span, Stretch, SystemPlan, Values, limits};
 use serde::{Deserialize, Serialize};
 use vibroimpact::Oscillator;
 
@@ -192,8 +191,6 @@ pub enum SweepDirection {
     },
 }
 
-/// Maximum number of impacts or periods of a transient; it takes a few seconds for each value.
-const MOST_TRANSIENT: u64 = 1_000_000;
 /// Maximum number of impacts or states shown at a value.
 const MOST_KEPT: u64 = 100_000;
 /// Maximum number of points that one run keeps in memory.
@@ -229,14 +226,10 @@ pub(crate) fn check_shown(
     direction: SweepDirection,
     (transient, keep): (u64, u64),
 ) -> Result<(), PlanError> {
-    if transient > MOST_TRANSIENT {
-        return Err(PlanError::Transient { given: transient, most: MOST_TRANSIENT });
-    }
-    if !(1..=MOST_KEPT).contains(&keep) {
-        return Err(PlanError::Keep { given: keep, most: MOST_KEPT });
-    }
+    limits::check("transient", transient, 0..=limits::MOST_TRANSIENT)?;
+    limits::check("keep", keep, 1..=MOST_KEPT)?;
     if let SweepDirection::Scatter { starts: given, .. } = direction {
-        starts(given, MOST_STARTS)?;
+        limits::starts(given, limits::MOST_STARTS)?;
     }
     let (columns, rows) = (over.count() as u64, direction.runs() * keep);
     if columns.saturating_mul(rows) > MOST_POINTS {

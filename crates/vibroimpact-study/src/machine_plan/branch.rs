@@ -48,14 +48,16 @@ impl MachineBranched {
 impl BranchPlan<String> {
     /// Checks the orbit, the numbers that vary and their ranges.
     pub(crate) fn check(&self, source: &MachineSource, machine: &Machine) -> Result<(), PlanError> {
-        if self.follow > MOST_FOLLOWED {
-            return Err(PlanError::Follow { given: self.follow, most: MOST_FOLLOWED });
-        }
+        limits::check("follow", self.follow, 0..=MOST_FOLLOWED)?;
         orbits::check(machine, (self.label.as_deref(), self.orbit))?;
         let cut = self.cut(source)?;
         let (from, to) = cut.ends;
-        if !to.is_finite() || to == from {
-            return Err(PlanError::MachineRange { path: self.vary.clone(), from, to });
+        let name = || self.vary.clone().into();
+        if to == from {
+            return Err(PlanError::Nowhere { name: name(), value: from });
+        }
+        if !to.is_finite() {
+            return Err(PlanError::Endless { name: name(), from, to });
         }
         cut.check(source)?;
         limits::branch_points(self.points)?;

@@ -37,7 +37,7 @@ impl Cut<String> {
             return Err(PlanError::MachineTogether(path.clone()));
         }
         if !(from.is_finite() && to.is_finite()) {
-            return Err(PlanError::MachineAlso { path: path.clone(), from: *from, to: *to });
+            return Err(PlanError::Endless { name: path.clone().into(), from: *from, to: *to });
         }
         source.number(path)?;
         Ok(())
@@ -53,11 +53,11 @@ pub(super) fn check_plane(
     for Stretch { parameter: path, from, to } in [one, other] {
         source.number(path)?;
         if !(from.is_finite() && to.is_finite() && from < to) {
-            return Err(PlanError::MachineStretch { path: path.clone(), from: *from, to: *to });
+            return Err(PlanError::Stretch { name: path.clone().into(), from: *from, to: *to });
         }
     }
     if one.parameter == other.parameter {
-        return Err(PlanError::MachineAxisTwice(one.parameter.clone()));
+        return Err(PlanError::SameParameter(one.parameter.clone().into(), other.parameter.clone().into()));
     }
     for p in [one.from, one.to] {
         for q in [other.from, other.to] {

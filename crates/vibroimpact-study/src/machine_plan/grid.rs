@@ -93,9 +93,11 @@ impl StartAxis {
     }
 }
 
-pub(super) fn check_axes(axes: &[Axis<String>]) -> Result<(), PlanError> {
-    if axes.is_empty() || axes.len() > 4 {
-        return Err(PlanError::MachineAxes(axes.len()));
+/// Checks the axes of a grid.
+pub(super) fn check_axes(task: &'static str, axes: &[Axis<String>]) -> Result<(), PlanError> {
+    let (given, least, most) = (axes.len(), 1, 4);
+    if !(least..=most).contains(&given) {
+        return Err(PlanError::Axes { given, task, least, most });
     }
     axes.iter().try_for_each(|axis| axis.over.check())?;
     none_twice(axes.iter().map(|axis| axis.vary.clone()))
@@ -106,7 +108,7 @@ pub(super) fn none_twice(varied: impl Iterator<Item = String>) -> Result<(), Pla
     let mut paths: Vec<String> = Vec::new();
     for path in varied {
         if paths.contains(&path) {
-            return Err(PlanError::MachineAxisTwice(path));
+            return Err(PlanError::SameParameter(path.clone().into(), path.into()));
         }
         paths.push(path);
     }
@@ -128,7 +130,7 @@ impl BasinPlan<String, String> {
         if self.points.is_some() || self.transient {
             return Err(PlanError::NoPoints);
         }
-        check_axes(&self.axes)?;
+        check_axes("basin", &self.axes)?;
         for axis in &self.axes {
             StartAxis::of(machine, &axis.vary)?;
         }
@@ -160,7 +162,7 @@ impl MapPlan<String, String> {
     /// # Errors
     /// [`PlanError`] names the first invalid value.
     pub fn check(&self, source: &MachineSource) -> Result<(), PlanError> {
-        check_axes(&self.axes)?;
+        check_axes("map", &self.axes)?;
         for axis in &self.axes {
             source.number(&axis.vary)?;
         }

@@ -4,7 +4,7 @@ use super::grid::{StartAxis, check_fields, none_twice};
 use super::verdicts::tile;
 use crate::machine::MachineSource;
 use crate::map::{check_impacts, options};
-use crate::{Control, ListedColumn, PlanError, PointsPlan, RegionMap, RunError, Share, tiles};
+use crate::{Control, ListedColumn, PlanError, PointsPlan, RegionMap, RunError, Share, limits, tiles};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vibroimpact::events::MachineStart;
@@ -46,9 +46,7 @@ impl ManyPlan<String> {
     /// [`PlanError`] names the first invalid value.
     pub fn check(&self, source: &MachineSource, machine: &Machine) -> Result<(), PlanError> {
         self.points.check_values()?;
-        if self.points.count() > MOST {
-            return Err(PlanError::PointCount { given: self.points.count(), most: MOST });
-        }
+        limits::check("points", self.points.count(), 1..=MOST)?;
         check_fields(machine, &self.fields)?;
         check_impacts(self.impacts)?;
         none_twice(self.points.varied())?;
