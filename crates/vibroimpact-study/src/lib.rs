@@ -79,7 +79,7 @@ mod units;
 mod words;
 
 pub use axis::{Axis, Coordinate, Values, typed_axes};
-pub use basin::{Basin, BasinPlan};
+pub use basin::{Basin, BasinPlan, NO_START};
 pub use branch::{BranchPlan, Branches, DEFAULT_BRANCH_POINTS, Followed, Origin};
 pub use by_stop::{ImpactsByStop, stop_number};
 pub use chosen::Chosen;
@@ -95,9 +95,9 @@ pub use grid::{Block, Dimension, Grid, number, place};
 pub use limits::PLAN_VERSION;
 pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
 pub use machine_plan::{
-    MachineBasin, MachineBranched, MachineEventCurve, MachineFollowed, MachineLine, MachineMargins, MachineOrigin,
-    MachineResults, MachineSection, MachineSimulated, ManyPlan, NumberEvent, NumberMargin, events_with_states,
-    machine_label, most_events, quantity_path,
+    MachineBranched, MachineEventCurve, MachineFollowed, MachineLine, MachineMargins, MachineOrigin, MachineResults,
+    MachineSection, MachineSimulated, ManyPlan, NumberEvent, NumberMargin, events_with_states, machine_label,
+    most_events, quantity_path,
 };
 pub use map::{MapPlan, RegionMap, Share};
 pub use margins::{

@@ -68,7 +68,7 @@ impl Answer {
         let title = machine_title(&self.source, &self.name);
         if let Some(colour) = &shown.colour {
             return Ok(Some(match &self.results {
-                MachineResults::Basin(found) => coloured::of_machine_basin(found, colour, title)?,
+                MachineResults::Basin(found) => coloured::of_basin(found, colour, &Units::default(), title)?,
                 MachineResults::Map(found) => coloured::of_map(found, colour, &Units::default(), title)?,
                 _ => return Err(ReportError::NoColours.into()),
             }));
@@ -114,7 +114,7 @@ impl Answer {
                 let Some(view) = self.response(found) else { return Ok(None) };
                 figure::response::figure(&view, title)
             }
-            MachineResults::Basin(found) => figure::basin::of_machine(found, title)?,
+            MachineResults::Basin(found) => figure::basin::figure(found, &Units::default(), title)?,
             MachineResults::Map(found) => {
                 figure::map::figure(found, &Units::default(), title, Overlay::default().cells())?
             }
@@ -231,7 +231,7 @@ impl Answer {
                 let Some(view) = self.response(found) else { return Ok(None) };
                 table::response::table(view)
             }
-            MachineResults::Basin(found) => table::basin::of_machine(&self.machine, found),
+            MachineResults::Basin(found) => table::basin::of_machine(&self.machine, found)?,
             MachineResults::Map(found) => table::map::table(found, &self.machine, (Units::default(), true))?,
             MachineResults::Diagram(found) => table::diagram::table(found, &self.machine, Units::default())?,
             MachineResults::Lyapunov(_, Some(points)) => table::section::of_machine(&self.machine, points),

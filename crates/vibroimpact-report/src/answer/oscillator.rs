@@ -109,7 +109,7 @@ impl Answer {
                     let title = figure::title_without(asked, &varied(&found.axes));
                     coloured::of_map(found, colour, &asked.units, title)?
                 }
-                Results::Basin(found) => coloured::of_basin(found, colour, osc, asked)?,
+                Results::Basin(found) => coloured::of_basin(found, colour, &asked.units, title(asked))?,
                 _ => return Err(ReportError::NoColours.into()),
             }));
         }
@@ -129,7 +129,7 @@ impl Answer {
                 figure::waveform::figure(osc, *start, span, &asked.units, title(asked))
             }
             (_, Results::Orbit(found)) => figure::orbits::figure(found, &asked.units, title(asked)),
-            (_, Results::Basin(found)) => figure::basin::figure(found, asked)?,
+            (_, Results::Basin(found)) => figure::basin::figure(found, &asked.units, title(asked))?,
             (_, Results::Map(found)) => {
                 let title = figure::title_without(asked, &varied(&found.axes));
                 figure::map::figure(found, &asked.units, title, shown.overlay.cells())?
@@ -199,7 +199,7 @@ impl Answer {
             }
             (_, Results::Attractors(found)) => table::attractors::table(found, osc, units),
             (_, Results::Orbit(found)) => table::orbits::table(found, units),
-            (_, Results::Basin(found)) => table::basin::table(found, osc, units)?,
+            (_, Results::Basin(found)) => table::basin::table(found, units)?,
             (_, Results::Map(found)) => table::map::table(found, &asked.system, (*units, false))?,
             (_, Results::Diagram(found)) => table::diagram::table(found, &asked.system, *units)?,
             (_, Results::Lyapunov(_, _, Some(points))) => table::section::table(points, osc, *units),

@@ -10,6 +10,7 @@ use super::event::StateObject;
 use super::lyapunov::LyapunovAnswer;
 use super::map::MapAnswer;
 use super::margins::MarginsAnswer;
+use super::motion::MotionObject;
 use super::orbit::OrbitAnswer;
 use super::region::RegionAnswer;
 use super::response::ResponseAnswer;
@@ -51,7 +52,10 @@ impl Serialize for Answer {
             (Task::Response(task), MachineResults::Response(found)) => {
                 self.document(ResponseAnswer::new(&ResponseView::of_machine(found, task, machine)), to)
             }
-            (_, MachineResults::Basin(found)) => self.document(BasinAnswer::of_machine(machine, found), to),
+            (_, MachineResults::Basin(found)) => {
+                let motion = |verdict| MotionObject::of_machine(machine, verdict);
+                self.document(BasinAnswer::new(found, &Units::default(), motion), to)
+            }
             (_, MachineResults::Diagram(found)) => self.document(DiagramAnswer::new(found, &Units::default()), to),
             (Task::Map(task), MachineResults::Map(found)) => {
                 self.document(MapAnswer::new(found, machine, (task.starts, task.seed), &Units::default()), to)

@@ -1,12 +1,12 @@
 //! A basin of a machine in memory: its tiles are joined.
 
 use super::join::{Joined, Part, joined};
-use crate::machine_plan::{MachineBasin, check_memory, values_of};
+use crate::machine_plan::{check_memory, values_of};
 use crate::study::{Cell, Fill, MachineBasinFill, tiles_of};
-use crate::{BasinPlan, Control, RunError};
+use crate::{Basin, BasinPlan, Control, RunError};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
-use vibroimpact::verdict::{Undecided, UndecidedCause, Verdict};
+use vibroimpact::verdict::{CountedMotion, Undecided, UndecidedCause, Verdict};
 
 /// Settles every start of a grid, without refinement.
 ///
@@ -16,7 +16,7 @@ pub(crate) fn machine_basin(
     problem: (&Machine, &MachineStart),
     plan: &BasinPlan<String, String>,
     control: &Control<'_>,
-) -> Result<MachineBasin, RunError> {
+) -> Result<Basin<Machine, String, String>, RunError> {
     check_memory(&plan.axes, 1)?;
     let task = MachineBasinFill::new(problem, &BasinPlan { refine: None, ..plan.clone() }, None)?;
     let whole = task.grid().whole();
@@ -33,8 +33,6 @@ pub(crate) fn machine_basin(
     let unknown = Verdict::Undecided(Undecided { why: UndecidedCause::Budget, impacts: 0, spectrum: None });
     let first = |k| task.settled(&whole.index(k)).unwrap_or_else(|| unknown.clone());
     let Joined { motions, cells } = joined(&whole, parts, first);
-    let motions: Vec<Verdict<Machine>> = motions.into_iter().map(|found| found.verdict).collect();
-    let quantities = motions.iter().map(|verdict| values_of(problem.0, verdict, &plan.fields)).collect();
-    let (axes, fields) = (plan.axes.clone(), plan.fields.clone());
-    Ok(MachineBasin { axes, motions, cells, seen_events, fields, quantities })
+    let quantities = |motion: &CountedMotion<Machine>| values_of(problem.0, &motion.verdict, &plan.fields);
+    Ok(Basin::new(plan.clone(), (motions, cells), seen_events, quantities)?)
 }

@@ -10,41 +10,6 @@ use vibroimpact::machine::Machine;
 use vibroimpact::quantities::{machine_quantities, machine_quantity};
 use vibroimpact::verdict::Verdict;
 
-/// The motion of each start of a grid.
-#[derive(Clone, Debug)]
-pub struct MachineBasin {
-    /// The axes; the first varies fastest.
-    pub axes: Vec<Axis<String>>,
-    /// The motions, in the order of their first start.
-    pub motions: Vec<Verdict<Machine>>,
-    /// The motion of each start as an index; `None` where a start lies beyond a rigid stop.
-    pub cells: Vec<Option<usize>>,
-    /// The number of events over which chaos was seen from each start; `None` unless its motion is chaotic.
-    pub seen_events: Vec<Option<u64>>,
-    /// The paths of the quantities that the plan asks for, and the values of each motion.
-    pub fields: Vec<String>,
-    /// For each motion a value of each field; not-a-number where it is not defined.
-    pub quantities: Vec<Vec<f64>>,
-}
-
-impl MachineBasin {
-    /// For each motion the number of starts that lead to it, and their share of all that are allowed.
-    #[must_use]
-    #[allow(clippy::cast_precision_loss)] // counts of starts
-    pub fn shares(&self) -> Vec<(u64, f64)> {
-        let mut counts = vec![0_u64; self.motions.len()];
-        self.cells.iter().flatten().for_each(|cell| counts[*cell] += 1);
-        let total: u64 = counts.iter().sum();
-        counts.into_iter().map(|count| (count, count as f64 / total.max(1) as f64)).collect()
-    }
-
-    /// The number of starts beyond a rigid stop.
-    #[must_use]
-    pub fn refused(&self) -> usize {
-        self.cells.iter().filter(|cell| cell.is_none()).count()
-    }
-}
-
 /// Where an axis of a basin stands in a start.
 pub(crate) enum StartAxis {
     Q(usize),

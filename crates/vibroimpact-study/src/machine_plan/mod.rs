@@ -15,7 +15,7 @@
 //! | where in a plane of two numbers a motion exists and is stable | `region` |
 //! | a quantity of all motions over a number | `response` |
 //! | curves of events over two numbers | [`MachineEventCurve`], `curve` |
-//! | basins and maps | [`MachineBasin`], `grid` |
+//! | basins and maps | `grid` |
 //! | a motion after its transient at each value of a number | `diagram`, `after_transient` |
 //! | the events of a motion | [`MachineSimulated`], `simulate` |
 
@@ -41,7 +41,6 @@ mod verdicts;
 pub use branch::{MachineBranched, MachineFollowed, MachineLine, MachineOrigin};
 pub use curve::MachineEventCurve;
 pub(crate) use diagram::step as diagram_step;
-pub use grid::MachineBasin;
 pub(crate) use grid::{StartAxis, check_memory, values_of};
 pub use many::ManyPlan;
 pub use margins::{MachineMargins, NumberEvent, NumberMargin};

@@ -2,7 +2,6 @@
 
 use super::branch::{self, MachineBranched};
 use super::curve::{self, MachineEventCurve};
-use super::grid::MachineBasin;
 use super::margins::MachineMargins;
 use super::section::{self, MachineSection};
 use super::simulate::{MachineSimulated, simulate};
@@ -10,7 +9,7 @@ use super::{many, margins, orbits, region, response, verdicts};
 use crate::in_memory::DIAGRAM_TILE;
 use crate::machine::MachineSource;
 use crate::study::SweepFill;
-use crate::{Control, Diagram, LyapunovPlan, RegionMap, Regions, ResponseCurves, RunError, Task, in_memory};
+use crate::{Basin, Control, Diagram, LyapunovPlan, RegionMap, Regions, ResponseCurves, RunError, Task, in_memory};
 use vibroimpact::chaos::Exponents;
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::MachineCycle;
@@ -40,7 +39,7 @@ pub enum MachineResults {
     /// The response.
     Response(ResponseCurves),
     /// The basin.
-    Basin(MachineBasin),
+    Basin(Basin<Machine, String, String>),
     /// The map.
     Map(RegionMap<String, String>),
     /// The orbit diagram.

@@ -10,12 +10,11 @@ pub use value::{Coloured, Of, Value};
 
 use crate::figure::plane::Sides;
 use crate::figure::point_motion::{PointMotion, group, points};
-use crate::figure::{quantity_name, title};
-use crate::{Asked, FieldName, ReportError, Units, Varied};
-use vibroimpact::Oscillator;
-use vibroimpact::quantities::{Quantity, of_verdict_only};
-use vibroimpact_plot::{Figure, plain};
-use vibroimpact_study::{Basin, MachineBasin, Name, RegionMap};
+use crate::{FieldName, ReportError, Units, Varied};
+use vibroimpact::quantities::Quantity;
+use vibroimpact::verdict::{CountedMotion, System};
+use vibroimpact_plot::Figure;
+use vibroimpact_study::{Basin, Name, RegionMap};
 
 /// The figure of `vibro map --colour`: a plane, or dots over one axis.
 ///
@@ -59,46 +58,23 @@ pub fn of_points(
 ///
 /// # Errors
 /// As [`of_map`].
-pub fn of_basin(found: &Basin, coloured: &Coloured, osc: &Oscillator, asked: &Asked) -> Result<Figure, ReportError> {
-    let quantity = asked_for(&found.plan.fields, &coloured.field)?;
-    let motion = |motion: &vibroimpact::verdict::CountedMotion| {
-        let of = of_verdict_only(osc, &motion.verdict, &[quantity]);
-        let number = of.map(|of| asked.units.value_of(&of, quantity));
-        motion_of(&motion.verdict.label(), number)
-    };
-    let motions: Vec<PointMotion> = found.motions.iter().map(motion).collect();
-    let points = found.cells.iter().map(|cell| motions.get(usize::from(*cell)).copied());
-    let sides = Sides::of(&found.plan.axes, &asked.units)?;
-    of_starts(&sides, points, coloured, (quantity_name(quantity, &asked.units), title(asked)))
-}
-
-/// The figure of `vibro basin --machine --colour`.
-///
-/// # Errors
-/// As [`of_map`].
-pub fn of_machine_basin(found: &MachineBasin, coloured: &Coloured, title: String) -> Result<Figure, ReportError> {
-    let field = place(&found.fields, &coloured.field)?;
-    let values = found.quantities.iter().map(|values| values.get(field).copied());
-    let motions: Vec<PointMotion> =
-        found.motions.iter().zip(values).map(|(verdict, value)| motion_of(&verdict.label(), value)).collect();
-    let points = found.cells.iter().map(|cell| cell.and_then(|cell| motions.get(cell).copied()));
-    of_starts(&Sides::of(&found.axes, &Units::default())?, points, coloured, (plain(&coloured.field), title))
-}
-
-/// The one motion to which a start leads.
-fn motion_of(label: &str, number: Option<f64>) -> PointMotion {
-    PointMotion { group: group(label), share: 1.0, value: Value::of(label, number) }
-}
-
-/// Draws the motions to which starts lead.
-fn of_starts(
-    sides: &Sides,
-    motions: impl Iterator<Item = Option<PointMotion>>,
+pub fn of_basin<S: System, V: Varied, F: FieldName>(
+    found: &Basin<S, V, F>,
     coloured: &Coloured,
-    names: (String, String),
+    units: &Units,
+    title: String,
 ) -> Result<Figure, ReportError> {
-    let points: Vec<Vec<PointMotion>> = motions.map(|motion| motion.into_iter().collect()).collect();
-    of_points(sides, &points, coloured, names)
+    let fields = &found.plan.fields;
+    let field = place(fields, &coloured.field)?;
+    let motion = |(motion, values): (&CountedMotion<S>, &Vec<f64>)| {
+        let (label, number) =
+            (motion.verdict.label(), values.get(field).map(|value| value * fields[field].unit(units)));
+        PointMotion { group: group(&label), share: 1.0, value: Value::of(&label, number) }
+    };
+    let motions: Vec<PointMotion> = found.motions.iter().zip(&found.quantities).map(motion).collect();
+    let start = |k: usize| found.motion(k).map(|number| motions[number]).into_iter().collect();
+    let points: Vec<Vec<PointMotion>> = (0..found.cells.len()).map(start).collect();
+    of_points(&Sides::of(&found.plan.axes, units)?, &points, coloured, (fields[field].axis(units), title))
 }
 
 /// The quantity of an oscillator with this name, if a plan asks for it.
