@@ -78,11 +78,9 @@ impl BranchPlan {
         let cut = self.cut(system)?;
         cut.check(system)?;
         if cut.ends.0 == self.to {
-            return Err(PlanError::Nowhere { name: self.vary.name(), value: self.to });
+            return Err(PlanError::Nowhere { name: self.vary.name().into(), value: self.to });
         }
-        if self.follow > MOST_FOLLOWED {
-            return Err(PlanError::Follow { given: self.follow, most: MOST_FOLLOWED });
-        }
+        limits::check("follow", self.follow, 0..=MOST_FOLLOWED)?;
         limits::branch_points(self.points)
     }
 

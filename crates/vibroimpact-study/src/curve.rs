@@ -106,7 +106,7 @@ impl CurvePlan {
         for stretch in [&self.vary, &self.and] {
             let value = system.value(stretch.parameter)?;
             if !stretch.range().contains(&value) {
-                let name = stretch.parameter.name();
+                let name = stretch.parameter.name().into();
                 return Err(PlanError::Outside { name, value, from: stretch.from, to: stretch.to });
             }
         }
@@ -160,7 +160,7 @@ pub(crate) fn curve(system: &SystemPlan, plan: &CurvePlan, control: &Control<'_>
     let through = through.ok_or(PlanError::NoEvent {
         kind: plan.kind.name(),
         label,
-        name: plan.vary.parameter.name(),
+        name: plan.vary.parameter.name().into(),
         from: plan.vary.from,
         to: plan.vary.to,
         count: events.len(),

@@ -79,9 +79,9 @@ mod units;
 mod words;
 
 pub use axis::{Axis, Coordinate, Values, typed_axes};
-pub use basin::{Basin, BasinPlan};
+pub use basin::{Basin, BasinPlan, NO_START};
 pub use branch::{BranchPlan, Branches, DEFAULT_BRANCH_POINTS, Followed, Origin};
-pub use by_stop::ImpactsByStop;
+pub use by_stop::{ImpactsByStop, stop_number};
 pub use chosen::Chosen;
 pub use control::{Control, Meter, Stopped, TileMeter, tiles};
 pub use curve::{CurvePlan, EventCurve, FollowedEvent};
@@ -95,12 +95,11 @@ pub use grid::{Block, Dimension, Grid, number, place};
 pub use limits::PLAN_VERSION;
 pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
 pub use machine_plan::{
-    MachineBasin, MachineBranched, MachineDiagram, MachineDiagramPoint, MachineDiagramStep, MachineEventCurve,
-    MachineFollowed, MachineLine, MachineMap, MachineMargins, MachineOrigin, MachineResults, MachineSection,
-    MachineShare, MachineSimulated, ManyPlan, NumberEvent, NumberMargin, events_with_states, machine_label,
+    MachineBranched, MachineEventCurve, MachineFollowed, MachineLine, MachineMargins, MachineOrigin, MachineResults,
+    MachineSection, MachineSimulated, ManyPlan, NumberEvent, NumberMargin, events_with_states, machine_label,
     most_events, quantity_path,
 };
-pub use map::{MapPlan, MapPoint, RegionMap, Share};
+pub use map::{MapPlan, RegionMap, Share};
 pub use margins::{
     BoxEdge, DEFAULT_LINES, DEFAULT_WITHIN, Loss, MarginEnd, MarginsPlan, MotionBox, MotionMargins, ParameterMargin,
     ScaledParameter, Scope,

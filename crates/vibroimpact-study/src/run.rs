@@ -2,12 +2,13 @@
 
 use crate::branch::branches;
 use crate::curve::curve;
-use crate::in_memory::{attractors, basin, diagram, map};
+use crate::in_memory::{DIAGRAM_TILE, attractors, basin, diagram, map};
 use crate::map::options;
 use crate::margins::margins;
 use crate::region::regions;
 use crate::response::response;
 use crate::simulate::simulate;
+use crate::study::SweepFill;
 use crate::{
     Basin, Branches, Control, Diagram, EventCurve, LyapunovPlan, MachineResults, MotionMargins, Plan, PlanError,
     RegionMap, Regions, ResponseCurves, RunError, Simulated, Stopped, System, SystemPlan, Task, machine_plan,
@@ -114,7 +115,10 @@ fn run_oscillator(system: &SystemPlan, plan: &Plan, control: &Control<'_>) -> Re
         }
         Task::Basin(task) => Results::Basin(basin(system, &task.typed()?, control)?),
         Task::Map(task) => Results::Map(map(system, &task.typed()?, control)?),
-        Task::Diagram(task) => Results::Diagram(diagram(system, &task.typed()?, control)?),
+        Task::Diagram(task) => {
+            let task = SweepFill::new(system, &task.typed()?, Some(DIAGRAM_TILE));
+            Results::Diagram(diagram(&task, control)?)
+        }
         Task::Lyapunov(task) => {
             let task: LyapunovPlan = task.typed()?;
             if let Some(axis) = task.axes.first() {

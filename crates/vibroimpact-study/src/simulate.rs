@@ -1,6 +1,6 @@
 //! The events of one motion, up to a number of impacts or forcing periods, and the reason why the list ends.
 
-use crate::{Control, PlanError, Stopped};
+use crate::{Control, PlanError, Stopped, limits};
 use vibroimpact::flight::SearchLimits;
 use vibroimpact::motion::{End, Event, EventKind, Motion};
 use vibroimpact::verdict::NoImpact;
@@ -41,11 +41,14 @@ pub(crate) fn most_impacts(impacts: Option<u64>, periods: Option<f64>) -> u64 {
 
 /// Checks the numbers of events and of forcing periods of a simulation.
 pub(crate) fn check_lengths(impacts: Option<u64>, periods: Option<f64>) -> Result<(), PlanError> {
-    if let Some(n) = impacts.filter(|n| !(1..=10_000_000).contains(n)) {
-        return Err(PlanError::Impacts(n));
-    }
+    impacts.map_or(Ok(()), |given| limits::check("impacts", given, 1..=10_000_000))?;
     match periods.filter(|n| !(*n > 0.0 && *n <= 1e9)) {
-        Some(n) => Err(PlanError::Periods(n)),
+        Some(given) => Err(PlanError::OutOfRange {
+            name: "periods",
+            given: given.to_string(),
+            range: "0 < periods <= 1e9".to_owned(),
+            hint: "",
+        }),
         None => Ok(()),
     }
 }

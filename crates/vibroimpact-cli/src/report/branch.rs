@@ -1,28 +1,15 @@
 //! Branches of periodic orbits as text: their events, and how they end.
 
+use crate::report::diagram::range;
 use crate::report::words::{stop_name, table};
 use std::fmt::Write;
+use vibroimpact::Label;
 use vibroimpact::continuation::{BranchEvent, Change, MachineBranchEvent, MachinePoint, SolutionPoint, Touch};
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::{Cycle, MachineCycle};
-use vibroimpact::{Label, Parameter};
-use vibroimpact_report::Units;
 use vibroimpact_report::number::{precise, short};
+use vibroimpact_report::{Units, Varied};
 use vibroimpact_study::{Branches, Chosen, Cut, MachineBranched, counted};
-
-/// The name of a parameter in a sentence, such as `gap` or `inverse beta`.
-pub(crate) fn named(parameter: Parameter, units: &Units) -> String {
-    if let Parameter::Physical(parameter) = parameter {
-        let (name, unit) = (parameter.description(), parameter.unit());
-        return if unit.is_empty() { name.to_owned() } else { format!("{name} ({unit})") };
-    }
-    let name = parameter.name().replace('_', " ");
-    match units.unit_of(parameter) {
-        "" => name,
-        "Hz" => "frequency (Hz)".to_owned(),
-        unit => units.named(&name, unit),
-    }
-}
 
 /// The number of the orbit, if there are several.
 pub(crate) fn chosen(chosen: &Chosen) -> String {
@@ -62,12 +49,8 @@ fn chosen_among(among: Option<(u32, u32)>, cycle: Option<&MachineCycle>) -> Stri
 
 /// The text of all branches, each with its events and its end.
 pub(crate) fn text(found: &Branches, cut: &Cut, units: &Units) -> String {
-    let (unit, name, (from, to)) = (units.of(cut.vary), named(cut.vary, units), cut.ends);
-    let also = cut.also.map_or_else(String::new, |also| {
-        let unit = units.of(also.parameter);
-        format!(", {} from {} to {}", named(also.parameter, units), short(also.from * unit), short(also.to * unit))
-    });
-    let names: Vec<String> = cut.parameters().map(|parameter| named(parameter, units)).collect();
+    let (unit, name) = (units.of(cut.vary), cut.vary.words(units));
+    let names: Vec<String> = cut.names().map(|parameter| parameter.words(units)).collect();
     let mut text = String::new();
     for (k, branch) in found.followed.iter().enumerate() {
         let origin = branch.origin.as_ref().and_then(|origin| {
@@ -78,7 +61,7 @@ pub(crate) fn text(found: &Branches, cut: &Cut, units: &Units) -> String {
         text.push_str(&match origin {
             None => {
                 let begin = format!("{} ({})", found.chosen.orbit.cycle.label, chosen(&found.chosen));
-                first(&begin, &format!("{name} from {} to {}{also}", short(from * unit), short(to * unit)), &points)
+                first(&begin, &range(cut, units), &points)
             }
             Some(origin) => further(k + 1, origin, &points),
         });
@@ -94,11 +77,7 @@ pub(crate) fn text(found: &Branches, cut: &Cut, units: &Units) -> String {
 
 /// The same of a machine.
 pub(crate) fn of_machine(found: &MachineBranched, cut: &Cut<String>, machine: &Machine) -> String {
-    let mut names: Vec<String> = cut.paths().map(str::to_owned).collect();
-    let (name, (from, to)) = (names[0].clone(), cut.ends);
-    let also = cut.also.as_ref().zip(names.get(1));
-    let also = also
-        .map_or_else(String::new, |(also, name)| format!(", {name} from {} to {}", short(also.from), short(also.to)));
+    let mut names: Vec<String> = cut.names().cloned().collect();
     // with forcing the label says the period
     if machine.period().is_none() {
         names.push(PERIOD.to_owned());
@@ -110,11 +89,11 @@ pub(crate) fn of_machine(found: &MachineBranched, cut: &Cut<String>, machine: &M
     let begin = found.points.first().map(|point| &point.cycle);
     let label = begin.map_or_else(String::new, |cycle| cycle.label.to_string());
     let begin = format!("{label} ({})", chosen_among(found.among, begin));
-    let mut text = first(&begin, &format!("{name} from {} to {}{also}", short(from), short(to)), &points);
+    let mut text = first(&begin, &range(cut, &Units::default()), &points);
     text.push_str(&events(&points, &names));
     for (k, followed) in found.followed.iter().enumerate() {
         let points = told(&followed.points);
-        let place = format!(" at {name} {}", precise(followed.at));
+        let place = format!(" at {} {}", cut.vary, precise(followed.at));
         text.push_str(&further(k + 2, (followed.event.name(), place), &points));
         text.push_str(&events(&points, &names));
     }
@@ -191,7 +170,7 @@ impl Told {
             remark: remark(point, &event),
         });
         Self {
-            values: cut.values(point.value).map(|(parameter, value)| value * units.of(parameter)).collect(),
+            values: cut.names().zip(cut.values(point.value)).map(|(of, value)| value * units.of(*of)).collect(),
             label,
             stability: if point.physical { point.stability().name() } else { "inadmissible" },
             event,

@@ -1,13 +1,13 @@
 //! Curves of events in a plane of two parameters as text.
 
-use crate::report::branch::{chosen, named};
+use crate::report::branch::chosen;
+use crate::report::diagram::over;
 use crate::report::words::table;
 use std::fmt::Write;
-use vibroimpact::Parameter;
 use vibroimpact::machine::Machine;
-use vibroimpact_report::Units;
 use vibroimpact_report::json::curve::values;
 use vibroimpact_report::number::{precise, short};
+use vibroimpact_report::{Units, Varied};
 use vibroimpact_study::{CurvePlan, EventCurve, MachineEventCurve, Name, Stretch, Variable, counted};
 
 /// A curve of any system, as it is told.
@@ -41,11 +41,6 @@ impl Told {
 
 /// The description of a curve, and the events on it from one end to the other.
 pub(crate) fn text(found: &EventCurve, plan: &CurvePlan, units: &Units) -> String {
-    let name = |parameter: Parameter| named(parameter, units);
-    let over = |stretch: &Stretch| {
-        let unit = units.of(stretch.parameter);
-        format!("{} from {} to {}", name(stretch.parameter), short(stretch.from * unit), short(stretch.to * unit))
-    };
     let p = plan.vary.parameter;
     let all = &found.points;
     let rows = all
@@ -68,10 +63,10 @@ pub(crate) fn text(found: &EventCurve, plan: &CurvePlan, units: &Units) -> Strin
             plan.label.as_deref().unwrap_or_default().trim(),
             chosen(&found.chosen)
         ),
-        names: [name(p), name(plan.and.parameter)],
+        names: [p.words(units), plan.and.parameter.words(units)],
         found_at: found.events.iter().map(|event| event.value * units.of(p)).collect(),
         through: found.through,
-        over: [over(&plan.vary), over(&plan.and)],
+        over: [over(&plan.vary, units), over(&plan.and, units)],
         points: all.len(),
         rows,
     };

@@ -4,18 +4,19 @@ use crate::AnswerError;
 use crate::answer::Shown;
 use crate::branch_quantity::BranchQuantity;
 use crate::figure::coloured;
+use crate::figure::overlay::Overlay;
 use crate::json::margins::ParameterObject;
 use crate::response::ResponseView;
 use crate::scene::{self, View};
-use crate::{ReportError, Table, figure, table};
+use crate::{ReportError, Table, Units, figure, table};
 use vibroimpact::events::{MachineLimits, MachineMotion, MachineStart};
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::{CountedMotion, Verdict};
 use vibroimpact_plot::{Figure, plain};
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{
-    BranchPlan, Control, MachineDiagram, MachineResults, MachineSimulated, Plan, PlanError, ResponseCurves, Results,
-    Task, Variable, run,
+    BranchPlan, Control, Diagram, MachineResults, MachineSimulated, Plan, PlanError, RegionPlan, ResponseCurves,
+    Results, Task, Variable, run,
 };
 
 /// The largest number of characters of a title over an axis of ordinary width.
@@ -67,8 +68,8 @@ impl Answer {
         let title = machine_title(&self.source, &self.name);
         if let Some(colour) = &shown.colour {
             return Ok(Some(match &self.results {
-                MachineResults::Basin(found) => coloured::of_machine_basin(found, colour, title)?,
-                MachineResults::Map(found) => coloured::of_machine_map(found, colour, title)?,
+                MachineResults::Basin(found) => coloured::of_basin(found, colour, &Units::default(), title)?,
+                MachineResults::Map(found) => coloured::of_map(found, colour, &Units::default(), title)?,
                 _ => return Err(ReportError::NoColours.into()),
             }));
         }
@@ -98,7 +99,7 @@ impl Answer {
                 let quantity = BranchQuantity::of(&self.machine, &self.source, &cut, found);
                 let path = quantity.as_ref().map(|quantity| quantity.path.as_str());
                 let behind = if shown.diagram { self.behind(plan, path, control)? } else { None };
-                figure::branch::of_machine(found.all(), &cut, (quantity.as_ref(), behind.as_ref()), title)
+                figure::branch::of_machine(found.all(), &cut, (quantity.as_ref(), behind.as_ref()), title)?
             }
             MachineResults::Curve(found) => {
                 let Task::Curve(plan) = &self.plan.task else { return Ok(None) };
@@ -106,15 +107,18 @@ impl Answer {
             }
             MachineResults::Region(found) => {
                 let Task::Region(plan) = &self.plan.task else { return Ok(None) };
-                figure::region::of_machine(found, &plan.typed()?, &self.source, title)
+                let plan: RegionPlan<String> = plan.typed()?;
+                figure::region::figure(found, &plan, (plan.neutral(&self.source), &Units::default()), title)
             }
             MachineResults::Response(found) => {
                 let Some(view) = self.response(found) else { return Ok(None) };
                 figure::response::figure(&view, title)
             }
-            MachineResults::Basin(found) => figure::basin::of_machine(found, title)?,
-            MachineResults::Map(found) => figure::map::of_machine(found, title)?,
-            MachineResults::Diagram(found) => figure::diagram::of_machine(found, title)?,
+            MachineResults::Basin(found) => figure::basin::figure(found, &Units::default(), title)?,
+            MachineResults::Map(found) => {
+                figure::map::figure(found, &Units::default(), title, Overlay::default().cells())?
+            }
+            MachineResults::Diagram(found) => figure::diagram::figure(found, &Units::default(), title)?,
             MachineResults::Lyapunov(found, Some(points)) => {
                 let label = figure::label(&found.motion.label());
                 figure::machine_section::figure(points, &self.machine, format!("{title}: {label}"))
@@ -152,7 +156,7 @@ impl Answer {
         plan: &BranchPlan<Variable>,
         quantity: Option<&str>,
         control: &Control<'_>,
-    ) -> Result<Option<MachineDiagram>, AnswerError> {
+    ) -> Result<Option<Diagram<String, String>>, AnswerError> {
         let mut diagram = plan.typed::<String>()?.diagram(&self.source)?;
         if let Some(path) = quantity {
             path.clone_into(&mut diagram.show);
@@ -221,15 +225,15 @@ impl Answer {
             MachineResults::Margins(found) => table::margins::of_machine(found, &self.machine),
             MachineResults::Region(found) => {
                 let Task::Region(plan) = &self.plan.task else { return Ok(None) };
-                table::region::of_machine(found, &plan.typed()?)
+                table::region::table(found, &plan.typed::<String>()?, &Units::default())
             }
             MachineResults::Response(found) => {
                 let Some(view) = self.response(found) else { return Ok(None) };
                 table::response::table(view)
             }
-            MachineResults::Basin(found) => table::basin::of_machine(&self.machine, found),
-            MachineResults::Map(found) => table::map::of_machine(&self.machine, found),
-            MachineResults::Diagram(found) => table::diagram::of_machine(found, &self.machine),
+            MachineResults::Basin(found) => table::basin::of_machine(&self.machine, found)?,
+            MachineResults::Map(found) => table::map::table(found, &self.machine, (Units::default(), true))?,
+            MachineResults::Diagram(found) => table::diagram::table(found, &self.machine, Units::default())?,
             MachineResults::Lyapunov(_, Some(points)) => table::section::of_machine(&self.machine, points),
             MachineResults::Orbit(found) => table::orbits::of_machine(found, &self.machine),
             MachineResults::Lyapunov(..) => return Ok(None),

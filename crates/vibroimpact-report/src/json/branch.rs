@@ -4,7 +4,7 @@ use super::event::{self, EventObject, side};
 use super::motion::{drift, multipliers};
 use super::{Document, Pair};
 use crate::branch_quantity::BranchQuantity;
-use crate::{Asked, Units};
+use crate::{Asked, Units, Varied};
 use core::iter::once;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -27,7 +27,7 @@ pub(super) struct BranchAnswer<'a> {
     from: f64,
     to: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
-    also: Option<Pair<'a>>,
+    also: Option<Pair>,
     /// Absent for the motion from the start of a machine.
     #[serde(skip_serializing_if = "Option::is_none")]
     orbit: Option<ChosenObject>,
@@ -209,11 +209,7 @@ impl<'a> BranchAnswer<'a> {
             vary: task.vary.text(),
             from: cut.ends.0,
             to: cut.ends.1,
-            also: (task.also.as_ref().zip(cut.also.as_ref())).map(|(own, also)| Pair {
-                parameter: own.parameter.text(),
-                from: also.from,
-                to: also.to,
-            }),
+            also: Pair::of(cut, &Units::default()),
             orbit: ChosenObject::of_machine(found.among),
             branches: found.all().zip(origins).map(branch).collect(),
         }
@@ -227,7 +223,7 @@ impl PointObject<'static> {
         let period = osc.map_or(f64::NAN, |osc| f64::from(cycle.label.periods) * osc.period() * there.time());
         Self {
             parameter: point.value * units.of(cut.vary),
-            values: both(point, cut, units),
+            values: both(point.value, cut, units),
             label: cycle.label.to_string(),
             period,
             cycle: osc.map_or_else(Vec::new, |osc| event::of_cycle(&osc, cycle, &there)),
@@ -251,7 +247,7 @@ impl<'a> PointObject<'a> {
         let MachinePoint { value, cycle, .. } = point;
         Self {
             parameter: *value,
-            values: both_of_machine(*value, cut),
+            values: both(*value, cut, &Units::default()),
             label: cycle.label.to_string(),
             period: cycle.period,
             cycle: cycle.events.iter().map(|event| event::of_machine(machine, event)).collect(),
@@ -267,13 +263,9 @@ impl<'a> PointObject<'a> {
 }
 
 /// The values of both parameters at a point of a line through two.
-fn both(point: &SolutionPoint, cut: &Cut, units: &Units) -> Option<[f64; 2]> {
-    let mut values = cut.values(point.value).map(|(parameter, value)| value * units.of(parameter));
+fn both<V: Varied>(value: f64, cut: &Cut<V>, units: &Units) -> Option<[f64; 2]> {
+    let mut values = cut.names().zip(cut.values(value)).map(|(number, value)| value * number.unit(units));
     Some([values.next()?, values.next()?])
-}
-
-fn both_of_machine(value: f64, cut: &Cut<String>) -> Option<[f64; 2]> {
-    cut.values(value).nth(1).map(|second| [value, second])
 }
 
 impl BranchEventObject<'static> {
@@ -282,7 +274,7 @@ impl BranchEventObject<'static> {
         Self {
             kind: record.kind,
             parameter: point.value * units.of(cut.vary),
-            values: both(point, cut, units),
+            values: both(point.value, cut, units),
             point: place,
             fields: EventFields::of_oscillator(record),
         }
@@ -299,7 +291,7 @@ impl<'a> BranchEventObject<'a> {
         Self {
             kind: event.name(),
             parameter: points[k].value,
-            values: both_of_machine(points[k].value, cut),
+            values: both(points[k].value, cut, &Units::default()),
             point: k,
             // a point at an event has the cycle before it
             fields: EventFields::of_machine(

@@ -10,18 +10,19 @@ use super::event::StateObject;
 use super::lyapunov::LyapunovAnswer;
 use super::map::MapAnswer;
 use super::margins::MarginsAnswer;
+use super::motion::MotionObject;
 use super::orbit::OrbitAnswer;
 use super::region::RegionAnswer;
 use super::response::ResponseAnswer;
 use super::settle::SettleAnswer;
 use super::simulate::SimulateAnswer;
 use super::system::SystemObject;
-use crate::PROGRAM;
 use crate::answer::machine::Answer;
 use crate::response::ResponseView;
+use crate::{PROGRAM, Units};
 use serde::ser::Error;
 use serde::{Serialize, Serializer};
-use vibroimpact_study::{MachineResults, Task};
+use vibroimpact_study::{MachineResults, RegionPlan, Task};
 
 impl Serialize for Answer {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
@@ -45,18 +46,22 @@ impl Serialize for Answer {
             }
             (_, MachineResults::Margins(found)) => self.document(MarginsAnswer::of_machine(machine, found), to),
             (Task::Region(task), MachineResults::Region(found)) => {
-                self.document(RegionAnswer::of_machine(found, &task.typed().map_err(Error::custom)?, source), to)
+                let task: RegionPlan<String> = task.typed().map_err(Error::custom)?;
+                self.document(RegionAnswer::new(found, &task, task.neutral(source), &Units::default()), to)
             }
             (Task::Response(task), MachineResults::Response(found)) => {
                 self.document(ResponseAnswer::new(&ResponseView::of_machine(found, task, machine)), to)
             }
-            (_, MachineResults::Basin(found)) => self.document(BasinAnswer::of_machine(machine, found), to),
-            (_, MachineResults::Diagram(found)) => self.document(DiagramAnswer::of_machine(machine, found), to),
+            (_, MachineResults::Basin(found)) => {
+                let motion = |verdict| MotionObject::of_machine(machine, verdict);
+                self.document(BasinAnswer::new(found, &Units::default(), motion), to)
+            }
+            (_, MachineResults::Diagram(found)) => self.document(DiagramAnswer::new(found, &Units::default()), to),
             (Task::Map(task), MachineResults::Map(found)) => {
-                self.document(MapAnswer::of_machine(machine, (task.starts, task.seed), found), to)
+                self.document(MapAnswer::new(found, machine, (task.starts, task.seed), &Units::default()), to)
             }
             (Task::SettleMany(_), MachineResults::Map(found)) => {
-                self.document(MapAnswer::of_machine(machine, (1, 0), found), to)
+                self.document(MapAnswer::new(found, machine, (1, 0), &Units::default()), to)
             }
             // `answer` combines each plan with its own results, so this does not occur
             _ => Err(Error::custom(OTHER)),

@@ -3,7 +3,7 @@
 
 use super::orbits::{self, ChosenCycle};
 use crate::branch::{DIAGRAM_VALUES, MOST_FOLLOWED};
-use crate::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, SweepDirection};
+use crate::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, SPEED, SweepDirection};
 use crate::machine::MachineSource;
 use crate::{BranchPlan, Control, Cut, DiagramPlan, PlanError, RunError, Span, Stopped, Stretch, Target, limits};
 use core::ops::RangeInclusive;
@@ -48,14 +48,16 @@ impl MachineBranched {
 impl BranchPlan<String> {
     /// Checks the orbit, the numbers that vary and their ranges.
     pub(crate) fn check(&self, source: &MachineSource, machine: &Machine) -> Result<(), PlanError> {
-        if self.follow > MOST_FOLLOWED {
-            return Err(PlanError::Follow { given: self.follow, most: MOST_FOLLOWED });
-        }
+        limits::check("follow", self.follow, 0..=MOST_FOLLOWED)?;
         orbits::check(machine, (self.label.as_deref(), self.orbit))?;
         let cut = self.cut(source)?;
         let (from, to) = cut.ends;
-        if !to.is_finite() || to == from {
-            return Err(PlanError::MachineRange { path: self.vary.clone(), from, to });
+        let name = || self.vary.clone().into();
+        if to == from {
+            return Err(PlanError::Nowhere { name: name(), value: from });
+        }
+        if !to.is_finite() {
+            return Err(PlanError::Endless { name: name(), from, to });
         }
         cut.check(source)?;
         limits::branch_points(self.points)?;
@@ -83,7 +85,7 @@ impl BranchPlan<String> {
         let Cut { vary, ends, also } = self.cut(source)?;
         let over = Span::new(ends.0, ends.1, DIAGRAM_VALUES)?.into();
         let (direction, transient, keep) = (SweepDirection::Both, DEFAULT_TRANSIENT, DEFAULT_KEEP);
-        Ok(DiagramPlan { vary, over, also, show: super::diagram::speed(), direction, transient, keep })
+        Ok(DiagramPlan { vary, over, also, show: SPEED.to_owned(), direction, transient, keep })
     }
 }
 

@@ -61,9 +61,9 @@ impl CurvePlan<String> {
         let Self { vary, and, points, .. } = self;
         for Stretch { parameter: path, from, to } in [vary, and] {
             let value = source.number(path).map_err(PlanError::from)?;
-            let (path, from, to) = (path.clone(), *from, *to);
+            let (name, from, to) = (path.clone().into(), *from, *to);
             if from < to && !(from..=to).contains(&value) {
-                return Err(PlanError::MachineOutside { path, value, from, to });
+                return Err(PlanError::Outside { name, value, from, to });
             }
         }
         points.map_or(Ok(()), limits::branch_points)?;
@@ -108,10 +108,10 @@ pub(super) fn curve(
         Some(given) => (given as usize).checked_sub(1).filter(|index| *index < events.len()),
         None => (0..events.len()).min_by(|a, b| off(a).total_cmp(&off(b))),
     };
-    let through = through.ok_or_else(|| PlanError::NoMachineEvent {
+    let through = through.ok_or_else(|| PlanError::NoEvent {
         kind: asked.kind.name(),
         label,
-        path: vary.parameter.clone(),
+        name: vary.parameter.clone().into(),
         from: vary.from,
         to: vary.to,
         count: events.len(),

@@ -15,12 +15,11 @@
 //! | where in a plane of two numbers a motion exists and is stable | `region` |
 //! | a quantity of all motions over a number | `response` |
 //! | curves of events over two numbers | [`MachineEventCurve`], `curve` |
-//! | basins and maps | [`MachineBasin`], [`MachineMap`], `grid`, `axis` |
-//! | a motion after its transient at each value of a number | [`MachineDiagram`], `diagram`, `after_transient` |
+//! | basins and maps | `grid` |
+//! | a motion after its transient at each value of a number | `diagram`, `after_transient` |
 //! | the events of a motion | [`MachineSimulated`], `simulate` |
 
 mod after_transient;
-mod axis;
 mod branch;
 mod curve;
 mod cut;
@@ -42,8 +41,6 @@ mod verdicts;
 pub use branch::{MachineBranched, MachineFollowed, MachineLine, MachineOrigin};
 pub use curve::MachineEventCurve;
 pub(crate) use diagram::step as diagram_step;
-pub use diagram::{MachineDiagram, MachineDiagramPoint, MachineDiagramStep};
-pub use grid::{MachineBasin, MachineMap, MachineShare};
 pub(crate) use grid::{StartAxis, check_memory, values_of};
 pub use many::ManyPlan;
 pub use margins::{MachineMargins, NumberEvent, NumberMargin};

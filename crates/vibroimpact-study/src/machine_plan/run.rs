@@ -2,14 +2,14 @@
 
 use super::branch::{self, MachineBranched};
 use super::curve::{self, MachineEventCurve};
-use super::diagram::MachineDiagram;
-use super::grid::{MachineBasin, MachineMap};
 use super::margins::MachineMargins;
 use super::section::{self, MachineSection};
 use super::simulate::{MachineSimulated, simulate};
 use super::{many, margins, orbits, region, response, verdicts};
+use crate::in_memory::DIAGRAM_TILE;
 use crate::machine::MachineSource;
-use crate::{Control, LyapunovPlan, Regions, ResponseCurves, RunError, Task, in_memory};
+use crate::study::SweepFill;
+use crate::{Basin, Control, Diagram, LyapunovPlan, RegionMap, Regions, ResponseCurves, RunError, Task, in_memory};
 use vibroimpact::chaos::Exponents;
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::MachineCycle;
@@ -39,11 +39,11 @@ pub enum MachineResults {
     /// The response.
     Response(ResponseCurves),
     /// The basin.
-    Basin(MachineBasin),
+    Basin(Basin<Machine, String, String>),
     /// The map.
-    Map(MachineMap),
+    Map(RegionMap<String, String>),
     /// The orbit diagram.
-    Diagram(MachineDiagram),
+    Diagram(Diagram<String, String>),
 }
 
 /// Computes the result of a task of a machine, which was checked.
@@ -88,7 +88,8 @@ pub(crate) fn run(source: &MachineSource, task: &Task, control: &Control<'_>) ->
         }
         Task::Map(map) => MachineResults::Map(in_memory::machine_map(source, &map.typed()?, control)?),
         Task::Diagram(diagram) => {
-            MachineResults::Diagram(in_memory::machine_diagram(source, &diagram.typed()?, control)?)
+            let task = SweepFill::of_machine(source, &diagram.typed()?, Some(DIAGRAM_TILE));
+            MachineResults::Diagram(in_memory::diagram(&task, control)?)
         }
     })
 }
