@@ -154,7 +154,7 @@ fn ends_of_curves(machine_of: fn(&Oscillator) -> Machine) {
 }
 
 /// The two-mass hammer of the catalogue.
-fn hammer(frequency: f64, gap: f64) -> Option<Machine> {
+pub(crate) fn hammer(frequency: f64, gap: f64) -> Option<Machine> {
     let parts = MachineParts::new(["frame", "head"])
         .with_mass(0, 1.0)
         .with_mass(1, 0.5)

@@ -21,12 +21,14 @@ const SAME: f64 = 1e-6;
 const DEEPEST: u32 = 3;
 /// From so many of the nearest points with a cycle it is followed to another one.
 const NEAREST: usize = 3;
+/// A way shorter than this, in steps of the grid, is not halved, and no other point is tried: the edge is between both.
+const SHORT: f64 = 0.1;
 /// The number of halvings of the way between neighbouring points of the grid by which the edge is located.
-const HALVINGS: u32 = 26;
+const HALVINGS: u32 = 20;
 /// The longest edge of a polygon and its largest distance from the true edge, in quarters of the frame.
 const EDGE: (f64, f64) = (0.1, 1e-3);
 /// A multiplier this near to the unit circle, at the last cycle inside, is that of a bifurcation.
-const NEAR: f64 = 2e-2;
+const NEAR: f64 = 5e-2;
 
 /// A cycle, and the values of both numbers.
 #[derive(Clone, Debug)]
@@ -52,8 +54,7 @@ impl MachinePlane {
     ///
     /// The polygons contain the points to which a cycle could be followed from another point. Cycles are searched for at every
     /// third point of the grid, so parts of the region with fewer points can be missed, and so can orbits that are not stable and
-    /// to which no start leads. A cycle whose edge is not that of the frame ends within $`10^{-8}`$ of the range of the polygon's
-    /// vertex. The largest distance between the edges of a polygon and the true edge is about $`10^{-3}`$ of a quarter of the frame.
+    /// to which no start leads. The largest distance between the edges of a polygon and the true edge is about $`10^{-3}`$ of a quarter of the frame.
     /// Points of the grid at which a cycle was found outside the polygons, or none inside, are
     /// [unresolved](Region::unresolved). Of the options, `grid` is used.
     ///
@@ -131,7 +132,11 @@ impl Search<'_> {
 
     /// Whether a cycle can be followed to a point; it is remembered.
     fn holds(&self, at: (f64, f64)) -> bool {
-        let found = self.nearest(at).iter().find_map(|from| self.followed(from, at, DEEPEST));
+        let mut from = self.nearest(at);
+        let short = |from: &Known| self.apart(from.at, at) * f64::from(self.grid.0.min(self.grid.1)) < 4.0 * SHORT;
+        let depth = if from.first().is_some_and(short) { 0 } else { DEEPEST };
+        from.truncate(if depth == 0 { 1 } else { NEAREST });
+        let found = from.iter().find_map(|from| self.followed(from, at, depth));
         let holds = found.is_some();
         self.known.borrow_mut().extend(found.map(|cycle| Known { at, cycle }));
         holds

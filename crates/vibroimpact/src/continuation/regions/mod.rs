@@ -20,7 +20,7 @@ mod seed;
 mod sheet_walk;
 mod singular;
 
-pub(crate) use outline::Outline;
 pub use options::{RegionKind, RegionOptions};
+pub(crate) use outline::Outline;
 pub use polygon::{Bound, Polygon, Region, Vertex};
 pub use region::{region, region_while};
