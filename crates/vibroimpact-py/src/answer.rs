@@ -12,8 +12,8 @@ use vibroimpact_report::json::event::side;
 use vibroimpact_report::{Answer, Units};
 use vibroimpact_study::diagram::DiagramPoint;
 use vibroimpact_study::{
-    Diagram, MachineResults, MachineSection, MarginsPlan, Name, Parameter, Plan, PlanError, Quantity, ResponseCurves,
-    ResponseRow, Results, SystemPlan, Task,
+    Diagram, MachineResults, MarginsPlan, Name, Parameter, Plan, PlanError, Quantity, ResponseCurves, ResponseRow,
+    Results, SectionPoints, SystemPlan, Task,
 };
 
 /// A system about which a question is asked.
@@ -52,7 +52,7 @@ impl<'py> SectionFields<'py> {
         })
     }
 
-    fn of_machine(py: Python<'py>, found: &MachineSection, stop: Vec<String>, width: usize) -> PyResult<Self> {
+    fn of_machine(py: Python<'py>, found: &SectionPoints, stop: Vec<String>, width: usize) -> PyResult<Self> {
         let (closings, strobes) = (|| found.closings.iter(), || found.strobes.iter());
         Ok(Self {
             stop,

@@ -8,7 +8,7 @@ use numpy::{Element, IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use vibroimpact::events::{MachineLimits, MachineSample, MachineSamples, MachineStart};
 use vibroimpact::regime::ContactState;
-use vibroimpact_study::machine::{CATALOGUE, MachineProblem, MachineSource, MachineTextError, StartText};
+use vibroimpact_study::machine::{CATALOGUE, MachineFileError, MachineProblem, MachineSource, StartText};
 use vibroimpact_study::{MachineResults, Plan, PlanError, Results, System, Task, events_with_states, most_events, run};
 
 /// A machine file that describes a machine.
@@ -24,8 +24,8 @@ fn checked(source: MachineSource) -> Result<MachineFile, Trouble> {
     Ok(MachineFile(source))
 }
 
-impl From<MachineTextError> for Trouble {
-    fn from(error: MachineTextError) -> Self {
+impl From<MachineFileError> for Trouble {
+    fn from(error: MachineFileError) -> Self {
         Self::question(error.to_string())
     }
 }

@@ -2,9 +2,10 @@
 
 use vibroimpact::continuation::MachinePoint;
 use vibroimpact::machine::Machine;
+use vibroimpact::orbit::MachineCycle;
 use vibroimpact::quantities::{Quantity, machine_cycle_quantities};
 use vibroimpact_study::machine::MachineSource;
-use vibroimpact_study::{Cut, MachineBranched};
+use vibroimpact_study::{Branches, Cut};
 
 /// The largest displacement of the first coordinate, or its largest velocity where the displacement is not defined, as in a
 /// machine that moves on as a whole.
@@ -23,12 +24,12 @@ impl<'a> BranchQuantity<'a> {
         machine: &Machine,
         source: &'a MachineSource,
         cut: &Cut<String>,
-        found: &MachineBranched,
+        found: &Branches<MachineCycle, MachinePoint>,
     ) -> Option<Self> {
         if !machine.stops().is_empty() {
             return None;
         }
-        let (name, first) = (machine.parts().coordinates.first()?, found.points.first()?);
+        let (name, first) = (machine.parts().coordinates.first()?, found.followed.first()?.points.first()?);
         let of = |quantity: Quantity| Self::at_path(format!("q.{name}.{}", quantity.name()), source, cut);
         let displacement = of(Quantity::DisplacementMax);
         Some(if displacement.at(first).is_finite() { displacement } else { of(Quantity::VelocityMax) })
@@ -68,7 +69,7 @@ mod tests {
         let quantity = BranchQuantity::of(&machine, &source, &cut, &found).unwrap();
         assert_eq!(quantity.path, "q.mass.displacement_max");
         let (holds, slides) = (source.number("fs").unwrap(), source.number("f").unwrap());
-        for point in &found.points {
+        for point in &found.followed[0].points {
             let exact = slides + (holds - slides).hypot(point.value);
             assert!((quantity.at(point) - exact).abs() < 1e-12, "{} {} {exact}", point.value, quantity.at(point));
         }

@@ -110,7 +110,7 @@ fn of_machine(answer: &MachineAnswer) -> Result<String, Failure> {
         (Task::Branch(task), MachineResults::Branch(found)) => {
             branch::of_machine(found, &task.typed::<String>()?.cut(source)?, machine)
         }
-        (Task::Curve(task), MachineResults::Curve(found)) => curve::of_machine(found, task, machine),
+        (Task::Curve(task), MachineResults::Curve(found)) => curve::of_machine(found, &task.typed()?, machine),
         (_, MachineResults::Margins(found)) => margins::of_machine(found, machine),
         (Task::Region(task), MachineResults::Region(found)) => {
             let task: RegionPlan<String> = task.typed()?;

@@ -15,8 +15,8 @@ use vibroimpact::verdict::{CountedMotion, Verdict};
 use vibroimpact_plot::{Figure, plain};
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{
-    BranchPlan, Control, Diagram, MachineResults, MachineSimulated, Plan, PlanError, RegionPlan, ResponseCurves,
-    Results, Task, Variable, run,
+    BranchPlan, Control, Diagram, MachineResults, Plan, PlanError, RegionPlan, ResponseCurves, Results, Simulated,
+    Task, Variable, run,
 };
 
 /// The largest number of characters of a title over an axis of ordinary width.
@@ -99,11 +99,16 @@ impl Answer {
                 let quantity = BranchQuantity::of(&self.machine, &self.source, &cut, found);
                 let path = quantity.as_ref().map(|quantity| quantity.path.as_str());
                 let behind = if shown.diagram { self.behind(plan, path, control)? } else { None };
-                figure::branch::of_machine(found.all(), &cut, (quantity.as_ref(), behind.as_ref()), title)?
+                figure::branch::of_machine(
+                    found.followed.iter().map(|branch| branch.points.as_slice()),
+                    &cut,
+                    (quantity.as_ref(), behind.as_ref()),
+                    title,
+                )?
             }
             MachineResults::Curve(found) => {
                 let Task::Curve(plan) = &self.plan.task else { return Ok(None) };
-                figure::curve::of_machine(found, plan, title)
+                figure::curve::of_machine(found, &plan.typed()?, title)
             }
             MachineResults::Region(found) => {
                 let Task::Region(plan) = &self.plan.task else { return Ok(None) };
@@ -188,7 +193,7 @@ impl Answer {
         let motion = MachineMotion::new(&self.machine, from, limits);
         let motion = motion.map_err(|error| ReportError::Plan(PlanError::Machine(error.into())))?;
         let events = motion.take_while(|event| event.time <= time).take(MOST_EVENTS).collect();
-        let found = MachineSimulated { events, reason: "time_limit", time, shown_until: time };
+        let found = Simulated { events, reason: "time_limit", time, horizon: None, shown_until: time };
         Ok(figure::machine_waveform::figure(&self.machine, from, &found, title)?)
     }
 
@@ -220,7 +225,7 @@ impl Answer {
             }
             MachineResults::Curve(found) => {
                 let Task::Curve(plan) = &self.plan.task else { return Ok(None) };
-                table::curve::of_machine(&self.machine, plan, found)
+                table::curve::of_machine(&self.machine, &plan.typed()?, found)
             }
             MachineResults::Margins(found) => table::margins::of_machine(found, &self.machine),
             MachineResults::Region(found) => {

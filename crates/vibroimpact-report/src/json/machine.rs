@@ -39,10 +39,11 @@ impl Serialize for Answer {
             (_, MachineResults::Lyapunov(found, _)) => self.document(LyapunovAnswer::of_machine(machine, found), to),
             (Task::Branch(task), MachineResults::Branch(found)) => {
                 let cut = task.typed::<String>().and_then(|task| task.cut(source)).map_err(Error::custom)?;
-                self.document(BranchAnswer::of_machine((machine, source), task, &cut, found), to)
+                self.document(BranchAnswer::of_machine((machine, source), &cut, found), to)
             }
             (Task::Curve(task), MachineResults::Curve(found)) => {
-                self.document(CurveAnswer::of_machine(machine, task, found), to)
+                let task = task.typed().map_err(Error::custom)?;
+                self.document(CurveAnswer::of_machine(machine, &task, found), to)
             }
             (_, MachineResults::Margins(found)) => self.document(MarginsAnswer::of_machine(machine, found), to),
             (Task::Region(task), MachineResults::Region(found)) => {

@@ -20,8 +20,8 @@ use vibroimpact_plot::Figure;
 use vibroimpact_study::diagram::Shown as _;
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{
-    Control, Cut, Diagram, DiagramPlan, MachineLine, MachineOrigin, MachineResults, Plan, Results, RunError, Span,
-    System, Task, machine_label, run, tiles,
+    BranchPlace, Control, Cut, Diagram, DiagramPlan, MachineResults, OrbitLine, Plan, Results, RunError, Span, System,
+    Task, machine_label, run, tiles,
 };
 
 /// Starts from which orbits of a given label are searched at each value.
@@ -127,9 +127,9 @@ pub fn machine_bifurcation(
         // the task of this plan has no other result
         return Err(ReportError::NoLabels.into());
     };
-    let line = MachineLine::new(source, &cut, POINTS);
+    let line = OrbitLine::new(source, &cut, POINTS);
     let mut branches: Vec<Vec<MachinePoint>> = Vec::new();
-    let mut seen: Vec<MachineOrigin> = Vec::new();
+    let mut seen: Vec<BranchPlace> = Vec::new();
     for (value, cycle) in seeds.iter().flat_map(|(value, cycles)| cycles.iter().map(move |(cycle, _)| (*value, cycle)))
     {
         if branches.iter().any(|branch| passes(branch, cycle, value)) {

@@ -1,16 +1,21 @@
 //! The results of the tasks of machines.
 
-use super::branch::{self, MachineBranched};
-use super::curve::{self, MachineEventCurve};
+use super::branch;
+use super::curve;
 use super::margins::MachineMargins;
-use super::section::{self, MachineSection};
-use super::simulate::{MachineSimulated, simulate};
+use super::section::{self, SectionPoints};
+use super::simulate::simulate;
 use super::{many, margins, orbits, region, response, verdicts};
 use crate::in_memory::DIAGRAM_TILE;
 use crate::machine::MachineSource;
 use crate::study::SweepFill;
-use crate::{Basin, Control, Diagram, LyapunovPlan, RegionMap, Regions, ResponseCurves, RunError, Task, in_memory};
+use crate::{
+    Basin, Branches, Control, Diagram, EventCurve, LyapunovPlan, RegionMap, Regions, ResponseCurves, RunError,
+    Simulated, Task, in_memory,
+};
 use vibroimpact::chaos::Exponents;
+use vibroimpact::continuation::{MachineCurvePoint, MachinePoint};
+use vibroimpact::events::MachineEvent;
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::MachineCycle;
 use vibroimpact::verdict::{Census, Settled};
@@ -19,19 +24,19 @@ use vibroimpact::verdict::{Census, Settled};
 #[derive(Clone, Debug)]
 pub enum MachineResults {
     /// The events of the motion.
-    Simulate(MachineSimulated),
+    Simulate(Simulated<MachineEvent>),
     /// What the motion settles into.
     Settle(Settled<Machine>),
     /// The distinct motions and their counts.
     Attractors(Census<Machine>),
     /// The exponents, and the sections of the attractor if points of them were requested.
-    Lyapunov(Exponents<Machine>, Option<MachineSection>),
+    Lyapunov(Exponents<Machine>, Option<SectionPoints>),
     /// The orbits, the fastest last.
     Orbit(Vec<MachineCycle>),
     /// The branch.
-    Branch(MachineBranched),
+    Branch(Branches<MachineCycle, MachinePoint>),
     /// The curve.
-    Curve(MachineEventCurve),
+    Curve(EventCurve<MachineCycle, MachinePoint, MachineCurvePoint>),
     /// The margins.
     Margins(MachineMargins),
     /// Both regions.
