@@ -1,14 +1,14 @@
 //! The figure of a curve of events in the plane of its two parameters, with its points of codimension two.
 
-use crate::figure::styles::{CURVE_MARKS, EVENT_COLOURS, MACHINE_CURVE_MARKS, MACHINE_EVENT_COLOURS};
+use crate::figure::styles::{CURVE_COLOURS, CURVE_MARKS};
 use crate::figure::{label, title_without};
 use crate::json::curve::values;
 use crate::{Asked, Units, Varied};
 use std::collections::BTreeMap;
-use vibroimpact::continuation::{MachineCurvePoint, MachinePoint};
+use vibroimpact::continuation::{CurvePoint, MachineCurvePoint, MachinePoint};
 use vibroimpact::orbit::MachineCycle;
 use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, Shape, Stroke};
-use vibroimpact_study::{CurvePlan, EventCurve, FollowedEvent, Stretch};
+use vibroimpact_study::{CurvePlan, EventCurve, Stretch};
 
 /// Size of a mark.
 const MARK: f64 = 13.0;
@@ -19,12 +19,10 @@ const WIDTH: f64 = 2.8;
 #[must_use]
 pub fn figure(found: &EventCurve, plan: &CurvePlan, asked: &Asked) -> Figure {
     let title = title_without(asked, &[plan.vary.parameter, plan.and.parameter]);
-    let colour = EVENT_COLOURS.iter().find(|(kind, _)| *kind == plan.kind);
-    let drawn = found.points.iter().map(|point| (point.values, point.physical, point.event));
-    let drawn =
-        drawn.map(|(at, physical, event)| Drawn::new(at, physical, event.map(|event| event.name()), &CURVE_MARKS));
+    let event = |point: &CurvePoint| point.event.map(|event| event.name());
+    let drawn = found.points.iter().map(|point| Drawn::new(point.values, point.physical, event(point)));
     let label = plan.label.as_deref().unwrap_or_default().trim();
-    draw(found, (plan, &asked.units), drawn, (colour, label)).title(title)
+    draw(found, (plan, &asked.units), drawn, label).title(title)
 }
 
 /// The same of a machine.
@@ -34,11 +32,10 @@ pub fn of_machine(
     plan: &CurvePlan<String>,
     title: String,
 ) -> Figure {
-    let colour = MACHINE_EVENT_COLOURS.iter().find(|(kind, _)| *kind == plan.kind);
     let event = |point: &MachineCurvePoint| point.event.map(|event| event.name());
-    let drawn = found.points.iter().map(|point| Drawn::new(point.values, true, event(point), &MACHINE_CURVE_MARKS));
+    let drawn = found.points.iter().map(|point| Drawn::new(point.values, true, event(point)));
     let label = found.chosen.cycle.label.to_string();
-    draw(found, (plan, &Units::default()), drawn, (colour, &label)).title(title)
+    draw(found, (plan, &Units::default()), drawn, &label).title(title)
 }
 
 /// A curve of an orbit with this label.
@@ -46,7 +43,7 @@ fn draw<C, E, P, V: Varied>(
     found: &EventCurve<C, E, P>,
     (plan, units): (&CurvePlan<V>, &Units),
     drawn: impl Iterator<Item = Drawn>,
-    (colour, of): (Option<&(FollowedEvent, Colour)>, &str),
+    of: &str,
 ) -> Figure {
     let axis = |stretch: &Stretch<V>| {
         let unit = stretch.parameter.unit(units);
@@ -55,7 +52,7 @@ fn draw<C, E, P, V: Varied>(
     let drawn = drawn.map(|point| Drawn { at: values(point.at, plan, units).into(), ..point });
     // a motion with friction only has no impact that could name it
     let name = if of == "0" { plan.kind.name().to_owned() } else { format!("{} of {}", plan.kind.name(), label(of)) };
-    let colour = colour.map_or(Colour::BLACK, |(_, colour)| *colour);
+    let colour = CURVE_COLOURS.iter().find(|(kind, _)| *kind == plan.kind).map_or(Colour::BLACK, |(_, colour)| *colour);
     picture((axis(&plan.vary), axis(&plan.and)), &drawn.collect::<Vec<_>>(), (colour, &name), found.begin)
 }
 
@@ -68,9 +65,8 @@ struct Drawn {
 }
 
 impl Drawn {
-    /// With the marks of these events.
-    fn new(at: (f64, f64), physical: bool, event: Option<&'static str>, marks: &[(&str, Shape)]) -> Self {
-        let mark = |name| marks.iter().find(|(known, _)| *known == name).map(|(_, shape)| *shape);
+    fn new(at: (f64, f64), physical: bool, event: Option<&'static str>) -> Self {
+        let mark = |name| CURVE_MARKS.iter().find(|(known, _)| *known == name).map(|(_, shape)| *shape);
         Self { at, physical, event: event.map(|name| (name, mark(name))) }
     }
 }
