@@ -32,7 +32,8 @@ use vibroimpact_report::answer::machine::Answer as MachineAnswer;
 use vibroimpact_report::answer::oscillator;
 use vibroimpact_report::response::ResponseView;
 use vibroimpact_report::{Answer, Units, Varied};
-use vibroimpact_study::{MachineResults, Name, Parameter, RegionPlan, Results, SEARCH_LIMIT, Task};
+use vibroimpact_study::machine::Results as MachineResults;
+use vibroimpact_study::{Name, Parameter, RegionPlan, Results, SEARCH_LIMIT, Task};
 
 /// The text that a command prints, unless JSON or a table on stdout was requested.
 pub(crate) fn text(answer: &Answer) -> Result<String, Failure> {

@@ -18,6 +18,7 @@
 //! | some of its numbers varied | `varied` |
 //! | where a machine begins | [`StartText`], [`StartNumbers`], `start` |
 //! | named machines of the literature | [`CATALOGUE`], `catalogue` |
+//! | the results of tasks | [`Results`] |
 //! | errors | [`MachineFileError`], [`MachineProblem`] |
 
 mod back;
@@ -39,6 +40,7 @@ mod varied;
 mod write;
 mod written;
 
+pub use crate::machine_plan::Results;
 pub use catalogue::{CATALOGUE, CatalogueEntry};
 pub use error::{MachineFileError, MachineProblem};
 pub use expression::ExpressionError;

@@ -209,7 +209,7 @@ fn origins(points: &[MachinePoint], branch: usize) -> impl Iterator<Item = Origi
 mod tests {
     use super::*;
     use crate::machine::CATALOGUE;
-    use crate::{MachineResults, Plan, Results, Task, run};
+    use crate::{Plan, Results, Task, machine, run};
 
     fn hammer() -> MachineSource {
         CATALOGUE.iter().find(|entry| entry.name == "two-mass-hammer").unwrap().source().unwrap()
@@ -222,7 +222,7 @@ mod tests {
 
     fn followed(source: &MachineSource, plan: &BranchPlan<String>) -> Branches<MachineCycle, MachinePoint> {
         let plan = Plan::new(source.clone(), Task::from(plan.clone()));
-        let Results::Machine(MachineResults::Branch(found)) = run(&plan, &Control::default()).unwrap() else {
+        let Results::Machine(machine::Results::Branch(found)) = run(&plan, &Control::default()).unwrap() else {
             panic!()
         };
         found

@@ -125,7 +125,7 @@ pub(super) fn curve(
 mod tests {
     use super::*;
     use crate::machine::CATALOGUE;
-    use crate::{MachineResults, Plan, Results, Task, run};
+    use crate::{Plan, Results, Task, machine, run};
 
     fn plan(kind: FollowedEvent, event: Option<u32>) -> Plan {
         let entry = CATALOGUE.iter().find(|entry| entry.name == "bouncing-ball").unwrap();
@@ -151,7 +151,9 @@ mod tests {
         let plan = plan(FollowedEvent::Fold, None);
         let text = serde_json::to_string(&plan).unwrap();
         assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan);
-        let Results::Machine(MachineResults::Curve(found)) = run(&plan, &Control::default()).unwrap() else { panic!() };
+        let Results::Machine(machine::Results::Curve(found)) = run(&plan, &Control::default()).unwrap() else {
+            panic!()
+        };
         assert!(found.points.len() > 20 && found.points[found.begin].event.is_none());
         for point in &found.points {
             let (gamma, e) = point.values;

@@ -166,7 +166,7 @@ fn margin(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{BranchPlan, MachineResults, Plan, Results, ScaledParameter, Task, run};
+    use crate::{BranchPlan, Plan, Results, ScaledParameter, Task, machine, run};
 
     /// The nearest events are those of the branches in each number alone.
     #[test]
@@ -177,7 +177,7 @@ mod tests {
         let task = Task::from(MarginsPlan { vary: scaled.collect(), ..MarginsPlan::default() });
         let plan = Plan::new(source.clone(), task);
         assert_eq!(Plan::from_text(&plan.to_toml()).unwrap(), plan);
-        let Results::Machine(MachineResults::Margins(found)) = run(&plan, &Control::default()).unwrap() else {
+        let Results::Machine(machine::Results::Margins(found)) = run(&plan, &Control::default()).unwrap() else {
             panic!()
         };
         assert_eq!(found.motion.label(), "1/1");
@@ -194,7 +194,8 @@ mod tests {
                     follow: 0,
                 };
                 let plan = Plan::new(source.clone(), Task::from(branch));
-                let Results::Machine(MachineResults::Branch(branch)) = run(&plan, &Control::default()).unwrap() else {
+                let Results::Machine(machine::Results::Branch(branch)) = run(&plan, &Control::default()).unwrap()
+                else {
                     panic!()
                 };
                 let first = branch.followed[0].points.iter().find(|point| point.event.is_some()).unwrap();

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | a machine with its start | `source` |
 //! | a plan as TOML and JSON | `text` |
-//! | the results | [`MachineResults`], `run` |
+//! | the results | [`Results`](crate::machine::Results), `run` |
 //! | what motions settle into | `verdicts` |
 //! | Lyapunov exponents; points of an attractor in two sections | `lyapunov`, [`SectionPoints`], `section` |
 //! | orbits, and the one at which a branch begins | `orbits` |
@@ -45,7 +45,7 @@ pub use many::ManyPlan;
 pub use margins::{MachineMargins, NumberEvent, NumberMargin};
 pub use orbits::label as machine_label;
 pub use response::quantity_path;
-pub use run::MachineResults;
+pub use run::Results;
 pub(crate) use run::run;
 pub use section::SectionPoints;
 pub(crate) use simulate::check_simulate;

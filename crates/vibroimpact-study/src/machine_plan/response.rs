@@ -177,12 +177,12 @@ const CLOSE: f64 = 1e-6;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{MachineResults, Plan, Results, Span, Task, run};
+    use crate::{Plan, Results, Span, Task, machine, run};
 
     fn response(name: &str, plan: ResponsePlan<String, String>) -> ResponseCurves {
         let plan = Plan::new(MachineSource::open(name).unwrap(), Task::from(plan));
         let plan = Plan::from_text(&plan.to_toml()).unwrap();
-        let Results::Machine(MachineResults::Response(found)) = run(&plan, &Control::default()).unwrap() else {
+        let Results::Machine(machine::Results::Response(found)) = run(&plan, &Control::default()).unwrap() else {
             panic!()
         };
         found
