@@ -12,8 +12,8 @@ use vibroimpact_report::json::event::side;
 use vibroimpact_report::{Answer, Units};
 use vibroimpact_study::diagram::DiagramPoint;
 use vibroimpact_study::{
-    Diagram, MachineResults, MachineSection, MarginsPlan, Name, Parameter, Plan, PlanError, Quantity, ResponseCurves,
-    ResponseRow, Results, SystemPlan, Task,
+    Diagram, MarginsPlan, Name, Parameter, Plan, PlanError, Quantity, ResponseCurves, ResponseRow, Results,
+    SectionPoints, SystemPlan, Task, machine,
 };
 
 /// A system about which a question is asked.
@@ -52,7 +52,7 @@ impl<'py> SectionFields<'py> {
         })
     }
 
-    fn of_machine(py: Python<'py>, found: &MachineSection, stop: Vec<String>, width: usize) -> PyResult<Self> {
+    fn of_machine(py: Python<'py>, found: &SectionPoints, stop: Vec<String>, width: usize) -> PyResult<Self> {
         let (closings, strobes) = (|| found.closings.iter(), || found.strobes.iter());
         Ok(Self {
             stop,
@@ -212,12 +212,12 @@ pub(crate) fn answer<'py>(
             _ => {}
         },
         Answer::Machine(of) => match &of.results {
-            MachineResults::Lyapunov(_, Some(points)) => {
+            machine::Results::Lyapunov(_, Some(points)) => {
                 let stops = points.closings.iter().map(|at| of.machine.name_of(at.place).to_owned()).collect();
                 fields.section = Some(SectionFields::of_machine(py, points, stops, of.machine.n())?);
             }
-            MachineResults::Diagram(found) => fields.diagram = Some(DiagramFields::new(py, found)),
-            MachineResults::Response(found) => {
+            machine::Results::Diagram(found) => fields.diagram = Some(DiagramFields::new(py, found)),
+            machine::Results::Response(found) => {
                 let units = vec![""; found.quantities.len()];
                 fields.response = Some(ResponseFields::new(py, found, units, |row, k| row.quantities[k])?);
             }

@@ -2,7 +2,7 @@
 
 use crate::control::Stopped;
 use crate::counted;
-use crate::machine::MachineTextError;
+use crate::machine::MachineFileError;
 use crate::text::TextError;
 use core::fmt;
 use std::borrow::Cow;
@@ -28,7 +28,7 @@ pub enum PlanError {
     System(#[from] SystemError),
     /// A machine, a number in it or its start is invalid.
     #[error(transparent)]
-    Machine(#[from] MachineTextError),
+    Machine(#[from] MachineFileError),
     /// A number of forcing periods of a machine without forcing.
     #[error("the machine has no forcing, so no forcing periods\nhint: a number of impacts limits the number of events")]
     Unforced,

@@ -32,7 +32,7 @@ use vibroimpact::Label;
 ///     impacts = 3
 /// "#)?;
 /// let Results::Machine(results) = run(&plan, &Control::default())? else { unreachable!() };
-/// let vibroimpact_study::MachineResults::Simulate(found) = results else { unreachable!() };
+/// let vibroimpact_study::machine::Results::Simulate(found) = results else { unreachable!() };
 /// assert_eq!(found.events.iter().map(|event| event.time).collect::<Vec<_>>(), [1.0, 2.0, 2.5]);
 /// assert_eq!(Plan::from_text(&plan.to_toml())?, plan);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

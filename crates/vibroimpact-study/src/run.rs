@@ -10,8 +10,8 @@ use crate::response::response;
 use crate::simulate::simulate;
 use crate::study::SweepFill;
 use crate::{
-    Basin, Branches, Control, Diagram, EventCurve, LyapunovPlan, MachineResults, MotionMargins, Plan, PlanError,
-    RegionMap, Regions, ResponseCurves, RunError, Simulated, Stopped, System, SystemPlan, Task, machine_plan,
+    Basin, Branches, Control, Diagram, EventCurve, LyapunovPlan, MotionMargins, Plan, PlanError, RegionMap, Regions,
+    ResponseCurves, RunError, Simulated, Stopped, System, SystemPlan, Task, machine, machine_plan,
 };
 use core::sync::atomic::{AtomicU64, Ordering};
 use vibroimpact::chaos::{Exponents, Section, exponents_while, section_while};
@@ -51,7 +51,7 @@ pub enum Results {
     /// The distances of a motion from its nearest events.
     Margins(MotionMargins),
     /// The result of a task of a machine.
-    Machine(MachineResults),
+    Machine(machine::Results),
 }
 
 /// Number of impacts of one motion between two reports.

@@ -32,7 +32,8 @@ use vibroimpact_report::answer::machine::Answer as MachineAnswer;
 use vibroimpact_report::answer::oscillator;
 use vibroimpact_report::response::ResponseView;
 use vibroimpact_report::{Answer, Units, Varied};
-use vibroimpact_study::{MachineResults, Name, Parameter, RegionPlan, Results, SEARCH_LIMIT, Task};
+use vibroimpact_study::machine::Results as MachineResults;
+use vibroimpact_study::{Name, Parameter, RegionPlan, Results, SEARCH_LIMIT, Task};
 
 /// The text that a command prints, unless JSON or a table on stdout was requested.
 pub(crate) fn text(answer: &Answer) -> Result<String, Failure> {
@@ -110,7 +111,7 @@ fn of_machine(answer: &MachineAnswer) -> Result<String, Failure> {
         (Task::Branch(task), MachineResults::Branch(found)) => {
             branch::of_machine(found, &task.typed::<String>()?.cut(source)?, machine)
         }
-        (Task::Curve(task), MachineResults::Curve(found)) => curve::of_machine(found, task, machine),
+        (Task::Curve(task), MachineResults::Curve(found)) => curve::of_machine(found, &task.typed()?, machine),
         (_, MachineResults::Margins(found)) => margins::of_machine(found, machine),
         (Task::Region(task), MachineResults::Region(found)) => {
             let task: RegionPlan<String> = task.typed()?;

@@ -118,14 +118,14 @@ impl Answer {
                 Viewed::new(shown.view.unwrap_or_default(), (osc, *start), found, asked)?.figure()
             }
             (_, Results::Simulate(start, found)) if shown.view == Some(View::Phase) => {
-                phase_portrait(asked, osc, *start, (0.0, found.shown_until(osc)))
+                phase_portrait(asked, osc, *start, (0.0, found.shown_until))
             }
             (_, Results::Lyapunov(_, _, Some(points))) if default || shown.view == Some(View::Sections) => {
                 figure::section::figure(points, osc, asked)
             }
             _ if !default => return Ok(None),
             (_, Results::Simulate(start, found)) => {
-                let span = (0.0, found.shown_until(osc));
+                let span = (0.0, found.shown_until);
                 figure::waveform::figure(osc, *start, span, &asked.units, title(asked))
             }
             (_, Results::Orbit(found)) => figure::orbits::figure(found, &asked.units, title(asked)),
@@ -191,7 +191,7 @@ impl Answer {
         Ok(Some(match (&plan.task, &self.results) {
             (_, Results::Simulate(start, found)) => {
                 let step = shown.step.unwrap_or(osc.period() / 100.0);
-                table::waveform::table(osc, *start, (found.shown_until(osc), step), *units)?
+                table::waveform::table(osc, *start, (found.shown_until, step), *units)?
             }
             (_, Results::Settle(start, found)) => {
                 let view = Viewed::new(shown.view.unwrap_or_default(), (osc, *start), found, asked)?;

@@ -3,7 +3,7 @@
 
 use crate::branch_quantity::BranchQuantity;
 use crate::figure::diagram::backdrop;
-use crate::figure::styles::{BRANCH_MARKS, MACHINE_BRANCH_MARKS};
+use crate::figure::styles::BRANCH_MARKS;
 use crate::figure::tracks::{Followed as What, Look, Track, TrackPoint};
 use crate::figure::{along, label, series, title_without, variant};
 use crate::{Asked, ReportError, ShownValue, Units};
@@ -225,7 +225,7 @@ fn marks(
 /// The name and the shape of the mark of an event, and its ordinates: those of all impacts or states, or velocity zero
 /// where an impact appears or disappears.
 fn mark(track: &Track, point: &TrackPoint, event: &str) -> Option<(&'static str, Shape, Vec<f64>)> {
-    let (kind, shape, at_zero) = BRANCH_MARKS.iter().chain(&MACHINE_BRANCH_MARKS).find(|(name, ..)| *name == event)?;
+    let (kind, shape, at_zero) = BRANCH_MARKS.iter().find(|(name, ..)| *name == event)?;
     let ordinates = if *at_zero && !track.positions { vec![0.0] } else { point.ordinates() };
     Some((kind, *shape, ordinates))
 }

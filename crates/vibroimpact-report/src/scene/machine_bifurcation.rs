@@ -20,8 +20,8 @@ use vibroimpact_plot::Figure;
 use vibroimpact_study::diagram::Shown as _;
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{
-    Control, Cut, Diagram, DiagramPlan, MachineLine, MachineOrigin, MachineResults, Plan, Results, RunError, Span,
-    System, Task, machine_label, run, tiles,
+    BranchPlace, Control, Cut, Diagram, DiagramPlan, OrbitLine, Plan, Results, RunError, Span, System, Task, machine,
+    machine_label, run, tiles,
 };
 
 /// Starts from which orbits of a given label are searched at each value.
@@ -123,13 +123,13 @@ pub fn machine_bifurcation(
     };
     let known = |label: Label| labels.contains(&label.to_string());
     seeds.iter_mut().for_each(|(_, cycles)| cycles.retain(|(cycle, _)| known(cycle.label)));
-    let Results::Machine(MachineResults::Diagram(behind)) = run(plan, control)? else {
+    let Results::Machine(machine::Results::Diagram(behind)) = run(plan, control)? else {
         // the task of this plan has no other result
         return Err(ReportError::NoLabels.into());
     };
-    let line = MachineLine::new(source, &cut, POINTS);
+    let line = OrbitLine::new(source, &cut, POINTS);
     let mut branches: Vec<Vec<MachinePoint>> = Vec::new();
-    let mut seen: Vec<MachineOrigin> = Vec::new();
+    let mut seen: Vec<BranchPlace> = Vec::new();
     for (value, cycle) in seeds.iter().flat_map(|(value, cycles)| cycles.iter().map(move |(cycle, _)| (*value, cycle)))
     {
         if branches.iter().any(|branch| passes(branch, cycle, value)) {

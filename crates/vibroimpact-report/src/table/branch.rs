@@ -8,7 +8,8 @@ use crate::number::Number;
 use vibroimpact::QuantityKind;
 use vibroimpact::continuation::{MachinePoint, SolutionPoint};
 use vibroimpact::machine::Machine;
-use vibroimpact_study::{Branches, Cut, EventRecord, MachineBranched};
+use vibroimpact::orbit::MachineCycle;
+use vibroimpact_study::{Branches, Cut, EventRecord};
 
 /// A point of a branch of any system.
 struct Row<'a> {
@@ -71,11 +72,16 @@ pub fn table<'a>(found: &'a Branches, cut: &Cut, units: &'a Units) -> Table<'a> 
 }
 
 /// The same of a machine, with the drift of one that can be translated, and without forcing with the period.
-pub(crate) fn of_machine<'a>(machine: &'a Machine, cut: &Cut<String>, found: &'a MachineBranched) -> Table<'a> {
-    let drifting = found.all().flatten().any(|point| point.cycle.translations() > 0);
+pub(crate) fn of_machine<'a>(
+    machine: &'a Machine,
+    cut: &Cut<String>,
+    found: &'a Branches<MachineCycle, MachinePoint>,
+) -> Table<'a> {
+    let all = || found.followed.iter().map(|branch| &branch.points);
+    let drifting = all().flatten().any(|point| point.cycle.translations() > 0);
     let varied: Vec<String> = cut.names().cloned().collect();
     let cut = cut.clone();
-    let points = found.all().enumerate().flat_map(|(k, points)| points.iter().map(move |point| (k + 1, point)));
+    let points = all().enumerate().flat_map(|(k, points)| points.iter().map(move |point| (k + 1, point)));
     let rows = points.map(move |(branch, MachinePoint { value, cycle, event, .. })| Row {
         branch,
         values: cut.values(*value).collect(),

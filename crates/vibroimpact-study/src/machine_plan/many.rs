@@ -128,14 +128,14 @@ fn settled(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{DrawnPoints, MachineResults, Plan, PointRange, PointRule, Results, Task, run};
+    use crate::{DrawnPoints, Plan, PointRange, PointRule, Results, Task, machine, run};
 
     fn settled(source: &MachineSource, points: PointsPlan<String>) -> RegionMap<String, String> {
         let fields = vec!["power".to_owned()];
         let task = Task::from(ManyPlan { points, impacts: None, fields });
         let plan = Plan::new(source.clone(), task);
         assert_eq!(Plan::from_text(&plan.to_toml()).unwrap(), plan);
-        let Results::Machine(MachineResults::Map(found)) = run(&plan, &Control::default()).unwrap() else { panic!() };
+        let Results::Machine(machine::Results::Map(found)) = run(&plan, &Control::default()).unwrap() else { panic!() };
         found
     }
 
@@ -156,7 +156,7 @@ mod tests {
             let start = MachineStart { q: vec![0.0, head], qdot: vec![0.0; 2], ..MachineStart::default() };
             let there = source.with("frequency", frequency).unwrap().starting(&start);
             let alone = Plan::new(there, Task::Settle { start: None, impacts: None });
-            let Results::Machine(MachineResults::Settle(alone)) = run(&alone, &Control::default()).unwrap() else {
+            let Results::Machine(machine::Results::Settle(alone)) = run(&alone, &Control::default()).unwrap() else {
                 panic!()
             };
             assert_eq!(cell[0].label, alone.verdict.label(), "{k}");

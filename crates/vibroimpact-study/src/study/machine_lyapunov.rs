@@ -96,7 +96,7 @@ impl Spectra for Machines {
 #[cfg(test)]
 mod tests {
     use crate::study::{Sheet, Study, in_memory};
-    use crate::{Control, MachineResults, Plan, PlanError, Results, RunError, Task, run};
+    use crate::{Control, Plan, PlanError, Results, RunError, Task, machine, run};
 
     /// A forced mass with a stop at a gap of 0.3; `start` and the axes are written into it.
     fn plan(start: &str, axes: &str) -> Plan {
@@ -137,7 +137,7 @@ mod tests {
                 assert!(alone.check().is_err());
                 continue;
             }
-            let Results::Machine(MachineResults::Lyapunov(direct, None)) = run(&alone, &Control::default()).unwrap()
+            let Results::Machine(machine::Results::Lyapunov(direct, None)) = run(&alone, &Control::default()).unwrap()
             else {
                 panic!()
             };
