@@ -171,6 +171,12 @@ impl Instants {
         }
     }
 
+    /// Whether a rebound along a direction of this square of the length is so slow that its height is a rounding error of that
+    /// which the largest velocity of late gives.
+    pub(super) fn is_low(&self, rebound: f64, square: f64) -> bool {
+        rebound * rebound <= f64::EPSILON * square * self.fastest
+    }
+
     /// Whether [`silence`](Self::silence) may take away a velocity along a direction of this square of the length: a first test.
     #[inline]
     pub(super) fn may_be_noise(&self, velocity: f64, square: f64) -> bool {
