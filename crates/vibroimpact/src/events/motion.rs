@@ -509,8 +509,30 @@ impl<'a> MachineMotion<'a> {
         }
     }
 
+    /// Notes that the gaps of stops are zero which are left faster than by rounding and are within it: after a short flight a gap
+    /// can be smaller than the coordinates tell.
+    fn note_stops_just_left(&mut self) {
+        let turns = self.place.turns(&self.normal);
+        for j in 0..self.machine.stops().len() {
+            let kind = GuardKind::Gap(j);
+            if self.place.states[j] != ContactState::Open
+                || self.place.surfaces[j].is_some()
+                || self.place.known.iter().any(|(known, _)| *known == kind)
+            {
+                continue;
+            }
+            let (gap, rate, size, rate_size) = self.place.gap(&self.normal, &turns, j);
+            if gap.abs() <= 4.0 * f64::EPSILON * size && rate > 4.0 * f64::EPSILON * rate_size {
+                self.place.note(kind, 1);
+            }
+        }
+    }
+
     /// Follows the motion to its next event.
     fn advance(&mut self) {
+        if self.instants.are_close() {
+            self.note_stops_just_left();
+        }
         let Some(flight) = self.fly() else { return self.end = Some(MachineEnd::Inconsistent) };
         let structure = &flight.structure;
         // the first surface that reaches its holder changes its guard without an event
