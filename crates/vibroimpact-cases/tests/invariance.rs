@@ -65,7 +65,8 @@ fn label(verdict: &str, twice: bool) -> String {
 fn is_of_a_rounding(case: &Case, verdict: &str, options: &SettleOptions) -> bool {
     (0..ROUNDED).any(|seed| {
         let (machine, start) = rounded(case, seed);
-        settle_machine(&machine, &start, options).unwrap().verdict.label() == verdict
+        // with roundings a start can lie beyond a stop that it touches
+        settle_machine(&machine, &start, options).is_ok_and(|settled| settled.verdict.label() == verdict)
     })
 }
 
