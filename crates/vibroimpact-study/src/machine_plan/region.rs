@@ -109,7 +109,7 @@ mod tests {
             up: over(Parameter::Gap, 1.0, 2.5),
             grid: 5,
         };
-        let known = region::regions(&system, &known, &Control::default()).unwrap();
+        let known = crate::region::regions(&system, &known, &Control::default()).unwrap();
         for (own, other) in [(&found.existence, &known.existence), (&found.stability, &known.stability)] {
             assert!(own.unresolved.is_empty() && own.polygons.len() == other.polygons.len());
             for k in 0..900 {
