@@ -8,8 +8,8 @@ use numpy::{Element, IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use vibroimpact::events::{MachineLimits, MachineSample, MachineSamples, MachineStart};
 use vibroimpact::regime::ContactState;
-use vibroimpact_study::machine::{CATALOGUE, MachineProblem, MachineSource, MachineTextError, StartText};
-use vibroimpact_study::{MachineResults, Plan, PlanError, Results, System, Task, events_with_states, most_events, run};
+use vibroimpact_study::machine::{CATALOGUE, MachineFileError, MachineProblem, MachineSource, StartText};
+use vibroimpact_study::{Plan, PlanError, Results, System, Task, events_with_states, machine, most_events, run};
 
 /// A machine file that describes a machine.
 #[pyclass(frozen, module = "vibroimpact._core")]
@@ -24,8 +24,8 @@ fn checked(source: MachineSource) -> Result<MachineFile, Trouble> {
     Ok(MachineFile(source))
 }
 
-impl From<MachineTextError> for Trouble {
-    fn from(error: MachineTextError) -> Self {
+impl From<MachineFileError> for Trouble {
+    fn from(error: MachineFileError) -> Self {
         Self::question(error.to_string())
     }
 }
@@ -191,7 +191,7 @@ pub(crate) fn simulate_machine<'py>(
     let plan = Plan::new(source, Task::Simulate { start: None, impacts, periods });
     let text = crate::simulate::text(&plan)?;
     let watch = Watch::one("following a machine", most, progress);
-    let Results::Machine(MachineResults::Simulate(found)) =
+    let Results::Machine(machine::Results::Simulate(found)) =
         door::run(py, watch, move |control| Ok(run(&plan, control)?))?
     else {
         return Err(PlanError::NoStudy("simulate").into()); // the task of the plan is to simulate

@@ -1,10 +1,10 @@
 //! Which motion each of many machines and starts leads to: points of numbers and starts, listed or drawn from ranges.
 
-use super::grid::{MachineMap, MachineShare, StartAxis, check_fields, none_twice};
+use super::grid::{StartAxis, check_fields, none_twice};
 use super::verdicts::tile;
 use crate::machine::MachineSource;
 use crate::map::{check_impacts, options};
-use crate::{Control, ListedColumn, PlanError, PointsPlan, RunError, tiles};
+use crate::{Control, ListedColumn, PlanError, PointsPlan, RegionMap, RunError, Share, limits, tiles};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vibroimpact::events::MachineStart;
@@ -46,9 +46,7 @@ impl ManyPlan<String> {
     /// [`PlanError`] names the first invalid value.
     pub fn check(&self, source: &MachineSource, machine: &Machine) -> Result<(), PlanError> {
         self.points.check_values()?;
-        if self.points.count() > MOST {
-            return Err(PlanError::PointCount { given: self.points.count(), most: MOST });
-        }
+        limits::check("points", self.points.count(), 1..=MOST)?;
         check_fields(machine, &self.fields)?;
         check_impacts(self.impacts)?;
         none_twice(self.points.varied())?;
@@ -67,7 +65,7 @@ pub(super) fn many(
     (machine, start): (&Machine, &MachineStart),
     plan: &ManyPlan<String>,
     control: &Control<'_>,
-) -> Result<MachineMap, RunError> {
+) -> Result<RegionMap<String, String>, RunError> {
     let count = plan.points.count();
     let column = |column| ListedColumn {
         vary: plan.points.vary(column),
@@ -95,8 +93,8 @@ pub(super) fn many(
         found
     })?;
     let shares = shares.into_iter().flatten().flatten();
-    let cells = shares.map(|share| share.into_iter().collect()).collect();
-    Ok(MachineMap { axes: Vec::new(), points: columns, cells, fields: plan.fields.clone() })
+    let points = shares.map(|share| share.into_iter().collect()).collect();
+    Ok(RegionMap { axes: Vec::new(), columns, points, fields: plan.fields.clone() })
 }
 
 /// The motion at each of some points; `None` if stopped. Points of the same machine after each other are settled together.
@@ -104,7 +102,7 @@ fn settled(
     points: impl Iterator<Item = Option<(Machine, MachineStart)>>,
     plan: &ManyPlan<String>,
     go_on: &dyn Fn() -> bool,
-) -> Option<Vec<Option<MachineShare>>> {
+) -> Option<Vec<Option<Share>>> {
     let mut problems: Vec<(Machine, Vec<MachineStart>)> = Vec::new();
     let mut allowed = Vec::new();
     for point in points {
@@ -117,10 +115,10 @@ fn settled(
     }
     let found = settle_each_machine(&problems, &options(plan.impacts), Width::best(), go_on, &|| false)?;
     let mut shares = problems.iter().zip(&found).flat_map(|((machine, _), found)| {
-        let share = |motion: &CountedMotion<_>| MachineShare::of(machine, &motion.verdict, 1.0, &plan.fields);
-        let shares: Vec<MachineShare> = found.motions.iter().map(share).collect();
+        let share = |motion: &CountedMotion<_>| Share::of_machine(machine, &motion.verdict, 1.0, &plan.fields);
+        let shares: Vec<Share> = found.motions.iter().map(share).collect();
         let of = move |(cell, seen): (&Option<u32>, &Option<u64>)| {
-            cell.map(|cell| MachineShare { seen_events: *seen, ..shares[cell as usize].clone() })
+            cell.map(|cell| Share { seen_events: *seen, ..shares[cell as usize].clone() })
         };
         found.cells.iter().zip(&found.seen).map(of)
     });
@@ -130,14 +128,14 @@ fn settled(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{DrawnPoints, MachineResults, Plan, PointRange, PointRule, Results, Task, run};
+    use crate::{DrawnPoints, Plan, PointRange, PointRule, Results, Task, machine, run};
 
-    fn settled(source: &MachineSource, points: PointsPlan<String>) -> MachineMap {
+    fn settled(source: &MachineSource, points: PointsPlan<String>) -> RegionMap<String, String> {
         let fields = vec!["power".to_owned()];
         let task = Task::from(ManyPlan { points, impacts: None, fields });
         let plan = Plan::new(source.clone(), task);
         assert_eq!(Plan::from_text(&plan.to_toml()).unwrap(), plan);
-        let Results::Machine(MachineResults::Map(found)) = run(&plan, &Control::default()).unwrap() else { panic!() };
+        let Results::Machine(machine::Results::Map(found)) = run(&plan, &Control::default()).unwrap() else { panic!() };
         found
     }
 
@@ -152,21 +150,21 @@ mod tests {
         });
         let drawn = DrawnPoints { rule: PointRule::Sobol, count: 24, seed: 3, over: over.to_vec() };
         let found = settled(&source, PointsPlan::Drawn(drawn));
-        let columns = found.points.clone();
-        for (k, cell) in found.cells.iter().enumerate() {
+        let columns = found.columns.clone();
+        for (k, cell) in found.points.iter().enumerate() {
             let [frequency, head] = [0, 1].map(|column| columns[column].values[k]);
             let start = MachineStart { q: vec![0.0, head], qdot: vec![0.0; 2], ..MachineStart::default() };
             let there = source.with("frequency", frequency).unwrap().starting(&start);
             let alone = Plan::new(there, Task::Settle { start: None, impacts: None });
-            let Results::Machine(MachineResults::Settle(alone)) = run(&alone, &Control::default()).unwrap() else {
+            let Results::Machine(machine::Results::Settle(alone)) = run(&alone, &Control::default()).unwrap() else {
                 panic!()
             };
-            assert_eq!(cell[0].label(), alone.verdict.label(), "{k}");
+            assert_eq!(cell[0].label, alone.verdict.label(), "{k}");
             assert!(cell[0].quantities[0].is_finite());
         }
         let listed = |values: Vec<f64>| ListedColumn { vary: "q.head".to_owned(), values };
         let found = settled(&source, PointsPlan::Listed(vec![listed(vec![0.0, 9.0])]));
-        assert!(found.cells[0].len() == 1 && found.cells[1].is_empty());
+        assert!(found.points[0].len() == 1 && found.points[1].is_empty());
         let twice = PointsPlan::Listed(vec![listed(vec![0.0]), listed(vec![0.0])]);
         let plan = ManyPlan { points: twice, impacts: None, fields: Vec::new() };
         assert!(plan.check(&source, &source.machine().unwrap()).unwrap_err().to_string().contains("q.head"));
