@@ -1,6 +1,7 @@
 //! The rules that every motion keeps, on machines of all families.
 
-use vibroimpact_cases::{Budget, FAMILIES, faults};
+use vibroimpact::events::{MachineEnd, MachineLimits, MachineMotion};
+use vibroimpact_cases::{Budget, DrawnFamily, FAMILIES, faults, rounded};
 
 /// Everyday 10 machines of each family; with `VIBROIMPACT_LONG=1` 60, more than a thousand together.
 #[test]
@@ -34,5 +35,18 @@ fn mended_machines_keep_all_rules() {
             let found = faults(&family.case(seed), Budget::default());
             assert!(found.is_empty(), "{name} {seed}: {}", found[0]);
         }
+    }
+}
+
+/// Equal bodies on soft contacts that decay together: what they do to each other ends as rounding errors, not at the limit of the
+/// search.
+#[test]
+fn soft_cradles_come_to_an_end() {
+    let case = DrawnFamily::named("cradles").unwrap().case(5);
+    for seed in [39, 42, 49, 52, 53] {
+        let (machine, start) = rounded(&case, seed);
+        let mut motion = MachineMotion::new(&machine, &start, MachineLimits::default()).unwrap();
+        let events = motion.by_ref().take(10_000).count();
+        assert_eq!(motion.end(), Some(MachineEnd::Never), "{seed}: {events} events");
     }
 }

@@ -1,7 +1,8 @@
 //! Motions of any system as text: what is the same of all of them.
 
 use crate::report::words::{
-    self, ROUNDING_DECIDES, by_stop, counted_word, meaning, quantities as quantities_of_oscillator, table,
+    self, ROUNDING_DECIDES, ROUNDING_GROWS, by_stop, counted_word, meaning, quantities as quantities_of_oscillator,
+    table,
 };
 use core::fmt::Write;
 use vibroimpact::Oscillator;
@@ -168,9 +169,12 @@ impl Teller for Machine {
             Verdict::NoImpact(_) => "no stop and no joint changes its state any more".to_owned(),
             Verdict::Stuck(_) => "it rests, and no force ever pulls it off".to_owned(),
             Verdict::Chaotic(chaos) => largest_exponent(&chaos.spectrum),
+            Verdict::Undecided(Undecided { why: UndecidedCause::Unconfirmed, impacts: events, .. }) => {
+                format!("{}; {ROUNDING_GROWS}", counted(*events, "event"))
+            }
             Verdict::Undecided(Undecided { why, impacts: events, spectrum }) => {
                 let why = match why {
-                    UndecidedCause::Budget | UndecidedCause::Unconfirmed => "the budget is used up".to_owned(),
+                    UndecidedCause::Budget => "the budget is used up".to_owned(),
                     UndecidedCause::Ended(MachineEnd::NoEventWithin) => {
                         let time = short(MachineLimits::default().time);
                         format!("no event within a time of {time} after the last one, and none is excluded later")

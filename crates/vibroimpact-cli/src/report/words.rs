@@ -105,6 +105,10 @@ pub(super) fn counted_word(n: u32, one: &str) -> String {
 pub(super) const ROUNDING_DECIDES: &str =
     "it is periodic, as it returns to a release from rest, but rounding errors decide its period";
 
+/// Why that is so.
+pub(super) const ROUNDING_GROWS: &str =
+    "from the release to the next rest the rounding errors grow beyond what tells one motion from another";
+
 /// The meaning of a verdict, as a sentence without full stop.
 pub(crate) fn meaning(verdict: &Verdict) -> String {
     match verdict {
@@ -218,9 +222,7 @@ pub(super) fn grounds(verdict: &Verdict, osc: &Oscillator, units: &Units) -> Str
             )
         }
         Verdict::Undecided(Undecided { why: UndecidedCause::Unconfirmed, impacts, .. }) => {
-            format!(
-                "{impacts} impacts; from the release to the next rest the rounding errors grow beyond what tells one motion from another"
-            )
+            format!("{impacts} impacts; {ROUNDING_GROWS}")
         }
         Verdict::Undecided(Undecided { why: UndecidedCause::Search { periods }, .. }) => format!(
             "a flight was followed for {} forcing periods without contact, too few to conclude",
