@@ -39,5 +39,5 @@ pub use changes::{Changed, Rewriting, changed};
 pub use draw::Draw;
 pub use families::{DrawnFamily, FAMILIES};
 pub use invariance::{Standard, rounded};
-pub use open::{DIFFERS, VERDICTS_DIFFER};
+pub use open::DIFFERS;
 pub use rules::{BrokenRule, Budget, Rule, faults};

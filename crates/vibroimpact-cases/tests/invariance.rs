@@ -5,7 +5,7 @@ use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::Stability;
 use vibroimpact::verdict::{SettleOptions, Verdict, settle_machine};
-use vibroimpact_cases::{Budget, Case, DIFFERS, FAMILIES, Rewriting, Standard, VERDICTS_DIFFER, changed, rounded};
+use vibroimpact_cases::{Budget, Case, DIFFERS, FAMILIES, Rewriting, Standard, changed, rounded};
 
 fn long() -> bool {
     std::env::var("VIBROIMPACT_LONG").is_ok()
@@ -65,7 +65,8 @@ fn label(verdict: &str, twice: bool) -> String {
 fn is_of_a_rounding(case: &Case, verdict: &str, options: &SettleOptions) -> bool {
     (0..ROUNDED).any(|seed| {
         let (machine, start) = rounded(case, seed);
-        settle_machine(&machine, &start, options).unwrap().verdict.label() == verdict
+        // with roundings a start can lie beyond a stop that it touches
+        settle_machine(&machine, &start, options).is_ok_and(|settled| settled.verdict.label() == verdict)
     })
 }
 
@@ -119,7 +120,6 @@ fn verdicts_do_not_depend_on_names_order_units_and_signs() {
                 }
                 let undecided = verdict == "undecided" || standard == "undecided";
                 let explained = undecided && need_more(plain, again, twice, &options)
-                    || VERDICTS_DIFFER.contains(&(family.name, seed))
                     || is_of_a_rounding(&case, &verdict, &options);
                 if !explained {
                     wrong.push(format!("{} {seed} {change:?}: {verdict} instead of {standard}", family.name));
@@ -141,6 +141,26 @@ fn chaos_of_one_part_is_found_in_any_order() {
         let again = changed(&case, Rewriting::Order);
         for (machine, start) in [(&case.machine, &case.start), (&again.machine, &again.start)] {
             assert_eq!(settle_machine(machine, start, &options).unwrap().verdict.label(), "chaotic", "{seed}");
+        }
+    }
+}
+
+/// A column of three bodies on a floor comes to rest, however it is written: the lower two collapse again and again, ever more
+/// gently, at gaps below the rounding errors of their coordinates. Rounding errors made a cycle of it that did not end.
+#[test]
+fn columns_collapse_to_rest_in_any_writing() {
+    let family = vibroimpact_cases::DrawnFamily::named("columns").unwrap();
+    let options = SettleOptions::at_most(1000);
+    for seed in [8, 11] {
+        let case = family.case(seed);
+        let rewritten = Rewriting::ALL.map(|change| changed(&case, change));
+        let others = rewritten.iter().map(|again| (&again.machine, &again.start));
+        for own in others.chain([(&case.machine, &case.start)]) {
+            assert_eq!(settled(own, &options).1, "stuck", "{seed} {:?}", own.0);
+        }
+        for roundings in 0..10 {
+            let (machine, start) = rounded(&case, roundings);
+            assert_eq!(settled((&machine, &start), &options).1, "stuck", "{seed} with roundings {roundings}");
         }
     }
 }

@@ -1,4 +1,4 @@
-"""The results have the same numbers as the output of the command, to the last bit."""
+"""Answers in Python are those of the command, to the last bit: each call beside its command line, for every kind of system."""
 
 import json
 from collections.abc import Callable
@@ -9,102 +9,59 @@ import pytest
 
 import vibroimpact as vi
 
-S = ("--inverse-beta", 1.3, "--gap", 0.75, "--restitution", 0.5)
-SYSTEMS = [
-    (vi.Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5), S),
-    (vi.Oscillator(inverse_beta=1.11, gap=3, restitution=0.5), ("--inverse-beta", 1.11, "--gap", 3, "--restitution", 0.5)),
-    (vi.Oscillator(beta=0.9, gap=-1.5, restitution=0.5), ("--beta", 0.9, "--gap", -1.5, "--restitution", 0.5)),
-    (vi.Oscillator(inverse_beta=1.11, gap=-0.5, restitution=0.5), ("--inverse-beta", 1.11, "--gap", -0.5, "--restitution", 0.5)),
-    (vi.Oscillator(beta=0.5, gap=40, restitution=0.5), ("--beta", 0.5, "--gap", 40, "--restitution", 0.5)),
-    (
-        vi.Oscillator(beta=1.1, gap=1, restitution=0.7, damping=0.01, second_gap=0.5, second_restitution=0.4),
-        ("--beta", 1.1, "--gap", 1, "--restitution", 0.7, "--damping", 0.01, "--second-gap", 0.5, "--second-restitution", 0.4),
+SYSTEMS = {
+    "--inverse-beta 1.3 --gap 0.75 --restitution 0.5": vi.Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5),
+    "--inverse-beta 1.11 --gap 3 --restitution 0.5": vi.Oscillator(inverse_beta=1.11, gap=3, restitution=0.5),
+    "--beta 0.9 --gap -1.5 --restitution 0.5": vi.Oscillator(beta=0.9, gap=-1.5, restitution=0.5),
+    "--inverse-beta 1.11 --gap -0.5 --restitution 0.5": vi.Oscillator(inverse_beta=1.11, gap=-0.5, restitution=0.5),
+    "--beta 0.5 --gap 40 --restitution 0.5": vi.Oscillator(beta=0.5, gap=40, restitution=0.5),
+    "--beta 1.1 --gap 1 --restitution 0.7 --damping 0.01 --second-gap 0.5 --second-restitution 0.4": vi.Oscillator(
+        beta=1.1, gap=1, restitution=0.7, damping=0.01, second_gap=0.5, second_restitution=0.4
     ),
+    "--mass-kg 2 --stiffness-n-per-m 800 --force-n 4 --frequency-hz 2.5 --gap-m 0.003 --restitution 0.6 --damping-ns-per-m 3":
+        vi.Oscillator.from_units(mass=2, stiffness=800, force=4, frequency=2.5, gap=0.003, restitution=0.6, damping=3),
+    "--machine two-mass-hammer --set frequency=1.06": vi.Machine.named("two-mass-hammer").set(frequency=1.06),
+}
+S, U, STUCK, RESTING, _, _, BODY, HAMMER = SYSTEMS
+SLOW = "--inverse-beta 0.7 --gap 2 --restitution 0.5"
+FLIPS = "--inverse-beta 1.11 --gap 1.5 --restitution 0.5"
+SYSTEMS[SLOW] = vi.Oscillator(inverse_beta=0.7, gap=2, restitution=0.5)
+SYSTEMS[FLIPS] = vi.Oscillator(inverse_beta=1.11, gap=1.5, restitution=0.5)
+
+#: System, the command without it, and the call.
+CALLS: list[tuple[str, str, Callable[[Any], Any]]] = [
+    *((system, "settle", vi.settle) for system in SYSTEMS),
+    *((system, "simulate --impacts 60", lambda of: vi.simulate(of, impacts=60)) for system in SYSTEMS),
+    *((system, "attractors --starts 20", lambda of: vi.attractors(of, starts=20)) for system in SYSTEMS),
+    *((system, "lyapunov --impacts 5000", lambda of: vi.lyapunov(of, impacts=5000)) for system in (S, U, STUCK, HAMMER)),
+    *((system, "margins --lines 20", lambda of: vi.margins(of, lines=20)) for system in (FLIPS, U, RESTING)),
+    *((SLOW, f"orbit --label {label}", lambda of, label=label: vi.orbits(of, label)) for label in ("1/1", "2/1", "1/2", "inf/1")),
+    (S, "settle --v 0.5 --phase 1", lambda of: vi.settle(of, v=0.5, phase=1)),
+    (HAMMER, "settle --q 0.1,0 --phase 1", lambda of: vi.settle(of, q=[0.1, 0], phase=1)),
+    (HAMMER, "orbit --label 1/1", lambda of: vi.orbits(of, "1/1")),
+    (FLIPS, "branch --label 1/1 --vary gap --to 2.5 --follow 2", lambda of: vi.branch(of, "gap", 2.5, label="1/1", follow=2)),
+    (RESTING, "branch --label inf/1 --vary gap --to -0.2", lambda of: vi.branch(of, "gap", -0.2, label="inf/1")),
+    (HAMMER, "branch --vary b --to 0.6", lambda of: vi.branch(of, "b", 0.6)),
+    (FLIPS, "curve --label 1/1 --kind flip --vary gap=0:3 --and inverse-beta=1.05:1.2",
+     lambda of: vi.curve(of, "flip", {"gap": (0, 3), "inverse_beta": (1.05, 1.2)}, label="1/1")),
+    (HAMMER, "curve --label 2/1 --kind fold --vary frequency=0.9:1.2 --and b=0.3:0.7",
+     lambda of: vi.curve(of, "fold", {"frequency": (0.9, 1.2), "b": (0.3, 0.7)}, label="2/1")),
+    ("--restitution 0.5", "region --label 1/1 --inverse-beta 0.6:0.9 --gap 1:3 --grid 8",
+     lambda _: vi.region(SYSTEMS[S], "1/1", {"inverse_beta": (0.6, 0.9), "gap": (1, 3)}, grid=8)),
 ]
 
 
-@pytest.fixture
-def ask(vibro: Callable[..., Any]) -> Callable[..., dict[str, Any]]:
-    def ask(*words: object) -> dict[str, Any]:
-        done = vibro(*words, "--json")
-        assert done.returncode == 0, done.stderr
-        return json.loads(done.stdout)
-
-    return ask
-
-
-@pytest.mark.parametrize(("osc", "flags"), SYSTEMS, ids=lambda of: repr(of) if isinstance(of, vi.Oscillator) else "")
-def test_settle_simulate_attractors(ask: Callable[..., Any], osc: vi.Oscillator, flags: tuple[object, ...]) -> None:
-    assert vi.settle(osc, v=0.5, phase=1).to_dict() == ask("settle", *flags, "--v", 0.5, "--phase", 1)
-    told = ask("simulate", *flags, "--impacts", 60)
-    found = vi.simulate(osc, impacts=60)
-    assert found.to_dict() == told and json.loads(found.plan) == told["plan"]
-    told = ask("attractors", *flags, "--starts", 60)
-    found = vi.attractors(osc, starts=60)
-    assert [motion.to_dict() for motion in found] == told["motions"]
-    assert found.box == told["box"] and json.loads(found.plan) == told["plan"]
-
-
-def test_machines(ask: Callable[..., Any]) -> None:
-    osc = vi.Oscillator.from_units(mass=2, stiffness=800, force=4, frequency=2.5, gap=0.003, restitution=0.6, damping=3)
-    flags = ("--mass-kg", 2, "--stiffness-n-per-m", 800, "--force-n", 4, "--frequency-hz", 2.5, "--gap-m", 0.003,
-             "--restitution", 0.6, "--damping-ns-per-m", 3)
-    told = ask("settle", *flags)
-    assert vi.settle(osc).to_dict()["motion"] == told["motion"] and osc.units is not None
-    assert (osc.units.length_m, osc.units.time_s) == (told["system"]["scales"]["length_m"], told["system"]["scales"]["time_s"])
-
-
-@pytest.mark.parametrize("label", ["1/1", "2/1", "1/2", "inf/1"])
-def test_orbits(ask: Callable[..., Any], label: str) -> None:
-    osc = vi.Oscillator(inverse_beta=0.7, gap=2, restitution=0.5)
-    told = ask("orbit", "--inverse-beta", 0.7, "--gap", 2, "--restitution", 0.5, "--label", label)
-    assert [orbit.to_dict() for orbit in vi.orbits(osc, label)] == told["orbits"]
-
-
-def test_branch(ask: Callable[..., Any]) -> None:
-    osc = vi.Oscillator(inverse_beta=1.11, gap=1.5, restitution=0.5)
-    told = ask("branch", "--inverse-beta", 1.11, "--gap", 1.5, "--restitution", 0.5, "--label", "1/1", "--vary", "gap",
-               "--to", 2.5, "--follow", 2)
-    found = vi.branch(osc, "gap", 2.5, label="1/1", follow=2).to_dict()
-    assert len(found["branches"]) == len(told["branches"]) > 1
-    assert found == {name: told[name] for name in found}
-
-
-def test_branch_of_an_orbit_that_rests(ask: Callable[..., Any]) -> None:
-    told = ask("branch", "--inverse-beta", 1.11, "--gap", -0.5, "--restitution", 0.5, "--label", "inf/1", "--vary", "gap",
-               "--to", -0.2)
-    found = vi.branch(vi.Oscillator(inverse_beta=1.11, gap=-0.5, restitution=0.5), "gap", -0.2, label="inf/1")
-    assert found.events[-1].kind == "end of rest" and found.cycles[0].kind.tolist().count("release") == 1
-    assert found.to_dict() == {name: told[name] for name in found.to_dict()}
-
-
-def test_curve(ask: Callable[..., Any]) -> None:
-    osc = vi.Oscillator(inverse_beta=1.11, gap=1.5, restitution=0.5)
-    told = ask("curve", "--inverse-beta", 1.11, "--gap", 1.5, "--restitution", 0.5, "--label", "1/1", "--kind", "flip",
-               "--vary", "gap=0:3", "--and", "inverse-beta=1.05:1.2")
-    found = vi.curve(osc, "flip", {"gap": (0, 3), "inverse_beta": (1.05, 1.2)}, label="1/1")
-    assert found.to_dict() == {name: told[name] for name in found.to_dict()} and json.loads(found.plan) == told["plan"]
-
-
-def test_region(ask: Callable[..., Any]) -> None:
-    osc = vi.Oscillator(beta=1, gap=0, restitution=0.5)
-    told = ask("region", "--label", "1/1", "--inverse-beta", "0.6:0.9", "--gap", "1:3", "--restitution", 0.5, "--grid", 8)
-    found = vi.region(osc, "1/1", {"inverse_beta": (0.6, 0.9), "gap": (1, 3)}, grid=8).to_dict()
-    assert found == {name: told[name] for name in found}
-
-
-def test_margins(ask: Callable[..., Any]) -> None:
-    for gap, damping in ((1.5, 0.01), (3.0, 0.0), (-0.5, 0.0)):
-        told = ask("margins", "--inverse-beta", 1.11, "--gap", gap, "--restitution", 0.5, "--damping", damping, "--lines", 20)
-        found = vi.margins(vi.Oscillator(inverse_beta=1.11, gap=gap, restitution=0.5, damping=damping), lines=20)
-        assert found.to_dict() == {name: told[name] for name in found.to_dict()} and json.loads(found.plan) == told["plan"]
-
-
-@pytest.mark.parametrize(("osc", "flags"), SYSTEMS[:5], ids=lambda of: repr(of) if isinstance(of, vi.Oscillator) else "")
-def test_lyapunov(ask: Callable[..., Any], osc: vi.Oscillator, flags: tuple[object, ...]) -> None:
-    told = ask("lyapunov", *flags, "--impacts", 5000)
-    found = vi.lyapunov(osc, impacts=5000)
-    assert found.to_dict() == {name: told[name] for name in found.to_dict()} and json.loads(found.plan) == told["plan"]
+@pytest.mark.parametrize(("system", "command", "call"), CALLS, ids=lambda of: of if isinstance(of, str) else "")
+def test_answers(vibro: Callable[..., Any], system: str, command: str, call: Callable[[Any], Any]) -> None:
+    done = vibro(*command.split(), *system.split(), "--json")
+    assert done.returncode == 0, done.stderr
+    found, told = call(SYSTEMS.get(system)).to_dict(), json.loads(done.stdout)
+    if system in (BODY, HAMMER):
+        # Python knows the numbers of these systems, not how they were given
+        for answer in (found, told):
+            answer["plan"] = answer["plan"]["task"]
+            del answer["system"]
+    assert found == told
 
 
 @pytest.mark.parametrize("show", ["velocity", "strobe"])

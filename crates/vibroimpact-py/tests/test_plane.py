@@ -54,5 +54,6 @@ def test_a_machine_that_is_an_oscillator_has_its_regions() -> None:
     for own, other in ((found.existence, known.existence), (found.stability, known.stability)):
         np.testing.assert_array_equal(own.contains(inverses, gaps), other.contains(inverses, gaps))
     assert found.parameters == ("inverse_beta", "delta") and found.system is machine
-    with pytest.raises(vi.QuestionError, match="regions are those of machines of one coordinate"):
-        vi.Machine.named("two-mass-hammer").region("1/1", {"frequency": (0.9, 1.3), "b": (0.4, 0.6)})
+    hammer = vi.Machine.named("two-mass-hammer")
+    other = hammer.region("1/1", {"frequency": (1.0, 1.2), "stop.anvil.gap": (0.4, 0.6)}, grid=4)
+    assert other.stability.contains(1.15, 0.5) and not other.stability.contains(1.02, 0.5)

@@ -115,11 +115,6 @@ pub enum PlanError {
         "{0} and {1} do not span a plane: {0} is measured in units that change with the numbers of the machine\nhint: take frequency_hz, gap_m or second_gap_m instead of {0}"
     )]
     MixedPlane(&'static str, &'static str),
-    /// Regions of a machine that is no oscillator.
-    #[error(
-        "regions are those of machines of one coordinate on a spring, with forcing of order 1, without friction, and with one rigid stop or two on opposite sides, in all of the plane: the edges of a region are curves of the equations of its impacts\nhint: `vibro map` and `vibro curve` answer for any machine"
-    )]
-    NoMachineRegion,
     /// A text that cannot be read as a plan.
     #[error("the plan does not read: {0}")]
     Text(#[from] TextError),

@@ -5,7 +5,7 @@ use crate::name::Name;
 use crate::stretch::check_plane;
 use crate::{Control, Parameter, PlanError, RunError, Stretch, SystemPlan, limits, tiles};
 use serde::{Deserialize, Serialize};
-use vibroimpact::continuation::{Frame, Region, RegionKind, RegionOptions, region_while};
+use vibroimpact::continuation::{Frame, MachinePlane, Region, RegionKind, RegionOptions, region_while};
 use vibroimpact::{Label, Oscillator, PhysicalParameter};
 
 /// Default number of grid points, in each direction, at which orbits are searched.
@@ -53,7 +53,8 @@ impl RegionPlan {
     /// # Errors
     /// [`PlanError`] names the first invalid value.
     pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
-        check(&self.label, self.grid)?;
+        followable(Some(&self.label))?;
+        check_grid(self.grid)?;
         check_plane(system, &self.across, &self.up)
     }
 
@@ -73,9 +74,8 @@ impl RegionPlan {
     }
 }
 
-/// Checks the label of a region and its grid.
-pub(crate) fn check(label: &str, grid: u32) -> Result<(), PlanError> {
-    followable(Some(label))?;
+/// Checks the grid of a region.
+pub(crate) fn check_grid(grid: u32) -> Result<(), PlanError> {
     limits::check("grid", grid, 2..=MOST_GRID)
 }
 
@@ -90,20 +90,34 @@ pub struct Regions {
 
 /// The data common to the regions of several motions in one plane.
 pub(crate) struct Plane {
-    osc: Oscillator,
-    frame: Frame,
+    over: Over,
     options: RegionOptions,
+}
+
+/// The systems of a plane.
+pub(crate) enum Over {
+    Oscillators(Oscillator, Frame),
+    Machines(MachinePlane),
+}
+
+impl Over {
+    fn region(&self, label: Label, kind: RegionKind, options: RegionOptions, control: &Control<'_>) -> Option<Region> {
+        let go_on = || !control.stopping();
+        match self {
+            Self::Oscillators(osc, frame) => region_while(osc, label, kind, frame, options, &go_on),
+            Self::Machines(plane) => plane.region_while(label, kind, options, &go_on),
+        }
+    }
 }
 
 impl Plane {
     fn new(system: &SystemPlan, across: &Stretch, up: &Stretch, grid: u32) -> Result<Self, PlanError> {
         let corner = system.with_all([(across.parameter, across.from), (up.parameter, up.from)])?;
-        Ok(Self::of(corner.oscillator()?, across.frame(up, system)?, grid))
+        Ok(Self::of(Over::Oscillators(corner.oscillator()?, across.frame(up, system)?), grid))
     }
 
-    pub(crate) fn of(osc: Oscillator, frame: Frame, grid: u32) -> Self {
-        let options = RegionOptions { grid: (grid, grid), ..RegionOptions::default() };
-        Self { osc, frame, options }
+    pub(crate) fn of(over: Over, grid: u32) -> Self {
+        Self { over, options: RegionOptions { grid: (grid, grid), ..RegionOptions::default() } }
     }
 
     /// Both regions of one motion.
@@ -119,7 +133,7 @@ impl Plane {
         let each = tiles(wanted.len() as u64, 1, control, |range, tick| {
             // one region for each tile
             let (label, kind) = wanted[usize::try_from(range.start).unwrap_or(0)];
-            let region = region_while(&self.osc, label, kind, &self.frame, self.options, &|| !control.stopping());
+            let region = self.over.region(label, kind, self.options, control);
             if region.is_some() {
                 tick();
             }

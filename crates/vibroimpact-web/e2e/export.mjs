@@ -5,7 +5,7 @@ import { execFile } from "node:child_process";
 import { mkdtemp, readFile, readlink, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { promisify } from "node:util";
-import { drawn, pictures, sharp, until, verdict } from "./page.mjs";
+import { SMALL, drawn, pictures, sharp, until, verdict } from "./page.mjs";
 
 async function saved(page, format) {
   const [download] = await Promise.all([page.waitForEvent("download"), page.locator(`#export [data-format=${format}]`).click()]);
@@ -27,8 +27,9 @@ async function choosePoints(page, points) {
   await page.locator("#export-points").selectOption(points);
 }
 
-export async function exports_each_format({ open }) {
-  const { page } = await open("#point=1&inverse_beta=1.3&gap=0.75&line=1.3,1,1.2,2&impacts=200", { acceptDownloads: true });
+/** Every view as a picture; as figures and tables they are those of commands. */
+export async function exports_each_view_as_png({ open }) {
+  const { page } = await open("#point=1&inverse_beta=1.3&gap=0.75&line=1.3,1,1.2,2&impacts=200", { ...SMALL, acceptDownloads: true });
   await drawn(page);
   await until("a verdict", async () => (await page.locator(".verdict .label").count()) === 1 && (await verdict(page)) === "2/1");
   await page.locator("#export-button").click();
@@ -40,13 +41,7 @@ export async function exports_each_format({ open }) {
     await until(`the command of ${view}`, async () =>
       (await page.locator("#export pre").first().textContent()).startsWith("vibro "));
     assert.match(await page.locator("#export pre").last().textContent(), /import vibroimpact/);
-    const formats = view === "attractors" ? ["csv"] : ["svg", "png", "csv"];
-    for (const format of formats) {
-      const bytes = await saved(page, format);
-      if (format === "svg") assert.match(bytes.toString("utf8", 0, 200), /<svg /, view);
-      if (format === "png") assert.equal(bytes.toString("hex", 0, 4), "89504e47", view);
-      if (format === "csv") assert.match(bytes.toString("utf8", 0, 400), /^[a-z_#]/i, view);
-    }
+    if (view !== "attractors") assert.equal((await saved(page, "png")).toString("hex", 0, 4), "89504e47", view);
   }
 }
 
@@ -119,19 +114,19 @@ async function figureOfCommand(page, address, act) {
 export async function figures_of_quantities_and_machines_are_those_of_their_commands({ open, address }) {
   if (!process.env.VIBRO_PID) return;
   const folder = await mkdtemp(`${tmpdir()}/vibro-e2e-`);
-  const window = "view=1,1.3,0.5,1.1&impacts=200&layers=stripes";
+  const window = "view=1.25,1.35,0.7,0.8&impacts=200&layers=stripes";
   const regions = process.env.VIBROIMPACT_LONG === "1" ? "regions," : "";
   try {
     for (const [hash, points, wanted] of [
       [`#${window}&colour=power&range=0,0.5&starts=2&of=smallest`, FEW, /--colour power --of smallest --colour-range 0:0\.5 --plot/],
-      [`#${window}&starts=2`, "200", /:200 (?!.*--refine).* --plot/],
+      ["#view=1.25,1.35,1.4,1.6&impacts=200&layers=stripes&starts=2", "200", /:200 (?!.*--refine).* --plot/],
       [`#${window}&machine=0.8,12000,30&colour=power`, FEW, /--mass-kg 0\.8 .*--frequency-hz \S+:40 .*--colour power/],
       ["#view=1,1.5,0.5,2.5&impacts=200&point=1&inverse_beta=1.3&gap=1&line=1.1,1.5,1.1,2.2&panel=line&layers=paper,amplitude,boundaries", FEW,
         /--layers amplitude,paper,boundaries --mark 1\.3,1 --line 1\.1,1\.5:1\.1,2\.2 --plot/],
-      [`#machine=0.8,12000,30&x=beta&point=1&beta=0.77&gap=0.75&view=0.7,1,0.4,2.2&impacts=200&layers=${regions}paper,amplitude,stripes`, FEW,
+      [`#machine=0.8,12000,30&x=beta&point=1&beta=0.77&gap=0.75&view=0.74,0.82,0.6,1&impacts=200&layers=${regions}paper,amplitude,stripes`, FEW,
         new RegExp(`--mass-kg 0\\.8 .*--layers ${regions}amplitude,paper,stripes --mark \\S+,0\\.001875 --plot`)],
     ]) {
-      const { page } = await open(hash, { acceptDownloads: true, viewport: { width: 420, height: 360 } });
+      const { page } = await open(hash, { acceptDownloads: true, viewport: { width: 340, height: 290 } });
       await page.waitForSelector("#plane[data-picture]");
       if (hash.includes("colour")) await page.waitForSelector("#legend .bar-colours[data-range]");
       // the range of the colours in the command is that of the tiles that are there, so it changes until all are
@@ -163,7 +158,7 @@ export async function every_export_is_that_of_its_command({ open, address }) {
       ["#machine=0.8,12000,30&x=beta&point=1&beta=0.77&gap=0.75&damping=0.02&start=0.1,0.2,0.3&view=0.7,1,0.4,2.2&line=0.7,1,0.8,1.2&layers=stripes&impacts=200&colour=displacement_max",
         "--mass-kg 0.8", /_(hz|m|s|m_per_s)\b|^re,im$|^section,/],
     ]) {
-      const { page } = await open(hash, { acceptDownloads: true });
+      const { page } = await open(hash, { ...SMALL, acceptDownloads: true });
       await drawn(page, hash.includes("colour"));
       await page.waitForSelector("#point .note:not(:empty)");
       if (hash.includes("colour")) await page.waitForSelector("[data-name=basin] .bar-colours[data-range]");

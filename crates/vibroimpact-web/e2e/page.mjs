@@ -16,6 +16,9 @@ export async function until(what, condition, seconds = 90) {
   }
 }
 
+/** A window for tests that wait for the whole map: the server computes what is shown, and keeps it for the next such test. */
+export const SMALL = { viewport: { width: 640, height: 500 } };
+
 /** The hash of the page as pairs. */
 export const hash = async (page) => new URLSearchParams((await page.evaluate(() => location.hash)).slice(1));
 

@@ -1,8 +1,8 @@
 //! Random branches of machines: how they end, whether an event stands between motions that differ, and the time.
 //!
-//!     cargo run --release -p vibroimpact --example random_branches -- [COUNT [SEED]]
+//!     cargo run --release -p vibroimpact --example random_branches -- [COUNT [SEED [FIRST]]]
 //!
-//! COUNT is 8 if it is absent; 200 take some minutes.
+//! COUNT is 8 if it is absent; 200 take some minutes. FIRST is the number of the first case.
 //!
 //! Machines of one to four coordinates with rigid and compliant stops, friction, chatter and rests are drawn from the seed; the
 //! motion from a random start is followed in a random number of the machine. Between two neighbouring points the stability may
@@ -30,7 +30,7 @@ fn main() {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let number = |k: usize, otherwise: u64| words.get(k).map_or(otherwise, |word| word.parse().expect("a number"));
     let (count, seed) = (number(0, 8), number(1, 1));
-    let (mut tally, mut done, mut case) = (Tally::default(), 0, 0);
+    let (mut tally, mut done, mut case) = (Tally::default(), 0, number(2, 1) - 1);
     while done < count {
         case += 1;
         // what is drawn for one case does not depend on the others

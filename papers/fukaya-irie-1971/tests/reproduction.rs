@@ -28,14 +28,15 @@ fn files(dir: &Path) -> BTreeMap<String, Vec<u8>> {
 #[test]
 fn files_and_rows_are_complete_for_any_number_of_threads() {
     let dir = tempfile::tempdir().unwrap();
-    let (one, two) = (dir.path().join("one"), dir.path().join("two"));
-    let report = run(&one, 1);
-    assert_eq!(report, run(&two, 2));
-    let written = files(&one);
-    assert_eq!(written, files(&two));
-    // a second run into the same folder
-    run(&one, 2);
-    assert_eq!(files(&one), written);
+    let out = dir.path().join("out");
+    let report = run(&out, 1);
+    let written = files(&out);
+    // a second run into the same folder, whose files it has to write again
+    for name in written.keys().filter(|name| name.starts_with("figure-")) {
+        std::fs::remove_file(out.join(name)).unwrap();
+    }
+    assert_eq!(report, run(&out, 2));
+    assert_eq!(files(&out), written);
 
     for figure in ["02", "04", "04-below-zero", "05", "06", "07", "08", "09", "10", "11"] {
         for end in ["svg", "png", "csv"] {

@@ -20,8 +20,11 @@ use vibroimpact_study::{DEFAULT_GRID, RegionPlan, Stretch, Variable};
 /// different sheets may overlap. The region of the motion without impacts, label 0, is known in closed form: its
 /// amplitude exceeds no gap, and a touch bounds it.
 ///
-/// Of a machine any two numbers vary, by their paths. It must have one coordinate on a spring, forcing of order 1, no friction,
-/// and one rigid stop or two on opposite sides: then it is an oscillator, and its regions are computed as those of one.
+/// Of a machine any two numbers vary, by their paths. One that is an oscillator, with one coordinate, forcing of order 1 and
+/// rigid stops, has the regions of this. Of any other one the cycles found at points of the grid are followed over the plane, and
+/// the edge of what they reach is outlined to about 1e-3 of a quarter of a range; an edge can also be torus (a pair of complex
+/// multipliers is on the unit circle) or change (the events change in another way). It takes longer, by a factor of some hundred:
+/// begin with --grid 8.
 #[derive(Clone, Debug, Args)]
 #[command(
     mut_arg("restitution", |arg| arg.required(false).required_unless_present("machine")),
@@ -33,7 +36,9 @@ use vibroimpact_study::{DEFAULT_GRID, RegionPlan, Stretch, Variable};
         vibro region --label 1/2 --inverse-beta 1.11 --gap 0:3 \\\n    \
         --restitution 0.2:0.9 --plot plane.png\n  \
         vibro region --machine fukaya-irie-1971 --label 1/1 \\\n    \
-        --axis inverse_beta=1.05:1.2 --axis delta=1:2.5 --csv machine-region.csv",
+        --axis inverse_beta=1.05:1.2 --axis delta=1:2.5 --csv machine-region.csv\n  \
+        vibro region --machine two-mass-hammer --label 1/1 --grid 6 \\\n    \
+        --axis frequency=1:1.3 --axis stop.anvil.gap=0.3:0.9",
     mut_arg("csv", |arg| arg.help(
         "Write one row a vertex to this file; - for stdout. Columns: region (existence or stability), polygon, \
         hole, sheet (below: multipliers below +1, or above), both parameters, and what bounds the region from \

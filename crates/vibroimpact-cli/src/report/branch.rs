@@ -158,7 +158,7 @@ impl Told {
 
     /// Point number `k` of a branch of a machine.
     fn of_machine(points: &[MachinePoint], k: usize, cut: &Cut<String>, machine: &Machine) -> Self {
-        let MachinePoint { value, cycle, event } = &points[k];
+        let MachinePoint { value, cycle, event, .. } = &points[k];
         // a point at an event has the cycle before it
         let after = points.get(k + 1).map_or(cycle.label, |next| next.cycle.label);
         let event = event.map(|event| ToldEvent {

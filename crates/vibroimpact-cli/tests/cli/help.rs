@@ -18,6 +18,17 @@ fn examples(command: &str) -> Vec<String> {
     lines.lines().filter_map(|line| line.trim().strip_prefix("vibro ").map(str::to_owned)).collect()
 }
 
+/// The line with at most 41 points along an axis: what the examples can do does not depend on their number.
+fn with_few_points(line: &str) -> String {
+    let fewer = |word: &str| match word.splitn(4, ':').collect::<Vec<_>>()[..] {
+        [from, to, count, ..] if count.parse().is_ok_and(|count: u32| count > 41) => {
+            word.replacen(&format!("{from}:{to}:{count}"), &format!("{from}:{to}:41"), 1)
+        }
+        _ => word.to_owned(),
+    };
+    line.split(' ').map(fewer).collect::<Vec<_>>().join(" ")
+}
+
 /// Those of questions, in the order of the list of commands, pasted one after another in a folder that is empty at first.
 #[test]
 fn examples_run_in_an_empty_folder() {
@@ -42,7 +53,7 @@ fn examples_run_in_an_empty_folder() {
         // the table of the user
         fs::write(folder.path().join("systems.csv"), "inverse_beta,gap\n1.3,0.75\n1.8,0.25\n").unwrap();
         for line in examples(command) {
-            let output = vibro(&line).current_dir(&folder).output().expect("vibro runs");
+            let output = vibro(&with_few_points(&line)).current_dir(&folder).output().expect("vibro runs");
             assert!(output.status.success(), "vibro {line}\n{}", String::from_utf8_lossy(&output.stderr));
             ran += 1;
         }

@@ -63,12 +63,7 @@ fn the_export_of_the_page_is_the_figure_of_its_command() {
             "--layers regions,amplitude,paper,stripes,boundaries --mark 1.3,1 --line 0.5,-1:1.1,2.5",
             "#b5221b",
         ),
-        (
-            "layers=paper,stripes,regions&mark=1.3,1&colour=power",
-            &fields,
-            "--colour power --layers regions,paper --mark 1.3,1",
-            ">T<",
-        ),
+        ("layers=paper,stripes&mark=1.3,1&colour=power", &fields, "--colour power --layers paper --mark 1.3,1", ">T<"),
         ("layers=stripes&colour=power", &fields, "--colour power", ""),
         (
             "layers=paper,stripes,regions,amplitude&mark=2.4,0.005&line=2.2,0.003,2.8,0.01",

@@ -134,10 +134,21 @@ fn a_region_of_a_machine() {
         "{table}"
     );
     let refused = |line: &str| String::from_utf8(vibro(line).output().unwrap().stderr).unwrap();
-    let other = refused("region --machine two-mass-hammer --label 1/1 --axis frequency=0.9:1.3 --axis b=0.4:0.6");
-    assert!(other.contains("regions are those of machines of one coordinate"), "{other}");
     let one = refused("region --machine fukaya-irie-1971 --label 1/1 --axis delta=1:2.5");
     assert!(one.contains("--axis PATH=A:B is given 1 times"), "{one}");
+}
+
+/// A machine of two coordinates has regions too: 1/1 exists up to where another flight touches the stop.
+#[test]
+fn a_region_of_two_coordinates() {
+    let line =
+        "region --machine two-mass-hammer --label 1/1 --grid 4 --axis frequency=1:1.2 --axis stop.anvil.gap=0.4:0.6";
+    let answer = json(line);
+    let polygons = &answer["stability"]["polygons"];
+    assert!(inside(polygons, (1.15, 0.5)) && !inside(polygons, (1.02, 0.5)), "{answer}");
+    let bounds: Vec<&str> =
+        polygons[0]["vertices"].as_array().unwrap().iter().map(|vertex| vertex["bound"].as_str().unwrap()).collect();
+    assert!(bounds.contains(&"touch") && bounds.iter().all(|bound| ["touch", "frame"].contains(bound)), "{bounds:?}");
 }
 
 /// In physical units the region is the same, with gaps in metres. Ranges replace the values of the system.

@@ -16,6 +16,7 @@ system = { restitution = 0.5 }
 [task.map]
 starts = 4
 seed = 1
+impacts = 2000
 axes = [
   { vary = "inverse_beta", over = "0.6:1.9:28" },
   { vary = "gap", over = "0:3:28" },
@@ -146,8 +147,8 @@ fn sweeps_go_on_however_often_they_are_killed() {
         done(folder.path(), &line(store, values));
         begun.elapsed()
     };
-    // as many values as take four times as long
-    let values = 8 * 4 * PART.as_millis() / time("few", 8).as_millis().max(1);
+    // as many values as take three times as long
+    let values = 8 * 3 * PART.as_millis() / time("few", 8).as_millis().max(1);
     let values = u32::try_from(values).unwrap().clamp(8, 20_000);
     time("whole", values);
     let want = files(&folder.path().join("whole.zarr"));
@@ -357,10 +358,11 @@ fn two_at_once_parts_in_any_order_and_flags_make_the_same_store() {
     assert!(files(&folder.path().join("parts.zarr")) == want);
     done(
         folder.path(),
-        "map --inverse-beta 0.6:1.9:28 --gap 0:3:28 --restitution 0.5 --starts 4 --store flags.zarr --tile 4 --csv a.csv",
+        "map --inverse-beta 0.6:1.9:28 --gap 0:3:28 --restitution 0.5 --starts 4 --impacts 2000 --store flags.zarr --tile 4 --csv a.csv",
     );
     assert!(files(&folder.path().join("flags.zarr")) == want);
-    done(folder.path(), "map --inverse-beta 0.6:1.9:28 --gap 0:3:28 --restitution 0.5 --starts 4 --csv b.csv");
+    let line = "map --inverse-beta 0.6:1.9:28 --gap 0:3:28 --restitution 0.5 --starts 4 --impacts 2000 --csv b.csv";
+    done(folder.path(), line);
     assert!(fs::read(folder.path().join("a.csv")).unwrap() == fs::read(folder.path().join("b.csv")).unwrap());
     // the plan in a store can be read as a plan
     let answer = json(&format!("status {}", folder.path().join("whole.zarr").display()));

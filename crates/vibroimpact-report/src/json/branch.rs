@@ -231,12 +231,12 @@ impl PointObject<'static> {
 
 impl<'a> PointObject<'a> {
     fn of_machine(
-        MachinePoint { value, cycle, .. }: &'a MachinePoint,
+        point: &'a MachinePoint,
         machine: &'a Machine,
         cut: &Cut<String>,
         quantity: Option<&BranchQuantity<'_>>,
     ) -> Self {
-        let point = &MachinePoint { value: *value, cycle: cycle.clone(), event: None };
+        let MachinePoint { value, cycle, .. } = point;
         Self {
             parameter: *value,
             values: both(*value, cut, &Units::default()),

@@ -82,7 +82,7 @@ pub(crate) fn of_machine<'a>(
     let varied: Vec<String> = cut.names().cloned().collect();
     let cut = cut.clone();
     let points = all().enumerate().flat_map(|(k, points)| points.iter().map(move |point| (k + 1, point)));
-    let rows = points.map(move |(branch, MachinePoint { value, cycle, event })| Row {
+    let rows = points.map(move |(branch, MachinePoint { value, cycle, event, .. })| Row {
         branch,
         values: cut.values(*value).collect(),
         label: cycle.label.to_string(),

@@ -1,33 +1,44 @@
-//! The regions of a plane of two numbers of a machine in which a motion exists and in which it is stable: those of the oscillator
-//! that the machine is.
+//! The regions of a plane of two numbers of a machine in which a motion exists and in which it is stable: those of the oscillators
+//! that the machines are, or of its own cycles.
 
 use super::cut::{check_plane, plane};
+use super::orbits;
 use crate::chosen::followable;
 use crate::machine::MachineSource;
-use crate::region::{self, Plane};
+use crate::region::{Over, Plane, check_grid};
 use crate::{Control, PlanError, RegionPlan, Regions, RunError};
-use vibroimpact::Oscillator;
-use vibroimpact::continuation::Frame;
+use vibroimpact::{Label, Oscillator};
 
 impl RegionPlan<String> {
     /// Checks everything that can be checked without running the plan.
     pub(crate) fn check(&self, source: &MachineSource) -> Result<(), PlanError> {
-        region::check(&self.label, self.grid)?;
+        check_grid(self.grid)?;
         check_plane(source, &self.across, &self.up)?;
-        self.plane(source).map(|_| ())
+        self.label(source, &self.over(source)).map(|_| ())
     }
 
-    /// The oscillator at the corner of the plane, and the frame.
-    fn plane(&self, source: &MachineSource) -> Result<(Oscillator, Frame), PlanError> {
+    /// The oscillators at the points of the plane, or else the machines.
+    fn over(&self, source: &MachineSource) -> Over {
         let plane = plane(source, &self.across, &self.up);
-        plane.reduced((self.across.from, self.up.from)).ok_or(PlanError::NoMachineRegion)
+        match plane.reduced((self.across.from, self.up.from)) {
+            Some((osc, frame)) => Over::Oscillators(osc, frame),
+            None => Over::Machines(plane),
+        }
+    }
+
+    /// The label. Cycles of oscillators with a rest are not followed.
+    fn label(&self, source: &MachineSource, over: &Over) -> Result<Label, PlanError> {
+        match over {
+            Over::Oscillators(..) => followable(Some(&self.label)),
+            Over::Machines(_) => orbits::label(&source.machine()?, &self.label),
+        }
     }
 
     /// Whether the motion loses no energy anywhere in the plane. It is then neutrally stable and has no region of
     /// stability.
     #[must_use]
     pub fn neutral(&self, source: &MachineSource) -> bool {
-        let Ok((osc, frame)) = self.plane(source) else { return false };
+        let Over::Oscillators(osc, frame) = self.over(source) else { return false };
         let loses = |osc: &Oscillator| osc.stops().any(|(_, stop)| stop.restitution < 1.0);
         frame.everywhere(&osc, |osc| osc.damping() == 0.0 && (self.clears() || !loses(osc)))
     }
@@ -39,14 +50,15 @@ pub(super) fn regions(
     plan: &RegionPlan<String>,
     control: &Control<'_>,
 ) -> Result<Regions, RunError> {
-    let (osc, frame) = plan.plane(source)?;
-    Plane::of(osc, frame, plan.grid).both(followable(Some(&plan.label))?, control)
+    let over = plan.over(source);
+    let label = plan.label(source, &over)?;
+    Plane::of(over, plan.grid).both(label, control)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Parameter, Plan, Results, Stretch, System, SystemPlan, machine, run};
+    use crate::{Parameter, Plan, Results, Stretch, SystemPlan, machine, run};
 
     const MACHINE: &str = r#"
         [machine]
@@ -97,7 +109,7 @@ mod tests {
             up: over(Parameter::Gap, 1.0, 2.5),
             grid: 5,
         };
-        let known = region::regions(&system, &known, &Control::default()).unwrap();
+        let known = crate::region::regions(&system, &known, &Control::default()).unwrap();
         for (own, other) in [(&found.existence, &known.existence), (&found.stability, &known.stability)] {
             assert!(own.unresolved.is_empty() && own.polygons.len() == other.polygons.len());
             for k in 0..900 {
@@ -108,18 +120,10 @@ mod tests {
         assert!(found.stability.contains((1.0 / 1.11, 1.828)) && !found.stability.contains((1.0 / 1.11, 1.830)));
     }
 
+    /// A label that has no region, and a plane that is none.
     #[test]
-    fn other_machines_are_refused() {
-        let source = |name| MachineSource::open(name).unwrap();
+    fn nonsense_is_refused() {
         let refused = |plan: Plan| run(&plan, &Control::default()).unwrap_err().to_string();
-        let hammer = Plan {
-            system: System::from(source("two-mass-hammer")),
-            ..plan(|plan| {
-                plan.across = Stretch { parameter: "frequency".into(), from: 0.9, to: 1.3 };
-                plan.up = Stretch { parameter: "b".into(), from: 0.4, to: 0.6 };
-            })
-        };
-        assert!(refused(hammer).starts_with("regions are those of machines of one coordinate on a spring"));
         assert!(refused(plan(|plan| plan.label = "inf/1".into())).starts_with("a cycle that rests"));
         assert!(refused(plan(|plan| plan.grid = 1)).starts_with("grid = 1 lies outside"));
         assert!(refused(plan(|plan| plan.up = plan.across.clone())).contains("frequency"));

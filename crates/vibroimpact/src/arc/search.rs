@@ -56,7 +56,7 @@ fn by_windows(
     touched.clear();
     touched.extend(flight.guards.iter().map(|guard| guard.known > 0));
     buffers.fresh = false;
-    let mut found = match closing_already(flight, buffers) {
+    let mut found = match closing_already(flight, buffers, &mut touched) {
         Some(guard) => Found::Zero { s: 0.0, guards: Guards::One([guard]) },
         None => search(flight, until, steps, buffers, touches, &mut known, &mut touched),
     };
@@ -71,24 +71,29 @@ fn by_windows(
 }
 
 /// A rigid stop whose gap is zero at the beginning and closes, as after an impact elsewhere. Beside others that are zero and open
-/// no window would tell it apart from them.
-fn closing_already(flight: &MachineFlight, buffers: &mut Buffers) -> Option<usize> {
+/// no window would tell it apart from them. One that has just been left is zero by rounding only: it is not touched.
+fn closing_already(flight: &MachineFlight, buffers: &mut Buffers, touched: &mut [bool]) -> Option<usize> {
     let mut zero = (0..flight.guards.len()).filter(|g| {
         let guard = &flight.guards[*g];
-        guard.known < 2 && guard.value <= 0.0 && flight.structure.guards[*g].strikes
+        guard.known < 2 && guard.value <= LEFT * f64::EPSILON * guard.size && flight.structure.guards[*g].strikes
     });
     let mut next = zero.next();
     if next.is_some() {
         flight.at(0.0, &mut buffers.modes);
     }
     while let Some(g) = next {
-        if flight.guard(g, &buffers.modes).1 < 0.0 {
+        let rate = flight.guard(g, &buffers.modes).1;
+        if rate < 0.0 && flight.guards[g].value <= 0.0 {
             return Some(g);
         }
+        touched[g] |= rate > 0.0;
         next = zero.next();
     }
     None
 }
+
+/// A gap below so many rounding errors of its terms is zero at the beginning of a flight.
+const LEFT: f64 = 4.0;
 
 /// A guard that only touches zero and goes below it by no more than this number of its rounding errors over a window decides
 /// nothing there.
@@ -296,7 +301,10 @@ fn search(
         };
         // the windows of free bodies are not as short as their motion
         let shortens = rate == 0.0 && window > SHORTEST;
-        if shortens && near < SHORT && buffers.polynomials[g].beside(-1.0)[0] > 0.0 {
+        let of = &buffers.polynomials[g];
+        // nor is what has just been left and rises from zero within rounding
+        let rises = touched[g] && of.p[1] > 0.0 && of.p[0] > -FLAT * of.error;
+        if shortens && near < SHORT && (of.beside(-1.0)[0] > 0.0 || rises) {
             reach *= 1e3 * RESOLUTION.max(near);
             continue;
         }

@@ -82,7 +82,10 @@ impl MachineMotion<'_> {
         let free = self.structures.get(self.machine, &self.normal, &self.place.states)?;
         // the sum over bounces of free bodies under constant forces is exact at any speed: small is what is small beside
         // the bounces before
-        if free.fastest() == 0.0 && rebounds[0] > SMALL * self.largest_impact {
+        if free.fastest() == 0.0
+            && rebounds[0] > SMALL * self.largest_impact
+            && !self.instants.is_low(rebounds[0], self.normal.squares[stops[0]])
+        {
             return None;
         }
         let (there, flight, returns) = match stops {
@@ -213,7 +216,13 @@ impl MachineMotion<'_> {
         }
         self.move_to(flight, duration);
         self.largest_impact = 0.0;
-        self.instants.clear();
+        if flight.structure.is_still() {
+            self.instants.clear();
+        } else {
+            // other bodies go on, and may end this rest again and again
+            self.instants.pass(duration);
+        }
+        stops.iter().for_each(|j| self.instants.keep(MachineEventKind::Stick, *j, 0.0));
         self.struck.clear();
         if kind == MachineEventKind::Collapse {
             self.announce(kind, stops[0], 0.0, stops[1..].to_vec());
@@ -239,6 +248,7 @@ impl MachineMotion<'_> {
                 ContactState::Open if *was == ContactState::Closed => (MachineEventKind::Open, 0.0),
                 ContactState::Open => (MachineEventKind::Release, 0.0),
             };
+            self.instants.keep(kind, at, speed);
             self.announce(kind, at, speed, Vec::new());
         }
     }

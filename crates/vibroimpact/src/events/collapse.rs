@@ -29,6 +29,8 @@ const SLOW: f64 = 1e-8;
 /// errors of the gaps could change what happens.
 const CLOSED: f64 = 512.0;
 const CROWDED: f64 = 65_536.0;
+/// What goes by no more than so many rounding errors of a gap in many impacts does not move.
+const IN_PLACE: f64 = 64.0;
 /// The most impacts of a collapse that are followed by gaps alone, and for how many on each stop no time may pass at the end.
 const STEPS: usize = 20_000;
 const LAST: usize = 16;
@@ -49,8 +51,27 @@ impl MachineMotion<'_> {
             let left = if self.crowd > MANY { Some(0.0) } else { self.collapse_time(&stops) };
             if let Some(left) = left.filter(|_| self.crowd > MANY || self.are_close(&stops, CROWDED)) {
                 self.come_to_rest(&stops, true, left);
+                return;
             }
         }
+        self.rest_within_rounding();
+    }
+
+    /// Brings stops to rest that are struck again and again while nothing moves by more than rounding errors of the coordinates.
+    /// Below them rebounds are made of rounding errors, and need not become slower.
+    fn rest_within_rounding(&mut self) {
+        let Some((mut stops, way)) = self.instants.crowd_in_place() else { return };
+        stops.retain(|j| self.place.states[*j] == ContactState::Open);
+        let loses = |j: &usize| matches!(self.machine.stops()[*j].law, StopLaw::Rigid { restitution } if restitution < 1.0);
+        if stops.iter().all(loses) && self.are_close(&stops, CLOSED) && self.is_rounding(&stops, way) {
+            self.come_to_rest(&stops, true, 0.0);
+        }
+    }
+
+    /// Whether a way is a rounding error of the gaps of these stops.
+    fn is_rounding(&self, stops: &[usize], way: f64) -> bool {
+        let turns = self.place.turns(&self.normal);
+        stops.iter().all(|j| way <= IN_PLACE * f64::EPSILON * self.place.gap(&self.normal, &turns, *j).2)
     }
 
     /// Whether the error of a sum is a rounding error: of the flights, of the place of a stop at the speed of the impacts, and of

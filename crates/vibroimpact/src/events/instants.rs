@@ -171,6 +171,12 @@ impl Instants {
         }
     }
 
+    /// Whether a rebound along a direction of this square of the length is so slow that its height is a rounding error of that
+    /// which the largest velocity of late gives.
+    pub(super) fn is_low(&self, rebound: f64, square: f64) -> bool {
+        rebound * rebound <= f64::EPSILON * square * self.fastest
+    }
+
     /// Whether [`silence`](Self::silence) may take away a velocity along a direction of this square of the length: a first test.
     #[inline]
     pub(super) fn may_be_noise(&self, velocity: f64, square: f64) -> bool {
@@ -247,10 +253,10 @@ impl Instants {
         })
     }
 
-    /// Forgets all flights and changes, because the structure has come to rest.
+    /// Forgets all changes, because stops have come to rest. What is long and fast is not forgotten: other bodies may go on.
     pub(super) fn clear(&mut self) {
         let speeds = core::mem::take(&mut self.speeds);
-        *self = Self { square: self.square, fastest: self.fastest, speeds, ..Self::default() };
+        *self = Self { longest: self.longest, square: self.square, fastest: self.fastest, speeds, ..Self::default() };
     }
 
     /// The shortest round that repeats itself at the end.
@@ -311,12 +317,23 @@ impl Instants {
             return None;
         }
         let factor = if count < KEPT { MUCH_SLOWER } else { SLOWER };
-        let faster = |most: f64, change: &Change| if change.is_impact() { most.max(change.speed) } else { most };
-        let late = self.latest.iter().take(count / ENDS).fold(0.0, faster);
-        let early = self.latest.iter().rev().take(count / ENDS).fold(0.0, faster);
-        if late > factor * early {
+        let late = fastest(self.latest.iter().take(count / ENDS));
+        let early = fastest(self.latest.iter().rev().take(count / ENDS));
+        if late > factor * early { None } else { self.struck_often() }
+    }
+
+    /// Several stops that are struck again and again, and no way of any of them in all changes that are kept was longer than this;
+    /// asked once in some changes.
+    pub(super) fn crowd_in_place(&self) -> Option<(Vec<usize>, f64)> {
+        if self.latest.len() < KEPT || !self.count.is_multiple_of(EVERY) {
             return None;
         }
+        let time: f64 = self.latest.iter().map(|change| change.after).sum();
+        Some((self.struck_often()?, time * fastest(self.latest.iter())))
+    }
+
+    /// The stops that are struck again and again, if there are several.
+    fn struck_often(&self) -> Option<Vec<usize>> {
         let impacts = self.latest.iter().filter(|change| change.is_impact());
         let mut struck: Vec<usize> = impacts.map(|one| one.place).collect();
         struck.sort_unstable();
@@ -324,4 +341,9 @@ impl Instants {
         let stops: Vec<usize> = often.map(|own| own[0]).collect();
         (stops.len() > 1).then_some(stops)
     }
+}
+
+/// The largest speed of the impacts among changes.
+fn fastest<'a>(changes: impl Iterator<Item = &'a Change>) -> f64 {
+    changes.filter(|change| change.is_impact()).fold(0.0, |most, change| most.max(change.speed))
 }

@@ -288,15 +288,7 @@ impl<'a> MachineMotion<'a> {
         }
         self.meet(&soft, before, sizes.as_deref(), &turns, &mut candidates);
         self.instants.silence(&mut self.place.x, &mut self.place.v, 1);
-        // a stop that is met by a rounding error of a motion that has ended is touched
-        for j in soft {
-            let ended = self.place.gap(&self.normal, &turns, j).3 == 0.0;
-            if ended && self.place.known.contains(&(GuardKind::Depth(j), 1)) && !candidates.contains(&j) {
-                self.place.known.retain(|(kind, _)| *kind != GuardKind::Depth(j));
-                self.place.states[j] = ContactState::Open;
-                candidates.push(j);
-            }
-        }
+        self.touch_faintly(&soft, &turns, &mut candidates);
         // a force that jumps can end any rest
         for (at, state) in self.place.states.iter().enumerate() {
             if state.constrains() && !candidates.contains(&at) {
@@ -386,6 +378,27 @@ impl<'a> MachineMotion<'a> {
             self.after_impacts(&turns);
         }
         Some(())
+    }
+
+    /// Makes touches of the closures of compliant stops that are rounding errors: of a motion that has ended, or of one in which both
+    /// sides of a stop without a preload go on together.
+    fn touch_faintly(&mut self, soft: &[usize], turns: &[(f64, f64)], candidates: &mut Vec<usize>) {
+        let mut rates = Vec::new();
+        for j in soft.iter().copied().filter(|j| !candidates.contains(j)) {
+            let (_, rate, _, size) = self.place.gap(&self.normal, turns, j);
+            let along = (&self.normal.directions[j][..], self.normal.squares[j]);
+            let loaded = compliant(&self.machine.stops()[j].law).is_some_and(|(_, _, preload)| preload > 0.0);
+            let faint = size == 0.0 || !loaded && self.instants.is_faint(rate, along, FAINT);
+            if faint && self.place.known.contains(&(GuardKind::Depth(j), 1)) {
+                rates.push((j, rate));
+            }
+        }
+        self.normal.move_by(&rates, &mut self.place.v);
+        for (j, _) in rates {
+            self.place.known.retain(|(kind, _)| *kind != GuardKind::Depth(j));
+            self.place.states[j] = ContactState::Open;
+            candidates.push(j);
+        }
     }
 
     /// Records the state after an event and the rigid stops that push, with their restitution.
@@ -509,8 +522,30 @@ impl<'a> MachineMotion<'a> {
         }
     }
 
+    /// Notes that the gaps of stops are zero which are left faster than by rounding and are within it: after a short flight a gap
+    /// can be smaller than the coordinates tell.
+    fn note_stops_just_left(&mut self) {
+        let turns = self.place.turns(&self.normal);
+        for j in 0..self.machine.stops().len() {
+            let kind = GuardKind::Gap(j);
+            if self.place.states[j] != ContactState::Open
+                || self.place.surfaces[j].is_some()
+                || self.place.known.iter().any(|(known, _)| *known == kind)
+            {
+                continue;
+            }
+            let (gap, rate, size, rate_size) = self.place.gap(&self.normal, &turns, j);
+            if gap.abs() <= 4.0 * f64::EPSILON * size && rate > 4.0 * f64::EPSILON * rate_size {
+                self.place.note(kind, 1);
+            }
+        }
+    }
+
     /// Follows the motion to its next event.
     fn advance(&mut self) {
+        if self.instants.are_close() {
+            self.note_stops_just_left();
+        }
         let Some(flight) = self.fly() else { return self.end = Some(MachineEnd::Inconsistent) };
         let structure = &flight.structure;
         // the first surface that reaches its holder changes its guard without an event

@@ -45,7 +45,8 @@ pub use find::{FindOptions, find, find_while};
 pub use free::without_impacts;
 pub use label::{Count, Label, LabelError};
 pub(crate) use machine::{
-    Chatter, MachineFrame, MachineLap, MachineRing, Rebound, RingEvent, crossing, events_of, flying, rounding_decides,
+    Chatter, MachineBlock, MachineFrame, MachineLap, MachineRing, Rebound, RingEvent, crossing, events_of, flying,
+    rounding_decides,
 };
 pub use machine::{MachineCycle, find_machine_while, find_unreduced};
 pub use one_impact::{OneImpact, one_impact};

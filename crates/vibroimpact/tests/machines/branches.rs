@@ -10,12 +10,22 @@ use vibroimpact::verdict::{SettleOptions, Verdict, scattered_machine_starts, set
 use vibroimpact::{Label, Oscillator, Parameter, Side, Start};
 
 pub(crate) fn of(osc: &Oscillator) -> Machine {
-    let parts = MachineParts::new(["mass"])
+    with(osc, MachineParts::new(["mass"]))
+}
+
+/// The same beside a mass that stands still: it is not computed as the oscillator.
+pub(crate) fn beside_another(osc: &Oscillator) -> Machine {
+    with(osc, MachineParts::new(["mass", "other"]).with_mass(1, 0.7).with_link(&[0.0, 1.0], 2.0, 0.3))
+}
+
+fn with(osc: &Oscillator, parts: MachineParts) -> Machine {
+    let along: Vec<f64> = (0..parts.coordinates.len()).map(|i| if i == 0 { 1.0 } else { 0.0 }).collect();
+    let parts = parts
         .with_mass(0, 1.0)
-        .with_link(&[1.0], 1.0, 2.0 * osc.damping())
+        .with_link(&along, 1.0, 2.0 * osc.damping())
         .with_frequency(osc.beta())
         .with_force(0, 1, 0.0, 1.0)
-        .with_rigid_stop("stop", &[1.0], osc.gap(), osc.restitution());
+        .with_rigid_stop("stop", &along, osc.gap(), osc.restitution());
     Machine::new(parts).unwrap()
 }
 

@@ -52,7 +52,7 @@ fn stick_slip_in_closed_form() {
         for direction in [Direction::Up, Direction::Down] {
             let points = branch(&machine, over, direction);
             assert_eq!(points.last().unwrap().event, Some(MachineBranchEvent::EndOfRange), "{path}");
-            for MachinePoint { value, cycle, event } in &points {
+            for MachinePoint { value, cycle, event, .. } in &points {
                 assert!(event.is_none_or(|event| event.ends()), "{path} {value}: {event:?}");
                 let there = machine.with(path, *value).unwrap();
                 let of = |path| there.number(path).unwrap();
@@ -75,7 +75,7 @@ fn stick_slip_in_closed_form() {
 fn compared(machine: &Machine, path: &str, points: &[MachinePoint]) -> (u32, u32) {
     let mut counts = (0, 0);
     let step = if is_long() { 5 } else { 15 };
-    for (k, MachinePoint { value, cycle, event }) in points.iter().enumerate() {
+    for (k, MachinePoint { value, cycle, event, .. }) in points.iter().enumerate() {
         let apart = |other: &MachinePoint| other.event.is_none() || (other.value - value).abs() > 1e-4;
         let beside = &points[k.saturating_sub(4)..(k + 5).min(points.len())];
         let largest = cycle.multipliers[0].modulus();

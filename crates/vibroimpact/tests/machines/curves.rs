@@ -1,7 +1,7 @@
 //! Curves of events of machines in two numbers: against closed forms, against those of the oscillator, and against
 //! simulation on both sides.
 
-use crate::branches::{of, random_machine, sequence};
+use crate::branches::{beside_another, of, random_machine, sequence};
 use crate::closed_forms::ball;
 use core::f64::consts::PI;
 use vibroimpact::continuation::{
@@ -89,12 +89,22 @@ fn ball_on_a_table() {
 /// Curves of machines of one coordinate end at the edges of the frame where those of the oscillator do.
 #[test]
 fn the_curves_of_the_oscillator() {
+    ends_of_curves(of);
+}
+
+/// The same by the equations of the machine.
+#[test]
+fn the_curves_of_the_oscillator_beside_another_mass() {
+    ends_of_curves(beside_another);
+}
+
+fn ends_of_curves(machine_of: fn(&Oscillator) -> Machine) {
     let mut compared = std::collections::BTreeMap::new();
     for (inverse, gap, eps, zeta, betas) in
         [(1.11, 1.0, 0.5, 0.0, (0.88, 0.92)), (1.3, 0.75, 0.5, 0.05, (0.72, 0.82)), (0.8, 0.5, 0.7, 0.1, (1.2, 1.3))]
     {
         let osc = Oscillator::from_inverse_beta(inverse, gap, eps).unwrap().with_damping(zeta).unwrap();
-        let machine = of(&osc);
+        let machine = machine_of(&osc);
         let Verdict::Periodic(known) =
             settle(&osc, Start { x: 0.0, v: 0.0, phase: 0.0 }, &SettleOptions::default()).verdict
         else {
@@ -144,7 +154,7 @@ fn the_curves_of_the_oscillator() {
 }
 
 /// The two-mass hammer of the catalogue.
-fn hammer(frequency: f64, gap: f64) -> Option<Machine> {
+pub(crate) fn hammer(frequency: f64, gap: f64) -> Option<Machine> {
     let parts = MachineParts::new(["frame", "head"])
         .with_mass(0, 1.0)
         .with_mass(1, 0.5)

@@ -66,7 +66,7 @@ fn branches_meet_the_curves() {
     ] {
         let (_, points) = curve(&machine, (over, direction), other, kind);
         assert!(points.iter().all(|point| point.residual < 1e-8), "{kind}");
-        for point in points.iter().step_by(1 + points.len() / 4) {
+        for point in points.iter().step_by(1 + points.len() / 3) {
             let there = machine.with(other.0, point.values.1).unwrap();
             let again = branch(&there, over, direction);
             let nearest = again

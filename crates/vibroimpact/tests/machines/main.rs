@@ -30,6 +30,7 @@ mod no_impact;
 mod one_instant;
 #[cfg(test)]
 mod quantities;
+mod regions;
 #[cfg(test)]
 mod rounding;
 #[cfg(test)]

@@ -2,13 +2,16 @@
 //! crossed in strides over which neither is evaluated.
 
 use super::case::Case;
+use super::long::is_long;
 use super::random::Random;
 use super::referee::verdict;
 use super::tally::on_all_cores;
 use core::f64::consts::TAU;
 use vibroimpact::flight::SearchLimits;
 
-const FLIGHTS: u64 = 4000;
+const FLIGHTS: u64 = 2000;
+/// With `VIBROIMPACT_LONG=1`, the same ones among them.
+const FLIGHTS_LONG: u64 = 4000;
 /// How long a flight the referee follows.
 const LONGEST: f64 = 3000.0;
 
@@ -44,14 +47,15 @@ fn on_stop(random: &mut Random, gap: f64, steady: f64, beta: f64, rho: f64, phas
 
 #[test]
 fn flights_over_many_beats() {
-    let tally = on_all_cores(FLIGHTS, 20, |index, tally| {
+    let flights = if is_long() { FLIGHTS_LONG } else { FLIGHTS };
+    let tally = on_all_cores(flights, 20, |index, tally| {
         let case = Random::new(11, index).until(case);
         let mut limits = SearchLimits::default();
         limits.periods = limits.periods.min(1.1 * LONGEST / TAU * case.beta.min(1.0));
         tally.add(case, verdict(&case, limits, LONGEST));
     });
     println!("{tally}");
-    assert_eq!(tally.total(), FLIGHTS);
-    assert!(tally.impacts > FLIGHTS / 3 && tally.until > FLIGHTS / 20, "{tally}");
+    assert_eq!(tally.total(), flights);
+    assert!(tally.impacts > flights / 3 && tally.until > flights / 20, "{tally}");
     tally.expect_no_fault();
 }

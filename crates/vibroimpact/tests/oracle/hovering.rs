@@ -1,13 +1,16 @@
 //! Flights under fast forcing that stay close to a stop, or between two, all the time: no step of theirs is far from a contact.
 
 use super::case::Case;
+use super::long::is_long;
 use super::random::Random;
 use super::referee::verdict;
 use super::tally::on_all_cores;
 use core::f64::consts::TAU;
 use vibroimpact::flight::SearchLimits;
 
-const FLIGHTS: u64 = 2000;
+const FLIGHTS: u64 = 1000;
+/// With `VIBROIMPACT_LONG=1`, the same ones among them.
+const FLIGHTS_LONG: u64 = 2000;
 /// How long a flight the referee follows.
 const LONGEST: f64 = 60.0;
 
@@ -28,13 +31,14 @@ fn case(random: &mut Random) -> Option<Case> {
 
 #[test]
 fn flights_that_stay_close() {
-    let tally = on_all_cores(FLIGHTS, 20, |index, tally| {
+    let flights = if is_long() { FLIGHTS_LONG } else { FLIGHTS };
+    let tally = on_all_cores(flights, 20, |index, tally| {
         let case = Random::new(12, index).until(case);
         let limits = SearchLimits { periods: 1.1 * LONGEST / TAU, ..SearchLimits::default() };
         tally.add(case, verdict(&case, limits, LONGEST));
     });
     println!("{tally}");
-    assert_eq!(tally.total(), FLIGHTS);
-    assert!(tally.impacts > FLIGHTS / 5 && tally.never + tally.until > FLIGHTS / 5, "{tally}");
+    assert_eq!(tally.total(), flights);
+    assert!(tally.impacts > flights / 5 && tally.never + tally.until > flights / 5, "{tally}");
     tally.expect_no_fault();
 }

@@ -1,4 +1,4 @@
-//! Random starts. An ordinary run asks forty thousand; `VIBROIMPACT_LONG=1` asks a hundred thousand, the same ones among
+//! Random starts. An ordinary run asks twenty thousand; `VIBROIMPACT_LONG=1` asks a hundred thousand, the same ones among
 //! them.
 
 use super::case::Case;
@@ -9,7 +9,7 @@ use super::tally::on_all_cores;
 use core::f64::consts::TAU;
 use vibroimpact::flight::SearchLimits;
 
-const STARTS: u64 = 40_000;
+const STARTS: u64 = 20_000;
 const STARTS_LONG: u64 = 100_000;
 /// Cells an ordinary question may take; fifty periods of the slower motion where they fit.
 const CELLS: f64 = 1500.0;

@@ -80,11 +80,6 @@ impl Frame {
         let at = |k: u32| self.node((k % SAMPLES, k / SAMPLES), (SAMPLES, SAMPLES));
         (0..SAMPLES * SAMPLES).filter_map(|k| self.plane.set(osc, at(k)).ok()).all(|osc| holds(&osc))
     }
-
-    /// Whether the frame contains a point.
-    pub(crate) fn holds(&self, (p, q): (f64, f64)) -> bool {
-        self.ranges.0.contains(&p) && self.ranges.1.contains(&q)
-    }
 }
 
 /// The points at which a condition is checked, along each side of the frame.

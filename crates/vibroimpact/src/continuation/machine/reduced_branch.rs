@@ -184,7 +184,7 @@ impl ReducedBranch {
             None => None,
         };
         let cycle = MachineCycle::of_oscillator(&reduction, self.stops, &point.cycle)?;
-        Some(MachinePoint { value: point.value, cycle, event })
+        Some(MachinePoint { value: point.value, cycle, event, ring: None })
     }
 
     /// The branch of the machine from the last point on.
@@ -209,7 +209,7 @@ impl ReducedBranch {
     fn no_convergence(&mut self) -> Option<MachinePoint> {
         self.over = true;
         let (value, cycle) = self.here()?;
-        Some(MachinePoint { value, cycle, event: Some(MachineBranchEvent::NoConvergence) })
+        Some(MachinePoint { value, cycle, event: Some(MachineBranchEvent::NoConvergence), ring: None })
     }
 }
 

@@ -21,7 +21,7 @@
 //! impacts, each neutrally stable, so it has a region of existence and no region of stability.
 
 use super::options::{RegionKind, RegionOptions};
-use super::outline::outline;
+use super::outline::Outline;
 use super::polygon::{Bound, Polygon, Region, Vertex};
 use crate::continuation::curves::Frame;
 use crate::math::{hypot, sort_by};
@@ -40,7 +40,8 @@ pub(crate) fn free_region(osc: &Oscillator, kind: RegionKind, frame: &Frame, opt
                 (kind == RegionKind::Existence || osc.damping() > 0.0) && osc.free_amplitude() <= nearest(&osc)
             })
         };
-        region.polygons = outline(frame, options, &holds);
+        let (ranges, cells, halvings) = (&frame.ranges, CELLS, HALVINGS);
+        region.polygons = Outline { ranges, cells, halvings, options, holds: &holds }.polygons();
         let (columns, rows) = options.grid;
         let nodes = (0..rows).flat_map(|j| (0..columns).map(move |i| frame.node((i, j), options.grid)));
         region.unresolved = nodes.filter(|at| holds(*at) != region.contains(*at)).collect();
@@ -67,6 +68,11 @@ pub(crate) fn free_region(osc: &Oscillator, kind: RegionKind, frame: &Frame, opt
     }
     region
 }
+
+/// The number of cells along each side of the frame over numbers of a machine.
+const CELLS: u32 = 192;
+/// The number of halvings after which a bracket of any width has the width of a rounding error.
+const HALVINGS: u32 = 60;
 
 /// One parameter of the frame with its range.
 #[derive(Clone, Copy)]

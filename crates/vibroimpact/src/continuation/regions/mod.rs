@@ -21,5 +21,6 @@ mod sheet_walk;
 mod singular;
 
 pub use options::{RegionKind, RegionOptions};
+pub(crate) use outline::Outline;
 pub use polygon::{Bound, Polygon, Region, Vertex};
 pub use region::{region, region_while};

@@ -7,16 +7,12 @@
 
 use super::options::RegionOptions;
 use super::polygon::{Bound, Polygon, Vertex};
-use crate::continuation::curves::Frame;
+use crate::continuation::curves::{Ranges, scales};
 use crate::math::hypot;
 use std::collections::BTreeMap;
 
-/// The number of cells along each side of the frame.
-const CELLS: u32 = 192;
 /// The largest number of times that an edge is halved.
 const DEEPEST: u32 = 24;
-/// The number of halvings after which a bracket of any width has the width of a rounding error.
-const HALVINGS: u32 = 60;
 
 /// The edge of the set is looked for within half the length of a chord from its middle, first within this power of 1/2.
 const NEAR: u32 = 12;
@@ -24,31 +20,33 @@ const NEAR: u32 = 12;
 /// A side of a cell: from the corner `(i, j)` to the right, or upwards.
 type Side = (u32, u32, bool);
 
-/// The polygons around the points of the frame at which `holds` is true, with these points on their left.
-pub(super) fn outline(frame: &Frame, options: RegionOptions, holds: &dyn Fn((f64, f64)) -> bool) -> Vec<Polygon> {
-    Outline { frame, options, holds }.polygons()
-}
-
-struct Outline<'a> {
-    frame: &'a Frame,
-    options: RegionOptions,
-    holds: &'a dyn Fn((f64, f64)) -> bool,
+/// The search for the polygons around the points at which a condition holds.
+pub(crate) struct Outline<'a> {
+    pub(crate) ranges: &'a Ranges,
+    /// The number of cells along each side of the frame.
+    pub(crate) cells: u32,
+    /// How often the way from a point of the set to one outside is halved.
+    pub(crate) halvings: u32,
+    pub(crate) options: RegionOptions,
+    pub(crate) holds: &'a dyn Fn((f64, f64)) -> bool,
 }
 
 impl Outline<'_> {
-    /// The corner `(i, j)`: corners 1 to `CELLS + 1` are in the frame, 0 and `CELLS + 2` lie on it but count as outside.
+    /// The corner `(i, j)`: corners 1 to `cells + 1` are in the frame, 0 and `cells + 2` lie on it but count as outside.
     fn corner(&self, (i, j): (u32, u32)) -> (f64, f64) {
         let at = |range: &core::ops::RangeInclusive<f64>, k: u32| match k {
             0 | 1 => *range.start(),
-            k if k > CELLS => *range.end(),
-            k => range.start() + (range.end() - range.start()) * (f64::from(k - 1) / f64::from(CELLS)),
+            k if k > self.cells => *range.end(),
+            k => range.start() + (range.end() - range.start()) * (f64::from(k - 1) / f64::from(self.cells)),
         };
-        (at(&self.frame.ranges.0, i), at(&self.frame.ranges.1, j))
+        (at(&self.ranges.0, i), at(&self.ranges.1, j))
     }
 
-    fn polygons(&self) -> Vec<Polygon> {
-        let width = CELLS + 3;
-        let inside = |i: u32, j: u32| (1..=CELLS + 1).contains(&i) && (1..=CELLS + 1).contains(&j);
+    /// The polygons, with the set on their left. Of an edge that is not that of the frame nothing is known, and it is
+    /// [`Bound::Touch`].
+    pub(crate) fn polygons(&self) -> Vec<Polygon> {
+        let width = self.cells + 3;
+        let inside = |i: u32, j: u32| (1..=self.cells + 1).contains(&i) && (1..=self.cells + 1).contains(&j);
         let corners = (0..width * width).map(|k| (k % width, k / width));
         let holds: Vec<bool> = corners.map(|(i, j)| inside(i, j) && (self.holds)(self.corner((i, j)))).collect();
         let mut after = self.joined(&|(i, j)| holds[(j * width + i) as usize]);
@@ -72,7 +70,7 @@ impl Outline<'_> {
     /// For each side that the edge of the set crosses, the side that it crosses next, with the set on its left.
     fn joined(&self, holds: &dyn Fn((u32, u32)) -> bool) -> BTreeMap<Side, (Side, Bound)> {
         let mut after = BTreeMap::new();
-        for (i, j) in (0..=CELLS + 1).flat_map(|j| (0..=CELLS + 1).map(move |i| (i, j))) {
+        for (i, j) in (0..=self.cells + 1).flat_map(|j| (0..=self.cells + 1).map(move |i| (i, j))) {
             // counterclockwise, each corner with the side that follows it
             let corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
             let sides = [(i, j, false), (i + 1, j, true), (i, j + 1, false), (i, j, true)];
@@ -82,7 +80,7 @@ impl Outline<'_> {
             // of two opposite corners, one set if the centre belongs to it, otherwise two
             let ((x, y), (u, v)) = (self.corner(corners[0]), self.corner(corners[2]));
             let joins = leaves > 1 && (self.holds)((0.5 * (x + u), 0.5 * (y + v)));
-            let beyond = [i, j].into_iter().any(|k| k == 0 || k > CELLS);
+            let beyond = [i, j].into_iter().any(|k| k == 0 || k > self.cells);
             let bound = if beyond { Bound::Frame } else { Bound::Touch };
             for k in (0..4).filter(|&k| turns(k, true)) {
                 let way = |step: usize| if joins { (k + step) % 4 } else { (k + 4 - step) % 4 };
@@ -97,14 +95,14 @@ impl Outline<'_> {
     /// The point of a side at which the edge of the set crosses it.
     fn crossing(&self, (i, j, up): Side, holds: &[bool]) -> (f64, f64) {
         let (a, b) = ((i, j), if up { (i, j + 1) } else { (i + 1, j) });
-        let here = holds[(j * (CELLS + 3) + i) as usize];
+        let here = holds[(j * (self.cells + 3) + i) as usize];
         let (inside, outside) = if here { (a, b) } else { (b, a) };
         self.edge(self.corner(inside), self.corner(outside))
     }
 
     /// The last point of the set on the way from one of its points to one outside; on the frame both are the same point.
     fn edge(&self, mut inside: (f64, f64), mut outside: (f64, f64)) -> (f64, f64) {
-        for _ in 0..HALVINGS {
+        for _ in 0..self.halvings {
             let middle = middle(inside, outside);
             *(if (self.holds)(middle) { &mut inside } else { &mut outside }) = middle;
         }
@@ -113,7 +111,7 @@ impl Outline<'_> {
 
     /// Without repeated vertices, and without those between two corners of the frame.
     fn straightened(&self, vertices: Vec<Vertex>) -> Vec<Vertex> {
-        let ends = [&self.frame.ranges.0, &self.frame.ranges.1].map(|range| [*range.start(), *range.end()]);
+        let ends = [&self.ranges.0, &self.ranges.1].map(|range| [*range.start(), *range.end()]);
         let is_corner = |(x, y): (f64, f64)| ends[0].contains(&x) && ends[1].contains(&y);
         let mut kept: Vec<Vertex> = Vec::new();
         for vertex in vertices {
@@ -145,7 +143,7 @@ impl Outline<'_> {
 
     /// Adds points of the edge of the set between two of its points.
     fn between(&self, a: (f64, f64), b: (f64, f64), fine: &mut Vec<Vertex>, depth: u32) {
-        let scales = self.frame.scales();
+        let scales = scales(self.ranges);
         let (dx, dy) = ((b.0 - a.0) / scales.0, (b.1 - a.1) / scales.1);
         let (length, m) = (hypot(dx, dy), middle(a, b));
         // the set is on the left, so the edge is on the right of a point of the set
@@ -156,13 +154,17 @@ impl Outline<'_> {
         let found = if sign > 0.0 { self.edge(m, beyond) } else { self.edge(beyond, m) };
         let off = hypot((found.0 - m.0) / scales.0, (found.1 - m.1) / scales.1);
         let enough = length <= self.options.longest && off <= self.options.accuracy;
-        if enough || depth >= DEEPEST || fine.len() >= self.options.vertices as usize || !self.frame.holds(found) {
+        if enough || depth >= DEEPEST || fine.len() >= self.options.vertices as usize || !inside(self.ranges, found) {
             return;
         }
         self.between(a, found, fine, depth + 1);
         fine.push(Vertex { values: found, bound: Bound::Touch });
         self.between(found, b, fine, depth + 1);
     }
+}
+
+fn inside((across, up): &Ranges, (p, q): (f64, f64)) -> bool {
+    across.contains(&p) && up.contains(&q)
 }
 
 fn middle(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
@@ -172,11 +174,11 @@ fn middle(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::Parameter;
     use core::f64::consts::PI;
 
-    fn frame() -> Frame {
-        Frame { plane: (Parameter::Gap, Parameter::Damping).into(), ranges: (-1.0..=3.0, 0.0..=2.0) }
+    fn outline(holds: &dyn Fn((f64, f64)) -> bool) -> Vec<Polygon> {
+        let (ranges, options) = ((-1.0..=3.0, 0.0..=2.0), RegionOptions::default());
+        Outline { ranges: &ranges, cells: 192, halvings: 60, options, holds }.polygons()
     }
 
     fn area(polygons: &[Polygon]) -> f64 {
@@ -186,7 +188,7 @@ mod tests {
     #[test]
     fn a_ring_has_an_outline_with_a_hole() {
         let radius = |(x, y): (f64, f64)| hypot(x - 1.0, y - 1.0);
-        let ring = outline(&frame(), RegionOptions::default(), &|at| (0.3..=0.8).contains(&radius(at)));
+        let ring = outline(&|at| (0.3..=0.8).contains(&radius(at)));
         assert_eq!((ring.len(), ring.iter().filter(|polygon| polygon.hole).count()), (2, 1));
         assert!((area(&ring) - PI * (0.64 - 0.09)).abs() < 1e-3, "{}", area(&ring));
         let vertices = ring.iter().flat_map(|polygon| &polygon.vertices);
@@ -197,11 +199,11 @@ mod tests {
     #[test]
     fn the_frame_closes_an_outline() {
         // all of the frame, and what is left of an oblique line
-        let all = outline(&frame(), RegionOptions::default(), &|_| true);
+        let all = outline(&|_| true);
         assert_eq!((all.len(), all[0].vertices.len(), area(&all)), (1, 4, 8.0));
         assert!(all[0].vertices.iter().all(|vertex| vertex.bound == Bound::Frame));
-        assert!(outline(&frame(), RegionOptions::default(), &|_| false).is_empty());
-        let half = outline(&frame(), RegionOptions::default(), &|(x, y)| x + 0.3 * y < 1.0);
+        assert!(outline(&|_| false).is_empty());
+        let half = outline(&|(x, y)| x + 0.3 * y < 1.0);
         assert!((area(&half) - 3.4).abs() < 1e-12, "{}", area(&half));
         let frame = half[0].vertices.iter().filter(|vertex| vertex.bound == Bound::Frame).count();
         assert_eq!((half.len(), frame), (1, 3));
@@ -211,7 +213,7 @@ mod tests {
     #[test]
     fn sets_that_meet_in_a_point() {
         for sign in [1.0, -1.0] {
-            let found = outline(&frame(), RegionOptions::default(), &|(x, y)| sign * (x - 1.003) * (y - 0.997) > 0.0);
+            let found = outline(&|(x, y)| sign * (x - 1.003) * (y - 0.997) > 0.0);
             let exact = if sign > 0.0 { 1.997 * 1.003 + 2.003 * 0.997 } else { 1.997 * 0.997 + 2.003 * 1.003 };
             assert!((area(&found) - exact).abs() < 1e-3, "{} {exact}", area(&found));
         }

@@ -7,6 +7,8 @@ pub enum Bound {
     Fold,
     /// A multiplier is -1.
     Flip,
+    /// A pair of complex multipliers lies on the unit circle. An oscillator has no such edge.
+    Torus,
     /// The orbit merges with an orbit of half the period at a flip of that orbit, or with a symmetric orbit at its
     /// branch point.
     Merging,
@@ -14,6 +16,8 @@ pub enum Bound {
     NoSpeed,
     /// A flight grazes a stop.
     Touch,
+    /// The events of the motion change in another way, as where a rest or a hold begins. An oscillator has no such edge.
+    Change,
     /// The edge of the frame.
     Frame,
 }
@@ -25,9 +29,11 @@ impl Bound {
         match self {
             Self::Fold => "fold",
             Self::Flip => "flip",
+            Self::Torus => "torus",
             Self::Merging => "merging",
             Self::NoSpeed => "no speed",
             Self::Touch => "touch",
+            Self::Change => "change",
             Self::Frame => "frame",
         }
     }

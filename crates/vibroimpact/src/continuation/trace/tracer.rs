@@ -288,19 +288,14 @@ impl<P: Problem> Tracer<P> {
         root::between(f, (0.0, at_here), (step.length, step.there.values[j]), resolution)
     }
 
-    /// The crossings of these test functions before the solution `inside`, at the distance `length` along a step, that are
-    /// not in `crossed`. Towards a grazing impact a multiplier grows without limit, and beyond it comes back from the
-    /// other side, so its test functions have the same signs at both ends of the step.
-    pub(crate) fn hidden(
-        &self,
-        tests: &[usize],
-        crossed: &[Crossing],
-        (length, inside): (f64, &Solution<P::Known>),
-    ) -> Vec<Crossing> {
-        let part = Step { there: inside.clone(), length, on_end: false, crossed: Vec::new(), growth: 1.0 };
-        let missing = |j: &usize| !crossed.iter().any(|(_, what)| *what == Some(*j));
-        let changed = self.changed(inside).into_iter().filter(|j| tests.contains(j)).filter(missing);
-        changed.filter_map(|j| Some((self.zero(j, &part, self.problem.resolution(j))?, Some(j)))).collect()
+    /// The part of a step up to the distance `s` along it, with the crossings on that part: a test function that changes sign
+    /// twice on the step can do so once there.
+    pub(crate) fn part(&self, step: &Step<P::Known>, s: f64) -> Option<Step<P::Known>> {
+        let there = self.at(step, s)?;
+        let changed = self.changed(&there);
+        let mut part = Step { there, length: s, on_end: false, crossed: Vec::new(), growth: 1.0 };
+        part.crossed = self.crossings(&part, changed)?;
+        Some(part)
     }
 
     /// The distance of the solution `w` from the current solution, along the tangent.

@@ -42,5 +42,5 @@ pub(crate) use frame::MachineFrame;
 pub(crate) use lap::MachineLap;
 pub(crate) use of_motion::events_of;
 pub(crate) use reduced::flying;
-pub(crate) use ring::{MachineRing, RingEvent};
+pub(crate) use ring::{MachineBlock, MachineRing, RingEvent};
 pub(crate) use rounding::rounding_decides;

@@ -12,35 +12,44 @@ use super::closest::closest;
 use super::equations::MachineEquations;
 use super::problem::{MachineProblem, MachineSolution};
 use super::summed::same_in_turn;
-use super::touch::speed_before;
+use super::test_functions::TestFunction;
 use crate::continuation::branches::BranchOptions;
 use crate::continuation::trace::equations::{Equations, correct, tangent, unit};
 use crate::continuation::trace::tracer::{Tracer, last};
 use crate::events::Place;
 use crate::machine::{Machine, Opening, StopLaw};
+use crate::math::sort_by;
 use crate::orbit::{Chatter, MachineCycle, MachineFrame, MachineRing, RingEvent};
 use crate::regime::{ContactState, GuardKind};
 
-/// The tracer on the other side of a change at `at`; `None` if no cycle is found there.
-pub(super) fn beyond(
+/// The tracer beyond a point where these test functions of gaps are zero; `None` if none is found.
+pub(super) fn through_grazing(
     tracer: &Tracer<MachineProblem>,
     at: &MachineSolution,
-    found: &Difference,
+    zeros: &[TestFunction],
     options: &BranchOptions,
 ) -> Option<Tracer<MachineProblem>> {
     let (machine, ring) = tracer.problem.equations.split(&at.w)?;
     let rebounds =
         |stop: usize| !matches!(machine.stops()[stop].law, StopLaw::Rigid { restitution } if restitution == 0.0);
-    let through_grazing = match *found {
-        Difference::Appears { at: before, stop } if rebounds(stop) => {
-            appearing(tracer, at, (&machine, &ring), (before, stop), options)
+    let (mut gone, mut new): (Vec<usize>, Vec<(usize, usize)>) = Default::default();
+    for zero in zeros {
+        match *zero {
+            TestFunction::Rate(k) if matches!(ring.events[k].guard, GuardKind::Gap(stop) if rebounds(stop)) => {
+                gone.push(k);
+            }
+            TestFunction::Clearance(leg, GuardKind::Gap(stop)) if rebounds(stop) => new.push((leg, stop)),
+            _ => {}
         }
-        Difference::Disappears { at: gone, stop } if rebounds(stop) && ring.len() > 1 => {
-            disappearing(tracer, at, (&machine, &ring), gone, options)
-        }
-        _ => None,
-    };
-    through_grazing.or_else(|| replayed(tracer, at, (options, found)))
+    }
+    // a flight that grazes where an impact disappears belongs to another part of the cycle
+    if !gone.is_empty() {
+        disappearing(tracer, at, (&machine, &ring), gone, options)
+    } else if !new.is_empty() {
+        appearing(tracer, at, (&machine, &ring), &new, options)
+    } else {
+        None
+    }
 }
 
 /// The problem with another ring at the same machine.
@@ -51,119 +60,119 @@ pub(super) fn with_ring(
     sizes: (f64, f64),
 ) -> MachineProblem {
     let old = &tracer.problem;
-    let ring = ring.centred(&MachineFrame::new(machine).normal.translations);
+    let frame = MachineFrame::new(machine);
+    let ring = ring.centred(&frame.normal.translations);
     let equations = MachineEquations::new((machine, old.equations.family.clone()), ring, sizes, old.equations.scales);
-    MachineProblem { equations, range: old.range }
+    MachineProblem::new(&frame, equations, old.range, sizes)
 }
 
-/// Lengths of the first step beyond a grazing contact, at which the derivative does not exist. The shortest that works is
-/// taken, because a multiplier that is without limit at the contact can pass -1 and 1 close to it, and the curve can turn.
-const STEPS: [f64; 5] = [1e-6, 1e-5, 1e-4, 5e-4, 2e-3];
-/// The smallest cosine of the angle by which the curve turns on this step.
-const BEND: f64 = 0.9;
+/// Lengths of the first step beyond a grazing contact. It is short, because a multiplier that is infinite there can pass -1 and 1
+/// close by; the second one is taken where the replay cannot tell an impact of so low a speed from a touch.
+const AHEAD: [f64; 2] = [1e-6, 1e-5];
 
-/// The first admissible solution in one of these directions.
+/// The solution a first step away in a direction, if it is admissible.
 fn first_step(
     problem: &MachineProblem,
     w: &[f64],
-    directions: &[Vec<f64>],
+    along: &[f64],
     options: &BranchOptions,
 ) -> Option<Tracer<MachineProblem>> {
-    for h in STEPS {
-        for along in directions {
-            let guess: Vec<f64> = w.iter().zip(along).map(|(w, t)| w + h * t).collect();
-            let row = problem.equations.row(along);
-            let level = problem.equations.dot(along, w) + h;
-            let Some((next, _)) = correct(&problem.equations, &guess, &row, level) else { continue };
-            let Some(next_along) = tangent(&problem.equations, &next, &row) else { continue };
-            if problem.equations.dot(&next_along, along) < BEND {
-                continue;
-            }
-            if let Some(tracer) = traced(problem.clone(), next, next_along, *options)
-                && tracer.here.known.physical()
-            {
-                return Some(tracer);
-            }
-        }
-    }
-    None
+    let row = problem.equations.row(along);
+    AHEAD.into_iter().find_map(|ahead| {
+        let guess: Vec<f64> = w.iter().zip(along).map(|(w, t)| w + ahead * t).collect();
+        let level = problem.equations.dot(along, w) + ahead;
+        let (next, _) = correct(&problem.equations, &guess, &row, level)?;
+        let along = tangent(&problem.equations, &next, &row)?;
+        traced(problem.clone(), next, along, *options).filter(|tracer| tracer.here.known.physical())
+    })
 }
 
 /// The phase of a contact that lasts for no time, to rounding: its equation is divided by its duration.
 const INSTANT: f64 = 1e-6;
 
-/// With a new impact of speed zero, or a contact that lasts for no time, before event `before`.
+/// With a new impact of speed zero, or a contact that lasts for no time, on each of these flights with these stops.
 fn appearing(
     tracer: &Tracer<MachineProblem>,
     at: &MachineSolution,
     (machine, ring): (&Machine, &MachineRing),
-    (before, stop): (usize, usize),
+    flights: &[(usize, usize)],
     options: &BranchOptions,
 ) -> Option<Tracer<MachineProblem>> {
     let frame = MachineFrame::new(machine);
-    let m = ring.len();
-    let leg = (before + m - 1) % m;
-    let (_, place) = closest(&frame, ring, (leg, GuardKind::Gap(stop)))?;
-    let back: Vec<bool> = place.surfaces.iter().map(Option::is_some).collect();
-    let mut next = ring.clone();
-    let index = leg + 1;
-    let open = place.states.clone();
-    if let StopLaw::Compliant { opening, damping, preload, .. } = machine.stops()[stop].law {
-        let by_position = opening == Opening::Position || damping == 0.0 || preload > 0.0 && !back[stop];
-        let mut closed = Place { known: Vec::new(), gaps: Vec::new(), ..place.clone() };
-        closed.states[stop] = ContactState::Closed;
-        closed.surfaces[stop] = None;
-        let mut end = frame.moved(&closed, &frame.structure(&closed.states)?, INSTANT / ring.frequency(machine));
-        end.phase = closed.phase + INSTANT;
-        end.states.clone_from(&open);
-        let guard = if by_position { GuardKind::Depth(stop) } else { GuardKind::Force(stop) };
-        next.insert(index, RingEvent::touch(guard, &open, back.clone()), end);
-        next.insert(index, RingEvent::touch(GuardKind::Gap(stop), &closed.states, back), closed);
-        next.set_surface(&frame, stop)?;
-    } else {
-        let event = RingEvent::touch(GuardKind::Gap(stop), &open, back);
-        next.insert(index, RingEvent { pushed: vec![(stop, false)], ..event }, place);
+    let mut new: Vec<(usize, usize, Place)> = Vec::new();
+    for (leg, stop) in flights {
+        new.push((*leg, *stop, closest(&frame, ring, (*leg, GuardKind::Gap(*stop)))?.1));
     }
-    let contact = next.contact(index).is_some();
+    // from the last to the first, so that the places of earlier events stay valid
+    sort_by(&mut new, |a, b| b.2.phase.total_cmp(&a.2.phase));
+    let mut next = ring.clone();
+    for (leg, stop, place) in &new {
+        insert_contact(&frame, &mut next, (leg + 1, *stop), place)?;
+    }
+    for (_, stop, _) in &new {
+        next.set_surface(&frame, *stop)?;
+    }
     let sizes = at.known.cycle.as_ref()?.sizes;
     let problem = with_ring(tracer, machine, next, sizes);
-    let w = MachineEquations::join(machine, &problem.equations.ring, [last(&at.w)]);
+    let ring = &problem.equations.ring;
+    let w = MachineEquations::join(machine, ring, [last(&at.w)]);
     let width = frame.shape.size() + 1;
     let mut row = vec![0.0; w.len()];
-    if contact {
-        // towards a longer contact
-        row[index * width] = -1.0;
-        row[(index + 1) * width] = 1.0;
-    } else {
-        // towards a larger velocity away from the stop
-        for (i, direction) in frame.normal.directions[stop].iter().enumerate() {
-            row[index * width + 1 + machine.n() + i] = -direction;
+    for (_, stop, place) in &new {
+        let index = (0..ring.len()).find(|k| ring.places[*k].phase == place.phase)?;
+        if ring.contact(index).is_some() {
+            // towards a longer contact
+            row[index * width] -= 1.0;
+            row[(index + 1) * width] += 1.0;
+        } else {
+            // towards a larger velocity away from the stop
+            for (i, direction) in frame.normal.directions[*stop].iter().enumerate() {
+                row[index * width + 1 + machine.n() + i] -= direction;
+            }
         }
     }
     let along = tangent(&problem.equations, &w, &row)?;
-    first_step(&problem, &w, &[along], options)
+    first_step(&problem, &w, &along, options)
 }
 
-/// Impacts of lower speeds, relative to the largest velocity, have speed zero where another one has.
-const AT_ONCE: f64 = 1e-9;
+/// Inserts an impact of speed zero, or a contact that lasts for no time, as event `index` at a state on the flight before.
+fn insert_contact(
+    frame: &MachineFrame<'_>,
+    ring: &mut MachineRing,
+    (index, stop): (usize, usize),
+    place: &Place,
+) -> Option<()> {
+    let (machine, open) = (frame.machine, &place.states);
+    let back: Vec<bool> = place.surfaces.iter().map(Option::is_some).collect();
+    let StopLaw::Compliant { opening, damping, preload, .. } = machine.stops()[stop].law else {
+        let event = RingEvent::touch(GuardKind::Gap(stop), open, back);
+        ring.insert(index, RingEvent { pushed: vec![(stop, false)], ..event }, place.clone());
+        return Some(());
+    };
+    let by_position = opening == Opening::Position || damping == 0.0 || preload > 0.0 && !back[stop];
+    let mut closed = Place { known: Vec::new(), gaps: Vec::new(), ..place.clone() };
+    closed.states[stop] = ContactState::Closed;
+    closed.surfaces[stop] = None;
+    let mut end = frame.moved(&closed, &frame.structure(&closed.states)?, INSTANT / ring.frequency(machine));
+    end.phase = closed.phase + INSTANT;
+    end.states.clone_from(open);
+    let guard = if by_position { GuardKind::Depth(stop) } else { GuardKind::Force(stop) };
+    ring.insert(index, RingEvent::touch(guard, open, back.clone()), end);
+    ring.insert(index, RingEvent::touch(GuardKind::Gap(stop), &closed.states, back), closed);
+    Some(())
+}
 
-/// Without the impact or the contact `gone`, whose speed is zero. What is left can be several times a shorter cycle.
+/// Without the impacts or contacts `gone`, whose speed is zero. What is left can be several times a shorter cycle.
 fn disappearing(
     tracer: &Tracer<MachineProblem>,
     at: &MachineSolution,
     (machine, ring): (&Machine, &MachineRing),
-    gone: usize,
+    mut gone: Vec<usize>,
     options: &BranchOptions,
 ) -> Option<Tracer<MachineProblem>> {
     let sizes = at.known.cycle.as_ref()?.sizes;
     let frame = MachineFrame::new(machine);
-    // all that graze at once, as in the equal parts of a cycle
-    let grazes = |k: usize| match ring.events[k].guard {
-        GuardKind::Gap(stop) => speed_before(&frame, ring, k, stop).abs() <= AT_ONCE * sizes.1,
-        _ => false,
-    };
     let m = ring.len();
-    let mut gone: Vec<usize> = (0..m).filter(|k| *k == gone || grazes(*k)).collect();
     let stops: Vec<usize> = gone.iter().filter_map(|k| ring.contact(*k)).collect();
     let openings: Vec<usize> = gone.iter().filter(|k| ring.contact(**k).is_some()).map(|k| (k + 1) % m).collect();
     gone.extend(openings);
@@ -182,7 +191,7 @@ fn disappearing(
     let row = unit(w.len(), w.len() - 1, forward(at));
     let along = tangent(&problem.equations, &w, &row)?;
     let back: Vec<f64> = along.iter().map(|t| -t).collect();
-    first_step(&problem, &w, &[along, back], options)
+    [along, back].iter().find_map(|along| first_step(&problem, &w, along, options))
 }
 
 /// How far beyond a change the motion is followed, in the scale of the number: little, so that no other event lies between.

@@ -1,19 +1,20 @@
 //! The branch of a cycle of a machine in one of its numbers.
 
 use super::beginning::begun;
-use super::beyond::{across, beyond, replayed, same_beyond, with_ring};
+use super::beyond::{across, replayed, same_beyond, through_grazing, with_ring};
 use super::change::Difference;
 use super::complete_chatter::{ADAPTED, CompleteChatter};
 use super::equations::MachineEquations;
+use super::explained::explained;
 use super::family::MachineFamily;
 use super::meeting::meeting;
 use super::point::{MachineBranchEvent, MachinePoint};
 use super::problem::{Judged, MachineProblem, MachineSolution};
+use super::test_functions::TestFunction;
 use crate::continuation::branches::{BranchError, BranchOptions, Direction, scale};
 use crate::continuation::trace::driver::{Driver, Path, PathEvent};
 use crate::continuation::trace::tracer::{Step, Tracer, last};
 use crate::orbit::{Chatter, MachineCycle, MachineFrame, MachineRing};
-use crate::regime::GuardKind;
 use core::ops::RangeInclusive;
 
 /// A branch by the equations of the machine.
@@ -55,7 +56,8 @@ impl Path for EventPath {
     /// At an event rounding can make a solution inadmissible: the cycle of the last point stands for it.
     fn point(branch: &EventBranch, at: &MachineSolution, event: Option<MachineBranchEvent>) -> Option<MachinePoint> {
         let cycle = at.known.cycle.clone().or_else(|| branch.tracer.here.known.cycle.clone())?;
-        Some(MachinePoint { value: last(&at.w), cycle, event })
+        let ring = event.and_then(|_| Some(branch.tracer.problem.equations.split(&at.w)?.1));
+        Some(MachinePoint { value: last(&at.w), cycle, event, ring })
     }
 
     fn go_through(branch: &mut EventBranch, step: Step<Judged>) {
@@ -93,10 +95,11 @@ impl UnreducedBranch {
         let begin = || {
             let machine = &family.at(value)?;
             let times = (cycle.label.periods, cycle.period);
-            let ring = MachineRing::of(&MachineFrame::new(machine), cycle.strobes.first()?, times)?;
+            let frame = MachineFrame::new(machine);
+            let ring = MachineRing::of(&frame, cycle.strobes.first()?, times)?;
             let w = MachineEquations::join(machine, &ring, [value]);
             let equations = MachineEquations::new((machine, family.clone()), ring, cycle.sizes, [scale]);
-            let problem = MachineProblem { equations, range: (*range.start(), *range.end()) };
+            let problem = MachineProblem::new(&frame, equations, (*range.start(), *range.end()), cycle.sizes);
             let up = if direction == Direction::Up { 1.0 } else { -1.0 };
             let tracer = begun(problem, &w, value, up, options)?;
             Driver::new(EventPath { options, passed: Vec::new() }, tracer, options.points)
@@ -121,8 +124,18 @@ impl EventBranch {
         (single && self.tracer.problem.equations.ring.len() <= 2).then_some(stop)
     }
 
-    /// Reports the change of the events at `at` and goes on with the events beyond.
-    pub(super) fn pass(&mut self, at: &MachineSolution, found: &Difference) {
+    /// Reports that these test functions are zero at `at` and goes on with the events beyond.
+    pub(super) fn graze(&mut self, at: &MachineSolution, zeros: &[TestFunction]) {
+        let ring = &self.tracer.problem.equations.ring;
+        let rate = zeros.iter().find(|zero| matches!(zero, TestFunction::Rate(_)));
+        let zero = rate.or(zeros.first()).and_then(|zero| zero.difference(ring));
+        let found = zero.unwrap_or(Difference::Other { place: None });
+        let next = through_grazing(&self.tracer, at, zeros, &self.path.options);
+        self.pass(at, &found, next);
+    }
+
+    /// Reports the change of the events at `at` and goes on with the events beyond: with `next`, if that is known.
+    pub(super) fn pass(&mut self, at: &MachineSolution, found: &Difference, next: Option<Tracer<MachineProblem>>) {
         if let Some(stop) = self.lost(at, found) {
             return self.end(at, MachineBranchEvent::LossOfContact { stop });
         }
@@ -132,7 +145,7 @@ impl EventBranch {
         {
             return self.exchange(next);
         }
-        let Some(next) = beyond(&self.tracer, at, found, &self.path.options) else {
+        let Some(next) = next.or_else(|| replayed(&self.tracer, at, (&self.path.options, found))) else {
             let next = across(&self.tracer, at, &self.path.options);
             return self.jump(at, found, next);
         };
@@ -146,8 +159,6 @@ impl EventBranch {
             {
                 MachineBranchEvent::Change { place: Some(place) }
             }
-            Difference::Other { .. } => opened(ring, other)
-                .map_or(found.event(turns), |(stop, appears)| MachineBranchEvent::Grazing { stop, appears, turns }),
             _ => found.event(turns),
         };
         let complete = (0..ring.events.first().map_or(0, |event| event.back.len())).find_map(|stop| {
@@ -203,6 +214,9 @@ impl EventBranch {
         event: MachineBranchEvent,
         (next, landing): (Tracer<MachineProblem>, Option<MachineBranchEvent>),
     ) {
+        let turns = last(&next.here.tangent) * last(&at.tangent) < 0.0;
+        let rings = self.tracer.problem.equations.split(&at.w).zip(next.problem.equations.split(&next.here.w));
+        let event = rings.map_or(event, |((_, ring), (_, other))| explained(event, (&ring, &other), turns));
         let now = Passed { number: last(&at.w), unknowns: at.w.len(), rises: last(&at.tangent) > 0.0, event };
         let near = 1e-9 * self.tracer.problem.equations.scales[0];
         let same = |other: &Passed| {
@@ -217,22 +231,4 @@ impl EventBranch {
         self.exchange(next);
         self.add(&self.tracer.here.clone(), landing);
     }
-}
-
-/// The stop, if the only difference of two signatures is that a closed stop opens and closes again in one of them, and whether it does
-/// in the second one. At the event between both it only loses its force.
-fn opened(ring: &MachineRing, other: &MachineRing) -> Option<(usize, bool)> {
-    let guards = |ring: &MachineRing| ring.events.iter().map(|event| event.guard).collect::<Vec<_>>();
-    let (few, many) = (guards(ring), guards(other));
-    let (appears, few, many) = if few.len() < many.len() { (true, few, many) } else { (false, many, few) };
-    let m = many.len();
-    if few.len() + 2 != m {
-        return None;
-    }
-    (0..m).find_map(|k| {
-        let (GuardKind::Depth(stop) | GuardKind::Force(stop)) = many[k] else { return None };
-        let rest: Vec<GuardKind> = (2..m).map(|i| many[(k + i) % m]).collect();
-        let same = (0..few.len()).any(|shift| (0..few.len()).all(|i| few[(i + shift) % few.len()] == rest[i]));
-        (many[(k + 1) % m] == GuardKind::Gap(stop) && same).then_some((stop, appears))
-    })
 }

@@ -1,14 +1,19 @@
 //! Where a flight of a cycle comes closest to a guard: to a stop, to the velocity of a belt, or to the limit of a reaction.
 
-use crate::events::{EventLaw, Place};
+use crate::arc::Modes;
+use crate::continuation::trace::root;
+use crate::events::Place;
+use crate::math::sort_by;
 use crate::orbit::{MachineFrame, MachineRing};
 use crate::regime::GuardKind;
 
-/// The number of equal parts of a flight in which one minimum of the guard is looked for. The first is divided further, each
-/// part shorter than the next, because after an impact of a chatter the stop is close by soon.
-const PARTS: u32 = 400;
-const EARLY: usize = 60;
-const SHORTER: f64 = 1.25;
+/// The number of equal parts of a flight, in each of which one minimum of the guard is looked for: so many for a radian of
+/// the fastest mode, within limits. The first part is divided further, each shorter than the next, because after an impact of a
+/// chatter the stop is close by soon.
+const PARTS: f64 = 4.0;
+const LIMITS: (f64, f64) = (16.0, 400.0);
+const EARLY: usize = 40;
+const SHORTER: f64 = 1.4;
 
 /// The smallest of the minima of a guard on the flight after event `leg`, and the state there, with a phase that continues
 /// those of the ring. The gap of a stop whose surface stands back is that of the surface. `None` if the guard has no
@@ -18,39 +23,76 @@ pub(crate) fn closest(
     ring: &MachineRing,
     (leg, kind): (usize, GuardKind),
 ) -> Option<(f64, Place)> {
-    let mut from = ring.place(leg);
+    let mut from = Place { known: Vec::new(), ..ring.place(leg) };
     frame.constrain(&mut from)?;
     let structure = frame.structure(&from.states)?;
     let guard = structure.guards.iter().position(|guard| guard.kind == kind)?;
-    let law = EventLaw { structure: &structure, guards: &[guard], pushed: &[], rounds: &[] };
-    let time = ring.time(leg, frame.machine);
+    let flight = from.flight(&frame.normal, structure.clone());
     let at = |s: f64| {
-        let place = frame.moved(&from, &structure, s);
-        let (value, rate) = law.value_and_rate(&frame.normal, &place);
-        (value, rate, place)
+        let mut modes = Modes::default();
+        flight.at(s, &mut modes);
+        let (value, rate, _) = flight.guard(guard, &modes);
+        (value, rate)
     };
-    let part = time / f64::from(PARTS);
+    let time = ring.time(leg, frame.machine);
+    if time <= 0.0 {
+        return None;
+    }
+    let fastest = structure.fastest().max(structure.rates.last().copied().unwrap_or(0.0));
+    let parts = (PARTS * time * fastest).clamp(LIMITS.0, LIMITS.1).ceil();
+    let part = time / parts;
     let mut early: Vec<f64> = core::iter::successors(Some(part), |s| Some(s / SHORTER)).take(EARLY).collect();
     early.reverse();
-    let times = core::iter::once(0.0).chain(early).chain((2..=PARTS).map(|k| part * f64::from(k)));
-    let steps: Vec<(f64, f64)> = times.map(|s| (s, at(s).1)).collect();
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // within the limits
+    let later = (2..=parts as u32).map(|k| part * f64::from(k));
+    let mut steps: Vec<(f64, f64)> = core::iter::once(0.0).chain(early).chain(later).map(|s| (s, at(s).1)).collect();
+    // a guard that falls, rises for a short time and falls on turns twice between two of these times
+    let rate = |s: f64| at(s).1;
+    let risen: Vec<(f64, f64)> = steps.windows(3).filter_map(|three| rise(three, rate)).collect();
+    if !risen.is_empty() {
+        steps.extend(risen);
+        sort_by(&mut steps, |a, b| a.0.total_cmp(&b.0));
+    }
     // at an event of the same contact, or in contact with a surface that stands back, the guard begins at zero
     let stops = frame.machine.stops().len();
     let own = kind.place(stops);
     let standing = own < stops && from.surfaces[own].is_some();
     let begun = usize::from(standing || ring.events[leg].guard.place(stops) == own);
-    let turning = steps.windows(2).skip(begun).filter(|pair| pair[0].1 < 0.0 && pair[1].1 >= 0.0);
-    let lowest = turning
-        .map(|pair| {
-            let (mut low, mut high) = (pair[0].0, pair[1].0);
-            for _ in 0..60 {
-                let middle = 0.5 * (low + high);
-                if at(middle).1 < 0.0 { low = middle } else { high = middle }
-            }
-            0.5 * (low + high)
-        })
-        .min_by(|a, b| at(*a).0.total_cmp(&at(*b).0))?;
-    let (value, _, mut place) = at(lowest);
-    place.phase = ring.theta(leg) + ring.frequency(frame.machine) * lowest;
+    // a guard that begins at zero and falls at once ends the flight before, and one that rises to zero does not end this one:
+    // there the guard does not turn
+    let from_zero = begun > 0 && matches!(kind, GuardKind::Gap(_) | GuardKind::Depth(_) | GuardKind::Sliding(_));
+    let falls = steps.iter().skip(begun).take_while(|step| from_zero && step.1 < 0.0).count();
+    let ends = ring.events[(leg + 1) % ring.len()].guard == kind;
+    let rises = steps.iter().rev().take_while(|step| ends && step.1 >= 0.0).count();
+    let inner = steps.get(begun + falls..steps.len() - rises).unwrap_or_default();
+    let turning = inner.windows(2).filter(|pair| pair[0].1 < 0.0 && pair[1].1 >= 0.0);
+    let minima = turning.filter_map(|pair| root::between(|s| Some(at(s).1), pair[0], pair[1], f64::EPSILON * time));
+    let lowest = minima.map(|s| (at(s).0, s)).min_by(|a, b| a.0.total_cmp(&b.0));
+    let (value, s) = lowest?;
+    let mut place = frame.moved(&from, &structure, s);
+    place.phase = ring.theta(leg) + ring.frequency(frame.machine) * s;
     Some((value, place))
+}
+
+/// The largest rate of a falling guard is looked for where a parabola through three of its rates comes closer to zero than this part
+/// of the middle one, in so many steps.
+const CLOSE: f64 = 0.3;
+const STEPS: u32 = 30;
+
+/// A time between three times at which a guard rises, with its rate there, if it falls at all three.
+fn rise(three: &[(f64, f64)], rate: impl Fn(f64) -> f64) -> Option<(f64, f64)> {
+    let &[(mut low, a), (_, b), (mut high, c)] = three else { return None };
+    let bent = 2.0 * b - a - c;
+    if a >= 0.0 || b >= 0.0 || c >= 0.0 || b < a || b < c || b + (c - a) * (c - a) / (8.0 * bent) < CLOSE * b {
+        return None;
+    }
+    for _ in 0..STEPS {
+        let (one, two) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
+        let (at_one, at_two) = (rate(one), rate(two));
+        if at_one >= 0.0 || at_two >= 0.0 {
+            return Some(if at_one >= 0.0 { (one, at_one) } else { (two, at_two) });
+        }
+        if at_one < at_two { low = one } else { high = two }
+    }
+    None
 }

@@ -22,7 +22,7 @@ pub(super) fn halved(problem: &MachineProblem, here: &MachineSolution, w: &[f64]
 /// The unknowns and the cycle where the half of `ring` has its flip, near this value of the number. The equations of the
 /// whole cycle are singular there, so its half is solved for.
 fn flip_of_half(
-    MachineProblem { equations, range }: &MachineProblem,
+    MachineProblem { equations, range, .. }: &MachineProblem,
     (machine, ring): (&Machine, MachineRing),
     sizes: (f64, f64),
     value: f64,
@@ -30,7 +30,7 @@ fn flip_of_half(
     let half = ring.half();
     let guess = MachineEquations::join(machine, &half, [value]);
     let equations = MachineEquations::new((machine, equations.family.clone()), half, sizes, equations.scales);
-    let once = MachineProblem { equations, range: *range };
+    let once = MachineProblem::new(&MachineFrame::new(machine), equations, *range, sizes);
     let solved = secant::zero(&once.equations, &guess, |w| once.test(MINUS_ONE, w, || None))?;
     let (machine, half) = once.equations.split(&solved)?;
     let (ring, cycle) = repeated(&MachineFrame::new(&machine), &half)?;

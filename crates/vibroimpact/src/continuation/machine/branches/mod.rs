@@ -4,12 +4,14 @@
 //! |---|---|
 //! | a machine as a function of numbers | [`MachineFamily`] |
 //! | the equations of all events, with one or two numbers of the machine among the unknowns | `equations` |
-//! | the problem that the tracer solves: test functions, admissible solutions | `problem` |
+//! | the test functions of events | `test_functions` |
+//! | the problem that the tracer solves, admissible solutions | `problem` |
 //! | a point of a branch, and its events | [`MachinePoint`], [`MachineBranchEvent`] |
 //! | where a tracer begins | `beginning` |
 //! | how the events of a motion differ from those of a signature | `change` |
+//! | the event that explains how the cycles before and beyond differ | `explained` |
 //! | where the solutions along a step cease to be admissible | `edge` |
-//! | where a flight comes closest to a stop or another guard, and where a cycle grazes it | `closest`, `touch` |
+//! | where a flight comes closest to a stop or another guard | `closest` |
 //! | where a rest on a stop, or the hold of a joint, begins or ends | `rest` |
 //! | a signature without flights that take no time where a rest begins or ends | `joined` |
 //! | the solution at which a rest begins or ends, to rounding | `at_rest` |
@@ -30,6 +32,7 @@ mod closest;
 mod complete_chatter;
 mod edge;
 mod equations;
+mod explained;
 mod family;
 mod halving;
 mod joined;
@@ -41,7 +44,7 @@ mod rest;
 mod step;
 mod summed;
 mod switch;
-mod touch;
+mod test_functions;
 
 pub(crate) use branch::UnreducedBranch;
 pub(crate) use change::{Difference, difference};

@@ -1,9 +1,10 @@
 //! A point of a branch of a machine, and the events that are possible there.
 
-use crate::orbit::MachineCycle;
+use crate::orbit::{MachineCycle, MachineRing};
 
 /// A point of a branch.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct MachinePoint {
     /// Value of the number that varies.
     pub value: f64,
@@ -11,6 +12,9 @@ pub struct MachinePoint {
     pub cycle: MachineCycle,
     /// The event at this point; `None` for an ordinary point.
     pub event: Option<MachineBranchEvent>,
+    /// At an event the solution there, to rounding: a curve begins with it. Following the motion of `cycle` instead can miss a stop
+    /// that it only touches.
+    pub(crate) ring: Option<MachineRing>,
 }
 
 /// An event at a point of a branch. Stops and joints are given by their place: joints are counted after the stops.

@@ -3,16 +3,20 @@
 
 use super::equations::MachineEquations;
 use super::matched::matched;
+use super::test_functions::{TestFunction, clearance, pole_sign, rate};
 use crate::continuation::branches::{COARSE, RULES};
 use crate::continuation::trace::tracer::{Problem, Solution, StepRules};
 use crate::math::{Lu, Matrix, Multiplier, general_eigenvalues};
-use crate::orbit::{MachineCycle, MachineFrame, MachineLap, MachineRing, RingEvent, events_of};
+use crate::orbit::{MachineBlock, MachineCycle, MachineFrame, MachineLap, MachineRing, RingEvent, events_of};
 
-/// The equations of a branch with the range of the number.
+/// The equations of a branch with the range of the number, and the test functions of its events.
 #[derive(Clone, Debug)]
 pub(crate) struct MachineProblem {
     pub(crate) equations: MachineEquations,
+    pub(crate) tests: Vec<TestFunction>,
     pub(crate) range: (f64, f64),
+    /// The largest coordinates and velocities.
+    sizes: (f64, f64),
 }
 
 /// What is known of a solution apart from its unknowns.
@@ -37,7 +41,7 @@ impl Judged {
 /// A solution on a branch.
 pub(crate) type MachineSolution = Solution<Judged>;
 
-/// The test functions, by place.
+/// The test functions of bifurcations, by place.
 pub(crate) const PACE: usize = 0;
 pub(crate) const PLUS_ONE: usize = 1;
 pub(crate) const MINUS_ONE: usize = 2;
@@ -76,24 +80,36 @@ pub(crate) fn over_pairs(multipliers: &[Multiplier], rounding: f64) -> f64 {
 }
 
 impl MachineProblem {
-    /// The values of all test functions, the multipliers, and an event whose guard does not fall; `None` where an event is only a touch.
-    fn values(
-        &self,
+    /// The problem of these equations; `sizes` are the largest coordinates and velocities.
+    pub(crate) fn new(
+        frame: &MachineFrame<'_>,
+        equations: MachineEquations,
+        range: (f64, f64),
+        sizes: (f64, f64),
+    ) -> Self {
+        let tests = TestFunction::all(frame, &equations.ring);
+        Self { equations, tests, range, sizes }
+    }
+
+    /// The values of the test functions of bifurcations without the first, and the multipliers; `None` where an event is only a touch.
+    fn bifurcations(
         frame: &MachineFrame<'_>,
         ring: &MachineRing,
-        tangent: &[f64],
-    ) -> Option<(Vec<f64>, Vec<Multiplier>, Option<usize>)> {
-        let blocks = ring.blocks(frame)?;
-        // every guard must fall to zero at its event
-        let rising = blocks.iter().position(|block| block.late[0] >= 0.0).map(|k| (k + 1) % ring.len());
-        let turn = ring.monodromy(frame, &blocks)?;
+        blocks: &[MachineBlock],
+    ) -> Option<([f64; 3], Vec<Multiplier>)> {
+        let turn = ring.monodromy(frame, blocks)?;
         let mut multipliers = general_eigenvalues(&turn)?;
         let even = if turn.rows().is_multiple_of(2) { 1.0 } else { -1.0 };
         let torus = over_pairs(&multipliers, ring.rounding(frame, &turn));
-        let pace = tangent.last().map_or(0.0, |last| last / self.equations.scales[0]);
-        let values = vec![pace, even * shifted_determinant(&turn, -1.0), shifted_determinant(&turn, 1.0), torus];
+        let sign = pole_sign(frame.machine, ring, blocks);
+        let plus_one = even * sign * shifted_determinant(&turn, -1.0);
         multipliers.truncate(frame.multipliers());
-        Some((values, multipliers, rising))
+        Some(([plus_one, sign * shifted_determinant(&turn, 1.0), torus], multipliers))
+    }
+
+    /// The component of a tangent along the number.
+    fn pace(&self, tangent: &[f64]) -> f64 {
+        tangent.last().map_or(0.0, |last| last / self.equations.scales[0])
     }
 }
 
@@ -139,22 +155,42 @@ impl Problem for MachineProblem {
     }
 
     fn tests(&self) -> usize {
-        4
+        self.tests.len()
     }
 
     fn look(&self, w: &[f64], tangent: &[f64]) -> Option<(Vec<f64>, Judged)> {
         let (machine, ring) = self.equations.split(w)?;
         let frame = MachineFrame::new(&machine);
-        let (values, multipliers, rising) = self.values(&frame, &ring, tangent)?;
+        let m = ring.len();
+        let blocks = ring.blocks(&frame)?;
+        // every guard must fall to zero at its event
+        let rising = blocks.iter().position(|block| block.late[0] >= 0.0).map(|k| (k + 1) % m);
+        let ([plus_one, minus_one, torus], multipliers) = Self::bifurcations(&frame, &ring, &blocks)?;
+        let value = |test: &TestFunction| match *test {
+            TestFunction::Pace => self.pace(tangent),
+            TestFunction::PlusOne => plus_one,
+            TestFunction::MinusOne => minus_one,
+            TestFunction::Torus => torus,
+            TestFunction::Rate(k) => rate(&frame, &ring, &blocks[(k + m - 1) % m], self.sizes.1),
+            TestFunction::Clearance(leg, guard) => clearance(&frame, &ring, (leg, guard), self.sizes),
+        };
+        let values = self.tests.iter().map(value).collect();
         Some((values, judge(&frame, &ring, (multipliers, rising))))
     }
 
     fn test(&self, j: usize, w: &[f64], tangent: impl Fn() -> Option<Vec<f64>>) -> Option<f64> {
-        if j == PACE {
-            return Some(tangent()?.last()? / self.equations.scales[0]);
+        let test = self.tests[j];
+        if test == TestFunction::Pace {
+            return Some(self.pace(&tangent()?));
         }
         let (machine, ring) = self.equations.split(w)?;
-        Some(self.values(&MachineFrame::new(&machine), &ring, &[])?.0[j])
+        let frame = MachineFrame::new(&machine);
+        let m = ring.len();
+        match test {
+            TestFunction::Rate(k) => Some(rate(&frame, &ring, &ring.block(&frame, (k + m - 1) % m)?, self.sizes.1)),
+            TestFunction::Clearance(leg, guard) => Some(clearance(&frame, &ring, (leg, guard), self.sizes)),
+            _ => Some(Self::bifurcations(&frame, &ring, &ring.blocks(&frame)?)?.0[j - PLUS_ONE]),
+        }
     }
 
     fn resolution(&self, j: usize) -> f64 {

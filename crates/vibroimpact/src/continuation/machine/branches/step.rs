@@ -9,26 +9,51 @@ use super::joined::SHORT;
 use super::point::MachineBranchEvent;
 use super::problem::{Judged, MINUS_ONE, MachineSolution, PACE, PLUS_ONE, TORUS};
 use super::summed::{of_chatter, sums};
-use super::touch::{grazing, touching};
+use super::test_functions::TestFunction;
 use crate::continuation::trace::tracer::{Crossing, Problem, Step, last};
-use crate::math::{Multiplier, sort_by};
+use crate::math::Multiplier;
 use crate::orbit::RingEvent;
 use crate::regime::GuardKind;
 
 impl EventBranch {
     /// Reports the events of a step in order, up to one that changes the signature or ends the branch.
     pub(super) fn go_through(&mut self, step: Step<Judged>) {
-        let edge = self.outside(&step).and_then(|outside| self.edge(&step, outside));
-        if !step.there.known.physical() && edge.is_none() {
+        let mut step = self.to_inadmissible(step);
+        let mut grazing = self.grazing(&step);
+        let mut edge = match &grazing {
+            Some(Grazing { before, .. }) => before.and_then(|outside| self.edge(&step, outside)),
+            None if step.there.known.physical() => None,
+            None => self.edge(&step, step.length),
+        };
+        // a function that has to be positive can be so again at the end of the step
+        if grazing.is_none()
+            && let Some((s, ..)) = edge
+            && let Some(part) = self.tracer.part(&step, (s + JUST * step.length).min(step.length))
+            && let found @ Some(Grazing { before: None, .. }) = self.grazing(&part)
+        {
+            (step, grazing, edge) = (part, found, None);
+        }
+        if grazing.is_none() && !step.there.known.physical() && edge.is_none() {
             return self.finish(MachineBranchEvent::NoConvergence);
         }
-        for crossing in self.until_edge(&step, edge.as_ref().map(|(s, ..)| *s)) {
+        let crossed = match (&edge, &grazing) {
+            // where the derivative is infinite, its test functions change sign without a zero
+            (Some((s, ..)), _) => {
+                self.tracer.part(&step, s - ASIDE * step.length).map_or_else(Vec::new, |part| part.crossed)
+            }
+            (None, Some(grazing)) => step.crossed.iter().copied().filter(|(s, _)| *s < grazing.s).collect(),
+            (None, None) => step.crossed.clone(),
+        };
+        for crossing in crossed {
             if !self.report(&step, crossing) {
                 return;
             }
         }
         if let Some((_, at, found)) = edge {
-            return self.pass(&at, &found);
+            return self.pass(&at, &found, None);
+        }
+        if let Some(Grazing { at, zeros, .. }) = grazing {
+            return self.graze(&at, &zeros);
         }
         if step.on_end {
             return self.end(&step.there, MachineBranchEvent::EndOfRange);
@@ -37,29 +62,42 @@ impl EventBranch {
         self.adapt();
     }
 
-    /// The distance of an inadmissible solution on a step. Where the derivative is infinite between two admissible solutions,
-    /// there are inadmissible ones between them.
-    fn outside(&self, step: &Step<Judged>) -> Option<f64> {
-        if !step.there.known.physical() {
-            return Some(step.length);
-        }
-        let (plus, minus) = (crossing(step, PLUS_ONE)?, crossing(step, MINUS_ONE)?);
-        if (plus - minus).abs() < 1e-9 { self.hidden(step) } else { None }
+    /// A step up to the first inadmissible solution that is known on it. Where the derivative is infinite between two admissible
+    /// solutions, there are inadmissible ones between them.
+    fn to_inadmissible(&self, step: Step<Judged>) -> Step<Judged> {
+        let pole = match (crossing(&step, PLUS_ONE), crossing(&step, MINUS_ONE)) {
+            (Some(plus), Some(minus)) => step.there.known.physical() && (plus - minus).abs() < TOGETHER,
+            _ => false,
+        };
+        let places = (1..32).map(|k| step.length * f64::from(k) / 32.0);
+        let parts = places.filter(|_| pole).filter_map(|s| self.tracer.part(&step, s));
+        parts.into_iter().find(|part| !part.there.known.physical()).unwrap_or(step)
     }
 
-    /// The crossings of a step before its edge. At a grazing impact a multiplier is without limit, and its test functions change
-    /// sign without a zero.
-    fn until_edge(&self, step: &Step<Judged>, edge: Option<f64>) -> Vec<Crossing> {
-        let Some(edge) = edge else { return step.crossed.clone() };
-        let until = edge - ASIDE * step.length;
-        let mut crossed: Vec<Crossing> = step.crossed.iter().copied().filter(|(s, _)| *s < until).collect();
-        if until > 0.0
-            && let Some(inside) = self.tracer.at(step, until)
-        {
-            crossed.extend(self.tracer.hidden(&[PLUS_ONE, MINUS_ONE, TORUS], &crossed, (until, &inside)));
-            sort_by(&mut crossed, |a, b| a.0.total_cmp(&b.0));
+    /// The first zero on a step of a function that has to be positive, if solutions beyond it are not admissible.
+    fn grazing(&self, step: &Step<Judged>) -> Option<Grazing> {
+        let needed = |(_, what): &&Crossing| {
+            what.is_some_and(|j| self.tracer.problem.tests[j].needed() && self.tracer.signs[j] == Some(true))
+        };
+        let &(s, _) = step.crossed.iter().find(needed)?;
+        let near = |by: f64| {
+            let place = s + by * step.length;
+            (0.0 < place && place < step.length).then(|| Some((place, self.tracer.at(step, place)?))).flatten()
+        };
+        let admissible = |at: &MachineSolution| at.known.physical();
+        if near(APART).map_or_else(|| admissible(&step.there), |(_, at)| admissible(&at)) {
+            return None;
         }
-        crossed
+        let before = near(-APART).filter(|(_, at)| !admissible(at)).map(|(before, _)| before);
+        let together = step.crossed.iter().filter(needed).filter(|(other, _)| other - s < TOGETHER);
+        let zeros = together.filter_map(|(_, what)| what.map(|j| self.tracer.problem.tests[j])).collect();
+        let w = self.tracer.between(step, s)?;
+        // rounding decides which events the motion has here, and the number can turn: the solution just before stands for it
+        let outside = (s + APART * step.length).min(step.length);
+        let last = edge(&self.tracer, step, outside, Judged::physical)
+            .map_or_else(|| self.tracer.here.clone(), |(_, last, _)| last);
+        let at = MachineSolution { w, ..last };
+        Some(Grazing { s, at, zeros, before })
     }
 
     /// Reports the event at a crossing, if it is one; returns whether the branch goes on.
@@ -83,7 +121,8 @@ impl EventBranch {
             Some(PLUS_ONE) if turns => MachineBranchEvent::Fold,
             Some(PLUS_ONE) => MachineBranchEvent::BranchPoint,
             Some(MINUS_ONE) => MachineBranchEvent::Flip,
-            Some(_) => MachineBranchEvent::Torus,
+            Some(TORUS) => MachineBranchEvent::Torus,
+            Some(_) => return true,
         };
         if let Some(at) = self.located(step, s, event)
             && is_at(&at.known.multipliers, event)
@@ -139,14 +178,6 @@ impl EventBranch {
         halved(&self.tracer.problem, &self.tracer.here, &w)
     }
 
-    /// An inadmissible solution within a step.
-    fn hidden(&self, step: &Step<Judged>) -> Option<f64> {
-        (1..32).map(|k| step.length * f64::from(k) / 32.0).find(|s| {
-            let at = self.tracer.at(step, *s);
-            at.is_none_or(|solution| !solution.known.physical())
-        })
-    }
-
     /// The last admissible solution before an inadmissible one on a step: its distance, the solution, and how the events
     /// differ beyond it.
     fn edge(&self, step: &Step<Judged>, outside: f64) -> Option<(f64, MachineSolution, Difference)> {
@@ -166,13 +197,11 @@ impl EventBranch {
                 .unwrap_or(found),
             _ => found,
         };
-        let found = grazing(&self.tracer, &inside, found);
         let found = of_chatter(&self.tracer, &inside, found);
         if let Some((at, found)) = self.interrupted(&inside, &found) {
             return Some((s, at, found));
         }
-        let (s, at) = touching(&self.tracer, step, (s, &inside), &found).unwrap_or((s, inside));
-        Some((s, at, found))
+        Some((s, inside, found))
     }
 
     /// The joint of a hold that lasts for some time and is missing beyond, because the velocity of its joint only touches zero at
@@ -203,6 +232,24 @@ impl EventBranch {
         })
     }
 }
+
+/// A zero on a step of functions that have to be positive.
+struct Grazing {
+    /// The distance along the step.
+    s: f64,
+    at: MachineSolution,
+    /// The functions that are zero there.
+    zeros: Vec<TestFunction>,
+    /// An inadmissible solution before it.
+    before: Option<f64>,
+}
+
+/// The distance, in parts of a step, from such a zero of the solutions that are compared.
+const APART: f64 = 1e-2;
+/// The distance, in parts of a step, of a solution just beyond the last admissible one.
+const JUST: f64 = 1e-4;
+/// Zeros not farther apart than this along the step are one event.
+const TOGETHER: f64 = 1e-9;
 
 /// The distance along a step at which a test function is zero.
 fn crossing(step: &Step<Judged>, test: usize) -> Option<f64> {

@@ -3,8 +3,8 @@
 use super::change::Difference;
 use super::closest::closest;
 use super::problem::{MachineProblem, MachineSolution};
-use super::touch::speed_before;
 use crate::continuation::trace::tracer::Tracer;
+use crate::events::Place;
 use crate::orbit::{Chatter, MachineFrame, MachineRing};
 use crate::regime::GuardKind;
 
@@ -22,6 +22,21 @@ pub(super) fn sums(ring: &MachineRing, stop: usize) -> bool {
 pub(super) fn same_in_turn<T: PartialEq>(a: &[T], b: &[T]) -> bool {
     let m = a.len();
     m == b.len() && (0..m).any(|shift| (0..m).all(|k| a[k] == b[(k + shift) % m]))
+}
+
+/// The speed towards a stop, or towards its surface if that stands back, before an event; infinite if there is no flight before
+/// it.
+fn speed_before(frame: &MachineFrame<'_>, ring: &MachineRing, event: usize, stop: usize) -> f64 {
+    let before = (event + ring.len() - 1) % ring.len();
+    let moved = |mut from: Place| {
+        frame.constrain(&mut from)?;
+        let structure = frame.structure(&from.states)?;
+        Some(frame.moved(&from, &structure, ring.time(before, frame.machine)))
+    };
+    moved(ring.place(before)).map_or(f64::INFINITY, |at| {
+        let rate = at.gap(&frame.normal, &at.turns(&frame.normal), stop).1;
+        at.surfaces[stop].map_or(0.0, |surface| surface.rate * surface.size) - rate
+    })
 }
 
 /// A gap or a speed that is larger, relative to the motion, is not that of a grazing contact; and an impact that grazes is slower

@@ -10,7 +10,7 @@ use crate::continuation::curves::{CurveKind, check};
 use crate::continuation::machine::branches::{
     CompleteChatter, MachineBranchEvent, MachineEquations, MachinePoint, closest,
 };
-use crate::events::standing_back;
+use crate::events::{Place, standing_back};
 use crate::machine::Machine;
 use crate::orbit::{MachineFrame, MachineRing, RingEvent};
 use crate::regime::{ContactState, GuardKind};
@@ -41,10 +41,13 @@ fn begin(
     let ring_at = |machine: &Machine| {
         MachineRing::of(&MachineFrame::new(machine), begin, (point.cycle.label.periods, point.cycle.period))
     };
-    // rounding can let a motion end at a limit, or miss a stop that it grazes
+    // a point of an oscillator has no solution of the machine's equations: its motion is followed, and rounding can let that end at
+    // a limit, or miss a stop that it grazes
     let beside = |by: f64| ring_at(&plane.family.machine([values.0 + by * plane.scales()[0], values.1])?);
     let both_sides = || BESIDE.into_iter().flat_map(|by| [by, -by]);
-    let mut ring = ring_at(machine).or_else(|| both_sides().find_map(beside))?;
+    let farther = || FARTHER.into_iter().flat_map(|by| [by, -by]);
+    let solved = || point.ring.clone().or_else(|| ring_at(machine));
+    let mut ring = solved().or_else(|| both_sides().chain(farther()).find_map(beside))?;
     let touch = |at: usize| Condition::Touch { at, size: sizes.1, contact: None, speed: sizes.1 };
     let (kind, condition) = match event {
         MachineBranchEvent::Fold => (CurveKind::Fold, None),
@@ -58,10 +61,12 @@ fn begin(
             (CurveKind::Torus, Some(Condition::Pair { cosine: pair(&all, nearest.re)?.2 }))
         }
         MachineBranchEvent::Grazing { stop, appears: true, .. } => {
-            let open = |leg: usize| ring.events[leg].after[stop] == ContactState::Open;
-            let legs = (0..ring.len()).filter(|leg| open(*leg));
-            let lowest = legs.filter_map(|leg| Some((leg, closest(&frame, &ring, (leg, GuardKind::Gap(stop)))?)));
-            let (leg, (gap, place)) = lowest.min_by(|a, b| a.1.0.abs().total_cmp(&b.1.0.abs()))?;
+            // by rounding the motion can have the impact that appears here
+            let without = |ring: &MachineRing| touched(&frame, ring, stop).is_some();
+            if !without(&ring) {
+                ring = both_sides().filter_map(beside).find(without)?;
+            }
+            let (leg, (gap, place)) = touched(&frame, &ring, stop)?;
             if gap.abs() > NEAR * sizes.0 {
                 return Some(Err(BranchError::NotThere));
             }
@@ -70,9 +75,16 @@ fn begin(
             (CurveKind::Grazing { stop }, Some(touch(leg + 1)))
         }
         MachineBranchEvent::Grazing { stop, .. } | MachineBranchEvent::LossOfContact { stop } => {
-            let Some(at) = without_contact(&frame, &mut ring, (stop, NEAR * sizes.1)) else {
+            // by rounding the motion can miss the stop
+            let rings = core::iter::once(ring.clone()).chain(both_sides().filter_map(beside));
+            // an only closing is the one that disappears, whatever its speed beside the event
+            let lost = matches!(event, MachineBranchEvent::LossOfContact { .. });
+            let slow = if lost { f64::INFINITY } else { NEAR * sizes.1 };
+            let without = |mut ring: MachineRing| Some((without_contact(&frame, &mut ring, (stop, slow))?, ring));
+            let Some((at, other)) = rings.into_iter().find_map(without) else {
                 return Some(Err(BranchError::NotThere));
             };
+            ring = other;
             (CurveKind::Grazing { stop }, Some(touch(at)))
         }
         MachineBranchEvent::Corner { first, second } => {
@@ -95,9 +107,8 @@ fn begin(
                 let mut ring = beside(by)?;
                 Some((CompleteChatter::shortened(&frame, &mut ring, contact)?, ring))
             };
-            let farther = FARTHER.into_iter().flat_map(|by| [by, -by]);
             let bounces = machine.stops().get(contact).is_some_and(|stop| CurveProblem::rigid(&stop.law));
-            let complete = bounces.then(|| both_sides().chain(farther).find_map(chatter)).flatten();
+            let complete = bounces.then(|| both_sides().chain(farther()).find_map(chatter)).flatten();
             let condition = if let Some((chatter, complete)) = complete {
                 ring = complete;
                 Condition::Chatter(chatter)
@@ -132,11 +143,19 @@ fn begin(
 
 /// The changes of the number at which the motion is followed instead, in its scale.
 const BESIDE: [f64; 4] = [1e-9, 1e-8, 1e-7, 1e-6];
-/// The same for a chatter that becomes complete: the cycle of the point can be that with the last impact that appeared.
+/// The same where the cycle of the point can be farther away: of a chatter that becomes complete with the last impact that appeared,
+/// of an only impact that disappears with some speed.
 const FARTHER: [f64; 4] = [1e-5, 1e-4, 1e-3, 1e-2];
 
 /// A gap or a speed that is larger, relative to the motion, is not that of a grazing contact.
 const NEAR: f64 = 1e-3;
+
+/// The flight that comes closest to a stop, with the gap and the state there.
+fn touched(frame: &MachineFrame<'_>, ring: &MachineRing, stop: usize) -> Option<(usize, (f64, Place))> {
+    let open = (0..ring.len()).filter(|leg| ring.events[*leg].after[stop] == ContactState::Open);
+    let lowest = open.filter_map(|leg| Some((leg, closest(frame, ring, (leg, GuardKind::Gap(stop)))?)));
+    lowest.min_by(|a, b| a.1.0.abs().total_cmp(&b.1.0.abs()))
+}
 
 /// Replaces the slowest closing of a stop, with the opening that follows it, by a touch; returns the place of that. `None`
 /// if its speed is not below `slow`.

@@ -36,7 +36,7 @@ impl MachinePlane {
     }
 
     /// The change of each number that has length 1.
-    pub(super) fn scales(&self) -> [f64; 2] {
+    pub(crate) fn scales(&self) -> [f64; 2] {
         scales(&self.ranges).into()
     }
 }

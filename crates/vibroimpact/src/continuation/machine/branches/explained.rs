@@ -1,0 +1,114 @@
+//! Whether an event explains how the events of the cycle before it differ from those beyond, and what does otherwise.
+//!
+//! A test function or the first difference of two motions shows where the events change. Which event this is can show elsewhere in
+//! the cycle: where a contact opens for no time, a joint on the same coordinate turns back in the same instant. So the whole
+//! signatures of both sides are compared, each contact for itself.
+
+use super::point::MachineBranchEvent;
+use crate::orbit::{Chatter, MachineRing};
+use crate::regime::{ContactState, GuardKind};
+use core::cmp::Ordering;
+
+/// What a contact does in a cycle.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Deeds {
+    /// How often a stop closes; how many impacts of a complete chatter are followed is no property of the cycle, so they do not count.
+    closings: usize,
+    /// How often a rest on a stop, or a hold of a joint, begins.
+    rests: usize,
+    /// How often a joint turns back.
+    turns: usize,
+}
+
+impl Deeds {
+    /// Of each stop, then of each joint.
+    fn all(ring: &MachineRing) -> Vec<Self> {
+        let m = ring.len();
+        let stops = ring.events.first().map_or(0, |event| event.back.len());
+        // the impacts of chatters, between which a joint can turn back
+        let of_chatter = |stop: usize, k: usize| {
+            let event = &ring.events[k];
+            event.struck() == Some(stop) || event.guard.place(stops) >= stops
+        };
+        let impacts = |Chatter { stop, rest }: Chatter| {
+            (0..m).map(move |i| (rest + m - i) % m).take_while(move |k| of_chatter(stop, *k))
+        };
+        let summed: Vec<usize> = Chatter::all(ring).into_iter().flat_map(impacts).collect();
+        let mut all = vec![Self::default(); ring.events.first().map_or(0, |event| event.after.len())];
+        for (k, event) in ring.events.iter().enumerate() {
+            let before = &ring.events[(k + m - 1) % m].after;
+            if let GuardKind::Gap(stop) = event.guard
+                && !event.touches(before)
+                && !summed.contains(&k)
+            {
+                all[stop].closings += 1;
+            }
+            for (place, (now, then)) in event.after.iter().zip(before).enumerate() {
+                let slides = |state: &ContactState| matches!(state, ContactState::Forward | ContactState::Backward);
+                all[place].rests += usize::from(now.constrains() && !then.constrains());
+                all[place].turns += usize::from(place >= stops && now != then && slides(now) && slides(then));
+            }
+        }
+        all
+    }
+}
+
+/// The two contacts whose events are the closest to each other in time among those where one is of a joint, or both of `joint`.
+fn closest_pair(ring: &MachineRing, joint: Option<usize>) -> Option<(usize, usize)> {
+    let m = ring.len();
+    let stops = ring.events.first()?.back.len();
+    let of = |k: usize| ring.events[k % m].guard.place(stops);
+    let wanted = |k: &usize| {
+        let (first, second) = (of(*k), of(k + 1));
+        joint.map_or(first != second && first.max(second) >= stops, |joint| first == joint || second == joint)
+    };
+    let apart = |k: usize| ring.theta(k + 1) - ring.theta(k);
+    let at = (0..m).filter(wanted).min_by(|a, b| apart(*a).total_cmp(&apart(*b)))?;
+    Some((of(at), of(at + 1)))
+}
+
+/// The event, if it explains the difference of the cycle before it and that beyond; otherwise the one that does. `turns` says
+/// whether the number turns back here.
+pub(super) fn explained(
+    event: MachineBranchEvent,
+    (before, beyond): (&MachineRing, &MachineRing),
+    turns: bool,
+) -> MachineBranchEvent {
+    let (old, new) = (Deeds::all(before), Deeds::all(beyond));
+    let stops = before.events.first().map_or(0, |event| event.back.len());
+    let differ = |of: fn(&Deeds) -> usize| (0..old.len()).find(|place| of(&old[*place]) != of(&new[*place]));
+    let (rest, closing) = (differ(|deeds| deeds.rests), differ(|deeds| deeds.closings));
+    let explains = match event {
+        MachineBranchEvent::Grazing { stop, .. } => old[stop].closings != new[stop].closings,
+        MachineBranchEvent::Sticking { stop: place, .. } | MachineBranchEvent::Holding { joint: place, .. } => {
+            old[place].rests != new[place].rests
+        }
+        MachineBranchEvent::Change { .. } => false,
+        _ => true,
+    };
+    // where nothing differs but the number of impacts of a chatter, what was found is all that is known
+    if explains || old == new && !matches!(event, MachineBranchEvent::Change { .. }) {
+        return event;
+    }
+    let turned = differ(|deeds| deeds.turns);
+    let more = |place: usize| if old[place].turns > new[place].turns { before } else { beyond };
+    let corner = || {
+        let pair = turned.map_or_else(|| closest_pair(before, None), |joint| closest_pair(more(joint), Some(joint)));
+        pair.map_or(event, |(first, second)| MachineBranchEvent::Corner { first, second })
+    };
+    match (rest, closing) {
+        (Some(place), _) => {
+            let begins = old[place].rests.cmp(&new[place].rests) == Ordering::Less;
+            if place < stops {
+                MachineBranchEvent::Sticking { stop: place, begins }
+            } else {
+                MachineBranchEvent::Holding { joint: place, begins }
+            }
+        }
+        (None, Some(stop)) => {
+            let appears = old[stop].closings < new[stop].closings;
+            MachineBranchEvent::Grazing { stop, appears, turns }
+        }
+        _ => corner(),
+    }
+}
