@@ -37,6 +37,7 @@ pub(crate) fn plan(error: &PlanError) -> Option<String> {
         PlanError::Frequency(_) => "--beta B or --inverse-beta X, with X = 1/B".to_owned(),
         PlanError::Unforced => "--impacts N limits the number of events".to_owned(),
         PlanError::Size { .. } => "fewer values, or a store (--store), which holds any number".to_owned(),
+        PlanError::Axes { .. } => "--axis PATH=A:B:N, once for each".to_owned(),
         PlanError::Nowhere { .. } => "--to another value".to_owned(),
         PlanError::NoOrbit { others, .. } => format!(
             "`vibro orbit` lists what there is; inadmissible solutions ({others} here) are followed only when their number is given"

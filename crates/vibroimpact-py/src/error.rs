@@ -66,9 +66,8 @@ impl From<Trouble> for PyErr {
 }
 
 /// Hints of the command, and what they are in Python.
-const HINTS: [(&str, &str); 4] = [
+const HINTS: [(&str, &str); 3] = [
     ("`vibro attractors --machine` lists the stable ones", "machine.attractors() finds the stable ones"),
-    ("--axis PATH=A:B:N, once for each", "a mapping of paths to ranges, {\"stop.wall.gap\": \"0:1:11\"}"),
     ("a map over one parameter with --fields has one", "a map over one parameter with fields=[...] has one"),
     ("`vibro attractors` answers for one point", "`attractors` answers for one point"),
 ];
@@ -84,6 +83,7 @@ impl From<PlanError> for Trouble {
         let hint = match &error {
             PlanError::Frequency(_) => "\nhint: beta=B or inverse_beta=X, with X = 1/B",
             PlanError::NoEvent { .. } => "\nhint: `branch` lists the events",
+            PlanError::Axes { .. } => "\nhint: a mapping of names to ranges, {\"gap\": \"0:1:11\"}",
             _ => "",
         };
         Self::Question(in_python(&format!("{error}{hint}")))

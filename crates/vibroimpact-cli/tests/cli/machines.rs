@@ -629,7 +629,7 @@ fn refusals_of_questions() {
         ("branch --machine two-mass-hammer --vary frequency --to 1.2", "error: "),
         (
             "curve --machine two-mass-hammer --kind torus --vary frequency=1.1:1.3 --and b=0.4:0.6",
-            "error: no torus was found on the branch of 1/1 over frequency from 1.1 to 1.3",
+            "error: no torus was found on the branch of 1/1 with frequency from 1.1 to 1.3",
         ),
         (
             "curve --machine two-mass-hammer --kind flip --vary frequency=1.3:1.4 --and b=0.4:0.6",

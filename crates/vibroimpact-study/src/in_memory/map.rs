@@ -78,6 +78,7 @@ mod tests {
         for point in &one.points {
             assert!((point.iter().map(|motion| motion.share).sum::<f64>() - 1.0).abs() < 1e-12);
         }
-        assert_eq!(run(3).unwrap(), one);
+        // numbers that are not defined are not equal to themselves
+        assert_eq!(format!("{:?}", run(3).unwrap()), format!("{one:?}"));
     }
 }
