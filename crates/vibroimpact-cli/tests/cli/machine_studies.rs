@@ -50,6 +50,7 @@ fn stores_have_the_results_of_commands() {
             "basin --machine soft-stop --axis q.mass=-1:2:4 --axis phase=0:6:3 --fields stop.stop.force_max",
         ),
         ("diagram", DIAGRAM),
+        ("points", "settle-many --machine two-mass-hammer --sample lhs:9 --over frequency=0.9:1.3 --over q.head=-1:0.9 --fields power"),
         ("listed", "diagram --machine two-mass-hammer --vary stop.anvil.gap --over 0.7,0.6,0.35,0.3 --transient 50"),
         (
             "quantity",

@@ -1,10 +1,10 @@
-//! Basins and maps of machines in memory: their tiles are joined.
+//! Basins, maps and points of machines in memory: their tiles are joined.
 
 use super::join::{Joined, Part, joined};
 use crate::machine::MachineSource;
-use crate::machine_plan::{MachineBasin, MachineMap, MachineShare, check_memory, values_of};
-use crate::study::{Cell, Fill, MachineBasinFill, MapFill, tiles_of};
-use crate::{BasinPlan, Control, MapPlan, RunError};
+use crate::machine_plan::{MachineBasin, MachineMap, MachineShare, check_memory, tile, values_of};
+use crate::study::{Along, Cell, Fill, MachineBasinFill, MapFill, Mapped, tiles_of};
+use crate::{BasinPlan, Control, ListedColumn, ManyPlan, MapPlan, RunError};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::{Undecided, UndecidedCause, Verdict};
@@ -54,15 +54,40 @@ pub(crate) fn machine_map(
     let alone = source.machine().is_ok_and(|machine| machine.reduced().is_none());
     let tile = if alone { Some(1) } else { None };
     let task = MapFill::of_machine(source, &MapPlan { refine: None, ..plan.clone() }, tile);
+    let cells = motions_of(&task, control)?;
+    Ok(MachineMap { axes: plan.axes.clone(), points: Vec::new(), cells, fields: plan.fields.clone() })
+}
+
+/// Settles the start at each of many points of a machine.
+///
+/// # Errors
+/// [`RunError`] for an invalid plan, or when stopped.
+pub(crate) fn machine_points(
+    source: &MachineSource,
+    problem: (&Machine, &MachineStart),
+    plan: &ManyPlan<String>,
+    control: &Control<'_>,
+) -> Result<MachineMap, RunError> {
+    let task = MapFill::of_points(source, problem, plan, Some(tile(problem.0)))?;
+    let cells = motions_of(&task, control)?;
+    let column = |along: Along| ListedColumn { vary: along.name, values: along.values };
+    let points = task.coordinates().into_iter().map(column).collect();
+    Ok(MachineMap { axes: Vec::new(), points, cells, fields: plan.fields.clone() })
+}
+
+/// The motions at each point of a study without refinement; none where the numbers are not allowed.
+fn motions_of<M: Mapped<Motion = MachineShare>>(
+    task: &MapFill<M>,
+    control: &Control<'_>,
+) -> Result<Vec<Vec<MachineShare>>, RunError> {
     let whole = task.grid().whole();
     let mut cells: Vec<Vec<MachineShare>> = vec![Vec::new(); whole.points()];
-    for (block, tile) in tiles_of(&task, control)? {
+    for (block, tile) in tiles_of(task, control)? {
         for (k, cell) in tile.into_iter().enumerate() {
-            // without refinement every point is computed; one whose numbers are not allowed has no motions
             if let Cell::Computed(Ok(motions)) = cell {
                 cells[whole.number(&block.index(k))] = motions;
             }
         }
     }
-    Ok(MachineMap { axes: plan.axes.clone(), points: Vec::new(), cells, fields: plan.fields.clone() })
+    Ok(cells)
 }

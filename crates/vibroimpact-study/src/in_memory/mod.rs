@@ -10,5 +10,5 @@ mod map;
 pub(crate) use attractors::attractors;
 pub(crate) use basin::basin;
 pub(crate) use diagram::{diagram, machine_diagram};
-pub(crate) use machine_grid::{machine_basin, machine_map};
+pub(crate) use machine_grid::{machine_basin, machine_map, machine_points};
 pub(crate) use map::map;

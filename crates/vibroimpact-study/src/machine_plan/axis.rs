@@ -3,18 +3,17 @@
 use crate::machine::MachineSource;
 use crate::{Axis, PlanError};
 
-impl Axis<String> {
-    /// One line of text that describes the axis.
-    #[must_use]
-    pub(crate) fn long_name(&self) -> String {
-        match self.vary.split_once('.') {
-            Some(("q", name)) => format!("coordinate {name} of the start"),
-            Some(("qdot", name)) => format!("velocity of {name} at the start"),
-            None if self.vary == "phase" => "phase of the forcing at the start".to_owned(),
-            _ => format!("{} of the machine", self.vary),
-        }
+/// One line of text that describes what varies.
+pub(crate) fn long_name(vary: &str) -> String {
+    match vary.split_once('.') {
+        Some(("q", name)) => format!("coordinate {name} of the start"),
+        Some(("qdot", name)) => format!("velocity of {name} at the start"),
+        None if vary == "phase" => "phase of the forcing at the start".to_owned(),
+        _ => format!("{vary} of the machine"),
     }
+}
 
+impl Axis<String> {
     /// The description of a machine with these values of numbers.
     ///
     /// # Errors

@@ -10,7 +10,7 @@
 //! | orbits, and the one at which a branch begins | `orbits` |
 //! | a line through one number or two | `cut` |
 //! | branches of orbits | [`MachineBranched`], `branch` |
-//! | which motion each of many points leads to | [`ManyPlan`], `many` |
+//! | which motion each of many points leads to | [`ManyPlan`] |
 //! | how far a cycle is from its nearest events | [`MachineMargins`], `margins` |
 //! | where in a plane of two numbers a motion exists and is stable | `region` |
 //! | a quantity of all motions over a number | `response` |
@@ -41,6 +41,7 @@ mod verdicts;
 
 pub use branch::{MachineBranched, MachineFollowed, MachineLine, MachineOrigin};
 pub use curve::MachineEventCurve;
+pub(crate) use axis::long_name;
 pub(crate) use diagram::step as diagram_step;
 pub use diagram::{MachineDiagram, MachineDiagramPoint, MachineDiagramStep};
 pub use grid::{MachineBasin, MachineMap, MachineShare};
@@ -55,4 +56,4 @@ pub use section::MachineSection;
 pub(crate) use simulate::check_simulate;
 pub use simulate::{MachineSimulated, events_with_states, most_events};
 pub(crate) use text::MachinePlanText;
-pub(crate) use verdicts::check_starts;
+pub(crate) use verdicts::{check_starts, tile};

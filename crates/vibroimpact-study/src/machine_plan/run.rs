@@ -7,7 +7,7 @@ use super::grid::{MachineBasin, MachineMap};
 use super::margins::MachineMargins;
 use super::section::{self, MachineSection};
 use super::simulate::{MachineSimulated, simulate};
-use super::{many, margins, orbits, region, response, verdicts};
+use super::{margins, orbits, region, response, verdicts};
 use crate::machine::MachineSource;
 use crate::{Control, LyapunovPlan, Regions, ResponseCurves, RunError, Task, in_memory};
 use vibroimpact::chaos::Exponents;
@@ -74,7 +74,7 @@ pub(crate) fn run(source: &MachineSource, task: &Task, control: &Control<'_>) ->
             MachineResults::Curve(curve::curve(source, (&machine, &start), &asked.typed()?, control)?)
         }
         Task::SettleMany(asked) => {
-            MachineResults::Map(many::many(source, (&machine, &start), &asked.typed()?, control)?)
+            MachineResults::Map(in_memory::machine_points(source, (&machine, &start), &asked.typed()?, control)?)
         }
         Task::Margins(asked) => {
             MachineResults::Margins(margins::margins(source, (&machine, &start), &asked.typed()?, control)?)

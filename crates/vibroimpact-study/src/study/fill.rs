@@ -1,6 +1,7 @@
 //! The interface of a task over a grid: its grid, its coordinates, its tiles and its final tables.
 
 use super::cycles;
+use crate::machine_plan::long_name;
 use crate::grid::{Dimension, Index};
 use crate::{Axis, Block, Column, Extra, Field, Grid, NumberType, Unit};
 use std::borrow::Cow;
@@ -212,7 +213,7 @@ pub(super) fn along_machine(axes: &[Axis<String>]) -> Vec<Along> {
         name: axis.vary.clone(),
         dimension: axis.vary.clone(),
         values: axis.over.all(),
-        long_name: axis.long_name().into(),
+        long_name: long_name(&axis.vary).into(),
         unit: Unit::CONSISTENT,
     };
     axes.iter().rev().map(one).collect()

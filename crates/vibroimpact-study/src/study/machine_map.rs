@@ -74,6 +74,11 @@ impl MachineShare {
             quantities: values_of(machine, verdict, fields),
         }
     }
+
+    /// Its numbers in the fields of a map.
+    pub(super) fn numbers(&self) -> Vec<f64> {
+        [vec![self.speed, self.multiplier], self.quantities.clone()].concat()
+    }
 }
 
 impl Mapped for MachinesOver {
@@ -129,7 +134,6 @@ impl Mapped for MachinesOver {
     }
 
     fn numbers(&self, _: &[usize], motions: &[MachineShare]) -> Vec<Vec<f64>> {
-        let of = |motion: &MachineShare| [vec![motion.speed, motion.multiplier], motion.quantities.clone()].concat();
-        motions.iter().map(of).collect()
+        motions.iter().map(MachineShare::numbers).collect()
     }
 }

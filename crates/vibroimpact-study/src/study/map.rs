@@ -24,6 +24,8 @@ pub(crate) trait Mapped: Send + Sync + Sized {
     type Motion: Send;
     /// The unit of speeds.
     const VELOCITY: Unit;
+    /// Whether several starts at a point lead to motions, each with its share.
+    const SEVERAL: bool = true;
 
     /// The coordinate values of the axes.
     fn coordinates(&self) -> Vec<Along>;
@@ -184,7 +186,8 @@ impl<M: Mapped> MapFill<M> {
                 remarks.iter_mut().zip(values).for_each(|(column, value)| column[k * self.kept + i] = value);
             }
         }
-        let mut columns = vec![Column::I32(label), Column::F64(share)];
+        let mut columns = vec![Column::I32(label)];
+        columns.extend(M::SEVERAL.then_some(Column::F64(share)));
         let quantities = numbers.split_off(2);
         columns.extend(numbers.into_iter().map(Column::F64));
         columns.extend(remarks.into_iter().map(Column::I32));
@@ -229,28 +232,23 @@ impl<M: Mapped> Fill for MapFill<M> {
     }
 
     fn fields(&self) -> Vec<Field> {
-        let motion = vec![Extra { name: "motion", count: self.kept }];
-        let real = Field {
-            name: "share".into(),
-            long_name: "share of the starts that lead to the motion".into(),
-            unit: Unit::NUMBER,
+        let motion = if M::SEVERAL { vec![Extra { name: "motion", count: self.kept }] } else { Vec::new() };
+        let real = |name: &'static str, long_name: &'static str, unit| Field {
+            name: name.into(),
+            long_name: long_name.into(),
+            unit,
             kind: NumberType::F64,
             fill: 0,
             extra: motion.clone(),
             flags: Vec::new(),
             comment: "",
         };
-        let mut fields = vec![
-            code::field("motion m/n, the most frequent first", motion.clone()),
-            real.clone(),
-            Field {
-                name: "speed".into(),
-                long_name: "largest speed of arrival in a period".into(),
-                unit: M::VELOCITY,
-                ..real.clone()
-            },
-            Field { name: "multiplier".into(), long_name: "largest modulus of the Floquet multipliers".into(), ..real },
-        ];
+        let label = if M::SEVERAL { "motion m/n, the most frequent first" } else { "motion m/n that the start leads to" };
+        let mut fields = vec![code::field(label, motion.clone())];
+        let share = || real("share", "share of the starts that lead to the motion", Unit::NUMBER);
+        fields.extend(M::SEVERAL.then(share));
+        fields.push(real("speed", "largest speed of arrival in a period", M::VELOCITY));
+        fields.push(real("multiplier", "largest modulus of the Floquet multipliers", Unit::NUMBER));
         fields.extend(self.mapped.remarks(&motion));
         fields.extend(self.mapped.quantities(&motion));
         if self.refine.is_some() {

@@ -14,6 +14,7 @@ mod machine_basin;
 mod machine_diagram;
 mod machine_lyapunov;
 mod machine_map;
+mod machine_points;
 mod map;
 mod memory;
 mod reason;
@@ -40,7 +41,7 @@ pub use remarks::{closed_of, has_closed};
 pub use some_points::{PointColumns, points_until};
 pub(crate) use sweeps::{SweepFill, Swept};
 pub use tables::{Cells, EachCount, StudyTable, Tiles};
-pub(crate) use {basin::BasinFill, machine_basin::MachineBasinFill, map::MapFill};
+pub(crate) use {basin::BasinFill, machine_basin::MachineBasinFill, map::{MapFill, Mapped}};
 
 use crate::diagram::Show;
 use crate::machine::MachineSource;
@@ -103,6 +104,10 @@ impl Study {
                 Box::new(MachineBasinFill::new((&machine, &start), &basin.typed()?, tile)?)
             }
             Task::Map(map) => Box::new(MapFill::of_machine(source, &map.typed()?, tile)),
+            Task::SettleMany(many) => {
+                let (machine, start) = source.described()?;
+                Box::new(MapFill::of_points(source, (&machine, &start), &many.typed()?, tile)?)
+            }
             Task::Diagram(diagram) => Box::new(SweepFill::of_machine(source, &diagram.typed()?, tile)),
             Task::Lyapunov(lyapunov) if !lyapunov.axes.is_empty() => {
                 Box::new(LyapunovFill::of_machine(source, &lyapunov.typed()?, tile)?)
