@@ -89,7 +89,9 @@ pub(crate) fn without_effect(command: &ArgMatches) -> Result<(), Failure> {
             )));
         }
     } else if has("set") && of_oscillator().any(has) {
-        return Err(Failure::bad("--set has no effect without --machine\nhint: an oscillator has a flag for each number"));
+        return Err(Failure::bad(
+            "--set has no effect without --machine\nhint: an oscillator has a flag for each number",
+        ));
     }
     Ok(())
 }

@@ -288,7 +288,7 @@ pub(crate) fn simulate_machines<'py>(
     let watch = Watch { what: "following machines", total, progress, threads };
     let found = door::run(py, watch, move |control| {
         let one = |k: usize| {
-            let there = source.with_all(numbers.iter().map(|(path, values)| (path.as_str(), values[k])))?;
+            let there = numbers.iter().try_fold(source.clone(), |there, (path, values)| there.with(path, values[k]))?;
             let (q, qdot, phase) = starts[k].clone();
             let there = there.starting(&MachineStart { q, qdot, phase, ..MachineStart::default() });
             let plan = Plan::new(there, Task::Simulate { start: None, impacts: limits.0, periods: limits.1 });

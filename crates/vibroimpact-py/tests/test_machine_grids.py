@@ -86,7 +86,7 @@ def test_points_are_settled_as_one_by_one(tmp_path: Path) -> None:
     labels = ds.vibro.labels()
     assert labels.shape == (2, 3) and ds["frequency"].dims == ("sample_0",) and ds["q.head"].dims == ("sample_1",)
     # the last start lies beyond the anvil
-    assert (labels[:, 2] == "").all() and np.isnan(ds["power"][:, 2]).all()
+    assert (labels[:, 2] == "").all() and (ds["label"][:, 2] == -5).all() and np.isnan(ds["power"][:, 2]).all()
     for i, frequency in enumerate(frequencies):
         for j, head in enumerate(heads[:2]):
             alone = HAMMER.set({"frequency": frequency}).settle(q=[0, head]).motion
@@ -105,3 +105,17 @@ def test_a_sample_of_a_machine_is_kept_in_a_store(tmp_path: Path) -> None:
     for name in ("label", "speed", "multiplier", "power", "impacts", "frequency", "q.head"):
         np.testing.assert_array_equal(stored[name].values, memory[name].values, err_msg=name)
     assert '"drawn"' in stored.attrs["plan"] and memory.vibro.plot().get_xlabel() == "frequency"
+
+
+def test_events_of_many_motions_are_those_of_each() -> None:
+    gaps = [0.3, 0.5]
+    ds = HAMMER.simulate_many(over={"stop.anvil.gap": gaps}, starts={"q.head": 0.1}, impacts=6)
+    assert dict(ds.sizes) == {"sample": 2, "event": 6} and set(ds.vibro.labels("end").values) == {"event_limit"}
+    for k, gap in enumerate(gaps):
+        alone = HAMMER.set({"stop.anvil.gap": gap}).simulate(q=[0, 0.1], impacts=6)
+        assert ds.vibro.labels("kind")[k].values.tolist() == alone.kind.tolist()
+        assert ds.vibro.labels("stop")[k].values.tolist() == alone.stop.tolist()
+        for name, column in {"time": alone.time, "speed": alone.speed, "q.head": alone.q[:, 1], "qdot.frame": alone.qdot[:, 0]}.items():
+            np.testing.assert_array_equal(ds[name][k], column, err_msg=name)
+    with pytest.raises(QuestionError, match="at is for oscillators"):
+        HAMMER.simulate_many(at=[0.0, 1.0])

@@ -50,7 +50,6 @@ fn stores_have_the_results_of_commands() {
             "basin --machine soft-stop --axis q.mass=-1:2:4 --axis phase=0:6:3 --fields stop.stop.force_max",
         ),
         ("diagram", DIAGRAM),
-        ("points", "settle-many --machine two-mass-hammer --sample lhs:9 --over frequency=0.9:1.3 --over q.head=-1:0.9 --fields power"),
         ("listed", "diagram --machine two-mass-hammer --vary stop.anvil.gap --over 0.7,0.6,0.35,0.3 --transient 50"),
         (
             "quantity",
@@ -87,7 +86,7 @@ fn attractors_of_machines_have_no_store() {
     let said = vibro("run a.json --store a.zarr").current_dir(folder.path()).output().unwrap();
     let complaint = String::from_utf8(said.stderr).unwrap();
     assert!(
-        said.status.code() == Some(2) && complaint.contains("map, basin, diagram, and lyapunov over axes"),
+        said.status.code() == Some(2) && complaint.contains("map, basin, settle-many, diagram, and lyapunov over axes"),
         "{complaint}"
     );
 }

@@ -221,7 +221,10 @@ fn typical_mistakes_get_a_hint() {
         ("settle --machine chain --restitution 0.9".into(), "--set PATH=VALUE"),
         ("settle --machine chain --units si".into(), "hint: results are in the units of the machine"),
         ("margins --machine chain --x 1".into(), "hint: --q and --qdot"),
-        ("settle-many --machine chain --sample lhs:3 --over frequency=1:2 --gap 1".into(), "has no effect with --machine"),
+        (
+            "settle-many --machine chain --sample lhs:3 --over frequency=1:2 --gap 1".into(),
+            "has no effect with --machine",
+        ),
         (format!("settle {S} --set stop.wall.gap=1"), "--set has no effect without --machine"),
         (format!("branch {S} --label 1/1 --vary gap --to 1 --also beta"), "hint: beta="),
         (format!("branch {S} --label 1/1 --vary gap --to 1 --also beta=0,8"), "hint: write 0.8"),

@@ -21,9 +21,6 @@ from vibroimpact._whole import BUDGET, maybe
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-#: Number of colours of branches; the others of the series are for dots and too light for a line.
-_USABLE = 6
-
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
 class ResponseCurve(Result):

@@ -39,9 +39,9 @@ mod source;
 mod text;
 mod verdicts;
 
+pub(crate) use axis::long_name;
 pub use branch::{MachineBranched, MachineFollowed, MachineLine, MachineOrigin};
 pub use curve::MachineEventCurve;
-pub(crate) use axis::long_name;
 pub(crate) use diagram::step as diagram_step;
 pub use diagram::{MachineDiagram, MachineDiagramPoint, MachineDiagramStep};
 pub use grid::{MachineBasin, MachineMap, MachineShare};

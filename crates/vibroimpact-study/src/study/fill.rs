@@ -1,8 +1,8 @@
 //! The interface of a task over a grid: its grid, its coordinates, its tiles and its final tables.
 
 use super::cycles;
-use crate::machine_plan::long_name;
 use crate::grid::{Dimension, Index};
+use crate::machine_plan::long_name;
 use crate::{Axis, Block, Column, Extra, Field, Grid, NumberType, Unit};
 use std::borrow::Cow;
 

@@ -64,8 +64,7 @@ impl MachineAt {
                 None => changes.push((name.as_str(), value)),
             }
         }
-        let there =
-            if changes.is_empty() { self.machine.clone() } else { self.source.with_all(changes)?.machine()? };
+        let there = if changes.is_empty() { self.machine.clone() } else { self.source.with_all(changes)?.machine()? };
         Ok((there, start))
     }
 }

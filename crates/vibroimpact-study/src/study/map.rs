@@ -165,7 +165,7 @@ impl<M: Mapped> MapFill<M> {
     /// The columns of some points; `index` is the place of each in the grid.
     fn columns_at(&self, cells: &[Cell<Motions<M>>], index: impl Fn(usize) -> Index) -> Vec<Column> {
         let points = cells.len();
-        let mut label = vec![super::NO_MOTION; points * self.kept];
+        let mut label = vec![if M::SEVERAL { super::NO_MOTION } else { super::REFUSED }; points * self.kept];
         let mut share = vec![f64::NAN; points * self.kept];
         // the largest speed, the largest multiplier, and the quantities
         let mut numbers = vec![vec![f64::NAN; points * self.kept]; 2 + self.mapped.quantities(&[]).len()];
@@ -243,8 +243,13 @@ impl<M: Mapped> Fill for MapFill<M> {
             flags: Vec::new(),
             comment: "",
         };
-        let label = if M::SEVERAL { "motion m/n, the most frequent first" } else { "motion m/n that the start leads to" };
-        let mut fields = vec![code::field(label, motion.clone())];
+        let label = if M::SEVERAL {
+            code::field("motion m/n, the most frequent first", motion.clone())
+        } else {
+            let field = code::field("motion m/n that the start leads to", Vec::new());
+            Field { flags: [field.flags, vec![(super::REFUSED, "refused")]].concat(), ..field }
+        };
+        let mut fields = vec![label];
         let share = || real("share", "share of the starts that lead to the motion", Unit::NUMBER);
         fields.extend(M::SEVERAL.then(share));
         fields.push(real("speed", "largest speed of arrival in a period", M::VELOCITY));

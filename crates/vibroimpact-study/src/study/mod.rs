@@ -41,7 +41,11 @@ pub use remarks::{closed_of, has_closed};
 pub use some_points::{PointColumns, points_until};
 pub(crate) use sweeps::{SweepFill, Swept};
 pub use tables::{Cells, EachCount, StudyTable, Tiles};
-pub(crate) use {basin::BasinFill, machine_basin::MachineBasinFill, map::{MapFill, Mapped}};
+pub(crate) use {
+    basin::BasinFill,
+    machine_basin::MachineBasinFill,
+    map::{MapFill, Mapped},
+};
 
 use crate::diagram::Show;
 use crate::machine::MachineSource;
