@@ -6,7 +6,7 @@ use std::io;
 use vibroimpact_plot::PlotError;
 use vibroimpact_report::{AnswerError, ReportError};
 use vibroimpact_store::StoreError;
-use vibroimpact_study::machine::MachineTextError;
+use vibroimpact_study::machine::MachineFileError;
 use vibroimpact_study::{PlanError, RunError, Stopped};
 
 /// The reason why a command did not finish. The text may have a second line, `hint: ...`.
@@ -47,8 +47,8 @@ impl From<PlanError> for Failure {
     }
 }
 
-impl From<MachineTextError> for Failure {
-    fn from(error: MachineTextError) -> Self {
+impl From<MachineFileError> for Failure {
+    fn from(error: MachineFileError) -> Self {
         Self::bad(error)
     }
 }

@@ -10,9 +10,10 @@ use pyo3::prelude::*;
 use vibroimpact::chaos::Section;
 use vibroimpact_report::json::event::side;
 use vibroimpact_report::{Answer, Units};
+use vibroimpact_study::diagram::DiagramPoint;
 use vibroimpact_study::{
-    MachineDiagram, MachineDiagramStep, MachineResults, MachineSection, MarginsPlan, Name, Parameter, Plan, PlanError,
-    Quantity, ResponseCurves, ResponseRow, Results, SystemPlan, Task,
+    Diagram, MarginsPlan, Name, Parameter, Plan, PlanError, Quantity, ResponseCurves, ResponseRow, Results,
+    SectionPoints, SystemPlan, Task, machine,
 };
 
 /// A system about which a question is asked.
@@ -51,7 +52,7 @@ impl<'py> SectionFields<'py> {
         })
     }
 
-    fn of_machine(py: Python<'py>, found: &MachineSection, stop: Vec<String>, width: usize) -> PyResult<Self> {
+    fn of_machine(py: Python<'py>, found: &SectionPoints, stop: Vec<String>, width: usize) -> PyResult<Self> {
         let (closings, strobes) = (|| found.closings.iter(), || found.strobes.iter());
         Ok(Self {
             stop,
@@ -74,14 +75,20 @@ pub(crate) struct DiagramFields<'py> {
 }
 
 impl<'py> DiagramFields<'py> {
-    fn new(py: Python<'py>, found: &MachineDiagram) -> Self {
-        let repeats =
-            |step: &MachineDiagramStep| (step.points.len() as u64) < found.plan.keep || step.points.len() == 1;
+    fn new(py: Python<'py>, found: &Diagram<String, String>) -> Self {
         let points = || found.steps.iter().flat_map(|step| step.points.iter().map(move |point| (step, point)));
         Self {
             parameter: column(py, points().map(|(step, _)| found.plan.over.at(step.index as usize))),
-            speed: column(py, points().map(|(_, point)| point.value)),
-            repeats: column(py, points().map(|(step, _)| repeats(step))),
+            speed: column(
+                py,
+                points().map(|(_, point)| match *point {
+                    DiagramPoint::Impact { speed, .. } => speed,
+                    DiagramPoint::Chatter { .. } => 0.0,
+                    DiagramPoint::State { x, .. } => x,
+                    DiagramPoint::Value(value) => value,
+                }),
+            ),
+            repeats: column(py, points().map(|(step, _)| step.repeats(found.plan.keep))),
         }
     }
 }
@@ -205,12 +212,12 @@ pub(crate) fn answer<'py>(
             _ => {}
         },
         Answer::Machine(of) => match &of.results {
-            MachineResults::Lyapunov(_, Some(points)) => {
+            machine::Results::Lyapunov(_, Some(points)) => {
                 let stops = points.closings.iter().map(|at| of.machine.name_of(at.place).to_owned()).collect();
                 fields.section = Some(SectionFields::of_machine(py, points, stops, of.machine.n())?);
             }
-            MachineResults::Diagram(found) => fields.diagram = Some(DiagramFields::new(py, found)),
-            MachineResults::Response(found) => {
+            machine::Results::Diagram(found) => fields.diagram = Some(DiagramFields::new(py, found)),
+            machine::Results::Response(found) => {
                 let units = vec![""; found.quantities.len()];
                 fields.response = Some(ResponseFields::new(py, found, units, |row, k| row.quantities[k])?);
             }

@@ -75,12 +75,7 @@ const HINTS: [(&str, &str); 4] = [
 
 /// A message in the words of Python: hints name arguments and functions, not flags.
 fn in_python(text: &str) -> String {
-    let said = HINTS.iter().fold(text.to_owned(), |text, (command, python)| text.replace(command, python));
-    // the name of the number that is set stands in the flag
-    match said.split_once("; --set ") {
-        Some((before, after)) if after.ends_with("=VALUE changes it") => format!("{before}; machine.set changes it"),
-        _ => said,
-    }
+    HINTS.iter().fold(text.to_owned(), |text, (command, python)| text.replace(command, python))
 }
 
 impl From<PlanError> for Trouble {

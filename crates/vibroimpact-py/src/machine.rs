@@ -8,10 +8,9 @@ use numpy::{Element, IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use vibroimpact::events::{MachineEvent, MachineLimits, MachineSample, MachineSamples, MachineStart};
 use vibroimpact::regime::ContactState;
-use vibroimpact_study::machine::{CATALOGUE, MachineProblem, MachineSource, MachineTextError, StartText};
+use vibroimpact_study::machine::{CATALOGUE, MachineFileError, MachineProblem, MachineSource, StartText};
 use vibroimpact_study::{
-    Control, MachineResults, MachineSimulated, Plan, PlanError, Results, System, Task, events_with_states, most_events,
-    run, tiles,
+    Control, Plan, PlanError, Results, Simulated, System, Task, events_with_states, machine, most_events, run, tiles,
 };
 
 /// A machine file that describes a machine.
@@ -27,8 +26,8 @@ fn checked(source: MachineSource) -> Result<MachineFile, Trouble> {
     Ok(MachineFile(source))
 }
 
-impl From<MachineTextError> for Trouble {
-    fn from(error: MachineTextError) -> Self {
+impl From<MachineFileError> for Trouble {
+    fn from(error: MachineFileError) -> Self {
         Self::question(error.to_string())
     }
 }
@@ -194,7 +193,7 @@ pub(crate) fn simulate_machine<'py>(
     let plan = Plan::new(source, Task::Simulate { start: None, impacts, periods });
     let text = crate::simulate::text(&plan)?;
     let watch = Watch::one("following a machine", most, progress);
-    let Results::Machine(MachineResults::Simulate(found)) =
+    let Results::Machine(machine::Results::Simulate(found)) =
         door::run(py, watch, move |control| Ok(run(&plan, control)?))?
     else {
         return Err(PlanError::NoStudy("simulate").into()); // the task of the plan is to simulate
@@ -249,7 +248,7 @@ fn code(names: &mut Vec<&'static str>, name: &'static str) -> i8 {
 }
 
 impl<'py> ManyEventFields<'py> {
-    fn new(py: Python<'py>, found: &[MachineSimulated], n: usize) -> Self {
+    fn new(py: Python<'py>, found: &[Simulated<MachineEvent>], n: usize) -> Self {
         let width = found.iter().map(|one| one.events.len()).max().unwrap_or(0);
         let (mut kinds, mut ends) = (Vec::new(), Vec::new());
         let cells = || found.iter().flat_map(|one| (0..width).map(move |k| one.events.get(k)));
@@ -295,7 +294,7 @@ pub(crate) fn simulate_machines<'py>(
             // the progress is that of whole motions
             let alone = Control { stop: control.stop, threads: 1, ..Control::default() };
             match run(&plan, &alone)? {
-                Results::Machine(MachineResults::Simulate(found)) => Ok(found),
+                Results::Machine(machine::Results::Simulate(found)) => Ok(found),
                 _ => Err(Trouble::Defect("following machines")),
             }
         };

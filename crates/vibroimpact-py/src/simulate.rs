@@ -98,7 +98,7 @@ pub(crate) fn simulate<'py>(
         reason: found.reason,
         end_time: found.time,
         horizon: found.horizon.as_ref().map(horizon),
-        shown_until: found.shown_until(&osc),
+        shown_until: found.shown_until,
         plan: text(&plan)?,
     })
 }

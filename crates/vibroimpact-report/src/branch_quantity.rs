@@ -2,9 +2,10 @@
 
 use vibroimpact::continuation::MachinePoint;
 use vibroimpact::machine::Machine;
+use vibroimpact::orbit::MachineCycle;
 use vibroimpact::quantities::{Quantity, machine_cycle_quantities};
 use vibroimpact_study::machine::MachineSource;
-use vibroimpact_study::{Cut, MachineBranched};
+use vibroimpact_study::{Branches, Cut};
 
 /// The largest displacement of the first coordinate, or its largest velocity where the displacement is not defined, as in a
 /// machine that moves on as a whole.
@@ -23,12 +24,12 @@ impl<'a> BranchQuantity<'a> {
         machine: &Machine,
         source: &'a MachineSource,
         cut: &Cut<String>,
-        found: &MachineBranched,
+        found: &Branches<MachineCycle, MachinePoint>,
     ) -> Option<Self> {
         if !machine.stops().is_empty() {
             return None;
         }
-        let (name, first) = (machine.parts().coordinates.first()?, found.points.first()?);
+        let (name, first) = (machine.parts().coordinates.first()?, found.followed.first()?.points.first()?);
         let of = |quantity: Quantity| Self::at_path(format!("q.{name}.{}", quantity.name()), source, cut);
         let displacement = of(Quantity::DisplacementMax);
         Some(if displacement.at(first).is_finite() { displacement } else { of(Quantity::VelocityMax) })
@@ -54,7 +55,7 @@ impl<'a> BranchQuantity<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use vibroimpact_study::{BranchPlan, Control, MachineResults, Plan, Results, run};
+    use vibroimpact_study::{BranchPlan, Control, Plan, Results, machine, run};
 
     /// The belt carries the mass to x = fs, and from there it swings about x = f with the speed V at the beginning.
     #[test]
@@ -64,11 +65,11 @@ mod tests {
         let plan = Plan::new(source.clone(), branch.clone());
         let (machine, cut) = (source.machine().unwrap(), branch.cut(&source).unwrap());
         let Results::Machine(results) = run(&plan, &Control::default()).unwrap() else { panic!() };
-        let MachineResults::Branch(found) = results else { panic!() };
+        let machine::Results::Branch(found) = results else { panic!() };
         let quantity = BranchQuantity::of(&machine, &source, &cut, &found).unwrap();
         assert_eq!(quantity.path, "q.mass.displacement_max");
         let (holds, slides) = (source.number("fs").unwrap(), source.number("f").unwrap());
-        for point in &found.points {
+        for point in &found.followed[0].points {
             let exact = slides + (holds - slides).hypot(point.value);
             assert!((quantity.at(point) - exact).abs() < 1e-12, "{} {} {exact}", point.value, quantity.at(point));
         }

@@ -15,6 +15,7 @@
 //! | the views of a settled motion: waveform, phase portrait, multipliers, sections; a diagram with branches over it | [`scene`] |
 //! | the same question as a command line and in Python | [`question`] |
 //! | numbers as text | [`number`] |
+//! | what varies, with its name and its unit | [`Varied`] |
 //! | the errors of figures and tables | [`ReportError`] |
 
 pub mod answer;
@@ -28,12 +29,14 @@ pub mod response;
 pub mod scene;
 pub mod table;
 mod units;
+mod varied;
 
 pub use answer::{Answer, Shown, answer};
 pub use branch_quantity::BranchQuantity;
 pub use error::{AnswerError, ReportError};
 pub use table::Table;
 pub use units::{Asked, Units};
+pub use varied::{FieldName, ShownValue, Varied};
 
 /// The name and version of the program that made a result.
 pub const PROGRAM: &str = concat!("vibro ", env!("CARGO_PKG_VERSION"));

@@ -6,9 +6,7 @@
 
 use std::path::Path;
 use vibroimpact_plot::{Dash, GROUP_RULES, GROUPS, GroupRule, SERIES, SHADES, Shape, class_style, legend_text};
-use vibroimpact_report::figure::styles::{
-    BOUND_STYLES, BRANCH_MARKS, CURVE_MARKS, EVENT_COLOURS, MACHINE_BRANCH_MARKS,
-};
+use vibroimpact_report::figure::styles::{BOUND_STYLES, BRANCH_MARKS, CURVE_MARKS, EVENT_COLOURS};
 
 const PYTHON: &str = "../vibroimpact-py/python/vibroimpact/_tables.py";
 const PAGE: &str = "../vibroimpact-web/page/tables.js";
@@ -83,7 +81,6 @@ fn events() -> String {
         .collect();
     let branch: String = BRANCH_MARKS
         .iter()
-        .chain(&MACHINE_BRANCH_MARKS)
         .map(|(name, shape, zero)| {
             format!("    \"{name}\": (\"{}\", {}),\n", mark(*shape), if *zero { "True" } else { "False" })
         })

@@ -6,6 +6,7 @@ use crate::{Block, Parameter, PlanError, Span, StartPlan, SystemPlan, Unit};
 use core::fmt;
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::borrow::Cow;
 use vibroimpact::math::sort_by;
 
 /// The quantity that varies along an axis: a parameter of the system or a coordinate of the start.
@@ -21,7 +22,7 @@ pub enum Coordinate {
     Phase,
 }
 
-impl From<Coordinate> for std::borrow::Cow<'static, str> {
+impl From<Coordinate> for Cow<'static, str> {
     fn from(coordinate: Coordinate) -> Self {
         coordinate.name().into()
     }
@@ -100,7 +101,7 @@ impl Serialize for Coordinate {
 }
 
 impl schemars::JsonSchema for Coordinate {
-    fn schema_name() -> std::borrow::Cow<'static, str> {
+    fn schema_name() -> Cow<'static, str> {
         "Coordinate".into()
     }
 
@@ -236,7 +237,7 @@ impl Serialize for Values {
 }
 
 impl schemars::JsonSchema for Values {
-    fn schema_name() -> std::borrow::Cow<'static, str> {
+    fn schema_name() -> Cow<'static, str> {
         "Values".into()
     }
 
@@ -290,6 +291,20 @@ impl<V> Axis<V> {
     }
 }
 
+impl<V> Axis<V> {
+    /// The values of all axes at point number `k` of their grid; the first axis varies fastest.
+    #[must_use]
+    pub fn at(axes: &[Self], mut k: u64) -> Vec<f64> {
+        let value = |axis: &Self| {
+            let count = axis.over.count() as u64;
+            let value = axis.over.at(usize::try_from(k % count).unwrap_or(0));
+            k /= count;
+            value
+        };
+        axes.iter().map(value).collect()
+    }
+}
+
 impl Axis {
     /// An axis over a range.
     #[must_use]
@@ -301,6 +316,50 @@ impl Axis {
     #[must_use]
     pub fn parameter(parameter: Parameter, over: impl Into<Values>) -> Self {
         Self::new(Coordinate::Parameter(parameter), over)
+    }
+}
+
+/// What can vary in a study, as its coordinates are described.
+pub(crate) trait Described: Name {
+    /// One line of text that describes it.
+    fn described(&self) -> Cow<'static, str>;
+    /// Its unit.
+    fn in_unit(&self) -> Unit;
+}
+
+impl Described for Coordinate {
+    fn described(&self) -> Cow<'static, str> {
+        self.long_name().into()
+    }
+
+    fn in_unit(&self) -> Unit {
+        self.unit()
+    }
+}
+
+impl Described for Parameter {
+    fn described(&self) -> Cow<'static, str> {
+        Coordinate::Parameter(*self).described()
+    }
+
+    fn in_unit(&self) -> Unit {
+        Coordinate::Parameter(*self).unit()
+    }
+}
+
+/// The path of a number of a machine, or of a part of its start.
+impl Described for String {
+    fn described(&self) -> Cow<'static, str> {
+        Cow::Owned(match self.split_once('.') {
+            Some(("q", name)) => format!("coordinate {name} of the start"),
+            Some(("qdot", name)) => format!("velocity of {name} at the start"),
+            None if self == "phase" => "phase of the forcing at the start".to_owned(),
+            _ => format!("{self} of the machine"),
+        })
+    }
+
+    fn in_unit(&self) -> Unit {
+        Unit::CONSISTENT
     }
 }
 
@@ -381,7 +440,7 @@ pub(crate) fn none_twice(varied: impl IntoIterator<Item = Coordinate>) -> Result
             (a, b) => a == b,
         };
         if let Some(other) = varied[..k].iter().find(same) {
-            return Err(PlanError::SameParameter(other.name(), one.name()));
+            return Err(PlanError::SameParameter(other.name().into(), one.name().into()));
         }
     }
     Ok(())

@@ -10,6 +10,7 @@ use crate::{
 use core::ops::RangeInclusive;
 use serde::{Deserialize, Serialize};
 use vibroimpact::continuation::{Branch, BranchError, BranchEvent, BranchOptions, Direction, SolutionPoint};
+use vibroimpact::orbit::Cycle;
 use vibroimpact::verdict::Count;
 use vibroimpact::{Label, Oscillator, ParameterPath};
 
@@ -78,11 +79,9 @@ impl BranchPlan {
         let cut = self.cut(system)?;
         cut.check(system)?;
         if cut.ends.0 == self.to {
-            return Err(PlanError::Nowhere { name: self.vary.name(), value: self.to });
+            return Err(PlanError::Nowhere { name: self.vary.name().into(), value: self.to });
         }
-        if self.follow > MOST_FOLLOWED {
-            return Err(PlanError::Follow { given: self.follow, most: MOST_FOLLOWED });
-        }
+        limits::check("follow", self.follow, 0..=MOST_FOLLOWED)?;
         limits::branch_points(self.points)
     }
 
@@ -114,33 +113,33 @@ impl BranchPlan {
     }
 }
 
-/// The event at which a further branch begins.
+/// The event at which a further branch begins, on a branch of any system.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Origin {
+pub struct Origin<P = SolutionPoint> {
     /// The branch on which the event lies, as an index into [`Branches::followed`].
     pub branch: usize,
     /// The point of that branch.
-    pub point: SolutionPoint,
+    pub point: P,
 }
 
 /// One branch that was followed.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Followed {
+pub struct Followed<P = SolutionPoint> {
     /// Where it begins; `None` for the first branch.
-    pub origin: Option<Origin>,
+    pub origin: Option<Origin<P>>,
     /// Its points.
-    pub points: Vec<SolutionPoint>,
+    pub points: Vec<P>,
 }
 
 /// A branch, the branches that begin on it, the branches that begin on those, and so on.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Branches {
+pub struct Branches<C = Cycle, P = SolutionPoint> {
     /// The orbit at which the first branch begins.
-    pub chosen: Chosen,
+    pub chosen: Chosen<C>,
     /// All branches; the branch of the chosen orbit comes first.
-    pub followed: Vec<Followed>,
-    /// Events at which a further branch was expected but could not be followed.
-    pub lost: Vec<Origin>,
+    pub followed: Vec<Followed<P>>,
+    /// Events of an oscillator at which a further branch was expected but could not be followed.
+    pub lost: Vec<Origin<P>>,
 }
 
 /// Follows the orbit of a plan and the branches that begin on its branch.
@@ -160,7 +159,7 @@ pub(crate) fn branches(system: &SystemPlan, plan: &BranchPlan, control: &Control
     let range = from.min(plan.to)..=from.max(plan.to);
     let direction = if plan.to > from { Direction::Up } else { Direction::Down };
     let options = BranchOptions { points: plan.points, ..BranchOptions::default() };
-    let first = Branch::new(&osc, &chosen.orbit.cycle, vary.clone(), range.clone(), direction, options);
+    let first = Branch::new(&osc, &chosen.cycle, vary.clone(), range.clone(), direction, options);
     let ground = Ground { osc, vary, range, options, control };
     let points = ground.points(first.map_err(PlanError::from)?);
     let mut all = Branches { chosen, followed: vec![Followed { origin: None, points }], lost: Vec::new() };

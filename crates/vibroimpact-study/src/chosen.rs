@@ -2,19 +2,36 @@
 
 use crate::PlanError;
 use vibroimpact::continuation::BranchError;
-use vibroimpact::orbit::{FindOptions, Orbit, find_while};
-use vibroimpact::verdict::Count;
+use vibroimpact::orbit::{Cycle, FindOptions, Orbit, find_while};
+use vibroimpact::verdict::{Count, Stability};
 use vibroimpact::{Label, Oscillator};
 
-/// One of the orbits with a given label.
+/// The orbit at which a branch or a curve of any system begins.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Chosen {
+pub struct Chosen<C = Cycle> {
     /// The orbit.
-    pub orbit: Orbit,
-    /// Its number among all orbits found, counted from 1 in order of rising speed.
+    pub cycle: C,
+    /// Which of those with its label it is; `None` for the motion from the start of a machine.
+    pub among: Option<OrbitNumber>,
+    /// Its stability; `None` for a solution that is not admissible.
+    pub stability: Option<Stability>,
+}
+
+/// The number of an orbit among those with its label.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OrbitNumber {
+    /// Counted from 1 in order of rising speed.
     pub number: u32,
-    /// Number of orbits found.
+    /// How many there are.
     pub count: u32,
+}
+
+impl OrbitNumber {
+    /// Of an orbit with this index.
+    pub(crate) fn new(index: usize, count: usize) -> Self {
+        let counted = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+        Self { number: counted(index + 1), count: counted(count) }
+    }
 }
 
 /// The label of the orbit of an oscillator at which a branch or a curve begins.
@@ -65,9 +82,9 @@ pub(crate) fn choose(
             best.filter(|index| orbits[*index].physical).ok_or(PlanError::NoOrbit { label, others: count })?
         }
     };
-    let counted = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
     let orbit = orbits.into_iter().nth(index).ok_or(PlanError::NoOrbit { label, others: 0 })?;
-    Ok(Some(Chosen { orbit, number: counted(index + 1), count: counted(count) }))
+    let stability = orbit.physical.then(|| orbit.cycle.stability());
+    Ok(Some(Chosen { cycle: orbit.cycle, among: Some(OrbitNumber::new(index, count)), stability }))
 }
 
 #[cfg(test)]
@@ -82,11 +99,12 @@ mod tests {
     fn the_stable_one_else_the_fastest_motion() {
         let osc = Oscillator::from_inverse_beta(1.11, 2.0, 0.5).unwrap();
         let one = chosen(&osc, Label::new(1, 1), None).unwrap();
-        assert!(one.orbit.physical && !one.orbit.cycle.stable());
+        assert!(one.stability.is_some() && !one.cycle.stable());
         let half = chosen(&osc, Label::new(1, 2), None).unwrap();
-        assert!(half.orbit.physical && half.orbit.cycle.stable());
-        assert_eq!(chosen(&osc, Label::new(1, 2), Some(half.number)).as_ref(), Ok(&half));
-        for given in [0, half.count + 1] {
+        assert_eq!(half.stability, Some(Stability::Stable));
+        let OrbitNumber { number, count } = half.among.unwrap();
+        assert_eq!(chosen(&osc, Label::new(1, 2), Some(number)).as_ref(), Ok(&half));
+        for given in [0, count + 1] {
             let error = chosen(&osc, Label::new(1, 2), Some(given)).unwrap_err();
             assert!(matches!(error, PlanError::NoSuchOrbit { given: g, .. } if g == given));
         }

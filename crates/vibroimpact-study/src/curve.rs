@@ -10,6 +10,7 @@ use vibroimpact::continuation::{
     Branch, BranchEvent, BranchOptions, Curve, CurveEvent, CurveOptions, CurvePoint, Direction, SolutionPoint,
 };
 use vibroimpact::math::sort_by;
+use vibroimpact::orbit::Cycle;
 use vibroimpact::{Label, Oscillator, ParameterPath};
 
 /// What holds along a curve. Torus, corner, sticking and holding are of machines only.
@@ -106,7 +107,7 @@ impl CurvePlan {
         for stretch in [&self.vary, &self.and] {
             let value = system.value(stretch.parameter)?;
             if !stretch.range().contains(&value) {
-                let name = stretch.parameter.name();
+                let name = stretch.parameter.name().into();
                 return Err(PlanError::Outside { name, value, from: stretch.from, to: stretch.to });
             }
         }
@@ -114,17 +115,19 @@ impl CurvePlan {
     }
 }
 
-/// A curve, followed in both directions from the event at which it begins.
+/// A curve of any system, followed in both directions from the event at which it begins.
 #[derive(Clone, Debug, PartialEq)]
-pub struct EventCurve {
+pub struct EventCurve<C = Cycle, E = SolutionPoint, P = CurvePoint> {
     /// The orbit whose branch contains the event.
-    pub chosen: Chosen,
+    pub chosen: Chosen<C>,
+    /// The stop or joint of a curve of grazing, sticking or holding of a machine, or the stops and joints of a corner.
+    pub places: Vec<usize>,
     /// The events of the requested kind on its branch, in order of rising values.
-    pub events: Vec<SolutionPoint>,
+    pub events: Vec<E>,
     /// Index of the event through which the curve passes.
     pub through: usize,
     /// The points of the curve from one end to the other.
-    pub points: Vec<CurvePoint>,
+    pub points: Vec<P>,
     /// Index of the event among the points.
     pub begin: usize,
 }
@@ -160,7 +163,7 @@ pub(crate) fn curve(system: &SystemPlan, plan: &CurvePlan, control: &Control<'_>
     let through = through.ok_or(PlanError::NoEvent {
         kind: plan.kind.name(),
         label,
-        name: plan.vary.parameter.name(),
+        name: plan.vary.parameter.name().into(),
         from: plan.vary.from,
         to: plan.vary.to,
         count: events.len(),
@@ -178,7 +181,7 @@ pub(crate) fn curve(system: &SystemPlan, plan: &CurvePlan, control: &Control<'_>
     points.reverse();
     let begin = points.len();
     points.extend(forth);
-    Ok(EventCurve { chosen, events, through, points, begin })
+    Ok(EventCurve { chosen, places: Vec::new(), events, through, points, begin })
 }
 
 /// The events of the requested kind on the branch of the orbit, up to both ends of the range, as long as the label is
@@ -196,7 +199,7 @@ fn events(
         if (direction == Direction::Up && own >= end) || (direction == Direction::Down && own <= end) {
             continue;
         }
-        let cycle = &chosen.orbit.cycle;
+        let cycle = &chosen.cycle;
         // the inverse of a value at an end of the range may be rounded to a value outside
         let range = plan.vary.from.min(own)..=plan.vary.to.max(own);
         let branch = Branch::new(osc, cycle, line.clone(), range, direction, BranchOptions::default())?;

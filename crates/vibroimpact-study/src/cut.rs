@@ -24,25 +24,26 @@ pub struct Cut<V = Parameter> {
     pub also: Option<Stretch<V>>,
 }
 
+impl<V> Cut<V> {
+    /// What varies, one or two numbers.
+    pub fn names(&self) -> impl Iterator<Item = &V> {
+        core::iter::once(&self.vary).chain(self.also.as_ref().map(|also| &also.parameter))
+    }
+
+    /// The values of the numbers that vary, where the first has the value `value`.
+    pub fn values(&self, value: f64) -> impl Iterator<Item = f64> + use<V> {
+        let second = self.also.as_ref().map(|also| in_proportion(value, self.ends, (also.from, also.to)));
+        core::iter::once(value).chain(second)
+    }
+}
+
 impl Cut {
-    /// The parameters that vary, one or two.
-    pub fn parameters(&self) -> impl Iterator<Item = Parameter> + use<> {
-        core::iter::once(self.vary).chain(self.also.map(|also| also.parameter))
-    }
-
-    /// The values of the parameters that vary, where the first has the value `value`.
-    pub fn values(&self, value: f64) -> impl Iterator<Item = (Parameter, f64)> + use<> {
-        let ends = self.ends;
-        let second = move |also: Stretch| (also.parameter, in_proportion(value, ends, (also.from, also.to)));
-        core::iter::once((self.vary, value)).chain(self.also.map(second))
-    }
-
     /// The system where the first parameter has the value `value`. Other parameters are those of `system`.
     ///
     /// # Errors
     /// [`PlanError::NoSecondStop`] for a parameter of a second stop if there is none.
     pub fn system(&self, system: &SystemPlan, value: f64) -> Result<SystemPlan, PlanError> {
-        system.with_all(self.values(value))
+        system.with_all(self.names().copied().zip(self.values(value)))
     }
 
     /// The checked oscillator where the first parameter has the value `value`.
@@ -59,12 +60,12 @@ impl Cut {
     /// [`PlanError`] if both parameters are the same one, or if both ends of the first parameter are equal.
     pub fn varying(&self, system: &SystemPlan, value: f64) -> Result<ParameterPath, PlanError> {
         let (first, last) = self.ends;
-        let of_machine = self.parameters().find_map(|parameter| match parameter {
-            Parameter::Physical(parameter) => Some(parameter),
+        let of_machine = self.names().find_map(|parameter| match parameter {
+            Parameter::Physical(parameter) => Some(*parameter),
             _ => None,
         });
         if self.also.is_some() && first == last {
-            return Err(PlanError::Nowhere { name: self.vary.name(), value: first });
+            return Err(PlanError::Nowhere { name: self.vary.name().into(), value: first });
         }
         let also = self.also.map(|also| (also.parameter, (also.to - also.from) / (last - first)));
         if let Some(parameter) = of_machine {

@@ -2,8 +2,9 @@
 
 use crate::control::Stopped;
 use crate::counted;
-use crate::machine::MachineTextError;
+use crate::machine::MachineFileError;
 use crate::text::TextError;
+use core::fmt;
 use std::borrow::Cow;
 use thiserror::Error;
 use vibroimpact::continuation::BranchError;
@@ -27,7 +28,7 @@ pub enum PlanError {
     System(#[from] SystemError),
     /// A machine, a number in it or its start is invalid.
     #[error(transparent)]
-    Machine(#[from] MachineTextError),
+    Machine(#[from] MachineFileError),
     /// A number of forcing periods of a machine without forcing.
     #[error("the machine has no forcing, so no forcing periods\nhint: a number of impacts limits the number of events")]
     Unforced,
@@ -44,26 +45,14 @@ pub enum PlanError {
     /// Sections of the attractor of a machine without forcing.
     #[error("the machine has no forcing, so its attractor has no section at a phase")]
     UnforcedSection,
-    /// The range of a number of a machine along a branch.
-    #[error(
-        "{path} is {from} in the machine, and the branch would end at {to}\nhint: the other end of the range is another finite number"
-    )]
-    MachineRange {
-        /// The path.
-        path: String,
-        /// Its value in the machine.
-        from: f64,
-        /// The other end.
-        to: f64,
-    },
     /// Both numbers of a line through two are the same.
     #[error("{0} and {0} cannot vary together: a line goes through two different numbers")]
     MachineTogether(String),
-    /// The values of the second number of a line.
-    #[error("{path} is to go from {from} to {to}, but both values are finite")]
-    MachineAlso {
-        /// The path.
-        path: String,
+    /// The ends of a line are not finite.
+    #[error("{name} is to go from {from} to {to}, but both values are finite")]
+    Endless {
+        /// The name of the number.
+        name: Cow<'static, str>,
         /// Its first value.
         from: f64,
         /// Its last value.
@@ -85,52 +74,6 @@ pub enum PlanError {
     /// A branch of a machine cannot begin.
     #[error("{0}")]
     MachineBranch(String),
-    /// The range of a number of a machine along a curve.
-    #[error("{path} from {from} to {to} is no range\nhint: two finite numbers, the smaller one first")]
-    MachineStretch {
-        /// The path.
-        path: String,
-        /// The smaller value.
-        from: f64,
-        /// The larger one.
-        to: f64,
-    },
-    /// A number of the machine lies outside the range over which an orbit is followed.
-    #[error(
-        "{path} = {value} lies outside the range from {from} to {to}\nhint: the orbit is followed from the machine given; --set {path}=VALUE changes it"
-    )]
-    MachineOutside {
-        /// The path.
-        path: String,
-        /// Its value in the machine.
-        value: f64,
-        /// The smaller end.
-        from: f64,
-        /// The larger end.
-        to: f64,
-    },
-    /// The branch of an orbit of a machine has no such event.
-    #[error("{}", [
-        asked.map_or_else(|| format!("no {kind} was found"), |n| format!("there is no {kind} number {n}")),
-        format!(" on the branch of {label} over {path} from {from} to {to}"),
-        if *count == 0 { String::new() } else { format!(": {count} found") }
-    ].concat())]
-    NoMachineEvent {
-        /// The kind of event.
-        kind: &'static str,
-        /// The label of the branch.
-        label: Label,
-        /// The path of the number that varies.
-        path: String,
-        /// Smallest value of its range.
-        from: f64,
-        /// Largest value of the range.
-        to: f64,
-        /// The number of events of this kind.
-        count: usize,
-        /// The number of the event asked for.
-        asked: Option<u32>,
-    },
     /// An axis of a basin of a machine that is no part of a start.
     #[error("`{given}` is no part of a start\nhint: q.NAME, qdot.NAME or phase; the coordinates are {coordinates}")]
     MachineStartAxis {
@@ -149,12 +92,6 @@ pub enum PlanError {
         /// All coordinates.
         coordinates: String,
     },
-    /// The number of axes of a grid of a machine.
-    #[error("{0} axes were given: allowed are 1 to 4\nhint: --axis PATH=A:B:N, once for each")]
-    MachineAxes(usize),
-    /// An axis that is given twice.
-    #[error("{0} is given as an axis twice")]
-    MachineAxisTwice(String),
     /// A number of a machine in two forms.
     #[error("{0} and {1} are two forms of one number, and both are given")]
     PhysicalTwice(&'static str, &'static str),
@@ -186,6 +123,18 @@ pub enum PlanError {
     /// A text that cannot be read as a plan.
     #[error("the plan does not read: {0}")]
     Text(#[from] TextError),
+    /// A number outside its allowed range.
+    #[error("{name} = {given} lies outside {range}{hint}")]
+    OutOfRange {
+        /// Its name.
+        name: &'static str,
+        /// The given value.
+        given: String,
+        /// The allowed range, such as `1 <= starts <= 100`.
+        range: String,
+        /// What is said after that, beginning with a colon or a line break; may be empty.
+        hint: &'static str,
+    },
     /// A range that is not `A:B:N`.
     #[error(
         "range `{given}` is not A:B:N with finite A and B and a whole N >= 1\nhint: {}",
@@ -232,14 +181,6 @@ pub enum PlanError {
         point: u64,
         /// What is invalid.
         error: Box<Self>,
-    },
-    /// The number of points.
-    #[error("points = {given} lies outside 1 <= points <= {most}")]
-    PointCount {
-        /// The number given.
-        given: u64,
-        /// The largest number allowed.
-        most: u64,
     },
     /// Columns of points that have different lengths.
     #[error("{} has {} values and {} has {}: every column has one value for each point", names.0, counts.0, names.1, counts.1)]
@@ -344,112 +285,12 @@ pub enum PlanError {
         /// The given offset.
         offset_m: f64,
     },
-    /// Too many values of a parameter.
-    #[error("values = {given} lies outside 2 <= values <= {most}")]
-    Values {
-        /// The given number.
-        given: u32,
-        /// The largest allowed number.
-        most: u32,
-    },
-    /// A physical unit is not positive and finite.
-    #[error("{name} = {value} lies outside 0 < {name} < infinity")]
-    Unit {
-        /// The name of the unit.
-        name: &'static str,
-        /// The given value.
-        value: f64,
-    },
-    /// The size of a tile is outside its allowed range.
-    #[error("tile = {given} lies outside 1 <= tile <= {most}")]
-    Tile {
-        /// The given value.
-        given: u32,
-        /// The largest allowed value.
-        most: u32,
-    },
-    /// The size of a shard is outside its allowed range.
-    #[error("shard = {given} lies outside 1 <= shard <= {most}")]
-    Shard {
-        /// The given value.
-        given: u32,
-        /// The largest allowed value.
-        most: u32,
-    },
-    /// The step of the coarse grid is invalid.
-    #[error(
-        "refine = {given} lies outside 2 <= refine <= {most}: the distance, in points, of the coarse grid to begin with"
-    )]
-    Refine {
-        /// The given value.
-        given: u32,
-        /// The largest allowed value.
-        most: u32,
-    },
     /// Parameters that are given neither in the system nor on an axis.
     #[error("neither in the system nor on an axis: {}", .0.join(", "))]
     Missing(Vec<&'static str>),
     /// The frequency is given twice or not at all (beta and its inverse).
     #[error("the frequency is given {0}: exactly one of beta and inverse beta is needed")]
     Frequency(&'static str),
-    /// The number of starts is outside its allowed range.
-    #[error("starts = {given} lies outside 1 <= starts <= {most}")]
-    Starts {
-        /// The given number.
-        given: u64,
-        /// The largest allowed value.
-        most: u64,
-    },
-    /// The number of impacts is outside its allowed range.
-    #[error("impacts = {0} lies outside 1 <= impacts <= 10000000")]
-    Impacts(u64),
-    /// The number of impacts for which each start is followed is outside its allowed range.
-    #[error("impacts = {given} lies outside 1 <= impacts <= {most}")]
-    Budget {
-        /// The given number.
-        given: u32,
-        /// The largest allowed number.
-        most: u32,
-    },
-    /// The number of impacts of a measurement is too small for an error bar, or too large.
-    #[error(
-        "impacts = {given} lies outside {least} <= impacts <= {most}\nhint: the error bar shrinks with the square root of the number; 100000 give two or three digits"
-    )]
-    Measured {
-        /// The given value.
-        given: u64,
-        /// The smallest allowed value.
-        least: u64,
-        /// The largest allowed value.
-        most: u64,
-    },
-    /// The number of points of a section is outside its allowed range.
-    #[error("points = {given} lies outside 1 <= points <= {most}")]
-    Points {
-        /// The given value.
-        given: u64,
-        /// The largest allowed value.
-        most: u64,
-    },
-    /// The number of forcing periods is outside its allowed range.
-    #[error("periods = {0} lies outside 0 < periods <= 1e9")]
-    Periods(f64),
-    /// The transient is too long.
-    #[error("transient = {given} lies outside 0 <= transient <= {most}")]
-    Transient {
-        /// The given value.
-        given: u64,
-        /// The largest allowed value.
-        most: u64,
-    },
-    /// The number of impacts or states to keep is outside its allowed range.
-    #[error("keep = {given} lies outside 1 <= keep <= {most}")]
-    Keep {
-        /// The given value.
-        given: u64,
-        /// The largest allowed value.
-        most: u64,
-    },
     /// A parameter of the second stop is to vary, but there is only one stop.
     #[error("{0} is to vary, but there is no second stop\nhint: a second stop has a gap and a restitution of its own")]
     NoSecondStop(&'static str),
@@ -480,51 +321,9 @@ pub enum PlanError {
     #[error("{name} is to go from {value} to {value}: there is nothing on the way")]
     Nowhere {
         /// The name of the parameter.
-        name: &'static str,
+        name: Cow<'static, str>,
         /// Its value.
         value: f64,
-    },
-    /// The number of further branches is outside its allowed range.
-    #[error("follow = {given} lies outside 0 <= follow <= {most}")]
-    Follow {
-        /// The given value.
-        given: u32,
-        /// The largest allowed value.
-        most: u32,
-    },
-    /// The number of points of a branch is outside its allowed range.
-    #[error("points = {given} lies outside 2 <= points <= {most}")]
-    BranchPoints {
-        /// The given value.
-        given: u32,
-        /// The largest allowed value.
-        most: u32,
-    },
-    /// The number of grid points in each direction is outside its allowed range.
-    #[error("grid = {given} lies outside 2 <= grid <= {most}")]
-    Grid {
-        /// The given value.
-        given: u32,
-        /// The largest allowed value.
-        most: u32,
-    },
-    /// The ratio of the ends of the ranges of margins is outside its allowed range.
-    #[error(
-        "within = {given} lies outside 1 < within <= {most}\nhint: 2 is from half of each value to twice the value"
-    )]
-    Within {
-        /// The given value.
-        given: f64,
-        /// The largest allowed value.
-        most: f64,
-    },
-    /// The number of lines of a box is outside its allowed range.
-    #[error("lines = {given} lies outside 0 <= lines <= {most}")]
-    Lines {
-        /// The given value.
-        given: u32,
-        /// The largest allowed value.
-        most: u32,
     },
     /// The scale of a parameter is not positive and finite.
     #[error(
@@ -568,14 +367,14 @@ pub enum PlanError {
     },
     /// The two parameters of a plane are the same parameter.
     #[error("{0} and {1} do not span a plane: they are one parameter")]
-    SameParameter(&'static str, &'static str),
+    SameParameter(Cow<'static, str>, Cow<'static, str>),
     /// The value of a parameter in the system lies outside the given range.
     #[error(
         "{name} = {value} lies outside the range from {from} to {to}\nhint: the orbit to begin with is looked for at the system given"
     )]
     Outside {
         /// The name of the parameter.
-        name: &'static str,
+        name: Cow<'static, str>,
         /// Its value in the system.
         value: f64,
         /// Smallest value of the range.
@@ -617,7 +416,7 @@ pub enum PlanError {
         /// The label of the branch.
         label: Label,
         /// The parameter that varies.
-        name: &'static str,
+        name: Cow<'static, str>,
         /// Smallest value of its range.
         from: f64,
         /// Largest value of the range.
@@ -636,6 +435,22 @@ pub enum PlanError {
     /// The plan has a version that this program does not support.
     #[error("the plan has version {0}; this program knows version {known}", known = crate::PLAN_VERSION)]
     Version(u32),
+}
+
+impl PlanError {
+    /// A number that lies outside a range, both ends of which are allowed.
+    pub(crate) fn outside<T: fmt::Display>(name: &'static str, given: T, (least, most): (T, T)) -> Self {
+        let range = format!("{least} <= {name} <= {most}");
+        Self::OutOfRange { name, given: given.to_string(), range, hint: "" }
+    }
+
+    /// The same number with a hint.
+    pub(crate) fn hinted(mut self, text: &'static str) -> Self {
+        if let Self::OutOfRange { hint, .. } = &mut self {
+            *hint = text;
+        }
+        self
+    }
 }
 
 /// The reason why a run was not completed.

@@ -30,7 +30,7 @@
 //! | a parameter and its range; a line through one or two of them | [`Stretch`], [`Cut`] |
 //! | the parameters of the core in plans | [`Parameter`], `parameter` |
 //! | machines as they are written, and their catalogue | [`machine`] |
-//! | the tasks of machines, and their results | [`MachineResults`] |
+//! | the tasks of machines, and their results | [`machine::Results`] |
 //! | an oscillator in SI units; the units of a plan | [`PhysicalPlan`], [`UnitsPlan`] |
 //! | the quantities of a motion that a plan asks for | [`Quantity`], `quantity` |
 
@@ -79,10 +79,10 @@ mod units;
 mod words;
 
 pub use axis::{Axis, Coordinate, Values, typed_axes};
-pub use basin::{Basin, BasinPlan};
+pub use basin::{Basin, BasinPlan, NO_START};
 pub use branch::{BranchPlan, Branches, DEFAULT_BRANCH_POINTS, Followed, Origin};
-pub use by_stop::ImpactsByStop;
-pub use chosen::Chosen;
+pub use by_stop::{ImpactsByStop, stop_number};
+pub use chosen::{Chosen, OrbitNumber};
 pub use control::{Control, Meter, Stopped, TileMeter, tiles};
 pub use curve::{CurvePlan, EventCurve, FollowedEvent};
 pub use cut::Cut;
@@ -95,12 +95,10 @@ pub use grid::{Block, Dimension, Grid, number, place};
 pub use limits::PLAN_VERSION;
 pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
 pub use machine_plan::{
-    MachineBasin, MachineBranched, MachineDiagram, MachineDiagramPoint, MachineDiagramStep, MachineEventCurve,
-    MachineFollowed, MachineLine, MachineMap, MachineMargins, MachineOrigin, MachineResults, MachineSection,
-    MachineShare, MachineSimulated, ManyPlan, NumberEvent, NumberMargin, events_with_states, machine_label,
-    most_events, quantity_path,
+    BranchPlace, MachineMargins, ManyPlan, NumberEvent, NumberMargin, OrbitLine, SectionPoints, events_with_states,
+    machine_label, most_events, quantity_path,
 };
-pub use map::{MapPlan, MapPoint, RegionMap, Share};
+pub use map::{MapPlan, RegionMap, Share};
 pub use margins::{
     BoxEdge, DEFAULT_LINES, DEFAULT_WITHIN, Loss, MarginEnd, MarginsPlan, MotionBox, MotionMargins, ParameterMargin,
     ScaledParameter, Scope,

@@ -1,6 +1,8 @@
 //! The version of plans, and the largest sizes of a question.
 
 use crate::PlanError;
+use core::fmt::Display;
+use core::ops::RangeInclusive;
 
 /// Version of the fields of a plan. A plan of another version is refused.
 pub const PLAN_VERSION: u32 = 1;
@@ -13,12 +15,24 @@ pub(crate) const MOST_STARTS: u64 = 1_000_000_000;
 /// Maximum number of points of a branch or curve.
 pub(crate) const MOST_POINTS: u32 = 100_000;
 
+/// Checks that a number lies in its range.
+///
+/// # Errors
+/// [`PlanError::OutOfRange`] if it does not.
+pub(crate) fn check<T: PartialOrd + Display + Copy>(
+    name: &'static str,
+    given: T,
+    range: RangeInclusive<T>,
+) -> Result<(), PlanError> {
+    if range.contains(&given) { Ok(()) } else { Err(PlanError::outside(name, given, (*range.start(), *range.end()))) }
+}
+
 /// Checks a largest number of points of a branch or curve.
 ///
 /// # Errors
-/// [`PlanError::BranchPoints`] unless it lies between 2 and 100 000.
+/// As [`check`].
 pub(crate) fn branch_points(given: u32) -> Result<(), PlanError> {
-    if (2..=MOST_POINTS).contains(&given) { Ok(()) } else { Err(PlanError::BranchPoints { given, most: MOST_POINTS }) }
+    check("points", given, 2..=MOST_POINTS)
 }
 
 /// Maximum number of points of a section, more than a figure can show.
@@ -27,16 +41,33 @@ const MOST_SECTION: u64 = 100_000;
 /// Checks a number of points of a section, if any are requested.
 ///
 /// # Errors
-/// [`PlanError::Points`] unless it lies between 1 and 100 000.
+/// As [`check`].
 pub(crate) fn section(points: Option<u64>) -> Result<(), PlanError> {
-    let wrong = points.filter(|points| !(1..=MOST_SECTION).contains(points));
-    wrong.map_or(Ok(()), |given| Err(PlanError::Points { given, most: MOST_SECTION }))
+    points.map_or(Ok(()), |given| check("points", given, 1..=MOST_SECTION))
 }
 
 /// Checks a number of starts.
 ///
 /// # Errors
-/// [`PlanError::Starts`] if it is 0 or greater than `most`.
+/// As [`check`].
 pub(crate) fn starts(given: u64, most: u64) -> Result<(), PlanError> {
-    if (1..=most).contains(&given) { Ok(()) } else { Err(PlanError::Starts { given, most }) }
+    check("starts", given, 1..=most)
 }
+
+/// Checks the impacts of a measurement of exponents, and those to pass before.
+///
+/// # Errors
+/// As [`check`].
+pub(crate) fn measured(
+    impacts: Option<u64>,
+    range: RangeInclusive<u64>,
+    transient: Option<u64>,
+) -> Result<(), PlanError> {
+    const HINT: &str =
+        "\nhint: the error bar shrinks with the square root of the number; 100000 give two or three digits";
+    impacts.map_or(Ok(()), |given| check("impacts", given, range)).map_err(|error| error.hinted(HINT))?;
+    transient.map_or(Ok(()), |given| check("transient", given, 0..=MOST_TRANSIENT))
+}
+
+/// Maximum number of impacts or periods of a transient; it takes a few seconds for each value.
+pub(crate) const MOST_TRANSIENT: u64 = 1_000_000;

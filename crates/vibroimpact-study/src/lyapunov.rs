@@ -59,8 +59,6 @@ const MOST_AXES: usize = 4;
 const FEWEST_IMPACTS: u64 = 1_000;
 /// Maximum number of impacts of a measurement; it takes several seconds.
 const MOST_IMPACTS: u64 = 10_000_000;
-/// Maximum number of impacts of a transient.
-const MOST_TRANSIENT: u64 = 1_000_000;
 
 impl LyapunovPlan {
     /// Checks everything that can be checked without running the plan.
@@ -69,12 +67,7 @@ impl LyapunovPlan {
     /// [`PlanError`] names the first invalid value.
     pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
         let (impacts, transient) = self.lengths();
-        if !(FEWEST_IMPACTS..=MOST_IMPACTS).contains(&impacts) {
-            return Err(PlanError::Measured { given: impacts, least: FEWEST_IMPACTS, most: MOST_IMPACTS });
-        }
-        if transient > MOST_TRANSIENT {
-            return Err(PlanError::Transient { given: transient, most: MOST_TRANSIENT });
-        }
+        limits::measured(Some(impacts), FEWEST_IMPACTS..=MOST_IMPACTS, Some(transient))?;
         limits::section(self.points)?;
         axis::check(
             "study of exponents",

@@ -4,7 +4,7 @@
 //! documented here. Unknown fields are errors, so a misspelt parameter is not ignored.
 
 use crate::diagram::Show;
-use crate::limits::{MOST_STARTS, PLAN_VERSION, starts};
+use crate::limits::{self, MOST_STARTS, PLAN_VERSION, starts};
 use crate::machine::MachineSource;
 use crate::map::check_impacts;
 use crate::name::{Name, Variable};
@@ -32,7 +32,7 @@ use vibroimpact::Label;
 ///     impacts = 3
 /// "#)?;
 /// let Results::Machine(results) = run(&plan, &Control::default())? else { unreachable!() };
-/// let vibroimpact_study::MachineResults::Simulate(found) = results else { unreachable!() };
+/// let vibroimpact_study::machine::Results::Simulate(found) = results else { unreachable!() };
 /// assert_eq!(found.events.iter().map(|event| event.time).collect::<Vec<_>>(), [1.0, 2.0, 2.5]);
 /// assert_eq!(Plan::from_text(&plan.to_toml())?, plan);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -68,10 +68,7 @@ pub(crate) fn hash_of(plan: &impl Serialize) -> String {
 
 /// Checks the number of points of a tile along one axis.
 pub(crate) fn check_tile(tile: Option<u32>) -> Result<(), PlanError> {
-    match tile.filter(|tile| !(1..=MOST_TILE).contains(tile)) {
-        Some(given) => Err(PlanError::Tile { given, most: MOST_TILE }),
-        None => Ok(()),
-    }
+    tile.map_or(Ok(()), |given| limits::check("tile", given, 1..=MOST_TILE))
 }
 
 /// Maximum number of tiles of a shard along one axis.
@@ -79,10 +76,7 @@ const MOST_SHARD: u32 = 1024;
 
 /// Checks the number of tiles of a shard along one axis.
 pub(crate) fn check_shard(shard: Option<u32>) -> Result<(), PlanError> {
-    match shard.filter(|shard| !(1..=MOST_SHARD).contains(shard)) {
-        Some(given) => Err(PlanError::Shard { given, most: MOST_SHARD }),
-        None => Ok(()),
-    }
+    shard.map_or(Ok(()), |given| limits::check("shard", given, 1..=MOST_SHARD))
 }
 
 impl Plan {
@@ -322,7 +316,7 @@ mod tests {
         later.version = 2;
         assert_eq!(later.check(), Err(PlanError::Version(2)));
         let none = Plan { task: Task::Attractors { starts: 0, seed: 0, impacts: None }, ..plan() };
-        assert_eq!(none.check(), Err(PlanError::Starts { given: 0, most: MOST_STARTS }));
+        assert!(matches!(none.check(), Err(PlanError::OutOfRange { name: "starts", .. })));
         for (task, sentence) in [
             (Task::Orbit { label: "3/0".into() }, "label `3/0`"),
             (simulate(Some(0), None), "impacts = 0"),

@@ -88,7 +88,7 @@ impl Task {
             // an empty list is refused later
             Self::Diagram(diagram) if diagram.over.count() > 0 => {
                 let diagram: DiagramPlan = diagram.typed()?;
-                diagram.cut().values(diagram.over.at(0)).collect()
+                diagram.cut().names().copied().zip(diagram.values(0)).collect()
             }
             Self::Response(response) => parameter((&response.vary, response.over.at(0))).into_iter().collect(),
             // the first value of a branch is that of the system

@@ -3,7 +3,7 @@
 use crate::chosen::followable;
 use crate::name::Name;
 use crate::stretch::check_plane;
-use crate::{Control, Parameter, PlanError, RunError, Stretch, SystemPlan, tiles};
+use crate::{Control, Parameter, PlanError, RunError, Stretch, SystemPlan, limits, tiles};
 use serde::{Deserialize, Serialize};
 use vibroimpact::continuation::{Frame, Region, RegionKind, RegionOptions, region_while};
 use vibroimpact::{Label, Oscillator, PhysicalParameter};
@@ -76,10 +76,7 @@ impl RegionPlan {
 /// Checks the label of a region and its grid.
 pub(crate) fn check(label: &str, grid: u32) -> Result<(), PlanError> {
     followable(Some(label))?;
-    if !(2..=MOST_GRID).contains(&grid) {
-        return Err(PlanError::Grid { given: grid, most: MOST_GRID });
-    }
-    Ok(())
+    limits::check("grid", grid, 2..=MOST_GRID)
 }
 
 /// The regions of one motion.

@@ -2,15 +2,16 @@
 
 use crate::branch::branches;
 use crate::curve::curve;
-use crate::in_memory::{attractors, basin, diagram, map};
+use crate::in_memory::{DIAGRAM_TILE, attractors, basin, diagram, map};
 use crate::map::options;
 use crate::margins::margins;
 use crate::region::regions;
 use crate::response::response;
 use crate::simulate::simulate;
+use crate::study::SweepFill;
 use crate::{
-    Basin, Branches, Control, Diagram, EventCurve, LyapunovPlan, MachineResults, MotionMargins, Plan, PlanError,
-    RegionMap, Regions, ResponseCurves, RunError, Simulated, Stopped, System, SystemPlan, Task, machine_plan,
+    Basin, Branches, Control, Diagram, EventCurve, LyapunovPlan, MotionMargins, Plan, PlanError, RegionMap, Regions,
+    ResponseCurves, RunError, Simulated, Stopped, System, SystemPlan, Task, machine, machine_plan,
 };
 use core::sync::atomic::{AtomicU64, Ordering};
 use vibroimpact::chaos::{Exponents, Section, exponents_while, section_while};
@@ -50,7 +51,7 @@ pub enum Results {
     /// The distances of a motion from its nearest events.
     Margins(MotionMargins),
     /// The result of a task of a machine.
-    Machine(MachineResults),
+    Machine(machine::Results),
 }
 
 /// Number of impacts of one motion between two reports.
@@ -114,7 +115,10 @@ fn run_oscillator(system: &SystemPlan, plan: &Plan, control: &Control<'_>) -> Re
         }
         Task::Basin(task) => Results::Basin(basin(system, &task.typed()?, control)?),
         Task::Map(task) => Results::Map(map(system, &task.typed()?, control)?),
-        Task::Diagram(task) => Results::Diagram(diagram(system, &task.typed()?, control)?),
+        Task::Diagram(task) => {
+            let task = SweepFill::new(system, &task.typed()?, Some(DIAGRAM_TILE));
+            Results::Diagram(diagram(&task, control)?)
+        }
         Task::Lyapunov(task) => {
             let task: LyapunovPlan = task.typed()?;
             if let Some(axis) = task.axes.first() {

@@ -1,6 +1,6 @@
 //! The events of one motion, up to a number of impacts or forcing periods, and the reason why the list ends.
 
-use crate::{Control, PlanError, Stopped};
+use crate::{Control, PlanError, Stopped, limits};
 use vibroimpact::flight::SearchLimits;
 use vibroimpact::motion::{End, Event, EventKind, Motion};
 use vibroimpact::verdict::NoImpact;
@@ -20,17 +20,20 @@ pub const SEARCH_LIMIT: &str = "search_limit";
 /// Number of impacts or events between two reports of progress.
 pub(crate) const TELL: u64 = 1024;
 
-/// The events of a motion and the reason why the list ends.
+/// The events of a motion of any system and the reason why the list ends.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Simulated {
+pub struct Simulated<E = Event> {
     /// The events, in order.
-    pub events: Vec<Event>,
-    /// The reason why the list ends: `impact_limit`, `time_limit`, `no_more_impacts`, `stuck` or `search_limit`.
+    pub events: Vec<E>,
+    /// The reason why the list ends: `impact_limit` (of a machine `event_limit`), `time_limit`, `no_more_impacts`, `stuck` or
+    /// `search_limit`; of a machine also `inconsistent` or `collapse`.
     pub reason: &'static str,
     /// The time at which the list ends.
     pub time: f64,
-    /// Why there are no more impacts, if this is decided.
+    /// Why an oscillator has no more impacts, if this is decided.
     pub horizon: Option<NoImpact>,
+    /// The time up to which a waveform is worth showing: not far beyond the last event if none follows it.
+    pub shown_until: f64,
 }
 
 /// The number of impacts to follow, with defaults applied.
@@ -41,11 +44,14 @@ pub(crate) fn most_impacts(impacts: Option<u64>, periods: Option<f64>) -> u64 {
 
 /// Checks the numbers of events and of forcing periods of a simulation.
 pub(crate) fn check_lengths(impacts: Option<u64>, periods: Option<f64>) -> Result<(), PlanError> {
-    if let Some(n) = impacts.filter(|n| !(1..=10_000_000).contains(n)) {
-        return Err(PlanError::Impacts(n));
-    }
+    impacts.map_or(Ok(()), |given| limits::check("impacts", given, 1..=10_000_000))?;
     match periods.filter(|n| !(*n > 0.0 && *n <= 1e9)) {
-        Some(n) => Err(PlanError::Periods(n)),
+        Some(given) => Err(PlanError::OutOfRange {
+            name: "periods",
+            given: given.to_string(),
+            range: "0 < periods <= 1e9".to_owned(),
+            hint: "",
+        }),
         None => Ok(()),
     }
 }
@@ -143,7 +149,11 @@ pub fn simulate(
             break end;
         }
     };
-    Ok(Simulated { events, reason, time, horizon })
+    let shown_until = match reason {
+        "impact_limit" | "time_limit" => time,
+        _ => time + 5.0 * osc.period(),
+    };
+    Ok(Simulated { events, reason, time, horizon, shown_until })
 }
 
 /// The reason why no further event came; `last` is the time of the last event.
@@ -159,17 +169,6 @@ fn ended(end: Option<End>, last: f64, until: f64, period: f64) -> Ended {
             if periods >= 999.0 { ("no_more_impacts", last, horizon) } else { (SEARCH_LIMIT, last, horizon) }
         }
         None => (SEARCH_LIMIT, last, None),
-    }
-}
-
-impl Simulated {
-    /// The time up to which a waveform is worth showing: a little beyond the last event if no event follows it.
-    #[must_use]
-    pub fn shown_until(&self, osc: &Oscillator) -> f64 {
-        match self.reason {
-            "impact_limit" | "time_limit" => self.time,
-            _ => self.time + 5.0 * osc.period(),
-        }
     }
 }
 
@@ -193,7 +192,7 @@ mod tests {
         let far = Oscillator::new(0.5, 40.0, 0.5).unwrap();
         let none = run(&far, Some(10), None);
         assert_eq!((none.reason, none.events.len()), ("no_more_impacts", 0));
-        assert!(none.horizon.is_some() && none.shown_until(&far) == 5.0 * far.period());
+        assert!(none.horizon.is_some() && none.shown_until == 5.0 * far.period());
     }
 
     #[test]

@@ -137,7 +137,7 @@ pub(crate) fn check_plane(system: &SystemPlan, one: &Stretch, two: &Stretch) -> 
     }
     let (p, q) = (one.parameter, two.parameter);
     if p.same_number(q) {
-        return Err(PlanError::SameParameter(p.name(), q.name()));
+        return Err(PlanError::SameParameter(p.name().into(), q.name().into()));
     }
     for (own, other) in [(p, two), (q, one)] {
         let scaled = matches!(own, Parameter::Beta | Parameter::InverseBeta | Parameter::Gap | Parameter::SecondGap);

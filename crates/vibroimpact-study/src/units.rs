@@ -66,7 +66,7 @@ impl UnitsPlan {
     /// Checks that all units are positive and finite, and those of the machine if the system is one.
     ///
     /// # Errors
-    /// [`PlanError::Unit`] or [`PlanError::NotOfPhysical`] for the first that is not.
+    /// [`PlanError::OutOfRange`] or [`PlanError::NotOfPhysical`] for the first that is not.
     pub(crate) fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
         if let Some(own) = Self::of_system(system) {
             for (name, given, own) in [
@@ -81,7 +81,12 @@ impl UnitsPlan {
         }
         let all = [("length_m", self.length_m), ("time_s", self.time_s), ("mass_kg", self.mass_kg)];
         match all.into_iter().find(|(_, value)| !(*value > 0.0 && value.is_finite())) {
-            Some((name, value)) => Err(PlanError::Unit { name, value }),
+            Some((name, value)) => Err(PlanError::OutOfRange {
+                name,
+                given: value.to_string(),
+                range: format!("0 < {name} < infinity"),
+                hint: "",
+            }),
             None => match self.frame.filter(|frame| !(frame.phase.is_finite() && frame.offset_m.is_finite())) {
                 Some(frame) => Err(PlanError::Frame { phase: frame.phase, offset_m: frame.offset_m }),
                 None => Ok(()),

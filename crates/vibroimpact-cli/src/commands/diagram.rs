@@ -238,7 +238,7 @@ fn with_branches(
             let name = question.machine.unwrap_or_default();
             let found = session.watched(None, |control| machine_bifurcation(name, plan, labels, control));
             let found = found.map_err(stopped)?;
-            outputs.write(session, || Ok(found.table()), || Ok(found.figure()))?;
+            outputs.write(session, || Ok(found.table()?), || Ok(found.figure()?))?;
             listed(&found.events(), (&found.behind.plan.vary, 1.0))
         }
     };

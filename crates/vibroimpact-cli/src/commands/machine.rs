@@ -10,7 +10,7 @@ use clap::{Args, Subcommand};
 use serde::Serialize;
 use std::path::PathBuf;
 use vibroimpact_report::figure::machine::figure;
-use vibroimpact_study::machine::{CATALOGUE, MachineText, Named};
+use vibroimpact_study::machine::{CATALOGUE, Named, WrittenMachine};
 
 /// List the machines of the catalogue, and show a machine: its numbers, its matrices and its schematic
 #[derive(Clone, Debug, Args)]
@@ -90,7 +90,7 @@ struct Shown {
     /// All numbers by path.
     numbers: Named<f64>,
     /// The expansion.
-    machine: MachineText,
+    machine: WrittenMachine,
 }
 
 pub(super) fn run(args: &MachineCommand, session: &Session) -> Result<(), Failure> {

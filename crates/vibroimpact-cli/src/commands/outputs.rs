@@ -8,9 +8,9 @@ use crate::picture::Picture;
 use crate::session::Session;
 use std::path::Path;
 use vibroimpact_plot::Figure;
-use vibroimpact_report::figure::plane::{Plane, PlaneAxis, Sides};
-use vibroimpact_report::{Table, Units};
-use vibroimpact_study::{Plan, Task, typed_axes};
+use vibroimpact_report::figure::plane::{PlaneAxis, Sides};
+use vibroimpact_report::{Table, Units, Varied};
+use vibroimpact_study::{Coordinate, Plan, Task, typed_axes};
 
 /// The outputs of a command.
 pub(super) struct Outputs {
@@ -121,16 +121,19 @@ impl Outputs {
 
 /// Refuses axes over which no figure can be drawn. Some figures need one axis only.
 fn drawable(plan: &Plan) -> Result<(), Failure> {
-    let (units, is_machine) = (Units::default(), plan.machine().is_some());
-    let (axes, paths) = (typed_axes(plan.task.axes()), typed_axes::<String>(plan.task.axes())?);
-    match &plan.task {
-        Task::Basin(_) | Task::Map(_) if is_machine => Sides::of_machine(&paths).map(drop)?,
-        Task::Lyapunov(_) if is_machine => {
-            paths.iter().try_for_each(|axis| PlaneAxis::of_machine(axis).map(drop))?;
+    match plan.machine() {
+        Some(_) => drawable_over::<String>(&plan.task),
+        None => drawable_over::<Coordinate>(&plan.task),
+    }
+}
+
+fn drawable_over<V: Varied>(task: &Task) -> Result<(), Failure> {
+    let units = Units::default();
+    match task {
+        Task::Basin(_) | Task::Map(_) => Sides::of(&typed_axes::<V>(task.axes())?, &units).map(drop)?,
+        Task::Lyapunov(_) => {
+            typed_axes::<V>(task.axes())?.iter().try_for_each(|axis| PlaneAxis::of(axis, &units).map(drop))?;
         }
-        Task::Basin(_) => Plane::of(&axes?, &units).map(drop)?,
-        Task::Map(_) => Sides::of(&axes?, &units).map(drop)?,
-        Task::Lyapunov(_) => axes?.iter().try_for_each(|axis| PlaneAxis::of(axis, &units).map(drop))?,
         _ => {}
     }
     Ok(())

@@ -6,35 +6,28 @@ use crate::report::motion::{InUnits, Teller};
 use crate::report::words::table;
 use vibroimpact::Oscillator;
 use vibroimpact::machine::Machine;
-use vibroimpact::math::sort_by_key;
 use vibroimpact::verdict::Verdict;
 use vibroimpact_report::Units;
-use vibroimpact_report::json::basin::by_count;
 use vibroimpact_report::number::{percent, short};
 use vibroimpact_study::basin::BasinMeasures;
-use vibroimpact_study::{Basin, MachineBasin, counted};
+use vibroimpact_study::{Basin, counted};
 
 /// One row for each motion, and the measures of the basin.
 pub(crate) fn text(found: &Basin, osc: &Oscillator) -> String {
-    let motions =
-        by_count(found).into_iter().map(|m| (&found.motions[m].verdict, found.motions[m].count, found.share(m)));
-    let units = Units::default();
-    let text = rows(&InUnits(osc, &units), motions.collect());
+    let text = rows(&InUnits(osc, &Units::default()), found);
     text + &found.measures().map_or_else(String::new, |measures| sentences(&measures))
 }
 
 /// The same of a machine, and the number of starts that are not allowed.
-pub(crate) fn of_machine(found: &MachineBasin, machine: &Machine) -> String {
-    let shares = found.shares().into_iter().zip(&found.motions);
-    let mut motions: Vec<_> = shares.map(|((count, share), verdict)| (verdict, count, share)).collect();
-    sort_by_key(&mut motions, |motion| core::cmp::Reverse(motion.1));
-    let text = rows(machine, motions);
-    let refused = found.refused();
+pub(crate) fn of_machine(found: &Basin<Machine, String, String>, machine: &Machine) -> String {
+    let (text, refused) = (rows(machine, found), found.refused());
     if refused == 0 { text } else { text + &format!("  {} beyond a rigid stop\n", counted(refused as u64, "start")) }
 }
 
 /// One row for each motion with the number and the share of its starts, and how certain the shares are.
-fn rows<T: Teller>(teller: &T, motions: Vec<(&Verdict<T::System>, u64, f64)>) -> String {
+fn rows<T: Teller, V, F>(teller: &T, found: &Basin<T::System, V, F>) -> String {
+    let motion = |m: usize| (&found.motions[m].verdict, found.motions[m].count, found.share(m));
+    let motions: Vec<_> = found.by_count().into_iter().map(motion).collect();
     let counts: Vec<u64> = motions.iter().map(|motion| motion.1).collect();
     let heads = ["share", "starts", "<label", "<meaning"].map(str::to_owned);
     let row = |(verdict, count, share): &(&Verdict<T::System>, u64, f64)| {

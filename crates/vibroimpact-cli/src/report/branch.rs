@@ -1,34 +1,21 @@
 //! Branches of periodic orbits as text: their events, and how they end.
 
+use crate::report::diagram::range;
 use crate::report::words::{stop_name, table};
 use std::fmt::Write;
+use vibroimpact::Label;
 use vibroimpact::continuation::{BranchEvent, Change, MachineBranchEvent, MachinePoint, SolutionPoint, Touch};
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::{Cycle, MachineCycle};
-use vibroimpact::{Label, Parameter};
-use vibroimpact_report::Units;
 use vibroimpact_report::number::{precise, short};
-use vibroimpact_study::{Branches, Chosen, Cut, MachineBranched, counted};
+use vibroimpact_report::{Units, Varied};
+use vibroimpact_study::{Branches, Chosen, Cut, Origin, counted};
 
-/// The name of a parameter in a sentence, such as `gap` or `inverse beta`.
-pub(crate) fn named(parameter: Parameter, units: &Units) -> String {
-    if let Parameter::Physical(parameter) = parameter {
-        let (name, unit) = (parameter.description(), parameter.unit());
-        return if unit.is_empty() { name.to_owned() } else { format!("{name} ({unit})") };
-    }
-    let name = parameter.name().replace('_', " ");
-    match units.unit_of(parameter) {
-        "" => name,
-        "Hz" => "frequency (Hz)".to_owned(),
-        unit => units.named(&name, unit),
-    }
-}
-
-/// The number of the orbit, if there are several.
-pub(crate) fn chosen(chosen: &Chosen) -> String {
-    let which = if chosen.count > 1 { format!("orbit {} of {}, ", chosen.number, chosen.count) } else { String::new() };
-    let stability = if chosen.orbit.physical { chosen.orbit.cycle.stability().name() } else { "inadmissible" };
-    format!("{which}{stability} there")
+/// The number of the orbit, if there are several, and its stability.
+pub(crate) fn chosen<C>(chosen: &Chosen<C>) -> String {
+    let which = chosen.among.filter(|among| among.count > 1);
+    let which = which.map_or_else(String::new, |among| format!("orbit {} of {}, ", among.number, among.count));
+    format!("{which}{} there", chosen.stability.map_or("inadmissible", |stability| stability.name()))
 }
 
 /// The name of the column of the period.
@@ -53,83 +40,54 @@ struct ToldEvent {
     remark: String,
 }
 
-/// The number of the orbit at which a branch of a machine begins, if there are several, and its stability.
-fn chosen_among(among: Option<(u32, u32)>, cycle: Option<&MachineCycle>) -> String {
-    let which = among.filter(|(_, count)| *count > 1);
-    let which = which.map_or_else(String::new, |(number, count)| format!("orbit {number} of {count}, "));
-    format!("{which}{} there", cycle.map_or("none", |cycle| cycle.stability().name()))
-}
-
 /// The text of all branches, each with its events and its end.
 pub(crate) fn text(found: &Branches, cut: &Cut, units: &Units) -> String {
-    let (unit, name, (from, to)) = (units.of(cut.vary), named(cut.vary, units), cut.ends);
-    let also = cut.also.map_or_else(String::new, |also| {
-        let unit = units.of(also.parameter);
-        format!(", {} from {} to {}", named(also.parameter, units), short(also.from * unit), short(also.to * unit))
-    });
-    let names: Vec<String> = cut.parameters().map(|parameter| named(parameter, units)).collect();
-    let mut text = String::new();
-    for (k, branch) in found.followed.iter().enumerate() {
-        let origin = branch.origin.as_ref().and_then(|origin| {
-            let place = format!(" of branch {} at {name} {}", origin.branch + 1, precise(origin.point.value * unit));
-            Some((origin.point.event?.name(), place))
-        });
-        let points: Vec<Told> = branch.points.iter().map(|point| Told::of_oscillator(point, cut, units)).collect();
-        text.push_str(&match origin {
-            None => {
-                let begin = format!("{} ({})", found.chosen.orbit.cycle.label, chosen(&found.chosen));
-                first(&begin, &format!("{name} from {} to {}{also}", short(from * unit), short(to * unit)), &points)
-            }
-            Some(origin) => further(k + 1, origin, &points),
-        });
-        text.push_str(&events(&points, &names));
-    }
-    for origin in &found.lost {
-        let kind = origin.point.event.map_or("event", |event| event.name());
-        let value = precise(origin.point.value * unit);
-        let _ = writeln!(text, "\nno branch was found at the {kind} of branch {} at {name} {value}", origin.branch + 1);
-    }
-    text
+    let names: Vec<String> = cut.names().map(|parameter| parameter.words(units)).collect();
+    let told = |points: &[SolutionPoint]| points.iter().map(|point| Told::of_oscillator(point, cut, units)).collect();
+    let event = |point: &SolutionPoint| (point.event.map_or("event", |event| event.name()), point.value);
+    written(found, found.chosen.cycle.label, (cut, units, &names), told, event)
 }
 
 /// The same of a machine.
-pub(crate) fn of_machine(found: &MachineBranched, cut: &Cut<String>, machine: &Machine) -> String {
-    let mut names: Vec<String> = cut.paths().map(str::to_owned).collect();
-    let (name, (from, to)) = (names[0].clone(), cut.ends);
-    let also = cut.also.as_ref().zip(names.get(1));
-    let also = also
-        .map_or_else(String::new, |(also, name)| format!(", {name} from {} to {}", short(also.from), short(also.to)));
+pub(crate) fn of_machine(found: &Branches<MachineCycle, MachinePoint>, cut: &Cut<String>, machine: &Machine) -> String {
     // with forcing the label says the period
-    if machine.period().is_none() {
-        names.push(PERIOD.to_owned());
-    }
-    let told = |points: &[MachinePoint]| -> Vec<Told> {
-        (0..points.len()).map(|k| Told::of_machine(points, k, cut, machine)).collect()
+    let period = machine.period().is_none().then(|| PERIOD.to_owned());
+    let names: Vec<String> = cut.names().cloned().chain(period).collect();
+    let told = |points: &[MachinePoint]| (0..points.len()).map(|k| Told::of_machine(points, k, cut, machine)).collect();
+    let event = |point: &MachinePoint| (point.event.map_or("event", |event| event.name()), point.value);
+    written(found, found.chosen.cycle.label, (cut, &Units::default(), &names), told, event)
+}
+
+/// The branches of an orbit with this label. `told` says what is at the points of a branch, and `event` which event is at a point.
+fn written<C, P, V: Varied>(
+    found: &Branches<C, P>,
+    label: Label,
+    (cut, units, names): (&Cut<V>, &Units, &[String]),
+    told: impl Fn(&[P]) -> Vec<Told>,
+    event: impl Fn(&P) -> (&'static str, f64),
+) -> String {
+    let place = |origin: &Origin<P>| {
+        let (kind, value) = event(&origin.point);
+        let value = precise(value * cut.vary.unit(units));
+        format!("{kind} of branch {} at {} {value}", origin.branch + 1, names[0])
     };
-    let points = told(&found.points);
-    let begin = found.points.first().map(|point| &point.cycle);
-    let label = begin.map_or_else(String::new, |cycle| cycle.label.to_string());
-    let begin = format!("{label} ({})", chosen_among(found.among, begin));
-    let mut text = first(&begin, &format!("{name} from {} to {}{also}", short(from), short(to)), &points);
-    text.push_str(&events(&points, &names));
-    for (k, followed) in found.followed.iter().enumerate() {
-        let points = told(&followed.points);
-        let place = format!(" at {name} {}", precise(followed.at));
-        text.push_str(&further(k + 2, (followed.event.name(), place), &points));
-        text.push_str(&events(&points, &names));
+    let mut text = String::new();
+    for (k, branch) in found.followed.iter().enumerate() {
+        let points = told(&branch.points);
+        let count = counted(points.len() as u64, "point");
+        text.push_str(&match &branch.origin {
+            None => format!("branch 1: {label} ({}), {}, {count}\n", chosen(&found.chosen), range(cut, units)),
+            Some(origin) => {
+                let label = points.first().map_or_else(String::new, |point| point.label.to_string());
+                format!("\nbranch {}: {label} from the {}, {count}\n", k + 1, place(origin))
+            }
+        });
+        text.push_str(&events(&points, names));
+    }
+    for origin in &found.lost {
+        let _ = writeln!(text, "\nno branch was found at the {}", place(origin));
     }
     text
-}
-
-/// The line over the branch of the orbit that was asked for.
-fn first(begin: &str, over: &str, points: &[Told]) -> String {
-    format!("branch 1: {begin}, {over}, {}\n", counted(points.len() as u64, "point"))
-}
-
-/// The line over a branch that begins at an event, of a kind and at a place.
-fn further(number: usize, (kind, place): (&str, String), points: &[Told]) -> String {
-    let label = points.first().map_or_else(String::new, |point| point.label.to_string());
-    format!("\nbranch {number}: {label} from the {kind}{place}, {}\n", counted(points.len() as u64, "point"))
 }
 
 /// One row for each event, and how the branch ends.
@@ -191,7 +149,7 @@ impl Told {
             remark: remark(point, &event),
         });
         Self {
-            values: cut.values(point.value).map(|(parameter, value)| value * units.of(parameter)).collect(),
+            values: cut.names().zip(cut.values(point.value)).map(|(of, value)| value * units.of(*of)).collect(),
             label,
             stability: if point.physical { point.stability().name() } else { "inadmissible" },
             event,

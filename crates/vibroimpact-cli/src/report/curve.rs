@@ -1,109 +1,67 @@
 //! Curves of events in a plane of two parameters as text.
 
-use crate::report::branch::{chosen, named};
+use crate::report::branch::chosen;
+use crate::report::diagram::over;
 use crate::report::words::table;
-use std::fmt::Write;
-use vibroimpact::Parameter;
+use vibroimpact::continuation::{MachineCurvePoint, MachinePoint};
 use vibroimpact::machine::Machine;
-use vibroimpact_report::Units;
+use vibroimpact::orbit::MachineCycle;
 use vibroimpact_report::json::curve::values;
-use vibroimpact_report::number::{precise, short};
-use vibroimpact_study::{CurvePlan, EventCurve, MachineEventCurve, Name, Stretch, Variable, counted};
-
-/// A curve of any system, as it is told.
-struct Told {
-    head: String,
-    /// The names of both parameters.
-    names: [String; 2],
-    /// Values of the first parameter at the events on the branch, and the number of that through which the curve passes.
-    found_at: Vec<f64>,
-    through: usize,
-    /// The ranges in words, and the number of points.
-    over: [String; 2],
-    points: usize,
-    /// The events on the curve, from one end to the other.
-    rows: Vec<Vec<String>>,
-}
-
-impl Told {
-    fn text(self) -> String {
-        let [p, q] = &self.names;
-        let found_at: Vec<String> = self.found_at.iter().map(|value| precise(*value)).collect();
-        let several = found_at.len() > 1;
-        let which = if several { format!(", the curve is that of number {}", self.through + 1) } else { String::new() };
-        let mut text = format!("{}\n  found at {p} {}{which}\n", self.head, found_at.join(", "));
-        let points = counted(self.points as u64, "point");
-        let _ = writeln!(text, "  followed over {}: {points}", self.over.join(", "));
-        let heads = ["<event".to_owned(), p.clone(), q.clone(), "<motion".into()];
-        text + &table(&heads, &self.rows)
-    }
-}
+use vibroimpact_report::number::precise;
+use vibroimpact_report::{Units, Varied};
+use vibroimpact_study::{CurvePlan, EventCurve, counted};
 
 /// The description of a curve, and the events on it from one end to the other.
 pub(crate) fn text(found: &EventCurve, plan: &CurvePlan, units: &Units) -> String {
-    let name = |parameter: Parameter| named(parameter, units);
-    let over = |stretch: &Stretch| {
-        let unit = units.of(stretch.parameter);
-        format!("{} from {} to {}", name(stretch.parameter), short(stretch.from * unit), short(stretch.to * unit))
-    };
-    let p = plan.vary.parameter;
     let all = &found.points;
-    let rows = all
-        .iter()
-        .enumerate()
-        .filter_map(|(k, point)| {
-            let [p, q] = values(point, plan, units);
-            // at an event itself rounding decides, so the neighbouring points are used
-            let beside = [k.checked_sub(1).and_then(|k| all.get(k)), all.get(k + 1)];
-            let physical = point.physical || beside.into_iter().flatten().any(|point| point.physical);
-            let motion =
-                if physical { plan.label.as_deref().unwrap_or_default().trim() } else { "inadmissible" }.to_owned();
-            Some(vec![point.event?.name().into(), precise(p), precise(q), motion])
-        })
-        .collect();
-    let told = Told {
-        head: format!(
-            "{} of {} ({})",
-            plan.kind.name(),
-            plan.label.as_deref().unwrap_or_default().trim(),
-            chosen(&found.chosen)
-        ),
-        names: [name(p), name(plan.and.parameter)],
-        found_at: found.events.iter().map(|event| event.value * units.of(p)).collect(),
-        through: found.through,
-        over: [over(&plan.vary), over(&plan.and)],
-        points: all.len(),
-        rows,
-    };
-    told.text()
+    let label = plan.label.as_deref().unwrap_or_default().trim();
+    let rows = all.iter().enumerate().filter_map(|(k, point)| {
+        let [p, q] = values(point.values, plan, units);
+        // at an event itself rounding decides, so the neighbouring points are used
+        let beside = [k.checked_sub(1).and_then(|k| all.get(k)), all.get(k + 1)];
+        let physical = point.physical || beside.into_iter().flatten().any(|point| point.physical);
+        let motion = if physical { label } else { "inadmissible" }.to_owned();
+        Some(vec![point.event?.name().into(), precise(p), precise(q), motion])
+    });
+    let at = found.events.iter().map(|event| event.value);
+    written(found, (plan, units), (label, at.collect()), &rows.collect::<Vec<_>>())
 }
 
 /// The same of a machine.
-pub(crate) fn of_machine(found: &MachineEventCurve, plan: &CurvePlan<Variable>, machine: &Machine) -> String {
-    let over = |stretch: &Stretch<Variable>| {
-        format!("{} from {} to {}", stretch.parameter.text(), short(stretch.from), short(stretch.to))
-    };
-    let rows = found
-        .points
-        .iter()
-        .filter_map(|point| {
-            let event = point.event?;
-            let at = event.place().map_or_else(String::new, |place| format!(" at {}", machine.name_of(place)));
-            let (p, q) = point.values;
-            Some(vec![format!("{}{at}", event.name()), precise(p), precise(q), point.cycle.label.to_string()])
-        })
-        .collect();
-    // of the orbit at which the branch begins only the number is known
-    let which = found.among.filter(|(_, count)| *count > 1);
-    let which = which.map_or_else(String::new, |(number, count)| format!(" (orbit {number} of {count})"));
-    let told = Told {
-        head: format!("{} of {}{which}", found.kind.name(), found.label),
-        names: [&plan.vary, &plan.and].map(|stretch| stretch.parameter.text().to_owned()),
-        found_at: found.events.iter().map(|event| event.value).collect(),
-        through: found.through,
-        over: [over(&plan.vary), over(&plan.and)],
-        points: found.points.len(),
-        rows,
-    };
-    told.text()
+pub(crate) fn of_machine(
+    found: &EventCurve<MachineCycle, MachinePoint, MachineCurvePoint>,
+    plan: &CurvePlan<String>,
+    machine: &Machine,
+) -> String {
+    let rows = found.points.iter().filter_map(|point| {
+        let event = point.event?;
+        let at = event.place().map_or_else(String::new, |place| format!(" at {}", machine.name_of(place)));
+        let (p, q) = point.values;
+        Some(vec![format!("{}{at}", event.name()), precise(p), precise(q), point.cycle.label.to_string()])
+    });
+    let (label, at) = (found.chosen.cycle.label.to_string(), found.events.iter().map(|event| event.value));
+    written(found, (plan, &Units::default()), (&label, at.collect()), &rows.collect::<Vec<_>>())
+}
+
+/// A curve of an orbit with this label, and the values of the first number at the events on its branch.
+fn written<C, E, P, V: Varied>(
+    found: &EventCurve<C, E, P>,
+    (plan, units): (&CurvePlan<V>, &Units),
+    (label, at): (&str, Vec<f64>),
+    rows: &[Vec<String>],
+) -> String {
+    let [p, q] = [&plan.vary, &plan.and].map(|stretch| stretch.parameter.words(units));
+    let at: Vec<String> = at.into_iter().map(|value| precise(value * plan.vary.parameter.unit(units))).collect();
+    let several = at.len() > 1;
+    let which = if several { format!(", the curve is that of number {}", found.through + 1) } else { String::new() };
+    let points = counted(found.points.len() as u64, "point");
+    let text = format!(
+        "{} of {label} ({})\n  found at {p} {}{which}\n  followed over {}, {}: {points}\n",
+        plan.kind.name(),
+        chosen(&found.chosen),
+        at.join(", "),
+        over(&plan.vary, units),
+        over(&plan.and, units)
+    );
+    text + &table(&["<event".to_owned(), p, q, "<motion".into()], rows)
 }

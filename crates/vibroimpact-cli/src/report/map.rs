@@ -3,30 +3,25 @@
 use crate::report::stored::label_table;
 use crate::report::words::table;
 use std::collections::{BTreeMap, BTreeSet};
-use vibroimpact::verdict::Verdict;
-use vibroimpact_report::json::map::{LabelCount, coexisting, counts, counts_of_machine};
+use vibroimpact_report::json::map::{LabelCount, counts};
 use vibroimpact_report::number::percent;
-use vibroimpact_study::{ImpactsByStop, MachineMap, RegionMap, counted};
+use vibroimpact_study::{ImpactsByStop, RegionMap, counted};
 
-/// The number of points, and one row for each label.
-pub(crate) fn text(found: &RegionMap, two_stops: bool) -> String {
+/// The number of points with so many starts each, and one row for each label; with the impacts on each of two stops.
+pub(crate) fn text<V, F>(found: &RegionMap<V, F>, starts: u64, two_stops: bool) -> String {
     let labels = counts(found);
     let table = if two_stops { by_stop(found, &labels) } else { label_table(&labels) };
-    head(found.points.len(), found.plan.starts, coexisting(found)) + &table
+    let text = head(found.points.len(), starts, found.coexisting()) + &table;
+    match found.points.iter().filter(|motions| motions.is_empty()).count() {
+        0 => text,
+        refused => text + &format!("  {} refused\n", counted(refused as u64, "point")),
+    }
 }
 
-/// The same of a machine, with as many starts at each point.
-pub(crate) fn of_machine(found: &MachineMap, starts: u64) -> String {
-    let several = found.cells.iter().filter(|cell| cell.len() > 1).count();
-    let mut text = head(found.cells.len(), starts, several) + &label_table(&counts_of_machine(found));
-    let refused = found.cells.iter().filter(|cell| cell.is_empty()).count();
-    if refused > 0 {
-        text.push_str(&format!("  {} refused\n", counted(refused as u64, "point")));
-    }
-    if let Some(events) = found.seen_events() {
-        text.push_str(&format!("  chaos was seen over at least {}\n", counted(events, "event")));
-    }
-    text
+/// The number of events over which chaos was seen.
+pub(crate) fn seen<V, F>(found: &RegionMap<V, F>) -> String {
+    let text = |events| format!("  chaos was seen over at least {}\n", counted(events, "event"));
+    found.seen_events().map_or_else(String::new, text)
 }
 
 fn head(points: usize, starts: u64, several: usize) -> String {
@@ -35,11 +30,11 @@ fn head(points: usize, starts: u64, several: usize) -> String {
 }
 
 /// The table of labels with the impacts of their motions on each stop.
-fn by_stop(found: &RegionMap, labels: &[LabelCount]) -> String {
+fn by_stop<V, F>(found: &RegionMap<V, F>, labels: &[LabelCount]) -> String {
     let mut seen: BTreeMap<String, BTreeSet<ImpactsByStop>> = BTreeMap::new();
-    for motion in found.points.iter().flat_map(|point| &point.motions) {
-        if let Verdict::Periodic(cycle) = &motion.verdict {
-            seen.entry(motion.verdict.label().into_owned()).or_default().insert(ImpactsByStop::of_cycle(cycle));
+    for motion in found.motions() {
+        if let Some(by_stop) = motion.by_stop {
+            seen.entry(motion.label.clone().into_owned()).or_default().insert(by_stop);
         }
     }
     let told = |label: &str| {

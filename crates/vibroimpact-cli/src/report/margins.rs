@@ -1,6 +1,6 @@
 //! The nearest events of a motion as text, and the box of parameters in which it was found.
 
-use crate::report::branch::{named, remark};
+use crate::report::branch::remark;
 use crate::report::motion::{InUnits, Teller};
 use crate::report::words::table;
 use std::fmt::Write;
@@ -8,8 +8,8 @@ use vibroimpact::Oscillator;
 use vibroimpact::continuation::{BranchEvent, SolutionPoint};
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::{Stability, Verdict};
-use vibroimpact_report::Units;
 use vibroimpact_report::number::{percent, precise, short};
+use vibroimpact_report::{Units, Varied};
 use vibroimpact_study::{
     EventRecord, Loss, MachineMargins, MarginEnd, MotionBox, MotionMargins, NumberEvent, NumberMargin, ParameterMargin,
     counted,
@@ -30,7 +30,7 @@ pub(crate) fn text(found: &MotionMargins, osc: &Oscillator, units: &Units) -> St
         let _ = writeln!(
             text,
             "  nearest: {event} at {} {}, {way} by {} of {}",
-            named(margin.scope.parameter, units),
+            margin.scope.parameter.words(units),
             precise(end.value * units.of(margin.scope.parameter)),
             percent(end.distance(&margin.scope).abs() / margin.scope.scale),
             whole(core::slice::from_ref(margin))
@@ -111,7 +111,7 @@ fn events(parameters: &[ParameterMargin], units: &Units) -> String {
 
 fn row(margin: &ParameterMargin, (way, end, limit): (&str, &MarginEnd, f64), units: &Units) -> Vec<String> {
     let (scope, unit) = (&margin.scope, units.of(margin.scope.parameter));
-    let begin = [named(scope.parameter, units), short(scope.value * unit), way.to_owned()];
+    let begin = [scope.parameter.words(units), short(scope.value * unit), way.to_owned()];
     let (at, distance, relative, event) = match (&end.point, end.event()) {
         (Some(point), Some(event)) => {
             let relative = end.relative(scope).map_or_else(String::new, |share| format!("{:+.2} %", 100.0 * share));
@@ -149,7 +149,7 @@ fn of_box(found: &MotionBox, parameters: &[ParameterMargin], label: &str, units:
         .map(|margin| {
             let (scope, unit) = (&margin.scope, units.of(margin.scope.parameter));
             let ends = [scope.at(-found.size), scope.at(found.size), scope.scale].map(|value| short(value * unit));
-            core::iter::once(named(scope.parameter, units)).chain(ends).collect()
+            core::iter::once(scope.parameter.words(units)).chain(ends).collect()
         })
         .collect();
     text.push_str(&table(&heads, &rows));
@@ -162,7 +162,7 @@ fn of_box(found: &MotionBox, parameters: &[ParameterMargin], label: &str, units:
         .zip(&edge.values)
         .map(|(margin, value)| {
             let parameter = margin.scope.parameter;
-            format!("{} {}", named(parameter, units), short(value * units.of(parameter)))
+            format!("{} {}", parameter.words(units), short(value * units.of(parameter)))
         })
         .collect();
     let _ = writeln!(text, "  next to it, at {}: {}", values.join(", "), lost(edge.loss, label));

@@ -28,11 +28,12 @@ use crate::failure::Failure;
 use vibroimpact::events::MachineEnd;
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::{Undecided, UndecidedCause, Verdict};
-use vibroimpact_report::Answer;
 use vibroimpact_report::answer::machine::Answer as MachineAnswer;
 use vibroimpact_report::answer::oscillator;
 use vibroimpact_report::response::ResponseView;
-use vibroimpact_study::{MachineResults, Name, Parameter, Results, SEARCH_LIMIT, Task};
+use vibroimpact_report::{Answer, Units, Varied};
+use vibroimpact_study::machine::Results as MachineResults;
+use vibroimpact_study::{Name, Parameter, RegionPlan, Results, SEARCH_LIMIT, Task};
 
 /// The text that a command prints, unless JSON or a table on stdout was requested.
 pub(crate) fn text(answer: &Answer) -> Result<String, Failure> {
@@ -73,17 +74,20 @@ fn of_oscillator(answer: &oscillator::Answer) -> Result<String, Failure> {
         }
         (Task::Orbit { label }, Results::Orbit(found)) => system() + &orbit::text(found, label, osc, units),
         (_, Results::Basin(found)) => system() + &basin::text(found, osc),
-        (_, Results::Map(found)) => map::text(found, asked.system.second_stop.is_some()),
+        (Task::Map(task), Results::Map(found)) => map::text(found, task.starts, asked.system.second_stop.is_some()),
         (_, Results::Diagram(found)) => diagram::text(found, units),
         (_, Results::Lyapunov(start, found, _)) => from(start) + "\n" + &lyapunov::text(found, osc.period(), units),
         (Task::Branch(task), Results::Branch(found)) => {
             system() + &branch::text(found, &task.typed::<Parameter>()?.cut(&asked.system)?, units)
         }
         (Task::Curve(task), Results::Curve(found)) => system() + &curve::text(found, &task.typed()?, units),
-        (Task::Region(task), Results::Region(found)) => region::text(found, &task.typed()?, asked),
+        (Task::Region(task), Results::Region(found)) => {
+            let task: RegionPlan = task.typed()?;
+            region::text(found, &task, (task.neutral(&asked.system), region::in_closed_form(&task)), units)
+        }
         (Task::Response(task), Results::Response(found)) => response::text(
             &ResponseView::of_oscillator(found, task, units)?,
-            &branch::named(Parameter::of(task.vary.text())?, units),
+            &Parameter::of(task.vary.text())?.words(units),
         ),
         (_, Results::Margins(found)) => match &found.start {
             Some(start) => from(start) + "\n" + &margins::text(found, osc, units),
@@ -107,17 +111,22 @@ fn of_machine(answer: &MachineAnswer) -> Result<String, Failure> {
         (Task::Branch(task), MachineResults::Branch(found)) => {
             branch::of_machine(found, &task.typed::<String>()?.cut(source)?, machine)
         }
-        (Task::Curve(task), MachineResults::Curve(found)) => curve::of_machine(found, task, machine),
+        (Task::Curve(task), MachineResults::Curve(found)) => curve::of_machine(found, &task.typed()?, machine),
         (_, MachineResults::Margins(found)) => margins::of_machine(found, machine),
-        (Task::Region(task), MachineResults::Region(found)) => region::of_machine(found, &task.typed()?, source),
+        (Task::Region(task), MachineResults::Region(found)) => {
+            let task: RegionPlan<String> = task.typed()?;
+            region::text(found, &task, (task.neutral(source), false), &Units::default())
+        }
         (_, MachineResults::Response(found)) => {
             answer.response(found).map_or_else(String::new, |view| response::text(&view, view.vary))
         }
         (_, MachineResults::Basin(found)) => basin::of_machine(found, machine),
-        (_, MachineResults::Diagram(found)) => diagram::of_machine(found),
-        (Task::Map(task), MachineResults::Map(found)) => map::of_machine(found, task.starts),
-        // points that are no grid have one start each
-        (_, MachineResults::Map(found)) => map::of_machine(found, 1),
+        (_, MachineResults::Diagram(found)) => diagram::text(found, &Units::default()),
+        (task, MachineResults::Map(found)) => {
+            // points that are no grid have one start each
+            let starts = if let Task::Map(task) = task { task.starts } else { 1 };
+            map::text(found, starts, false) + &map::seen(found)
+        }
         _ => return Err(Failure::Failed("the results belong to another task than the plan's".into())),
     })
 }

@@ -1,40 +1,27 @@
 //! Regions of existence and stability as text.
 
-use crate::report::branch::named;
+use crate::report::diagram::over;
 use crate::report::words::table;
 use std::fmt::Write;
 use vibroimpact::continuation::Polygon;
 use vibroimpact_report::json::region::unit;
 use vibroimpact_report::number::short;
 use vibroimpact_report::table::region::both;
-use vibroimpact_report::{Asked, Units};
-use vibroimpact_study::machine::MachineSource;
+use vibroimpact_report::{Units, Varied};
 use vibroimpact_study::{Parameter, RegionPlan, Regions, Stretch};
 
-/// The text of the range of a parameter.
-fn over(stretch: &Stretch, units: &Units) -> String {
-    let (name, unit) = (named(stretch.parameter, units), units.of(stretch.parameter));
-    format!("{name} from {} to {}", short(stretch.from * unit), short(stretch.to * unit))
-}
-
-/// Each polygon with its extent and the kinds of its boundary.
-pub(crate) fn text(found: &Regions, plan: &RegionPlan, Asked { system, units }: &Asked) -> String {
+/// Each polygon with its extent and the kinds of its boundary. The motion may be neutral where it exists, and its region may be
+/// known in closed form.
+pub(crate) fn text<V: Varied>(found: &Regions, plan: &RegionPlan<V>, known: (bool, bool), units: &Units) -> String {
     let (across, up) = (over(&plan.across, units), over(&plan.up, units));
-    let names = [plan.across.parameter, plan.up.parameter].map(|parameter| named(parameter, units));
-    // over parameters of the oscillator the region of the motion without impacts is known in closed form
-    let closed_form = plan.clears() && ![plan.across, plan.up].iter().any(is_physical);
+    let names = [&plan.across, &plan.up].map(|stretch| stretch.parameter.words(units));
     let text = format!("{} over {across}, {up}\n", plan.label.trim());
-    text + &polygons(found, (&names, unit(plan, units), plan.grid), (plan.neutral(system), closed_form))
+    text + &polygons(found, (&names, unit(plan, units), plan.grid), known)
 }
 
-/// The same of a machine.
-pub(crate) fn of_machine(found: &Regions, plan: &RegionPlan<String>, source: &MachineSource) -> String {
-    let over = |stretch: &Stretch<String>| {
-        format!("{} from {} to {}", stretch.parameter, short(stretch.from), short(stretch.to))
-    };
-    let names = [plan.across.parameter.clone(), plan.up.parameter.clone()];
-    let text = format!("{} over {}, {}\n", plan.label.trim(), over(&plan.across), over(&plan.up));
-    text + &polygons(found, (&names, (1.0, 1.0), plan.grid), (plan.neutral(source), false))
+/// Whether a region is that of the motion without impacts over parameters of the oscillator, which is known in closed form.
+pub(crate) fn in_closed_form(plan: &RegionPlan) -> bool {
+    plan.clears() && ![plan.across, plan.up].iter().any(is_physical)
 }
 
 /// The polygons of both regions over numbers with these names and units, or why there is none.

@@ -7,7 +7,7 @@ use vibroimpact::machine::Machine;
 use vibroimpact::motion::EventKind;
 use vibroimpact_report::Asked;
 use vibroimpact_report::number::short;
-use vibroimpact_study::{MachineSimulated, Simulated};
+use vibroimpact_study::Simulated;
 
 /// The events, and the reason why the list ends.
 pub(crate) fn text(followed: &Simulated, asked: &Asked) -> String {
@@ -47,7 +47,7 @@ pub(crate) fn text(followed: &Simulated, asked: &Asked) -> String {
 
 /// The same of a machine, with its coordinates and velocities after each event; of a motion that was followed for so many
 /// forcing periods.
-pub(crate) fn of_machine(followed: &MachineSimulated, periods: Option<f64>, machine: &Machine) -> String {
+pub(crate) fn of_machine(followed: &Simulated<MachineEvent>, periods: Option<f64>, machine: &Machine) -> String {
     let forced = machine.period().is_some();
     let coordinates = &machine.parts().coordinates;
     let heads: Vec<String> = [Some("time"), forced.then_some("phase"), Some("<event"), Some("<stop"), Some("speed")]

@@ -170,16 +170,16 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
     let columns = || (0..store.study().fields().len()).map(|k| store.column(k)).collect::<Result<Vec<_>, _>>();
     let plan = store.plan();
     match (&plan.system, &plan.task) {
-        (System::Oscillator(_), Task::Diagram(task)) => {
+        (System::Oscillator(system), Task::Diagram(task)) => {
             let task = task.typed().map_err(io::Error::other)?;
             let found = diagram_of(&task, &columns().map_err(io::Error::other)?);
-            return diagram::table(&found, Units::of_plan(plan)).map_err(io::Error::other)?.write(out);
+            return diagram::table(&found, system, Units::of_plan(plan)).map_err(io::Error::other)?.write(out);
         }
         (System::Machine(machine), Task::Diagram(task)) => {
             let task = task.typed().map_err(io::Error::other)?;
             let found = machine_diagram_of(&task, &columns().map_err(io::Error::other)?);
             let (machine, _) = machine.described().map_err(io::Error::other)?;
-            return diagram::of_machine(&found, &machine).write(out);
+            return diagram::table(&found, &machine, Units::default()).map_err(io::Error::other)?.write(out);
         }
         _ => {}
     }

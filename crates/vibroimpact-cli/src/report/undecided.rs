@@ -8,7 +8,7 @@ use vibroimpact_study::{Results, Task};
 const MOST: u32 = 1_000_000;
 /// The largest number of impacts of a measurement of exponents.
 const MOST_MEASURED: u64 = 10_000_000;
-/// The label of an undecided motion in a response, which keeps labels only.
+/// The label of an undecided motion in a map and in a response, which keep labels only.
 const LABEL: &str = "undecided";
 
 /// The flag that decides more of the undecided motions; `None` if there are none, or if more impacts would not help.
@@ -31,7 +31,7 @@ pub(super) fn hint(answer: &Answer) -> Option<String> {
         Results::Settle(_, found) => unsettled(&found.verdict),
         Results::Attractors(found) => found.motions().iter().any(|motion| unsettled(&motion.verdict)),
         Results::Basin(found) => found.motions.iter().any(|motion| unsettled(&motion.verdict)),
-        Results::Map(found) => found.points.iter().flat_map(|point| &point.motions).any(|m| unsettled(&m.verdict)),
+        Results::Map(found) => found.motions().any(|motion| motion.label == LABEL),
         Results::Response(found) => found.up.iter().chain(&found.down).any(|motion| motion.label == LABEL),
         _ => false,
     };

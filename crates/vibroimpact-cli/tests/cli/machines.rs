@@ -535,7 +535,8 @@ fn curves() {
     assert_eq!(kinds, ["end of box", "end of box"]);
     let text = printed(line);
     assert!(
-        text.starts_with("flip of 1/1 (orbit 1 of 2)\n  found at Gamma 1.5268") && text.contains("end of box"),
+        text.starts_with("flip of 1/1 (orbit 1 of 2, stable there)\n  found at Gamma 1.5268")
+            && text.contains("end of box"),
         "{text}"
     );
     let folder = tempfile::tempdir().unwrap();

@@ -122,6 +122,18 @@ CURVE_MARKS = {
     "loss of contact": "P",
     "whole periods": "P",
     "speeds without bound": "P",
+    "fold-flip": "o",
+    "1:1": "o",
+    "1:3": "o",
+    "1:4": "o",
+    "fold-torus": "P",
+    "flip-torus": "P",
+    "fold-grazing": "D",
+    "flip-grazing": "D",
+    "torus-grazing": "D",
+    "degenerate rest": "^",
+    "corner": "X",
+    "rest": "X",
 }
 
 #: Colour, dash and text of each bound of a region.

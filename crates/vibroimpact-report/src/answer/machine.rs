@@ -4,18 +4,19 @@ use crate::AnswerError;
 use crate::answer::Shown;
 use crate::branch_quantity::BranchQuantity;
 use crate::figure::coloured;
+use crate::figure::overlay::Overlay;
 use crate::json::margins::ParameterObject;
 use crate::response::ResponseView;
 use crate::scene::{self, View};
-use crate::{ReportError, Table, figure, table};
+use crate::{ReportError, Table, Units, figure, table};
 use vibroimpact::events::{MachineLimits, MachineMotion, MachineStart};
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::{CountedMotion, Verdict};
 use vibroimpact_plot::{Figure, plain};
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{
-    BranchPlan, Control, MachineDiagram, MachineResults, MachineSimulated, Plan, PlanError, ResponseCurves, Results,
-    Task, Variable, run,
+    BranchPlan, Control, Diagram, Plan, PlanError, RegionPlan, ResponseCurves, Results, Simulated, Task, Variable,
+    machine, run,
 };
 
 /// The largest number of characters of a title over an axis of ordinary width.
@@ -40,7 +41,7 @@ pub struct Answer {
     /// The start of the plan, with a number for each coordinate and velocity.
     pub start: MachineStart,
     /// The result.
-    pub results: MachineResults,
+    pub results: machine::Results,
 }
 
 /// The title of a figure of ordinary width: that of the machine file. A long title is cut at its first colon, or replaced
@@ -67,17 +68,17 @@ impl Answer {
         let title = machine_title(&self.source, &self.name);
         if let Some(colour) = &shown.colour {
             return Ok(Some(match &self.results {
-                MachineResults::Basin(found) => coloured::of_machine_basin(found, colour, title)?,
-                MachineResults::Map(found) => coloured::of_machine_map(found, colour, title)?,
+                machine::Results::Basin(found) => coloured::of_basin(found, colour, &Units::default(), title)?,
+                machine::Results::Map(found) => coloured::of_map(found, colour, &Units::default(), title)?,
                 _ => return Err(ReportError::NoColours.into()),
             }));
         }
         Ok(Some(match &self.results {
-            MachineResults::Simulate(found) => {
+            machine::Results::Simulate(found) => {
                 let title = plain(&self.title());
                 figure::machine_waveform::figure(&self.machine, &self.start, found, title)?
             }
-            MachineResults::Settle(found) => {
+            machine::Results::Settle(found) => {
                 let (from, time) = self.steady(&found.verdict)?;
                 let title = format!("{title}: {}", figure::label(&found.verdict.label()));
                 match (shown.view.unwrap_or_default(), &found.verdict) {
@@ -92,38 +93,46 @@ impl Answer {
                     (View::Sections, _) => return Err(ReportError::MachineSections.into()),
                 }
             }
-            MachineResults::Branch(found) => {
+            machine::Results::Branch(found) => {
                 let Task::Branch(plan) = &self.plan.task else { return Ok(None) };
                 let cut = plan.typed::<String>()?.cut(&self.source)?;
                 let quantity = BranchQuantity::of(&self.machine, &self.source, &cut, found);
                 let path = quantity.as_ref().map(|quantity| quantity.path.as_str());
                 let behind = if shown.diagram { self.behind(plan, path, control)? } else { None };
-                figure::branch::of_machine(found.all(), &cut, (quantity.as_ref(), behind.as_ref()), title)
+                figure::branch::of_machine(
+                    found.followed.iter().map(|branch| branch.points.as_slice()),
+                    &cut,
+                    (quantity.as_ref(), behind.as_ref()),
+                    title,
+                )?
             }
-            MachineResults::Curve(found) => {
+            machine::Results::Curve(found) => {
                 let Task::Curve(plan) = &self.plan.task else { return Ok(None) };
-                figure::curve::of_machine(found, plan, title)
+                figure::curve::of_machine(found, &plan.typed()?, title)
             }
-            MachineResults::Region(found) => {
+            machine::Results::Region(found) => {
                 let Task::Region(plan) = &self.plan.task else { return Ok(None) };
-                figure::region::of_machine(found, &plan.typed()?, &self.source, title)
+                let plan: RegionPlan<String> = plan.typed()?;
+                figure::region::figure(found, &plan, (plan.neutral(&self.source), &Units::default()), title)
             }
-            MachineResults::Response(found) => {
+            machine::Results::Response(found) => {
                 let Some(view) = self.response(found) else { return Ok(None) };
                 figure::response::figure(&view, title)
             }
-            MachineResults::Basin(found) => figure::basin::of_machine(found, title)?,
-            MachineResults::Map(found) => figure::map::of_machine(found, title)?,
-            MachineResults::Diagram(found) => figure::diagram::of_machine(found, title)?,
-            MachineResults::Lyapunov(found, Some(points)) => {
+            machine::Results::Basin(found) => figure::basin::figure(found, &Units::default(), title)?,
+            machine::Results::Map(found) => {
+                figure::map::figure(found, &Units::default(), title, Overlay::default().cells())?
+            }
+            machine::Results::Diagram(found) => figure::diagram::figure(found, &Units::default(), title)?,
+            machine::Results::Lyapunov(found, Some(points)) => {
                 let label = figure::label(&found.motion.label());
                 figure::machine_section::figure(points, &self.machine, format!("{title}: {label}"))
             }
-            MachineResults::Attractors(census) => {
+            machine::Results::Attractors(census) => {
                 let share = |found: &CountedMotion<Machine>| (found.verdict.label().into_owned(), census.share(found));
                 figure::bars::shares(&census.by_share().into_iter().map(share).collect::<Vec<_>>(), title)
             }
-            MachineResults::Margins(found) => {
+            machine::Results::Margins(found) => {
                 let label = figure::label(&found.motion.label());
                 if found.numbers.is_empty() {
                     return Err(ReportError::NoMargins(label).into());
@@ -133,8 +142,8 @@ impl Answer {
                     all.map(|of| (plain(&of.path), ParameterObject::of_machine(&self.machine, of))).collect();
                 figure::bars::margins(&rows, None, format!("{title}: {label}"))
             }
-            MachineResults::Lyapunov(..) => return Ok(None),
-            MachineResults::Orbit(found) => figure::orbits::of_machine(found, title),
+            machine::Results::Lyapunov(..) => return Ok(None),
+            machine::Results::Orbit(found) => figure::orbits::of_machine(found, title),
         }))
     }
 
@@ -152,7 +161,7 @@ impl Answer {
         plan: &BranchPlan<Variable>,
         quantity: Option<&str>,
         control: &Control<'_>,
-    ) -> Result<Option<MachineDiagram>, AnswerError> {
+    ) -> Result<Option<Diagram<String, String>>, AnswerError> {
         let mut diagram = plan.typed::<String>()?.diagram(&self.source)?;
         if let Some(path) = quantity {
             path.clone_into(&mut diagram.show);
@@ -162,7 +171,7 @@ impl Answer {
             return Ok(None);
         }
         let found = run(&plan, control)?;
-        Ok(if let Results::Machine(MachineResults::Diagram(found)) = found { Some(found) } else { None })
+        Ok(if let Results::Machine(machine::Results::Diagram(found)) = found { Some(found) } else { None })
     }
 
     /// A state of a settled motion, and the time over which it is shown: one period of a cycle, [`PERIODS`] forcing periods of
@@ -184,7 +193,7 @@ impl Answer {
         let motion = MachineMotion::new(&self.machine, from, limits);
         let motion = motion.map_err(|error| ReportError::Plan(PlanError::Machine(error.into())))?;
         let events = motion.take_while(|event| event.time <= time).take(MOST_EVENTS).collect();
-        let found = MachineSimulated { events, reason: "time_limit", time, shown_until: time };
+        let found = Simulated { events, reason: "time_limit", time, horizon: None, shown_until: time };
         Ok(figure::machine_waveform::figure(&self.machine, from, &found, title)?)
     }
 
@@ -194,12 +203,12 @@ impl Answer {
     /// [`AnswerError`] for a result that cannot be tabulated.
     pub fn table(&self, shown: &Shown) -> Result<Option<Table<'_>>, AnswerError> {
         Ok(Some(match &self.results {
-            MachineResults::Simulate(found) => {
+            machine::Results::Simulate(found) => {
                 let until = found.shown_until;
                 let step = shown.step.unwrap_or_else(|| self.machine.period().unwrap_or(0.1 * until) / 100.0);
                 table::waveform::of_machine(&self.machine, &self.start, (until, step))?
             }
-            MachineResults::Settle(found) => match (shown.view.unwrap_or_default(), &found.verdict) {
+            machine::Results::Settle(found) => match (shown.view.unwrap_or_default(), &found.verdict) {
                 (View::Waveform | View::Phase, verdict) => {
                     let (from, time) = self.steady(verdict)?;
                     let step = self.machine.period().unwrap_or(time) / 100.0;
@@ -209,30 +218,30 @@ impl Answer {
                 (View::Multipliers, other) => return Err(ReportError::NoMultipliers(other.label().into_owned()).into()),
                 (View::Sections, _) => return Err(ReportError::MachineSections.into()),
             },
-            MachineResults::Attractors(census) => table::attractors::of_machine(&self.machine, census),
-            MachineResults::Branch(found) => {
+            machine::Results::Attractors(census) => table::attractors::of_machine(&self.machine, census),
+            machine::Results::Branch(found) => {
                 let Task::Branch(plan) = &self.plan.task else { return Ok(None) };
                 table::branch::of_machine(&self.machine, &plan.typed::<String>()?.cut(&self.source)?, found)
             }
-            MachineResults::Curve(found) => {
+            machine::Results::Curve(found) => {
                 let Task::Curve(plan) = &self.plan.task else { return Ok(None) };
-                table::curve::of_machine(&self.machine, plan, found)
+                table::curve::of_machine(&self.machine, &plan.typed()?, found)
             }
-            MachineResults::Margins(found) => table::margins::of_machine(found, &self.machine),
-            MachineResults::Region(found) => {
+            machine::Results::Margins(found) => table::margins::of_machine(found, &self.machine),
+            machine::Results::Region(found) => {
                 let Task::Region(plan) = &self.plan.task else { return Ok(None) };
-                table::region::of_machine(found, &plan.typed()?)
+                table::region::table(found, &plan.typed::<String>()?, &Units::default())
             }
-            MachineResults::Response(found) => {
+            machine::Results::Response(found) => {
                 let Some(view) = self.response(found) else { return Ok(None) };
                 table::response::table(view)
             }
-            MachineResults::Basin(found) => table::basin::of_machine(&self.machine, found),
-            MachineResults::Map(found) => table::map::of_machine(&self.machine, found),
-            MachineResults::Diagram(found) => table::diagram::of_machine(found, &self.machine),
-            MachineResults::Lyapunov(_, Some(points)) => table::section::of_machine(&self.machine, points),
-            MachineResults::Orbit(found) => table::orbits::of_machine(found, &self.machine),
-            MachineResults::Lyapunov(..) => return Ok(None),
+            machine::Results::Basin(found) => table::basin::of_machine(&self.machine, found)?,
+            machine::Results::Map(found) => table::map::table(found, &self.machine, (Units::default(), true))?,
+            machine::Results::Diagram(found) => table::diagram::table(found, &self.machine, Units::default())?,
+            machine::Results::Lyapunov(_, Some(points)) => table::section::of_machine(&self.machine, points),
+            machine::Results::Orbit(found) => table::orbits::of_machine(found, &self.machine),
+            machine::Results::Lyapunov(..) => return Ok(None),
         }))
     }
 }

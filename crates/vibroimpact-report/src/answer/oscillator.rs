@@ -1,6 +1,7 @@
 //! The answer to a plan of an oscillator.
 
 use crate::answer::Shown;
+use crate::figure::plane::varied;
 use crate::figure::{self, coloured, title};
 use crate::json::margins::ParameterObject;
 use crate::response::ResponseView;
@@ -11,7 +12,7 @@ use serde::{Serialize, Serializer};
 use vibroimpact::verdict::{CountedMotion, PaperRule, PaperVerdict};
 use vibroimpact::{Oscillator, Parameter};
 use vibroimpact_plot::Figure;
-use vibroimpact_study::{BranchPlan, Control, Name, ParameterMargin, Plan, Results, Task, run};
+use vibroimpact_study::{BranchPlan, Control, Name, ParameterMargin, Plan, RegionPlan, Results, Task, run};
 
 /// A plan of an oscillator and its result.
 #[derive(Clone, Debug)]
@@ -43,7 +44,9 @@ impl Serialize for Answer {
             }
             (_, Results::Orbit(found)) => json::orbit::document(asked, plan, osc, found).serialize(to),
             (_, Results::Basin(found)) => json::basin::document(asked, plan, osc, found).serialize(to),
-            (_, Results::Map(found)) => json::map::document(asked, plan, osc, found).serialize(to),
+            (Task::Map(task), Results::Map(found)) => {
+                json::map::document(asked, plan, osc, ((task.starts, task.seed), found)).serialize(to)
+            }
             (_, Results::Diagram(found)) => json::diagram::document(asked, plan, osc, found).serialize(to),
             (_, Results::Lyapunov(start, found, _)) => {
                 json::lyapunov::document(asked, plan, (osc, start), found).serialize(to)
@@ -102,8 +105,11 @@ impl Answer {
         let default = shown.view.is_none_or(|view| view == View::Waveform);
         if let Some(colour) = &shown.colour {
             return Ok(Some(match &self.results {
-                Results::Map(found) => coloured::of_map(found, colour, asked)?,
-                Results::Basin(found) => coloured::of_basin(found, colour, osc, asked)?,
+                Results::Map(found) => {
+                    let title = figure::title_without(asked, &varied(&found.axes));
+                    coloured::of_map(found, colour, &asked.units, title)?
+                }
+                Results::Basin(found) => coloured::of_basin(found, colour, &asked.units, title(asked))?,
                 _ => return Err(ReportError::NoColours.into()),
             }));
         }
@@ -112,20 +118,26 @@ impl Answer {
                 Viewed::new(shown.view.unwrap_or_default(), (osc, *start), found, asked)?.figure()
             }
             (_, Results::Simulate(start, found)) if shown.view == Some(View::Phase) => {
-                phase_portrait(asked, osc, *start, (0.0, found.shown_until(osc)))
+                phase_portrait(asked, osc, *start, (0.0, found.shown_until))
             }
             (_, Results::Lyapunov(_, _, Some(points))) if default || shown.view == Some(View::Sections) => {
                 figure::section::figure(points, osc, asked)
             }
             _ if !default => return Ok(None),
             (_, Results::Simulate(start, found)) => {
-                let span = (0.0, found.shown_until(osc));
+                let span = (0.0, found.shown_until);
                 figure::waveform::figure(osc, *start, span, &asked.units, title(asked))
             }
             (_, Results::Orbit(found)) => figure::orbits::figure(found, &asked.units, title(asked)),
-            (_, Results::Basin(found)) => figure::basin::figure(found, asked)?,
-            (_, Results::Map(found)) => figure::map::figure_with(found, asked, shown.overlay.cells())?,
-            (_, Results::Diagram(found)) => figure::diagram::figure(found, asked)?,
+            (_, Results::Basin(found)) => figure::basin::figure(found, &asked.units, title(asked))?,
+            (_, Results::Map(found)) => {
+                let title = figure::title_without(asked, &varied(&found.axes));
+                figure::map::figure(found, &asked.units, title, shown.overlay.cells())?
+            }
+            (_, Results::Diagram(found)) => {
+                let numbers: Vec<Parameter> = found.plan.cut().names().copied().collect();
+                figure::diagram::figure(found, &asked.units, figure::title_without(asked, &numbers))?
+            }
             (Task::Response(task), Results::Response(found)) => {
                 let view = ResponseView::of_oscillator(found, task, &asked.units)?;
                 let vary = Parameter::of(task.vary.text())?;
@@ -143,7 +155,11 @@ impl Answer {
                 figure::branch::figure(&found.followed, &cut, behind.as_ref(), shown.inadmissible, asked)?
             }
             (Task::Curve(task), Results::Curve(found)) => figure::curve::figure(found, &task.typed()?, asked),
-            (Task::Region(task), Results::Region(found)) => figure::region::figure(found, &task.typed()?, asked),
+            (Task::Region(task), Results::Region(found)) => {
+                let task: RegionPlan = task.typed()?;
+                let title = figure::title_without(asked, &[task.across.parameter, task.up.parameter]);
+                figure::region::figure(found, &task, (task.neutral(&asked.system), &asked.units), title)
+            }
             (_, Results::Attractors(census)) => {
                 let share = |found: &CountedMotion| (found.verdict.label().into_owned(), census.share(found));
                 figure::bars::shares(&census.by_share().into_iter().map(share).collect::<Vec<_>>(), title(asked))
@@ -175,7 +191,7 @@ impl Answer {
         Ok(Some(match (&plan.task, &self.results) {
             (_, Results::Simulate(start, found)) => {
                 let step = shown.step.unwrap_or(osc.period() / 100.0);
-                table::waveform::table(osc, *start, (found.shown_until(osc), step), *units)?
+                table::waveform::table(osc, *start, (found.shown_until, step), *units)?
             }
             (_, Results::Settle(start, found)) => {
                 let view = Viewed::new(shown.view.unwrap_or_default(), (osc, *start), found, asked)?;
@@ -183,15 +199,17 @@ impl Answer {
             }
             (_, Results::Attractors(found)) => table::attractors::table(found, osc, units),
             (_, Results::Orbit(found)) => table::orbits::table(found, units),
-            (_, Results::Basin(found)) => table::basin::table(found, osc, units)?,
-            (_, Results::Map(found)) => table::map::table(found, *units)?,
-            (_, Results::Diagram(found)) => table::diagram::table(found, *units)?,
+            (_, Results::Basin(found)) => table::basin::table(found, units)?,
+            (_, Results::Map(found)) => table::map::table(found, &asked.system, (*units, false))?,
+            (_, Results::Diagram(found)) => table::diagram::table(found, &asked.system, *units)?,
             (_, Results::Lyapunov(_, _, Some(points))) => table::section::table(points, osc, *units),
             (Task::Branch(task), Results::Branch(found)) => {
                 table::branch::table(found, &task.typed::<Parameter>()?.cut(&asked.system)?, units)
             }
             (Task::Curve(task), Results::Curve(found)) => table::curve::table(found, task.typed()?, units),
-            (Task::Region(task), Results::Region(found)) => table::region::table(found, &task.typed()?, units),
+            (Task::Region(task), Results::Region(found)) => {
+                table::region::table(found, &task.typed::<Parameter>()?, units)
+            }
             (Task::Response(task), Results::Response(found)) => {
                 table::response::table(ResponseView::of_oscillator(found, task, units)?)
             }

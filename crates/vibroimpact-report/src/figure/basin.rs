@@ -1,11 +1,12 @@
 //! The figure of a basin: each start in the colour of the motion to which it leads. Over one axis it is a strip of starts.
 
 use crate::figure::plane::{Plane, PlaneAxis, Sides};
-use crate::figure::{title, variant};
-use crate::{Asked, ReportError};
+use crate::figure::variant;
+use crate::{ReportError, Units, Varied};
 use vibroimpact::math::sort_by;
+use vibroimpact::verdict::System;
 use vibroimpact_plot::{ClassStyle, Colour, Figure, FigureAxis, Legend, Panel, Raster, Rect, Rects, class_style};
-use vibroimpact_study::{Basin, MachineBasin, counted};
+use vibroimpact_study::{Basin, counted};
 
 /// Maximum number of motions with an entry of their own in the legend.
 const NAMED: usize = 12;
@@ -19,28 +20,18 @@ pub struct BasinMotion {
     pub share: f64,
 }
 
-/// The figure of `vibro basin`.
+/// The figure of `vibro basin`. Starts beyond a rigid stop are left blank.
 ///
 /// # Errors
 /// [`ReportError`] if there are not one or two axes with rising or falling values, or if an axis is too long.
-pub fn figure(found: &Basin, asked: &Asked) -> Result<Figure, ReportError> {
+pub fn figure<S: System, V: Varied, F>(
+    found: &Basin<S, V, F>,
+    units: &Units,
+    title: String,
+) -> Result<Figure, ReportError> {
     let motion = |m: usize| BasinMotion { label: found.motions[m].verdict.label().into_owned(), share: found.share(m) };
     let motions: Vec<BasinMotion> = (0..found.motions.len()).map(motion).collect();
-    draw(&Sides::of(&found.plan.axes, &asked.units)?, &motions, found.cells.clone(), title(asked))
-}
-
-/// The figure of `vibro basin --machine`, as [`figure`]; the names of the axes are the paths. Starts beyond a rigid stop
-/// are left blank.
-///
-/// # Errors
-/// As [`figure`].
-pub fn of_machine(found: &MachineBasin, title: String) -> Result<Figure, ReportError> {
-    let sides = Sides::of_machine(&found.axes)?;
-    let shares = found.motions.iter().zip(found.shares());
-    let motions: Vec<BasinMotion> =
-        shares.map(|(verdict, (_, share))| BasinMotion { label: verdict.label().into_owned(), share }).collect();
-    let cell = |cell: &Option<usize>| cell.and_then(|m| u16::try_from(m).ok()).unwrap_or(u16::MAX);
-    draw(&sides, &motions, found.cells.iter().map(cell).collect(), title)
+    draw(&Sides::of(&found.plan.axes, units)?, &motions, found.cells.clone(), title)
 }
 
 /// Draws a basin over one or two axes. `cells` has the index of the motion of each start; other numbers are left blank.

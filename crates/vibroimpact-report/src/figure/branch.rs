@@ -2,20 +2,18 @@
 //! orbits are solid, neutral ones dashed and dotted, and unstable ones dashed. Events are marked, and the orbit diagram from simulation is behind.
 
 use crate::branch_quantity::BranchQuantity;
-use crate::figure::diagram::{backdrop, backdrop_of_machine, ordinate};
-use crate::figure::styles::{BRANCH_MARKS, MACHINE_BRANCH_MARKS};
+use crate::figure::diagram::backdrop;
+use crate::figure::styles::BRANCH_MARKS;
 use crate::figure::tracks::{Followed as What, Look, Track, TrackPoint};
-use crate::figure::{along, along_machine, label, series, title_without, variant};
-use crate::units::shown;
-use crate::{Asked, ReportError};
+use crate::figure::{along, label, series, title_without, variant};
+use crate::{Asked, ReportError, ShownValue, Units};
 use std::collections::BTreeMap;
 use vibroimpact::continuation::MachinePoint;
 use vibroimpact_plot::{
     Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, Shape, Stroke, class_style, legend_group, plain,
 };
 use vibroimpact_study::diagram::{Diagram, Show};
-
-use vibroimpact_study::{Cut, Followed, MachineDiagram, counted};
+use vibroimpact_study::{Cut, Followed, counted};
 
 /// Colour of the orbit diagram from simulation.
 const GREY: Colour = Colour::hex(0xb0_b0b0);
@@ -63,10 +61,10 @@ pub fn figure(
     let (from, to) = cut.ends;
     let mut panel = Panel::new(
         FigureAxis::new(along(cut, &asked.units)).range(from.min(to) * unit, from.max(to) * unit),
-        ordinate(show, asked),
+        FigureAxis::new(show.ordinate(&asked.units)),
     );
     if let Some(diagram) = behind {
-        for dots in backdrop(diagram, &shown(&diagram.plan.over, unit)?, asked, GREY) {
+        for dots in backdrop(diagram, &asked.units, GREY)? {
             panel.add(dots);
         }
     }
@@ -77,25 +75,30 @@ pub fn figure(
     }
     Ok(Figure::new(panel)
         .size(680.0, 520.0)
-        .title(title_without(asked, &cut.parameters().collect::<Vec<_>>()))
+        .title(title_without(asked, &cut.names().copied().collect::<Vec<_>>()))
         .legend(legend))
 }
 
 /// The figure of `vibro branch --machine`: the speeds of the closings of all stops along a line, or a [quantity](BranchQuantity)
 /// of each cycle, with the orbit diagram of the same from simulation behind, if it is given.
-#[must_use]
+///
+/// # Errors
+/// As [`figure`].
 pub fn of_machine<'a>(
     branches: impl Iterator<Item = &'a [MachinePoint]>,
     cut: &Cut<String>,
-    (quantity, behind): (Option<&BranchQuantity<'_>>, Option<&MachineDiagram>),
+    (quantity, behind): (Option<&BranchQuantity<'_>>, Option<&Diagram<String, String>>),
     title: String,
-) -> Figure {
+) -> Result<Figure, ReportError> {
     let (from, to) = cut.ends;
-    let abscissa = FigureAxis::new(along_machine(cut)).range(from.min(to), from.max(to));
+    let units = Units::default();
+    let abscissa = FigureAxis::new(along(cut, &units)).range(from.min(to), from.max(to));
     let ordinate = quantity.map_or_else(|| "speed of closing".to_owned(), |quantity| plain(&quantity.path));
     let mut panel = Panel::new(abscissa, FigureAxis::new(ordinate));
-    for dots in behind.into_iter().flat_map(|diagram| backdrop_of_machine(diagram, GREY)) {
-        panel.add(dots);
+    if let Some(diagram) = behind {
+        for dots in backdrop(diagram, &units, GREY)? {
+            panel.add(dots);
+        }
     }
     let track = |points| match quantity {
         None => Track::of_machine(points),
@@ -104,7 +107,7 @@ pub fn of_machine<'a>(
     let tracks: Vec<Track> = branches.map(track).collect();
     let legend = draw(&mut panel, &tracks, false, (1.0, &|_| 1.0));
     let legend = if behind.is_some() { with_simulation(legend) } else { legend };
-    Figure::new(panel).size(680.0, 520.0).title(title).legend(legend)
+    Ok(Figure::new(panel).size(680.0, 520.0).title(title).legend(legend))
 }
 
 /// The legend with the dots of the orbit diagram behind.
@@ -226,7 +229,7 @@ fn marks(
 /// The name and the shape of the mark of an event, and its ordinates: those of all impacts or states, or velocity zero
 /// where an impact appears or disappears.
 fn mark(track: &Track, point: &TrackPoint, event: &str) -> Option<(&'static str, Shape, Vec<f64>)> {
-    let (kind, shape, at_zero) = BRANCH_MARKS.iter().chain(&MACHINE_BRANCH_MARKS).find(|(name, ..)| *name == event)?;
+    let (kind, shape, at_zero) = BRANCH_MARKS.iter().find(|(name, ..)| *name == event)?;
     let ordinates = if *at_zero && !track.positions { vec![0.0] } else { point.ordinates() };
     Some((kind, *shape, ordinates))
 }

@@ -1,11 +1,14 @@
 //! The figure of a curve of events in the plane of its two parameters, with its points of codimension two.
 
-use crate::Asked;
-use crate::figure::styles::{CURVE_MARKS, EVENT_COLOURS, MACHINE_CURVE_MARKS, MACHINE_EVENT_COLOURS};
-use crate::figure::{label, named, title_without};
+use crate::figure::styles::{CURVE_COLOURS, CURVE_MARKS};
+use crate::figure::{label, title_without};
+use crate::json::curve::values;
+use crate::{Asked, Units, Varied};
 use std::collections::BTreeMap;
-use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, Shape, Stroke, plain};
-use vibroimpact_study::{CurvePlan, EventCurve, MachineEventCurve, Name, Stretch, Variable};
+use vibroimpact::continuation::{CurvePoint, MachineCurvePoint, MachinePoint};
+use vibroimpact::orbit::MachineCycle;
+use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, Shape, Stroke};
+use vibroimpact_study::{CurvePlan, EventCurve, Stretch};
 
 /// Size of a mark.
 const MARK: f64 = 13.0;
@@ -15,47 +18,42 @@ const WIDTH: f64 = 2.8;
 /// The figure of `vibro curve`.
 #[must_use]
 pub fn figure(found: &EventCurve, plan: &CurvePlan, asked: &Asked) -> Figure {
-    let (p, q) = (plan.vary.parameter, plan.and.parameter);
-    let (x, y) = (asked.units.of(p), asked.units.of(q));
-    let axis = |stretch: &Stretch, unit: f64| {
-        FigureAxis::new(named(stretch.parameter, &asked.units)).range(stretch.from * unit, stretch.to * unit)
-    };
-    let colour = EVENT_COLOURS.iter().find(|(kind, _)| *kind == plan.kind).map_or(Colour::BLACK, |(_, colour)| *colour);
-    let drawn = found.points.iter().map(|point| Drawn {
-        at: (point.values.0 * x, point.values.1 * y),
-        physical: point.physical,
-        event: point.event.map(|event| {
-            let name = event.name();
-            let shape = CURVE_MARKS.iter().find(|(known, _)| *known == name).map(|(_, shape)| *shape);
-            (name, shape)
-        }),
-    });
-    let name = format!("{} of {}", plan.kind.name(), label(plan.label.as_deref().unwrap_or_default().trim()));
-    let axes = (axis(&plan.vary, x), axis(&plan.and, y));
-    picture(axes, &drawn.collect::<Vec<_>>(), (colour, &name), found.begin).title(title_without(asked, &[p, q]))
+    let title = title_without(asked, &[plan.vary.parameter, plan.and.parameter]);
+    let event = |point: &CurvePoint| point.event.map(|event| event.name());
+    let drawn = found.points.iter().map(|point| Drawn::new(point.values, point.physical, event(point)));
+    let label = plan.label.as_deref().unwrap_or_default().trim();
+    draw(found, (plan, &asked.units), drawn, label).title(title)
 }
 
-/// The figure of `vibro curve --machine`.
+/// The same of a machine.
 #[must_use]
-pub fn of_machine(found: &MachineEventCurve, plan: &CurvePlan<Variable>, title: String) -> Figure {
-    let axis =
-        |stretch: &Stretch<Variable>| FigureAxis::new(plain(stretch.parameter.text())).range(stretch.from, stretch.to);
-    let colour = MACHINE_EVENT_COLOURS.iter().find(|(kind, _)| *kind == plan.kind);
-    let drawn = found.points.iter().map(|point| Drawn {
-        at: point.values,
-        physical: true,
-        event: point.event.map(|event| {
-            let name = event.name();
-            let shape = MACHINE_CURVE_MARKS.iter().find(|(known, _)| *known == name).map(|(_, shape)| *shape);
-            (name, shape)
-        }),
-    });
-    let of = found.label.to_string();
+pub fn of_machine(
+    found: &EventCurve<MachineCycle, MachinePoint, MachineCurvePoint>,
+    plan: &CurvePlan<String>,
+    title: String,
+) -> Figure {
+    let event = |point: &MachineCurvePoint| point.event.map(|event| event.name());
+    let drawn = found.points.iter().map(|point| Drawn::new(point.values, true, event(point)));
+    let label = found.chosen.cycle.label.to_string();
+    draw(found, (plan, &Units::default()), drawn, &label).title(title)
+}
+
+/// A curve of an orbit with this label.
+fn draw<C, E, P, V: Varied>(
+    found: &EventCurve<C, E, P>,
+    (plan, units): (&CurvePlan<V>, &Units),
+    drawn: impl Iterator<Item = Drawn>,
+    of: &str,
+) -> Figure {
+    let axis = |stretch: &Stretch<V>| {
+        let unit = stretch.parameter.unit(units);
+        FigureAxis::new(stretch.parameter.axis(units)).range(stretch.from * unit, stretch.to * unit)
+    };
+    let drawn = drawn.map(|point| Drawn { at: values(point.at, plan, units).into(), ..point });
     // a motion with friction only has no impact that could name it
-    let name = if of == "0" { plan.kind.name().to_owned() } else { format!("{} of {}", plan.kind.name(), label(&of)) };
-    let colour = colour.map_or(Colour::BLACK, |(_, colour)| *colour);
-    let axes = (axis(&plan.vary), axis(&plan.and));
-    picture(axes, &drawn.collect::<Vec<_>>(), (colour, &name), found.begin).title(title)
+    let name = if of == "0" { plan.kind.name().to_owned() } else { format!("{} of {}", plan.kind.name(), label(of)) };
+    let colour = CURVE_COLOURS.iter().find(|(kind, _)| *kind == plan.kind).map_or(Colour::BLACK, |(_, colour)| *colour);
+    picture((axis(&plan.vary), axis(&plan.and)), &drawn.collect::<Vec<_>>(), (colour, &name), found.begin)
 }
 
 /// A point of a curve as it is drawn.
@@ -64,6 +62,13 @@ struct Drawn {
     physical: bool,
     /// The name of an event, and its mark if it has one.
     event: Option<(&'static str, Option<Shape>)>,
+}
+
+impl Drawn {
+    fn new(at: (f64, f64), physical: bool, event: Option<&'static str>) -> Self {
+        let mark = |name| CURVE_MARKS.iter().find(|(known, _)| *known == name).map(|(_, shape)| *shape);
+        Self { at, physical, event: event.map(|name| (name, mark(name))) }
+    }
 }
 
 /// The figure of a curve with this colour and name, whose point number `begin` was found on a branch.

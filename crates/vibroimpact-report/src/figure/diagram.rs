@@ -4,13 +4,13 @@
 //! Where both sweeps have the same cycle, the small dot of one lies inside the large dot of the other, so both colours
 //! are visible. Motions that do not repeat have small dots in both sweeps.
 
-use crate::figure::{along, along_machine, plane::PlaneAxis, quantity_name, symbol, title_without};
+use crate::figure::{along, plane::PlaneAxis};
 use crate::units::shown;
-use crate::{Asked, ReportError, Units};
+use crate::{ReportError, ShownValue, Units, Varied};
 use std::collections::HashSet;
-use vibroimpact_plot::{ClassStyle, Colour, Figure, FigureAxis, Legend, Panel, Points, Raster, Rects, SERIES, plain};
-use vibroimpact_study::diagram::{Diagram, DiagramPoint, DiagramStep, Show, Sweep, SweepDirection};
-use vibroimpact_study::{MachineDiagram, MachineDiagramStep, Values, counted};
+use vibroimpact_plot::{ClassStyle, Colour, Figure, FigureAxis, Legend, Panel, Points, Raster, Rects, SERIES};
+use vibroimpact_study::diagram::{Diagram, DiagramPoint, DiagramStep, Sweep, SweepDirection};
+use vibroimpact_study::{Values, counted};
 
 /// Maximum number of dots, which gives a file of a few megabytes. With more dots a raster is drawn instead.
 const MOST_DOTS: usize = 50_000;
@@ -45,32 +45,16 @@ struct Motion {
 ///
 /// # Errors
 /// [`ReportError::Plan`] if a value of the parameter overflows in these units.
-pub fn figure(found: &Diagram, asked: &Asked) -> Result<Figure, ReportError> {
+pub fn figure<V: Varied, S: ShownValue>(
+    found: &Diagram<V, S>,
+    units: &Units,
+    title: String,
+) -> Result<Figure, ReportError> {
     let plan = &found.plan;
-    let over = shown(&plan.over, asked.units.of(plan.vary))?;
-    let cut = plan.cut();
-    let side = PlaneAxis::new(along(&cut, &asked.units), &over)?;
-    let symbol = if asked.units.unit_of(plan.vary) == "Hz" { "frequency" } else { symbol(plan.vary) };
-    let axes = (&side, ordinate(plan.show, asked));
-    let figure = draw(&motions(found, asked), (&over, plan.direction, symbol), axes)?;
-    Ok(figure.title(title_without(asked, &cut.parameters().collect::<Vec<_>>())))
-}
-
-/// The figure of `vibro diagram --machine`: speeds of closings, or a coordinate at phase 0, over the number at a path.
-///
-/// # Errors
-/// As [`figure`].
-pub fn of_machine(found: &MachineDiagram, title: String) -> Result<Figure, ReportError> {
-    let plan = &found.plan;
-    let motions = motions_of_machine(found);
-    let name = plain(&plan.vary);
-    let side = PlaneAxis::new(along_machine(&plan.cut()), &plan.over)?;
-    let shown = match plan.show.as_str() {
-        _ if plan.shows_closings() => "speed of closing".to_owned(),
-        show if plan.shows_states() => format!("{} at phase 0", plain(show)),
-        show => plain(show),
-    };
-    let figure = draw(&motions, (&plan.over, plan.direction, &name), (&side, FigureAxis::new(shown)))?;
+    let over = shown(&plan.over, plan.vary.unit(units))?;
+    let side = PlaneAxis::new(along(&plan.cut(), units), &over)?;
+    let axes = (&side, FigureAxis::new(plan.show.ordinate(units)));
+    let figure = draw(&motions(found, units), (&over, plan.direction, &plan.vary.mark(units)), axes)?;
     Ok(figure.title(title))
 }
 
@@ -94,75 +78,51 @@ fn draw(
 }
 
 /// All dots of a diagram in one colour, to be drawn behind curves. Dots of motions that repeat are wider than a curve.
-pub(super) fn backdrop(found: &Diagram, over: &Values, asked: &Asked, colour: Colour) -> [Points; 2] {
-    behind(&motions(found, asked), over, colour)
-}
-
-/// The same of a machine.
-pub(super) fn backdrop_of_machine(found: &MachineDiagram, colour: Colour) -> [Points; 2] {
-    behind(&motions_of_machine(found), &found.plan.over, colour)
-}
-
-fn behind(motions: &[Motion], over: &Values, colour: Colour) -> [Points; 2] {
+///
+/// # Errors
+/// [`ReportError::Plan`] if a value of the parameter overflows in these units.
+pub(super) fn backdrop<V: Varied, S: ShownValue>(
+    found: &Diagram<V, S>,
+    units: &Units,
+    colour: Colour,
+) -> Result<[Points; 2], ReportError> {
+    let (motions, over) = (motions(found, units), shown(&found.plan.over, found.plan.vary.unit(units))?);
     let range = spread(motions.iter().flat_map(|motion| motion.ys.iter().copied()));
-    [(true, WIDE), (false, NARROW)].map(|(repeating, size)| {
+    Ok([(true, WIDE), (false, NARROW)].map(|(repeating, size)| {
         let shown = motions.iter().filter(|motion| motion.repeats == repeating);
         let mut dots: Vec<(u32, f64)> = shown.flat_map(|motion| motion.ys.iter().map(|y| (motion.index, *y))).collect();
         thin(&mut dots, range);
         let (xs, ys): (Vec<f64>, Vec<f64>) = dots.into_iter().map(|(k, y)| (over.at(k as usize), y)).unzip();
         Points::new(xs, ys, colour).size(size)
-    })
+    }))
 }
 
 /// Sizes of the dots behind curves.
 const WIDE: f64 = 7.0;
 const NARROW: f64 = 2.6;
 
-fn ordinate_of(point: &DiagramPoint, units: &Units) -> f64 {
+/// The ordinate of a point, in these units and that of a quantity.
+fn ordinate_of(point: &DiagramPoint, units: &Units, quantity: f64) -> f64 {
     match point {
-        DiagramPoint::Impact { velocity, .. } => velocity * units.velocity(),
+        DiagramPoint::Impact { speed, .. } => speed * units.velocity(),
         DiagramPoint::Chatter { .. } => 0.0,
         DiagramPoint::State { x, .. } => x * units.length(),
-        DiagramPoint::Value { quantity, value } => value * units.of_quantity(*quantity),
+        DiagramPoint::Value(value) => value * quantity,
     }
 }
 
-/// The units at a step of a diagram.
-fn units_of(found: &Diagram, step: &DiagramStep, asked: &Asked) -> Units {
-    asked.units.at(found.plan.vary, found.plan.over.at(step.index as usize))
-}
-
-/// The ordinate axis of a diagram.
-pub(super) fn ordinate(show: Show, asked: &Asked) -> FigureAxis {
-    FigureAxis::new(match show {
-        Show::Velocity => asked.units.named("arrival velocity *u*_−", "m/s"),
-        Show::Strobe => asked.units.named("*ξ* at phase 0", "m"),
-        Show::Quantity(quantity) => quantity_name(quantity, &asked.units),
-    })
-}
-
-/// The dots of an orbit diagram of an oscillator.
-fn motions(found: &Diagram, asked: &Asked) -> Vec<Motion> {
+/// The dots of an orbit diagram.
+fn motions<V: Varied, S: ShownValue>(found: &Diagram<V, S>, units: &Units) -> Vec<Motion> {
+    let plan = &found.plan;
     let motion = |step: &DiagramStep| {
-        let units = units_of(found, step, asked);
-        let kept = step.points.iter().filter(|point| !matches!(point, DiagramPoint::Chatter { .. })).count();
+        let units = plan.vary.units_at(units, plan.over.at(step.index as usize));
+        let quantity = plan.show.quantity_unit(&units);
         Motion {
             index: step.index,
             sweep: step.sweep,
-            repeats: (kept as u64) < found.plan.keep || kept == 1,
-            ys: step.points.iter().map(|point| ordinate_of(point, &units)).collect(),
+            repeats: step.repeats(plan.keep),
+            ys: step.points.iter().map(|point| ordinate_of(point, &units, quantity)).collect(),
         }
-    };
-    found.steps.iter().map(motion).collect()
-}
-
-/// The dots of an orbit diagram of a machine.
-fn motions_of_machine(found: &MachineDiagram) -> Vec<Motion> {
-    let motion = |step: &MachineDiagramStep| Motion {
-        index: step.index,
-        sweep: step.sweep,
-        repeats: (step.points.len() as u64) < found.plan.keep || step.points.len() == 1,
-        ys: step.points.iter().map(|point| point.value).collect(),
     };
     found.steps.iter().map(motion).collect()
 }

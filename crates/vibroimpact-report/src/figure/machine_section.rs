@@ -5,7 +5,7 @@ use crate::figure::section::{LARGE, dots, fitted, phases};
 use crate::figure::series;
 use vibroimpact::machine::Machine;
 use vibroimpact_plot::{COLUMN, Colour, Figure, Legend, Panel, plain};
-use vibroimpact_study::MachineSection;
+use vibroimpact_study::SectionPoints;
 
 /// Maximum number of coordinates with a panel each.
 const PLANES: usize = 5;
@@ -16,7 +16,7 @@ const HEIGHT: f64 = 380.0;
 
 /// The figure of `vibro lyapunov --machine`.
 #[must_use]
-pub fn figure(found: &MachineSection, machine: &Machine, title: String) -> Figure {
+pub fn figure(found: &SectionPoints, machine: &Machine, title: String) -> Figure {
     let coordinates = &machine.parts().coordinates;
     let shown = coordinates.len().min(PLANES);
     let speeds: Vec<f64> = found.closings.iter().map(|closing| closing.speed).collect();

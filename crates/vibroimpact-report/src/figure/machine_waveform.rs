@@ -9,7 +9,7 @@ use vibroimpact::regime::ContactState;
 use vibroimpact_plot::{
     ClassStyle, Colour, Dash, Figure, FigureAxis, Hatch, Legend, Line, Panel, Pattern, Points, Rects, SERIES, plain,
 };
-use vibroimpact_study::MachineSimulated;
+use vibroimpact_study::Simulated;
 
 /// Number of equal steps: a page is a thousand pixels wide.
 const STEPS: f64 = 4000.0;
@@ -29,7 +29,7 @@ const HATCHES: [Pattern; 4] = [Pattern::Rising, Pattern::Falling, Pattern::Horiz
 pub fn figure(
     machine: &Machine,
     start: &MachineStart,
-    found: &MachineSimulated,
+    found: &Simulated<MachineEvent>,
     title: String,
 ) -> Result<Figure, ReportError> {
     let until = found.shown_until;

@@ -1,10 +1,9 @@
 //! The figure of a map: each point of the parameter plane in the colours of its coexisting motions.
 
-use crate::figure::coloured::Value;
-use crate::figure::plane::{Plane, PlaneAxis, Sides, varied};
-use crate::figure::point_motion::{PointMotion, group, points};
-use crate::figure::{label as legend_label, shares, title_without};
-use crate::{Asked, ReportError};
+use crate::figure::plane::{Plane, Sides};
+use crate::figure::point_motion::points;
+use crate::figure::{label as legend_label, shares};
+use crate::{FieldName, ReportError, Units, Varied};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use vibroimpact::math::sort_by_key;
@@ -12,7 +11,7 @@ use vibroimpact_plot::{
     ClassStyle, Colour, Figure, GROUPS, Legend, Line, Panel, Raster, Rects, class_style, legend_group, legend_text,
     unforced,
 };
-use vibroimpact_study::{MachineMap, MachineShare, MapPoint, RegionMap};
+use vibroimpact_study::RegionMap;
 
 /// With more points than this, the parts of a cell would be too small to be visible; coexisting motions are stripes across
 /// several cells.
@@ -157,38 +156,30 @@ fn numbers(label: &str) -> (u64, u64) {
     (n.parse().unwrap_or(0), m.parse().unwrap_or(0))
 }
 
-/// The figure of `vibro map`: a plane, or the shares of the motions over one axis.
+/// The figure of `vibro map`: a plane, or the shares of the motions over one axis; and whether cells are divided between motions
+/// that coexist, and whether lines are drawn between cells with different motions.
 ///
 /// # Errors
 /// [`ReportError`] if there are not one or two axes with rising or falling values, or if an axis is too long.
-pub fn figure(found: &RegionMap, asked: &Asked) -> Result<Figure, ReportError> {
-    figure_with(found, asked, (true, false))
-}
-
-/// As [`figure`], and whether cells are divided between motions that coexist, and whether lines are drawn between cells
-/// with different motions.
-///
-/// # Errors
-/// As [`figure`].
-pub fn figure_with(
-    found: &RegionMap,
-    asked: &Asked,
-    (stripes, boundaries): (bool, bool),
+pub fn figure<V: Varied, F: FieldName>(
+    found: &RegionMap<V, F>,
+    units: &Units,
+    title: String,
+    divided: (bool, bool),
 ) -> Result<Figure, ReportError> {
-    let axes = &found.plan.axes;
-    if let [axis] = axes.as_slice() {
-        let points = points(found, None, &asked.units);
-        return Ok(shares::draw(&PlaneAxis::of(axis, &asked.units)?, &points, title_without(asked, &varied(axes))));
+    match Sides::of(&found.axes, units)? {
+        Sides::Line(side) => Ok(shares::draw(&side, &points(found, None, units), title)),
+        Sides::Plane(plane) => {
+            let mut cells = LabelledCells::default();
+            for motions in &found.points {
+                cells.push(motions.iter().map(|motion| (motion.label.as_ref().into(), motion.share)));
+            }
+            draw_with(&plane, cells, title, divided)
+        }
     }
-    let mut cells = LabelledCells::default();
-    for MapPoint { motions, .. } in &found.points {
-        cells.push(motions.iter().map(|motion| (motion.verdict.label(), motion.share)));
-    }
-    let plane = Plane::of(axes, &asked.units)?;
-    draw_with(&plane, cells, title_without(asked, &varied(axes)), (stripes, boundaries))
 }
 
-/// Draws a map, and says as [`figure_with`] what is drawn.
+/// Draws a map, and says as [`figure`] what is drawn.
 ///
 /// # Errors
 /// As [`draw`].
@@ -205,32 +196,6 @@ pub fn draw_with(
         panel.add(lines);
     }
     Ok(figure)
-}
-
-/// The figure of `vibro map --machine`, as [`figure`]; the names of the axes are the paths.
-///
-/// # Errors
-/// As [`figure`].
-pub fn of_machine(found: &MachineMap, title: String) -> Result<Figure, ReportError> {
-    match Sides::of_machine(&found.axes)? {
-        Sides::Line(side) => {
-            let motion = |motion: &MachineShare| PointMotion {
-                group: group(&motion.label()),
-                share: motion.share,
-                value: Value::Undefined,
-            };
-            let points: Vec<Vec<PointMotion>> =
-                found.cells.iter().map(|cell| cell.iter().map(motion).collect()).collect();
-            Ok(shares::draw(&side, &points, title))
-        }
-        Sides::Plane(plane) => {
-            let mut cells = LabelledCells::default();
-            for motions in &found.cells {
-                cells.push(motions.iter().map(|motion| (motion.label().into(), motion.share)));
-            }
-            draw(&plane, &cells, title)
-        }
-    }
 }
 
 /// Draws a map.
@@ -262,6 +227,7 @@ pub fn draw(plane: &Plane, cells: &LabelledCells, title: String) -> Result<Figur
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::figure::plane::PlaneAxis;
     use vibroimpact_plot::Mark;
     use vibroimpact_study::{Span, Values};
 

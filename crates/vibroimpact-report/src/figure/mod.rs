@@ -25,7 +25,7 @@ pub(crate) mod tracks;
 pub mod waveform;
 
 use crate::number::short;
-use crate::{Asked, Units};
+use crate::{Asked, Units, Varied};
 use vibroimpact::PhysicalParameter;
 use vibroimpact::quantities::Quantity;
 use vibroimpact_plot::{Colour, SERIES, plain};
@@ -89,29 +89,15 @@ fn same_in_title(varied: Parameter, number: Parameter) -> bool {
     }
 }
 
-/// The name of an axis along a line: the first parameter, and the range of the second one.
+/// The name of an axis along a line: the first number, and the range of the second one.
 #[must_use]
-pub fn along(cut: &Cut, units: &Units) -> String {
-    let also = cut.also.map(|also| {
-        let unit = units.of(also.parameter);
-        (named(also.parameter, units), (also.from * unit, also.to * unit))
-    });
-    along_line(named(cut.vary, units), cut.ends, also)
-}
-
-/// The name of an axis along a line through numbers of a machine.
-#[must_use]
-pub fn along_machine(cut: &Cut<String>) -> String {
-    let also = cut.also.as_ref().map(|also| (plain(&also.parameter), (also.from, also.to)));
-    along_line(plain(&cut.vary), cut.ends, also)
-}
-
-fn along_line(name: String, ends: (f64, f64), also: Option<(String, (f64, f64))>) -> String {
-    let Some((second, (first, last))) = also else { return name };
+pub fn along<V: Varied>(cut: &Cut<V>, units: &Units) -> String {
+    let name = cut.vary.axis(units);
+    let Some(also) = &cut.also else { return name };
     // the axis rises, in whichever direction the line is followed
-    let (from, to) = if ends.0 <= ends.1 { (first, last) } else { (last, first) };
-    let value = |value: f64| short(value).replace('-', "−");
-    format!("{name}, with {second} from {} to {}", value(from), value(to))
+    let (from, to) = if cut.ends.0 <= cut.ends.1 { (also.from, also.to) } else { (also.to, also.from) };
+    let value = |value: f64| short(value * also.parameter.unit(units)).replace('-', "−");
+    format!("{name}, with {} from {} to {}", also.parameter.axis(units), value(from), value(to))
 }
 
 /// The symbol of a parameter, as markup.

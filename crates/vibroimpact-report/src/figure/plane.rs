@@ -1,9 +1,9 @@
 //! A plane of two axes with a cell around each point.
 
-use crate::figure::named;
-use crate::{ReportError, Units};
-use vibroimpact_plot::{FigureAxis, plain};
-use vibroimpact_study::{Axis as Along, Axis, Coordinate, Parameter, Values};
+use crate::units::shown;
+use crate::{ReportError, Units, Varied};
+use vibroimpact_plot::FigureAxis;
+use vibroimpact_study::{Axis, Coordinate, Parameter, Values};
 
 /// Maximum number of points along one axis of a figure.
 const MOST: usize = 16_384;
@@ -25,9 +25,8 @@ pub struct Plane {
 }
 
 /// The parameters among the quantities that vary.
-pub(crate) fn varied(axes: &[Along]) -> Vec<Parameter> {
-    let parameter =
-        |axis: &Along| if let Coordinate::Parameter(parameter) = axis.vary { Some(parameter) } else { None };
+pub(crate) fn varied(axes: &[Axis]) -> Vec<Parameter> {
+    let parameter = |axis: &Axis| if let Coordinate::Parameter(parameter) = axis.vary { Some(parameter) } else { None };
     axes.iter().filter_map(parameter).collect()
 }
 
@@ -36,7 +35,7 @@ impl Plane {
     ///
     /// # Errors
     /// [`ReportError`] if there are not two axes with rising or falling values, or if an axis is too long.
-    pub fn of(axes: &[Along], units: &Units) -> Result<Self, ReportError> {
+    pub fn of<V: Varied>(axes: &[Axis<V>], units: &Units) -> Result<Self, ReportError> {
         let [x, y] = axes else { return Err(ReportError::Axes(axes.len())) };
         Ok(Self { x: PlaneAxis::of(x, units)?, y: PlaneAxis::of(y, units)? })
     }
@@ -56,22 +55,10 @@ impl Sides {
     ///
     /// # Errors
     /// As [`PlaneAxis::of`], and [`ReportError::Axes`] if there are not one or two axes.
-    pub fn of(axes: &[Along], units: &Units) -> Result<Self, ReportError> {
+    pub fn of<V: Varied>(axes: &[Axis<V>], units: &Units) -> Result<Self, ReportError> {
         match axes {
             [axis] => Ok(Self::Line(PlaneAxis::of(axis, units)?)),
             axes => Ok(Self::Plane(Plane::of(axes, units)?)),
-        }
-    }
-
-    /// The axes of a plan of a machine; their names are the paths.
-    ///
-    /// # Errors
-    /// [`ReportError::Axes`] if there are not one or two axes, and [`ReportError::Values`] for more than 16384 values.
-    pub fn of_machine(axes: &[Axis<String>]) -> Result<Self, ReportError> {
-        match axes {
-            [axis] => Ok(Self::Line(PlaneAxis::of_machine(axis)?)),
-            [x, y] => Ok(Self::Plane(Plane { x: PlaneAxis::of_machine(x)?, y: PlaneAxis::of_machine(y)? })),
-            axes => Err(ReportError::Axes(axes.len())),
         }
     }
 }
@@ -98,24 +85,9 @@ impl PlaneAxis {
     /// # Errors
     /// [`ReportError::Order`] as for [`Self::new`], [`ReportError::Values`] for more than 16384 values, and
     /// [`ReportError::Plan`] if a value overflows in these units.
-    pub fn of(axis: &Along, units: &Units) -> Result<Self, ReportError> {
+    pub fn of<V: Varied>(axis: &Axis<V>, units: &Units) -> Result<Self, ReportError> {
         short_enough(axis.over.count())?;
-        let name = match axis.vary {
-            Coordinate::Parameter(parameter) => named(parameter, units),
-            Coordinate::X => units.named("*ξ*_0", "m"),
-            Coordinate::V => units.named("*ξ*_0′", "m/s"),
-            Coordinate::Phase => "phase *φ*".to_owned(),
-        };
-        Self::new(name, &units.shown(axis)?)
-    }
-
-    /// The axis of a plan of a machine; its name is the path.
-    ///
-    /// # Errors
-    /// [`ReportError::Values`] for more than 16384 values.
-    pub fn of_machine(axis: &Axis<String>) -> Result<Self, ReportError> {
-        short_enough(axis.over.count())?;
-        Self::new(plain(&axis.vary), &axis.over)
+        Self::new(axis.vary.axis(units), &shown(&axis.over, axis.vary.unit(units))?)
     }
 
     /// The number of values.

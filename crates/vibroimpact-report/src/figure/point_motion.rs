@@ -1,10 +1,10 @@
 //! The motions at the points of a map, as figures need them: the group, the share, and the value of a quantity.
 
-use crate::Units;
 use crate::figure::coloured::Value;
-use vibroimpact::quantities::Quantity;
+use crate::varied::units_over;
+use crate::{FieldName, Units, Varied};
 use vibroimpact_plot::{GROUPS, legend_group};
-use vibroimpact_study::{MapPoint, RegionMap};
+use vibroimpact_study::{Axis, RegionMap, Share};
 
 /// The index of the group of a label in the legend.
 #[must_use]
@@ -24,17 +24,21 @@ pub struct PointMotion {
     pub value: Value,
 }
 
-/// The motions at each point of a map, the most frequent first, with the values of a quantity in these units.
+/// The motions at each point of a map, the most frequent first, with the values of a field of the plan in these units.
 #[must_use]
-pub fn points(found: &RegionMap, quantity: Option<Quantity>, units: &Units) -> Vec<Vec<PointMotion>> {
-    let motion = |motion: &vibroimpact_study::Share, units: &Units| {
-        let label = motion.verdict.label();
-        let number = quantity.and_then(|quantity| motion.quantities.map(|of| units.value_of(&of, quantity)));
-        PointMotion { group: group(&label), share: motion.share, value: Value::of(&label, number) }
+pub fn points<V: Varied, F: FieldName>(
+    found: &RegionMap<V, F>,
+    field: Option<usize>,
+    units: &Units,
+) -> Vec<Vec<PointMotion>> {
+    let point = |(k, motions): (usize, &Vec<Share>)| {
+        let there = units_over(units, &found.axes, &Axis::at(&found.axes, k as u64));
+        let motion = |motion: &Share| {
+            let value = |field: usize| Some(motion.quantities.get(field)? * found.fields[field].unit(&there));
+            let value = Value::of(&motion.label, field.and_then(value));
+            PointMotion { group: group(&motion.label), share: motion.share, value }
+        };
+        motions.iter().map(motion).collect()
     };
-    let point = |point: &MapPoint| {
-        let units = units.over(&found.plan.axes, |axis| point.at[axis]);
-        point.motions.iter().map(|one| motion(one, &units)).collect()
-    };
-    found.points.iter().map(point).collect()
+    found.points.iter().enumerate().map(point).collect()
 }

@@ -1,14 +1,14 @@
 //! The figure of the regions where a motion exists and where it is stable, in a plane of two parameters. Edges have the
 //! colour of their kind.
 
-use crate::Asked;
+use crate::figure::label;
 use crate::figure::styles::BOUND_STYLES;
-use crate::figure::{label, named, title_without};
+use crate::json::region::unit;
+use crate::{Units, Varied};
 use vibroimpact::continuation::{Bound, Polygon, Region};
 use vibroimpact_plot::{
-    ClassStyle, Colour, Figure, FigureAxis, FilledRegion, Legend, Line, Panel, Stroke, class_style, plain,
+    ClassStyle, Colour, Figure, FigureAxis, FilledRegion, Legend, Line, Panel, Stroke, class_style,
 };
-use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{RegionPlan, Regions, Stretch};
 
 /// Colour of the region where the motion exists and is unstable.
@@ -17,41 +17,27 @@ const EXISTS: Colour = Colour::hex(0xec_ecec);
 const THICK: f64 = 3.2;
 const THIN: f64 = 1.5;
 
-/// The figure of `vibro region`.
+/// The figure of `vibro region`; of a motion that is neutral where it exists, or not.
 #[must_use]
-pub fn figure(found: &Regions, plan: &RegionPlan, asked: &Asked) -> Figure {
-    let (units, title) = (&asked.units, title_without(asked, &[plan.across.parameter, plan.up.parameter]));
-    let neutral = plan.neutral(&asked.system);
-    let axis = |stretch: &Stretch| {
-        let unit = units.of(stretch.parameter);
-        FigureAxis::new(named(stretch.parameter, units)).range(stretch.from * unit, stretch.to * unit)
+pub fn figure<V: Varied>(
+    found: &Regions,
+    plan: &RegionPlan<V>,
+    (neutral, units): (bool, &Units),
+    title: impl Into<String>,
+) -> Figure {
+    let motion = plan.label.trim();
+    let (x, y) = unit(plan, units);
+    let axis = |stretch: &Stretch<V>, unit: f64| {
+        FigureAxis::new(stretch.parameter.axis(units)).range(stretch.from * unit, stretch.to * unit)
     };
     let scaled = |region: &Region| {
-        let (x, y) = (units.of(plan.across.parameter), units.of(plan.up.parameter));
         let mut region = region.clone();
         let vertices = region.polygons.iter_mut().flat_map(|polygon| &mut polygon.vertices);
         vertices.for_each(|vertex| vertex.values = (vertex.values.0 * x, vertex.values.1 * y));
         region
     };
     let found = &Regions { existence: scaled(&found.existence), stability: scaled(&found.stability) };
-    drawn(found, [axis(&plan.across), axis(&plan.up)], (plan.label.trim(), neutral), title)
-}
-
-/// The same of a machine.
-#[must_use]
-pub fn of_machine(found: &Regions, plan: &RegionPlan<String>, source: &MachineSource, title: String) -> Figure {
-    let axis = |stretch: &Stretch<String>| FigureAxis::new(plain(&stretch.parameter)).range(stretch.from, stretch.to);
-    drawn(found, [axis(&plan.across), axis(&plan.up)], (plan.label.trim(), plan.neutral(source)), title)
-}
-
-/// Both regions of a motion with this label, which can be neutral.
-fn drawn(
-    found: &Regions,
-    [across, up]: [FigureAxis; 2],
-    (motion, neutral): (&str, bool),
-    title: impl Into<String>,
-) -> Figure {
-    let mut panel = Panel::new(across, up);
+    let mut panel = Panel::new(axis(&plan.across, x), axis(&plan.up, y));
     let stable = class_style(motion).colour;
     let mut legend = Legend::below();
     let name = label(motion);

@@ -13,7 +13,7 @@ use vibroimpact::math::sort_by_key;
 use vibroimpact_plot::{Colour, Figure, FigureAxis, Line, Panel, SERIES, plain};
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::study::{NOT_COMPUTED, REFUSED, StudyArrays, diagram_of, label_of, machine_diagram_of};
-use vibroimpact_study::{Axis, Column, Control, Plan, Quantity, System, SystemPlan, Task, typed_axes};
+use vibroimpact_study::{Axis, Column, Control, Parameter, Plan, Quantity, System, SystemPlan, Task, typed_axes};
 
 /// Draws the figure of a study; that of a map or basin in the colours of a quantity, if one is given, and that of a map
 /// with what lies over it.
@@ -87,7 +87,9 @@ fn of_task<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
         }
         Task::Diagram(plan) => {
             let plan = plan.typed().map_err(ReportError::from)?;
-            Ok(diagram::figure(&diagram_of(&plan, &columns::<A, E>(store)?), asked)?)
+            let found = diagram_of(&plan, &columns::<A, E>(store)?);
+            let varied: Vec<Parameter> = plan.cut().names().copied().collect();
+            Ok(diagram::figure(&found, &asked.units, title_without(asked, &varied))?)
         }
         _ => Err(ReportError::Scattered.into()),
     }
@@ -105,7 +107,7 @@ fn of_machine<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     task: &Task,
     colour: Option<&Coloured>,
 ) -> Result<Figure, E> {
-    let title = machine_title(machine, "machine");
+    let (title, units) = (machine_title(machine, "machine"), Units::default());
     let axes: Vec<Axis<String>> = typed_axes(task.axes()).map_err(ReportError::from)?;
     if let Some(colour) = colour {
         if !matches!(task, Task::Map(_) | Task::Basin(_)) {
@@ -114,21 +116,21 @@ fn of_machine<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
         place(task.fields(), &colour.field)?;
         let points = points::<A, E>(store, Some((&colour.field, &|_| 1.0)))?;
         let names = (plain(&colour.field), title);
-        return Ok(coloured::of_points(&Sides::of_machine(&axes)?, &points, colour, names)?);
+        return Ok(coloured::of_points(&Sides::of(&axes, &units)?, &points, colour, names)?);
     }
     match task {
-        Task::Map(_) => match Sides::of_machine(&axes)? {
+        Task::Map(_) => match Sides::of(&axes, &units)? {
             Sides::Line(side) => Ok(shares::draw(&side, &points::<A, E>(store, None)?, title)),
             Sides::Plane(plane) => of_map(store, &plane, title, Overlay::default().cells()),
         },
-        Task::Basin(_) => of_basin(store, &Sides::of_machine(&axes)?, title),
+        Task::Basin(_) => of_basin(store, &Sides::of(&axes, &units)?, title),
         Task::Diagram(diagram) => {
             let diagram = diagram.typed().map_err(ReportError::from)?;
-            Ok(diagram::of_machine(&machine_diagram_of(&diagram, &columns::<A, E>(store)?), title)?)
+            Ok(diagram::figure(&machine_diagram_of(&diagram, &columns::<A, E>(store)?), &units, title)?)
         }
         Task::Lyapunov(_) => {
             let [axis] = axes.as_slice() else { return Err(ReportError::Exponents.into()) };
-            of_exponents(store, &PlaneAxis::of_machine(axis)?, (PER_TIME, &|_| 1.0), title)
+            of_exponents(store, &PlaneAxis::of(axis, &units)?, (PER_TIME, &|_| 1.0), title)
         }
         _ => Err(ReportError::Scattered.into()),
     }

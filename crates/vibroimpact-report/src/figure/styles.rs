@@ -5,13 +5,13 @@ use vibroimpact::continuation::Bound;
 use vibroimpact_plot::{Colour, Dash, SERIES, Shape};
 use vibroimpact_study::FollowedEvent;
 
-/// The colours of curves of events in two parameters.
+/// The colours of curves of events of an oscillator, as Python draws them.
 pub const EVENT_COLOURS: [(FollowedEvent, Colour); 3] =
     [(FollowedEvent::Fold, SERIES[1]), (FollowedEvent::Flip, SERIES[0]), (FollowedEvent::Grazing, SERIES[2])];
 
 /// The marks of events along branches by name, and whether the mark is at velocity zero, because an impact appears or
 /// disappears there. Other events have no mark.
-pub const BRANCH_MARKS: [(&str, Shape, bool); 9] = [
+pub const BRANCH_MARKS: [(&str, Shape, bool); 17] = [
     ("fold", Shape::Square, false),
     ("flip", Shape::Diamond, false),
     ("branch point", Shape::Circle, false),
@@ -21,10 +21,7 @@ pub const BRANCH_MARKS: [(&str, Shape, bool); 9] = [
     ("end of rest", Shape::Cross, true),
     ("rest for ever", Shape::Cross, true),
     ("chatter", Shape::Cross, true),
-];
-
-/// The marks of further events along branches of machines, as [`BRANCH_MARKS`].
-pub const MACHINE_BRANCH_MARKS: [(&str, Shape, bool); 8] = [
+    // of machines only
     ("torus", Shape::Plus, false),
     ("corner", Shape::Cross, false),
     ("sticking begins", Shape::TriangleRight, false),
@@ -36,7 +33,7 @@ pub const MACHINE_BRANCH_MARKS: [(&str, Shape, bool); 8] = [
 ];
 
 /// The marks of points of codimension two on curves, by name. Ends of a curve have no mark.
-pub const CURVE_MARKS: [(&str, Shape); 10] = [
+pub const CURVE_MARKS: [(&str, Shape); 22] = [
     ("cusp", Shape::TriangleDown),
     ("resonant grazing", Shape::Diamond),
     ("double grazing", Shape::Square),
@@ -47,25 +44,9 @@ pub const CURVE_MARKS: [(&str, Shape); 10] = [
     ("loss of contact", Shape::Plus),
     ("whole periods", Shape::Plus),
     ("speeds without bound", Shape::Plus),
-];
-
-/// The colours of curves of events of machines.
-pub const MACHINE_EVENT_COLOURS: [(FollowedEvent, Colour); 7] = [
-    (FollowedEvent::Fold, SERIES[1]),
-    (FollowedEvent::Flip, SERIES[0]),
-    (FollowedEvent::Torus, SERIES[3]),
-    (FollowedEvent::Grazing, SERIES[2]),
-    (FollowedEvent::Corner, SERIES[5]),
-    (FollowedEvent::Sticking, SERIES[4]),
-    (FollowedEvent::Holding, SERIES[6]),
-];
-
-/// The marks of points of codimension two on curves of machines, by name. Ends of a curve have no mark.
-pub const MACHINE_CURVE_MARKS: [(&str, Shape); 19] = [
-    ("cusp", Shape::TriangleDown),
+    // of machines only
     ("fold-flip", Shape::Circle),
     ("1:1", Shape::Circle),
-    ("1:2", Shape::Circle),
     ("1:3", Shape::Circle),
     ("1:4", Shape::Circle),
     ("fold-torus", Shape::Plus),
@@ -73,14 +54,20 @@ pub const MACHINE_CURVE_MARKS: [(&str, Shape); 19] = [
     ("fold-grazing", Shape::Diamond),
     ("flip-grazing", Shape::Diamond),
     ("torus-grazing", Shape::Diamond),
-    ("resonant grazing", Shape::Diamond),
-    ("degenerate grazing", Shape::TriangleUp),
     ("degenerate rest", Shape::TriangleUp),
-    ("double grazing", Shape::Square),
-    ("touch", Shape::Circle),
     ("corner", Shape::Cross),
     ("rest", Shape::Cross),
-    ("degenerate flip", Shape::Cross),
+];
+
+/// The colours of curves of events of any system.
+pub const CURVE_COLOURS: [(FollowedEvent, Colour); 7] = [
+    (FollowedEvent::Fold, SERIES[1]),
+    (FollowedEvent::Flip, SERIES[0]),
+    (FollowedEvent::Torus, SERIES[3]),
+    (FollowedEvent::Grazing, SERIES[2]),
+    (FollowedEvent::Corner, SERIES[5]),
+    (FollowedEvent::Sticking, SERIES[4]),
+    (FollowedEvent::Holding, SERIES[6]),
 ];
 
 /// Colour, dash and text of each bound of a region, in the order of the legend. The frame is the edge of the figure and
@@ -105,28 +92,6 @@ mod tests {
         let (stop, first, second, place) = (0, 0, 1, 0);
         let events = [
             Event::Cusp,
-            Event::FoldFlip,
-            Event::OneToOne,
-            Event::OneToTwo,
-            Event::OneToThree,
-            Event::OneToFour,
-            Event::FoldTorus,
-            Event::FlipTorus,
-            Event::FoldGrazing,
-            Event::FlipGrazing,
-            Event::TorusGrazing,
-            Event::ResonantGrazing { stop },
-            Event::DegenerateGrazing { stop },
-            Event::DegenerateRest { place },
-            Event::DoubleGrazing { stop },
-            Event::Touch { stop },
-            Event::Corner { first, second },
-            Event::Rest { place },
-            Event::DegenerateFlip,
-        ];
-        assert_eq!(MACHINE_CURVE_MARKS.map(|(name, _)| name), events.map(|event| event.name()));
-        let of_oscillators = [
-            Event::Cusp,
             Event::ResonantGrazing { stop },
             Event::DoubleGrazing { stop },
             Event::DegenerateGrazing { stop },
@@ -136,8 +101,20 @@ mod tests {
             Event::LossOfContact,
             Event::WholePeriods,
             Event::Unbounded,
+            Event::FoldFlip,
+            Event::OneToOne,
+            Event::OneToThree,
+            Event::OneToFour,
+            Event::FoldTorus,
+            Event::FlipTorus,
+            Event::FoldGrazing,
+            Event::FlipGrazing,
+            Event::TorusGrazing,
+            Event::DegenerateRest { place },
+            Event::Corner { first, second },
+            Event::Rest { place },
         ];
-        assert_eq!(CURVE_MARKS.map(|(name, _)| name), of_oscillators.map(|event| event.name()));
+        assert_eq!(CURVE_MARKS.map(|(name, _)| name), events.map(|event| event.name()));
     }
 
     /// A renamed event would lose its mark without an error.
@@ -157,7 +134,8 @@ mod tests {
             BranchEvent::RestForEver { side },
             BranchEvent::Chatter { side, phase, before },
         ];
-        assert_eq!(BRANCH_MARKS.map(|(name, ..)| name), events.map(|event| event.name()));
+        let (oscillators, machines) = BRANCH_MARKS.split_at(events.len());
+        assert_eq!(oscillators.iter().map(|(name, ..)| *name).collect::<Vec<_>>(), events.map(|event| event.name()));
         let (stop, joint, place) = (0, 0, None);
         let further = [
             MachineBranchEvent::Torus,
@@ -169,7 +147,7 @@ mod tests {
             MachineBranchEvent::Jump,
             MachineBranchEvent::Change { place },
         ];
-        assert_eq!(MACHINE_BRANCH_MARKS.map(|(name, ..)| name), further.map(|event| event.name()));
+        assert_eq!(machines.iter().map(|(name, ..)| *name).collect::<Vec<_>>(), further.map(|event| event.name()));
         // the events that branches of oscillators have too
         for event in [
             MachineBranchEvent::Fold,

@@ -3,20 +3,19 @@
 use super::certainty::Certainty;
 use super::motion::{MotionObject, SharedMotion};
 use super::{AxisObject, Document};
-use crate::Asked;
+use crate::{Asked, Units, Varied};
 use schemars::JsonSchema;
 use serde::Serialize;
-use vibroimpact::machine::Machine;
-use vibroimpact::math::sort_by_key;
+use vibroimpact::verdict::{System, Verdict};
 use vibroimpact::{Oscillator, Start};
-use vibroimpact_study::{Basin, MachineBasin, Plan, StartPlan};
+use vibroimpact_study::{Basin, Plan, StartPlan};
 
 /// The answer to `vibro basin`. Coordinates on no axis are those of the start.
 #[derive(JsonSchema, Serialize)]
 pub(super) struct BasinAnswer<'a> {
     motions: Vec<SharedMotion<'a>>,
     starts: usize,
-    axes: Vec<AxisObject<'a>>,
+    axes: Vec<AxisObject>,
     /// Starts beyond a rigid stop.
     refused: usize,
     /// The number of the motion of each start, the first axis varying fastest; null beyond a rigid stop.
@@ -72,7 +71,7 @@ impl MeasureFields {
                 common: of.common,
                 wada: of.wada(),
             }),
-            certainty: Certainty::of(by_count(found).into_iter().map(|m| found.motions[m].count), total),
+            certainty: Certainty::of(found.by_count().into_iter().map(|m| found.motions[m].count), total),
         })
     }
 }
@@ -80,51 +79,38 @@ impl MeasureFields {
 /// The object of `vibro basin`.
 #[must_use]
 pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &Basin) -> impl Serialize + use<'a> {
-    let (units, task) = (&asked.units, &found.plan);
-    let order = by_count(found);
-    let mut places = vec![0; order.len()];
-    order.iter().enumerate().for_each(|(place, motion)| places[*motion] = place);
-    let StartPlan { x, v, phase } = task.start();
+    let units = &asked.units;
+    let StartPlan { x, v, phase } = found.plan.start();
     let start = Start { x: x.unwrap_or_else(|| Start::at_rest(osc).x), v, phase };
-    let shared = order.into_iter().map(|m| SharedMotion {
-        motion: MotionObject::of_oscillator(&found.motions[m].verdict, osc, units),
-        share: found.share(m),
-        starts: found.motions[m].count,
-    });
     let answer = BasinAnswer {
-        motions: shared.collect(),
-        starts: found.cells.len(),
-        axes: AxisObject::of_oscillator(&task.axes, units),
-        // refused with the plan
-        refused: 0,
-        cells: found.cells.iter().map(|motion| Some(places[usize::from(*motion)])).collect(),
         measures: MeasureFields::of(found),
+        ..BasinAnswer::new(found, units, |verdict| MotionObject::of_oscillator(verdict, osc, units))
     };
     Document::new(asked, osc, plan, answer).start(&start, units)
 }
 
 impl<'a> BasinAnswer<'a> {
-    pub(super) fn of_machine(machine: &'a Machine, found: &'a MachineBasin) -> Self {
-        let motions = found.motions.iter().zip(found.shares()).map(|(verdict, (starts, share))| SharedMotion {
-            motion: MotionObject::of_machine(machine, verdict),
-            share,
-            starts,
+    /// The motions in order of falling numbers of starts.
+    pub(super) fn new<'b, S: System, V: Varied, F>(
+        found: &'b Basin<S, V, F>,
+        units: &Units,
+        motion: impl Fn(&'b Verdict<S>) -> MotionObject<'a>,
+    ) -> Self {
+        let order = found.by_count();
+        let mut places = vec![0; order.len()];
+        order.iter().enumerate().for_each(|(place, motion)| places[*motion] = place);
+        let shared = order.into_iter().map(|m| SharedMotion {
+            motion: motion(&found.motions[m].verdict),
+            share: found.share(m),
+            starts: found.motions[m].count,
         });
         Self {
-            motions: motions.collect(),
+            motions: shared.collect(),
             starts: found.cells.len(),
-            axes: AxisObject::of_machine(&found.axes),
+            axes: AxisObject::all(&found.plan.axes, units),
             refused: found.refused(),
-            cells: found.cells.clone(),
+            cells: (0..found.cells.len()).map(|k| found.motion(k).map(|number| places[number])).collect(),
             measures: None,
         }
     }
-}
-
-/// The indices of the motions in order of falling numbers of starts.
-#[must_use]
-pub fn by_count(found: &Basin) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..found.motions.len()).collect();
-    sort_by_key(&mut order, |m| core::cmp::Reverse(found.motions[*m].count));
-    order
 }

@@ -4,7 +4,7 @@ use super::event::{self, EventObject, side};
 use super::motion::{drift, multipliers};
 use super::{Document, Pair};
 use crate::branch_quantity::BranchQuantity;
-use crate::{Asked, Units};
+use crate::{Asked, Units, Varied};
 use core::iter::once;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -13,21 +13,20 @@ use vibroimpact::Label;
 use vibroimpact::Oscillator;
 use vibroimpact::continuation::{BranchEvent, MachineBranchEvent, MachinePoint, SolutionPoint};
 use vibroimpact::machine::Machine;
+use vibroimpact::orbit::MachineCycle;
 use vibroimpact_study::machine::MachineSource;
-use vibroimpact_study::{
-    BranchPlan, Branches, Chosen, Cut, EventRecord, Followed, MachineBranched, Name, Plan, SystemPlan, Variable,
-};
+use vibroimpact_study::{Branches, Chosen, Cut, EventRecord, Followed, OrbitNumber, Plan, SystemPlan};
 
 /// The answer to `vibro branch`.
 #[derive(JsonSchema, Serialize)]
 pub(super) struct BranchAnswer<'a> {
     /// The label of the orbit at which the first branch begins.
     label: String,
-    vary: &'a str,
+    vary: String,
     from: f64,
     to: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
-    also: Option<Pair<'a>>,
+    also: Option<Pair>,
     /// Absent for the motion from the start of a machine.
     #[serde(skip_serializing_if = "Option::is_none")]
     orbit: Option<ChosenObject>,
@@ -42,13 +41,8 @@ pub(super) struct ChosenObject {
 }
 
 impl ChosenObject {
-    pub(super) const fn new(chosen: &Chosen) -> Self {
-        Self { number: chosen.number, count: chosen.count }
-    }
-
-    /// That of a machine, from its number and how many there are.
-    pub(super) fn of_machine(among: Option<(u32, u32)>) -> Option<Self> {
-        among.map(|(number, count)| Self { number, count })
+    pub(super) fn new<C>(chosen: &Chosen<C>) -> Option<Self> {
+        chosen.among.map(|OrbitNumber { number, count }| Self { number, count })
     }
 }
 
@@ -68,8 +62,7 @@ struct OriginObject {
     kind: &'static str,
     parameter: f64,
     /// Number of the branch of that event, counted from 1; the branch of the chosen orbit is number 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    branch: Option<usize>,
+    branch: usize,
 }
 
 #[derive(JsonSchema, Serialize)]
@@ -144,79 +137,74 @@ pub fn document<'a>(
     asked: &Asked,
     plan: &'a Plan,
     osc: &'a Oscillator,
-    found: &Branches,
+    found: &'a Branches,
     cut: &Cut,
 ) -> impl Serialize + use<'a> {
     Document::new(asked, osc, plan, BranchAnswer::of_oscillator(found, cut, asked))
 }
 
-impl BranchAnswer<'static> {
-    fn of_oscillator(found: &Branches, cut: &Cut, Asked { system, units }: &Asked) -> Self {
-        let unit = units.of(cut.vary);
-        let branch = |branch: &Followed| {
-            let from = branch.origin.as_ref().map(|origin| OriginObject {
-                kind: origin.point.event.map_or("", |event| event.name()),
-                parameter: origin.point.value * unit,
-                branch: Some(origin.branch + 1),
+impl<'a> BranchAnswer<'a> {
+    /// The branches of an orbit with this label along a line. `object` returns the branch with these points, and `event` what is at
+    /// the event at a point.
+    fn new<C, P, V: Varied>(
+        (found, label): (&'a Branches<C, P>, Label),
+        (cut, units): (&Cut<V>, &Units),
+        object: impl Fn(&'a [P]) -> BranchObject<'a>,
+        event: impl Fn(&P) -> (&'static str, f64),
+    ) -> Self {
+        let unit = cut.vary.unit(units);
+        let branch = |branch: &'a Followed<P>| {
+            let from = branch.origin.as_ref().map(|origin| {
+                let (kind, value) = event(&origin.point);
+                OriginObject { kind, parameter: value * unit, branch: origin.branch + 1 }
             });
-            let point = |point| PointObject::of_oscillator(point, cut, system, units);
-            let event = |(k, point): (usize, &SolutionPoint)| {
-                Some(BranchEventObject::of_oscillator(k, point, &point.event?, (cut, units)))
-            };
-            BranchObject {
-                from,
-                points: branch.points.iter().map(point).collect(),
-                events: branch.points.iter().enumerate().filter_map(event).collect(),
-                end: branch.points.last().and_then(|point| point.event).map(|event| event.name()),
-            }
+            BranchObject { from, ..object(&branch.points) }
         };
         Self {
-            label: found.chosen.orbit.cycle.label.to_string(),
-            vary: units.name_of(cut.vary),
+            label: label.to_string(),
+            vary: cut.vary.field(units).to_owned(),
             from: cut.ends.0 * unit,
             to: cut.ends.1 * unit,
             also: Pair::of(cut, units),
-            orbit: Some(ChosenObject::new(&found.chosen)),
+            orbit: ChosenObject::new(&found.chosen),
             branches: found.followed.iter().map(branch).collect(),
         }
     }
-}
 
-impl<'a> BranchAnswer<'a> {
+    fn of_oscillator(found: &'a Branches, cut: &Cut, Asked { system, units }: &Asked) -> Self {
+        let name = |point: &SolutionPoint| point.event.map_or("", |event| event.name());
+        let object = |points: &'a [SolutionPoint]| BranchObject {
+            from: None,
+            points: points.iter().map(|point| PointObject::of_oscillator(point, cut, system, units)).collect(),
+            events: (points.iter().enumerate())
+                .filter_map(|(k, point)| Some(BranchEventObject::of_oscillator(k, point, &point.event?, (cut, units))))
+                .collect(),
+            end: points.last().and_then(|point| point.event).map(|event| event.name()),
+        };
+        let label = found.chosen.cycle.label;
+        Self::new((found, label), (cut, units), object, |point| (name(point), point.value))
+    }
+
     /// Those of a machine, for branches along this line.
     pub(super) fn of_machine(
         (machine, source): (&'a Machine, &MachineSource),
-        task: &'a BranchPlan<Variable>,
         cut: &Cut<String>,
-        found: &'a MachineBranched,
+        found: &'a Branches<MachineCycle, MachinePoint>,
     ) -> Self {
         let quantity = BranchQuantity::of(machine, source, cut, found);
-        let origins = once(None).chain(found.followed.iter().map(Some));
-        let branch = |(points, origin): (&'a [MachinePoint], Option<&vibroimpact_study::MachineFollowed>)| {
-            let event = |k: usize| Some(BranchEventObject::of_machine(k, points, points[k].event?, (machine, cut)));
-            BranchObject {
-                from: origin.map(|at| OriginObject { kind: at.event.name(), parameter: at.at, branch: None }),
-                points: points
-                    .iter()
-                    .map(|point| PointObject::of_machine(point, machine, cut, quantity.as_ref()))
-                    .collect(),
-                events: (0..points.len()).filter_map(event).collect(),
-                end: points.last().and_then(|point| point.event).map(|event| event.name()),
-            }
+        let name = |point: &MachinePoint| point.event.map_or("", |event| event.name());
+        let object = |points: &'a [MachinePoint]| BranchObject {
+            from: None,
+            points: (points.iter())
+                .map(|point| PointObject::of_machine(point, machine, cut, quantity.as_ref()))
+                .collect(),
+            events: (0..points.len())
+                .filter_map(|k| Some(BranchEventObject::of_machine(k, points, points[k].event?, (machine, cut))))
+                .collect(),
+            end: points.last().and_then(|point| point.event).map(|event| event.name()),
         };
-        Self {
-            label: found.points.first().map_or_else(String::new, |point| point.cycle.label.to_string()),
-            vary: task.vary.text(),
-            from: cut.ends.0,
-            to: cut.ends.1,
-            also: (task.also.as_ref().zip(cut.also.as_ref())).map(|(own, also)| Pair {
-                parameter: own.parameter.text(),
-                from: also.from,
-                to: also.to,
-            }),
-            orbit: ChosenObject::of_machine(found.among),
-            branches: found.all().zip(origins).map(branch).collect(),
-        }
+        let (label, units) = (found.chosen.cycle.label, Units::default());
+        Self::new((found, label), (cut, &units), object, |point| (name(point), point.value))
     }
 }
 
@@ -227,7 +215,7 @@ impl PointObject<'static> {
         let period = osc.map_or(f64::NAN, |osc| f64::from(cycle.label.periods) * osc.period() * there.time());
         Self {
             parameter: point.value * units.of(cut.vary),
-            values: both(point, cut, units),
+            values: both(point.value, cut, units),
             label: cycle.label.to_string(),
             period,
             cycle: osc.map_or_else(Vec::new, |osc| event::of_cycle(&osc, cycle, &there)),
@@ -251,7 +239,7 @@ impl<'a> PointObject<'a> {
         let point = &MachinePoint { value: *value, cycle: cycle.clone(), event: None };
         Self {
             parameter: *value,
-            values: both_of_machine(*value, cut),
+            values: both(*value, cut, &Units::default()),
             label: cycle.label.to_string(),
             period: cycle.period,
             cycle: cycle.events.iter().map(|event| event::of_machine(machine, event)).collect(),
@@ -267,13 +255,9 @@ impl<'a> PointObject<'a> {
 }
 
 /// The values of both parameters at a point of a line through two.
-fn both(point: &SolutionPoint, cut: &Cut, units: &Units) -> Option<[f64; 2]> {
-    let mut values = cut.values(point.value).map(|(parameter, value)| value * units.of(parameter));
+fn both<V: Varied>(value: f64, cut: &Cut<V>, units: &Units) -> Option<[f64; 2]> {
+    let mut values = cut.names().zip(cut.values(value)).map(|(number, value)| value * number.unit(units));
     Some([values.next()?, values.next()?])
-}
-
-fn both_of_machine(value: f64, cut: &Cut<String>) -> Option<[f64; 2]> {
-    cut.values(value).nth(1).map(|second| [value, second])
 }
 
 impl BranchEventObject<'static> {
@@ -282,7 +266,7 @@ impl BranchEventObject<'static> {
         Self {
             kind: record.kind,
             parameter: point.value * units.of(cut.vary),
-            values: both(point, cut, units),
+            values: both(point.value, cut, units),
             point: place,
             fields: EventFields::of_oscillator(record),
         }
@@ -299,7 +283,7 @@ impl<'a> BranchEventObject<'a> {
         Self {
             kind: event.name(),
             parameter: points[k].value,
-            values: both_of_machine(points[k].value, cut),
+            values: both(points[k].value, cut, &Units::default()),
             point: k,
             // a point at an event has the cycle before it
             fields: EventFields::of_machine(

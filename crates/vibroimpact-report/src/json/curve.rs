@@ -4,13 +4,14 @@ use super::Document;
 use super::branch::ChosenObject;
 use super::event::{self, EventObject};
 use super::motion::multipliers;
-use crate::{Asked, Units};
+use crate::{Asked, Units, Varied};
 use schemars::JsonSchema;
 use serde::Serialize;
-use vibroimpact::Oscillator;
-use vibroimpact::continuation::{CurveKind, CurvePoint, MachineCurvePoint};
+use vibroimpact::continuation::{CurvePoint, MachineCurvePoint, MachinePoint};
 use vibroimpact::machine::Machine;
-use vibroimpact_study::{CurvePlan, EventCurve, MachineEventCurve, Name, Plan, Variable};
+use vibroimpact::orbit::MachineCycle;
+use vibroimpact::{Label, Oscillator};
+use vibroimpact_study::{CurvePlan, EventCurve, Plan};
 
 /// The answer to `vibro curve`. Pairs of values are in the order of `parameters`.
 #[derive(JsonSchema, Serialize)]
@@ -20,7 +21,7 @@ pub(super) struct CurveAnswer<'a> {
     /// The stop or joint of a curve of grazing, sticking or holding of a machine, or the stops and joints of a corner.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     of: Vec<&'a str>,
-    parameters: [&'a str; 2],
+    parameters: [String; 2],
     /// Absent for the motion from the start of a machine.
     #[serde(skip_serializing_if = "Option::is_none")]
     orbit: Option<ChosenObject>,
@@ -77,63 +78,79 @@ pub fn document<'a>(
 
 /// Values of both parameters at a point, in the units of the results.
 #[must_use]
-pub fn values(point: &CurvePoint, plan: &CurvePlan, units: &Units) -> [f64; 2] {
-    [point.values.0 * units.of(plan.vary.parameter), point.values.1 * units.of(plan.and.parameter)]
+pub fn values<V: Varied>((p, q): (f64, f64), plan: &CurvePlan<V>, units: &Units) -> [f64; 2] {
+    [p * plan.vary.parameter.unit(units), q * plan.and.parameter.unit(units)]
+}
+
+/// What the points of a curve are in the answer.
+struct Parts<'a> {
+    found_at: Vec<f64>,
+    points: Vec<PointObject<'a>>,
+    events: Vec<CurveEventObject<'a>>,
 }
 
 impl<'a> CurveAnswer<'a> {
-    fn of_oscillator(found: &EventCurve, plan: &CurvePlan, Asked { system, units }: &Asked) -> Self {
-        let points = found.points.iter();
+    fn new<C, E, P, V: Varied>(
+        (found, label): (&EventCurve<C, E, P>, Label),
+        (plan, units): (&CurvePlan<V>, &Units),
+        of: Vec<&'a str>,
+        Parts { found_at, points, events }: Parts<'a>,
+    ) -> Self {
         Self {
-            label: plan.label.as_deref().unwrap_or_default().trim().to_owned(),
+            label: label.to_string(),
             kind: plan.kind.name(),
-            parameters: [plan.vary.parameter, plan.and.parameter].map(|parameter| units.name_of(parameter)),
-            of: Vec::new(),
-            orbit: Some(ChosenObject::new(&found.chosen)),
-            found_at: found.events.iter().map(|event| event.value * units.of(plan.vary.parameter)).collect(),
+            of,
+            parameters: [&plan.vary, &plan.and].map(|stretch| stretch.parameter.field(units).to_owned()),
+            orbit: ChosenObject::new(&found.chosen),
+            found_at,
             through: Through { event: found.through + 1, point: found.begin },
-            events: points
-                .clone()
-                .enumerate()
-                .filter_map(|(k, point)| {
-                    let kind = point.event?.name();
-                    Some(CurveEventObject { kind, values: values(point, plan, units), point: k, stop: None })
-                })
-                .collect(),
-            points: points
-                .map(|point| {
-                    let of = [plan.vary.parameter, plan.and.parameter];
-                    let there = units.at_both((of[0], of[1]), point.values);
-                    let osc = system.with_all(of.into_iter().zip(<[f64; 2]>::from(point.values)));
-                    let osc = osc.and_then(|system| system.oscillator()).ok();
-                    let periods = f64::from(point.cycle.label.periods);
-                    PointObject {
-                        values: values(point, plan, units),
-                        label: point.cycle.label.to_string(),
-                        admissible: point.physical,
-                        period: osc.map_or(f64::NAN, |osc| periods * osc.period() * there.time()),
-                        cycle: osc.map_or_else(Vec::new, |osc| event::of_cycle(&osc, &point.cycle, &there)),
-                        multipliers: multipliers(&point.cycle.multipliers),
-                        residual: None,
-                        touch: None,
-                    }
-                })
-                .collect(),
+            points,
+            events,
         }
     }
+
+    fn of_oscillator(found: &EventCurve, plan: &CurvePlan, Asked { system, units }: &Asked) -> Self {
+        let of = [plan.vary.parameter, plan.and.parameter];
+        let event = |(k, point): (usize, &CurvePoint)| {
+            let kind = point.event?.name();
+            Some(CurveEventObject { kind, values: values(point.values, plan, units), point: k, stop: None })
+        };
+        let point = |point: &CurvePoint| {
+            let there = units.at_both((of[0], of[1]), point.values);
+            let osc = system.with_all(of.into_iter().zip(<[f64; 2]>::from(point.values)));
+            let osc = osc.and_then(|system| system.oscillator()).ok();
+            let periods = f64::from(point.cycle.label.periods);
+            PointObject {
+                values: values(point.values, plan, units),
+                label: point.cycle.label.to_string(),
+                admissible: point.physical,
+                period: osc.map_or(f64::NAN, |osc| periods * osc.period() * there.time()),
+                cycle: osc.map_or_else(Vec::new, |osc| event::of_cycle(&osc, &point.cycle, &there)),
+                multipliers: multipliers(&point.cycle.multipliers),
+                residual: None,
+                touch: None,
+            }
+        };
+        let parts = Parts {
+            found_at: found.events.iter().map(|event| event.value * units.of(plan.vary.parameter)).collect(),
+            points: found.points.iter().map(point).collect(),
+            events: found.points.iter().enumerate().filter_map(event).collect(),
+        };
+        Self::new((found, found.chosen.cycle.label), (plan, units), Vec::new(), parts)
+    }
+
     pub(super) fn of_machine(
         machine: &'a Machine,
-        plan: &'a CurvePlan<Variable>,
-        found: &'a MachineEventCurve,
+        plan: &CurvePlan<String>,
+        found: &'a EventCurve<MachineCycle, MachinePoint, MachineCurvePoint>,
     ) -> Self {
-        let pair = |(p, q): (f64, f64)| [p, q];
         let event = |(k, point): (usize, &MachineCurvePoint)| {
             let event = point.event?;
             let stop = event.place().map(|place| machine.name_of(place));
-            Some(CurveEventObject { kind: event.name(), values: pair(point.values), point: k, stop })
+            Some(CurveEventObject { kind: event.name(), values: point.values.into(), point: k, stop })
         };
         let point = |point: &'a MachineCurvePoint| PointObject {
-            values: pair(point.values),
+            values: point.values.into(),
             label: point.cycle.label.to_string(),
             admissible: true,
             period: point.cycle.period,
@@ -142,21 +159,12 @@ impl<'a> CurveAnswer<'a> {
             residual: Some(point.residual),
             touch: point.touch,
         };
-        Self {
-            label: found.label.to_string(),
-            kind: plan.kind.name(),
-            of: match found.kind {
-                CurveKind::Grazing { stop } | CurveKind::Sticking { stop } => vec![machine.name_of(stop)],
-                CurveKind::Holding { joint } => vec![machine.name_of(joint)],
-                CurveKind::Corner { first, second } => vec![machine.name_of(first), machine.name_of(second)],
-                _ => Vec::new(),
-            },
-            parameters: [plan.vary.parameter.text(), plan.and.parameter.text()],
-            orbit: ChosenObject::of_machine(found.among),
+        let parts = Parts {
             found_at: found.events.iter().map(|event| event.value).collect(),
-            through: Through { event: found.through + 1, point: found.begin },
-            events: found.points.iter().enumerate().filter_map(event).collect(),
             points: found.points.iter().map(point).collect(),
-        }
+            events: found.points.iter().enumerate().filter_map(event).collect(),
+        };
+        let of = found.places.iter().map(|place| machine.name_of(*place)).collect();
+        Self::new((found, found.chosen.cycle.label), (plan, &Units::default()), of, parts)
     }
 }

@@ -12,6 +12,7 @@ use vibroimpact::orbit::Cycle;
 use vibroimpact::quantities::{Segment, cycle_segments};
 use vibroimpact::{Oscillator, Side, Start};
 use vibroimpact_study::machine::contact_word;
+use vibroimpact_study::{SystemPlan, stop_number};
 
 /// The name of a stop of an oscillator.
 #[must_use]
@@ -19,6 +20,24 @@ pub const fn side(side: Side) -> &'static str {
     match side {
         Side::Upper => "upper",
         Side::Lower => "lower",
+    }
+}
+
+/// A system whose stops have names.
+pub trait Stops {
+    /// The name of stop number `stop`.
+    fn name_of_stop(&self, stop: usize) -> &str;
+}
+
+impl Stops for SystemPlan {
+    fn name_of_stop(&self, stop: usize) -> &str {
+        side(if stop == stop_number(Side::Upper) { Side::Upper } else { Side::Lower })
+    }
+}
+
+impl Stops for Machine {
+    fn name_of_stop(&self, stop: usize) -> &str {
+        self.name_of(stop)
     }
 }
 

@@ -10,53 +10,59 @@ use super::event::StateObject;
 use super::lyapunov::LyapunovAnswer;
 use super::map::MapAnswer;
 use super::margins::MarginsAnswer;
+use super::motion::MotionObject;
 use super::orbit::OrbitAnswer;
 use super::region::RegionAnswer;
 use super::response::ResponseAnswer;
 use super::settle::SettleAnswer;
 use super::simulate::SimulateAnswer;
 use super::system::SystemObject;
-use crate::PROGRAM;
 use crate::answer::machine::Answer;
 use crate::response::ResponseView;
+use crate::{PROGRAM, Units};
 use serde::ser::Error;
 use serde::{Serialize, Serializer};
-use vibroimpact_study::{MachineResults, Task};
+use vibroimpact_study::{RegionPlan, Task, machine};
 
 impl Serialize for Answer {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         let Self { machine, results, plan, source, .. } = self;
         match (&plan.task, results) {
-            (Task::Simulate { periods, .. }, MachineResults::Simulate(found)) => {
+            (Task::Simulate { periods, .. }, machine::Results::Simulate(found)) => {
                 self.document(SimulateAnswer::of_machine((machine, &self.start), *periods, found), to)
             }
-            (_, MachineResults::Settle(found)) => self.document(SettleAnswer::of_machine(machine, found), to),
-            (Task::Attractors { seed, .. }, MachineResults::Attractors(census)) => {
+            (_, machine::Results::Settle(found)) => self.document(SettleAnswer::of_machine(machine, found), to),
+            (Task::Attractors { seed, .. }, machine::Results::Attractors(census)) => {
                 self.document(AttractorsAnswer::of_machine(machine, *seed, census), to)
             }
-            (_, MachineResults::Orbit(found)) => self.document(OrbitAnswer::of_machine(machine, found), to),
-            (_, MachineResults::Lyapunov(found, _)) => self.document(LyapunovAnswer::of_machine(machine, found), to),
-            (Task::Branch(task), MachineResults::Branch(found)) => {
+            (_, machine::Results::Orbit(found)) => self.document(OrbitAnswer::of_machine(machine, found), to),
+            (_, machine::Results::Lyapunov(found, _)) => self.document(LyapunovAnswer::of_machine(machine, found), to),
+            (Task::Branch(task), machine::Results::Branch(found)) => {
                 let cut = task.typed::<String>().and_then(|task| task.cut(source)).map_err(Error::custom)?;
-                self.document(BranchAnswer::of_machine((machine, source), task, &cut, found), to)
+                self.document(BranchAnswer::of_machine((machine, source), &cut, found), to)
             }
-            (Task::Curve(task), MachineResults::Curve(found)) => {
-                self.document(CurveAnswer::of_machine(machine, task, found), to)
+            (Task::Curve(task), machine::Results::Curve(found)) => {
+                let task = task.typed().map_err(Error::custom)?;
+                self.document(CurveAnswer::of_machine(machine, &task, found), to)
             }
-            (_, MachineResults::Margins(found)) => self.document(MarginsAnswer::of_machine(machine, found), to),
-            (Task::Region(task), MachineResults::Region(found)) => {
-                self.document(RegionAnswer::of_machine(found, &task.typed().map_err(Error::custom)?, source), to)
+            (_, machine::Results::Margins(found)) => self.document(MarginsAnswer::of_machine(machine, found), to),
+            (Task::Region(task), machine::Results::Region(found)) => {
+                let task: RegionPlan<String> = task.typed().map_err(Error::custom)?;
+                self.document(RegionAnswer::new(found, &task, task.neutral(source), &Units::default()), to)
             }
-            (Task::Response(task), MachineResults::Response(found)) => {
+            (Task::Response(task), machine::Results::Response(found)) => {
                 self.document(ResponseAnswer::new(&ResponseView::of_machine(found, task, machine)), to)
             }
-            (_, MachineResults::Basin(found)) => self.document(BasinAnswer::of_machine(machine, found), to),
-            (_, MachineResults::Diagram(found)) => self.document(DiagramAnswer::of_machine(machine, found), to),
-            (Task::Map(task), MachineResults::Map(found)) => {
-                self.document(MapAnswer::of_machine(machine, (task.starts, task.seed), found), to)
+            (_, machine::Results::Basin(found)) => {
+                let motion = |verdict| MotionObject::of_machine(machine, verdict);
+                self.document(BasinAnswer::new(found, &Units::default(), motion), to)
             }
-            (Task::SettleMany(_), MachineResults::Map(found)) => {
-                self.document(MapAnswer::of_machine(machine, (1, 0), found), to)
+            (_, machine::Results::Diagram(found)) => self.document(DiagramAnswer::new(found, &Units::default()), to),
+            (Task::Map(task), machine::Results::Map(found)) => {
+                self.document(MapAnswer::new(found, machine, (task.starts, task.seed), &Units::default()), to)
+            }
+            (Task::SettleMany(_), machine::Results::Map(found)) => {
+                self.document(MapAnswer::new(found, machine, (1, 0), &Units::default()), to)
             }
             // `answer` combines each plan with its own results, so this does not occur
             _ => Err(Error::custom(OTHER)),

@@ -1,26 +1,25 @@
 //! The labels of a map and their frequencies, and the motions at its points.
 
-use super::event::side;
-use super::{AxisObject, Document, name_of};
-use crate::{Asked, Units};
+use super::event::Stops;
+use super::{AxisObject, Document};
+use crate::units::shown;
+use crate::varied::units_over;
+use crate::{Asked, FieldName, Units, Varied};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
-use vibroimpact::machine::Machine;
 use vibroimpact::quantities::Quantity;
-use vibroimpact::verdict::Verdict;
 use vibroimpact::{Oscillator, Start};
 use vibroimpact_plot::{GROUPS, legend_group};
 use vibroimpact_study::{
-    Axis, BasinPlan, Coordinate, MachineMap, MachineShare, MapPoint, Parameter, Plan, PlanError, PointsPlan, RegionMap,
-    Share, SystemPlan, Values,
+    Axis, BasinPlan, Coordinate, Parameter, Plan, PlanError, PointsPlan, RegionMap, Share, SystemPlan, Values,
 };
 
 /// The answer to `vibro map`, and to `vibro settle-many`, whose points are on no axes.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct MapAnswer<'a> {
-    axes: Vec<AxisObject<'a>>,
+pub(super) struct MapAnswer {
+    axes: Vec<AxisObject>,
     starts: u64,
     seed: u64,
     /// Number of points where several motions coexist.
@@ -29,25 +28,25 @@ pub(super) struct MapAnswer<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     seen_events: Option<u64>,
     labels: Vec<LabelCount>,
-    points: Vec<PointObject<'a>>,
+    points: Vec<PointObject>,
 }
 
 /// A point: the values of the axes by path, and the motions there, the most frequent first.
 #[derive(JsonSchema, Serialize)]
-struct PointObject<'a> {
+struct PointObject {
     #[serde(flatten)]
     at: Map<String, Value>,
-    motions: Vec<ShareObject<'a>>,
+    motions: Vec<ShareObject>,
 }
 
 /// A motion at a point.
 #[derive(JsonSchema, Serialize)]
-struct ShareObject<'a> {
+struct ShareObject {
     label: String,
     share: f64,
     /// The stops that stay closed for ever.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    stops: Vec<&'a str>,
+    stops: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     seen_events: Option<u64>,
     /// Those that the plan asks for.
@@ -68,49 +67,64 @@ pub struct LabelCount {
 
 /// The object of `vibro map`.
 #[must_use]
-pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &RegionMap) -> impl Serialize + use<'a> {
-    let (task, units) = (&found.plan, &asked.units);
-    let axes = AxisObject::of_oscillator(&task.axes, units);
-    // in the units, and with exactly the numbers, of the question; a value that overflows in them is null
-    let columns: Vec<Vec<f64>> =
-        task.axes.iter().map(|axis| units.shown(axis).map_or_else(|_| Vec::new(), |values| values.all())).collect();
-    let point = |(k, point): (usize, &MapPoint)| {
-        let mut rest = k;
-        let mut at = Map::new();
-        for ((axis, column), own) in axes.iter().zip(&columns).zip(&task.axes) {
-            let count = own.over.count();
-            at.insert(axis.vary.to_owned(), column.get(rest % count).copied().into());
-            rest /= count;
-        }
-        let there = units.over(&task.axes, |axis| point.at[axis]);
-        let share = |motion: &Share| ShareObject {
-            label: motion.verdict.label().into_owned(),
-            share: motion.share,
-            stops: if let Verdict::Stuck(at) = motion.verdict { vec![side(at)] } else { Vec::new() },
-            seen_events: if let Verdict::Chaotic(chaos) = &motion.verdict { Some(chaos.impacts) } else { None },
-            quantities: (motion.quantities.iter())
-                .flat_map(|of| {
-                    task.fields.iter().map(|field| (field.name().to_owned(), there.value_of(of, *field).into()))
-                })
-                .collect(),
-        };
-        PointObject { at, motions: point.motions.iter().map(share).collect() }
-    };
-    let points: Vec<PointObject<'static>> = found.points.iter().enumerate().map(point).collect();
-    let varied: Vec<Parameter> = (task.axes.iter())
-        .filter_map(|axis| if let Coordinate::Parameter(parameter) = axis.vary { Some(parameter) } else { None })
+pub fn document<'a>(
+    asked: &Asked,
+    plan: &'a Plan,
+    osc: &Oscillator,
+    (starts, found): ((u64, u64), &RegionMap),
+) -> impl Serialize + use<'a> {
+    let varied: Vec<Parameter> = (found.varied())
+        .filter_map(|vary| if let Coordinate::Parameter(parameter) = vary { Some(*parameter) } else { None })
         .collect();
-    let seen = points.iter().flat_map(|point| &point.motions).filter_map(|motion| motion.seen_events).min();
-    let answer = MapAnswer {
-        starts: task.starts,
-        seed: task.seed,
-        coexisting: coexisting(found),
-        seen_events: seen,
-        labels: counts(found),
-        axes,
-        points,
-    };
-    Document::over(asked, osc, &varied, plan, answer)
+    Document::over(asked, osc, &varied, plan, MapAnswer::new(found, &asked.system, starts, &asked.units))
+}
+
+impl MapAnswer {
+    /// The motions of so many starts at each point, of this sequence.
+    pub(super) fn new<V: Varied, F: FieldName>(
+        found: &RegionMap<V, F>,
+        system: &impl Stops,
+        (starts, seed): (u64, u64),
+        units: &Units,
+    ) -> Self {
+        // in the units, and with exactly the numbers, of the question; a value that overflows in them is null
+        let all =
+            |axis: &Axis<V>| shown(&axis.over, axis.vary.unit(units)).map_or_else(|_| Vec::new(), |all| all.all());
+        let columns: Vec<Vec<f64>> = found.axes.iter().map(all).collect();
+        let point = |(k, motions): (usize, &Vec<Share>)| {
+            let mut rest = k;
+            let mut at = Map::new();
+            for (axis, column) in found.axes.iter().zip(&columns) {
+                let count = axis.over.count();
+                at.insert(axis.vary.field(units).to_owned(), column.get(rest % count).copied().into());
+                rest /= count;
+            }
+            for column in &found.columns {
+                let value = column.values[k] * column.vary.unit(units);
+                at.insert(column.vary.field(units).to_owned(), value.into());
+            }
+            let there = units_over(units, &found.axes, &Axis::at(&found.axes, k as u64));
+            let share = |motion: &Share| ShareObject {
+                label: motion.label.clone().into_owned(),
+                share: motion.share,
+                stops: motion.stops.iter().map(|stop| system.name_of_stop(*stop).to_owned()).collect(),
+                seen_events: motion.seen_events,
+                quantities: (found.fields.iter().zip(&motion.quantities))
+                    .map(|(field, value)| (field.text().to_owned(), (value * field.unit(&there)).into()))
+                    .collect(),
+            };
+            PointObject { at, motions: motions.iter().map(share).collect() }
+        };
+        Self {
+            axes: AxisObject::all(&found.axes, units),
+            starts,
+            seed,
+            coexisting: found.coexisting(),
+            seen_events: found.seen_events(),
+            labels: counts(found),
+            points: found.points.iter().enumerate().map(point).collect(),
+        }
+    }
 }
 
 /// The object of `vibro settle-many`, which is that of a map without axes and with one start at each point. Of each point there is a
@@ -132,7 +146,7 @@ pub fn of_points<'a>(
     let point = |(k, label): (usize, &Option<String>)| {
         let of = |(column, vary): (usize, &Coordinate)| {
             let value = points.at(column, k) * units.of_coordinate(*vary);
-            (name_of(*vary, &units).to_owned(), value.into())
+            (vary.field(&units).to_owned(), value.into())
         };
         let there = units.over(&columns, |column| points.at(column, k));
         let quantity = |(field, values): (&Quantity, &Vec<f64>)| {
@@ -164,54 +178,11 @@ pub fn of_points<'a>(
     Ok(Document::over(&asked, &osc, &varied, plan, answer).start(&start, &units))
 }
 
-impl<'a> MapAnswer<'a> {
-    /// Those of a machine.
-    pub(super) fn of_machine(machine: &'a Machine, (starts, seed): (u64, u64), found: &'a MachineMap) -> Self {
-        let share = |motion: &'a MachineShare| ShareObject {
-            label: motion.label(),
-            share: motion.share,
-            stops: motion.stops.iter().map(|stop| machine.name_of(*stop)).collect(),
-            seen_events: motion.seen_events,
-            quantities: found
-                .fields
-                .iter()
-                .cloned()
-                .zip(motion.quantities.iter().map(|value| (*value).into()))
-                .collect(),
-        };
-        let point = |(k, cell): (usize, &'a Vec<MachineShare>)| {
-            let at = found.varied().zip(found.at(k)).map(|(vary, value)| (vary.to_owned(), value.into())).collect();
-            PointObject { at, motions: cell.iter().map(share).collect() }
-        };
-        Self {
-            axes: AxisObject::of_machine(&found.axes),
-            starts,
-            seed,
-            coexisting: found.cells.iter().filter(|cell| cell.len() > 1).count(),
-            seen_events: found.seen_events(),
-            labels: counts_of_machine(found),
-            points: found.cells.iter().enumerate().map(point).collect(),
-        }
-    }
-}
-
-/// Number of points where several motions coexist.
-#[must_use]
-pub fn coexisting(found: &RegionMap) -> usize {
-    found.points.iter().filter(|point| point.motions.len() > 1).count()
-}
-
 /// Labels in the order of a legend, then by name.
 #[must_use]
-pub fn counts(found: &RegionMap) -> Vec<LabelCount> {
-    let label = |motion: &Share| (motion.verdict.label().into_owned(), motion.share);
-    counted(found.points.iter().map(|point| point.motions.iter().map(label)))
-}
-
-/// The same of a machine.
-#[must_use]
-pub fn counts_of_machine(found: &MachineMap) -> Vec<LabelCount> {
-    counted(found.cells.iter().map(|cell| cell.iter().map(|motion| (motion.label(), motion.share))))
+pub fn counts<V, F>(found: &RegionMap<V, F>) -> Vec<LabelCount> {
+    let label = |motion: &Share| (motion.label.clone().into_owned(), motion.share);
+    counted(found.points.iter().map(|motions| motions.iter().map(label)))
 }
 
 /// The same of the labels and shares at all points.

@@ -24,13 +24,13 @@ pub mod simulate;
 mod system;
 
 use crate::units::given;
-use crate::{Asked, PROGRAM, Units};
+use crate::{Asked, PROGRAM, Units, Varied};
 use event::StateObject;
 use schemars::JsonSchema;
 use serde::Serialize;
 use system::SystemObject;
 use vibroimpact::{Oscillator, Start};
-use vibroimpact_study::{Axis, Coordinate, Cut, Parameter, Plan, Span, Stretch, Values};
+use vibroimpact_study::{Axis, Cut, Parameter, Plan, Span, Stretch, Values};
 
 /// The object that a command prints: the system, the start, the fields of the command, and the plan.
 #[derive(JsonSchema, Serialize)]
@@ -87,23 +87,18 @@ impl Range {
 
 /// The second parameter of a line, with its values at both ends.
 #[derive(JsonSchema, Serialize)]
-struct Pair<'a> {
-    parameter: &'a str,
+struct Pair {
+    parameter: String,
     from: f64,
     to: f64,
 }
 
-impl<'a> Pair<'a> {
-    fn of_machine(also: &'a Stretch<String>) -> Self {
-        Self { parameter: &also.parameter, from: also.from, to: also.to }
-    }
-}
-
-impl Pair<'static> {
-    fn of(cut: &Cut, units: &Units) -> Option<Self> {
-        let Stretch { parameter, from, to } = cut.also?;
-        let unit = units.of(parameter);
-        Some(Self { parameter: units.name_of(parameter), from: given(from, unit), to: given(to, unit) })
+impl Pair {
+    /// In the units of the results.
+    fn of<V: Varied>(cut: &Cut<V>, units: &Units) -> Option<Self> {
+        let Stretch { parameter, from, to } = cut.also.as_ref()?;
+        let unit = parameter.unit(units);
+        Some(Self { parameter: parameter.field(units).to_owned(), from: given(*from, unit), to: given(*to, unit) })
     }
 }
 
@@ -117,29 +112,17 @@ enum Place {
 
 /// An axis: the path of what varies, and its values.
 #[derive(JsonSchema, Serialize)]
-struct AxisObject<'a> {
-    vary: &'a str,
+struct AxisObject {
+    vary: String,
     over: Place,
 }
 
-/// The path of what varies of an oscillator.
-fn name_of(vary: Coordinate, units: &Units) -> &'static str {
-    match vary {
-        Coordinate::Parameter(parameter) => units.name_of(parameter),
-        start => start.name(),
-    }
-}
-
-impl<'a> AxisObject<'a> {
-    fn of_machine(axes: &'a [Axis<String>]) -> Vec<Self> {
-        axes.iter().map(|axis| Self { vary: &axis.vary, over: Place::over(&axis.over, 1.0) }).collect()
-    }
-
-    /// In the units of the results.
-    fn of_oscillator(axes: &[Axis], units: &Units) -> Vec<AxisObject<'static>> {
-        let object = |axis: &Axis| AxisObject {
-            vary: name_of(axis.vary, units),
-            over: Place::over(&axis.over, units.of_coordinate(axis.vary)),
+impl AxisObject {
+    /// All axes, in the units of the results.
+    fn all<V: Varied>(axes: &[Axis<V>], units: &Units) -> Vec<Self> {
+        let object = |axis: &Axis<V>| Self {
+            vary: axis.vary.field(units).to_owned(),
+            over: Place::over(&axis.over, axis.vary.unit(units)),
         };
         axes.iter().map(object).collect()
     }

@@ -1,12 +1,11 @@
 //! Regions of existence and stability: their polygons and the kinds of their boundaries.
 
 use super::Document;
-use crate::{Asked, Units};
+use crate::{Asked, Units, Varied};
 use schemars::JsonSchema;
 use serde::Serialize;
 use vibroimpact::Oscillator;
 use vibroimpact::continuation::{Polygon, Region, Vertex};
-use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{Plan, RegionPlan, Regions};
 
 /// The answer to `vibro region`. Pairs of values are in the order of `parameters`.
@@ -45,31 +44,19 @@ pub fn document<'a>(
     (task, found): (&RegionPlan, &Regions),
 ) -> impl Serialize + use<'a> {
     let varied = [task.across.parameter, task.up.parameter];
-    Document::over(asked, osc, &varied, plan, RegionAnswer::new(found, task, asked))
+    let answer = RegionAnswer::new(found, task, task.neutral(&asked.system), &asked.units);
+    Document::over(asked, osc, &varied, plan, answer)
 }
 
 impl RegionAnswer {
-    fn new(found: &Regions, plan: &RegionPlan, Asked { system, units }: &Asked) -> Self {
+    pub(super) fn new<V: Varied>(found: &Regions, plan: &RegionPlan<V>, neutral: bool, units: &Units) -> Self {
         let unit = unit(plan, units);
         Self {
             label: plan.label.trim().to_owned(),
-            parameters: [plan.across.parameter, plan.up.parameter].map(|of| units.name_of(of).to_owned()),
-            neutrally_stable: plan.neutral(system),
+            parameters: [&plan.across, &plan.up].map(|stretch| stretch.parameter.field(units).to_owned()),
+            neutrally_stable: neutral,
             existence: RegionObject::new(&found.existence, unit),
             stability: RegionObject::new(&found.stability, unit),
-        }
-    }
-}
-
-impl RegionAnswer {
-    /// The same of a machine.
-    pub(super) fn of_machine(found: &Regions, plan: &RegionPlan<String>, source: &MachineSource) -> Self {
-        Self {
-            label: plan.label.trim().to_owned(),
-            parameters: [plan.across.parameter.clone(), plan.up.parameter.clone()],
-            neutrally_stable: plan.neutral(source),
-            existence: RegionObject::new(&found.existence, (1.0, 1.0)),
-            stability: RegionObject::new(&found.stability, (1.0, 1.0)),
         }
     }
 }
@@ -91,8 +78,8 @@ impl RegionObject {
 
 /// The units of both parameters.
 #[must_use]
-pub fn unit(plan: &RegionPlan, units: &Units) -> (f64, f64) {
-    (units.of(plan.across.parameter), units.of(plan.up.parameter))
+pub fn unit<V: Varied>(plan: &RegionPlan<V>, units: &Units) -> (f64, f64) {
+    (plan.across.parameter.unit(units), plan.up.parameter.unit(units))
 }
 
 /// The sheet of the surface of orbits: "below" if both multipliers are below +1, "above" otherwise.

@@ -32,10 +32,10 @@ const SCHEMAS: [(&str, Maker); 14] = [
     ("response", of::<ResponseAnswer<'static>>),
     ("margins", of::<MarginsAnswer<'static>>),
     ("lyapunov", of::<LyapunovAnswer<'static>>),
-    ("diagram", of::<DiagramAnswer<'static>>),
-    ("map", of::<MapAnswer<'static>>),
+    ("diagram", of::<DiagramAnswer>),
+    ("map", of::<MapAnswer>),
     ("basin", of::<BasinAnswer<'static>>),
-    ("settle-many", of::<MapAnswer<'static>>),
+    ("settle-many", of::<MapAnswer>),
 ];
 
 fn of<T: JsonSchema>() -> Value {

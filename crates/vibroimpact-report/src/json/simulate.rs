@@ -7,11 +7,11 @@ use crate::{Asked, Units};
 use schemars::JsonSchema;
 use serde::ser::Error;
 use serde::{Serialize, Serializer};
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::{MachineEvent, MachineStart};
 use vibroimpact::machine::Machine;
 use vibroimpact::motion::Event;
 use vibroimpact::{Oscillator, Start};
-use vibroimpact_study::{MachineSimulated, Plan, Simulated, events_with_states};
+use vibroimpact_study::{Plan, Simulated, events_with_states};
 
 /// The answer to `vibro simulate`.
 #[derive(JsonSchema, Serialize)]
@@ -56,7 +56,7 @@ impl<'a> SimulateAnswer<'a> {
     pub(super) fn of_machine(
         problem: (&'a Machine, &'a MachineStart),
         periods: Option<f64>,
-        found: &MachineSimulated,
+        found: &Simulated<MachineEvent>,
     ) -> Self {
         let end = EndObject { reason: found.reason, time: found.time, horizon: None };
         Self { events: Events::Machine(problem, periods, found.events.len()), end }

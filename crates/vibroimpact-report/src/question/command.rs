@@ -250,7 +250,7 @@ fn order<T>(varied: &[(Parameter, T)]) -> Option<String> {
 }
 
 fn diagram(system: &SystemPlan, task: &DiagramPlan) -> Option<Line> {
-    let varied: Vec<_> = task.cut().parameters().map(|parameter| (parameter, None)).collect();
+    let varied: Vec<_> = task.cut().names().map(|parameter| (*parameter, None)).collect();
     let line = Line::new("diagram").system(system, &varied);
     let line = line.flag("vary", flag(task.vary)).flag("over", values(&task.over)?);
     let line = line.given("also", task.also.as_ref().map(over));

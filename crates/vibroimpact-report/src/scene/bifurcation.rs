@@ -162,7 +162,7 @@ fn follow(
         let cut = plan.cut();
         let system = cut.system(&asked.system, value)?;
         for end in [from, to].into_iter().filter(|end| *end != value) {
-            let also = cut.values(end).nth(1).map(|(parameter, to)| Target { parameter, to });
+            let also = cut.also.zip(cut.values(end).nth(1)).map(|(also, to)| Target { parameter: also.parameter, to });
             let label = Some(label.to_owned());
             let task = BranchPlan { label, vary: cut.vary, to: end, also, orbit: None, follow: FOLLOW, points: POINTS };
             match run(&Plan::new(system, task), control) {

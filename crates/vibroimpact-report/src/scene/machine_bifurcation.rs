@@ -17,10 +17,11 @@ use vibroimpact::verdict::{
     Census, CountedMotion, SettleOptions, Verdict, scattered_machine_starts, settle_machine_while,
 };
 use vibroimpact_plot::Figure;
+use vibroimpact_study::diagram::Shown as _;
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{
-    Control, Cut, DiagramPlan, MachineDiagram, MachineLine, MachineOrigin, MachineResults, Plan, Results, RunError,
-    Span, System, Task, machine_label, run, tiles,
+    BranchPlace, Control, Cut, Diagram, DiagramPlan, OrbitLine, Plan, Results, RunError, Span, System, Task, machine,
+    machine_label, run, tiles,
 };
 
 /// Starts from which orbits of a given label are searched at each value.
@@ -33,7 +34,7 @@ const CLOSE: f64 = 1e-3;
 #[derive(Clone, Debug)]
 pub struct MachineBifurcation {
     /// The orbit diagram behind the branches.
-    pub behind: MachineDiagram,
+    pub behind: Diagram<String, String>,
     /// The points of each branch, in order.
     pub branches: Vec<Vec<MachinePoint>>,
     name: String,
@@ -45,12 +46,14 @@ impl MachineBifurcation {
     /// The quantity of each cycle that is shown; `None` for the speeds of closings.
     fn quantity(&self) -> Option<BranchQuantity<'_>> {
         let plan = &self.behind.plan;
-        (!plan.shows_closings()).then(|| BranchQuantity::at_path(plan.show.clone(), &self.source, &plan.cut()))
+        (!plan.show.is_closings()).then(|| BranchQuantity::at_path(plan.show.clone(), &self.source, &plan.cut()))
     }
 
     /// Its figure: stable orbits are solid and unstable ones dashed.
-    #[must_use]
-    pub fn figure(&self) -> Figure {
+    ///
+    /// # Errors
+    /// [`ReportError`] if its values neither rise nor fall.
+    pub fn figure(&self) -> Result<Figure, ReportError> {
         let title = machine_title(&self.source, &self.name);
         let branches = self.branches.iter().map(Vec::as_slice);
         let quantity = self.quantity();
@@ -58,9 +61,11 @@ impl MachineBifurcation {
     }
 
     /// Its table: the points from simulation, then those of the branches.
-    #[must_use]
-    pub fn table(&self) -> Table<'_> {
-        bifurcation_table::of_machine(&self.behind, &self.branches, &self.machine, self.quantity().as_ref())
+    ///
+    /// # Errors
+    /// [`ReportError`] for values that are not allowed.
+    pub fn table(&self) -> Result<Table<'_>, ReportError> {
+        Ok(bifurcation_table::of_machine(&self.behind, &self.branches, &self.machine, self.quantity().as_ref())?)
     }
 
     /// The events on the branches, in the order of their values.
@@ -101,7 +106,7 @@ pub fn machine_bifurcation(
     };
     let diagram: DiagramPlan<String, String> = diagram.typed()?;
     let (machine, _) = source.described()?;
-    if diagram.shows_states() || (diagram.shows_closings() && machine.stops().is_empty()) {
+    if diagram.show.is_states() || (diagram.show.is_closings() && machine.stops().is_empty()) {
         let coordinate = machine.parts().coordinates.first().cloned().unwrap_or_default();
         return Err(ReportError::NoBranchValue { show: diagram.show.clone(), coordinate }.into());
     }
@@ -118,13 +123,13 @@ pub fn machine_bifurcation(
     };
     let known = |label: Label| labels.contains(&label.to_string());
     seeds.iter_mut().for_each(|(_, cycles)| cycles.retain(|(cycle, _)| known(cycle.label)));
-    let Results::Machine(MachineResults::Diagram(behind)) = run(plan, control)? else {
+    let Results::Machine(machine::Results::Diagram(behind)) = run(plan, control)? else {
         // the task of this plan has no other result
         return Err(ReportError::NoLabels.into());
     };
-    let line = MachineLine::new(source, &cut, POINTS);
+    let line = OrbitLine::new(source, &cut, POINTS);
     let mut branches: Vec<Vec<MachinePoint>> = Vec::new();
-    let mut seen: Vec<MachineOrigin> = Vec::new();
+    let mut seen: Vec<BranchPlace> = Vec::new();
     for (value, cycle) in seeds.iter().flat_map(|(value, cycles)| cycles.iter().map(move |(cycle, _)| (*value, cycle)))
     {
         if branches.iter().any(|branch| passes(branch, cycle, value)) {
@@ -208,7 +213,7 @@ fn motions(
             Verdict::Periodic(cycle) => Some((cycle.clone(), motion.count)),
             _ => None,
         };
-        let shown = |(cycle, _): &(MachineCycle, u64)| !diagram.shows_closings() || cycle.fastest() > 0.0;
+        let shown = |(cycle, _): &(MachineCycle, u64)| !diagram.show.is_closings() || cycle.fastest() > 0.0;
         census.motions().iter().filter_map(cycle).filter(shown).collect()
     })
 }
@@ -244,6 +249,7 @@ fn passes(branch: &[MachinePoint], cycle: &MachineCycle, value: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use vibroimpact_study::diagram::DiagramPoint;
 
     fn plan(name: &str, task: &str) -> Plan {
         let machine = MachineSource::open(name).unwrap().into();
@@ -270,12 +276,12 @@ mod tests {
             assert!(at.len() == 1 && (at[0] - value).abs() < 1e-3, "{kind} {at:?}");
         }
         assert!(found.events().is_sorted_by(|a, b| a.value <= b.value));
-        let svg = found.figure().to_svg();
+        let svg = found.figure().unwrap().to_svg();
         for word in [">1/1<", ">2/1<", ">stable<", ">unstable<", ">fold<", ">grazing<", ">simulation<"] {
             assert!(svg.contains(word), "{word}");
         }
         let mut table = Vec::new();
-        found.table().write(&mut table).unwrap();
+        found.table().unwrap().write(&mut table).unwrap();
         let table = String::from_utf8(table).unwrap();
         assert!(table.starts_with("frequency,sweep,kind,stop,phase,speed,label,event\n"), "{}", &table[..80]);
         let fold = table.lines().find(|row| row.ends_with(",2/1,fold")).unwrap();
@@ -304,7 +310,10 @@ mod tests {
         // the drawn values are those of simulation
         let quantity = found.quantity().unwrap();
         let mut compared = 0;
-        for (step, value) in found.behind.steps.iter().filter_map(|step| Some((step, step.points.first()?.value))) {
+        for (step, value) in found.behind.steps.iter().filter_map(|step| match step.points.first()? {
+            DiagramPoint::Value(value) => Some((step, *value)),
+            _ => None,
+        }) {
             let at = found.behind.plan.over.at(step.index as usize);
             let around = |pair: &&[MachinePoint]| {
                 let (a, b) = (pair[0].value, pair[1].value);

@@ -1,66 +1,67 @@
 //! A basin: one row for each start, in the order of the cells.
 
 use super::Table;
-use super::quantities::{cells, columns, finite};
+use super::quantities::finite;
 use super::remarks::remarks;
-use crate::Units;
+use crate::json::event::Stops;
 use crate::number::Number;
-use vibroimpact::Oscillator;
+use crate::units::shown;
+use crate::{FieldName, Units, Varied};
 use vibroimpact::machine::Machine;
-use vibroimpact::quantities::of_verdict;
-use vibroimpact::verdict::{CountedMotion, Verdict};
-use vibroimpact_study::{Axis, Basin, MachineBasin, PlanError};
+use vibroimpact::verdict::{System, Verdict};
+use vibroimpact_study::{Basin, PlanError};
 
-/// The table of `vibro basin`: the quantities that vary, in the units and with exactly the numbers of the question, the
-/// label, and the quantities that the plan asks for.
-///
-/// # Errors
-/// [`PlanError`] if a value of an axis overflows in these units.
-pub fn table<'a>(found: &'a Basin, osc: &Oscillator, units: &Units) -> Result<Table<'a>, PlanError> {
-    let axes = &found.plan.axes;
-    let names: Vec<&str> = axes.iter().map(|axis| units.column_of_coordinate(axis.vary)).collect();
+/// The table of `vibro basin`: what varies, in the units and with exactly the numbers of the question, the label, and the quantities
+/// that the plan asks for. `remarks` returns what is said of a start beside its label.
+fn written<'a, S: System, V: Varied, F: FieldName>(
+    found: &'a Basin<S, V, F>,
+    units: &Units,
+    (heads, remarks): (Vec<&'static str>, impl Fn(usize) -> String + 'a),
+) -> Result<Table<'a>, PlanError> {
+    let (axes, fields) = (&found.plan.axes, &found.plan.fields);
     let texts = axes.iter().map(|axis| {
-        let values = units.shown(axis)?;
-        Ok(values.all().into_iter().map(|value| Number(value).to_string()).collect())
+        let values = shown(&axis.over, axis.vary.unit(units))?;
+        Ok(values.all().into_iter().map(|value| format!("{},", Number(value))).collect())
     });
     let texts = texts.collect::<Result<Vec<Vec<String>>, PlanError>>()?;
-    let fields = &found.plan.fields;
-    let ending = |motion: &CountedMotion| {
-        let quantities = if fields.is_empty() { None } else { of_verdict(osc, &motion.verdict) };
-        format!("{}{}", motion.verdict.label(), cells(fields, quantities, units))
+    let cells = |values: &Vec<f64>| {
+        let value = |(k, field): (usize, &F)| values.get(k).map_or(f64::NAN, |value| value * field.unit(units));
+        finite(&fields.iter().enumerate().map(value).collect::<Vec<_>>())
     };
-    let endings: Vec<String> = found.motions.iter().map(ending).collect();
-    let rows = found.cells.iter().enumerate().map(move |(k, motion)| {
+    let quantities: Vec<String> = found.quantities.iter().map(cells).collect();
+    let rows = (0..found.cells.len()).map(move |k| {
         let mut rest = k;
         let mut row = String::new();
         for values in &texts {
             row.push_str(&values[rest % values.len()]);
-            row.push(',');
             rest /= values.len();
         }
-        row + &endings[usize::from(*motion)]
+        let own = found.motion(k).map_or_else(|| ",".repeat(fields.len()), |number| quantities[number].clone());
+        row + &found.label(k) + &remarks(k) + &own
     });
-    Ok(Table::new(format!("{},label{}", names.join(","), columns(fields, units)), rows))
+    let varied = axes.iter().map(|axis| axis.vary.column(units).to_owned());
+    let own = ["label"].into_iter().chain(heads).map(str::to_owned);
+    let header: Vec<String> = varied.chain(own).chain(fields.iter().map(|field| field.column(units))).collect();
+    Ok(Table::new(header.join(","), rows))
 }
 
-/// One row a start: what varies, the label, what stops and events say more of it, and quantities; `refused` beyond a rigid stop.
-pub(crate) fn of_machine<'a>(machine: &'a Machine, found: &'a MachineBasin) -> Table<'a> {
-    let remarks = remarks(found.motions.iter());
-    let rows = found.cells.iter().enumerate().map(move |(k, cell)| {
-        let motion = cell.map(|cell| &found.motions[cell]);
-        let label = motion.map_or_else(|| "refused".into(), Verdict::label);
-        let closed = motion.map_or_else(Vec::new, Verdict::closed);
-        let remarks = remarks.cells(machine, &closed, found.seen_events[k]);
-        let fields = cell.map_or_else(|| ",".repeat(found.fields.len()), |cell| finite(&found.quantities[cell]));
-        format!("{}{label}{remarks}{fields}", values(&found.axes, k))
-    });
-    let own: Vec<&str> = core::iter::once("label").chain(remarks.heads()).collect();
-    let header =
-        found.axes.iter().map(|axis| axis.vary.as_str()).chain(own).chain(found.fields.iter().map(String::as_str));
-    Table::new(header.collect::<Vec<_>>().join(","), rows)
+/// One row a start of an oscillator.
+///
+/// # Errors
+/// [`PlanError`] if a value of an axis overflows in these units.
+pub fn table<'a>(found: &'a Basin, units: &Units) -> Result<Table<'a>, PlanError> {
+    written(found, units, (Vec::new(), |_| String::new()))
 }
 
-/// The values at point `k`, each followed by a comma.
-fn values(axes: &[Axis<String>], k: usize) -> String {
-    Axis::<String>::at(axes, k as u64).into_iter().map(|value| format!("{},", Number(value))).collect()
+/// The same of a machine, with what stops and events say more of the label; `refused` beyond a rigid stop.
+pub(crate) fn of_machine<'a>(
+    machine: &'a impl Stops,
+    found: &'a Basin<Machine, String, String>,
+) -> Result<Table<'a>, PlanError> {
+    let remarks = remarks(found.motions.iter().map(|motion| &motion.verdict));
+    let cells = move |k: usize| {
+        let verdict = found.motion(k).map(|number| &found.motions[number].verdict);
+        remarks.cells(machine, &verdict.map_or_else(Vec::new, Verdict::closed), found.seen_events[k])
+    };
+    written(found, &Units::default(), (remarks.heads().collect(), cells))
 }

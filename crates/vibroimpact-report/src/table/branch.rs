@@ -8,7 +8,8 @@ use crate::number::Number;
 use vibroimpact::QuantityKind;
 use vibroimpact::continuation::{MachinePoint, SolutionPoint};
 use vibroimpact::machine::Machine;
-use vibroimpact_study::{Branches, Cut, EventRecord, MachineBranched};
+use vibroimpact::orbit::MachineCycle;
+use vibroimpact_study::{Branches, Cut, EventRecord};
 
 /// A point of a branch of any system.
 struct Row<'a> {
@@ -52,7 +53,7 @@ pub fn table<'a>(found: &'a Branches, cut: &Cut, units: &'a Units) -> Table<'a> 
         let there = units.at(cut.vary, point.value);
         Row {
             branch,
-            values: cut.values(point.value).map(|(parameter, value)| value * there.of(parameter)).collect(),
+            values: cut.names().zip(cut.values(point.value)).map(|(number, value)| value * there.of(*number)).collect(),
             label: point.cycle.label.to_string(),
             admissible: point.physical,
             stable: point.stable(),
@@ -65,17 +66,22 @@ pub fn table<'a>(found: &'a Branches, cut: &Cut, units: &'a Units) -> Table<'a> 
     };
     let branches = found.followed.iter().enumerate();
     let rows = branches.flat_map(move |(k, branch)| branch.points.iter().map(move |point| row(k + 1, point)));
-    let varied = cut.parameters().map(|parameter| units.column_of(parameter).to_owned());
+    let varied: Vec<String> = cut.names().map(|parameter| units.column_of(*parameter).to_owned()).collect();
     let fastest = units.column("fastest", QuantityKind::Velocity);
-    written(varied, &fastest, Columns::of_oscillator(units), rows)
+    written(varied.into_iter(), &fastest, Columns::of_oscillator(units), rows)
 }
 
 /// The same of a machine, with the drift of one that can be translated, and without forcing with the period.
-pub(crate) fn of_machine<'a>(machine: &'a Machine, cut: &Cut<String>, found: &'a MachineBranched) -> Table<'a> {
-    let drifting = found.all().flatten().any(|point| point.cycle.translations() > 0);
-    let varied: Vec<String> = cut.paths().map(str::to_owned).collect();
+pub(crate) fn of_machine<'a>(
+    machine: &'a Machine,
+    cut: &Cut<String>,
+    found: &'a Branches<MachineCycle, MachinePoint>,
+) -> Table<'a> {
+    let all = || found.followed.iter().map(|branch| &branch.points);
+    let drifting = all().flatten().any(|point| point.cycle.translations() > 0);
+    let varied: Vec<String> = cut.names().cloned().collect();
     let cut = cut.clone();
-    let points = found.all().enumerate().flat_map(|(k, points)| points.iter().map(move |point| (k + 1, point)));
+    let points = all().enumerate().flat_map(|(k, points)| points.iter().map(move |point| (k + 1, point)));
     let rows = points.map(move |(branch, MachinePoint { value, cycle, event })| Row {
         branch,
         values: cut.values(*value).collect(),

@@ -5,8 +5,10 @@ use super::cycle::{Cells, Columns};
 use crate::Units;
 use crate::json::curve::values;
 use crate::number::Number;
+use vibroimpact::continuation::{MachineCurvePoint, MachinePoint};
 use vibroimpact::machine::Machine;
-use vibroimpact_study::{CurvePlan, EventCurve, MachineEventCurve, Name, Variable};
+use vibroimpact::orbit::MachineCycle;
+use vibroimpact_study::{CurvePlan, EventCurve};
 
 /// The table of `vibro curve`.
 #[must_use]
@@ -15,7 +17,7 @@ pub fn table<'a>(found: &'a EventCurve, plan: CurvePlan, units: &'a Units) -> Ta
     let columns = Columns::of_oscillator(units);
     let header = format!("{p},{q},label,admissible,event,{}", columns.names());
     let rows = found.points.iter().map(move |point| {
-        let [p, q] = values(point, &plan, units);
+        let [p, q] = values(point.values, &plan, units);
         let event = point.event.map_or("", |event| event.name());
         let there = units.at_both((plan.vary.parameter, plan.and.parameter), point.values);
         let cycle = columns.cells(&Cells::of_oscillator(&point.cycle, &there));
@@ -28,10 +30,10 @@ pub fn table<'a>(found: &'a EventCurve, plan: CurvePlan, units: &'a Units) -> Ta
 /// closings, and without forcing with the period.
 pub(crate) fn of_machine<'a>(
     machine: &'a Machine,
-    plan: &CurvePlan<Variable>,
-    found: &'a MachineEventCurve,
+    plan: &CurvePlan<String>,
+    found: &'a EventCurve<MachineCycle, MachinePoint, MachineCurvePoint>,
 ) -> Table<'a> {
-    let (p, q) = (plan.vary.parameter.text(), plan.and.parameter.text());
+    let (p, q) = (&plan.vary.parameter, &plan.and.parameter);
     let columns = Columns::of_machine(machine, false);
     let header = format!("{p},{q},label,admissible,event,stop,residual,touch,{}", columns.names());
     let rows = found.points.iter().map(move |point| {

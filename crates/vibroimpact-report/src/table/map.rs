@@ -1,64 +1,63 @@
 //! A map: one row for each motion at each point.
 
 use super::Table;
-use super::quantities::{cells, columns, finite};
+use super::quantities::finite;
 use super::remarks::Remarks;
-use crate::Units;
+use crate::json::event::Stops;
 use crate::number::Number;
-use vibroimpact::machine::Machine;
-use vibroimpact_study::{MachineMap, MachineShare, PlanError, RegionMap};
+use crate::units::shown;
+use crate::varied::units_over;
+use crate::{FieldName, Units, Varied};
+use vibroimpact_study::{Axis, PlanError, RegionMap, Share};
 
-/// The table of `vibro map`: the quantities that vary, in the units and with exactly the numbers of the question, the
-/// label, its share of the starts, and the quantities that the plan asks for.
+/// The table of `vibro map`: what varies, in the units and with exactly the numbers of the question, the label, its share of the
+/// starts, and the quantities that the plan asks for; with `remarked` also what stops and events say more of the label. Of points
+/// that are no grid their number comes first, and there is no share.
 ///
 /// # Errors
 /// [`PlanError`] if a value of an axis overflows in these units.
-pub fn table(found: &RegionMap, units: Units) -> Result<Table<'_>, PlanError> {
-    let axes = &found.plan.axes;
-    let names: Vec<&str> = axes.iter().map(|axis| units.column_of_coordinate(axis.vary)).collect();
-    let values = axes.iter().map(|axis| Ok(units.shown(axis)?.all()));
+pub fn table<'a, V: Varied, F: FieldName>(
+    found: &'a RegionMap<V, F>,
+    system: &'a impl Stops,
+    (units, remarked): (Units, bool),
+) -> Result<Table<'a>, PlanError> {
+    let motions = found.motions().filter(|_| remarked);
+    let remarks = Remarks::of(motions.map(|motion| (motion.stops.as_slice(), motion.seen_events)));
+    let grid = found.columns.is_empty();
+    let axes = &found.axes;
+    let values = axes.iter().map(|axis| Ok(shown(&axis.over, axis.vary.unit(&units))?.all()));
     let values = values.collect::<Result<Vec<Vec<f64>>, PlanError>>()?;
-    let rows = found.points.iter().enumerate().flat_map(move |(k, point)| {
+    let rows = found.points.iter().enumerate().flat_map(move |(k, motions)| {
+        let mut place = if grid { String::new() } else { format!("{},", k + 1) };
         let mut rest = k;
-        let mut place = String::new();
         for values in &values {
             place.push_str(&format!("{},", Number(values[rest % values.len()])));
             rest /= values.len();
         }
-        let units = units.over(axes, |axis| point.at[axis]);
-        point.motions.iter().map(move |motion| {
-            let own = cells(&found.plan.fields, motion.quantities, &units);
-            format!("{place}{},{}{own}", motion.verdict.label(), Number(motion.share))
-        })
-    });
-    Ok(Table::new(format!("{},label,share{}", names.join(","), columns(&found.plan.fields, &units)), rows))
-}
-
-/// One row a motion at a point: what varies, label, share, what stops and events say more of the label, and quantities. Of points that
-/// are no grid their number comes first, and there is no share.
-pub(crate) fn of_machine<'a>(machine: &'a Machine, found: &'a MachineMap) -> Table<'a> {
-    let motions = found.cells.iter().flatten();
-    let remarks = Remarks::of(motions.map(|motion| (motion.stops.as_slice(), motion.seen_events)));
-    let grid = found.points.is_empty();
-    let rows = found.cells.iter().enumerate().flat_map(move |(k, cell)| {
-        let number = if grid { String::new() } else { format!("{},", k + 1) };
-        let at: String = found.at(k).into_iter().map(|value| format!("{},", Number(value))).collect();
-        let row = |motion: &MachineShare| {
+        for column in &found.columns {
+            place.push_str(&format!("{},", Number(column.values[k] * column.vary.unit(&units))));
+        }
+        let there = units_over(&units, axes, &Axis::at(axes, k as u64));
+        let row = |motion: &Share| {
             let share = if grid { format!(",{}", Number(motion.share)) } else { String::new() };
-            let remarks = remarks.cells(machine, &motion.stops, motion.seen_events);
-            format!("{number}{at}{}{share}{remarks}{}", motion.label(), finite(&motion.quantities))
+            let remarks = remarks.cells(system, &motion.stops, motion.seen_events);
+            let value =
+                |(k, field): (usize, &F)| motion.quantities.get(k).map_or(f64::NAN, |value| value * field.unit(&there));
+            let quantities: Vec<f64> = found.fields.iter().enumerate().map(value).collect();
+            format!("{place}{}{share}{remarks}{}", motion.label, finite(&quantities))
         };
-        let mut rows: Vec<String> = cell.iter().map(row).collect();
+        let mut rows: Vec<String> = motions.iter().map(row).collect();
         if rows.is_empty() && !grid {
             // numbers that are not allowed, or a start beyond a stop
             let empty = ",".repeat(remarks.heads().count() + found.fields.len());
-            rows.push(format!("{number}{at}refused{empty}"));
+            rows.push(format!("{place}refused{empty}"));
         }
         rows
     });
-    let own: Vec<&str> = ["label", "share"].into_iter().take(if grid { 2 } else { 1 }).chain(remarks.heads()).collect();
-    let head = if grid { vec![] } else { vec!["sample"] };
-    let fields = found.fields.iter().map(String::as_str);
-    let header = head.into_iter().chain(found.varied()).chain(own).chain(fields).collect::<Vec<_>>().join(",");
-    Table::new(header, rows)
+    let mut header: Vec<String> = if grid { Vec::new() } else { vec!["sample".to_owned()] };
+    header.extend(found.varied().map(|vary| vary.column(&units).to_owned()));
+    let own = ["label", "share"].into_iter().take(if grid { 2 } else { 1 });
+    header.extend(own.chain(remarks.heads()).map(str::to_owned));
+    header.extend(found.fields.iter().map(|field| field.column(&units)));
+    Ok(Table::new(header.join(","), rows))
 }

@@ -1,9 +1,9 @@
 //! Regions of existence and stability: one row for each vertex.
 
 use super::Table;
-use crate::Units;
 use crate::json::region::{sheet, unit};
 use crate::number::Number;
+use crate::{Units, Varied};
 use vibroimpact::continuation::Region;
 use vibroimpact_study::{RegionPlan, Regions};
 
@@ -15,20 +15,9 @@ pub fn both(found: &Regions) -> [(&'static str, &Region); 2] {
 
 /// The table of `vibro region`.
 #[must_use]
-pub fn table<'a>(found: &'a Regions, plan: &RegionPlan, units: &Units) -> Table<'a> {
-    let names = [plan.across.parameter, plan.up.parameter].map(|parameter| units.column_of(parameter));
-    Table::new(columns(names), rows(found, unit(plan, units)))
-}
-
-/// The same of a machine.
-#[must_use]
-pub fn of_machine<'a>(found: &'a Regions, plan: &RegionPlan<String>) -> Table<'a> {
-    Table::new(columns([&plan.across.parameter, &plan.up.parameter]), rows(found, (1.0, 1.0)))
-}
-
-/// The columns of the table.
-fn columns([across, up]: [impl core::fmt::Display; 2]) -> String {
-    format!("region,polygon,hole,sheet,{across},{up},bound")
+pub fn table<'a, V: Varied>(found: &'a Regions, plan: &RegionPlan<V>, units: &Units) -> Table<'a> {
+    let (across, up) = (plan.across.parameter.column(units), plan.up.parameter.column(units));
+    Table::new(format!("region,polygon,hole,sheet,{across},{up},bound"), rows(found, unit(plan, units)))
 }
 
 /// One row for each vertex.

@@ -1,11 +1,12 @@
 //! What columns say of some motions of machines besides the label.
 
+use crate::json::event::Stops;
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::Verdict;
 
 /// The names of stops with blanks between, after a comma.
-fn stops_of(machine: &Machine, stops: &[usize]) -> String {
-    format!(",{}", stops.iter().map(|stop| machine.name_of(*stop)).collect::<Vec<_>>().join(" "))
+fn stops_of(system: &impl Stops, stops: &[usize]) -> String {
+    format!(",{}", stops.iter().map(|stop| system.name_of_stop(*stop)).collect::<Vec<_>>().join(" "))
 }
 
 /// The columns that say more of some labels than the label, where such motions are in a table: the stops that stay closed for ever,
@@ -29,10 +30,10 @@ impl Remarks {
     }
 
     /// The cells of a motion, each after a comma.
-    pub(super) fn cells(self, machine: &Machine, stops: &[usize], events: Option<u64>) -> String {
+    pub(super) fn cells(self, system: &impl Stops, stops: &[usize], events: Option<u64>) -> String {
         let mut cells = String::new();
         if self.stops {
-            cells.push_str(&stops_of(machine, stops));
+            cells.push_str(&stops_of(system, stops));
         }
         if self.events {
             cells.push_str(&events.map_or_else(|| ",".to_owned(), |events| format!(",{events}")));

@@ -7,7 +7,7 @@ use crate::number::Number;
 use vibroimpact::chaos::Section;
 use vibroimpact::machine::Machine;
 use vibroimpact::{Oscillator, QuantityKind};
-use vibroimpact_study::MachineSection;
+use vibroimpact_study::SectionPoints;
 
 /// A closing, with the state after it, or a state at phase 0.
 struct Row<'a> {
@@ -48,7 +48,7 @@ pub fn table<'a>(points: &'a Section, osc: &'a Oscillator, units: Units) -> Tabl
 }
 
 /// The same of a machine.
-pub(crate) fn of_machine<'a>(machine: &'a Machine, found: &'a MachineSection) -> Table<'a> {
+pub(crate) fn of_machine<'a>(machine: &'a Machine, found: &'a SectionPoints) -> Table<'a> {
     let names = &machine.parts().coordinates;
     let names = ["q", "qdot"].into_iter().flat_map(|of| names.iter().map(move |name| format!("{of}.{name}")));
     let closings = found.closings.iter().map(move |at| Row {

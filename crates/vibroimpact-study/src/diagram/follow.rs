@@ -1,9 +1,8 @@
 //! The result of following one motion: its kind, the points to show and its last state.
 
-use crate::quantity::Quantity;
 use crate::{PlanError, SystemPlan};
+use vibroimpact::Start;
 use vibroimpact::verdict::SettleOptions;
-use vibroimpact::{Side, Start};
 
 /// The kind of the motion at one value after the transient.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,46 +44,41 @@ impl MotionKind {
 /// A point of the diagram.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DiagramPoint {
-    /// An impact.
+    /// A closing of a stop: an impact.
     Impact {
-        /// Phase of the force.
+        /// The number of the stop; of an oscillator [`stop_number`](crate::stop_number).
+        stop: usize,
+        /// Phase of the forcing.
         phase: f64,
-        /// Speed before the impact.
-        velocity: f64,
-        /// The stop that is hit.
-        side: Side,
+        /// Speed of closing.
+        speed: f64,
     },
-    /// The end of a complete chatter: infinitely many impacts of decreasing speed lie between the last impact and this
-    /// point.
+    /// The end of a complete chatter of an oscillator: infinitely many impacts of decreasing speed lie between the last impact
+    /// and this point.
     Chatter {
-        /// Phase of the force.
+        /// The number of the stop.
+        stop: usize,
+        /// Phase of the forcing.
         phase: f64,
-        /// The stop.
-        side: Side,
     },
-    /// The state at phase 0 of the force.
+    /// The state at phase 0 of the forcing.
     State {
-        /// Position.
+        /// The position; of a machine the coordinate or velocity that is shown.
         x: f64,
-        /// Velocity.
-        v: f64,
+        /// The velocity of an oscillator.
+        v: Option<f64>,
     },
     /// The value of a quantity of the settled motion, finite.
-    Value {
-        /// The quantity.
-        quantity: Quantity,
-        /// Its value.
-        value: f64,
-    },
+    Value(f64),
 }
 
 /// A motion after its transient.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct AfterTransient {
-    pub(super) kind: MotionKind,
-    pub(super) points: Vec<DiagramPoint>,
+pub(crate) struct AfterTransient<State = Start> {
+    pub(crate) kind: MotionKind,
+    pub(crate) points: Vec<DiagramPoint>,
     /// The last state.
-    pub(super) last: Start,
+    pub(crate) last: State,
 }
 
 /// Two points closer than this (phases in radians, speeds relative to their size, states relative to their size) are

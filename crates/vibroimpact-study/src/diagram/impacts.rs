@@ -1,6 +1,7 @@
 //! The impacts of a motion after its transient.
 
 use super::follow::{AfterTransient, DiagramPoint, MotionKind, SAME, budget};
+use crate::stop_number;
 use vibroimpact::flight::SearchLimits;
 use vibroimpact::motion::{End, EventKind, ImpactState, MAX_TOUCHES, Motion};
 use vibroimpact::system::phase;
@@ -31,7 +32,7 @@ pub(super) fn after_transients(osc: &Oscillator, start: Start, transient: u64, k
                 if struck <= transient {
                     continue;
                 }
-                let point = DiagramPoint::Impact { phase: state.phase, velocity, side: state.side };
+                let point = DiagramPoint::Impact { stop: stop_number(state.side), phase: state.phase, speed: velocity };
                 let again = points.first().is_some_and(|first| same(first, &point));
                 if !again {
                     points.push(point);
@@ -42,7 +43,7 @@ pub(super) fn after_transients(osc: &Oscillator, start: Start, transient: u64, k
             }
             EventKind::Stick { chatter: true, .. } if !points.is_empty() => {
                 fading.rests();
-                points.push(DiagramPoint::Chatter { phase: event.phase, side: event.side });
+                points.push(DiagramPoint::Chatter { stop: stop_number(event.side), phase: event.phase });
             }
             EventKind::Graze { .. } => {
                 touches += 1;
@@ -60,8 +61,8 @@ pub(super) fn after_transients(osc: &Oscillator, start: Start, transient: u64, k
 fn same(a: &DiagramPoint, b: &DiagramPoint) -> bool {
     match (a, b) {
         (
-            DiagramPoint::Impact { phase: p, velocity: u, side: here },
-            DiagramPoint::Impact { phase: q, velocity: w, side: there },
+            DiagramPoint::Impact { phase: p, speed: u, stop: here },
+            DiagramPoint::Impact { phase: q, speed: w, stop: there },
         ) => here == there && phase::difference(*q, *p).abs() <= SAME && (w - u).abs() <= SAME * u.abs(),
         _ => false,
     }
@@ -96,14 +97,14 @@ fn halfway(osc: &Oscillator, mut motion: Motion<'_>, start: Start, kind: MotionK
 #[cfg(test)]
 mod tests {
     use super::*;
-    use vibroimpact::{Side, scenario};
+    use vibroimpact::scenario;
 
     fn velocities(found: &AfterTransient) -> Vec<f64> {
         let mut list: Vec<f64> = found
             .points
             .iter()
             .filter_map(|point| match point {
-                DiagramPoint::Impact { velocity, .. } => Some(*velocity),
+                DiagramPoint::Impact { speed, .. } => Some(*speed),
                 _ => None,
             })
             .collect();
@@ -176,7 +177,7 @@ mod tests {
         let osc = Oscillator::from_inverse_beta(1.11, -0.5, 0.5).unwrap();
         let found = after_transients(&osc, Start::at_rest(&osc), 500, 64);
         assert_eq!(found.kind, MotionKind::Impacts);
-        let ends = found.points.iter().filter(|p| matches!(p, DiagramPoint::Chatter { side: Side::Upper, .. })).count();
+        let ends = found.points.iter().filter(|p| matches!(p, DiagramPoint::Chatter { stop: 0, .. })).count();
         assert_eq!(ends, 1, "one period of it: {:?}", found.points);
     }
 }

@@ -12,14 +12,13 @@ mod plan;
 mod settled;
 mod strobes;
 
+pub(crate) use follow::{AfterTransient, SAME, carried_state};
 pub use follow::{DiagramPoint, MotionKind};
-pub(crate) use follow::{SAME, carried_state};
-pub use plan::{DEFAULT_KEEP, DEFAULT_TRANSIENT, DiagramPlan, Show, ShowText, SweepDirection};
-pub(crate) use plan::{check_order, check_shown, even};
+pub use plan::{DEFAULT_KEEP, DEFAULT_TRANSIENT, DiagramPlan, Show, ShowText, Shown, SweepDirection};
+pub(crate) use plan::{SPEED, check_order, check_shown};
 pub(crate) use settled::state_on;
 
-use crate::{PlanError, SystemPlan, Values};
-use follow::AfterTransient;
+use crate::{Parameter, PlanError, SystemPlan, Values};
 use vibroimpact::Start;
 use vibroimpact::verdict::{StartBox, scattered_starts};
 
@@ -47,11 +46,20 @@ pub struct DiagramStep {
     pub points: Vec<DiagramPoint>,
 }
 
+impl DiagramStep {
+    /// Whether the motion repeats, that is, has fewer impacts or states than are shown at most. One alone counts as repeated.
+    #[must_use]
+    pub fn repeats(&self, keep: u64) -> bool {
+        let kept = self.points.iter().filter(|point| !matches!(point, DiagramPoint::Chatter { .. })).count();
+        (kept as u64) < keep || kept == 1
+    }
+}
+
 /// The motions: for sweeps in the order of the sweep, one sweep after another; for scattered starts value by value.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Diagram {
+pub struct Diagram<V = Parameter, S = Show> {
     /// The plan.
-    pub plan: DiagramPlan,
+    pub plan: DiagramPlan<V, S>,
     /// The motions.
     pub steps: Vec<DiagramStep>,
 }

@@ -1,9 +1,9 @@
 //! The plan of an orbit diagram: the parameter and its values, the starts, and the points to show.
 
-use crate::limits::{MOST_STARTS, starts};
+use crate::cut::in_proportion;
 use crate::name::{Name, Written};
 use crate::quantity::Quantity;
-use crate::{Cut, Parameter, PlanError, Span, Stretch, SystemPlan, Values};
+use crate::{Cut, Parameter, PlanError, Span, Stretch, SystemPlan, Values, limits};
 use serde::{Deserialize, Serialize};
 use vibroimpact::Oscillator;
 
@@ -111,6 +111,40 @@ impl From<String> for ShowText {
     }
 }
 
+/// What a diagram shows of a motion of any system.
+pub trait Shown: Clone + PartialEq + core::fmt::Debug {
+    /// Whether it is each closing of a stop, with its phase and speed.
+    fn is_closings(&self) -> bool;
+
+    /// Whether it is a state at phase 0.
+    fn is_states(&self) -> bool;
+}
+
+impl Shown for Show {
+    fn is_closings(&self) -> bool {
+        *self == Self::Velocity
+    }
+
+    fn is_states(&self) -> bool {
+        *self == Self::Strobe
+    }
+}
+
+/// What is shown of closings of a machine.
+pub(crate) const SPEED: &str = "speed";
+
+/// What is shown of a machine, as in [`ShowText`].
+impl Shown for String {
+    fn is_closings(&self) -> bool {
+        self == SPEED
+    }
+
+    /// The path of a quantity of a coordinate has one more name.
+    fn is_states(&self) -> bool {
+        self.split_once('.').is_some_and(|(head, name)| matches!(head, "q" | "qdot") && !name.contains('.'))
+    }
+}
+
 impl TryFrom<&ShowText> for Show {
     type Error = PlanError;
 
@@ -157,8 +191,6 @@ pub enum SweepDirection {
     },
 }
 
-/// Maximum number of impacts or periods of a transient; it takes a few seconds for each value.
-const MOST_TRANSIENT: u64 = 1_000_000;
 /// Maximum number of impacts or states shown at a value.
 const MOST_KEPT: u64 = 100_000;
 /// Maximum number of points that one run keeps in memory.
@@ -194,14 +226,10 @@ pub(crate) fn check_shown(
     direction: SweepDirection,
     (transient, keep): (u64, u64),
 ) -> Result<(), PlanError> {
-    if transient > MOST_TRANSIENT {
-        return Err(PlanError::Transient { given: transient, most: MOST_TRANSIENT });
-    }
-    if !(1..=MOST_KEPT).contains(&keep) {
-        return Err(PlanError::Keep { given: keep, most: MOST_KEPT });
-    }
+    limits::check("transient", transient, 0..=limits::MOST_TRANSIENT)?;
+    limits::check("keep", keep, 1..=MOST_KEPT)?;
     if let SweepDirection::Scatter { starts: given, .. } = direction {
-        starts(given, MOST_STARTS)?;
+        limits::starts(given, limits::MOST_STARTS)?;
     }
     let (columns, rows) = (over.count() as u64, direction.runs() * keep);
     if columns.saturating_mul(rows) > MOST_POINTS {
@@ -212,7 +240,7 @@ pub(crate) fn check_shown(
 
 /// Value number `k` of a second parameter with these ends, if the values of the first are evenly spaced: rounded as a range of
 /// that parameter would be.
-pub(crate) fn even(over: &Values, (from, to): (f64, f64), k: u32) -> Option<f64> {
+fn even(over: &Values, (from, to): (f64, f64), k: u32) -> Option<f64> {
     let Values::Span(over) = over else { return None };
     if over.is_logarithmic() { None } else { Some(Span::new(from, to, over.count()).ok()?.at(k)) }
 }
@@ -235,6 +263,25 @@ impl<V, S> DiagramPlan<V, S> {
     pub const fn runs(&self) -> u64 {
         self.direction.runs()
     }
+
+    /// The values of the numbers that vary at value number `k`. If the values are evenly spaced, those of the second number are
+    /// too, rounded as a range of that number would be.
+    pub fn values(&self, k: u32) -> impl Iterator<Item = f64> + use<V, S> {
+        let first = self.over.at(k as usize);
+        let second = self.also.as_ref().map(|also| {
+            let ends = (also.from, also.to);
+            even(&self.over, ends, k).unwrap_or_else(|| in_proportion(first, self.over.ends(), ends))
+        });
+        core::iter::once(first).chain(second)
+    }
+}
+
+impl<V: Clone, S> DiagramPlan<V, S> {
+    /// The line of the diagram.
+    #[must_use]
+    pub fn cut(&self) -> Cut<V> {
+        Cut { vary: self.vary.clone(), ends: self.over.ends(), also: self.also.clone() }
+    }
 }
 
 impl DiagramPlan {
@@ -246,23 +293,6 @@ impl DiagramPlan {
         check_order(&self.over)?;
         self.cut().check(system)?;
         check_shown(&self.over, self.direction, (self.transient, self.keep))
-    }
-
-    /// The line of parameters of the diagram.
-    #[must_use]
-    pub fn cut(&self) -> Cut {
-        Cut { vary: self.vary, ends: self.over.ends(), also: self.also }
-    }
-
-    /// The values of the parameters at value number `k`. If the values are evenly spaced, those of the second parameter
-    /// are too, rounded as a range of that parameter would be.
-    pub fn values(&self, k: u32) -> impl Iterator<Item = (Parameter, f64)> + use<> {
-        let value = self.over.at(k as usize);
-        let second = self.also.and_then(|also| even(&self.over, (also.from, also.to), k));
-        self.cut().values(value).enumerate().map(move |(place, (parameter, value))| match second {
-            Some(second) if place == 1 => (parameter, second),
-            _ => (parameter, value),
-        })
     }
 
     /// The oscillator at value number `k`. Parameters that do not vary are those of `system`.
@@ -278,7 +308,7 @@ impl DiagramPlan {
     /// # Errors
     /// As [`Self::oscillator`].
     pub fn system(&self, system: &SystemPlan, k: u32) -> Result<SystemPlan, PlanError> {
-        system.with_all(self.values(k))
+        system.with_all(self.cut().names().copied().zip(self.values(k)))
     }
 }
 

@@ -17,7 +17,7 @@ pub(super) fn after_transients(osc: &Oscillator, start: Start, quantity: Quantit
         Verdict::Undecided(_) => MotionKind::Undecided,
     };
     let value = of_verdict_only(osc, &verdict, &[quantity]).map(|of| of.get(quantity));
-    let points = value.filter(|value| value.is_finite()).map(|value| DiagramPoint::Value { quantity, value });
+    let points = value.filter(|value| value.is_finite()).map(DiagramPoint::Value);
     AfterTransient { kind, points: points.into_iter().collect(), last: state_on(osc, &verdict, start) }
 }
 
@@ -67,10 +67,10 @@ mod tests {
             };
             let found = after_transients(&osc, start, quantity);
             assert_eq!(found.kind, MotionKind::Impacts);
-            let [DiagramPoint::Value { value, .. }] = found.points[..] else { panic!("{:?}", found.points) };
+            let [DiagramPoint::Value(value)] = found.points[..] else { panic!("{:?}", found.points) };
             assert_eq!(value, cycle.fastest());
             let again = after_transients(&osc, found.last, quantity);
-            let [DiagramPoint::Value { value: next, .. }] = again.points[..] else { panic!("{:?}", again.points) };
+            let [DiagramPoint::Value(next)] = again.points[..] else { panic!("{:?}", again.points) };
             assert!((next - value).abs() < 1e-9);
         }
     }
@@ -85,6 +85,6 @@ mod tests {
             (0, MotionKind::NoImpact)
         );
         let quantity = Quantity::ImpactSpeedMax;
-        assert_eq!(of(quantity).points, [DiagramPoint::Value { quantity, value: 0.0 }]);
+        assert_eq!(of(quantity).points, [DiagramPoint::Value(0.0)]);
     }
 }

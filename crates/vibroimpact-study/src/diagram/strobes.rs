@@ -62,13 +62,13 @@ impl Shown {
     fn see(&mut self, state: Start, rests: bool) -> bool {
         self.flew |= !rests;
         let same = |a: f64, b: f64| (a - b).abs() <= SAME * (1.0 + a.abs());
-        if let Some(DiagramPoint::State { x, v }) = self.points.first()
+        if let Some(DiagramPoint::State { x, v: Some(v) }) = self.points.first()
             && same(*x, state.x)
             && same(*v, state.v)
         {
             return true;
         }
-        self.points.push(DiagramPoint::State { x: state.x, v: state.v });
+        self.points.push(DiagramPoint::State { x: state.x, v: Some(state.v) });
         false
     }
 
@@ -91,7 +91,7 @@ mod tests {
             .points
             .iter()
             .filter_map(|point| match point {
-                DiagramPoint::State { x, v } => Some((*x, *v)),
+                DiagramPoint::State { x, v } => Some((*x, (*v)?)),
                 _ => None,
             })
             .collect()

@@ -5,7 +5,8 @@ use crate::in_memory::join::{Joined, Part, joined};
 use crate::limits::MOST_CELLS;
 use crate::study::{BasinFill, Cell, tiles_of};
 use crate::{Control, PlanError, RunError, SystemPlan, axis};
-use vibroimpact::verdict::settle;
+use vibroimpact::quantities::of_verdict_only;
+use vibroimpact::verdict::{CountedMotion, settle};
 
 /// Approximate number of starts of a tile: large enough that joining takes no noticeable time, small enough to stop
 /// quickly and to use all threads.
@@ -46,8 +47,11 @@ fn in_tiles(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>, tile: 
     });
     let first = |k: usize| settle(osc, start(osc, plan, k as u64), &plan.options()).verdict;
     let Joined { motions, cells } = joined(&whole, parts, first);
-    let cell = |cell: Option<usize>| cell.and_then(|number| u16::try_from(number).ok()).unwrap_or(u16::MAX);
-    Ok(Basin { plan: plan.clone(), motions, cells: cells.into_iter().map(cell).collect() })
+    let quantities = |motion: &CountedMotion| {
+        let found = if plan.fields.is_empty() { None } else { of_verdict_only(osc, &motion.verdict, &plan.fields) };
+        found.map_or_else(Vec::new, |found| plan.fields.iter().map(|field| found.get(*field)).collect())
+    };
+    Ok(Basin::new(plan.clone(), (motions, cells), Vec::new(), quantities)?)
 }
 
 #[cfg(test)]

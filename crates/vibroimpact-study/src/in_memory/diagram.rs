@@ -1,64 +1,35 @@
 //! An orbit diagram in memory: its tiles are joined.
 
-use crate::diagram::{Diagram, DiagramPlan, Sweep, SweepDirection};
-use crate::machine::MachineSource;
-use crate::machine_plan::MachineDiagram;
+use crate::diagram::{Diagram, SweepDirection};
 use crate::study::{SweepFill, Swept, tiles_of};
-use crate::{Control, RunError, SystemPlan};
+use crate::{Control, RunError};
 use vibroimpact::math::sort_by_key;
 
 /// Number of scattered starts, and of values, in a tile.
-const TILE: u32 = 4;
+pub(crate) const DIAGRAM_TILE: u32 = 4;
 
-/// Follows the motions at all values.
+/// Follows the motions at all values: sweeps one after another, scattered starts value by value.
 ///
 /// # Errors
-/// [`RunError`] for an invalid plan, or when stopped.
-pub(crate) fn diagram(system: &SystemPlan, plan: &DiagramPlan, control: &Control<'_>) -> Result<Diagram, RunError> {
-    plan.check(system)?;
-    let task = SweepFill::new(system, plan, Some(TILE));
-    Ok(Diagram {
-        plan: plan.clone(),
-        steps: steps_of(&task, plan.direction, |step| (step.index, step.sweep), control)?,
-    })
-}
-
-/// Follows the motions of a machine at all values.
-///
-/// # Errors
-/// [`RunError`] for an invalid plan, or when stopped.
-pub(crate) fn machine_diagram(
-    source: &MachineSource,
-    plan: &DiagramPlan<String, String>,
-    control: &Control<'_>,
-) -> Result<MachineDiagram, RunError> {
-    plan.check(source)?;
-    let task = SweepFill::of_machine(source, plan, Some(TILE));
-    let steps = steps_of(&task, plan.direction, |step| (step.index, step.sweep), control)?;
-    Ok(MachineDiagram { plan: plan.clone(), steps })
-}
-
-/// The steps of all tiles: sweeps one after another, scattered starts value by value.
-fn steps_of<S: Swept>(
+/// [`RunError`] for a value that gives no system, or when stopped.
+pub(crate) fn diagram<S: Swept>(
     task: &SweepFill<S>,
-    direction: SweepDirection,
-    place: impl Fn(&S::Step) -> (u32, Sweep),
     control: &Control<'_>,
-) -> Result<Vec<S::Step>, RunError> {
-    let parts = tiles_of(task, control)?;
+) -> Result<Diagram<S::Number, S::Show>, RunError> {
+    let (parts, plan) = (tiles_of(task, control)?, task.plan());
     let mut steps = parts.into_iter().flat_map(|(_, steps)| steps).collect::<Result<Vec<_>, _>>()?;
-    if let SweepDirection::Scatter { .. } = direction {
+    if let SweepDirection::Scatter { .. } = plan.direction {
         // a tile holds several starts at several values; sort by value, and at each value by start
-        sort_by_key(&mut steps, place);
+        sort_by_key(&mut steps, |step| (step.index, step.sweep));
     }
-    Ok(steps)
+    Ok(Diagram { plan: plan.clone(), steps })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diagram::{DiagramPoint, DiagramStep, MotionKind, Show};
-    use crate::{Parameter, Span, Stretch, Values};
+    use crate::diagram::{DiagramPlan, DiagramPoint, DiagramStep, MotionKind, Show, Sweep};
+    use crate::{Parameter, Span, Stretch, SystemPlan, Values};
 
     const S: SystemPlan = SystemPlan {
         beta: None,
@@ -87,7 +58,7 @@ mod tests {
     }
 
     fn run(system: &SystemPlan, plan: &DiagramPlan) -> Diagram {
-        diagram(system, plan, &Control::default()).unwrap()
+        diagram(&SweepFill::new(system, plan, Some(DIAGRAM_TILE)), &Control::default()).unwrap()
     }
 
     #[test]
@@ -97,7 +68,8 @@ mod tests {
             [(SweepDirection::Both, Show::Velocity), (SweepDirection::Both, Show::Strobe), (scatter, Show::Velocity)]
         {
             let plan = DiagramPlan { direction, show, ..plan("-0.5:3:29") };
-            let run = |threads| diagram(&S, &plan, &Control { threads, ..Control::default() }).unwrap();
+            let task = SweepFill::new(&S, &plan, Some(DIAGRAM_TILE));
+            let run = |threads| diagram(&task, &Control { threads, ..Control::default() }).unwrap();
             let one = run(1);
             assert_eq!(one.steps.len() as u64, 29 * plan.runs());
             for threads in [2, 3, 8] {
@@ -166,7 +138,7 @@ mod tests {
             let mut speeds: Vec<f64> = step
                 .points
                 .iter()
-                .filter_map(|p| if let DiagramPoint::Impact { velocity, .. } = p { Some(*velocity) } else { None })
+                .filter_map(|p| if let DiagramPoint::Impact { speed, .. } = p { Some(*speed) } else { None })
                 .collect();
             speeds.sort_by(f64::total_cmp);
             speeds
@@ -202,7 +174,7 @@ mod tests {
         assert_eq!(found.steps.len(), 15);
         for k in 0..5_u32 {
             let value = f64::from(k) / 2.0;
-            let system = SystemPlan { inverse_beta: Some(line.values(k).last().unwrap().1), ..S };
+            let system = SystemPlan { inverse_beta: line.values(k).last(), ..S };
             let over = span(&format!("{value}:{value}:1"));
             let alone = run(&system, &DiagramPlan { also: None, over, ..line.clone() });
             let here: Vec<_> = found.steps.iter().filter(|step| step.index == k).map(|step| &step.points).collect();

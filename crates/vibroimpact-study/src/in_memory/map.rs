@@ -1,9 +1,13 @@
 //! A map in memory: its tiles are joined.
 
 use crate::limits::MOST_CELLS;
-use crate::map::{MapPlan, MapPoint, RegionMap};
-use crate::study::{Cell, MapFill, on_axis, tiles_of};
-use crate::{Control, RunError, SystemPlan, axis};
+use crate::machine::MachineSource;
+use crate::machine_plan::{check_memory, tile};
+use crate::map::{MapPlan, RegionMap, Share};
+use crate::study::{Along, Cell, Fill, MapFill, Mapped, tiles_of};
+use crate::{Control, ListedColumn, ManyPlan, RunError, SystemPlan, axis};
+use vibroimpact::events::MachineStart;
+use vibroimpact::machine::Machine;
 
 /// Number of points of a tile along each axis, for one axis and more.
 const TILE: [u32; 4] = [400, 20, 7, 4];
@@ -17,22 +21,62 @@ pub(crate) fn map(system: &SystemPlan, plan: &MapPlan, control: &Control<'_>) ->
     if plan.points() > MOST_CELLS {
         return Err(axis::too_many("points", &plan.axes).into());
     }
-    let all = MapPlan { refine: None, ..plan.clone() };
     // the starts of a tile share lanes; smaller tiles leave more lanes empty, and larger ones leave threads without work
-    let task = MapFill::new(system, &all, Some(TILE[plan.axes.len().min(TILE.len()) - 1]));
-    let whole = axis::whole(&plan.axes);
-    let mut points: Vec<Option<MapPoint>> = (0..whole.points()).map(|_| None).collect();
-    for (block, tile) in tiles_of(&task, control)? {
+    let tile = Some(TILE[plan.axes.len().min(TILE.len()) - 1]);
+    let task = MapFill::new(system, &MapPlan { refine: None, ..plan.clone() }, tile);
+    Ok(joined(plan, points(&task, control)?))
+}
+
+/// The same of a machine.
+///
+/// # Errors
+/// [`RunError`] for an invalid plan, or when stopped.
+pub(crate) fn machine_map(
+    source: &MachineSource,
+    plan: &MapPlan<String, String>,
+    control: &Control<'_>,
+) -> Result<RegionMap<String, String>, RunError> {
+    check_memory(&plan.axes, plan.starts)?;
+    // one point a tile, because one point may take a thousand times as long as another; oscillators share lanes
+    let alone = source.machine().is_ok_and(|machine| machine.reduced().is_none());
+    let tile = if alone { Some(1) } else { None };
+    let task = MapFill::of_machine(source, &MapPlan { refine: None, ..plan.clone() }, tile);
+    Ok(joined(plan, points(&task, control)?))
+}
+
+/// The motion from the start at each of many points of a machine.
+///
+/// # Errors
+/// [`RunError`] for an invalid plan, or when stopped.
+pub(crate) fn machine_points(
+    source: &MachineSource,
+    problem: (&Machine, &MachineStart),
+    plan: &ManyPlan<String>,
+    control: &Control<'_>,
+) -> Result<RegionMap<String, String>, RunError> {
+    let task = MapFill::of_points(source, problem, plan, Some(tile(problem.0)))?;
+    let column = |along: Along| ListedColumn { vary: along.name, values: along.values };
+    let columns = task.coordinates().into_iter().map(column).collect();
+    Ok(RegionMap { axes: Vec::new(), columns, points: points(&task, control)?, fields: plan.fields.clone() })
+}
+
+fn joined<V: Clone, F: Clone>(plan: &MapPlan<V, F>, points: Vec<Vec<Share>>) -> RegionMap<V, F> {
+    RegionMap { axes: plan.axes.clone(), columns: Vec::new(), points, fields: plan.fields.clone() }
+}
+
+/// The motions at all points; none at points whose numbers are not allowed.
+fn points<M: Mapped>(task: &MapFill<M>, control: &Control<'_>) -> Result<Vec<Vec<Share>>, RunError> {
+    let whole = task.grid().whole();
+    let mut points: Vec<Vec<Share>> = vec![Vec::new(); whole.points()];
+    for (block, tile) in tiles_of(task, control)? {
         for (k, cell) in tile.into_iter().enumerate() {
-            let index = block.index(k);
-            let at = plan.axes.iter().enumerate().map(|(k, axis)| axis.over.at(on_axis(&index, k))).collect();
             // without refinement every point is computed
-            if let Cell::Computed(found) = cell {
-                points[whole.number(&index)] = Some(MapPoint { at, motions: found? });
+            if let Cell::Computed(Ok(motions)) = cell {
+                points[whole.number(&block.index(k))] = motions;
             }
         }
     }
-    Ok(RegionMap { plan: plan.clone(), points: points.into_iter().flatten().collect() })
+    Ok(points)
 }
 
 #[cfg(test)]
@@ -46,11 +90,11 @@ mod tests {
         let run = |threads| map(&system, &plan, &Control { threads, ..Control::default() });
         let one = run(1).unwrap();
         assert_eq!(one.points.len(), 15);
-        assert_eq!(one.points[0].at, [0.6, -0.5]);
-        assert_eq!(one.points[1].at, [plan.axes[0].over.at(1), -0.5]);
-        assert_eq!(one.points[14].at, [1.4, 2.0]);
+        assert_eq!(one.at(0), [0.6, -0.5]);
+        assert_eq!(one.at(1), [plan.axes[0].over.at(1), -0.5]);
+        assert_eq!(one.at(14), [1.4, 2.0]);
         for point in &one.points {
-            assert!((point.motions.iter().map(|m| m.share).sum::<f64>() - 1.0).abs() < 1e-12);
+            assert!((point.iter().map(|motion| motion.share).sum::<f64>() - 1.0).abs() < 1e-12);
         }
         assert_eq!(run(3).unwrap(), one);
     }

@@ -4,11 +4,11 @@ mod attractors;
 mod basin;
 mod diagram;
 mod join;
-mod machine_grid;
+mod machine_basin;
 mod map;
 
 pub(crate) use attractors::attractors;
 pub(crate) use basin::basin;
-pub(crate) use diagram::{diagram, machine_diagram};
-pub(crate) use machine_grid::{machine_basin, machine_map, machine_points};
-pub(crate) use map::map;
+pub(crate) use diagram::{DIAGRAM_TILE, diagram};
+pub(crate) use machine_basin::machine_basin;
+pub(crate) use map::{machine_map, machine_points, map};

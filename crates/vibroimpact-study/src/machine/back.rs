@@ -2,7 +2,7 @@
 
 use super::number::NumberText;
 use super::shapes::{MatrixText, VectorText};
-use super::text::{ForceText, FrictionText, ImpactsText, MachineText, MotionText, OpeningText, StopText};
+use super::text::{ForceText, FrictionText, ImpactsText, MotionText, OpeningText, StopText, WrittenMachine};
 use vibroimpact::machine::{FrictionJoint, HarmonicForce, ImpactLaw, MachineParts, MachineStop, Opening, StopLaw};
 use vibroimpact::math::Matrix;
 
@@ -33,7 +33,7 @@ fn matrix(matrix: &Matrix) -> MatrixText {
     }
 }
 
-impl From<&MachineParts> for MachineText {
+impl From<&MachineParts> for WrittenMachine {
     fn from(parts: &MachineParts) -> Self {
         let unless_zero = |values: &Matrix| values.values().iter().any(|value| !zero(*value)).then(|| matrix(values));
         Self {

@@ -1,6 +1,6 @@
 //! Named machines of the literature. Each is a machine file in the folder `catalogue`.
 
-use super::error::{MachineProblem, MachineTextError};
+use super::error::{MachineFileError, MachineProblem};
 use super::read::no_files;
 use super::source::MachineSource;
 
@@ -47,7 +47,7 @@ impl CatalogueEntry {
     ///
     /// # Errors
     /// None: each file of the catalogue is read in the tests.
-    pub fn source(&self) -> Result<MachineSource, MachineTextError> {
+    pub fn source(&self) -> Result<MachineSource, MachineFileError> {
         MachineSource::from_text(self.text, no_files)
     }
 }
@@ -57,7 +57,7 @@ impl MachineSource {
     ///
     /// # Errors
     /// As [`Self::of_catalogue`] and [`Self::from_text`]. Texts that name a file are refused.
-    pub fn open(name_or_text: &str) -> Result<Self, MachineTextError> {
+    pub fn open(name_or_text: &str) -> Result<Self, MachineFileError> {
         let word = name_or_text.trim();
         let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
         if !word.is_empty() && word.chars().all(plain) {
@@ -71,10 +71,10 @@ impl MachineSource {
     ///
     /// # Errors
     /// [`MachineProblem::NoMachine`] with the known names.
-    pub fn of_catalogue(name: &str) -> Result<Self, MachineTextError> {
+    pub fn of_catalogue(name: &str) -> Result<Self, MachineFileError> {
         let found = CATALOGUE.iter().find(|entry| entry.name == name).ok_or_else(|| {
             let names: Vec<&str> = CATALOGUE.iter().map(|entry| entry.name).collect();
-            MachineTextError::new(name, MachineProblem::NoMachine(format!("there are {}", names.join(", "))))
+            MachineFileError::new(name, MachineProblem::NoMachine(format!("there are {}", names.join(", "))))
         })?;
         found.source()
     }

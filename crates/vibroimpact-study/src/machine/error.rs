@@ -8,7 +8,7 @@ use vibroimpact::machine::{MachineError, MachineFault};
 /// A machine file that describes no machine, or a path that leads to no number.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error("{path}: {problem}")]
-pub struct MachineTextError {
+pub struct MachineFileError {
     /// The path of the number or of the part, as `stop.wall.gap`; `line 3, column 7` where the text cannot be read.
     pub path: String,
     /// What is wrong.
@@ -90,19 +90,19 @@ pub enum MachineProblem {
     NoMachine(String),
 }
 
-impl MachineTextError {
+impl MachineFileError {
     pub(super) fn new(path: impl Into<String>, problem: impl Into<MachineProblem>) -> Self {
         Self { path: path.into(), problem: problem.into() }
     }
 }
 
-impl From<TextError> for MachineTextError {
+impl From<TextError> for MachineFileError {
     fn from(error: TextError) -> Self {
         Self::new(error.head().unwrap_or_else(|| "machine".to_owned()), MachineProblem::Read(error))
     }
 }
 
-impl From<MachineError> for MachineTextError {
+impl From<MachineError> for MachineFileError {
     fn from(error: MachineError) -> Self {
         Self::new(error.path, error.fault)
     }

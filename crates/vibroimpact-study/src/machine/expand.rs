@@ -1,18 +1,18 @@
 //! The expansion of a machine file: every short form becomes matrices, vectors and directions.
 
-use super::error::{MachineProblem, MachineTextError};
+use super::error::{MachineFileError, MachineProblem};
 use super::named::Named;
 use super::number::NumberText;
 use super::places::{Places, check_name};
 use super::shapes::VectorText;
 use super::structure::{frequency, places, structure};
-use super::text::{ForceText, FrictionText, ImpactsText, MachineText, MotionText, OpeningText, StopText};
+use super::text::{ForceText, FrictionText, ImpactsText, MotionText, OpeningText, StopText, WrittenMachine};
 use vibroimpact::machine::{
     FrictionJoint, HarmonicForce, HarmonicMotion, ImpactLaw, MachineParts, MachineStop, Opening, StopLaw,
 };
 
 /// The expansion. The sizes of all its vectors and matrices are right; the rest is checked by the machine.
-pub(super) fn expand(text: &MachineText, parameters: &Named<f64>) -> Result<MachineParts, MachineTextError> {
+pub(super) fn expand(text: &WrittenMachine, parameters: &Named<f64>) -> Result<MachineParts, MachineFileError> {
     let places = places(text, parameters)?;
     let mut parts = structure(text, &places)?;
     if let Some(constant) = &text.constant {
@@ -30,7 +30,7 @@ pub(super) fn expand(text: &MachineText, parameters: &Named<f64>) -> Result<Mach
 }
 
 /// Forces of one order are added.
-fn forces(all: &mut Vec<HarmonicForce>, texts: &[ForceText], places: &Places<'_>) -> Result<(), MachineTextError> {
+fn forces(all: &mut Vec<HarmonicForce>, texts: &[ForceText], places: &Places<'_>) -> Result<(), MachineFileError> {
     for text in texts {
         let order = text.order.unwrap_or(1);
         let amplitude = |side: &str, amplitude: Option<&VectorText>| {
@@ -43,7 +43,7 @@ fn forces(all: &mut Vec<HarmonicForce>, texts: &[ForceText], places: &Places<'_>
                     Ok(direction.iter().map(|value| size * value).collect())
                 }
                 (Some(_), Some(_)) => {
-                    Err(MachineTextError::new(path, MachineProblem::Foreign("with `at` it is one number")))
+                    Err(MachineFileError::new(path, MachineProblem::Foreign("with `at` it is one number")))
                 }
                 (Some(vector), None) => places.vector(&path, vector),
             }
@@ -66,19 +66,19 @@ fn direction(
     path: &str,
     forms: (Option<&VectorText>, Option<&[String; 2]>, Option<&String>),
     places: &Places<'_>,
-) -> Result<Vec<f64>, MachineTextError> {
+) -> Result<Vec<f64>, MachineFileError> {
     match forms {
         (Some(direction), None, None) => places.vector(&format!("{path}.direction"), direction),
         (None, Some(names), None) => places.between(&format!("{path}.between"), names),
         (None, None, Some(name)) => places.direction(&format!("{path}.at"), name),
         (None, None, None) => {
-            Err(MachineTextError::new(path, MachineProblem::Missing { needed: "direction, between or at" }))
+            Err(MachineFileError::new(path, MachineProblem::Missing { needed: "direction, between or at" }))
         }
-        _ => Err(MachineTextError::new(path, MachineProblem::Several("direction, between and at"))),
+        _ => Err(MachineFileError::new(path, MachineProblem::Several("direction, between and at"))),
     }
 }
 
-fn expand_stop(text: &StopText, places: &Places<'_>) -> Result<MachineStop, MachineTextError> {
+fn expand_stop(text: &StopText, places: &Places<'_>) -> Result<MachineStop, MachineFileError> {
     check_name("stop", &text.name)?;
     let path = format!("stop.{}", text.name);
     let direction = direction(&path, (text.direction.as_ref(), text.between.as_ref(), text.at.as_ref()), places)?;
@@ -94,7 +94,7 @@ fn expand_stop(text: &StopText, places: &Places<'_>) -> Result<MachineStop, Mach
             if let Some((field, _)) = compliant.iter().find(|(_, given)| *given) {
                 let problem =
                     MachineProblem::Foreign("a stop with restitution is rigid; a compliant one has stiffness");
-                return Err(MachineTextError::new(format!("{path}.{field}"), problem));
+                return Err(MachineFileError::new(format!("{path}.{field}"), problem));
             }
             StopLaw::Rigid { restitution: number("restitution", restitution)? }
         }
@@ -110,15 +110,15 @@ fn expand_stop(text: &StopText, places: &Places<'_>) -> Result<MachineStop, Mach
         (None, None) => {
             let problem =
                 MachineProblem::Missing { needed: "restitution of a rigid stop, or stiffness of a compliant one," };
-            return Err(MachineTextError::new(path, problem));
+            return Err(MachineFileError::new(path, problem));
         }
         (Some(_), Some(_)) => {
-            return Err(MachineTextError::new(path, MachineProblem::Several("restitution and stiffness")));
+            return Err(MachineFileError::new(path, MachineProblem::Several("restitution and stiffness")));
         }
     };
     let motion = |motion: &MotionText| {
         let order = motion.order.unwrap_or(1);
-        Ok::<_, MachineTextError>(HarmonicMotion {
+        Ok::<_, MachineFileError>(HarmonicMotion {
             order,
             cos: or_zero(&format!("motion.{order}.cos"), motion.cos.as_ref())?,
             sin: or_zero(&format!("motion.{order}.sin"), motion.sin.as_ref())?,
@@ -127,7 +127,7 @@ fn expand_stop(text: &StopText, places: &Places<'_>) -> Result<MachineStop, Mach
     let orders: Vec<u32> = text.motion.iter().map(|motion| motion.order.unwrap_or(1)).collect();
     if let Some(twice) = orders.iter().enumerate().find(|(k, order)| orders[..*k].contains(order)) {
         let problem = MachineProblem::Text("the order is given twice".to_owned());
-        return Err(MachineTextError::new(format!("{path}.motion.{}", twice.1), problem));
+        return Err(MachineFileError::new(format!("{path}.motion.{}", twice.1), problem));
     }
     Ok(MachineStop {
         name: text.name.clone(),
@@ -138,7 +138,7 @@ fn expand_stop(text: &StopText, places: &Places<'_>) -> Result<MachineStop, Mach
     })
 }
 
-fn expand_joint(text: &FrictionText, places: &Places<'_>) -> Result<FrictionJoint, MachineTextError> {
+fn expand_joint(text: &FrictionText, places: &Places<'_>) -> Result<FrictionJoint, MachineFileError> {
     check_name("friction", &text.name)?;
     let path = format!("friction.{}", text.name);
     let sliding = places.value(&format!("{path}.sliding"), &text.sliding)?;

@@ -7,7 +7,7 @@
 //! |---|---|
 //! | a machine file: parameters, a machine, changed numbers | [`MachineSource`], `source` |
 //! | from text to a source | `read` |
-//! | the table `[machine]` | [`MachineText`], `text` |
+//! | the table `[machine]` | [`WrittenMachine`], `text` |
 //! | a number or an expression of the parameters | [`NumberText`], `number`, `expression` |
 //! | vectors, matrices, and tables that keep their order | [`VectorText`], [`MatrixText`], [`Named`] |
 //! | what names stand for: coordinates, bodies, points, the ground | `places` |
@@ -18,7 +18,8 @@
 //! | some of its numbers varied | `varied` |
 //! | where a machine begins | [`StartText`], [`StartNumbers`], `start` |
 //! | named machines of the literature | [`CATALOGUE`], `catalogue` |
-//! | errors | [`MachineTextError`], [`MachineProblem`] |
+//! | the results of tasks | [`Results`] |
+//! | errors | [`MachineFileError`], [`MachineProblem`] |
 
 mod back;
 mod catalogue;
@@ -39,8 +40,9 @@ mod varied;
 mod write;
 mod written;
 
+pub use crate::machine_plan::Results;
 pub use catalogue::{CATALOGUE, CatalogueEntry};
-pub use error::{MachineProblem, MachineTextError};
+pub use error::{MachineFileError, MachineProblem};
 pub use expression::ExpressionError;
 pub use named::Named;
 pub use number::NumberText;
@@ -49,7 +51,7 @@ pub use shapes::{MatrixText, VectorText};
 pub use source::MachineSource;
 pub use start::{ContactText, ContactWord, StartNumbers, StartText, contact_word};
 pub use text::{
-    ForceText, FrictionText, ImpactsText, LinkText, MachineText, ModeText, MotionText, OpeningText, StopText,
+    ForceText, FrictionText, ImpactsText, LinkText, ModeText, MotionText, OpeningText, StopText, WrittenMachine,
 };
 pub(crate) use varied::VariedMachine;
 pub(crate) use write::headed_toml;

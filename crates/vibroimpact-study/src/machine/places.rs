@@ -1,6 +1,6 @@
 //! What names stand for: a coordinate, a body, a point of a structure with modes, or the ground.
 
-use super::error::{MachineProblem, MachineTextError};
+use super::error::{MachineFileError, MachineProblem};
 use super::named::Named;
 use super::number::NumberText;
 use super::shapes::VectorText;
@@ -14,18 +14,18 @@ pub(super) fn name_of_mode(number: usize) -> String {
 }
 
 /// Checks a name that is a part of paths.
-pub(super) fn check_name(path: &str, name: &str) -> Result<(), MachineTextError> {
+pub(super) fn check_name(path: &str, name: &str) -> Result<(), MachineFileError> {
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
     if name.is_empty() || !name.chars().all(plain) {
-        return Err(MachineTextError::new(path, MachineProblem::Name(name.to_owned())));
+        return Err(MachineFileError::new(path, MachineProblem::Name(name.to_owned())));
     }
     Ok(())
 }
 
 /// Checks the name of a coordinate, a body or a point.
-pub(super) fn check_place(path: &str, name: &str) -> Result<(), MachineTextError> {
+pub(super) fn check_place(path: &str, name: &str) -> Result<(), MachineFileError> {
     if name == GROUND {
-        return Err(MachineTextError::new(path, MachineProblem::Name(name.to_owned())));
+        return Err(MachineFileError::new(path, MachineProblem::Name(name.to_owned())));
     }
     check_name(path, name)
 }
@@ -46,8 +46,8 @@ impl Places<'_> {
     }
 
     /// The value of a number.
-    pub(super) fn value(&self, path: &str, number: &NumberText) -> Result<f64, MachineTextError> {
-        number.value(self.parameters).map_err(|error| MachineTextError::new(path, error))
+    pub(super) fn value(&self, path: &str, number: &NumberText) -> Result<f64, MachineFileError> {
+        number.value(self.parameters).map_err(|error| MachineFileError::new(path, error))
     }
 
     /// The value of a number that may be absent.
@@ -56,17 +56,17 @@ impl Places<'_> {
         path: &str,
         number: Option<&NumberText>,
         absent: f64,
-    ) -> Result<f64, MachineTextError> {
+    ) -> Result<f64, MachineFileError> {
         number.map_or(Ok(absent), |number| self.value(path, number))
     }
 
     /// The values of a list.
-    pub(super) fn values(&self, path: &str, list: &[NumberText]) -> Result<Vec<f64>, MachineTextError> {
+    pub(super) fn values(&self, path: &str, list: &[NumberText]) -> Result<Vec<f64>, MachineFileError> {
         list.iter().map(|number| self.value(path, number)).collect()
     }
 
     /// What a name stands for: the displacement there is this direction times the coordinates.
-    pub(super) fn direction(&self, path: &str, name: &str) -> Result<Vec<f64>, MachineTextError> {
+    pub(super) fn direction(&self, path: &str, name: &str) -> Result<Vec<f64>, MachineFileError> {
         if name == GROUND {
             return Ok(vec![0.0; self.n()]);
         }
@@ -79,7 +79,7 @@ impl Places<'_> {
             known.extend(more.collect::<Vec<_>>());
             known.push(GROUND);
             let problem = MachineProblem::Unknown { name: name.to_owned(), known: known.join(", ") };
-            MachineTextError::new(path, problem)
+            MachineFileError::new(path, problem)
         })?;
         let mut direction = vec![0.0; self.n()];
         direction[place] = 1.0;
@@ -87,7 +87,7 @@ impl Places<'_> {
     }
 
     /// The direction from the second to the first of two names: their relative displacement.
-    pub(super) fn between(&self, path: &str, [one, other]: &[String; 2]) -> Result<Vec<f64>, MachineTextError> {
+    pub(super) fn between(&self, path: &str, [one, other]: &[String; 2]) -> Result<Vec<f64>, MachineFileError> {
         let mut direction = self.direction(path, one)?;
         for (value, minus) in direction.iter_mut().zip(self.direction(path, other)?) {
             *value -= minus;
@@ -96,7 +96,7 @@ impl Places<'_> {
     }
 
     /// A vector: a list as it is, or the sum of what its names stand for.
-    pub(super) fn vector(&self, path: &str, text: &VectorText) -> Result<Vec<f64>, MachineTextError> {
+    pub(super) fn vector(&self, path: &str, text: &VectorText) -> Result<Vec<f64>, MachineFileError> {
         match text {
             VectorText::List(list) => {
                 self.check_size(path, list.len())?;
@@ -110,20 +110,20 @@ impl Places<'_> {
                 }
                 Ok(sum)
             }
-            VectorText::One(_) => Err(MachineTextError::new(
+            VectorText::One(_) => Err(MachineFileError::new(
                 path,
                 MachineProblem::Text("a number alone is given, and a list or a table of names is needed".to_owned()),
             )),
         }
     }
 
-    pub(super) fn check_size(&self, path: &str, given: usize) -> Result<(), MachineTextError> {
+    pub(super) fn check_size(&self, path: &str, given: usize) -> Result<(), MachineFileError> {
         if given == self.n() {
             return Ok(());
         }
         let given = if given == 1 { "1 number".to_owned() } else { format!("{given} numbers") };
         let of = format!("the coordinates {}", self.coordinates.join(", "));
-        Err(MachineTextError::new(path, MachineProblem::Size { given, wanted: self.n(), of }))
+        Err(MachineFileError::new(path, MachineProblem::Size { given, wanted: self.n(), of }))
     }
 }
 

@@ -1,6 +1,6 @@
 //! From the text of a machine file to a source, with the modes of another file.
 
-use super::error::{MachineProblem, MachineTextError};
+use super::error::{MachineFileError, MachineProblem};
 use super::modes;
 use super::source::MachineSource;
 use crate::text::Document;
@@ -18,9 +18,9 @@ impl MachineSource {
     /// file that it names, or says why not.
     ///
     /// # Errors
-    /// [`MachineTextError`] with the path of the part, or the line and the column, and what is expected there. What the
+    /// [`MachineFileError`] with the path of the part, or the line and the column, and what is expected there. What the
     /// numbers mean is checked by [`MachineSource::machine`].
-    pub fn from_text(text: &str, files: impl FnOnce(&str) -> Result<String, String>) -> Result<Self, MachineTextError> {
+    pub fn from_text(text: &str, files: impl FnOnce(&str) -> Result<String, String>) -> Result<Self, MachineFileError> {
         let mut source: Self = Document::parse(text)?.read()?;
         source.read_modes(files)?;
         Ok(source)
@@ -30,13 +30,13 @@ impl MachineSource {
     pub(crate) fn read_modes(
         &mut self,
         files: impl FnOnce(&str) -> Result<String, String>,
-    ) -> Result<(), MachineTextError> {
+    ) -> Result<(), MachineFileError> {
         let Some(name) = self.machine.modes.take() else { return Ok(()) };
         if !self.machine.mode.is_empty() {
-            return Err(MachineTextError::new("modes", MachineProblem::Several("modes and tables mode")));
+            return Err(MachineFileError::new("modes", MachineProblem::Several("modes and tables mode")));
         }
         let read = files(&name).and_then(|table| modes::from_csv(&table));
-        let wrong = |why| MachineTextError::new("modes", MachineProblem::File { name: name.clone(), why });
+        let wrong = |why| MachineFileError::new("modes", MachineProblem::File { name: name.clone(), why });
         self.machine.mode = read.map_err(wrong)?;
         Ok(())
     }

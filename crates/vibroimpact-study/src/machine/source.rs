@@ -1,12 +1,12 @@
 //! A machine file: a machine with its title, its parameters and the numbers that were changed in it.
 
-use super::error::{MachineProblem, MachineTextError};
+use super::error::{MachineFileError, MachineProblem};
 use super::expand::expand;
 use super::expression::reserved;
 use super::named::Named;
 use super::number::NumberText;
 use super::start::{StartNumbers, StartText};
-use super::text::MachineText;
+use super::text::WrittenMachine;
 use super::written::{listed_path, numbers};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -29,7 +29,7 @@ use vibroimpact::machine::{Machine, MachineError, MachineParts};
 /// assert_eq!(source.number("stiffness.shoe")?, 1.8);
 /// let heavier = source.with("mu", 1.0)?;
 /// assert_eq!(heavier.machine()?.number("mass.shoe")?, 1.0);
-/// # Ok::<(), vibroimpact_study::machine::MachineTextError>(())
+/// # Ok::<(), vibroimpact_study::machine::MachineFileError>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -53,24 +53,24 @@ pub struct MachineSource {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub start: Option<StartText>,
     /// The machine.
-    pub machine: MachineText,
+    pub machine: WrittenMachine,
 }
 
 impl MachineSource {
     /// The expansion: matrices, vectors and directions, which are not checked yet.
     ///
     /// # Errors
-    /// [`MachineTextError`] with the path of the first part that has no meaning.
-    pub fn parts(&self) -> Result<MachineParts, MachineTextError> {
+    /// [`MachineFileError`] with the path of the first part that has no meaning.
+    pub fn parts(&self) -> Result<MachineParts, MachineFileError> {
         for (name, value) in &self.parameters.0 {
             let path = format!("parameters.{name}");
             let letter = |c: char| c.is_ascii_alphabetic() || c == '_';
             let plain = name.starts_with(letter) && name.chars().all(|c| letter(c) || c.is_ascii_digit());
             if !plain || reserved(name) || matches!(name.as_str(), "frequency" | "frequency_hz") {
-                return Err(MachineTextError::new("parameters", MachineProblem::ParameterName(name.clone())));
+                return Err(MachineFileError::new("parameters", MachineProblem::ParameterName(name.clone())));
             }
             if !value.is_finite() {
-                return Err(MachineTextError::new(
+                return Err(MachineFileError::new(
                     path,
                     MachineProblem::Text(format!("{value} is not a finite number")),
                 ));
@@ -78,7 +78,7 @@ impl MachineSource {
         }
         let mut parts = expand(&self.machine, &self.parameters)?;
         for (path, value) in &self.set.0 {
-            let wrong = |error: MachineError| MachineTextError::new("set", MachineProblem::Set(error));
+            let wrong = |error: MachineError| MachineFileError::new("set", MachineProblem::Set(error));
             parts.set(path, *value).map_err(wrong)?;
         }
         Ok(parts)
@@ -87,8 +87,8 @@ impl MachineSource {
     /// The machine. A start that has no meaning is refused here too, so that a file is right as a whole.
     ///
     /// # Errors
-    /// [`MachineTextError`] with the path of the first number or part that is not allowed.
-    pub fn machine(&self) -> Result<Machine, MachineTextError> {
+    /// [`MachineFileError`] with the path of the first number or part that is not allowed.
+    pub fn machine(&self) -> Result<Machine, MachineFileError> {
         let parts = self.parts()?;
         self.start_of(&parts)?;
         Ok(Machine::new(parts)?)
@@ -97,20 +97,20 @@ impl MachineSource {
     /// The start of the table `[start]`, or else at rest at 0. Whether a stop is in the way is not checked.
     ///
     /// # Errors
-    /// [`MachineTextError`] with the path of the first number that has no meaning, or if the file describes no machine.
-    pub fn start(&self) -> Result<StartNumbers, MachineTextError> {
+    /// [`MachineFileError`] with the path of the first number that has no meaning, or if the file describes no machine.
+    pub fn start(&self) -> Result<StartNumbers, MachineFileError> {
         self.start_of(&self.parts()?)
     }
 
-    fn start_of(&self, parts: &MachineParts) -> Result<StartNumbers, MachineTextError> {
+    fn start_of(&self, parts: &MachineParts) -> Result<StartNumbers, MachineFileError> {
         self.start.clone().unwrap_or_default().numbers(parts, &self.parameters)
     }
 
     /// The number at a path: of a parameter, of the file, or else of its expansion.
     ///
     /// # Errors
-    /// [`MachineTextError`] if the path leads to no number, or if the file describes no machine.
-    pub fn number(&self, path: &str) -> Result<f64, MachineTextError> {
+    /// [`MachineFileError`] if the path leads to no number, or if the file describes no machine.
+    pub fn number(&self, path: &str) -> Result<f64, MachineFileError> {
         if let Some(value) = self.parameters.get(path) {
             return Ok(*value);
         }
@@ -119,7 +119,7 @@ impl MachineSource {
         if self.set.get(&listed).is_none()
             && let Some((_, number)) = numbers(&mut copy).into_iter().find(|(known, _)| *known == listed)
         {
-            return number.value(&self.parameters).map_err(|error| MachineTextError::new(path, error));
+            return number.value(&self.parameters).map_err(|error| MachineFileError::new(path, error));
         }
         self.parts()?.number(path).map_err(|error| self.explained(error.into()))
     }
@@ -129,8 +129,8 @@ impl MachineSource {
     /// several numbers can change one after the other.
     ///
     /// # Errors
-    /// [`MachineTextError`] if the path leads to no number, or if the file describes no machine.
-    pub fn with(&self, path: &str, value: f64) -> Result<Self, MachineTextError> {
+    /// [`MachineFileError`] if the path leads to no number, or if the file describes no machine.
+    pub fn with(&self, path: &str, value: f64) -> Result<Self, MachineFileError> {
         let mut changed = self.clone();
         if let Some(place) = changed.parameters.get_mut(path) {
             *place = value;
@@ -158,15 +158,15 @@ impl MachineSource {
     pub(crate) fn with_all<'a>(
         &self,
         changes: impl IntoIterator<Item = (&'a str, f64)>,
-    ) -> Result<Self, MachineTextError> {
+    ) -> Result<Self, MachineFileError> {
         changes.into_iter().try_fold(self.clone(), |source, (path, value)| source.with(path, value))
     }
 
     /// The paths of all numbers: parameters, those of the file, and those of its expansion that are not zero.
     ///
     /// # Errors
-    /// [`MachineTextError`] if the file describes no machine.
-    pub fn paths(&self) -> Result<Vec<String>, MachineTextError> {
+    /// [`MachineFileError`] if the file describes no machine.
+    pub fn paths(&self) -> Result<Vec<String>, MachineFileError> {
         Ok(self.numbers()?.0.into_iter().map(|(path, _)| path).collect())
     }
 
@@ -174,7 +174,7 @@ impl MachineSource {
     ///
     /// # Errors
     /// As [`Self::paths`].
-    pub fn numbers(&self) -> Result<Named<f64>, MachineTextError> {
+    pub fn numbers(&self) -> Result<Named<f64>, MachineFileError> {
         let machine = self.machine()?;
         let mut all = self.parameters.clone();
         let mut known: BTreeSet<String> = all.names().into_iter().map(str::to_owned).collect();
@@ -188,7 +188,7 @@ impl MachineSource {
             }
             let value = match self.set.get(&path) {
                 Some(_) => machine.number(&path).map_err(|error| self.explained(error.into()))?,
-                None => number.value(&self.parameters).map_err(|error| MachineTextError::new(&path, error))?,
+                None => number.value(&self.parameters).map_err(|error| MachineFileError::new(&path, error))?,
             };
             known.insert(path.clone());
             all.0.push((path, value));
@@ -202,7 +202,7 @@ impl MachineSource {
     ///
     /// # Errors
     /// As [`Self::paths`].
-    pub fn free_numbers(&self) -> Result<Named<f64>, MachineTextError> {
+    pub fn free_numbers(&self) -> Result<Named<f64>, MachineFileError> {
         let mut copy = self.machine.clone();
         let written: BTreeSet<String> = (numbers(&mut copy).into_iter())
             .filter(|(path, number)| {
@@ -219,13 +219,13 @@ impl MachineSource {
     ///
     /// # Errors
     /// As [`Self::machine`].
-    pub fn expansion(&self) -> Result<Self, MachineTextError> {
+    pub fn expansion(&self) -> Result<Self, MachineFileError> {
         let machine = self.machine()?;
         let (title, source, summary) = (self.title.clone(), self.source.clone(), self.summary.clone());
         let start = self.start.is_some().then(|| self.start()).transpose()?;
         let start = start.map(|start| StartText::of_numbers(&start, machine.parts()));
         let start = start.filter(|start| *start != StartText::default());
-        let machine = MachineText::from(machine.parts());
+        let machine = WrittenMachine::from(machine.parts());
         Ok(Self { title, source, summary, start, machine, ..Self::default() })
     }
 
@@ -238,7 +238,7 @@ impl MachineSource {
     }
 
     /// The error with what the file has at paths that begin alike.
-    fn explained(&self, error: MachineTextError) -> MachineTextError {
+    fn explained(&self, error: MachineFileError) -> MachineFileError {
         let mut copy = self.machine.clone();
         let first = error.path.split('.').next().unwrap_or_default();
         let own = ["body", "link", "mode", "modal_damping"].contains(&first);
@@ -257,12 +257,12 @@ impl MachineSource {
             return error;
         }
         let problem = format!("no such number in this machine\nhint: there are {}", like.join(", "));
-        MachineTextError::new(error.path, MachineProblem::Text(problem))
+        MachineFileError::new(error.path, MachineProblem::Text(problem))
     }
 }
 
 impl From<&Machine> for MachineSource {
     fn from(machine: &Machine) -> Self {
-        Self { machine: MachineText::from(machine.parts()), ..Self::default() }
+        Self { machine: WrittenMachine::from(machine.parts()), ..Self::default() }
     }
 }

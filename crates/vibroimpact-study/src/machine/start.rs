@@ -1,6 +1,6 @@
 //! The table `[start]` of a machine file: where the machine begins if nothing else is asked.
 
-use super::error::{MachineProblem, MachineTextError};
+use super::error::{MachineFileError, MachineProblem};
 use super::named::Named;
 use super::number::NumberText;
 use super::shapes::VectorText;
@@ -156,10 +156,10 @@ impl StartText {
         &self,
         parts: &MachineParts,
         parameters: &Named<f64>,
-    ) -> Result<StartNumbers, MachineTextError> {
+    ) -> Result<StartNumbers, MachineFileError> {
         let coordinates = parts.coordinates.as_slice();
         let value = |path: &str, number: &NumberText| {
-            let value = number.value(parameters).map_err(|error| MachineTextError::new(path, error))?;
+            let value = number.value(parameters).map_err(|error| MachineFileError::new(path, error))?;
             let finite = value.is_finite().then_some(value);
             finite.ok_or_else(|| wrong(path, format!("{value} is not a finite number")))
         };
@@ -175,7 +175,7 @@ impl StartText {
                     let given = format!("{} numbers", list.len());
                     let of = format!("the coordinates {}", coordinates.join(", "));
                     let problem = MachineProblem::Size { given, wanted: coordinates.len(), of };
-                    return Err(MachineTextError::new(path, problem));
+                    return Err(MachineFileError::new(path, problem));
                 }
                 Some(VectorText::List(list)) => {
                     for ((place, number), name) in values.iter_mut().zip(list).zip(coordinates) {
@@ -188,7 +188,7 @@ impl StartText {
                         let path = format!("{path}.{name}");
                         let place = coordinates.iter().position(|known| known == name).ok_or_else(|| {
                             let known = coordinates.join(", ");
-                            MachineTextError::new(&path, MachineProblem::Unknown { name: name.clone(), known })
+                            MachineFileError::new(&path, MachineProblem::Unknown { name: name.clone(), known })
                         })?;
                         values[place] = value(&path, number)?;
                     }
@@ -200,7 +200,7 @@ impl StartText {
             let place = names(parts).position(|known| known == name).ok_or_else(|| {
                 let known = names(parts).map(String::as_str).collect::<Vec<_>>().join(", ");
                 let problem = MachineProblem::Unknown { name: name.clone(), known };
-                MachineTextError::new(format!("start.contacts.{name}"), problem)
+                MachineFileError::new(format!("start.contacts.{name}"), problem)
             })?;
             Ok(contact.contact(place))
         };
@@ -208,14 +208,14 @@ impl StartText {
             q: vector("start.q", self.q.as_ref())?,
             qdot: vector("start.qdot", self.qdot.as_ref())?,
             phase: self.phase.as_ref().map_or(Ok(0.0), |number| value("start.phase", number))?,
-            contacts: self.contacts.0.iter().map(contact).collect::<Result<_, MachineTextError>>()?,
+            contacts: self.contacts.0.iter().map(contact).collect::<Result<_, MachineFileError>>()?,
             exact: self.exact.0.clone(),
         })
     }
 }
 
-fn wrong(path: &str, what: String) -> MachineTextError {
-    MachineTextError::new(path, MachineProblem::Text(what))
+fn wrong(path: &str, what: String) -> MachineFileError {
+    MachineFileError::new(path, MachineProblem::Text(what))
 }
 
 impl From<StartNumbers> for MachineStart {

@@ -1,20 +1,20 @@
 //! The structure of a machine: its coordinates and matrices, from matrices, bodies, links and modes.
 
-use super::error::{MachineProblem, MachineTextError};
+use super::error::{MachineFileError, MachineProblem};
 use super::named::Named;
 use super::number::NumberText;
 use super::places::{Places, check_name, check_place, name_of_mode};
 use super::shapes::MatrixText;
-use super::text::{LinkText, MachineText, ModeText};
+use super::text::{LinkText, ModeText, WrittenMachine};
 use core::f64::consts::TAU;
 use vibroimpact::machine::{MOST_COORDINATES, MachineFault, MachineParts, modal_damping};
 use vibroimpact::math::Matrix;
 
 /// The names, and what they stand for.
-pub(super) fn places<'a>(text: &MachineText, parameters: &'a Named<f64>) -> Result<Places<'a>, MachineTextError> {
+pub(super) fn places<'a>(text: &WrittenMachine, parameters: &'a Named<f64>) -> Result<Places<'a>, MachineFileError> {
     if let Some(name) = &text.modes {
         let why = "was not read".to_owned();
-        return Err(MachineTextError::new("modes", MachineProblem::File { name: name.clone(), why }));
+        return Err(MachineFileError::new("modes", MachineProblem::File { name: name.clone(), why }));
     }
     let modes = text.mode.len();
     let own: Vec<String> =
@@ -25,18 +25,18 @@ pub(super) fn places<'a>(text: &MachineText, parameters: &'a Named<f64>) -> Resu
             let given = format!("{} names", names.len());
             let of = format!("the modes and bodies {}", own.join(", "));
             let problem = MachineProblem::Size { given, wanted: own.len(), of };
-            return Err(MachineTextError::new("coordinates", problem));
+            return Err(MachineFileError::new("coordinates", problem));
         }
         None if own.is_empty() => {
             let problem =
                 MachineProblem::Missing { needed: "a list of coordinates, a table of bodies or a list of modes" };
-            return Err(MachineTextError::new("coordinates", problem));
+            return Err(MachineFileError::new("coordinates", problem));
         }
         None => own,
     };
     // before any matrix is made
     if coordinates.len() > MOST_COORDINATES {
-        return Err(MachineTextError::new("coordinates", MachineFault::TooLarge(coordinates.len())));
+        return Err(MachineFileError::new("coordinates", MachineFault::TooLarge(coordinates.len())));
     }
     for name in &coordinates {
         check_place("coordinates", name)?;
@@ -53,7 +53,7 @@ pub(super) fn places<'a>(text: &MachineText, parameters: &'a Named<f64>) -> Resu
 }
 
 /// The points of the modes: those of the first mode, in each.
-fn points(places: &mut Places<'_>, modes: &[ModeText]) -> Result<(), MachineTextError> {
+fn points(places: &mut Places<'_>, modes: &[ModeText]) -> Result<(), MachineFileError> {
     let Some(first) = modes.first() else { return Ok(()) };
     let names = first.shape.names();
     for (k, mode) in modes.iter().enumerate() {
@@ -61,7 +61,7 @@ fn points(places: &mut Places<'_>, modes: &[ModeText]) -> Result<(), MachineText
             let given = format!("the points {}", mode.shape.names().join(", "));
             let of = format!("the points {} of the first mode", names.join(", "));
             let problem = MachineProblem::Size { given, wanted: names.len(), of };
-            return Err(MachineTextError::new(format!("mode.{}.shape", k + 1), problem));
+            return Err(MachineFileError::new(format!("mode.{}.shape", k + 1), problem));
         }
     }
     for name in names {
@@ -77,31 +77,31 @@ fn points(places: &mut Places<'_>, modes: &[ModeText]) -> Result<(), MachineText
 }
 
 /// A name stands for one direction only.
-fn define(places: &mut Places<'_>, path: &str, name: &str, direction: Vec<f64>) -> Result<(), MachineTextError> {
+fn define(places: &mut Places<'_>, path: &str, name: &str, direction: Vec<f64>) -> Result<(), MachineFileError> {
     let other =
         places.others.iter().any(|(known, _)| known == name)
             || places.coordinates.iter().position(|known| known == name).is_some_and(|k| {
                 direction.iter().enumerate().any(|(j, value)| *value != if j == k { 1.0 } else { 0.0 })
             });
     if other {
-        return Err(MachineTextError::new(path, MachineProblem::Twice));
+        return Err(MachineFileError::new(path, MachineProblem::Twice));
     }
     places.others.push((name.to_owned(), direction));
     Ok(())
 }
 
 /// The matrices.
-pub(super) fn structure(text: &MachineText, places: &Places<'_>) -> Result<MachineParts, MachineTextError> {
+pub(super) fn structure(text: &WrittenMachine, places: &Places<'_>) -> Result<MachineParts, MachineFileError> {
     let mut parts = MachineParts::new(places.coordinates.clone());
     let own = !text.mode.is_empty() || !text.bodies.is_empty();
     parts.mass = match &text.mass {
         Some(_) if own => {
             let problem = MachineProblem::Foreign("bodies and modes have masses of their own");
-            return Err(MachineTextError::new("mass", problem));
+            return Err(MachineFileError::new("mass", problem));
         }
         Some(mass) => matrix("mass", mass, places)?,
         None if own => parts.mass,
-        None => return Err(MachineTextError::new("mass", MachineProblem::Missing { needed: "the mass matrix" })),
+        None => return Err(MachineFileError::new("mass", MachineProblem::Missing { needed: "the mass matrix" })),
     };
     if let Some(stiffness) = &text.stiffness {
         parts.stiffness = matrix("stiffness", stiffness, places)?;
@@ -122,13 +122,13 @@ pub(super) fn structure(text: &MachineText, places: &Places<'_>) -> Result<Machi
     }
     if let Some(ratios) = &text.modal_damping {
         if text.damping.is_some() {
-            return Err(MachineTextError::new("modal_damping", MachineProblem::Several("damping and modal_damping")));
+            return Err(MachineFileError::new("modal_damping", MachineProblem::Several("damping and modal_damping")));
         }
         places.check_size("modal_damping", ratios.len())?;
         let ratios = places.values("modal_damping", ratios)?;
         if let Some(k) = ratios.iter().position(|ratio| !(*ratio >= 0.0 && ratio.is_finite())) {
             let problem = MachineProblem::Text(format!("{} lies outside damping ratio >= 0", ratios[k]));
-            return Err(MachineTextError::new(format!("modal_damping.{}", k + 1), problem));
+            return Err(MachineFileError::new(format!("modal_damping.{}", k + 1), problem));
         }
         // without a positive definite mass matrix there are no modes, and the checks of the machine say so
         if let Some(damping) = modal_damping(&parts.mass, &parts.stiffness, &ratios) {
@@ -145,12 +145,12 @@ pub(super) fn structure(text: &MachineText, places: &Places<'_>) -> Result<Machi
     Ok(parts)
 }
 
-fn add_mode(parts: &mut MachineParts, k: usize, mode: &ModeText, places: &Places<'_>) -> Result<(), MachineTextError> {
+fn add_mode(parts: &mut MachineParts, k: usize, mode: &ModeText, places: &Places<'_>) -> Result<(), MachineFileError> {
     let path = |field: &str| format!("mode.{}.{field}", k + 1);
     let frequency =
         frequency(&format!("mode.{}.", k + 1), mode.frequency.as_ref(), mode.frequency_hz.as_ref(), places)?
             .ok_or_else(|| {
-                MachineTextError::new(
+                MachineFileError::new(
                     format!("mode.{}", k + 1),
                     MachineProblem::Missing { needed: "frequency or frequency_hz" },
                 )
@@ -159,7 +159,7 @@ fn add_mode(parts: &mut MachineParts, k: usize, mode: &ModeText, places: &Places
     for (field, value) in [("frequency", frequency), ("damping_ratio", ratio)] {
         if !(value >= 0.0 && value.is_finite()) {
             let problem = MachineProblem::Text(format!("{value} lies outside {field} >= 0"));
-            return Err(MachineTextError::new(path(field), problem));
+            return Err(MachineFileError::new(path(field), problem));
         }
     }
     let mass = places.value_or(&path("modal_mass"), mode.modal_mass.as_ref(), 1.0)?;
@@ -175,9 +175,9 @@ pub(super) fn frequency(
     angular: Option<&NumberText>,
     hertz: Option<&NumberText>,
     places: &Places<'_>,
-) -> Result<Option<f64>, MachineTextError> {
+) -> Result<Option<f64>, MachineFileError> {
     match (angular, hertz) {
-        (Some(_), Some(_)) => Err(MachineTextError::new(
+        (Some(_), Some(_)) => Err(MachineFileError::new(
             format!("{before}frequency_hz"),
             MachineProblem::Several("frequency and frequency_hz"),
         )),
@@ -198,7 +198,7 @@ pub(super) fn name_of_link(link: &LinkText) -> String {
     link.name.clone().unwrap_or_else(|| link.between.join("-"))
 }
 
-fn links(text: &MachineText, places: &Places<'_>) -> Result<Vec<Link>, MachineTextError> {
+fn links(text: &WrittenMachine, places: &Places<'_>) -> Result<Vec<Link>, MachineFileError> {
     let mut seen: Vec<String> = Vec::new();
     let mut all = Vec::new();
     for (k, link) in text.link.iter().enumerate() {
@@ -212,20 +212,20 @@ fn links(text: &MachineText, places: &Places<'_>) -> Result<Vec<Link>, MachineTe
         let path = format!("link.{name}");
         if direction.iter().all(|value| *value == 0.0) {
             let problem = MachineProblem::Text("the link joins nothing that moves".to_owned());
-            return Err(MachineTextError::new(format!("{path}.between"), problem));
+            return Err(MachineFileError::new(format!("{path}.between"), problem));
         }
         if seen.contains(&name) {
-            return Err(MachineTextError::new(path, MachineProblem::Twice));
+            return Err(MachineFileError::new(path, MachineProblem::Twice));
         }
         if link.stiffness.is_none() && link.damping.is_none() {
-            return Err(MachineTextError::new(path, MachineProblem::Missing { needed: "a stiffness or a damping" }));
+            return Err(MachineFileError::new(path, MachineProblem::Missing { needed: "a stiffness or a damping" }));
         }
         let stiffness = places.value_or(&format!("{path}.stiffness"), link.stiffness.as_ref(), 0.0)?;
         let damping = places.value_or(&format!("{path}.damping"), link.damping.as_ref(), 0.0)?;
         for (field, value) in [("stiffness", stiffness), ("damping", damping)] {
             if !(value >= 0.0 && value.is_finite()) {
                 let problem = MachineProblem::Text(format!("{value} lies outside {field} >= 0"));
-                return Err(MachineTextError::new(format!("{path}.{field}"), problem));
+                return Err(MachineFileError::new(format!("{path}.{field}"), problem));
             }
         }
         seen.push(name);
@@ -244,7 +244,7 @@ fn add_outer(matrix: &mut Matrix, factor: f64, direction: &[f64]) {
     }
 }
 
-fn matrix(path: &str, text: &MatrixText, places: &Places<'_>) -> Result<Matrix, MachineTextError> {
+fn matrix(path: &str, text: &MatrixText, places: &Places<'_>) -> Result<Matrix, MachineFileError> {
     match text {
         MatrixText::Diagonal(diagonal) => {
             places.check_size(path, diagonal.len())?;
@@ -254,7 +254,7 @@ fn matrix(path: &str, text: &MatrixText, places: &Places<'_>) -> Result<Matrix, 
             if rows.len() != places.n() {
                 let given = format!("{} rows", rows.len());
                 let of = format!("the coordinates {}", places.coordinates.join(", "));
-                return Err(MachineTextError::new(path, MachineProblem::Size { given, wanted: places.n(), of }));
+                return Err(MachineFileError::new(path, MachineProblem::Size { given, wanted: places.n(), of }));
             }
             let mut matrix = Matrix::zeros(places.n(), places.n());
             for (i, (row, name)) in rows.iter().zip(&places.coordinates).enumerate() {

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 /// combined. All numbers are in one consistent system of units, such as SI.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
-pub struct MachineText {
+pub struct WrittenMachine {
     /// Names of the coordinates. Bodies have coordinates of their names, and modes `mode1`, `mode2`, ... by default.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coordinates: Option<Vec<String>>,

@@ -15,10 +15,10 @@ use super::number::NumberText;
 use super::places::name_of_mode;
 use super::shapes::{MatrixText, VectorText};
 use super::structure::name_of_link;
-use super::text::MachineText;
+use super::text::WrittenMachine;
 
 /// Each number that is written, with its path. A number in two places of a symmetric matrix is there twice.
-pub(super) fn numbers(text: &mut MachineText) -> Vec<(String, &mut NumberText)> {
+pub(super) fn numbers(text: &mut WrittenMachine) -> Vec<(String, &mut NumberText)> {
     let coordinates = coordinates(text);
     let mut all = Vec::new();
     let bodies = text.bodies.0.iter_mut();
@@ -83,7 +83,7 @@ pub(super) fn numbers(text: &mut MachineText) -> Vec<(String, &mut NumberText)> 
 }
 
 /// The names of the coordinates, as far as they are known without an expansion.
-fn coordinates(text: &MachineText) -> Vec<String> {
+fn coordinates(text: &WrittenMachine) -> Vec<String> {
     text.coordinates.clone().unwrap_or_else(|| {
         let bodies = text.bodies.names().into_iter().map(str::to_owned);
         (1..=text.mode.len()).map(name_of_mode).chain(bodies).collect()
@@ -132,7 +132,7 @@ fn of_matrix<'a>(all: &mut Found<'a>, path: &str, matrix: &'a mut Option<MatrixT
 }
 
 /// The path under which a number is listed: `mass.b.a` is `mass.a.b`, and `mass.a.a` is `mass.a`.
-pub(super) fn listed_path(text: &MachineText, path: &str) -> String {
+pub(super) fn listed_path(text: &WrittenMachine, path: &str) -> String {
     let words: Vec<&str> = path.split('.').collect();
     if let [kind @ ("mass" | "damping" | "stiffness"), one, other] = words.as_slice() {
         let names = coordinates(text);

@@ -3,7 +3,7 @@
 use super::grid::values_of;
 use super::simulate::limits;
 use crate::PlanError;
-use crate::diagram::{MotionKind, SAME};
+use crate::diagram::{AfterTransient, DiagramPoint, MotionKind, SAME};
 use crate::map::options;
 use core::f64::consts::TAU;
 use vibroimpact::events::{MachineEnd, MachineLimits, MachineMotion, MachineSample, MachineSamples, MachineStart};
@@ -11,25 +11,6 @@ use vibroimpact::machine::Machine;
 use vibroimpact::regime::ContactState;
 use vibroimpact::system::phase;
 use vibroimpact::verdict::{Count, Verdict, settle_machine};
-
-/// A point of the diagram of a machine.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MachineDiagramPoint {
-    /// The stop that closes; `None` for a state at phase 0.
-    pub stop: Option<usize>,
-    /// Phase of the forcing.
-    pub phase: f64,
-    /// Speed of closing, or the value of the coordinate or velocity.
-    pub value: f64,
-}
-
-/// A motion after its transient.
-pub(super) struct Followed {
-    pub(super) kind: MotionKind,
-    pub(super) points: Vec<MachineDiagramPoint>,
-    /// The last state.
-    pub(super) last: MachineStart,
-}
 
 /// The largest number of events for each closing or period: opening, sticking, slipping and chatter are events too.
 pub(super) const EVENTS_EACH: u64 = 1000;
@@ -51,16 +32,16 @@ pub(super) fn closings(
     machine: &Machine,
     start: &MachineStart,
     (transient, keep): (u64, u64),
-) -> Result<Followed, PlanError> {
+) -> Result<AfterTransient<MachineStart>, PlanError> {
     let onwards = |last: MachineStart| match machine.period() {
         Some(period) => after(machine, &last, transient.max(1) as f64 * period),
         None => Ok(last),
     };
     if machine.stops().is_empty() {
-        return Ok(Followed { kind: MotionKind::NoImpact, points: Vec::new(), last: onwards(start.clone())? });
+        return Ok(AfterTransient { kind: MotionKind::NoImpact, points: Vec::new(), last: onwards(start.clone())? });
     }
     let mut motion = MachineMotion::new(machine, start, MachineLimits::default()).map_err(refused)?;
-    let mut points: Vec<MachineDiagramPoint> = Vec::new();
+    let mut points: Vec<DiagramPoint> = Vec::new();
     let (mut count, mut events) = (0, 0);
     // a motion may have many events before its first closing, but one that closes no more is not followed for ever
     while events < EVENTS_EACH * (count + BEFORE) {
@@ -73,7 +54,7 @@ pub(super) fn closings(
             };
             let last = motion.reached();
             let last = if kind == MotionKind::Undecided { last } else { onwards(last)? };
-            return Ok(Followed { kind, points: Vec::new(), last });
+            return Ok(AfterTransient { kind, points: Vec::new(), last });
         };
         if !event.closes() {
             continue;
@@ -82,22 +63,22 @@ pub(super) fn closings(
         if count <= transient {
             continue;
         }
-        let point = MachineDiagramPoint { stop: Some(event.place), phase: event.phase, value: event.speed };
-        let again = points.first().is_some_and(|first| {
-            first.stop == point.stop
-                && near(first.value, point.value)
-                && phase::difference(first.phase, point.phase).abs() <= SAME
-        });
-        if again {
+        let again = |first: &DiagramPoint| {
+            matches!(first, DiagramPoint::Impact { stop, phase, speed }
+                if *stop == event.place
+                    && near(*speed, event.speed)
+                    && phase::difference(*phase, event.phase).abs() <= SAME)
+        };
+        if points.first().is_some_and(again) {
             break;
         }
-        points.push(point);
+        points.push(DiagramPoint::Impact { stop: event.place, phase: event.phase, speed: event.speed });
         if points.len() as u64 >= keep {
             break;
         }
     }
     let kind = if points.is_empty() { MotionKind::Undecided } else { MotionKind::Impacts };
-    Ok(Followed { kind, points, last: motion.reached() })
+    Ok(AfterTransient { kind, points, last: motion.reached() })
 }
 
 /// The state a time after a start without events.
@@ -133,9 +114,9 @@ pub(super) fn strobes(
     start: &MachineStart,
     (transient, keep): (u64, u64),
     of: impl Fn(&MachineSample) -> f64,
-) -> Result<Followed, PlanError> {
+) -> Result<AfterTransient<MachineStart>, PlanError> {
     let (start, samples) = at_phase_zero(machine, start, transient + keep)?;
-    let mut points: Vec<MachineDiagramPoint> = Vec::new();
+    let mut points: Vec<DiagramPoint> = Vec::new();
     let mut first: Option<MachineSample> = None;
     let (mut number, mut events) = (0, false);
     let mut last = start.clone();
@@ -159,7 +140,7 @@ pub(super) fn strobes(
         if again || points.len() as u64 >= keep {
             break;
         }
-        points.push(MachineDiagramPoint { stop: None, phase: 0.0, value: of(&sample) });
+        points.push(DiagramPoint::State { x: of(&sample), v: None });
         first.get_or_insert(sample);
     }
     let kind = match (points.is_empty(), events, rests) {
@@ -168,14 +149,18 @@ pub(super) fn strobes(
         (_, _, true) => MotionKind::Stuck,
         _ => MotionKind::NoImpact,
     };
-    Ok(Followed { kind, points, last })
+    Ok(AfterTransient { kind, points, last })
 }
 
 /// The settled motion, with one point: the value of a quantity of it, if it is defined and finite.
-pub(super) fn settled(machine: &Machine, start: &MachineStart, quantity: &str) -> Result<Followed, PlanError> {
+pub(super) fn settled(
+    machine: &Machine,
+    start: &MachineStart,
+    quantity: &str,
+) -> Result<AfterTransient<MachineStart>, PlanError> {
     let found = settle_machine(machine, start, &options(None)).map_err(refused)?.verdict;
     let value = values_of(machine, &found, &[quantity.to_owned()])[0];
-    let point = value.is_finite().then_some(MachineDiagramPoint { stop: None, phase: 0.0, value });
+    let point = value.is_finite().then_some(DiagramPoint::Value(value));
     let kind = match &found {
         Verdict::Periodic(cycle) if cycle.label.impacts == Count::Finite(0) => MotionKind::NoImpact,
         Verdict::Periodic(_) | Verdict::Chaotic(_) => MotionKind::Impacts,
@@ -184,7 +169,7 @@ pub(super) fn settled(machine: &Machine, start: &MachineStart, quantity: &str) -
         Verdict::Undecided(_) => MotionKind::Undecided,
     };
     let last = found.reached(machine).unwrap_or_else(|| start.clone());
-    Ok(Followed { kind, points: point.into_iter().collect(), last })
+    Ok(AfterTransient { kind, points: point.into_iter().collect(), last })
 }
 
 #[cfg(test)]
@@ -197,7 +182,7 @@ mod tests {
     fn without_stops_there_are_no_closings() {
         let machine = MachineSource::open("den-hartog").unwrap().machine().unwrap();
         let start = MachineStart { q: vec![0.0], qdot: vec![0.0], phase: 0.0, ..MachineStart::default() };
-        let Followed { kind, points, last } = closings(&machine, &start, (500, 100)).unwrap();
+        let AfterTransient { kind, points, last } = closings(&machine, &start, (500, 100)).unwrap();
         assert!(kind == MotionKind::NoImpact && points.is_empty() && last != start);
     }
 }

@@ -1,11 +1,14 @@
 //! Branches of a machine in one number or along a line through two, and the branches that begin at their flips and branch
 //! points.
 
-use super::orbits::{self, ChosenCycle};
+use super::orbits;
 use crate::branch::{DIAGRAM_VALUES, MOST_FOLLOWED};
-use crate::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, SweepDirection};
+use crate::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, SPEED, SweepDirection};
 use crate::machine::MachineSource;
-use crate::{BranchPlan, Control, Cut, DiagramPlan, PlanError, RunError, Span, Stopped, Stretch, Target, limits};
+use crate::{
+    BranchPlan, Branches, Control, Cut, DiagramPlan, Followed, Origin, PlanError, RunError, Span, Stopped, Stretch,
+    Target, limits,
+};
 use core::ops::RangeInclusive;
 use std::collections::VecDeque;
 use vibroimpact::continuation::{
@@ -15,47 +18,19 @@ use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::MachineCycle;
 
-/// A branch of a machine, and the branches that begin on it.
-#[derive(Clone, Debug)]
-pub struct MachineBranched {
-    /// The number of the orbit at which it begins among those with its label, counted from 1, and how many there are; `None` for
-    /// the motion from the start.
-    pub among: Option<(u32, u32)>,
-    /// The points in order.
-    pub points: Vec<MachinePoint>,
-    /// The branches that begin at flips and branch points.
-    pub followed: Vec<MachineFollowed>,
-}
-
-/// A branch that begins at a flip, where it has twice the period, or at a branch point.
-#[derive(Clone, Debug)]
-pub struct MachineFollowed {
-    /// The event at which it begins: a flip or a branch point.
-    pub event: MachineBranchEvent,
-    /// The value of the number at this event.
-    pub at: f64,
-    /// The points in order, away from the event.
-    pub points: Vec<MachinePoint>,
-}
-
-impl MachineBranched {
-    /// The points of all branches, those of the first one first.
-    pub fn all(&self) -> impl Iterator<Item = &[MachinePoint]> {
-        core::iter::once(self.points.as_slice()).chain(self.followed.iter().map(|followed| followed.points.as_slice()))
-    }
-}
-
 impl BranchPlan<String> {
     /// Checks the orbit, the numbers that vary and their ranges.
     pub(crate) fn check(&self, source: &MachineSource, machine: &Machine) -> Result<(), PlanError> {
-        if self.follow > MOST_FOLLOWED {
-            return Err(PlanError::Follow { given: self.follow, most: MOST_FOLLOWED });
-        }
+        limits::check("follow", self.follow, 0..=MOST_FOLLOWED)?;
         orbits::check(machine, (self.label.as_deref(), self.orbit))?;
         let cut = self.cut(source)?;
         let (from, to) = cut.ends;
-        if !to.is_finite() || to == from {
-            return Err(PlanError::MachineRange { path: self.vary.clone(), from, to });
+        let name = || self.vary.clone().into();
+        if to == from {
+            return Err(PlanError::Nowhere { name: name(), value: from });
+        }
+        if !to.is_finite() {
+            return Err(PlanError::Endless { name: name(), from, to });
         }
         cut.check(source)?;
         limits::branch_points(self.points)?;
@@ -83,7 +58,7 @@ impl BranchPlan<String> {
         let Cut { vary, ends, also } = self.cut(source)?;
         let over = Span::new(ends.0, ends.1, DIAGRAM_VALUES)?.into();
         let (direction, transient, keep) = (SweepDirection::Both, DEFAULT_TRANSIENT, DEFAULT_KEEP);
-        Ok(DiagramPlan { vary, over, also, show: super::diagram::speed(), direction, transient, keep })
+        Ok(DiagramPlan { vary, over, also, show: SPEED.to_owned(), direction, transient, keep })
     }
 }
 
@@ -93,31 +68,32 @@ pub(super) fn branch(
     problem: (&Machine, &MachineStart),
     plan: &BranchPlan<String>,
     control: &Control<'_>,
-) -> Result<MachineBranched, RunError> {
+) -> Result<Branches<MachineCycle, MachinePoint>, RunError> {
     let cut = plan.cut(source)?;
     let (from, to) = cut.ends;
-    let ChosenCycle { cycle, among } = orbits::chosen(problem, (plan.label.as_deref(), plan.orbit), control)?;
-    let line = MachineLine::new(source, &cut, plan.points);
+    let chosen = orbits::chosen(problem, (plan.label.as_deref(), plan.orbit), control)?;
+    let line = OrbitLine::new(source, &cut, plan.points);
     let direction = if to > from { Direction::Up } else { Direction::Down };
-    let points = line.trace((from, &cycle), direction, control)?;
-    let followed = line.beginning_on(&points, plan.follow as usize, &mut Vec::new(), control)?;
-    Ok(MachineBranched { among, points, followed })
+    let points = line.trace((from, &chosen.cycle), direction, control)?;
+    let further = line.beginning_on(&points, plan.follow as usize, &mut Vec::new(), control)?;
+    let followed = core::iter::once(Followed { origin: None, points }).chain(further).collect();
+    Ok(Branches { chosen, followed, lost: Vec::new() })
 }
 
 /// A line through numbers of a machine along which orbits are followed.
-pub struct MachineLine {
+pub struct OrbitLine {
     family: MachineFamily,
     range: RangeInclusive<f64>,
     options: BranchOptions,
 }
 
 /// The label and the value of the number at an event at which branches begin.
-pub type MachineOrigin = (String, f64);
+pub type BranchPlace = (String, f64);
 
 /// Two values of the number are the same event if they differ by less than this, relative to the range.
 const SAME: f64 = 1e-7;
 
-impl MachineLine {
+impl OrbitLine {
     /// A line, and the largest number of points of each branch.
     #[must_use]
     pub fn new(source: &MachineSource, cut: &Cut<String>, points: u32) -> Self {
@@ -188,17 +164,16 @@ impl MachineLine {
         &self,
         points: &[MachinePoint],
         most: usize,
-        seen: &mut Vec<MachineOrigin>,
+        seen: &mut Vec<BranchPlace>,
         control: &Control<'_>,
-    ) -> Result<Vec<MachineFollowed>, RunError> {
+    ) -> Result<Vec<Followed<MachinePoint>>, RunError> {
         let scale = 0.25 * (self.range.end() - self.range.start());
-        let mut waiting: VecDeque<MachinePoint> = origins(points).collect();
+        let mut waiting: VecDeque<Origin<MachinePoint>> = origins(points, 0).collect();
         let mut followed = Vec::new();
-        while let (Some(origin), true) = (waiting.pop_front(), followed.len() < most) {
-            let Some(event) = origin.event else { continue };
+        while let (Some(begin), true) = (waiting.pop_front(), followed.len() < most) {
+            let origin = &begin.point;
             let label = origin.cycle.label.to_string();
-            let known =
-                |(of, value): &MachineOrigin| *of == label && (value - origin.value).abs() <= 4.0 * SAME * scale;
+            let known = |(of, value): &BranchPlace| *of == label && (value - origin.value).abs() <= 4.0 * SAME * scale;
             if seen.iter().any(known) {
                 continue;
             }
@@ -210,8 +185,8 @@ impl MachineLine {
                 let away = if value > origin.value { Direction::Up } else { Direction::Down };
                 match self.trace((value, &cycle), away, control) {
                     Ok(points) => {
-                        waiting.extend(origins(&points));
-                        followed.push(MachineFollowed { event, at: origin.value, points });
+                        waiting.extend(origins(&points, followed.len() + 1));
+                        followed.push(Followed { origin: Some(begin.clone()), points });
                     }
                     Err(RunError::Stopped(stopped)) => return Err(stopped.into()),
                     // a cycle that ceases to exist at once has no branch
@@ -223,18 +198,18 @@ impl MachineLine {
     }
 }
 
-/// The points at which other branches begin.
-fn origins(points: &[MachinePoint]) -> impl Iterator<Item = MachinePoint> + '_ {
+/// The points of branch number `branch` at which other branches begin.
+fn origins(points: &[MachinePoint], branch: usize) -> impl Iterator<Item = Origin<MachinePoint>> + '_ {
     let begins =
         |point: &&MachinePoint| matches!(point.event, Some(MachineBranchEvent::Flip | MachineBranchEvent::BranchPoint));
-    points.iter().filter(begins).cloned()
+    points.iter().filter(begins).map(move |point| Origin { branch, point: point.clone() })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::machine::CATALOGUE;
-    use crate::{MachineResults, Plan, Results, Task, run};
+    use crate::{Plan, Results, Task, machine, run};
 
     fn hammer() -> MachineSource {
         CATALOGUE.iter().find(|entry| entry.name == "two-mass-hammer").unwrap().source().unwrap()
@@ -245,17 +220,17 @@ mod tests {
         BranchPlan { label: None, orbit: None, vary: vary.to_owned(), to, also, points: 500, follow: 0 }
     }
 
-    fn followed(source: &MachineSource, plan: &BranchPlan<String>) -> MachineBranched {
+    fn followed(source: &MachineSource, plan: &BranchPlan<String>) -> Branches<MachineCycle, MachinePoint> {
         let plan = Plan::new(source.clone(), Task::from(plan.clone()));
-        let Results::Machine(MachineResults::Branch(found)) = run(&plan, &Control::default()).unwrap() else {
+        let Results::Machine(machine::Results::Branch(found)) = run(&plan, &Control::default()).unwrap() else {
             panic!()
         };
         found
     }
 
-    fn grazing(found: &MachineBranched) -> f64 {
+    fn grazing(found: &Branches<MachineCycle, MachinePoint>) -> f64 {
         let is_grazing = |point: &&MachinePoint| matches!(point.event, Some(MachineBranchEvent::Grazing { .. }));
-        found.points.iter().find(is_grazing).unwrap().value
+        found.followed[0].points.iter().find(is_grazing).unwrap().value
     }
 
     #[test]
@@ -279,11 +254,12 @@ mod tests {
         let of = |orbit| BranchPlan { label: Some("2/1".into()), orbit, ..asked("frequency", 1.065, None) };
         let begins = |orbit| {
             let found = followed(&source, &of(orbit));
-            let first = &found.points[0].cycle;
-            (found.among, first.stable(), first.fastest())
+            let first = &found.followed[0].points[0].cycle;
+            (found.chosen.among, first.stable(), first.fastest())
         };
+        let number = |number| Some(crate::OrbitNumber { number, count: 2 });
         let (one, two) = (begins(Some(1)), begins(Some(2)));
-        assert_eq!((one.0, one.1, two.0, two.1), (Some((1, 2)), false, Some((2, 2)), true));
+        assert_eq!((one.0, one.1, two.0, two.1), (number(1), false, number(2), true));
         assert!(one.2 < two.2);
         // the stable one by default
         assert_eq!(begins(None), two);

@@ -5,9 +5,9 @@ use super::cut::{check_plane, plane};
 use super::orbits;
 use crate::machine::MachineSource;
 use crate::{
-    Control, CurvePlan, Cut, DEFAULT_BRANCH_POINTS, FollowedEvent, PlanError, RunError, Stopped, Stretch, limits,
+    Control, CurvePlan, Cut, DEFAULT_BRANCH_POINTS, EventCurve, FollowedEvent, PlanError, RunError, Stopped, Stretch,
+    limits,
 };
-use vibroimpact::Label;
 use vibroimpact::continuation::{
     BranchOptions, CurveEvent, CurveKind, CurveOptions, Direction, MachineBranch, MachineBranchEvent, MachineCurve,
     MachineCurvePoint, MachinePoint,
@@ -15,6 +15,7 @@ use vibroimpact::continuation::{
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 use vibroimpact::math::sort_by;
+use vibroimpact::orbit::MachineCycle;
 
 /// Whether an event of a branch is of a kind.
 const fn is(kind: FollowedEvent, event: MachineBranchEvent) -> bool {
@@ -31,26 +32,6 @@ const fn is(kind: FollowedEvent, event: MachineBranchEvent) -> bool {
     }
 }
 
-/// A curve, followed in both directions from the event at which it begins.
-#[derive(Clone, Debug)]
-pub struct MachineEventCurve {
-    /// The label of the orbit whose branch contains the event.
-    pub label: Label,
-    /// The number of that orbit among those with its label, counted from 1, and how many there are; `None` for the motion from
-    /// the start.
-    pub among: Option<(u32, u32)>,
-    /// What holds along the curve, with the stop or the events.
-    pub kind: CurveKind,
-    /// The events of the requested kind on its branch, in order of rising values.
-    pub events: Vec<MachinePoint>,
-    /// Index of the event through which the curve passes.
-    pub through: usize,
-    /// The points of the curve from one end to the other.
-    pub points: Vec<MachineCurvePoint>,
-    /// Index of the event among the points.
-    pub begin: usize,
-}
-
 /// The longest step: longer than that of the oscillator, because a point takes more work.
 const LONGEST: f64 = 0.1;
 
@@ -61,9 +42,9 @@ impl CurvePlan<String> {
         let Self { vary, and, points, .. } = self;
         for Stretch { parameter: path, from, to } in [vary, and] {
             let value = source.number(path).map_err(PlanError::from)?;
-            let (path, from, to) = (path.clone(), *from, *to);
+            let (name, from, to) = (path.clone().into(), *from, *to);
             if from < to && !(from..=to).contains(&value) {
-                return Err(PlanError::MachineOutside { path, value, from, to });
+                return Err(PlanError::Outside { name, value, from, to });
             }
         }
         points.map_or(Ok(()), limits::branch_points)?;
@@ -77,7 +58,7 @@ pub(super) fn curve(
     (machine, start): (&Machine, &MachineStart),
     asked: &CurvePlan<String>,
     control: &Control<'_>,
-) -> Result<MachineEventCurve, RunError> {
+) -> Result<EventCurve<MachineCycle, MachinePoint, MachineCurvePoint>, RunError> {
     let CurvePlan { vary, and, .. } = asked;
     let chosen = orbits::chosen((machine, start), (asked.label.as_deref(), asked.orbit), control)?;
     let cycle = &chosen.cycle;
@@ -108,10 +89,10 @@ pub(super) fn curve(
         Some(given) => (given as usize).checked_sub(1).filter(|index| *index < events.len()),
         None => (0..events.len()).min_by(|a, b| off(a).total_cmp(&off(b))),
     };
-    let through = through.ok_or_else(|| PlanError::NoMachineEvent {
+    let through = through.ok_or_else(|| PlanError::NoEvent {
         kind: asked.kind.name(),
         label,
-        path: vary.parameter.clone(),
+        name: vary.parameter.clone().into(),
         from: vary.from,
         to: vary.to,
         count: events.len(),
@@ -122,7 +103,12 @@ pub(super) fn curve(
     let options = CurveOptions { longest: LONGEST, points: asked.points.unwrap_or(DEFAULT_BRANCH_POINTS) };
     let [forth, back] = MachineCurve::through(&plane, at, &events[through], options)
         .map_err(|error| PlanError::MachineBranch(error.to_string()))?;
-    let kind = forth.kind();
+    let places = match forth.kind() {
+        CurveKind::Grazing { stop } | CurveKind::Sticking { stop } => vec![stop],
+        CurveKind::Holding { joint } => vec![joint],
+        CurveKind::Corner { first, second } => vec![first, second],
+        _ => Vec::new(),
+    };
     let forth: Vec<MachineCurvePoint> = forth.take_while(|_| !control.stopping()).collect();
     let closed = forth.last().is_some_and(|point| point.event == Some(CurveEvent::Closed));
     // the event itself is the first point of both directions, so one copy is skipped
@@ -132,14 +118,14 @@ pub(super) fn curve(
     points.reverse();
     let begin = points.len();
     points.extend(forth);
-    Ok(MachineEventCurve { label, among: chosen.among, kind, events, through, points, begin })
+    Ok(EventCurve { chosen, places, events, through, points, begin })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::machine::CATALOGUE;
-    use crate::{MachineResults, Plan, Results, Task, run};
+    use crate::{Plan, Results, Task, machine, run};
 
     fn plan(kind: FollowedEvent, event: Option<u32>) -> Plan {
         let entry = CATALOGUE.iter().find(|entry| entry.name == "bouncing-ball").unwrap();
@@ -165,7 +151,9 @@ mod tests {
         let plan = plan(FollowedEvent::Fold, None);
         let text = serde_json::to_string(&plan).unwrap();
         assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan);
-        let Results::Machine(MachineResults::Curve(found)) = run(&plan, &Control::default()).unwrap() else { panic!() };
+        let Results::Machine(machine::Results::Curve(found)) = run(&plan, &Control::default()).unwrap() else {
+            panic!()
+        };
         assert!(found.points.len() > 20 && found.points[found.begin].event.is_none());
         for point in &found.points {
             let (gamma, e) = point.values;

@@ -1,22 +1,10 @@
 //! A line in the space of the numbers of a machine: one varies between two values, and a second one may vary in proportion.
 
-use crate::cut::in_proportion;
 use crate::machine::{MachineSource, VariedMachine};
 use crate::{Cut, PlanError, Stretch};
 use vibroimpact::continuation::{MachineFamily, MachinePlane};
 
 impl Cut<String> {
-    /// The paths of the numbers that vary, one or two.
-    pub fn paths(&self) -> impl Iterator<Item = &str> {
-        core::iter::once(self.vary.as_str()).chain(self.also.as_ref().map(|also| also.parameter.as_str()))
-    }
-
-    /// The values of the numbers that vary, where the first has the value `value`.
-    pub fn values(&self, value: f64) -> impl Iterator<Item = f64> {
-        let second = self.also.as_ref().map(|also| in_proportion(value, self.ends, (also.from, also.to)));
-        core::iter::once(value).chain(second)
-    }
-
     /// The machine as it is written, where the first number has the value `value`. It is not checked.
     ///
     /// # Errors
@@ -31,13 +19,13 @@ impl Cut<String> {
         source: &MachineSource,
         values: impl Iterator<Item = f64>,
     ) -> Result<MachineSource, PlanError> {
-        Ok(source.with_all(self.paths().zip(values))?)
+        Ok(source.with_all(self.names().map(String::as_str).zip(values))?)
     }
 
     /// The machines along the line.
     pub(super) fn family(&self, source: &MachineSource) -> MachineFamily {
         let samples = [self.ends.0, 0.5 * (self.ends.0 + self.ends.1), self.ends.1].map(|at| self.values(at).collect());
-        let (cut, varied) = (self.clone(), VariedMachine::new(source, self.paths(), &samples));
+        let (cut, varied) = (self.clone(), VariedMachine::new(source, self.names().map(String::as_str), &samples));
         varied.family(move |[value]| cut.values(value).collect())
     }
 
@@ -49,7 +37,7 @@ impl Cut<String> {
             return Err(PlanError::MachineTogether(path.clone()));
         }
         if !(from.is_finite() && to.is_finite()) {
-            return Err(PlanError::MachineAlso { path: path.clone(), from: *from, to: *to });
+            return Err(PlanError::Endless { name: path.clone().into(), from: *from, to: *to });
         }
         source.number(path)?;
         Ok(())
@@ -65,11 +53,11 @@ pub(super) fn check_plane(
     for Stretch { parameter: path, from, to } in [one, other] {
         source.number(path)?;
         if !(from.is_finite() && to.is_finite() && from < to) {
-            return Err(PlanError::MachineStretch { path: path.clone(), from: *from, to: *to });
+            return Err(PlanError::Stretch { name: path.clone().into(), from: *from, to: *to });
         }
     }
     if one.parameter == other.parameter {
-        return Err(PlanError::MachineAxisTwice(one.parameter.clone()));
+        return Err(PlanError::SameParameter(one.parameter.clone().into(), other.parameter.clone().into()));
     }
     for p in [one.from, one.to] {
         for q in [other.from, other.to] {

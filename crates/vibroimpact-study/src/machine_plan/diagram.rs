@@ -1,26 +1,17 @@
 //! The orbit diagram of a machine: its motion after the transient at each value of a number.
 
-use super::after_transient::{Followed, closings, settled, strobes};
-use crate::diagram::{MotionKind, Sweep, SweepDirection, check_order, check_shown, even};
+use super::after_transient::{closings, settled, strobes};
+use crate::diagram::{AfterTransient, DiagramStep, Shown, Sweep, SweepDirection, check_order, check_shown};
 use crate::machine::MachineSource;
-use crate::{Cut, DiagramPlan, PlanError};
+use crate::{DiagramPlan, PlanError};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 use vibroimpact::quantities::machine_quantity;
 use vibroimpact::verdict::scattered_machine_starts;
 
-pub use super::after_transient::MachineDiagramPoint;
-
-/// What is shown of closings.
-const SPEED: &str = "speed";
-
-pub(super) fn speed() -> String {
-    SPEED.to_owned()
-}
-
 /// What is shown of a motion of a machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MachineShow {
+pub(crate) enum ShownPath {
     /// The phase and speed of each closing of a stop.
     Speed,
     /// A coordinate at phase 0.
@@ -31,76 +22,28 @@ pub enum MachineShow {
     Quantity,
 }
 
-/// A motion at one value.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MachineDiagramStep {
-    /// Number of the value among those of the plan, counted from 0.
-    pub index: u32,
-    /// The sweep or start of the motion.
-    pub sweep: Sweep,
-    /// The kind of the motion.
-    pub kind: MotionKind,
-    /// The points to show, in order of time.
-    pub points: Vec<MachineDiagramPoint>,
-}
-
-/// The motions: for sweeps in the order of the sweep, one sweep after another; for scattered starts value by value.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MachineDiagram {
-    /// The plan.
-    pub plan: DiagramPlan<String, String>,
-    /// The motions.
-    pub steps: Vec<MachineDiagramStep>,
-}
-
 impl DiagramPlan<String, String> {
-    /// Whether closings are shown, each with its phase and stop.
-    #[must_use]
-    pub fn shows_closings(&self) -> bool {
-        self.show == SPEED
-    }
-
-    /// Whether a coordinate or velocity at phase 0 is shown. The path of a quantity of a coordinate has one more name.
-    #[must_use]
-    pub fn shows_states(&self) -> bool {
-        self.show.split_once('.').is_some_and(|(head, name)| matches!(head, "q" | "qdot") && !name.contains('.'))
-    }
-
     /// What is shown.
     ///
     /// # Errors
     /// [`PlanError::MachineShow`] for a name that is none of these, [`PlanError::Unforced`] for a phase without a forcing.
-    pub fn shown(&self, machine: &Machine) -> Result<MachineShow, PlanError> {
+    pub(crate) fn shown(&self, machine: &Machine) -> Result<ShownPath, PlanError> {
         let names = &machine.parts().coordinates;
         let of = |name: &str| names.iter().position(|known| known == name);
         let found = match self.show.split_once('.') {
-            Some(("q", name)) => of(name).map(MachineShow::Q),
-            Some(("qdot", name)) => of(name).map(MachineShow::Qdot),
-            None if self.shows_closings() => Some(MachineShow::Speed),
+            Some(("q", name)) => of(name).map(ShownPath::Q),
+            Some(("qdot", name)) => of(name).map(ShownPath::Qdot),
+            None if self.show.is_closings() => Some(ShownPath::Speed),
             _ => None,
         };
-        let quantity = || machine_quantity(machine, &self.show).ok().map(|_| MachineShow::Quantity);
+        let quantity = || machine_quantity(machine, &self.show).ok().map(|_| ShownPath::Quantity);
         let found = found.or_else(quantity);
         let show =
             found.ok_or_else(|| PlanError::MachineShow { given: self.show.clone(), coordinates: names.join(", ") })?;
-        if matches!(show, MachineShow::Q(_) | MachineShow::Qdot(_)) && machine.period().is_none() {
+        if matches!(show, ShownPath::Q(_) | ShownPath::Qdot(_)) && machine.period().is_none() {
             return Err(PlanError::Unforced);
         }
         Ok(show)
-    }
-
-    /// The line over which the machine varies.
-    #[must_use]
-    pub fn cut(&self) -> Cut<String> {
-        Cut { vary: self.vary.clone(), ends: self.over.ends(), also: self.also.clone() }
-    }
-
-    /// The values of the numbers that vary at value number `k`. If the values are evenly spaced, those of the second number are
-    /// too, rounded as a range of that number would be.
-    pub fn values(&self, k: u32) -> impl Iterator<Item = f64> + use<> {
-        let first = self.over.at(k as usize);
-        let second = self.also.as_ref().and_then(|also| even(&self.over, (also.from, also.to), k));
-        core::iter::once(first).chain(second.or_else(|| self.cut().values(first).nth(1)))
     }
 
     /// Checks everything that can be checked without running the plan.
@@ -125,7 +68,7 @@ pub(crate) fn step(
     plan: &DiagramPlan<String, String>,
     (index, sweep): (u32, Sweep),
     before: Option<MachineStart>,
-) -> Result<(MachineDiagramStep, MachineStart), PlanError> {
+) -> Result<(DiagramStep, MachineStart), PlanError> {
     let machine = plan.cut().with(source, plan.values(index))?.machine()?;
     let start = match (plan.direction, sweep, before) {
         (SweepDirection::Scatter { seed, .. }, Sweep::Start(k), _) => {
@@ -135,11 +78,11 @@ pub(crate) fn step(
         (_, _, None) => MachineStart::from(source.start()?).within_stops(&machine),
     };
     let length = (plan.transient, plan.keep);
-    let Followed { kind, points, last } = match plan.shown(&machine)? {
-        MachineShow::Speed => closings(&machine, &start, length)?,
-        MachineShow::Q(i) => strobes(&machine, &start, length, |sample| sample.q[i])?,
-        MachineShow::Qdot(i) => strobes(&machine, &start, length, |sample| sample.qdot[i])?,
-        MachineShow::Quantity => settled(&machine, &start, &plan.show)?,
+    let AfterTransient { kind, points, last } = match plan.shown(&machine)? {
+        ShownPath::Speed => closings(&machine, &start, length)?,
+        ShownPath::Q(i) => strobes(&machine, &start, length, |sample| sample.q[i])?,
+        ShownPath::Qdot(i) => strobes(&machine, &start, length, |sample| sample.qdot[i])?,
+        ShownPath::Quantity => settled(&machine, &start, &plan.show)?,
     };
-    Ok((MachineDiagramStep { index, sweep, kind, points }, last))
+    Ok((DiagramStep { index, sweep, kind, points }, last))
 }

@@ -4,122 +4,11 @@ use super::verdicts::check_starts;
 use crate::limits::MOST_CELLS;
 use crate::machine::MachineSource;
 use crate::map::{check_impacts, check_refine};
-use crate::study::label_of;
-use crate::{Axis, BasinPlan, ListedColumn, MapPlan, PlanError};
-use std::collections::{BTreeMap, BTreeSet};
+use crate::{Axis, BasinPlan, MapPlan, PlanError};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 use vibroimpact::quantities::{machine_quantities, machine_quantity};
 use vibroimpact::verdict::Verdict;
-
-/// The motion of each start of a grid.
-#[derive(Clone, Debug)]
-pub struct MachineBasin {
-    /// The axes; the first varies fastest.
-    pub axes: Vec<Axis<String>>,
-    /// The motions, in the order of their first start.
-    pub motions: Vec<Verdict<Machine>>,
-    /// The motion of each start as an index; `None` where a start lies beyond a rigid stop.
-    pub cells: Vec<Option<usize>>,
-    /// The number of events over which chaos was seen from each start; `None` unless its motion is chaotic.
-    pub seen_events: Vec<Option<u64>>,
-    /// The paths of the quantities that the plan asks for, and the values of each motion.
-    pub fields: Vec<String>,
-    /// For each motion a value of each field; not-a-number where it is not defined.
-    pub quantities: Vec<Vec<f64>>,
-}
-
-/// The motions at each point of a grid of numbers.
-#[derive(Clone, Debug)]
-pub struct MachineMap {
-    /// The axes; the first varies fastest.
-    pub axes: Vec<Axis<String>>,
-    /// The points as columns, where they are no grid; empty for a grid.
-    pub points: Vec<ListedColumn<String>>,
-    /// The motions at each point, the most frequent first. Two motions of one label have a row each. Empty where the numbers
-    /// are not allowed.
-    pub cells: Vec<Vec<MachineShare>>,
-    /// The paths of the quantities that the plan asks for.
-    pub fields: Vec<String>,
-}
-
-/// A motion at a point of a map.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MachineShare {
-    /// The [code](crate::study::code) of its label.
-    pub code: i32,
-    /// The share of the starts that lead to it, from 0 to 1.
-    pub share: f64,
-    /// The largest speed of a closing; not-a-number unless it is a cycle.
-    pub speed: f64,
-    /// The largest modulus of the multipliers; not-a-number unless it is a cycle.
-    pub multiplier: f64,
-    /// The stops that stay closed for ever, by their numbers from 0.
-    pub stops: Vec<usize>,
-    /// The number of events over which chaos was seen; `None` unless it is chaotic.
-    pub seen_events: Option<u64>,
-    /// A value of each field of the plan; not-a-number where it is not defined.
-    pub quantities: Vec<f64>,
-}
-
-impl MachineShare {
-    /// The label as text.
-    #[must_use]
-    pub fn label(&self) -> String {
-        label_of(self.code).unwrap_or_default()
-    }
-}
-
-impl MachineBasin {
-    /// For each motion the number of starts that lead to it, and their share of all that are allowed.
-    #[must_use]
-    #[allow(clippy::cast_precision_loss)] // counts of starts
-    pub fn shares(&self) -> Vec<(u64, f64)> {
-        let mut counts = vec![0_u64; self.motions.len()];
-        self.cells.iter().flatten().for_each(|cell| counts[*cell] += 1);
-        let total: u64 = counts.iter().sum();
-        counts.into_iter().map(|count| (count, count as f64 / total.max(1) as f64)).collect()
-    }
-
-    /// The number of starts beyond a rigid stop.
-    #[must_use]
-    pub fn refused(&self) -> usize {
-        self.cells.iter().filter(|cell| cell.is_none()).count()
-    }
-}
-
-impl MachineMap {
-    /// What varies.
-    pub fn varied(&self) -> impl Iterator<Item = &str> {
-        let columns = self.points.iter().map(|column| column.vary.as_str());
-        self.axes.iter().map(|axis| axis.vary.as_str()).chain(columns)
-    }
-
-    /// Its values at point number `k`.
-    #[must_use]
-    pub fn at(&self, k: usize) -> Vec<f64> {
-        let columns = self.points.iter().map(|column| column.values[k]);
-        Axis::<String>::at(&self.axes, k as u64).into_iter().chain(columns).collect()
-    }
-
-    /// The smallest number of events over which chaos was seen at a point; `None` if it was seen at none.
-    #[must_use]
-    pub fn seen_events(&self) -> Option<u64> {
-        self.cells.iter().flatten().filter_map(|motion| motion.seen_events).min()
-    }
-
-    /// The number of points at which each label occurs.
-    #[must_use]
-    pub fn labels(&self) -> BTreeMap<String, u64> {
-        let mut labels = BTreeMap::new();
-        for cell in &self.cells {
-            // two motions at a point can have one label
-            let here: BTreeSet<String> = cell.iter().map(MachineShare::label).collect();
-            here.into_iter().for_each(|label| *labels.entry(label).or_insert(0) += 1);
-        }
-        labels
-    }
-}
 
 /// Where an axis of a basin stands in a start.
 pub(crate) enum StartAxis {
@@ -169,9 +58,11 @@ impl StartAxis {
     }
 }
 
-pub(super) fn check_axes(axes: &[Axis<String>]) -> Result<(), PlanError> {
-    if axes.is_empty() || axes.len() > 4 {
-        return Err(PlanError::MachineAxes(axes.len()));
+/// Checks the axes of a grid.
+pub(super) fn check_axes(task: &'static str, axes: &[Axis<String>]) -> Result<(), PlanError> {
+    let (given, least, most) = (axes.len(), 1, 4);
+    if !(least..=most).contains(&given) {
+        return Err(PlanError::Axes { given, task, least, most });
     }
     axes.iter().try_for_each(|axis| axis.over.check())?;
     none_twice(axes.iter().map(|axis| axis.vary.clone()))
@@ -182,7 +73,7 @@ pub(super) fn none_twice(varied: impl Iterator<Item = String>) -> Result<(), Pla
     let mut paths: Vec<String> = Vec::new();
     for path in varied {
         if paths.contains(&path) {
-            return Err(PlanError::MachineAxisTwice(path));
+            return Err(PlanError::SameParameter(path.clone().into(), path.into()));
         }
         paths.push(path);
     }
@@ -204,7 +95,7 @@ impl BasinPlan<String, String> {
         if self.points.is_some() || self.transient {
             return Err(PlanError::NoPoints);
         }
-        check_axes(&self.axes)?;
+        check_axes("basin", &self.axes)?;
         for axis in &self.axes {
             StartAxis::of(machine, &axis.vary)?;
         }
@@ -236,7 +127,7 @@ impl MapPlan<String, String> {
     /// # Errors
     /// [`PlanError`] names the first invalid value.
     pub fn check(&self, source: &MachineSource) -> Result<(), PlanError> {
-        check_axes(&self.axes)?;
+        check_axes("map", &self.axes)?;
         for axis in &self.axes {
             source.number(&axis.vary)?;
         }

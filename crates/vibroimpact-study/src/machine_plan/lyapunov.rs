@@ -8,10 +8,9 @@ use vibroimpact::chaos::{DEFAULT_EVENTS, DEFAULT_MACHINE_TRANSIENT, Exponents, m
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 
-/// The smallest and the largest number of events of a measurement, and the longest transient.
+/// The smallest and the largest number of events of a measurement.
 const LEAST_IMPACTS: u64 = 25;
 const MOST_IMPACTS: u64 = 10_000_000;
-const MOST_TRANSIENT: u64 = 1_000_000;
 
 impl LyapunovPlan<String> {
     /// The numbers of events of the measurement and of the transient, which were checked.
@@ -30,17 +29,11 @@ impl LyapunovPlan<String> {
             return Err(PlanError::UnforcedSection);
         }
         limits::section(self.points)?;
-        let (least, most) = (LEAST_IMPACTS, MOST_IMPACTS);
-        if let Some(given) = self.impacts.filter(|given| !(least..=most).contains(given)) {
-            return Err(PlanError::Measured { given, least, most });
-        }
-        if let Some(given) = self.transient.filter(|given| *given > MOST_TRANSIENT) {
-            return Err(PlanError::Transient { given, most: MOST_TRANSIENT });
-        }
+        limits::measured(self.impacts, LEAST_IMPACTS..=MOST_IMPACTS, self.transient)?;
         if self.axes.is_empty() {
             return Ok(());
         }
-        check_axes(&self.axes)?;
+        check_axes("study of exponents", &self.axes)?;
         for axis in &self.axes {
             if StartAxis::found(machine, &axis.vary)?.is_none() {
                 source.number(&axis.vary)?;

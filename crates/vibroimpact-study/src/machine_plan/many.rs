@@ -3,7 +3,7 @@
 use super::grid::{StartAxis, check_fields, none_twice};
 use crate::machine::MachineSource;
 use crate::map::check_impacts;
-use crate::{PlanError, PointsPlan};
+use crate::{PlanError, PointsPlan, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vibroimpact::machine::Machine;
@@ -42,9 +42,7 @@ impl ManyPlan<String> {
     /// [`PlanError`] names the first invalid value.
     pub fn check(&self, source: &MachineSource, machine: &Machine) -> Result<(), PlanError> {
         self.points.check_values()?;
-        if self.points.count() > MOST {
-            return Err(PlanError::PointCount { given: self.points.count(), most: MOST });
-        }
+        limits::check("points", self.points.count(), 1..=MOST)?;
         check_fields(machine, &self.fields)?;
         check_impacts(self.impacts)?;
         none_twice(self.points.varied())?;
@@ -61,16 +59,16 @@ impl ManyPlan<String> {
 mod tests {
     use super::*;
     use crate::{
-        Control, DrawnPoints, ListedColumn, MachineMap, MachineResults, Plan, PointRange, PointRule, Results, Task, run,
+        Control, DrawnPoints, ListedColumn, Plan, PointRange, PointRule, RegionMap, Results, Task, machine, run,
     };
     use vibroimpact::events::MachineStart;
 
-    fn settled(source: &MachineSource, points: PointsPlan<String>) -> MachineMap {
+    fn settled(source: &MachineSource, points: PointsPlan<String>) -> RegionMap<String, String> {
         let fields = vec!["power".to_owned()];
         let task = Task::from(ManyPlan { points, impacts: None, fields });
         let plan = Plan::new(source.clone(), task);
         assert_eq!(Plan::from_text(&plan.to_toml()).unwrap(), plan);
-        let Results::Machine(MachineResults::Map(found)) = run(&plan, &Control::default()).unwrap() else { panic!() };
+        let Results::Machine(machine::Results::Map(found)) = run(&plan, &Control::default()).unwrap() else { panic!() };
         found
     }
 
@@ -85,21 +83,21 @@ mod tests {
         });
         let drawn = DrawnPoints { rule: PointRule::Sobol, count: 24, seed: 3, over: over.to_vec() };
         let found = settled(&source, PointsPlan::Drawn(drawn));
-        let columns = found.points.clone();
-        for (k, cell) in found.cells.iter().enumerate() {
+        let columns = found.columns.clone();
+        for (k, cell) in found.points.iter().enumerate() {
             let [frequency, head] = [0, 1].map(|column| columns[column].values[k]);
             let start = MachineStart { q: vec![0.0, head], qdot: vec![0.0; 2], ..MachineStart::default() };
             let there = source.with("frequency", frequency).unwrap().starting(&start);
             let alone = Plan::new(there, Task::Settle { start: None, impacts: None });
-            let Results::Machine(MachineResults::Settle(alone)) = run(&alone, &Control::default()).unwrap() else {
+            let Results::Machine(machine::Results::Settle(alone)) = run(&alone, &Control::default()).unwrap() else {
                 panic!()
             };
-            assert_eq!(cell[0].label(), alone.verdict.label(), "{k}");
+            assert_eq!(cell[0].label, alone.verdict.label(), "{k}");
             assert!(cell[0].quantities[0].is_finite());
         }
         let listed = |values: Vec<f64>| ListedColumn { vary: "q.head".to_owned(), values };
         let found = settled(&source, PointsPlan::Listed(vec![listed(vec![0.0, 9.0])]));
-        assert!(found.cells[0].len() == 1 && found.cells[1].is_empty());
+        assert!(found.points[0].len() == 1 && found.points[1].is_empty());
         let twice = PointsPlan::Listed(vec![listed(vec![0.0]), listed(vec![0.0])]);
         let plan = ManyPlan { points: twice, impacts: None, fields: Vec::new() };
         assert!(plan.check(&source, &source.machine().unwrap()).unwrap_err().to_string().contains("q.head"));

@@ -1,6 +1,6 @@
 //! How far a cycle of a machine is from the nearest event of its branch in each of its numbers.
 
-use super::branch::MachineLine;
+use super::branch::OrbitLine;
 use super::orbits;
 use super::verdicts::settle;
 use crate::machine::MachineSource;
@@ -153,7 +153,7 @@ fn margin(
     let mut found = NumberMargin { path, value, low, high, down: None, up: None };
     if low < high {
         let line =
-            MachineLine::new(source, &Cut { vary: found.path.clone(), ends: (low, high), also: None }, MOST_POINTS);
+            OrbitLine::new(source, &Cut { vary: found.path.clone(), ends: (low, high), also: None }, MOST_POINTS);
         let nearest =
             |end: f64, way| if end == value { Ok(None) } else { line.first_event((value, cycle), way, control) };
         let event = |(point, after)| NumberEvent { point, after };
@@ -166,7 +166,7 @@ fn margin(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{BranchPlan, MachineResults, Plan, Results, ScaledParameter, Task, run};
+    use crate::{BranchPlan, Plan, Results, ScaledParameter, Task, machine, run};
 
     /// The nearest events are those of the branches in each number alone.
     #[test]
@@ -177,7 +177,7 @@ mod tests {
         let task = Task::from(MarginsPlan { vary: scaled.collect(), ..MarginsPlan::default() });
         let plan = Plan::new(source.clone(), task);
         assert_eq!(Plan::from_text(&plan.to_toml()).unwrap(), plan);
-        let Results::Machine(MachineResults::Margins(found)) = run(&plan, &Control::default()).unwrap() else {
+        let Results::Machine(machine::Results::Margins(found)) = run(&plan, &Control::default()).unwrap() else {
             panic!()
         };
         assert_eq!(found.motion.label(), "1/1");
@@ -194,10 +194,11 @@ mod tests {
                     follow: 0,
                 };
                 let plan = Plan::new(source.clone(), Task::from(branch));
-                let Results::Machine(MachineResults::Branch(branch)) = run(&plan, &Control::default()).unwrap() else {
+                let Results::Machine(machine::Results::Branch(branch)) = run(&plan, &Control::default()).unwrap()
+                else {
                     panic!()
                 };
-                let first = branch.points.iter().find(|point| point.event.is_some()).unwrap();
+                let first = branch.followed[0].points.iter().find(|point| point.event.is_some()).unwrap();
                 match event {
                     Some(event) => {
                         let apart = (event.point.value - first.value).abs();

@@ -1,7 +1,7 @@
 //! Orbits of a machine with a label, and the orbit at which a branch begins.
 
 use super::verdicts::settle;
-use crate::{Control, PlanError, RunError, Stopped};
+use crate::{Chosen, Control, OrbitNumber, PlanError, RunError, Stopped};
 use vibroimpact::Label;
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
@@ -10,15 +10,6 @@ use vibroimpact::verdict::{Verdict, scattered_machine_starts};
 
 /// Starts of the search for orbits.
 const STARTS: u64 = 48;
-
-/// The orbit at which a branch of a machine begins.
-#[derive(Clone, Debug)]
-pub(super) struct ChosenCycle {
-    /// The orbit.
-    pub(super) cycle: MachineCycle,
-    /// Its number among those with its label, counted from 1, and how many there are; `None` for the motion from the start.
-    pub(super) among: Option<(u32, u32)>,
-}
 
 /// The label of an orbit of a machine: m/n with forcing, m/T without.
 ///
@@ -55,10 +46,10 @@ pub(super) fn chosen(
     (machine, start): (&Machine, &MachineStart),
     (text, number): (Option<&str>, Option<u32>),
     control: &Control<'_>,
-) -> Result<ChosenCycle, RunError> {
+) -> Result<Chosen<MachineCycle>, RunError> {
     let Some(text) = text else {
         return match settle(machine, start, None, control)?.verdict {
-            Verdict::Periodic(cycle) => Ok(ChosenCycle { cycle, among: None }),
+            Verdict::Periodic(cycle) => Ok(Chosen { stability: Some(cycle.stability()), cycle, among: None }),
             other => Err(PlanError::NotPeriodic(other.label().into_owned()).into()),
         };
     };
@@ -72,8 +63,6 @@ pub(super) fn chosen(
         }
         None => found.iter().rposition(MachineCycle::stable).or(count.checked_sub(1)).unwrap_or(0),
     };
-    let counted = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-    let among = Some((counted(index + 1), counted(count)));
     let cycle = found.into_iter().nth(index).ok_or(PlanError::NoMachineOrbit(label))?;
-    Ok(ChosenCycle { cycle, among })
+    Ok(Chosen { stability: Some(cycle.stability()), cycle, among: Some(OrbitNumber::new(index, count)) })
 }

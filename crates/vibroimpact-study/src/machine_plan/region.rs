@@ -46,7 +46,7 @@ pub(super) fn regions(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{MachineResults, Parameter, Plan, Results, Stretch, System, SystemPlan, run};
+    use crate::{Parameter, Plan, Results, Stretch, System, SystemPlan, machine, run};
 
     const MACHINE: &str = r#"
         [machine]
@@ -66,7 +66,7 @@ mod tests {
     "#;
 
     fn plan(change: impl Fn(&mut RegionPlan<String>)) -> Plan {
-        let source = MachineSource::from_text(MACHINE, crate::machine::no_files).unwrap();
+        let source = MachineSource::from_text(MACHINE, machine::no_files).unwrap();
         let stretch = |path: &str, from, to| Stretch { parameter: path.to_owned(), from, to };
         let across = stretch("frequency", 0.83, 0.95);
         let up = stretch("stop.wall.gap", 1.0, 2.5);
@@ -76,7 +76,9 @@ mod tests {
     }
 
     fn regions(plan: &Plan) -> Regions {
-        let Results::Machine(MachineResults::Region(found)) = run(plan, &Control::default()).unwrap() else { panic!() };
+        let Results::Machine(machine::Results::Region(found)) = run(plan, &Control::default()).unwrap() else {
+            panic!()
+        };
         found
     }
 

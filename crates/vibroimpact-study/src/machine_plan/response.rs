@@ -1,7 +1,7 @@
 //! The response of a machine over one of its numbers: a quantity of the motions that sweeps up and down find, and of the branches on
 //! which their cycles lie.
 
-use super::branch::MachineLine;
+use super::branch::OrbitLine;
 use super::grid::check_fields;
 use super::verdicts::settle;
 use crate::machine::{MachineSource, VariedMachine};
@@ -120,7 +120,7 @@ pub(super) fn response(
     let ground = Ground { varied, plan, names: &names };
     let up = ground.sweep(start, true, 0, control)?;
     let down = ground.sweep(start, false, up.len(), control)?;
-    let line = MachineLine::new(source, &Cut { vary: plan.vary.clone(), ends: (from, to), also: None }, MOST_POINTS);
+    let line = OrbitLine::new(source, &Cut { vary: plan.vary.clone(), ends: (from, to), also: None }, MOST_POINTS);
     let mut branches: Vec<Vec<MachinePoint>> = Vec::new();
     for (row, cycle) in up.iter().chain(&down) {
         let Some(cycle) = cycle.as_ref().filter(|_| branches.len() < MOST_BRANCHES) else { continue };
@@ -141,11 +141,7 @@ pub(super) fn response(
 }
 
 /// The points of the branch through a cycle, from its end downwards to its end upwards.
-fn both_ways(
-    line: &MachineLine,
-    at: (f64, &MachineCycle),
-    control: &Control<'_>,
-) -> Result<Vec<MachinePoint>, RunError> {
+fn both_ways(line: &OrbitLine, at: (f64, &MachineCycle), control: &Control<'_>) -> Result<Vec<MachinePoint>, RunError> {
     let way = |direction| match line.trace(at, direction, control) {
         // a cycle that cannot be followed, as one without events, is no branch
         Err(RunError::Plan(_)) => Ok(Vec::new()),
@@ -181,12 +177,12 @@ const CLOSE: f64 = 1e-6;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{MachineResults, Plan, Results, Span, Task, run};
+    use crate::{Plan, Results, Span, Task, machine, run};
 
     fn response(name: &str, plan: ResponsePlan<String, String>) -> ResponseCurves {
         let plan = Plan::new(MachineSource::open(name).unwrap(), Task::from(plan));
         let plan = Plan::from_text(&plan.to_toml()).unwrap();
-        let Results::Machine(MachineResults::Response(found)) = run(&plan, &Control::default()).unwrap() else {
+        let Results::Machine(machine::Results::Response(found)) = run(&plan, &Control::default()).unwrap() else {
             panic!()
         };
         found

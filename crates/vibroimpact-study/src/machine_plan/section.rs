@@ -7,7 +7,7 @@ use vibroimpact::machine::Machine;
 
 /// The points of a motion of a machine in two sections, in the order of time.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct MachineSection {
+pub struct SectionPoints {
     /// Its closings of stops; velocities are those after the closing.
     pub closings: Vec<MachineEvent>,
     /// Its states at phase 0 of the forcing: the stroboscopic section.
@@ -21,7 +21,7 @@ pub(super) fn section(
     start: &MachineStart,
     (transient, points): (u64, u64),
     control: &Control<'_>,
-) -> Result<MachineSection, RunError> {
+) -> Result<SectionPoints, RunError> {
     let whole = |count: u64| usize::try_from(count).unwrap_or(usize::MAX);
     let motion = MachineMotion::new(machine, start, MachineLimits::default()).map_err(refused)?;
     let events = motion.take(whole(EVENTS_EACH * (transient + points))).take_while(|_| !control.stopping());
@@ -33,7 +33,7 @@ pub(super) fn section(
     if control.stopping() {
         return Err(Stopped { done: 0, total: 1 }.into());
     }
-    Ok(MachineSection { closings, strobes })
+    Ok(SectionPoints { closings, strobes })
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The events of a motion of a machine, up to a number of events or forcing periods, and the reason why the list ends.
 
 use crate::simulate::{SEARCH_LIMIT, TELL, check_lengths};
-use crate::{Control, PlanError, RunError, Stopped};
+use crate::{Control, PlanError, RunError, Simulated, Stopped};
 use vibroimpact::events::{MachineEnd, MachineEvent, MachineLimits, MachineMotion, MachineStart};
 use vibroimpact::machine::Machine;
 
@@ -9,19 +9,6 @@ use vibroimpact::machine::Machine;
 const EVENTS: u64 = 100;
 /// The number of events if only a number of periods is given.
 const EVENTS_IN_PERIODS: u64 = 1_000_000;
-
-/// The events of a motion of a machine and the reason why the list ends.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MachineSimulated {
-    /// The events, in order.
-    pub events: Vec<MachineEvent>,
-    /// The reason why the list ends: `event_limit`, `time_limit`, `no_more_impacts`, `stuck`, `search_limit`, `inconsistent` or `collapse`.
-    pub reason: &'static str,
-    /// The time at which the list ends.
-    pub time: f64,
-    /// The time up to which a waveform is worth showing: not far beyond the last event if none follows it.
-    pub shown_until: f64,
-}
 
 /// Checks the limits of a task.
 pub(crate) fn check_simulate(
@@ -44,7 +31,7 @@ pub(super) fn simulate(
     start: &MachineStart,
     (impacts, periods): (Option<u64>, Option<f64>),
     control: &Control<'_>,
-) -> Result<MachineSimulated, RunError> {
+) -> Result<Simulated<MachineEvent>, RunError> {
     let most = most_events(impacts, periods);
     let until = periods.zip(machine.period()).map_or(f64::INFINITY, |(periods, period)| periods * period);
     let limits = limits(until);
@@ -80,7 +67,7 @@ pub(super) fn simulate(
     let after =
         if for_ever || reason == "time_limit" && until.is_infinite() { beyond(machine, &events) } else { time - last };
     let shown_until = (last + after).min(if for_ever { until } else { time });
-    Ok(MachineSimulated { shown_until, events, reason, time })
+    Ok(Simulated { events, reason, time, horizon: None, shown_until })
 }
 
 /// The events of a motion again, each with the state from which the motion goes on after it. They are followed anew, so that

@@ -1,6 +1,6 @@
 //! A plan of a machine as TOML and JSON: the tables of a machine file, a version and a task.
 
-use crate::machine::{MachineSource, MachineText, Named, StartText};
+use crate::machine::{MachineSource, Named, StartText, WrittenMachine};
 use crate::{Plan, Task};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -39,7 +39,7 @@ pub(crate) struct MachinePlanText {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     start: Option<StartText>,
     /// The machine.
-    machine: MachineText,
+    machine: WrittenMachine,
     /// What is computed.
     pub(crate) task: Task,
 }

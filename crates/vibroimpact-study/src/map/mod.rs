@@ -5,42 +5,84 @@ mod plan;
 pub use plan::MapPlan;
 pub(crate) use plan::{check_impacts, check_refine, options};
 
+use crate::study::code;
+use crate::{Axis, Coordinate, ImpactsByStop, ListedColumn, Quantity, stop_number};
+use std::borrow::Cow;
 use vibroimpact::Oscillator;
 use vibroimpact::chaos::Arrivals;
 use vibroimpact::lanes::Width;
 use vibroimpact::math::sort_by_key;
-use vibroimpact::quantities::{Quantities, of_arrivals};
+use vibroimpact::quantities::of_arrivals;
 use vibroimpact::verdict::{
     CountedMotion, SettleOptions, Settlement, StartBox, Verdict, scattered_starts, settle_each,
 };
 
-/// A motion at a point, with the share of starts that lead to it.
+/// A motion at a point of any system, with the share of starts that lead to it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Share {
-    /// The motion.
-    pub verdict: Verdict,
-    /// The share of starts that lead to it, from 0 to 1.
+    /// Its label.
+    pub label: Cow<'static, str>,
+    /// The [code](crate::study::code) of its label.
+    pub code: i32,
+    /// The share of the starts that lead to it, from 0 to 1.
     pub share: f64,
-    /// Its quantities, if the plan asks for any and they are defined.
-    pub quantities: Option<Quantities>,
+    /// The largest speed of a closing; not-a-number unless it is a cycle.
+    pub speed: f64,
+    /// The largest modulus of the multipliers; not-a-number where it has none.
+    pub multiplier: f64,
+    /// The stops that stay closed for ever, by their numbers from 0.
+    pub stops: Vec<usize>,
+    /// The number of events (of an oscillator: impacts) over which chaos was seen; `None` unless it is chaotic.
+    pub seen_events: Option<u64>,
+    /// The impacts of a cycle of an oscillator on each stop.
+    pub by_stop: Option<ImpactsByStop>,
+    /// A value of each field of the plan, not-a-number where it is not defined; empty if none is.
+    pub quantities: Vec<f64>,
 }
 
-/// A point of the map.
+/// The motions at each point of a grid of numbers, or of a list of points.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MapPoint {
-    /// The values of the axes at this point, in the order of the axes.
-    pub at: Vec<f64>,
-    /// The distinct motions, the most frequent first.
-    pub motions: Vec<Share>,
+pub struct RegionMap<V = Coordinate, F = Quantity> {
+    /// The axes; the first varies fastest.
+    pub axes: Vec<Axis<V>>,
+    /// The points as columns, where they are no grid; empty for a grid.
+    pub columns: Vec<ListedColumn<V>>,
+    /// The distinct motions at each point, the most frequent first. Two motions of one label have an entry each. Empty where the
+    /// numbers are not allowed.
+    pub points: Vec<Vec<Share>>,
+    /// The quantities that the plan asks for.
+    pub fields: Vec<F>,
 }
 
-/// All points; the first axis varies fastest.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RegionMap {
-    /// The plan of the map.
-    pub plan: MapPlan,
-    /// The points with their motions.
-    pub points: Vec<MapPoint>,
+impl<V, F> RegionMap<V, F> {
+    /// What varies.
+    pub fn varied(&self) -> impl Iterator<Item = &V> {
+        self.axes.iter().map(|axis| &axis.vary).chain(self.columns.iter().map(|column| &column.vary))
+    }
+
+    /// Its values at point number `k`.
+    #[must_use]
+    pub fn at(&self, k: usize) -> Vec<f64> {
+        let columns = self.columns.iter().map(|column| column.values[k]);
+        Axis::at(&self.axes, k as u64).into_iter().chain(columns).collect()
+    }
+
+    /// All motions, point by point.
+    pub fn motions(&self) -> impl Iterator<Item = &Share> {
+        self.points.iter().flatten()
+    }
+
+    /// The smallest number of events over which chaos was seen at a point; `None` if it was seen at none.
+    #[must_use]
+    pub fn seen_events(&self) -> Option<u64> {
+        self.motions().filter_map(|motion| motion.seen_events).min()
+    }
+
+    /// The number of points where several motions coexist.
+    #[must_use]
+    pub fn coexisting(&self) -> usize {
+        self.points.iter().filter(|motions| motions.len() > 1).count()
+    }
 }
 
 /// The motions at each of some points, the most frequent first, with their shares of the starts. `done` is called for
@@ -67,12 +109,22 @@ fn shares(osc: &Oscillator, plan: &MapPlan, settlement: Settlement) -> Vec<Share
     #[allow(clippy::cast_precision_loss)] // counts below 2^53
     let share = |count: u64| count as f64 / plan.starts as f64;
     let quantities = |verdict: &Verdict, tail: &Arrivals| {
-        if plan.fields.is_empty() { None } else { of_arrivals(osc, verdict, tail, &plan.fields) }
+        let found = if plan.fields.is_empty() { None } else { of_arrivals(osc, verdict, tail, &plan.fields) };
+        found.map_or_else(Vec::new, |found| plan.fields.iter().map(|field| found.get(*field)).collect())
     };
-    let share = |(found, tail): (CountedMotion, Arrivals)| Share {
-        quantities: quantities(&found.verdict, &tail),
-        share: share(found.count),
-        verdict: found.verdict,
+    let share = |(CountedMotion { verdict, count }, tail): (CountedMotion, Arrivals)| {
+        let cycle = if let Verdict::Periodic(cycle) = &verdict { Some(cycle) } else { None };
+        Share {
+            label: verdict.label(),
+            code: code(&verdict),
+            share: share(count),
+            speed: cycle.map_or(f64::NAN, |cycle| cycle.fastest()),
+            multiplier: verdict.multipliers(osc).map_or(f64::NAN, |[a, b]| a.modulus().max(b.modulus())),
+            stops: if let Verdict::Stuck(side) = &verdict { vec![stop_number(*side)] } else { Vec::new() },
+            seen_events: verdict.seen_events(),
+            by_stop: cycle.map(ImpactsByStop::of_cycle),
+            quantities: quantities(&verdict, &tail),
+        }
     };
     found.into_iter().map(share).collect()
 }

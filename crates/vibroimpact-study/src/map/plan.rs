@@ -3,7 +3,7 @@
 use crate::axis::{self, Axis, Coordinate};
 use crate::limits::starts;
 use crate::quantity::Quantity;
-use crate::{Parameter, PlanError, Span, SystemPlan};
+use crate::{Parameter, PlanError, Span, SystemPlan, limits};
 use serde::{Deserialize, Serialize};
 use vibroimpact::Oscillator;
 use vibroimpact::verdict::SettleOptions;
@@ -47,12 +47,10 @@ const MOST_REFINE: u32 = 64;
 /// Checks the distance between the points of the coarse grid.
 ///
 /// # Errors
-/// [`PlanError::Refine`] for an invalid distance.
+/// [`PlanError::OutOfRange`] for an invalid distance.
 pub(crate) fn check_refine(refine: Option<u32>) -> Result<(), PlanError> {
-    match refine.filter(|step| !(2..=MOST_REFINE).contains(step)) {
-        Some(given) => Err(PlanError::Refine { given, most: MOST_REFINE }),
-        None => Ok(()),
-    }
+    let hint = ": the distance, in points, of the coarse grid to begin with";
+    refine.map_or(Ok(()), |given| limits::check("refine", given, 2..=MOST_REFINE)).map_err(|error| error.hinted(hint))
 }
 
 /// Maximum number of impacts for which a start is followed.
@@ -61,12 +59,9 @@ const MOST_IMPACTS: u32 = 1_000_000;
 /// Checks the number of impacts for which each start is followed.
 ///
 /// # Errors
-/// [`PlanError::Budget`] for 0 or more than a million.
+/// [`PlanError::OutOfRange`] for 0 or more than a million.
 pub(crate) fn check_impacts(impacts: Option<u32>) -> Result<(), PlanError> {
-    match impacts.filter(|impacts| !(1..=MOST_IMPACTS).contains(impacts)) {
-        Some(given) => Err(PlanError::Budget { given, most: MOST_IMPACTS }),
-        None => Ok(()),
-    }
+    impacts.map_or(Ok(()), |given| limits::check("impacts", given, 1..=MOST_IMPACTS))
 }
 
 /// The options with which each start is followed.

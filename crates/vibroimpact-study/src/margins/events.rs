@@ -101,7 +101,7 @@ pub(crate) fn margins(
         Some(label) => {
             let label: Label = label.parse().map_err(PlanError::from)?;
             let chosen = choose(&osc, label, None, &go_on)?.ok_or(stopped)?;
-            (None, Verdict::Periodic(chosen.orbit.cycle))
+            (None, Verdict::Periodic(chosen.cycle))
         }
         None => {
             let start = plan.start().start(&osc)?;

@@ -2,7 +2,7 @@
 
 use super::scope::{ScaledParameter, Scope};
 use crate::name::Name;
-use crate::{Parameter, PlanError, StartPlan, SystemPlan};
+use crate::{Parameter, PlanError, StartPlan, SystemPlan, limits};
 use serde::{Deserialize, Serialize};
 use vibroimpact::{Amplitude, Damping, Label, PhysicalParameter};
 
@@ -117,9 +117,7 @@ impl MarginsPlan {
             None => self.start().start(&system.oscillator()?).map(|_| ())?,
         }
         check_within(self.within)?;
-        if self.lines() > MOST_LINES {
-            return Err(PlanError::Lines { given: self.lines(), most: MOST_LINES });
-        }
+        limits::check("lines", self.lines(), 0..=MOST_LINES)?;
         for (k, one) in self.vary.iter().enumerate() {
             let same = |other: &&ScaledParameter| other.parameter.same_number(one.parameter);
             if let Some(other) = self.vary[..k].iter().find(same) {
@@ -145,7 +143,12 @@ impl MarginsPlan {
 
 /// Checks the ratio of the ends of ranges to values.
 pub(crate) fn check_within(given: f64) -> Result<(), PlanError> {
-    if given > 1.0 && given <= MOST_WITHIN { Ok(()) } else { Err(PlanError::Within { given, most: MOST_WITHIN }) }
+    if given > 1.0 && given <= MOST_WITHIN {
+        return Ok(());
+    }
+    let range = format!("1 < within <= {MOST_WITHIN}");
+    let hint = "\nhint: 2 is from half of each value to twice the value";
+    Err(PlanError::OutOfRange { name: "within", given: given.to_string(), range, hint })
 }
 
 #[cfg(test)]

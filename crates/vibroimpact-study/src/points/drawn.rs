@@ -2,7 +2,7 @@
 
 use super::listed::ListedColumn;
 use super::rule::{MOST_SOBOL, PointRule};
-use crate::{Coordinate, PlanError};
+use crate::{Coordinate, PlanError, limits};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
@@ -56,9 +56,7 @@ impl<V: Clone + Into<Cow<'static, str>>> DrawnPoints<V> {
         if self.over.is_empty() || self.over.len() > most {
             return Err(PlanError::PointSides { given: self.over.len(), most });
         }
-        if !(1..=MOST).contains(&self.count) {
-            return Err(PlanError::PointCount { given: self.count, most: MOST });
-        }
+        limits::check("points", self.count, 1..=MOST)?;
         match self.over.iter().find(|side| !(side.from.is_finite() && side.to.is_finite() && side.from < side.to)) {
             Some(side) => Err(PlanError::Stretch { name: side.vary.clone().into(), from: side.from, to: side.to }),
             None => Ok(()),

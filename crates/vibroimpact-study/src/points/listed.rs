@@ -30,7 +30,7 @@ pub(super) fn check<V: Clone + Into<Cow<'static, str>>>(columns: &[ListedColumn<
     let name = |column: &ListedColumn<V>| column.vary.clone().into();
     let count = columns.first().map_or(0, |column| column.values.len());
     if count == 0 || count as u64 > MOST {
-        return Err(PlanError::PointCount { given: count as u64, most: MOST });
+        return Err(PlanError::outside("points", count as u64, (1, MOST)));
     }
     for column in columns {
         if column.values.len() != count {

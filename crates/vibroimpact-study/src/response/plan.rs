@@ -3,7 +3,7 @@
 use crate::map::check_impacts;
 use crate::name::{Name, Written};
 use crate::quantity::Quantity;
-use crate::{Cut, Parameter, PlanError, SystemPlan, Values};
+use crate::{Cut, Parameter, PlanError, SystemPlan, Values, limits};
 use serde::{Deserialize, Serialize};
 
 /// A quantity of all motions over the values of one parameter.
@@ -81,11 +81,7 @@ pub(crate) fn check_values(over: &Values, name: &'static str) -> Result<(), Plan
     over.check()?;
     let (from, to) = over.extent();
     if from == to {
-        return Err(PlanError::Nowhere { name, value: from });
+        return Err(PlanError::Nowhere { name: name.into(), value: from });
     }
-    let count = u32::try_from(over.count()).unwrap_or(u32::MAX);
-    if count > MOST_VALUES {
-        return Err(PlanError::Values { given: count, most: MOST_VALUES });
-    }
-    Ok(())
+    limits::check("values", u32::try_from(over.count()).unwrap_or(u32::MAX), 2..=MOST_VALUES)
 }

@@ -96,7 +96,7 @@ impl BasinFill {
         tile: Option<u32>,
     ) -> Result<Self, PlanError> {
         let osc = system.oscillator()?;
-        let count = usize::try_from(starts).map_err(|_| PlanError::Starts { given: starts, most: MOST_STARTS })?;
+        let count = usize::try_from(starts).map_err(|_| PlanError::outside("starts", starts, (1, MOST_STARTS)))?;
         let starts = Starts::Scattered { area: StartBox::natural(&osc), seed, count };
         Ok(Self::of((system, Some(osc)), starts, (None, *options), tile))
     }

@@ -1,11 +1,9 @@
 //! The tiles of an orbit diagram. A carried sweep is one tile; scattered starts have many.
 
-use super::fill::Along;
-use super::sweeps::{KINDS, SweepFill, Swept, in_order};
-use crate::axis::Coordinate;
-use crate::diagram::{Diagram, DiagramPoint, DiagramStep, MotionKind, Show, Sweep, SweepDirection, number_of, step};
+use super::sweeps::{SweepFill, Swept, kind, stored};
+use crate::diagram::{Diagram, DiagramPoint, DiagramStep, Show, Sweep, step};
 use crate::field::{Column, Extra, Field, NumberType};
-use crate::{DiagramPlan, PlanError, SystemPlan, Unit, Values};
+use crate::{DiagramPlan, Parameter, PlanError, SystemPlan, Unit, stop_number};
 use vibroimpact::{Side, Start};
 
 /// Oscillators over a parameter, or along a line through two.
@@ -23,28 +21,12 @@ impl SweepFill<OscillatorDiagram> {
 }
 
 impl Swept for OscillatorDiagram {
-    type Step = DiagramStep;
+    type Number = Parameter;
+    type Show = Show;
     type Left = (SystemPlan, Start);
 
-    fn sweep(&self) -> (&str, &Values, SweepDirection) {
-        (self.plan.vary.name(), &self.plan.over, self.plan.direction)
-    }
-
-    fn varied(&self) -> Vec<Along> {
-        let cut = self.plan.cut();
-        // the values of the second parameter are a second coordinate of the same dimension
-        let values = cut.parameters().enumerate().map(|(k, parameter)| {
-            let value = |index: u32| self.plan.values(index).nth(k).map_or(f64::NAN, |(_, value)| value);
-            let parameter = Coordinate::Parameter(parameter);
-            Along {
-                name: parameter.name().to_owned(),
-                dimension: cut.vary.name().to_owned(),
-                values: (0..number_of(&self.plan.over)).map(value).collect(),
-                long_name: parameter.long_name().into(),
-                unit: parameter.unit(),
-            }
-        });
-        values.collect()
+    fn plan(&self) -> &DiagramPlan {
+        &self.plan
     }
 
     fn fields(&self) -> Vec<Field> {
@@ -67,15 +49,7 @@ impl Swept for OscillatorDiagram {
             (-2, "end_of_a_chatter_on_the_second_stop"),
         ];
         let real = |name, long_name, unit| field(name, long_name, unit, NumberType::F64, 0, point.clone(), Vec::new());
-        let mut fields = vec![field(
-            "kind",
-            "what the motion is after the transient",
-            Unit::NUMBER,
-            NumberType::I8,
-            -1,
-            Vec::new(),
-            KINDS.to_vec(),
-        )];
+        let mut fields = vec![kind()];
         match self.plan.show {
             Show::Velocity => {
                 fields.push(real("velocity", "speed of arrival of an impact", Unit::VELOCITY));
@@ -96,10 +70,6 @@ impl Swept for OscillatorDiagram {
         step(&self.system, &self.plan, at, before)
     }
 
-    fn index(step: &DiagramStep) -> u32 {
-        step.index
-    }
-
     fn numbers((_, left): &Self::Left) -> Vec<f64> {
         vec![left.x, left.v, left.phase]
     }
@@ -110,16 +80,34 @@ impl Swept for OscillatorDiagram {
     }
 
     fn columns(&self, points: usize, steps: &[(usize, &DiagramStep)]) -> Vec<Column> {
-        let mut tile = Tile::empty(points, self.keep);
-        steps.iter().for_each(|(at, step)| tile.put(*at, step, self.keep));
-        match self.plan.show {
-            Show::Velocity => {
-                vec![tile.kind, tile.first, tile.second, tile.side].into_iter().map(Part::column).collect()
+        let mut kind = vec![-1_i8; points];
+        let (mut first, mut second) = (vec![f64::NAN; points * self.keep], vec![f64::NAN; points * self.keep]);
+        let mut side = vec![0_i8; points * self.keep];
+        for (at, step) in steps {
+            kind[*at] = step.kind.code();
+            for (i, point) in step.points.iter().take(self.keep).enumerate() {
+                let k = at * self.keep + i;
+                (first[k], second[k], side[k]) = match *point {
+                    // a diagram of a quantity has no columns
+                    DiagramPoint::Value(_) => continue,
+                    DiagramPoint::Impact { stop, phase, speed } => (speed, phase, sign(stop)),
+                    DiagramPoint::Chatter { stop, phase } => (0.0, phase, 2 * sign(stop)),
+                    DiagramPoint::State { x, v } => (x, v.unwrap_or(f64::NAN), 0),
+                };
             }
-            Show::Strobe => vec![tile.kind, tile.first, tile.second].into_iter().map(Part::column).collect(),
-            Show::Quantity(_) => vec![tile.kind.column()],
+        }
+        let kind = Column::I8(kind);
+        match self.plan.show {
+            Show::Velocity => vec![kind, Column::F64(first), Column::F64(second), Column::I8(side)],
+            Show::Strobe => vec![kind, Column::F64(first), Column::F64(second)],
+            Show::Quantity(_) => vec![kind],
         }
     }
+}
+
+/// The sign of the number that stands for a stop in stores.
+const fn sign(stop: usize) -> i8 {
+    if stop == stop_number(Side::Upper) { 1 } else { -1 }
 }
 
 /// The diagram from the columns of its study, with the motions in the order of [`Diagram`].
@@ -127,82 +115,16 @@ impl Swept for OscillatorDiagram {
 /// Motions of tiles that are not complete are left out.
 #[must_use]
 pub fn diagram_of(plan: &DiagramPlan, columns: &[Column]) -> Diagram {
-    let (count, keep) = (plan.over.count(), usize::try_from(plan.keep).unwrap_or(usize::MAX));
-    let whole = |k: usize| if let Some(Column::I8(values)) = columns.get(k) { values.as_slice() } else { &[] };
     let real = |k: usize| columns.get(k).map_or(&[][..], Column::real);
-    let (kinds, first, second, sides) = (whole(0), real(1), real(2), whole(3));
-    let motion = |row: usize, index: u32, sweep: Sweep| {
-        let at = row * count + index as usize;
-        let kind = MotionKind::of_code(*kinds.get(at)?)?;
-        let side = |sign: i8| if sign > 0 { Side::Upper } else { Side::Lower };
-        let point = |at: usize| {
-            let (a, b) = (*first.get(at)?, *second.get(at)?);
-            Some(match (plan.show, sides.get(at).copied().unwrap_or(0)) {
-                (Show::Strobe, _) if !a.is_nan() => DiagramPoint::State { x: a, v: b },
-                (Show::Velocity, sign @ (1 | -1)) => DiagramPoint::Impact { phase: b, velocity: a, side: side(sign) },
-                (Show::Velocity, sign @ (2 | -2)) => DiagramPoint::Chatter { phase: b, side: side(sign) },
-                _ => return None,
-            })
-        };
-        let points = (at * keep..(at + 1) * keep).map_while(point).collect();
-        Some(DiagramStep { index, sweep, kind, points })
-    };
-    let steps = in_order(&plan.over, plan.direction, motion);
-    Diagram { plan: plan.clone(), steps }
-}
-
-enum Part {
-    Whole(Vec<i8>),
-    Real(Vec<f64>),
-}
-
-impl Part {
-    fn column(self) -> Column {
-        match self {
-            Self::Whole(values) => Column::I8(values),
-            Self::Real(values) => Column::F64(values),
-        }
-    }
-}
-
-struct Tile {
-    kind: Part,
-    first: Part,
-    second: Part,
-    side: Part,
-}
-
-impl Tile {
-    fn empty(points: usize, keep: usize) -> Self {
-        Self {
-            kind: Part::Whole(vec![-1; points]),
-            first: Part::Real(vec![f64::NAN; points * keep]),
-            second: Part::Real(vec![f64::NAN; points * keep]),
-            side: Part::Whole(vec![0; points * keep]),
-        }
-    }
-
-    fn put(&mut self, at: usize, step: &DiagramStep, keep: usize) {
-        let Self {
-            kind: Part::Whole(kind),
-            first: Part::Real(first),
-            second: Part::Real(second),
-            side: Part::Whole(side),
-        } = self
-        else {
-            return;
-        };
-        kind[at] = step.kind.code();
-        let sign = |s: Side| if s == Side::Upper { 1 } else { -1 };
-        for (i, point) in step.points.iter().take(keep).enumerate() {
-            let at = at * keep + i;
-            (first[at], second[at], side[at]) = match *point {
-                // a diagram of a quantity has no columns
-                DiagramPoint::Value { .. } => continue,
-                DiagramPoint::Impact { phase, velocity, side } => (velocity, phase, sign(side)),
-                DiagramPoint::Chatter { phase, side } => (0.0, phase, 2 * sign(side)),
-                DiagramPoint::State { x, v } => (x, v, 0),
-            };
-        }
-    }
+    let (first, second, sides) = (real(1), real(2), columns.get(3).map_or(&[][..], Column::flags));
+    let stop = |sign: i8| stop_number(if sign > 0 { Side::Upper } else { Side::Lower });
+    stored(plan, columns, |at| {
+        let (a, b) = (*first.get(at)?, *second.get(at)?);
+        Some(match (plan.show, sides.get(at).copied().unwrap_or(0)) {
+            (Show::Strobe, _) if !a.is_nan() => DiagramPoint::State { x: a, v: Some(b) },
+            (Show::Velocity, sign @ (1 | -1)) => DiagramPoint::Impact { stop: stop(sign), phase: b, speed: a },
+            (Show::Velocity, sign @ (2 | -2)) => DiagramPoint::Chatter { stop: stop(sign), phase: b },
+            _ => return None,
+        })
+    })
 }

@@ -1,8 +1,8 @@
 //! The interface of a task over a grid: its grid, its coordinates, its tiles and its final tables.
 
 use super::cycles;
+use crate::axis::Described;
 use crate::grid::{Dimension, Index};
-use crate::machine_plan::long_name;
 use crate::{Axis, Block, Column, Extra, Field, Grid, NumberType, Unit};
 use std::borrow::Cow;
 
@@ -175,8 +175,13 @@ const FEWEST: usize = 16;
 /// The grid over some axes; the first axis varies fastest. Tiles have the side `asked`, or by default `side`. On short
 /// axes the default is smaller, but at least a quarter of `side`.
 pub(super) fn grid_of(axes: &[Axis], asked: Option<u32>, side: usize) -> Grid {
-    let least = side.div_ceil(4);
-    let dimension = |axis: &Axis| dimension(axis.vary.name(), axis.over.count(), asked, (least, side));
+    grid_between(axes, asked, (side.div_ceil(4), side))
+}
+
+/// The same, by default with tiles of sides from the least to the most. Where points of a machine take a hundred times as long,
+/// tiles are as small as one point where an axis is short.
+pub(super) fn grid_between<V: Described>(axes: &[Axis<V>], asked: Option<u32>, sides: (usize, usize)) -> Grid {
+    let dimension = |axis: &Axis<V>| dimension(axis.vary.text(), axis.over.count(), asked, sides);
     Grid { dimensions: axes.iter().rev().map(dimension).collect() }
 }
 
@@ -189,34 +194,16 @@ pub(super) fn dimension(name: &str, count: usize, asked: Option<u32>, (least, mo
 }
 
 /// The coordinate values of the axes.
-pub(super) fn along(axes: &[Axis]) -> Vec<Along> {
-    let one = |axis: &Axis| Along {
-        name: axis.vary.name().to_owned(),
-        dimension: axis.vary.name().to_owned(),
-        values: axis.over.all(),
-        long_name: axis.vary.long_name().into(),
-        unit: axis.vary.unit(),
-    };
-    axes.iter().rev().map(one).collect()
+pub(super) fn along<V: Described>(axes: &[Axis<V>]) -> Vec<Along> {
+    axes.iter().rev().map(|axis| Along::new(&axis.vary, axis.over.all(), axis.vary.text())).collect()
 }
 
-/// The same for a grid over a machine, by default with tiles of sides from the least to the most. Where points take a hundred times as
-/// long, tiles are as small as one point where an axis is short.
-pub(super) fn machine_grid(axes: &[Axis<String>], asked: Option<u32>, sides: (usize, usize)) -> Grid {
-    let dimension = |axis: &Axis<String>| dimension(&axis.vary, axis.over.count(), asked, sides);
-    Grid { dimensions: axes.iter().rev().map(dimension).collect() }
-}
-
-/// The coordinate values of the axes of a grid over a machine.
-pub(super) fn along_machine(axes: &[Axis<String>]) -> Vec<Along> {
-    let one = |axis: &Axis<String>| Along {
-        name: axis.vary.clone(),
-        dimension: axis.vary.clone(),
-        values: axis.over.all(),
-        long_name: long_name(&axis.vary).into(),
-        unit: Unit::CONSISTENT,
-    };
-    axes.iter().rev().map(one).collect()
+impl Along {
+    /// The values of what varies along a dimension.
+    pub(super) fn new<V: Described>(vary: &V, values: Vec<f64>, dimension: &str) -> Self {
+        let (name, dimension) = (vary.text().to_owned(), dimension.to_owned());
+        Self { name, dimension, values, long_name: vary.described(), unit: vary.in_unit() }
+    }
 }
 
 /// The fields of quantities of a machine, which have the paths as names.

@@ -2,7 +2,7 @@
 
 use super::code;
 use super::cycles::{self, Numbered, Numbering};
-use super::fill::{self, Along, Fill, along_machine, machine_fields, machine_grid, on_axis, spread};
+use super::fill::{self, Along, Fill, along, grid_between, machine_fields, on_axis, spread};
 use super::map::{computed, computed_column, side};
 use super::refine::{self, Cell};
 use super::remarks;
@@ -67,7 +67,7 @@ impl MachineBasinFill {
     ) -> Result<Self, PlanError> {
         let places = plan.axes.iter().map(|axis| StartAxis::of(machine, &axis.vary)).collect::<Result<_, _>>()?;
         let (least, most) = if machine.reduced().is_some() { WIDE_TILE } else { TILE };
-        let grid = machine_grid(&plan.axes, tile, (least, side(most, plan.axes.len())));
+        let grid = grid_between(&plan.axes, tile, (least, side(most, plan.axes.len())));
         let mut start = start.clone();
         start.q.resize(machine.n(), 0.0);
         start.qdot.resize(machine.n(), 0.0);
@@ -141,7 +141,7 @@ impl Fill for MachineBasinFill {
     }
 
     fn coordinates(&self) -> Vec<Along> {
-        along_machine(&self.plan.axes)
+        along(&self.plan.axes)
     }
 
     fn fields(&self) -> Vec<Field> {

@@ -1,12 +1,11 @@
 //! What the tiles of an orbit diagram of a machine hold.
 
-use super::fill::{Along, along_machine};
-use super::sweeps::{KINDS, SweepFill, Swept, in_order};
-use crate::diagram::{MotionKind, Sweep, SweepDirection};
+use super::sweeps::{SweepFill, Swept, kind, stored};
+use crate::diagram::{Diagram, DiagramPoint, DiagramStep, Shown, Sweep};
 use crate::field::{Column, Extra, Field, NumberType};
 use crate::machine::MachineSource;
-use crate::machine_plan::{MachineDiagram, MachineDiagramPoint, MachineDiagramStep, diagram_step};
-use crate::{Axis, DiagramPlan, PlanError, Unit, Values};
+use crate::machine_plan::diagram_step;
+use crate::{DiagramPlan, PlanError, Unit};
 use vibroimpact::events::{ContactStart, MachineStart};
 use vibroimpact::regime::ContactState;
 
@@ -25,46 +24,22 @@ impl SweepFill<MachineSweep> {
 }
 
 impl Swept for MachineSweep {
-    type Step = MachineDiagramStep;
+    type Number = String;
+    type Show = String;
     type Left = MachineStart;
 
-    fn sweep(&self) -> (&str, &Values, SweepDirection) {
-        (&self.plan.vary, &self.plan.over, self.plan.direction)
-    }
-
-    fn varied(&self) -> Vec<Along> {
-        let mut along = along_machine(&[Axis { vary: self.plan.vary.clone(), over: self.plan.over.clone() }]);
-        // the values of the second number are a second coordinate of the same dimension
-        if let (Some(also), Some(first)) = (&self.plan.also, along.first()) {
-            let second = |k: u32| self.plan.values(k).nth(1).unwrap_or(f64::NAN);
-            let values = (0..).take(self.plan.over.count()).map(second).collect();
-            along.push(Along {
-                name: also.parameter.clone(),
-                dimension: first.dimension.clone(),
-                values,
-                ..first.clone()
-            });
-        }
-        along
+    fn plan(&self) -> &DiagramPlan<String, String> {
+        &self.plan
     }
 
     fn fields(&self) -> Vec<Field> {
-        let kind = Field {
-            name: "kind".into(),
-            long_name: "what the motion is after the transient".into(),
-            unit: Unit::NUMBER,
-            kind: NumberType::I8,
-            fill: -1,
-            extra: Vec::new(),
-            flags: KINDS.to_vec(),
-            comment: "",
-        };
+        let kind = kind();
         let extra = vec![Extra { name: "point", count: self.keep }];
         let real =
             Field { unit: Unit::CONSISTENT, kind: NumberType::F64, fill: 0, extra, flags: Vec::new(), ..kind.clone() };
-        if !self.plan.shows_closings() {
+        if !self.plan.show.is_closings() {
             let show = &self.plan.show;
-            let states = self.plan.shows_states();
+            let states = self.plan.show.is_states();
             let long_name =
                 if states { format!("{show} at phase 0 of the forcing") } else { format!("{show} of the motion") };
             let long_name = long_name.into();
@@ -88,16 +63,8 @@ impl Swept for MachineSweep {
         vec![kind, Field { name: "speed".into(), long_name: "speed of a closing".into(), ..real }, phase, stop]
     }
 
-    fn step(
-        &self,
-        at: (u32, Sweep),
-        before: Option<MachineStart>,
-    ) -> Result<(MachineDiagramStep, MachineStart), PlanError> {
+    fn step(&self, at: (u32, Sweep), before: Option<MachineStart>) -> Result<(DiagramStep, MachineStart), PlanError> {
         diagram_step(&self.source, &self.plan, at, before)
-    }
-
-    fn index(step: &MachineDiagramStep) -> u32 {
-        step.index
     }
 
     fn numbers(left: &MachineStart) -> Vec<f64> {
@@ -130,7 +97,7 @@ impl Swept for MachineSweep {
         })
     }
 
-    fn columns(&self, points: usize, steps: &[(usize, &MachineDiagramStep)]) -> Vec<Column> {
+    fn columns(&self, points: usize, steps: &[(usize, &DiagramStep)]) -> Vec<Column> {
         let mut kind = vec![-1_i8; points];
         let mut value = vec![f64::NAN; points * self.keep];
         let (mut phase, mut stop) = (value.clone(), vec![-1_i32; points * self.keep]);
@@ -138,37 +105,34 @@ impl Swept for MachineSweep {
             kind[*at] = step.kind.code();
             for (i, point) in step.points.iter().take(self.keep).enumerate() {
                 let k = at * self.keep + i;
-                (value[k], phase[k]) = (point.value, point.phase);
-                stop[k] = point.stop.and_then(|stop| i32::try_from(stop).ok()).unwrap_or(-1);
+                (value[k], phase[k], stop[k]) = match *point {
+                    DiagramPoint::Impact { stop, phase, speed } => (speed, phase, i32::try_from(stop).unwrap_or(-1)),
+                    DiagramPoint::State { x: value, .. } | DiagramPoint::Value(value) => (value, 0.0, -1),
+                    // of an oscillator only
+                    DiagramPoint::Chatter { .. } => continue,
+                };
             }
         }
         let mut columns = vec![Column::I8(kind), Column::F64(value)];
-        if self.plan.shows_closings() {
+        if self.plan.show.is_closings() {
             columns.extend([Column::F64(phase), Column::I32(stop)]);
         }
         columns
     }
 }
 
-/// The diagram from the columns of its study, with the motions in the order of [`MachineDiagram`].
-///
-/// Motions of tiles that are not complete are left out.
+/// The diagram of a machine, as [`diagram_of`](super::diagram_of).
 #[must_use]
-pub fn machine_diagram_of(plan: &DiagramPlan<String, String>, columns: &[Column]) -> MachineDiagram {
-    let (count, keep) = (plan.over.count(), usize::try_from(plan.keep).unwrap_or(usize::MAX));
-    let kinds = columns.first().map_or(&[][..], Column::flags);
+pub fn machine_diagram_of(plan: &DiagramPlan<String, String>, columns: &[Column]) -> Diagram<String, String> {
     let real = |k: usize| columns.get(k).map_or(&[][..], Column::real);
     let (values, phases, stops) = (real(1), real(2), columns.get(3).map_or(&[][..], Column::whole));
-    let motion = |row: usize, index: u32, sweep: Sweep| {
-        let at = row * count + index as usize;
-        let kind = MotionKind::of_code(*kinds.get(at)?)?;
-        let point = |k: usize| {
-            let value = *values.get(k).filter(|value| !value.is_nan())?;
-            let stop = stops.get(k).and_then(|stop| usize::try_from(*stop).ok());
-            Some(MachineDiagramPoint { stop, phase: phases.get(k).copied().unwrap_or(0.0), value })
-        };
-        let points = (at * keep..(at + 1) * keep).map_while(point).collect();
-        Some(MachineDiagramStep { index, sweep, kind, points })
-    };
-    MachineDiagram { steps: in_order(&plan.over, plan.direction, motion), plan: plan.clone() }
+    stored(plan, columns, |at| {
+        let value = *values.get(at).filter(|value| !value.is_nan())?;
+        let phase = phases.get(at).copied().unwrap_or(0.0);
+        Some(match stops.get(at).and_then(|stop| usize::try_from(*stop).ok()) {
+            Some(stop) => DiagramPoint::Impact { stop, phase, speed: value },
+            None if plan.show.is_states() => DiagramPoint::State { x: value, v: None },
+            None => DiagramPoint::Value(value),
+        })
+    })
 }

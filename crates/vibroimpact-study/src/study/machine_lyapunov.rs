@@ -1,6 +1,6 @@
 //! What the tiles of a study of Lyapunov exponents of a machine hold: all exponents at each point.
 
-use super::fill::{Along, along_machine, machine_grid, on_axis};
+use super::fill::{Along, along, grid_between, on_axis};
 use super::lyapunov::{LyapunovFill, Spectra, Spectrum, TILE};
 use super::map::side;
 use crate::machine::MachineSource;
@@ -26,7 +26,7 @@ impl LyapunovFill<Machines> {
         tile: Option<u32>,
     ) -> Result<Self, PlanError> {
         let machine = source.machine()?;
-        let grid = machine_grid(&plan.axes, tile, (1, side(TILE, plan.axes.len())));
+        let grid = grid_between(&plan.axes, tile, (1, side(TILE, plan.axes.len())));
         let places = plan.axes.iter().map(|axis| StartAxis::found(&machine, &axis.vary)).collect::<Result<_, _>>()?;
         let of = Machines { source: source.clone(), plan: plan.clone(), places, directions: 2 * machine.n() };
         Ok(Self::over(of, grid))
@@ -38,8 +38,9 @@ impl Machines {
     fn problem(&self, index: &[usize]) -> Result<(Machine, MachineStart), PlanError> {
         let values = || self.plan.axes.iter().zip(&self.places).enumerate();
         let at = |k: usize, axis: &Axis<String>| axis.over.at(on_axis(index, k));
-        let numbers = values().filter(|(_, (_, place))| place.is_none()).map(|(k, (axis, _))| (axis, at(k, axis)));
-        let source = Axis::<String>::with_values(&self.source, numbers)?;
+        let numbers =
+            values().filter(|(_, (_, place))| place.is_none()).map(|(k, (axis, _))| (axis.vary.as_str(), at(k, axis)));
+        let source = self.source.with_all(numbers)?;
         let (machine, mut start) = (source.machine()?, MachineStart::from(source.start()?));
         for (k, (axis, place)) in values() {
             if let Some(place) = place {
@@ -58,7 +59,7 @@ impl Spectra for Machines {
     const REFUSED: i8 = 3;
 
     fn coordinates(&self) -> Vec<Along> {
-        along_machine(&self.plan.axes)
+        along(&self.plan.axes)
     }
 
     fn directions(&self) -> usize {
@@ -95,7 +96,7 @@ impl Spectra for Machines {
 #[cfg(test)]
 mod tests {
     use crate::study::{Sheet, Study, in_memory};
-    use crate::{Control, MachineResults, Plan, PlanError, Results, RunError, Task, run};
+    use crate::{Control, Plan, PlanError, Results, RunError, Task, machine, run};
 
     /// A forced mass with a stop at a gap of 0.3; `start` and the axes are written into it.
     fn plan(start: &str, axes: &str) -> Plan {
@@ -136,7 +137,7 @@ mod tests {
                 assert!(alone.check().is_err());
                 continue;
             }
-            let Results::Machine(MachineResults::Lyapunov(direct, None)) = run(&alone, &Control::default()).unwrap()
+            let Results::Machine(machine::Results::Lyapunov(direct, None)) = run(&alone, &Control::default()).unwrap()
             else {
                 panic!()
             };

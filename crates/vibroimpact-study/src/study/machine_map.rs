@@ -1,16 +1,15 @@
 //! The tiles of a map of a machine: the motions at each point of a grid over numbers of the machine.
 
 use super::code::code;
-use super::fill::{Along, along_machine, machine_fields, machine_grid, on_axis};
+use super::fill::{Along, along, grid_between, machine_fields, on_axis};
 use super::map::{MapFill, Mapped, Motions, side};
-use super::remarks;
 use super::stored_motion::StoredMotion;
 use crate::field::{Extra, Field};
 use crate::grid::Index;
 use crate::machine::MachineSource;
-use crate::machine_plan::{MachineShare, values_of};
+use crate::machine_plan::values_of;
 use crate::map::options;
-use crate::{Axis, MapPlan, PlanError, Unit};
+use crate::{Axis, MapPlan, PlanError, Share, Unit};
 use vibroimpact::events::MachineStart;
 use vibroimpact::lanes::Width;
 use vibroimpact::machine::Machine;
@@ -37,7 +36,7 @@ impl MapFill<MachinesOver> {
         let machine = source.machine().ok();
         let reduced = machine.as_ref().is_some_and(|machine| machine.reduced().is_some());
         let (least, most) = if reduced { WIDE_TILE } else { TILE };
-        let grid = machine_grid(&plan.axes, tile, (least, side(most, plan.axes.len())));
+        let grid = grid_between(&plan.axes, tile, (least, side(most, plan.axes.len())));
         let stops = machine.map_or(0, |machine| machine.stops().len());
         let mapped = MachinesOver { source: source.clone(), plan: plan.clone(), options: options(plan.impacts), stops };
         Self::of(mapped, grid, plan.starts, plan.refine)
@@ -47,8 +46,8 @@ impl MapFill<MachinesOver> {
 impl MachinesOver {
     /// The description of the machine at a point.
     fn source<'a>(&'a self, index: &[usize]) -> Result<MachineSource, PlanError> {
-        let value = |(k, axis): (usize, &'a Axis<String>)| (axis, axis.over.at(on_axis(index, k)));
-        Axis::<String>::with_values(&self.source, self.plan.axes.iter().enumerate().map(value))
+        let value = |(k, axis): (usize, &'a Axis<String>)| (axis.vary.as_str(), axis.over.at(on_axis(index, k)));
+        Ok(self.source.with_all(self.plan.axes.iter().enumerate().map(value))?)
     }
 
     /// The machine at a point, with its scattered starts.
@@ -59,39 +58,35 @@ impl MachinesOver {
     }
 }
 
-impl MachineShare {
+impl Share {
     /// A motion of a machine to which this share of the starts leads.
-    pub(crate) fn of(machine: &Machine, verdict: &Verdict<Machine>, share: f64, fields: &[String]) -> Self {
+    pub(crate) fn of_machine(machine: &Machine, verdict: &Verdict<Machine>, share: f64, fields: &[String]) -> Self {
         let cycle = verdict.stored_cycle();
         let fastest = if let Verdict::Periodic(cycle) = verdict { cycle.fastest() } else { f64::NAN };
         Self {
+            label: verdict.label(),
             code: code(verdict),
             share,
             speed: fastest,
             multiplier: cycle.map_or(f64::NAN, |cycle| cycle.multiplier),
             stops: verdict.closed(),
             seen_events: verdict.seen_events(),
+            by_stop: None,
             quantities: values_of(machine, verdict, fields),
         }
-    }
-
-    /// Its numbers in the fields of a map.
-    pub(super) fn numbers(&self) -> Vec<f64> {
-        [vec![self.speed, self.multiplier], self.quantities.clone()].concat()
     }
 }
 
 impl Mapped for MachinesOver {
-    type Motion = MachineShare;
     const VELOCITY: Unit = Unit::CONSISTENT;
 
     fn coordinates(&self) -> Vec<Along> {
-        along_machine(&self.plan.axes)
+        along(&self.plan.axes)
     }
 
-    fn motions(&self, points: &[Index], tick: &dyn Fn() -> bool) -> Option<Vec<Motions<Self>>> {
+    fn motions(&self, points: &[Index], tick: &dyn Fn() -> bool) -> Option<Vec<Motions>> {
         let mut problems = Vec::new();
-        let mut found: Vec<Motions<Self>> = Vec::with_capacity(points.len());
+        let mut found: Vec<Motions> = Vec::with_capacity(points.len());
         for index in points {
             found.push(self.problem(index).map(|problem| {
                 problems.push(problem);
@@ -110,30 +105,18 @@ impl Mapped for MachinesOver {
                 census.add_found(motion);
             });
             let share = |of: &CountedMotion<Machine>| {
-                MachineShare::of(machine, &of.verdict, census.share(of), &self.plan.fields)
+                Share::of_machine(machine, &of.verdict, census.share(of), &self.plan.fields)
             };
             *shares = census.by_share().into_iter().map(share).collect();
         }
         Some(found)
     }
 
-    fn label(motion: &MachineShare) -> (i32, f64) {
-        (motion.code, motion.share)
-    }
-
-    fn remarks(&self, extra: &[Extra]) -> Vec<Field> {
-        remarks::fields(self.stops, extra)
-    }
-
-    fn remarked(&self, motion: &MachineShare) -> Vec<i32> {
-        remarks::of(self.stops, &motion.stops, motion.seen_events)
+    fn remarked_stops(&self) -> Option<usize> {
+        Some(self.stops)
     }
 
     fn quantities(&self, extra: &[Extra]) -> Vec<Field> {
         machine_fields(&self.plan.fields, extra)
-    }
-
-    fn numbers(&self, _: &[usize], motions: &[MachineShare]) -> Vec<Vec<f64>> {
-        motions.iter().map(MachineShare::numbers).collect()
     }
 }

@@ -2,14 +2,13 @@
 
 use super::fill::{Along, dimension, machine_fields};
 use super::map::{MapFill, Mapped, Motions};
-use super::remarks;
 use crate::field::{Extra, Field};
 use crate::grid::{Grid, Index};
 use crate::machine::MachineSource;
-use crate::machine_plan::{MachineShare, StartAxis, long_name};
+use crate::machine_plan::StartAxis;
 use crate::map::options;
 use crate::points::DIMENSION;
-use crate::{ManyPlan, PlanError, Unit};
+use crate::{ManyPlan, PlanError, Share, Unit};
 use core::cell::Cell;
 use vibroimpact::events::MachineStart;
 use vibroimpact::lanes::Width;
@@ -70,31 +69,26 @@ impl MachineAt {
 }
 
 impl Mapped for MachineAt {
-    type Motion = MachineShare;
     const VELOCITY: Unit = Unit::CONSISTENT;
     const SEVERAL: bool = false;
 
     fn coordinates(&self) -> Vec<Along> {
         let points = &self.plan.points;
         let count = usize::try_from(points.count()).unwrap_or(usize::MAX);
-        let column = |(column, name): (usize, String)| Along {
-            dimension: DIMENSION.to_owned(),
-            values: (0..count).map(|k| points.at(column, k)).collect(),
-            long_name: long_name(&name).into(),
-            unit: Unit::CONSISTENT,
-            name,
+        let column = |(column, name): (usize, String)| {
+            Along::new(&name, (0..count).map(|k| points.at(column, k)).collect(), DIMENSION)
         };
         points.varied().enumerate().map(column).collect()
     }
 
     /// Points of the same machine after each other are settled together.
-    fn motions(&self, points: &[Index], tick: &dyn Fn() -> bool) -> Option<Vec<Motions<Self>>> {
+    fn motions(&self, points: &[Index], tick: &dyn Fn() -> bool) -> Option<Vec<Motions>> {
         let mut problems: Vec<(Machine, Vec<MachineStart>)> = Vec::new();
         let mut add = |(machine, start)| match problems.last_mut() {
             Some((last, starts)) if *last == machine => starts.push(start),
             _ => problems.push((machine, vec![start])),
         };
-        let mut found: Vec<Motions<Self>> =
+        let mut found: Vec<Motions> =
             points.iter().map(|index| self.problem(index[0]).map(&mut add).map(|()| Vec::new())).collect();
         // the points of a machine after its first, and those that are none, are counted at the end
         let told = Cell::new(0);
@@ -107,11 +101,13 @@ impl Mapped for MachineAt {
             return None;
         }
         let mut motions = problems.iter().zip(&settled).flat_map(|((machine, _), settled)| {
-            let share = |of: &CountedMotion<Machine>| MachineShare::of(machine, &of.verdict, 1.0, &self.plan.fields);
-            let shares: Vec<MachineShare> = settled.motions.iter().map(share).collect();
-            settled.cells.iter().zip(&settled.seen).map(move |(cell, seen)| {
-                cell.map(|cell| MachineShare { seen_events: *seen, ..shares[cell as usize].clone() })
-            })
+            let share = |of: &CountedMotion<Machine>| Share::of_machine(machine, &of.verdict, 1.0, &self.plan.fields);
+            let shares: Vec<Share> = settled.motions.iter().map(share).collect();
+            settled
+                .cells
+                .iter()
+                .zip(&settled.seen)
+                .map(move |(cell, seen)| cell.map(|cell| Share { seen_events: *seen, ..shares[cell as usize].clone() }))
         });
         // a start beyond a rigid stop has no motion
         for motion in found.iter_mut().filter_map(|found| found.as_mut().ok()) {
@@ -120,23 +116,11 @@ impl Mapped for MachineAt {
         Some(found)
     }
 
-    fn label(motion: &MachineShare) -> (i32, f64) {
-        (motion.code, motion.share)
-    }
-
-    fn remarks(&self, extra: &[Extra]) -> Vec<Field> {
-        remarks::fields(self.machine.stops().len(), extra)
-    }
-
-    fn remarked(&self, motion: &MachineShare) -> Vec<i32> {
-        remarks::of(self.machine.stops().len(), &motion.stops, motion.seen_events)
+    fn remarked_stops(&self) -> Option<usize> {
+        Some(self.machine.stops().len())
     }
 
     fn quantities(&self, extra: &[Extra]) -> Vec<Field> {
         machine_fields(&self.plan.fields, extra)
-    }
-
-    fn numbers(&self, _: &[usize], motions: &[MachineShare]) -> Vec<Vec<f64>> {
-        motions.iter().map(MachineShare::numbers).collect()
     }
 }

@@ -11,7 +11,7 @@ use crate::map::motions;
 use crate::quantity;
 use crate::{Block, Grid, MapPlan, PlanError, Share, SystemPlan, Unit};
 use vibroimpact::Oscillator;
-use vibroimpact::verdict::{SettleOptions, Verdict};
+use vibroimpact::verdict::SettleOptions;
 
 /// Maximum number of motions stored for a point; more have not been observed to coexist in practice.
 const MOST_MOTIONS: usize = 8;
@@ -20,8 +20,6 @@ const TILE: usize = 64;
 
 /// Systems whose motions are found at each point of a grid over numbers of the system.
 pub(crate) trait Mapped: Send + Sync + Sized {
-    /// A motion at a point.
-    type Motion: Send;
     /// The unit of speeds.
     const VELOCITY: Unit;
     /// Whether several starts at a point lead to motions, each with its share.
@@ -32,29 +30,15 @@ pub(crate) trait Mapped: Send + Sync + Sized {
 
     /// The motions at points of the grid, the most frequent first, or the error if a point is no valid system. `tick` is
     /// called for each point; if it returns true, the computation stops with `None`.
-    fn motions(&self, points: &[Index], tick: &dyn Fn() -> bool) -> Option<Vec<Motions<Self>>>;
+    fn motions(&self, points: &[Index], tick: &dyn Fn() -> bool) -> Option<Vec<Motions>>;
 
-    /// The code of the label of a motion, and the share of the starts that lead to it.
-    fn label(motion: &Self::Motion) -> (i32, f64);
-
-    /// The fields of whole numbers that say more of some motions than the label.
-    fn remarks(&self, extra: &[Extra]) -> Vec<Field> {
-        let _ = extra;
-        Vec::new()
-    }
-
-    /// The numbers of a motion in these fields.
-    fn remarked(&self, motion: &Self::Motion) -> Vec<i32> {
-        let _ = motion;
-        Vec::new()
+    /// The number of stops, if [remarks](super::remarks) say more of some motions than the label.
+    fn remarked_stops(&self) -> Option<usize> {
+        None
     }
 
     /// The fields of the quantities that the plan asks for.
     fn quantities(&self, extra: &[Extra]) -> Vec<Field>;
-
-    /// The numbers of motions at this point: the largest speed of arrival, the largest modulus of the multipliers, and the
-    /// quantities that the plan asks for.
-    fn numbers(&self, index: &[usize], motions: &[Self::Motion]) -> Vec<Vec<f64>>;
 }
 
 /// The motions at each point of a grid.
@@ -91,14 +75,13 @@ impl OscillatorMap {
 }
 
 impl Mapped for OscillatorMap {
-    type Motion = Share;
     const VELOCITY: Unit = Unit::VELOCITY;
 
     fn coordinates(&self) -> Vec<Along> {
         along(&self.plan.axes)
     }
 
-    fn motions(&self, points: &[Index], tick: &dyn Fn() -> bool) -> Option<Vec<Motions<Self>>> {
+    fn motions(&self, points: &[Index], tick: &dyn Fn() -> bool) -> Option<Vec<Motions>> {
         let mut systems = Vec::new();
         let mut numbers = Vec::new();
         let mut found = Vec::new();
@@ -116,21 +99,8 @@ impl Mapped for OscillatorMap {
         ended.then_some(found)
     }
 
-    fn label(motion: &Share) -> (i32, f64) {
-        (code(&motion.verdict), motion.share)
-    }
-
     fn quantities(&self, extra: &[Extra]) -> Vec<Field> {
         self.plan.fields.iter().map(|quantity| quantity::field(*quantity, extra.to_vec())).collect()
-    }
-
-    fn numbers(&self, index: &[usize], motions: &[Share]) -> Vec<Vec<f64>> {
-        let Ok(osc) = self.oscillator(index) else { return Vec::new() };
-        let of = |found: &Share| {
-            let own = [speed(&found.verdict), multiplier(&found.verdict, &osc)];
-            own.into_iter().chain(quantity::values(&self.plan.fields, found.quantities)).collect()
-        };
-        motions.iter().map(of).collect()
     }
 }
 
@@ -150,39 +120,43 @@ impl<M: Mapped> MapFill<M> {
     }
 
     /// The labels of the stored motions of a point, in order.
-    fn labels(&self, point: &Motions<M>) -> Vec<i32> {
-        let mut labels: Vec<i32> = self.kept(point).iter().map(|found| M::label(found).0).collect();
+    fn labels(&self, point: &Motions) -> Vec<i32> {
+        let mut labels: Vec<i32> = self.kept(point).iter().map(|found| found.code).collect();
         labels.sort_unstable();
         labels
     }
 
     /// The stored motions of a point; empty if the point is no valid system.
-    fn kept<'a>(&self, point: &'a Motions<M>) -> &'a [M::Motion] {
+    fn kept<'a>(&self, point: &'a Motions) -> &'a [Share] {
         let all = point.as_deref().unwrap_or(&[]);
         &all[..all.len().min(self.kept)]
     }
 
-    /// The columns of some points; `index` is the place of each in the grid.
-    fn columns_at(&self, cells: &[Cell<Motions<M>>], index: impl Fn(usize) -> Index) -> Vec<Column> {
+    /// The fields of what is to be said of some motions beside the label.
+    fn remarks(&self, extra: &[Extra]) -> Vec<Field> {
+        self.mapped.remarked_stops().map_or_else(Vec::new, |stops| remarks::fields(stops, extra))
+    }
+
+    /// The columns of some points.
+    fn columns_at(&self, cells: &[Cell<Motions>]) -> Vec<Column> {
         let points = cells.len();
         let mut label = vec![if M::SEVERAL { super::NO_MOTION } else { super::REFUSED }; points * self.kept];
         let mut share = vec![f64::NAN; points * self.kept];
         // the largest speed, the largest multiplier, and the quantities
         let mut numbers = vec![vec![f64::NAN; points * self.kept]; 2 + self.mapped.quantities(&[]).len()];
-        let mut remarks = vec![vec![remarks::NONE; points * self.kept]; self.mapped.remarks(&[]).len()];
+        let stops = self.mapped.remarked_stops();
+        let mut remarks = vec![vec![remarks::NONE; points * self.kept]; self.remarks(&[]).len()];
         for (k, cell) in cells.iter().enumerate() {
             let Some((point, own)) = cell.result(cells) else { continue };
             let kept = self.kept(point);
             for (i, found) in kept.iter().enumerate() {
-                (label[k * self.kept + i], share[k * self.kept + i]) = M::label(found);
+                (label[k * self.kept + i], share[k * self.kept + i]) = (found.code, found.share);
             }
             // the labels are those of the corner that agreed, but the other numbers would be those of another point
-            let of_motions = if own { self.mapped.numbers(&index(k), kept) } else { Vec::new() };
-            for (i, values) in of_motions.into_iter().enumerate() {
-                numbers.iter_mut().zip(values).for_each(|(column, value)| column[k * self.kept + i] = value);
-            }
             for (i, found) in kept.iter().enumerate().filter(|_| own) {
-                let values = self.mapped.remarked(found);
+                let values = [found.speed, found.multiplier].into_iter().chain(found.quantities.iter().copied());
+                numbers.iter_mut().zip(values).for_each(|(column, value)| column[k * self.kept + i] = value);
+                let values = stops.map_or_else(Vec::new, |stops| remarks::of(stops, &found.stops, found.seen_events));
                 remarks.iter_mut().zip(values).for_each(|(column, value)| column[k * self.kept + i] = value);
             }
         }
@@ -200,20 +174,10 @@ impl<M: Mapped> MapFill<M> {
 }
 
 /// The motions at a point, the most frequent first, or the error if the point is no valid system.
-pub(super) type Motions<M> = Result<Vec<<M as Mapped>::Motion>, PlanError>;
-
-/// The largest speed before an impact of a cycle.
-fn speed(verdict: &Verdict) -> f64 {
-    if let Verdict::Periodic(cycle) = verdict { cycle.fastest() } else { f64::NAN }
-}
-
-/// The larger modulus of the two multipliers.
-fn multiplier(verdict: &Verdict, osc: &Oscillator) -> f64 {
-    verdict.multipliers(osc).map_or(f64::NAN, |[a, b]| a.modulus().max(b.modulus()))
-}
+pub(crate) type Motions = Result<Vec<Share>, PlanError>;
 
 impl<M: Mapped> Fill for MapFill<M> {
-    type Tile = Vec<Cell<Motions<M>>>;
+    type Tile = Vec<Cell<Motions>>;
 
     fn together(&self) -> u64 {
         fill::with_refinement(self.refine, 1)
@@ -254,7 +218,7 @@ impl<M: Mapped> Fill for MapFill<M> {
         fields.extend(M::SEVERAL.then(share));
         fields.push(real("speed", "largest speed of arrival in a period", M::VELOCITY));
         fields.push(real("multiplier", "largest modulus of the Floquet multipliers", Unit::NUMBER));
-        fields.extend(self.mapped.remarks(&motion));
+        fields.extend(self.remarks(&motion));
         fields.extend(self.mapped.quantities(&motion));
         if self.refine.is_some() {
             fields.push(computed());
@@ -263,7 +227,7 @@ impl<M: Mapped> Fill for MapFill<M> {
     }
 
     fn compute(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Self::Tile> {
-        let points = |wanted: &[usize]| -> Option<Vec<Motions<M>>> {
+        let points = |wanted: &[usize]| -> Option<Vec<Motions>> {
             self.mapped.motions(&wanted.iter().map(|k| block.index(*k)).collect::<Vec<_>>(), &|| tick())
         };
         match self.refine {
@@ -273,13 +237,13 @@ impl<M: Mapped> Fill for MapFill<M> {
         }
     }
 
-    fn columns(&self, block: &Block, cells: Self::Tile) -> Vec<Column> {
-        self.columns_at(&cells, |k| block.index(k))
+    fn columns(&self, _: &Block, cells: Self::Tile) -> Vec<Column> {
+        self.columns_at(&cells)
     }
 
     fn points(&self, points: &[Index], tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
         let cells: Vec<_> = self.mapped.motions(points, &|| tick())?.into_iter().map(Cell::Computed).collect();
-        Some(self.columns_at(&cells, |k| points[k]))
+        Some(self.columns_at(&cells))
     }
 }
 

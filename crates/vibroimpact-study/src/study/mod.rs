@@ -31,9 +31,10 @@ mod tests;
 pub use arrays::StudyArrays;
 pub use code::{CHAOTIC, NO_IMPACT, NO_MOTION, NOT_COMPUTED, REFUSED, STUCK, UNDECIDED, code, label_of, meaning_of};
 pub use diagram::diagram_of;
+pub(crate) use fill::Fill;
 pub use fill::{Along, BegunTile, Keep};
-pub(crate) use fill::{Fill, on_axis};
 pub use machine_diagram::machine_diagram_of;
+pub(crate) use map::{MapFill, Mapped};
 pub(crate) use memory::tiles_of;
 pub use memory::{Sheet, check_memory, in_memory};
 pub(crate) use refine::Cell;
@@ -41,11 +42,7 @@ pub use remarks::{closed_of, has_closed};
 pub use some_points::{PointColumns, points_until};
 pub(crate) use sweeps::{SweepFill, Swept};
 pub use tables::{Cells, EachCount, StudyTable, Tiles};
-pub(crate) use {
-    basin::BasinFill,
-    machine_basin::MachineBasinFill,
-    map::{MapFill, Mapped},
-};
+pub(crate) use {basin::BasinFill, machine_basin::MachineBasinFill};
 
 use crate::diagram::Show;
 use crate::machine::MachineSource;

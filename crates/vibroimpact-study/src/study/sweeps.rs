@@ -1,38 +1,35 @@
 //! The tiles of an orbit diagram. A sweep is one tile; scattered starts have many.
 
 use super::fill::{Along, BegunTile, Fill, Keep};
-use crate::diagram::{Sweep, SweepDirection, carried, number_of};
-use crate::field::{Column, Field};
+use crate::axis::Described;
+use crate::diagram::{Diagram, DiagramPoint, DiagramStep, MotionKind, Sweep, SweepDirection, carried, number_of};
+use crate::field::{Column, Field, NumberType};
 use crate::grid::{Block, Dimension, Grid};
-use crate::{PlanError, Unit, Values};
+use crate::{DiagramPlan, Name, PlanError, Unit};
 
 /// Number of starts and of values in a tile of scattered starts.
 const TILE: (usize, usize) = (16, 64);
 
 /// A system whose motion after the transient is followed at each value of a number.
 pub(crate) trait Swept: Send + Sync {
-    /// The motion at one value.
-    type Step: Send;
+    /// What varies.
+    type Number: Described;
+    /// What is shown.
+    type Show: Clone + Send + Sync;
     /// The state to carry to the next value.
     type Left;
 
-    /// The name of the number, its values, and how starts are chosen.
-    fn sweep(&self) -> (&str, &Values, SweepDirection);
-
-    /// The coordinate values of what varies.
-    fn varied(&self) -> Vec<Along>;
+    /// The plan.
+    fn plan(&self) -> &DiagramPlan<Self::Number, Self::Show>;
 
     /// The fields.
     fn fields(&self) -> Vec<Field>;
 
     /// The motion at one value, and the state to carry to the next value.
-    fn step(&self, at: (u32, Sweep), before: Option<Self::Left>) -> Result<(Self::Step, Self::Left), PlanError>;
+    fn step(&self, at: (u32, Sweep), before: Option<Self::Left>) -> Result<(DiagramStep, Self::Left), PlanError>;
 
     /// The columns of the steps of a tile, each with its place in the tile.
-    fn columns(&self, points: usize, steps: &[(usize, &Self::Step)]) -> Vec<Column>;
-
-    /// The number of the value of a step.
-    fn index(step: &Self::Step) -> u32;
+    fn columns(&self, points: usize, steps: &[(usize, &DiagramStep)]) -> Vec<Column>;
 
     /// The numbers of a state to carry.
     fn numbers(left: &Self::Left) -> Vec<f64>;
@@ -48,18 +45,23 @@ pub(crate) struct SweepFill<S> {
 }
 
 impl<S: Swept> SweepFill<S> {
+    /// The plan.
+    pub(crate) fn plan(&self) -> &DiagramPlan<S::Number, S::Show> {
+        self.swept.plan()
+    }
+
     pub(super) fn of(swept: S, tile: Option<u32>) -> Self {
-        let (name, over, direction) = swept.sweep();
+        let DiagramPlan { vary, over, direction, .. } = swept.plan();
         let dimension =
             |name: &str, count: usize, tile: usize| Dimension { name: name.into(), count, tile: tile.min(count) };
         let (values, runs) = (over.count(), usize::try_from(direction.runs()).unwrap_or(usize::MAX));
         let side = |default: usize| tile.map_or(default, |tile| tile as usize);
         let dimensions = match direction {
             SweepDirection::Scatter { .. } => {
-                vec![dimension("start", runs, side(TILE.0)), dimension(name, values, side(TILE.1))]
+                vec![dimension("start", runs, side(TILE.0)), dimension(vary.text(), values, side(TILE.1))]
             }
             // a sweep is one tile, because each value starts from the last state at the value before
-            _ => vec![dimension("sweep", runs, 1), dimension(name, values, values)],
+            _ => vec![dimension("sweep", runs, 1), dimension(vary.text(), values, values)],
         };
         Self { grid: Grid { dimensions }, swept }
     }
@@ -67,10 +69,10 @@ impl<S: Swept> SweepFill<S> {
 
 impl<S: Swept> Fill for SweepFill<S> {
     /// The motions of the rows, one row after another, each in the order of its sweep.
-    type Tile = Vec<Result<S::Step, PlanError>>;
+    type Tile = Vec<Result<DiagramStep, PlanError>>;
 
     fn together(&self) -> u64 {
-        match self.swept.sweep().2 {
+        match self.plan().direction {
             SweepDirection::Scatter { .. } => 1,
             // each value starts from the last state at the value before
             _ => u64::MAX,
@@ -78,7 +80,7 @@ impl<S: Swept> Fill for SweepFill<S> {
     }
 
     fn continues(&self) -> bool {
-        !matches!(self.swept.sweep().2, SweepDirection::Scatter { .. })
+        !matches!(self.plan().direction, SweepDirection::Scatter { .. })
     }
 
     fn continued(
@@ -91,10 +93,10 @@ impl<S: Swept> Fill for SweepFill<S> {
         if !Fill::continues(self) {
             return Some(self.columns(block, self.compute(block, tick)?));
         }
-        let (_, over, direction) = self.swept.sweep();
+        let DiagramPlan { over, direction, .. } = self.plan();
         // a sweep is one row and all values
         let (row, points) = (block.ranges[0].start as u64, block.points());
-        let place = |j: usize| Some(carried(over, direction, row, u32::try_from(j).ok()?));
+        let place = |j: usize| Some(carried(over, *direction, row, u32::try_from(j).ok()?));
         let known = |done: u64| usize::try_from(done).ok().filter(|done| *done <= points);
         let begun = before.and_then(|begun| Some((known(begun.done)?, begun)));
         let from = begun.as_ref().map_or(0, |(done, _)| *done);
@@ -108,8 +110,8 @@ impl<S: Swept> Fill for SweepFill<S> {
         });
         let fields = self.swept.fields();
         // the columns of all steps so far: those of this run, and those of the run before
-        let columns = |steps: &[(usize, S::Step)]| -> Vec<Column> {
-            let own: Vec<(usize, &S::Step)> = steps.iter().map(|(at, step)| (*at, step)).collect();
+        let columns = |steps: &[(usize, DiagramStep)]| -> Vec<Column> {
+            let own: Vec<(usize, &DiagramStep)> = steps.iter().map(|(at, step)| (*at, step)).collect();
             let mut columns = self.swept.columns(points, &own);
             if let Some((_, begun)) = &begun {
                 for ((field, column), old) in fields.iter().zip(&mut columns).zip(&begun.columns) {
@@ -121,12 +123,12 @@ impl<S: Swept> Fill for SweepFill<S> {
             }
             columns
         };
-        let mut steps: Vec<(usize, S::Step)> = Vec::new();
+        let mut steps: Vec<(usize, DiagramStep)> = Vec::new();
         for j in from..points {
             // the ends were checked, and every value between two valid ends is valid
             let step = self.swept.step(place(j)?, left.take());
             if let Ok((step, next)) = step {
-                steps.push((S::index(&step) as usize, step));
+                steps.push((step.index as usize, step));
                 left = Some(next);
             }
             let stops = tick();
@@ -162,13 +164,20 @@ impl<S: Swept> Fill for SweepFill<S> {
             long_name: "direction of the sweep: 1 with rising values, -1 with falling ones".into(),
             unit: Unit::NUMBER,
         };
-        let rows = match self.swept.sweep().2 {
+        let rows = match self.plan().direction {
             SweepDirection::Scatter { .. } => None,
             SweepDirection::Up => Some(sweep(&[1.0])),
             SweepDirection::Down => Some(sweep(&[-1.0])),
             SweepDirection::Both => Some(sweep(&[1.0, -1.0])),
         };
-        rows.into_iter().chain(self.swept.varied()).collect()
+        let plan = self.plan();
+        // the values of a second number are a second coordinate of the same dimension
+        let cut = plan.cut();
+        let varied = cut.names().enumerate().map(|(k, number)| {
+            let value = |index: u32| plan.values(index).nth(k).unwrap_or(f64::NAN);
+            Along::new(number, (0..number_of(&plan.over)).map(value).collect(), plan.vary.text())
+        });
+        rows.into_iter().chain(varied.collect::<Vec<_>>()).collect()
     }
 
     fn fields(&self) -> Vec<Field> {
@@ -177,7 +186,7 @@ impl<S: Swept> Fill for SweepFill<S> {
 
     fn compute(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Self::Tile> {
         let (rows, values) = (&block.ranges[0], &block.ranges[1]);
-        let (_, over, direction) = self.swept.sweep();
+        let DiagramPlan { over, direction, .. } = self.plan();
         let mut steps = Vec::with_capacity(block.points());
         for row in rows.clone() {
             let mut before = None;
@@ -185,7 +194,7 @@ impl<S: Swept> Fill for SweepFill<S> {
                 let row = row as u64;
                 let at = match direction {
                     SweepDirection::Scatter { .. } => (u32::try_from(values.start + j).ok()?, Sweep::Start(row)),
-                    _ => carried(over, direction, row, u32::try_from(j).ok()?),
+                    _ => carried(over, *direction, row, u32::try_from(j).ok()?),
                 };
                 steps.push(self.swept.step(at, before.take()).map(|(step, left)| {
                     before = Some(left);
@@ -202,39 +211,62 @@ impl<S: Swept> Fill for SweepFill<S> {
     fn columns(&self, block: &Block, steps: Self::Tile) -> Vec<Column> {
         let values = &block.ranges[1];
         // the ends were checked, and every value between two valid ends is valid
-        let placed: Vec<(usize, &S::Step)> = steps
+        let placed: Vec<(usize, &DiagramStep)> = steps
             .iter()
             .enumerate()
             .filter_map(|(k, step)| Some((k, step.as_ref().ok()?)))
-            .map(|(k, step)| (k / values.len() * values.len() + (S::index(step) as usize - values.start), step))
+            .map(|(k, step)| (k / values.len() * values.len() + (step.index as usize - values.start), step))
             .collect();
         self.swept.columns(block.points(), &placed)
     }
 }
 
 /// The kinds of motions as they are stored.
-pub(super) const KINDS: [(i32, &str); 5] =
+const KINDS: [(i32, &str); 5] =
     [(-1, "not_computed"), (0, "no_impact"), (1, "impacts"), (2, "stuck"), (3, "undecided")];
 
-/// The steps of a stored diagram in the order of its results: sweeps one after another, scattered starts value by value.
-/// `motion` returns the step in this row at this value.
-pub(super) fn in_order<T>(
-    over: &Values,
-    direction: SweepDirection,
-    motion: impl Fn(usize, u32, Sweep) -> Option<T>,
-) -> Vec<T> {
-    let values = 0..number_of(over);
-    match direction {
+/// The field of the kinds of motions.
+pub(super) fn kind() -> Field {
+    Field {
+        name: "kind".into(),
+        long_name: "what the motion is after the transient".into(),
+        unit: Unit::NUMBER,
+        kind: NumberType::I8,
+        fill: -1,
+        extra: Vec::new(),
+        flags: KINDS.to_vec(),
+        comment: "",
+    }
+}
+
+/// The diagram from the columns of its study: sweeps one after another, scattered starts value by value. `point` returns a point
+/// by its number among those of all motions. Motions of tiles that are not complete are left out.
+pub(super) fn stored<V: Clone, S: Clone>(
+    plan: &DiagramPlan<V, S>,
+    columns: &[Column],
+    point: impl Fn(usize) -> Option<DiagramPoint>,
+) -> Diagram<V, S> {
+    let (count, keep) = (plan.over.count(), usize::try_from(plan.keep).unwrap_or(usize::MAX));
+    let kinds = columns.first().map_or(&[][..], Column::flags);
+    let motion = |row: u64, index: u32, sweep: Sweep| {
+        let at = usize::try_from(row).ok()? * count + index as usize;
+        let kind = MotionKind::of_code(*kinds.get(at)?)?;
+        let points = (at * keep..(at + 1) * keep).map_while(&point).collect();
+        Some(DiagramStep { index, sweep, kind, points })
+    };
+    let values = 0..number_of(&plan.over);
+    let steps = match plan.direction {
         SweepDirection::Scatter { starts, .. } => values
             .flat_map(|index| (0..starts).map(move |start| (index, start)))
-            .filter_map(|(index, start)| motion(usize::try_from(start).ok()?, index, Sweep::Start(start)))
+            .filter_map(|(index, start)| motion(start, index, Sweep::Start(start)))
             .collect(),
-        _ => (0..direction.runs())
+        direction => (0..direction.runs())
             .flat_map(|row| values.clone().map(move |j| (row, j)))
             .filter_map(|(row, j)| {
-                let (index, sweep) = carried(over, direction, row, j);
-                motion(usize::try_from(row).ok()?, index, sweep)
+                let (index, sweep) = carried(&plan.over, direction, row, j);
+                motion(row, index, sweep)
             })
             .collect(),
-    }
+    };
+    Diagram { plan: plan.clone(), steps }
 }

@@ -133,11 +133,11 @@ fn a_map_is_that_of_its_points() {
     let direct = crate::in_memory::map(&system, &plan, &Control::default()).unwrap();
     let (labels, shares) = (columns(&found, "label").whole(), columns(&found, "share").real());
     for (k, point) in direct.points.iter().enumerate() {
-        for (i, motion) in point.motions.iter().enumerate() {
-            assert_eq!(label_of(labels[6 * k + i]).unwrap(), motion.verdict.label());
+        for (i, motion) in point.iter().enumerate() {
+            assert_eq!(label_of(labels[6 * k + i]).unwrap(), motion.label);
             assert_eq!(shares[6 * k + i], motion.share);
         }
-        assert!(labels[6 * k + point.motions.len()..6 * (k + 1)].iter().all(|c| *c == NO_MOTION));
+        assert!(labels[6 * k + point.len()..6 * (k + 1)].iter().all(|c| *c == NO_MOTION));
     }
     let along = found.study.coordinates();
     assert_eq!((along[0].dimension.as_str(), along[1].dimension.as_str()), ("gap", "inverse_beta"));
@@ -241,7 +241,7 @@ fn a_diagram_is_that_of_its_steps() {
             keep: 6,
         };
         let found = sheet(S, Task::from(plan.clone()), None, 2);
-        let direct = crate::in_memory::diagram(&S, &plan, &Control::default()).unwrap();
+        let direct = crate::in_memory::diagram(&SweepFill::new(&S, &plan, Some(4)), &Control::default()).unwrap();
         assert_eq!(diagram_of(&plan, &found.columns), direct);
         let beside = found.study.coordinates().into_iter().find(|along| along.name == "damping");
         assert_eq!(beside.map(|along| (along.dimension, along.values[10])), also.map(|_| ("gap".into(), 0.01)));
@@ -249,7 +249,7 @@ fn a_diagram_is_that_of_its_steps() {
         let held = sheet(S, Task::from(strobes.clone()), None, 2);
         assert_eq!(
             diagram_of(&strobes, &held.columns),
-            crate::in_memory::diagram(&S, &strobes, &Control::default()).unwrap()
+            crate::in_memory::diagram(&SweepFill::new(&S, &strobes, Some(4)), &Control::default()).unwrap()
         );
         let speeds = columns(&found, "velocity").real();
         assert_eq!(speeds.len(), rows * 41 * 6);
@@ -261,8 +261,8 @@ fn a_diagram_is_that_of_its_steps() {
             };
             let at = 6 * (41 * row + step.index as usize);
             for (i, point) in step.points.iter().enumerate() {
-                let crate::diagram::DiagramPoint::Impact { velocity, .. } = point else { continue };
-                assert_eq!(speeds[at + i], *velocity);
+                let crate::diagram::DiagramPoint::Impact { speed, .. } = point else { continue };
+                assert_eq!(speeds[at + i], *speed);
             }
             assert!(speeds[at + step.points.len()..at + 6].iter().all(|v| v.is_nan()));
         }

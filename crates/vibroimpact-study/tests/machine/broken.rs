@@ -83,7 +83,7 @@ fn is_explained(told: &str) -> bool {
         && (counted || !path.contains(char::is_whitespace))
         && first.chars().count() < 600
         && lines.all(|line| line.starts_with("hint: ") || is_of_the_text(line))
-        && !["f64", "u32", "struct ", "variant", "MachineText", "Option<"].iter().any(|inside| told.contains(inside))
+        && !["f64", "u32", "struct ", "variant", "WrittenMachine", "Option<"].iter().any(|inside| told.contains(inside))
 }
 
 /// Found at random: the machine was accepted, and its expansion was not.

@@ -97,9 +97,7 @@ fn simulated() -> Result<(Vec<f64>, Vec<f64>), Error> {
     let mut places = Vec::new();
     for step in &found.steps {
         places.extend(step.points.iter().filter_map(|point| match point {
-            diagram::DiagramPoint::Impact { velocity, .. } => {
-                Some((found.plan.over.at(step.index as usize), *velocity))
-            }
+            diagram::DiagramPoint::Impact { speed, .. } => Some((found.plan.over.at(step.index as usize), *speed)),
             _ => None,
         }));
     }

@@ -8,40 +8,27 @@ pub use dots::draw as draw_dots;
 pub use plane::draw as draw_plane;
 pub use value::{Coloured, Of, Value};
 
-use crate::figure::plane::{Sides, varied};
+use crate::figure::plane::Sides;
 use crate::figure::point_motion::{PointMotion, group, points};
-use crate::figure::{quantity_name, title, title_without};
-use crate::{Asked, ReportError};
-use vibroimpact::Oscillator;
-use vibroimpact::quantities::{Quantity, of_verdict_only};
-use vibroimpact_plot::{Figure, plain};
-use vibroimpact_study::{Basin, MachineBasin, MachineMap, MachineShare, RegionMap};
+use crate::{FieldName, ReportError, Units, Varied};
+use vibroimpact::quantities::Quantity;
+use vibroimpact::verdict::{CountedMotion, System};
+use vibroimpact_plot::Figure;
+use vibroimpact_study::{Basin, Name, RegionMap};
 
 /// The figure of `vibro map --colour`: a plane, or dots over one axis.
 ///
 /// # Errors
 /// [`ReportError::NoField`] if the plan does not ask for the quantity, and the errors of [`figure::map`](crate::figure::map).
-pub fn of_map(found: &RegionMap, coloured: &Coloured, asked: &Asked) -> Result<Figure, ReportError> {
-    let (axes, units) = (&found.plan.axes, &asked.units);
-    let quantity = asked_for(&found.plan.fields, &coloured.field)?;
-    let title = title_without(asked, &varied(axes));
-    let points = points(found, Some(quantity), units);
-    of_points(&Sides::of(axes, units)?, &points, coloured, (quantity_name(quantity, units), title))
-}
-
-/// The figure of `vibro map --machine --colour`.
-///
-/// # Errors
-/// As [`of_map`].
-pub fn of_machine_map(found: &MachineMap, coloured: &Coloured, title: String) -> Result<Figure, ReportError> {
+pub fn of_map<V: Varied, F: FieldName>(
+    found: &RegionMap<V, F>,
+    coloured: &Coloured,
+    units: &Units,
+    title: String,
+) -> Result<Figure, ReportError> {
     let field = place(&found.fields, &coloured.field)?;
-    let motion = |motion: &MachineShare| {
-        let label = motion.label();
-        let number = motion.quantities.get(field).copied();
-        PointMotion { group: group(&label), share: motion.share, value: Value::of(&label, number) }
-    };
-    let points: Vec<Vec<PointMotion>> = found.cells.iter().map(|cell| cell.iter().map(motion).collect()).collect();
-    of_points(&Sides::of_machine(&found.axes)?, &points, coloured, (plain(&coloured.field), title))
+    let points = points(found, Some(field), units);
+    of_points(&Sides::of(&found.axes, units)?, &points, coloured, (found.fields[field].axis(units), title))
 }
 
 /// Draws the points of a map; given are the name of the quantity and the title.
@@ -71,46 +58,23 @@ pub fn of_points(
 ///
 /// # Errors
 /// As [`of_map`].
-pub fn of_basin(found: &Basin, coloured: &Coloured, osc: &Oscillator, asked: &Asked) -> Result<Figure, ReportError> {
-    let quantity = asked_for(&found.plan.fields, &coloured.field)?;
-    let motion = |motion: &vibroimpact::verdict::CountedMotion| {
-        let of = of_verdict_only(osc, &motion.verdict, &[quantity]);
-        let number = of.map(|of| asked.units.value_of(&of, quantity));
-        motion_of(&motion.verdict.label(), number)
-    };
-    let motions: Vec<PointMotion> = found.motions.iter().map(motion).collect();
-    let points = found.cells.iter().map(|cell| motions.get(usize::from(*cell)).copied());
-    let sides = Sides::of(&found.plan.axes, &asked.units)?;
-    of_starts(&sides, points, coloured, (quantity_name(quantity, &asked.units), title(asked)))
-}
-
-/// The figure of `vibro basin --machine --colour`.
-///
-/// # Errors
-/// As [`of_map`].
-pub fn of_machine_basin(found: &MachineBasin, coloured: &Coloured, title: String) -> Result<Figure, ReportError> {
-    let field = place(&found.fields, &coloured.field)?;
-    let values = found.quantities.iter().map(|values| values.get(field).copied());
-    let motions: Vec<PointMotion> =
-        found.motions.iter().zip(values).map(|(verdict, value)| motion_of(&verdict.label(), value)).collect();
-    let points = found.cells.iter().map(|cell| cell.and_then(|cell| motions.get(cell).copied()));
-    of_starts(&Sides::of_machine(&found.axes)?, points, coloured, (plain(&coloured.field), title))
-}
-
-/// The one motion to which a start leads.
-fn motion_of(label: &str, number: Option<f64>) -> PointMotion {
-    PointMotion { group: group(label), share: 1.0, value: Value::of(label, number) }
-}
-
-/// Draws the motions to which starts lead.
-fn of_starts(
-    sides: &Sides,
-    motions: impl Iterator<Item = Option<PointMotion>>,
+pub fn of_basin<S: System, V: Varied, F: FieldName>(
+    found: &Basin<S, V, F>,
     coloured: &Coloured,
-    names: (String, String),
+    units: &Units,
+    title: String,
 ) -> Result<Figure, ReportError> {
-    let points: Vec<Vec<PointMotion>> = motions.map(|motion| motion.into_iter().collect()).collect();
-    of_points(sides, &points, coloured, names)
+    let fields = &found.plan.fields;
+    let field = place(fields, &coloured.field)?;
+    let motion = |(motion, values): (&CountedMotion<S>, &Vec<f64>)| {
+        let (label, number) =
+            (motion.verdict.label(), values.get(field).map(|value| value * fields[field].unit(units)));
+        PointMotion { group: group(&label), share: 1.0, value: Value::of(&label, number) }
+    };
+    let motions: Vec<PointMotion> = found.motions.iter().zip(&found.quantities).map(motion).collect();
+    let start = |k: usize| found.motion(k).map(|number| motions[number]).into_iter().collect();
+    let points: Vec<Vec<PointMotion>> = (0..found.cells.len()).map(start).collect();
+    of_points(&Sides::of(&found.plan.axes, units)?, &points, coloured, (fields[field].axis(units), title))
 }
 
 /// The quantity of an oscillator with this name, if a plan asks for it.
@@ -118,15 +82,17 @@ fn of_starts(
 /// # Errors
 /// [`ReportError::NoField`] if it does not.
 pub fn asked_for(fields: &[Quantity], name: &str) -> Result<Quantity, ReportError> {
-    let names: Vec<String> = fields.iter().map(|field| field.name().to_owned()).collect();
-    Ok(fields[place(&names, name)?])
+    Ok(fields[place(fields, name)?])
 }
 
 /// The place of a field among those of a plan.
 ///
 /// # Errors
 /// [`ReportError::NoField`] if it is not there.
-pub fn place(fields: &[String], name: &str) -> Result<usize, ReportError> {
-    let no_field = || ReportError::NoField { field: name.to_owned(), there: fields.to_vec() };
-    fields.iter().position(|field| field == name).ok_or_else(no_field)
+pub fn place<F: Name>(fields: &[F], name: &str) -> Result<usize, ReportError> {
+    let no_field = || {
+        let there = fields.iter().map(|field| field.text().to_owned()).collect();
+        ReportError::NoField { field: name.to_owned(), there }
+    };
+    fields.iter().position(|field| field.text() == name).ok_or_else(no_field)
 }

@@ -13,7 +13,7 @@ mod glyphs;
 mod model;
 
 use vibroimpact_plot::{Figure, FigureAxis, Panel, plain};
-use vibroimpact_study::machine::{MachineSource, MachineTextError};
+use vibroimpact_study::machine::{MachineFileError, MachineSource};
 
 /// Figure units of a unit of the drawing.
 const UNIT: f64 = 60.0;
@@ -23,8 +23,8 @@ const AIR: f64 = 0.4;
 /// The schematic.
 ///
 /// # Errors
-/// [`MachineTextError`] if the file describes no machine.
-pub fn figure(source: &MachineSource) -> Result<Figure, MachineTextError> {
+/// [`MachineFileError`] if the file describes no machine.
+pub fn figure(source: &MachineSource) -> Result<Figure, MachineFileError> {
     let model = model::of(source)?;
     let sketch = if model.points.is_empty() { chain::draw(&model) } else { beam::draw(&model) };
     let (left, right, low, high) = sketch.extent();

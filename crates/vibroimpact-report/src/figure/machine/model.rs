@@ -3,7 +3,7 @@
 use crate::number::short;
 use vibroimpact::machine::{MachineParts, StopLaw};
 use vibroimpact::math::Matrix;
-use vibroimpact_study::machine::{MachineSource, MachineText, MachineTextError, Named, NumberText, VectorText};
+use vibroimpact_study::machine::{MachineFileError, MachineSource, Named, NumberText, VectorText, WrittenMachine};
 
 /// Bodies, the points of a structure with modes, and what is between them.
 pub(super) struct Model {
@@ -46,7 +46,7 @@ pub(super) enum Kind {
     Slider,
 }
 
-pub(super) fn of(source: &MachineSource) -> Result<Model, MachineTextError> {
+pub(super) fn of(source: &MachineSource) -> Result<Model, MachineFileError> {
     let (text, parts) = (&source.machine, source.machine()?.parts().clone());
     let modes = text.mode.len();
     let points: Vec<String> =
@@ -153,7 +153,7 @@ fn links(model: &mut Model, source: &MachineSource, parts: &MachineParts) {
 }
 
 /// The place of a name of the file.
-fn place_of(coordinates: &[String], text: &MachineText, name: &str) -> Place {
+fn place_of(coordinates: &[String], text: &WrittenMachine, name: &str) -> Place {
     let modes = text.mode.len();
     let named = text.bodies.names().iter().position(|known| *known == name);
     let body = named.or_else(|| coordinates.iter().skip(modes).position(|known| known == name)).map(Place::Body);
@@ -161,7 +161,7 @@ fn place_of(coordinates: &[String], text: &MachineText, name: &str) -> Place {
     body.or_else(|| points.iter().position(|known| *known == name).map(Place::Point)).unwrap_or(Place::Ground)
 }
 
-fn stops(model: &mut Model, text: &MachineText, parts: &MachineParts) {
+fn stops(model: &mut Model, text: &WrittenMachine, parts: &MachineParts) {
     let names = &parts.coordinates;
     for (stop, written) in parts.stops.iter().zip(&text.stop) {
         let forms = (written.direction.as_ref(), written.between.as_ref(), written.at.as_ref());
@@ -191,7 +191,7 @@ fn stops(model: &mut Model, text: &MachineText, parts: &MachineParts) {
     }
 }
 
-fn forces(model: &mut Model, text: &MachineText, parts: &MachineParts) {
+fn forces(model: &mut Model, text: &WrittenMachine, parts: &MachineParts) {
     let modes = text.mode.len();
     let mut named: Vec<&str> = Vec::new();
     for force in &text.force {
