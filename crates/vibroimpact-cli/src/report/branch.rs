@@ -45,7 +45,7 @@ pub(crate) fn text(found: &Branches, cut: &Cut, units: &Units) -> String {
     let names: Vec<String> = cut.names().map(|parameter| parameter.words(units)).collect();
     let told = |points: &[SolutionPoint]| points.iter().map(|point| Told::of_oscillator(point, cut, units)).collect();
     let event = |point: &SolutionPoint| (point.event.map_or("event", |event| event.name()), point.value);
-    written(found, found.chosen.cycle.label, (cut, units, &names), told, event)
+    branches_text(found, found.chosen.cycle.label, (cut, units, &names), told, event)
 }
 
 /// The same of a machine.
@@ -55,11 +55,11 @@ pub(crate) fn of_machine(found: &Branches<MachineCycle, MachinePoint>, cut: &Cut
     let names: Vec<String> = cut.names().cloned().chain(period).collect();
     let told = |points: &[MachinePoint]| (0..points.len()).map(|k| Told::of_machine(points, k, cut, machine)).collect();
     let event = |point: &MachinePoint| (point.event.map_or("event", |event| event.name()), point.value);
-    written(found, found.chosen.cycle.label, (cut, &Units::default(), &names), told, event)
+    branches_text(found, found.chosen.cycle.label, (cut, &Units::default(), &names), told, event)
 }
 
 /// The branches of an orbit with this label. `told` says what is at the points of a branch, and `event` which event is at a point.
-fn written<C, P, V: Varied>(
+fn branches_text<C, P, V: Varied>(
     found: &Branches<C, P>,
     label: Label,
     (cut, units, names): (&Cut<V>, &Units, &[String]),

@@ -24,7 +24,7 @@ pub(crate) fn text(found: &EventCurve, plan: &CurvePlan, units: &Units) -> Strin
         Some(vec![point.event?.name().into(), precise(p), precise(q), motion])
     });
     let at = found.events.iter().map(|event| event.value);
-    written(found, (plan, units), (label, at.collect()), &rows.collect::<Vec<_>>())
+    curve_text(found, (plan, units), (label, at.collect()), &rows.collect::<Vec<_>>())
 }
 
 /// The same of a machine.
@@ -40,11 +40,11 @@ pub(crate) fn of_machine(
         Some(vec![format!("{}{at}", event.name()), precise(p), precise(q), point.cycle.label.to_string()])
     });
     let (label, at) = (found.chosen.cycle.label.to_string(), found.events.iter().map(|event| event.value));
-    written(found, (plan, &Units::default()), (&label, at.collect()), &rows.collect::<Vec<_>>())
+    curve_text(found, (plan, &Units::default()), (&label, at.collect()), &rows.collect::<Vec<_>>())
 }
 
 /// A curve of an orbit with this label, and the values of the first number at the events on its branch.
-fn written<C, E, P, V: Varied>(
+fn curve_text<C, E, P, V: Varied>(
     found: &EventCurve<C, E, P>,
     (plan, units): (&CurvePlan<V>, &Units),
     (label, at): (&str, Vec<f64>),

@@ -13,7 +13,7 @@ use vibroimpact_study::{Basin, PlanError};
 
 /// The table of `vibro basin`: what varies, in the units and with exactly the numbers of the question, the label, and the quantities
 /// that the plan asks for. `remarks` returns what is said of a start beside its label.
-fn written<'a, S: System, V: Varied, F: FieldName>(
+fn rows_of_starts<'a, S: System, V: Varied, F: FieldName>(
     found: &'a Basin<S, V, F>,
     units: &Units,
     (heads, remarks): (Vec<&'static str>, impl Fn(usize) -> String + 'a),
@@ -50,7 +50,7 @@ fn written<'a, S: System, V: Varied, F: FieldName>(
 /// # Errors
 /// [`PlanError`] if a value of an axis overflows in these units.
 pub fn table<'a>(found: &'a Basin, units: &Units) -> Result<Table<'a>, PlanError> {
-    written(found, units, (Vec::new(), |_| String::new()))
+    rows_of_starts(found, units, (Vec::new(), |_| String::new()))
 }
 
 /// The same of a machine, with what stops and events say more of the label; `refused` beyond a rigid stop.
@@ -63,5 +63,5 @@ pub(crate) fn of_machine<'a>(
         let verdict = found.motion(k).map(|number| &found.motions[number].verdict);
         remarks.cells(machine, &verdict.map_or_else(Vec::new, Verdict::closed), found.seen_events[k])
     };
-    written(found, &Units::default(), (remarks.heads().collect(), cells))
+    rows_of_starts(found, &Units::default(), (remarks.heads().collect(), cells))
 }
