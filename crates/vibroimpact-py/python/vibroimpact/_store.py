@@ -226,7 +226,8 @@ def open(store: str | PathLike[str]) -> "xr.Dataset":
     ['2/1', '1/1']
     """
     # which tiles are done is told by `status(store)`, and its dimensions would multiply the rows of a table
-    return with_status(store).drop_vars("status", errors="ignore")
+    ds: xr.Dataset = with_status(store).drop_vars("status", errors="ignore")
+    return ds
 
 
 def with_status(store: str | PathLike[str]) -> "xr.Dataset":
