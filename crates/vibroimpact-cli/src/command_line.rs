@@ -1,8 +1,11 @@
 //! A command line that the parser refuses: all that is missing is named at once, and flags without their dashes are recognised.
 
 use crate::args::ParameterFlag;
+use crate::failure::Failure;
+use clap::ArgMatches;
 use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::parser::ValueSource;
 
 /// Commands of one system, whose parameters the parser does not require, because there are two forms of a system.
 const OF_ONE_SYSTEM: [&str; 7] = ["attractors", "basin", "orbit", "branch", "curve", "diagram", "region"];
@@ -65,6 +68,41 @@ pub(crate) fn explained(mut error: clap::Error, words: &[String]) -> clap::Error
         _ => {}
     }
     error
+}
+
+/// Flags of an oscillator that are no parameters, and those of its start but the phase, which a machine has too.
+const OF_AN_OSCILLATOR: [&str; 8] =
+    ["log-decrement", "omega-rad-per-s", "base-phase", "stop-in-space", "stop-phase", "x", "v", "units"];
+
+/// Refuses flags that would have no effect: those of an oscillator beside a machine, and those of a machine without one.
+pub(crate) fn without_effect(command: &ArgMatches) -> Result<(), Failure> {
+    let typed = |id: &str| command.value_source(id) == Some(ValueSource::CommandLine);
+    let given: Vec<String> =
+        command.ids().map(clap::Id::as_str).filter(|id| typed(id)).map(|id| id.replace('_', "-")).collect();
+    let has = |flag: &str| given.iter().any(|given| given == flag);
+    let of_oscillator = || ParameterFlag::all().map(ParameterFlag::flag).chain(OF_AN_OSCILLATOR);
+    if has("machine") {
+        if let Some(flag) = of_oscillator().find(|flag| has(flag)) {
+            return Err(Failure::bad(format!(
+                "--{flag} is of an oscillator and has no effect with --machine\nhint: {}",
+                instead(flag)
+            )));
+        }
+    } else if has("set") && of_oscillator().any(has) {
+        return Err(Failure::bad(
+            "--set has no effect without --machine\nhint: an oscillator has a flag for each number",
+        ));
+    }
+    Ok(())
+}
+
+/// What stands for a flag of an oscillator where there is a machine.
+fn instead(flag: &str) -> &'static str {
+    match flag {
+        "x" | "v" => "--q and --qdot have a value for each coordinate",
+        "units" => "results are in the units of the machine",
+        _ => "--set PATH=VALUE; `vibro machine show NAME` lists the paths",
+    }
 }
 
 /// What a command needs besides the flags that are named already.

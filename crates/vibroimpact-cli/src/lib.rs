@@ -25,7 +25,7 @@ mod state_file;
 mod unit_table;
 mod units_typed;
 
-use clap::{CommandFactory, FromArgMatches};
+use clap::{ArgMatches, CommandFactory, FromArgMatches};
 use std::ffi::OsString;
 use std::path::PathBuf;
 
@@ -41,13 +41,19 @@ pub fn run(words: &[OsString], program: Option<PathBuf>) -> u8 {
     // the help is rearranged only where it is asked for, because this takes longer than a short question
     let helps = words.iter().any(|word| word == "-h" || word == "--help");
     let parsed = if helps { help::shown(command) } else { command }.try_get_matches_from(words);
-    let line = match parsed.and_then(|found| commands::CommandLine::from_arg_matches(&found)) {
-        Ok(line) => line,
+    let read = |found: ArgMatches| Ok((commands::CommandLine::from_arg_matches(&found)?, found));
+    let (line, found) = match parsed.and_then(read) {
+        Ok(read) => read,
         Err(refusal) => {
             let words: Vec<String> = words.iter().map(|word| word.to_string_lossy().into_owned()).collect();
             return exit::parsed(&command_line::explained(refusal, &words));
         }
     };
+    if let Some((_, command)) = found.subcommand()
+        && let Err(refusal) = command_line::without_effect(command)
+    {
+        return exit::code(Err(refusal));
+    }
     signal::listen();
     let session = session::Session::new(line.globals);
     exit::code(commands::run(&line, &session))

@@ -33,7 +33,9 @@ mod _core {
     #[pymodule_export]
     use crate::grid::{basin_measures, fill, labels_of, span_values};
     #[pymodule_export]
-    use crate::machine::{MachineFile, machine_names, machine_state, machine_waveform, simulate_machine};
+    use crate::machine::{
+        MachineFile, machine_names, machine_state, machine_waveform, simulate_machine, simulate_machines,
+    };
     #[pymodule_export]
     use crate::oscillator::{Oscillator, Units};
     #[pymodule_export]

@@ -6,10 +6,12 @@ use crate::error::Trouble;
 use crate::simulate::checked_step;
 use numpy::{Element, IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use vibroimpact::events::{MachineLimits, MachineSample, MachineSamples, MachineStart};
+use vibroimpact::events::{MachineEvent, MachineLimits, MachineSample, MachineSamples, MachineStart};
 use vibroimpact::regime::ContactState;
 use vibroimpact_study::machine::{CATALOGUE, MachineFileError, MachineProblem, MachineSource, StartText};
-use vibroimpact_study::{Plan, PlanError, Results, System, Task, events_with_states, machine, most_events, run};
+use vibroimpact_study::{
+    Control, Plan, PlanError, Results, Simulated, System, Task, events_with_states, machine, most_events, run, tiles,
+};
 
 /// A machine file that describes a machine.
 #[pyclass(frozen, module = "vibroimpact._core")]
@@ -213,6 +215,97 @@ pub(crate) fn simulate_machine<'py>(
         shown_until: found.shown_until,
         plan: text,
     })
+}
+
+/// The events of motions of machines: a row of `width` events for each motion, filled up with -1 and not-a-number.
+#[derive(IntoPyObject)]
+pub(crate) struct ManyEventFields<'py> {
+    width: usize,
+    /// The names of kinds of events, and those of reasons for which lists end, by their codes.
+    kinds: Vec<&'static str>,
+    ends: Vec<&'static str>,
+    kind: Bound<'py, PyArray1<i8>>,
+    /// The numbers of stops and joints.
+    stop: Bound<'py, PyArray1<i32>>,
+    time: Bound<'py, PyArray1<f64>>,
+    phase: Bound<'py, PyArray1<f64>>,
+    speed: Bound<'py, PyArray1<f64>>,
+    /// One column for each coordinate.
+    q: Vec<Bound<'py, PyArray1<f64>>>,
+    qdot: Vec<Bound<'py, PyArray1<f64>>>,
+    count: Bound<'py, PyArray1<i32>>,
+    end: Bound<'py, PyArray1<i8>>,
+    end_time: Bound<'py, PyArray1<f64>>,
+}
+
+/// The code of a name in a list, to which it is added when it is new.
+fn code(names: &mut Vec<&'static str>, name: &'static str) -> i8 {
+    let place = names.iter().position(|known| *known == name).unwrap_or_else(|| {
+        names.push(name);
+        names.len() - 1
+    });
+    i8::try_from(place).unwrap_or(i8::MAX)
+}
+
+impl<'py> ManyEventFields<'py> {
+    fn new(py: Python<'py>, found: &[Simulated<MachineEvent>], n: usize) -> Self {
+        let width = found.iter().map(|one| one.events.len()).max().unwrap_or(0);
+        let (mut kinds, mut ends) = (Vec::new(), Vec::new());
+        let cells = || found.iter().flat_map(|one| (0..width).map(move |k| one.events.get(k)));
+        let real = |of: &dyn Fn(&MachineEvent) -> f64| column(py, cells().map(|event| event.map_or(f64::NAN, of)));
+        Self {
+            kind: column(py, cells().map(|event| event.map_or(-1, |event| code(&mut kinds, event.kind.name())))),
+            stop: column(py, cells().map(|event| event.map_or(-1, |event| i32::try_from(event.place).unwrap_or(-1)))),
+            time: real(&|event| event.time),
+            phase: real(&|event| event.phase),
+            speed: real(&|event| event.speed),
+            q: (0..n).map(|i| real(&|event| event.q[i])).collect(),
+            qdot: (0..n).map(|i| real(&|event| event.qdot[i])).collect(),
+            count: column(py, found.iter().map(|one| i32::try_from(one.events.len()).unwrap_or(i32::MAX))),
+            end: column(py, found.iter().map(|one| code(&mut ends, one.reason))),
+            end_time: column(py, found.iter().map(|one| one.time)),
+            width,
+            kinds,
+            ends,
+        }
+    }
+}
+
+/// Follows machines event by event, from one start each. `numbers` are columns of numbers that vary, by their paths.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)] // arguments from Python
+pub(crate) fn simulate_machines<'py>(
+    py: Python<'py>,
+    file: &MachineFile,
+    numbers: Vec<(String, Vec<f64>)>,
+    starts: Vec<Start>,
+    limits: (Option<u64>, Option<f64>),
+    threads: usize,
+    progress: Option<Py<PyAny>>,
+) -> Result<ManyEventFields<'py>, Trouble> {
+    let (source, n, total) = (file.0.clone(), file.0.machine()?.n(), starts.len() as u64);
+    let watch = Watch { what: "following machines", total, progress, threads };
+    let found = door::run(py, watch, move |control| {
+        let one = |k: usize| {
+            let there = numbers.iter().try_fold(source.clone(), |there, (path, values)| there.with(path, values[k]))?;
+            let (q, qdot, phase) = starts[k].clone();
+            let there = there.starting(&MachineStart { q, qdot, phase, ..MachineStart::default() });
+            let plan = Plan::new(there, Task::Simulate { start: None, impacts: limits.0, periods: limits.1 });
+            // the progress is that of whole motions
+            let alone = Control { stop: control.stop, threads: 1, ..Control::default() };
+            match run(&plan, &alone)? {
+                Results::Machine(machine::Results::Simulate(found)) => Ok(found),
+                _ => Err(Trouble::Defect("following machines")),
+            }
+        };
+        let parts = tiles(total, 1, control, |range, tick| {
+            let found = one(usize::try_from(range.start).unwrap_or(usize::MAX));
+            tick();
+            found
+        })?;
+        parts.into_iter().collect::<Result<Vec<_>, Trouble>>()
+    })?;
+    Ok(ManyEventFields::new(py, &found, n))
 }
 
 /// The fields of `MachineWaveform`.

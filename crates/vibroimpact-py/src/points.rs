@@ -51,7 +51,7 @@ pub(crate) fn settle_points<'py>(
 /// The columns of points that are drawn from a box, which are written as in a plan.
 #[pyfunction]
 pub(crate) fn drawn_points<'py>(py: Python<'py>, drawn: &str) -> Result<Vec<Bound<'py, PyArray1<f64>>>, Trouble> {
-    let drawn: DrawnPoints = serde_json::from_str(drawn).map_err(|error| {
+    let drawn: DrawnPoints<String> = serde_json::from_str(drawn).map_err(|error| {
         // JSON is written by this package, so a position in it does not help the user
         let said = error.to_string();
         Trouble::question(said.rsplit_once(" at line ").map_or(said.as_str(), |(said, _)| said).to_owned())

@@ -14,7 +14,7 @@ import pytest
 import xarray as xr
 
 import vibroimpact as vi
-from vibroimpact import _export
+from vibroimpact import _export, _store
 from vibroimpact.__main__ import main
 
 pd = pytest.importorskip("pandas")
@@ -51,7 +51,7 @@ def test_netcdf_holds_all_arrays(
     assert main(["export", str(store), "--format", "netcdf", str(tmp_path / "out.nc")]) == 0
     with xr.open_dataset(tmp_path / "out.nc", engine=engine) as file:
         read = file.load()
-    kept = vi.open(store).load()
+    kept = _store.with_status(store).load()
     assert set(read.variables) == set(kept.variables)
     for name, of in kept.variables.items():
         assert read[name].dims == of.dims, name
@@ -83,7 +83,7 @@ def test_the_conventions_are_kept(store: Path, tmp_path: Path) -> None:
 def test_parquet_holds_the_table(store: Path, tmp_path: Path) -> None:
     pq = pytest.importorskip("pyarrow.parquet")
     assert main(["export", str(store), "--format", "parquet", str(tmp_path / "out.parquet")]) == 0
-    kept = vi.open(store).load()
+    kept = _store.with_status(store).load()
     told = {name.decode(): text.decode() for name, text in pq.read_schema(tmp_path / "out.parquet").metadata.items()}
     assert vi.Plan(told["plan"]).hash == told["plan_hash"] == kept.attrs["plan_hash"] and told["title"] == kept.attrs["title"]
     units = {f.name: (f.metadata or {}).get(b"units", b"").decode() for f in pq.read_schema(tmp_path / "out.parquet")}

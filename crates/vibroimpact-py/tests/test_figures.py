@@ -195,9 +195,42 @@ def test_metres_and_seconds_in_colours() -> None:
     np.testing.assert_array_equal(np.asarray(mesh.get_array()).ravel(), ds["impact_loss_per_period"].values.ravel())
     assert ax.figure.axes[1].get_ylabel() == "energy lost in impacts per forcing period (J)"
     assert ax.get_xlabel() == "$x_0$ (m)" and ax.get_ylabel() == "$v_0$ (m/s)" and "$d = 0.003$ m" in ax.get_title()
-    diagram = vi.orbit_diagram(osc, "gap", "0.5:1:3").vibro.si()
-    with pytest.raises(vi.QuestionError, match="a diagram in metres and seconds is not drawn"):
-        diagram.vibro.plot()
+    ax = vi.orbit_diagram(osc, "gap", "0.5:1:3").vibro.si().vibro.plot()
+    assert ax.get_xlabel() == "$d$ (m)" and ax.get_ylabel() == "arrival velocity (m/s)"
+    xs = np.concatenate([of.get_xdata() for of in ax.get_lines()])
+    np.testing.assert_allclose([xs.min(), xs.max()], [0.5 * osc.units.length_m, osc.units.length_m], rtol=1e-12)
+
+
+def test_every_figure_takes_axes_a_title_and_properties_of_lines(s: vi.Oscillator) -> None:
+    motion, other = s.settle(), s.replace(gap=2.0).settle()
+    ax = motion.plot()
+    low, high = ax.get_ylim()
+    assert other.plot(ax, color="black", linewidth=3, title="both") is ax
+    assert ax.get_ylim() == (low, max(high, other.plot().get_ylim()[1])) and ax.get_title() == "both"
+    assert {of.get_color() for of in ax.get_lines() if of.get_linewidth() == 3} == {"black"}
+    # a label that both figures have is there once
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["position", "impact", "stop"]
+    assert motion.plot(legend=False).get_legend() is None
+    # in a column of text the axes keep most of its width
+    for draw in (motion.plot, s.attractors(8).plot, vi.region_map(s, {"gap": "0:2:9", "inverse_beta": "0.5:2:9"}, starts=2).vibro.plot):
+        figure, ax = plt.subplots(figsize=(3.4, 2.6), layout="constrained")
+        draw(ax)
+        figure.draw_without_rendering()
+        assert ax.get_position().width > 0.7 and ax.get_position().height > 0.3
+
+
+def test_a_label_has_one_colour(s: vi.Oscillator) -> None:
+    from matplotlib.colors import to_hex
+
+    from vibroimpact._palette import class_colour
+
+    def lines(ax: Axes, label: str) -> set[str]:
+        return {to_hex(of.get_color()) for of in ax.get_lines() if of.get_label() == label}
+
+    assert lines(s.branch("gap", 1.0, label="2/1").plot(diagram=False), "2/1") == {class_colour("2/1")}
+    assert lines(s.response("gap", "0.7:0.8:3").plot(), "2/1") == {class_colour("2/1")}
+    points = vi.settle_many(s, starts={"x": [-2.0, 0.0], "v": [0.0, 0.5]})
+    assert lines(points.vibro.plot(), "2/1") == {class_colour("2/1")}
 
 
 def test_a_map_over_one_axis(s: vi.Oscillator) -> None:

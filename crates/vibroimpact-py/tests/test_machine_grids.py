@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from vibroimpact import Machine, Plan, QuestionError, basin, open, orbit_diagram, region_map, run
+from vibroimpact import Machine, Plan, QuestionError, basin, open, orbit_diagram, region_map, run, sample, settle_many
 from vibroimpact._points import table
 
 HAMMER = Machine.named("two-mass-hammer")
@@ -78,3 +78,44 @@ def test_diagrams_of_machines(tmp_path: Path) -> None:
     assert list(table(power).columns) == ["frequency", "sweep", "kind", "stop.anvil.impact_loss_per_period"]
     with pytest.raises(QuestionError, match="nothing that a diagram of a machine shows"):
         orbit_diagram(HAMMER, "frequency", "1:1.2:5", show="velocity")
+
+
+def test_points_are_settled_as_one_by_one(tmp_path: Path) -> None:
+    frequencies, heads = np.array([0.95, 1.2]), np.array([-0.5, 0.2, 9.0])
+    ds = HAMMER.settle_many(over={"frequency": frequencies[:, None]}, starts={"q.head": heads}, fields=["power"])
+    labels = ds.vibro.labels()
+    assert labels.shape == (2, 3) and ds["frequency"].dims == ("sample_0",) and ds["q.head"].dims == ("sample_1",)
+    # the last start lies beyond the anvil
+    assert (labels[:, 2] == "").all() and (ds["label"][:, 2] == -5).all() and np.isnan(ds["power"][:, 2]).all()
+    for i, frequency in enumerate(frequencies):
+        for j, head in enumerate(heads[:2]):
+            alone = HAMMER.set({"frequency": frequency}).settle(q=[0, head]).motion
+            assert labels[i, j] == alone.label and ds["power"][i, j] == pytest.approx(alone.quantities["power"], rel=1e-7)
+    with pytest.raises(QuestionError, match="starts has no coordinate `q.tail`"):
+        HAMMER.settle_many(starts={"q.tail": [0, 1]})
+    with pytest.raises(QuestionError, match="no such number"):
+        HAMMER.settle_many(over={"stop.anvil.gup": [0, 1]})
+
+
+def test_a_sample_of_a_machine_is_kept_in_a_store(tmp_path: Path) -> None:
+    points = sample("lhs", 9, {"frequency": (0.9, 1.3), "q.head": (-1, 0.4)}, seed=2)
+    memory = settle_many(HAMMER, over=points, fields=["power"])
+    stored = settle_many(HAMMER, over=points, fields=["power"], store=tmp_path / "s.zarr", tile=4)
+    assert memory.sizes["sample"] == stored.sizes["sample"] == 9
+    for name in ("label", "speed", "multiplier", "power", "impacts", "frequency", "q.head"):
+        np.testing.assert_array_equal(stored[name].values, memory[name].values, err_msg=name)
+    assert '"drawn"' in stored.attrs["plan"] and memory.vibro.plot().get_xlabel() == "frequency"
+
+
+def test_events_of_many_motions_are_those_of_each() -> None:
+    gaps = [0.3, 0.5]
+    ds = HAMMER.simulate_many(over={"stop.anvil.gap": gaps}, starts={"q.head": 0.1}, impacts=6)
+    assert dict(ds.sizes) == {"sample": 2, "event": 6} and set(ds.vibro.labels("end").values) == {"event_limit"}
+    for k, gap in enumerate(gaps):
+        alone = HAMMER.set({"stop.anvil.gap": gap}).simulate(q=[0, 0.1], impacts=6)
+        assert ds.vibro.labels("kind")[k].values.tolist() == alone.kind.tolist()
+        assert ds.vibro.labels("stop")[k].values.tolist() == alone.stop.tolist()
+        for name, column in {"time": alone.time, "speed": alone.speed, "q.head": alone.q[:, 1], "qdot.frame": alone.qdot[:, 0]}.items():
+            np.testing.assert_array_equal(ds[name][k], column, err_msg=name)
+    with pytest.raises(QuestionError, match="at is for oscillators"):
+        HAMMER.simulate_many(at=[0.0, 1.0])

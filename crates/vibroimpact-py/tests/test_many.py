@@ -116,7 +116,7 @@ def test_machines_in_si() -> None:
         speed = motion.quantities["impact_speed_max"]
         np.testing.assert_allclose(ds["impact_speed_max"].values[k], speed, rtol=1e-13)
         np.testing.assert_allclose(si["impact_speed_max"].values[k], speed * there.units.velocity_m_per_s, rtol=1e-12)
-    assert si["force_n"].attrs["units"] == "N" and si["impact_speed_max"].attrs["units"] == "m s-1"
+    assert si["force_n"].attrs["units"] == "N" and si["impact_speed_max"].attrs["units"] == "m/s"
 
 
 REFUSED: list[tuple[Any, str]] = [

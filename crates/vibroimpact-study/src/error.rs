@@ -264,7 +264,7 @@ pub enum PlanError {
     NoStudy(&'static str),
     /// A task of a machine without a grid, which cannot be stored as a study.
     #[error(
-        "a plan of a machine that asks to {0} fills no grid, so there is nothing to store\nhint: tasks of machines for a store are map, basin, diagram, and lyapunov over axes"
+        "a plan of a machine that asks to {0} fills no grid, so there is nothing to store\nhint: tasks of machines for a store are map, basin, settle-many, diagram, and lyapunov over axes"
     )]
     NoMachineStudy(&'static str),
     /// A diagram of a quantity, which has no store.

@@ -201,6 +201,10 @@ impl Task {
             Self::Diagram(diagram) => format!("orbit diagram over {}: {name}", diagram.vary.text()),
             Self::Response(response) => format!("response over {}: {name}", response.vary.text()),
             Self::Map(map) => format!("motions over {}: {name}", over(&map.axes, ", ")),
+            Self::SettleMany(many) => {
+                let names: Vec<String> = many.points.varied().map(|varied| varied.text().to_owned()).collect();
+                format!("motions over points of {}: {name}", names.join(", "))
+            }
             Self::Lyapunov(lyapunov) if !lyapunov.axes.is_empty() => {
                 format!("Lyapunov exponents over {}: {name}", over(&lyapunov.axes, ", "))
             }

@@ -116,7 +116,7 @@ impl Task {
     /// Whether the task fills a grid over axes, which a store keeps.
     pub(crate) const fn fills_a_grid(&self) -> bool {
         match self {
-            Self::Basin(_) | Self::Map(_) | Self::Diagram(_) => true,
+            Self::Basin(_) | Self::Map(_) | Self::SettleMany(_) | Self::Diagram(_) => true,
             Self::Lyapunov(lyapunov) => !lyapunov.axes.is_empty(),
             _ => false,
         }

@@ -37,7 +37,7 @@ pub(crate) struct RangedSystemArgs {
     damping: Option<Ranged>,
 
     /// A second stop on the other side, at x = -D2
-    #[arg(long, value_parser = maybe_lengths(), value_name = "VALUES", allow_hyphen_values = true)]
+    #[arg(long, value_parser = maybe_lengths(), value_name = "VALUES", allow_hyphen_values = true, conflicts_with_all = ["second_gap_m", "gaps_m"])]
     second_gap: Option<MaybeLength>,
 
     /// Restitution of the second stop [default: that of the first, if that is one value]

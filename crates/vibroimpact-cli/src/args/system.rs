@@ -23,7 +23,7 @@ pub(crate) struct SystemArgs {
 
     /// Distance of the stop from the rest position in units of F/k; negative presses the mass against it. With a unit,
     /// such as 1.5mm, it is --gap-m
-    #[arg(long, value_parser = maybe_length(), value_name = "D", allow_hyphen_values = true)]
+    #[arg(long, value_parser = maybe_length(), value_name = "D", allow_hyphen_values = true, conflicts_with_all = ["gap_m", "gaps_m"])]
     gap: Option<MaybeLength>,
 
     /// Restitution: rebound speed over arrival speed, 0 to 1
@@ -35,7 +35,7 @@ pub(crate) struct SystemArgs {
     damping: Option<f64>,
 
     /// A second stop on the other side, at x = -D2
-    #[arg(long, value_parser = maybe_length(), value_name = "D2", allow_hyphen_values = true)]
+    #[arg(long, value_parser = maybe_length(), value_name = "D2", allow_hyphen_values = true, conflicts_with_all = ["second_gap_m", "gaps_m"])]
     second_gap: Option<MaybeLength>,
 
     /// Restitution of the second stop [default: that of the first]

@@ -257,9 +257,7 @@ pub(super) fn run(args: &SettleMany, session: &Session) -> Result<(), Failure> {
             let task = BasinPlan { impacts: args.impacts, ..BasinPlan::of_points(points, args.start(&system.units())) };
             BasinPlan { fields: args.fields.quantities()?, transient: args.transient, ..task }.into()
         }
-        None if args.store.filling().is_some() || args.transient => {
-            return Err(Failure::bad("--store and --transient are for points of oscillators\nhint: --csv FILE"));
-        }
+        None if args.transient => return Err(Failure::bad("--transient is for points of oscillators")),
         None => ManyPlan { points: args.points_of_machine()?, impacts: args.impacts, fields }.into(),
     };
     let question = system.stored(task, Some(&args.store))?;
@@ -267,7 +265,7 @@ pub(super) fn run(args: &SettleMany, session: &Session) -> Result<(), Failure> {
     let looks = (outputs, Shown::default());
     // the points of an oscillator are a study
     if question.machine.is_some() {
-        return respond::run(&question, looks, None, session);
+        return respond::run(&question, looks, Some(&args.store), session);
     }
     stored::filled(&question.plan, args.store.filling(), looks, session)
 }

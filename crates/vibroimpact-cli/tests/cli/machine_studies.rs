@@ -86,7 +86,7 @@ fn attractors_of_machines_have_no_store() {
     let said = vibro("run a.json --store a.zarr").current_dir(folder.path()).output().unwrap();
     let complaint = String::from_utf8(said.stderr).unwrap();
     assert!(
-        said.status.code() == Some(2) && complaint.contains("map, basin, diagram, and lyapunov over axes"),
+        said.status.code() == Some(2) && complaint.contains("map, basin, settle-many, diagram, and lyapunov over axes"),
         "{complaint}"
     );
 }

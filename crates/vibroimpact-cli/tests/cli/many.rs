@@ -168,6 +168,10 @@ fn points_of_a_machine() {
         assert_eq!(alone["motion"]["label"], row[3]);
         assert_eq!(alone["motion"]["quantities"]["power"].as_f64().unwrap(), row[4].parse::<f64>().unwrap());
     }
+    let store = folder.path().join("points.zarr");
+    let stored =
+        printed(&format!("{machine} --points {} --csv - --fields power --store {}", file.display(), store.display()));
+    assert_eq!(stored, table, "the table of the store");
     let drawn = crate::json(&format!("{machine} --sample lhs:6 --seed 2 --over frequency=0.9:1.3"));
     let points = drawn["points"].as_array().unwrap();
     assert!(points.len() == 6 && points.iter().all(|point| point["motions"][0]["label"].is_string()), "{drawn}");
@@ -175,7 +179,7 @@ fn points_of_a_machine() {
         ("--sample lhs:6", "--over PATH=A:B"),
         ("--sample lhs:6 --over nix=1:2", "no such number in this machine"),
         ("--sample lhs:6 --over q.nix=1:2", "q.nix"),
-        ("--sample lhs:6 --over b=1:2 --store a.zarr", "for points of oscillators"),
+        ("--sample lhs:6 --over b=1:2 --transient", "for points of oscillators"),
     ] {
         let output = vibro(&format!("{machine} {flags}")).output().unwrap();
         let said = String::from_utf8(output.stderr).unwrap();

@@ -63,11 +63,16 @@ from vibroimpact._simulate import Simulation, simulate
 from vibroimpact._simulate_many import simulate_many
 from vibroimpact._store import Ran, Status, Verified, open, resume, run, status, verify
 from vibroimpact._waveform import Waveform
+from vibroimpact._whole import set_threads
 
 if TYPE_CHECKING:
     from vibroimpact._accessor import VibroAccessor
 
 _register()
+# the questions are methods of both systems
+for _name in ("simulate", "simulate_many", "settle", "settle_many", "attractors", "lyapunov", "orbits", "branch", "curve", "region", "margins",
+              "response", "basin", "map", "diagram"):
+    setattr(Oscillator, _name, getattr(Machine, _name))
 
 
 def __getattr__(name: str) -> object:
@@ -142,6 +147,7 @@ __all__ = [
     "resume",
     "run",
     "sample",
+    "set_threads",
     "settle",
     "settle_many",
     "simulate",

@@ -116,7 +116,8 @@ class VibroAccessor:
         return _si.converted(restored(self._ds), units)
 
     def plot(
-        self, ax: "Axes | None" = None, *, which: str | None = None, colour: str | None = None, of: str = "largest"
+        self, ax: "Axes | None" = None, *, which: str | None = None, colour: str | None = None, of: str = "largest",
+        legend: bool = True, title: str | None = None, **line: Any,
     ) -> "Axes":
         """Draw the Dataset: the motions over two axes or at points, their shares over one axis, or the points of an orbit diagram.
 
@@ -140,6 +141,8 @@ class VibroAccessor:
         of : str
             Which of several motions at a point has the colour: the one with the "largest" value (or "worst"), with the
             "smallest" (or "least"), or the "likeliest", to which most starts lead.
+        legend, title, line
+            As for the figures of results: whether there is a legend, another title, and properties of lines and dots.
 
         Examples
         --------
@@ -151,14 +154,15 @@ class VibroAccessor:
         >>> ax.figure.axes[1].get_ylabel()
         'largest impact speed ($\\\\omega_n F/k$)'
         """
+        from vibroimpact._styled import styled
+
+        return styled(lambda ax: self._drawn(ax, which, colour, of), ax, legend, title, line)
+
+    def _drawn(self, ax: "Axes | None", which: str | None, colour: str | None, of: str) -> "Axes":
         from vibroimpact import _cells, _clouds, _coloured, _scatter
 
         ds = restored(self._ds)
         if _clouds.is_diagram(ds):
-            if ds.attrs.get("units") == "si":
-                raise QuestionError(
-                    "a diagram in metres and seconds is not drawn\nhint: plot it before si() converts it"
-                )
             if colour is not None:
                 raise QuestionError("only basins and maps have colours by a quantity\nhint: which=... is the ordinate")
             return _clouds.plot(ds, ax, which)

@@ -3,7 +3,7 @@
 import json
 import math
 from collections.abc import Mapping
-from typing import Any, Protocol, TypeAlias
+from typing import Any, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,12 +11,13 @@ from numpy.typing import ArrayLike
 from vibroimpact import _core
 from vibroimpact._core import Oscillator, QuestionError
 from vibroimpact._progress import Progress, watched
-from vibroimpact._whole import THREADS, whole
+from vibroimpact._whole import threads_of
 
 #: Coordinates, velocities and phase of a machine.
 State: TypeAlias = tuple[list[float], list[float], float]
 
 
+@runtime_checkable
 class MachineLike(Protocol):
     """What is asked of a `Machine`."""
 
@@ -35,6 +36,7 @@ class MachineLike(Protocol):
     @property
     def paths(self) -> list[str]: ...
     def number(self, path: str) -> float: ...
+    def set(self, changes: Mapping[str, float] | None = None, /) -> "MachineLike": ...
     def starting(self, state: Mapping[str, Any], /) -> "MachineLike": ...
     def start_of(
         self, q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None
@@ -105,7 +107,7 @@ def answered(
     "section", the points of an orbit diagram as "diagram", all quantities of a response as "response"."""
     file = system if isinstance(system, Oscillator) else system._file
     from_ = (start or Start(system)).of_machine
-    threads = whole("threads", threads, THREADS)
+    threads = threads_of(threads)
     _finite(task, name)
     with watched(progress, what) as tell:
         found = _core.answer(file, from_, json.dumps({name: task}), total, threads, tell)

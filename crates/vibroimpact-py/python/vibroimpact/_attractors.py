@@ -12,6 +12,7 @@ from vibroimpact._figure import heading
 from vibroimpact._motion import Motion
 from vibroimpact._progress import Progress
 from vibroimpact._result import View
+from vibroimpact._styled import styled
 from vibroimpact._whole import BUDGET, SEED, STARTS, maybe, whole
 
 if TYPE_CHECKING:
@@ -99,11 +100,14 @@ class Attractors(View):
         """One row for each motion."""
         return table(self.motions)
 
-    def plot(self, ax: "Axes | None" = None) -> "Axes":
+    def plot(self, ax: "Axes | None" = None, *, legend: bool = True, title: str | None = None, **line: Any) -> "Axes":
         """Draw the shares as bars."""
         from vibroimpact import _figure
 
-        return _figure.shares(heading(self.system), [(m.label, m.share) for m in self], ax)
+        def draw(ax: "Axes | None") -> "Axes":
+            return _figure.shares(heading(self.system), [(m.label, m.share) for m in self], ax)
+
+        return styled(draw, ax, legend, title, line)
 
 
 def attractors(

@@ -15,6 +15,7 @@ from vibroimpact._events import Events
 from vibroimpact._motion import complex_of
 from vibroimpact._progress import Progress
 from vibroimpact._result import View
+from vibroimpact._styled import styled
 from vibroimpact._whole import BRANCH, FOLLOW, NUMBER, maybe, whole
 
 if TYPE_CHECKING:
@@ -256,7 +257,8 @@ class Branch(View):
         return np.array([point["quantities"][name] for point in self._points if "quantities" in point], dtype=np.float64)
 
     def plot(
-        self, ax: "Axes | None" = None, *, diagram: bool = True, inadmissible: bool = False, si: bool = False
+        self, ax: "Axes | None" = None, *, diagram: bool = True, inadmissible: bool = False, si: bool = False,
+        legend: bool = True, title: str | None = None, **line: Any,
     ) -> "Axes":
         """Draw the bifurcation diagram: speeds of closings, or of a machine without stops the `quantity`, solid if stable, dashed and
         dotted if neutral, dashed if unstable, with the events.
@@ -274,7 +276,8 @@ class Branch(View):
         """
         from vibroimpact import _tracks
 
-        return _tracks.plot(self, ax, self._behind(_tracks.VALUES) if diagram else None, inadmissible, si)
+        behind = self._behind(_tracks.VALUES) if diagram else None
+        return styled(lambda ax: _tracks.plot(self, ax, behind, inadmissible, si), ax, legend, title, line)
 
     def _behind(self, count: int) -> "tuple[_Floats, _Floats, NDArray[np.bool_]]":
         """The points of the orbit diagram, and whether each is of a motion that repeats."""

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vibroimpact._core import QuestionError
 from vibroimpact._figure import legend, new_axes
-from vibroimpact._palette import CLASSES, legend_group, legend_text
+from vibroimpact._palette import class_colour, legend_words, variant
 from vibroimpact._stated import along, named, title
 
 if TYPE_CHECKING:
@@ -65,21 +65,17 @@ def _shares(ds: "xr.Dataset", ax: "Axes | None", dim: str) -> "Axes":
     """Stacked bars over one axis: the shares of starts that lead to the motions of each group."""
     words = ds["label"].transpose(dim, "motion")
     names = ds.assign(label=words).vibro.labels().values
-    known = {word: legend_group(word) if word else "" for word in np.unique(names)}
-    groups = np.array([known[word] for word in names.ravel()], dtype=np.str_).reshape(names.shape)
     shares = np.nan_to_num(ds["share"].transpose(dim, "motion").values)
     ax = new_axes(ax, (7.4, 4.2))
     xs = edges(ds[dim].values)
-    bottom = np.zeros(len(groups))
-    for group, colour in CLASSES.items():
-        height = np.where(groups == group, shares, 0.0).sum(axis=1)
-        if height.any():
-            # undecided starts are hatched, because white bars would look like none
-            hatch = "xxxx" if group == "undecided" else None
-            there = _common(names[(groups == group) & (shares > 0)])
-            ax.bar(xs[:-1], height, np.diff(xs), bottom, align="edge", facecolor=colour, edgecolor="#d02020", hatch=hatch,
-                   linewidth=0, label=legend_text(group, there))
-            bottom += height
+    bottom = np.zeros(len(names))
+    for name, word in legend_words(_common(names[(names != "") & (shares > 0)])).items():
+        height = np.where(names == name, shares, 0.0).sum(axis=1)
+        # undecided starts are hatched, because white bars would look like none
+        hatch = "xxxx" if name == "undecided" else None
+        ax.bar(xs[:-1], height, np.diff(xs), bottom, align="edge", facecolor=class_colour(name), edgecolor="#d02020", hatch=hatch,
+               linewidth=0, label=word)
+        bottom += height
     ax.set_xlim(min(xs[0], xs[-1]), max(xs[0], xs[-1]))
     ax.set_ylim(0, 1)
     ax.set_xlabel(named(ds, dim))
@@ -107,23 +103,20 @@ def classes_of(ds: "xr.Dataset", label: "xr.DataArray") -> tuple[list[tuple[str,
     names = ds.assign(label=label).vibro.labels().values
     if "motion" not in label.dims:
         names = names[..., None]
-    groups = np.array([legend_group(name) if name else "" for name in np.unique(names)])
-    group = groups[np.searchsorted(np.unique(names), names)]
+    found, place = np.unique(names, return_inverse=True)
+    place = place.reshape(names.shape)
     numbers = np.zeros(names.shape, dtype=np.int64)
     if _numbered(ds, label):
         # two cycles with the same label are two motions
         numbers = np.maximum(ds["cycle"].transpose(*label.dims).values.reshape(names.shape), -1) + 1
     classes: list[tuple[str, Any]] = []
     cells = np.full(names.shape, -1)
-    for key in CLASSES:
-        here = group == key
-        kinds = np.unique(numbers[here])
-        for k, number in enumerate(kinds):
+    for name, word in legend_words(_common(names[names != ""])).items():
+        here = place == np.searchsorted(found, name)
+        for k, number in enumerate(np.unique(numbers[here])):
             cells[here & (numbers == number)] = len(classes)
-            classes.append((legend_text(key, _common(names[here & (numbers == number)])), _variant(CLASSES[key], k)))
-    if not classes:
-        classes = [("not computed", "#ffffff")]
-    return _told_apart(classes), cells
+            classes.append((f"{word}, no. {k + 1}" if k else word, variant(class_colour(name), k)))
+    return classes or [("not computed", "#ffffff")], cells
 
 
 def _common(names: NDArray[np.str_]) -> list[str]:
@@ -133,31 +126,11 @@ def _common(names: NDArray[np.str_]) -> list[str]:
     return found
 
 
-def _told_apart(classes: list[tuple[str, Any]]) -> list[tuple[str, Any]]:
-    """Classes with different names: two cycles with one label are numbered."""
-    seen: dict[str, int] = {}
-    told = []
-    for name, colour in classes:
-        seen[name] = seen.get(name, 0) + 1
-        told.append((name if seen[name] == 1 else f"{name}, no. {seen[name]}", colour))
-    return told
-
-
 def _numbered(ds: "xr.Dataset", label: "xr.DataArray") -> bool:
     """Whether cycles are numbered in the same way everywhere, which is not the case in Datasets that were joined."""
     return "cycle" in ds and "cycle_label" in ds and ds["cycle"].dims == ds["label"].dims and not (
         set(ds["cycle_label"].dims) & set(label.dims)
     )
-
-
-def _variant(colour: str, k: int) -> tuple[float, float, float]:
-    """Variant `k` of a colour, for the motions of one class: the colour itself, darker, lighter, darker still, and so on."""
-    from matplotlib.colors import to_rgb
-
-    towards, part = (0.0 if k % 2 else 1.0), 1 - 0.6 ** ((k + 1) // 2)
-    red, green, blue = to_rgb(colour)
-    mixed = [channel + (towards - channel) * part for channel in (red, green, blue)]
-    return mixed[0], mixed[1], mixed[2]
 
 
 def edges(centres: NDArray[np.float64]) -> NDArray[np.float64]:

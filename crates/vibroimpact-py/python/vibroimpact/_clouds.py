@@ -13,7 +13,8 @@ from vibroimpact._core import QuestionError
 from vibroimpact._figure import ARRIVAL, SYMBOLS, legend, new_axes, span
 from vibroimpact._palette import SERIES
 from vibroimpact._points import shown_path
-from vibroimpact._stated import along, symbol, title
+from vibroimpact._stated import along, named, symbol, title
+from vibroimpact._unit_names import unit_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -31,7 +32,7 @@ _ORDINATES = {
 
 def _ordinates(ds: "xr.Dataset") -> dict[str, str]:
     """The variables of a diagram that can be drawn, and their names; coordinates of machines by their paths."""
-    known = {name: text for name, text in _ORDINATES.items() if name in ds.data_vars}
+    known = {name: _named(ds, name, text) for name, text in _ORDINATES.items() if name in ds.data_vars}
     path = shown_path(ds)
     if not path:
         return known
@@ -39,6 +40,14 @@ def _ordinates(ds: "xr.Dataset") -> dict[str, str]:
     # the path of a quantity of a coordinate has one more name
     state = head in ("q", "qdot") and "." not in name
     return known | {path: f"{path} at phase 0" if state else path}
+
+
+def _named(ds: "xr.Dataset", name: str, text: str) -> str:
+    """The name of a variable, in a Dataset in metres and seconds with its unit."""
+    if ds.attrs.get("units") != "si":
+        return text
+    unit, plain = unit_of(ds[name].attrs), {"velocity": "arrival velocity", "x": "$x$ at phase 0", "v": r"$\dot x$ at phase 0"}
+    return f"{plain.get(name, text)} ({unit})" if unit else text
 
 
 def plot(ds: "xr.Dataset", ax: "Axes | None", which: str | None) -> "Axes":
@@ -74,8 +83,8 @@ def plot(ds: "xr.Dataset", ax: "Axes | None", which: str | None) -> "Axes":
     # the second parameter of a line, with its values at the left and the right end
     beside = [name for name in SYMBOLS if name in ds.coords and ds[name].dims == (vary,) and name != vary]
     ends = np.argsort(values)[[0, -1]]
-    with_ = (span(symbol(name), *ds[name].values[ends]) for name in beside)
-    ax.set_xlabel(", with ".join([symbol(vary), *with_]))
+    with_ = (span(named(ds, name), *ds[name].values[ends]) for name in beside)
+    ax.set_xlabel(", with ".join([named(ds, vary), *with_]))
     ax.set_ylabel(drawn[which])
     ax.set_title(title(ds, (vary, *beside)))
     legend(ax)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vibroimpact._cells import axes_of, edges, in_order
 from vibroimpact._core import QuestionError
 from vibroimpact._figure import legend, new_axes
-from vibroimpact._palette import CLASSES, legend_group, legend_text
+from vibroimpact._palette import class_colour, legend_words
 from vibroimpact._stated import named, title
 from vibroimpact._unit_names import unit_of
 
@@ -176,20 +176,17 @@ def _dots(
 ) -> "Axes":
     """The values of all motions over one axis, in the colours of their labels; marks for values that are missing."""
     values, missing, words = of
-    known = {word: legend_group(word) if word else "" for word in np.unique(words)}
-    groups = np.array([known[word] for word in words.ravel()], dtype=np.str_).reshape(words.shape)
     xs = np.broadcast_to(ds[dim].values[:, None], values.shape)
     size = 3.5 if len(xs) > 120 else 6.0
-    for group, colour in CLASSES.items():
-        here = (groups == group) & (missing == "")
-        if here.any():
-            ax.plot(xs[here], values[here], "o", color=colour, markersize=size, markeredgecolor="0.38",
-                    markeredgewidth=0.7, label=legend_text(group, sorted(set(words[here].tolist()))))
+    for label, text in legend_words(words[(words != "") & (missing == "")].tolist()).items():
+        here = (words == label) & (missing == "")
+        ax.plot(xs[here], values[here], "o", color=class_colour(label), markersize=size, markeredgecolor="0.38",
+                markeredgewidth=0.7, label=text)
     finite = values[np.isfinite(values)]
     low, high = (finite.min(), finite.max()) if len(finite) else (0.0, 1.0)
     away = _AWAY * ((high - low) or abs(low) or 1.0)
     for reason, (_, colour, _) in MISSING.items():
-        here = (missing == reason) & ((groups != "") | (reason == "not defined"))
+        here = (missing == reason) & ((words != "") | (reason == "not defined"))
         if here.any():
             y, mark = {"infinite": (high + away, "^"), "undecided": (low - away, "x")}.get(reason, (low - 2 * away, "+"))
             ax.plot(xs[here], np.full(int(here.sum()), y), mark, color=colour, markersize=size, label=reason)

@@ -7,6 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 from typing_extensions import Self
 
+from vibroimpact import (
+    _attractors, _branch, _curve, _grid, _lyapunov, _margins, _orbits, _region, _response, _settle, _simulate, _simulate_many,
+)
+
 _Fields: TypeAlias = dict[str, Any]
 _Start: TypeAlias = tuple[float | None, float, float]
 _MachineStart: TypeAlias = tuple[list[float], list[float], float]
@@ -43,6 +47,7 @@ __all__ = [
     "machine_state",
     "machine_waveform",
     "simulate_machine",
+    "simulate_machines",
     "varied_parameters",
     "Oscillator",
     "Units",
@@ -150,6 +155,22 @@ class Oscillator:
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
     def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, float | Units]]: ...
+    # the functions of the package, whose first argument is the oscillator
+    simulate = _simulate.simulate
+    simulate_many = _simulate_many.simulate_many
+    settle = _settle.settle
+    settle_many = _settle.settle_many
+    attractors = _attractors.attractors
+    lyapunov = _lyapunov.lyapunov
+    orbits = _orbits.orbits
+    branch = _branch.branch
+    curve = _curve.curve
+    region = _region.region
+    margins = _margins.margins
+    response = _response.response
+    basin = _grid.basin
+    map = _grid.region_map
+    diagram = _grid.orbit_diagram
 
 @final
 class MachineFile:
@@ -169,6 +190,10 @@ class MachineFile:
 
 def simulate_machine(
     file: MachineFile, start: _MachineStart, impacts: int | None, periods: float | None, progress: _Progress
+) -> _Fields: ...
+def simulate_machines(
+    file: MachineFile, numbers: list[tuple[str, list[float]]], starts: list[_MachineStart],
+    limits: tuple[int | None, float | None], threads: int, progress: _Progress,
 ) -> _Fields: ...
 def machine_waveform(file: MachineFile, start: _MachineStart, until: float, step: float, events: bool) -> _Fields: ...
 def machine_names() -> list[str]: ...

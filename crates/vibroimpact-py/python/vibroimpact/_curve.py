@@ -17,6 +17,7 @@ from vibroimpact._palette import SERIES
 from vibroimpact._plane import broken, frame
 from vibroimpact._progress import Progress
 from vibroimpact._result import View
+from vibroimpact._styled import styled
 from vibroimpact._tables import CURVE_MARKS, EVENT_COLOURS
 from vibroimpact._whole import BRANCH, NUMBER, maybe
 
@@ -154,9 +155,9 @@ class Curve(View):
         """The points of codimension two and the ends."""
         return [CurveEvent(of, self.system) for of in self._of["events"]]
 
-    def plot(self, ax: "Axes | None" = None) -> "Axes":
+    def plot(self, ax: "Axes | None" = None, *, legend: bool = True, title: str | None = None, **line: Any) -> "Axes":
         """Draw the curve in its plane, dotted where the orbit is inadmissible, and its points of codimension two."""
-        return _draw(self, ax)
+        return styled(lambda ax: _draw(self, ax), ax, legend, title, line)
 
     def _table(self) -> dict[str, Any]:
         """One row for each point."""

@@ -29,7 +29,7 @@ def export(store: str | PathLike[str], path: str | PathLike[str], form: str) -> 
         raise _core.QuestionError(f"format = `{form}` is none of {', '.join(writers)}")
     if fspath(path) == "-":
         raise _core.QuestionError("a store is not exported to stdout here\nhint: `vibro export STORE --csv -` prints the table")
-    ds = _store.open(store)
+    ds = _store.with_status(store)
     place = Path(fspath(path))
     if not place.parent.is_dir():
         raise FileNotFoundError(f"there is no folder {place.parent} to write {place.name} to")

@@ -27,6 +27,8 @@ SYMBOLS = {
 
 #: Name of the speed before an impact.
 ARRIVAL = r"arrival velocity $u_-$"
+#: Width of axes in inches below which there is no room for a legend beside them, and how far below the axes it then begins.
+_NARROW, _BELOW = 3.6, 0.42
 #: Maximum number of impacts with a mark each; more marks would merge into a band.
 _MARKED = 5000
 
@@ -85,11 +87,22 @@ def new_axes(ax: "Axes | None", size: tuple[float, float]) -> "Axes":
 
 
 def legend(ax: "Axes", handles: "list[Patch] | None" = None) -> None:
-    """Add a legend to the right of the axes, where it covers nothing."""
-    handles_of_axes = ax.get_legend_handles_labels()[0]
-    if handles or handles_of_axes:
-        of = handles or handles_of_axes
-        ax.legend(handles=of, loc="upper left", bbox_to_anchor=(1.01, 1.0), frameon=False, borderaxespad=0.0)
+    """Add a legend where it covers nothing: to the right of the axes, or below them if they are as narrow as a column of text."""
+    of = handles or ax.get_legend_handles_labels()[0]
+    if not of:
+        return
+    # of one label once: several figures may be in these axes
+    once: dict[str, Any] = {}
+    for handle in of:
+        once.setdefault(str(handle.get_label()), handle)
+    if ax.get_position().width * ax.figure.get_figwidth() >= _NARROW:  # type: ignore[union-attr]
+        ax.legend(handles=list(once.values()), loc="upper left", bbox_to_anchor=(1.01, 1.0), frameon=False, borderaxespad=0.0)
+        return
+    from matplotlib.transforms import ScaledTranslation
+
+    below = ax.transAxes + ScaledTranslation(0, -_BELOW, ax.figure.dpi_scale_trans)
+    ax.legend(handles=list(once.values()), loc="upper center", bbox_to_anchor=(0.5, 0.0), bbox_transform=below, frameon=False,
+              borderaxespad=0.0, ncols=2, fontsize="x-small", columnspacing=1.0, handlelength=1.5, handletextpad=0.5)
 
 
 def equal(symbol: str, value: float) -> str:

@@ -13,7 +13,7 @@ from vibroimpact._axis import Axis, Interval
 from vibroimpact._core import Oscillator, Units
 from vibroimpact._plan import Plan
 from vibroimpact._progress import Progress, watched
-from vibroimpact._whole import THREADS, whole
+from vibroimpact._whole import threads_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -31,7 +31,7 @@ def computed(
     """Compute the Dataset of a plan: in memory, or in a store by threads of this process or by the workers of a client."""
     from vibroimpact import _store
 
-    threads = whole("threads", threads, THREADS)
+    threads = threads_of(threads)
     if store is None:
         if client is not None:
             raise _core.QuestionError(

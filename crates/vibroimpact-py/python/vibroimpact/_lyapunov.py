@@ -14,6 +14,7 @@ from vibroimpact._figure import heading, named
 from vibroimpact._motion import Measured, Motion, all_measured, measured
 from vibroimpact._progress import Progress
 from vibroimpact._result import View, equal
+from vibroimpact._styled import styled
 from vibroimpact._whole import MEASURED, SECTION, SIMULATED, TRANSIENT, maybe
 
 if TYPE_CHECKING:
@@ -142,15 +143,18 @@ class Lyapunov(View):
         found |= {name: of for name, of in more.items() if of is not None}
         return {"name": list(found), "value": [of.value for of in found.values()], "error": [of.error for of in found.values()]}
 
-    def plot(self, ax: "Axes | None" = None) -> "Axes":
+    def plot(self, ax: "Axes | None" = None, *, legend: bool = True, title: str | None = None, **line: Any) -> "Axes":
         """Draw the exponents with their error bars."""
         from vibroimpact import _exponents
 
         if not self.exponents:
             raise _core.QuestionError("there are no exponents: the motion ended before they could be measured")
-        return _exponents.plot(self.exponents, self.exact, f"{heading(self.system)}: {named(self.motion.label)}", ax)
+        exponents, head = self.exponents, f"{heading(self.system)}: {named(self.motion.label)}"
+        return styled(lambda ax: _exponents.plot(exponents, self.exact, head, ax), ax, legend, title, line)
 
-    def plot_sections(self, axes: Any = None) -> "NDArray[Any]":
+    def plot_sections(
+        self, axes: Any = None, *, legend: bool = True, title: str | None = None, **line: Any
+    ) -> "NDArray[Any]":
         """Draw both sections of the attractor: the phase and speed of closings, and the plane of each coordinate and its velocity
         at phase 0.
 
@@ -160,7 +164,7 @@ class Lyapunov(View):
 
         if not len(self.closings.phase) and not len(self.strobes.q):
             raise _core.QuestionError("there are no points of the sections\nhint: lyapunov(..., points=5000)")
-        return _sections.sections(self, axes)
+        return styled(lambda axes: _sections.sections(self, axes), axes, legend, title, line)
 
 
 def lyapunov(

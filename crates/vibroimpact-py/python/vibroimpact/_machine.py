@@ -21,8 +21,9 @@ from vibroimpact._margins import margins
 from vibroimpact._orbits import orbits
 from vibroimpact._region import region
 from vibroimpact._response import response
-from vibroimpact._settle import settle
+from vibroimpact._settle import settle, settle_many
 from vibroimpact._simulate import simulate
+from vibroimpact._simulate_many import simulate_many
 
 _Part = Mapping[str, Any]
 
@@ -270,7 +271,9 @@ class Machine:
 
     # the functions of the package, whose first argument is the machine
     simulate = simulate
+    simulate_many = simulate_many
     settle = settle
+    settle_many = settle_many
     attractors = attractors
     lyapunov = lyapunov
     orbits = orbits

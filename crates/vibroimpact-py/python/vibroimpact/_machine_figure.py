@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact._core import QuestionError
+from vibroimpact._figure import legend
 from vibroimpact._palette import SERIES
 
 if TYPE_CHECKING:
@@ -71,8 +72,7 @@ def draw(motion: Any, axes: "Sequence[Axes] | None") -> "NDArray[Any]":
     drawn[-1].set_xlabel("time")
     for panel in drawn:
         panel.set_xlim(0, until or 1.0)
-        if panel.get_legend_handles_labels()[0]:
-            panel.legend(loc="upper left", bbox_to_anchor=(1, 1), frameon=False)
+        legend(panel)
     return drawn
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact import _core
-from vibroimpact._over import Over
+from vibroimpact._over import POINT, MachineOver, Over
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -55,10 +55,22 @@ def _coordinates(over: Over) -> dict[str, Any]:
     return found
 
 
-def over_points(over: Over, values: NDArray[Any], further: Sequence[tuple[str, int]] = ()) -> tuple[list[str], NDArray[Any]]:
+def over_points(over: Over | MachineOver, values: NDArray[Any], further: Sequence[tuple[str, int]] = ()) -> tuple[list[str], NDArray[Any]]:
     """The dimensions of a variable, and its flat values in their shape."""
     names = [*over.sizes, *(name for name, _ in further)]
     return names, values.reshape([*over.sizes.values(), *(size for _, size in further)])
+
+
+def in_shape(ds: "xr.Dataset", over: MachineOver) -> "xr.Dataset":
+    """A Dataset over points in the order of a list, with the dimensions of the arrays that were given."""
+    import xarray as xr
+
+    def shaped(of: "xr.DataArray") -> tuple[list[str], NDArray[Any], dict[str, Any]]:
+        names = [str(name) for name in of.dims if name != POINT]
+        return [*over.sizes, *names], of.values.reshape([*over.sizes.values(), *of.shape[1:]]), of.attrs
+
+    coords = {name: (*of, ds[name].attrs) if name in ds.coords else of for name, of in over.coords.items()}
+    return xr.Dataset({name: shaped(of) for name, of in ds.data_vars.items()}, coords, ds.attrs)
 
 
 def whole_numbers(dims: Sequence[str], codes: NDArray[Any]) -> dict[str, Any]:

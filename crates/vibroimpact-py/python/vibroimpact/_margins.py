@@ -13,6 +13,7 @@ from vibroimpact._core import Oscillator
 from vibroimpact._motion import Motion
 from vibroimpact._progress import Progress
 from vibroimpact._result import Result
+from vibroimpact._styled import styled
 from vibroimpact._whole import LINES, maybe
 
 if TYPE_CHECKING:
@@ -115,11 +116,11 @@ class Margins(Result):
             "event": [None if end.event is None else end.event["kind"] for _, _, end in ends],
         }
 
-    def plot(self, ax: "Axes | None" = None) -> "Axes":
+    def plot(self, ax: "Axes | None" = None, *, legend: bool = True, title: str | None = None, **line: Any) -> "Axes":
         """Draw the change of each parameter to its nearest events as bars, with the values there, and the box."""
         from vibroimpact import _margin_bars
 
-        return _margin_bars.plot(self, ax)
+        return styled(lambda ax: _margin_bars.plot(self, ax), ax, legend, title, line)
 
 
 def margins(

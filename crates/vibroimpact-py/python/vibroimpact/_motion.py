@@ -13,6 +13,7 @@ from vibroimpact._core import Oscillator, QuestionError
 from vibroimpact._events import Events
 from vibroimpact._result import View
 from vibroimpact._simulate import simulate
+from vibroimpact._styled import styled
 from vibroimpact._waveform import Waveform, waveform
 
 if TYPE_CHECKING:
@@ -240,13 +241,18 @@ class Motion(View):
         machine = self.system.starting(self.state)
         return waveform(machine, machine.start_of(), until, step, events)
 
-    def plot(self, ax: "Axes | Any" = None, *, si: bool = False) -> Any:
+    def plot(
+        self, ax: Any = None, *, si: bool = False, legend: bool = True, title: str | None = None, **line: Any
+    ) -> Any:
         """Draw some periods of the motion: of an oscillator the position with the stops, of a machine the coordinates, and below
         them the contact forces, if there are any.
 
         `ax` is the axes to draw into, of a machine one or two. Returns the axes. `si` selects metres and seconds for an
         oscillator with units.
         """
+        return styled(lambda ax: self._drawn(ax, si), ax, legend, title, line)
+
+    def _drawn(self, ax: Any, si: bool) -> Any:
         if not isinstance(self.system, Oscillator):
             return self._plot_machine(self.system, ax)
         from vibroimpact import _figure

@@ -7,13 +7,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vibroimpact import _figure
 from vibroimpact._ask import System, ask
 from vibroimpact._core import QuestionError
-from vibroimpact._figure import heading, legend, named, new_axes
+from vibroimpact._figure import heading, named, new_axes
 from vibroimpact._motion import Motion
 from vibroimpact._palette import SERIES
 from vibroimpact._progress import Progress
 from vibroimpact._result import View
+from vibroimpact._styled import styled
 from vibroimpact._waveform import Waveform
 
 if TYPE_CHECKING:
@@ -93,10 +95,13 @@ class Orbits(View):
         number = np.repeat(np.arange(1, len(self) + 1), [len(of.cycle) for of in self])
         return {"orbit": number, **{name: np.concatenate([table[name] for table in tables]) for name in names}}
 
-    def plot(self, ax: "Axes | None" = None) -> "Axes":
+    def plot(self, ax: "Axes | None" = None, *, legend: bool = True, title: str | None = None, **line: Any) -> "Axes":
         """Draw the speed and the phase of each closing of a stop, for all orbits."""
         if not len(self):
             raise QuestionError("there are no orbits to draw")
+        return styled(self._drawn, ax, legend, title, line)
+
+    def _drawn(self, ax: "Axes | None") -> "Axes":
         ax = new_axes(ax, (6.4, 4.2))
         for k, one in enumerate(self):
             at, colour = one.cycle.closes, SERIES[k % _USABLE]
@@ -107,7 +112,7 @@ class Orbits(View):
         ax.set_xlabel(r"phase $\theta$")
         ax.set_ylabel("speed of closing")
         ax.set_title(heading(self.system))
-        legend(ax)
+        _figure.legend(ax)
         return ax
 
 

@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from vibroimpact._ask import MachineLike, State
 from vibroimpact._axis import numbers
 from vibroimpact._core import Oscillator, QuestionError
+from vibroimpact._events import names_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -40,33 +42,36 @@ class Over(NamedTuple):
     coords: dict[str, Any]
 
 
+class MachineOver(NamedTuple):
+    """Points of a machine, as `Over`."""
+
+    #: The machine and its start, of which the numbers count that do not vary.
+    machine: MachineLike
+    start: State
+    columns: list[tuple[str, NDArray[np.float64]]]
+    sizes: dict[str, int]
+    coords: dict[str, Any]
+
+
+class _Collected(NamedTuple):
+    """Numbers as users give them, broadcast against each other."""
+
+    #: Those with one value.
+    fixed: dict[str, float]
+    #: Those that vary, as flat columns.
+    columns: list[tuple[str, NDArray[np.float64]]]
+    sizes: dict[str, int]
+    coords: dict[str, Any]
+
+
 def points(
     systems: "Oscillator | Points", over: "Points | None", starts: "Points | None"
 ) -> Over:
     """The points of systems and starts, broadcast against each other."""
     osc, own = (systems, None) if isinstance(systems, Oscillator) else (None, systems)
-    given: dict[str, Any] = {}
-    for where, of in (("systems", own), ("over", over), ("starts", starts)):
-        if of is None:
-            continue
-        for name, values in _named(where, of).items():
-            if name in given:
-                raise QuestionError(f"{name} is given twice, the second time in {where}")
-            if where == "starts" and name not in _STARTS:
-                raise QuestionError(
-                    f"starts has no coordinate `{name}`; there are {', '.join(_STARTS)}\n"
-                    "hint: parameters of the system are given in the first argument, or in over"
-                )
-            given[name] = values
-    arrays, sizes, coords = _broadcast(given)
-    fixed = {name: float(values[()]) for name, values in arrays.items() if values.ndim == 0}
-    varied = {name: values for name, values in arrays.items() if values.ndim > 0}
-    shape = tuple(sizes.values())
-    flat = {name: np.ascontiguousarray(np.broadcast_to(of, shape)).reshape(-1) for name, of in varied.items()}
-    parameters = {name for name in arrays if name not in _STARTS}
-    if not all(sizes.values()):
-        raise QuestionError(f"there are no points: {', '.join(f'{name} has length {n}' for name, n in sizes.items())}")
-    first = {name: fixed[name] if name in fixed else float(flat[name][0]) for name in parameters}
+    fixed, columns, sizes, coords = _collected({"systems": own, "over": over, "starts": starts}, _PARAMETERS, _STARTS)
+    first = {name: values for name, values in fixed.items() if name not in _STARTS}
+    first |= {name: float(values[0]) for name, values in columns if name not in _STARTS}
     if osc is None:
         osc = _system(first)
     elif fixed_here := {name: value for name, value in first.items() if name in fixed}:
@@ -75,12 +80,49 @@ def points(
         second = {"second_restitution": first["second_restitution"]} if "second_restitution" in first else {}
         osc = osc.replace(second_gap=first["second_gap"], **second)
     x, v, phase = (fixed.get(name) for name in _STARTS)
-    columns = list(flat.items())
     if not columns:
         # one start still is a column, so that one way computes all
-        value = v or 0.0
-        columns = [("v", np.array([value]))]
-    return Over(osc, columns, (x, v or 0.0, phase or 0.0), sizes, {**coords, **_described(varied, sizes)})
+        columns = [("v", np.array([v or 0.0]))]
+    return Over(osc, columns, (x, v or 0.0, phase or 0.0), sizes, coords)
+
+
+def machine_points(machine: MachineLike, over: "Points | None", starts: "Points | None") -> MachineOver:
+    """The points of a machine and its starts."""
+    positions, velocities = names_of(machine)
+    parts = (*positions, *velocities, "phase")
+    fixed, columns, sizes, coords = _collected({"over": over, "starts": starts}, tuple(machine.paths), parts)
+    numbers_ = {name: value for name, value in fixed.items() if name not in parts}
+    q, qdot, phase = machine.start_of()
+    q, qdot = ([fixed.get(name, value) for name, value in zip(names, of)] for names, of in ((positions, q), (velocities, qdot)))
+    start = (q, qdot, fixed.get("phase", phase))
+    if not columns:
+        columns = [("phase", np.array([start[2]]))]
+    return MachineOver(machine.set(numbers_) if numbers_ else machine, start, columns, sizes, coords)
+
+
+def _collected(all_: "Mapping[str, Points | None]", parameters: tuple[str, ...], parts: tuple[str, ...]) -> _Collected:
+    """The numbers in arguments by name; `parts` are those of a start."""
+    given: dict[str, Any] = {}
+    for where, of in all_.items():
+        if of is None:
+            continue
+        for name, values in _named(where, of, (*parameters, *parts)).items():
+            if name in given:
+                raise QuestionError(f"{name} is given twice, the second time in {where}")
+            if where == "starts" and name not in parts:
+                raise QuestionError(
+                    f"starts has no coordinate `{name}`; there are {', '.join(parts)}\n"
+                    "hint: parameters of the system are given in the first argument, or in over"
+                )
+            given[name] = values
+    arrays, sizes, coords = _broadcast(given)
+    fixed = {name: float(values[()]) for name, values in arrays.items() if values.ndim == 0}
+    varied = {name: values for name, values in arrays.items() if values.ndim > 0}
+    if not all(sizes.values()):
+        raise QuestionError(f"there are no points: {', '.join(f'{name} has length {n}' for name, n in sizes.items())}")
+    shape = tuple(sizes.values())
+    columns = [(name, np.ascontiguousarray(np.broadcast_to(of, shape)).reshape(-1)) for name, of in varied.items()]
+    return _Collected(fixed, columns, sizes, {**coords, **_described(varied, sizes)})
 
 
 def _system(first: Mapping[str, float]) -> Oscillator:
@@ -98,17 +140,16 @@ def _system(first: Mapping[str, float]) -> Oscillator:
     return Oscillator(**first)  # type: ignore[arg-type]
 
 
-def _named(where: str, of: Any) -> dict[str, Any]:
-    """The columns of a mapping, a table or a Dataset, by name."""
+def _named(where: str, of: Any, known: tuple[str, ...]) -> dict[str, Any]:
+    """The columns of a mapping, a table or a Dataset, by name; of coordinates those that are known."""
     if hasattr(of, "data_vars") and hasattr(of, "coords"):
-        known = (*_PARAMETERS, *_STARTS)
         return {str(name): of[name] for name in (*of.data_vars, *of.coords) if name in of.data_vars or name in known}
     if hasattr(of, "columns") and hasattr(of, "to_numpy"):
         return {str(name): of[name].to_numpy() for name in of.columns}
     if isinstance(of, Mapping):
         return {str(name): values for name, values in of.items()}
     raise TypeError(
-        f"{where} is {type(of).__name__}, and not an Oscillator, a mapping of names to arrays, a DataFrame or a Dataset"
+        f"{where} is {type(of).__name__}, and not an Oscillator, a Machine, a mapping of names to arrays, a DataFrame or a Dataset"
         if where == "systems"
         else f"{where} is {type(of).__name__}, and not a mapping of names to arrays, a DataFrame or a Dataset"
     )

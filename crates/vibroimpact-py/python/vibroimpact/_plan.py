@@ -10,13 +10,13 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from vibroimpact import _core
-from vibroimpact._ask import Start, System
+from vibroimpact._ask import MachineLike, Start, System
 from vibroimpact._axis import Axis, Interval, axes, beside, interval, sweep
 from vibroimpact._budget import Budget, seconds
 from vibroimpact._core import Oscillator
-from vibroimpact._over import Points, points
+from vibroimpact._over import MachineOver, Points, machine_points, points
 from vibroimpact._sample import Sample
-from vibroimpact._whole import BLOCKS, BUDGET, KEEP, MEASURED, POINT_STARTS, REFINE, SEED, SHARD, SIMULATED, STARTS, THREADS, TILE, TRANSIENT, maybe, whole
+from vibroimpact._whole import BLOCKS, BUDGET, KEEP, MEASURED, POINT_STARTS, REFINE, SEED, SHARD, SIMULATED, STARTS, TILE, TRANSIENT, maybe, threads_of, whole
 
 #: Version of the fields of a plan.
 _VERSION = 1
@@ -137,7 +137,7 @@ class Plan:
         >>> cost.points, cost.threads, 0 < low <= cost.processor_seconds <= high
         (20000, 2, True)
         """
-        blocks, threads = whole("sample", sample, BLOCKS), whole("threads", threads, THREADS)
+        blocks, threads = whole("sample", sample, BLOCKS), threads_of(threads)
         if not 1 <= blocks <= (BLOCKS.most or blocks):
             raise _core.QuestionError(f"sample = {blocks} lies outside 1 <= sample <= {BLOCKS.most}")
         found = json.loads(_core.estimate_plan(self.json, blocks, seconds("budget", budget), threads))
@@ -212,7 +212,7 @@ class Plan:
     @classmethod
     def samples(
         cls,
-        systems: "Oscillator | Points",
+        systems: "System | Points",
         *,
         over: "Points | None" = None,
         starts: "Points | None" = None,
@@ -230,7 +230,7 @@ class Plan:
         if len(drawn) > 1:
             raise _core.QuestionError(f"{' and '.join(drawn)} are two samples\nhint: one sample of all that varies")
         asked: dict[str, Any] = {name: of.low() if isinstance(of, Sample) else of for name, of in given.items()}
-        all_ = points(asked["systems"], asked["over"], asked["starts"])
+        all_ = machine_points(*asked.values()) if isinstance(systems, MachineLike) else points(*asked.values())
         if drawn:
             if all_.sizes:
                 raise _core.QuestionError("a sample and arrays are two sets of points\nhint: the arrays of the sample, dict(sample)")
@@ -239,12 +239,14 @@ class Plan:
         else:
             of_points = {"listed": [{"vary": name, "values": of.tolist()} for name, of in all_.columns]}
             varied = {name for name, _ in all_.columns}
+        task = {"points": of_points, "impacts": maybe("impacts", impacts, BUDGET), "fields": names(fields)}
+        if isinstance(all_, MachineOver):
+            if transient:
+                raise _core.QuestionError("transient counts the impacts of an oscillator")
+            return cls._of(all_.machine, "settle_many", task, tile, all_.start)
         start = {name: of for name, of in zip(("x", "v", "phase"), all_.start) if name not in varied}
-        task = {
-            "points": of_points,
+        task |= {
             "start": {name: of for name, of in start.items() if of is not None},
-            "impacts": maybe("impacts", impacts, BUDGET),
-            "fields": names(fields),
             "transient": True if transient else None,
         }
         return cls._of(all_.osc, "basin", task, tile)

@@ -46,7 +46,7 @@ def shown_path(ds: "xr.Dataset") -> str:
     """The path of the coordinate, velocity or quantity that a diagram of a machine shows; empty if it shows none."""
     task = json.loads(ds.attrs.get("plan", "{}")).get("task", {})
     shown = str(task.get("diagram", {}).get("show", ""))
-    return shown if shown in ds.data_vars and shown != "speed" else ""
+    return shown if shown in ds.data_vars and shown not in _NUMBERS else ""
 
 
 def _stops(ds: "xr.Dataset") -> "np.ndarray[Any, Any]":

@@ -17,6 +17,7 @@ from vibroimpact._palette import class_colour
 from vibroimpact._plane import broken, frame
 from vibroimpact._progress import Progress
 from vibroimpact._result import Result
+from vibroimpact._styled import styled
 from vibroimpact._tables import BOUND_STYLES
 from vibroimpact._whole import GRID, whole
 
@@ -120,9 +121,9 @@ class Region(Result):
         """One row for each vertex of the polygons of both regions."""
         return _vertices([("existence", self.existence), ("stability", self.stability)], self.parameters)
 
-    def plot(self, ax: "Axes | None" = None) -> "Axes":
+    def plot(self, ax: "Axes | None" = None, *, legend: bool = True, title: str | None = None, **line: Any) -> "Axes":
         """Draw both regions. The colour of an edge shows the kind of boundary."""
-        return _draw(self, ax)
+        return styled(lambda ax: _draw(self, ax), ax, legend, title, line)
 
 def _vertices(parts: "list[tuple[str, Part]]", names: tuple[str, str]) -> dict[str, Any]:
     """The vertices of all polygons as columns."""

@@ -7,22 +7,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact import _core
+from vibroimpact import _core, _figure
 from vibroimpact._ask import System, answered, given
 from vibroimpact._axis import Axis, sweep
 from vibroimpact._core import Oscillator
-from vibroimpact._figure import axis_of, heading, legend, named, new_axes
-from vibroimpact._palette import SERIES
+from vibroimpact._figure import axis_of, heading, named, new_axes
 from vibroimpact._progress import Progress
 from vibroimpact._result import Result
-from vibroimpact._tracks import LOOKS
+from vibroimpact._styled import styled
+from vibroimpact._tracks import LOOKS, curve
 from vibroimpact._whole import BUDGET, maybe
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-#: Number of colours of branches; the others of the series are for dots and too light for a line.
-_USABLE = 6
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
@@ -103,7 +100,9 @@ class Response(Result):
         of = np.repeat([name for name, _ in tables], [len(curve) for _, curve in curves])
         return {"curve": of, self.vary: joined.pop("parameter"), **joined}
 
-    def plot(self, ax: "Axes | None" = None, *, quantity: str | None = None) -> "Axes":
+    def plot(
+        self, ax: "Axes | None" = None, *, quantity: str | None = None, legend: bool = True, title: str | None = None, **line: Any
+    ) -> "Axes":
         """Draw a quantity over the parameter: stable branches solid, neutral ones dashed and dotted, unstable ones dashed, the motions of the sweeps as dots.
 
         Parameters
@@ -117,19 +116,22 @@ class Response(Result):
         if quantity not in self.up.quantities:
             known = ", ".join(self.up.quantities)
             raise _core.QuestionError(f"`{quantity}` is no quantity; there are {known}")
+        return styled(lambda ax: self._drawn(ax, quantity), ax, legend, title, line)
+
+    def _drawn(self, ax: "Axes | None", quantity: str) -> "Axes":
         ax = new_axes(ax, (7.2, 4.8))
         for name, of, size, colour in (("sweep up", self.up, 6.0, "0.77"), ("sweep down", self.down, 3.0, "0.38")):
             ax.plot(of.parameter, of.quantities[quantity], "o", color=colour, markersize=size, markeredgewidth=0, label=name)
-        colours, looks = dict[str, str](), set[str]()
+        labels, looks = list[str](), set[str]()
         for branch in self.branches:
             for begin, end in _runs(branch):
                 label, stability = str(branch.label[end]), str(branch.stability[end])
                 looks.add(stability)
-                if label not in colours:
-                    colours[label] = SERIES[len(colours) % _USABLE]
-                    ax.plot([], [], color=colours[label], linewidth=1.8, label=named(label))
                 xs, ys = branch.parameter[begin : end + 1], branch.quantities[quantity][begin : end + 1]
-                ax.plot(xs, ys, LOOKS[stability], color=colours[label], linewidth=1.8)
+                curve(ax, xs, ys, LOOKS[stability], label)
+                if label not in labels:
+                    labels.append(label)
+                    curve(ax, [], [], "-", label, label=named(label))
         for word in ("neutral", "unstable"):
             if word in looks:
                 ax.plot([], [], LOOKS[word], color="black", linewidth=1.8, label=word)
@@ -138,7 +140,7 @@ class Response(Result):
         words = quantity.replace("_", " ") if isinstance(self.system, Oscillator) else quantity
         ax.set_ylabel(words + (f" ({unit})" if unit else ""))
         ax.set_title(heading(self.system, (self.vary,)))
-        legend(ax)
+        _figure.legend(ax)
         return ax
 
 

@@ -12,6 +12,7 @@ import numpy as np
 
 if TYPE_CHECKING:
     import pandas as pd
+    import xarray as xr
 
 #: Size of the picture in inches, and its dots per inch.
 _SIZE, _DOTS = (5.6, 2.6), 80
@@ -69,6 +70,16 @@ class Result:
 
         rows: pd.DataFrame = pd.DataFrame(self._table())
         return rows
+
+    def to_xarray(self) -> "xr.Dataset":
+        """The table as a Dataset of xarray over its rows, with the plan as an attribute, if there is one."""
+        import xarray as xr
+
+        from vibroimpact import _core
+
+        plan = {} if getattr(self, "plan", None) is None else {"plan": self.plan}  # type: ignore[attr-defined]
+        columns = {name: ("row", np.asarray(values)) for name, values in self._table().items()}
+        return xr.Dataset(columns, attrs={"source": f"vibroimpact {_core.__version__}", **plan})
 
     def _repr_html_(self) -> str:
         text = f"<pre>{html.escape(repr(self))}</pre>"

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact import _core
-from vibroimpact._ask import Start, System, ask, given
+from vibroimpact._ask import MachineLike, Start, System, ask, given
 from vibroimpact._attractors import Attractor, table
 from vibroimpact._axis import numbers
 from vibroimpact._core import Oscillator
@@ -20,7 +20,9 @@ from vibroimpact._motion import Motion, all_measured
 from vibroimpact._over import Points
 from vibroimpact._progress import Progress, watched
 from vibroimpact._result import Result, answer
-from vibroimpact._whole import BUDGET, THREADS, maybe, whole
+from vibroimpact._sample import Sample
+from vibroimpact._styled import styled
+from vibroimpact._whole import BUDGET, maybe, threads_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -163,11 +165,14 @@ class Settlement(Result):
         """The motions as in the JSON of the command, and the number of the motion of each start."""
         return {"motions": [motion.to_dict() for motion in self.motions], "cells": self.cells.tolist()}
 
-    def plot(self, ax: "Axes | None" = None) -> "Axes":
+    def plot(self, ax: "Axes | None" = None, *, legend: bool = True, title: str | None = None, **line: Any) -> "Axes":
         """Draw the shares as bars."""
         from vibroimpact import _figure
 
-        return _figure.shares(_figure.title(self.osc), [(motion.label, motion.share) for motion in self.motions], ax)
+        def draw(ax: "Axes | None") -> "Axes":
+            return _figure.shares(_figure.title(self.osc), [(motion.label, motion.share) for motion in self.motions], ax)
+
+        return styled(draw, ax, legend, title, line)
 
     @property
     def labels(self) -> NDArray[np.str_]:
@@ -190,7 +195,7 @@ def settle_many(
 
 @overload
 def settle_many(
-    systems: "Oscillator | Points",
+    systems: "System | Points",
     *,
     over: "Points | None" = None,
     starts: "Points | None" = None,
@@ -206,7 +211,7 @@ def settle_many(
 
 
 def settle_many(
-    systems: "Oscillator | Points",
+    systems: "System | Points",
     x: ArrayLike | None = None,
     v: ArrayLike = 0.0,
     phase: ArrayLike = 0.0,
@@ -230,15 +235,17 @@ def settle_many(
 
     Parameters
     ----------
-    systems : Oscillator, mapping, DataFrame or Dataset
+    systems : Oscillator, Machine, mapping, DataFrame or Dataset
         The system, or values of "inverse_beta" or "beta", "gap", "restitution", "damping", "second_gap",
         "second_restitution"; of "x", "v" and "phase" too.
     x, v, phase : array_like
         Positions, velocities and phases, broadcast to one shape.
     over : mapping, DataFrame or Dataset
-        Values of parameters instead of those of an oscillator; of a machine in physical units also "force_n" and others.
+        Values of parameters instead of those of an oscillator, in physical units also "force_n" and others; of the numbers of
+        a machine by path.
     starts : mapping, DataFrame or Dataset
-        Values of "x", "v" and "phase". Default: at rest, or on the stop, at phase 0.
+        Values of "x", "v" and "phase", of a machine of "q.NAME", "qdot.NAME" and "phase". Default: at rest, or on the stop, at
+        phase 0; the start of the machine.
     fields : sequence of str
         Quantities of each motion as further variables, as for `basin`.
     transient : bool
@@ -258,11 +265,14 @@ def settle_many(
         `label` (codes, which `ds.vibro.labels()` converts to text), `impacts` m and `periods` n of the motion m/n, the
         `reason` of the verdict, and what `fields` and `transient` ask for. For several systems the Floquet multipliers of
         each motion, `multiplier_1_re`, `multiplier_1_im` and `multiplier_2_...`, the larger first; for one system `cycle`,
-        and the cycles in the tables `cycle_...`, as of `basin`.
+        and the cycles in the tables `cycle_...`, as of `basin`. Of a machine there are `label`, `impacts`, `periods`, the largest
+        `speed` of a closing, the largest modulus of the multipliers as `multiplier`, and `fields`; where a start lies beyond a
+        stop, or the numbers are not allowed, there is no motion.
 
     Examples
     --------
     >>> import numpy as np
+    >>> import vibroimpact as vi
     >>> from vibroimpact import Oscillator, settle_many
     >>> osc = Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5)
     >>> ds = settle_many({"inverse_beta": [1.3, 1.8], "gap": [0.75, 0.25], "restitution": 0.5}, starts={"v": 0.5})
@@ -271,22 +281,28 @@ def settle_many(
     >>> found = settle_many(osc, np.linspace(-4, 0.75, 5), 0.0)
     >>> found.labels.tolist()
     ['1/1', '1/1', '1/1', '1/1', '2/1']
+    >>> machine = vi.Machine.named("two-mass-hammer")
+    >>> machine.settle_many(over={"frequency": [1.0, 1.2]}).vibro.labels().values.tolist()
+    ['2/1', '1/1']
     """
-    threads = whole("threads", threads, THREADS)
+    threads = threads_of(threads)
     if x is None:
         if any(np.ndim(of) > 0 or of != 0.0 for of in (v, phase)):
             raise TypeError('velocities and phases without positions are written starts={"v": ..., "phase": ...}')
-        if store is None and client is None and tile is None:
+        if store is None and client is None and tile is None and not isinstance(systems, MachineLike):
             budget = maybe("impacts", impacts, BUDGET)
             return _of_points((systems, over, starts), (budget, fields, transient), threads, progress)
-        from vibroimpact import _grid, _many
+        from vibroimpact import _grid, _many, _over
         from vibroimpact._plan import Plan
 
         plan = Plan.samples(
             systems, over=over, starts=starts, fields=fields, transient=transient, impacts=impacts, tile=tile
         )
         units = systems.units if isinstance(systems, Oscillator) else None
-        return _many.with_whole_numbers(_grid.computed(plan, units, store, client, threads, progress))
+        ds = _many.with_whole_numbers(_grid.computed(plan, units, store, client, threads, progress))
+        if not isinstance(systems, MachineLike) or store is not None or any(isinstance(of, Sample) for of in (over, starts)):
+            return ds
+        return _many.in_shape(ds, _over.machine_points(systems, over, starts))
     if over is not None or starts is not None or len(fields) or transient or impacts is not None or store is not None:
         raise TypeError("x as the second argument has no over, starts, fields, transient, impacts and store: write starts={\"x\": ...}")
     if not isinstance(systems, Oscillator):

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 #: The attributes of a Dataset that contain its physical units.
 _LENGTH, _TIME, _MASS = _KEYS = ("unit_length_m", "unit_time_s", "unit_mass_kg")
 
-#: The factor for each scale of nondimensional numbers, and the SI unit in the notation of UDUNITS.
+#: The factor for each scale of nondimensional numbers, and the SI unit as UDUNITS and pint read it.
 _Factors: TypeAlias = dict[str, tuple[Any, str]]
 
 #: Units of numbers that have no scale.
@@ -70,10 +70,10 @@ def _factors(length: Any, time: Any, mass: Any) -> _Factors:
     speed = length / time
     return {
         "F/k": (length, "m"),
-        "omega_n F/k": (speed, "m s-1"),
+        "omega_n F/k": (speed, "m/s"),
         "1/omega_n": (time, "s"),
-        "omega_n": (1 / time, "s-1"),
-        "omega_n^2 F/k": (speed / time, "m s-2"),
+        "omega_n": (1 / time, "1/s"),
+        "omega_n^2 F/k": (speed / time, "m/s^2"),
         "m omega_n F/k": (mass * speed, "N s"),
         "F^2/k": (mass * speed * speed, "J"),
         "omega_n F^2/k": (mass * speed * speed / time, "W"),

@@ -13,6 +13,7 @@ from vibroimpact._core import Oscillator, QuestionError
 from vibroimpact._events import named_columns
 from vibroimpact._progress import Progress, watched
 from vibroimpact._result import Result
+from vibroimpact._styled import styled
 from vibroimpact._waveform import Waveform, waveform
 from vibroimpact._whole import SIMULATED, maybe
 
@@ -118,13 +119,18 @@ class Simulation(Result):
         """
         return waveform(self.system, self.start, self.shown_until, step, events)
 
-    def plot(self, ax: Any = None, *, si: bool = False) -> Any:
+    def plot(
+        self, ax: Any = None, *, si: bool = False, legend: bool = True, title: str | None = None, **line: Any
+    ) -> Any:
         """Draw the motion over time: of an oscillator the position with the stops and the impacts, of a machine the coordinates with
         contacts and impacts, and below them the contact forces, if there are any.
 
         `ax` is the axes to draw into, of a machine one or two. Returns the axes. `si` selects metres and seconds for an
         oscillator with units.
         """
+        return styled(lambda ax: self._drawn(ax, si), ax, legend, title, line)
+
+    def _drawn(self, ax: Any, si: bool) -> Any:
         if not isinstance(self.system, Oscillator):
             from vibroimpact import _machine_figure
 

@@ -7,11 +7,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact import _core, _over
+from vibroimpact._ask import MachineLike, State, System
 from vibroimpact._axis import numbers
-from vibroimpact._core import Oscillator, QuestionError
-from vibroimpact._over import Over, Points
+from vibroimpact._core import QuestionError
+from vibroimpact._events import names_of
+from vibroimpact._over import MachineOver, Over, Points
 from vibroimpact._progress import Progress, watched
-from vibroimpact._whole import SIMULATED, THREADS, maybe, whole
+from vibroimpact._whole import SIMULATED, maybe, threads_of, whole
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -21,7 +23,7 @@ _KINDS = {"impact": 0, "graze": 1, "stick": 2, "release": 3}
 
 
 def simulate_many(
-    systems: "Oscillator | Points",
+    systems: "System | Points",
     *,
     over: "Points | None" = None,
     starts: "Points | None" = None,
@@ -35,19 +37,20 @@ def simulate_many(
 ) -> "xr.Dataset":
     """Follow many motions: their events, or their states where `at`, `phase` or `position` asks for them.
 
-    Systems and starts are given as for `settle_many`. Rows of different lengths are filled up with nan. The result does not
+    Systems and starts are given as for `settle_many`; of machines there are events. Rows of different lengths are filled up with nan. The result does not
     depend on the number of threads.
 
     Parameters
     ----------
-    systems : Oscillator, mapping, DataFrame or Dataset
+    systems : Oscillator, Machine, mapping, DataFrame or Dataset
         The system, or values of its parameters.
     over : mapping, DataFrame or Dataset
-        Values of parameters instead of those of an oscillator.
+        Values of parameters instead of those of an oscillator; of the numbers of a machine by path.
     starts : mapping, DataFrame or Dataset
-        Values of "x", "v" and "phase". Default: at rest, or on the stop, at phase 0.
+        Values of "x", "v" and "phase", of a machine of "q.NAME", "qdot.NAME" and "phase". Default: at rest, or on the stop, at
+        phase 0; the start of the machine.
     impacts : int
-        Stop after this number of impacts, 1 to 1e7. Default: 100, or 1e6 with `periods`.
+        Stop after this number of impacts, of a machine of events, 1 to 1e7. Default: 100, or 1e6 with `periods`.
     periods : float
         Stop after this number of forcing periods, up to 1e9. Default for `phase` and `position`: 100.
     at : array_like
@@ -67,6 +70,8 @@ def simulate_many(
     xarray.Dataset
         Of events: `time`, `kind` (codes, which `ds.vibro.labels("kind")` converts to text), `event_phase`, `side`,
         `velocity_before` and `velocity_after`, with the dimension `event`; `count`, `end` and `end_time` of each motion.
+        Of a machine: `time`, `kind`, `event_phase`, `stop` (codes), `speed`, and coordinates and velocities after the event
+        by their paths.
         Of states: `time`, `position`, `velocity` and `force_phase`, with the dimension `time` for `at`, and `state`
         otherwise.
 
@@ -89,9 +94,15 @@ def simulate_many(
         raise QuestionError(f"periods = {periods} lies outside 0 < periods <= 1000000000")
     if given and impacts is not None:
         raise QuestionError(f"impacts has no meaning with {given[0]}\nhint: periods limits the time")
-    limit, threads = maybe("impacts", impacts, SIMULATED), whole("threads", threads, THREADS)
+    limit, threads = maybe("impacts", impacts, SIMULATED), threads_of(threads)
     if limit == 0:
         raise QuestionError(f"impacts = 0 lies outside {SIMULATED.least} <= impacts <= {SIMULATED.most}")
+    if isinstance(systems, MachineLike):
+        if given:
+            raise QuestionError(f"{given[0]} is for oscillators\nhint: simulate(...).waveform() has the states of a machine")
+        of_machine = _over.machine_points(systems, over, starts)
+        with watched(progress, "motions") as tell:
+            return _events_of_machines(of_machine, _core.simulate_machines(*_asked(of_machine), (limit, periods), threads, tell))
     points = _over.points(systems, over, starts)
     with watched(progress, "motions") as tell:
         common = (points.osc, points.columns, points.start)
@@ -133,7 +144,7 @@ def _times(at: ArrayLike) -> NDArray[np.float64]:
 
 
 def _variable(
-    points: Over, values: NDArray[Any], further: tuple[str, int] | None, long_name: str, scale: str, unit: str = "1", **more: Any
+    points: Over | MachineOver, values: NDArray[Any], further: tuple[str, int] | None, long_name: str, scale: str, unit: str = "1", **more: Any
 ) -> tuple[list[str], NDArray[Any], dict[str, Any]]:
     from vibroimpact import _many
     from vibroimpact._unit_names import described
@@ -170,6 +181,51 @@ def _events(points: Over, found: dict[str, Any]) -> "xr.Dataset":
     # the further cells hold no events; without a copy
     used = {name: (dims, of[..., : found["width"]] if "event" in dims else of, attrs) for name, (dims, of, attrs) in variables.items()}
     return _many.dataset(points, "events of motions of an impact oscillator", used)
+
+
+def _asked(points: MachineOver) -> tuple[_core.MachineFile, list[tuple[str, list[float]]], list[State]]:
+    """The machine, the numbers that vary, and the start at each point."""
+    positions, velocities = names_of(points.machine)
+    columns = {name: values.tolist() for name, values in points.columns}
+    count = len(points.columns[0][1])
+
+    def column(name: str, value: float) -> list[float]:
+        found: list[float] = columns.pop(name, [value] * count)
+        return found
+
+    q, qdot, phase = points.start
+    rows = [np.array([column(name, of) for name, of in zip(names, values)]) for names, values in ((positions, q), (velocities, qdot))]
+    phases = column("phase", phase)
+    starts = [(rows[0][:, k].tolist(), rows[1][:, k].tolist(), phases[k]) for k in range(count)]
+    return points.machine._file, list(columns.items()), starts
+
+
+def _events_of_machines(points: MachineOver, found: dict[str, Any]) -> "xr.Dataset":
+    """The Dataset of the events of motions of machines."""
+    import xarray as xr
+
+    from vibroimpact import _accessor  # registers ds.vibro
+
+    event, machine = ("event", found["width"]), points.machine
+    names = dict(zip(machine.stops + machine.joints, range(len(machine.stops + machine.joints))))
+    kinds, ends = ({name: code for code, name in enumerate(found[of])} for of in ("kinds", "ends"))
+    variables = {
+        "time": _variable(points, found["time"], event, "time of the event", "", ""),
+        "kind": _variable(points, found["kind"], event, "kind of the event", "", **_flags(kinds)),
+        "event_phase": _variable(points, found["phase"], event, "phase of the forcing at the event", "", "rad"),
+        "stop": _variable(points, found["stop"], event, "stop or joint of the event", "", **_flags(names)),
+        "speed": _variable(points, found["speed"], event, "speed of closing before the event", "", ""),
+        "count": _variable(points, found["count"], None, "number of events", ""),
+        "end": _variable(points, found["end"], None, "why the list ends", "", **_flags(ends)),
+        "end_time": _variable(points, found["end_time"], None, "time at which the list ends", "", ""),
+    }
+    for of, paths in zip(("q", "qdot"), names_of(machine)):
+        variables |= {path: _variable(points, values, event, f"{path} after the event", "", "") for path, values in zip(paths, found[of])}
+    # what varies has the name of a variable: it is that of the start
+    starts = {name: f"start.{name}" for name in points.coords if name in variables}
+    coords = {starts.get(name, name): of for name, of in points.coords.items()}
+    attributes = {"title": f"events of motions: {machine.title or 'a machine'}", "source": f"vibroimpact {_core.__version__}"}
+    return xr.Dataset(variables, coords, attributes)
 
 
 def _state_variables(points: Over, found: dict[str, Any], further: tuple[str, int]) -> dict[str, Any]:

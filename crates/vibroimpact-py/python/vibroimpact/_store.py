@@ -11,7 +11,7 @@ from vibroimpact import _core, _whole
 from vibroimpact._budget import Budget, seconds
 from vibroimpact._plan import Plan
 from vibroimpact._progress import Progress, watched
-from vibroimpact._whole import COUNT, SEED, THREADS, whole
+from vibroimpact._whole import COUNT, SEED, threads_of, whole
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -127,7 +127,7 @@ def run(
     >>> ran.computed, whole, sorted(labels)
     (9, True, ['1/1', '2/1'])
     """
-    part, threads = _whole.part(part), whole("threads", threads, THREADS)
+    part, threads = _whole.part(part), threads_of(threads)
     time = None if budget is None else seconds("budget", budget)
     with watched(progress, "points") as tell:
         return Ran(*_core.Store(fspath(store), plan.json).run(part, threads, tell, time))
@@ -147,7 +147,7 @@ def resume(
     vibroimpact.StoreError: there is no store at no/such/place
     hint: `run(plan, store)` begins one
     """
-    threads = whole("threads", threads, THREADS)
+    threads = threads_of(threads)
     time = None if budget is None else seconds("budget", budget)
     with watched(progress, "points") as tell:
         return Ran(*_core.Store(fspath(store)).run((1, 1), threads, tell, time))
@@ -202,7 +202,7 @@ def verify(
     (3, 2, [])
     """
     sample, seed = whole("sample", sample, COUNT), whole("seed", seed, SEED)
-    threads = whole("threads", threads, THREADS)
+    threads = threads_of(threads)
     with watched(progress, "points") as tell:
         return Verified(**_core.Store(fspath(store)).verify(sample, seed, threads, tell))
 
@@ -225,15 +225,26 @@ def open(store: str | PathLike[str]) -> "xr.Dataset":
     >>> ds["cycle_label"].values.tolist()
     ['2/1', '1/1']
     """
+    # which tiles are done is told by `status(store)`, and its dimensions would multiply the rows of a table
+    ds: xr.Dataset = with_status(store).drop_vars("status", errors="ignore")
+    return ds
+
+
+def with_status(store: str | PathLike[str]) -> "xr.Dataset":
+    """A store as a Dataset, with the variable `status` over its tiles."""
     import xarray as xr
 
     from vibroimpact import _accessor, _si  # the import of _accessor registers ds.vibro
     from vibroimpact._stated import with_fixed
+    from vibroimpact._unit_names import written
 
     place = fspath(store)
     _core.Store(place)
     need_readers(place)
     ds: xr.Dataset = xr.open_zarr(place, storage_options=_bucket() if place.startswith("s3://") else None)
+    for variable in ds.variables.values():
+        if "units" in variable.attrs:
+            variable.attrs["units"] = written(str(variable.attrs["units"]))
     units = json.loads(ds.attrs["plan"]).get("units")
     if units is not None:
         of = {name: float(units[name]) for name in ("length_m", "time_s", "mass_kg")}

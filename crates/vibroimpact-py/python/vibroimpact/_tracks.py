@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from vibroimpact._core import Oscillator, QuestionError
 from vibroimpact._figure import ARRIVAL, Scale, along, heading, legend, named, new_axes
-from vibroimpact._palette import SERIES
+from vibroimpact._palette import class_colour, variant
 from vibroimpact._tables import BRANCH_MARKS
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 #: Number of values of the orbit diagram behind a branch.
 VALUES = 401
-#: Maximum number of labels with a colour of their own.
+#: Maximum number of labels in a legend.
 _NAMED = 12
 LOOKS = {"stable": "-", "neutral": "-.", "unstable": "--", "inadmissible": ":"}
 
@@ -66,27 +66,31 @@ class _Drawn:
 
 def draw(branches: Sequence[_Drawn], ax: "Axes", inadmissible: bool = False, unit: float = 1.0, speed: float = 1.0) -> None:
     """Draw the speeds of all impacts of branches, and their events."""
-    colours: dict[str, tuple[str, float]] = {}
+    labels: list[str] = []
     looks: list[str] = []
     for one in branches:
         for label, look, xs, ys in pieces(one):
             if look == "inadmissible" and not inadmissible:
                 continue
-            colour, alpha = colours.setdefault(label, _colour(len(colours)))
             if look not in looks:
                 looks.append(look)
-            width = 1.0 if look == "inadmissible" else 1.8
-            ax.plot(xs * unit, ys * speed, LOOKS[look], color=colour, alpha=alpha, linewidth=width)
-    for label, (colour, alpha) in list(colours.items())[:_NAMED]:
-        ax.plot([], [], color=colour, alpha=alpha, linewidth=1.8, label=named(label))
+            if label not in labels:
+                labels.append(label)
+            curve(ax, xs * unit, ys * speed, LOOKS[look], label, linewidth=1.0 if look == "inadmissible" else 1.8)
+    for label in labels[:_NAMED]:
+        curve(ax, [], [], "-", label, label=named(label))
     for look in (look for look in LOOKS if look in looks):
         ax.plot([], [], LOOKS[look], color="black", label=look)
     _events(branches, ax, inadmissible, unit, speed)
 
 
-def _colour(k: int) -> tuple[str, float]:
-    # without black, which is used for marks, and yellow, which is too light for a thin line
-    return (SERIES[k % 6], 1.0 if k < 6 else 0.55) if k < _NAMED else ("0.3", 1.0)
+def curve(ax: "Axes", xs: Any, ys: Any, dash: str, motion: str, linewidth: float = 1.8, **look: Any) -> None:
+    """A line in the colour of the label of a motion, with a dark rim where it is solid, because some of these colours are light."""
+    from matplotlib.patheffects import Normal, Stroke
+
+    colour = class_colour(motion) if dash == "-" else variant(class_colour(motion), 1)
+    rim = [Stroke(linewidth=linewidth + 1.0, foreground="0.25"), Normal()] if dash == "-" else None
+    ax.plot(xs, ys, dash, color=colour, linewidth=linewidth, path_effects=rim, **look)
 
 
 def _behind(

@@ -8,8 +8,8 @@ _POWERS = {"2": "\u00b2", "3": "\u00b3"}
 
 
 def described(long_name: str, units: str, scale: str) -> dict[str, Any]:
-    """The attributes of a variable: the unit in the notation of UDUNITS if it is known, and the scale of nondimensional numbers."""
-    given = {"long_name": long_name, "units": units, "scale": scale}
+    """The attributes of a variable: the unit, if it is known, and the scale of nondimensional numbers."""
+    given = {"long_name": long_name, "units": written(units), "scale": scale}
     return {name: text for name, text in given.items() if text}
 
 
@@ -32,11 +32,17 @@ def unit_of(attributes: Mapping[Any, Any]) -> str:
     return "" if units in ("", "1", "rad") else fraction(units)
 
 
+def written(units: str) -> str:
+    """A unit of the compiled module or of a store, `m s-2`, as UDUNITS and pint read it: `m/s^2`."""
+    factors = [factor.partition("-") for factor in units.split()]
+    above = [symbol for symbol, sign, _ in factors if not sign]
+    below = [f"/{symbol}" + (f"^{power}" if power != "1" else "") for symbol, sign, power in factors if sign]
+    return " ".join(above or (["1"] if below else [])) + "".join(below)
+
+
 def fraction(units: str) -> str:
-    """A unit in the notation of UDUNITS as a fraction: `m s-2` is m/s\u00b2."""
-    above: list[str] = []
-    below: list[str] = []
-    for factor in units.split():
-        symbol, sign, power = factor.partition("-")
-        (below if sign else above).append(symbol + _POWERS.get(power, ""))
-    return " ".join(above or ["1"]) + "".join(f"/{symbol}" for symbol in below)
+    """A unit as figures show it: `m s-2` and `m/s^2` are m/s\u00b2."""
+    text = written(units)
+    for power, sign in _POWERS.items():
+        text = text.replace(f"^{power}", sign)
+    return text

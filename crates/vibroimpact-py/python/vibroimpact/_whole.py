@@ -72,6 +72,30 @@ def whole(name: str, value: SupportsIndex, allowed: Range) -> int:
     return number
 
 
+#: The number of threads where 0 are asked for; 0 for one per core.
+_threads = 0
+
+
+def set_threads(count: SupportsIndex) -> int:
+    """Set the number of threads of all functions that are not told one, and return the number before; 0 for one per core.
+
+    Examples
+    --------
+    >>> import vibroimpact as vi
+    >>> before = vi.set_threads(2)
+    >>> vi.set_threads(before)
+    2
+    """
+    global _threads
+    before, _threads = _threads, whole("threads", count, THREADS)
+    return before
+
+
+def threads_of(threads: SupportsIndex) -> int:
+    """The checked argument `threads`."""
+    return whole("threads", threads, THREADS) or _threads
+
+
 def maybe(name: str, value: SupportsIndex | None, allowed: Range) -> int | None:
     """As `whole`, for an optional argument."""
     return None if value is None else whole(name, value, allowed)

@@ -132,16 +132,7 @@ fn draw(panel: &mut Panel, tracks: &[Track], show_virtual: bool, (unit, size): (
         let ys: Vec<f64> = ys.into_iter().zip(&xs).map(|(y, x)| y * size(*x)).collect();
         let xs: Vec<f64> = xs.into_iter().map(|x| x * unit).collect();
         let (width, dash) = pen(look);
-        let colour = match dash {
-            Dash::Solid if of_motion(&label) => {
-                panel.add(Line::new(xs.clone(), ys.clone(), RIM).width(width + RIM_WIDTH));
-                colour
-            }
-            // dashes have no room for a rim
-            _ if of_motion(&label) => variant(colour, 1),
-            _ => colour,
-        };
-        panel.add(Line::new(xs, ys, colour).width(width).dash(dash));
+        motion_line(panel, (xs, ys), &label, Stroke::new(colour).width(width).dash(dash));
     }
     for (name, colour) in colours.iter().take(NAMED) {
         legend = legend.line(Stroke::new(*colour).width(WIDTH), label(name));
@@ -176,8 +167,21 @@ const fn pen(look: Look) -> (f64, Dash) {
     }
 }
 
+/// Adds a line of a motion. Lines in the colour of the motion on maps have a rim, for which dashes have no room.
+pub(super) fn motion_line(panel: &mut Panel, (xs, ys): (Vec<f64>, Vec<f64>), label: &str, stroke: Stroke) {
+    let colour = match stroke.dash {
+        Dash::Solid if of_motion(label) => {
+            panel.add(Line::new(xs.clone(), ys.clone(), RIM).width(stroke.width + RIM_WIDTH));
+            stroke.colour
+        }
+        _ if of_motion(label) => variant(stroke.colour, 1),
+        _ => stroke.colour,
+    };
+    panel.add(Line { xs, ys, stroke: Stroke { colour, ..stroke } });
+}
+
 /// Whether a label is that of a motion m/n, which has the same colour in all figures.
-fn of_motion(label: &str) -> bool {
+pub(super) fn of_motion(label: &str) -> bool {
     legend_group(label) != "other"
 }
 

@@ -1,9 +1,10 @@
 //! The figure of a response: branches as curves, stable solid, neutral dashed and dotted and unstable dashed, and the motions of both sweeps.
 
+use crate::figure::branch::{motion_line, of_motion};
 use crate::figure::{label, variant};
 use crate::response::ResponseView;
 use vibroimpact::verdict::Stability;
-use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, SERIES, Stroke};
+use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, Legend, Panel, Points, SERIES, Stroke, class_style};
 use vibroimpact_study::ResponseRow;
 
 /// Width of a branch.
@@ -68,11 +69,10 @@ pub fn figure(view: &ResponseView<'_>, title: String) -> Figure {
         }
     }
     for (k, name) in labels.iter().enumerate() {
-        let colour = variant(SERIES[k % USABLE], k / USABLE);
+        let colour = if of_motion(name) { class_style(name).colour } else { variant(SERIES[k % USABLE], k / USABLE) };
         for (stability, dash) in DASHES {
             for (_, xs, ys) in lines.iter().filter(|((other, own), ..)| other == name && *own == stability) {
-                let stroke = Stroke::new(colour).width(WIDTH).dash(dash);
-                panel.add(Line { xs: xs.clone(), ys: ys.clone(), stroke });
+                motion_line(&mut panel, (xs.clone(), ys.clone()), name, Stroke::new(colour).width(WIDTH).dash(dash));
             }
         }
         legend = legend.line(Stroke::new(colour).width(WIDTH), label(name));

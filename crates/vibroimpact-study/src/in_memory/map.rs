@@ -2,10 +2,12 @@
 
 use crate::limits::MOST_CELLS;
 use crate::machine::MachineSource;
-use crate::machine_plan::check_memory;
+use crate::machine_plan::{check_memory, tile};
 use crate::map::{MapPlan, RegionMap, Share};
-use crate::study::{Cell, Fill, MapFill, Mapped, tiles_of};
-use crate::{Control, RunError, SystemPlan, axis};
+use crate::study::{Along, Cell, Fill, MapFill, Mapped, tiles_of};
+use crate::{Control, ListedColumn, ManyPlan, RunError, SystemPlan, axis};
+use vibroimpact::events::MachineStart;
+use vibroimpact::machine::Machine;
 
 /// Number of points of a tile along each axis, for one axis and more.
 const TILE: [u32; 4] = [400, 20, 7, 4];
@@ -40,6 +42,22 @@ pub(crate) fn machine_map(
     let tile = if alone { Some(1) } else { None };
     let task = MapFill::of_machine(source, &MapPlan { refine: None, ..plan.clone() }, tile);
     Ok(joined(plan, points(&task, control)?))
+}
+
+/// The motion from the start at each of many points of a machine.
+///
+/// # Errors
+/// [`RunError`] for an invalid plan, or when stopped.
+pub(crate) fn machine_points(
+    source: &MachineSource,
+    problem: (&Machine, &MachineStart),
+    plan: &ManyPlan<String>,
+    control: &Control<'_>,
+) -> Result<RegionMap<String, String>, RunError> {
+    let task = MapFill::of_points(source, problem, plan, Some(tile(problem.0)))?;
+    let column = |along: Along| ListedColumn { vary: along.name, values: along.values };
+    let columns = task.coordinates().into_iter().map(column).collect();
+    Ok(RegionMap { axes: Vec::new(), columns, points: points(&task, control)?, fields: plan.fields.clone() })
 }
 
 fn joined<V: Clone, F: Clone>(plan: &MapPlan<V, F>, points: Vec<Vec<Share>>) -> RegionMap<V, F> {

@@ -11,4 +11,4 @@ pub(crate) use attractors::attractors;
 pub(crate) use basin::basin;
 pub(crate) use diagram::{DIAGRAM_TILE, diagram};
 pub(crate) use machine_basin::machine_basin;
-pub(crate) use map::{machine_map, map};
+pub(crate) use map::{machine_map, machine_points, map};

@@ -1,16 +1,12 @@
 //! Which motion each of many machines and starts leads to: points of numbers and starts, listed or drawn from ranges.
 
 use super::grid::{StartAxis, check_fields, none_twice};
-use super::verdicts::tile;
 use crate::machine::MachineSource;
-use crate::map::{check_impacts, options};
-use crate::{Control, ListedColumn, PlanError, PointsPlan, RegionMap, RunError, Share, limits, tiles};
+use crate::map::check_impacts;
+use crate::{PlanError, PointsPlan, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use vibroimpact::events::MachineStart;
-use vibroimpact::lanes::Width;
 use vibroimpact::machine::Machine;
-use vibroimpact::verdict::{CountedMotion, settle_each_machine};
 
 /// Points of numbers of a machine and of its start.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -59,76 +55,13 @@ impl ManyPlan<String> {
     }
 }
 
-/// The motion at each point; none where the numbers or the start are not allowed.
-pub(super) fn many(
-    source: &MachineSource,
-    (machine, start): (&Machine, &MachineStart),
-    plan: &ManyPlan<String>,
-    control: &Control<'_>,
-) -> Result<RegionMap<String, String>, RunError> {
-    let count = plan.points.count();
-    let column = |column| ListedColumn {
-        vary: plan.points.vary(column),
-        values: (0..usize::try_from(count).unwrap_or(0)).map(|k| plan.points.at(column, k)).collect(),
-    };
-    let columns: Vec<ListedColumn<String>> = (0..plan.points.width()).map(column).collect();
-    let places = columns.iter().map(|column| StartAxis::found(machine, &column.vary)).collect::<Result<Vec<_>, _>>()?;
-    let problem = |k: u64| {
-        let at = usize::try_from(k).ok()?;
-        let mut state = start.clone();
-        let mut changes = Vec::new();
-        for (column, place) in columns.iter().zip(&places) {
-            match place {
-                Some(place) => place.set(&mut state, column.values[at]),
-                None => changes.push((column.vary.as_str(), column.values[at])),
-            }
-        }
-        let there = if changes.is_empty() { machine.clone() } else { source.with_all(changes).ok()?.machine().ok()? };
-        Some((there, state))
-    };
-    let shares = tiles(count, tile(machine), control, |range, tick| {
-        let total = range.end - range.start;
-        let found = settled(range.map(problem), plan, &|| !control.stopping());
-        (0..total).all(|_| !tick());
-        found
-    })?;
-    let shares = shares.into_iter().flatten().flatten();
-    let points = shares.map(|share| share.into_iter().collect()).collect();
-    Ok(RegionMap { axes: Vec::new(), columns, points, fields: plan.fields.clone() })
-}
-
-/// The motion at each of some points; `None` if stopped. Points of the same machine after each other are settled together.
-fn settled(
-    points: impl Iterator<Item = Option<(Machine, MachineStart)>>,
-    plan: &ManyPlan<String>,
-    go_on: &dyn Fn() -> bool,
-) -> Option<Vec<Option<Share>>> {
-    let mut problems: Vec<(Machine, Vec<MachineStart>)> = Vec::new();
-    let mut allowed = Vec::new();
-    for point in points {
-        allowed.push(point.is_some());
-        let Some((machine, start)) = point else { continue };
-        match problems.last_mut() {
-            Some((last, starts)) if *last == machine => starts.push(start),
-            _ => problems.push((machine, vec![start])),
-        }
-    }
-    let found = settle_each_machine(&problems, &options(plan.impacts), Width::best(), go_on, &|| false)?;
-    let mut shares = problems.iter().zip(&found).flat_map(|((machine, _), found)| {
-        let share = |motion: &CountedMotion<_>| Share::of_machine(machine, &motion.verdict, 1.0, &plan.fields);
-        let shares: Vec<Share> = found.motions.iter().map(share).collect();
-        let of = move |(cell, seen): (&Option<u32>, &Option<u64>)| {
-            cell.map(|cell| Share { seen_events: *seen, ..shares[cell as usize].clone() })
-        };
-        found.cells.iter().zip(&found.seen).map(of)
-    });
-    Some(allowed.into_iter().map(|allowed| allowed.then(|| shares.next().flatten()).flatten()).collect())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{DrawnPoints, Plan, PointRange, PointRule, Results, Task, machine, run};
+    use crate::{
+        Control, DrawnPoints, ListedColumn, Plan, PointRange, PointRule, RegionMap, Results, Task, machine, run,
+    };
+    use vibroimpact::events::MachineStart;
 
     fn settled(source: &MachineSource, points: PointsPlan<String>) -> RegionMap<String, String> {
         let fields = vec!["power".to_owned()];

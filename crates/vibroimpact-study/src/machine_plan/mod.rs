@@ -10,7 +10,7 @@
 //! | orbits, and the one at which a branch begins | `orbits` |
 //! | a line through one number or two | `cut` |
 //! | branches of orbits | [`OrbitLine`], `branch` |
-//! | which motion each of many points leads to | [`ManyPlan`], `many` |
+//! | which motion each of many points leads to | [`ManyPlan`] |
 //! | how far a cycle is from its nearest events | [`MachineMargins`], `margins` |
 //! | where in a plane of two numbers a motion exists and is stable | `region` |
 //! | a quantity of all motions over a number | `response` |
@@ -51,4 +51,4 @@ pub use section::SectionPoints;
 pub(crate) use simulate::check_simulate;
 pub use simulate::{events_with_states, most_events};
 pub(crate) use text::MachinePlanText;
-pub(crate) use verdicts::check_starts;
+pub(crate) use verdicts::{check_starts, tile};

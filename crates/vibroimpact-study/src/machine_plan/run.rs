@@ -5,7 +5,7 @@ use super::curve;
 use super::margins::MachineMargins;
 use super::section::{self, SectionPoints};
 use super::simulate::simulate;
-use super::{many, margins, orbits, region, response, verdicts};
+use super::{margins, orbits, region, response, verdicts};
 use crate::in_memory::DIAGRAM_TILE;
 use crate::machine::MachineSource;
 use crate::study::SweepFill;
@@ -72,7 +72,9 @@ pub(crate) fn run(source: &MachineSource, task: &Task, control: &Control<'_>) ->
         Task::Orbit { label } => Results::Orbit(orbits::orbits(&machine, orbits::label(&machine, label)?, control)?),
         Task::Branch(asked) => Results::Branch(branch::branch(source, (&machine, &start), &asked.typed()?, control)?),
         Task::Curve(asked) => Results::Curve(curve::curve(source, (&machine, &start), &asked.typed()?, control)?),
-        Task::SettleMany(asked) => Results::Map(many::many(source, (&machine, &start), &asked.typed()?, control)?),
+        Task::SettleMany(asked) => {
+            Results::Map(in_memory::machine_points(source, (&machine, &start), &asked.typed()?, control)?)
+        }
         Task::Margins(asked) => {
             Results::Margins(margins::margins(source, (&machine, &start), &asked.typed()?, control)?)
         }

@@ -10,9 +10,9 @@ use vibroimpact::verdict::{
 };
 
 /// Starts of a tile.
-const TILE: u64 = 4;
+const TILE: u32 = 4;
 /// The same of machines that are oscillators, whose starts share lanes.
-const WIDE_TILE: u64 = 256;
+const WIDE_TILE: u32 = 256;
 
 pub(super) fn refused(error: MachineError) -> RunError {
     RunError::Plan(PlanError::Machine(error.into()))
@@ -36,7 +36,7 @@ pub(super) fn settle(
 }
 
 /// The number of starts of a tile, of a machine or of machines like it.
-pub(super) fn tile(machine: &Machine) -> u64 {
+pub(crate) fn tile(machine: &Machine) -> u32 {
     if machine.reduced().is_some() { WIDE_TILE } else { TILE }
 }
 
@@ -47,7 +47,7 @@ pub(super) fn attractors(
     control: &Control<'_>,
 ) -> Result<Census<Machine>, RunError> {
     let (options, known) = (options(impacts), KnownMotions::default());
-    let parts = tiles(starts, tile(machine), control, |range, tick| {
+    let parts = tiles(starts, u64::from(tile(machine)), control, |range, tick| {
         let starts: Vec<MachineStart> = range.map(|k| scattered_machine_starts(machine, seed, k)).collect();
         settle_machine_many(machine, &starts, &known, &options, Width::best(), &|| !control.stopping(), &|| tick())
     })?;

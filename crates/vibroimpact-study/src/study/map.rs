@@ -22,6 +22,8 @@ const TILE: usize = 64;
 pub(crate) trait Mapped: Send + Sync + Sized {
     /// The unit of speeds.
     const VELOCITY: Unit;
+    /// Whether several starts at a point lead to motions, each with its share.
+    const SEVERAL: bool = true;
 
     /// The coordinate values of the axes.
     fn coordinates(&self) -> Vec<Along>;
@@ -138,7 +140,7 @@ impl<M: Mapped> MapFill<M> {
     /// The columns of some points.
     fn columns_at(&self, cells: &[Cell<Motions>]) -> Vec<Column> {
         let points = cells.len();
-        let mut label = vec![super::NO_MOTION; points * self.kept];
+        let mut label = vec![if M::SEVERAL { super::NO_MOTION } else { super::REFUSED }; points * self.kept];
         let mut share = vec![f64::NAN; points * self.kept];
         // the largest speed, the largest multiplier, and the quantities
         let mut numbers = vec![vec![f64::NAN; points * self.kept]; 2 + self.mapped.quantities(&[]).len()];
@@ -158,7 +160,8 @@ impl<M: Mapped> MapFill<M> {
                 remarks.iter_mut().zip(values).for_each(|(column, value)| column[k * self.kept + i] = value);
             }
         }
-        let mut columns = vec![Column::I32(label), Column::F64(share)];
+        let mut columns = vec![Column::I32(label)];
+        columns.extend(M::SEVERAL.then_some(Column::F64(share)));
         let quantities = numbers.split_off(2);
         columns.extend(numbers.into_iter().map(Column::F64));
         columns.extend(remarks.into_iter().map(Column::I32));
@@ -193,28 +196,28 @@ impl<M: Mapped> Fill for MapFill<M> {
     }
 
     fn fields(&self) -> Vec<Field> {
-        let motion = vec![Extra { name: "motion", count: self.kept }];
-        let real = Field {
-            name: "share".into(),
-            long_name: "share of the starts that lead to the motion".into(),
-            unit: Unit::NUMBER,
+        let motion = if M::SEVERAL { vec![Extra { name: "motion", count: self.kept }] } else { Vec::new() };
+        let real = |name: &'static str, long_name: &'static str, unit| Field {
+            name: name.into(),
+            long_name: long_name.into(),
+            unit,
             kind: NumberType::F64,
             fill: 0,
             extra: motion.clone(),
             flags: Vec::new(),
             comment: "",
         };
-        let mut fields = vec![
-            code::field("motion m/n, the most frequent first", motion.clone()),
-            real.clone(),
-            Field {
-                name: "speed".into(),
-                long_name: "largest speed of arrival in a period".into(),
-                unit: M::VELOCITY,
-                ..real.clone()
-            },
-            Field { name: "multiplier".into(), long_name: "largest modulus of the Floquet multipliers".into(), ..real },
-        ];
+        let label = if M::SEVERAL {
+            code::field("motion m/n, the most frequent first", motion.clone())
+        } else {
+            let field = code::field("motion m/n that the start leads to", Vec::new());
+            Field { flags: [field.flags, vec![(super::REFUSED, "refused")]].concat(), ..field }
+        };
+        let mut fields = vec![label];
+        let share = || real("share", "share of the starts that lead to the motion", Unit::NUMBER);
+        fields.extend(M::SEVERAL.then(share));
+        fields.push(real("speed", "largest speed of arrival in a period", M::VELOCITY));
+        fields.push(real("multiplier", "largest modulus of the Floquet multipliers", Unit::NUMBER));
         fields.extend(self.remarks(&motion));
         fields.extend(self.mapped.quantities(&motion));
         if self.refine.is_some() {

@@ -14,6 +14,7 @@ mod machine_basin;
 mod machine_diagram;
 mod machine_lyapunov;
 mod machine_map;
+mod machine_points;
 mod map;
 mod memory;
 mod reason;
@@ -104,6 +105,10 @@ impl Study {
                 Box::new(MachineBasinFill::new((&machine, &start), &basin.typed()?, tile)?)
             }
             Task::Map(map) => Box::new(MapFill::of_machine(source, &map.typed()?, tile)),
+            Task::SettleMany(many) => {
+                let (machine, start) = source.described()?;
+                Box::new(MapFill::of_points(source, (&machine, &start), &many.typed()?, tile)?)
+            }
             Task::Diagram(diagram) => Box::new(SweepFill::of_machine(source, &diagram.typed()?, tile)),
             Task::Lyapunov(lyapunov) if !lyapunov.axes.is_empty() => {
                 Box::new(LyapunovFill::of_machine(source, &lyapunov.typed()?, tile)?)

@@ -1,0 +1,126 @@
+//! The tiles of points of a machine: the motion at each point of its numbers and of its start.
+
+use super::fill::{Along, dimension, machine_fields};
+use super::map::{MapFill, Mapped, Motions};
+use crate::field::{Extra, Field};
+use crate::grid::{Grid, Index};
+use crate::machine::MachineSource;
+use crate::machine_plan::StartAxis;
+use crate::map::options;
+use crate::points::DIMENSION;
+use crate::{ManyPlan, PlanError, Share, Unit};
+use core::cell::Cell;
+use vibroimpact::events::MachineStart;
+use vibroimpact::lanes::Width;
+use vibroimpact::machine::Machine;
+use vibroimpact::verdict::{CountedMotion, SettleOptions, settle_each_machine};
+
+/// Default number of points of a tile, at least and at most; a point takes up to a second.
+const TILE: (usize, usize) = (4, 64);
+/// The same for machines that are oscillators, whose long motions share lanes.
+const WIDE_TILE: (usize, usize) = (16, 4096);
+
+/// A machine at points.
+pub(crate) struct MachineAt {
+    source: MachineSource,
+    machine: Machine,
+    start: MachineStart,
+    plan: ManyPlan<String>,
+    /// Where each column stands in a start; `None` for a number of the machine.
+    places: Vec<Option<StartAxis>>,
+    options: SettleOptions,
+}
+
+impl MapFill<MachineAt> {
+    pub(crate) fn of_points(
+        source: &MachineSource,
+        (machine, start): (&Machine, &MachineStart),
+        plan: &ManyPlan<String>,
+        tile: Option<u32>,
+    ) -> Result<Self, PlanError> {
+        let places = plan.points.varied().map(|name| StartAxis::found(machine, &name)).collect::<Result<_, _>>()?;
+        let sizes = if machine.reduced().is_some() { WIDE_TILE } else { TILE };
+        let count = usize::try_from(plan.points.count()).unwrap_or(usize::MAX);
+        let grid = Grid { dimensions: vec![dimension(DIMENSION, count, tile, sizes)] };
+        let mut start = start.clone();
+        start.q.resize(machine.n(), 0.0);
+        start.qdot.resize(machine.n(), 0.0);
+        let (source, machine, options) = (source.clone(), machine.clone(), options(plan.impacts));
+        Ok(Self::of(MachineAt { source, machine, start, plan: plan.clone(), places, options }, grid, 1, None))
+    }
+}
+
+impl MachineAt {
+    /// The machine and the start at point number `k`.
+    fn problem(&self, k: usize) -> Result<(Machine, MachineStart), PlanError> {
+        let mut start = self.start.clone();
+        let names: Vec<String> = self.plan.points.varied().collect();
+        let mut changes = Vec::new();
+        for (column, (name, place)) in names.iter().zip(&self.places).enumerate() {
+            let value = self.plan.points.at(column, k);
+            match place {
+                Some(place) => place.set(&mut start, value),
+                None => changes.push((name.as_str(), value)),
+            }
+        }
+        let there = if changes.is_empty() { self.machine.clone() } else { self.source.with_all(changes)?.machine()? };
+        Ok((there, start))
+    }
+}
+
+impl Mapped for MachineAt {
+    const VELOCITY: Unit = Unit::CONSISTENT;
+    const SEVERAL: bool = false;
+
+    fn coordinates(&self) -> Vec<Along> {
+        let points = &self.plan.points;
+        let count = usize::try_from(points.count()).unwrap_or(usize::MAX);
+        let column = |(column, name): (usize, String)| {
+            Along::new(&name, (0..count).map(|k| points.at(column, k)).collect(), DIMENSION)
+        };
+        points.varied().enumerate().map(column).collect()
+    }
+
+    /// Points of the same machine after each other are settled together.
+    fn motions(&self, points: &[Index], tick: &dyn Fn() -> bool) -> Option<Vec<Motions>> {
+        let mut problems: Vec<(Machine, Vec<MachineStart>)> = Vec::new();
+        let mut add = |(machine, start)| match problems.last_mut() {
+            Some((last, starts)) if *last == machine => starts.push(start),
+            _ => problems.push((machine, vec![start])),
+        };
+        let mut found: Vec<Motions> =
+            points.iter().map(|index| self.problem(index[0]).map(&mut add).map(|()| Vec::new())).collect();
+        // the points of a machine after its first, and those that are none, are counted at the end
+        let told = Cell::new(0);
+        let one = || {
+            told.set(told.get() + 1);
+            tick()
+        };
+        let settled = settle_each_machine(&problems, &self.options, Width::best(), &|| true, &one)?;
+        if (told.get()..points.len()).any(|_| tick()) {
+            return None;
+        }
+        let mut motions = problems.iter().zip(&settled).flat_map(|((machine, _), settled)| {
+            let share = |of: &CountedMotion<Machine>| Share::of_machine(machine, &of.verdict, 1.0, &self.plan.fields);
+            let shares: Vec<Share> = settled.motions.iter().map(share).collect();
+            settled
+                .cells
+                .iter()
+                .zip(&settled.seen)
+                .map(move |(cell, seen)| cell.map(|cell| Share { seen_events: *seen, ..shares[cell as usize].clone() }))
+        });
+        // a start beyond a rigid stop has no motion
+        for motion in found.iter_mut().filter_map(|found| found.as_mut().ok()) {
+            motion.extend(motions.next().flatten());
+        }
+        Some(found)
+    }
+
+    fn remarked_stops(&self) -> Option<usize> {
+        Some(self.machine.stops().len())
+    }
+
+    fn quantities(&self, extra: &[Extra]) -> Vec<Field> {
+        machine_fields(&self.plan.fields, extra)
+    }
+}
