@@ -62,7 +62,8 @@ impl MachineMotion<'_> {
     fn rest_within_rounding(&mut self) {
         let Some((mut stops, way)) = self.instants.crowd_in_place() else { return };
         stops.retain(|j| self.place.states[*j] == ContactState::Open);
-        let loses = |j: &usize| matches!(self.machine.stops()[*j].law, StopLaw::Rigid { restitution } if restitution < 1.0);
+        let loses =
+            |j: &usize| matches!(self.machine.stops()[*j].law, StopLaw::Rigid { restitution } if restitution < 1.0);
         if stops.iter().all(loses) && self.are_close(&stops, CLOSED) && self.is_rounding(&stops, way) {
             self.come_to_rest(&stops, true, 0.0);
         }
