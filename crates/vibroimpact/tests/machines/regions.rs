@@ -1,4 +1,5 @@
 //! Regions of machines: against the events of branches and against single motions.
+#![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 use crate::curves::hammer;
 use vibroimpact::Label;
