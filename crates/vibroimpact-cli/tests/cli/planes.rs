@@ -147,7 +147,7 @@ fn a_region_of_two_coordinates() {
     let polygons = &answer["stability"]["polygons"];
     assert!(inside(polygons, (1.15, 0.5)) && !inside(polygons, (1.02, 0.5)), "{answer}");
     let bounds: Vec<&str> =
-        polygons[0]["vertices"].as_array().unwrap().iter().map(|vertex| vertex["bound"].as_str().unwrap()).collect();
+        polygons[0]["bounds"].as_array().unwrap().iter().map(|bound| bound.as_str().unwrap()).collect();
     assert!(bounds.contains(&"touch") && bounds.iter().all(|bound| ["touch", "frame"].contains(bound)), "{bounds:?}");
 }
 

@@ -235,5 +235,5 @@ impl Search<'_> {
     }
 }
 
-/// How far beyond an edge the closings are counted, in quarters of the frame.
-const BESIDE: f64 = 1e-6;
+/// How far beyond an edge the closings are counted, in quarters of the frame: farther than the edge is off.
+const BESIDE: f64 = 1e-5;

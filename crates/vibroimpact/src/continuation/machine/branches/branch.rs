@@ -216,7 +216,8 @@ impl EventBranch {
     ) {
         let turns = last(&next.here.tangent) * last(&at.tangent) < 0.0;
         let rings = self.tracer.problem.equations.split(&at.w).zip(next.problem.equations.split(&next.here.w));
-        let event = rings.map_or(event, |((_, ring), (_, other))| explained(event, (&ring, &other), turns));
+        let explained = rings.map_or(Some(event), |((_, ring), (_, other))| explained(event, (&ring, &other), turns));
+        let Some(event) = explained else { return self.exchange(next) };
         let now = Passed { number: last(&at.w), unknowns: at.w.len(), rises: last(&at.tangent) > 0.0, event };
         let near = 1e-9 * self.tracer.problem.equations.scales[0];
         let same = |other: &Passed| {

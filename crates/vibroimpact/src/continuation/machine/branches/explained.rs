@@ -5,13 +5,14 @@
 //! signatures of both sides are compared, each contact for itself.
 
 use super::point::MachineBranchEvent;
+use super::summed::same_in_turn;
 use crate::orbit::{Chatter, MachineRing};
 use crate::regime::{ContactState, GuardKind};
 use core::cmp::Ordering;
 
 /// What a contact does in a cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Deeds {
+struct Tally {
     /// How often a stop closes; how many impacts of a complete chatter are followed is no property of the cycle, so they do not count.
     closings: usize,
     /// How often a rest on a stop, or a hold of a joint, begins.
@@ -20,7 +21,7 @@ struct Deeds {
     turns: usize,
 }
 
-impl Deeds {
+impl Tally {
     /// Of each stop, then of each joint.
     fn all(ring: &MachineRing) -> Vec<Self> {
         let m = ring.len();
@@ -67,36 +68,53 @@ fn closest_pair(ring: &MachineRing, joint: Option<usize>) -> Option<(usize, usiz
     Some((of(at), of(at + 1)))
 }
 
-/// The event, if it explains the difference of the cycle before it and that beyond; otherwise the one that does. `turns` says
-/// whether the number turns back here.
+/// The guards of all events and the states after them, without touches and without the impacts of a complete chatter right before
+/// its rest: how many of these are followed is no property of the cycle.
+fn told(ring: &MachineRing) -> Vec<(GuardKind, &[ContactState])> {
+    let m = ring.len();
+    let summed: Vec<usize> = Chatter::all(ring).iter().flat_map(|chatter| chatter.impacts(ring)).collect();
+    let tells = |k: &usize| !summed.contains(k) && !ring.events[*k].touches(&ring.events[(k + m - 1) % m].after);
+    (0..m).filter(tells).map(|k| (ring.events[k].guard, &ring.events[k].after[..])).collect()
+}
+
+/// The event, if it explains the difference of the cycle before it and that beyond; otherwise the one that does, and `None` if a
+/// change is none. `turns` says whether the number turns back here.
 pub(super) fn explained(
     event: MachineBranchEvent,
     (before, beyond): (&MachineRing, &MachineRing),
     turns: bool,
-) -> MachineBranchEvent {
-    let (old, new) = (Deeds::all(before), Deeds::all(beyond));
+) -> Option<MachineBranchEvent> {
+    let changes = matches!(event, MachineBranchEvent::Change { .. });
+    if changes && !turns && same_in_turn(&told(before), &told(beyond)) {
+        return None;
+    }
+    let (old, new) = (Tally::all(before), Tally::all(beyond));
     let stops = before.events.first().map_or(0, |event| event.back.len());
-    let differ = |of: fn(&Deeds) -> usize| (0..old.len()).find(|place| of(&old[*place]) != of(&new[*place]));
-    let (rest, closing) = (differ(|deeds| deeds.rests), differ(|deeds| deeds.closings));
+    let differ = |of: fn(&Tally) -> usize| (0..old.len()).find(|place| of(&old[*place]) != of(&new[*place]));
+    let (rest, closing) = (differ(|tally| tally.rests), differ(|tally| tally.closings));
     let explains = match event {
         MachineBranchEvent::Grazing { stop, .. } => old[stop].closings != new[stop].closings,
         MachineBranchEvent::Sticking { stop: place, .. } | MachineBranchEvent::Holding { joint: place, .. } => {
-            old[place].rests != new[place].rests
+            // a joint also begins to hold at once where it turned back for a moment before
+            (old[place].rests, old[place].turns) != (new[place].rests, new[place].turns)
         }
         MachineBranchEvent::Change { .. } => false,
         _ => true,
     };
     // where nothing differs but the number of impacts of a chatter, what was found is all that is known
-    if explains || old == new && !matches!(event, MachineBranchEvent::Change { .. }) {
-        return event;
+    if explains || old == new && !changes {
+        return Some(event);
     }
-    let turned = differ(|deeds| deeds.turns);
+    let turned = differ(|tally| tally.turns);
     let more = |place: usize| if old[place].turns > new[place].turns { before } else { beyond };
     let corner = || {
         let pair = turned.map_or_else(|| closest_pair(before, None), |joint| closest_pair(more(joint), Some(joint)));
-        pair.map_or(event, |(first, second)| MachineBranchEvent::Corner { first, second })
+        pair.map_or(event, |(first, second)| match first == second {
+            true => MachineBranchEvent::Holding { joint: first, begins: old[first].turns > new[first].turns },
+            false => MachineBranchEvent::Corner { first, second },
+        })
     };
-    match (rest, closing) {
+    Some(match (rest, closing) {
         (Some(place), _) => {
             let begins = old[place].rests.cmp(&new[place].rests) == Ordering::Less;
             if place < stops {
@@ -110,5 +128,5 @@ pub(super) fn explained(
             MachineBranchEvent::Grazing { stop, appears, turns }
         }
         _ => corner(),
-    }
+    })
 }
