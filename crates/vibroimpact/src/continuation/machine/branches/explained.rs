@@ -93,11 +93,11 @@ pub(super) fn explained(
     let differ = |of: fn(&Tally) -> usize| (0..old.len()).find(|place| of(&old[*place]) != of(&new[*place]));
     let (rest, closing) = (differ(|tally| tally.rests), differ(|tally| tally.closings));
     let explains = match event {
-        MachineBranchEvent::Grazing { stop, .. } => old[stop].closings != new[stop].closings,
-        MachineBranchEvent::Sticking { stop: place, .. } | MachineBranchEvent::Holding { joint: place, .. } => {
-            // a joint also begins to hold at once where it turned back for a moment before
-            (old[place].rests, old[place].turns) != (new[place].rests, new[place].turns)
-        }
+        // without rebound a rest is interrupted where the stop ceases to press for an instant: it closes once more. A joint begins
+        // to hold at once where it turned back for a moment before
+        MachineBranchEvent::Grazing { stop: place, .. }
+        | MachineBranchEvent::Sticking { stop: place, .. }
+        | MachineBranchEvent::Holding { joint: place, .. } => old[place] != new[place],
         MachineBranchEvent::Change { .. } => false,
         _ => true,
     };

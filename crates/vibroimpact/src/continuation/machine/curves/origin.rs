@@ -46,7 +46,9 @@ fn begin(
     let beside = |by: f64| ring_at(&plane.family.machine([values.0 + by * plane.scales()[0], values.1])?);
     let both_sides = || BESIDE.into_iter().flat_map(|by| [by, -by]);
     let farther = || FARTHER.into_iter().flat_map(|by| [by, -by]);
-    let solved = || point.ring.clone().or_else(|| ring_at(machine));
+    // where a rest begins, the solution can be that without it
+    let rests = matches!(event, MachineBranchEvent::Sticking { .. } | MachineBranchEvent::Holding { .. });
+    let solved = || point.ring.clone().filter(|_| !rests).or_else(|| ring_at(machine));
     let mut ring = solved().or_else(|| both_sides().chain(farther()).find_map(beside))?;
     let touch = |at: usize| Condition::Touch { at, size: sizes.1, contact: None, speed: sizes.1 };
     let (kind, condition) = match event {
