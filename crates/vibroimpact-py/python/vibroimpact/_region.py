@@ -34,7 +34,8 @@ class Polygon(Result):
     vertices : ndarray, shape (n, 2)
         Values of the two parameters; the region lies to the left of the polygon.
     bounds : list of str
-        The kind of boundary from each vertex to the next: "fold", "flip", "merging", "no speed", "touch", "frame".
+        The kind of boundary from each vertex to the next: "fold", "flip", "merging", "no speed", "touch", "frame"; of
+        a machine also "torus" and "change".
     hole : bool
         Whether it is the boundary of a hole.
     sheet : str

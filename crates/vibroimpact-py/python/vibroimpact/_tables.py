@@ -143,4 +143,6 @@ BOUND_STYLES = {
     "no speed": ("#009e73", "-.", "an impact without speed"),
     "touch": ("#000000", "-", "a touch on the way"),
     "merging": ("#cc79a7", ":", "merging"),
+    "torus": ("#e69f00", "--", "torus"),
+    "change": ("#56b4e9", "-.", "another change of the events"),
 }

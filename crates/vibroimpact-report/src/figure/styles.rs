@@ -72,12 +72,14 @@ pub const CURVE_COLOURS: [(FollowedEvent, Colour); 7] = [
 
 /// Colour, dash and text of each bound of a region, in the order of the legend. The frame is the edge of the figure and
 /// is not drawn.
-pub const BOUND_STYLES: [(Bound, Colour, Dash, &str); 5] = [
+pub const BOUND_STYLES: [(Bound, Colour, Dash, &str); 7] = [
     (Bound::Fold, SERIES[1], Dash::Solid, "fold"),
     (Bound::Flip, SERIES[0], Dash::Dashed, "flip"),
     (Bound::NoSpeed, SERIES[2], Dash::DashDot, "an impact without speed"),
     (Bound::Touch, Colour::BLACK, Dash::Solid, "a touch on the way"),
     (Bound::Merging, SERIES[3], Dash::Dotted, "merging"),
+    (Bound::Torus, SERIES[4], Dash::Dashed, "torus"),
+    (Bound::Change, SERIES[5], Dash::DashDot, "another change of the events"),
 ];
 
 #[cfg(test)]

@@ -31,7 +31,8 @@ struct PolygonObject {
     hole: bool,
     sheet: &'static str,
     vertices: Vec<[f64; 2]>,
-    /// The kind of boundary from each vertex to the next.
+    /// The kind of boundary from each vertex to the next: fold, flip, no speed, touch, merging, frame; of a machine also torus and
+    /// change.
     bounds: Vec<&'static str>,
 }
 
