@@ -37,8 +37,8 @@ use vibroimpact_study::{DEFAULT_GRID, RegionPlan, Stretch, Variable};
         --restitution 0.2:0.9 --plot plane.png\n  \
         vibro region --machine fukaya-irie-1971 --label 1/1 \\\n    \
         --axis inverse_beta=1.05:1.2 --axis delta=1:2.5 --csv machine-region.csv\n  \
-        vibro region --machine two-mass-hammer --label 1/1 --grid 6 \\\n    \
-        --axis frequency=1:1.3 --axis stop.anvil.gap=0.3:0.9",
+        vibro region --machine two-mass-hammer --label 1/1 --grid 4 \\\n    \
+        --axis frequency=1:1.2 --axis stop.anvil.gap=0.4:0.6",
     mut_arg("csv", |arg| arg.help(
         "Write one row a vertex to this file; - for stdout. Columns: region (existence or stability), polygon, \
         hole, sheet (below: multipliers below +1, or above), both parameters, and what bounds the region from \
