@@ -243,9 +243,7 @@ fn all_tiles(store: &Store, alone: bool) -> Result<(), StoreError> {
 fn killed_at_every_change() {
     let sharded = [Plan { shard: Some(2), tile: Some(20), ..basin() }, Plan { shard: Some(2), ..rare() }];
     let plain = Plan { tile: Some(12), ..rare() };
-    for (plan, alone, least) in
-        [(&sharded[0], false, 25), (&sharded[1], true, 50), (&plain, false, 30)]
-    {
+    for (plan, alone, least) in [(&sharded[0], false, 25), (&sharded[1], true, 50), (&plain, false, 30)] {
         let (_kept, want) = whole(plan);
         let mut changes = 0;
         loop {

@@ -126,7 +126,6 @@ fn steps(nextest: bool, python: bool) -> Vec<Step> {
         Step::tests(DOC_TESTS, "cargo test --workspace --all-features --doc --no-fail-fast"),
         Step::check("examples", "cargo xtask examples", examples::run),
         // the same cases in every run, so that a failure is caused by a change of the code
-        // the cases of one seed are the same each time, so a few seconds tell what a change broke
         Step::tests("fuzz", "cargo xtask fuzz --seconds 6 --seed 1"),
         Step::check("documentation", "cargo xtask docs", docs::build),
         Step::check("WebAssembly", "cargo xtask wasm", wasm::check).long(),
