@@ -14,6 +14,14 @@ pub(crate) fn scales((p, q): &Ranges) -> (f64, f64) {
     (quarter(p), quarter(q))
 }
 
+/// The point `(i, j)` of a grid over a frame with these ranges; no point lies on its edge.
+pub(crate) fn node((p, q): &Ranges, (i, j): (u32, u32), (columns, rows): (u32, u32)) -> (f64, f64) {
+    let at = |range: &RangeInclusive<f64>, k: u32, count: u32| {
+        range.start() + (range.end() - range.start()) * (f64::from(k) + 0.5) / f64::from(count)
+    };
+    (at(p, i, columns), at(q, j, rows))
+}
+
 /// Refuses ranges that are not two finite numbers in increasing order, and a point outside.
 pub(crate) fn check(ranges: &Ranges, (p, q): (f64, f64)) -> Result<(), BranchError> {
     scale(&ranges.0, p)?;
@@ -67,11 +75,8 @@ impl Frame {
     }
 
     /// The point `(i, j)` of a grid over the frame; no point lies on its edge.
-    pub(crate) fn node(&self, (i, j): (u32, u32), (columns, rows): (u32, u32)) -> (f64, f64) {
-        let at = |range: &RangeInclusive<f64>, k: u32, count: u32| {
-            range.start() + (range.end() - range.start()) * (f64::from(k) + 0.5) / f64::from(count)
-        };
-        (at(&self.ranges.0, i, columns), at(&self.ranges.1, j, rows))
+    pub(crate) fn node(&self, place: (u32, u32), grid: (u32, u32)) -> (f64, f64) {
+        node(&self.ranges, place, grid)
     }
 
     /// Whether a condition holds wherever the plane has an oscillator, by some points inside the frame.

@@ -16,5 +16,5 @@ mod point;
 pub use curve::Curve;
 pub use event::{CurveEvent, CurveKind};
 pub use frame::Frame;
-pub(crate) use frame::{Ranges, check, scales};
+pub(crate) use frame::{Ranges, check, node, scales};
 pub use point::{CurveOptions, CurvePoint};

@@ -5,6 +5,7 @@
 //! a cycle can be followed is outlined to the resolution of [`HALVINGS`] and named by what the nearest cycle inside comes to.
 
 use super::curves::MachinePlane;
+use crate::continuation::curves::node;
 use crate::continuation::regions::{Bound, Outline, Polygon, Region, RegionKind, RegionOptions};
 use crate::math::{Multiplier, hypot, sort_by};
 use crate::orbit::{Count, Label, MachineCycle, MachineFrame, MachineLap, find_unreduced};
@@ -29,6 +30,8 @@ const HALVINGS: u32 = 20;
 const EDGE: (f64, f64) = (0.1, 1e-3);
 /// A multiplier this near to the unit circle, at the last cycle inside, is that of a bifurcation.
 const NEAR: f64 = 5e-2;
+/// How far beyond an edge the closings are counted, in quarters of the frame: farther than the edge is off.
+const BESIDE: f64 = 1e-5;
 
 /// A cycle, and the values of both numbers.
 #[derive(Clone, Debug)]
@@ -54,9 +57,9 @@ impl MachinePlane {
     ///
     /// The polygons contain the points to which a cycle could be followed from another point. Cycles are searched for at every
     /// third point of the grid, so parts of the region with fewer points can be missed, and so can orbits that are not stable and
-    /// to which no start leads. The largest distance between the edges of a polygon and the true edge is about $`10^{-3}`$ of a quarter of the frame.
-    /// Points of the grid at which a cycle was found outside the polygons, or none inside, are
-    /// [unresolved](Region::unresolved). Of the options, `grid` is used.
+    /// to which no start leads. The largest distance between the edges of a polygon and the true edge is about $`10^{-3}`$ of a
+    /// quarter of the frame. Points of the grid at which a cycle was found outside the polygons, or none inside, are
+    /// [unresolved](Region::unresolved). Of the options, `grid` and `vertices` are used.
     ///
     /// ```
     /// use vibroimpact::Label;
@@ -86,12 +89,8 @@ impl MachinePlane {
 
 impl Search<'_> {
     /// The point `(i, j)` of the grid.
-    fn node(&self, (i, j): (u32, u32)) -> (f64, f64) {
-        let (across, up) = &self.plane.ranges;
-        let at = |range: &core::ops::RangeInclusive<f64>, k: u32, count: u32| {
-            range.start() + (range.end() - range.start()) * (f64::from(k) + 0.5) / f64::from(count)
-        };
-        (at(across, i, self.grid.0), at(up, j, self.grid.1))
+    fn node(&self, place: (u32, u32)) -> (f64, f64) {
+        node(&self.plane.ranges, place, self.grid)
     }
 
     fn wanted(&self, cycle: &MachineCycle) -> bool {
@@ -234,6 +233,3 @@ impl Search<'_> {
         })
     }
 }
-
-/// How far beyond an edge the closings are counted, in quarters of the frame: farther than the edge is off.
-const BESIDE: f64 = 1e-5;

@@ -149,7 +149,6 @@ impl EventBranch {
             let next = across(&self.tracer, at, &self.path.options);
             return self.jump(at, found, next);
         };
-        let turns = last(&next.here.tangent) * last(&at.tangent) < 0.0;
         let (ring, other) = (&self.tracer.problem.equations.ring, &next.problem.equations.ring);
         // a chatter that is complete on one side only
         let chatters = |ring: &MachineRing, stop| Chatter::all(ring).iter().filter(|own| own.stop == stop).count();
@@ -159,7 +158,7 @@ impl EventBranch {
             {
                 MachineBranchEvent::Change { place: Some(place) }
             }
-            _ => found.event(turns),
+            _ => found.event(turns_back(at, &next)),
         };
         let complete = (0..ring.events.first().map_or(0, |event| event.back.len())).find_map(|stop| {
             let (here, there) = (chatters(ring, stop), chatters(other, stop));
@@ -203,7 +202,7 @@ impl EventBranch {
             };
             return self.end(at, end);
         };
-        let event = found.event(last(&next.here.tangent) * last(&at.tangent) < 0.0);
+        let event = found.event(turns_back(at, &next));
         self.go_on(at, event, (next, (!continues).then_some(MachineBranchEvent::Jump)));
     }
 
@@ -214,7 +213,7 @@ impl EventBranch {
         event: MachineBranchEvent,
         (next, landing): (Tracer<MachineProblem>, Option<MachineBranchEvent>),
     ) {
-        let turns = last(&next.here.tangent) * last(&at.tangent) < 0.0;
+        let turns = turns_back(at, &next);
         let rings = self.tracer.problem.equations.split(&at.w).zip(next.problem.equations.split(&next.here.w));
         let explained = rings.map_or(Some(event), |((_, ring), (_, other))| explained(event, (&ring, &other), turns));
         let Some(event) = explained else { return self.exchange(next) };
@@ -232,4 +231,9 @@ impl EventBranch {
         self.exchange(next);
         self.add(&self.tracer.here.clone(), landing);
     }
+}
+
+/// Whether the number changes in the other direction on a branch that goes on with `next`.
+fn turns_back(at: &MachineSolution, next: &Tracer<MachineProblem>) -> bool {
+    last(&next.here.tangent) * last(&at.tangent) < 0.0
 }

@@ -8,12 +8,12 @@ use super::point::MachineBranchEvent;
 use super::summed::same_in_turn;
 use crate::orbit::{Chatter, MachineRing};
 use crate::regime::{ContactState, GuardKind};
-use core::cmp::Ordering;
 
 /// What a contact does in a cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Tally {
-    /// How often a stop closes; how many impacts of a complete chatter are followed is no property of the cycle, so they do not count.
+    /// How often a stop closes, without the impacts of a complete chatter: how many of these are followed is no property of the
+    /// cycle.
     closings: usize,
     /// How often a rest on a stop, or a hold of a joint, begins.
     rests: usize,
@@ -109,14 +109,17 @@ pub(super) fn explained(
     let more = |place: usize| if old[place].turns > new[place].turns { before } else { beyond };
     let corner = || {
         let pair = turned.map_or_else(|| closest_pair(before, None), |joint| closest_pair(more(joint), Some(joint)));
-        pair.map_or(event, |(first, second)| match first == second {
-            true => MachineBranchEvent::Holding { joint: first, begins: old[first].turns > new[first].turns },
-            false => MachineBranchEvent::Corner { first, second },
+        pair.map_or(event, |(first, second)| {
+            if first == second {
+                MachineBranchEvent::Holding { joint: first, begins: old[first].turns > new[first].turns }
+            } else {
+                MachineBranchEvent::Corner { first, second }
+            }
         })
     };
     Some(match (rest, closing) {
         (Some(place), _) => {
-            let begins = old[place].rests.cmp(&new[place].rests) == Ordering::Less;
+            let begins = old[place].rests < new[place].rests;
             if place < stops {
                 MachineBranchEvent::Sticking { stop: place, begins }
             } else {
