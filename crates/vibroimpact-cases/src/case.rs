@@ -1,7 +1,7 @@
 //! A case: a machine, a start, and what is known of its motion without computing it.
 
 use crate::toml;
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::machine::{Machine, MachineParts, StopLaw};
 
 /// A map of a machine onto itself: coordinate `i` of the image is `signs[i] * q[from[i]]`, and what stop or joint `k` does
@@ -30,7 +30,7 @@ pub struct Drawn {
     /// The numbers of the machine.
     pub parts: MachineParts,
     /// The start.
-    pub start: MachineStart,
+    pub start: Start,
     /// Maps of machine and start onto themselves: the motion is its own image.
     pub symmetries: Vec<Symmetry>,
     /// Pairs of coordinates that stay equal.
@@ -42,7 +42,7 @@ pub struct Drawn {
 impl Drawn {
     /// A machine and a start of which nothing more is known.
     #[must_use]
-    pub const fn new(parts: MachineParts, start: MachineStart) -> Self {
+    pub const fn new(parts: MachineParts, start: Start) -> Self {
         Self { parts, start, symmetries: Vec::new(), equal: Vec::new(), same_as: None }
     }
 
@@ -71,7 +71,7 @@ pub struct Case {
     /// The machine.
     pub machine: Machine,
     /// The start.
-    pub start: MachineStart,
+    pub start: Start,
     /// Maps of machine and start onto themselves.
     pub symmetries: Vec<Symmetry>,
     /// Pairs of coordinates that stay equal.

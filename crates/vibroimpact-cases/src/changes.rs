@@ -2,7 +2,7 @@
 
 use crate::case::Case;
 use crate::draw::Draw;
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::machine::{HarmonicForce, Machine, MachineParts, StopLaw};
 use vibroimpact::math::Matrix;
 
@@ -43,7 +43,7 @@ pub struct Changed {
     /// The machine.
     pub machine: Machine,
     /// The start.
-    pub start: MachineStart,
+    pub start: Start,
     /// For each coordinate of it, the coordinate of the old machine and the factor.
     pub coordinates: Vec<(usize, f64)>,
     /// For each stop or joint of it, the one of the old machine.
@@ -104,11 +104,8 @@ pub fn changed(case: &Case, change: Rewriting) -> Changed {
     let vector = |of: &[f64], unit: f64| -> Vec<f64> {
         if of.is_empty() { Vec::new() } else { writing.vector(of).iter().map(|value| unit * value).collect() }
     };
-    let start = MachineStart {
-        q: vector(&case.start.q, length),
-        qdot: vector(&case.start.qdot, length / time),
-        ..case.start.clone()
-    };
+    let start =
+        Start { q: vector(&case.start.q, length), qdot: vector(&case.start.qdot, length / time), ..case.start.clone() };
     let places = writing.stops.iter().copied().chain(writing.joints.iter().map(|k| stops + k)).collect();
     let coordinates = writing.coordinates.iter().map(|(from, sign)| (*from, sign * length)).collect();
     Changed { machine, start, coordinates, places, time }

@@ -13,7 +13,7 @@ use crate::changes::{Changed, Rewriting, changed};
 use crate::quantities::largest;
 use crate::rules::Budget;
 use std::collections::BTreeSet;
-use vibroimpact::events::{MachineEventKind, MachineLimits, MachineMotion, MachineStart};
+use vibroimpact::events::{EventKind, Limits, Motion, Start};
 use vibroimpact::machine::{Machine, StopLaw};
 use vibroimpact::math::Matrix;
 
@@ -53,15 +53,15 @@ const ACCUMULATING: f64 = 1e-3;
 const WORST: f64 = 1e-6;
 
 /// The instants of a motion, in the terms of the machine that was written again.
-fn instants_of(machine: &Machine, start: &MachineStart, back: Option<&Changed>, budget: Budget) -> Vec<Instant> {
+fn instants_of(machine: &Machine, start: &Start, back: Option<&Changed>, budget: Budget) -> Vec<Instant> {
     let mut all: Vec<Instant> = Vec::new();
-    let Ok(motion) = MachineMotion::new(machine, start, MachineLimits::default()) else { return all };
+    let Ok(motion) = Motion::new(machine, start, Limits::default()) else { return all };
     let copies = back.map_or(1, |back| if back.places.len() == 2 * original_places(back) { 2 } else { 1 });
     let most = copies * budget.stretches as usize;
-    for event in motion.filter(|event| event.kind != MachineEventKind::Graze).take(4 * most) {
+    for event in motion.filter(|event| event.kind != EventKind::Graze).take(4 * most) {
         let time = event.time / back.map_or(1.0, |back| back.time);
         let place = |place: usize| back.map_or(place, |back| back.places[place]);
-        let with = if event.kind == MachineEventKind::Collapse { event.with.as_slice() } else { &[] };
+        let with = if event.kind == EventKind::Collapse { event.with.as_slice() } else { &[] };
         let own = [&[event.place], with].concat().into_iter().map(|at| (event.kind.name(), place(at)));
         let q = match back {
             None => event.q,
@@ -115,7 +115,7 @@ fn original_places(back: &Changed) -> usize {
 }
 
 /// The machine with a number of a kind changed everywhere by this factor.
-fn scaled(case: &Case, kind: usize, factor: f64) -> (Machine, MachineStart) {
+fn scaled(case: &Case, kind: usize, factor: f64) -> (Machine, Start) {
     let (mut parts, mut start) = (case.machine.parts().clone(), case.start.clone());
     let times = |matrix: &Matrix| {
         let rows: Vec<Vec<f64>> =
@@ -150,7 +150,7 @@ fn scaled(case: &Case, kind: usize, factor: f64) -> (Machine, MachineStart) {
 
 /// The machine and its start with all numbers that are not zero changed by some roundings, each by itself.
 #[must_use]
-pub fn rounded(case: &Case, seed: u64) -> (Machine, MachineStart) {
+pub fn rounded(case: &Case, seed: u64) -> (Machine, Start) {
     let (mut parts, mut start) = (case.machine.parts().clone(), case.start.clone());
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     let mut change = |value: &mut f64| {
@@ -233,19 +233,13 @@ impl Standard {
     ///
     /// # Errors
     /// The first difference.
-    pub fn same_motion(&self, machine: &Machine, start: &MachineStart, budget: Budget) -> Result<usize, String> {
+    pub fn same_motion(&self, machine: &Machine, start: &Start, budget: Budget) -> Result<usize, String> {
         self.same(machine, start, None, budget)
     }
 
     /// The number of instants at which another machine does the same, if it does as long as their conditions allow. Without
     /// a way back the events are not compared, only their times and the coordinates.
-    fn same(
-        &self,
-        machine: &Machine,
-        start: &MachineStart,
-        back: Option<&Changed>,
-        budget: Budget,
-    ) -> Result<usize, String> {
+    fn same(&self, machine: &Machine, start: &Start, back: Option<&Changed>, budget: Budget) -> Result<usize, String> {
         let mut others = instants_of(machine, start, back, budget).into_iter().peekable();
         for (k, (instant, (of_time, of_q))) in self.instants.iter().zip(&self.conditions).enumerate() {
             let time = instant.time;

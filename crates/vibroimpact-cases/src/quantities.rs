@@ -1,7 +1,7 @@
 //! Gaps, forces and energies of a machine from its numbers alone, without anything that computes its motion.
 
-use vibroimpact::events::MachineSample;
-use vibroimpact::machine::{Machine, MachineStop, Opening, StopLaw};
+use vibroimpact::events::Sample;
+use vibroimpact::machine::{Machine, Opening, Stop, StopLaw};
 use vibroimpact::math::{Matrix, sin_cos};
 use vibroimpact::regime::ContactState;
 
@@ -32,7 +32,7 @@ pub(crate) struct Gap {
 }
 
 /// The displacement and the velocity of a stop at a phase of the forcing.
-pub(crate) fn surface_of(stop: &MachineStop, frequency: f64, phase: f64) -> (f64, f64) {
+pub(crate) fn surface_of(stop: &Stop, frequency: f64, phase: f64) -> (f64, f64) {
     stop.motion.iter().fold((0.0, 0.0), |(r, rate), motion| {
         let order = f64::from(motion.order);
         let (sin, cos) = sin_cos(order * phase);
@@ -41,7 +41,7 @@ pub(crate) fn surface_of(stop: &MachineStop, frequency: f64, phase: f64) -> (f64
 }
 
 /// The gap of a stop.
-pub(crate) fn gap(machine: &Machine, j: usize, sample: &MachineSample) -> Gap {
+pub(crate) fn gap(machine: &Machine, j: usize, sample: &Sample) -> Gap {
     let stop = &machine.stops()[j];
     let (r, rate) = surface_of(stop, machine.parts().frequency.unwrap_or(0.0), sample.phase);
     let terms: f64 = stop.direction.iter().zip(&sample.q).map(|(w, q)| (w * q).abs()).sum();
@@ -83,7 +83,7 @@ pub(crate) fn contact_energy(law: &StopLaw, depth: f64) -> f64 {
 }
 
 /// The energy of structure and closed stops, and the size of its terms. The velocities are taken relative to `frame`.
-pub(crate) fn energy(machine: &Machine, sample: &MachineSample, frame: f64) -> (f64, f64) {
+pub(crate) fn energy(machine: &Machine, sample: &Sample, frame: f64) -> (f64, f64) {
     let parts = machine.parts();
     let relative: Vec<f64> = sample.qdot.iter().map(|v| v - frame).collect();
     let kinetic = 0.5 * square(&parts.mass, &relative);
@@ -99,7 +99,7 @@ pub(crate) fn energy(machine: &Machine, sample: &MachineSample, frame: f64) -> (
 }
 
 /// The power of all forces but those of springs and of constant forces: what drives, and what takes energy away.
-pub(crate) fn power(machine: &Machine, sample: &MachineSample) -> f64 {
+pub(crate) fn power(machine: &Machine, sample: &Sample) -> f64 {
     let parts = machine.parts();
     let mut power = dot(&drive(machine, sample.phase), &sample.qdot) - square(&parts.damping, &sample.qdot);
     for (j, stop) in parts.stops.iter().enumerate() {

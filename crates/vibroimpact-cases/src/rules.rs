@@ -18,9 +18,8 @@ use crate::quantities::{
     compliant, contact_energy, contact_force, energy, fastest, gap, largest, power, square, surface_of,
 };
 use core::fmt;
-use vibroimpact::events::{
-    MachineEnd, MachineEventKind, MachineLimits, MachineMotion, MachineSample, MachineStretches,
-};
+use vibroimpact::events;
+use vibroimpact::events::{EventKind, Limits, Motion, Sample, Stretches};
 use vibroimpact::machine::{Machine, Opening, StopLaw};
 use vibroimpact::regime::ContactState;
 
@@ -166,7 +165,7 @@ impl<'a> Follower<'a> {
     /// The rules about events alone.
     fn events(&mut self, budget: Budget) {
         let start = &self.case.start;
-        let motion = MachineMotion::new(self.machine, start, MachineLimits::default());
+        let motion = Motion::new(self.machine, start, Limits::default());
         let mut motion = motion.unwrap_or_else(|why| panic!("{} {}: {why}", self.case.family, self.case.seed));
         let mut fastest = largest(&start.qdot);
         let (mut time, mut crowd) = (0.0, vec![0_u32; self.machine.stops().len() + self.machine.joints().len()]);
@@ -175,7 +174,7 @@ impl<'a> Follower<'a> {
             count += 1;
             fastest = fastest.max(largest(&event.qdot));
             self.sizes.q = self.sizes.q.max(largest(&event.q));
-            if event.kind == MachineEventKind::Impact && event.speed <= FAINT * fastest {
+            if event.kind == EventKind::Impact && event.speed <= FAINT * fastest {
                 let (name, speed) = (self.name(event.place), event.speed);
                 self.fault(Rule::Faint, event.time, || format!("an impact on {name} with {speed:e}"));
             }
@@ -199,10 +198,10 @@ impl<'a> Follower<'a> {
         self.sizes.v = self.sizes.v.max(fastest);
         let rigid = self.case.has_rigid_stop();
         match motion.end() {
-            Some(end @ (MachineEnd::SearchLimit | MachineEnd::Inconsistent)) => {
+            Some(end @ (events::End::SearchLimit | events::End::Inconsistent)) => {
                 self.fault(Rule::End, motion.time(), || format!("{end:?}"));
             }
-            Some(MachineEnd::Collapse) => {
+            Some(events::End::Collapse) => {
                 self.fault(Rule::End, motion.time(), || {
                     format!("collapse {}", if rigid { "that is not summed" } else { "without a rigid stop" })
                 });
@@ -213,10 +212,10 @@ impl<'a> Follower<'a> {
 
     /// The rules about what is between events.
     fn stretches(&mut self, budget: Budget) {
-        let Ok(mut stretches) = MachineStretches::new(self.machine, &self.case.start, MachineLimits::default()) else {
+        let Ok(mut stretches) = Stretches::new(self.machine, &self.case.start, Limits::default()) else {
             return;
         };
-        let mut last: Option<MachineSample> = None;
+        let mut last: Option<Sample> = None;
         let mut short = 0;
         for _ in 0..budget.stretches {
             if !stretches.advance() || stretches.begin() > budget.time {
@@ -240,7 +239,7 @@ impl<'a> Follower<'a> {
         }
     }
 
-    fn grow(&mut self, sample: &MachineSample) {
+    fn grow(&mut self, sample: &Sample) {
         let sizes = &mut self.sizes;
         sizes.q = sizes.q.max(largest(&sample.q));
         sizes.v = sizes.v.max(largest(&sample.qdot));
@@ -257,7 +256,7 @@ impl<'a> Follower<'a> {
     }
 
     /// Follows the surfaces of damped stops that the body has left by force.
-    fn surfaces_at(&mut self, sample: &MachineSample, before: Option<&MachineSample>) {
+    fn surfaces_at(&mut self, sample: &Sample, before: Option<&Sample>) {
         for (j, stop) in self.machine.stops().iter().enumerate() {
             let Some((_, c, _, Opening::Force)) = compliant(&stop.law) else { continue };
             let depth = -gap(self.machine, j, sample).value;
@@ -280,7 +279,7 @@ impl<'a> Follower<'a> {
     }
 
     /// What an event may do; `held` is the energy in surfaces before it.
-    fn jump(&mut self, (before, held): (&MachineSample, f64), after: &MachineSample) {
+    fn jump(&mut self, (before, held): (&Sample, f64), after: &Sample) {
         let apart = before.q.iter().zip(&after.q).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         if apart > 1e-9 * self.sizes.q.max(self.sizes.gap) {
             self.fault(Rule::Jump, after.time, || format!("coordinates jump by {apart:e}"));
@@ -295,7 +294,7 @@ impl<'a> Follower<'a> {
             .zip(&rates)
             .find(|(_, rate)| **rate != 0.0)
             .map_or(0.0, |(stop, rate)| -rate / stop.direction.iter().sum::<f64>());
-        let moves = |(stop, rate): (&&vibroimpact::machine::MachineStop, &f64)| {
+        let moves = |(stop, rate): (&&vibroimpact::machine::Stop, &f64)| {
             (rate + frame * stop.direction.iter().sum::<f64>()).abs() > 1e-14 * rate.abs()
         };
         if rigid.iter().zip(&rates).any(moves) {
@@ -310,18 +309,13 @@ impl<'a> Follower<'a> {
     }
 
     /// The energy in surfaces that stand back.
-    fn held(&self, sample: &MachineSample) -> f64 {
+    fn held(&self, sample: &Sample) -> f64 {
         let stops = self.machine.stops().iter().enumerate();
         stops.map(|(j, stop)| contact_energy(&stop.law, self.surface(j, sample.time))).sum()
     }
 
     /// The rules along one stretch; returns its last state.
-    fn stretch(
-        &mut self,
-        stretches: &mut MachineStretches<'_>,
-        first: &MachineSample,
-        duration: f64,
-    ) -> Option<MachineSample> {
+    fn stretch(&mut self, stretches: &mut Stretches<'_>, first: &Sample, duration: f64) -> Option<Sample> {
         let wanted = (duration * self.fastest / 0.35).ceil().max(1.0);
         let intervals = wanted.min(INTERVALS);
         let step = duration / intervals;
@@ -355,7 +349,7 @@ impl<'a> Follower<'a> {
     }
 
     /// The rules at one time.
-    fn point(&mut self, sample: &MachineSample) {
+    fn point(&mut self, sample: &Sample) {
         self.grow(sample);
         for j in 0..self.machine.stops().len() {
             self.gap(j, sample);
@@ -372,7 +366,7 @@ impl<'a> Follower<'a> {
         self.symmetry(sample);
     }
 
-    fn gap(&mut self, j: usize, sample: &MachineSample) {
+    fn gap(&mut self, j: usize, sample: &Sample) {
         let gap = gap(self.machine, j, sample).value;
         let allowed = ROUNDING * self.sizes.gap.max(self.sizes.q);
         let wrong = match sample.states[j] {
@@ -387,7 +381,7 @@ impl<'a> Follower<'a> {
         }
     }
 
-    fn force(&mut self, j: usize, sample: &MachineSample) {
+    fn force(&mut self, j: usize, sample: &Sample) {
         let law = &self.machine.stops()[j].law;
         let allowed = ROUNDING * self.sizes.force;
         let wrong = match (sample.states[j], compliant(law)) {
@@ -411,12 +405,7 @@ impl<'a> Follower<'a> {
 
     /// The smallest gap between two samples: where the cubic through both comes near the stop, the sample at its smallest
     /// value is looked at, and so on.
-    fn between(
-        &mut self,
-        stretches: &mut MachineStretches<'_>,
-        (a, left): &(f64, MachineSample),
-        (b, right): (f64, &MachineSample),
-    ) {
+    fn between(&mut self, stretches: &mut Stretches<'_>, (a, left): &(f64, Sample), (b, right): (f64, &Sample)) {
         for j in 0..self.machine.stops().len() {
             if left.states[j] != ContactState::Open {
                 continue;
@@ -441,7 +430,7 @@ impl<'a> Follower<'a> {
     }
 
     /// Symmetry is lost if an event, or what is before the next one, makes an asymmetry from rounding errors.
-    fn symmetry(&mut self, sample: &MachineSample) {
+    fn symmetry(&mut self, sample: &Sample) {
         if self.asymmetry.1 > SYMMETRIC {
             return;
         }

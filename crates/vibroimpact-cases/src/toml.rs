@@ -1,12 +1,12 @@
 //! The file of a machine.
 
 use core::fmt::Write;
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::machine::{ImpactLaw, MachineParts, Opening, StopLaw};
 use vibroimpact::math::Matrix;
 
 /// The file of a machine and its start, for `vibro --machine`.
-pub(crate) fn text(parts: &MachineParts, start: &MachineStart) -> String {
+pub(crate) fn text(parts: &MachineParts, start: &Start) -> String {
     let mut text = String::from("[machine]\n");
     let mut line = |words: core::fmt::Arguments<'_>| {
         // writing to a string does not fail

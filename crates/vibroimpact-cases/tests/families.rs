@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 use std::collections::BTreeSet;
-use vibroimpact::events::{MachineLimits, MachineMotion};
+use vibroimpact::events::{Limits, Motion};
 use vibroimpact_cases::{Case, FAMILIES, Symmetry};
 
 fn apart(a: &[f64], b: &[f64]) -> f64 {
@@ -38,7 +38,7 @@ fn machines_starts_and_symmetries_are_valid() {
     for family in FAMILIES {
         for seed in 0..300 {
             let case = family.case(seed);
-            let motion = MachineMotion::new(&case.machine, &case.start, MachineLimits::default());
+            let motion = Motion::new(&case.machine, &case.start, Limits::default());
             assert!(motion.is_ok(), "{} {seed}: {:?}", family.name, motion.err());
             for symmetry in &case.symmetries {
                 assert!(is_symmetry(&case, symmetry), "{} {seed}: {symmetry:?} {:#?}", family.name, case.machine);

@@ -1,7 +1,7 @@
 //! Events and verdicts do not depend on how a machine is written.
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::Stability;
 use vibroimpact::verdict::{SettleOptions, Verdict, settle_machine};
@@ -74,7 +74,7 @@ fn is_of_a_rounding(case: &Case, verdict: &str, options: &SettleOptions) -> bool
 const ROUNDED: u64 = 60;
 
 /// The verdict on a motion, and its label.
-fn settled((machine, start): (&Machine, &MachineStart), options: &SettleOptions) -> (Verdict<Machine>, String) {
+fn settled((machine, start): (&Machine, &Start), options: &SettleOptions) -> (Verdict<Machine>, String) {
     let verdict = settle_machine(machine, start, options).unwrap().verdict;
     let label = verdict.label().into_owned();
     (verdict, label)
@@ -82,12 +82,7 @@ fn settled((machine, start): (&Machine, &MachineStart), options: &SettleOptions)
 
 /// Whether two verdicts differ only in that one of them needs more than the budget: with `LONGER` times as much the motions have one
 /// verdict, which is not `undecided`.
-fn need_more(
-    one: (&Machine, &MachineStart),
-    other: (&Machine, &MachineStart),
-    twice: bool,
-    options: &SettleOptions,
-) -> bool {
+fn need_more(one: (&Machine, &Start), other: (&Machine, &Start), twice: bool, options: &SettleOptions) -> bool {
     let more = SettleOptions::at_most(LONGER * options.max_impacts);
     let (of_one, of_other) = (settled(one, &more).1, label(&settled(other, &more).1, twice));
     of_one == of_other && of_one != "undecided"

@@ -1,6 +1,6 @@
 //! The rules that every motion keeps, on machines of all families.
 
-use vibroimpact::events::{MachineEnd, MachineLimits, MachineMotion};
+use vibroimpact::events::{End, Limits, Motion};
 use vibroimpact_cases::{Budget, DrawnFamily, FAMILIES, faults, rounded};
 
 /// Everyday 10 machines of each family; with `VIBROIMPACT_LONG=1` 60, more than a thousand together.
@@ -45,8 +45,8 @@ fn soft_cradles_come_to_an_end() {
     let case = DrawnFamily::named("cradles").unwrap().case(5);
     for seed in [39, 42, 49, 52, 53] {
         let (machine, start) = rounded(&case, seed);
-        let mut motion = MachineMotion::new(&machine, &start, MachineLimits::default()).unwrap();
+        let mut motion = Motion::new(&machine, &start, Limits::default()).unwrap();
         let events = motion.by_ref().take(10_000).count();
-        assert_eq!(motion.end(), Some(MachineEnd::Never), "{seed}: {events} events");
+        assert_eq!(motion.end(), Some(End::Never), "{seed}: {events} events");
     }
 }

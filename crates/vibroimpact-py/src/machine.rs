@@ -6,7 +6,8 @@ use crate::error::Trouble;
 use crate::simulate::checked_step;
 use numpy::{Element, IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use vibroimpact::events::{MachineEvent, MachineLimits, MachineSample, MachineSamples, MachineStart};
+use vibroimpact::events;
+use vibroimpact::events::{Event, Limits, Sample, Samples};
 use vibroimpact::regime::ContactState;
 use vibroimpact_study::machine::{CATALOGUE, MachineFileError, MachineProblem, MachineSource, StartText};
 use vibroimpact_study::{
@@ -144,10 +145,10 @@ pub(crate) struct Fields<'py> {
 }
 
 /// The start with these coordinates, velocities and phase. That of the file has its contacts too.
-pub(crate) fn start(file: &MachineFile, (q, qdot, phase): Start) -> Result<MachineStart, Trouble> {
-    let own = MachineStart::from(file.0.start()?);
+pub(crate) fn start(file: &MachineFile, (q, qdot, phase): Start) -> Result<events::Start, Trouble> {
+    let own = events::Start::from(file.0.start()?);
     let same = (&own.q, &own.qdot) == (&q, &qdot) && own.phase.to_bits() == phase.to_bits();
-    Ok(if same { own } else { MachineStart { q, qdot, phase, ..MachineStart::default() } })
+    Ok(if same { own } else { events::Start { q, qdot, phase, ..events::Start::default() } })
 }
 
 /// The state, as JSON, from which a motion goes on after event number `event` of the simulation of a plan, which is JSON.
@@ -248,11 +249,11 @@ fn code(names: &mut Vec<&'static str>, name: &'static str) -> i8 {
 }
 
 impl<'py> ManyEventFields<'py> {
-    fn new(py: Python<'py>, found: &[Simulated<MachineEvent>], n: usize) -> Self {
+    fn new(py: Python<'py>, found: &[Simulated<Event>], n: usize) -> Self {
         let width = found.iter().map(|one| one.events.len()).max().unwrap_or(0);
         let (mut kinds, mut ends) = (Vec::new(), Vec::new());
         let cells = || found.iter().flat_map(|one| (0..width).map(move |k| one.events.get(k)));
-        let real = |of: &dyn Fn(&MachineEvent) -> f64| column(py, cells().map(|event| event.map_or(f64::NAN, of)));
+        let real = |of: &dyn Fn(&Event) -> f64| column(py, cells().map(|event| event.map_or(f64::NAN, of)));
         Self {
             kind: column(py, cells().map(|event| event.map_or(-1, |event| code(&mut kinds, event.kind.name())))),
             stop: column(py, cells().map(|event| event.map_or(-1, |event| i32::try_from(event.place).unwrap_or(-1)))),
@@ -289,7 +290,7 @@ pub(crate) fn simulate_machines<'py>(
         let one = |k: usize| {
             let there = numbers.iter().try_fold(source.clone(), |there, (path, values)| there.with(path, values[k]))?;
             let (q, qdot, phase) = starts[k].clone();
-            let there = there.starting(&MachineStart { q, qdot, phase, ..MachineStart::default() });
+            let there = there.starting(&events::Start { q, qdot, phase, ..events::Start::default() });
             let plan = Plan::new(there, Task::Simulate { start: None, impacts: limits.0, periods: limits.1 });
             // the progress is that of whole motions
             let alone = Control { stop: control.stop, threads: 1, ..Control::default() };
@@ -334,14 +335,14 @@ pub(crate) fn machine_waveform<'py>(
     let machine = file.0.machine()?;
     let (n, stops, joints) = (machine.n(), machine.stops().len(), machine.joints().len());
     let start = start(file, from)?;
-    let wave: Vec<MachineSample> = door::run(py, Watch::alone("drawing a waveform"), move |control| {
-        let limits = MachineLimits::default();
-        let limits = MachineLimits { time: limits.time.max(until), ..limits };
-        let samples = MachineSamples::new(&machine, &start, limits, (until, step))
-            .map_err(|error| PlanError::Machine(error.into()))?;
+    let wave: Vec<Sample> = door::run(py, Watch::alone("drawing a waveform"), move |control| {
+        let limits = Limits::default();
+        let limits = Limits { time: limits.time.max(until), ..limits };
+        let samples =
+            Samples::new(&machine, &start, limits, (until, step)).map_err(|error| PlanError::Machine(error.into()))?;
         Ok(samples.filter(|sample| events || sample.even).take_while(|_| !control.stopping()).collect())
     })?;
-    let contact = |sample: &MachineSample| {
+    let contact = |sample: &Sample| {
         let closed = |state: &ContactState| matches!(state, ContactState::Closed | ContactState::Resting);
         sample.states[..stops].iter().map(closed).collect()
     };

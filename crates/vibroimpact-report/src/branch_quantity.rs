@@ -1,8 +1,8 @@
 //! The quantity that stands for each cycle of a branch of a machine without stops, which has no speeds of closings.
 
-use vibroimpact::continuation::MachinePoint;
+use vibroimpact::continuation::machine::SolutionPoint;
 use vibroimpact::machine::Machine;
-use vibroimpact::orbit::MachineCycle;
+use vibroimpact::orbit::machine::Cycle;
 use vibroimpact::quantities::{Quantity, machine_cycle_quantities};
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{Branches, Cut};
@@ -24,7 +24,7 @@ impl<'a> BranchQuantity<'a> {
         machine: &Machine,
         source: &'a MachineSource,
         cut: &Cut<String>,
-        found: &Branches<MachineCycle, MachinePoint>,
+        found: &Branches<Cycle, SolutionPoint>,
     ) -> Option<Self> {
         if !machine.stops().is_empty() {
             return None;
@@ -43,7 +43,7 @@ impl<'a> BranchQuantity<'a> {
 
     /// Its value at a point; `NaN` if it is not defined there.
     #[must_use]
-    pub fn at(&self, point: &MachinePoint) -> f64 {
+    pub fn at(&self, point: &SolutionPoint) -> f64 {
         let value = || {
             let machine = self.cut.source(self.source, point.value).ok()?.machine().ok()?;
             machine_cycle_quantities(&machine, &point.cycle)?.value(&machine, &self.path).ok()

@@ -5,7 +5,8 @@ use crate::name::Name;
 use crate::stretch::check_plane;
 use crate::{Control, Parameter, PlanError, RunError, Stretch, SystemPlan, limits, tiles};
 use serde::{Deserialize, Serialize};
-use vibroimpact::continuation::{Frame, MachinePlane, Region, RegionKind, RegionOptions, region_while};
+use vibroimpact::continuation::machine;
+use vibroimpact::continuation::{Frame, Region, RegionKind, RegionOptions, region_while};
 use vibroimpact::{Label, Oscillator, PhysicalParameter};
 
 /// Default number of grid points, in each direction, at which orbits are searched.
@@ -97,7 +98,7 @@ pub(crate) struct Plane {
 /// The systems of a plane.
 pub(crate) enum Over {
     Oscillators(Oscillator, Frame),
-    Machines(MachinePlane),
+    Machines(machine::Plane),
 }
 
 impl Over {

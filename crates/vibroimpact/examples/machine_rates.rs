@@ -12,7 +12,7 @@ mod machine_problems;
 
 use machine_problems::{Problem, all};
 use std::time::Instant;
-use vibroimpact::events::{MachineEvent, MachineEventKind, MachineLimits, MachineMotion, MachineStart};
+use vibroimpact::events::{Event, EventKind, Limits, Motion, Start};
 
 const HORIZON: f64 = 60.0;
 
@@ -32,15 +32,14 @@ fn main() {
     }
 }
 
-fn motion<'a>(problem: &'a Problem, start: &MachineStart) -> MachineMotion<'a> {
-    MachineMotion::new(&problem.machine, start, MachineLimits { time: HORIZON, ..MachineLimits::default() })
-        .expect("a legal start")
+fn motion<'a>(problem: &'a Problem, start: &Start) -> Motion<'a> {
+    Motion::new(&problem.machine, start, Limits { time: HORIZON, ..Limits::default() }).expect("a legal start")
 }
 
 fn rate(problem: &Problem, count: usize) {
     let begin = Instant::now();
     let (mut events, mut time) = (0_u32, 0.0);
-    let motion = MachineMotion::new(&problem.machine, &problem.start, MachineLimits::default()).expect("a legal start");
+    let motion = Motion::new(&problem.machine, &problem.start, Limits::default()).expect("a legal start");
     for event in motion.take(count) {
         events += 1;
         time = event.time;
@@ -67,7 +66,7 @@ fn starts(problem: &Problem, count: usize, grazing: bool) {
             let rate = |i: usize| if problem.name == "beam" { stiffness[(i, i)].sqrt() } else { 1.0 };
             let q: Vec<f64> = (0..n).map(|i| q * (2.0 * unit() - 1.0) / rate(i)).collect();
             let qdot = (0..n).map(|_| v * (2.0 * unit() - 1.0)).collect();
-            MachineStart { q, qdot, phase: 0.0, ..MachineStart::default() }
+            Start { q, qdot, phase: 0.0, ..Start::default() }
         };
         let (q, v) = if problem.name == "beam" { (0.1, 0.1) } else { (0.5, 1.0) };
         let mut start = draw(q, v);
@@ -79,10 +78,8 @@ fn starts(problem: &Problem, count: usize, grazing: bool) {
             start = touch;
         }
         // what the others do not know: rest, and touches without effect
-        let events: Vec<MachineEvent> = motion(problem, &start).take(5).collect();
-        let known = |event: &MachineEvent| {
-            !matches!(event.kind, MachineEventKind::Stick | MachineEventKind::Release | MachineEventKind::Graze)
-        };
+        let events: Vec<Event> = motion(problem, &start).take(5).collect();
+        let known = |event: &Event| !matches!(event.kind, EventKind::Stick | EventKind::Release | EventKind::Graze);
         if events.len() < 5 || events[4].time > HORIZON || !events.iter().all(known) {
             continue;
         }
@@ -94,7 +91,7 @@ fn starts(problem: &Problem, count: usize, grazing: bool) {
 }
 
 /// Whether a start lies clear of all stops.
-fn open(problem: &Problem, start: &MachineStart) -> Option<()> {
+fn open(problem: &Problem, start: &Start) -> Option<()> {
     let clear = problem.machine.stops().iter().all(|stop| {
         let moved: f64 = stop.direction.iter().zip(&start.q).map(|(w, q)| w * q).sum();
         let wall: f64 = stop.motion.iter().map(|motion| motion.cos).sum();
@@ -104,16 +101,11 @@ fn open(problem: &Problem, start: &MachineStart) -> Option<()> {
 }
 
 /// A start between two ones whose first events differ much: its first event is nearly missed.
-fn toward_a_touch(problem: &Problem, one: &MachineStart, other: &MachineStart) -> Option<MachineStart> {
+fn toward_a_touch(problem: &Problem, one: &Start, other: &Start) -> Option<Start> {
     open(problem, other)?;
     let between = |part: f64| {
         let mix = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a + part * (b - a)).collect();
-        MachineStart {
-            q: mix(&one.q, &other.q),
-            qdot: mix(&one.qdot, &other.qdot),
-            phase: 0.0,
-            ..MachineStart::default()
-        }
+        Start { q: mix(&one.q, &other.q), qdot: mix(&one.qdot, &other.qdot), phase: 0.0, ..Start::default() }
     };
     let first = |part: f64| motion(problem, &between(part)).next().map(|event| (event.time, event.speed));
     let (mut low, mut high) = (0.0, 1.0);

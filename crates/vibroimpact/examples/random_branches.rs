@@ -12,11 +12,12 @@
 use std::collections::BTreeMap;
 use std::time::Instant;
 use vibroimpact::continuation::{
-    BranchOptions, Direction, MachineBranch, MachineBranchEvent, MachineFamily, MachinePoint,
+    BranchOptions, Direction,
+    machine::{Branch, BranchEvent, Family, SolutionPoint},
 };
-use vibroimpact::events::{MachineEventKind, MachineStart};
+use vibroimpact::events::{EventKind, Start};
 use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
-use vibroimpact::orbit::MachineCycle;
+use vibroimpact::orbit::machine::Cycle;
 use vibroimpact::verdict::{SettleOptions, Verdict, settle_machine};
 
 /// Points of a branch at most.
@@ -138,7 +139,7 @@ impl Tally {
     fn branch(&mut self, case: u64, draw: &mut Draw) -> bool {
         let Some(machine) = machine(draw) else { return false };
         let options = SettleOptions { max_impacts: 1_000, chaos_over: 0, ..SettleOptions::default() };
-        let Ok(settled) = settle_machine(&machine, &MachineStart::default().within_stops(&machine), &options) else {
+        let Ok(settled) = settle_machine(&machine, &Start::default().within_stops(&machine), &options) else {
             return false;
         };
         let Verdict::Periodic(cycle) = settled.verdict else { return false };
@@ -147,13 +148,13 @@ impl Tally {
         let (up, down) = (draw.number(0.2, 0.6), draw.number(0.2, 0.6));
         let range = legal(&machine, path, *value, -down)..=legal(&machine, path, *value, up);
         let direction = if draw.chance(0.5) { Direction::Up } else { Direction::Down };
-        let Ok((family, value)) = MachineFamily::of_path(&machine, path) else { return false };
+        let Ok((family, value)) = Family::of_path(&machine, path) else { return false };
         if cycle.events.is_empty() || cycle.events.len() > LONGEST {
             return false;
         }
         let options = BranchOptions { points: POINTS, ..BranchOptions::default() };
         let begin = Instant::now();
-        let points: Vec<MachinePoint> = match MachineBranch::new((&family, value), &cycle, &range, direction, options) {
+        let points: Vec<SolutionPoint> = match Branch::new((&family, value), &cycle, &range, direction, options) {
             Ok(branch) => branch.collect(),
             Err(_) => {
                 self.refused += 1;
@@ -189,13 +190,13 @@ impl Tally {
 }
 
 /// What kind of motion a cycle is.
-fn kind(machine: &Machine, cycle: &MachineCycle) -> &'static str {
+fn kind(machine: &Machine, cycle: &Cycle) -> &'static str {
     let has = |kind| cycle.events.iter().any(|event| event.kind == kind);
     if cycle.label.impacts == vibroimpact::orbit::Count::Infinite {
         "chatter"
-    } else if has(MachineEventKind::Stick) {
+    } else if has(EventKind::Stick) {
         "rest"
-    } else if has(MachineEventKind::Hold) || has(MachineEventKind::Slip) {
+    } else if has(EventKind::Hold) || has(EventKind::Slip) {
         "friction"
     } else if machine.stops().iter().any(|stop| matches!(stop.law, StopLaw::Compliant { .. })) {
         "compliant"
@@ -205,9 +206,9 @@ fn kind(machine: &Machine, cycle: &MachineCycle) -> &'static str {
 }
 
 /// The changes between neighbouring ordinary points without an event between them that explains them.
-fn faults(points: &[MachinePoint]) -> Vec<(&'static str, f64)> {
-    let (mut found, mut between): (Vec<_>, Vec<MachineBranchEvent>) = Default::default();
-    let mut last: Option<&MachinePoint> = None;
+fn faults(points: &[SolutionPoint]) -> Vec<(&'static str, f64)> {
+    let (mut found, mut between): (Vec<_>, Vec<BranchEvent>) = Default::default();
+    let mut last: Option<&SolutionPoint> = None;
     for point in points {
         if let Some(event) = point.event.filter(|event| !event.ends()) {
             between.push(event);
@@ -230,60 +231,52 @@ fn faults(points: &[MachinePoint]) -> Vec<(&'static str, f64)> {
 }
 
 /// The number of multipliers outside the unit circle; `None` where one is too near to it.
-fn outside(cycle: &MachineCycle) -> Option<usize> {
+fn outside(cycle: &Cycle) -> Option<usize> {
     let moduli: Vec<f64> = cycle.multipliers.iter().map(|multiplier| multiplier.modulus()).collect();
     let near = moduli.iter().any(|modulus| (modulus - 1.0).abs() < NEUTRAL);
     (!near).then(|| moduli.iter().filter(|modulus| **modulus > 1.0).count())
 }
 
 /// The events of a cycle: kind and place, without touches and all but the first impact of a chatter.
-fn list(cycle: &MachineCycle) -> Vec<(MachineEventKind, usize)> {
+fn list(cycle: &Cycle) -> Vec<(EventKind, usize)> {
     let all: Vec<_> = cycle.events.iter().map(|event| (event.kind, event.place)).collect();
-    let all: Vec<_> = all.into_iter().filter(|(kind, _)| *kind != MachineEventKind::Graze).collect();
+    let all: Vec<_> = all.into_iter().filter(|(kind, _)| *kind != EventKind::Graze).collect();
     let m = all.len();
-    let struck = |k: usize, place: usize| all[k % m] == (MachineEventKind::Impact, place);
+    let struck = |k: usize, place: usize| all[k % m] == (EventKind::Impact, place);
     let in_chatter = |k: usize| {
         let place = all[k].1;
         let end = (k..k + m).find(|i| !struck(*i, place));
-        let rests = end.is_some_and(|end| all[end % m] == (MachineEventKind::Stick, place));
+        let rests = end.is_some_and(|end| all[end % m] == (EventKind::Stick, place));
         rests && struck(k, place) && struck(k + m - 1, place)
     };
     (0..m).filter(|k| !in_chatter(*k)).map(|k| all[k]).collect()
 }
 
 /// Whether two cycles have the same events in the same cyclic order.
-fn same_list(a: &MachineCycle, b: &MachineCycle) -> bool {
+fn same_list(a: &Cycle, b: &Cycle) -> bool {
     let (a, b) = (list(a), list(b));
     let m = a.len();
     m == b.len() && (m == 0 || (0..m).any(|shift| (0..m).all(|k| a[k] == b[(k + shift) % m])))
 }
 
 /// Whether the list of events can change at an event of this kind.
-fn explains(event: &MachineBranchEvent) -> bool {
-    !matches!(
-        event,
-        MachineBranchEvent::Fold
-            | MachineBranchEvent::BranchPoint
-            | MachineBranchEvent::Flip
-            | MachineBranchEvent::Torus
-    )
+fn explains(event: &BranchEvent) -> bool {
+    !matches!(event, BranchEvent::Fold | BranchEvent::BranchPoint | BranchEvent::Flip | BranchEvent::Torus)
 }
 
 /// Whether the change of the list is one of this event: of rests, of holds, of closings, or of their order.
-fn names(event: MachineBranchEvent, a: &MachineCycle, b: &MachineCycle) -> bool {
-    let count = |cycle: &MachineCycle, of: fn(MachineEventKind) -> bool| {
-        list(cycle).iter().filter(|(kind, _)| of(*kind)).count()
-    };
-    let differ = |of: fn(MachineEventKind) -> bool| count(a, of) != count(b, of);
-    let rests = differ(|kind| matches!(kind, MachineEventKind::Stick | MachineEventKind::Release));
-    let holds = differ(|kind| matches!(kind, MachineEventKind::Hold | MachineEventKind::Slip));
-    let closings = differ(|kind| matches!(kind, MachineEventKind::Impact | MachineEventKind::Close));
+fn names(event: BranchEvent, a: &Cycle, b: &Cycle) -> bool {
+    let count = |cycle: &Cycle, of: fn(EventKind) -> bool| list(cycle).iter().filter(|(kind, _)| of(*kind)).count();
+    let differ = |of: fn(EventKind) -> bool| count(a, of) != count(b, of);
+    let rests = differ(|kind| matches!(kind, EventKind::Stick | EventKind::Release));
+    let holds = differ(|kind| matches!(kind, EventKind::Hold | EventKind::Slip));
+    let closings = differ(|kind| matches!(kind, EventKind::Impact | EventKind::Close));
     match event {
-        MachineBranchEvent::Grazing { .. } => closings,
-        MachineBranchEvent::Sticking { .. } => rests || closings,
-        MachineBranchEvent::Holding { .. } => holds,
-        MachineBranchEvent::Corner { .. } | MachineBranchEvent::Jump => true,
-        MachineBranchEvent::Change { .. } => false,
+        BranchEvent::Grazing { .. } => closings,
+        BranchEvent::Sticking { .. } => rests || closings,
+        BranchEvent::Holding { .. } => holds,
+        BranchEvent::Corner { .. } | BranchEvent::Jump => true,
+        BranchEvent::Change { .. } => false,
         _ => true,
     }
 }

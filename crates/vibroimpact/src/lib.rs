@@ -48,7 +48,7 @@
 //! | Lyapunov exponents, dimension, sections of an attractor | [`chaos`] |
 //! | impact speeds, impulses, energies, amplitudes, spectrum | [`quantities`] |
 //! | machines of several coordinates, with any stops and friction, and their events | [`machine`], [`events`] |
-//! | what machines settle into, their cycles, branches and exponents | [`verdict::settle_machine`], [`orbit::MachineCycle`], [`continuation::MachineBranch`], [`chaos::machine_exponents_while`] |
+//! | what machines settle into, their cycles, branches and exponents | [`verdict::settle_machine`], [`orbit::machine::Cycle`], [`continuation::machine::Branch`], [`chaos::machine_exponents_while`] |
 //! | the points of the 1971 paper | [`scenario`] |
 //!
 //! # Units

@@ -2,7 +2,7 @@
 //! motion followed ten times as far, each start alone and in company.
 
 use vibroimpact::chaos::{ExponentOptions, Grounds, exponents};
-use vibroimpact::events::MachineStart;
+use vibroimpact::events;
 use vibroimpact::lanes::Width;
 use vibroimpact::machine::{Machine, MachineParts};
 use vibroimpact::motion::{End, Event, EventKind, ImpactState, Motion};
@@ -462,7 +462,7 @@ fn f42m_periods_that_rounding_decides_are_not_claimed() {
             .with_force(0, 1, 0.0, 1.0)
             .with_rigid_stop("stop", &[1.0], osc.gap(), osc.restitution());
         let start =
-            MachineStart { q: vec![start.x], qdot: vec![start.v], phase: start.phase, ..MachineStart::default() };
+            events::Start { q: vec![start.x], qdot: vec![start.v], phase: start.phase, ..events::Start::default() };
         let found = settle_machine(&Machine::new(parts).unwrap(), &start, &SettleOptions::default()).unwrap().verdict;
         let Verdict::Undecided(Undecided { why, .. }) = found else { panic!("{}", found.label()) };
         assert_eq!(why, UndecidedCause::Unconfirmed);

@@ -3,7 +3,7 @@
 use crate::bodies::{along, between, bodies};
 use crate::case::{Drawn, Symmetry};
 use crate::draw::Draw;
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let n = draw.count(2..=6);
@@ -30,7 +30,7 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
         })
         .collect();
     parts.impacts = draw.impacts();
-    let start = MachineStart { qdot, ..MachineStart::default() };
+    let start = Start { qdot, ..Start::default() };
     Drawn::new(parts, start).symmetric(Symmetry {
         from: (0..n).rev().collect(),
         signs: vec![-1.0; n],

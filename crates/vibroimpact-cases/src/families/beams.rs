@@ -4,7 +4,7 @@
 use crate::case::{Drawn, Symmetry};
 use crate::draw::Draw;
 use core::f64::consts::PI;
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::machine::MachineParts;
 use vibroimpact::math::sin_cos;
 
@@ -48,5 +48,5 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
     }
     let sign = |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 };
     let symmetry = Symmetry { from: (0..n).collect(), signs: (0..n).map(sign).collect(), places };
-    Drawn::new(parts, MachineStart::default()).symmetric(symmetry)
+    Drawn::new(parts, Start::default()).symmetric(symmetry)
 }

@@ -3,7 +3,7 @@
 use crate::bodies::{along, between, bodies};
 use crate::case::{Drawn, Symmetry};
 use crate::draw::Draw;
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let n = draw.count(2..=8);
@@ -42,10 +42,10 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
         parts = parts.with_stop(&format!("c{i}"), &between(n, i - 1, i), gap, contact);
     }
     parts = parts.with_stop("right", &along(n, n - 1, 1.0), room, wall);
-    let start = MachineStart {
+    let start = Start {
         q: (0..n).map(|i| odd(&shifts, i)).collect(),
         qdot: (0..n).map(|i| odd(&speeds, i)).collect(),
-        ..MachineStart::default()
+        ..Start::default()
     };
     Drawn::new(parts, start).symmetric(Symmetry {
         from: (0..n).rev().collect(),

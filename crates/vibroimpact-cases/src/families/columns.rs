@@ -3,7 +3,7 @@
 use crate::bodies::{along, between, bodies};
 use crate::case::Drawn;
 use crate::draw::Draw;
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let n = draw.count(2..=6);
@@ -19,5 +19,5 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
         parts = parts.with_stop(&format!("c{i}"), &between(n, i - 1, i), gap, law);
     }
     parts.impacts = draw.impacts();
-    Drawn::new(parts, MachineStart::default())
+    Drawn::new(parts, Start::default())
 }

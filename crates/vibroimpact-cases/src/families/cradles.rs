@@ -3,7 +3,7 @@
 use crate::bodies::{along, between, bodies};
 use crate::case::Drawn;
 use crate::draw::Draw;
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let n = draw.count(2..=6);
@@ -24,5 +24,5 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let height = draw.number(0.2, 1.0);
     let q = (0..n).map(|i| if i < raised { -height } else { 0.0 }).collect();
     parts.impacts = draw.impacts();
-    Drawn::new(parts, MachineStart { q, ..MachineStart::default() })
+    Drawn::new(parts, Start { q, ..Start::default() })
 }

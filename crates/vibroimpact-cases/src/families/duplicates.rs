@@ -4,7 +4,7 @@
 use crate::bodies::{along, between, bodies};
 use crate::case::Drawn;
 use crate::draw::Draw;
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::machine::{MachineParts, StopLaw};
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
@@ -56,7 +56,7 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
             (plain, parts.with_joint("two", &wall, half, limit * half, 0.0))
         }
     };
-    let start = MachineStart { qdot: draw.numbers(n, -0.5, 0.0), ..MachineStart::default() };
+    let start = Start { qdot: draw.numbers(n, -0.5, 0.0), ..Start::default() };
     Drawn { same_as: Some(plain), ..Drawn::new(parts, start) }
 }
 

@@ -3,7 +3,7 @@
 use crate::bodies::{along, between, bodies};
 use crate::case::Drawn;
 use crate::draw::Draw;
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let n = draw.count(1..=3);
@@ -27,5 +27,5 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
         let belt = draw.pick(&[0.0, 0.0, 0.2]);
         parts = parts.with_joint(&format!("j{}", k + 1), &direction, sliding, more * sliding, belt);
     }
-    Drawn::new(parts, MachineStart::default())
+    Drawn::new(parts, Start::default())
 }

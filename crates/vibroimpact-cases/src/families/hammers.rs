@@ -3,7 +3,7 @@
 use crate::bodies::{along, between, bodies};
 use crate::case::Drawn;
 use crate::draw::Draw;
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::machine::MachineParts;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
@@ -36,9 +36,9 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
                     law,
                 );
             }
-            let drawn = Drawn::new(parts, MachineStart::default());
+            let drawn = Drawn::new(parts, Start::default());
             return Drawn { equal: vec![(1, 2)], ..drawn };
         }
     };
-    Drawn::new(parts, MachineStart::default())
+    Drawn::new(parts, Start::default())
 }

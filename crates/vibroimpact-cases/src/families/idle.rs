@@ -3,7 +3,7 @@
 use crate::bodies::{along, between, bodies};
 use crate::case::Drawn;
 use crate::draw::Draw;
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let idle = draw.count(1..=3);
@@ -31,5 +31,5 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
         parts = parts.with_stop("c", &between(n, n - 1, 0), draw.number(0.05, 0.4), draw.rigid());
     }
     let qdot = (0..n).map(|i| if i < idle { 0.0 } else { draw.number(0.2, 1.0) }).collect();
-    Drawn::new(parts, MachineStart { qdot, ..MachineStart::default() })
+    Drawn::new(parts, Start { qdot, ..Start::default() })
 }

@@ -3,7 +3,7 @@
 use crate::bodies::{along, between, bodies};
 use crate::case::Drawn;
 use crate::draw::Draw;
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let light = draw.pick(&[1e-3, 1e-4, 1e-6, 1e-9]);
@@ -12,5 +12,5 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
     parts = parts.with_link(&along(2, 0, 1.0), 1.0, 0.1);
     parts = parts.with_link(&between(2, 0, 1), draw.number(1.0, 20.0), draw.number(0.05, 1.0));
     parts = parts.with_stop("wall", &along(2, 1, 1.0), draw.pick(&[0.0, 0.2, 0.5]), draw.law());
-    Drawn::new(parts, MachineStart::default())
+    Drawn::new(parts, Start::default())
 }

@@ -3,7 +3,7 @@
 use crate::bodies::{along, between, bodies};
 use crate::case::Drawn;
 use crate::draw::Draw;
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::machine::StopLaw;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
@@ -28,5 +28,5 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
         parts = parts.with_link(&between(n, held, held - 1), draw.number(0.2, 1.0), 0.0);
     }
     parts = parts.with_stop("wall", &along(n, held, 1.0), draw.number(0.1, 0.5), law);
-    Drawn::new(parts, MachineStart::default())
+    Drawn::new(parts, Start::default())
 }

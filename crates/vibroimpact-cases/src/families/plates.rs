@@ -2,7 +2,7 @@
 
 use crate::case::{Drawn, Symmetry};
 use crate::draw::Draw;
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::machine::MachineParts;
 
 /// Places of supports, as parts of half the length and half the width, and the place of each in the mirror across the
@@ -50,7 +50,7 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
     if !flat {
         qdot[1] = draw.number(-0.5, 0.5);
     }
-    let drawn = Drawn::new(parts, MachineStart { q, qdot, ..MachineStart::default() });
+    let drawn = Drawn::new(parts, Start { q, qdot, ..Start::default() });
     if !flat {
         return drawn;
     }

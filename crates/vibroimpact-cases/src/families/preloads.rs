@@ -3,7 +3,7 @@
 use crate::bodies::{along, between, bodies};
 use crate::case::Drawn;
 use crate::draw::Draw;
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::machine::{Opening, StopLaw};
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
@@ -30,6 +30,6 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
             parts = parts.with_stop(&format!("c{i}"), &between(n, i - 1, i), 0.0, draw.rigid());
         }
     }
-    let drawn = Drawn::new(parts, MachineStart::default());
+    let drawn = Drawn::new(parts, Start::default());
     if equal { drawn.together() } else { drawn }
 }

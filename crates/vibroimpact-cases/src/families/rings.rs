@@ -3,7 +3,7 @@
 use crate::bodies::{along, between, bodies};
 use crate::case::{Drawn, Symmetry};
 use crate::draw::Draw;
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let n = draw.count(3..=8);
@@ -32,6 +32,6 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let turned: Vec<usize> = (0..n).map(|i| (i + step) % n).collect();
     // what a stop does, that of the body before it does in the image
     let places = (0..n).map(|j| (j + n - step) % n).collect();
-    let start = MachineStart { qdot, ..MachineStart::default() };
+    let start = Start { qdot, ..Start::default() };
     Drawn::new(parts, start).symmetric(Symmetry { from: turned, signs: vec![1.0; n], places })
 }

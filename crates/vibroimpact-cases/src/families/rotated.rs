@@ -3,7 +3,7 @@
 
 use crate::case::{Drawn, Symmetry};
 use crate::draw::Draw;
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::machine::MachineParts;
 use vibroimpact::math::sin_cos;
 
@@ -35,6 +35,6 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let mut qdot = vec![0.0; n];
     qdot[0] = draw.number(-0.5, 0.0);
     let signs = (0..n).map(|i| if i == 1 { -1.0 } else { 1.0 }).collect();
-    let start = MachineStart { qdot, ..MachineStart::default() };
+    let start = Start { qdot, ..Start::default() };
     Drawn::new(parts, start).symmetric(Symmetry { from: (0..n).collect(), signs, places })
 }

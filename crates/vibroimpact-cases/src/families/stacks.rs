@@ -3,7 +3,7 @@
 use crate::bodies::{along, between, bodies};
 use crate::case::Drawn;
 use crate::draw::Draw;
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::machine::{HarmonicMotion, StopLaw};
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
@@ -30,7 +30,7 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
     }
     // on the table, or dropped as a whole
     let height = if draw.chance(0.5) { 0.0 } else { draw.number(0.1, 1.0) };
-    let start = MachineStart { q: vec![height; n], ..MachineStart::default() };
+    let start = Start { q: vec![height; n], ..Start::default() };
     let drawn = Drawn::new(parts, start);
     if restitution == 0.0 { drawn.together() } else { drawn }
 }

@@ -3,7 +3,7 @@
 use crate::bodies::{along, between, bodies};
 use crate::case::{Drawn, Symmetry};
 use crate::draw::Draw;
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let n = draw.count(2..=8);
@@ -40,6 +40,6 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
         places.extend((n..2 * n).rev());
     }
     let speeds: Vec<f64> = draw.numbers(n.div_ceil(2), 0.0, 0.5);
-    let start = MachineStart { qdot: (0..n).map(|i| even(&speeds, i)).collect(), ..MachineStart::default() };
+    let start = Start { qdot: (0..n).map(|i| even(&speeds, i)).collect(), ..Start::default() };
     Drawn::new(parts, start).symmetric(Symmetry { from: (0..n).rev().collect(), signs: vec![1.0; n], places })
 }

@@ -3,7 +3,7 @@
 use crate::bodies::{along, between, bodies};
 use crate::case::Drawn;
 use crate::draw::Draw;
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let n = draw.count(2..=8);
@@ -24,7 +24,7 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
         parts = parts.with_stop("wall", &along(n, body, 1.0), draw.number(0.1, 1.0), draw.rigid());
     }
     let speed = if draw.chance(0.5) { draw.number(-0.5, 0.5) } else { 0.0 };
-    let start = MachineStart { qdot: vec![speed; n], phase: draw.pick(&[0.0, 0.3]), ..MachineStart::default() };
+    let start = Start { qdot: vec![speed; n], phase: draw.pick(&[0.0, 0.3]), ..Start::default() };
     let drawn = Drawn::new(parts, start);
     if wall.is_none() { drawn.together() } else { drawn }
 }

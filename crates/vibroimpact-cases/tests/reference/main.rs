@@ -4,7 +4,7 @@
 mod stepper;
 
 use stepper::Stepper;
-use vibroimpact::events::{MachineLimits, MachineMotion, MachineSamples};
+use vibroimpact::events::{Limits, Motion, Samples};
 use vibroimpact::machine::ImpactLaw;
 use vibroimpact_cases::{Case, FAMILIES};
 
@@ -44,11 +44,11 @@ fn stepped(case: &Case, h: f64, times: u32) -> Vec<Vec<f64>> {
 /// The number of times that could be compared, or the first difference.
 fn compare(case: &Case, h: f64) -> Result<usize, String> {
     let step = UNTIL / f64::from(TIMES);
-    let motion = MachineMotion::new(&case.machine, &case.start, MachineLimits::default()).unwrap();
+    let motion = Motion::new(&case.machine, &case.start, Limits::default()).unwrap();
     let last = motion.take_while(|event| event.time < UNTIL).nth(EVENTS).map_or(UNTIL, |event| event.time);
     let times = (0..=TIMES).rev().find(|k| step * f64::from(*k) <= last).unwrap_or(0);
     let until = step * f64::from(times);
-    let samples = MachineSamples::new(&case.machine, &case.start, MachineLimits::default(), (until, step)).unwrap();
+    let samples = Samples::new(&case.machine, &case.start, Limits::default(), (until, step)).unwrap();
     let exact: Vec<Vec<f64>> = samples.filter(|sample| sample.even).map(|sample| sample.q).collect();
     let (coarse, fine) = (stepped(case, h, times), stepped(case, 0.5 * h, times));
     let largest = |row: &[f64]| row.iter().fold(0.0_f64, |most, x| most.max(x.abs()));

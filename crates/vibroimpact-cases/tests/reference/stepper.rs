@@ -6,8 +6,8 @@
 //! $`0 \le P \perp \dot g_+ + e\,\dot g_- \ge 0`$ for stops that are closed at the middle of the step. Its error is of the
 //! order of the step, times what the events amplify.
 
-use vibroimpact::events::MachineStart;
-use vibroimpact::machine::{Machine, MachineStop, Opening, StopLaw};
+use vibroimpact::events::Start;
+use vibroimpact::machine::{Machine, Opening, Stop, StopLaw};
 use vibroimpact::math::Matrix;
 
 /// A machine that moves in equal steps.
@@ -76,7 +76,7 @@ impl System {
 }
 
 impl<'a> Stepper<'a> {
-    pub(crate) fn new(machine: &'a Machine, start: &MachineStart, h: f64) -> Self {
+    pub(crate) fn new(machine: &'a Machine, start: &Start, h: f64) -> Self {
         let n = machine.n();
         let vector = |of: &[f64]| if of.is_empty() { vec![0.0; n] } else { of.to_vec() };
         let stops = machine.stops().len();
@@ -110,7 +110,7 @@ impl<'a> Stepper<'a> {
     }
 
     /// Displacement and velocity of a stop a time after the beginning of the step.
-    fn surface(&self, stop: &MachineStop, after: f64) -> (f64, f64) {
+    fn surface(&self, stop: &Stop, after: f64) -> (f64, f64) {
         let rate = self.machine.parts().frequency.unwrap_or(0.0);
         let angle = rate * (self.time() + after) + self.phase;
         stop.motion.iter().fold((0.0, 0.0), |(r, v), motion| {
@@ -120,7 +120,7 @@ impl<'a> Stepper<'a> {
         })
     }
 
-    fn gap(&self, stop: &MachineStop, after: f64, q: &[f64]) -> (f64, f64) {
+    fn gap(&self, stop: &Stop, after: f64, q: &[f64]) -> (f64, f64) {
         let (r, rate) = self.surface(stop, after);
         (stop.gap - dot(&stop.direction, q) - r, -dot(&stop.direction, &self.v) - rate)
     }

@@ -4,9 +4,11 @@ use crate::report::diagram::range;
 use crate::report::words::{stop_name, table};
 use std::fmt::Write;
 use vibroimpact::Label;
-use vibroimpact::continuation::{BranchEvent, Change, MachineBranchEvent, MachinePoint, SolutionPoint, Touch};
+use vibroimpact::continuation;
+use vibroimpact::continuation::{BranchEvent, Change, SolutionPoint, Touch};
 use vibroimpact::machine::Machine;
-use vibroimpact::orbit::{Cycle, MachineCycle};
+use vibroimpact::orbit;
+use vibroimpact::orbit::Cycle;
 use vibroimpact_report::number::{precise, short};
 use vibroimpact_report::{Units, Varied};
 use vibroimpact_study::{Branches, Chosen, Cut, Origin, counted};
@@ -49,12 +51,19 @@ pub(crate) fn text(found: &Branches, cut: &Cut, units: &Units) -> String {
 }
 
 /// The same of a machine.
-pub(crate) fn of_machine(found: &Branches<MachineCycle, MachinePoint>, cut: &Cut<String>, machine: &Machine) -> String {
+pub(crate) fn of_machine(
+    found: &Branches<orbit::machine::Cycle, continuation::machine::SolutionPoint>,
+    cut: &Cut<String>,
+    machine: &Machine,
+) -> String {
     // with forcing the label says the period
     let period = machine.period().is_none().then(|| PERIOD.to_owned());
     let names: Vec<String> = cut.names().cloned().chain(period).collect();
-    let told = |points: &[MachinePoint]| (0..points.len()).map(|k| Told::of_machine(points, k, cut, machine)).collect();
-    let event = |point: &MachinePoint| (point.event.map_or("event", |event| event.name()), point.value);
+    let told = |points: &[continuation::machine::SolutionPoint]| {
+        (0..points.len()).map(|k| Told::of_machine(points, k, cut, machine)).collect()
+    };
+    let event =
+        |point: &continuation::machine::SolutionPoint| (point.event.map_or("event", |event| event.name()), point.value);
     branches_text(found, found.chosen.cycle.label, (cut, &Units::default(), &names), told, event)
 }
 
@@ -157,14 +166,19 @@ impl Told {
     }
 
     /// Point number `k` of a branch of a machine.
-    fn of_machine(points: &[MachinePoint], k: usize, cut: &Cut<String>, machine: &Machine) -> Self {
-        let MachinePoint { value, cycle, event, .. } = &points[k];
+    fn of_machine(
+        points: &[continuation::machine::SolutionPoint],
+        k: usize,
+        cut: &Cut<String>,
+        machine: &Machine,
+    ) -> Self {
+        let continuation::machine::SolutionPoint { value, cycle, event, .. } = &points[k];
         // a point at an event has the cycle before it
         let after = points.get(k + 1).map_or(cycle.label, |next| next.cycle.label);
         let event = event.map(|event| ToldEvent {
             name: event.name(),
             ends: event.ends(),
-            end_of_range: event == MachineBranchEvent::EndOfRange,
+            end_of_range: event == continuation::machine::BranchEvent::EndOfRange,
             sides: (cycle.label, after),
             remark: remark_of_machine(&event, machine),
         });
@@ -185,25 +199,27 @@ impl Told {
 }
 
 /// What an event of a machine means, without its name.
-pub(crate) fn remark_of_machine(event: &MachineBranchEvent, machine: &Machine) -> String {
+pub(crate) fn remark_of_machine(event: &continuation::machine::BranchEvent, machine: &Machine) -> String {
     let name = |place: usize| machine.name_of(place);
     match *event {
-        MachineBranchEvent::Grazing { stop, appears, turns } => format!(
+        continuation::machine::BranchEvent::Grazing { stop, appears, turns } => format!(
             "an impact on {} {}; the parameter {}",
             name(stop),
             if appears { "appears" } else { "disappears" },
             if turns { "turns" } else { "goes on" }
         ),
-        MachineBranchEvent::LossOfContact { stop } => format!("{} is no longer reached", name(stop)),
-        MachineBranchEvent::Corner { first, second } if first == second => {
+        continuation::machine::BranchEvent::LossOfContact { stop } => format!("{} is no longer reached", name(stop)),
+        continuation::machine::BranchEvent::Corner { first, second } if first == second => {
             format!("two limits of {} at once", name(first))
         }
-        MachineBranchEvent::Corner { first, second } => format!("{} and {} at once", name(first), name(second)),
-        MachineBranchEvent::Sticking { stop: place, .. }
-        | MachineBranchEvent::Holding { joint: place, .. }
-        | MachineBranchEvent::Change { place: Some(place) } => format!("at {}", name(place)),
-        MachineBranchEvent::Halving => HALF.into(),
-        MachineBranchEvent::StepLimit => LIMIT.into(),
+        continuation::machine::BranchEvent::Corner { first, second } => {
+            format!("{} and {} at once", name(first), name(second))
+        }
+        continuation::machine::BranchEvent::Sticking { stop: place, .. }
+        | continuation::machine::BranchEvent::Holding { joint: place, .. }
+        | continuation::machine::BranchEvent::Change { place: Some(place) } => format!("at {}", name(place)),
+        continuation::machine::BranchEvent::Halving => HALF.into(),
+        continuation::machine::BranchEvent::StepLimit => LIMIT.into(),
         _ => String::new(),
     }
 }

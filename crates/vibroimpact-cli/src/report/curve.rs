@@ -3,9 +3,9 @@
 use crate::report::branch::chosen;
 use crate::report::diagram::over;
 use crate::report::words::table;
-use vibroimpact::continuation::{MachineCurvePoint, MachinePoint};
+use vibroimpact::continuation::machine::{CurvePoint, SolutionPoint};
 use vibroimpact::machine::Machine;
-use vibroimpact::orbit::MachineCycle;
+use vibroimpact::orbit::machine::Cycle;
 use vibroimpact_report::json::curve::values;
 use vibroimpact_report::number::precise;
 use vibroimpact_report::{Units, Varied};
@@ -29,7 +29,7 @@ pub(crate) fn text(found: &EventCurve, plan: &CurvePlan, units: &Units) -> Strin
 
 /// The same of a machine.
 pub(crate) fn of_machine(
-    found: &EventCurve<MachineCycle, MachinePoint, MachineCurvePoint>,
+    found: &EventCurve<Cycle, SolutionPoint, CurvePoint>,
     plan: &CurvePlan<String>,
     machine: &Machine,
 ) -> String {

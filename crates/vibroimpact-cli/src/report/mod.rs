@@ -25,7 +25,7 @@ mod undecided;
 mod words;
 
 use crate::failure::Failure;
-use vibroimpact::events::MachineEnd;
+use vibroimpact::events::End;
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::{Undecided, UndecidedCause, Verdict};
 use vibroimpact_report::answer::machine::Answer as MachineAnswer;
@@ -46,7 +46,7 @@ pub(crate) fn text(answer: &Answer) -> Result<String, Failure> {
 /// Whether the motion is not known to its end, because a search for the next event used all its steps.
 pub(crate) fn ended_by_search(answer: &Answer) -> bool {
     let ended = |verdict: &Verdict<Machine>| {
-        matches!(verdict, Verdict::Undecided(Undecided { why: UndecidedCause::Ended(MachineEnd::SearchLimit), .. }))
+        matches!(verdict, Verdict::Undecided(Undecided { why: UndecidedCause::Ended(End::SearchLimit), .. }))
     };
     match answer {
         Answer::Oscillator(answer) => {

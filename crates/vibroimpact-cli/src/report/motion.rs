@@ -7,10 +7,10 @@ use crate::report::words::{
 use core::fmt::Write;
 use vibroimpact::Oscillator;
 use vibroimpact::chaos::{Measured, Spectrum};
-use vibroimpact::events::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits};
+use vibroimpact::events::{End, Event, EventKind, Limits};
 use vibroimpact::machine::{Machine, StopLaw};
 use vibroimpact::math::Multiplier;
-use vibroimpact::orbit::MachineCycle;
+use vibroimpact::orbit::machine::Cycle;
 use vibroimpact::quantities::machine::{Part, Quantities as PartQuantities};
 use vibroimpact::quantities::{Quantity, machine_cycle_quantities, machine_quantities, of_verdict};
 use vibroimpact::verdict::{Count, System, Undecided, UndecidedCause, Verdict};
@@ -175,8 +175,8 @@ impl Teller for Machine {
             Verdict::Undecided(Undecided { why, impacts: events, spectrum }) => {
                 let why = match why {
                     UndecidedCause::Budget => "the budget is used up".to_owned(),
-                    UndecidedCause::Ended(MachineEnd::NoEventWithin) => {
-                        let time = short(MachineLimits::default().time);
+                    UndecidedCause::Ended(End::NoEventWithin) => {
+                        let time = short(Limits::default().time);
                         format!("no event within a time of {time} after the last one, and none is excluded later")
                     }
                     why => undecided(*why).replace('_', " "),
@@ -190,7 +190,7 @@ impl Teller for Machine {
     }
 }
 
-fn meaning_of_cycle(cycle: &MachineCycle) -> String {
+fn meaning_of_cycle(cycle: &Cycle) -> String {
     let label = cycle.label;
     let periods = match label.periods {
         // without forcing
@@ -206,11 +206,11 @@ fn meaning_of_cycle(cycle: &MachineCycle) -> String {
 }
 
 /// The name of an event of a machine and its speed. A joint slips forwards or backwards, without speed.
-pub(super) fn kind_and_speed(event: &MachineEvent) -> (String, String) {
+pub(super) fn kind_and_speed(event: &Event) -> (String, String) {
     let name = event.kind.name();
     match event.kind {
-        MachineEventKind::Slip if event.speed < 0.0 => (format!("{name} backward"), "0".to_owned()),
-        MachineEventKind::Slip => (format!("{name} forward"), "0".to_owned()),
+        EventKind::Slip if event.speed < 0.0 => (format!("{name} backward"), "0".to_owned()),
+        EventKind::Slip => (format!("{name} forward"), "0".to_owned()),
         _ => (name.to_owned(), short(event.speed)),
     }
 }
@@ -218,13 +218,13 @@ pub(super) fn kind_and_speed(event: &MachineEvent) -> (String, String) {
 /// Maximum number of events shown of a long cycle.
 const MOST_EVENTS: usize = 40;
 
-fn events_of_cycle(machine: &Machine, cycle: &MachineCycle) -> String {
+fn events_of_cycle(machine: &Machine, cycle: &Cycle) -> String {
     if cycle.events.is_empty() {
         return String::new();
     }
     let forced = machine.period().is_some();
     let heads = ["event", if forced { "phase" } else { "time" }, "speed", "<kind", "<stop"].map(str::to_owned);
-    let row = |(k, event): (usize, &MachineEvent)| {
+    let row = |(k, event): (usize, &Event)| {
         let place = if forced { event.phase } else { event.time };
         let (kind, speed) = kind_and_speed(event);
         vec![(k + 1).to_string(), short(place), speed, kind, machine.name_of(event.place).to_owned()]
@@ -238,7 +238,7 @@ fn events_of_cycle(machine: &Machine, cycle: &MachineCycle) -> String {
 }
 
 /// By how much a machine that can be translated moves on in one period.
-fn drift(machine: &Machine, cycle: &MachineCycle) -> String {
+fn drift(machine: &Machine, cycle: &Cycle) -> String {
     if cycle.translations() == 0 {
         return String::new();
     }

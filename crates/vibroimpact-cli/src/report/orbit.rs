@@ -3,7 +3,7 @@
 use crate::report::motion::{InUnits, Teller};
 use crate::report::words::{by_stop, impacts, multipliers, stop_name};
 use vibroimpact::machine::Machine;
-use vibroimpact::orbit::{MachineCycle, Orbit};
+use vibroimpact::orbit::{Orbit, machine::Cycle};
 use vibroimpact::verdict::Verdict;
 use vibroimpact::{Label, Oscillator};
 use vibroimpact_report::Units;
@@ -24,7 +24,7 @@ pub(crate) fn text(orbits: &[Orbit], label: &str, osc: &Oscillator, units: &Unit
 }
 
 /// The same of a machine.
-pub(crate) fn of_machine(cycles: &[MachineCycle], label: &str, machine: &Machine) -> String {
+pub(crate) fn of_machine(cycles: &[Cycle], label: &str, machine: &Machine) -> String {
     if cycles.is_empty() {
         return none(label.trim());
     }

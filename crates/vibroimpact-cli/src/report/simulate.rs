@@ -2,7 +2,7 @@
 
 use crate::report::motion::kind_and_speed;
 use crate::report::words::{meaning, table};
-use vibroimpact::events::MachineEvent;
+use vibroimpact::events::Event;
 use vibroimpact::machine::Machine;
 use vibroimpact::motion::EventKind;
 use vibroimpact_report::Asked;
@@ -47,7 +47,7 @@ pub(crate) fn text(followed: &Simulated, asked: &Asked) -> String {
 
 /// The same of a machine, with its coordinates and velocities after each event; of a motion that was followed for so many
 /// forcing periods.
-pub(crate) fn of_machine(followed: &Simulated<MachineEvent>, periods: Option<f64>, machine: &Machine) -> String {
+pub(crate) fn of_machine(followed: &Simulated<Event>, periods: Option<f64>, machine: &Machine) -> String {
     let forced = machine.period().is_some();
     let coordinates = &machine.parts().coordinates;
     let heads: Vec<String> = [Some("time"), forced.then_some("phase"), Some("<event"), Some("<stop"), Some("speed")]
@@ -57,7 +57,7 @@ pub(crate) fn of_machine(followed: &Simulated<MachineEvent>, periods: Option<f64
         .chain(coordinates.iter().cloned())
         .chain(coordinates.iter().map(|name| format!("{name}'")))
         .collect();
-    let row = |event: &MachineEvent| {
+    let row = |event: &Event| {
         let begin = core::iter::once(short(event.time)).chain(forced.then(|| short(event.phase)));
         let (kind, speed) = kind_and_speed(event);
         let what = [kind, machine.name_of(event.place).to_owned(), speed];

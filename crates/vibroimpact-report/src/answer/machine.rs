@@ -9,7 +9,7 @@ use crate::json::margins::ParameterObject;
 use crate::response::ResponseView;
 use crate::scene::{self, View};
 use crate::{ReportError, Table, Units, figure, table};
-use vibroimpact::events::{MachineLimits, MachineMotion, MachineStart};
+use vibroimpact::events::{Limits, Motion, Start};
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::{CountedMotion, Verdict};
 use vibroimpact_plot::{Figure, plain};
@@ -39,7 +39,7 @@ pub struct Answer {
     /// The machine of the plan.
     pub machine: Machine,
     /// The start of the plan, with a number for each coordinate and velocity.
-    pub start: MachineStart,
+    pub start: Start,
     /// The result.
     pub results: machine::Results,
 }
@@ -176,7 +176,7 @@ impl Answer {
 
     /// A state of a settled motion, and the time over which it is shown: one period of a cycle, [`PERIODS`] forcing periods of
     /// another motion.
-    fn steady(&self, verdict: &Verdict<Machine>) -> Result<(MachineStart, f64), ReportError> {
+    fn steady(&self, verdict: &Verdict<Machine>) -> Result<(Start, f64), ReportError> {
         let none = || ReportError::NoCycle(figure::label(&verdict.label()));
         let from = verdict.reached(&self.machine).ok_or_else(none)?;
         let time = match verdict {
@@ -187,10 +187,10 @@ impl Answer {
     }
 
     /// The waveform of a motion from a state over a time.
-    fn waveform(&self, from: &MachineStart, time: f64, title: String) -> Result<Figure, AnswerError> {
-        let limits = MachineLimits::default();
-        let limits = MachineLimits { time: limits.time.max(time), ..limits };
-        let motion = MachineMotion::new(&self.machine, from, limits);
+    fn waveform(&self, from: &Start, time: f64, title: String) -> Result<Figure, AnswerError> {
+        let limits = Limits::default();
+        let limits = Limits { time: limits.time.max(time), ..limits };
+        let motion = Motion::new(&self.machine, from, limits);
         let motion = motion.map_err(|error| ReportError::Plan(PlanError::Machine(error.into())))?;
         let events = motion.take_while(|event| event.time <= time).take(MOST_EVENTS).collect();
         let found = Simulated { events, reason: "time_limit", time, horizon: None, shown_until: time };

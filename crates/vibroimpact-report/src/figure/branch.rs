@@ -8,7 +8,7 @@ use crate::figure::tracks::{Followed as What, Look, Track, TrackPoint};
 use crate::figure::{along, label, series, title_without, variant};
 use crate::{Asked, ReportError, ShownValue, Units};
 use std::collections::BTreeMap;
-use vibroimpact::continuation::MachinePoint;
+use vibroimpact::continuation::machine::SolutionPoint;
 use vibroimpact_plot::{
     Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, Shape, Stroke, class_style, legend_group, plain,
 };
@@ -85,7 +85,7 @@ pub fn figure(
 /// # Errors
 /// As [`figure`].
 pub fn of_machine<'a>(
-    branches: impl Iterator<Item = &'a [MachinePoint]>,
+    branches: impl Iterator<Item = &'a [SolutionPoint]>,
     cut: &Cut<String>,
     (quantity, behind): (Option<&BranchQuantity<'_>>, Option<&Diagram<String, String>>),
     title: String,

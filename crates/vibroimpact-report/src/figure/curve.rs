@@ -5,8 +5,9 @@ use crate::figure::{label, title_without};
 use crate::json::curve::values;
 use crate::{Asked, Units, Varied};
 use std::collections::BTreeMap;
-use vibroimpact::continuation::{CurvePoint, MachineCurvePoint, MachinePoint};
-use vibroimpact::orbit::MachineCycle;
+use vibroimpact::continuation::machine;
+use vibroimpact::continuation::{CurvePoint, machine::SolutionPoint};
+use vibroimpact::orbit::machine::Cycle;
 use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, Shape, Stroke};
 use vibroimpact_study::{CurvePlan, EventCurve, Stretch};
 
@@ -28,11 +29,11 @@ pub fn figure(found: &EventCurve, plan: &CurvePlan, asked: &Asked) -> Figure {
 /// The same of a machine.
 #[must_use]
 pub fn of_machine(
-    found: &EventCurve<MachineCycle, MachinePoint, MachineCurvePoint>,
+    found: &EventCurve<Cycle, SolutionPoint, machine::CurvePoint>,
     plan: &CurvePlan<String>,
     title: String,
 ) -> Figure {
-    let event = |point: &MachineCurvePoint| point.event.map(|event| event.name());
+    let event = |point: &machine::CurvePoint| point.event.map(|event| event.name());
     let drawn = found.points.iter().map(|point| Drawn::new(point.values, true, event(point)));
     let label = found.chosen.cycle.label.to_string();
     draw(found, (plan, &Units::default()), drawn, &label).title(title)

@@ -34,7 +34,7 @@ pub fn figure(found: &SectionPoints, machine: &Machine, title: String) -> Figure
     }
     let list = |of: &dyn Fn(usize) -> f64| (0..found.strobes.len()).map(of).collect::<Vec<f64>>();
     // lengths and velocities are small or large relative to those of all coordinates
-    let largest = |of: &dyn Fn(&vibroimpact::events::MachineStart) -> Vec<f64>| {
+    let largest = |of: &dyn Fn(&vibroimpact::events::Start) -> Vec<f64>| {
         size(&found.strobes.iter().flat_map(of).collect::<Vec<f64>>())
     };
     let (length, speed) = (largest(&|state| state.q.clone()), largest(&|state| state.qdot.clone()));

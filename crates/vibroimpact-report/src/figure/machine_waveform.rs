@@ -3,7 +3,7 @@
 
 use crate::ReportError;
 use crate::table::waveform::samples;
-use vibroimpact::events::{MachineEvent, MachineEventKind, MachineSample, MachineStart};
+use vibroimpact::events::{Event, EventKind, Sample, Start};
 use vibroimpact::machine::{Machine, StopLaw};
 use vibroimpact::regime::ContactState;
 use vibroimpact_plot::{
@@ -28,14 +28,14 @@ const HATCHES: [Pattern; 4] = [Pattern::Rising, Pattern::Falling, Pattern::Horiz
 /// [`ReportError`] for an invalid start.
 pub fn figure(
     machine: &Machine,
-    start: &MachineStart,
-    found: &Simulated<MachineEvent>,
+    start: &Start,
+    found: &Simulated<Event>,
     title: String,
 ) -> Result<Figure, ReportError> {
     let until = found.shown_until;
     // with so many events their sides are not seen
     let sides = found.events.len() <= SIDES;
-    let wave: Vec<MachineSample> =
+    let wave: Vec<Sample> =
         samples(machine, start, (until, until / STEPS))?.filter(|sample| sides || sample.even).collect();
     let times: Vec<f64> = wave.iter().map(|sample| sample.time).collect();
     let coordinates = &machine.parts().coordinates;
@@ -62,7 +62,7 @@ pub fn figure(
         legend = legend.line(line.stroke, plain(name));
         panel.add(line);
     }
-    let struck = |event: &&MachineEvent| event.kind == MachineEventKind::Impact && event.time <= until;
+    let struck = |event: &&Event| event.kind == EventKind::Impact && event.time <= until;
     let impacts: Vec<(f64, f64)> =
         found.events.iter().filter(struck).flat_map(|event| places(machine, event, shown)).collect();
     if !impacts.is_empty() && impacts.len() <= MARKED {
@@ -108,8 +108,8 @@ fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
 }
 
 /// The times in which a stop is closed or rested on.
-fn intervals(wave: &[MachineSample], stop: usize) -> Vec<(f64, f64)> {
-    let closed = |sample: &MachineSample| matches!(sample.states[stop], ContactState::Closed | ContactState::Resting);
+fn intervals(wave: &[Sample], stop: usize) -> Vec<(f64, f64)> {
+    let closed = |sample: &Sample| matches!(sample.states[stop], ContactState::Closed | ContactState::Resting);
     let mut found: Vec<(f64, f64)> = Vec::new();
     for pair in wave.windows(2).filter(|pair| closed(&pair[0]) && closed(&pair[1])) {
         match found.last_mut() {
@@ -128,7 +128,7 @@ fn contact_style(k: usize, of: usize) -> ClassStyle {
 
 /// Where an impact is marked: on the coordinates that it moves, if they are one or two, or else on the one that it moves
 /// most.
-fn places(machine: &Machine, event: &MachineEvent, shown: usize) -> Vec<(f64, f64)> {
+fn places(machine: &Machine, event: &Event, shown: usize) -> Vec<(f64, f64)> {
     let direction = &machine.stops()[event.place].direction[..shown];
     let moved: Vec<usize> = (0..shown).filter(|i| direction[*i] != 0.0).collect();
     let most = moved.iter().copied().reduce(|a, b| if direction[b].abs() > direction[a].abs() { b } else { a });
@@ -137,7 +137,7 @@ fn places(machine: &Machine, event: &MachineEvent, shown: usize) -> Vec<(f64, f6
 }
 
 /// Whether a stop or joint has a finite force: compliant stops, stops that are rested on, and joints.
-fn has_force(machine: &Machine, wave: &[MachineSample], at: usize) -> bool {
+fn has_force(machine: &Machine, wave: &[Sample], at: usize) -> bool {
     machine.stops().get(at).is_none_or(|stop| {
         matches!(stop.law, StopLaw::Compliant { .. })
             || wave.iter().any(|sample| sample.states[at] == ContactState::Resting)

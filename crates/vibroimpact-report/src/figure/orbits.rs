@@ -3,7 +3,7 @@
 use crate::Units;
 use crate::figure::{label, variant};
 use core::f64::consts::TAU;
-use vibroimpact::orbit::{MachineCycle, Orbit};
+use vibroimpact::orbit::{Orbit, machine::Cycle};
 use vibroimpact_plot::{Figure, FigureAxis, Legend, Panel, Points, SERIES};
 
 /// The size of a dot, and how much larger each orbit's are than those of the one after it: orbits may share closings.
@@ -28,7 +28,7 @@ pub fn figure(found: &[Orbit], units: &Units, title: String) -> Figure {
 
 /// Of a machine.
 #[must_use]
-pub fn of_machine(found: &[MachineCycle], title: String) -> Figure {
+pub fn of_machine(found: &[Cycle], title: String) -> Figure {
     let orbits = found.iter().enumerate().map(|(k, cycle)| {
         let closings = cycle.events.iter().filter(|event| event.closes());
         let (phases, speeds) = closings.map(|event| (event.phase, event.speed)).unzip();

@@ -85,7 +85,7 @@ pub const BOUND_STYLES: [(Bound, Colour, Dash, &str); 7] = [
 #[cfg(test)]
 mod tests {
     use super::*;
-    use vibroimpact::continuation::{BranchEvent, MachineBranchEvent};
+    use vibroimpact::continuation::{BranchEvent, machine};
     use vibroimpact::{Label, Side};
 
     #[test]
@@ -140,23 +140,23 @@ mod tests {
         assert_eq!(oscillators.iter().map(|(name, ..)| *name).collect::<Vec<_>>(), events.map(|event| event.name()));
         let (stop, joint, place) = (0, 0, None);
         let further = [
-            MachineBranchEvent::Torus,
-            MachineBranchEvent::Corner { first: 0, second: 1 },
-            MachineBranchEvent::Sticking { stop, begins: true },
-            MachineBranchEvent::Sticking { stop, begins: false },
-            MachineBranchEvent::Holding { joint, begins: true },
-            MachineBranchEvent::Holding { joint, begins: false },
-            MachineBranchEvent::Jump,
-            MachineBranchEvent::Change { place },
+            machine::BranchEvent::Torus,
+            machine::BranchEvent::Corner { first: 0, second: 1 },
+            machine::BranchEvent::Sticking { stop, begins: true },
+            machine::BranchEvent::Sticking { stop, begins: false },
+            machine::BranchEvent::Holding { joint, begins: true },
+            machine::BranchEvent::Holding { joint, begins: false },
+            machine::BranchEvent::Jump,
+            machine::BranchEvent::Change { place },
         ];
         assert_eq!(machines.iter().map(|(name, ..)| *name).collect::<Vec<_>>(), further.map(|event| event.name()));
         // the events that branches of oscillators have too
         for event in [
-            MachineBranchEvent::Fold,
-            MachineBranchEvent::Flip,
-            MachineBranchEvent::BranchPoint,
-            MachineBranchEvent::Grazing { stop, appears: true, turns: false },
-            MachineBranchEvent::LossOfContact { stop },
+            machine::BranchEvent::Fold,
+            machine::BranchEvent::Flip,
+            machine::BranchEvent::BranchPoint,
+            machine::BranchEvent::Grazing { stop, appears: true, turns: false },
+            machine::BranchEvent::LossOfContact { stop },
         ] {
             assert!(BRANCH_MARKS.iter().any(|(name, ..)| *name == event.name()), "{event:?}");
         }

@@ -3,8 +3,9 @@
 
 use std::collections::BTreeMap;
 use vibroimpact::Oscillator;
-use vibroimpact::continuation::{BranchEvent, MachineBranchEvent, MachinePoint, SolutionPoint};
-use vibroimpact::events::MachineEventKind;
+use vibroimpact::continuation::machine;
+use vibroimpact::continuation::{BranchEvent, SolutionPoint};
+use vibroimpact::events::EventKind;
 use vibroimpact::motion::Strobes;
 use vibroimpact::orbit::{Cycle, RestSpan, Stability};
 use vibroimpact::system::phase;
@@ -85,16 +86,16 @@ impl TrackPoint {
     }
 
     /// The closings of stops, with their speeds.
-    fn of_machine(point: &MachinePoint) -> Self {
+    fn of_machine(point: &machine::SolutionPoint) -> Self {
         let (mut list, mut places, mut place) = (Vec::new(), Vec::new(), (0, 0));
         for event in &point.cycle.events {
             match event.kind {
-                MachineEventKind::Impact | MachineEventKind::Close => {
+                EventKind::Impact | EventKind::Close => {
                     list.push((event.phase, event.speed));
                     places.push(place);
                     place.1 += 1;
                 }
-                MachineEventKind::Stick => place = (place.0 + 1, 0),
+                EventKind::Stick => place = (place.0 + 1, 0),
                 _ => {}
             }
         }
@@ -102,10 +103,10 @@ impl TrackPoint {
         let changed = matches!(
             point.event,
             Some(
-                MachineBranchEvent::Grazing { .. }
-                    | MachineBranchEvent::Sticking { .. }
-                    | MachineBranchEvent::Corner { .. }
-                    | MachineBranchEvent::Change { .. }
+                machine::BranchEvent::Grazing { .. }
+                    | machine::BranchEvent::Sticking { .. }
+                    | machine::BranchEvent::Corner { .. }
+                    | machine::BranchEvent::Change { .. }
             )
         );
         Self {
@@ -129,13 +130,16 @@ impl Track {
     }
 
     /// A branch of a machine.
-    pub(crate) fn of_machine(points: &[MachinePoint]) -> Self {
+    pub(crate) fn of_machine(points: &[machine::SolutionPoint]) -> Self {
         Self { points: points.iter().map(TrackPoint::of_machine).collect(), positions: false }
     }
 
     /// The same, with one value of each cycle.
-    pub(crate) fn of_quantity(points: &[MachinePoint], value: impl Fn(&MachinePoint) -> f64) -> Self {
-        let one = |point: &MachinePoint| TrackPoint {
+    pub(crate) fn of_quantity(
+        points: &[machine::SolutionPoint],
+        value: impl Fn(&machine::SolutionPoint) -> f64,
+    ) -> Self {
+        let one = |point: &machine::SolutionPoint| TrackPoint {
             list: vec![(0.0, value(point))],
             places: vec![(0, 0)],
             turns: true,

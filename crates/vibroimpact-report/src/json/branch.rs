@@ -11,9 +11,10 @@ use serde::Serialize;
 use serde_json::{Map, Value};
 use vibroimpact::Label;
 use vibroimpact::Oscillator;
-use vibroimpact::continuation::{BranchEvent, MachineBranchEvent, MachinePoint, SolutionPoint};
+use vibroimpact::continuation::machine;
+use vibroimpact::continuation::{BranchEvent, SolutionPoint};
 use vibroimpact::machine::Machine;
-use vibroimpact::orbit::MachineCycle;
+use vibroimpact::orbit::machine::Cycle;
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{Branches, Chosen, Cut, EventRecord, Followed, OrbitNumber, Plan, SystemPlan};
 
@@ -189,11 +190,11 @@ impl<'a> BranchAnswer<'a> {
     pub(super) fn of_machine(
         (machine, source): (&'a Machine, &MachineSource),
         cut: &Cut<String>,
-        found: &'a Branches<MachineCycle, MachinePoint>,
+        found: &'a Branches<Cycle, machine::SolutionPoint>,
     ) -> Self {
         let quantity = BranchQuantity::of(machine, source, cut, found);
-        let name = |point: &MachinePoint| point.event.map_or("", |event| event.name());
-        let object = |points: &'a [MachinePoint]| BranchObject {
+        let name = |point: &machine::SolutionPoint| point.event.map_or("", |event| event.name());
+        let object = |points: &'a [machine::SolutionPoint]| BranchObject {
             from: None,
             points: (points.iter())
                 .map(|point| PointObject::of_machine(point, machine, cut, quantity.as_ref()))
@@ -231,12 +232,12 @@ impl PointObject<'static> {
 
 impl<'a> PointObject<'a> {
     fn of_machine(
-        point: &'a MachinePoint,
+        point: &'a machine::SolutionPoint,
         machine: &'a Machine,
         cut: &Cut<String>,
         quantity: Option<&BranchQuantity<'_>>,
     ) -> Self {
-        let MachinePoint { value, cycle, .. } = point;
+        let machine::SolutionPoint { value, cycle, .. } = point;
         Self {
             parameter: *value,
             values: both(*value, cut, &Units::default()),
@@ -276,8 +277,8 @@ impl BranchEventObject<'static> {
 impl<'a> BranchEventObject<'a> {
     fn of_machine(
         k: usize,
-        points: &[MachinePoint],
-        event: MachineBranchEvent,
+        points: &[machine::SolutionPoint],
+        event: machine::BranchEvent,
         (machine, cut): (&'a Machine, &Cut<String>),
     ) -> Self {
         Self {
@@ -298,12 +299,12 @@ impl<'a> BranchEventObject<'a> {
 impl<'a> EventFields<'a> {
     /// Those of an event of a machine, from the labels before and after it.
     pub(super) fn of_machine(
-        event: MachineBranchEvent,
+        event: machine::BranchEvent,
         (before, after): (Label, Option<String>),
         machine: &'a Machine,
     ) -> Self {
         let (appears, turns) = match event {
-            MachineBranchEvent::Grazing { appears, turns, .. } => (Some(appears), Some(turns)),
+            machine::BranchEvent::Grazing { appears, turns, .. } => (Some(appears), Some(turns)),
             _ => (None, None),
         };
         Self {

@@ -7,9 +7,10 @@ use super::motion::multipliers;
 use crate::{Asked, Units, Varied};
 use schemars::JsonSchema;
 use serde::Serialize;
-use vibroimpact::continuation::{CurvePoint, MachineCurvePoint, MachinePoint};
+use vibroimpact::continuation::machine;
+use vibroimpact::continuation::{CurvePoint, machine::SolutionPoint};
 use vibroimpact::machine::Machine;
-use vibroimpact::orbit::MachineCycle;
+use vibroimpact::orbit::machine::Cycle;
 use vibroimpact::{Label, Oscillator};
 use vibroimpact_study::{CurvePlan, EventCurve, Plan};
 
@@ -142,14 +143,14 @@ impl<'a> CurveAnswer<'a> {
     pub(super) fn of_machine(
         machine: &'a Machine,
         plan: &CurvePlan<String>,
-        found: &'a EventCurve<MachineCycle, MachinePoint, MachineCurvePoint>,
+        found: &'a EventCurve<Cycle, SolutionPoint, machine::CurvePoint>,
     ) -> Self {
-        let event = |(k, point): (usize, &MachineCurvePoint)| {
+        let event = |(k, point): (usize, &machine::CurvePoint)| {
             let event = point.event?;
             let stop = event.place().map(|place| machine.name_of(place));
             Some(CurveEventObject { kind: event.name(), values: point.values.into(), point: k, stop })
         };
-        let point = |point: &'a MachineCurvePoint| PointObject {
+        let point = |point: &'a machine::CurvePoint| PointObject {
             values: point.values.into(),
             label: point.cycle.label.to_string(),
             admissible: true,

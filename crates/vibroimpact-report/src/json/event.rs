@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value};
 use std::borrow::Cow;
-use vibroimpact::events::{MachineEvent, MachineEventKind, MachineStart};
+use vibroimpact::events;
 use vibroimpact::machine::Machine;
 use vibroimpact::motion::{Event, EventKind};
 use vibroimpact::orbit::Cycle;
@@ -190,8 +190,8 @@ pub(super) struct StateObject<'a> {
 }
 
 impl<'a> StateObject<'a> {
-    pub(super) fn of(machine: &Machine, start: &'a MachineStart) -> Self {
-        let MachineStart { q, qdot, phase, .. } = start;
+    pub(super) fn of(machine: &Machine, start: &'a events::Start) -> Self {
+        let events::Start { q, qdot, phase, .. } = start;
         let (contacts, exact) = (contacts(machine, start), exact(start));
         Self { q: q.into(), qdot: qdot.into(), phase: *phase, contacts, exact }
     }
@@ -214,8 +214,8 @@ impl<'a> StateObject<'a> {
     }
 }
 
-fn contacts(machine: &Machine, start: &MachineStart) -> Map<String, Value> {
-    let contact = |contact: &vibroimpact::events::ContactStart| {
+fn contacts(machine: &Machine, start: &events::Start) -> Map<String, Value> {
+    let contact = |contact: &events::ContactStart| {
         let mut object = Map::new();
         object.insert("state".to_owned(), contact_word(contact.state).into());
         if contact.surface > 0.0 {
@@ -226,12 +226,12 @@ fn contacts(machine: &Machine, start: &MachineStart) -> Map<String, Value> {
     start.contacts.iter().map(contact).collect()
 }
 
-fn exact(start: &MachineStart) -> Map<String, Value> {
+fn exact(start: &events::Start) -> Map<String, Value> {
     start.exact.iter().map(|(name, values)| (name.clone(), values.clone().into())).collect()
 }
 
 /// An event that is written while it is computed.
-pub(super) struct EventOf<'a>(pub(super) &'a Machine, pub(super) MachineEvent);
+pub(super) struct EventOf<'a>(pub(super) &'a Machine, pub(super) events::Event);
 
 impl Serialize for EventOf<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -240,9 +240,9 @@ impl Serialize for EventOf<'_> {
 }
 
 /// An event of a machine.
-pub(super) fn of_machine<'a>(machine: &'a Machine, event: &'a MachineEvent) -> EventObject<'a> {
+pub(super) fn of_machine<'a>(machine: &'a Machine, event: &'a events::Event) -> EventObject<'a> {
     // an event of a joint has no speed, but a direction
-    let slips = event.kind == MachineEventKind::Slip;
+    let slips = event.kind == events::EventKind::Slip;
     EventObject {
         kind: event.kind.name(),
         stop: machine.name_of(event.place),

@@ -7,11 +7,12 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
 use vibroimpact::chaos::{Measured, Spectrum};
-use vibroimpact::events::MachineEnd;
+use vibroimpact::events::End;
 use vibroimpact::flight::Horizon;
 use vibroimpact::machine::Machine;
 use vibroimpact::math::Multiplier;
-use vibroimpact::orbit::{Cycle, MachineCycle};
+use vibroimpact::orbit::Cycle;
+use vibroimpact::orbit::machine;
 use vibroimpact::quantities::{errors_of_verdict, machine_cycle_quantities, machine_quantities, of_verdict};
 use vibroimpact::verdict::{Chaos, Count, NoImpact, Stability, Undecided, UndecidedCause, Verdict};
 use vibroimpact::{Oscillator, Side};
@@ -230,7 +231,7 @@ impl MotionObject<'_> {
 
 impl<'a> MotionObject<'a> {
     /// A cycle of a machine.
-    pub(super) fn of_cycle(machine: &'a Machine, cycle: &'a MachineCycle) -> Self {
+    pub(super) fn of_cycle(machine: &'a Machine, cycle: &'a machine::Cycle) -> Self {
         let counts = machine.stops().iter().zip(&cycle.counts);
         let sticks = cycle.events.iter().filter(|event| matches!(event.kind.name(), "stick" | "hold")).count();
         Self {
@@ -312,7 +313,7 @@ fn counts(osc: &Oscillator, verdict: &Verdict) -> Option<Map<String, Value>> {
 }
 
 /// The drift of a cycle by coordinate; `None` in a machine without free translations.
-pub(super) fn drift(machine: &Machine, cycle: &MachineCycle) -> Option<Map<String, Value>> {
+pub(super) fn drift(machine: &Machine, cycle: &machine::Cycle) -> Option<Map<String, Value>> {
     (cycle.translations() > 0).then(|| by_coordinate(machine, &cycle.drift))
 }
 
@@ -332,11 +333,11 @@ pub const fn undecided(why: UndecidedCause) -> &'static str {
     match why {
         UndecidedCause::Budget => "events",
         UndecidedCause::Unconfirmed => "unconfirmed",
-        UndecidedCause::Ended(MachineEnd::NoEventWithin) => "time_limit",
-        UndecidedCause::Search { .. } | UndecidedCause::Ended(MachineEnd::SearchLimit) => "search_limit",
-        UndecidedCause::Ended(MachineEnd::Inconsistent) => "inconsistent",
-        UndecidedCause::Ended(MachineEnd::Collapse) => "collapse",
-        UndecidedCause::Ended(MachineEnd::Never | MachineEnd::Stuck) => "no_more_impacts",
+        UndecidedCause::Ended(End::NoEventWithin) => "time_limit",
+        UndecidedCause::Search { .. } | UndecidedCause::Ended(End::SearchLimit) => "search_limit",
+        UndecidedCause::Ended(End::Inconsistent) => "inconsistent",
+        UndecidedCause::Ended(End::Collapse) => "collapse",
+        UndecidedCause::Ended(End::Never | End::Stuck) => "no_more_impacts",
     }
 }
 

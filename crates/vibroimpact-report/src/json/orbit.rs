@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use vibroimpact::Oscillator;
 use vibroimpact::machine::Machine;
-use vibroimpact::orbit::{EarlierContact, MachineCycle, Orbit};
+use vibroimpact::orbit::{EarlierContact, Orbit, machine::Cycle};
 use vibroimpact_study::Plan;
 
 /// The answer to `vibro orbit`.
@@ -43,7 +43,7 @@ struct ContactObject {
 }
 
 impl<'a> OrbitAnswer<'a> {
-    pub(super) fn of_machine(machine: &'a Machine, found: &'a [MachineCycle]) -> Self {
+    pub(super) fn of_machine(machine: &'a Machine, found: &'a [Cycle]) -> Self {
         let orbit = |cycle| OrbitObject {
             motion: MotionObject::of_cycle(machine, cycle),
             // others are not found

@@ -7,7 +7,7 @@ use crate::{Asked, Units};
 use schemars::JsonSchema;
 use serde::ser::Error;
 use serde::{Serialize, Serializer};
-use vibroimpact::events::{MachineEvent, MachineStart};
+use vibroimpact::events;
 use vibroimpact::machine::Machine;
 use vibroimpact::motion::Event;
 use vibroimpact::{Oscillator, Start};
@@ -26,7 +26,7 @@ pub(super) struct SimulateAnswer<'a> {
 enum Events<'a> {
     Oscillator(&'a Oscillator, &'a [Event], Box<Units>),
     /// So many of the events of a machine from a start, which were followed for so many forcing periods.
-    Machine((&'a Machine, &'a MachineStart), Option<f64>, usize),
+    Machine((&'a Machine, &'a events::Start), Option<f64>, usize),
 }
 
 /// The reason why the list of events ends, and the time.
@@ -54,9 +54,9 @@ pub fn document<'a>(
 
 impl<'a> SimulateAnswer<'a> {
     pub(super) fn of_machine(
-        problem: (&'a Machine, &'a MachineStart),
+        problem: (&'a Machine, &'a events::Start),
         periods: Option<f64>,
-        found: &Simulated<MachineEvent>,
+        found: &Simulated<events::Event>,
     ) -> Self {
         let end = EndObject { reason: found.reason, time: found.time, horizon: None };
         Self { events: Events::Machine(problem, periods, found.events.len()), end }

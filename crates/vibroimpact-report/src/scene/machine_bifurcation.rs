@@ -10,9 +10,12 @@ use crate::table::{Table, bifurcation as bifurcation_table};
 use crate::{AnswerError, ReportError, figure};
 use std::collections::BTreeMap;
 use vibroimpact::Label;
-use vibroimpact::continuation::{Direction, MachineBranchEvent as E, MachinePoint};
+use vibroimpact::continuation::{
+    Direction,
+    machine::{BranchEvent as E, SolutionPoint},
+};
 use vibroimpact::machine::Machine;
-use vibroimpact::orbit::{MachineCycle, find_machine_while};
+use vibroimpact::orbit::{find_machine_while, machine::Cycle};
 use vibroimpact::verdict::{
     Census, CountedMotion, SettleOptions, Verdict, scattered_machine_starts, settle_machine_while,
 };
@@ -36,7 +39,7 @@ pub struct MachineBifurcation {
     /// The orbit diagram behind the branches.
     pub behind: Diagram<String, String>,
     /// The points of each branch, in order.
-    pub branches: Vec<Vec<MachinePoint>>,
+    pub branches: Vec<Vec<SolutionPoint>>,
     name: String,
     source: MachineSource,
     machine: Machine,
@@ -128,7 +131,7 @@ pub fn machine_bifurcation(
         return Err(ReportError::NoLabels.into());
     };
     let line = OrbitLine::new(source, &cut, POINTS);
-    let mut branches: Vec<Vec<MachinePoint>> = Vec::new();
+    let mut branches: Vec<Vec<SolutionPoint>> = Vec::new();
     let mut seen: Vec<BranchPlace> = Vec::new();
     for (value, cycle) in seeds.iter().flat_map(|(value, cycles)| cycles.iter().map(move |(cycle, _)| (*value, cycle)))
     {
@@ -152,14 +155,14 @@ pub fn machine_bifurcation(
 }
 
 /// Cycles at a value of the number, and for how many starts each stands.
-type Seeds = Vec<(f64, Vec<(MachineCycle, u64)>)>;
+type Seeds = Vec<(f64, Vec<(Cycle, u64)>)>;
 
 /// `count` values along a line, with what is found at each.
 fn along(
     source: &MachineSource,
     (cut, count): (&Cut<String>, u32),
     control: &Control<'_>,
-    find: impl Fn(&Machine) -> Vec<(MachineCycle, u64)> + Sync,
+    find: impl Fn(&Machine) -> Vec<(Cycle, u64)> + Sync,
 ) -> Result<Seeds, AnswerError> {
     let (from, to) = cut.ends;
     let over = Span::new(from, to, if from == to { 1 } else { count.max(2) })?;
@@ -213,7 +216,7 @@ fn motions(
             Verdict::Periodic(cycle) => Some((cycle.clone(), motion.count)),
             _ => None,
         };
-        let shown = |(cycle, _): &(MachineCycle, u64)| !diagram.show.is_closings() || cycle.fastest() > 0.0;
+        let shown = |(cycle, _): &(Cycle, u64)| !diagram.show.is_closings() || cycle.fastest() > 0.0;
         census.motions().iter().filter_map(cycle).filter(shown).collect()
     })
 }
@@ -230,7 +233,7 @@ fn common(seeds: &Seeds) -> Vec<String> {
 }
 
 /// Whether a branch passes through a cycle at a value of the number.
-fn passes(branch: &[MachinePoint], cycle: &MachineCycle, value: f64) -> bool {
+fn passes(branch: &[SolutionPoint], cycle: &Cycle, value: f64) -> bool {
     let between = |a: f64, b: f64, x: f64| {
         let room = (a - b).abs() + CLOSE * x.abs();
         x >= a.min(b) - room && x <= a.max(b) + room
@@ -315,7 +318,7 @@ mod tests {
             _ => None,
         }) {
             let at = found.behind.plan.over.at(step.index as usize);
-            let around = |pair: &&[MachinePoint]| {
+            let around = |pair: &&[SolutionPoint]| {
                 let (a, b) = (pair[0].value, pair[1].value);
                 a.min(b) <= at && at <= a.max(b)
             };

@@ -2,7 +2,7 @@
 
 use crate::ReportError;
 use crate::table::waveform::samples;
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::machine::Machine;
 use vibroimpact_plot::{COLUMN, Dash, Figure, FigureAxis, Legend, Line, Panel, SERIES, plain};
 
@@ -19,11 +19,7 @@ const HEIGHT: f64 = 380.0;
 ///
 /// # Errors
 /// [`ReportError`] for an invalid start.
-pub(crate) fn portrait(
-    machine: &Machine,
-    (start, time): (&MachineStart, f64),
-    title: String,
-) -> Result<Figure, ReportError> {
+pub(crate) fn portrait(machine: &Machine, (start, time): (&Start, f64), title: String) -> Result<Figure, ReportError> {
     let wave: Vec<_> = samples(machine, start, (time, time / STEPS))?.collect();
     let names = &machine.parts().coordinates;
     let shown = names.len().min(PLANES);
@@ -76,7 +72,7 @@ mod tests {
     fn impacts_are_jumps() {
         let source = MachineSource::of_catalogue("two-mass-hammer").unwrap().with("omega", 1.06).unwrap();
         let machine = source.machine().unwrap();
-        let found = settle_machine(&machine, &MachineStart::default(), &SettleOptions::default()).unwrap();
+        let found = settle_machine(&machine, &Start::default(), &SettleOptions::default()).unwrap();
         let Verdict::Periodic(cycle) = &found.verdict else { panic!("{}", found.verdict.label()) };
         let figure = portrait(&machine, (&cycle.state, cycle.period), "hammer".into()).unwrap();
         assert_eq!(figure.panels.len(), 2);

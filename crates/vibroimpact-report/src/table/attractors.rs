@@ -8,7 +8,7 @@ use crate::Units;
 use crate::number::Number;
 use vibroimpact::Oscillator;
 use vibroimpact::machine::Machine;
-use vibroimpact::orbit::MachineCycle;
+use vibroimpact::orbit::machine::Cycle;
 use vibroimpact::quantities::{Quantity, machine_quantities, machine_quantity_paths, of_verdict};
 use vibroimpact::verdict::{Census, Verdict};
 
@@ -60,7 +60,7 @@ pub(crate) fn of_machine<'a>(machine: &'a Machine, census: &'a Census<Machine>) 
     Table::new(header, rows)
 }
 
-const fn cycle_of(verdict: &Verdict<Machine>) -> Option<&MachineCycle> {
+const fn cycle_of(verdict: &Verdict<Machine>) -> Option<&Cycle> {
     match verdict {
         Verdict::Periodic(cycle) => Some(cycle),
         _ => None,

@@ -6,8 +6,9 @@ use crate::figure::tracks::Followed as What;
 use crate::json::event::{Stops, side};
 use crate::number::Number;
 use crate::{Asked, ShownValue, Units, Varied};
-use vibroimpact::continuation::{MachinePoint, SolutionPoint};
-use vibroimpact::events::MachineEvent;
+use vibroimpact::continuation::SolutionPoint;
+use vibroimpact::continuation::machine;
+use vibroimpact::events::Event;
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::CyclePoint;
 use vibroimpact::verdict::Stability;
@@ -87,14 +88,13 @@ pub fn table(behind: &Diagram, followed: &[Followed], asked: &Asked) -> Result<T
 /// As [`table`].
 pub fn of_machine(
     behind: &Diagram<String, String>,
-    branches: &[Vec<MachinePoint>],
+    branches: &[Vec<machine::SolutionPoint>],
     machine: &Machine,
     quantity: Option<&BranchQuantity<'_>>,
 ) -> Result<Table<'static>, PlanError> {
-    let row = |point: &MachinePoint| {
-        let closing = |event: &MachineEvent| {
-            format!("{},{},{}", machine.name_of(event.place), Number(event.phase), Number(event.speed))
-        };
+    let row = |point: &machine::SolutionPoint| {
+        let closing =
+            |event: &Event| format!("{},{},{}", machine.name_of(event.place), Number(event.phase), Number(event.speed));
         let events = point.cycle.events.iter().filter(|event| event.closes());
         Row {
             value: point.value,

@@ -6,9 +6,10 @@ use crate::Units;
 use crate::json::event::side;
 use crate::number::Number;
 use vibroimpact::QuantityKind;
-use vibroimpact::continuation::{MachinePoint, SolutionPoint};
+use vibroimpact::continuation::SolutionPoint;
+use vibroimpact::continuation::machine;
 use vibroimpact::machine::Machine;
-use vibroimpact::orbit::MachineCycle;
+use vibroimpact::orbit::machine::Cycle;
 use vibroimpact_study::{Branches, Cut, EventRecord};
 
 /// A point of a branch of any system.
@@ -75,14 +76,14 @@ pub fn table<'a>(found: &'a Branches, cut: &Cut, units: &'a Units) -> Table<'a> 
 pub(crate) fn of_machine<'a>(
     machine: &'a Machine,
     cut: &Cut<String>,
-    found: &'a Branches<MachineCycle, MachinePoint>,
+    found: &'a Branches<Cycle, machine::SolutionPoint>,
 ) -> Table<'a> {
     let all = || found.followed.iter().map(|branch| &branch.points);
     let drifting = all().flatten().any(|point| point.cycle.translations() > 0);
     let varied: Vec<String> = cut.names().cloned().collect();
     let cut = cut.clone();
     let points = all().enumerate().flat_map(|(k, points)| points.iter().map(move |point| (k + 1, point)));
-    let rows = points.map(move |(branch, MachinePoint { value, cycle, event, .. })| Row {
+    let rows = points.map(move |(branch, machine::SolutionPoint { value, cycle, event, .. })| Row {
         branch,
         values: cut.values(*value).collect(),
         label: cycle.label.to_string(),

@@ -5,9 +5,9 @@ use super::cycle::{Cells, Columns};
 use crate::Units;
 use crate::json::curve::values;
 use crate::number::Number;
-use vibroimpact::continuation::{MachineCurvePoint, MachinePoint};
+use vibroimpact::continuation::machine::{CurvePoint, SolutionPoint};
 use vibroimpact::machine::Machine;
-use vibroimpact::orbit::MachineCycle;
+use vibroimpact::orbit::machine::Cycle;
 use vibroimpact_study::{CurvePlan, EventCurve};
 
 /// The table of `vibro curve`.
@@ -31,7 +31,7 @@ pub fn table<'a>(found: &'a EventCurve, plan: CurvePlan, units: &'a Units) -> Ta
 pub(crate) fn of_machine<'a>(
     machine: &'a Machine,
     plan: &CurvePlan<String>,
-    found: &'a EventCurve<MachineCycle, MachinePoint, MachineCurvePoint>,
+    found: &'a EventCurve<Cycle, SolutionPoint, CurvePoint>,
 ) -> Table<'a> {
     let (p, q) = (&plan.vary.parameter, &plan.and.parameter);
     let columns = Columns::of_machine(machine, false);

@@ -7,7 +7,8 @@ use std::borrow::Cow;
 use vibroimpact::QuantityKind;
 use vibroimpact::machine::Machine;
 use vibroimpact::math::Multiplier;
-use vibroimpact::orbit::{Cycle, MachineCycle};
+use vibroimpact::orbit::Cycle;
+use vibroimpact::orbit::machine;
 
 /// Which columns a table has.
 pub(super) struct Columns {
@@ -102,7 +103,7 @@ impl<'a> Cells<'a> {
         }
     }
 
-    pub(super) fn of_machine(cycle: &'a MachineCycle, machine: &'a Machine) -> Self {
+    pub(super) fn of_machine(cycle: &'a machine::Cycle, machine: &'a Machine) -> Self {
         let closings = cycle.events.iter().filter(|event| event.closes());
         Self {
             multipliers: Cow::Borrowed(&cycle.multipliers),

@@ -5,7 +5,7 @@ use super::cycle::{Cells, Columns};
 use crate::Units;
 use crate::number::Number;
 use vibroimpact::machine::Machine;
-use vibroimpact::orbit::{MachineCycle, Orbit};
+use vibroimpact::orbit::{Orbit, machine::Cycle};
 use vibroimpact::verdict::Stability;
 use vibroimpact::{Label, QuantityKind};
 
@@ -44,7 +44,7 @@ pub fn table<'a>(found: &'a [Orbit], units: &'a Units) -> Table<'a> {
 
 /// The same of a machine, and without forcing the period.
 #[must_use]
-pub fn of_machine<'a>(found: &'a [MachineCycle], machine: &'a Machine) -> Table<'a> {
+pub fn of_machine<'a>(found: &'a [Cycle], machine: &'a Machine) -> Table<'a> {
     let rows = found.iter().map(|cycle| Row {
         label: cycle.label,
         // others are not found

@@ -4,7 +4,8 @@ use super::Table;
 use crate::figure;
 use crate::number::Number;
 use crate::{ReportError, Units};
-use vibroimpact::events::{MachineLimits, MachineSamples, MachineStart};
+use vibroimpact::events;
+use vibroimpact::events::{Limits, Samples};
 use vibroimpact::machine::{Machine, Opening, StopLaw};
 use vibroimpact::motion::sample;
 use vibroimpact::verdict::Settled;
@@ -65,14 +66,14 @@ pub fn steady(osc: &Oscillator, start: Start, settled: &Settled, units: Units) -
 /// [`ReportError::Points`] for more than ten million points, [`ReportError::Plan`] for an invalid start.
 pub fn samples<'a>(
     machine: &'a Machine,
-    start: &MachineStart,
+    start: &events::Start,
     (until, step): (f64, f64),
-) -> Result<MachineSamples<'a>, ReportError> {
+) -> Result<Samples<'a>, ReportError> {
     few_enough(until, step)?;
-    let limits = MachineLimits::default();
-    let limits = MachineLimits { time: limits.time.max(until), ..limits };
+    let limits = Limits::default();
+    let limits = Limits { time: limits.time.max(until), ..limits };
     let step = if step > 0.0 { step } else { 1.0 };
-    MachineSamples::new(machine, start, limits, (until, step))
+    Samples::new(machine, start, limits, (until, step))
         .map_err(|error| ReportError::Plan(PlanError::Machine(error.into())))
 }
 
@@ -81,7 +82,7 @@ pub fn samples<'a>(
 ///
 /// # Errors
 /// As [`samples`].
-pub fn of_machine<'a>(machine: &'a Machine, start: &MachineStart, span: (f64, f64)) -> Result<Table<'a>, ReportError> {
+pub fn of_machine<'a>(machine: &'a Machine, start: &events::Start, span: (f64, f64)) -> Result<Table<'a>, ReportError> {
     let surfaces = recovering(machine);
     let rows = samples(machine, start, span)?.map(move |sample| {
         let mut row = Number(sample.time).to_string();

@@ -4,7 +4,7 @@ use super::join::{Joined, Part, joined};
 use crate::machine_plan::{check_memory, values_of};
 use crate::study::{Cell, Fill, MachineBasinFill, tiles_of};
 use crate::{Basin, BasinPlan, Control, RunError};
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::{CountedMotion, Undecided, UndecidedCause, Verdict};
 
@@ -13,7 +13,7 @@ use vibroimpact::verdict::{CountedMotion, Undecided, UndecidedCause, Verdict};
 /// # Errors
 /// [`RunError`] for an invalid plan, or when stopped.
 pub(crate) fn machine_basin(
-    problem: (&Machine, &MachineStart),
+    problem: (&Machine, &Start),
     plan: &BasinPlan<String, String>,
     control: &Control<'_>,
 ) -> Result<Basin<Machine, String, String>, RunError> {

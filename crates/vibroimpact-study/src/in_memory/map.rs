@@ -6,7 +6,7 @@ use crate::machine_plan::{check_memory, tile};
 use crate::map::{MapPlan, RegionMap, Share};
 use crate::study::{Along, Cell, Fill, MapFill, Mapped, tiles_of};
 use crate::{Control, ListedColumn, ManyPlan, RunError, SystemPlan, axis};
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::machine::Machine;
 
 /// Number of points of a tile along each axis, for one axis and more.
@@ -50,7 +50,7 @@ pub(crate) fn machine_map(
 /// [`RunError`] for an invalid plan, or when stopped.
 pub(crate) fn machine_points(
     source: &MachineSource,
-    problem: (&Machine, &MachineStart),
+    problem: (&Machine, &Start),
     plan: &ManyPlan<String>,
     control: &Control<'_>,
 ) -> Result<RegionMap<String, String>, RunError> {

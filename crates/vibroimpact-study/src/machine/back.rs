@@ -3,7 +3,7 @@
 use super::number::NumberText;
 use super::shapes::{MatrixText, VectorText};
 use super::text::{ForceText, FrictionText, ImpactsText, MotionText, OpeningText, StopText, WrittenMachine};
-use vibroimpact::machine::{FrictionJoint, HarmonicForce, ImpactLaw, MachineParts, MachineStop, Opening, StopLaw};
+use vibroimpact::machine::{FrictionJoint, HarmonicForce, ImpactLaw, MachineParts, Opening, Stop, StopLaw};
 use vibroimpact::math::Matrix;
 
 /// A positive zero, which is what an absent number stands for.
@@ -56,7 +56,7 @@ fn force(force: &HarmonicForce) -> ForceText {
     ForceText { order: Some(force.order), at: None, cos: vector(&force.cos), sin: vector(&force.sin) }
 }
 
-fn stop(stop: &MachineStop) -> StopText {
+fn stop(stop: &Stop) -> StopText {
     let text = StopText {
         name: stop.name.clone(),
         direction: Some(VectorText::List(list(&stop.direction))),

@@ -3,7 +3,8 @@
 use super::expression::ExpressionError;
 use crate::TextError;
 use thiserror::Error;
-use vibroimpact::machine::{MachineError, MachineFault};
+use vibroimpact::machine;
+use vibroimpact::machine::MachineError;
 
 /// A machine file that describes no machine, or a path that leads to no number.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -21,7 +22,7 @@ pub struct MachineFileError {
 pub enum MachineProblem {
     /// The machine is not allowed, or has no such number.
     #[error(transparent)]
-    Fault(#[from] MachineFault),
+    Fault(#[from] machine::Fault),
     /// An expression without a value.
     #[error(transparent)]
     Expression(#[from] ExpressionError),

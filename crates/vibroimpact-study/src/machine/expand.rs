@@ -8,7 +8,7 @@ use super::shapes::VectorText;
 use super::structure::{frequency, places, structure};
 use super::text::{ForceText, FrictionText, ImpactsText, MotionText, OpeningText, StopText, WrittenMachine};
 use vibroimpact::machine::{
-    FrictionJoint, HarmonicForce, HarmonicMotion, ImpactLaw, MachineParts, MachineStop, Opening, StopLaw,
+    FrictionJoint, HarmonicForce, HarmonicMotion, ImpactLaw, MachineParts, Opening, Stop, StopLaw,
 };
 
 /// The expansion. The sizes of all its vectors and matrices are right; the rest is checked by the machine.
@@ -78,7 +78,7 @@ fn direction(
     }
 }
 
-fn expand_stop(text: &StopText, places: &Places<'_>) -> Result<MachineStop, MachineFileError> {
+fn expand_stop(text: &StopText, places: &Places<'_>) -> Result<Stop, MachineFileError> {
     check_name("stop", &text.name)?;
     let path = format!("stop.{}", text.name);
     let direction = direction(&path, (text.direction.as_ref(), text.between.as_ref(), text.at.as_ref()), places)?;
@@ -129,7 +129,7 @@ fn expand_stop(text: &StopText, places: &Places<'_>) -> Result<MachineStop, Mach
         let problem = MachineProblem::Text("the order is given twice".to_owned());
         return Err(MachineFileError::new(format!("{path}.motion.{}", twice.1), problem));
     }
-    Ok(MachineStop {
+    Ok(Stop {
         name: text.name.clone(),
         direction,
         gap: number("gap", &text.gap)?,

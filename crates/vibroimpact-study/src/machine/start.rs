@@ -6,7 +6,7 @@ use super::number::NumberText;
 use super::shapes::VectorText;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use vibroimpact::events::{ContactStart, MachineStart};
+use vibroimpact::events::{ContactStart, Start};
 use vibroimpact::machine::MachineParts;
 use vibroimpact::regime::ContactState;
 
@@ -120,7 +120,7 @@ fn names(parts: &MachineParts) -> impl Iterator<Item = &String> {
 impl StartText {
     /// The table of a state of a machine, with all coordinates and velocities.
     #[must_use]
-    pub fn of(start: &MachineStart, parts: &MachineParts) -> Self {
+    pub fn of(start: &Start, parts: &MachineParts) -> Self {
         let numbers = StartNumbers {
             q: start.q.clone(),
             qdot: start.qdot.clone(),
@@ -218,7 +218,7 @@ fn wrong(path: &str, what: String) -> MachineFileError {
     MachineFileError::new(path, MachineProblem::Text(what))
 }
 
-impl From<StartNumbers> for MachineStart {
+impl From<StartNumbers> for Start {
     fn from(StartNumbers { q, qdot, phase, contacts, exact }: StartNumbers) -> Self {
         Self { q, qdot, phase, contacts, exact }
     }

@@ -7,7 +7,7 @@ use super::places::{Places, check_name, check_place, name_of_mode};
 use super::shapes::MatrixText;
 use super::text::{LinkText, ModeText, WrittenMachine};
 use core::f64::consts::TAU;
-use vibroimpact::machine::{MOST_COORDINATES, MachineFault, MachineParts, modal_damping};
+use vibroimpact::machine::{Fault, MOST_COORDINATES, MachineParts, modal_damping};
 use vibroimpact::math::Matrix;
 
 /// The names, and what they stand for.
@@ -36,7 +36,7 @@ pub(super) fn places<'a>(text: &WrittenMachine, parameters: &'a Named<f64>) -> R
     };
     // before any matrix is made
     if coordinates.len() > MOST_COORDINATES {
-        return Err(MachineFileError::new("coordinates", MachineFault::TooLarge(coordinates.len())));
+        return Err(MachineFileError::new("coordinates", Fault::TooLarge(coordinates.len())));
     }
     for name in &coordinates {
         check_place("coordinates", name)?;

@@ -1,7 +1,7 @@
 //! A machine of a file with some of its numbers varied.
 
 use super::MachineSource;
-use vibroimpact::continuation::MachineFamily;
+use vibroimpact::continuation::machine::Family;
 use vibroimpact::machine::Machine;
 
 /// A machine as a function of the numbers at some paths.
@@ -30,12 +30,11 @@ impl VariedMachine {
     pub(crate) fn family<const N: usize>(
         self,
         values: impl Fn([f64; N]) -> Vec<f64> + Clone + Send + Sync + 'static,
-    ) -> MachineFamily<N> {
-        let changed =
-            self.expanded.as_ref().map(|one| MachineFamily::of_paths(one, self.paths.clone(), values.clone()));
+    ) -> Family<N> {
+        let changed = self.expanded.as_ref().map(|one| Family::of_paths(one, self.paths.clone(), values.clone()));
         match changed {
             Some(Ok(family)) => family,
-            _ => MachineFamily::of(move |numbers| self.at(&values(numbers))),
+            _ => Family::of(move |numbers| self.at(&values(numbers))),
         }
     }
 

@@ -6,7 +6,7 @@ use crate::PlanError;
 use crate::diagram::{AfterTransient, DiagramPoint, MotionKind, SAME};
 use crate::map::options;
 use core::f64::consts::TAU;
-use vibroimpact::events::{MachineEnd, MachineLimits, MachineMotion, MachineSample, MachineSamples, MachineStart};
+use vibroimpact::events::{End, Limits, Motion, Sample, Samples, Start};
 use vibroimpact::machine::Machine;
 use vibroimpact::regime::ContactState;
 use vibroimpact::system::phase;
@@ -30,17 +30,17 @@ pub(super) fn refused(error: vibroimpact::machine::MachineError) -> PlanError {
 #[allow(clippy::cast_precision_loss)] // at most 1.1e6 periods
 pub(super) fn closings(
     machine: &Machine,
-    start: &MachineStart,
+    start: &Start,
     (transient, keep): (u64, u64),
-) -> Result<AfterTransient<MachineStart>, PlanError> {
-    let onwards = |last: MachineStart| match machine.period() {
+) -> Result<AfterTransient<Start>, PlanError> {
+    let onwards = |last: Start| match machine.period() {
         Some(period) => after(machine, &last, transient.max(1) as f64 * period),
         None => Ok(last),
     };
     if machine.stops().is_empty() {
         return Ok(AfterTransient { kind: MotionKind::NoImpact, points: Vec::new(), last: onwards(start.clone())? });
     }
-    let mut motion = MachineMotion::new(machine, start, MachineLimits::default()).map_err(refused)?;
+    let mut motion = Motion::new(machine, start, Limits::default()).map_err(refused)?;
     let mut points: Vec<DiagramPoint> = Vec::new();
     let (mut count, mut events) = (0, 0);
     // a motion may have many events before its first closing, but one that closes no more is not followed for ever
@@ -48,8 +48,8 @@ pub(super) fn closings(
         events += 1;
         let Some(event) = motion.next() else {
             let kind = match motion.end() {
-                Some(MachineEnd::Never) => MotionKind::NoImpact,
-                Some(MachineEnd::Stuck) => MotionKind::Stuck,
+                Some(End::Never) => MotionKind::NoImpact,
+                Some(End::Stuck) => MotionKind::Stuck,
                 _ => MotionKind::Undecided,
             };
             let last = motion.reached();
@@ -82,8 +82,8 @@ pub(super) fn closings(
 }
 
 /// The state a time after a start without events.
-fn after(machine: &Machine, start: &MachineStart, time: f64) -> Result<MachineStart, PlanError> {
-    let samples = MachineSamples::new(machine, start, limits(time), (time, time)).map_err(refused)?;
+fn after(machine: &Machine, start: &Start, time: f64) -> Result<Start, PlanError> {
+    let samples = Samples::new(machine, start, limits(time), (time, time)).map_err(refused)?;
     Ok(samples.last().map_or_else(|| start.clone(), |sample| sample.start()))
 }
 
@@ -92,18 +92,18 @@ fn after(machine: &Machine, start: &MachineStart, time: f64) -> Result<MachineSt
 #[allow(clippy::cast_precision_loss)] // at most 1.1e6 periods
 pub(super) fn at_phase_zero<'a>(
     machine: &'a Machine,
-    start: &MachineStart,
+    start: &Start,
     periods: u64,
-) -> Result<(MachineStart, MachineSamples<'a>), PlanError> {
+) -> Result<(Start, Samples<'a>), PlanError> {
     let period = machine.period().ok_or(PlanError::Unforced)?;
     let start = if start.phase > 0.0 {
         let there = after(machine, start, (TAU - start.phase) / TAU * period)?;
-        MachineStart { phase: 0.0, ..there.within_stops(machine) }
+        Start { phase: 0.0, ..there.within_stops(machine) }
     } else {
         start.clone()
     };
     let until = periods as f64 * period;
-    let samples = MachineSamples::new(machine, &start, limits(until), (until, period)).map_err(refused)?;
+    let samples = Samples::new(machine, &start, limits(until), (until, period)).map_err(refused)?;
     Ok((start, samples))
 }
 
@@ -111,13 +111,13 @@ pub(super) fn at_phase_zero<'a>(
 /// or fewer if the states repeat.
 pub(super) fn strobes(
     machine: &Machine,
-    start: &MachineStart,
+    start: &Start,
     (transient, keep): (u64, u64),
-    of: impl Fn(&MachineSample) -> f64,
-) -> Result<AfterTransient<MachineStart>, PlanError> {
+    of: impl Fn(&Sample) -> f64,
+) -> Result<AfterTransient<Start>, PlanError> {
     let (start, samples) = at_phase_zero(machine, start, transient + keep)?;
     let mut points: Vec<DiagramPoint> = Vec::new();
-    let mut first: Option<MachineSample> = None;
+    let mut first: Option<Sample> = None;
     let (mut number, mut events) = (0, false);
     let mut last = start.clone();
     let mut rests = false;
@@ -153,11 +153,7 @@ pub(super) fn strobes(
 }
 
 /// The settled motion, with one point: the value of a quantity of it, if it is defined and finite.
-pub(super) fn settled(
-    machine: &Machine,
-    start: &MachineStart,
-    quantity: &str,
-) -> Result<AfterTransient<MachineStart>, PlanError> {
+pub(super) fn settled(machine: &Machine, start: &Start, quantity: &str) -> Result<AfterTransient<Start>, PlanError> {
     let found = settle_machine(machine, start, &options(None)).map_err(refused)?.verdict;
     let value = values_of(machine, &found, &[quantity.to_owned()])[0];
     let point = value.is_finite().then_some(DiagramPoint::Value(value));
@@ -181,7 +177,7 @@ mod tests {
     #[test]
     fn without_stops_there_are_no_closings() {
         let machine = MachineSource::open("den-hartog").unwrap().machine().unwrap();
-        let start = MachineStart { q: vec![0.0], qdot: vec![0.0], phase: 0.0, ..MachineStart::default() };
+        let start = Start { q: vec![0.0], qdot: vec![0.0], phase: 0.0, ..Start::default() };
         let AfterTransient { kind, points, last } = closings(&machine, &start, (500, 100)).unwrap();
         assert!(kind == MotionKind::NoImpact && points.is_empty() && last != start);
     }

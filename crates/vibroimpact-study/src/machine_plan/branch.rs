@@ -12,11 +12,12 @@ use crate::{
 use core::ops::RangeInclusive;
 use std::collections::VecDeque;
 use vibroimpact::continuation::{
-    BranchOptions, Direction, MachineBranch, MachineBranchEvent, MachineFamily, MachinePoint,
+    BranchOptions, Direction,
+    machine::{Branch, BranchEvent, Family, SolutionPoint},
 };
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::machine::Machine;
-use vibroimpact::orbit::MachineCycle;
+use vibroimpact::orbit::machine::Cycle;
 
 impl BranchPlan<String> {
     /// Checks the orbit, the numbers that vary and their ranges.
@@ -65,10 +66,10 @@ impl BranchPlan<String> {
 /// The branch of an orbit along a line, and the branches that begin on it.
 pub(super) fn branch(
     source: &MachineSource,
-    problem: (&Machine, &MachineStart),
+    problem: (&Machine, &Start),
     plan: &BranchPlan<String>,
     control: &Control<'_>,
-) -> Result<Branches<MachineCycle, MachinePoint>, RunError> {
+) -> Result<Branches<Cycle, SolutionPoint>, RunError> {
     let cut = plan.cut(source)?;
     let (from, to) = cut.ends;
     let chosen = orbits::chosen(problem, (plan.label.as_deref(), plan.orbit), control)?;
@@ -82,7 +83,7 @@ pub(super) fn branch(
 
 /// A line through numbers of a machine along which orbits are followed.
 pub struct OrbitLine {
-    family: MachineFamily,
+    family: Family,
     range: RangeInclusive<f64>,
     options: BranchOptions,
 }
@@ -103,8 +104,8 @@ impl OrbitLine {
         Self { family, range: from.min(to)..=from.max(to), options }
     }
 
-    fn begin(&self, (value, cycle): (f64, &MachineCycle), direction: Direction) -> Result<MachineBranch, PlanError> {
-        MachineBranch::new((&self.family, value), cycle, &self.range, direction, self.options)
+    fn begin(&self, (value, cycle): (f64, &Cycle), direction: Direction) -> Result<Branch, PlanError> {
+        Branch::new((&self.family, value), cycle, &self.range, direction, self.options)
             .map_err(|error| PlanError::MachineBranch(error.to_string()))
     }
 
@@ -114,10 +115,10 @@ impl OrbitLine {
     /// [`PlanError::MachineBranch`] if the cycle is not there, [`Stopped`] when stopped.
     pub fn trace(
         &self,
-        at: (f64, &MachineCycle),
+        at: (f64, &Cycle),
         direction: Direction,
         control: &Control<'_>,
-    ) -> Result<Vec<MachinePoint>, RunError> {
+    ) -> Result<Vec<SolutionPoint>, RunError> {
         let mut branch = self.begin(at, direction)?;
         let mut found = Vec::new();
         while !control.stopping() {
@@ -134,16 +135,16 @@ impl OrbitLine {
     /// As [`trace`](Self::trace).
     pub fn first_event(
         &self,
-        at: (f64, &MachineCycle),
+        at: (f64, &Cycle),
         direction: Direction,
         control: &Control<'_>,
-    ) -> Result<Option<(MachinePoint, Option<String>)>, RunError> {
+    ) -> Result<Option<(SolutionPoint, Option<String>)>, RunError> {
         let mut branch = self.begin(at, direction)?;
         let mut done = 0;
         while !control.stopping() {
             let Some(point) = branch.next() else { return Ok(None) };
             match point.event {
-                Some(MachineBranchEvent::EndOfRange) => return Ok(None),
+                Some(BranchEvent::EndOfRange) => return Ok(None),
                 Some(event) if event.ends() => return Ok(Some((point, None))),
                 Some(_) => {
                     let after = branch.next().map(|next| next.cycle.label.to_string());
@@ -162,13 +163,13 @@ impl OrbitLine {
     /// [`Stopped`] when stopped.
     pub fn beginning_on(
         &self,
-        points: &[MachinePoint],
+        points: &[SolutionPoint],
         most: usize,
         seen: &mut Vec<BranchPlace>,
         control: &Control<'_>,
-    ) -> Result<Vec<Followed<MachinePoint>>, RunError> {
+    ) -> Result<Vec<Followed<SolutionPoint>>, RunError> {
         let scale = 0.25 * (self.range.end() - self.range.start());
-        let mut waiting: VecDeque<Origin<MachinePoint>> = origins(points, 0).collect();
+        let mut waiting: VecDeque<Origin<SolutionPoint>> = origins(points, 0).collect();
         let mut followed = Vec::new();
         while let (Some(begin), true) = (waiting.pop_front(), followed.len() < most) {
             let origin = &begin.point;
@@ -199,9 +200,8 @@ impl OrbitLine {
 }
 
 /// The points of branch number `branch` at which other branches begin.
-fn origins(points: &[MachinePoint], branch: usize) -> impl Iterator<Item = Origin<MachinePoint>> + '_ {
-    let begins =
-        |point: &&MachinePoint| matches!(point.event, Some(MachineBranchEvent::Flip | MachineBranchEvent::BranchPoint));
+fn origins(points: &[SolutionPoint], branch: usize) -> impl Iterator<Item = Origin<SolutionPoint>> + '_ {
+    let begins = |point: &&SolutionPoint| matches!(point.event, Some(BranchEvent::Flip | BranchEvent::BranchPoint));
     points.iter().filter(begins).map(move |point| Origin { branch, point: point.clone() })
 }
 
@@ -220,7 +220,7 @@ mod tests {
         BranchPlan { label: None, orbit: None, vary: vary.to_owned(), to, also, points: 500, follow: 0 }
     }
 
-    fn followed(source: &MachineSource, plan: &BranchPlan<String>) -> Branches<MachineCycle, MachinePoint> {
+    fn followed(source: &MachineSource, plan: &BranchPlan<String>) -> Branches<Cycle, SolutionPoint> {
         let plan = Plan::new(source.clone(), Task::from(plan.clone()));
         let Results::Machine(machine::Results::Branch(found)) = run(&plan, &Control::default()).unwrap() else {
             panic!()
@@ -228,8 +228,8 @@ mod tests {
         found
     }
 
-    fn grazing(found: &Branches<MachineCycle, MachinePoint>) -> f64 {
-        let is_grazing = |point: &&MachinePoint| matches!(point.event, Some(MachineBranchEvent::Grazing { .. }));
+    fn grazing(found: &Branches<Cycle, SolutionPoint>) -> f64 {
+        let is_grazing = |point: &&SolutionPoint| matches!(point.event, Some(BranchEvent::Grazing { .. }));
         found.followed[0].points.iter().find(is_grazing).unwrap().value
     }
 

@@ -9,26 +9,26 @@ use crate::{
     limits,
 };
 use vibroimpact::continuation::{
-    BranchOptions, CurveEvent, CurveKind, CurveOptions, Direction, MachineBranch, MachineBranchEvent, MachineCurve,
-    MachineCurvePoint, MachinePoint,
+    BranchOptions, CurveEvent, CurveKind, CurveOptions, Direction,
+    machine::{Branch, BranchEvent, Curve, CurvePoint, SolutionPoint},
 };
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::machine::Machine;
 use vibroimpact::math::sort_by;
-use vibroimpact::orbit::MachineCycle;
+use vibroimpact::orbit::machine::Cycle;
 
 /// Whether an event of a branch is of a kind.
-const fn is(kind: FollowedEvent, event: MachineBranchEvent) -> bool {
+const fn is(kind: FollowedEvent, event: BranchEvent) -> bool {
     match kind {
-        FollowedEvent::Fold => matches!(event, MachineBranchEvent::Fold),
-        FollowedEvent::Flip => matches!(event, MachineBranchEvent::Flip),
-        FollowedEvent::Torus => matches!(event, MachineBranchEvent::Torus),
+        FollowedEvent::Fold => matches!(event, BranchEvent::Fold),
+        FollowedEvent::Flip => matches!(event, BranchEvent::Flip),
+        FollowedEvent::Torus => matches!(event, BranchEvent::Torus),
         FollowedEvent::Grazing => {
-            matches!(event, MachineBranchEvent::Grazing { .. } | MachineBranchEvent::LossOfContact { .. })
+            matches!(event, BranchEvent::Grazing { .. } | BranchEvent::LossOfContact { .. })
         }
-        FollowedEvent::Corner => matches!(event, MachineBranchEvent::Corner { .. }),
-        FollowedEvent::Sticking => matches!(event, MachineBranchEvent::Sticking { .. }),
-        FollowedEvent::Holding => matches!(event, MachineBranchEvent::Holding { .. }),
+        FollowedEvent::Corner => matches!(event, BranchEvent::Corner { .. }),
+        FollowedEvent::Sticking => matches!(event, BranchEvent::Sticking { .. }),
+        FollowedEvent::Holding => matches!(event, BranchEvent::Holding { .. }),
     }
 }
 
@@ -55,10 +55,10 @@ impl CurvePlan<String> {
 /// Follows an orbit in the first number to an event, and then follows the event in the plane.
 pub(super) fn curve(
     source: &MachineSource,
-    (machine, start): (&Machine, &MachineStart),
+    (machine, start): (&Machine, &Start),
     asked: &CurvePlan<String>,
     control: &Control<'_>,
-) -> Result<EventCurve<MachineCycle, MachinePoint, MachineCurvePoint>, RunError> {
+) -> Result<EventCurve<Cycle, SolutionPoint, CurvePoint>, RunError> {
     let CurvePlan { vary, and, .. } = asked;
     let chosen = orbits::chosen((machine, start), (asked.label.as_deref(), asked.orbit), control)?;
     let cycle = &chosen.cycle;
@@ -67,16 +67,16 @@ pub(super) fn curve(
     stopped(0)?;
     let own = source.number(&vary.parameter).map_err(PlanError::from)?;
     let family = Cut { vary: vary.parameter.clone(), ends: (vary.from, vary.to), also: None }.family(source);
-    let mut events: Vec<MachinePoint> = Vec::new();
+    let mut events: Vec<SolutionPoint> = Vec::new();
     for (direction, end) in [(Direction::Up, vary.to), (Direction::Down, vary.from)] {
         if own == end {
             continue;
         }
         let range = vary.from..=vary.to;
-        let branch = MachineBranch::new((&family, own), cycle, &range, direction, BranchOptions::default())
+        let branch = Branch::new((&family, own), cycle, &range, direction, BranchOptions::default())
             .map_err(|error| PlanError::MachineBranch(error.to_string()))?;
         for point in branch.take_while(|point| point.cycle.label == label && !control.stopping()) {
-            let known = |other: &MachinePoint| (other.value - point.value).abs() <= 1e-9 * (1.0 + point.value.abs());
+            let known = |other: &SolutionPoint| (other.value - point.value).abs() <= 1e-9 * (1.0 + point.value.abs());
             if point.event.is_some_and(|event| is(asked.kind, event)) && !events.iter().any(known) {
                 events.push(point);
             }
@@ -101,7 +101,7 @@ pub(super) fn curve(
     let plane = plane(source, vary, and);
     let at = (events[through].value, source.number(&and.parameter).map_err(PlanError::from)?);
     let options = CurveOptions { longest: LONGEST, points: asked.points.unwrap_or(DEFAULT_BRANCH_POINTS) };
-    let [forth, back] = MachineCurve::through(&plane, at, &events[through], options)
+    let [forth, back] = Curve::through(&plane, at, &events[through], options)
         .map_err(|error| PlanError::MachineBranch(error.to_string()))?;
     let places = match forth.kind() {
         CurveKind::Grazing { stop } | CurveKind::Sticking { stop } => vec![stop],
@@ -109,10 +109,10 @@ pub(super) fn curve(
         CurveKind::Corner { first, second } => vec![first, second],
         _ => Vec::new(),
     };
-    let forth: Vec<MachineCurvePoint> = forth.take_while(|_| !control.stopping()).collect();
+    let forth: Vec<CurvePoint> = forth.take_while(|_| !control.stopping()).collect();
     let closed = forth.last().is_some_and(|point| point.event == Some(CurveEvent::Closed));
     // the event itself is the first point of both directions, so one copy is skipped
-    let mut points: Vec<MachineCurvePoint> =
+    let mut points: Vec<CurvePoint> =
         if closed { Vec::new() } else { back.skip(1).take_while(|_| !control.stopping()).collect() };
     stopped(1)?;
     points.reverse();

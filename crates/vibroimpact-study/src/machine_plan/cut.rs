@@ -2,7 +2,7 @@
 
 use crate::machine::{MachineSource, VariedMachine};
 use crate::{Cut, PlanError, Stretch};
-use vibroimpact::continuation::{MachineFamily, MachinePlane};
+use vibroimpact::continuation::machine::{Family, Plane};
 
 impl Cut<String> {
     /// The machine as it is written, where the first number has the value `value`. It is not checked.
@@ -23,7 +23,7 @@ impl Cut<String> {
     }
 
     /// The machines along the line.
-    pub(super) fn family(&self, source: &MachineSource) -> MachineFamily {
+    pub(super) fn family(&self, source: &MachineSource) -> Family {
         let samples = [self.ends.0, 0.5 * (self.ends.0 + self.ends.1), self.ends.1].map(|at| self.values(at).collect());
         let (cut, varied) = (self.clone(), VariedMachine::new(source, self.names().map(String::as_str), &samples));
         varied.family(move |[value]| cut.values(value).collect())
@@ -68,11 +68,11 @@ pub(super) fn check_plane(
 }
 
 /// The plane of two numbers over their ranges.
-pub(super) fn plane(source: &MachineSource, one: &Stretch<String>, other: &Stretch<String>) -> MachinePlane {
+pub(super) fn plane(source: &MachineSource, one: &Stretch<String>, other: &Stretch<String>) -> Plane {
     let corners: Vec<Vec<f64>> =
         [one.from, one.to].iter().flat_map(|p| [vec![*p, other.from], vec![*p, other.to]]).collect();
     let varied =
         VariedMachine::new(source, [one, other].into_iter().map(|stretch| stretch.parameter.as_str()), &corners);
     let family = varied.family(|values: [f64; 2]| values.to_vec());
-    MachinePlane::of(family, (one.from..=one.to, other.from..=other.to))
+    Plane::of(family, (one.from..=one.to, other.from..=other.to))
 }

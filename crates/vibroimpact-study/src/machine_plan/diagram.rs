@@ -4,7 +4,7 @@ use super::after_transient::{closings, settled, strobes};
 use crate::diagram::{AfterTransient, DiagramStep, Shown, Sweep, SweepDirection, check_order, check_shown};
 use crate::machine::MachineSource;
 use crate::{DiagramPlan, PlanError};
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::machine::Machine;
 use vibroimpact::quantities::machine_quantity;
 use vibroimpact::verdict::scattered_machine_starts;
@@ -67,15 +67,15 @@ pub(crate) fn step(
     source: &MachineSource,
     plan: &DiagramPlan<String, String>,
     (index, sweep): (u32, Sweep),
-    before: Option<MachineStart>,
-) -> Result<(DiagramStep, MachineStart), PlanError> {
+    before: Option<Start>,
+) -> Result<(DiagramStep, Start), PlanError> {
     let machine = plan.cut().with(source, plan.values(index))?.machine()?;
     let start = match (plan.direction, sweep, before) {
         (SweepDirection::Scatter { seed, .. }, Sweep::Start(k), _) => {
             scattered_machine_starts(&machine, seed, k).within_stops(&machine)
         }
         (_, _, Some(left)) => left.within_stops(&machine),
-        (_, _, None) => MachineStart::from(source.start()?).within_stops(&machine),
+        (_, _, None) => Start::from(source.start()?).within_stops(&machine),
     };
     let length = (plan.transient, plan.keep);
     let AfterTransient { kind, points, last } = match plan.shown(&machine)? {

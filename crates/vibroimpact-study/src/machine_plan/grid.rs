@@ -5,7 +5,7 @@ use crate::limits::MOST_CELLS;
 use crate::machine::MachineSource;
 use crate::map::{check_impacts, check_refine};
 use crate::{Axis, BasinPlan, MapPlan, PlanError};
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::machine::Machine;
 use vibroimpact::quantities::{machine_quantities, machine_quantity};
 use vibroimpact::verdict::Verdict;
@@ -49,7 +49,7 @@ impl StartAxis {
     }
 
     /// Puts a value there.
-    pub(crate) fn set(&self, start: &mut MachineStart, value: f64) {
+    pub(crate) fn set(&self, start: &mut Start, value: f64) {
         match self {
             Self::Q(i) => start.q[*i] = value,
             Self::Qdot(i) => start.qdot[*i] = value,

@@ -5,7 +5,7 @@ use super::verdicts::refused;
 use crate::machine::MachineSource;
 use crate::{Control, LyapunovPlan, PlanError, RunError, Stopped, limits};
 use vibroimpact::chaos::{DEFAULT_EVENTS, DEFAULT_MACHINE_TRANSIENT, Exponents, machine_exponents_while};
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::machine::Machine;
 
 /// The smallest and the largest number of events of a measurement.
@@ -46,7 +46,7 @@ impl LyapunovPlan<String> {
     pub(super) fn run(
         &self,
         machine: &Machine,
-        start: &MachineStart,
+        start: &Start,
         control: &Control<'_>,
     ) -> Result<Exponents<Machine>, RunError> {
         if let Some(axis) = self.axes.first() {

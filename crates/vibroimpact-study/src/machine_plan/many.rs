@@ -61,7 +61,7 @@ mod tests {
     use crate::{
         Control, DrawnPoints, ListedColumn, Plan, PointRange, PointRule, RegionMap, Results, Task, machine, run,
     };
-    use vibroimpact::events::MachineStart;
+    use vibroimpact::events::Start;
 
     fn settled(source: &MachineSource, points: PointsPlan<String>) -> RegionMap<String, String> {
         let fields = vec!["power".to_owned()];
@@ -86,7 +86,7 @@ mod tests {
         let columns = found.columns.clone();
         for (k, cell) in found.points.iter().enumerate() {
             let [frequency, head] = [0, 1].map(|column| columns[column].values[k]);
-            let start = MachineStart { q: vec![0.0, head], qdot: vec![0.0; 2], ..MachineStart::default() };
+            let start = Start { q: vec![0.0, head], qdot: vec![0.0; 2], ..Start::default() };
             let there = source.with("frequency", frequency).unwrap().starting(&start);
             let alone = Plan::new(there, Task::Settle { start: None, impacts: None });
             let Results::Machine(machine::Results::Settle(alone)) = run(&alone, &Control::default()).unwrap() else {

@@ -6,10 +6,10 @@ use super::verdicts::settle;
 use crate::machine::MachineSource;
 use crate::margins::check_within;
 use crate::{Control, Cut, MarginsPlan, PlanError, RunError};
-use vibroimpact::continuation::{Direction, MachinePoint};
-use vibroimpact::events::MachineStart;
+use vibroimpact::continuation::{Direction, machine::SolutionPoint};
+use vibroimpact::events::Start;
 use vibroimpact::machine::Machine;
-use vibroimpact::orbit::MachineCycle;
+use vibroimpact::orbit::machine::Cycle;
 use vibroimpact::verdict::Verdict;
 
 /// The largest number of points of a branch.
@@ -47,7 +47,7 @@ pub struct NumberMargin {
 #[derive(Clone, Debug)]
 pub struct NumberEvent {
     /// The point with the event.
-    pub point: MachinePoint,
+    pub point: SolutionPoint,
     /// The label beyond; `None` if the branch ends.
     pub after: Option<String>,
 }
@@ -106,7 +106,7 @@ impl MarginsPlan<String> {
 /// The motion of a plan and its nearest events.
 pub(super) fn margins(
     source: &MachineSource,
-    (machine, start): (&Machine, &MachineStart),
+    (machine, start): (&Machine, &Start),
     plan: &MarginsPlan<String>,
     control: &Control<'_>,
 ) -> Result<MachineMargins, RunError> {
@@ -127,7 +127,7 @@ pub(super) fn margins(
 /// The nearest events of a cycle in one number.
 fn margin(
     source: &MachineSource,
-    cycle: &MachineCycle,
+    cycle: &Cycle,
     path: String,
     within: f64,
     control: &Control<'_>,

@@ -3,9 +3,9 @@
 use super::verdicts::settle;
 use crate::{Chosen, Control, OrbitNumber, PlanError, RunError, Stopped};
 use vibroimpact::Label;
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::machine::Machine;
-use vibroimpact::orbit::{MachineCycle, find_machine_while};
+use vibroimpact::orbit::{find_machine_while, machine::Cycle};
 use vibroimpact::verdict::{Verdict, scattered_machine_starts};
 
 /// Starts of the search for orbits.
@@ -25,7 +25,7 @@ pub fn label(machine: &Machine, text: &str) -> Result<Label, PlanError> {
 }
 
 /// The orbits with a label, from scattered starts.
-pub(super) fn orbits(machine: &Machine, label: Label, control: &Control<'_>) -> Result<Vec<MachineCycle>, RunError> {
+pub(super) fn orbits(machine: &Machine, label: Label, control: &Control<'_>) -> Result<Vec<Cycle>, RunError> {
     let starts = (0..STARTS).map(|k| scattered_machine_starts(machine, 1, k));
     let found = find_machine_while(machine, label, starts, &|| !control.stopping());
     found.ok_or_else(|| Stopped { done: 0, total: 1 }.into())
@@ -43,10 +43,10 @@ pub(super) fn check(machine: &Machine, (text, orbit): (Option<&str>, Option<u32>
 /// The orbit with a label and a number; without a number, the stable one or else the fastest; without a label, the motion from
 /// the start.
 pub(super) fn chosen(
-    (machine, start): (&Machine, &MachineStart),
+    (machine, start): (&Machine, &Start),
     (text, number): (Option<&str>, Option<u32>),
     control: &Control<'_>,
-) -> Result<Chosen<MachineCycle>, RunError> {
+) -> Result<Chosen<Cycle>, RunError> {
     let Some(text) = text else {
         return match settle(machine, start, None, control)?.verdict {
             Verdict::Periodic(cycle) => Ok(Chosen { stability: Some(cycle.stability()), cycle, among: None }),
@@ -61,7 +61,7 @@ pub(super) fn chosen(
             let index = usize::try_from(given).ok().and_then(|n| n.checked_sub(1)).filter(|index| *index < count);
             index.ok_or(PlanError::NoSuchOrbit { given, count, label })?
         }
-        None => found.iter().rposition(MachineCycle::stable).or(count.checked_sub(1)).unwrap_or(0),
+        None => found.iter().rposition(Cycle::stable).or(count.checked_sub(1)).unwrap_or(0),
     };
     let cycle = found.into_iter().nth(index).ok_or(PlanError::NoMachineOrbit(label))?;
     Ok(Chosen { stability: Some(cycle.stability()), cycle, among: Some(OrbitNumber::new(index, count)) })

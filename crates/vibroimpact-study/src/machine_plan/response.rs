@@ -8,11 +8,14 @@ use crate::machine::{MachineSource, VariedMachine};
 use crate::map::check_impacts;
 use crate::response::{MOST_BRANCHES, MOST_POINTS, check_values};
 use crate::{Control, Cut, PlanError, ResponseCurves, ResponsePlan, ResponseRow, RunError};
-use vibroimpact::continuation::{Direction, MachineBranchEvent, MachinePoint};
-use vibroimpact::events::MachineStart;
+use vibroimpact::continuation::{
+    Direction,
+    machine::{BranchEvent, SolutionPoint},
+};
+use vibroimpact::events::Start;
 use vibroimpact::machine::Machine;
 use vibroimpact::math::sort_by;
-use vibroimpact::orbit::MachineCycle;
+use vibroimpact::orbit::machine::Cycle;
 use vibroimpact::quantities::machine::Quantities;
 use vibroimpact::quantities::{machine_cycle_quantities, machine_quantities, machine_quantity_paths};
 use vibroimpact::verdict::Verdict;
@@ -60,11 +63,11 @@ impl Ground<'_> {
     /// the value before.
     fn sweep(
         &self,
-        start: &MachineStart,
+        start: &Start,
         rising: bool,
         before: usize,
         control: &Control<'_>,
-    ) -> Result<Vec<(ResponseRow, Option<MachineCycle>)>, RunError> {
+    ) -> Result<Vec<(ResponseRow, Option<Cycle>)>, RunError> {
         let mut values: Vec<f64> = self.plan.over.all();
         sort_by(&mut values, f64::total_cmp);
         if !rising {
@@ -91,7 +94,7 @@ impl Ground<'_> {
         Ok(motions)
     }
 
-    fn row(&self, point: &MachinePoint) -> ResponseRow {
+    fn row(&self, point: &SolutionPoint) -> ResponseRow {
         let cycle = &point.cycle;
         let found = self.machine(point.value).and_then(|machine| machine_cycle_quantities(&machine, cycle));
         ResponseRow {
@@ -109,7 +112,7 @@ impl Ground<'_> {
 /// Computes both sweeps and the branches.
 pub(super) fn response(
     source: &MachineSource,
-    (machine, start): (&Machine, &MachineStart),
+    (machine, start): (&Machine, &Start),
     plan: &ResponsePlan<String, String>,
     control: &Control<'_>,
 ) -> Result<ResponseCurves, RunError> {
@@ -121,7 +124,7 @@ pub(super) fn response(
     let up = ground.sweep(start, true, 0, control)?;
     let down = ground.sweep(start, false, up.len(), control)?;
     let line = OrbitLine::new(source, &Cut { vary: plan.vary.clone(), ends: (from, to), also: None }, MOST_POINTS);
-    let mut branches: Vec<Vec<MachinePoint>> = Vec::new();
+    let mut branches: Vec<Vec<SolutionPoint>> = Vec::new();
     for (row, cycle) in up.iter().chain(&down) {
         let Some(cycle) = cycle.as_ref().filter(|_| branches.len() < MOST_BRANCHES) else { continue };
         if !branches.iter().any(|points| passes(points, row.value, cycle)) {
@@ -141,14 +144,14 @@ pub(super) fn response(
 }
 
 /// The points of the branch through a cycle, from its end downwards to its end upwards.
-fn both_ways(line: &OrbitLine, at: (f64, &MachineCycle), control: &Control<'_>) -> Result<Vec<MachinePoint>, RunError> {
+fn both_ways(line: &OrbitLine, at: (f64, &Cycle), control: &Control<'_>) -> Result<Vec<SolutionPoint>, RunError> {
     let way = |direction| match line.trace(at, direction, control) {
         // a cycle that cannot be followed, as one without events, is no branch
         Err(RunError::Plan(_)) => Ok(Vec::new()),
         other => other,
     };
     let mut points = way(Direction::Down)?;
-    if points.last().is_some_and(|point| point.event == Some(MachineBranchEvent::Closed)) {
+    if points.last().is_some_and(|point| point.event == Some(BranchEvent::Closed)) {
         return Ok(points);
     }
     points.reverse();
@@ -159,7 +162,7 @@ fn both_ways(line: &OrbitLine, at: (f64, &MachineCycle), control: &Control<'_>) 
 
 /// Whether a branch passes through a cycle at a value: between two of its points with this label, which differ from the cycle by no
 /// more than from each other.
-fn passes(points: &[MachinePoint], value: f64, cycle: &MachineCycle) -> bool {
+fn passes(points: &[SolutionPoint], value: f64, cycle: &Cycle) -> bool {
     points.windows(2).any(|pair| {
         let [a, b] = [&pair[0], &pair[1]];
         let between = (a.value.min(b.value)..=a.value.max(b.value)).contains(&value);

@@ -14,17 +14,17 @@ use crate::{
     Simulated, Task, in_memory,
 };
 use vibroimpact::chaos::Exponents;
-use vibroimpact::continuation::{MachineCurvePoint, MachinePoint};
-use vibroimpact::events::MachineEvent;
+use vibroimpact::continuation::machine::{CurvePoint, SolutionPoint};
+use vibroimpact::events::Event;
 use vibroimpact::machine::Machine;
-use vibroimpact::orbit::MachineCycle;
+use vibroimpact::orbit::machine::Cycle;
 use vibroimpact::verdict::{Census, Settled};
 
 /// The result of a [`Task`] of a machine.
 #[derive(Clone, Debug)]
 pub enum Results {
     /// The events of the motion.
-    Simulate(Simulated<MachineEvent>),
+    Simulate(Simulated<Event>),
     /// What the motion settles into.
     Settle(Settled<Machine>),
     /// The distinct motions and their counts.
@@ -32,11 +32,11 @@ pub enum Results {
     /// The exponents, and the sections of the attractor if points of them were requested.
     Lyapunov(Exponents<Machine>, Option<SectionPoints>),
     /// The orbits, the fastest last.
-    Orbit(Vec<MachineCycle>),
+    Orbit(Vec<Cycle>),
     /// The branch.
-    Branch(Branches<MachineCycle, MachinePoint>),
+    Branch(Branches<Cycle, SolutionPoint>),
     /// The curve.
-    Curve(EventCurve<MachineCycle, MachinePoint, MachineCurvePoint>),
+    Curve(EventCurve<Cycle, SolutionPoint, CurvePoint>),
     /// The margins.
     Margins(MachineMargins),
     /// Both regions.

@@ -2,33 +2,34 @@
 
 use super::after_transient::{EVENTS_EACH, at_phase_zero, refused};
 use crate::{Control, RunError, Stopped};
-use vibroimpact::events::{MachineEvent, MachineLimits, MachineMotion, MachineSample, MachineStart};
+use vibroimpact::events;
+use vibroimpact::events::{Event, Limits, Motion, Sample};
 use vibroimpact::machine::Machine;
 
 /// The points of a motion of a machine in two sections, in the order of time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SectionPoints {
     /// Its closings of stops; velocities are those after the closing.
-    pub closings: Vec<MachineEvent>,
+    pub closings: Vec<Event>,
     /// Its states at phase 0 of the forcing: the stroboscopic section.
-    pub strobes: Vec<MachineStart>,
+    pub strobes: Vec<events::Start>,
 }
 
 /// So many closings after a transient of closings, and so many states at phase 0 after a transient of forcing periods. There are
 /// fewer if the motion has no more of them.
 pub(super) fn section(
     machine: &Machine,
-    start: &MachineStart,
+    start: &events::Start,
     (transient, points): (u64, u64),
     control: &Control<'_>,
 ) -> Result<SectionPoints, RunError> {
     let whole = |count: u64| usize::try_from(count).unwrap_or(usize::MAX);
-    let motion = MachineMotion::new(machine, start, MachineLimits::default()).map_err(refused)?;
+    let motion = Motion::new(machine, start, Limits::default()).map_err(refused)?;
     let events = motion.take(whole(EVENTS_EACH * (transient + points))).take_while(|_| !control.stopping());
-    let closings = events.filter(MachineEvent::closes).skip(whole(transient)).take(whole(points)).collect();
+    let closings = events.filter(Event::closes).skip(whole(transient)).take(whole(points)).collect();
     let (_, samples) = at_phase_zero(machine, start, transient + points)?;
     let states = samples.take_while(|_| !control.stopping()).filter(|sample| sample.even);
-    let state = |sample: MachineSample| MachineStart { phase: 0.0, ..sample.start() };
+    let state = |sample: Sample| events::Start { phase: 0.0, ..sample.start() };
     let strobes = states.skip(whole(transient)).take(whole(points)).map(state).collect();
     if control.stopping() {
         return Err(Stopped { done: 0, total: 1 }.into());
@@ -53,7 +54,8 @@ mod tests {
         let machine = Machine::new(parts).unwrap();
         let (transient, points) = (300, 20);
         let rest = Start::at_rest(&osc);
-        let start = MachineStart { q: vec![rest.x], qdot: vec![rest.v], phase: rest.phase, ..MachineStart::default() };
+        let start =
+            events::Start { q: vec![rest.x], qdot: vec![rest.v], phase: rest.phase, ..events::Start::default() };
         let found = section(&machine, &start, (transient, points), &Control::default()).unwrap();
         let expected = of_oscillator(&osc, rest, transient, points);
         assert_eq!((found.closings.len(), found.strobes.len()), (20, 20));
@@ -64,7 +66,7 @@ mod tests {
             assert!((state.q[0] - strobe.x).abs() < 1e-9 && (state.qdot[0] - strobe.v).abs() < 1e-9, "{state:?}");
         }
         let free = Machine::new(MachineParts::new(["x"]).with_mass(0, 1.0).with_link(&[1.0], 1.0, 0.1)).unwrap();
-        let refused = section(&free, &MachineStart::default(), (1, 1), &Control::default());
+        let refused = section(&free, &events::Start::default(), (1, 1), &Control::default());
         assert!(matches!(refused, Err(RunError::Plan(PlanError::Unforced))), "{refused:?}");
     }
 }

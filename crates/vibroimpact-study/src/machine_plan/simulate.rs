@@ -2,7 +2,7 @@
 
 use crate::simulate::{SEARCH_LIMIT, TELL, check_lengths};
 use crate::{Control, PlanError, RunError, Simulated, Stopped};
-use vibroimpact::events::{MachineEnd, MachineEvent, MachineLimits, MachineMotion, MachineStart};
+use vibroimpact::events::{End, Event, Limits, Motion, Start};
 use vibroimpact::machine::Machine;
 
 /// The number of events if neither events nor periods are given.
@@ -28,15 +28,15 @@ pub fn most_events(impacts: Option<u64>, periods: Option<f64>) -> u64 {
 /// Follows a motion up to the given number of events and of forcing periods.
 pub(super) fn simulate(
     machine: &Machine,
-    start: &MachineStart,
+    start: &Start,
     (impacts, periods): (Option<u64>, Option<f64>),
     control: &Control<'_>,
-) -> Result<Simulated<MachineEvent>, RunError> {
+) -> Result<Simulated<Event>, RunError> {
     let most = most_events(impacts, periods);
     let until = periods.zip(machine.period()).map_or(f64::INFINITY, |(periods, period)| periods * period);
     let limits = limits(until);
-    let mut motion = MachineMotion::new(machine, start, limits).map_err(|error| PlanError::Machine(error.into()))?;
-    let mut events: Vec<MachineEvent> = Vec::new();
+    let mut motion = Motion::new(machine, start, limits).map_err(|error| PlanError::Machine(error.into()))?;
+    let mut events: Vec<Event> = Vec::new();
     let (reason, time) = loop {
         let count = events.len() as u64;
         if count >= most {
@@ -50,7 +50,7 @@ pub(super) fn simulate(
             let last = events.last().map_or(0.0, |event| event.time);
             break match motion.end() {
                 // for ever, whatever the limit
-                end @ Some(MachineEnd::Never | MachineEnd::Stuck) => (name(end), last),
+                end @ Some(End::Never | End::Stuck) => (name(end), last),
                 end => (if motion.time() >= until { "time_limit" } else { name(end) }, time),
             };
         };
@@ -77,34 +77,34 @@ pub(super) fn simulate(
 /// [`PlanError`] for an invalid start.
 pub fn events_with_states<'a>(
     machine: &'a Machine,
-    start: &MachineStart,
+    start: &Start,
     periods: Option<f64>,
-) -> Result<MachineMotion<'a>, PlanError> {
+) -> Result<Motion<'a>, PlanError> {
     let until = periods.zip(machine.period()).map_or(f64::INFINITY, |(periods, period)| periods * period);
-    MachineMotion::with_states(machine, start, limits(until)).map_err(|error| PlanError::Machine(error.into()))
+    Motion::with_states(machine, start, limits(until)).map_err(|error| PlanError::Machine(error.into()))
 }
 
 /// The limits of a search for events until a time.
-pub(super) fn limits(until: f64) -> MachineLimits {
-    let limits = MachineLimits::default();
-    MachineLimits { time: if until.is_finite() { limits.time.max(until) } else { limits.time }, ..limits }
+pub(super) fn limits(until: f64) -> Limits {
+    let limits = Limits::default();
+    Limits { time: if until.is_finite() { limits.time.max(until) } else { limits.time }, ..limits }
 }
 
 /// For how long a motion without further events is worth showing: five periods of the forcing, or as long again.
-fn beyond(machine: &Machine, events: &[MachineEvent]) -> f64 {
+fn beyond(machine: &Machine, events: &[Event]) -> f64 {
     let last = events.last().map_or(0.0, |event| event.time);
     machine.period().map_or(if last > 0.0 { 0.5 * last } else { 10.0 }, |period| 5.0 * period)
 }
 
 /// The name of an end.
-const fn name(end: Option<MachineEnd>) -> &'static str {
+const fn name(end: Option<End>) -> &'static str {
     match end {
-        Some(MachineEnd::Never) => "no_more_impacts",
-        Some(MachineEnd::Stuck) => "stuck",
-        None | Some(MachineEnd::SearchLimit) => SEARCH_LIMIT,
-        Some(MachineEnd::NoEventWithin) => "time_limit",
-        Some(MachineEnd::Inconsistent) => "inconsistent",
-        Some(MachineEnd::Collapse) => "collapse",
+        Some(End::Never) => "no_more_impacts",
+        Some(End::Stuck) => "stuck",
+        None | Some(End::SearchLimit) => SEARCH_LIMIT,
+        Some(End::NoEventWithin) => "time_limit",
+        Some(End::Inconsistent) => "inconsistent",
+        Some(End::Collapse) => "collapse",
     }
 }
 
@@ -124,9 +124,8 @@ mod tests {
             "[machine]\nbodies = { a = 1 }\nfrequency = 0.7\nlink = [{ between = [\"a\", \"ground\"], stiffness = 1 }]\n\
              force = [{ at = \"a\", sin = 1 }]\nstop = [{ name = \"s\", at = \"a\", gap = 0.2, restitution = 0.5 }]",
         );
-        let run = |impacts, periods| {
-            simulate(&driven, &MachineStart::default(), (impacts, periods), &Control::default()).unwrap()
-        };
+        let run =
+            |impacts, periods| simulate(&driven, &Start::default(), (impacts, periods), &Control::default()).unwrap();
         let some = run(Some(7), None);
         assert_eq!((some.reason, some.events.len(), some.time), ("event_limit", 7, some.events[6].time));
         let timed = run(None, Some(3.0));
@@ -134,7 +133,7 @@ mod tests {
         assert!(timed.events.len() > 3 && timed.shown_until == timed.time);
         let free =
             machine("[machine]\nbodies = { a = 1 }\nstop = [{ name = \"s\", at = \"a\", gap = 1, restitution = 0.5 }]");
-        let start = MachineStart { qdot: vec![2.0], ..MachineStart::default() };
+        let start = Start { qdot: vec![2.0], ..Start::default() };
         let left = simulate(&free, &start, (None, None), &Control::default()).unwrap();
         assert_eq!((left.reason, left.events.len(), left.time, left.shown_until), ("no_more_impacts", 1, 0.5, 0.75));
     }
@@ -144,7 +143,7 @@ mod tests {
         let ball = machine("[machine]\nbodies = { a = 1 }");
         let stop = AtomicBool::new(true);
         let control = Control { stop: &stop, ..Control::default() };
-        let stopped = simulate(&ball, &MachineStart::default(), (Some(5), None), &control);
+        let stopped = simulate(&ball, &Start::default(), (Some(5), None), &control);
         assert_eq!(stopped, Err(RunError::Stopped(Stopped { done: 0, total: 5 })));
     }
 }

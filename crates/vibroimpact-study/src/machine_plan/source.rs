@@ -2,13 +2,13 @@
 
 use crate::PlanError;
 use crate::machine::{MachineSource, Named, NumberText, StartText, VectorText};
-use vibroimpact::events::{MachineLimits, MachineMotion, MachineStart};
+use vibroimpact::events::{Limits, Motion, Start};
 use vibroimpact::machine::Machine;
 
 impl MachineSource {
     /// The same machine with another start. Vectors that are empty are 0.
     #[must_use]
-    pub fn starting(mut self, start: &MachineStart) -> Self {
+    pub fn starting(mut self, start: &Start) -> Self {
         let vector = |values: &[f64]| {
             let list = values.iter().map(|value| NumberText::Value(*value)).collect();
             (!values.is_empty()).then_some(VectorText::List(list))
@@ -28,7 +28,7 @@ impl MachineSource {
     ///
     /// # Errors
     /// [`PlanError::Machine`] with the path of the first number that is not allowed.
-    pub fn described(&self) -> Result<(Machine, MachineStart), PlanError> {
+    pub fn described(&self) -> Result<(Machine, Start), PlanError> {
         Ok((self.machine()?, self.start()?.into()))
     }
 
@@ -36,10 +36,10 @@ impl MachineSource {
     ///
     /// # Errors
     /// [`PlanError::Machine`] with the path of the first number that is not allowed.
-    pub fn problem(&self) -> Result<(Machine, MachineStart), PlanError> {
+    pub fn problem(&self) -> Result<(Machine, Start), PlanError> {
         let (machine, start) = self.described()?;
-        let limits = MachineLimits::default();
-        MachineMotion::new(&machine, &start, limits).map_err(|error| PlanError::Machine(error.into()))?;
+        let limits = Limits::default();
+        Motion::new(&machine, &start, limits).map_err(|error| PlanError::Machine(error.into()))?;
         Ok((machine, start))
     }
 }

@@ -71,7 +71,7 @@ mod tests {
     use super::*;
     use crate::is_machine_plan;
     use crate::machine::CATALOGUE;
-    use vibroimpact::events::MachineStart;
+    use vibroimpact::events::Start;
 
     /// Every machine of the catalogue, in both languages, with changed numbers and another start.
     #[test]
@@ -81,8 +81,7 @@ mod tests {
             let (n, path) = (source.parts().unwrap().n(), source.paths().unwrap().pop().unwrap());
             let changed = source.with(&path, source.number(&path).unwrap() * 1.25).unwrap();
             let task = Task::Simulate { start: None, impacts: None, periods: Some(2.5) };
-            let start =
-                MachineStart { q: vec![0.1 + 0.2; n], qdot: vec![-1e-300; n], phase: 1.0, ..MachineStart::default() };
+            let start = Start { q: vec![0.1 + 0.2; n], qdot: vec![-1e-300; n], phase: 1.0, ..Start::default() };
             let plan = Plan::new(changed.starting(&start), task);
             let (toml, json) = (plan.to_toml(), serde_json::to_string(&plan).unwrap());
             assert_eq!(Plan::from_text(&toml), Ok(plan.clone()), "{toml}");

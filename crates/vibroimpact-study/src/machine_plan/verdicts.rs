@@ -2,7 +2,7 @@
 
 use crate::map::{check_impacts, options};
 use crate::{Control, PlanError, RunError, Stopped, limits, tiles};
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::lanes::Width;
 use vibroimpact::machine::{Machine, MachineError};
 use vibroimpact::verdict::{
@@ -27,7 +27,7 @@ pub(crate) fn check_starts(starts: u64, impacts: Option<u32>) -> Result<(), Plan
 /// The verdict on a motion.
 pub(super) fn settle(
     machine: &Machine,
-    start: &MachineStart,
+    start: &Start,
     impacts: Option<u32>,
     control: &Control<'_>,
 ) -> Result<Settled<Machine>, RunError> {
@@ -48,7 +48,7 @@ pub(super) fn attractors(
 ) -> Result<Census<Machine>, RunError> {
     let (options, known) = (options(impacts), KnownMotions::default());
     let parts = tiles(starts, u64::from(tile(machine)), control, |range, tick| {
-        let starts: Vec<MachineStart> = range.map(|k| scattered_machine_starts(machine, seed, k)).collect();
+        let starts: Vec<Start> = range.map(|k| scattered_machine_starts(machine, seed, k)).collect();
         settle_machine_many(machine, &starts, &known, &options, Width::best(), &|| !control.stopping(), &|| tick())
     })?;
     let mut census = Census::default();

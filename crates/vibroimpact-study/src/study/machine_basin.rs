@@ -14,7 +14,7 @@ use crate::{BasinPlan, Block, Grid, PlanError};
 use core::cell::RefCell;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::lanes::Width;
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::machine::Settlement;
@@ -35,7 +35,7 @@ const FEW: u64 = 500;
 /// The starts of a machine over a grid.
 pub(crate) struct MachineBasinFill {
     machine: Machine,
-    start: MachineStart,
+    start: Start,
     plan: BasinPlan<String, String>,
     places: Vec<StartAxis>,
     options: SettleOptions,
@@ -61,7 +61,7 @@ type Leads = (i32, i32);
 
 impl MachineBasinFill {
     pub(crate) fn new(
-        (machine, start): (&Machine, &MachineStart),
+        (machine, start): (&Machine, &Start),
         plan: &BasinPlan<String, String>,
         tile: Option<u32>,
     ) -> Result<Self, PlanError> {
@@ -80,19 +80,19 @@ impl MachineBasinFill {
     }
 
     /// So many starts, spread over the grid.
-    fn spread(&self, count: u64) -> Vec<MachineStart> {
+    fn spread(&self, count: u64) -> Vec<Start> {
         let whole = self.grid.whole();
         let start = |k| self.start(&whole.index(usize::try_from(k).unwrap_or(0)));
         spread(self.grid.points(), count).map(start).collect()
     }
 
     /// The motions of starts; `None` if stopped.
-    fn many(&self, starts: &[MachineStart], tick: &dyn Fn() -> bool) -> Option<Settlement> {
+    fn many(&self, starts: &[Start], tick: &dyn Fn() -> bool) -> Option<Settlement> {
         settle_machine_many(&self.machine, starts, &self.known, &self.options, Width::best(), &|| true, tick)
     }
 
     /// The start at a point of the grid.
-    fn start(&self, index: &[usize]) -> MachineStart {
+    fn start(&self, index: &[usize]) -> Start {
         let mut start = self.start.clone();
         for (k, (place, axis)) in self.places.iter().zip(&self.plan.axes).enumerate() {
             place.set(&mut start, axis.over.at(on_axis(index, k)));
@@ -162,7 +162,7 @@ impl Fill for MachineBasinFill {
     fn compute(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<MachineBasinTile> {
         let (met, seen) = (RefCell::new(Census::default()), RefCell::new(BTreeMap::new()));
         let points = |wanted: &[usize]| {
-            let starts: Vec<MachineStart> = wanted.iter().map(|k| self.start(&block.index(*k))).collect();
+            let starts: Vec<Start> = wanted.iter().map(|k| self.start(&block.index(*k))).collect();
             let found = self.many(&starts, &|| tick())?;
             let number = |motion| u32::try_from(met.borrow_mut().add_found(motion)).unwrap_or(u32::MAX);
             let numbers: Vec<u32> = found.motions.iter().map(number).collect();

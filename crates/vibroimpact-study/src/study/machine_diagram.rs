@@ -6,7 +6,7 @@ use crate::field::{Column, Extra, Field, NumberType};
 use crate::machine::MachineSource;
 use crate::machine_plan::diagram_step;
 use crate::{DiagramPlan, PlanError, Unit};
-use vibroimpact::events::{ContactStart, MachineStart};
+use vibroimpact::events::{ContactStart, Start};
 use vibroimpact::regime::ContactState;
 
 /// Machines over a number.
@@ -26,7 +26,7 @@ impl SweepFill<MachineSweep> {
 impl Swept for MachineSweep {
     type Number = String;
     type Show = String;
-    type Left = MachineStart;
+    type Left = Start;
 
     fn plan(&self) -> &DiagramPlan<String, String> {
         &self.plan
@@ -63,11 +63,11 @@ impl Swept for MachineSweep {
         vec![kind, Field { name: "speed".into(), long_name: "speed of a closing".into(), ..real }, phase, stop]
     }
 
-    fn step(&self, at: (u32, Sweep), before: Option<MachineStart>) -> Result<(DiagramStep, MachineStart), PlanError> {
+    fn step(&self, at: (u32, Sweep), before: Option<Start>) -> Result<(DiagramStep, Start), PlanError> {
         diagram_step(&self.source, &self.plan, at, before)
     }
 
-    fn numbers(left: &MachineStart) -> Vec<f64> {
+    fn numbers(left: &Start) -> Vec<f64> {
         // surfaces of stops that stand back, with the numbers of their stops
         let back = left.contacts.iter().filter(|contact| contact.surface > 0.0);
         let back =
@@ -75,7 +75,7 @@ impl Swept for MachineSweep {
         left.q.iter().chain(&left.qdot).copied().chain([left.phase]).chain(back).collect()
     }
 
-    fn left(&self, _: u32, numbers: &[f64]) -> Option<MachineStart> {
+    fn left(&self, _: u32, numbers: &[f64]) -> Option<Start> {
         let n = self.source.parts().ok()?.coordinates.len();
         let (q, rest) = numbers.split_at_checked(n)?;
         let (qdot, rest) = rest.split_at_checked(n)?;
@@ -88,12 +88,12 @@ impl Swept for MachineSweep {
             state: ContactState::Open,
             surface: *surface,
         };
-        rest.is_empty().then(|| MachineStart {
+        rest.is_empty().then(|| Start {
             q: q.to_vec(),
             qdot: qdot.to_vec(),
             phase: *phase,
             contacts: back.iter().map(contact).collect(),
-            ..MachineStart::default()
+            ..Start::default()
         })
     }
 

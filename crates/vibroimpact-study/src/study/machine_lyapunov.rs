@@ -7,7 +7,7 @@ use crate::machine::MachineSource;
 use crate::machine_plan::StartAxis;
 use crate::{Axis, LyapunovPlan, PlanError, Unit};
 use vibroimpact::chaos::{Grounds, machine_exponents_while};
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::machine::Machine;
 
 /// A machine and its start over axes.
@@ -35,13 +35,13 @@ impl LyapunovFill<Machines> {
 
 impl Machines {
     /// The machine and the start at a point.
-    fn problem(&self, index: &[usize]) -> Result<(Machine, MachineStart), PlanError> {
+    fn problem(&self, index: &[usize]) -> Result<(Machine, Start), PlanError> {
         let values = || self.plan.axes.iter().zip(&self.places).enumerate();
         let at = |k: usize, axis: &Axis<String>| axis.over.at(on_axis(index, k));
         let numbers =
             values().filter(|(_, (_, place))| place.is_none()).map(|(k, (axis, _))| (axis.vary.as_str(), at(k, axis)));
         let source = self.source.with_all(numbers)?;
-        let (machine, mut start) = (source.machine()?, MachineStart::from(source.start()?));
+        let (machine, mut start) = (source.machine()?, Start::from(source.start()?));
         for (k, (axis, place)) in values() {
             if let Some(place) = place {
                 place.set(&mut start, at(k, axis));

@@ -10,7 +10,7 @@ use crate::machine::MachineSource;
 use crate::machine_plan::values_of;
 use crate::map::options;
 use crate::{Axis, MapPlan, PlanError, Share, Unit};
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::lanes::Width;
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::{
@@ -51,7 +51,7 @@ impl MachinesOver {
     }
 
     /// The machine at a point, with its scattered starts.
-    fn problem(&self, index: &[usize]) -> Result<(Machine, Vec<MachineStart>), PlanError> {
+    fn problem(&self, index: &[usize]) -> Result<(Machine, Vec<Start>), PlanError> {
         let machine = self.source(index)?.machine()?;
         let starts = (0..self.plan.starts).map(|k| scattered_machine_starts(&machine, self.plan.seed, k)).collect();
         Ok((machine, starts))

@@ -10,7 +10,7 @@ use crate::map::options;
 use crate::points::DIMENSION;
 use crate::{ManyPlan, PlanError, Share, Unit};
 use core::cell::Cell;
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::lanes::Width;
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::{CountedMotion, SettleOptions, settle_each_machine};
@@ -24,7 +24,7 @@ const WIDE_TILE: (usize, usize) = (16, 4096);
 pub(crate) struct MachineAt {
     source: MachineSource,
     machine: Machine,
-    start: MachineStart,
+    start: Start,
     plan: ManyPlan<String>,
     /// Where each column stands in a start; `None` for a number of the machine.
     places: Vec<Option<StartAxis>>,
@@ -34,7 +34,7 @@ pub(crate) struct MachineAt {
 impl MapFill<MachineAt> {
     pub(crate) fn of_points(
         source: &MachineSource,
-        (machine, start): (&Machine, &MachineStart),
+        (machine, start): (&Machine, &Start),
         plan: &ManyPlan<String>,
         tile: Option<u32>,
     ) -> Result<Self, PlanError> {
@@ -52,7 +52,7 @@ impl MapFill<MachineAt> {
 
 impl MachineAt {
     /// The machine and the start at point number `k`.
-    fn problem(&self, k: usize) -> Result<(Machine, MachineStart), PlanError> {
+    fn problem(&self, k: usize) -> Result<(Machine, Start), PlanError> {
         let mut start = self.start.clone();
         let names: Vec<String> = self.plan.points.varied().collect();
         let mut changes = Vec::new();
@@ -83,7 +83,7 @@ impl Mapped for MachineAt {
 
     /// Points of the same machine after each other are settled together.
     fn motions(&self, points: &[Index], tick: &dyn Fn() -> bool) -> Option<Vec<Motions>> {
-        let mut problems: Vec<(Machine, Vec<MachineStart>)> = Vec::new();
+        let mut problems: Vec<(Machine, Vec<Start>)> = Vec::new();
         let mut add = |(machine, start)| match problems.last_mut() {
             Some((last, starts)) if *last == machine => starts.push(start),
             _ => problems.push((machine, vec![start])),

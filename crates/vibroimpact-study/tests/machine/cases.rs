@@ -3,10 +3,13 @@
 
 use core::f64::consts::{FRAC_PI_2, PI};
 use vibroimpact::chaos::machine_exponents_while;
-use vibroimpact::continuation::{BranchOptions, Direction, MachineBranch, MachineBranchEvent, MachineFamily};
-use vibroimpact::events::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineMotion, MachineStart};
+use vibroimpact::continuation::{
+    BranchOptions, Direction,
+    machine::{Branch, BranchEvent, Family},
+};
+use vibroimpact::events::{End, Event, EventKind, Limits, Motion, Start};
 use vibroimpact::machine::{ImpactLaw, Machine};
-use vibroimpact::orbit::MachineCycle;
+use vibroimpact::orbit::machine::Cycle;
 use vibroimpact::verdict::{Chaos, SettleOptions, Stability, Undecided, UndecidedCause, Verdict, settle_machine};
 use vibroimpact_study::machine::{MachineSource, no_files};
 
@@ -31,13 +34,13 @@ impl Case {
         self.0.machine().unwrap()
     }
 
-    fn start(&self) -> MachineStart {
+    fn start(&self) -> Start {
         let start = self.0.start().unwrap();
-        MachineStart { q: start.q, qdot: start.qdot, phase: start.phase, ..MachineStart::default() }
+        Start { q: start.q, qdot: start.qdot, phase: start.phase, ..Start::default() }
     }
 
     /// The first events from its start, and why there are no more.
-    fn events(&self, most: usize) -> (Vec<MachineEvent>, Option<MachineEnd>) {
+    fn events(&self, most: usize) -> (Vec<Event>, Option<End>) {
         events(&self.machine(), &self.start(), most)
     }
 
@@ -49,7 +52,7 @@ impl Case {
         self.settled().label().into_owned()
     }
 
-    fn cycle(&self) -> MachineCycle {
+    fn cycle(&self) -> Cycle {
         match self.settled() {
             Verdict::Periodic(cycle) => cycle,
             other => panic!("{}", other.label()),
@@ -57,18 +60,18 @@ impl Case {
     }
 }
 
-fn settled(machine: &Machine, start: &MachineStart) -> Verdict<Machine> {
+fn settled(machine: &Machine, start: &Start) -> Verdict<Machine> {
     settle_machine(machine, start, &SettleOptions::default()).unwrap().verdict
 }
 
-fn events(machine: &Machine, start: &MachineStart, most: usize) -> (Vec<MachineEvent>, Option<MachineEnd>) {
-    let mut motion = MachineMotion::new(machine, start, MachineLimits::default()).unwrap();
+fn events(machine: &Machine, start: &Start, most: usize) -> (Vec<Event>, Option<End>) {
+    let mut motion = Motion::new(machine, start, Limits::default()).unwrap();
     let events = motion.by_ref().take(most).collect();
     (events, motion.end())
 }
 
-fn at(q: &[f64], qdot: &[f64]) -> MachineStart {
-    MachineStart { q: q.to_vec(), qdot: qdot.to_vec(), ..MachineStart::default() }
+fn at(q: &[f64], qdot: &[f64]) -> Start {
+    Start { q: q.to_vec(), qdot: qdot.to_vec(), ..Start::default() }
 }
 
 fn close(one: f64, other: f64, error: f64) -> bool {
@@ -79,19 +82,19 @@ fn close(one: f64, other: f64, error: f64) -> bool {
 #[test]
 fn c01_idle_rest() {
     let (found, end) = Case::named("idle-rest").events(6);
-    let impact = found.iter().find(|event| event.kind == MachineEventKind::Impact).unwrap();
+    let impact = found.iter().find(|event| event.kind == EventKind::Impact).unwrap();
     assert!(close(impact.time, PI / 6.0, 1e-15) && close(impact.speed, 0.75_f64.sqrt(), 1e-15), "{impact:?}");
-    assert_ne!(end, Some(MachineEnd::SearchLimit));
+    assert_ne!(end, Some(End::SearchLimit));
 }
 
 /// Two equal bodies that touch strike the wall together (DOP853, rtol 1e-12).
 #[test]
 fn c02_twin() {
     let (found, _) = Case::named("twin").events(4);
-    let wall = found.iter().find(|event| event.kind == MachineEventKind::Impact && event.place == 0).unwrap();
+    let wall = found.iter().find(|event| event.kind == EventKind::Impact && event.place == 0).unwrap();
     assert!(close(wall.time, 3.528_402_82, 1e-8), "{wall:?}");
     let (apart, _) = Case::named("twin").with("stop.c.gap", 1e-12).events(4);
-    let other = apart.iter().find(|event| event.kind == MachineEventKind::Impact && event.place == 0).unwrap();
+    let other = apart.iter().find(|event| event.kind == EventKind::Impact && event.place == 0).unwrap();
     assert!(close(wall.time, other.time, 1e-11), "{wall:?} {other:?}");
 }
 
@@ -118,7 +121,7 @@ fn c04_stack() {
 fn c05_cradle() {
     let case = Case::named("cradle");
     let (together, _) = case.events(4);
-    let energy = |event: &MachineEvent| event.q.iter().chain(&event.qdot).map(|x| x * x).sum::<f64>() / 2.0;
+    let energy = |event: &Event| event.q.iter().chain(&event.qdot).map(|x| x * x).sum::<f64>() / 2.0;
     let first = energy(&together[0]);
     assert!(together.iter().all(|event| close(energy(event), first, 1e-14)), "{together:?}");
     let mut parts = case.machine().parts().clone();
@@ -143,8 +146,8 @@ fn c06_same_stop_twice() {
     for name in ["same-stop-twice", "rigid-and-compliant"] {
         let same = Case::named(name);
         let (found, _) = same.events(40);
-        let impacts = |events: &[MachineEvent]| -> Vec<(f64, f64)> {
-            let of = events.iter().filter(|event| event.kind == MachineEventKind::Impact && event.speed > 1e-5);
+        let impacts = |events: &[Event]| -> Vec<(f64, f64)> {
+            let of = events.iter().filter(|event| event.kind == EventKind::Impact && event.speed > 1e-5);
             let mut all: Vec<(f64, f64)> = of.map(|event| (event.time, event.speed)).collect();
             all.dedup();
             all
@@ -169,7 +172,7 @@ fn c07_two_joints() {
     one.joints.truncate(1);
     one.joints[0].sliding *= 2.0;
     one.joints[0].limit *= 2.0;
-    let one = settled(&Machine::new(one).unwrap(), &MachineStart::default());
+    let one = settled(&Machine::new(one).unwrap(), &Start::default());
     assert_eq!(two.label(), one.label());
 }
 
@@ -178,7 +181,7 @@ fn c07_two_joints() {
 fn c08_friction_and_stop() {
     let cycle = Case::named("friction-and-stop").cycle();
     assert_eq!(cycle.label.to_string(), "inf/1");
-    let release = cycle.events.iter().find(|event| event.kind == MachineEventKind::Release).unwrap();
+    let release = cycle.events.iter().find(|event| event.kind == EventKind::Release).unwrap();
     assert!(close(release.phase, PI - 0.2_f64.asin(), 1e-14), "{release:?}");
 }
 
@@ -211,17 +214,15 @@ fn c11_two_beads() {
     let (found, end) = Case::named("two-beads").with("r", 0.1).events(100_000);
     let last = found.last().unwrap();
     assert!(close(last.time, 0.852_136_674_048_54, 1e-13), "{last:?}");
-    assert!(
-        last.qdot.iter().all(|v| v.abs() < 1e-12) && end == Some(MachineEnd::Stuck) || end == Some(MachineEnd::Never)
-    );
-    assert!(found.iter().filter(|event| event.kind == MachineEventKind::Impact).all(|event| event.speed > 1e-15));
+    assert!(last.qdot.iter().all(|v| v.abs() < 1e-12) && end == Some(End::Stuck) || end == Some(End::Never));
+    assert!(found.iter().filter(|event| event.kind == EventKind::Impact).all(|event| event.speed > 1e-15));
 }
 
 /// Five beads of a column come to rest on each other while those above fall on (300 digits).
 #[test]
 fn c12_column() {
     let (found, _) = Case::named("column").events(3_000);
-    let rest = found.iter().find(|event| event.kind == MachineEventKind::Collapse).unwrap();
+    let rest = found.iter().find(|event| event.kind == EventKind::Collapse).unwrap();
     assert!(close(rest.time, 0.474_657_811_676_884, 1e-11), "{rest:?}");
     assert!(rest.qdot[..5].iter().all(|v| v.abs() < 1e-9) && rest.qdot[5..].iter().all(|v| *v < -1.0), "{rest:?}");
     assert!(close(rest.q[5] - rest.q[4], 0.045, 0.05), "{rest:?}");
@@ -253,7 +254,7 @@ fn c14_bumpers() {
 fn c15_bar() {
     for inertia in [0.25, 1.0 / 3.0, 1.0, 2.0] {
         let (found, _) = Case::named("bar").with("J", inertia).events(400);
-        let rest = found.iter().find(|event| event.kind == MachineEventKind::Stick).unwrap();
+        let rest = found.iter().find(|event| event.kind == EventKind::Stick).unwrap();
         assert!(close(rest.time, 3.0 * (2.0 / 9.81_f64).sqrt(), 1e-13), "{inertia}: {rest:?}");
         assert!(found.iter().all(|event| event.q[1] == 0.0), "{inertia}");
     }
@@ -263,7 +264,7 @@ fn c15_bar() {
 #[test]
 fn c16_tube() {
     let machine = Case::named("tube").machine();
-    let mut motion = MachineMotion::new(&machine, &MachineStart::default(), MachineLimits::default()).unwrap();
+    let mut motion = Motion::new(&machine, &Start::default(), Limits::default()).unwrap();
     let period = 2.0 * PI / machine.parts().frequency.unwrap();
     let last = motion.by_ref().take(200_000).find(|event| event.time > 40.0 * period);
     assert!(last.is_some(), "{:?}", motion.end());
@@ -300,7 +301,7 @@ fn c19_harmonics() {
 fn c20_overdamped() {
     let exponents = |damping: f64| -> Vec<f64> {
         let machine = Case::named("overdamped").with("stop.s.damping", damping).machine();
-        let start = MachineStart::default();
+        let start = Start::default();
         let found = machine_exponents_while(&machine, &start, (4_000, 500), &|| true).unwrap().unwrap();
         found.exponents.iter().map(|exponent| exponent.value).collect()
     };
@@ -322,13 +323,13 @@ fn c21_fermi() {
     assert_eq!((cycle.label.to_string().as_str(), cycle.stability()), ("2/1", Stability::Neutral));
     let trace: f64 = cycle.multipliers.iter().map(|one| one.re).sum();
     assert!(close(trace, 2.0 - 4.0 * PI * PI * 0.05 / 1.05, 1e-10), "{trace}");
-    let family = MachineFamily::new(|eps| Case::named("fermi").0.with("eps", eps).ok()?.machine().ok());
+    let family = Family::new(|eps| Case::named("fermi").0.with("eps", eps).ok()?.machine().ok());
     let options = BranchOptions::default();
-    let branch = MachineBranch::new((&family, 0.05), &cycle, &(0.001..=0.05), Direction::Down, options).unwrap();
+    let branch = Branch::new((&family, 0.05), &cycle, &(0.001..=0.05), Direction::Down, options).unwrap();
     let points: Vec<_> = branch.collect();
     assert!(points.len() > 5 && points.iter().all(|point| point.cycle.stability() == Stability::Neutral));
     let events: Vec<_> = points.iter().filter_map(|point| point.event).collect();
-    assert_eq!(events, [MachineBranchEvent::EndOfRange]);
+    assert_eq!(events, [BranchEvent::EndOfRange]);
     assert!(cycle.events.iter().any(|event| event.place == 1 && close(event.phase, FRAC_PI_2, 1e-9)));
 }
 
@@ -353,15 +354,14 @@ fn c22_transient_chaos() {
 fn c23_hold_vanishes() {
     let case = Case::named("hold-vanishes");
     let (machine, cycle) = (case.machine(), case.cycle());
-    let (family, value) = MachineFamily::of_path(&machine, "mass.x1").unwrap();
+    let (family, value) = Family::of_path(&machine, "mass.x1").unwrap();
     let options = BranchOptions { points: 400, ..BranchOptions::default() };
     let range = 0.918..=value;
-    let points: Vec<_> =
-        MachineBranch::new((&family, value), &cycle, &range, Direction::Down, options).unwrap().collect();
+    let points: Vec<_> = Branch::new((&family, value), &cycle, &range, Direction::Down, options).unwrap().collect();
     let events: Vec<_> = points.iter().filter_map(|point| Some((point.event?, point.value))).collect();
-    let holding = MachineBranchEvent::Holding { joint: 2, begins: false };
+    let holding = BranchEvent::Holding { joint: 2, begins: false };
     assert!(events.iter().any(|(event, value)| *event == holding && close(*value, 1.075_901_139, 1e-8)), "{events:?}");
-    assert!(matches!(events.last(), Some((MachineBranchEvent::EndOfRange, _))), "{events:?}");
+    assert!(matches!(events.last(), Some((BranchEvent::EndOfRange, _))), "{events:?}");
 }
 
 /// What doubles cannot know is not claimed: with 60 digits these are inf/38 and inf/122.

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use vibroimpact::machine::{
-    FrictionJoint, HarmonicForce, HarmonicMotion, Machine, MachineParts, MachineStop, Opening, StopLaw,
+    FrictionJoint, HarmonicForce, HarmonicMotion, Machine, MachineParts, Opening, Stop, StopLaw,
 };
 use vibroimpact::math::Matrix;
 use vibroimpact_study::machine::{MachineSource, no_files};
@@ -96,7 +96,7 @@ fn machine() -> impl Strategy<Value = Machine> {
                     frequency: Some(frequency),
                     forces: forces.map(|((cos, sin), order)| HarmonicForce { order, cos, sin }).collect(),
                     stops: (stops.into_iter().enumerate())
-                        .map(|(k, (direction, gap, motion, law))| MachineStop {
+                        .map(|(k, (direction, gap, motion, law))| Stop {
                             name: named("stop", k),
                             direction,
                             gap,

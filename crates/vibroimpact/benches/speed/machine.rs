@@ -3,7 +3,7 @@
 use crate::machine_problems;
 use criterion::{BenchmarkId, Criterion, Throughput};
 use std::hint::black_box;
-use vibroimpact::events::{MachineLimits, MachineMotion};
+use vibroimpact::events::{Limits, Motion};
 
 const EVENTS: usize = 1000;
 
@@ -14,7 +14,7 @@ pub(crate) fn bench(criterion: &mut Criterion) {
         group.bench_function(BenchmarkId::from_parameter(problem.name), |b| {
             b.iter(|| {
                 let start = black_box(&problem.start);
-                let motion = MachineMotion::new(&problem.machine, start, MachineLimits::default());
+                let motion = Motion::new(&problem.machine, start, Limits::default());
                 motion.expect("a legal start").take(EVENTS).last()
             });
         });

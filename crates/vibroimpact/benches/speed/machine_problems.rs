@@ -1,13 +1,13 @@
 //! The machines that are measured, with a start each: `benches/peers/python/machine_problems.py` has the same numbers.
 
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts, Opening, StopLaw};
 
 /// A machine that is measured.
 pub(crate) struct Problem {
     pub(crate) name: &'static str,
     pub(crate) machine: Machine,
-    pub(crate) start: MachineStart,
+    pub(crate) start: Start,
 }
 
 /// Wave numbers of a clamped-free beam: cos k cosh k = -1.
@@ -85,7 +85,7 @@ pub(crate) fn ball() -> Problem {
 
 fn problem(name: &'static str, parts: MachineParts, q: &[f64]) -> Problem {
     let machine = Machine::new(parts).expect("a legal machine");
-    Problem { name, machine, start: MachineStart { q: q.to_vec(), ..MachineStart::default() } }
+    Problem { name, machine, start: Start { q: q.to_vec(), ..Start::default() } }
 }
 
 /// All, with beams of 2, 6 and 12 modes.

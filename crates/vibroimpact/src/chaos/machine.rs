@@ -1,7 +1,7 @@
 //! All Lyapunov exponents of the motion of a machine from a start.
 
 use super::exponents::{self, ExponentOptions, Exponents, Grounds, exponents_while};
-use crate::events::{MachineMotion, MachineStart};
+use crate::events::{Motion, Start};
 use crate::lyapunov::blocks::MEASURE;
 use crate::lyapunov::{Measured, Run, Tail};
 use crate::machine::{Machine, MachineError};
@@ -23,7 +23,7 @@ pub const DEFAULT_MACHINE_TRANSIENT: u32 = 1_000;
 /// [`MachineError`] for an invalid start.
 pub fn machine_exponents_while(
     machine: &Machine,
-    start: &MachineStart,
+    start: &Start,
     (events, transient): (u32, u32),
     go_on: &dyn Fn() -> bool,
 ) -> Result<Option<Exponents<Machine>>, MachineError> {
@@ -66,7 +66,7 @@ pub fn machine_exponents_while(
         Verdict::NoImpact(_) | Verdict::Stuck(_) => {
             // those of the structure in its last regime
             let frame = MachineFrame::new(machine);
-            let mut last = MachineMotion::new(machine, start, frame.limits())?;
+            let mut last = Motion::new(machine, start, frame.limits())?;
             while last.step().is_some() {
                 last.take_events();
                 if !go_on() {
@@ -106,13 +106,13 @@ impl Exponents {
 /// The exponents measured along the machine's own motion, which settles into `settled` if they do not show chaos.
 fn measured(
     machine: &Machine,
-    start: &MachineStart,
+    start: &Start,
     (events, transient): (u32, u32),
     settled: Verdict<Machine>,
     go_on: &dyn Fn() -> bool,
 ) -> Result<Option<Exponents<Machine>>, MachineError> {
     let system = Recorded::new(MachineFrame::new(machine));
-    let mut motion = MachineMotion::new(machine, start, system.frame.limits())?;
+    let mut motion = Motion::new(machine, start, system.frame.limits())?;
     let mut run = Run::new(system.tangents(), u64::from(transient), u64::from(events));
     let mut seen = 0;
     let mut tail = Tail::new(State::of(motion.place()));
@@ -164,8 +164,7 @@ mod tests {
         for (gap, stiffness) in [(0.0, 30.0), (2.0, 400.0), (2.6, 900.0)] {
             let law = StopLaw::Compliant { stiffness, damping: 0.0, preload: 0.0, opening: Opening::Force };
             let machine = machine(law, gap);
-            let found =
-                machine_exponents_while(&machine, &MachineStart::default(), (5_000, 500), &|| true).unwrap().unwrap();
+            let found = machine_exponents_while(&machine, &Start::default(), (5_000, 500), &|| true).unwrap().unwrap();
             let sum: f64 = found.exponents.iter().map(|exponent| exponent.value).sum();
             assert!((sum + 0.05).abs() < 1e-9, "{gap} {} {sum}", found.motion.label());
         }
@@ -174,7 +173,7 @@ mod tests {
     #[test]
     fn without_contacts_those_of_the_structure() {
         let machine = machine(StopLaw::Rigid { restitution: 0.5 }, 100.0);
-        let found = machine_exponents_while(&machine, &MachineStart::default(), (100, 100), &|| true).unwrap().unwrap();
+        let found = machine_exponents_while(&machine, &Start::default(), (100, 100), &|| true).unwrap().unwrap();
         assert!(matches!(found.motion, Verdict::NoImpact(_)));
         assert!(found.exponents.iter().all(|exponent| (exponent.value + 0.025).abs() < 1e-12));
     }
@@ -192,7 +191,7 @@ mod tests {
             .with_force(0, 1, 0.0, force);
         let law = StopLaw::Rigid { restitution: of.restitution() };
         let machine = Machine::new(parts.with_stop("stop", &[1.0], of.gap() * force / stiffness, law)).unwrap();
-        let start = MachineStart::default();
+        let start = Start::default();
         let found = machine_exponents_while(&machine, &start, (20_000, 1_000), &|| true).unwrap().unwrap();
         let expected = exponents::exponents(&of, crate::Start::at_rest(&of), &ExponentOptions::new(20_000, 1_000));
         let unknown = Verdict::Undecided(Undecided { why: UndecidedCause::Budget, impacts: 0, spectrum: None });

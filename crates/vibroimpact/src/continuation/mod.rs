@@ -6,20 +6,17 @@
 //! | the equations of cycles with one or two parameters among the unknowns | `equations` |
 //! | branches: how a cycle changes with one parameter | [`Branch`], [`BranchEvent`], [`SolutionPoint`] |
 //! | curves of folds, flips and grazing impacts in a plane of two parameters | [`Curve`], [`CurvePoint`], [`Frame`] |
-//! | branches of cycles of machines | [`MachineBranch`], [`MachinePoint`] |
-//! | curves of events of machines in a plane of two numbers | [`MachineCurve`], [`MachineCurvePoint`], [`MachinePlane`] |
+//! | branches of cycles of machines | [`machine::Branch`], [`machine::SolutionPoint`] |
+//! | curves of events of machines in a plane of two numbers | [`machine::Curve`], [`machine::CurvePoint`], [`machine::Plane`] |
 //! | where in such a plane an orbit exists or is stable, as polygons bounded by these curves | [`region`], [`Region`] |
 
 mod branches;
 mod curves;
 mod equations;
-mod machine;
+pub mod machine;
 mod regions;
 mod trace;
 
 pub use branches::{Branch, BranchError, BranchEvent, BranchOptions, Change, Direction, SolutionPoint, Touch};
 pub use curves::{Curve, CurveEvent, CurveKind, CurveOptions, CurvePoint, Frame};
-pub use machine::{
-    MachineBranch, MachineBranchEvent, MachineCurve, MachineCurvePoint, MachineFamily, MachinePlane, MachinePoint,
-};
 pub use regions::{Bound, Polygon, Region, RegionKind, RegionOptions, Vertex, region, region_while};

@@ -2,14 +2,14 @@
 //! of; the general way (`motion`, `strike`) does the same with them.
 
 use super::chatter::is_far_from_an_end;
-use super::event::MachineEventKind;
-use super::motion::{Approach, MachineMotion};
+use super::event::EventKind;
+use super::motion::{Approach, Motion};
 use super::passage::Blow;
 use crate::machine::StopLaw;
 use crate::math::add_scaled;
 use crate::regime::{ContactState, GuardKind};
 
-impl MachineMotion<'_> {
+impl Motion<'_> {
     /// Whether the event at this guard was one of them. `fastest` is the rate of the structure before it.
     pub(super) fn happen_alone(&mut self, kind: GuardKind, fastest: f64) -> bool {
         let turns = self.scratch.turns_at(&self.place, &self.normal);
@@ -38,9 +38,9 @@ impl MachineMotion<'_> {
                         if let Some(passage) = &mut self.passage {
                             passage.blows.push(Blow { stop: j, speed, impulse });
                         }
-                        self.instants.keep(MachineEventKind::Impact, j, speed);
+                        self.instants.keep(EventKind::Impact, j, speed);
                         self.struck.push((j, speed));
-                        self.announce(MachineEventKind::Impact, j, speed, Vec::new());
+                        self.announce(EventKind::Impact, j, speed, Vec::new());
                         self.struck.clear();
                         let open = self.place.states.iter().all(|state| *state == ContactState::Open);
                         let turns = self.scratch.turns_at(&self.place, &self.normal);
@@ -68,8 +68,8 @@ impl MachineMotion<'_> {
                             add_scaled(&mut self.place.x, gap / square, w);
                         }
                         self.record(&[]);
-                        self.instants.keep(MachineEventKind::Close, j, speed);
-                        self.announce(MachineEventKind::Close, j, speed, Vec::new());
+                        self.instants.keep(EventKind::Close, j, speed);
+                        self.announce(EventKind::Close, j, speed, Vec::new());
                     }
                 }
             }
@@ -77,8 +77,8 @@ impl MachineMotion<'_> {
                 let (gap, rate) = self.place.gap_and_rate(&self.normal, turns, j);
                 self.place.open(&self.machine.stops()[j].law, kind, j, (gap, rate));
                 self.record(&[]);
-                self.instants.keep(MachineEventKind::Open, j, rate.max(0.0));
-                self.announce(MachineEventKind::Open, j, rate.max(0.0), Vec::new());
+                self.instants.keep(EventKind::Open, j, rate.max(0.0));
+                self.announce(EventKind::Open, j, rate.max(0.0), Vec::new());
             }
             _ => return false,
         }

@@ -1,7 +1,7 @@
 //! The end of a chatter on a rigid stop, or on several that are struck at the same times.
 
-use super::event::MachineEventKind;
-use super::motion::MachineMotion;
+use super::event::EventKind;
+use super::motion::Motion;
 use super::place::Place;
 use crate::arc::{Found, MachineFlight, first_event};
 use crate::machine::StopLaw;
@@ -41,7 +41,7 @@ impl Return {
     }
 }
 
-impl MachineMotion<'_> {
+impl Motion<'_> {
     /// Sums the chatter on rigid stops that have just been struck with these speeds and are open, if it is soon over; or else
     /// other impacts that accumulate.
     pub(super) fn end_chatter(&mut self, struck: &[(usize, f64)], turns: &[(f64, f64)]) {
@@ -114,7 +114,7 @@ impl MachineMotion<'_> {
             Found::Zero { guards, .. } if flat => return self.rest_with_joints(stops, &guards, (&free, duration)),
             _ => return None,
         }
-        self.rest_after(there, &flight, duration, (MachineEventKind::Stick, stops))
+        self.rest_after(there, &flight, duration, (EventKind::Stick, stops))
     }
 
     /// Brings the structure to rest on stops on which its rebound is lower than rounding, and joints whose events end the
@@ -201,7 +201,7 @@ impl MachineMotion<'_> {
         there: Place,
         flight: &MachineFlight,
         duration: f64,
-        (kind, stops): (MachineEventKind, &[usize]),
+        (kind, stops): (EventKind, &[usize]),
     ) -> Option<()> {
         let mut touches = Vec::new();
         let found = first_event(flight, duration, self.limits.steps, &mut self.buffers, &mut touches);
@@ -222,9 +222,9 @@ impl MachineMotion<'_> {
             // other bodies go on, and may end this rest again and again
             self.instants.pass(duration);
         }
-        stops.iter().for_each(|j| self.instants.keep(MachineEventKind::Stick, *j, 0.0));
+        stops.iter().for_each(|j| self.instants.keep(EventKind::Stick, *j, 0.0));
         self.struck.clear();
-        if kind == MachineEventKind::Collapse {
+        if kind == EventKind::Collapse {
             self.announce(kind, stops[0], 0.0, stops[1..].to_vec());
         } else {
             stops.iter().for_each(|j| self.announce(kind, *j, 0.0, Vec::new()));
@@ -240,13 +240,13 @@ impl MachineMotion<'_> {
             let (kind, speed) = match now {
                 _ if now == *was => continue,
                 ContactState::Resting | ContactState::Touching if was.constrains() => continue,
-                ContactState::Resting | ContactState::Touching => (MachineEventKind::Stick, 0.0),
-                ContactState::Holding => (MachineEventKind::Hold, 0.0),
-                ContactState::Forward => (MachineEventKind::Slip, 1.0),
-                ContactState::Backward => (MachineEventKind::Slip, -1.0),
-                ContactState::Closed => (MachineEventKind::Close, 0.0),
-                ContactState::Open if *was == ContactState::Closed => (MachineEventKind::Open, 0.0),
-                ContactState::Open => (MachineEventKind::Release, 0.0),
+                ContactState::Resting | ContactState::Touching => (EventKind::Stick, 0.0),
+                ContactState::Holding => (EventKind::Hold, 0.0),
+                ContactState::Forward => (EventKind::Slip, 1.0),
+                ContactState::Backward => (EventKind::Slip, -1.0),
+                ContactState::Closed => (EventKind::Close, 0.0),
+                ContactState::Open if *was == ContactState::Closed => (EventKind::Open, 0.0),
+                ContactState::Open => (EventKind::Release, 0.0),
             };
             self.instants.keep(kind, at, speed);
             self.announce(kind, at, speed, Vec::new());

@@ -9,9 +9,9 @@
 //! resolved as at any instant, with the forces at rest: over a round that is short the impulses act as their mean force,
 //! so a joint that slips at each impact and holds in between holds at the end if the force at rest is within its limit.
 
-use super::event::MachineEventKind;
+use super::event::EventKind;
 use super::instants::{BELOW, Round};
-use super::motion::MachineMotion;
+use super::motion::Motion;
 use super::place::Place;
 use super::resolve::{Resolution, Resolved};
 use crate::machine::StopLaw;
@@ -37,7 +37,7 @@ const LAST: usize = 16;
 /// After so many events at one time gaps are closed, whatever they are.
 const MANY: u32 = 256;
 
-impl MachineMotion<'_> {
+impl Motion<'_> {
     /// Sums the impacts of which the last one has just happened, if they accumulate and the sum is exact to rounding.
     pub(super) fn accumulate(&mut self) {
         if let Some(round) = self.instants.round()
@@ -176,7 +176,7 @@ impl MachineMotion<'_> {
         let structure = self.structures.get(self.machine, &self.normal, &there.states)?;
         let flight = there.flight(&self.normal, structure);
         let stops: Vec<usize> = places.iter().copied().filter(|at| *at < self.machine.stops().len()).collect();
-        let kind = if in_turn && stops.len() > 1 { MachineEventKind::Collapse } else { MachineEventKind::Stick };
+        let kind = if in_turn && stops.len() > 1 { EventKind::Collapse } else { EventKind::Stick };
         self.rest_after(there, &flight, left, (kind, &stops))
     }
 

@@ -4,7 +4,7 @@ use crate::regime::ContactState;
 
 /// What happens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MachineEventKind {
+pub enum EventKind {
     /// A rigid stop is struck.
     Impact,
     /// A compliant stop closes.
@@ -22,11 +22,11 @@ pub enum MachineEventKind {
     /// A stop is touched within rounding, without effect.
     Graze,
     /// Impacts on several stops in turn have accumulated: the structure comes to rest on this stop and on those of
-    /// [`with`](MachineEvent::with).
+    /// [`with`](Event::with).
     Collapse,
 }
 
-impl MachineEventKind {
+impl EventKind {
     /// Its name in JSON and tables.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -46,9 +46,9 @@ impl MachineEventKind {
 
 /// An event.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MachineEvent {
+pub struct Event {
     /// What happens.
-    pub kind: MachineEventKind,
+    pub kind: EventKind,
     /// The stop, or the joint, which are counted after the stops. [`Machine::name_of`](crate::machine::Machine::name_of)
     /// has its name.
     pub place: usize,
@@ -68,16 +68,16 @@ pub struct MachineEvent {
     /// Of impacts on several stops: whether they would lead elsewhere if one of the stops were struck before the others by
     /// however little. What follows then holds for impacts at exactly one time, as of a symmetric structure.
     pub tie: bool,
-    /// The state from which the motion goes on, if it was asked to [keep states](super::MachineMotion::with_states). Events
+    /// The state from which the motion goes on, if it was asked to [keep states](super::Motion::with_states). Events
     /// that happen together have one state.
-    pub state: Option<Box<MachineStart>>,
+    pub state: Option<Box<Start>>,
 }
 
-impl MachineEvent {
+impl Event {
     /// Whether it is the closing of a stop: an impact, or the beginning of a compliant contact.
     #[must_use]
     pub const fn closes(&self) -> bool {
-        matches!(self.kind, MachineEventKind::Impact | MachineEventKind::Close)
+        matches!(self.kind, EventKind::Impact | EventKind::Close)
     }
 }
 
@@ -96,7 +96,7 @@ pub struct ContactStart {
 
 /// The state from which a motion starts, at time 0.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct MachineStart {
+pub struct Start {
     /// Coordinates; all 0 if empty.
     pub q: Vec<f64>,
     /// Velocities; all 0 if empty.
@@ -113,12 +113,12 @@ pub struct MachineStart {
 
 /// Why a motion has no further event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MachineEnd {
+pub enum End {
     /// There is none for ever.
     Never,
     /// There is none for ever, and the structure rests on a stop.
     Stuck,
-    /// None within the longest flight that is searched ([`MachineLimits::time`]).
+    /// None within the longest flight that is searched ([`Limits::time`]).
     NoEventWithin,
     /// The search has used all its steps.
     SearchLimit,
@@ -130,14 +130,14 @@ pub enum MachineEnd {
 
 /// The limits of a search for the next event.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MachineLimits {
+pub struct Limits {
     /// The longest flight.
     pub time: f64,
     /// The largest number of windows in one flight.
     pub steps: u32,
 }
 
-impl Default for MachineLimits {
+impl Default for Limits {
     fn default() -> Self {
         Self { time: 1e4, steps: 200_000 }
     }

@@ -1,10 +1,10 @@
 //! The contacts of a start, given to a motion that has not all digits of its state, and whether they agree with it.
 
 use super::event::ContactStart;
-use super::motion::MachineMotion;
+use super::motion::Motion;
 use super::place::standing_back;
 use super::state::contact_error;
-use crate::machine::{MachineError, MachineFault};
+use crate::machine::{Fault, MachineError};
 use crate::math::{add_scaled, dot};
 use crate::regime::{ContactState, GuardKind, compliant};
 
@@ -23,7 +23,7 @@ enum Beginning {
     Unknown,
 }
 
-impl MachineMotion<'_> {
+impl Motion<'_> {
     /// Gives contacts the states of the start: those that have them, and those of them that are stops which close at once.
     pub(super) fn give_states(
         &mut self,
@@ -100,7 +100,7 @@ impl MachineMotion<'_> {
                 let on = distance.abs() <= ROUNDED * (size + surface);
                 if distance < 0.0 && !on {
                     if compliant(&stop.law).is_none() {
-                        return Err(MachineError::new(format!("stop.{}", stop.name), MachineFault::Beyond(-distance)));
+                        return Err(MachineError::new(format!("stop.{}", stop.name), Fault::Beyond(-distance)));
                     }
                     // the structure pushes the surface: where this is, follows from where the structure is
                     place.surfaces[at] = None;

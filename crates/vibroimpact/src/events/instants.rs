@@ -9,7 +9,7 @@
 //! Some accumulate without a round that repeats itself, as those of a column of bodies. Then all that can be said is which
 //! stops are struck again and again, ever more slowly.
 
-use super::event::MachineEventKind;
+use super::event::EventKind;
 use crate::math::fit;
 use std::collections::VecDeque;
 
@@ -44,20 +44,20 @@ const NOISE: f64 = 8.0;
 const EVERY: usize = 8;
 
 /// The kinds of changes, in the order of their numbers.
-const KINDS: [MachineEventKind; 7] = [
-    MachineEventKind::Impact,
-    MachineEventKind::Close,
-    MachineEventKind::Open,
-    MachineEventKind::Stick,
-    MachineEventKind::Release,
-    MachineEventKind::Slip,
-    MachineEventKind::Hold,
+const KINDS: [EventKind; 7] = [
+    EventKind::Impact,
+    EventKind::Close,
+    EventKind::Open,
+    EventKind::Stick,
+    EventKind::Release,
+    EventKind::Slip,
+    EventKind::Hold,
 ];
 
 /// A change of the state of a contact, or an impact.
 #[derive(Clone, Copy, Debug)]
 struct Change {
-    kind: MachineEventKind,
+    kind: EventKind,
     place: usize,
     speed: f64,
     /// The time since the change before it.
@@ -70,11 +70,11 @@ impl Change {
         // of a slip the speed is its direction
         self.kind == other.kind
             && self.place == other.place
-            && (self.kind != MachineEventKind::Slip || self.speed == other.speed)
+            && (self.kind != EventKind::Slip || self.speed == other.speed)
     }
 
     fn is_impact(&self) -> bool {
-        self.kind == MachineEventKind::Impact
+        self.kind == EventKind::Impact
     }
 }
 
@@ -201,7 +201,7 @@ impl Instants {
 
     /// Keeps a change after a short flight.
     #[inline]
-    pub(super) fn keep(&mut self, kind: MachineEventKind, place: usize, speed: f64) {
+    pub(super) fn keep(&mut self, kind: EventKind, place: usize, speed: f64) {
         if self.short {
             let after = core::mem::take(&mut self.passed);
             self.latest.push_front(Change { kind, place, speed, after });

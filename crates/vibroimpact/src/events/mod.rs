@@ -2,8 +2,8 @@
 //!
 //! | idea | file |
 //! |---|---|
-//! | an event, a start, the end of a motion | [`MachineEvent`], [`MachineStart`], [`MachineEnd`] |
-//! | a start put onto the stops that it lies beyond | [`MachineStart::within_stops`], `within` |
+//! | an event, a start, the end of a motion | [`Event`], [`Start`], [`End`] |
+//! | a start put onto the stops that it lies beyond | [`Start::within_stops`], `within` |
 //! | the laws of impact at one stop and at several, impacts | `impulses`, `collision`, `strike` |
 //! | the end of a chatter on stops that are struck at the same times | `chatter` |
 //! | rounds of impacts on several stops in turn, or with joints; their end | `instants`, `collapse` |
@@ -13,10 +13,10 @@
 //! | which stops rest and which joints hold | `resolve` |
 //! | one step of a motion, and its derivatives by the state and by a number | `passage`, `saltation`, `by_number`, `event_by_number` |
 //! | differences of neighbouring motions, and how they are stretched | `tangents` |
-//! | the motion as an iterator over its events | [`MachineMotion`] |
-//! | what it does between two events | [`MachineStretches`], `stretch` |
+//! | the motion as an iterator over its events | [`Motion`] |
+//! | what it does between two events | [`Stretches`], `stretch` |
 //! | the forces of stops and joints during a flight | `contact_force` |
-//! | states, gaps and forces at one time, at equal steps | [`MachineSample`], [`MachineSamples`] |
+//! | states, gaps and forces at one time, at equal steps | [`Sample`], [`Samples`] |
 
 mod alone;
 mod by_number;
@@ -45,12 +45,12 @@ mod within;
 
 pub(crate) use by_number::ByNumber;
 pub(crate) use contact_force::contact_forces;
-pub use event::{ContactStart, MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
-pub use motion::MachineMotion;
+pub use event::{ContactStart, End, Event, EventKind, Limits, Start};
+pub use motion::Motion;
 pub(crate) use passage::Passage;
 pub(crate) use place::{Place, Structures, standing_back};
 pub(crate) use saltation::{EventLaw, LinearEvent, StateShape, step_derivative};
-pub use sample::MachineSample;
-pub use samples::MachineSamples;
-pub use stretches::MachineStretches;
+pub use sample::Sample;
+pub use samples::Samples;
+pub use stretches::Stretches;
 pub(crate) use tangents::{FrameChange, Metric, TangentStep, stretched, tangent_steps};

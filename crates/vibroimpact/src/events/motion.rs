@@ -1,6 +1,6 @@
 //! The motion of a machine as an iterator over its events.
 
-use super::event::{ContactStart, MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
+use super::event::{ContactStart, End, Event, EventKind, Limits, Start};
 use super::instants::Instants;
 use super::passage::Passage;
 use super::place::{Place, Scratch, Structures, standing_back};
@@ -8,7 +8,7 @@ use super::resolve::{Resolution, Resolved};
 use super::state::{ImpactHistory, check_contacts, fingerprint};
 use super::stretch::{Stretch, follow};
 use crate::arc::{Buffers, Found, MachineFlight, Touch, first_event};
-use crate::machine::{Machine, MachineError, MachineFault, Opening, StopLaw};
+use crate::machine::{Fault, Machine, MachineError, Opening, StopLaw};
 use crate::math::Wide;
 use crate::regime::{ContactState, GuardKind, Normal, compliant};
 use std::collections::VecDeque;
@@ -16,29 +16,29 @@ use std::collections::VecDeque;
 /// The events of a machine from a start, in order.
 ///
 /// ```
-/// use vibroimpact::events::{MachineEventKind, MachineLimits, MachineMotion, MachineStart};
+/// use vibroimpact::events::{EventKind, Limits, Motion, Start};
 /// use vibroimpact::machine::{Machine, MachineParts};
 /// // a ball of mass 1 under gravity 1, dropped from height 1/2 on a floor: impacts at 1, 2, 2.5, ...
 /// let parts = MachineParts::new(["height"]).with_mass(0, 1.0).with_constant(0, -1.0);
 /// let ball = Machine::new(parts.with_rigid_stop("floor", &[-1.0], 0.0, 0.5))?;
-/// let start = MachineStart { q: vec![0.5], ..MachineStart::default() };
-/// let times: Vec<f64> = MachineMotion::new(&ball, &start, MachineLimits::default())?.take(3).map(|event| event.time).collect();
+/// let start = Start { q: vec![0.5], ..Start::default() };
+/// let times: Vec<f64> = Motion::new(&ball, &start, Limits::default())?.take(3).map(|event| event.time).collect();
 /// assert!(times.iter().zip([1.0, 2.0, 2.5]).all(|(time, want)| (time - want).abs() < 1e-14));
-/// let rest = MachineMotion::new(&ball, &start, MachineLimits::default())?.last().unwrap();
-/// assert_eq!(rest.kind, MachineEventKind::Stick);
+/// let rest = Motion::new(&ball, &start, Limits::default())?.last().unwrap();
+/// assert_eq!(rest.kind, EventKind::Stick);
 /// assert!((rest.time - 3.0).abs() < 1e-14); // infinitely many impacts are summed
 /// # Ok::<(), vibroimpact::machine::MachineError>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct MachineMotion<'a> {
+pub struct Motion<'a> {
     pub(super) machine: &'a Machine,
     pub(super) normal: Normal,
     pub(super) structures: Structures,
     pub(super) place: Place,
     time: Wide,
-    pub(super) limits: MachineLimits,
-    pending: VecDeque<MachineEvent>,
-    end: Option<MachineEnd>,
+    pub(super) limits: Limits,
+    pending: VecDeque<Event>,
+    end: Option<End>,
     pub(super) buffers: Buffers,
     touches: Vec<Touch>,
     /// The last flights in two regimes, between which most motions alternate: their memory is used again.
@@ -85,30 +85,30 @@ const CROWD: u32 = 10_000;
 /// The number of windows of a flight after which it is asked whether there is an event at all.
 const PATIENCE: u32 = 512;
 
-impl<'a> MachineMotion<'a> {
+impl<'a> Motion<'a> {
     /// The motion from a start.
     ///
     /// # Errors
     /// [`MachineError`] if the start has another number of coordinates, a number that is not finite, or lies beyond a
     /// rigid stop.
-    pub fn new(machine: &'a Machine, start: &MachineStart, limits: MachineLimits) -> Result<Self, MachineError> {
+    pub fn new(machine: &'a Machine, start: &Start, limits: Limits) -> Result<Self, MachineError> {
         Self::starting(machine, start, limits, None)
     }
 
-    /// The same, with the [state](MachineEvent::state) in each event from which the motion goes on after it.
+    /// The same, with the [state](Event::state) in each event from which the motion goes on after it.
     ///
     /// ```
-    /// use vibroimpact::events::{MachineLimits, MachineMotion, MachineStart};
+    /// use vibroimpact::events::{Limits, Motion, Start};
     /// use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
     /// // a damped stop that has opened by force recovers: where it is, is a part of the state
     /// let law = StopLaw::Compliant { stiffness: 3.0, damping: 2.0, preload: 0.0, opening: Opening::Force };
     /// let parts = MachineParts::new(["x"]).with_mass(0, 2.0).with_link(&[1.0], 1.0, 0.0).with_frequency(0.7);
     /// let machine = Machine::new(parts.with_force(0, 1, 0.0, 1.0).with_stop("soft", &[1.0], 0.1, law))?;
-    /// let limits = MachineLimits::default();
-    /// let events: Vec<_> = MachineMotion::with_states(&machine, &MachineStart::default(), limits)?.take(9).collect();
+    /// let limits = Limits::default();
+    /// let events: Vec<_> = Motion::with_states(&machine, &Start::default(), limits)?.take(9).collect();
     /// let state = events[1].state.as_deref().unwrap();
     /// assert!(state.contacts[0].surface > 0.0);
-    /// for (again, event) in MachineMotion::new(&machine, state, limits)?.zip(&events[2..]) {
+    /// for (again, event) in Motion::new(&machine, state, limits)?.zip(&events[2..]) {
     ///     assert_eq!((again.q, again.qdot, again.phase), (event.q.clone(), event.qdot.clone(), event.phase));
     /// }
     /// # Ok::<(), vibroimpact::machine::MachineError>(())
@@ -116,18 +116,14 @@ impl<'a> MachineMotion<'a> {
     ///
     /// # Errors
     /// As [`new`](Self::new).
-    pub fn with_states(
-        machine: &'a Machine,
-        start: &MachineStart,
-        limits: MachineLimits,
-    ) -> Result<Self, MachineError> {
+    pub fn with_states(machine: &'a Machine, start: &Start, limits: Limits) -> Result<Self, MachineError> {
         Self::starting(machine, start, limits, Some(fingerprint(machine)))
     }
 
     fn starting(
         machine: &'a Machine,
-        start: &MachineStart,
-        limits: MachineLimits,
+        start: &Start,
+        limits: Limits,
         fingerprint: Option<f64>,
     ) -> Result<Self, MachineError> {
         let normal = Normal::new(machine);
@@ -143,7 +139,7 @@ impl<'a> MachineMotion<'a> {
     }
 
     /// The whole state here, if the motion keeps states.
-    fn state(&self) -> Option<Box<MachineStart>> {
+    fn state(&self) -> Option<Box<Start>> {
         let fingerprint = self.fingerprint?;
         let (instants, last) = (self.instants.clone(), self.struck.clone());
         let history = ImpactHistory { largest: self.largest_impact, instants, last };
@@ -168,7 +164,7 @@ impl<'a> MachineMotion<'a> {
 
     /// Why there is no further event; `None` while there may be one.
     #[must_use]
-    pub fn end(&self) -> Option<MachineEnd> {
+    pub fn end(&self) -> Option<End> {
         if self.pending.is_empty() { self.end } else { None }
     }
 
@@ -181,7 +177,7 @@ impl<'a> MachineMotion<'a> {
     /// The state up to which the motion is known, after the events that belong to it, without the digits that go on to the last
     /// bit: for a motion of another machine that goes on from there.
     #[must_use]
-    pub fn reached(&self) -> MachineStart {
+    pub fn reached(&self) -> Start {
         self.place.numbers(&self.normal)
     }
 
@@ -213,7 +209,7 @@ impl<'a> MachineMotion<'a> {
             let still = rate.abs() <= 4.0 * f64::EPSILON * rate_size;
             match stop.law {
                 StopLaw::Rigid { .. } if gap < 0.0 && !on => {
-                    return Err(MachineError::new(format!("stop.{}", stop.name), MachineFault::Beyond(-gap)));
+                    return Err(MachineError::new(format!("stop.{}", stop.name), Fault::Beyond(-gap)));
                 }
                 StopLaw::Compliant { stiffness, damping, preload, opening } if gap < 0.0 && !on => {
                     let force = preload - stiffness * gap - damping * rate;
@@ -259,7 +255,7 @@ impl<'a> MachineMotion<'a> {
     /// state of the contacts is consistent.
     fn change(&mut self, before: &[ContactState], closing: &[usize], candidates: Vec<usize>, ended: &[usize]) {
         if self.changed(before, closing, candidates, ended).is_none() {
-            self.end = Some(MachineEnd::Inconsistent);
+            self.end = Some(End::Inconsistent);
         }
     }
 
@@ -275,7 +271,7 @@ impl<'a> MachineMotion<'a> {
         let speeds: Vec<f64> = (0..self.machine.stops().len()).map(|j| speed(&self.place, j)).collect();
         let (rigid, soft): (Vec<usize>, Vec<usize>) =
             closing.iter().partition(|j| compliant(&self.machine.stops()[**j].law).is_none());
-        let mut events: Vec<(MachineEventKind, usize, f64, Vec<usize>)> = Vec::new();
+        let mut events: Vec<(EventKind, usize, f64, Vec<usize>)> = Vec::new();
         let sizes = (!rigid.is_empty()).then(|| self.rate_sizes());
         if let Some(sizes) = &sizes {
             self.largest_impact = rigid.iter().fold(self.largest_impact, |most, j| most.max(speeds[*j]));
@@ -283,7 +279,7 @@ impl<'a> MachineMotion<'a> {
             for j in self.distinct(&rigid, &pushed) {
                 let others = rigid.iter().chain(pushed.iter().filter(|other| !rigid.contains(other)));
                 let with = others.copied().filter(|other| *other != j).collect();
-                events.push((MachineEventKind::Impact, j, speeds[j], with));
+                events.push((EventKind::Impact, j, speeds[j], with));
             }
         }
         self.meet(&soft, before, sizes.as_deref(), &turns, &mut candidates);
@@ -339,23 +335,21 @@ impl<'a> MachineMotion<'a> {
                 (ContactState::Open, ContactState::Touching) if !closing.contains(&at) => continue,
                 (ContactState::Open | ContactState::Touching, ContactState::Resting)
                 | (ContactState::Closed, ContactState::Resting | ContactState::Touching)
-                | (ContactState::Open, ContactState::Touching) => MachineEventKind::Stick,
+                | (ContactState::Open, ContactState::Touching) => EventKind::Stick,
                 (ContactState::Resting | ContactState::Touching, ContactState::Open)
-                | (ContactState::Resting, ContactState::Touching) => MachineEventKind::Release,
-                (_, ContactState::Closed) => MachineEventKind::Close,
-                (ContactState::Closed, ContactState::Open) => MachineEventKind::Open,
-                (_, ContactState::Holding) => MachineEventKind::Hold,
+                | (ContactState::Resting, ContactState::Touching) => EventKind::Release,
+                (_, ContactState::Closed) => EventKind::Close,
+                (ContactState::Closed, ContactState::Open) => EventKind::Open,
+                (_, ContactState::Holding) => EventKind::Hold,
                 // joints that slide at the start are not announced
                 (ContactState::Open, _) => continue,
-                _ => MachineEventKind::Slip,
+                _ => EventKind::Slip,
             };
             let speed = match now {
                 ContactState::Closed if closing.contains(&at) => speeds[at],
                 // a stop that was not about to close is pushed shut by an impact elsewhere
                 ContactState::Closed => (-self.place.gap(&self.normal, &turns, at).1).max(0.0),
-                ContactState::Open if kind == MachineEventKind::Open => {
-                    self.place.gap(&self.normal, &turns, at).1.max(0.0)
-                }
+                ContactState::Open if kind == EventKind::Open => self.place.gap(&self.normal, &turns, at).1.max(0.0),
                 ContactState::Forward => 1.0,
                 ContactState::Backward => -1.0,
                 _ => 0.0,
@@ -410,9 +404,9 @@ impl<'a> MachineMotion<'a> {
         }
     }
 
-    pub(super) fn announce(&mut self, kind: MachineEventKind, place: usize, speed: f64, with: Vec<usize>) {
+    pub(super) fn announce(&mut self, kind: EventKind, place: usize, speed: f64, with: Vec<usize>) {
         let state = self.state();
-        self.pending.push_back(MachineEvent {
+        self.pending.push_back(Event {
             kind,
             place,
             time: self.time.value(),
@@ -421,7 +415,7 @@ impl<'a> MachineMotion<'a> {
             q: self.normal.to_machine(&self.place.x),
             qdot: self.normal.to_machine(&self.place.v),
             with,
-            tie: self.tie && kind == MachineEventKind::Impact,
+            tie: self.tie && kind == EventKind::Impact,
             state,
         });
     }
@@ -459,7 +453,7 @@ impl<'a> MachineMotion<'a> {
 
     /// The same motion without a search for events later than this after the beginning of a flight.
     pub(crate) fn limited(self, time: f64) -> Self {
-        Self { limits: MachineLimits { time, ..self.limits }, ..self }
+        Self { limits: Limits { time, ..self.limits }, ..self }
     }
 
     fn within(machine: &'a Machine, normal: Normal, place: Place) -> Self {
@@ -469,7 +463,7 @@ impl<'a> MachineMotion<'a> {
             structures: Structures::default(),
             place,
             time: Wide::default(),
-            limits: MachineLimits::default(),
+            limits: Limits::default(),
             pending: VecDeque::new(),
             end: None,
             buffers: Buffers::default(),
@@ -489,7 +483,7 @@ impl<'a> MachineMotion<'a> {
     }
 
     /// The events of the steps so far that have not been taken.
-    pub(crate) fn take_events(&mut self) -> Vec<MachineEvent> {
+    pub(crate) fn take_events(&mut self) -> Vec<Event> {
         self.pending.drain(..).collect()
     }
 
@@ -546,7 +540,7 @@ impl<'a> MachineMotion<'a> {
         if self.instants.are_close() {
             self.note_stops_just_left();
         }
-        let Some(flight) = self.fly() else { return self.end = Some(MachineEnd::Inconsistent) };
+        let Some(flight) = self.fly() else { return self.end = Some(End::Inconsistent) };
         let structure = &flight.structure;
         // the first surface that reaches its holder changes its guard without an event
         let recovered = self
@@ -586,7 +580,7 @@ impl<'a> MachineMotion<'a> {
                 self.move_to(&flight, touch.s);
                 // the flight of the motion goes on; one that begins here begins on the stop without speed
                 self.place.note(GuardKind::Gap(j), 2);
-                self.announce(MachineEventKind::Graze, j, 0.0, Vec::new());
+                self.announce(EventKind::Graze, j, 0.0, Vec::new());
                 (self.place, self.time) = (place, time);
             }
         }
@@ -606,10 +600,10 @@ impl<'a> MachineMotion<'a> {
             Found::NoneBefore(s) => {
                 self.move_to(&flight, *s);
                 self.end = Some(match never {
-                    true if self.place.states.contains(&ContactState::Resting) => MachineEnd::Stuck,
-                    true => MachineEnd::Never,
-                    false if *s >= until => MachineEnd::NoEventWithin,
-                    false => MachineEnd::SearchLimit,
+                    true if self.place.states.contains(&ContactState::Resting) => End::Stuck,
+                    true => End::Never,
+                    false if *s >= until => End::NoEventWithin,
+                    false => End::SearchLimit,
                 });
             }
             Found::Zero { s, guards } => {
@@ -618,7 +612,7 @@ impl<'a> MachineMotion<'a> {
                 self.instants.pass(*s);
                 self.instants.land(&self.place.x, &self.place.v);
                 if self.crowd > CROWD {
-                    return self.end = Some(MachineEnd::Collapse);
+                    return self.end = Some(End::Collapse);
                 }
                 if let Some(passage) = &mut self.passage {
                     passage.guards = guards.to_vec();
@@ -708,10 +702,10 @@ impl<'a> MachineMotion<'a> {
     }
 }
 
-impl Iterator for MachineMotion<'_> {
-    type Item = MachineEvent;
+impl Iterator for Motion<'_> {
+    type Item = Event;
 
-    fn next(&mut self) -> Option<MachineEvent> {
+    fn next(&mut self) -> Option<Event> {
         loop {
             if let Some(event) = self.pending.pop_front() {
                 return Some(event);

@@ -467,13 +467,13 @@ pub(crate) fn step_derivative(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::events::{MachineLimits, MachineMotion, MachineStart};
+    use crate::events::{Limits, Motion, Start};
     use crate::machine::MachineParts;
 
     /// The state a time `until` after the start, its derivative by the start, and the kinds of all events.
-    fn flown(machine: &Machine, start: &MachineStart, until: f64) -> Option<(Vec<f64>, Matrix, Vec<Vec<usize>>)> {
+    fn flown(machine: &Machine, start: &Start, until: f64) -> Option<(Vec<f64>, Matrix, Vec<Vec<usize>>)> {
         let shape = StateShape::of(machine);
-        let mut motion = MachineMotion::new(machine, start, MachineLimits::default()).unwrap();
+        let mut motion = Motion::new(machine, start, Limits::default()).unwrap();
         let normal = motion.normal().clone();
         let mut structures = Structures::default();
         let mut derivative = Matrix::identity(shape.size());
@@ -529,11 +529,11 @@ mod tests {
         for case in 0..60_u32 {
             let machine = machine(case);
             let shift = f64::from(case);
-            let start = |change: &[f64]| MachineStart {
+            let start = |change: &[f64]| Start {
                 q: vec![0.1 - 0.002 * shift + change[0], -0.05 + change[1]],
                 qdot: vec![0.01 * shift + change[2], 0.1 + change[3]],
                 phase: 0.1 * shift,
-                ..MachineStart::default()
+                ..Start::default()
             };
             let until = 3.0 + 0.21 * shift;
             let Some((_, derivative, kinds)) = flown(&machine, &start(&[0.0; 4]), until) else { continue };
@@ -578,9 +578,9 @@ mod tests {
     #[test]
     fn volumes() {
         let machine = machine(0);
-        let start = MachineStart { q: vec![0.1, 0.0], qdot: vec![0.3, -0.2], phase: 0.4, ..MachineStart::default() };
+        let start = Start { q: vec![0.1, 0.0], qdot: vec![0.3, -0.2], phase: 0.4, ..Start::default() };
         let shape = StateShape::of(&machine);
-        let mut motion = MachineMotion::new(&machine, &start, MachineLimits::default()).unwrap();
+        let mut motion = Motion::new(&machine, &start, Limits::default()).unwrap();
         let normal = motion.normal().clone();
         let trace = normal.damping[(0, 0)] + normal.damping[(1, 1)];
         let mut structures = Structures::default();

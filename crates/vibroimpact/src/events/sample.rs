@@ -1,11 +1,11 @@
 //! The state of a machine at one time, as it is seen between events.
 
-use super::event::{ContactStart, MachineStart};
+use super::event::{ContactStart, Start};
 use crate::regime::ContactState;
 
 /// A machine at one time.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MachineSample {
+pub struct Sample {
     /// Time since the start.
     pub time: f64,
     /// Whether it is one of the equal steps. Others are the two sides of each event, and the end.
@@ -28,17 +28,17 @@ pub struct MachineSample {
     pub surfaces: Vec<f64>,
 }
 
-impl MachineSample {
+impl Sample {
     /// The state as a start. A motion goes on from it up to rounding: a flight that begins between two events is not rounded
     /// as one that began at an event.
     #[must_use]
-    pub fn start(&self) -> MachineStart {
+    pub fn start(&self) -> Start {
         let contact = |(place, state): (usize, &ContactState)| ContactStart {
             place,
             state: *state,
             surface: self.surfaces.get(place).copied().unwrap_or_default(),
         };
-        MachineStart {
+        Start {
             q: self.q.clone(),
             qdot: self.qdot.clone(),
             phase: self.phase,

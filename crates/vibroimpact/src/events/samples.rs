@@ -1,9 +1,9 @@
 //! A motion between its events: states, gaps and contact forces at equal steps of time. The events do not depend on
 //! them.
 
-use super::event::{MachineLimits, MachineStart};
-use super::sample::MachineSample;
-use super::stretches::MachineStretches;
+use super::event::{Limits, Start};
+use super::sample::Sample;
+use super::stretches::Stretches;
 use crate::machine::{Machine, MachineError};
 
 /// The states of a machine from its start until a time: at `0, step, 2 step, ...`, on both sides of each event, and at
@@ -11,22 +11,22 @@ use crate::machine::{Machine, MachineError};
 /// rest on its stop.
 ///
 /// ```
-/// use vibroimpact::events::{MachineLimits, MachineSamples, MachineStart};
+/// use vibroimpact::events::{Limits, Samples, Start};
 /// use vibroimpact::machine::{Machine, MachineParts};
 /// // a ball of mass 1 under gravity 1, dropped from height 1/2 on a floor; it comes to rest at time 3
 /// let parts = MachineParts::new(["height"]).with_mass(0, 1.0).with_constant(0, -1.0);
 /// let ball = Machine::new(parts.with_rigid_stop("floor", &[-1.0], 0.0, 0.5))?;
-/// let start = MachineStart { q: vec![0.5], ..MachineStart::default() };
+/// let start = Start { q: vec![0.5], ..Start::default() };
 /// let wave: Vec<_> =
-///     MachineSamples::new(&ball, &start, MachineLimits::default(), (4.0, 0.5))?.filter(|sample| sample.even).collect();
+///     Samples::new(&ball, &start, Limits::default(), (4.0, 0.5))?.filter(|sample| sample.even).collect();
 /// assert_eq!(wave.len(), 9);
 /// assert_eq!((wave[1].q[0], wave[1].gaps[0]), (0.375, 0.375));
 /// assert_eq!((wave[8].gaps[0], wave[8].forces[0]), (0.0, 1.0)); // at rest the floor carries the weight
 /// # Ok::<(), vibroimpact::machine::MachineError>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct MachineSamples<'a> {
-    stretches: MachineStretches<'a>,
+pub struct Samples<'a> {
+    stretches: Stretches<'a>,
     until: f64,
     step: f64,
     /// The number of the next equal step.
@@ -36,18 +36,18 @@ pub struct MachineSamples<'a> {
     done: bool,
 }
 
-impl<'a> MachineSamples<'a> {
+impl<'a> Samples<'a> {
     /// The motion from a start until a time, at steps of a positive length.
     ///
     /// # Errors
-    /// As [`MachineMotion::new`](super::MachineMotion::new).
+    /// As [`Motion::new`](super::Motion::new).
     pub fn new(
         machine: &'a Machine,
-        start: &MachineStart,
-        limits: MachineLimits,
+        start: &Start,
+        limits: Limits,
         (until, step): (f64, f64),
     ) -> Result<Self, MachineError> {
-        let mut stretches = MachineStretches::new(machine, start, limits)?;
+        let mut stretches = Stretches::new(machine, start, limits)?;
         let done = !(until >= 0.0 && step > 0.0 && stretches.advance());
         Ok(Self { stretches, until, step, count: 0.0, entered: false, done })
     }
@@ -59,10 +59,10 @@ impl<'a> MachineSamples<'a> {
     }
 }
 
-impl Iterator for MachineSamples<'_> {
-    type Item = MachineSample;
+impl Iterator for Samples<'_> {
+    type Item = Sample;
 
-    fn next(&mut self) -> Option<MachineSample> {
+    fn next(&mut self) -> Option<Sample> {
         if self.done {
             return None;
         }
@@ -78,14 +78,14 @@ impl Iterator for MachineSamples<'_> {
             let first = due <= begin && even;
             self.count += f64::from(u8::from(first));
             self.done = last && end <= begin;
-            return self.stretches.at(0.0).map(|sample| MachineSample { even: first, ..sample });
+            return self.stretches.at(0.0).map(|sample| Sample { even: first, ..sample });
         }
         self.count += f64::from(u8::from(even));
         self.entered = even;
         let time = if even { due } else { end };
         self.done = last && time >= end;
         let s = if !even && !last { self.stretches.duration() } else { self.stretches.since_begin(time) };
-        let sample = MachineSample { time, even, ..self.stretches.at(s)? };
+        let sample = Sample { time, even, ..self.stretches.at(s)? };
         if !even && !self.done {
             self.done = !self.stretches.advance();
         }
@@ -99,8 +99,8 @@ mod tests {
     use crate::machine::{MachineParts, Opening, StopLaw};
     use crate::regime::ContactState;
 
-    fn wave(machine: &Machine, start: &MachineStart, span: (f64, f64)) -> Vec<MachineSample> {
-        MachineSamples::new(machine, start, MachineLimits::default(), span).unwrap().collect()
+    fn wave(machine: &Machine, start: &Start, span: (f64, f64)) -> Vec<Sample> {
+        Samples::new(machine, start, Limits::default(), span).unwrap().collect()
     }
 
     /// A mass of 100 kg on a spring of 10 kN/m strikes a spring of 1 MN/m at its place of rest with 1 m/s.
@@ -109,7 +109,7 @@ mod tests {
         let law = StopLaw::Compliant { stiffness: 1e6, damping: 0.0, preload: 0.0, opening: Opening::Force };
         let parts = MachineParts::new(["mass"]).with_mass(0, 100.0).with_link(&[1.0], 1e4, 0.0);
         let machine = Machine::new(parts.with_stop("stop", &[1.0], 0.0, law)).unwrap();
-        let start = MachineStart { qdot: vec![1.0], ..MachineStart::default() };
+        let start = Start { qdot: vec![1.0], ..Start::default() };
         let wave = wave(&machine, &start, (0.6, 1e-3));
         let rate = 1.01e4_f64.sqrt();
         let contact = core::f64::consts::PI / rate;
@@ -140,7 +140,7 @@ mod tests {
         parts = parts.with_rigid_stop("table", &[-1.0], 0.0, 0.5);
         parts.stops[0].motion = vec![crate::machine::HarmonicMotion { order: 1, cos: 0.0, sin: 0.1 }];
         let machine = Machine::new(parts).unwrap();
-        let start = MachineStart { qdot: vec![0.3], ..MachineStart::default() };
+        let start = Start { qdot: vec![0.3], ..Start::default() };
         for sample in wave(&machine, &start, (5.0, 0.01)) {
             // the surface is at 0.1 sin 3t
             let (up, push) = (0.1 * (3.0 * sample.time).sin(), 2.0 * (1.0 - 0.9 * (3.0 * sample.time).sin()));
@@ -155,7 +155,7 @@ mod tests {
     fn friction_holds_and_slides() {
         let parts = MachineParts::new(["block"]).with_mass(0, 1.0).with_link(&[1.0], 1.0, 0.0);
         let machine = Machine::new(parts.with_joint("belt", &[1.0], 0.5, 0.8, 0.1)).unwrap();
-        let start = MachineStart { qdot: vec![0.1], ..MachineStart::default() };
+        let start = Start { qdot: vec![0.1], ..Start::default() };
         let wave = wave(&machine, &start, (9.0, 0.1));
         let held: Vec<_> = wave.iter().filter(|sample| sample.states[0] == ContactState::Holding).collect();
         assert!(held.len() > 70 && held.iter().all(|sample| (sample.forces[0] + sample.q[0]).abs() < 1e-15));
@@ -167,7 +167,7 @@ mod tests {
     fn ends_and_single_points() {
         let parts = MachineParts::new(["x"]).with_mass(0, 1.0);
         let machine = Machine::new(parts.with_rigid_stop("wall", &[1.0], 1.0, 0.0)).unwrap();
-        let start = MachineStart { qdot: vec![1.0], ..MachineStart::default() };
+        let start = Start { qdot: vec![1.0], ..Start::default() };
         let times =
             |span| wave(&machine, &start, span).iter().map(|sample| (sample.time, sample.even)).collect::<Vec<_>>();
         assert_eq!(times((0.0, 0.5)), [(0.0, true)]);

@@ -4,11 +4,11 @@
 //! ones that have been transformed and rounded, a stiff stop that is closed has a gap with more digits than the
 //! coordinates, a flight that begins on a guard begins exactly there, and a chatter is summed by the impacts before it.
 
-use super::event::{ContactStart, MachineStart};
+use super::event::{ContactStart, Start};
 use super::instants::Instants;
 use super::place::{Place, standing_back};
 use crate::arc::Recovery;
-use crate::machine::{Machine, MachineError, MachineFault, Opening, StopLaw};
+use crate::machine::{Fault, Machine, MachineError, Opening, StopLaw};
 use crate::regime::{ContactState, GuardKind, Normal};
 use crate::system::phase;
 
@@ -59,12 +59,12 @@ fn equal_bits(one: &[f64], other: &[f64]) -> bool {
 
 impl Place {
     /// The state without the digits that its numbers leave out.
-    pub(super) fn numbers(&self, normal: &Normal) -> MachineStart {
+    pub(super) fn numbers(&self, normal: &Normal) -> Start {
         let contact = |(place, state): (usize, &ContactState)| {
             let surface = self.surfaces.get(place).copied().flatten();
             ContactStart { place, state: *state, surface: surface.map_or(0.0, |surface| surface.size - surface.offset) }
         };
-        MachineStart {
+        Start {
             q: normal.to_machine(&self.x),
             qdot: normal.to_machine(&self.v),
             phase: self.phase,
@@ -74,7 +74,7 @@ impl Place {
     }
 
     /// The whole state.
-    pub(crate) fn start(&self, machine: &Machine, normal: &Normal) -> MachineStart {
+    pub(crate) fn start(&self, machine: &Machine, normal: &Normal) -> Start {
         self.start_after(machine, normal, (fingerprint(machine), &ImpactHistory::default()))
     }
 
@@ -84,7 +84,7 @@ impl Place {
         machine: &Machine,
         normal: &Normal,
         (fingerprint, history): (f64, &ImpactHistory),
-    ) -> MachineStart {
+    ) -> Start {
         let mut start = self.numbers(normal);
         let stops = machine.stops().len();
         let mut add = |name: String, values: Vec<f64>| start.exact.push((name, values));
@@ -123,7 +123,7 @@ impl Place {
     }
 
     /// The state with these coordinates, velocities and phase, with all stops open.
-    pub(super) fn at(machine: &Machine, normal: &Normal, start: &MachineStart) -> Result<Self, MachineError> {
+    pub(super) fn at(machine: &Machine, normal: &Normal, start: &Start) -> Result<Self, MachineError> {
         let n = machine.n();
         let vector = |path: &str, values: &[f64]| -> Result<Vec<f64>, MachineError> {
             if values.is_empty() {
@@ -131,16 +131,16 @@ impl Place {
             }
             if values.len() != n {
                 let given = format!("{} numbers", values.len());
-                return Err(MachineError::new(path, MachineFault::Size { given, n }));
+                return Err(MachineError::new(path, Fault::Size { given, n }));
             }
             match values.iter().find(|value| !value.is_finite()) {
-                Some(value) => Err(MachineError::new(path, MachineFault::NotFinite(*value))),
+                Some(value) => Err(MachineError::new(path, Fault::NotFinite(*value))),
                 None => Ok(normal.to_normal(values)),
             }
         };
         let (x, v) = (vector("q", &start.q)?, vector("qdot", &start.qdot)?);
         if !(start.phase.is_finite() && start.phase.abs() <= phase::LARGEST) {
-            return Err(MachineError::new("phase", MachineFault::NotFinite(start.phase)));
+            return Err(MachineError::new("phase", Fault::NotFinite(start.phase)));
         }
         let (stops, joints) = (machine.stops().len(), machine.joints().len());
         Ok(Self {
@@ -160,7 +160,7 @@ impl Place {
         &self,
         machine: &Machine,
         normal: &Normal,
-        start: &MachineStart,
+        start: &Start,
     ) -> Result<Option<(Self, ImpactHistory)>, MachineError> {
         let own = start.exact.iter().any(|(name, values)| name == "machine" && values[..] == [fingerprint(machine)]);
         if !own || start.contacts.len() != self.states.len() {
@@ -175,8 +175,7 @@ impl Place {
             }
         }
         for (name, values) in &start.exact {
-            let wrong =
-                |what: &str| Err(MachineError::new(format!("exact.{name}"), MachineFault::Contact(what.to_owned())));
+            let wrong = |what: &str| Err(MachineError::new(format!("exact.{name}"), Fault::Contact(what.to_owned())));
             if values.iter().any(|value| !value.is_finite()) {
                 return wrong("a number is not finite");
             }
@@ -216,7 +215,7 @@ impl Place {
     }
 
     /// Whether the digits of the state are those of the numbers of a start.
-    fn has_digits_of(&self, normal: &Normal, start: &MachineStart) -> bool {
+    fn has_digits_of(&self, normal: &Normal, start: &Start) -> bool {
         let own = self.numbers(normal);
         let same =
             |one: &[f64], other: &[f64]| one == other || other.is_empty() && one.iter().all(|value| *value == 0.0);
@@ -252,7 +251,7 @@ pub(super) fn check_contacts(machine: &Machine, contacts: &[ContactStart]) -> Re
         let ContactStart { place, state, surface } = *contact;
         if place >= stops.len() + machine.joints().len() {
             let what = "the machine has no such stop or joint".to_owned();
-            return Err(MachineError::new(format!("contact.{place}"), MachineFault::Contact(what)));
+            return Err(MachineError::new(format!("contact.{place}"), Fault::Contact(what)));
         }
         let wrong = |what: &str| Err(contact_error(machine, place, what.to_owned()));
         if contacts[..k].iter().any(|other| other.place == place) {
@@ -287,5 +286,5 @@ pub(super) fn check_contacts(machine: &Machine, contacts: &[ContactStart]) -> Re
 }
 
 pub(super) fn contact_error(machine: &Machine, place: usize, what: String) -> MachineError {
-    MachineError::new(format!("contact.{}", machine.name_of(place)), MachineFault::Contact(what))
+    MachineError::new(format!("contact.{}", machine.name_of(place)), Fault::Contact(what))
 }

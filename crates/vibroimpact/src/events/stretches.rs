@@ -1,9 +1,9 @@
 //! A motion as functions of time: one stretch in closed form after another, between its events.
 
 use super::contact_force::contact_forces;
-use super::event::{MachineEnd, MachineLimits, MachineStart};
-use super::motion::MachineMotion;
-use super::sample::MachineSample;
+use super::event::{End, Limits, Start};
+use super::motion::Motion;
+use super::sample::Sample;
 use super::stretch::Stretch;
 use crate::arc::Buffers;
 use crate::machine::{Machine, MachineError};
@@ -14,35 +14,35 @@ use std::collections::VecDeque;
 /// the structure is at rest on its stop.
 ///
 /// ```
-/// use vibroimpact::events::{MachineLimits, MachineStart, MachineStretches};
+/// use vibroimpact::events::{Limits, Start, Stretches};
 /// use vibroimpact::machine::{Machine, MachineParts};
 /// // a ball of mass 1 under gravity 1, dropped from height 1/2 on a floor: the second flight is from time 1 to 2
 /// let parts = MachineParts::new(["height"]).with_mass(0, 1.0).with_constant(0, -1.0);
 /// let ball = Machine::new(parts.with_rigid_stop("floor", &[-1.0], 0.0, 0.5))?;
-/// let start = MachineStart { q: vec![0.5], ..MachineStart::default() };
-/// let mut stretches = MachineStretches::new(&ball, &start, MachineLimits::default())?;
+/// let start = Start { q: vec![0.5], ..Start::default() };
+/// let mut stretches = Stretches::new(&ball, &start, Limits::default())?;
 /// assert!(stretches.advance() && stretches.advance());
 /// assert_eq!((stretches.begin(), stretches.duration()), (1.0, 1.0));
 /// assert_eq!(stretches.at(0.5).unwrap().q, [0.125]);
 /// # Ok::<(), vibroimpact::machine::MachineError>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct MachineStretches<'a> {
+pub struct Stretches<'a> {
     machine: &'a Machine,
-    motion: MachineMotion<'a>,
+    motion: Motion<'a>,
     /// The present stretch, and those after it that are known.
     trail: VecDeque<Stretch>,
     begun: bool,
     buffers: Buffers,
 }
 
-impl<'a> MachineStretches<'a> {
+impl<'a> Stretches<'a> {
     /// The motion from a start, before its first stretch.
     ///
     /// # Errors
-    /// As [`MachineMotion::new`].
-    pub fn new(machine: &'a Machine, start: &MachineStart, limits: MachineLimits) -> Result<Self, MachineError> {
-        let motion = MachineMotion::new(machine, start, limits)?.trailed();
+    /// As [`Motion::new`].
+    pub fn new(machine: &'a Machine, start: &Start, limits: Limits) -> Result<Self, MachineError> {
+        let motion = Motion::new(machine, start, limits)?.trailed();
         Ok(Self { machine, motion, trail: VecDeque::new(), begun: false, buffers: Buffers::default() })
     }
 
@@ -65,7 +65,7 @@ impl<'a> MachineStretches<'a> {
 
     /// Why there is no further stretch; `None` while there may be one.
     #[must_use]
-    pub fn end_of_motion(&self) -> Option<MachineEnd> {
+    pub fn end_of_motion(&self) -> Option<End> {
         self.motion.end()
     }
 
@@ -101,7 +101,7 @@ impl<'a> MachineStretches<'a> {
     }
 
     /// The state a time `s` after the beginning of the present stretch; `None` before the first one.
-    pub fn at(&mut self, s: f64) -> Option<MachineSample> {
+    pub fn at(&mut self, s: f64) -> Option<Sample> {
         let (machine, normal, buffers) = (self.machine, self.motion.normal(), &mut self.buffers);
         let stretch = self.trail.front()?;
         let Stretch { flight, place, .. } = stretch;
@@ -124,7 +124,7 @@ impl<'a> MachineStretches<'a> {
         }
         let mut forces = Vec::new();
         contact_forces(machine, &place.states, (flight, &buffers.modes), &mut forces);
-        Some(MachineSample {
+        Some(Sample {
             time: stretch.begin.value() + s,
             even: false,
             phase: here.phase,

@@ -1,14 +1,14 @@
 //! Impacts on rigid stops, and what they do to all contacts.
 
 use super::collision::{Collision, collide, depends_on_order};
-use super::motion::MachineMotion;
+use super::motion::Motion;
 use super::passage::Blow;
 use super::place::Place;
 use crate::machine::StopLaw;
 use crate::math::dot;
 use crate::regime::{ContactState, GuardKind, compliant, independent};
 
-impl MachineMotion<'_> {
+impl Motion<'_> {
     /// The impacts on the rigid stops `struck`, together with the rigid ones at rest: new velocities, the states of
     /// contacts that open or close by them, and the rest as candidates. The speeds and the [sizes](Self::rate_sizes) are those
     /// before. Returns the stops that push; `None` if the law of impact has no solution.

@@ -1,6 +1,6 @@
 //! A start that lies beyond rigid stops, put onto them.
 
-use super::event::MachineStart;
+use super::event::Start;
 use crate::machine::{Machine, StopLaw};
 use crate::math::{dot, sin_cos};
 
@@ -8,7 +8,7 @@ use crate::math::{dot, sin_cos};
 /// of the gap.
 const ROUNDS: u32 = 256;
 
-impl MachineStart {
+impl Start {
     /// The same start if it lies beyond no rigid stop; else with coordinates that lie on the stops that it was beyond. Each
     /// stop $`w`$ moves the coordinates along $`M^{-1}w`$, as its impulse would, until its gap is 0. If stops contradict
     /// each other, the result lies beyond one of them and is no valid start.
@@ -17,12 +17,12 @@ impl MachineStart {
     /// stand back are kept.
     ///
     /// ```
-    /// use vibroimpact::events::MachineStart;
+    /// use vibroimpact::events::Start;
     /// use vibroimpact::machine::{Machine, MachineParts};
     /// let parts = MachineParts::new(["a", "b"]).with_mass(0, 1.0).with_mass(1, 3.0);
     /// // a may not pass b: the heavy body moves a third of the way of the light one
     /// let machine = Machine::new(parts.with_rigid_stop("contact", &[1.0, -1.0], 1.0, 0.5))?;
-    /// let start = MachineStart { q: vec![5.0, 0.0], ..MachineStart::default() };
+    /// let start = Start { q: vec![5.0, 0.0], ..Start::default() };
     /// assert_eq!(start.within_stops(&machine).q, [2.0, 1.0]);
     /// # Ok::<(), vibroimpact::machine::MachineError>(())
     /// ```
@@ -60,7 +60,7 @@ impl MachineStart {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::events::{MachineLimits, MachineMotion};
+    use crate::events::{Limits, Motion};
     use crate::machine::MachineParts;
 
     /// A start beyond several stops becomes a valid one, and one that is valid stays the same bits.
@@ -73,9 +73,9 @@ mod tests {
         for k in 0..200 {
             let x = f64::from(k);
             let q = vec![3.0 * (0.7 * x).sin(), 2.0 * (1.3 * x).cos()];
-            let start = MachineStart { q, qdot: vec![0.1, -0.2], phase: 0.4, ..MachineStart::default() };
+            let start = Start { q, qdot: vec![0.1, -0.2], phase: 0.4, ..Start::default() };
             let within = start.within_stops(&machine);
-            let valid = |start: &MachineStart| MachineMotion::new(&machine, start, MachineLimits::default()).is_ok();
+            let valid = |start: &Start| Motion::new(&machine, start, Limits::default()).is_ok();
             assert!(valid(&within), "{start:?} {within:?}");
             if start.q[0] - start.q[1] < 0.1 && start.q[1] < 0.7 {
                 assert_eq!(within, start);

@@ -1,7 +1,7 @@
 //! The checks of a machine.
 
-use super::parts::{MachineParts, MachineStop, StopLaw};
-use super::{MachineError, MachineFault};
+use super::parts::{MachineParts, Stop, StopLaw};
+use super::{Fault, MachineError};
 use crate::math::{Matrix, dot, symmetric_eigen};
 
 /// The largest number of coordinates.
@@ -13,10 +13,10 @@ const NEGATIVE: f64 = 1e-12;
 pub(super) fn check(parts: &MachineParts) -> Result<(), MachineError> {
     let n = parts.n();
     if n == 0 {
-        return Err(MachineError::new("coordinates", MachineFault::NoCoordinates));
+        return Err(MachineError::new("coordinates", Fault::NoCoordinates));
     }
     if n > MOST_COORDINATES {
-        return Err(MachineError::new("coordinates", MachineFault::TooLarge(n)));
+        return Err(MachineError::new("coordinates", Fault::TooLarge(n)));
     }
     names("coordinates", parts.coordinates.iter())?;
     names("stop", parts.stops.iter().map(|stop| &stop.name).chain(parts.joints.iter().map(|joint| &joint.name)))?;
@@ -25,7 +25,7 @@ pub(super) fn check(parts: &MachineParts) -> Result<(), MachineError> {
     matrix("stiffness", &parts.stiffness, n)?;
     vector("constant", &parts.constant, n)?;
     if parts.mass.cholesky().is_none() {
-        return Err(MachineError::new("mass", MachineFault::NotPositiveDefinite));
+        return Err(MachineError::new("mass", Fault::NotPositiveDefinite));
     }
     semidefinite("damping", &parts.damping)?;
     semidefinite("stiffness", &parts.stiffness)?;
@@ -47,14 +47,14 @@ pub(super) fn check(parts: &MachineParts) -> Result<(), MachineError> {
         range(&format!("{path}.sliding"), joint.sliding, 0.0..=f64::MAX, "sliding >= 0")?;
         finite(&format!("{path}.belt"), joint.belt)?;
         if !(joint.limit >= joint.sliding && joint.limit.is_finite()) {
-            let fault = MachineFault::Range { value: joint.limit, range: "static >= sliding" };
+            let fault = Fault::Range { value: joint.limit, range: "static >= sliding" };
             return Err(MachineError::new(format!("{path}.static"), fault));
         }
     }
     room(parts)
 }
 
-fn check_stop(stop: &MachineStop, parts: &MachineParts) -> Result<(), MachineError> {
+fn check_stop(stop: &Stop, parts: &MachineParts) -> Result<(), MachineError> {
     let path = format!("stop.{}", stop.name);
     direction(&path, &stop.direction, parts.n())?;
     finite(&format!("{path}.gap"), stop.gap)?;
@@ -81,10 +81,10 @@ fn names<'a>(path: &str, all: impl Iterator<Item = &'a String>) -> Result<(), Ma
     for name in all {
         let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
         if name.is_empty() || !name.chars().all(plain) {
-            return Err(MachineError::new(path, MachineFault::Name(name.clone())));
+            return Err(MachineError::new(path, Fault::Name(name.clone())));
         }
         if seen.contains(&name) {
-            return Err(MachineError::new(format!("{path}.{name}"), MachineFault::Twice));
+            return Err(MachineError::new(format!("{path}.{name}"), Fault::Twice));
         }
         seen.push(name);
     }
@@ -92,7 +92,7 @@ fn names<'a>(path: &str, all: impl Iterator<Item = &'a String>) -> Result<(), Ma
 }
 
 fn finite(path: &str, value: f64) -> Result<(), MachineError> {
-    if value.is_finite() { Ok(()) } else { Err(MachineError::new(path, MachineFault::NotFinite(value))) }
+    if value.is_finite() { Ok(()) } else { Err(MachineError::new(path, Fault::NotFinite(value))) }
 }
 
 fn range(
@@ -101,19 +101,15 @@ fn range(
     allowed: core::ops::RangeInclusive<f64>,
     text: &'static str,
 ) -> Result<(), MachineError> {
-    if allowed.contains(&value) {
-        Ok(())
-    } else {
-        Err(MachineError::new(path, MachineFault::Range { value, range: text }))
-    }
+    if allowed.contains(&value) { Ok(()) } else { Err(MachineError::new(path, Fault::Range { value, range: text })) }
 }
 
 fn harmonic(path: &str, order: u32, frequency: Option<f64>) -> Result<(), MachineError> {
     if order == 0 {
-        return Err(MachineError::new(path, MachineFault::Range { value: 0.0, range: "order >= 1" }));
+        return Err(MachineError::new(path, Fault::Range { value: 0.0, range: "order >= 1" }));
     }
     if frequency.is_none() {
-        return Err(MachineError::new(path, MachineFault::NoFrequency));
+        return Err(MachineError::new(path, Fault::NoFrequency));
     }
     Ok(())
 }
@@ -121,7 +117,7 @@ fn harmonic(path: &str, order: u32, frequency: Option<f64>) -> Result<(), Machin
 fn vector(path: &str, values: &[f64], n: usize) -> Result<(), MachineError> {
     if values.len() != n {
         let given = format!("{} numbers", values.len());
-        return Err(MachineError::new(path, MachineFault::Size { given, n }));
+        return Err(MachineError::new(path, Fault::Size { given, n }));
     }
     values.iter().try_for_each(|value| finite(path, *value))
 }
@@ -130,7 +126,7 @@ fn direction(path: &str, values: &[f64], n: usize) -> Result<(), MachineError> {
     let path = format!("{path}.direction");
     vector(&path, values, n)?;
     if values.iter().all(|value| *value == 0.0) {
-        return Err(MachineError::new(path, MachineFault::NoDirection));
+        return Err(MachineError::new(path, Fault::NoDirection));
     }
     Ok(())
 }
@@ -138,7 +134,7 @@ fn direction(path: &str, values: &[f64], n: usize) -> Result<(), MachineError> {
 fn matrix(path: &str, values: &Matrix, n: usize) -> Result<(), MachineError> {
     if (values.rows(), values.columns()) != (n, n) {
         let given = format!("{} rows and {} columns", values.rows(), values.columns());
-        return Err(MachineError::new(path, MachineFault::Size { given, n }));
+        return Err(MachineError::new(path, Fault::Size { given, n }));
     }
     for i in 0..n {
         for j in 0..n {
@@ -151,7 +147,7 @@ fn matrix(path: &str, values: &Matrix, n: usize) -> Result<(), MachineError> {
             if (one - other).abs() > 1e-12 * (one.abs() + other.abs())
                 && (one - other).abs() > 4.0 * f64::EPSILON * beside()
             {
-                let fault = MachineFault::NotSymmetric { row: i + 1, column: j + 1, one, other };
+                let fault = Fault::NotSymmetric { row: i + 1, column: j + 1, one, other };
                 return Err(MachineError::new(path, fault));
             }
         }
@@ -170,16 +166,14 @@ fn semidefinite(path: &str, values: &Matrix) -> Result<(), MachineError> {
     }
     let (eigenvalues, _) = symmetric_eigen(values);
     match eigenvalues.first() {
-        Some(least) if *least < -NEGATIVE * values.largest() => {
-            Err(MachineError::new(path, MachineFault::Negative(*least)))
-        }
+        Some(least) if *least < -NEGATIVE * values.largest() => Err(MachineError::new(path, Fault::Negative(*least))),
         _ => Ok(()),
     }
 }
 
 /// Two rigid stops that face each other in one direction leave room between them when they are at rest.
 fn room(parts: &MachineParts) -> Result<(), MachineError> {
-    let rigid = |stop: &&MachineStop| matches!(stop.law, StopLaw::Rigid { .. });
+    let rigid = |stop: &&Stop| matches!(stop.law, StopLaw::Rigid { .. });
     for (k, one) in parts.stops.iter().enumerate().filter(|(_, stop)| rigid(stop)) {
         for other in parts.stops[..k].iter().filter(rigid) {
             let (a, b) = (dot(&one.direction, &one.direction), dot(&other.direction, &other.direction));
@@ -187,7 +181,7 @@ fn room(parts: &MachineParts) -> Result<(), MachineError> {
             if across < 0.0 && across * across >= (1.0 - 1e-12) * a * b {
                 let room = one.gap / a.sqrt() + other.gap / b.sqrt();
                 if room <= 0.0 {
-                    let fault = MachineFault::NoRoom { other: other.name.clone(), room };
+                    let fault = Fault::NoRoom { other: other.name.clone(), room };
                     return Err(MachineError::new(format!("stop.{}.gap", one.name), fault));
                 }
             }

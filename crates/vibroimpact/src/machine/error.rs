@@ -9,13 +9,13 @@ pub struct MachineError {
     /// The path of the number or of the part, as `stop.wall.gap`.
     pub path: String,
     /// What is wrong.
-    pub fault: MachineFault,
+    pub fault: Fault,
 }
 
 /// What is wrong with a part of a machine.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
-pub enum MachineFault {
+pub enum Fault {
     /// No coordinates.
     #[error("a machine needs at least one coordinate")]
     NoCoordinates,
@@ -96,7 +96,7 @@ pub enum MachineFault {
 }
 
 impl MachineError {
-    pub(crate) fn new(path: impl Into<String>, fault: MachineFault) -> Self {
+    pub(crate) fn new(path: impl Into<String>, fault: Fault) -> Self {
         Self { path: path.into(), fault }
     }
 }

@@ -19,9 +19,9 @@ mod reduced;
 mod value;
 
 pub use checks::MOST_COORDINATES;
-pub use error::{MachineError, MachineFault};
+pub use error::{Fault, MachineError};
 pub use modal::modal_damping;
-pub use parts::{FrictionJoint, HarmonicForce, HarmonicMotion, ImpactLaw, MachineParts, MachineStop, Opening, StopLaw};
+pub use parts::{FrictionJoint, HarmonicForce, HarmonicMotion, ImpactLaw, MachineParts, Opening, Stop, StopLaw};
 pub use reduced::Reduction;
 pub(crate) use reduced::VariedReduction;
 pub use value::Machine;

@@ -25,7 +25,7 @@ pub struct MachineParts {
     /// The harmonics of the force.
     pub forces: Vec<HarmonicForce>,
     /// The stops.
-    pub stops: Vec<MachineStop>,
+    pub stops: Vec<Stop>,
     /// The friction joints.
     pub joints: Vec<FrictionJoint>,
     /// How impacts on several rigid stops at one time act.
@@ -69,7 +69,7 @@ pub struct HarmonicMotion {
 
 /// A stop, open while its gap $`g = d - w\cdot q - r(t)`$ is positive.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MachineStop {
+pub struct Stop {
     /// Its name.
     pub name: String,
     /// The direction $`w`$.
@@ -211,13 +211,7 @@ impl MachineParts {
     /// With a stop at rest.
     #[must_use]
     pub fn with_stop(mut self, name: &str, direction: &[f64], gap: f64, law: StopLaw) -> Self {
-        self.stops.push(MachineStop {
-            name: name.to_owned(),
-            direction: direction.to_vec(),
-            gap,
-            motion: Vec::new(),
-            law,
-        });
+        self.stops.push(Stop { name: name.to_owned(), direction: direction.to_vec(), gap, motion: Vec::new(), law });
         self
     }
 

@@ -10,8 +10,8 @@
 //! | `stop.S.direction.A`, `stop.S.motion.H.cos`, `.sin` | of a stop |
 //! | `friction.J.sliding`, `.static`, `.belt`, `.direction.A` | of a friction joint |
 
-use super::parts::{FrictionJoint, HarmonicForce, HarmonicMotion, MachineParts, MachineStop, StopLaw};
-use super::{MachineError, MachineFault};
+use super::parts::{FrictionJoint, HarmonicForce, HarmonicMotion, MachineParts, Stop, StopLaw};
+use super::{Fault, MachineError};
 use crate::math::Matrix;
 
 /// The number at a path.
@@ -58,7 +58,7 @@ enum Places<'a> {
 }
 
 fn places<'a>(parts: &'a mut MachineParts, path: &str) -> Result<Places<'a>, MachineError> {
-    let unknown = |hint: String| MachineError::new(path, MachineFault::NoNumber(hint));
+    let unknown = |hint: String| MachineError::new(path, Fault::NoNumber(hint));
     let words: Vec<&str> = path.split('.').collect();
     let names = parts.coordinates.clone();
     let coordinate = |name: &str| {
@@ -122,7 +122,7 @@ fn places<'a>(parts: &'a mut MachineParts, path: &str) -> Result<Places<'a>, Mac
     }
 }
 
-fn in_stop<'a>(stop: &'a mut MachineStop, rest: &[&str]) -> Option<&'a mut f64> {
+fn in_stop<'a>(stop: &'a mut Stop, rest: &[&str]) -> Option<&'a mut f64> {
     match (rest, &mut stop.law) {
         (["gap"], _) => Some(&mut stop.gap),
         (["restitution"], StopLaw::Rigid { restitution }) => Some(restitution),
@@ -146,7 +146,7 @@ fn listed(all: impl Iterator<Item = String>) -> String {
     if all.is_empty() { "none".to_owned() } else { all.join(", ") }
 }
 
-fn numbers_of_stop(stop: &MachineStop) -> Vec<String> {
+fn numbers_of_stop(stop: &Stop) -> Vec<String> {
     let law: &[&str] = match stop.law {
         StopLaw::Rigid { .. } => &["gap", "restitution"],
         StopLaw::Compliant { .. } => &["gap", "stiffness", "damping", "preload"],

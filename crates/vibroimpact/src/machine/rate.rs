@@ -1,6 +1,6 @@
 //! The derivatives of all numbers of a machine by another one.
 
-use super::parts::{FrictionJoint, HarmonicForce, MachineParts, MachineStop, StopLaw};
+use super::parts::{FrictionJoint, HarmonicForce, MachineParts, Stop, StopLaw};
 
 /// The step of differences, relative to the scale of the number.
 const STEP: f64 = 1e-3;
@@ -17,7 +17,7 @@ impl MachineParts {
         for HarmonicForce { cos, sin, .. } in &mut self.forces {
             cos.iter_mut().chain(sin).for_each(&mut *visit);
         }
-        for MachineStop { direction, gap, motion, law, .. } in &mut self.stops {
+        for Stop { direction, gap, motion, law, .. } in &mut self.stops {
             direction.iter_mut().chain([gap]).for_each(&mut *visit);
             motion.iter_mut().for_each(|motion| [&mut motion.cos, &mut motion.sin].into_iter().for_each(&mut *visit));
             match law {

@@ -12,7 +12,7 @@
 //! stop lies below is mirrored; of two the upper one has the positive direction. In a machine of unit mass, stiffness and force
 //! alone no number changes, not by its last bit.
 
-use super::{Machine, MachineParts, MachineStop, StopLaw};
+use super::{Machine, MachineParts, Stop, StopLaw};
 use crate::math::{atan2, hypot, sin_cos};
 use crate::system::{Oscillator, Side, Start, phase};
 use core::f64::consts::TAU;
@@ -135,7 +135,7 @@ impl Numbers {
         if parts.n() != 1 || !parts.joints.is_empty() || parts.stops.len() > 2 {
             return None;
         }
-        let stop = |of: &MachineStop| {
+        let stop = |of: &Stop| {
             let StopLaw::Rigid { restitution } = of.law else { return None };
             let motion = first_order(of.motion.iter().map(|motion| (motion.order, motion.sin, motion.cos)))?;
             Some(RigidStop { direction: of.direction[0], gap: of.gap, restitution, motion })

@@ -1,7 +1,7 @@
 //! A checked machine.
 
-use super::parts::{FrictionJoint, MachineParts, MachineStop};
-use super::{MachineError, MachineFault, checks, path};
+use super::parts::{FrictionJoint, MachineParts, Stop};
+use super::{Fault, MachineError, checks, path};
 use crate::math::Matrix;
 use core::f64::consts::TAU;
 
@@ -42,8 +42,7 @@ impl Machine {
         for matrix in [&mut parts.mass, &mut parts.damping, &mut parts.stiffness] {
             matrix.symmetrise();
         }
-        let factor =
-            parts.mass.cholesky().ok_or_else(|| MachineError::new("mass", MachineFault::NotPositiveDefinite))?;
+        let factor = parts.mass.cholesky().ok_or_else(|| MachineError::new("mass", Fault::NotPositiveDefinite))?;
         Ok(Self { parts, factor })
     }
 
@@ -61,7 +60,7 @@ impl Machine {
 
     /// The stops.
     #[must_use]
-    pub fn stops(&self) -> &[MachineStop] {
+    pub fn stops(&self) -> &[Stop] {
         &self.parts.stops
     }
 

@@ -28,7 +28,7 @@ mod floquet;
 mod free;
 mod grazing;
 mod label;
-mod machine;
+pub mod machine;
 mod newton;
 mod one_impact;
 mod physical;
@@ -48,7 +48,7 @@ pub(crate) use machine::{
     Chatter, MachineBlock, MachineFrame, MachineLap, MachineRing, Rebound, RingEvent, crossing, events_of, flying,
     rounding_decides,
 };
-pub use machine::{MachineCycle, find_machine_while, find_unreduced};
+pub use machine::{find_machine_while, find_unreduced};
 pub use one_impact::{OneImpact, one_impact};
 pub use physical::{EarlierContact, Orbit, earlier_contact};
 pub use refine::refine;

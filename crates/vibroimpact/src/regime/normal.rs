@@ -2,7 +2,7 @@
 
 use super::signal::Signal;
 use super::translations::Translations;
-use crate::machine::{HarmonicMotion, Machine, MachineParts, MachineStop, StopLaw};
+use crate::machine::{HarmonicMotion, Machine, MachineParts, Stop, StopLaw};
 use crate::math::{Matrix, add_scaled, change_along, dot};
 
 /// The acceleration of a machine without contacts towards a stop, as a function of the mass-normalised state.
@@ -63,7 +63,7 @@ impl Normal {
         let (force, walls) = signals(parts, &orders, &factor);
         let rates: Vec<f64> = orders.iter().map(|order| f64::from(*order) * parts.frequency.unwrap_or(0.0)).collect();
         let (stiffness, damping) = (parts.stiffness.reduced(&factor), parts.damping.reduced(&factor));
-        let approach = |(stop, wall): (&MachineStop, &Signal)| {
+        let approach = |(stop, wall): (&Stop, &Signal)| {
             let w = factor.solve_lower(&stop.direction);
             let mut signal = wall.derivative(&rates).derivative(&rates);
             signal.add(-2.0, &signal.clone());

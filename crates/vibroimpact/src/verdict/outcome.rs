@@ -1,6 +1,6 @@
 //! The possible verdicts on a motion, of an oscillator or of a machine.
 
-use crate::events::MachineEnd;
+use crate::events::End;
 use crate::lyapunov::{Measured, Spectrum, Tail};
 use crate::orbit::{Label, Stability};
 use crate::system::Oscillator;
@@ -91,7 +91,7 @@ pub enum UndecidedCause {
         periods: f64,
     },
     /// The motion of a machine ended for this reason.
-    Ended(MachineEnd),
+    Ended(End),
 }
 
 /// A verdict and how far the motion was followed.

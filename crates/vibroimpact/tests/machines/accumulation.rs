@@ -2,19 +2,19 @@
 //! on some of the stops only.
 
 use std::f64::consts::{PI, TAU};
-use vibroimpact::events::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineMotion, MachineStart};
+use vibroimpact::events::{End, Event, EventKind, Limits, Motion, Start};
 use vibroimpact::machine::{Machine, MachineParts};
 use vibroimpact::verdict::{Count, SettleOptions, Verdict, settle_machine};
 
-fn events(machine: &Machine, start: &MachineStart, most: usize) -> (Vec<MachineEvent>, Option<MachineEnd>) {
-    let mut motion = MachineMotion::new(machine, start, MachineLimits::default()).unwrap();
+fn events(machine: &Machine, start: &Start, most: usize) -> (Vec<Event>, Option<End>) {
+    let mut motion = Motion::new(machine, start, Limits::default()).unwrap();
     let events = motion.by_ref().take(most).collect();
     (events, motion.end())
 }
 
 /// No speed is a rounding error.
-fn assert_speeds(events: &[MachineEvent]) {
-    for event in events.iter().filter(|event| event.kind == MachineEventKind::Impact) {
+fn assert_speeds(events: &[Event]) {
+    for event in events.iter().filter(|event| event.kind == EventKind::Impact) {
         assert!(event.speed > 1e-12, "{event:?}");
     }
 }
@@ -41,13 +41,13 @@ fn beads_without_a_load_come_to_rest() {
     ];
     for (restitution, time) in times {
         let machine = two_beads(restitution);
-        let start = MachineStart { q: vec![1.0, 1.001], qdot: vec![-1.0, -1.4], ..MachineStart::default() };
+        let start = Start { q: vec![1.0, 1.001], qdot: vec![-1.0, -1.4], ..Start::default() };
         let (seen, end) = events(&machine, &start, 1000);
         let last = seen.last().unwrap();
-        assert_eq!(last.kind, MachineEventKind::Collapse, "{restitution}: {end:?} {last:?}");
+        assert_eq!(last.kind, EventKind::Collapse, "{restitution}: {end:?} {last:?}");
         assert!((last.time - time).abs() < 2e-13, "{restitution}: {} {time}", last.time);
         assert!(last.q.iter().chain(&last.qdot).all(|x| x.abs() < 1e-13), "{restitution}: {last:?}");
-        assert!(matches!(end, Some(MachineEnd::Stuck | MachineEnd::Never)), "{restitution}: {end:?}");
+        assert!(matches!(end, Some(End::Stuck | End::Never)), "{restitution}: {end:?}");
         assert!(seen.len() < 100, "{restitution}: {}", seen.len());
     }
 }
@@ -70,8 +70,8 @@ fn a_part_of_a_column_comes_to_rest() {
         parts = parts.with_rigid_stop(&format!("c{k}"), &direction, if k == 0 { 0.9 } else { 0.05 }, 0.5);
     }
     let machine = Machine::new(parts).unwrap();
-    let (seen, _) = events(&machine, &MachineStart::default(), 3000);
-    let rest = seen.iter().find(|event| event.kind == MachineEventKind::Collapse).unwrap();
+    let (seen, _) = events(&machine, &Start::default(), 3000);
+    let rest = seen.iter().find(|event| event.kind == EventKind::Collapse).unwrap();
     let mut stops = rest.with.clone();
     stops.push(rest.place);
     stops.sort_unstable();
@@ -110,9 +110,9 @@ fn copies(masses: &[f64], restitution: f64) -> Machine {
 fn equal_oscillators_chatter_together() {
     for masses in [vec![1.0, 1.0], vec![1.0, 3.0], vec![0.3, 0.7, 1.9]] {
         for restitution in [0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9] {
-            let (one, _) = events(&copies(&[1.0], restitution), &MachineStart::default(), 120);
+            let (one, _) = events(&copies(&[1.0], restitution), &Start::default(), 120);
             let count = masses.len();
-            let (all, _) = events(&copies(&masses, restitution), &MachineStart::default(), 120 * count);
+            let (all, _) = events(&copies(&masses, restitution), &Start::default(), 120 * count);
             for (k, event) in one.iter().enumerate() {
                 for own in &all[k * count..(k + 1) * count] {
                     let apart = (own.time - event.time).abs();
@@ -124,7 +124,7 @@ fn equal_oscillators_chatter_together() {
     }
 }
 
-fn settled(machine: &Machine, start: &MachineStart) -> Verdict<Machine> {
+fn settled(machine: &Machine, start: &Start) -> Verdict<Machine> {
     let options = SettleOptions { chaos_over: 0, max_impacts: 4_000, ..SettleOptions::default() };
     settle_machine(machine, start, &options).unwrap().verdict
 }
@@ -132,7 +132,7 @@ fn settled(machine: &Machine, start: &MachineStart) -> Verdict<Machine> {
 #[test]
 fn equal_oscillators_settle_alike() {
     for restitution in [0.2, 0.35, 0.5, 0.65, 0.8, 0.9] {
-        let label = |machine: &Machine| match settled(machine, &MachineStart::default()) {
+        let label = |machine: &Machine| match settled(machine, &Start::default()) {
             Verdict::Periodic(cycle) => (cycle.label.impacts, cycle.label.periods),
             other => panic!("{restitution}: {other:?}"),
         };
@@ -156,7 +156,7 @@ fn two_balls_chatter_together() {
         parts.stops[k].motion = vec![vibroimpact::machine::HarmonicMotion { order: 1, cos: 0.0, sin: 1.2 }];
     }
     let machine = Machine::new(parts).unwrap();
-    let start = MachineStart { q: vec![1.0, 1.0], qdot: vec![], ..MachineStart::default() };
+    let start = Start { q: vec![1.0, 1.0], qdot: vec![], ..Start::default() };
     let Verdict::Periodic(cycle) = settled(&machine, &start) else { panic!("no cycle") };
     assert_eq!((cycle.label.impacts, cycle.label.periods), (Count::Infinite, 1));
 }
@@ -177,13 +177,13 @@ fn rubbing() -> Machine {
 #[test]
 fn a_chatter_with_friction_is_complete() {
     let machine = rubbing();
-    let Verdict::Periodic(cycle) = settled(&machine, &MachineStart::default()) else { panic!("no cycle") };
+    let Verdict::Periodic(cycle) = settled(&machine, &Start::default()) else { panic!("no cycle") };
     assert_eq!((cycle.label.impacts, cycle.label.periods), (Count::Infinite, 1));
     let release = PI - 0.2_f64.asin();
-    let near = |event: &&MachineEvent| (event.phase - release).abs() < 1e-12;
+    let near = |event: &&Event| (event.phase - release).abs() < 1e-12;
     let leaves = cycle.events.iter().find(near).unwrap_or_else(|| panic!("{:?}", cycle.events));
     assert!((leaves.q[0] - 0.5).abs() < 1e-13 && leaves.qdot[0].abs() < 1e-13, "{leaves:?}");
-    let (seen, _) = events(&machine, &MachineStart::default(), 2000);
+    let (seen, _) = events(&machine, &Start::default(), 2000);
     assert_speeds(&seen);
     // at most so many events in a period
     assert!(seen.last().unwrap().time > 20.0 * TAU / 0.5, "{}", seen.last().unwrap().time);
@@ -259,9 +259,9 @@ fn impacts_that_move_a_joint() {
     ] {
         let slider = Slider { stop: [-slope, -1.0], force: [along, -1.0], sliding, restitution };
         let machine = slider.machine();
-        let start = MachineStart { q: vec![0.0, 0.1], ..MachineStart::default() };
+        let start = Start { q: vec![0.0, 0.1], ..Start::default() };
         let (seen, _) = events(&machine, &start, 500);
-        let stick = seen.iter().find(|event| event.kind == MachineEventKind::Stick && event.place == 0);
+        let stick = seen.iter().find(|event| event.kind == EventKind::Stick && event.place == 0);
         let stick = stick.unwrap_or_else(|| panic!("{k}: {:?}", seen.last()));
         assert_speeds(&seen);
         // at rest on the table the joint bears the force along the table
@@ -270,7 +270,7 @@ fn impacts_that_move_a_joint() {
         let holds = seen
             .iter()
             .skip_while(|event| event.time < stick.time)
-            .any(|event| event.kind == MachineEventKind::Hold && event.place == 1);
+            .any(|event| event.kind == EventKind::Hold && event.place == 1);
         let last = seen.last().unwrap();
         if pull.abs() < sliding {
             assert!(holds && last.qdot.iter().all(|v| v.abs() < 1e-9), "{k}: {pull} {last:?}");
@@ -314,12 +314,9 @@ fn press(frequency_hz: f64) -> Machine {
 fn a_press_with_a_guide_is_decided() {
     for frequency in [8.0, 9.0, 10.0, 11.0, 12.0, 13.0, 14.0] {
         let machine = press(frequency);
-        let (seen, end) = events(&machine, &MachineStart::default(), 1500);
-        assert!(
-            seen.len() == 1500 || matches!(end, Some(MachineEnd::Never | MachineEnd::Stuck)),
-            "{frequency}: {end:?}"
-        );
-        let verdict = settled(&machine, &MachineStart::default());
+        let (seen, end) = events(&machine, &Start::default(), 1500);
+        assert!(seen.len() == 1500 || matches!(end, Some(End::Never | End::Stuck)), "{frequency}: {end:?}");
+        let verdict = settled(&machine, &Start::default());
         assert!(!matches!(verdict, Verdict::Undecided(_)), "{frequency}: {verdict:?}");
     }
 }
@@ -336,20 +333,16 @@ fn a_bar_on_its_feet_comes_to_rest_flat() {
                 parts = parts.with_rigid_stop(&format!("foot{k}"), &[-1.0, *at], 0.0, 0.5);
             }
             let machine = Machine::new(parts).unwrap();
-            let start = MachineStart { q: vec![1.0, 0.0], ..MachineStart::default() };
+            let start = Start { q: vec![1.0, 0.0], ..Start::default() };
             let (seen, end) = events(&machine, &start, 500);
             let last = seen.last().unwrap();
-            assert_eq!(
-                (end, last.kind),
-                (Some(MachineEnd::Stuck), MachineEventKind::Stick),
-                "{inertia} {feet:?} {last:?}"
-            );
+            assert_eq!((end, last.kind), (Some(End::Stuck), EventKind::Stick), "{inertia} {feet:?} {last:?}");
             assert!((last.time - time).abs() < 1e-12, "{inertia} {feet:?}: {} {time}", last.time);
             assert!(
                 seen.iter().all(|event| event.q[1].abs() < 1e-14 && event.qdot[1].abs() < 1e-14),
                 "{inertia} {feet:?}"
             );
-            let sticks = seen.iter().filter(|event| event.kind == MachineEventKind::Stick && event.time == last.time);
+            let sticks = seen.iter().filter(|event| event.kind == EventKind::Stick && event.time == last.time);
             assert_eq!(sticks.count(), feet.len());
             assert_speeds(&seen);
         }

@@ -1,11 +1,10 @@
 //! Branches of machines of one coordinate against those of the oscillator.
 
-use vibroimpact::continuation::{
-    Branch, BranchEvent, BranchOptions, Direction, MachineBranch, MachineBranchEvent, MachineFamily, SolutionPoint,
-};
-use vibroimpact::events::MachineStart;
+use vibroimpact::continuation::machine;
+use vibroimpact::continuation::{Branch, BranchEvent, BranchOptions, Direction, SolutionPoint, machine::Family};
+use vibroimpact::events;
 use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
-use vibroimpact::orbit::{FindOptions, MachineCycle, find, find_machine_while};
+use vibroimpact::orbit::{FindOptions, find, find_machine_while, machine::Cycle};
 use vibroimpact::verdict::{SettleOptions, Verdict, scattered_machine_starts, settle, settle_machine};
 use vibroimpact::{Label, Oscillator, Parameter, Side, Start};
 
@@ -42,7 +41,7 @@ fn the_same_events() {
         let options = SettleOptions::default();
         let Verdict::Periodic(cycle) = settle(&osc, Start { x, v, phase: 0.0 }, &options).verdict else { panic!() };
         let machine = of(&osc);
-        let own = MachineStart { q: vec![x], qdot: vec![v], phase: 0.0, ..MachineStart::default() };
+        let own = events::Start { q: vec![x], qdot: vec![v], phase: 0.0, ..events::Start::default() };
         let Verdict::Periodic(found) = settle_machine(&machine, &own, &options).unwrap().verdict else { panic!() };
         let range = range.0..=range.1;
         let expected: Vec<_> =
@@ -50,8 +49,8 @@ fn the_same_events() {
                 .unwrap()
                 .filter_map(|point| point.event.map(|event| (event, point.value)))
                 .collect();
-        let (family, gap) = MachineFamily::of_path(&machine, "stop.stop.gap").unwrap();
-        let events: Vec<_> = MachineBranch::new((&family, gap), &found, &range, direction, BranchOptions::default())
+        let (family, gap) = Family::of_path(&machine, "stop.stop.gap").unwrap();
+        let events: Vec<_> = machine::Branch::new((&family, gap), &found, &range, direction, BranchOptions::default())
             .unwrap()
             .filter_map(|point| point.event.map(|event| (event, point.value)))
             .collect();
@@ -59,7 +58,7 @@ fn the_same_events() {
         for ((want, at), (event, value)) in expected.iter().zip(&events) {
             assert_eq!(want.name(), event.name());
             assert!((at - value).abs() < 1e-9, "{} {at} {value}", want.name());
-            if let (BranchEvent::Grazing { turns, .. }, MachineBranchEvent::Grazing { turns: found, .. }) =
+            if let (BranchEvent::Grazing { turns, .. }, machine::BranchEvent::Grazing { turns: found, .. }) =
                 (want, event)
             {
                 assert_eq!(turns, found);
@@ -107,14 +106,14 @@ fn simulation_beside_events() {
     let mut confirmed = std::collections::BTreeMap::new();
     for case in 0..7 {
         let machine = random_machine(case, &mut random);
-        let settled = settle_machine(&machine, &MachineStart::default(), &options).unwrap();
+        let settled = settle_machine(&machine, &events::Start::default(), &options).unwrap();
         let Verdict::Periodic(found) = settled.verdict else { continue };
         let limits = BranchOptions { points: 200, ..BranchOptions::default() };
         for (path, range, direction) in
             [("stop.stop.gap", -0.2..=2.0, Direction::Down), ("frequency", 0.35..=1.6, Direction::Up)]
         {
-            let (family, value) = MachineFamily::of_path(&machine, path).unwrap();
-            let branch = MachineBranch::new((&family, value), &found, &range, direction, limits).unwrap();
+            let (family, value) = Family::of_path(&machine, path).unwrap();
+            let branch = machine::Branch::new((&family, value), &found, &range, direction, limits).unwrap();
             let points: Vec<_> = branch.collect();
             for (k, point) in points.iter().enumerate() {
                 let Some(event) = point.event.filter(|event| !event.ends()) else { continue };
@@ -155,22 +154,22 @@ fn simulation_beside_events() {
 fn doubled_beside_a_flip() {
     let osc = Oscillator::from_inverse_beta(1.11, 1.5, 0.5).unwrap();
     let machine = of(&osc);
-    let settled = settle_machine(&machine, &MachineStart::default(), &SettleOptions::default()).unwrap();
+    let settled = settle_machine(&machine, &events::Start::default(), &SettleOptions::default()).unwrap();
     let Verdict::Periodic(cycle) = settled.verdict else { panic!() };
-    let (family, gap) = MachineFamily::of_path(&machine, "stop.stop.gap").unwrap();
+    let (family, gap) = Family::of_path(&machine, "stop.stop.gap").unwrap();
     let range = 1.0..=3.0;
     let mut branch =
-        MachineBranch::new((&family, gap), &cycle, &range, Direction::Up, BranchOptions::default()).unwrap();
-    let flip = branch.find(|point| point.event == Some(MachineBranchEvent::Flip)).unwrap();
+        machine::Branch::new((&family, gap), &cycle, &range, Direction::Up, BranchOptions::default()).unwrap();
+    let flip = branch.find(|point| point.event == Some(machine::BranchEvent::Flip)).unwrap();
     let (value, doubled) = flip.leaving(&family, 0.5).pop().unwrap();
     assert_eq!(doubled.label.to_string(), "2/2");
     assert!(doubled.stable() && value > flip.value && doubled.residual < 1e-11);
     // followed back, it ends on the branch from which it came
     let range = 1.0..=3.0;
     let back =
-        MachineBranch::new((&family, value), &doubled, &range, Direction::Down, BranchOptions::default()).unwrap();
+        machine::Branch::new((&family, value), &doubled, &range, Direction::Down, BranchOptions::default()).unwrap();
     let end = back.last().unwrap();
-    assert_eq!(end.event, Some(MachineBranchEvent::Halving));
+    assert_eq!(end.event, Some(machine::BranchEvent::Halving));
     assert!((end.value - flip.value).abs() < 1e-7, "{} {}", end.value, flip.value);
 }
 
@@ -190,13 +189,13 @@ fn both_cycles_beside_a_branch_point() {
     let starts = (0..16).map(|k| scattered_machine_starts(&machine, 1, k));
     let cycles = find_machine_while(&machine, label, starts, &|| true).unwrap();
     let cycle = cycles.iter().find(|cycle| cycle.stable()).unwrap();
-    let (family, beta) = MachineFamily::of_path(&machine, "frequency").unwrap();
-    let mut branch = MachineBranch::new((&family, beta), cycle, &range, Direction::Down, options).unwrap();
-    let point = branch.find(|point| point.event == Some(MachineBranchEvent::BranchPoint)).unwrap();
+    let (family, beta) = Family::of_path(&machine, "frequency").unwrap();
+    let mut branch = machine::Branch::new((&family, beta), cycle, &range, Direction::Down, options).unwrap();
+    let point = branch.find(|point| point.event == Some(machine::BranchEvent::BranchPoint)).unwrap();
     assert!((point.value - expected.value).abs() < 1e-9, "{} {}", point.value, expected.value);
     let leaving = point.leaving(&family, 0.125);
     let [one, other] = leaving.as_slice() else { panic!("{} cycles", leaving.len()) };
-    let speeds = |(_, cycle): &(f64, MachineCycle)| {
+    let speeds = |(_, cycle): &(f64, Cycle)| {
         [0, 1].map(|stop| cycle.events.iter().find(|event| event.closes() && event.place == stop).unwrap().speed)
     };
     let ([above, below], mirrored) = (speeds(one), speeds(other));
@@ -228,15 +227,15 @@ fn torus_bifurcations() {
     let options = SettleOptions::default();
     let (mut found, mut inside, mut outside) = (0, 0, 0);
     for case in [13, 33] {
-        let settled = settle_machine(&machines[case], &MachineStart::default(), &options).unwrap();
+        let settled = settle_machine(&machines[case], &events::Start::default(), &options).unwrap();
         let Verdict::Periodic(cycle) = settled.verdict else { panic!("case {case}") };
-        let (family, value) = MachineFamily::of_path(&machines[case], "frequency").unwrap();
+        let (family, value) = Family::of_path(&machines[case], "frequency").unwrap();
         let branch =
-            MachineBranch::new((&family, value), &cycle, &(0.35..=1.8), Direction::Up, BranchOptions::default())
+            machine::Branch::new((&family, value), &cycle, &(0.35..=1.8), Direction::Up, BranchOptions::default())
                 .unwrap();
         let points: Vec<_> = branch.collect();
         for (k, point) in points.iter().enumerate() {
-            if point.event != Some(MachineBranchEvent::Torus) {
+            if point.event != Some(machine::BranchEvent::Torus) {
                 continue;
             }
             found += 1;

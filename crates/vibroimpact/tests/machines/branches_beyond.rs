@@ -1,15 +1,16 @@
 //! Branches of machines through events at which the motion is not smooth, against simulation beside them.
 
 use vibroimpact::continuation::{
-    BranchOptions, Direction, MachineBranch, MachineBranchEvent, MachineFamily, MachinePoint,
+    BranchOptions, Direction,
+    machine::{Branch, BranchEvent, Family, SolutionPoint},
 };
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::math::Matrix;
-use vibroimpact::orbit::MachineCycle;
+use vibroimpact::orbit::machine::Cycle;
 use vibroimpact::verdict::{SettleOptions, Verdict, settle_machine};
 
-fn settled(machine: &Machine, start: &MachineStart) -> Option<MachineCycle> {
+fn settled(machine: &Machine, start: &Start) -> Option<Cycle> {
     match settle_machine(machine, start, &SettleOptions::default()).unwrap().verdict {
         Verdict::Periodic(cycle) => Some(cycle),
         _ => None,
@@ -18,22 +19,22 @@ fn settled(machine: &Machine, start: &MachineStart) -> Option<MachineCycle> {
 
 fn traced(
     (machine, path): (&Machine, &str),
-    cycle: &MachineCycle,
+    cycle: &Cycle,
     range: (f64, f64),
     direction: Direction,
-) -> Vec<MachinePoint> {
-    let (family, value) = MachineFamily::of_path(machine, path).unwrap();
+) -> Vec<SolutionPoint> {
+    let (family, value) = Family::of_path(machine, path).unwrap();
     let options = BranchOptions { points: 400, ..BranchOptions::default() };
-    MachineBranch::new((&family, value), cycle, &(range.0..=range.1), direction, options).unwrap().collect()
+    Branch::new((&family, value), cycle, &(range.0..=range.1), direction, options).unwrap().collect()
 }
 
 /// The events of a branch.
-fn events(points: &[MachinePoint]) -> Vec<(MachineBranchEvent, f64)> {
+fn events(points: &[SolutionPoint]) -> Vec<(BranchEvent, f64)> {
     points.iter().filter_map(|point| Some((point.event?, point.value))).collect()
 }
 
 /// Beside all events, at stable points, motions that begin close to the cycle settle into it. Returns how many were compared.
-fn agrees_with_simulation((machine, path): (&Machine, &str), points: &[MachinePoint]) -> usize {
+fn agrees_with_simulation((machine, path): (&Machine, &str), points: &[SolutionPoint]) -> usize {
     let mut compared = 0;
     for (k, point) in points.iter().enumerate().filter(|(_, point)| point.event.is_some()) {
         let others = points[..k].iter().rev().take(6).chain(points[k + 1..].iter().take(6));
@@ -53,7 +54,7 @@ fn agrees_with_simulation((machine, path): (&Machine, &str), points: &[MachinePo
 }
 
 /// Two masses, coupled by their inertia too, one on a joint whose static limit exceeds its sliding force.
-fn with_static_friction(mass: f64) -> (Machine, MachineStart) {
+fn with_static_friction(mass: f64) -> (Machine, Start) {
     let pair = |a: f64, b: f64, c: f64| {
         let mut matrix = Matrix::zeros(2, 2);
         for (i, j, value) in [(0, 0, a), (0, 1, b), (1, 0, b), (1, 1, c)] {
@@ -74,8 +75,7 @@ fn with_static_friction(mass: f64) -> (Machine, MachineStart) {
         .with_rigid_stop("s0", &[1.0, -1.0], 0.0, 0.7199)
         .with_stop("s1", &[0.0, -1.0], 0.4182, law)
         .with_joint("f0", &[1.0, 0.0], 0.194, 0.291, 0.0);
-    let start =
-        MachineStart { q: vec![-0.4459, 0.3194], qdot: vec![-0.6075, 0.2837], phase: 1.938, ..MachineStart::default() };
+    let start = Start { q: vec![-0.4459, 0.3194], qdot: vec![-0.6075, 0.2837], phase: 1.938, ..Start::default() };
     (Machine::new(parts).unwrap(), start)
 }
 
@@ -88,17 +88,17 @@ fn f42j_a_hold_that_vanishes() {
     let cycle = settled(&machine, &start).unwrap();
     let points = traced((&machine, "mass.x1"), &cycle, (0.918, 1.53), Direction::Down);
     let events = events(&points);
-    let at = events.iter().position(|(event, _)| *event == MachineBranchEvent::Jump).unwrap();
+    let at = events.iter().position(|(event, _)| *event == BranchEvent::Jump).unwrap();
     let (last, value) = events[at - 1];
-    assert!(last == MachineBranchEvent::Holding { joint: 2, begins: false }, "{events:?}");
+    assert!(last == BranchEvent::Holding { joint: 2, begins: false }, "{events:?}");
     assert!((value - 1.075_901_139).abs() < 1e-8 && (events[at].1 - 1.073_511_5).abs() < 1e-6, "{events:?}");
-    assert!(matches!(events.last(), Some((MachineBranchEvent::EndOfRange, end)) if *end == 0.918), "{events:?}");
+    assert!(matches!(events.last(), Some((BranchEvent::EndOfRange, end)) if *end == 0.918), "{events:?}");
     assert!(agrees_with_simulation((&machine, "mass.x1"), &points) > 10);
     // simulation beside both, and between them
-    let label = |mass: f64, from: &MachinePoint| {
+    let label = |mass: f64, from: &SolutionPoint| {
         settled(&with_static_friction(mass).0, &from.cycle.state).unwrap().label.to_string()
     };
-    let beside = points.iter().find(|point| point.event == Some(MachineBranchEvent::Jump)).unwrap();
+    let beside = points.iter().find(|point| point.event == Some(BranchEvent::Jump)).unwrap();
     assert_eq!([1.07595, 1.0755, 1.0745, 1.0734].map(|mass| label(mass, beside)), ["3/1", "6/2", "6/2", "3/1"]);
 }
 
@@ -134,9 +134,9 @@ fn preloaded_chain() -> Machine {
 /// There the multiplier is without limit, and the number turns back.
 #[test]
 fn f42k_preloaded_contacts_that_graze() {
-    let grazing = |appears| MachineBranchEvent::Grazing { stop: 0, appears, turns: true };
-    let (fold, flip, end) = (MachineBranchEvent::Fold, MachineBranchEvent::Flip, MachineBranchEvent::EndOfRange);
-    let lost = MachineBranchEvent::LossOfContact { stop: 0 };
+    let grazing = |appears| BranchEvent::Grazing { stop: 0, appears, turns: true };
+    let (fold, flip, end) = (BranchEvent::Fold, BranchEvent::Flip, BranchEvent::EndOfRange);
+    let lost = BranchEvent::LossOfContact { stop: 0 };
     let (mass, chain) = (preloaded_mass(), preloaded_chain());
     let mut compared = 0;
     for (machine, path, range, direction, want) in [
@@ -169,7 +169,7 @@ fn f42k_preloaded_contacts_that_graze() {
             vec![(grazing(true), 0.266_724_676), (fold, 0.275_504_284), (end, 0.1733)],
         ),
     ] {
-        let cycle = settled(machine, &MachineStart::default()).unwrap();
+        let cycle = settled(machine, &Start::default()).unwrap();
         let points = traced((machine, path), &cycle, range, direction);
         let found = events(&points);
         assert_eq!(found.len(), want.len(), "{path} {direction:?}: {found:?}");
@@ -198,7 +198,7 @@ fn f42l_labels_count_closings_only() {
         .with_rigid_stop("wall", &[1.0, 0.0], 0.1, 0.0)
         .with_rigid_stop("head", &[-1.0, 1.0], 0.3, 0.5);
     let machine = Machine::new(parts).unwrap();
-    let start = MachineStart { q: vec![0.1, 0.0], qdot: vec![0.0, 0.0], phase: 0.0, ..MachineStart::default() };
+    let start = Start { q: vec![0.1, 0.0], qdot: vec![0.0, 0.0], phase: 0.0, ..Start::default() };
     let cycle = settled(&machine, &start).unwrap();
     let closings = |place| cycle.events.iter().filter(|event| event.closes() && event.place == place).count();
     assert!(cycle.events.iter().any(|event| event.closes() && event.place == 1 && event.with == [0]), "{cycle:?}");
@@ -228,13 +228,13 @@ fn f42n_a_closed_stop_that_opens_for_no_time() {
     {
         parts.frequency = Some(from);
         let machine = Machine::new(parts.clone()).unwrap();
-        let cycle = settled(&machine, &MachineStart::default()).unwrap();
+        let cycle = settled(&machine, &Start::default()).unwrap();
         let range = (f64::min(from, to), f64::max(from, to));
         let points = traced((&machine, "frequency"), &cycle, range, direction);
         let events = events(&points);
-        let grazing = MachineBranchEvent::Grazing { stop: 0, appears, turns: false };
+        let grazing = BranchEvent::Grazing { stop: 0, appears, turns: false };
         assert!(
-            matches!(events.as_slice(), [(event, _), (MachineBranchEvent::EndOfRange, _)] if *event == grazing),
+            matches!(events.as_slice(), [(event, _), (BranchEvent::EndOfRange, _)] if *event == grazing),
             "{events:?}"
         );
         assert!((events[0].1 - 0.123_374_360_093_306_28).abs() < 2e-15, "{events:?}");

@@ -5,11 +5,12 @@ use crate::limit_cycles::{on_belt, pair};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use vibroimpact::continuation::{
-    BranchOptions, Direction, MachineBranch, MachineBranchEvent, MachineFamily, MachinePoint,
+    BranchOptions, Direction,
+    machine::{Branch, BranchEvent, Family, SolutionPoint},
 };
-use vibroimpact::events::{MachineLimits, MachineMotion, MachineSamples, MachineStart};
+use vibroimpact::events::{Limits, Motion, Samples, Start};
 use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
-use vibroimpact::orbit::{MachineCycle, find_machine_while};
+use vibroimpact::orbit::{find_machine_while, machine::Cycle};
 use vibroimpact::regime::ContactState;
 use vibroimpact::verdict::{Label, Verdict, scattered_machine_starts};
 
@@ -20,22 +21,22 @@ fn is_long() -> bool {
 
 fn from(
     machine: &Machine,
-    cycle: &MachineCycle,
+    cycle: &Cycle,
     (path, low, high): (&str, f64, f64),
     direction: Direction,
-) -> Vec<MachinePoint> {
-    let (family, value) = MachineFamily::of_path(machine, path).unwrap();
+) -> Vec<SolutionPoint> {
+    let (family, value) = Family::of_path(machine, path).unwrap();
     let options = BranchOptions { points: 2_000, ..BranchOptions::default() };
-    MachineBranch::new((&family, value), cycle, &(low..=high), direction, options).unwrap().collect()
+    Branch::new((&family, value), cycle, &(low..=high), direction, options).unwrap().collect()
 }
 
 /// The branch of the motion that begins at rest on the belt.
-pub(crate) fn branch(machine: &Machine, over: (&str, f64, f64), direction: Direction) -> Vec<MachinePoint> {
+pub(crate) fn branch(machine: &Machine, over: (&str, f64, f64), direction: Direction) -> Vec<SolutionPoint> {
     let mut qdot = vec![0.0; machine.n()];
     qdot[0] = machine.number("friction.belt.belt").unwrap();
     from(
         machine,
-        &cycle(machine, &MachineStart { q: vec![0.0; machine.n()], qdot, phase: 0.0, ..MachineStart::default() }),
+        &cycle(machine, &Start { q: vec![0.0; machine.n()], qdot, phase: 0.0, ..Start::default() }),
         over,
         direction,
     )
@@ -51,8 +52,8 @@ fn stick_slip_in_closed_form() {
         let path = over.0;
         for direction in [Direction::Up, Direction::Down] {
             let points = branch(&machine, over, direction);
-            assert_eq!(points.last().unwrap().event, Some(MachineBranchEvent::EndOfRange), "{path}");
-            for MachinePoint { value, cycle, event, .. } in &points {
+            assert_eq!(points.last().unwrap().event, Some(BranchEvent::EndOfRange), "{path}");
+            for SolutionPoint { value, cycle, event, .. } in &points {
                 assert!(event.is_none_or(|event| event.ends()), "{path} {value}: {event:?}");
                 let there = machine.with(path, *value).unwrap();
                 let of = |path| there.number(path).unwrap();
@@ -72,11 +73,11 @@ fn stick_slip_in_closed_form() {
 
 /// Simulation from close to a point settles into its cycle if that is stable, and leaves it otherwise. Returns the number of
 /// points that were compared.
-fn compared(machine: &Machine, path: &str, points: &[MachinePoint]) -> (u32, u32) {
+fn compared(machine: &Machine, path: &str, points: &[SolutionPoint]) -> (u32, u32) {
     let mut counts = (0, 0);
     let step = if is_long() { 5 } else { 15 };
-    for (k, MachinePoint { value, cycle, event, .. }) in points.iter().enumerate() {
-        let apart = |other: &MachinePoint| other.event.is_none() || (other.value - value).abs() > 1e-4;
+    for (k, SolutionPoint { value, cycle, event, .. }) in points.iter().enumerate() {
+        let apart = |other: &SolutionPoint| other.event.is_none() || (other.value - value).abs() > 1e-4;
         let beside = &points[k.saturating_sub(4)..(k + 5).min(points.len())];
         let largest = cycle.multipliers[0].modulus();
         if k % step > 0 || event.is_some() || !beside.iter().all(apart) || (0.97..1.03).contains(&largest) {
@@ -133,11 +134,11 @@ fn simulation_agrees() {
 fn the_smallest_period_beyond_a_grazing_contact() {
     let machine = pair(0.15, 0.65, 0.9);
     let points = branch(&machine, ("stop.stop.gap", 0.6, 1.2), Direction::Up);
-    let at = points.iter().position(|p| matches!(p.event, Some(MachineBranchEvent::Grazing { .. }))).unwrap();
+    let at = points.iter().position(|p| matches!(p.event, Some(BranchEvent::Grazing { .. }))).unwrap();
     let (before, after) = (&points[at - 1].cycle, &points[at + 1].cycle);
     assert_eq!((before.label.to_string().as_str(), after.label.to_string().as_str()), ("1/T", "0/T"));
     assert!((before.period / after.period - 3.0).abs() < 1e-2, "{} {}", before.period, after.period);
-    for MachinePoint { value, cycle, .. } in &points[at + 1..] {
+    for SolutionPoint { value, cycle, .. } in &points[at + 1..] {
         assert!((cycle.period - after.period).abs() < 1e-12 * after.period);
         let there = machine.with("stop.stop.gap", *value).unwrap();
         let simulated = settled(&there, &cycle.state);
@@ -151,9 +152,9 @@ fn a_branch_from_a_flip() {
     let machine = pair(0.2, 0.9, 0.5);
     let over = ("stiffness.low.low", 1.2, 3.0);
     let points = branch(&machine, over, Direction::Down);
-    let flip = points.iter().find(|point| point.event == Some(MachineBranchEvent::Flip)).unwrap();
+    let flip = points.iter().find(|point| point.event == Some(BranchEvent::Flip)).unwrap();
     assert!((flip.cycle.multipliers[0].re + 1.0).abs() < 1e-10);
-    let (family, _) = MachineFamily::of_path(&machine, over.0).unwrap();
+    let (family, _) = Family::of_path(&machine, over.0).unwrap();
     let (value, doubled) = flip.leaving(&family, 0.25 * (over.2 - over.1)).pop().unwrap();
     assert_eq!(doubled.label.to_string(), "2/T");
     assert!((doubled.period / flip.cycle.period - 2.0).abs() < 1e-2);
@@ -163,7 +164,7 @@ fn a_branch_from_a_flip() {
         let points = from(&there, &doubled, over, direction);
         compared(&machine, over.0, &points);
         let last = points.last().unwrap();
-        if last.event == Some(MachineBranchEvent::Halving) {
+        if last.event == Some(BranchEvent::Halving) {
             assert!((last.value - flip.value).abs() < 1e-7, "{} {}", last.value, flip.value);
             halved = true;
         }
@@ -185,19 +186,16 @@ fn both_cycles_beside_a_branch_point() {
         .with_joint("up", &[1.0, 0.0], 0.3, 0.83, 0.1)
         .with_joint("down", &[1.0, 0.0], 0.3, 0.83, -0.1);
     let machine = Machine::new(parts).unwrap();
-    let symmetric = cycle(
-        &machine,
-        &MachineStart { q: vec![0.3, 0.1], qdot: vec![0.1, 0.3], phase: 0.0, ..MachineStart::default() },
-    );
-    let speeds = |cycle: &MachineCycle| {
+    let symmetric = cycle(&machine, &Start { q: vec![0.3, 0.1], qdot: vec![0.1, 0.3], phase: 0.0, ..Start::default() });
+    let speeds = |cycle: &Cycle| {
         [0, 1].map(|stop| cycle.events.iter().find(|event| event.closes() && event.place == stop).unwrap().speed)
     };
     let [right, left] = speeds(&symmetric);
     assert!((right - left).abs() < 1e-9 && symmetric.stable(), "{right} {left}");
     let over = ("stiffness.high.high", 0.9, 1.2);
     let points = from(&machine, &symmetric, over, Direction::Down);
-    let point = points.iter().find(|point| point.event == Some(MachineBranchEvent::BranchPoint)).unwrap();
-    let (family, _) = MachineFamily::of_path(&machine, over.0).unwrap();
+    let point = points.iter().find(|point| point.event == Some(BranchEvent::BranchPoint)).unwrap();
+    let (family, _) = Family::of_path(&machine, over.0).unwrap();
     let leaving = point.leaving(&family, 0.25 * (over.2 - over.1));
     let [one, other] = leaving.as_slice() else { panic!("{} cycles at {}", leaving.len(), point.value) };
     let ([right, left], mirrored) = (speeds(&one.1), speeds(&other.1));
@@ -206,7 +204,7 @@ fn both_cycles_beside_a_branch_point() {
     let there = machine.with(over.0, one.0).unwrap();
     for (_, cycle) in &leaving {
         // the motion from its state returns there after one period
-        let motion = MachineMotion::new(&there, &cycle.state, MachineLimits::default()).unwrap();
+        let motion = Motion::new(&there, &cycle.state, Limits::default()).unwrap();
         let events: Vec<_> = motion.into_iter().take(2 * cycle.events.len()).collect();
         let (first, last) = (&events[cycle.events.len() - 1], events.last().unwrap());
         assert!((last.time - first.time - cycle.period).abs() < 1e-8, "{} {}", last.time - first.time, cycle.period);
@@ -224,13 +222,13 @@ fn a_drifting_cycle() {
         .with_constant(0, 0.9)
         .with_joint("ground", &[0.0, 1.0], 0.3, 0.6, 0.0);
     let machine = Machine::new(parts).unwrap();
-    let start = MachineStart { q: vec![0.0; 2], qdot: vec![0.0; 2], phase: 0.0, ..MachineStart::default() };
+    let start = Start { q: vec![0.0; 2], qdot: vec![0.0; 2], phase: 0.0, ..Start::default() };
     let cycle = cycle(&machine, &start);
     for over in [("constant.carriage", 0.65, 1.4), ("friction.ground.sliding", 0.1, 0.5)] {
         for direction in [Direction::Up, Direction::Down] {
             let points = from(&machine, &cycle, over, direction);
             assert!(compared(&machine, over.0, &points).0 > 3);
-            for MachinePoint { cycle, .. } in &points {
+            for SolutionPoint { cycle, .. } in &points {
                 // both move on by the same
                 assert!(cycle.drift[0] > 0.1 && (cycle.drift[0] - cycle.drift[1]).abs() < 1e-12 * cycle.drift[0]);
             }
@@ -248,16 +246,16 @@ fn limit_cycles_with_a_label() {
     };
     let points = branch(&pair(0.2, 0.9, 0.5), ("stop.stop.gap", 0.7, 1.2), Direction::Down);
     let unstable = points.last().unwrap();
-    assert_eq!((unstable.value, unstable.event), (0.7, Some(MachineBranchEvent::EndOfRange)));
+    assert_eq!((unstable.value, unstable.event), (0.7, Some(BranchEvent::EndOfRange)));
     let found = find(&pair(0.2, 0.7, 0.5), "1/T");
     assert!(!unstable.cycle.stable() && found.iter().any(|cycle| cycle.same_as(&unstable.cycle, 1e-8)), "{found:?}");
     let machine = pair(0.15, 0.688, 0.9);
     let (none, one) = (find(&machine, "0/T"), find(&machine, "1/T"));
     assert!(none.len() == 1 && one.len() > 1, "{none:?} {one:?}");
     // the unstable one and a stable one meet at a fold
-    let fold = |cycle: &MachineCycle| {
+    let fold = |cycle: &Cycle| {
         let points = from(&machine, cycle, ("stop.stop.gap", 0.6, 0.9), Direction::Up);
-        points.iter().find(|point| point.event == Some(MachineBranchEvent::Fold)).map(|point| point.value)
+        points.iter().find(|point| point.event == Some(BranchEvent::Fold)).map(|point| point.value)
     };
     let unstable = one.iter().find(|cycle| !cycle.stable()).and_then(fold).unwrap();
     let mut stable = one.iter().filter(|cycle| cycle.stable()).filter_map(fold);
@@ -283,16 +281,14 @@ fn the_begin_of_a_hold_that_changes_all_that_follows() {
     let machine = Machine::new(parts).unwrap();
     let points = branch(&machine, ("friction.belt.belt", 0.1, 0.5), Direction::Up);
     let events: Vec<_> = points.iter().filter_map(|point| Some((point.event?, point.value))).collect();
-    let [(MachineBranchEvent::Holding { joint: 1, begins: true }, value), (MachineBranchEvent::Discontinuity, _)] =
-        events[..]
-    else {
+    let [(BranchEvent::Holding { joint: 1, begins: true }, value), (BranchEvent::Discontinuity, _)] = events[..] else {
         panic!("{events:?}")
     };
     // before, the velocity of the sliding mass comes ever closer to that of the belt
-    let nearest = |belt: f64, cycle: &MachineCycle| {
+    let nearest = |belt: f64, cycle: &Cycle| {
         let there = machine.with("friction.belt.belt", belt).unwrap();
         let times = (cycle.period, cycle.period / 20_000.0);
-        let samples = MachineSamples::new(&there, &cycle.state, MachineLimits::default(), times).unwrap();
+        let samples = Samples::new(&there, &cycle.state, Limits::default(), times).unwrap();
         let rates: Vec<f64> = samples
             .map(|sample| if sample.states[1] == ContactState::Holding { 0.0 } else { sample.qdot[0] - belt })
             .collect();

@@ -2,14 +2,14 @@
 
 use serde_json::Value;
 use std::path::Path;
-use vibroimpact::events::{MachineEvent, MachineStart};
+use vibroimpact::events::{Event, Start};
 use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::math::Matrix;
 
 pub(crate) struct Case {
     pub(crate) name: String,
     pub(crate) machine: Machine,
-    pub(crate) start: MachineStart,
+    pub(crate) start: Start,
     pub(crate) events: Vec<Wanted>,
     pub(crate) states: Vec<State>,
     pub(crate) robust: usize,
@@ -38,7 +38,7 @@ pub(crate) struct After {
 }
 
 impl State {
-    pub(crate) fn differs(&self, event: &MachineEvent, roundings: f64) -> Option<String> {
+    pub(crate) fn differs(&self, event: &Event, roundings: f64) -> Option<String> {
         for (name, got, want, condition) in
             [("q", &event.q, &self.q, self.condition[0]), ("qdot", &event.qdot, &self.qdot, self.condition[1])]
         {
@@ -160,11 +160,11 @@ fn case(value: &Value) -> Case {
     let name = text(&value["name"]);
     let machine = Machine::new(parts).unwrap_or_else(|error| panic!("{name}: {error}"));
     let start = &value["start"];
-    let start = MachineStart {
+    let start = Start {
         q: numbers(&start["q"]),
         qdot: numbers(&start["qdot"]),
         phase: number(&start["phase"], 0.0),
-        ..MachineStart::default()
+        ..Start::default()
     };
     let states = list(&value["states"]).iter().map(|row| State {
         event: usize::try_from(row[0].as_u64().unwrap()).unwrap(),

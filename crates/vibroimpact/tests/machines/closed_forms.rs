@@ -1,13 +1,16 @@
 //! Numbers of machines that are known in closed form.
 
 use core::f64::consts::PI;
-use vibroimpact::continuation::{BranchOptions, Direction, MachineBranch, MachineBranchEvent, MachineFamily};
-use vibroimpact::events::{MachineEvent, MachineEventKind, MachineLimits, MachineMotion, MachineStart};
+use vibroimpact::continuation::{
+    BranchOptions, Direction,
+    machine::{Branch, BranchEvent, Family},
+};
+use vibroimpact::events::{Event, EventKind, Limits, Motion, Start};
 use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::verdict::{SettleOptions, Verdict, settle_machine};
 
-fn events(machine: &Machine, start: &MachineStart) -> impl Iterator<Item = MachineEvent> {
-    MachineMotion::new(machine, start, MachineLimits::default()).unwrap()
+fn events(machine: &Machine, start: &Start) -> impl Iterator<Item = Event> {
+    Motion::new(machine, start, Limits::default()).unwrap()
 }
 
 fn soft(stiffness: f64, damping: f64) -> StopLaw {
@@ -40,12 +43,7 @@ fn ball_on_a_table() {
             .find_map(|k| {
                 let phase = 2.0 * PI * f64::from(k) / 48.0;
                 let (height, rate) = (between * phase.sin(), between * phase.cos());
-                let start = MachineStart {
-                    q: vec![height + 1e-9],
-                    qdot: vec![rate + n * PI],
-                    phase,
-                    ..MachineStart::default()
-                };
+                let start = Start { q: vec![height + 1e-9], qdot: vec![rate + n * PI], phase, ..Start::default() };
                 let settled = settle_machine(&machine, &start, &SettleOptions::default()).unwrap();
                 match settled.verdict {
                     Verdict::Periodic(cycle) if cycle.label.to_string() == format!("1/{n}") => Some(cycle),
@@ -53,13 +51,12 @@ fn ball_on_a_table() {
                 }
             })
             .expect("the locked motion is stable between the fold and the flip");
-        let family = MachineFamily::new(move |gamma| (gamma > 0.0).then(|| ball(gamma, e)));
+        let family = Family::new(move |gamma| (gamma > 0.0).then(|| ball(gamma, e)));
         for (direction, kind, value) in
-            [(Direction::Up, MachineBranchEvent::Flip, flip), (Direction::Down, MachineBranchEvent::Fold, fold)]
+            [(Direction::Up, BranchEvent::Flip, flip), (Direction::Down, BranchEvent::Fold, fold)]
         {
             let mut branch =
-                MachineBranch::new((&family, between), &cycle, &(0.1..=4.0), direction, BranchOptions::default())
-                    .unwrap();
+                Branch::new((&family, between), &cycle, &(0.1..=4.0), direction, BranchOptions::default()).unwrap();
             let point = branch.find(|point| point.event.is_some()).unwrap();
             assert_eq!(point.event, Some(kind), "{n} {e} {}", point.value);
             assert!((point.value - value).abs() < 1e-11, "{n} {e} {kind:?}: {} {value}", point.value);
@@ -78,7 +75,7 @@ fn coulomb_friction() {
         .with_force(0, 1, 1.0, 0.0)
         .with_joint("friction", &[1.0], 0.3, 0.3, 0.0);
     let machine = Machine::new(parts).unwrap();
-    let start = MachineStart { q: vec![2.5], ..MachineStart::default() };
+    let start = Start { q: vec![2.5], ..Start::default() };
     let settled = settle_machine(&machine, &start, &SettleOptions::default()).unwrap();
     let Verdict::Periodic(cycle) = settled.verdict else { panic!("{settled:?}") };
     // it turns round at its largest displacements
@@ -96,8 +93,8 @@ fn digits_of_pi() {
             .with_rigid_stop("wall", &[-1.0, 0.0], 0.0, 1.0)
             .with_rigid_stop("balls", &[1.0, -1.0], 0.0, 1.0);
         let machine = Machine::new(parts).unwrap();
-        let start = MachineStart { q: vec![1.0, 2.0], qdot: vec![0.0, -1.0], phase: 0.0, ..MachineStart::default() };
-        let count = events(&machine, &start).filter(|event| event.kind == MachineEventKind::Impact).count();
+        let start = Start { q: vec![1.0, 2.0], qdot: vec![0.0, -1.0], phase: 0.0, ..Start::default() };
+        let count = events(&machine, &start).filter(|event| event.kind == EventKind::Impact).count();
         assert_eq!(count, expected, "mass 100^{k}");
     }
 }
@@ -113,9 +110,9 @@ fn a_stiff_spring() {
         soft(1e6, 0.0),
     );
     let machine = Machine::new(parts).unwrap();
-    let start = MachineStart { qdot: vec![1.0], ..MachineStart::default() };
-    let found: Vec<MachineEvent> = events(&machine, &start).take(2).collect();
-    assert_eq!(found[1].kind, MachineEventKind::Open);
+    let start = Start { qdot: vec![1.0], ..Start::default() };
+    let found: Vec<Event> = events(&machine, &start).take(2).collect();
+    assert_eq!(found[1].kind, EventKind::Open);
     assert!((found[1].time - found[0].time - 0.031_260_015).abs() < 5e-10, "{}", found[1].time);
     // the impulse of the stop: that of both springs less that of the own one, m (v0 - v1) k_stop / (k_stop + k)
     let impulse = 100.0 * (1.0 - found[1].qdot[0]) * 1e6 / 1.01e6;
@@ -140,7 +137,7 @@ fn quiet_gears() {
             Machine::new(parts).unwrap()
         };
         let settled = |e: f64| {
-            let start = MachineStart { q: vec![0.1], ..MachineStart::default() };
+            let start = Start { q: vec![0.1], ..Start::default() };
             settle_machine(&gears(e), &start, &SettleOptions::default()).unwrap().verdict
         };
         assert!(
@@ -170,8 +167,8 @@ fn soft_stops_become_rigid() {
         Machine::new(parts.with_stop("stop", &[1.0], 0.3, law)).unwrap()
     };
     let third = |machine: &Machine| {
-        let strikes = |event: &MachineEvent| matches!(event.kind, MachineEventKind::Impact | MachineEventKind::Close);
-        events(machine, &MachineStart::default()).filter(strikes).nth(2).unwrap().time
+        let strikes = |event: &Event| matches!(event.kind, EventKind::Impact | EventKind::Close);
+        events(machine, &Start::default()).filter(strikes).nth(2).unwrap().time
     };
     let rigid = third(&machine(StopLaw::Rigid { restitution: e }));
     let errors: Vec<f64> =
@@ -203,16 +200,15 @@ fn a_light_impact_damper() {
     let cycle = (0..40)
         .find_map(|k| {
             let phase = f64::from(k) * PI / 20.0;
-            let start = MachineStart { qdot: vec![2.0], phase, ..MachineStart::default() };
+            let start = Start { qdot: vec![2.0], phase, ..Start::default() };
             match settle_machine(&machine, &start, &SettleOptions::default()).unwrap().verdict {
                 Verdict::Periodic(cycle) if cycle.label.to_string() == "2/1" => Some(cycle),
                 _ => None,
             }
         })
         .expect("two impacts a cycle");
-    let family = MachineFamily::new(move |b| (b > 0.0).then(|| damper(b)));
-    let branch =
-        MachineBranch::new((&family, begin), &cycle, &(0.5..=12.0), Direction::Up, BranchOptions::default()).unwrap();
-    let fold = branch.into_iter().find(|point| point.event == Some(MachineBranchEvent::Fold)).unwrap();
+    let family = Family::new(move |b| (b > 0.0).then(|| damper(b)));
+    let branch = Branch::new((&family, begin), &cycle, &(0.5..=12.0), Direction::Up, BranchOptions::default()).unwrap();
+    let fold = branch.into_iter().find(|point| point.event == Some(BranchEvent::Fold)).unwrap();
     assert!((1.0 / fold.value - 0.157_176_725_478).abs() < 1e-12, "{}", 1.0 / fold.value);
 }

@@ -1,6 +1,6 @@
 //! Impacts on several stops in turn that accumulate, and starts at which several stops are closed.
 
-use vibroimpact::events::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineMotion, MachineStart};
+use vibroimpact::events::{End, Event, EventKind, Limits, Motion, Start};
 use vibroimpact::machine::{Machine, MachineParts};
 
 /// A body on another one on a table, under gravity 1.
@@ -15,8 +15,8 @@ fn stack((low, high): (f64, f64), restitution: f64) -> Machine {
     Machine::new(parts).unwrap()
 }
 
-fn events(machine: &Machine, start: &MachineStart) -> (Vec<MachineEvent>, Option<MachineEnd>) {
-    let mut motion = MachineMotion::new(machine, start, MachineLimits::default()).unwrap();
+fn events(machine: &Machine, start: &Start) -> (Vec<Event>, Option<End>) {
+    let mut motion = Motion::new(machine, start, Limits::default()).unwrap();
     let events = motion.by_ref().take(20_000).collect();
     (events, motion.end())
 }
@@ -50,11 +50,11 @@ fn ends_at((low, high): (f64, f64), e: f64) -> f64 {
 fn a_stack_collapses() {
     for (masses, restitution) in [((0.2, 1.0), 0.3), ((0.2, 1.0), 0.2), ((0.1, 1.0), 0.35), ((0.05, 1.0), 0.5)] {
         let machine = stack(masses, restitution);
-        let start = MachineStart { q: vec![1.0, 2.0], qdot: vec![0.0; 2], phase: 0.0, ..MachineStart::default() };
+        let start = Start { q: vec![1.0, 2.0], qdot: vec![0.0; 2], phase: 0.0, ..Start::default() };
         let (seen, end) = events(&machine, &start);
         let last = seen.last().unwrap();
-        assert_eq!(end, Some(MachineEnd::Stuck), "{masses:?} {restitution} {last:?}");
-        assert_eq!((last.kind, last.place, last.with.as_slice()), (MachineEventKind::Collapse, 0, &[1][..]));
+        assert_eq!(end, Some(End::Stuck), "{masses:?} {restitution} {last:?}");
+        assert_eq!((last.kind, last.place, last.with.as_slice()), (EventKind::Collapse, 0, &[1][..]));
         let expected = ends_at(masses, restitution);
         assert!((last.time - expected).abs() < 1e-12, "{masses:?} {restitution}: {} {expected}", last.time);
         assert!(last.q.iter().chain(&last.qdot).all(|x| x.abs() < 1e-15), "{last:?}");
@@ -72,13 +72,10 @@ fn free_bodies_fly_on_together() {
         .with_mass(2, 1.0)
         .with_rigid_stop("ab", &[1.0, -1.0, 0.0], 0.5, 0.05)
         .with_rigid_stop("bc", &[0.0, 1.0, -1.0], 0.5, 0.05);
-    let start = MachineStart { q: vec![0.0; 3], qdot: vec![1.0, 0.0, -0.7], phase: 0.0, ..MachineStart::default() };
+    let start = Start { q: vec![0.0; 3], qdot: vec![1.0, 0.0, -0.7], phase: 0.0, ..Start::default() };
     let (seen, end) = events(&Machine::new(parts).unwrap(), &start);
     let last = seen.last().unwrap();
-    assert_eq!(
-        (end, last.kind, last.place, &last.with[..]),
-        (Some(MachineEnd::Never), MachineEventKind::Collapse, 0, &[1][..])
-    );
+    assert_eq!((end, last.kind, last.place, &last.with[..]), (Some(End::Never), EventKind::Collapse, 0, &[1][..]));
     assert!(seen.len() < 40, "{}", seen.len());
     let together = &seen.last().unwrap().qdot;
     assert!(together.iter().all(|v| (v - 0.1).abs() < 1e-14), "{together:?}");
@@ -97,10 +94,10 @@ fn a_start_on_several_stops() {
             .with_rigid_stop("table", &[-1.0, 0.0], 0.0, e);
         let machine = Machine::new(parts).unwrap();
         // the stop of the table is struck because the body comes down on it
-        let start = MachineStart { q: vec![0.0, 0.0], qdot: vec![-1.8, -1.8], phase: 0.0, ..MachineStart::default() };
+        let start = Start { q: vec![0.0, 0.0], qdot: vec![-1.8, -1.8], phase: 0.0, ..Start::default() };
         let (seen, _) = events(&machine, &start);
         let first = &seen[0];
-        assert_eq!((first.kind, machine.name_of(first.place), first.time), (MachineEventKind::Impact, "table", 0.0));
+        assert_eq!((first.kind, machine.name_of(first.place), first.time), (EventKind::Impact, "table", 0.0));
         // Moreau's law: both gaps were closed, that of the bodies without velocity
         assert!((first.qdot[0] - e * 1.8).abs() < 1e-15, "{first:?}");
         assert!((first.qdot[1] - first.qdot[0]).abs() < 1e-15, "{first:?}");

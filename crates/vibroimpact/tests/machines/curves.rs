@@ -4,39 +4,40 @@
 use crate::branches::{beside_another, of, random_machine, sequence};
 use crate::closed_forms::ball;
 use core::f64::consts::PI;
+use vibroimpact::continuation::machine;
 use vibroimpact::continuation::{
-    Branch, BranchEvent, BranchOptions, Curve, CurveEvent, CurveKind, CurveOptions, Direction, Frame, MachineBranch,
-    MachineBranchEvent, MachineCurve, MachineCurvePoint, MachineFamily, MachinePlane, MachinePoint,
+    Branch, BranchEvent, BranchOptions, Curve, CurveEvent, CurveKind, CurveOptions, Direction, Frame,
+    machine::{CurvePoint, Family, Plane, SolutionPoint},
 };
-use vibroimpact::events::MachineStart;
+use vibroimpact::events;
 use vibroimpact::machine::{Machine, MachineParts};
-use vibroimpact::orbit::{MachineCycle, find_machine_while};
+use vibroimpact::orbit::{find_machine_while, machine::Cycle};
 use vibroimpact::verdict::{SettleOptions, Verdict, scattered_machine_starts, settle, settle_machine};
 use vibroimpact::{Label, Oscillator, Parameter, Start};
 
-fn settled(machine: &Machine, start: &MachineStart) -> Verdict<Machine> {
+fn settled(machine: &Machine, start: &events::Start) -> Verdict<Machine> {
     settle_machine(machine, start, &SettleOptions::default()).unwrap().verdict
 }
 
-fn cycle(machine: &Machine, start: &MachineStart) -> MachineCycle {
+fn cycle(machine: &Machine, start: &events::Start) -> Cycle {
     let Verdict::Periodic(cycle) = settled(machine, start) else { panic!("no cycle") };
     cycle
 }
 
 /// The events of a branch.
 fn events(
-    (family, value): (&MachineFamily, f64),
-    cycle: &MachineCycle,
+    (family, value): (&Family, f64),
+    cycle: &Cycle,
     range: core::ops::RangeInclusive<f64>,
     direction: Direction,
-) -> Vec<MachinePoint> {
-    let branch = MachineBranch::new((family, value), cycle, &range, direction, BranchOptions::default()).unwrap();
+) -> Vec<SolutionPoint> {
+    let branch = machine::Branch::new((family, value), cycle, &range, direction, BranchOptions::default()).unwrap();
     branch.filter(|point| point.event.is_some()).collect()
 }
 
 /// Both directions of a curve, from one end to the other.
-fn whole([forth, back]: [MachineCurve; 2]) -> Vec<MachineCurvePoint> {
-    let mut points: Vec<MachineCurvePoint> = back.skip(1).collect();
+fn whole([forth, back]: [machine::Curve; 2]) -> Vec<CurvePoint> {
+    let mut points: Vec<CurvePoint> = back.skip(1).collect();
     points.reverse();
     points.extend(forth);
     points
@@ -48,7 +49,7 @@ const OPTIONS: CurveOptions = CurveOptions { longest: 0.1, points: 400 };
 #[test]
 fn ball_on_a_table() {
     let plane = |gamma: (f64, f64)| {
-        MachinePlane::new(
+        Plane::new(
             |gamma, e| (gamma > 0.0 && (0.0..=1.0).contains(&e)).then(|| ball(gamma, e)),
             (gamma.0..=gamma.1, 0.1..=1.0),
         )
@@ -58,14 +59,14 @@ fn ball_on_a_table() {
     let found = (0..48).find_map(|k| {
         let phase = 2.0 * PI * f64::from(k) / 48.0;
         let (height, rate) = (between * phase.sin(), between * phase.cos());
-        let start = MachineStart { q: vec![height + 1e-9], qdot: vec![rate + PI], phase, ..MachineStart::default() };
+        let start = events::Start { q: vec![height + 1e-9], qdot: vec![rate + PI], phase, ..events::Start::default() };
         match settled(&machine, &start) {
             Verdict::Periodic(cycle) if cycle.label.to_string() == "1/1" => Some(cycle),
             _ => None,
         }
     });
     let cycle = found.expect("the locked motion is stable between the fold and the flip");
-    let family = MachineFamily::new(move |gamma| (gamma > 0.0).then(|| ball(gamma, e)));
+    let family = Family::new(move |gamma| (gamma > 0.0).then(|| ball(gamma, e)));
     let fold = |e: f64| PI * (1.0 - e) / (1.0 + e);
     let flip = |e: f64| fold(e).hypot(2.0 * (1.0 + e * e) / ((1.0 + e) * (1.0 + e)));
     for (direction, kind, law) in
@@ -73,7 +74,7 @@ fn ball_on_a_table() {
     {
         let found = events((&family, between), &cycle, 0.1..=4.0, direction);
         let point = found.iter().find(|point| point.event.is_some_and(|event| event.name() == kind.name())).unwrap();
-        let curves = MachineCurve::through(&plane((0.05, 4.0)), (point.value, e), point, OPTIONS).unwrap();
+        let curves = machine::Curve::through(&plane((0.05, 4.0)), (point.value, e), point, OPTIONS).unwrap();
         assert_eq!(curves[0].kind(), kind);
         let points = whole(curves);
         let (mut low, mut high) = (1.0_f64, 0.0_f64);
@@ -110,12 +111,12 @@ fn ends_of_curves(machine_of: fn(&Oscillator) -> Machine) {
         else {
             panic!()
         };
-        let found = cycle(&machine, &MachineStart::default());
+        let found = cycle(&machine, &events::Start::default());
         let ranges = (0.1..=4.0, betas.0..=betas.1);
         let frame = Frame { plane: (Parameter::Gap, Parameter::Beta).into(), ranges: ranges.clone() };
-        let plane = MachinePlane::of_paths(&machine, ("stop.stop.gap", "frequency"), ranges).unwrap();
+        let plane = Plane::of_paths(&machine, ("stop.stop.gap", "frequency"), ranges).unwrap();
         for direction in [Direction::Up, Direction::Down] {
-            let (family, value) = MachineFamily::of_path(&machine, "stop.stop.gap").unwrap();
+            let (family, value) = Family::of_path(&machine, "stop.stop.gap").unwrap();
             let own = events((&family, value), &found, 0.1..=4.0, direction);
             let branch = Branch::new(&osc, &known, Parameter::Gap, 0.1..=4.0, direction, BranchOptions::default());
             for point in branch.unwrap() {
@@ -130,9 +131,9 @@ fn ends_of_curves(machine_of: fn(&Oscillator) -> Machine) {
                 let Ok(theirs) = Curve::through(&osc, &point, Parameter::Gap, &frame, CurveOptions::default()) else {
                     continue;
                 };
-                let same = |other: &&MachinePoint| (other.value - point.value).abs() < 1e-8;
+                let same = |other: &&SolutionPoint| (other.value - point.value).abs() < 1e-8;
                 let Some(own) = own.iter().find(same) else { continue };
-                let ours = MachineCurve::through(&plane, (own.value, osc.beta()), own, OPTIONS).unwrap();
+                let ours = machine::Curve::through(&plane, (own.value, osc.beta()), own, OPTIONS).unwrap();
                 let ends: Vec<(f64, f64)> = ours
                     .into_iter()
                     .filter_map(|curve| curve.last().filter(|p| p.event == Some(CurveEvent::EndOfBox)))
@@ -170,14 +171,14 @@ pub(crate) fn hammer(frequency: f64, gap: f64) -> Option<Machine> {
 #[test]
 fn two_masses_on_both_sides() {
     let machine = hammer(1.2, 0.5).unwrap();
-    let found = cycle(&machine, &MachineStart::default());
-    let family = MachineFamily::new(|frequency| hammer(frequency, 0.5));
+    let found = cycle(&machine, &events::Start::default());
+    let family = Family::new(|frequency| hammer(frequency, 0.5));
     let all = events((&family, 1.2), &found, 0.8..=1.2, Direction::Down);
-    let plane = MachinePlane::new(hammer, (0.7..=1.4, 0.3..=0.7));
+    let plane = Plane::new(hammer, (0.7..=1.4, 0.3..=0.7));
     let mut confirmed = std::collections::BTreeMap::new();
     for kind in ["grazing", "flip"] {
         let event = all.iter().find(|point| point.event.is_some_and(|event| event.name() == kind)).unwrap();
-        let points = whole(MachineCurve::through(&plane, (event.value, 0.5), event, OPTIONS).unwrap());
+        let points = whole(machine::Curve::through(&plane, (event.value, 0.5), event, OPTIONS).unwrap());
         let ordinary: Vec<_> = points.iter().filter(|point| point.event.is_none()).collect();
         for point in ordinary.iter().step_by(ordinary.len().div_ceil(5)) {
             assert!(point.residual < 1e-9, "{point:?}");
@@ -233,15 +234,15 @@ fn loss_of_contact_in_closed_form() {
     let machines: Vec<Machine> = (0..4).map(|case| random_machine(case, &mut random)).collect();
     let mut compared = 0;
     for machine in [&machines[0], &machines[1], &machines[3]] {
-        let found = cycle(machine, &MachineStart::default());
-        let (family, value) = MachineFamily::of_path(machine, "frequency").unwrap();
+        let found = cycle(machine, &events::Start::default());
+        let (family, value) = Family::of_path(machine, "frequency").unwrap();
         let all = events((&family, value), &found, 0.35..=1.7, Direction::Up);
-        let loss = |point: &&MachinePoint| matches!(point.event, Some(MachineBranchEvent::LossOfContact { .. }));
+        let loss = |point: &&SolutionPoint| matches!(point.event, Some(machine::BranchEvent::LossOfContact { .. }));
         let event = all.iter().find(loss).unwrap();
         let paths = ("stop.stop.gap", "frequency");
-        let plane = MachinePlane::of_paths(machine, paths, (0.2..=2.0, 0.3..=1.8)).unwrap();
+        let plane = Plane::of_paths(machine, paths, (0.2..=2.0, 0.3..=1.8)).unwrap();
         let gap = machine.number("stop.stop.gap").unwrap();
-        for point in whole(MachineCurve::through(&plane, (gap, event.value), event, OPTIONS).unwrap()) {
+        for point in whole(machine::Curve::through(&plane, (gap, event.value), event, OPTIONS).unwrap()) {
             let (gap, frequency) = point.values;
             assert!((gap - amplitude(machine, frequency)).abs() < 1e-9, "{:?}", point.values);
             assert_eq!((point.cycle.label.to_string().as_str(), point.touch.is_some()), ("0", true));
@@ -256,14 +257,14 @@ fn loss_of_contact_in_closed_form() {
 fn torus_bifurcations() {
     let mut random = sequence();
     let machine = (0..14).map(|case| random_machine(case, &mut random)).last().unwrap();
-    let found = cycle(&machine, &MachineStart::default());
-    let (family, value) = MachineFamily::of_path(&machine, "frequency").unwrap();
+    let found = cycle(&machine, &events::Start::default());
+    let (family, value) = Family::of_path(&machine, "frequency").unwrap();
     let all = events((&family, value), &found, 0.35..=1.8, Direction::Up);
-    let event = all.iter().find(|point| point.event == Some(MachineBranchEvent::Torus)).unwrap();
+    let event = all.iter().find(|point| point.event == Some(machine::BranchEvent::Torus)).unwrap();
     let gap = machine.number("stop.stop.gap").unwrap();
     let ranges = (gap - 0.01..=gap + 0.01, 0.35..=1.8);
-    let plane = MachinePlane::of_paths(&machine, ("stop.stop.gap", "frequency"), ranges).unwrap();
-    let points = whole(MachineCurve::through(&plane, (gap, event.value), event, OPTIONS).unwrap());
+    let plane = Plane::of_paths(&machine, ("stop.stop.gap", "frequency"), ranges).unwrap();
+    let points = whole(machine::Curve::through(&plane, (gap, event.value), event, OPTIONS).unwrap());
     for point in &points {
         let pair = point.cycle.multipliers[0];
         assert!((pair.modulus() - 1.0).abs() < 1e-9 && pair.im > 0.1 && point.residual < 1e-9, "{pair:?}");
@@ -271,17 +272,17 @@ fn torus_bifurcations() {
     for end in [&points[0], &points[points.len() - 1]] {
         assert_eq!(end.event, Some(CurveEvent::EndOfBox));
         let there = machine.with("stop.stop.gap", end.values.0).unwrap();
-        let found = cycle(&there, &MachineStart::default());
-        let (family, value) = MachineFamily::of_path(&there, "frequency").unwrap();
+        let found = cycle(&there, &events::Start::default());
+        let (family, value) = Family::of_path(&there, "frequency").unwrap();
         let torus = events((&family, value), &found, 0.35..=1.8, Direction::Up)
             .into_iter()
-            .filter(|point| point.event == Some(MachineBranchEvent::Torus));
+            .filter(|point| point.event == Some(machine::BranchEvent::Torus));
         let nearest = torus.map(|point| (point.value - end.values.1).abs()).fold(f64::INFINITY, f64::min);
         assert!(nearest < 1e-9, "{:?} {nearest}", end.values);
     }
     // to its ends: strong resonances
-    let plane = MachinePlane::of_paths(&machine, ("stop.stop.gap", "frequency"), (0.0..=2.0, 0.35..=1.8)).unwrap();
-    let points = whole(MachineCurve::through(&plane, (gap, event.value), event, OPTIONS).unwrap());
+    let plane = Plane::of_paths(&machine, ("stop.stop.gap", "frequency"), (0.0..=2.0, 0.35..=1.8)).unwrap();
+    let points = whole(machine::Curve::through(&plane, (gap, event.value), event, OPTIONS).unwrap());
     let mut ends = [points[0].event.unwrap(), points[points.len() - 1].event.unwrap()].map(|event| event.name());
     ends.sort_unstable();
     assert_eq!(ends, ["1:1", "1:2"]);
@@ -302,13 +303,13 @@ fn corners() {
         .with_rigid_stop("one", &[1.0, 0.0], 0.3, 0.6)
         .with_rigid_stop("two", &[0.0, 1.0], 0.4, 0.6);
     let machine = Machine::new(parts).unwrap();
-    let found = cycle(&machine, &MachineStart::default());
-    let (family, value) = MachineFamily::of_path(&machine, "stop.one.gap").unwrap();
+    let found = cycle(&machine, &events::Start::default());
+    let (family, value) = Family::of_path(&machine, "stop.one.gap").unwrap();
     let all = events((&family, value), &found, 0.3..=0.6, Direction::Up);
-    let event = all.iter().find(|point| matches!(point.event, Some(MachineBranchEvent::Corner { .. }))).unwrap();
+    let event = all.iter().find(|point| matches!(point.event, Some(machine::BranchEvent::Corner { .. }))).unwrap();
     assert!((event.value - 0.4).abs() < 1e-9, "{all:?}");
-    let plane = MachinePlane::of_paths(&machine, ("stop.one.gap", "stop.two.gap"), (0.1..=0.8, 0.1..=0.8)).unwrap();
-    let points = whole(MachineCurve::through(&plane, (event.value, 0.4), event, OPTIONS).unwrap());
+    let plane = Plane::of_paths(&machine, ("stop.one.gap", "stop.two.gap"), (0.1..=0.8, 0.1..=0.8)).unwrap();
+    let points = whole(machine::Curve::through(&plane, (event.value, 0.4), event, OPTIONS).unwrap());
     let (mut low, mut high) = (1.0_f64, 0.0_f64);
     for point in &points {
         let (p, q) = point.values;
@@ -333,12 +334,12 @@ fn the_unstable_orbit_between_two_stable_ones_is_found() {
     let machine = hammer(1.06, 0.5).unwrap();
     let starts = (0..48).map(|k| scattered_machine_starts(&machine, 1, k));
     let found = find_machine_while(&machine, Label::new(2, 1), starts, &|| true).unwrap();
-    assert_eq!(found.iter().map(MachineCycle::stable).collect::<Vec<_>>(), [false, true]);
-    let begin = cycle(&hammer(1.2, 0.5).unwrap(), &MachineStart::default());
-    let family = MachineFamily::new(|frequency| hammer(frequency, 0.5));
+    assert_eq!(found.iter().map(Cycle::stable).collect::<Vec<_>>(), [false, true]);
+    let begin = cycle(&hammer(1.2, 0.5).unwrap(), &events::Start::default());
+    let family = Family::new(|frequency| hammer(frequency, 0.5));
     let options = BranchOptions::default();
-    let branch = MachineBranch::new((&family, 1.2), &begin, &(0.95..=1.2), Direction::Down, options).unwrap();
-    let points: Vec<MachinePoint> = branch.collect();
+    let branch = machine::Branch::new((&family, 1.2), &begin, &(0.95..=1.2), Direction::Down, options).unwrap();
+    let points: Vec<SolutionPoint> = branch.collect();
     let sides: Vec<(f64, f64)> = points
         .windows(2)
         .filter(|pair| pair[0].cycle.label == Label::new(2, 1) && (pair[0].value - 1.06) * (pair[1].value - 1.06) < 0.0)
@@ -354,17 +355,17 @@ fn the_unstable_orbit_between_two_stable_ones_is_found() {
 /// As many points as are asked for.
 #[test]
 fn the_number_of_points() {
-    let begin = cycle(&hammer(1.2, 0.5).unwrap(), &MachineStart::default());
-    let family = MachineFamily::new(|frequency| hammer(frequency, 0.5));
+    let begin = cycle(&hammer(1.2, 0.5).unwrap(), &events::Start::default());
+    let family = Family::new(|frequency| hammer(frequency, 0.5));
     let options = BranchOptions { points: 5, ..BranchOptions::default() };
-    let branch = MachineBranch::new((&family, 1.2), &begin, &(0.8..=1.2), Direction::Down, options).unwrap();
-    let points: Vec<MachinePoint> = branch.collect();
-    assert_eq!((points.len(), points[4].event), (5, Some(MachineBranchEvent::StepLimit)));
+    let branch = machine::Branch::new((&family, 1.2), &begin, &(0.8..=1.2), Direction::Down, options).unwrap();
+    let points: Vec<SolutionPoint> = branch.collect();
+    assert_eq!((points.len(), points[4].event), (5, Some(machine::BranchEvent::StepLimit)));
     let all = events((&family, 1.2), &begin, 1.0..=1.2, Direction::Down);
-    let plane = MachinePlane::new(hammer, (0.7..=1.4, 0.3..=0.7));
+    let plane = Plane::new(hammer, (0.7..=1.4, 0.3..=0.7));
     let limited = CurveOptions { points: 7, ..OPTIONS };
-    for curve in MachineCurve::through(&plane, (all[0].value, 0.5), &all[0], limited).unwrap() {
-        let points: Vec<MachineCurvePoint> = curve.collect();
+    for curve in machine::Curve::through(&plane, (all[0].value, 0.5), &all[0], limited).unwrap() {
+        let points: Vec<CurvePoint> = curve.collect();
         assert_eq!((points.len(), points[6].event), (7, Some(CurveEvent::StepLimit)));
     }
 }

@@ -3,7 +3,8 @@
 use crate::branches_unforced::branch;
 use crate::limit_cycles::pair;
 use vibroimpact::continuation::{
-    CurveOptions, Direction, MachineBranchEvent, MachineCurve, MachineCurvePoint, MachinePlane, MachinePoint,
+    CurveOptions, Direction,
+    machine::{BranchEvent, Curve, CurvePoint, Plane, SolutionPoint},
 };
 use vibroimpact::machine::{Machine, MachineParts};
 
@@ -15,14 +16,13 @@ fn curve(
     (over, direction): (Number, Direction),
     other: Number,
     kind: &str,
-) -> (MachinePoint, Vec<MachineCurvePoint>) {
+) -> (SolutionPoint, Vec<CurvePoint>) {
     let points = branch(machine, over, direction);
     let event = points.into_iter().find(|point| point.event.is_some_and(|event| event.name() == kind)).unwrap();
     let (file, one, two) = (machine.clone(), over.0, other.0);
-    let plane =
-        MachinePlane::new(move |p, q| file.with(one, p).ok()?.with(two, q).ok(), (over.1..=over.2, other.1..=other.2));
+    let plane = Plane::new(move |p, q| file.with(one, p).ok()?.with(two, q).ok(), (over.1..=over.2, other.1..=other.2));
     let at = (event.value, machine.number(other.0).unwrap());
-    let [forth, back] = MachineCurve::through(&plane, at, &event, CurveOptions::default()).unwrap();
+    let [forth, back] = Curve::through(&plane, at, &event, CurveOptions::default()).unwrap();
     (event, back.chain(forth).collect())
 }
 
@@ -40,7 +40,7 @@ fn grazing_in_closed_form() {
     let reach = |belt: f64| sliding + (limit - sliding).hypot(belt);
     let (event, points) =
         curve(&machine, (("stop.stop.gap", 0.2, 1.5), Direction::Down), ("friction.belt.belt", 0.1, 0.9), "grazing");
-    assert_eq!(event.event, Some(MachineBranchEvent::Grazing { stop: 0, appears: true, turns: false }));
+    assert_eq!(event.event, Some(BranchEvent::Grazing { stop: 0, appears: true, turns: false }));
     assert!((event.value - reach(belt)).abs() < 1e-12, "{} {}", event.value, reach(belt));
     assert!(points.len() > 20);
     for point in &points {

@@ -2,11 +2,14 @@
 
 use std::f64::consts::TAU;
 use vibroimpact::chaos::machine_exponents_while;
-use vibroimpact::continuation::{BranchOptions, Direction, MachineBranch, MachineBranchEvent, MachineFamily};
-use vibroimpact::events::{MachineLimits, MachineMotion, MachineSamples, MachineStart};
+use vibroimpact::continuation::{
+    BranchOptions, Direction,
+    machine::{Branch, BranchEvent, Family},
+};
+use vibroimpact::events::{Limits, Motion, Samples, Start};
 use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::math::Matrix;
-use vibroimpact::orbit::MachineCycle;
+use vibroimpact::orbit::machine::Cycle;
 use vibroimpact::quantities::machine_cycle_quantities;
 use vibroimpact::verdict::{SettleOptions, Verdict, settle_machine};
 
@@ -40,11 +43,11 @@ fn pair(push: f64, drags: (f64, f64), restitution: f64) -> Machine {
     Machine::new(parts).unwrap()
 }
 
-pub(crate) fn settled(machine: &Machine, start: &MachineStart) -> Verdict<Machine> {
+pub(crate) fn settled(machine: &Machine, start: &Start) -> Verdict<Machine> {
     settle_machine(machine, start, &SettleOptions::default()).unwrap().verdict
 }
 
-pub(crate) fn cycle(machine: &Machine, start: &MachineStart) -> MachineCycle {
+pub(crate) fn cycle(machine: &Machine, start: &Start) -> Cycle {
     match settled(machine, start) {
         Verdict::Periodic(cycle) => cycle,
         other => panic!("{}", other.label()),
@@ -52,8 +55,8 @@ pub(crate) fn cycle(machine: &Machine, start: &MachineStart) -> MachineCycle {
 }
 
 /// Coordinates and velocities a time after a start.
-fn at(machine: &Machine, start: &MachineStart, time: f64) -> (Vec<f64>, Vec<f64>) {
-    let samples = MachineSamples::new(machine, start, MachineLimits::default(), (time, 2.0 * time)).unwrap();
+fn at(machine: &Machine, start: &Start, time: f64) -> (Vec<f64>, Vec<f64>) {
+    let samples = Samples::new(machine, start, Limits::default(), (time, 2.0 * time)).unwrap();
     let last = samples.last().unwrap();
     (last.q, last.qdot)
 }
@@ -63,13 +66,13 @@ fn at(machine: &Machine, start: &MachineStart, time: f64) -> (Vec<f64>, Vec<f64>
 fn long_simulations_move_on_by_the_drift() {
     let slow = pair(0.05, (0.3, 0.1), 0.6);
     for (machine, label) in [(capsule(0.0), "3/2"), (capsule(-0.2), ""), (slow, "")] {
-        let found = cycle(&machine, &MachineStart::default());
+        let found = cycle(&machine, &Start::default());
         assert!(label.is_empty() || found.label.to_string() == label, "{}", found.label);
         assert!(found.residual < 1e-12 && found.translations() == 1 && found.multipliers.len() == 3, "{found:?}");
         let largest = found.drift.iter().fold(0.0_f64, |most, drift| most.max(drift.abs()));
         assert!(largest > 1e-2 && (found.drift[0] - found.drift[1]).abs() < 1e-13 * largest, "{:?}", found.drift);
         // from the start of the motion, not from the cycle
-        let mut motion = MachineMotion::new(&machine, &MachineStart::default(), MachineLimits::default()).unwrap();
+        let mut motion = Motion::new(&machine, &Start::default(), Limits::default()).unwrap();
         let mut closings = Vec::new();
         while motion.time() < 400.0 * found.period {
             let Some(event) = motion.next() else { break };
@@ -99,15 +102,15 @@ fn long_simulations_move_on_by_the_drift() {
 #[test]
 fn multipliers_by_differences() {
     for machine in [capsule(0.0), pair(0.05, (0.3, 0.1), 0.6)] {
-        let found = cycle(&machine, &MachineStart::default());
+        let found = cycle(&machine, &Start::default());
         let h = 1e-6;
         let end = |change: &[f64; 4]| {
             let state = &found.state;
-            let start = MachineStart {
+            let start = Start {
                 q: vec![state.q[0] + change[0], state.q[1] + change[1]],
                 qdot: vec![state.qdot[0] + change[2], state.qdot[1] + change[3]],
                 phase: state.phase,
-                ..MachineStart::default()
+                ..Start::default()
             };
             let (q, v) = at(&machine, &start, found.period);
             [q, v].concat()
@@ -134,7 +137,7 @@ fn multipliers_by_differences() {
             power = power.times(&turn);
         }
         // its exponents are those of the multipliers, and 0 for the translation
-        let found = machine_exponents_while(&machine, &MachineStart::default(), (2_000, 200), &|| true);
+        let found = machine_exponents_while(&machine, &Start::default(), (2_000, 200), &|| true);
         let exponents = found.unwrap().unwrap().exponents;
         assert_eq!((exponents.len(), exponents[0].value), (4, 0.0));
         // while a joint holds its velocity is known, so the motion forgets one direction
@@ -152,7 +155,7 @@ fn closed_form_of_the_drift() {
         [(0.05, (0.3, 0.1), 0.6), (0.4, (0.5, 0.0), 0.3), (-0.2, (0.2, 0.2), 0.5), (0.0, (0.4, 0.1), 0.6)]
     {
         let machine = pair(push, drags, restitution);
-        let Verdict::Periodic(found) = settled(&machine, &MachineStart::default()) else { continue };
+        let Verdict::Periodic(found) = settled(&machine, &Start::default()) else { continue };
         let expected = push / (drags.0 + drags.1);
         for velocity in found.drift_velocity() {
             assert!((velocity - expected).abs() < 1e-12, "{velocity} {expected} {}", found.label);
@@ -166,7 +169,7 @@ fn closed_form_of_the_drift() {
 #[test]
 fn powers_balance() {
     for machine in [capsule(0.0), capsule(-0.2), pair(0.05, (0.3, 0.1), 0.6), pair(0.4, (0.5, 0.0), 0.3)] {
-        let found = machine_cycle_quantities(&machine, &cycle(&machine, &MachineStart::default())).unwrap();
+        let found = machine_cycle_quantities(&machine, &cycle(&machine, &Start::default())).unwrap();
         let of = |path: &str| found.value(&machine, path).unwrap();
         let lost = of("impact_power") + of("contact_power") + of("friction_power") + of("damping_power");
         assert!((of("power") - lost).abs() < 1e-12 * lost, "{} {lost}", of("power"));
@@ -174,7 +177,7 @@ fn powers_balance() {
         let name = &machine.parts().coordinates[0];
         assert!(of(&format!("q.{name}.displacement_mean")).is_nan() && of(&format!("q.{name}.velocity_rms")) > 0.0);
         // all coordinates move on at the same mean velocity, that of the drift
-        let drift = cycle(&machine, &MachineStart::default()).drift_velocity();
+        let drift = cycle(&machine, &Start::default()).drift_velocity();
         for (name, drift) in machine.parts().coordinates.iter().zip(drift) {
             let mean = of(&format!("q.{name}.velocity_mean"));
             assert!((mean - drift).abs() < 1e-13, "{mean} {drift}");
@@ -186,16 +189,16 @@ fn powers_balance() {
 #[test]
 fn a_translation_makes_no_other_motion() {
     let machine = capsule(0.0);
-    let here = settled(&machine, &MachineStart::default());
+    let here = settled(&machine, &Start::default());
     for way in [-7.0, 0.3, 1e4] {
-        let start = MachineStart { q: vec![way, way], ..MachineStart::default() };
+        let start = Start { q: vec![way, way], ..Start::default() };
         let there = settled(&machine, &start);
         assert_eq!(there.label(), here.label());
         assert!(here.same_as(&there, 1e-6) && there.same_as(&here, 1e-6), "{way}");
     }
     // the drift belongs to the motion: the other direction is another one
     let (one, two) = (pair(0.05, (0.3, 0.1), 0.6), pair(-0.05, (0.3, 0.1), 0.6));
-    let (one, two) = (settled(&one, &MachineStart::default()), settled(&two, &MachineStart::default()));
+    let (one, two) = (settled(&one, &Start::default()), settled(&two, &Start::default()));
     assert!(!one.same_as(&two, 1e-6));
 }
 
@@ -204,7 +207,7 @@ fn a_translation_makes_no_other_motion() {
 fn growing_velocities_are_no_cycle() {
     let options = SettleOptions { max_impacts: 3_000, ..SettleOptions::default() };
     for machine in [capsule(1.5), pair(0.05, (0.0, 0.0), 0.6)] {
-        let found = settle_machine(&machine, &MachineStart::default(), &options).unwrap();
+        let found = settle_machine(&machine, &Start::default(), &options).unwrap();
         assert!(!matches!(found.verdict, Verdict::Periodic(_)), "{}", found.verdict.label());
     }
 }
@@ -215,13 +218,13 @@ fn branches_of_drifting_cycles() {
     for (machine, path, range) in
         [(capsule(0.0), "stop.plate.gap", 0.0..=0.06), (pair(0.05, (0.3, 0.1), 0.6), "constant.frame", 0.0..=0.1)]
     {
-        let found = cycle(&machine, &MachineStart::default());
-        let (family, value) = MachineFamily::of_path(&machine, path).unwrap();
+        let found = cycle(&machine, &Start::default());
+        let (family, value) = Family::of_path(&machine, path).unwrap();
         for direction in [Direction::Up, Direction::Down] {
-            let branch = MachineBranch::new((&family, value), &found, &range, direction, BranchOptions::default());
+            let branch = Branch::new((&family, value), &found, &range, direction, BranchOptions::default());
             let points: Vec<_> = branch.unwrap().collect();
             let last = points.last().and_then(|point| point.event);
-            assert!(points.len() > 3 && last != Some(MachineBranchEvent::NoConvergence), "{path} {last:?}");
+            assert!(points.len() > 3 && last != Some(BranchEvent::NoConvergence), "{path} {last:?}");
             for point in points.iter().filter(|point| point.event.is_none() && point.cycle.stable()) {
                 assert!(point.cycle.residual < 1e-11 && point.cycle.multipliers.len() == 3);
                 let there = family.at(point.value).unwrap();
@@ -237,10 +240,10 @@ fn branches_of_drifting_cycles() {
 #[test]
 fn a_flip_doubles_the_drift() {
     let machine = capsule(0.0);
-    let found = cycle(&machine, &MachineStart::default());
-    let (family, value) = MachineFamily::of_path(&machine, "force.1.cos.mass").unwrap();
-    let branch = MachineBranch::new((&family, value), &found, &(1.05..=1.6), Direction::Down, BranchOptions::default());
-    let flip = branch.unwrap().find(|point| point.event == Some(MachineBranchEvent::Flip)).unwrap();
+    let found = cycle(&machine, &Start::default());
+    let (family, value) = Family::of_path(&machine, "force.1.cos.mass").unwrap();
+    let branch = Branch::new((&family, value), &found, &(1.05..=1.6), Direction::Down, BranchOptions::default());
+    let flip = branch.unwrap().find(|point| point.event == Some(BranchEvent::Flip)).unwrap();
     assert!((flip.cycle.multipliers[0].re + 1.0).abs() < 1e-6);
     let (at, doubled) = flip.leaving(&family, 0.1).pop().unwrap();
     assert_eq!(doubled.label.to_string(), "6/4");
@@ -262,8 +265,8 @@ fn a_held_capsule_is_no_cycle() {
     (parts.frequency, parts.forces[0].cos[0], parts.stops[0].gap) = (Some(0.5), 0.750_726_995, 10.0);
     let held = Machine::new(parts).unwrap();
     let slipping = held.with("force.1.cos.mass", 0.750_726_996).unwrap();
-    assert!(matches!(settled(&held, &MachineStart::default()), Verdict::NoImpact(_)));
-    let Verdict::Periodic(found) = settled(&slipping, &MachineStart::default()) else { panic!() };
+    assert!(matches!(settled(&held, &Start::default()), Verdict::NoImpact(_)));
+    let Verdict::Periodic(found) = settled(&slipping, &Start::default()) else { panic!() };
     assert!(!found.events.is_empty() && found.drift == [0.0, 0.0]);
 }
 
@@ -272,15 +275,14 @@ fn a_held_capsule_is_no_cycle() {
 fn without_stops() {
     let parts = MachineParts::new(["body"]).with_mass(0, 1.0).with_link(&[1.0], 0.0, 0.4).with_constant(0, 0.2);
     let machine = Machine::new(parts.with_frequency(2.0).with_force(0, 1, 1.0, 0.0)).unwrap();
-    assert_eq!(settled(&machine, &MachineStart::default()).label(), "0");
+    assert_eq!(settled(&machine, &Start::default()).label(), "0");
     let parts = machine.parts().clone();
     let label = |direction: f64| {
         let walled = Machine::new(parts.clone().with_rigid_stop("wall", &[direction], 3.0, 0.5)).unwrap();
-        settled(&walled, &MachineStart::default()).label()
+        settled(&walled, &Start::default()).label()
     };
     // it never comes to a wall from which the force takes it away
     assert_eq!((&*label(-1.0), label(1.0) == "0"), ("0", false));
-    let (one, two) =
-        (at(&machine, &MachineStart::default(), 100.0 * TAU), at(&machine, &MachineStart::default(), 101.0 * TAU));
+    let (one, two) = (at(&machine, &Start::default(), 100.0 * TAU), at(&machine, &Start::default(), 101.0 * TAU));
     assert!((two.0[0] - one.0[0] - 0.5 * TAU).abs() < 1e-11);
 }

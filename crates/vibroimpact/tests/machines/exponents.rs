@@ -1,30 +1,30 @@
 //! Exponents and multipliers of cycles in which something decays by many powers of ten: Liouville's sum.
 
 use vibroimpact::chaos::{Exponents, machine_exponents_while};
-use vibroimpact::events::{MachineEventKind, MachineStart};
+use vibroimpact::events::{EventKind, Start};
 use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
-use vibroimpact::orbit::MachineCycle;
+use vibroimpact::orbit::machine::Cycle;
 use vibroimpact::verdict::{SettleOptions, Undecided, Verdict, settle_machine};
 
 fn found(parts: MachineParts) -> (Exponents<Machine>, Vec<f64>) {
     let machine = Machine::new(parts).unwrap();
-    let found = machine_exponents_while(&machine, &MachineStart::default(), (4_000, 500), &|| true).unwrap().unwrap();
+    let found = machine_exponents_while(&machine, &Start::default(), (4_000, 500), &|| true).unwrap().unwrap();
     let exponents = found.exponents.iter().map(|exponent| exponent.value).collect();
     (found, exponents)
 }
 
-fn cycle(found: &Exponents<Machine>) -> &MachineCycle {
+fn cycle(found: &Exponents<Machine>) -> &Cycle {
     let Verdict::Periodic(cycle) = &found.motion else { panic!("{}", found.motion.label()) };
     cycle
 }
 
 /// The part of the period for which a stop is closed.
-fn closed(cycle: &MachineCycle, stop: usize) -> f64 {
+fn closed(cycle: &Cycle, stop: usize) -> f64 {
     let own: Vec<_> = cycle.events.iter().filter(|event| event.place == stop).collect();
     let mut sum = 0.0;
-    for (k, event) in own.iter().enumerate().filter(|(_, event)| event.kind == MachineEventKind::Close) {
+    for (k, event) in own.iter().enumerate().filter(|(_, event)| event.kind == EventKind::Close) {
         let next = own[(k + 1) % own.len()];
-        assert_eq!(next.kind, MachineEventKind::Open);
+        assert_eq!(next.kind, EventKind::Open);
         sum += (next.time - event.time).rem_euclid(cycle.period);
     }
     sum / cycle.period
@@ -105,7 +105,7 @@ fn overdamped_structures() {
             .with_rigid_stop("wall", &[1.0, 0.0], 0.3, restitution);
         let (found, exponents) = found(parts);
         let Verdict::Periodic(cycle) = &found.motion else { continue };
-        if cycle.events.iter().any(|event| event.kind == MachineEventKind::Stick) {
+        if cycle.events.iter().any(|event| event.kind == EventKind::Stick) {
             continue;
         }
         let impacts = f64::from(cycle.counts[0]);
@@ -146,7 +146,7 @@ fn what_is_forgotten() {
             .with_stop("s", &[1.0], 0.3, stop(30.0, 2.0));
         let (block, exponents) = found(parts);
         let Verdict::Periodic(cycle) = &block.motion else { continue };
-        let holds = cycle.events.iter().any(|event| event.kind == MachineEventKind::Hold);
+        let holds = cycle.events.iter().any(|event| event.kind == EventKind::Hold);
         assert_eq!(lost(&exponents), usize::from(holds), "{frequency}: {exponents:?}");
         held += usize::from(holds);
     }
@@ -160,7 +160,7 @@ fn what_is_forgotten() {
         .with_rigid_stop("s", &[1.0], 0.1, 0.0);
     let (plastic, exponents) = found(parts);
     if let Verdict::Periodic(cycle) = &plastic.motion
-        && !cycle.events.iter().any(|event| event.kind == MachineEventKind::Stick)
+        && !cycle.events.iter().any(|event| event.kind == EventKind::Stick)
     {
         assert!(lost(&exponents) >= 1, "{exponents:?}");
     }
@@ -189,7 +189,7 @@ fn f42s_exponents_of_a_machine_beside_itself() {
                 .with_rigid_stop(&format!("b{k}"), &place(0.868, -0.497), 0.0, 1.0);
         }
         let qdot = (0..2 * copies).map(|i| if i % 2 == 0 { -0.36 } else { 0.0 }).collect();
-        (Machine::new(parts).unwrap(), MachineStart { qdot, ..MachineStart::default() })
+        (Machine::new(parts).unwrap(), Start { qdot, ..Start::default() })
     };
     let largest = |copies: usize| {
         let (machine, start) = parts(copies);
@@ -223,7 +223,7 @@ fn f42t_exponents_do_not_depend_on_units() {
         let parts = parts.with_rigid_stop("c", &[1.0, -1.0], 0.0, 0.58);
         let watch = SettleOptions { chaos_after: 64, chaos_over: 250, ..SettleOptions::at_most(120) };
         let machine = Machine::new(parts).unwrap();
-        let found = settle_machine(&machine, &MachineStart::default(), &watch).unwrap().verdict;
+        let found = settle_machine(&machine, &Start::default(), &watch).unwrap().verdict;
         let Verdict::Undecided(Undecided { spectrum: Some(spectrum), .. }) = found else { panic!("{}", found.label()) };
         spectrum.exponents.iter().map(|of| of.value * time).collect::<Vec<f64>>()
     };

@@ -3,7 +3,7 @@
 use crate::drift::{cycle, settled};
 use std::f64::consts::PI;
 use vibroimpact::chaos::machine_exponents_while;
-use vibroimpact::events::{MachineEventKind, MachineLimits, MachineMotion, MachineStart};
+use vibroimpact::events::{EventKind, Limits, Motion, Start};
 use vibroimpact::machine::{Machine, MachineParts};
 use vibroimpact::math::Multiplier;
 use vibroimpact::quantities::machine_cycle_quantities;
@@ -20,7 +20,7 @@ pub(crate) fn on_belt((sliding, limit): (f64, f64), belt: f64, damping: f64) -> 
 #[test]
 fn stick_slip_in_closed_form() {
     for (sliding, limit, belt) in [(0.2, 0.4, 0.1), (0.5, 0.6, 0.02), (0.0, 1.0, 0.7), (1.0, 1.5, 2.5)] {
-        let start = MachineStart { q: vec![0.0], qdot: vec![belt], phase: 0.0, ..MachineStart::default() };
+        let start = Start { q: vec![0.0], qdot: vec![belt], phase: 0.0, ..Start::default() };
         let cycle = cycle(&on_belt((sliding, limit), belt, 0.0), &start);
         let jump = limit - sliding;
         let expected = 2.0 * jump / belt + PI + 2.0 * (belt / jump).atan();
@@ -44,9 +44,9 @@ pub(crate) fn pair(belt: f64, gap: f64, restitution: f64) -> Machine {
 
 /// The state at the next hold of the first mass after one from this state; its velocity is that of the belt.
 fn next_hold(machine: &Machine, belt: f64, [low, high, rate]: [f64; 3]) -> [f64; 3] {
-    let start = MachineStart { q: vec![low, high], qdot: vec![belt, rate], phase: 0.0, ..MachineStart::default() };
-    let motion = MachineMotion::new(machine, &start, MachineLimits::default()).unwrap();
-    let hold = motion.into_iter().find(|event| event.time > 0.0 && event.kind == MachineEventKind::Hold).unwrap();
+    let start = Start { q: vec![low, high], qdot: vec![belt, rate], phase: 0.0, ..Start::default() };
+    let motion = Motion::new(machine, &start, Limits::default()).unwrap();
+    let hold = motion.into_iter().find(|event| event.time > 0.0 && event.kind == EventKind::Hold).unwrap();
     [hold.q[0], hold.q[1], hold.qdot[1]]
 }
 
@@ -56,10 +56,10 @@ fn multipliers_are_those_of_the_return_map() {
     let mut labels = Vec::new();
     for (belt, gap, restitution) in [(0.2, 10.0, 0.5), (0.1, 0.7, 0.6), (0.15, 0.65, 0.9), (0.12, 0.6, 0.2)] {
         let machine = pair(belt, gap, restitution);
-        let start = MachineStart { q: vec![0.0; 2], qdot: vec![belt, 0.0], phase: 0.0, ..MachineStart::default() };
+        let start = Start { q: vec![0.0; 2], qdot: vec![belt, 0.0], phase: 0.0, ..Start::default() };
         let cycle = cycle(&machine, &start);
         labels.push(cycle.label.to_string());
-        let holds: Vec<_> = cycle.events.iter().filter(|event| event.kind == MachineEventKind::Hold).collect();
+        let holds: Vec<_> = cycle.events.iter().filter(|event| event.kind == EventKind::Hold).collect();
         let at = [holds[0].q[0], holds[0].q[1], holds[0].qdot[1]];
         let mut jacobian = [[0.0; 3]; 3];
         let step = 3e-7;
@@ -96,16 +96,13 @@ fn multipliers_are_those_of_the_return_map() {
 #[test]
 fn one_cycle_from_many_starts() {
     let machine = pair(0.1, 0.7, 0.6);
-    let first = cycle(&machine, &MachineStart::default());
+    let first = cycle(&machine, &Start::default());
     for k in 0..8 {
         let q = vec![-0.3 + 0.1 * f64::from(k), 0.1 - 0.05 * f64::from(k)];
-        let other = cycle(
-            &machine,
-            &MachineStart { q, qdot: vec![0.3, -0.2 * f64::from(k)], phase: 0.0, ..MachineStart::default() },
-        );
+        let other = cycle(&machine, &Start { q, qdot: vec![0.3, -0.2 * f64::from(k)], phase: 0.0, ..Start::default() });
         assert!(first.same_as(&other, 1e-8), "{k}: {} {}", first.period, other.period);
     }
-    let motion = MachineMotion::new(&machine, &first.state, MachineLimits::default()).unwrap();
+    let motion = Motion::new(&machine, &first.state, Limits::default()).unwrap();
     let m = first.events.len();
     let events: Vec<_> = motion.into_iter().take(50 * m).collect();
     let turns = events[50 * m - 1].time - events[m - 1].time;
@@ -116,14 +113,13 @@ fn one_cycle_from_many_starts() {
 #[test]
 fn power_and_exponents() {
     let machine = pair(0.15, 0.65, 0.9);
-    let cycle = cycle(&machine, &MachineStart::default());
+    let cycle = cycle(&machine, &Start::default());
     let found = machine_cycle_quantities(&machine, &cycle).unwrap();
     let of = |path: &str| found.value(&machine, path).unwrap();
     let lost = of("impact_power") + of("friction_power") + of("damping_power");
     assert!((of("power") - lost).abs() < 1e-12 * lost && lost > 0.0, "{} {lost}", of("power"));
     assert!(of("impacts_per_period").is_nan());
-    let exponents =
-        machine_exponents_while(&machine, &MachineStart::default(), (2_000, 100), &|| true).unwrap().unwrap();
+    let exponents = machine_exponents_while(&machine, &Start::default(), (2_000, 100), &|| true).unwrap().unwrap();
     assert!(exponents.exact() && exponents.exponents.len() == 4);
     assert!(exponents.exponents[0].value == 0.0 && exponents.exponents[1].value < 0.0);
     assert!(exponents.exponents[3].value == f64::NEG_INFINITY);
@@ -132,9 +128,9 @@ fn power_and_exponents() {
 /// On a fast belt the mass comes to rest, and of a motion that is one of a family no cycle is told.
 #[test]
 fn what_is_no_limit_cycle() {
-    assert_eq!(settled(&on_belt((0.2, 0.4), 5.0, 0.3), &MachineStart::default()).label(), "0");
+    assert_eq!(settled(&on_belt((0.2, 0.4), 5.0, 0.3), &Start::default()).label(), "0");
     let parts = MachineParts::new(["mass"]).with_mass(0, 1.0).with_link(&[1.0], 1.0, 0.0);
     let elastic = Machine::new(parts.with_rigid_stop("stop", &[1.0], 0.3, 1.0)).unwrap();
-    let start = MachineStart { q: vec![0.0], qdot: vec![1.0], phase: 0.0, ..MachineStart::default() };
+    let start = Start { q: vec![0.0], qdot: vec![1.0], phase: 0.0, ..Start::default() };
     assert_eq!(settled(&elastic, &start).label(), "undecided");
 }

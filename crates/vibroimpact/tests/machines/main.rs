@@ -48,23 +48,23 @@ mod verdicts;
 
 use case::{Case, cases};
 use std::fmt::Write as _;
-use vibroimpact::events::{MachineEvent, MachineEventKind, MachineLimits, MachineMotion};
+use vibroimpact::events::{Event, EventKind, Limits, Motion};
 
 /// Roundings of the time and of its condition that are allowed.
 const ROUNDINGS: f64 = 50.0;
 
 /// What differs first, with its event.
 fn difference(case: &Case) -> Option<String> {
-    let limits = MachineLimits { time: 1e3, ..MachineLimits::default() };
-    let motion = match MachineMotion::new(&case.machine, &case.start, limits) {
+    let limits = Limits { time: 1e3, ..Limits::default() };
+    let motion = match Motion::new(&case.machine, &case.start, limits) {
         Ok(motion) => motion,
         Err(error) => return Some(format!("refused: {error}")),
     };
-    let mut motion = motion.filter(|event| event.kind != MachineEventKind::Graze);
+    let mut motion = motion.filter(|event| event.kind != EventKind::Graze);
     for (k, want) in case.events.iter().take(case.robust).enumerate() {
         let Some(event) = motion.next() else { return Some(format!("event {k}: none, {want:?} wanted")) };
         // what follows the sum of a chatter is compared in `after_chatter`
-        let sums = matches!(event.kind, MachineEventKind::Stick | MachineEventKind::Collapse);
+        let sums = matches!(event.kind, EventKind::Stick | EventKind::Collapse);
         if sums && want.kind == "impact" {
             return None;
         }
@@ -97,7 +97,7 @@ fn difference(case: &Case) -> Option<String> {
 }
 
 /// The speed at which the body leaves the stop of an event.
-fn separation(case: &Case, event: &MachineEvent) -> f64 {
+fn separation(case: &Case, event: &Event) -> f64 {
     let stop = &case.machine.stops()[event.place];
     let body: f64 = stop.direction.iter().zip(&event.qdot).map(|(w, v)| w * v).sum();
     let frequency = case.machine.parts().frequency.unwrap_or(0.0);
@@ -112,19 +112,17 @@ fn separation(case: &Case, event: &MachineEvent) -> f64 {
 /// The events after a chatter, by the time of its end.
 fn after_chatter(case: &Case) -> Option<String> {
     let after = case.after_chatter.as_ref()?;
-    let limits = MachineLimits { time: 1e3, ..MachineLimits::default() };
-    let motion = MachineMotion::new(&case.machine, &case.start, limits).ok()?;
+    let limits = Limits { time: 1e3, ..Limits::default() };
+    let motion = Motion::new(&case.machine, &case.start, limits).ok()?;
     let first = after.events.first()?;
-    let near = |event: &MachineEvent| {
-        event.kind == MachineEventKind::Stick && (event.time - first.time).abs() < 1e-3 * (1.0 + first.time)
-    };
-    let mut motion =
-        motion.filter(|event| event.kind != MachineEventKind::Graze).take(3000).skip_while(|event| !near(event));
+    let near =
+        |event: &Event| event.kind == EventKind::Stick && (event.time - first.time).abs() < 1e-3 * (1.0 + first.time);
+    let mut motion = motion.filter(|event| event.kind != EventKind::Graze).take(3000).skip_while(|event| !near(event));
     for (k, want) in after.events.iter().take(after.robust).enumerate() {
         let Some(event) = motion.next() else {
             return Some(format!("after chatter, event {k}: none, {want:?} wanted"));
         };
-        if event.kind == MachineEventKind::Stick && want.kind == "impact" && k > 0 {
+        if event.kind == EventKind::Stick && want.kind == "impact" && k > 0 {
             return None; // the next chatter is summed
         }
         let name = case.machine.name_of(event.place);

@@ -1,16 +1,16 @@
 //! Motions without a further event, for ever: the steady part of each gap stays open, though the sum of its amplitudes does not.
 
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::verdict::{SettleOptions, settle_machine};
 
-fn label(parts: MachineParts, start: &MachineStart) -> String {
+fn label(parts: MachineParts, start: &Start) -> String {
     let machine = Machine::new(parts).unwrap();
     settle_machine(&machine, start, &SettleOptions::default()).unwrap().verdict.label().into_owned()
 }
 
 fn from_rest(parts: MachineParts) -> String {
-    label(parts, &MachineStart::default())
+    label(parts, &Start::default())
 }
 
 /// The largest displacement of the steady motion is 0.45662, the sum of its amplitudes 0.61086 (closed form).
@@ -46,7 +46,7 @@ fn moving_and_staged_stops() {
     for gap in [1.5, 5.0] {
         let stage = StopLaw::Compliant { stiffness: 2.0, damping: 0.1, preload: 0.0, opening: Opening::Force };
         let staged = two_harmonics().with_constant(0, 2.7).with_stop("stage", &[1.0], 0.0, stage);
-        let start = MachineStart { q: vec![0.9], ..MachineStart::default() };
+        let start = Start { q: vec![0.9], ..Start::default() };
         assert_eq!(label(staged.with_rigid_stop("end", &[1.0], gap, 0.5), &start), "0", "{gap}");
     }
 }
@@ -84,7 +84,7 @@ fn drifts_towards_and_away() {
             0.8,
         )
     };
-    let start = MachineStart { qdot: vec![0.05], ..MachineStart::default() };
+    let start = Start { qdot: vec![0.05], ..Start::default() };
     assert_eq!(label(body(-1.0), &start), "0");
     let machine = Machine::new(body(1.0)).unwrap();
     let settled =
@@ -141,7 +141,7 @@ fn undamped_modes() {
             .with_rigid_stop("s", &[-1.0], gap, 0.6)
     };
     // beside the steady motion by 0.05
-    let start = MachineStart { q: vec![0.65], ..MachineStart::default() };
+    let start = Start { q: vec![0.65], ..Start::default() };
     assert_eq!(label(parts(0.4), &start), "0");
     assert_ne!(label(parts(0.33), &start), "0");
 }

@@ -1,22 +1,22 @@
 //! Events at one time, contacts that touch without force, and contacts that depend on each other.
 
 use std::f64::consts::PI;
-use vibroimpact::events::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineMotion, MachineStart};
+use vibroimpact::events::{End, Event, EventKind, Limits, Motion, Start};
 use vibroimpact::machine::{HarmonicMotion, ImpactLaw, Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::verdict::{SettleOptions, Verdict, settle_machine};
 
-fn events(parts: &MachineParts, start: &MachineStart, count: usize) -> (Vec<MachineEvent>, Option<MachineEnd>) {
+fn events(parts: &MachineParts, start: &Start, count: usize) -> (Vec<Event>, Option<End>) {
     let machine = Machine::new(parts.clone()).unwrap();
-    let mut motion = MachineMotion::new(&machine, start, MachineLimits::default()).unwrap();
-    let events: Vec<MachineEvent> = motion.by_ref().take(count).collect();
+    let mut motion = Motion::new(&machine, start, Limits::default()).unwrap();
+    let events: Vec<Event> = motion.by_ref().take(count).collect();
     (events, motion.end())
 }
 
-fn start(q: &[f64], qdot: &[f64]) -> MachineStart {
-    MachineStart { q: q.to_vec(), qdot: qdot.to_vec(), ..MachineStart::default() }
+fn start(q: &[f64], qdot: &[f64]) -> Start {
+    Start { q: q.to_vec(), qdot: qdot.to_vec(), ..Start::default() }
 }
 
-fn label(parts: &MachineParts, start: &MachineStart) -> String {
+fn label(parts: &MachineParts, start: &Start) -> String {
     settle_machine(&Machine::new(parts.clone()).unwrap(), start, &SettleOptions::default())
         .unwrap()
         .verdict
@@ -45,7 +45,7 @@ fn f42a_an_idle_rest_hides_no_impact() {
         .with_rigid_stop("s", &[-1.0, 0.0], 0.0, 0.5)
         .with_rigid_stop("w", &[0.0, 1.0], 0.5, 0.5);
     let (found, _) = events(&parts, &start(&[], &[0.0, 1.0]), 3);
-    assert_eq!((found[0].kind, found[0].place), (MachineEventKind::Impact, 1));
+    assert_eq!((found[0].kind, found[0].place), (EventKind::Impact, 1));
     assert!((found[0].time - PI / 6.0).abs() < 4e-16 && (found[0].speed - 0.75_f64.sqrt()).abs() < 4e-16);
 }
 
@@ -58,12 +58,12 @@ fn f42b_equal_bodies_in_contact_move_together() {
         (force.cos, force.sin) = (force.sin.clone(), force.cos.clone());
     }
     let parts = parts.with_rigid_stop("wall", &[-1.0, 0.0], 1.0, 0.5).with_rigid_stop("c", &[1.0, -1.0], 0.0, 0.5);
-    let (found, _) = events(&parts, &MachineStart::default(), 20);
+    let (found, _) = events(&parts, &Start::default(), 20);
     assert!((found[0].time - 3.528_402_82).abs() < 1e-8, "{:?}", found[0]);
     assert!(found.iter().all(|event| (event.q[0] - event.q[1]).abs() < 1e-15));
     // and without the wall nothing happens
     let free = oscillators(2, 0.1, 1.0).with_rigid_stop("s", &[1.0, -1.0], 0.0, 0.5);
-    assert_eq!(label(&free, &MachineStart::default()), "0");
+    assert_eq!(label(&free, &Start::default()), "0");
 }
 
 /// One plastic body on another on a shaking table, with nothing but gravity between: the motion of one body.
@@ -84,8 +84,8 @@ fn f42c_a_stack_is_one_body() {
             .with_constant(1, -1.0);
         let two = table(two, sin).with_rigid_stop("contact", &[1.0, -1.0], 0.0, 0.0);
         let on_table = |parts: &MachineParts| -> Vec<f64> {
-            let (found, _) = events(parts, &MachineStart::default(), 60);
-            let own = found.iter().filter(|event| event.place == 0 && event.kind == MachineEventKind::Impact);
+            let (found, _) = events(parts, &Start::default(), 60);
+            let own = found.iter().filter(|event| event.place == 0 && event.kind == EventKind::Impact);
             own.map(|event| event.time).take(8).collect()
         };
         let (single, stacked) = (on_table(&one), on_table(&two));
@@ -139,12 +139,12 @@ fn f42e_dependent_contacts() {
     let free = oscillators(1, 0.1, 0.7);
     let rigid = free.clone().with_rigid_stop("hard", &[1.0], 0.2, 0.5);
     let soft = StopLaw::Compliant { stiffness: 50.0, damping: 0.0, preload: 0.0, opening: Opening::Force };
-    let (want, _) = events(&rigid, &MachineStart::default(), 8);
+    let (want, _) = events(&rigid, &Start::default(), 8);
     for parts in [
         rigid.clone().with_rigid_stop("again", &[1.0], 0.2, 0.5),
         free.clone().with_stop("soft", &[1.0], 0.2, soft).with_rigid_stop("hard", &[1.0], 0.2, 0.5),
     ] {
-        let (found, _) = events(&parts, &MachineStart::default(), 8);
+        let (found, _) = events(&parts, &Start::default(), 8);
         for (a, b) in found.iter().zip(&want) {
             let close = |one: f64, other: f64| (one - other).abs() < 1e-13;
             assert!(a.kind == b.kind && close(a.time, b.time) && close(a.speed, b.speed), "{a:?} {b:?}");
@@ -153,8 +153,8 @@ fn f42e_dependent_contacts() {
     let one = oscillators(1, 0.1, 0.9).with_joint("both", &[1.0], 0.2, 0.2, 0.0);
     let two =
         oscillators(1, 0.1, 0.9).with_joint("left", &[1.0], 0.1, 0.1, 0.0).with_joint("right", &[1.0], 0.1, 0.1, 0.0);
-    let (one, _) = events(&one, &MachineStart::default(), 30);
-    let (two, _) = events(&two, &MachineStart::default(), 60);
+    let (one, _) = events(&one, &Start::default(), 30);
+    let (two, _) = events(&two, &Start::default(), 60);
     for (a, pair) in one.iter().zip(two.chunks_exact(2)) {
         for b in pair {
             assert!(a.kind == b.kind && (a.time - b.time).abs() < 1e-13 * (1.0 + a.time), "{a:?} {b:?}");
@@ -199,8 +199,8 @@ fn f42g_a_joint_holds_beside_a_stop() {
         .with_force(0, 1, 0.0, 1.5)
         .with_rigid_stop("wall", &[1.0], 0.5, 0.0)
         .with_joint("guide", &[1.0], 0.2, 0.2, 0.0);
-    let (found, _) = events(&parts, &MachineStart::default(), 12);
-    let release = found.iter().find(|event| event.kind == MachineEventKind::Release).expect("a release");
+    let (found, _) = events(&parts, &Start::default(), 12);
+    let release = found.iter().find(|event| event.kind == EventKind::Release).expect("a release");
     assert!((release.phase - (PI - 0.2_f64.asin())).abs() < 1e-14, "{release:?}");
 }
 
@@ -220,7 +220,7 @@ fn f42h_symmetric_supports() {
         parts = parts.with_stop(&format!("plus-{name}"), &shape, 0.01, soft);
         parts = parts.with_stop(&format!("minus-{name}"), &shape.map(|x| -x), 0.01, soft);
     }
-    let (found, end) = events(&parts, &MachineStart::default(), 400);
+    let (found, end) = events(&parts, &Start::default(), 400);
     assert_eq!((found.len(), end), (400, None));
     assert!(found.last().unwrap().time > 6.0, "{:?}", found.last());
     assert!(found.iter().all(|event| event.q[1].abs() < 1e-9), "the second mode has no force");
@@ -238,7 +238,7 @@ fn f42i_an_oscillator_beside_itself() {
     );
     let settle = |parts: &MachineParts| {
         let machine = Machine::new(parts.clone()).unwrap();
-        let settled = settle_machine(&machine, &MachineStart::default(), &SettleOptions::default()).unwrap();
+        let settled = settle_machine(&machine, &Start::default(), &SettleOptions::default()).unwrap();
         let Verdict::Periodic(cycle) = settled.verdict else { panic!("periodic") };
         (cycle.label, cycle.multipliers)
     };
@@ -260,9 +260,9 @@ fn f42j_a_moving_stop_moves_a_joint() {
         .with_rigid_stop("table", &[-1.0], 0.0, 0.0)
         .with_joint("guide", &[1.0], 0.1, 0.2, 0.0);
     parts.stops[0].motion.push(HarmonicMotion { order: 1, cos: 0.0, sin: 1.0 });
-    let (found, _) = events(&parts, &MachineStart::default(), 8);
-    let slips: Vec<&MachineEvent> = found.iter().filter(|event| event.kind == MachineEventKind::Slip).collect();
-    assert!(found.iter().all(|event| event.kind != MachineEventKind::Hold), "{found:?}");
+    let (found, _) = events(&parts, &Start::default(), 8);
+    let slips: Vec<&Event> = found.iter().filter(|event| event.kind == EventKind::Slip).collect();
+    assert!(found.iter().all(|event| event.kind != EventKind::Hold), "{found:?}");
     // the table turns at odd multiples of a quarter of its period
     for (k, slip) in slips.iter().take(4).enumerate() {
         assert!((slip.time - PI * (2.0 * k as f64 + 1.0)).abs() < 1e-12, "{slip:?}");
@@ -293,8 +293,8 @@ fn f42p_a_preloaded_stop_at_the_gap_of_a_plastic_wall() {
         let start = start(&[], &[-0.118_875_815_293_503_72 * length]);
         let (found, _) = events(&parts, &start, 40);
         // the first impact comes to rest until 1.507; all others are left at once
-        assert_eq!(found[5].kind, MachineEventKind::Impact);
-        assert!(found[5..].iter().all(|event| event.kind == MachineEventKind::Impact && event.place == 0), "{length}");
+        assert_eq!(found[5].kind, EventKind::Impact);
+        assert!(found[5..].iter().all(|event| event.kind == EventKind::Impact && event.place == 0), "{length}");
         assert_eq!(label(&parts, &start), "1/1", "{length}");
     }
 }

@@ -1,8 +1,9 @@
 //! Quantities of machines: against those of the oscillator, the balance of energy and momentum, and fine waveforms.
 
-use vibroimpact::events::{MachineLimits, MachineSample, MachineSamples, MachineStart};
+use vibroimpact::events;
+use vibroimpact::events::{Limits, Sample, Samples};
 use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts, Opening, StopLaw};
-use vibroimpact::orbit::MachineCycle;
+use vibroimpact::orbit::machine::Cycle;
 use vibroimpact::quantities::{
     Quantity, errors_of_verdict,
     machine::{self, Part},
@@ -77,7 +78,7 @@ fn one_coordinate_has_the_quantities_of_the_oscillator() {
             continue;
         }
         let machine = of(&osc);
-        let start = MachineStart { q: vec![Start::at_rest(&osc).x], ..MachineStart::default() };
+        let start = events::Start { q: vec![Start::at_rest(&osc).x], ..events::Start::default() };
         let verdict = settle_machine(&machine, &start, &SettleOptions::default()).unwrap().verdict;
         if verdict.label() != expected.label() {
             assert!(osc.damping() == 0.0 || verdict.label() == "undecided", "{osc:?} {}", verdict.label());
@@ -119,7 +120,7 @@ fn chaos_has_the_quantities_of_the_oscillator_within_error_bars() {
     let osc = Oscillator::from_inverse_beta(1.11, 3.0, 0.5).unwrap();
     let machine = of(&osc);
     let expected = settle(&osc, Start::at_rest(&osc), &SettleOptions::default()).verdict;
-    let verdict = settle_machine(&machine, &MachineStart::default(), &SettleOptions::default()).unwrap().verdict;
+    let verdict = settle_machine(&machine, &events::Start::default(), &SettleOptions::default()).unwrap().verdict;
     assert!(matches!(verdict, Verdict::Chaotic(_)), "{}", verdict.label());
     let (want, errors) = (of_verdict(&osc, &expected).unwrap(), errors_of_verdict(&osc, &expected).unwrap());
     let found = machine_quantities(&machine, &verdict).unwrap();
@@ -238,10 +239,10 @@ fn quantities_agree_with_a_fine_waveform() {
 }
 
 /// The largest integral of the force of a compliant stop over one contact; the wave is closed.
-fn largest_contact(wave: &[MachineSample], j: usize) -> f64 {
+fn largest_contact(wave: &[Sample], j: usize) -> f64 {
     let pairs = wave.windows(2).filter(|pair| pair[1].time > pair[0].time);
     let twice = pairs.clone().chain(pairs);
-    let closed = |sample: &MachineSample| sample.states[j] != ContactState::Open;
+    let closed = |sample: &Sample| sample.states[j] != ContactState::Open;
     let (mut now, mut most, mut opened) = (0.0, 0.0_f64, false);
     for pair in twice {
         if closed(&pair[0]) {
@@ -255,16 +256,16 @@ fn largest_contact(wave: &[MachineSample], j: usize) -> f64 {
 }
 
 /// Quantities from the samples of one period and from its events, by the trapezoidal rule.
-fn by_waveform(machine: &Machine, cycle: &MachineCycle) -> Vec<(String, f64)> {
+fn by_waveform(machine: &Machine, cycle: &Cycle) -> Vec<(String, f64)> {
     let parts = machine.parts();
     let (n, stops) = (machine.n(), machine.stops().len());
     let periods = f64::from(cycle.label.periods);
     let span = (cycle.period, cycle.period / 6e3);
-    let wave: Vec<_> = MachineSamples::new(machine, &cycle.state, MachineLimits::default(), span).unwrap().collect();
-    let trapezoid = |of: &dyn Fn(&MachineSample) -> f64| -> f64 {
+    let wave: Vec<_> = Samples::new(machine, &cycle.state, Limits::default(), span).unwrap().collect();
+    let trapezoid = |of: &dyn Fn(&Sample) -> f64| -> f64 {
         wave.windows(2).map(|pair| 0.5 * (pair[1].time - pair[0].time) * (of(&pair[0]) + of(&pair[1]))).sum()
     };
-    let most = |of: &dyn Fn(&MachineSample) -> f64| wave.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
+    let most = |of: &dyn Fn(&Sample) -> f64| wave.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
     let mut all: Vec<(String, f64)> = Vec::new();
     for (i, name) in parts.coordinates.iter().enumerate() {
         let mut add = |what: &str, value| all.push((format!("q.{name}.{what}"), value));
@@ -281,15 +282,14 @@ fn by_waveform(machine: &Machine, cycle: &MachineCycle) -> Vec<(String, f64)> {
         add("velocity_rms", (trapezoid(&|s| s.qdot[i] * s.qdot[i]) / cycle.period).sqrt());
     }
     for force in &parts.forces {
-        let power = |s: &MachineSample| {
+        let power = |s: &Sample| {
             let angle = f64::from(force.order) * s.phase;
             (0..n).map(|i| (force.cos[i] * angle.cos() + force.sin[i] * angle.sin()) * s.qdot[i]).sum::<f64>()
         };
         all.push((format!("force.{}.work_per_period", force.order), trapezoid(&power) / periods));
     }
-    let drag = |s: &MachineSample| {
-        (0..n * n).map(|k| parts.damping[(k / n, k % n)] * s.qdot[k / n] * s.qdot[k % n]).sum::<f64>()
-    };
+    let drag =
+        |s: &Sample| (0..n * n).map(|k| parts.damping[(k / n, k % n)] * s.qdot[k / n] * s.qdot[k % n]).sum::<f64>();
     all.push(("damping_loss_per_period".to_owned(), trapezoid(&drag) / periods));
     all.push(("damping_power".to_owned(), trapezoid(&drag) / cycle.period));
     for (j, stop) in parts.stops.iter().enumerate() {
@@ -339,21 +339,20 @@ fn by_waveform(machine: &Machine, cycle: &MachineCycle) -> Vec<(String, f64)> {
     }
     for (j, joint) in parts.joints.iter().enumerate() {
         let mut add = |what: &str, value| all.push((format!("friction.{}.{what}", joint.name), value));
-        let slides =
-            |s: &MachineSample| joint.direction.iter().zip(&s.qdot).map(|(w, v)| w * v).sum::<f64>() - joint.belt;
+        let slides = |s: &Sample| joint.direction.iter().zip(&s.qdot).map(|(w, v)| w * v).sum::<f64>() - joint.belt;
         add("friction_loss_per_period", trapezoid(&|s| s.forces[stops + j] * slides(s)) / periods);
         add("work_per_period", -joint.belt * trapezoid(&|s| s.forces[stops + j]) / periods);
         add("momentum_per_period", trapezoid(&|s| s.forces[stops + j]) / periods);
         add("force_max", most(&|s| s.forces[stops + j].abs()));
-        let holds = |s: &MachineSample| f64::from(u8::from(s.states[stops + j] == ContactState::Holding));
+        let holds = |s: &Sample| f64::from(u8::from(s.states[stops + j] == ContactState::Holding));
         add("holding_fraction", trapezoid(&holds) / cycle.period);
     }
     all
 }
 
-fn settled(machine: &Machine) -> Option<MachineCycle> {
+fn settled(machine: &Machine) -> Option<Cycle> {
     let options = SettleOptions { chaos_over: 0, max_impacts: 1_500, ..SettleOptions::default() };
-    match settle_machine(machine, &MachineStart::default(), &options).ok()?.verdict {
+    match settle_machine(machine, &events::Start::default(), &options).ok()?.verdict {
         Verdict::Periodic(cycle) => Some(cycle),
         _ => None,
     }

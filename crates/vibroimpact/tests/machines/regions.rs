@@ -4,22 +4,22 @@
 use crate::curves::hammer;
 use vibroimpact::Label;
 use vibroimpact::continuation::{
-    BranchOptions, Direction, MachineBranch, MachineBranchEvent, MachineFamily, MachinePlane, Region, RegionKind,
-    RegionOptions,
+    BranchOptions, Direction, Region, RegionKind, RegionOptions,
+    machine::{Branch, BranchEvent, Family, Plane},
 };
-use vibroimpact::orbit::{MachineCycle, find_machine_while};
+use vibroimpact::orbit::{find_machine_while, machine::Cycle};
 use vibroimpact::verdict::{SettleOptions, Verdict, scattered_machine_starts, settle_machine};
 
 const RANGES: (core::ops::RangeInclusive<f64>, core::ops::RangeInclusive<f64>) = (0.95..=1.25, 0.35..=0.65);
 
 fn region(label: Label, kind: RegionKind) -> Region {
-    let plane = MachinePlane::new(hammer, RANGES);
+    let plane = Plane::new(hammer, RANGES);
     let options = RegionOptions { grid: (6, 6), ..RegionOptions::default() };
     plane.region_while(label, kind, options, &|| true).unwrap()
 }
 
 /// The stable cycles to which some starts lead.
-fn stable(at: (f64, f64)) -> Vec<MachineCycle> {
+fn stable(at: (f64, f64)) -> Vec<Cycle> {
     let machine = hammer(at.0, at.1).unwrap();
     let verdicts = (0..6).map(|k| {
         let start = scattered_machine_starts(&machine, 3, k);
@@ -35,10 +35,9 @@ fn the_edge_is_the_event_of_the_branch() {
     assert!(found.unresolved.is_empty(), "{:?}", found.unresolved);
     for gap in [0.41, 0.5, 0.58] {
         let cycle = stable((0.97, gap)).into_iter().find(|cycle| cycle.label == Label::new(2, 1)).unwrap();
-        let family = MachineFamily::new(move |frequency| hammer(frequency, gap));
-        let branch =
-            MachineBranch::new((&family, 0.97), &cycle, &(0.95..=1.25), Direction::Up, BranchOptions::default());
-        let fold = branch.unwrap().find(|point| point.event == Some(MachineBranchEvent::Fold)).unwrap().value;
+        let family = Family::new(move |frequency| hammer(frequency, gap));
+        let branch = Branch::new((&family, 0.97), &cycle, &(0.95..=1.25), Direction::Up, BranchOptions::default());
+        let fold = branch.unwrap().find(|point| point.event == Some(BranchEvent::Fold)).unwrap().value;
         let near = 1e-3 * 0.25 * 0.3;
         assert!(found.contains((fold - near, gap)) && !found.contains((fold + near, gap)), "{fold} {gap}");
     }
@@ -48,7 +47,7 @@ fn the_edge_is_the_event_of_the_branch() {
 fn has_stable(label: Label, (frequency, gap): (f64, f64)) -> bool {
     let machine = hammer(frequency, gap).unwrap();
     let starts = (0..48).map(|k| scattered_machine_starts(&machine, 5, k));
-    find_machine_while(&machine, label, starts, &|| true).unwrap().iter().any(MachineCycle::stable)
+    find_machine_while(&machine, label, starts, &|| true).unwrap().iter().any(Cycle::stable)
 }
 
 /// Wherever motions settle into 1/1 or 2/1, or a search finds it stable, and nowhere else.

@@ -1,6 +1,6 @@
 //! What numbers of 53 bits cannot know about a motion that comes to rest: how many periods pass until the next rest.
 
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts};
 use vibroimpact::orbit::{Count, Label, find_machine_while};
 use vibroimpact::verdict::{SettleOptions, Undecided, UndecidedCause, Verdict, settle_machine};
@@ -16,7 +16,7 @@ fn ball(amplitude: f64, restitution: f64) -> Machine {
 }
 
 fn settled(machine: &Machine, q: f64, qdot: f64) -> Verdict<Machine> {
-    let start = MachineStart { q: vec![q], qdot: vec![qdot], phase: 0.0, ..MachineStart::default() };
+    let start = Start { q: vec![q], qdot: vec![qdot], phase: 0.0, ..Start::default() };
     settle_machine(machine, &start, &SettleOptions::default()).unwrap().verdict
 }
 
@@ -50,7 +50,7 @@ fn short_ways() {
 #[test]
 fn no_orbit_is_found() {
     let machine = ball(1.72, 0.5);
-    let start = MachineStart { q: vec![3.0], qdot: vec![1.0], phase: 0.0, ..MachineStart::default() };
+    let start = Start { q: vec![3.0], qdot: vec![1.0], phase: 0.0, ..Start::default() };
     for periods in [29, 30, 38, 49] {
         let label = Label { impacts: Count::Infinite, periods };
         let found = find_machine_while(&machine, label, [start.clone()], &|| true).unwrap();

@@ -1,16 +1,16 @@
 //! Samples of machines: they meet the events, and the forces that they tell move the masses as they do.
 
 use super::case::{Case, cases};
-use vibroimpact::events::{MachineEventKind, MachineLimits, MachineMotion, MachineSample, MachineSamples};
+use vibroimpact::events::{EventKind, Limits, Motion, Sample, Samples};
 use vibroimpact::machine::Machine;
 use vibroimpact::regime::ContactState;
 
 const UNTIL: f64 = 3.0;
 const STEP: f64 = 1e-3;
 
-fn samples(case: &Case) -> Vec<MachineSample> {
-    let limits = MachineLimits { time: 1e3, ..MachineLimits::default() };
-    MachineSamples::new(&case.machine, &case.start, limits, (UNTIL, STEP)).unwrap().collect()
+fn samples(case: &Case) -> Vec<Sample> {
+    let limits = Limits { time: 1e3, ..Limits::default() };
+    Samples::new(&case.machine, &case.start, limits, (UNTIL, STEP)).unwrap().collect()
 }
 
 /// The cases whose closed stops are not too stiff for the step.
@@ -20,7 +20,7 @@ fn chosen() -> impl Iterator<Item = Case> {
 }
 
 /// The force on each coordinate: all of the equation of motion but the acceleration.
-pub(crate) fn force(machine: &Machine, sample: &MachineSample) -> Vec<f64> {
+pub(crate) fn force(machine: &Machine, sample: &Sample) -> Vec<f64> {
     let parts = machine.parts();
     let n = parts.n();
     (0..n)
@@ -71,12 +71,12 @@ fn the_forces_that_are_told_move_the_masses() {
 fn samples_meet_the_events() {
     let mut met = 0_u32;
     for case in chosen() {
-        let limits = MachineLimits { time: 1e3, ..MachineLimits::default() };
-        let motion = MachineMotion::new(&case.machine, &case.start, limits).unwrap();
+        let limits = Limits { time: 1e3, ..Limits::default() };
+        let motion = Motion::new(&case.machine, &case.start, limits).unwrap();
         let events: Vec<_> = motion.take_while(|event| event.time < UNTIL).take(10_000).collect();
         let wave = samples(&case);
         let size = wave.iter().flat_map(|s| s.q.iter().chain(&s.qdot)).fold(1.0_f64, |most, x| most.max(x.abs()));
-        for event in events.iter().filter(|event| event.time > 0.0 && event.kind != MachineEventKind::Graze) {
+        for event in events.iter().filter(|event| event.time > 0.0 && event.kind != EventKind::Graze) {
             // the two sides; at one time there may be several events, of which the last has the velocities after all
             let last = events.iter().rfind(|other| other.time == event.time).unwrap();
             let sides: Vec<_> = wave.iter().filter(|sample| sample.time == event.time).collect();
@@ -89,20 +89,20 @@ fn samples_meet_the_events() {
                 assert!((before.q[i] - q).abs() < 1e-12 * size, "{}: {event:?} {before:?}", case.name);
                 assert!((after.q[i] - q).abs() < 1e-12 * size, "{}: {event:?} {after:?}", case.name);
                 // an impact whose rebounds are summed is followed by rest
-                let summed = last.kind == MachineEventKind::Impact && after.states[last.place] == ContactState::Resting;
+                let summed = last.kind == EventKind::Impact && after.states[last.place] == ContactState::Resting;
                 let allowed = if summed { last.speed } else { 1e-12 * size };
                 assert!((after.qdot[i] - last.qdot[i]).abs() < allowed, "{}: {event:?} {after:?}", case.name);
             }
             match event.kind {
-                MachineEventKind::Impact => {
+                EventKind::Impact => {
                     assert!(before.gaps[event.place].abs() < 1e-12 * size, "{}: {event:?} {before:?}", case.name);
                 }
                 // the surface of a damped stop may not have come back
-                MachineEventKind::Close => {
+                EventKind::Close => {
                     assert!(before.gaps[event.place] < 1e-12 * size, "{}: {before:?}", case.name);
                 }
-                MachineEventKind::Stick => assert_eq!(after.states[event.place], ContactState::Resting),
-                MachineEventKind::Release => assert_eq!(before.states[event.place], ContactState::Resting),
+                EventKind::Stick => assert_eq!(after.states[event.place], ContactState::Resting),
+                EventKind::Release => assert_eq!(before.states[event.place], ContactState::Resting),
                 _ => {}
             }
             met += 1;

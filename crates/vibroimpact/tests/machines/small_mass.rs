@@ -1,6 +1,6 @@
 //! A small mass between a spring and a damper stands for a node without mass. Its fast decay does not set the steps of a search.
 
-use vibroimpact::events::{MachineEvent, MachineLimits, MachineMotion, MachineStart};
+use vibroimpact::events::{Event, Limits, Motion, Start};
 use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
 
 /// A body on a spring, and beside it a spring and a damper in series, with a node of this mass between them.
@@ -17,9 +17,9 @@ fn machine(mass: f64, at_node: bool, law: StopLaw) -> Machine {
     Machine::new(parts.with_stop("stop", &direction, 0.3, law)).unwrap()
 }
 
-fn events(machine: &Machine) -> Vec<MachineEvent> {
-    let mut motion = MachineMotion::new(machine, &MachineStart::default(), MachineLimits::default()).unwrap();
-    let events: Vec<MachineEvent> = motion.by_ref().take(20).collect();
+fn events(machine: &Machine) -> Vec<Event> {
+    let mut motion = Motion::new(machine, &Start::default(), Limits::default()).unwrap();
+    let events: Vec<Event> = motion.by_ref().take(20).collect();
     assert!(events.len() == 20, "{:?} after {} events", motion.end(), events.len());
     events
 }

@@ -1,15 +1,18 @@
 //! Stability in three words, rests on different stops, and chaos that is followed to the end of the budget.
 
 use core::f64::consts::{FRAC_PI_2, PI};
-use vibroimpact::continuation::{BranchOptions, Direction, MachineBranch, MachineBranchEvent, MachineFamily};
-use vibroimpact::events::MachineStart;
+use vibroimpact::continuation::{
+    BranchOptions, Direction,
+    machine::{Branch, BranchEvent, Family},
+};
+use vibroimpact::events::Start;
 use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts, Opening, StopLaw};
-use vibroimpact::orbit::{MachineCycle, find_machine_while};
+use vibroimpact::orbit::{find_machine_while, machine::Cycle};
 use vibroimpact::verdict::{
     Census, Chaos, SettleOptions, Stability, Verdict, scattered_machine_starts, settle_machine,
 };
 
-fn settled(machine: &Machine, start: &MachineStart) -> Verdict<Machine> {
+fn settled(machine: &Machine, start: &Start) -> Verdict<Machine> {
     settle_machine(machine, start, &SettleOptions::default()).unwrap().verdict
 }
 
@@ -27,9 +30,9 @@ fn fermi(eps: f64) -> Machine {
 
 /// On the orbit that strikes each wall once in a period, the moving one where it turns: speed (1 + eps) / pi, half way between
 /// the walls at phase 0. The trace of its derivative is 2 - 4 pi^2 eps / (1 + eps).
-fn on_orbit(eps: f64) -> MachineStart {
+fn on_orbit(eps: f64) -> Start {
     let length = 1.0 + eps;
-    MachineStart { q: vec![0.5 * length], qdot: vec![length / PI], phase: 0.0, ..MachineStart::default() }
+    Start { q: vec![0.5 * length], qdot: vec![length / PI], phase: 0.0, ..Start::default() }
 }
 
 /// 42.5: the multipliers lie on the unit circle until they meet at -1, where pi^2 eps = 1 + eps.
@@ -44,20 +47,20 @@ fn an_elliptic_family_is_neutral_and_has_no_events() {
         assert!((trace - (2.0 - 4.0 * PI * PI * eps / (1.0 + eps))).abs() < 1e-10, "{eps} {trace}");
         assert!(cycle.events.iter().any(|event| event.place == 1 && (event.phase - FRAC_PI_2).abs() < 1e-9));
     }
-    let family = MachineFamily::new(|eps| (eps > 0.0).then(|| fermi(eps)));
+    let family = Family::new(|eps| (eps > 0.0).then(|| fermi(eps)));
     let Verdict::Periodic(cycle) = settled(&fermi(0.05), &on_orbit(0.05)) else { panic!() };
     let branch = |range: core::ops::RangeInclusive<f64>, direction| {
-        MachineBranch::new((&family, 0.05), &cycle, &range, direction, BranchOptions::default()).unwrap()
+        Branch::new((&family, 0.05), &cycle, &range, direction, BranchOptions::default()).unwrap()
     };
     let down: Vec<_> = branch(1e-3..=0.05, Direction::Down).collect();
     assert!(down.len() > 5 && down.iter().all(|point| point.cycle.stability() == Stability::Neutral));
     let events: Vec<_> = down.iter().filter_map(|point| point.event).collect();
-    assert_eq!(events, [MachineBranchEvent::EndOfRange]);
+    assert_eq!(events, [BranchEvent::EndOfRange]);
     // up to the flip and beyond
     let up: Vec<_> = branch(0.05..=0.15, Direction::Up).collect();
     let events: Vec<_> = up.iter().filter_map(|point| point.event).collect();
-    assert_eq!(events, [MachineBranchEvent::Flip, MachineBranchEvent::EndOfRange]);
-    let at = up.iter().position(|point| point.event == Some(MachineBranchEvent::Flip)).unwrap();
+    assert_eq!(events, [BranchEvent::Flip, BranchEvent::EndOfRange]);
+    let at = up.iter().position(|point| point.event == Some(BranchEvent::Flip)).unwrap();
     assert!((up[at].value - flip).abs() < 1e-11, "{} {flip}", up[at].value);
     assert!(up[..at].iter().all(|point| point.cycle.stability() == Stability::Neutral));
     assert!(up[at + 1..].iter().all(|point| point.cycle.stability() == Stability::Unstable));
@@ -96,20 +99,14 @@ fn conservative() -> Vec<(&'static str, Machine)> {
 
 /// Along the branch of a neutral cycle no point is stable, and no event is one of rounding: pairs of multipliers whose product is 1
 /// everywhere cross nothing.
-fn followed(name: &str, machine: &Machine, cycle: &MachineCycle) {
-    let (family, value) = MachineFamily::of_path(machine, "frequency").unwrap();
+fn followed(name: &str, machine: &Machine, cycle: &Cycle) {
+    let (family, value) = Family::of_path(machine, "frequency").unwrap();
     let range = 0.9 * value..=1.1 * value;
     let options = BranchOptions { points: 60, ..BranchOptions::default() };
-    let Ok(branch) = MachineBranch::new((&family, value), cycle, &range, Direction::Up, options) else { return };
+    let Ok(branch) = Branch::new((&family, value), cycle, &range, Direction::Up, options) else { return };
     for point in branch {
         assert!(!point.cycle.stable(), "{name} {} {:?}", point.value, point.cycle.multipliers);
-        assert_ne!(
-            point.event,
-            Some(MachineBranchEvent::Torus),
-            "{name} {} {:?}",
-            point.value,
-            point.cycle.multipliers
-        );
+        assert_ne!(point.event, Some(BranchEvent::Torus), "{name} {} {:?}", point.value, point.cycle.multipliers);
     }
 }
 
@@ -153,7 +150,7 @@ fn motions_without_events_have_a_stability() {
     };
     let rest = |parts: MachineParts| {
         let machine = Machine::new(parts).unwrap();
-        let verdict = settled(&machine, &MachineStart::default());
+        let verdict = settled(&machine, &Start::default());
         assert!(matches!(verdict, Verdict::NoImpact(_)), "{}", verdict.label());
         verdict.stability(&machine)
     };
@@ -184,10 +181,7 @@ fn rests_on_different_stops() {
     let machine = slider();
     let mut census = Census::default();
     let from = |slider: f64, hammer: f64| {
-        settled(
-            &machine,
-            &MachineStart { q: vec![slider, hammer], qdot: vec![0.0; 2], phase: 0.0, ..MachineStart::default() },
-        )
+        settled(&machine, &Start { q: vec![slider, hammer], qdot: vec![0.0; 2], phase: 0.0, ..Start::default() })
     };
     for (slider, stop) in [(3.0, 0), (2.0, 0), (-3.0, 1), (-2.0, 1), (2.5, 0)] {
         let verdict = from(slider, 0.3);
@@ -206,7 +200,7 @@ fn cycles_beside_a_joint_that_holds() {
     let machine = slider();
     let mut fastest = Vec::new();
     for (slider, stop) in [(1.0, 0), (1.02, 0), (-1.0, 1)] {
-        let start = MachineStart { q: vec![slider, 0.0], qdot: vec![0.0; 2], phase: 0.0, ..MachineStart::default() };
+        let start = Start { q: vec![slider, 0.0], qdot: vec![0.0; 2], phase: 0.0, ..Start::default() };
         let verdict = settled(&machine, &start);
         let Verdict::Periodic(cycle) = verdict else { panic!("{slider} {verdict:?}") };
         assert_eq!(cycle.stability(), Stability::Neutral, "{:?}", cycle.multipliers);
@@ -231,10 +225,7 @@ fn contacts_with_different_compliant_stops() {
         .with_joint("ground", &[1.0, 0.0], 5.0, 5.0, 0.0);
     let machine = Machine::new(parts).unwrap();
     let from = |slider: f64| {
-        settled(
-            &machine,
-            &MachineStart { q: vec![slider, 0.0], qdot: vec![0.0; 2], phase: 0.0, ..MachineStart::default() },
-        )
+        settled(&machine, &Start { q: vec![slider, 0.0], qdot: vec![0.0; 2], phase: 0.0, ..Start::default() })
     };
     let (right, left) = (from(3.0), from(-3.0));
     assert_eq!((&*right.label(), right.closed(), left.closed()), ("0", vec![0], vec![1]));
@@ -242,7 +233,7 @@ fn contacts_with_different_compliant_stops() {
 }
 
 /// A structure of three coordinates with three compliant stops, two of them stiff.
-fn long_transient() -> (Machine, MachineStart) {
+fn long_transient() -> (Machine, Start) {
     let soft = |stiffness, damping| StopLaw::Compliant { stiffness, damping, preload: 0.0, opening: Opening::Position };
     let mut parts = MachineParts::new(["x1", "x2", "x3"])
         .with_mass(0, 1.151)
@@ -268,11 +259,11 @@ fn long_transient() -> (Machine, MachineStart) {
     let damping = [[0.13005, -0.01095, 0.0], [-0.01095, 0.02223, -0.01128], [0.0, -0.01128, 0.07717]];
     rows(stiffness, &mut parts.stiffness);
     rows(damping, &mut parts.damping);
-    let start = MachineStart {
+    let start = Start {
         q: vec![-0.1479, -0.0759, 0.2969],
         qdot: vec![-0.4201, 0.976, -0.0398],
         phase: 2.1116,
-        ..MachineStart::default()
+        ..Start::default()
     };
     (Machine::new(parts).unwrap(), start)
 }
@@ -281,7 +272,7 @@ fn long_transient() -> (Machine, MachineStart) {
 #[test]
 fn chaos_lasts_as_long_as_the_budget() {
     let (machine, first) = long_transient();
-    let settled = |start: &MachineStart, budget: u64| {
+    let settled = |start: &Start, budget: u64| {
         settle_machine(&machine, start, &SettleOptions::at_most(u32::try_from(budget).unwrap())).unwrap()
     };
     // how long chaos lasts from a start depends on rounding errors: one from which it lasts long
@@ -290,7 +281,7 @@ fn chaos_lasts_as_long_as_the_budget() {
         start.q[0] += 1e-3 * f64::from(k);
         start
     });
-    let long = |start: &MachineStart| {
+    let long = |start: &Start| {
         let whole = settled(start, 20_000);
         (whole.verdict.label() == "9/4" && whole.impacts > 4_000).then_some(whole)
     };

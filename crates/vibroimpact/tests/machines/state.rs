@@ -1,6 +1,6 @@
 //! States are whole: a motion that goes on from the state of any of its events is the motion, to the last bit.
 
-use vibroimpact::events::{MachineEvent, MachineEventKind, MachineLimits, MachineMotion, MachineStart};
+use vibroimpact::events::{Event, EventKind, Limits, Motion, Start};
 use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
 
 struct Random(u64);
@@ -69,7 +69,7 @@ fn random_machine(random: &mut Random) -> Machine {
     Machine::new(parts).unwrap()
 }
 
-fn same_bits(one: &MachineEvent, other: &MachineEvent) -> bool {
+fn same_bits(one: &Event, other: &Event) -> bool {
     let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
     one.kind == other.kind
         && one.place == other.place
@@ -87,19 +87,19 @@ fn motions_go_on_from_each_event_to_the_last_bit() {
     let (mut events_in_all, mut standing, mut resting, mut holding, mut preloaded) = (0, 0, 0, 0, 0);
     for case in 0..150 {
         let machine = random_machine(&mut random);
-        let limits = MachineLimits::default();
-        let Ok(motion) = MachineMotion::with_states(&machine, &MachineStart::default(), limits) else { continue };
-        let events: Vec<MachineEvent> = motion.take(40).collect();
+        let limits = Limits::default();
+        let Ok(motion) = Motion::with_states(&machine, &Start::default(), limits) else { continue };
+        let events: Vec<Event> = motion.take(40).collect();
         for (k, event) in events.iter().enumerate() {
             // a touch lies between two events
-            if event.kind == MachineEventKind::Graze {
+            if event.kind == EventKind::Graze {
                 continue;
             }
             let state = event.state.as_deref().unwrap();
             assert_eq!((&state.q, &state.qdot, state.phase), (&event.q, &event.qdot, event.phase), "{case}, {k}");
             // events that happen together have one state
             let after = events[k + 1..].iter().skip_while(|next| next.state == event.state);
-            let motion = MachineMotion::new(&machine, state, limits);
+            let motion = Motion::new(&machine, state, limits);
             let mut motion = motion.unwrap_or_else(|error| panic!("{case}, {k}: {error} {state:?}"));
             for next in after {
                 let Some(again) = motion.next() else { panic!("{case}, {k}: ends {:?}, not {next:?}", motion.end()) };

@@ -3,12 +3,12 @@
 use crate::closed_forms::ball;
 use std::f64::consts::PI;
 use vibroimpact::continuation::{
-    BranchError, BranchOptions, CurveEvent, CurveKind, CurveOptions, Direction, MachineBranch, MachineBranchEvent,
-    MachineCurve, MachineCurvePoint, MachineFamily, MachinePlane, MachinePoint,
+    BranchError, BranchOptions, CurveEvent, CurveKind, CurveOptions, Direction,
+    machine::{Branch, BranchEvent, Curve, CurvePoint, Family, Plane, SolutionPoint},
 };
-use vibroimpact::events::MachineStart;
+use vibroimpact::events::Start;
 use vibroimpact::machine::{Machine, MachineParts};
-use vibroimpact::orbit::MachineCycle;
+use vibroimpact::orbit::machine::Cycle;
 use vibroimpact::verdict::{SettleOptions, Verdict, settle_machine};
 
 /// An oscillator with dry friction (J. P. Den Hartog, Trans. ASME 53 (1931) 107-115).
@@ -22,7 +22,7 @@ pub(crate) fn den_hartog(beta: f64, friction: f64) -> Machine {
     Machine::new(parts).unwrap()
 }
 
-fn settled(machine: &Machine, start: &MachineStart) -> MachineCycle {
+fn settled(machine: &Machine, start: &Start) -> Cycle {
     let verdict = settle_machine(machine, start, &SettleOptions::default()).unwrap().verdict;
     let Verdict::Periodic(cycle) = verdict else { panic!("{}", verdict.label()) };
     cycle
@@ -31,13 +31,13 @@ fn settled(machine: &Machine, start: &MachineStart) -> MachineCycle {
 /// The first event of the branch of the settled motion.
 fn first_event(
     make: impl Fn(f64) -> Machine + Send + Sync + 'static,
-    (from, start): (f64, &MachineStart),
+    (from, start): (f64, &Start),
     (range, direction): ((f64, f64), Direction),
-) -> MachinePoint {
+) -> SolutionPoint {
     let cycle = settled(&make(from), start);
-    let family = MachineFamily::new(move |value| Some(make(value)));
+    let family = Family::new(move |value| Some(make(value)));
     let range = range.0..=range.1;
-    let branch = MachineBranch::new((&family, from), &cycle, &range, direction, BranchOptions::default()).unwrap();
+    let branch = Branch::new((&family, from), &cycle, &range, direction, BranchOptions::default()).unwrap();
     branch.into_iter().find(|point| point.event.is_some()).unwrap()
 }
 
@@ -48,9 +48,9 @@ fn a_ball_without_rebound() {
     let make = |gamma: f64| ball(gamma, 0.0);
     let expected = (1.0 + PI * PI).sqrt();
     for (from, direction, begins) in [(2.0, Direction::Up, false), (3.5, Direction::Down, true)] {
-        let start = MachineStart { q: vec![from + 0.1], qdot: vec![0.0], phase: 0.0, ..MachineStart::default() };
+        let start = Start { q: vec![from + 0.1], qdot: vec![0.0], phase: 0.0, ..Start::default() };
         let point = first_event(make, (from, &start), ((0.5, 6.0), direction));
-        assert_eq!(point.event, Some(MachineBranchEvent::Sticking { stop: 0, begins }), "{}", point.value);
+        assert_eq!(point.event, Some(BranchEvent::Sticking { stop: 0, begins }), "{}", point.value);
         assert!((point.value - expected).abs() < 1e-12, "{} {expected}", point.value);
     }
 }
@@ -72,9 +72,9 @@ fn dry_friction() {
         for (from, direction, begins) in
             [(expected - beside, Direction::Up, true), (expected + beside, Direction::Down, false)]
         {
-            let start = (from, &MachineStart::default());
+            let start = (from, &Start::default());
             let point = first_event(move |friction| den_hartog(beta, friction), start, ((0.001, 1.2), direction));
-            assert_eq!(point.event, Some(MachineBranchEvent::Holding { joint: 0, begins }), "{beta} {}", point.value);
+            assert_eq!(point.event, Some(BranchEvent::Holding { joint: 0, begins }), "{beta} {}", point.value);
             assert!((point.value - expected).abs() < 1e-12, "{beta} {} {expected}", point.value);
         }
     }
@@ -85,9 +85,9 @@ fn dry_friction() {
 #[test]
 fn holding_for_ever() {
     for (beta, from) in [(0.8, 0.9), (0.3, 0.97)] {
-        let start = (from, &MachineStart::default());
+        let start = (from, &Start::default());
         let point = first_event(move |friction| den_hartog(beta, friction), start, ((0.001, 1.2), Direction::Up));
-        assert_eq!(point.event, Some(MachineBranchEvent::Holding { joint: 0, begins: true }), "{beta} {}", point.value);
+        assert_eq!(point.event, Some(BranchEvent::Holding { joint: 0, begins: true }), "{beta} {}", point.value);
         assert!((point.value - 1.0).abs() < 1e-12, "{beta} {}", point.value);
     }
 }
@@ -97,21 +97,20 @@ fn curve(
     make: impl Fn(f64, f64) -> Option<Machine> + Send + Sync + 'static,
     values: (f64, f64),
     ranges: ((f64, f64), (f64, f64)),
-    point: &MachinePoint,
-) -> (CurveKind, Vec<MachineCurvePoint>) {
+    point: &SolutionPoint,
+) -> (CurveKind, Vec<CurvePoint>) {
     let ((a, b), (c, d)) = ranges;
-    let plane = MachinePlane::new(make, (a..=b, c..=d));
-    let [forth, back] =
-        MachineCurve::through(&plane, values, point, CurveOptions { longest: 0.1, points: 400 }).unwrap();
+    let plane = Plane::new(make, (a..=b, c..=d));
+    let [forth, back] = Curve::through(&plane, values, point, CurveOptions { longest: 0.1, points: 400 }).unwrap();
     let kind = forth.kind();
-    let mut points: Vec<MachineCurvePoint> = back.skip(1).collect();
+    let mut points: Vec<CurvePoint> = back.skip(1).collect();
     points.reverse();
     points.extend(forth);
     (kind, points)
 }
 
 /// Whether an event of this kind belongs to the settled motion a little on both sides of a point of a curve.
-fn beside(make: impl Fn(f64, f64) -> Option<Machine>, point: &MachineCurvePoint, kind: &str) -> [bool; 2] {
+fn beside(make: impl Fn(f64, f64) -> Option<Machine>, point: &CurvePoint, kind: &str) -> [bool; 2] {
     let (p, q) = point.values;
     // above the table on both sides
     let mut start = point.cycle.state.clone();
@@ -127,7 +126,7 @@ fn beside(make: impl Fn(f64, f64) -> Option<Machine>, point: &MachineCurvePoint,
 fn the_curve_of_dry_friction() {
     let make = |friction, beta| Some(den_hartog(beta, friction));
     for (from, direction) in [(0.7, Direction::Up), (0.85, Direction::Down)] {
-        let start = MachineStart::default();
+        let start = Start::default();
         let point = first_event(|friction| den_hartog(0.8, friction), (from, &start), ((0.001, 1.2), direction));
         let (kind, points) = curve(make, (point.value, 0.8), ((0.1, 1.2), (0.6, 0.97)), &point);
         assert_eq!(kind, CurveKind::Holding { joint: 0 });
@@ -156,7 +155,7 @@ fn the_curve_of_a_ball_without_rebound() {
         Machine::new(parts).ok()
     };
     for (from, direction) in [(2.0, Direction::Up), (3.5, Direction::Down)] {
-        let start = MachineStart { q: vec![from + 0.1], qdot: vec![0.0], phase: 0.0, ..MachineStart::default() };
+        let start = Start { q: vec![from + 0.1], qdot: vec![0.0], phase: 0.0, ..Start::default() };
         let point = first_event(|gamma| ball(gamma, 0.0), (from, &start), ((0.5, 6.0), direction));
         let (kind, points) = curve(make, (point.value, 1.0), ((0.5, 6.0), (0.4, 1.6)), &point);
         assert_eq!(kind, CurveKind::Sticking { stop: 0 });
@@ -176,11 +175,11 @@ fn the_curve_of_a_ball_without_rebound() {
 /// over the restitution.
 #[test]
 fn no_curve_over_the_restitution() {
-    let start = MachineStart { q: vec![3.6], qdot: vec![0.0], phase: 0.0, ..MachineStart::default() };
+    let start = Start { q: vec![3.6], qdot: vec![0.0], phase: 0.0, ..Start::default() };
     let point = first_event(|gamma| ball(gamma, 0.0), (3.5, &start), ((0.5, 6.0), Direction::Down));
     let make = |gamma, e| (0.0..=1.0).contains(&e).then(|| ball(gamma, e));
-    let plane = MachinePlane::new(make, (0.5..=6.0, 0.0..=0.5));
-    let curves = MachineCurve::through(&plane, (point.value, 0.0), &point, CurveOptions { longest: 0.1, points: 400 });
+    let plane = Plane::new(make, (0.5..=6.0, 0.0..=0.5));
+    let curves = Curve::through(&plane, (point.value, 0.0), &point, CurveOptions { longest: 0.1, points: 400 });
     assert_eq!(curves.err(), Some(BranchError::NoCycle));
 }
 
@@ -189,14 +188,13 @@ fn rests(
     make: impl Fn(f64) -> Machine + Send + Sync + 'static,
     from: f64,
     (range, direction): ((f64, f64), Direction),
-) -> Vec<MachinePoint> {
-    let cycle = settled(&make(from), &MachineStart::default());
-    let family = MachineFamily::new(move |value| Some(make(value)));
+) -> Vec<SolutionPoint> {
+    let cycle = settled(&make(from), &Start::default());
+    let family = Family::new(move |value| Some(make(value)));
     let range = range.0..=range.1;
-    let branch = MachineBranch::new((&family, from), &cycle, &range, direction, BranchOptions::default()).unwrap();
-    let of_rest = |point: &MachinePoint| {
-        matches!(point.event, Some(MachineBranchEvent::Sticking { .. } | MachineBranchEvent::Holding { .. }))
-    };
+    let branch = Branch::new((&family, from), &cycle, &range, direction, BranchOptions::default()).unwrap();
+    let of_rest =
+        |point: &SolutionPoint| matches!(point.event, Some(BranchEvent::Sticking { .. } | BranchEvent::Holding { .. }));
     branch.filter(of_rest).collect()
 }
 
@@ -233,10 +231,8 @@ fn events_from_both_sides() {
         for back in &down {
             let forth = up.iter().find(|forth| (forth.value - back.value).abs() < 1e-12);
             let forth = forth.unwrap_or_else(|| panic!("{beta} {}", back.value));
-            let (
-                Some(MachineBranchEvent::Holding { begins: a, .. }),
-                Some(MachineBranchEvent::Holding { begins: b, .. }),
-            ) = (forth.event, back.event)
+            let (Some(BranchEvent::Holding { begins: a, .. }), Some(BranchEvent::Holding { begins: b, .. })) =
+                (forth.event, back.event)
             else {
                 panic!()
             };
@@ -297,13 +293,13 @@ fn curve_of_chatter(
     make: impl Fn(f64, f64) -> Option<Machine> + Copy + Send + Sync + 'static,
     (gap, other): (f64, f64),
     others: (f64, f64),
-) -> Vec<MachineCurvePoint> {
-    let start = MachineStart::default();
+) -> Vec<CurvePoint> {
+    let start = Start::default();
     let cycle = settled(&make(gap, other).unwrap(), &start);
-    let family = MachineFamily::new(move |gap| make(gap, other));
+    let family = Family::new(move |gap| make(gap, other));
     let options = BranchOptions::default();
-    let mut branch = MachineBranch::new((&family, gap), &cycle, &(0.7..=1.1), Direction::Up, options).unwrap();
-    let point = branch.find(|point| matches!(point.event, Some(MachineBranchEvent::Sticking { .. }))).unwrap();
+    let mut branch = Branch::new((&family, gap), &cycle, &(0.7..=1.1), Direction::Up, options).unwrap();
+    let point = branch.find(|point| matches!(point.event, Some(BranchEvent::Sticking { .. }))).unwrap();
     let (kind, points) = curve(make, (point.value, other), ((0.2, 1.4), others), &point);
     assert_eq!(kind, CurveKind::Sticking { stop: 0 });
     for point in &points {
@@ -367,7 +363,7 @@ fn the_curve_of_two_complete_chatters() {
 #[test]
 fn small_restitutions() {
     for (gamma, e) in [(3.2713, 1e-4), (3.22, 1e-3), (2.0, 1e-9)] {
-        let start = MachineStart { q: vec![gamma + 0.1], qdot: vec![0.0], phase: 0.0, ..MachineStart::default() };
+        let start = Start { q: vec![gamma + 0.1], qdot: vec![0.0], phase: 0.0, ..Start::default() };
         let cycle = settled(&ball(gamma, e), &start);
         assert_eq!(cycle.label.to_string(), "inf/1", "{gamma} {e}");
     }

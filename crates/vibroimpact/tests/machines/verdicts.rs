@@ -1,6 +1,6 @@
 //! Verdicts on machines: what the multipliers, energy and momentum must be.
 
-use vibroimpact::events::{MachineLimits, MachineMotion, MachineStart};
+use vibroimpact::events::{Limits, Motion, Start};
 use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::verdict::{SettleOptions, Verdict, settle_machine};
 
@@ -50,7 +50,7 @@ fn products_of_multipliers() {
         };
         let machine = Machine::new(parts).unwrap();
         let options = SettleOptions { chaos_over: 0, max_impacts: 1_000, ..SettleOptions::default() };
-        let settled = settle_machine(&machine, &MachineStart::default(), &options).unwrap();
+        let settled = settle_machine(&machine, &Start::default(), &options).unwrap();
         let Verdict::Periodic(cycle) = settled.verdict else { continue };
         if cycle.events.iter().any(|event| event.kind.name() == "stick") {
             continue;
@@ -81,11 +81,11 @@ fn energy_and_momentum() {
         .with_rigid_stop("left", &[-1.0, 0.0], 1.0, 1.0)
         .with_rigid_stop("right", &[0.0, 1.0], 1.0, 1.0);
     let machine = Machine::new(parts).unwrap();
-    let start = MachineStart { q: vec![-0.3, 0.4], qdot: vec![0.7, -0.2], phase: 0.0, ..MachineStart::default() };
+    let start = Start { q: vec![-0.3, 0.4], qdot: vec![0.7, -0.2], phase: 0.0, ..Start::default() };
     let (mut v, mut seen) = (start.qdot.clone(), 0_u32);
     let energy = |v: &[f64]| 0.5 * (v[0] * v[0] + 1.618 * v[1] * v[1]);
     let before = energy(&v);
-    let motion = MachineMotion::new(&machine, &start, MachineLimits::default()).unwrap();
+    let motion = Motion::new(&machine, &start, Limits::default()).unwrap();
     for event in motion.take(1_000_000) {
         if event.place == 0 {
             let change = (event.qdot[0] - v[0]) + 1.618 * (event.qdot[1] - v[1]);
@@ -115,13 +115,13 @@ fn f42o_chaos_beside_a_steady_part() {
             }
         }
         let machine = Machine::new(parts).unwrap();
-        let found = settle_machine(&machine, &MachineStart::default(), &SettleOptions::default()).unwrap().verdict;
+        let found = settle_machine(&machine, &Start::default(), &SettleOptions::default()).unwrap().verdict;
         assert_eq!(found.label(), "chaotic", "{chaotic}");
     }
 }
 
 /// Two bodies of mass 2 without damping, one at rest on a stop and one that strikes it ever more gently at the top of its swing.
-fn ever_gentler(mass: f64, length: f64) -> (MachineParts, MachineStart) {
+fn ever_gentler(mass: f64, length: f64) -> (MachineParts, Start) {
     let parts = MachineParts::new(["idle", "moves"])
         .with_mass(0, 2.0 * mass)
         .with_mass(1, 2.0 * mass)
@@ -130,7 +130,7 @@ fn ever_gentler(mass: f64, length: f64) -> (MachineParts, MachineStart) {
         .with_rigid_stop("s", &[-1.0, 0.0], 0.0, 0.68)
         .with_rigid_stop("w", &[0.0, 1.0], 0.335_935_883_214_559_9 * length, 0.0)
         .with_rigid_stop("c", &[-1.0, 1.0], 0.3 * length, 0.8);
-    (parts, MachineStart { qdot: vec![0.0, 0.470_353_096_874_196_74 * length], ..MachineStart::default() })
+    (parts, Start { qdot: vec![0.0, 0.470_353_096_874_196_74 * length], ..Start::default() })
 }
 
 /// A machine that nothing drives has no cycle beside which there are no others: each impact takes energy. Impacts that become ever
@@ -158,7 +158,7 @@ fn f42r_a_motion_that_decays_on_a_compliant_stop_ends() {
         .with_stop("s", &[-1.0, 0.0], 0.0, law)
         .with_rigid_stop("c", &[-1.0, 1.0], 0.5, 1.0);
     let machine = Machine::new(parts).unwrap();
-    let start = MachineStart { qdot: vec![0.1, 0.2], ..MachineStart::default() };
+    let start = Start { qdot: vec![0.1, 0.2], ..Start::default() };
     let settled = settle_machine(&machine, &start, &SettleOptions::at_most(4000)).unwrap();
     assert_eq!(settled.verdict.label(), "0");
     assert!(settled.impacts < 1000, "{}", settled.impacts);
@@ -180,7 +180,7 @@ fn f42u_the_longest_flight_has_no_unit() {
             .with_force(0, 1, 0.0, unit)
             .with_rigid_stop("stop", &[1.0, 0.0], 0.25, 0.5);
         let machine = Machine::new(parts).unwrap();
-        let found = settle_machine(&machine, &MachineStart::default(), &SettleOptions::default()).unwrap().verdict;
+        let found = settle_machine(&machine, &Start::default(), &SettleOptions::default()).unwrap().verdict;
         assert_eq!(found.label(), "4/1", "{time}");
     }
 }

@@ -1,11 +1,12 @@
 //! The branches of both over the gap.
 
 use crate::{System, is_long, some};
+use vibroimpact::continuation::machine;
 use vibroimpact::continuation::{
-    Branch, BranchEvent, BranchOptions, CurveKind, CurveOptions, Direction, MachineBranch, MachineBranchEvent,
-    MachineCurve, MachineFamily, MachinePlane, MachinePoint,
+    Branch, BranchEvent, BranchOptions, CurveKind, CurveOptions, Direction,
+    machine::{Curve, Family, Plane, SolutionPoint},
 };
-use vibroimpact::events::MachineStart;
+use vibroimpact::events;
 use vibroimpact::orbit::one_impact;
 use vibroimpact::verdict::{SettleOptions, Verdict, settle, settle_unreduced};
 use vibroimpact::{Oscillator, Parameter, Start};
@@ -58,8 +59,8 @@ fn the_same_branches() {
             continue;
         };
         let own: Vec<_> = own.collect();
-        let (family, value) = MachineFamily::of_path(&machine, "stop.upper.gap").unwrap();
-        let other = match MachineBranch::unreduced((&family, value), &found, &range, direction, branch) {
+        let (family, value) = Family::of_path(&machine, "stop.upper.gap").unwrap();
+        let other = match machine::Branch::unreduced((&family, value), &found, &range, direction, branch) {
             Ok(other) => other.collect::<Vec<_>>(),
             Err(error) => {
                 differ.push(format!("{} {}: {error:?}", system.text, cycle.label));
@@ -96,11 +97,11 @@ fn a_halving_is_the_flip_of_the_half() {
         panic!()
     };
     assert_eq!(cycle.label.to_string(), "2/2");
-    let (family, value) = MachineFamily::of_path(&machine, "stop.upper.gap").unwrap();
+    let (family, value) = Family::of_path(&machine, "stop.upper.gap").unwrap();
     let branch = BranchOptions::default();
     let found = [Direction::Up, Direction::Down].into_iter().find_map(|direction| {
-        let points = MachineBranch::unreduced((&family, value), &cycle, &(1.6..=2.2), direction, branch).unwrap();
-        points.last().filter(|point| point.event == Some(MachineBranchEvent::Halving))
+        let points = machine::Branch::unreduced((&family, value), &cycle, &(1.6..=2.2), direction, branch).unwrap();
+        points.last().filter(|point| point.event == Some(machine::BranchEvent::Halving))
     });
     let halving = found.unwrap();
     // the other cycle, from where it is stable
@@ -135,17 +136,17 @@ fn a_chatter_begins_and_ends_at_its_limit() {
         let machine = at(from).machine();
         let settled = settle_unreduced(&machine, &at(from).machine_start(), &SettleOptions::default()).unwrap();
         let Verdict::Periodic(cycle) = settled.verdict else { panic!("{}", settled.verdict.label()) };
-        let (family, value) = MachineFamily::of_path(&machine, "stop.upper.gap").unwrap();
-        let branch = MachineBranch::unreduced((&family, value), &cycle, &(0.95..=1.0), direction, options).unwrap();
-        let events: Vec<(MachineBranchEvent, f64)> =
+        let (family, value) = Family::of_path(&machine, "stop.upper.gap").unwrap();
+        let branch = machine::Branch::unreduced((&family, value), &cycle, &(0.95..=1.0), direction, options).unwrap();
+        let events: Vec<(machine::BranchEvent, f64)> =
             branch.filter_map(|point| point.event.map(|event| (event, point.value))).collect();
-        let limit = |event: &(MachineBranchEvent, f64)| matches!(event.0, MachineBranchEvent::Sticking { .. });
+        let limit = |event: &(machine::BranchEvent, f64)| matches!(event.0, machine::BranchEvent::Sticking { .. });
         let place = events.iter().position(limit).unwrap();
-        assert_eq!(events[place].0, MachineBranchEvent::Sticking { stop: 0, begins });
+        assert_eq!(events[place].0, machine::BranchEvent::Sticking { stop: 0, begins });
         assert!((events[place].1 - chatter.value).abs() < close, "{} {}", events[place].1, chatter.value);
         // on its side with the chatter there is only the end of the range
         let inside = if begins { &events[place + 1..] } else { &events[..place] };
-        assert!(inside.iter().all(|event| event.0 == MachineBranchEvent::EndOfRange), "{inside:?}");
+        assert!(inside.iter().all(|event| event.0 == machine::BranchEvent::EndOfRange), "{inside:?}");
         assert_eq!(inside.len(), usize::from(begins));
     }
 }
@@ -159,17 +160,17 @@ fn a_curve_of_complete_chatters() {
     };
     let make = move |gap: f64, e: f64| Some(of(gap, e)?.machine());
     let machine = make(1.0, 0.35).unwrap();
-    let settled = settle_unreduced(&machine, &MachineStart::default(), &SettleOptions::default()).unwrap();
+    let settled = settle_unreduced(&machine, &events::Start::default(), &SettleOptions::default()).unwrap();
     let Verdict::Periodic(cycle) = settled.verdict else { panic!("{}", settled.verdict.label()) };
-    let (family, value) = MachineFamily::of_path(&machine, "stop.upper.gap").unwrap();
+    let (family, value) = Family::of_path(&machine, "stop.upper.gap").unwrap();
     let options = BranchOptions::default();
     let mut branch =
-        MachineBranch::unreduced((&family, value), &cycle, &(0.95..=1.0), Direction::Down, options).unwrap();
-    let limit = |point: &MachinePoint| matches!(point.event, Some(MachineBranchEvent::Sticking { .. }));
+        machine::Branch::unreduced((&family, value), &cycle, &(0.95..=1.0), Direction::Down, options).unwrap();
+    let limit = |point: &SolutionPoint| matches!(point.event, Some(machine::BranchEvent::Sticking { .. }));
     let point = branch.find(limit).unwrap();
-    let plane = MachinePlane::new(make, (0.5..=1.5, 0.05..=0.9));
+    let plane = Plane::new(make, (0.5..=1.5, 0.05..=0.9));
     let options = CurveOptions { longest: 0.1, points: 400 };
-    let [forth, back] = MachineCurve::unreduced(&plane, (point.value, 0.35), &point, options).unwrap();
+    let [forth, back] = Curve::unreduced(&plane, (point.value, 0.35), &point, options).unwrap();
     assert_eq!(forth.kind(), CurveKind::Sticking { stop: 0 });
     let (forth, back): (Vec<_>, Vec<_>) = (forth.collect(), back.collect());
     let ends: Vec<f64> = [&forth, &back].map(|points| points.last().unwrap().values.1).to_vec();

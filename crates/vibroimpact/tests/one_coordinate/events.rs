@@ -5,7 +5,8 @@
 //! of events, the rest of the motion is not determined by its numbers and is not compared.
 
 use crate::{System, systems};
-use vibroimpact::events::{MachineEvent, MachineEventKind, MachineLimits, MachineMotion};
+use vibroimpact::events;
+use vibroimpact::events::Limits;
 use vibroimpact::flight::SearchLimits;
 use vibroimpact::motion::{End, Event, EventKind, Motion};
 use vibroimpact::{Oscillator, Side, Start};
@@ -21,13 +22,13 @@ const OFTEN: f64 = 2.0;
 const SUMMED: f64 = 1e-10;
 
 /// Kind, place and speed as a machine has them.
-fn told(event: &Event) -> (MachineEventKind, usize, f64) {
+fn told(event: &Event) -> (events::EventKind, usize, f64) {
     let place = usize::from(event.side == Side::Lower);
     match event.kind {
-        EventKind::Impact { velocity_before, .. } => (MachineEventKind::Impact, place, velocity_before),
-        EventKind::Graze { .. } => (MachineEventKind::Graze, place, 0.0),
-        EventKind::Stick { .. } => (MachineEventKind::Stick, place, 0.0),
-        EventKind::Release => (MachineEventKind::Release, place, 0.0),
+        EventKind::Impact { velocity_before, .. } => (events::EventKind::Impact, place, velocity_before),
+        EventKind::Graze { .. } => (events::EventKind::Graze, place, 0.0),
+        EventKind::Stick { .. } => (events::EventKind::Stick, place, 0.0),
+        EventKind::Release => (events::EventKind::Release, place, 0.0),
     }
 }
 
@@ -129,12 +130,12 @@ fn compare(system: &System, tally: &mut Tally) -> Result<(), String> {
     let events: Vec<Event> = all.into_iter().filter(|event| !is_graze(event)).collect();
     let (sums, determined) = allowed(system, &events);
     let (machine, start) = (system.machine(), system.machine_start());
-    let limits = MachineLimits { time: 300.0, ..MachineLimits::default() };
-    let mut own = MachineMotion::new(&machine, &start, limits).map_err(|error| error.to_string())?;
-    let mut next = |tally: &mut Tally| -> Option<MachineEvent> {
+    let limits = Limits { time: 300.0, ..Limits::default() };
+    let mut own = events::Motion::new(&machine, &start, limits).map_err(|error| error.to_string())?;
+    let mut next = |tally: &mut Tally| -> Option<events::Event> {
         loop {
             let event = own.next()?;
-            if event.kind != MachineEventKind::Graze {
+            if event.kind != events::EventKind::Graze {
                 return Some(event);
             }
             tally.grazes[1] += 1;
@@ -152,8 +153,8 @@ fn compare(system: &System, tally: &mut Tally) -> Result<(), String> {
         let mut slack = 0.0;
         // the sum of a chatter begins at different impacts: both are followed to its end
         let begin = event.time;
-        let is = |kind: MachineEventKind, other: MachineEventKind| {
-            kind == MachineEventKind::Stick && other == MachineEventKind::Impact
+        let is = |kind: events::EventKind, other: events::EventKind| {
+            kind == events::EventKind::Stick && other == events::EventKind::Impact
         };
         if is(got.kind, want.0) {
             while is(got.kind, want.0) {

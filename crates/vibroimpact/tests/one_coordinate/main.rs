@@ -9,7 +9,6 @@ mod reduced;
 mod reduced_branches;
 mod verdicts;
 
-use vibroimpact::events::MachineStart;
 use vibroimpact::machine::{Machine, MachineParts};
 use vibroimpact::{Oscillator, Side, Start};
 
@@ -100,12 +99,12 @@ impl System {
         Machine::new(parts).unwrap()
     }
 
-    fn machine_start(&self) -> MachineStart {
-        MachineStart {
+    fn machine_start(&self) -> vibroimpact::events::Start {
+        vibroimpact::events::Start {
             q: vec![self.start.x],
             qdot: vec![self.start.v],
             phase: self.start.phase,
-            ..MachineStart::default()
+            ..Default::default()
         }
     }
 }

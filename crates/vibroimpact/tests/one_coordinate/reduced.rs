@@ -3,7 +3,8 @@
 use crate::verdicts::beside;
 use crate::{System, some, systems};
 use std::borrow::Cow;
-use vibroimpact::events::{MachineEventKind, MachineLimits, MachineMotion, MachineStart};
+use vibroimpact::events;
+use vibroimpact::events::Limits;
 use vibroimpact::lanes::Width;
 use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::motion::{EventKind, Motion};
@@ -93,9 +94,9 @@ impl Dress {
     }
 }
 
-fn start_of(machine: &Machine, start: Start) -> MachineStart {
+fn start_of(machine: &Machine, start: Start) -> events::Start {
     let (q, qdot, phase) = machine.reduced().unwrap().state(start);
-    MachineStart { q: vec![q], qdot: vec![qdot], phase, ..MachineStart::default() }
+    events::Start { q: vec![q], qdot: vec![qdot], phase, ..events::Start::default() }
 }
 
 fn near(a: f64, b: f64, within: f64) -> bool {
@@ -130,8 +131,8 @@ fn events_in_any_dress() {
             "{fault}"
         );
         let start = start_of(&machine, system.start);
-        let motion = MachineMotion::new(&machine, &start, MachineLimits::default()).unwrap();
-        let own = motion.filter(|event| event.kind == MachineEventKind::Impact);
+        let motion = events::Motion::new(&machine, &start, Limits::default()).unwrap();
+        let own = motion.filter(|event| event.kind == events::EventKind::Impact);
         let of = Motion::new(&osc, system.start).filter_map(|event| match event.kind {
             EventKind::Impact { velocity_before, .. } => Some((event, velocity_before)),
             _ => None,
@@ -165,8 +166,8 @@ fn on_a_stop() {
                 assert_eq!(same.start(q, qdot, phase).unwrap().x, at.x, "{dress:?} {side:?}");
                 let beyond = q + 1e-9 * side.sign() * same.sign() * (1.0 + q.abs());
                 assert_eq!(same.start(beyond, qdot, phase), None, "{dress:?} {side:?}");
-                let start = MachineStart { q: vec![q], qdot: vec![qdot], phase, ..MachineStart::default() };
-                assert!(MachineMotion::new(&machine, &start, MachineLimits::default()).is_ok());
+                let start = events::Start { q: vec![q], qdot: vec![qdot], phase, ..events::Start::default() };
+                assert!(events::Motion::new(&machine, &start, Limits::default()).is_ok());
             }
         }
     }
@@ -215,7 +216,7 @@ fn other_machines() {
 }
 
 /// Both verdicts on a machine: the labels, and of a cycle the fastest speed and the multipliers.
-fn compare(machine: &Machine, start: &MachineStart) -> Result<(String, String), String> {
+fn compare(machine: &Machine, start: &events::Start) -> Result<(String, String), String> {
     let options = SettleOptions::default();
     let found = settle_machine(machine, start, &options).unwrap().verdict;
     let own = settle_unreduced(machine, start, &options).unwrap().verdict;
@@ -326,7 +327,7 @@ fn a_limit_that_grazes() {
         assert_eq!((found.as_str(), own.as_str()), ("0", "0"), "{k}");
         let verdict = settle_machine(&machine, &start_of(&machine, start), &options).unwrap().verdict;
         let reached = verdict.reached(&machine).unwrap();
-        let motion = MachineMotion::new(&machine, &reached, MachineLimits::default()).unwrap();
+        let motion = events::Motion::new(&machine, &reached, Limits::default()).unwrap();
         let scale = machine.reduced().unwrap().speed(Side::Upper, 1.0);
         for event in motion.take(50) {
             assert!(event.speed < 1e-6 * scale, "{k} {event:?}");
@@ -342,11 +343,11 @@ fn a_basin() {
     let machine = DRESSES[6].machine(&scenario::S.oscillator());
     let at = |k: u32, from: f64, to: f64| from + (to - from) * f64::from(k) / 59.0;
     let grid = (0..3600).map(|k| Start { x: at(k % 60, -2.0, 0.75), v: at(k / 60, -2.0, 2.0), phase: 0.0 });
-    let starts: Vec<MachineStart> = grid.map(|start| start_of(&machine, start)).collect();
+    let starts: Vec<events::Start> = grid.map(|start| start_of(&machine, start)).collect();
     let options = SettleOptions::default();
-    let survey: Vec<MachineStart> = starts.iter().step_by(200).cloned().collect();
+    let survey: Vec<events::Start> = starts.iter().step_by(200).cloned().collect();
     let (none, known) = (KnownMotions::default(), KnownMotions::survey(&machine, &survey, &options));
-    let labels = |starts: &[MachineStart], known: &KnownMotions, width: Width| -> Vec<String> {
+    let labels = |starts: &[events::Start], known: &KnownMotions, width: Width| -> Vec<String> {
         let found = settle_machine_many(&machine, starts, known, &options, width, &|| true, &|| false).unwrap();
         let counted: u64 = found.motions.iter().map(|motion| motion.count).sum();
         assert_eq!((counted, found.seen.len()), (starts.len() as u64, starts.len()));
@@ -375,8 +376,8 @@ fn many_machines() {
         let mut machine = dress.machine(&system.oscillator);
         let beside = |v: f64| start_of(&machine, Start { v, ..system.start });
         let mut starts = vec![beside(system.start.v), beside(0.5), beside(-1.0)];
-        starts.push(MachineStart { q: vec![machine.stops()[0].direction[0].signum() * 1e9], ..starts[0].clone() });
-        let state = MachineMotion::with_states(&machine, &starts[0], MachineLimits::default()).unwrap().nth(2);
+        starts.push(events::Start { q: vec![machine.stops()[0].direction[0].signum() * 1e9], ..starts[0].clone() });
+        let state = events::Motion::with_states(&machine, &starts[0], Limits::default()).unwrap().nth(2);
         starts.extend(state.and_then(|event| event.state).map(|state| *state));
         if k % 9 == 0 {
             let small = 1e-3 * machine.parts().stiffness[(0, 0)];

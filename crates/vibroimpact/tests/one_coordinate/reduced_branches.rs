@@ -1,24 +1,26 @@
 //! Orbits, branches and curves of machines that are oscillators, compared with those of the oscillator to the last digit.
 
 use crate::{System, is_long, systems};
+use vibroimpact::continuation;
 use vibroimpact::continuation::{
-    Branch, BranchEvent, BranchOptions, Curve, CurveEvent, CurveOptions, Direction, Frame, MachineBranch,
-    MachineBranchEvent, MachineCurve, MachineFamily, MachinePlane, MachinePoint, SolutionPoint,
+    Branch, BranchEvent, BranchOptions, Curve, CurveEvent, CurveOptions, Direction, Frame, SolutionPoint,
+    machine::{Family, Plane},
 };
-use vibroimpact::events::MachineEventKind;
+use vibroimpact::events::EventKind;
 use vibroimpact::machine::{Machine, MachineParts};
-use vibroimpact::orbit::{Cycle, FindOptions, MachineCycle, find, find_machine_while};
+use vibroimpact::orbit;
+use vibroimpact::orbit::{Cycle, FindOptions, find, find_machine_while};
 use vibroimpact::{Label, Oscillator, Parameter, Side, Start};
 
 /// How far a number is changed.
 const SPAN: f64 = 0.05;
 
 /// Whether the impacts of a machine in the units of its oscillator are those of the oscillator.
-fn same_cycle(own: &MachineCycle, cycle: &Cycle) -> bool {
+fn same_cycle(own: &orbit::machine::Cycle, cycle: &Cycle) -> bool {
     let impacts = own.events.iter().zip(&cycle.points).all(|(event, point)| {
         let place = if point.state.side == Side::Upper { 0 } else { 1 };
         let (phase, speed) = (point.state.phase, point.state.velocity);
-        event.kind == MachineEventKind::Impact && (event.place, event.phase, event.speed) == (place, phase, speed)
+        event.kind == EventKind::Impact && (event.place, event.phase, event.speed) == (place, phase, speed)
     });
     impacts
         && own.events.len() == cycle.points.len()
@@ -36,7 +38,7 @@ fn name(event: BranchEvent) -> Option<&'static str> {
 }
 
 /// How many points of the branch of the machine are those of the oscillator, up to where that of the oscillator ends alone.
-fn compared(own: &[MachinePoint], other: &[SolutionPoint], text: &str) -> usize {
+fn compared(own: &[continuation::machine::SolutionPoint], other: &[SolutionPoint], text: &str) -> usize {
     let until = other.iter().position(|point| point.event.is_some_and(|event| name(event).is_none()));
     let until = until.unwrap_or(other.len());
     assert!(own.len() >= until, "{text}: {} of {until}", own.len());
@@ -75,7 +77,7 @@ fn branches_to_the_last_digit() {
         let (Some(orbit), Some(cycle)) = (orbits.last(), own.last()) else { continue };
         assert!(same_cycle(cycle, &orbit.cycle), "{}", system.text);
         let (path, parameter) = NUMBERS[branches % NUMBERS.len()];
-        let (family, value) = MachineFamily::of_path(&machine, path).unwrap();
+        let (family, value) = Family::of_path(&machine, path).unwrap();
         let least = if parameter == Parameter::Gap { value - SPAN } else { value * (1.0 - SPAN) };
         let most = if parameter == Parameter::Restitution { (value + SPAN).min(1.0) } else { value + SPAN };
         if least >= most || value > most || machine.with(path, least).is_err() {
@@ -86,8 +88,10 @@ fn branches_to_the_last_digit() {
         let of_oscillator = Branch::new(osc, &orbit.cycle, parameter, least..=most, direction, options);
         let Ok(of_oscillator) = of_oscillator else { continue };
         let of_oscillator: Vec<SolutionPoint> = of_oscillator.collect();
-        let of_machine: Vec<MachinePoint> =
-            MachineBranch::new((&family, value), cycle, &(least..=most), direction, options).unwrap().collect();
+        let of_machine: Vec<continuation::machine::SolutionPoint> =
+            continuation::machine::Branch::new((&family, value), cycle, &(least..=most), direction, options)
+                .unwrap()
+                .collect();
         points += compared(&of_machine, &of_oscillator, &system.text);
         events += of_machine.iter().filter(|point| point.event.is_some()).count();
         assert!(of_machine.last().unwrap().event.unwrap().ends(), "{}", system.text);
@@ -117,7 +121,7 @@ fn curves_to_the_last_digit() {
         let Some(orbit) = orbits.last().filter(|orbit| orbit.cycle.rests.is_empty()) else { continue };
         let own = find_machine_while(&machine, label, [], &|| true).unwrap();
         let ranges = (gap - 1.0..=gap + 1.0, 0.8 * osc.beta()..=1.25 * osc.beta());
-        let (family, value) = MachineFamily::of_path(&machine, "stop.upper.gap").unwrap();
+        let (family, value) = Family::of_path(&machine, "stop.upper.gap").unwrap();
         let options = BranchOptions::default();
         let at = (&family, value);
         // beyond the other stop the machine is no oscillator
@@ -130,15 +134,17 @@ fn curves_to_the_last_digit() {
         let is = |event| matches!(event, Some(BranchEvent::Fold | BranchEvent::Flip));
         let mut branch = branch.take_while(|point| point.cycle.rests.is_empty());
         let Some(event) = branch.find(|point| is(point.event)) else { continue };
-        let own = MachineBranch::new(at, own.last().unwrap(), &ranges.0, way, options).unwrap();
-        let is = |event| matches!(event, Some(MachineBranchEvent::Fold | MachineBranchEvent::Flip));
+        let own = continuation::machine::Branch::new(at, own.last().unwrap(), &ranges.0, way, options).unwrap();
+        let is = |event| {
+            matches!(event, Some(continuation::machine::BranchEvent::Fold | continuation::machine::BranchEvent::Flip))
+        };
         let Some(own) = own.into_iter().find(|point| is(point.event)) else { continue };
         assert_eq!(own.value, event.value, "{}", system.text);
-        let plane = MachinePlane::of_paths(&machine, ("stop.upper.gap", "frequency"), ranges.clone()).unwrap();
+        let plane = Plane::of_paths(&machine, ("stop.upper.gap", "frequency"), ranges.clone()).unwrap();
         let frame = Frame { plane: (Parameter::Gap, Parameter::Beta).into(), ranges };
         let options = CurveOptions { points: 200, ..CurveOptions::default() };
         let Ok(of_oscillator) = Curve::through(osc, &event, Parameter::Gap, &frame, options) else { continue };
-        let of_machine = MachineCurve::through(&plane, (own.value, osc.beta()), &own, options).unwrap();
+        let of_machine = continuation::machine::Curve::through(&plane, (own.value, osc.beta()), &own, options).unwrap();
         for (one, other) in of_machine.into_iter().zip(of_oscillator) {
             assert_eq!(one.kind(), other.kind());
             let admissible = other.take_while(|point| point.physical);
@@ -189,12 +195,12 @@ fn in_the_units_of_the_machine() {
         .with_rigid_stop("floor", &[-2.0], 2.0 * 0.005 * 0.25, 0.5);
     let machine = Machine::new(parts).unwrap();
     let cycle = find_machine_while(&machine, Label::new(4, 1), [], &|| true).unwrap().pop().unwrap();
-    let (family, value) = MachineFamily::of_path(&machine, "stop.floor.gap").unwrap();
+    let (family, value) = Family::of_path(&machine, "stop.floor.gap").unwrap();
     let range = value..=2.0 * 0.005 * 0.6;
-    let own: Vec<MachinePoint> =
-        MachineBranch::new((&family, value), &cycle, &range, Direction::Up, options).unwrap().collect();
-    let events = |points: &[MachinePoint]| -> Vec<(&'static str, f64)> {
-        let name = |point: &MachinePoint| point.event.map(|event| (event.name(), point.value));
+    let own: Vec<continuation::machine::SolutionPoint> =
+        continuation::machine::Branch::new((&family, value), &cycle, &range, Direction::Up, options).unwrap().collect();
+    let events = |points: &[continuation::machine::SolutionPoint]| -> Vec<(&'static str, f64)> {
+        let name = |point: &continuation::machine::SolutionPoint| point.event.map(|event| (event.name(), point.value));
         points.iter().filter_map(name).collect()
     };
     let want: Vec<(&str, f64)> = want.iter().filter_map(|point| Some((name(point.event?)?, point.value))).collect();
@@ -223,7 +229,7 @@ fn time_of_a_branch() {
     let cycle = find_machine_while(&machine, Label::new(4, 1), [], &|| true).unwrap().pop().unwrap();
     let options = BranchOptions::default();
     for (path, parameter) in NUMBERS {
-        let (family, value) = MachineFamily::of_path(&machine, path).unwrap();
+        let (family, value) = Family::of_path(&machine, path).unwrap();
         let to = if parameter == Parameter::Gap { 0.6 } else { value + 0.3 };
         let time = |of: &dyn Fn() -> usize| {
             let best = (0..20).map(|_| {
@@ -236,7 +242,9 @@ fn time_of_a_branch() {
         let one =
             time(&|| Branch::new(osc, &orbit.cycle, parameter, value..=to, Direction::Up, options).unwrap().count());
         let other = time(&|| {
-            MachineBranch::new((&family, value), &cycle, &(value..=to), Direction::Up, options).unwrap().count()
+            continuation::machine::Branch::new((&family, value), &cycle, &(value..=to), Direction::Up, options)
+                .unwrap()
+                .count()
         });
         println!("{path}: oscillator {one:?}, machine {other:?}, {}", other.0 / one.0);
     }

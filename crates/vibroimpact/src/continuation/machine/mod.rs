@@ -5,9 +5,9 @@
 //! |---|---|
 //! | the branch of a cycle in one number of a machine | `branches` |
 //! | the curve of an event in a plane of two numbers | `curves` |
-//! | both, of a machine that is an oscillator those of the oscillator | [`MachineBranch`], [`MachineCurve`] |
-//! | the plane of these oscillators, for curves and regions | [`MachinePlane::reduced`] |
-//! | the region of a plane of two numbers in which a motion exists or is stable | [`MachinePlane::region_while`] |
+//! | both, of a machine that is an oscillator those of the oscillator | [`Branch`], [`Curve`] |
+//! | the plane of these oscillators, for curves and regions | [`Plane::reduced`] |
+//! | the region of a plane of two numbers in which a motion exists or is stable | [`Plane::region_while`] |
 
 mod branches;
 mod curves;
@@ -16,7 +16,7 @@ mod reduced_curve;
 mod reduced_plane;
 mod region;
 
-pub use branches::{MachineBranchEvent, MachineFamily, MachinePoint};
-pub use curves::{MachineCurvePoint, MachinePlane};
-pub use reduced_branch::MachineBranch;
-pub use reduced_curve::MachineCurve;
+pub use branches::{BranchEvent, Family, SolutionPoint};
+pub use curves::{CurvePoint, Plane};
+pub use reduced_branch::Branch;
+pub use reduced_curve::Curve;

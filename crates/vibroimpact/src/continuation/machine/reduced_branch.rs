@@ -4,19 +4,19 @@
 //! Where it ends and the machine goes on, as where a rest begins, or where the machine ceases to be an oscillator, the machine's
 //! own equations continue from the last cycle.
 
-use super::branches::{MachineBranchEvent, MachineFamily, MachinePoint, UnreducedBranch};
-use crate::continuation::branches::{
-    Branch, BranchError, BranchEvent, BranchOptions, Change, Direction, SolutionPoint,
-};
+use super::branches::{BranchEvent, Family, SolutionPoint, UnreducedBranch};
+use crate::continuation::branches;
+use crate::continuation::branches::{BranchError, BranchOptions, Change, Direction};
 use crate::machine::Reduction;
-use crate::orbit::{Cycle, MachineCycle};
+use crate::orbit;
+use crate::orbit::machine::Cycle;
 use crate::system::{Oscillator, OscillatorFamily, SystemError};
 use core::ops::RangeInclusive;
 
 /// A branch: an iterator over its points, including its events. The last point has an event that
-/// [ends](MachineBranchEvent::ends) the branch.
+/// [ends](BranchEvent::ends) the branch.
 #[derive(Clone, Debug)]
-pub struct MachineBranch(Method);
+pub struct Branch(Method);
 
 #[derive(Clone, Debug)]
 enum Method {
@@ -24,7 +24,7 @@ enum Method {
     Unreduced(Box<UnreducedBranch>),
 }
 
-impl MachineBranch {
+impl Branch {
     /// The branch of `cycle`, a cycle of the machine of `family` at `value`, over `range`, beginning in `direction`. In the
     /// options, the largest number of impacts is that of the branch of an oscillator; further impacts are followed by the
     /// equations of the machine.
@@ -32,8 +32,8 @@ impl MachineBranch {
     /// # Errors
     /// [`BranchError`] if the branch cannot begin.
     pub fn new(
-        (family, value): (&MachineFamily, f64),
-        cycle: &MachineCycle,
+        (family, value): (&Family, f64),
+        cycle: &Cycle,
         range: &RangeInclusive<f64>,
         direction: Direction,
         options: BranchOptions,
@@ -49,8 +49,8 @@ impl MachineBranch {
     /// # Errors
     /// [`BranchError`] if the branch cannot begin.
     pub fn unreduced(
-        at: (&MachineFamily, f64),
-        cycle: &MachineCycle,
+        at: (&Family, f64),
+        cycle: &Cycle,
         range: &RangeInclusive<f64>,
         direction: Direction,
         options: BranchOptions,
@@ -60,10 +60,10 @@ impl MachineBranch {
     }
 }
 
-impl Iterator for MachineBranch {
-    type Item = MachinePoint;
+impl Iterator for Branch {
+    type Item = SolutionPoint;
 
-    fn next(&mut self) -> Option<MachinePoint> {
+    fn next(&mut self) -> Option<SolutionPoint> {
         let branch = match &mut self.0 {
             Method::Unreduced(branch) => return branch.next(),
             Method::Reduced(branch) => branch,
@@ -85,13 +85,13 @@ impl Iterator for MachineBranch {
 /// The branch of the oscillator that a machine is.
 #[derive(Clone, Debug)]
 struct ReducedBranch {
-    branch: Branch,
-    family: MachineFamily,
+    branch: branches::Branch,
+    family: Family,
     range: RangeInclusive<f64>,
     options: BranchOptions,
     stops: usize,
     /// The value and the cycle at the last point without an event, and the direction in which the number changed to it.
-    last: (f64, Cycle),
+    last: (f64, orbit::Cycle),
     direction: Direction,
     count: u32,
     over: bool,
@@ -99,7 +99,7 @@ struct ReducedBranch {
 
 /// What comes next on a branch.
 enum Step {
-    Point(Box<MachinePoint>),
+    Point(Box<SolutionPoint>),
     /// The branch has ended.
     Over,
     /// That of the oscillator has ended, and the machine may go on.
@@ -110,10 +110,7 @@ enum Step {
 const PARTS: u32 = 4;
 
 /// The oscillator of a family of machines; an error where the machine is none.
-pub(super) fn oscillator<const N: usize>(
-    family: &MachineFamily<N>,
-    values: [f64; N],
-) -> Result<Oscillator, SystemError> {
+pub(super) fn oscillator<const N: usize>(family: &Family<N>, values: [f64; N]) -> Result<Oscillator, SystemError> {
     let reduction = family.reduction(values).ok_or(SystemError::NoOscillator(values[0]))?;
     Ok(reduction.oscillator)
 }
@@ -121,8 +118,8 @@ pub(super) fn oscillator<const N: usize>(
 impl ReducedBranch {
     /// `None` if the machine is no oscillator somewhere in the range, if the cycle rests, or if it cannot be followed.
     fn new(
-        (family, value): (&MachineFamily, f64),
-        cycle: &MachineCycle,
+        (family, value): (&Family, f64),
+        cycle: &Cycle,
         range: &RangeInclusive<f64>,
         direction: Direction,
         options: BranchOptions,
@@ -138,7 +135,7 @@ impl ReducedBranch {
         let path = OscillatorFamily::new(move |values| oscillator(&along, values), [value]);
         let followed = BranchOptions { keep_signature: false, ..options };
         let (osc, reduced) = (&reduction.oscillator, cycle.to_oscillator(&reduction)?);
-        let branch = Branch::new(osc, &reduced, path, range.clone(), direction, followed).ok()?;
+        let branch = branches::Branch::new(osc, &reduced, path, range.clone(), direction, followed).ok()?;
         let last = (value, reduced);
         Some(Self {
             branch,
@@ -161,7 +158,7 @@ impl ReducedBranch {
         let Some(mut point) = self.converted(&of_oscillator) else { return Step::Beyond };
         self.count += 1;
         if self.count >= self.options.points && !point.event.is_some_and(|event| event.ends()) {
-            point.event = Some(MachineBranchEvent::StepLimit);
+            point.event = Some(BranchEvent::StepLimit);
         }
         self.over = point.event.is_some_and(|event| event.ends());
         if point.event.is_none() {
@@ -174,7 +171,7 @@ impl ReducedBranch {
     }
 
     /// A point in the numbers of the machine; `None` at an end that is none of the branch of the machine.
-    fn converted(&self, point: &SolutionPoint) -> Option<MachinePoint> {
+    fn converted(&self, point: &branches::SolutionPoint) -> Option<SolutionPoint> {
         if !point.physical {
             return None;
         }
@@ -183,8 +180,8 @@ impl ReducedBranch {
             Some(event) => Some(converted(event, &reduction)?),
             None => None,
         };
-        let cycle = MachineCycle::of_oscillator(&reduction, self.stops, &point.cycle)?;
-        Some(MachinePoint { value: point.value, cycle, event, ring: None })
+        let cycle = Cycle::of_oscillator(&reduction, self.stops, &point.cycle)?;
+        Some(SolutionPoint { value: point.value, cycle, event, ring: None })
     }
 
     /// The branch of the machine from the last point on.
@@ -200,33 +197,33 @@ impl ReducedBranch {
     }
 
     /// The last point without an event.
-    fn here(&self) -> Option<(f64, MachineCycle)> {
+    fn here(&self) -> Option<(f64, Cycle)> {
         let reduction = self.family.reduction([self.last.0])?;
-        Some((self.last.0, MachineCycle::of_oscillator(&reduction, self.stops, &self.last.1)?))
+        Some((self.last.0, Cycle::of_oscillator(&reduction, self.stops, &self.last.1)?))
     }
 
     /// The end where the machine does not go on.
-    fn no_convergence(&mut self) -> Option<MachinePoint> {
+    fn no_convergence(&mut self) -> Option<SolutionPoint> {
         self.over = true;
         let (value, cycle) = self.here()?;
-        Some(MachinePoint { value, cycle, event: Some(MachineBranchEvent::NoConvergence), ring: None })
+        Some(SolutionPoint { value, cycle, event: Some(BranchEvent::NoConvergence), ring: None })
     }
 }
 
 /// The event of a branch of the machine; `None` for an end that is none of the machine's.
-fn converted(event: BranchEvent, reduction: &Reduction) -> Option<MachineBranchEvent> {
+fn converted(event: branches::BranchEvent, reduction: &Reduction) -> Option<BranchEvent> {
     Some(match event {
-        BranchEvent::Fold => MachineBranchEvent::Fold,
-        BranchEvent::BranchPoint => MachineBranchEvent::BranchPoint,
-        BranchEvent::Flip => MachineBranchEvent::Flip,
-        BranchEvent::Halving => MachineBranchEvent::Halving,
-        BranchEvent::Grazing { change, side, turns, .. } => {
-            MachineBranchEvent::Grazing { stop: reduction.stop(side)?, appears: change == Change::Appears, turns }
+        branches::BranchEvent::Fold => BranchEvent::Fold,
+        branches::BranchEvent::BranchPoint => BranchEvent::BranchPoint,
+        branches::BranchEvent::Flip => BranchEvent::Flip,
+        branches::BranchEvent::Halving => BranchEvent::Halving,
+        branches::BranchEvent::Grazing { change, side, turns, .. } => {
+            BranchEvent::Grazing { stop: reduction.stop(side)?, appears: change == Change::Appears, turns }
         }
-        BranchEvent::LossOfContact { side, .. } => MachineBranchEvent::LossOfContact { stop: reduction.stop(side)? },
-        BranchEvent::Closed => MachineBranchEvent::Closed,
-        BranchEvent::EndOfRange => MachineBranchEvent::EndOfRange,
-        BranchEvent::StepLimit => MachineBranchEvent::StepLimit,
+        branches::BranchEvent::LossOfContact { side, .. } => BranchEvent::LossOfContact { stop: reduction.stop(side)? },
+        branches::BranchEvent::Closed => BranchEvent::Closed,
+        branches::BranchEvent::EndOfRange => BranchEvent::EndOfRange,
+        branches::BranchEvent::StepLimit => BranchEvent::StepLimit,
         _ => return None,
     })
 }

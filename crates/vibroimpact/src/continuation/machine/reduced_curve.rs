@@ -4,19 +4,22 @@
 //! Curves of grazing are those of the machine's own equations, along which the multipliers of the cycle without the contact have
 //! zeros of their own. Where these equations find no cycle, as of the motion without impacts, they are those of the oscillator.
 
-use super::branches::{MachineBranchEvent, MachinePoint};
-use super::curves::{MachineCurvePoint, MachinePlane, UnreducedCurve};
+use super::branches::{BranchEvent, SolutionPoint};
+use super::curves::{CurvePoint, Plane, UnreducedCurve};
 use super::reduced_branch::oscillator;
-use crate::continuation::branches::{BranchError, BranchEvent, Change, SolutionPoint};
-use crate::continuation::curves::{Curve, CurveEvent, CurveKind, CurveOptions, CurvePoint};
+use crate::continuation::branches;
+use crate::continuation::branches::{BranchError, Change};
+use crate::continuation::curves;
+use crate::continuation::curves::{CurveEvent, CurveKind, CurveOptions};
 use crate::math::hypot;
 use crate::motion::ImpactState;
-use crate::orbit::{Count, Cycle, Label, MachineCycle, Ring, blocks, closest, crest, ring_cycle};
+use crate::orbit;
+use crate::orbit::{Count, Label, Ring, blocks, closest, crest, machine::Cycle, ring_cycle};
 use crate::system::{Oscillator, OscillatorFamily, Side, phase};
 
 /// A curve of an event of a machine: an iterator over its points in one direction from the point at which it begins.
 #[derive(Clone, Debug)]
-pub struct MachineCurve(Method);
+pub struct Curve(Method);
 
 #[derive(Clone, Debug)]
 enum Method {
@@ -24,23 +27,23 @@ enum Method {
     Unreduced(Box<UnreducedCurve>),
 }
 
-impl MachineCurve {
+impl Curve {
     /// The two directions along the curve through an event of a branch; `values` are those of both numbers there.
     ///
     /// # Errors
     /// [`BranchError::NotThere`] for an event that begins no curve, [`BranchError::OutOfRange`] if the point lies outside the
     /// frame, [`BranchError::NoCycle`] if no curve is found through it.
     pub fn through(
-        plane: &MachinePlane,
+        plane: &Plane,
         values: (f64, f64),
-        point: &MachinePoint,
+        point: &SolutionPoint,
         options: CurveOptions,
     ) -> Result<[Self; 2], BranchError> {
         let reduced = || {
             let both = ReducedCurve::through(plane, values, point, options)?;
             Some(both.map(|curve| Self(Method::Reduced(Box::new(curve)))))
         };
-        if matches!(point.event, Some(MachineBranchEvent::Fold | MachineBranchEvent::Flip))
+        if matches!(point.event, Some(BranchEvent::Fold | BranchEvent::Flip))
             && let Some(both) = reduced()
         {
             return Ok(both);
@@ -53,9 +56,9 @@ impl MachineCurve {
     /// # Errors
     /// As [`through`](Self::through).
     pub fn unreduced(
-        plane: &MachinePlane,
+        plane: &Plane,
         values: (f64, f64),
-        point: &MachinePoint,
+        point: &SolutionPoint,
         options: CurveOptions,
     ) -> Result<[Self; 2], BranchError> {
         let both = UnreducedCurve::through(plane, values, point, options)?;
@@ -72,10 +75,10 @@ impl MachineCurve {
     }
 }
 
-impl Iterator for MachineCurve {
-    type Item = MachineCurvePoint;
+impl Iterator for Curve {
+    type Item = CurvePoint;
 
-    fn next(&mut self) -> Option<MachineCurvePoint> {
+    fn next(&mut self) -> Option<CurvePoint> {
         match &mut self.0 {
             Method::Reduced(curve) => curve.next(),
             Method::Unreduced(curve) => curve.next(),
@@ -86,43 +89,38 @@ impl Iterator for MachineCurve {
 /// A curve of the oscillator that a machine is, as far as its cycles are admissible.
 #[derive(Clone, Debug)]
 struct ReducedCurve {
-    curve: Curve,
-    plane: MachinePlane,
+    curve: curves::Curve,
+    plane: Plane,
     stops: usize,
     left: u32,
-    last: Option<MachineCurvePoint>,
+    last: Option<CurvePoint>,
 }
 
 impl ReducedCurve {
     /// `None` for another event, if the machine is no oscillator somewhere in the frame, or if no curve is found.
-    fn through(
-        plane: &MachinePlane,
-        values: (f64, f64),
-        point: &MachinePoint,
-        options: CurveOptions,
-    ) -> Option<[Self; 2]> {
+    fn through(plane: &Plane, values: (f64, f64), point: &SolutionPoint, options: CurveOptions) -> Option<[Self; 2]> {
         let (osc, frame) = plane.reduced(values)?;
         let reduction = plane.family.reduction(values.into())?;
         let cycle = point.cycle.to_oscillator(&reduction)?;
         let event = match point.event? {
-            MachineBranchEvent::Fold => BranchEvent::Fold,
-            MachineBranchEvent::Flip => BranchEvent::Flip,
-            MachineBranchEvent::Grazing { stop, appears: true, .. } => appearing(&osc, &cycle, reduction.side(stop)?)?,
-            MachineBranchEvent::Grazing { stop, .. } | MachineBranchEvent::LossOfContact { stop } => {
+            BranchEvent::Fold => branches::BranchEvent::Fold,
+            BranchEvent::Flip => branches::BranchEvent::Flip,
+            BranchEvent::Grazing { stop, appears: true, .. } => appearing(&osc, &cycle, reduction.side(stop)?)?,
+            BranchEvent::Grazing { stop, .. } | BranchEvent::LossOfContact { stop } => {
                 disappearing(&cycle, reduction.side(stop)?)?
             }
             _ => return None,
         };
-        let there = SolutionPoint { value: values.0, cycle, physical: true, event: Some(event) };
+        let there = branches::SolutionPoint { value: values.0, cycle, physical: true, event: Some(event) };
         // the line to the event, along the first number
         let (family, second) = (plane.family.clone(), values.1);
         let line = OscillatorFamily::new(move |[first]| oscillator(&family, [first, second]), [values.0]);
-        let both = Curve::through(&osc, &there, line, &frame, options).ok()?;
+        let both = curves::Curve::through(&osc, &there, line, &frame, options).ok()?;
         let stops = point.cycle.counts.len();
         Some(both.map(|curve| Self { curve, plane: plane.clone(), stops, left: options.points, last: None }))
     }
 
-    fn converted(&self, point: &CurvePoint) -> Option<MachineCurvePoint> {
+    fn converted(&self, point: &curves::CurvePoint) -> Option<CurvePoint> {
         let reduction = self.plane.family.reduction(point.values.into())?;
         let stop = |place: usize| reduction.stop(if place == 0 { Side::Upper } else { Side::Lower }).unwrap_or(place);
         let event = point.event.map(|event| match event {
@@ -145,18 +143,18 @@ impl ReducedCurve {
             CurveKind::Flip => (point.cycle.clone(), nearest(-1.0), None),
             _ => (point.cycle.clone(), nearest(1.0), None),
         };
-        let cycle = MachineCycle::of_oscillator(&reduction, self.stops, &cycle)?;
-        Some(MachineCurvePoint { values: point.values, cycle, residual, touch, event })
+        let cycle = Cycle::of_oscillator(&reduction, self.stops, &cycle)?;
+        Some(CurvePoint { values: point.values, cycle, residual, touch, event })
     }
 
     /// The end where the cycles cease to be admissible without an event that says so.
-    fn change(&mut self) -> Option<MachineCurvePoint> {
+    fn change(&mut self) -> Option<CurvePoint> {
         self.left = 0;
         let last = self.last.take().filter(|last| last.event.is_none())?;
-        Some(MachineCurvePoint { event: Some(CurveEvent::Change { place: None }), ..last })
+        Some(CurvePoint { event: Some(CurveEvent::Change { place: None }), ..last })
     }
 
-    fn next(&mut self) -> Option<MachineCurvePoint> {
+    fn next(&mut self) -> Option<CurvePoint> {
         self.left = self.left.checked_sub(1)?;
         let point = self.curve.next()?;
         // beyond a touch the cycles are inadmissible
@@ -171,7 +169,7 @@ impl ReducedCurve {
 }
 
 /// The grazing at which a flight of a cycle comes to touch a stop: that which comes closest.
-fn appearing(osc: &Oscillator, cycle: &Cycle, side: Side) -> Option<BranchEvent> {
+fn appearing(osc: &Oscillator, cycle: &orbit::Cycle, side: Side) -> Option<branches::BranchEvent> {
     let ring = Ring::of(osc, cycle)?;
     let distance = |k: &usize| closest(osc, &ring, *k, side).map_or(f64::INFINITY, |closest| closest.distance.abs());
     let impact = (0..ring.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
@@ -180,20 +178,24 @@ fn appearing(osc: &Oscillator, cycle: &Cycle, side: Side) -> Option<BranchEvent>
 }
 
 /// The grazing at which an impact of a cycle on a stop loses its speed: that of the slowest.
-fn disappearing(cycle: &Cycle, side: Side) -> Option<BranchEvent> {
+fn disappearing(cycle: &orbit::Cycle, side: Side) -> Option<branches::BranchEvent> {
     let speed = |k: &usize| cycle.points[*k].state.velocity;
     let on_side = (0..cycle.points.len()).filter(|k| cycle.points[*k].state.side == side);
     let impact = on_side.min_by(|a, b| speed(a).total_cmp(&speed(b)))?;
     Some(grazing(cycle, (Change::Disappears, impact), (side, cycle.points[impact].state.phase)))
 }
 
-fn grazing(cycle: &Cycle, (change, impact): (Change, usize), (side, phase): (Side, f64)) -> BranchEvent {
+fn grazing(
+    cycle: &orbit::Cycle,
+    (change, impact): (Change, usize),
+    (side, phase): (Side, f64),
+) -> branches::BranchEvent {
     let (before, after) = (cycle.label, cycle.label);
-    BranchEvent::Grazing { change, impact, side, phase, before, after, turns: false, also: None }
+    branches::BranchEvent::Grazing { change, impact, side, phase, before, after, turns: false, also: None }
 }
 
 /// The cycle of a grazing curve without its contact, and the contact.
-fn without_touch(osc: &Oscillator, cycle: &Cycle) -> Option<(Cycle, ImpactState)> {
+fn without_touch(osc: &Oscillator, cycle: &orbit::Cycle) -> Option<(orbit::Cycle, ImpactState)> {
     let mut points = cycle.points.clone();
     let speed = |k: &usize| points[*k].state.velocity.abs();
     let touch = (0..points.len()).min_by(|a, b| speed(a).total_cmp(&speed(b)))?;
@@ -202,6 +204,6 @@ fn without_touch(osc: &Oscillator, cycle: &Cycle) -> Option<(Cycle, ImpactState)
         points[touch.checked_sub(1).unwrap_or(last)].interval += removed.interval;
     }
     let impacts = Count::Finite(u32::try_from(points.len()).ok()?);
-    let ring = Ring::of(osc, &Cycle { label: Label { impacts, ..cycle.label }, points, ..cycle.clone() })?;
+    let ring = Ring::of(osc, &orbit::Cycle { label: Label { impacts, ..cycle.label }, points, ..cycle.clone() })?;
     Some((ring_cycle(osc, &ring, &blocks(osc, &ring)?), removed.state))
 }

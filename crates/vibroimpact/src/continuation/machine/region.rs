@@ -4,11 +4,11 @@
 //! next by Newton's method on the motion itself, so that every cycle found is admissible. The edge of the set of points to which
 //! a cycle can be followed is outlined to the resolution of [`HALVINGS`] and named by what the nearest cycle inside comes to.
 
-use super::curves::MachinePlane;
+use super::curves::Plane;
 use crate::continuation::curves::node;
 use crate::continuation::regions::{Bound, Outline, Polygon, Region, RegionKind, RegionOptions};
 use crate::math::{Multiplier, hypot, sort_by};
-use crate::orbit::{Count, Label, MachineCycle, MachineFrame, MachineLap, find_unreduced};
+use crate::orbit::{Count, Label, MachineFrame, MachineLap, find_unreduced, machine::Cycle};
 use crate::verdict::scattered_machine_starts;
 use core::cell::RefCell;
 
@@ -37,11 +37,11 @@ const BESIDE: f64 = 1e-5;
 #[derive(Clone, Debug)]
 struct Known {
     at: (f64, f64),
-    cycle: MachineCycle,
+    cycle: Cycle,
 }
 
 struct Search<'a> {
-    plane: &'a MachinePlane,
+    plane: &'a Plane,
     label: Label,
     kind: RegionKind,
     grid: (u32, u32),
@@ -50,7 +50,7 @@ struct Search<'a> {
     go_on: &'a dyn Fn() -> bool,
 }
 
-impl MachinePlane {
+impl Plane {
     /// The region of the cycles with the label `label`; `None` when `go_on` returned false, which is called at each cycle that is
     /// computed. Over the oscillators that the machines [are](Self::reduced), [`region`](crate::continuation::region) is faster and
     /// more accurate.
@@ -63,12 +63,12 @@ impl MachinePlane {
     ///
     /// ```
     /// use vibroimpact::Label;
-    /// use vibroimpact::continuation::{MachinePlane, RegionKind, RegionOptions};
+    /// use vibroimpact::continuation::{Plane, RegionKind, RegionOptions};
     /// use vibroimpact::machine::{Machine, MachineParts};
     /// let parts = MachineParts::new(["frame", "head"]).with_mass(0, 1.0).with_mass(1, 0.5);
     /// let parts = parts.with_link(&[1.0, 0.0], 1.0, 0.1).with_link(&[1.0, -1.0], 1.0, 0.1).with_frequency(1.0);
     /// let parts = parts.with_force(0, 1, 0.0, 1.0).with_rigid_stop("anvil", &[0.0, 1.0], 0.5, 0.6);
-    /// let plane = MachinePlane::of_paths(&Machine::new(parts)?, ("frequency", "stop.anvil.gap"), (1.0..=1.3, 0.3..=0.9))?;
+    /// let plane = Plane::of_paths(&Machine::new(parts)?, ("frequency", "stop.anvil.gap"), (1.0..=1.3, 0.3..=0.9))?;
     /// let options = RegionOptions { grid: (6, 6), ..RegionOptions::default() };
     /// let found = plane.region_while(Label::new(1, 1), RegionKind::Stability, options, &|| true).expect("it is not stopped");
     /// assert!(found.contains((1.2, 0.5)));
@@ -93,17 +93,17 @@ impl Search<'_> {
         node(&self.plane.ranges, place, self.grid)
     }
 
-    fn wanted(&self, cycle: &MachineCycle) -> bool {
+    fn wanted(&self, cycle: &Cycle) -> bool {
         cycle.label == self.label && (self.kind == RegionKind::Existence || cycle.stable())
     }
 
     /// The cycle at `to` to which one at `from` leads, followed along the straight line between both.
-    fn followed(&self, from: &Known, to: (f64, f64), depth: u32) -> Option<MachineCycle> {
+    fn followed(&self, from: &Known, to: (f64, f64), depth: u32) -> Option<Cycle> {
         (self.go_on)().then_some(())?;
         let there = || {
             let machine = self.plane.family.machine(to.into())?;
             let (begin, time) = (from.cycle.strobes.first()?, (from.cycle.label.periods, from.cycle.period));
-            MachineCycle::lasting(&MachineFrame::new(&machine), begin, time).filter(|cycle| self.wanted(cycle))
+            Cycle::lasting(&MachineFrame::new(&machine), begin, time).filter(|cycle| self.wanted(cycle))
         };
         there().or_else(|| {
             let half = depth.checked_sub(1)?;
@@ -142,7 +142,7 @@ impl Search<'_> {
     }
 
     /// Adds a cycle at a point if it is another one there.
-    fn learn(&self, at: (f64, f64), cycle: MachineCycle) -> bool {
+    fn learn(&self, at: (f64, f64), cycle: Cycle) -> bool {
         let mut known = self.known.borrow_mut();
         let new = !known.iter().any(|other| other.at == at && other.cycle.same_as(&cycle, SAME));
         if new {
@@ -155,7 +155,7 @@ impl Search<'_> {
     fn survey(&self) -> Option<()> {
         let (columns, rows) = self.grid;
         let some = |count: u32| (0..count).filter(move |k| k % EVERY == (EVERY / 2).min(count - 1));
-        let mut waiting: Vec<((u32, u32), MachineCycle)> = Vec::new();
+        let mut waiting: Vec<((u32, u32), Cycle)> = Vec::new();
         for (i, j) in some(rows).flat_map(|j| some(columns).map(move |i| (i, j))) {
             let Some(machine) = self.plane.family.machine(self.node((i, j)).into()) else { continue };
             let starts = (0..STARTS).map(|k| scattered_machine_starts(&machine, 1, k));
@@ -218,7 +218,7 @@ impl Search<'_> {
     }
 
     /// Whether the motion has more closings or fewer right outside.
-    fn beyond(&self, (p, q): (f64, f64), cycle: &MachineCycle) -> Option<Bound> {
+    fn beyond(&self, (p, q): (f64, f64), cycle: &Cycle) -> Option<Bound> {
         let Count::Finite(closings) = cycle.label.impacts else { return None };
         let [by, up] = self.plane.scales().map(|scale| BESIDE * scale);
         [(by, 0.0), (-by, 0.0), (0.0, up), (0.0, -up)].into_iter().find_map(|(dp, dq)| {

@@ -6,7 +6,7 @@
 //! 296-305).
 
 use super::crossing::crossing;
-use super::cycle::MachineCycle;
+use super::cycle::Cycle;
 use super::frame::MachineFrame;
 use super::lap::MachineLap;
 use crate::events::Place;
@@ -22,19 +22,11 @@ const NEAR: f64 = 1e-2;
 const GUESSES: u32 = 16;
 
 /// States on the border between two stable orbits of as many periods, as far as a motion from it stays there.
-pub(super) fn on_border(
-    frame: &MachineFrame<'_>,
-    (a, b): (&MachineCycle, &MachineCycle),
-    go_on: &dyn Fn() -> bool,
-) -> Vec<Place> {
+pub(super) fn on_border(frame: &MachineFrame<'_>, (a, b): (&Cycle, &Cycle), go_on: &dyn Fn() -> bool) -> Vec<Place> {
     find(frame, (a, b), go_on).unwrap_or_default()
 }
 
-fn find(
-    frame: &MachineFrame<'_>,
-    (a, b): (&MachineCycle, &MachineCycle),
-    go_on: &dyn Fn() -> bool,
-) -> Option<Vec<Place>> {
+fn find(frame: &MachineFrame<'_>, (a, b): (&Cycle, &Cycle), go_on: &dyn Fn() -> bool) -> Option<Vec<Place>> {
     let time = frame.time(a.label.periods.max(b.label.periods), a.period.max(b.period));
     let (from, other) = (a.strobes.first()?, b.strobes.first()?);
     // the states of the second orbit at the phase of the first one
@@ -51,7 +43,7 @@ fn find(
         let mixed: Vec<f64> = x.iter().zip(&y).map(|(x, y)| x + part * (y - x)).collect();
         frame.shape.with_values(from, &mixed)
     };
-    let close = |(cycle, strobes): (&MachineCycle, &[Place]), place: &Place| {
+    let close = |(cycle, strobes): (&Cycle, &[Place]), place: &Place| {
         // without forcing the motion passes the state of the orbit at any time
         let passing = frame.unforced().then(|| crossing(frame, place, cycle)).flatten();
         let place = passing.as_ref().unwrap_or(place);

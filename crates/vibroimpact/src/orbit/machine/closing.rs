@@ -1,7 +1,7 @@
 //! Closing a cycle of a machine by Newton's method, on the state between two events. Without forcing the period is unknown
 //! too, and the state is determined across the motion only.
 
-use super::cycle::MachineCycle;
+use super::cycle::Cycle;
 use super::frame::MachineFrame;
 use super::lap::MachineLap;
 use super::rounding::rounding_decides;
@@ -23,7 +23,7 @@ const OTHER: f64 = 0.25;
 /// States that differ by less, relative to the motion, are the same.
 const SAME: f64 = 1e-8;
 
-impl MachineCycle {
+impl Cycle {
     /// The cycle of `n` forcing periods near the motion from `from`, by Newton's method on the state between two events,
     /// which a free translation leaves as it is; `None` if it does not converge, if it rests and rounding errors decide its period,
     /// or without forcing.

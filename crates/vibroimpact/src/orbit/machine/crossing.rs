@@ -1,6 +1,6 @@
 //! Where a motion of a machine without forcing passes the state of a cycle: in the plane across the flow there.
 
-use super::cycle::MachineCycle;
+use super::cycle::Cycle;
 use super::frame::MachineFrame;
 use super::lap::MachineLap;
 use crate::events::Place;
@@ -10,7 +10,7 @@ const CROSSING_STEPS: u32 = 20;
 
 /// The state in which the motion from `place` crosses the plane across the flow at the state of a cycle, within a period of
 /// that, nearest to that state.
-pub(crate) fn crossing(frame: &MachineFrame<'_>, place: &Place, cycle: &MachineCycle) -> Option<Place> {
+pub(crate) fn crossing(frame: &MachineFrame<'_>, place: &Place, cycle: &Cycle) -> Option<Place> {
     let (state, period) = (cycle.strobes.first()?, cycle.period);
     let ((size, speed), n) = (cycle.sizes, frame.shape.n);
     // products of differences relative to the sizes of coordinates and velocities

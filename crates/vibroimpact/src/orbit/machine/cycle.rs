@@ -3,7 +3,7 @@
 use super::frame::{MachineFrame, distance};
 use super::lap::MachineLap;
 use super::multipliers::multipliers;
-use crate::events::{MachineEvent, MachineEventKind, MachineStart, Place};
+use crate::events::{Event, EventKind, Place, Start};
 use crate::math::Multiplier;
 use crate::orbit::{Count, Label, Stability};
 use crate::regime::Translations;
@@ -17,14 +17,14 @@ use core::f64::consts::TAU;
 /// cycles are the same motion wherever the machine is. Their states are given where the parts along the free translations
 /// are 0 at [`state`](Self::state), which for one translation in all coordinates is the centre of mass.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MachineCycle {
+pub struct Cycle {
     /// The label m/n: m closings of stops (impacts, and beginnings of compliant contact) in n forcing periods; `inf/n` with
     /// a complete chatter. `m/T` without forcing: m closings in one period of the motion.
     pub label: Label,
     /// The closings of each stop.
     pub counts: Vec<u32>,
     /// Its events in order, beginning with the fastest closing. Times are counted from the first event.
-    pub events: Vec<MachineEvent>,
+    pub events: Vec<Event>,
     /// The time of one period.
     pub period: f64,
     /// Floquet multipliers, the largest first: two for each coordinate, less one for each free translation, whose own is
@@ -37,7 +37,7 @@ pub struct MachineCycle {
     /// size of the motion.
     pub drift: Vec<f64>,
     /// A state of the cycle between two events.
-    pub state: MachineStart,
+    pub state: Start,
     /// The states at the phase of `state`, one for each forcing period; without forcing `state` alone.
     pub(crate) strobes: Vec<Place>,
     /// The logarithms of the moduli of the multipliers; minus infinity for those that are 0.
@@ -54,20 +54,20 @@ pub struct MachineCycle {
 const ROUNDED: f64 = 1e-12;
 
 /// The events without the impacts of complete chatters that follow an impact on the same stop: the first ones tell them.
-fn without_chatters(events: Vec<MachineEvent>) -> Vec<MachineEvent> {
+fn without_chatters(events: Vec<Event>) -> Vec<Event> {
     let m = events.len();
     let impact = |k: usize, stop: usize| events[k].closes() && events[k].place == stop;
     let follows = |k: usize| {
         let stop = events[k].place;
         let end = (k..k + m).map(|i| i % m).find(|i| !impact(*i, stop));
-        let stuck = end.is_some_and(|end| events[end].kind == MachineEventKind::Stick && events[end].place == stop);
+        let stuck = end.is_some_and(|end| events[end].kind == EventKind::Stick && events[end].place == stop);
         stuck && impact(k, stop) && impact((k + m - 1) % m, stop)
     };
     let kept: Vec<bool> = (0..m).map(|k| !follows(k)).collect();
     events.into_iter().zip(kept).filter_map(|(event, kept)| kept.then_some(event)).collect()
 }
 
-impl MachineCycle {
+impl Cycle {
     /// Whether neighbours approach the cycle.
     #[must_use]
     pub fn stability(&self) -> Stability {
@@ -103,8 +103,8 @@ impl MachineCycle {
     #[must_use]
     pub fn same_as(&self, other: &Self, tolerance: f64) -> bool {
         // a touch within rounding may be told or not, and a chatter may be followed for more or fewer impacts
-        let told = |cycle: &Self| -> Vec<MachineEvent> {
-            let told = cycle.events.iter().filter(|event| event.kind != MachineEventKind::Graze);
+        let told = |cycle: &Self| -> Vec<Event> {
+            let told = cycle.events.iter().filter(|event| event.kind != EventKind::Graze);
             without_chatters(told.cloned().collect())
         };
         let (a, b) = (told(self), told(other));
@@ -128,7 +128,7 @@ impl MachineCycle {
         let radian =
             if self.free.is_empty() { 0.0 } else { self.period / (TAU * f64::from(self.label.periods.max(1))) };
         let size = own.fold(radian * rate, |most, q| most.max(q.abs()));
-        let close = |p: &MachineEvent, q: &MachineEvent| {
+        let close = |p: &Event, q: &Event| {
             let apart = untranslated(p.q.iter().zip(&q.q).map(|(x, y)| x - y).collect());
             p.kind == q.kind
                 && p.place == q.place

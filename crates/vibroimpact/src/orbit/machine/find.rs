@@ -1,11 +1,11 @@
 //! Periodic motions of a machine with a label, stable or not, from many guesses.
 
 use super::border::on_border;
-use super::cycle::MachineCycle;
+use super::cycle::Cycle;
 use super::frame::MachineFrame;
 use super::near_returns::near_returns;
 use super::reduced::orbits;
-use crate::events::{MachineMotion, MachineStart};
+use crate::events::{Motion, Start};
 use crate::machine::Machine;
 use crate::math::sort_by;
 use crate::orbit::Label;
@@ -33,9 +33,9 @@ const BETWEEN: usize = 4;
 pub fn find_machine_while(
     machine: &Machine,
     label: Label,
-    starts: impl IntoIterator<Item = MachineStart>,
+    starts: impl IntoIterator<Item = Start>,
     go_on: &dyn Fn() -> bool,
-) -> Option<Vec<MachineCycle>> {
+) -> Option<Vec<Cycle>> {
     match orbits(&MachineFrame::new(machine), label, go_on)? {
         Some(cycles) => Some(cycles),
         None => find_unreduced(machine, label, starts, go_on),
@@ -47,9 +47,9 @@ pub fn find_machine_while(
 pub fn find_unreduced(
     machine: &Machine,
     label: Label,
-    starts: impl IntoIterator<Item = MachineStart>,
+    starts: impl IntoIterator<Item = Start>,
     go_on: &dyn Fn() -> bool,
-) -> Option<Vec<MachineCycle>> {
+) -> Option<Vec<Cycle>> {
     let (frame, starts) = (MachineFrame::new(machine), &mut starts.into_iter());
     match machine.period() {
         Some(period) => forced(&frame, (label, period), starts, go_on),
@@ -61,13 +61,13 @@ pub fn find_unreduced(
 fn forced(
     frame: &MachineFrame<'_>,
     (label, period): (Label, f64),
-    starts: &mut dyn Iterator<Item = MachineStart>,
+    starts: &mut dyn Iterator<Item = Start>,
     go_on: &dyn Fn() -> bool,
-) -> Option<Vec<MachineCycle>> {
+) -> Option<Vec<Cycle>> {
     // of all labels of as many periods
-    let mut known: Vec<MachineCycle> = Vec::new();
+    let mut known: Vec<Cycle> = Vec::new();
     for start in starts {
-        let Ok(mut motion) = MachineMotion::new(frame.machine, &start, frame.limits()) else { continue };
+        let Ok(mut motion) = Motion::new(frame.machine, &start, frame.limits()) else { continue };
         let mut seen = 0;
         for after in AFTER {
             while motion.time() < after * period && seen < EVENTS && motion.step().is_some() {
@@ -77,16 +77,16 @@ fn forced(
             if !go_on() {
                 return None;
             }
-            learn(&mut known, MachineCycle::near(frame, motion.place(), label.periods));
+            learn(&mut known, Cycle::near(frame, motion.place(), label.periods));
         }
     }
-    let stable: Vec<MachineCycle> = known.iter().filter(|cycle| cycle.stable()).take(BETWEEN).cloned().collect();
+    let stable: Vec<Cycle> = known.iter().filter(|cycle| cycle.stable()).take(BETWEEN).cloned().collect();
     for (i, j) in (0..stable.len()).flat_map(|i| (0..i).map(move |j| (i, j))) {
         for guess in on_border(frame, (&stable[i], &stable[j]), go_on) {
             if !go_on() {
                 return None;
             }
-            learn(&mut known, MachineCycle::near(frame, &guess, label.periods));
+            learn(&mut known, Cycle::near(frame, &guess, label.periods));
         }
     }
     Some(of_label(known, label))
@@ -96,22 +96,22 @@ fn forced(
 fn unforced(
     frame: &MachineFrame<'_>,
     label: Label,
-    starts: &mut dyn Iterator<Item = MachineStart>,
+    starts: &mut dyn Iterator<Item = Start>,
     go_on: &dyn Fn() -> bool,
-) -> Option<Vec<MachineCycle>> {
-    let mut known: Vec<MachineCycle> = Vec::new();
-    let from = |known: &mut Vec<MachineCycle>, motion: MachineMotion<'_>| {
+) -> Option<Vec<Cycle>> {
+    let mut known: Vec<Cycle> = Vec::new();
+    let from = |known: &mut Vec<Cycle>, motion: Motion<'_>| {
         for (guess, time) in near_returns(frame, motion, label.impacts) {
             go_on().then_some(())?;
-            learn(known, MachineCycle::returning(frame, &guess, time));
+            learn(known, Cycle::returning(frame, &guess, time));
         }
         Some(())
     };
     for start in starts {
-        let Ok(motion) = MachineMotion::new(frame.machine, &start, frame.limits()) else { continue };
+        let Ok(motion) = Motion::new(frame.machine, &start, frame.limits()) else { continue };
         from(&mut known, motion)?;
     }
-    let stable: Vec<MachineCycle> = known.iter().filter(|cycle| cycle.stable()).take(BETWEEN).cloned().collect();
+    let stable: Vec<Cycle> = known.iter().filter(|cycle| cycle.stable()).take(BETWEEN).cloned().collect();
     for (i, j) in (0..stable.len()).flat_map(|i| (0..i).map(move |j| (i, j))) {
         if let Some(place) = on_border(frame, (&stable[i], &stable[j]), go_on).into_iter().next() {
             from(&mut known, frame.resume(place).limited(frame.limits().time))?;
@@ -121,14 +121,14 @@ fn unforced(
 }
 
 /// The cycles with a label, the fastest last.
-fn of_label(known: Vec<MachineCycle>, label: Label) -> Vec<MachineCycle> {
-    let mut found: Vec<MachineCycle> = known.into_iter().filter(|cycle| cycle.label == label).collect();
+fn of_label(known: Vec<Cycle>, label: Label) -> Vec<Cycle> {
+    let mut found: Vec<Cycle> = known.into_iter().filter(|cycle| cycle.label == label).collect();
     sort_by(&mut found, |a, b| a.fastest().total_cmp(&b.fastest()));
     found
 }
 
 /// Adds a cycle that is new.
-fn learn(known: &mut Vec<MachineCycle>, cycle: Option<MachineCycle>) {
+fn learn(known: &mut Vec<Cycle>, cycle: Option<Cycle>) {
     if let Some(cycle) = cycle
         && !known.iter().any(|other| other.same_as(&cycle, SAME))
     {

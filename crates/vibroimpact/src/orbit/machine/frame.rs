@@ -2,7 +2,7 @@
 //! regimes.
 
 use crate::arc::Modes;
-use crate::events::{MachineLimits, MachineMotion, Metric, Place, StateShape, Structures};
+use crate::events::{Limits, Metric, Motion, Place, StateShape, Structures};
 use crate::machine::Machine;
 use crate::math::{Matrix, add_scaled, dot};
 use crate::orbit::rounding;
@@ -48,10 +48,10 @@ impl<'a> MachineFrame<'a> {
     /// Limits of motions that do not depend on the unit of time: the longest flight is that in which the forcing, or without forcing the
     /// slowest mode with all stops open, turns by as many radians as the default one has units of time. Of free bodies they are the
     /// default ones.
-    pub(crate) fn limits(&self) -> MachineLimits {
-        let limits = MachineLimits::default();
+    pub(crate) fn limits(&self) -> Limits {
+        let limits = Limits::default();
         let rate = self.machine.parts().frequency.or_else(|| self.open().and_then(|open| open.slowest()));
-        rate.map_or(limits, |rate| MachineLimits { time: limits.time / rate, ..limits })
+        rate.map_or(limits, |rate| Limits { time: limits.time / rate, ..limits })
     }
 
     /// The structure with all stops open, and all joints sliding.
@@ -61,12 +61,12 @@ impl<'a> MachineFrame<'a> {
     }
 
     /// The motion from a state.
-    pub(crate) fn resume(&self, place: Place) -> MachineMotion<'a> {
-        MachineMotion::resumed(self.machine, self.normal.clone(), self.structures.borrow().clone(), place)
+    pub(crate) fn resume(&self, place: Place) -> Motion<'a> {
+        Motion::resumed(self.machine, self.normal.clone(), self.structures.borrow().clone(), place)
     }
 
     /// Keeps the structures that a motion has built.
-    pub(crate) fn keep(&self, motion: &MachineMotion<'_>) {
+    pub(crate) fn keep(&self, motion: &Motion<'_>) {
         self.structures.borrow_mut().join(motion.structures());
     }
 

@@ -1,8 +1,8 @@
 //! The motion of a machine over a time, with its derivative by the state at the beginning.
 
 use super::frame::MachineFrame;
-use crate::events::{MachineEnd, MachineEvent, Passage, Place, step_derivative};
-use crate::machine::{MachineStop, StopLaw};
+use crate::events::{End, Event, Passage, Place, step_derivative};
+use crate::machine::{Stop, StopLaw};
 use crate::math::Matrix;
 use crate::regime::ContactState;
 
@@ -18,7 +18,7 @@ pub(crate) struct MachineLap {
     /// The steps, each with the state at its beginning and the time of that.
     pub(crate) steps: Vec<(f64, Place, Passage)>,
     /// The events, with times since the beginning.
-    pub(crate) events: Vec<MachineEvent>,
+    pub(crate) events: Vec<Event>,
     /// The largest sizes of coordinates and velocities.
     pub(crate) sizes: (f64, f64),
 }
@@ -48,7 +48,7 @@ impl MachineLap {
         self.derivative = self.derivative.zip(next.derivative).map(|(so_far, own)| own.times(&so_far));
         let time = self.time;
         self.steps.extend(next.steps.into_iter().map(|(begin, from, passage)| (time + begin, from, passage)));
-        self.events.extend(next.events.into_iter().map(|event| MachineEvent { time: time + event.time, ..event }));
+        self.events.extend(next.events.into_iter().map(|event| Event { time: time + event.time, ..event }));
         self.sizes = (self.sizes.0.max(next.sizes.0), self.sizes.1.max(next.sizes.1));
         Self { time: time + next.time, end: next.end, ..self }
     }
@@ -66,7 +66,7 @@ impl MachineLap {
         let mut events = Vec::new();
         let mut sizes = frame.sizes(begin);
         // at the events of a joint, and after impacts with restitution 0, the velocity can be zero
-        let plastic = |stop: &MachineStop| matches!(stop.law, StopLaw::Rigid { restitution } if restitution == 0.0);
+        let plastic = |stop: &Stop| matches!(stop.law, StopLaw::Rigid { restitution } if restitution == 0.0);
         let can_be_still = !frame.machine.joints().is_empty() || frame.machine.stops().iter().any(plastic);
         let mut end = None;
         while end.is_none() {
@@ -80,7 +80,7 @@ impl MachineLap {
                 let (x, v) = frame.sizes(&middle);
                 sizes = (sizes.0.max(x), sizes.1.max(v));
             }
-            let for_ever = matches!(motion.end(), Some(MachineEnd::Never | MachineEnd::Stuck));
+            let for_ever = matches!(motion.end(), Some(End::Never | End::Stuck));
             let own = if left <= passage.duration || for_ever {
                 end = Some(frame.moved(&from, &passage.structure, left));
                 Some(frame.shape.transition(&passage.structure, &frame.normal, &from, left))
@@ -108,7 +108,7 @@ impl MachineLap {
         frame.keep(&motion);
         let end = end?;
         // what happens after the end does not belong to it
-        events.retain(|event: &MachineEvent| event.time <= time);
+        events.retain(|event: &Event| event.time <= time);
         Some(Self { time, end, derivative, steps, events, sizes })
     }
 }

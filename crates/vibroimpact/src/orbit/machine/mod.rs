@@ -14,7 +14,7 @@
 //! | guesses of unstable ones between two that are stable | `border` |
 //! | guesses without forcing: where a motion comes close to an earlier state | `near_returns` |
 //! | all with a label, from many guesses | [`find_machine_while`] |
-//! | a cycle | [`MachineCycle`] |
+//! | a cycle | [`Cycle`] |
 //! | the same, by Newton's method on the state between two events | `closing` |
 //! | cycles of the oscillator that a machine is, in its numbers | `reduced` |
 
@@ -36,7 +36,7 @@ mod rounding;
 
 pub(crate) use chatters::{Chatter, Rebound};
 pub(crate) use crossing::crossing;
-pub use cycle::MachineCycle;
+pub use cycle::Cycle;
 pub use find::{find_machine_while, find_unreduced};
 pub(crate) use frame::MachineFrame;
 pub(crate) use lap::MachineLap;

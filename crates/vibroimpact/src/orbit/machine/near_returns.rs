@@ -5,7 +5,7 @@
 
 use super::frame::MachineFrame;
 use super::ring::RingEvent;
-use crate::events::{MachineMotion, Place};
+use crate::events::{Motion, Place};
 use crate::math::sort_by;
 use crate::orbit::Count;
 
@@ -28,7 +28,7 @@ struct Passed {
 
 /// States of a motion with the time after which it comes close to them again, the same event having happened and so many
 /// closings, but any number after the last of these states.
-pub(super) fn near_returns(frame: &MachineFrame<'_>, motion: MachineMotion<'_>, impacts: Count) -> Vec<(Place, f64)> {
+pub(super) fn near_returns(frame: &MachineFrame<'_>, motion: Motion<'_>, impacts: Count) -> Vec<(Place, f64)> {
     let passed = events(motion);
     let mut guesses = Vec::new();
     let last = AFTER.into_iter().rfind(|k| k + 1 < passed.len());
@@ -54,7 +54,7 @@ pub(super) fn near_returns(frame: &MachineFrame<'_>, motion: MachineMotion<'_>, 
 }
 
 /// The events of a motion, as many as are compared.
-fn events(mut motion: MachineMotion<'_>) -> Vec<Passed> {
+fn events(mut motion: Motion<'_>) -> Vec<Passed> {
     let mut passed: Vec<Passed> = Vec::new();
     let (mut closings, mut chatters) = (0, 0);
     let most = AFTER.iter().max().map_or(0, |last| last + LONGEST);

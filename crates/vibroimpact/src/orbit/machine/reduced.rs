@@ -2,20 +2,22 @@
 //!
 //! Nothing is computed anew: impacts are converted, and multipliers belong to the motion, whatever its units are.
 
-use super::cycle::MachineCycle;
+use super::cycle::Cycle;
 use super::frame::MachineFrame;
-use crate::events::{MachineEvent, MachineEventKind, MachineLimits, MachineMotion, MachineStart, Place};
+use crate::events::{Event, EventKind, Limits, Motion, Place, Start};
 use crate::flight::Flight;
 use crate::machine::Reduction;
 use crate::math::{ln, sort_by};
 use crate::motion::ImpactState;
-use crate::orbit::{Count, Cycle, CyclePoint, FindOptions, Label, find_while};
+use crate::orbit;
+use crate::orbit::{Count, CyclePoint, FindOptions, Label, find_while};
 use crate::regime::{ContactState, Translations};
-use crate::system::{Oscillator, Start, phase};
+use crate::system;
+use crate::system::{Oscillator, phase};
 
-impl MachineCycle {
+impl Cycle {
     /// The cycle of the oscillator that a machine with this number of stops is; `None` if it sticks, or has no flight.
-    pub(crate) fn of_oscillator(reduction: &Reduction, stops: usize, cycle: &Cycle) -> Option<Self> {
+    pub(crate) fn of_oscillator(reduction: &Reduction, stops: usize, cycle: &orbit::Cycle) -> Option<Self> {
         if !cycle.rests.is_empty() {
             return None;
         }
@@ -27,8 +29,8 @@ impl MachineCycle {
             let (q, qdot, phase) = reduction.state(point.state.rebound(osc));
             let place = reduction.stop(side)?;
             counts[place] += 1;
-            events.push(MachineEvent {
-                kind: MachineEventKind::Impact,
+            events.push(Event {
+                kind: EventKind::Impact,
                 place,
                 time: time * reduction.time(),
                 phase,
@@ -45,7 +47,7 @@ impl MachineCycle {
         rotate_to_fastest(&mut events, period);
         let strobes = strobes(reduction, stops, cycle)?;
         let root = reduction.mass().sqrt();
-        let largest = |of: fn(&MachineEvent) -> f64, strobe: f64| {
+        let largest = |of: fn(&Event) -> f64, strobe: f64| {
             events.iter().map(|event| root * of(event).abs()).fold(strobe.abs(), f64::max)
         };
         let sizes = (
@@ -53,7 +55,7 @@ impl MachineCycle {
             largest(|event| event.qdot[0].abs().max(event.speed), strobes[0].v[0]),
         );
         let contacts = Vec::new();
-        let state = MachineStart {
+        let state = Start {
             q: vec![strobes[0].x[0] / root],
             qdot: vec![strobes[0].v[0] / root],
             phase: strobes[0].phase,
@@ -78,13 +80,12 @@ impl MachineCycle {
     }
 
     /// The cycle of the oscillator that the machine is; `None` if it rests.
-    pub(crate) fn to_oscillator(&self, reduction: &Reduction) -> Option<Cycle> {
-        let impacts: Vec<&MachineEvent> =
-            self.events.iter().filter(|event| event.kind != MachineEventKind::Graze).collect();
+    pub(crate) fn to_oscillator(&self, reduction: &Reduction) -> Option<orbit::Cycle> {
+        let impacts: Vec<&Event> = self.events.iter().filter(|event| event.kind != EventKind::Graze).collect();
         let [one, two] = *self.multipliers.as_slice() else { return None };
-        let point = |(k, event): (usize, &&MachineEvent)| {
+        let point = |(k, event): (usize, &&Event)| {
             let next = impacts.get(k + 1).map_or(self.period + impacts[0].time, |next| next.time);
-            let side = reduction.side(event.place).filter(|_| event.kind == MachineEventKind::Impact)?;
+            let side = reduction.side(event.place).filter(|_| event.kind == EventKind::Impact)?;
             let state = ImpactState {
                 phase: phase::wrap(event.phase + reduction.phase()),
                 velocity: reduction.arrival(side, event.speed),
@@ -92,7 +93,7 @@ impl MachineCycle {
             };
             Some(CyclePoint { state, interval: (next - event.time) / reduction.time() })
         };
-        Some(Cycle {
+        Some(orbit::Cycle {
             label: self.label,
             points: impacts.iter().enumerate().map(point).collect::<Option<_>>()?,
             rests: Vec::new(),
@@ -103,7 +104,7 @@ impl MachineCycle {
 }
 
 /// Makes the fastest event the first one, at time 0.
-fn rotate_to_fastest(events: &mut [MachineEvent], period: f64) {
+fn rotate_to_fastest(events: &mut [Event], period: f64) {
     let faster = |a: &usize, b: &usize| events[*a].speed.total_cmp(&events[*b].speed).then(b.cmp(a));
     let Some(first) = (0..events.len()).max_by(faster).filter(|first| *first > 0) else { return };
     let zero = events[first].time;
@@ -114,10 +115,10 @@ fn rotate_to_fastest(events: &mut [MachineEvent], period: f64) {
 }
 
 /// The states of a cycle at one phase, in each forcing period, the first in the middle of its longest flight.
-fn strobes(reduction: &Reduction, stops: usize, cycle: &Cycle) -> Option<Vec<Place>> {
+fn strobes(reduction: &Reduction, stops: usize, cycle: &orbit::Cycle) -> Option<Vec<Place>> {
     let (osc, points, root) = (&reduction.oscillator, &cycle.points, reduction.mass().sqrt());
     let longest = (0..points.len()).max_by(|a, b| points[*a].interval.total_cmp(&points[*b].interval));
-    let Some(longest) = longest else { return Some(vec![place(reduction, stops, root, Start::steady(osc))]) };
+    let Some(longest) = longest else { return Some(vec![place(reduction, stops, root, system::Start::steady(osc))]) };
     let (mut k, mut time) = (longest, 0.5 * points[longest].interval);
     let first = phase::wrap(points[longest].state.phase + osc.beta() * time);
     let mut all = Vec::with_capacity(cycle.label.periods as usize);
@@ -127,14 +128,14 @@ fn strobes(reduction: &Reduction, stops: usize, cycle: &Cycle) -> Option<Vec<Pla
             k = (k + 1) % points.len();
         }
         let (x, v) = Flight::new(osc, points[k].state.rebound(osc)).state(time);
-        all.push(place(reduction, stops, root, Start { x, v, phase: first }));
+        all.push(place(reduction, stops, root, system::Start { x, v, phase: first }));
         time += osc.period();
     }
     Some(all)
 }
 
 /// The state of a machine at one of the oscillator at which no stop is closed; `root` is the square root of its mass.
-fn place(reduction: &Reduction, stops: usize, root: f64, at: Start) -> Place {
+fn place(reduction: &Reduction, stops: usize, root: f64, at: system::Start) -> Place {
     let (q, qdot, phase) = reduction.state(at);
     Place {
         x: vec![root * q],
@@ -148,7 +149,7 @@ fn place(reduction: &Reduction, stops: usize, root: f64, at: Start) -> Place {
 }
 
 /// A state of a cycle between two contacts; `None` for a cycle without impacts.
-pub(crate) fn flying(osc: &Oscillator, cycle: &Cycle) -> Option<Start> {
+pub(crate) fn flying(osc: &Oscillator, cycle: &orbit::Cycle) -> Option<system::Start> {
     let (flight, time) = match cycle.rests.last() {
         // its impacts begin after this release
         Some(rest) => {
@@ -161,24 +162,20 @@ pub(crate) fn flying(osc: &Oscillator, cycle: &Cycle) -> Option<Start> {
         }
     };
     let (x, v) = flight.state(0.5 * time);
-    Some(Start { x, v, phase: flight.phase_at(0.5 * time) })
+    Some(system::Start { x, v, phase: flight.phase_at(0.5 * time) })
 }
 
 /// The orbits of a machine with a label that are those of the oscillator that it is, the fastest last; `None` inside if the machine
 /// is none, or has orbits that the oscillator does not list. `None` once `go_on` has returned false.
-pub(super) fn orbits(
-    frame: &MachineFrame<'_>,
-    label: Label,
-    go_on: &dyn Fn() -> bool,
-) -> Option<Option<Vec<MachineCycle>>> {
+pub(super) fn orbits(frame: &MachineFrame<'_>, label: Label, go_on: &dyn Fn() -> bool) -> Option<Option<Vec<Cycle>>> {
     let Some(reduction) = frame.machine.reduced() else { return Some(None) };
     let found = find_while(&reduction.oscillator, label, FindOptions::default(), go_on)?;
-    let of = |cycle: &Cycle| match cycle.rests.as_slice() {
-        [] => MachineCycle::of_oscillator(&reduction, frame.machine.stops().len(), cycle),
+    let of = |cycle: &orbit::Cycle| match cycle.rests.as_slice() {
+        [] => Cycle::of_oscillator(&reduction, frame.machine.stops().len(), cycle),
         _ => closed(frame, &reduction, cycle),
     };
     let admissible = found.iter().filter(|orbit| orbit.physical);
-    let mut cycles: Vec<MachineCycle> = match admissible.map(|orbit| of(&orbit.cycle)).collect() {
+    let mut cycles: Vec<Cycle> = match admissible.map(|orbit| of(&orbit.cycle)).collect() {
         // without damping the motion without impacts is one of a continuum, which the oscillator does not list
         Some(cycles) if label.impacts != Count::Finite(0) || !found.is_empty() => cycles,
         _ => return Some(None),
@@ -188,9 +185,9 @@ pub(super) fn orbits(
 }
 
 /// A cycle that sticks, closed by the machine; `None` if the machine gives it another label.
-fn closed(frame: &MachineFrame<'_>, reduction: &Reduction, cycle: &Cycle) -> Option<MachineCycle> {
+fn closed(frame: &MachineFrame<'_>, reduction: &Reduction, cycle: &orbit::Cycle) -> Option<Cycle> {
     let (q, qdot, phase) = reduction.state(flying(&reduction.oscillator, cycle)?);
-    let start = MachineStart { q: vec![q], qdot: vec![qdot], phase, ..MachineStart::default() };
-    let motion = MachineMotion::new(frame.machine, &start, MachineLimits::default()).ok()?;
-    MachineCycle::near(frame, motion.place(), cycle.label.periods).filter(|found| found.label == cycle.label)
+    let start = Start { q: vec![q], qdot: vec![qdot], phase, ..Start::default() };
+    let motion = Motion::new(frame.machine, &start, Limits::default()).ok()?;
+    Cycle::near(frame, motion.place(), cycle.label.periods).filter(|found| found.label == cycle.label)
 }

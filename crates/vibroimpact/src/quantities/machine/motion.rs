@@ -5,11 +5,11 @@ use super::super::sums::{Scale, Sums, mean_over};
 use super::part::{Part, machine_quantity};
 use super::sums::PartSums;
 use super::tally::Tally;
-use crate::events::{MachineEnd, Place};
+use crate::events::{End, Place};
 use crate::lyapunov::blocks::FEWEST;
 use crate::lyapunov::{Measured, Tail};
 use crate::machine::{Machine, MachineError};
-use crate::orbit::{MachineCycle, MachineFrame, MachineLap};
+use crate::orbit::{MachineFrame, MachineLap, machine::Cycle};
 use crate::regime::ContactState;
 use crate::verdict::Verdict;
 use crate::verdict::machine::State;
@@ -91,7 +91,7 @@ impl Quantities {
 /// does not go on for a period.
 ///
 /// ```
-/// use vibroimpact::events::MachineStart;
+/// use vibroimpact::events::Start;
 /// use vibroimpact::machine::{Machine, MachineParts};
 /// use vibroimpact::quantities::machine_quantities;
 /// use vibroimpact::verdict::{SettleOptions, settle_machine};
@@ -102,7 +102,7 @@ impl Quantities {
 ///     .with_force(0, 1, 0.0, 1.0)
 ///     .with_rigid_stop("wall", &[1.0], 0.5, 0.5);
 /// let machine = Machine::new(parts)?;
-/// let settled = settle_machine(&machine, &MachineStart::default(), &SettleOptions::default())?;
+/// let settled = settle_machine(&machine, &Start::default(), &SettleOptions::default())?;
 /// let found = machine_quantities(&machine, &settled.verdict).unwrap();
 /// let of = |path| found.value(&machine, path);
 /// let lost = of("impact_power")? + of("damping_power")?;
@@ -111,7 +111,7 @@ impl Quantities {
 /// # Ok::<(), vibroimpact::machine::MachineError>(())
 /// ```
 #[must_use]
-pub fn machine_cycle_quantities(machine: &Machine, cycle: &MachineCycle) -> Option<Quantities> {
+pub fn machine_cycle_quantities(machine: &Machine, cycle: &Cycle) -> Option<Quantities> {
     over_time(&MachineFrame::new(machine), cycle.strobes.first()?, cycle.period)
 }
 
@@ -139,7 +139,7 @@ fn over_time(frame: &MachineFrame<'_>, from: &Place, time: f64) -> Option<Quanti
     loop {
         let (begin, left) = (motion.place().clone(), time - motion.time());
         let passage = motion.step()?;
-        let for_ever = matches!(motion.end(), Some(MachineEnd::Never | MachineEnd::Stuck));
+        let for_ever = matches!(motion.end(), Some(End::Never | End::Stuck));
         if left <= passage.duration || for_ever {
             tally.flight(&begin, &passage.structure, left, &[]);
             break;
@@ -196,7 +196,7 @@ fn steady(frame: &MachineFrame<'_>, from: &Place) -> Option<Quantities> {
     let fastest = structure.fastest();
     let time = frame.machine.period().unwrap_or(if fastest > 0.0 { 1.0 / fastest } else { 1.0 });
     if frame.machine.period().is_some()
-        && let Some(cycle) = MachineCycle::near(frame, from, 1)
+        && let Some(cycle) = Cycle::near(frame, from, 1)
         && cycle.multipliers.iter().all(|multiplier| multiplier.modulus() < ATTRACTS)
     {
         return over_time(frame, cycle.strobes.first()?, cycle.period);

@@ -1,6 +1,6 @@
 //! The parts of a machine, the quantities of each, and their paths.
 
-use crate::machine::{Machine, MachineError, MachineFault};
+use crate::machine::{Fault, Machine, MachineError};
 use crate::quantities::quantity::Quantity;
 
 /// What a quantity refers to. Stops, joints and coordinates are counted as in the machine.
@@ -161,13 +161,13 @@ pub fn machine_quantity(machine: &Machine, path: &str) -> Result<(Part, Quantity
     let Some(part) = parts.iter().find(|part| part.head(machine) == head) else {
         let heads: Vec<String> = parts.iter().skip(1).map(|part| part.head(machine)).collect();
         let hint = format!("quantities of parts begin with {}", heads.join(", "));
-        return Err(MachineError::new(path, MachineFault::NoNumber(hint)));
+        return Err(MachineError::new(path, Fault::NoNumber(hint)));
     };
     let found = part.quantities().iter().find(|quantity| quantity.name() == name);
     found.map(|quantity| (*part, *quantity)).ok_or_else(|| {
         let names: Vec<&str> = part.quantities().iter().map(|quantity| quantity.name()).collect();
         let of = if head.is_empty() { "the machine" } else { head };
-        MachineError::new(path, MachineFault::NoNumber(format!("the quantities of {of} are {}", names.join(", "))))
+        MachineError::new(path, Fault::NoNumber(format!("the quantities of {of} are {}", names.join(", "))))
     })
 }
 

@@ -4,7 +4,7 @@
 use super::super::sums::Sum;
 use super::sums::{Extremes, PartSums};
 use crate::arc::{MachineFlight, Modes};
-use crate::events::{MachineEvent, Passage, Place, contact_forces};
+use crate::events::{Event, Passage, Place, contact_forces};
 use crate::machine::StopLaw;
 use crate::math::{Gauss, POINTS, add_scaled, dot};
 use crate::orbit::MachineFrame;
@@ -283,7 +283,7 @@ impl<'a> Tally<'a> {
     }
 
     /// Adds what happens at the end of a step: closings, and the impulses of impacts.
-    pub(super) fn event(&mut self, passage: &Passage, events: &[MachineEvent]) {
+    pub(super) fn event(&mut self, passage: &Passage, events: &[Event]) {
         for event in events.iter().filter(|event| event.closes()) {
             let sums = &mut self.sums.stops[event.place];
             sums[Sum::Impacts] += 1.0;

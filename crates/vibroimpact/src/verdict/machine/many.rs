@@ -13,7 +13,7 @@ use super::super::outcome::Verdict;
 use super::super::settlement::Settlement as OscillatorSettlement;
 use super::reduced::{Converted, Reduced};
 use super::settle::settle_alone;
-use crate::events::MachineStart;
+use crate::events;
 use crate::lanes::Width;
 use crate::machine::Machine;
 use crate::system::Start;
@@ -40,7 +40,7 @@ pub struct KnownMotions {
 impl KnownMotions {
     /// Settles these starts one by one, if the machine is an oscillator, and keeps the cycles that have a trapping region.
     #[must_use]
-    pub fn survey(machine: &Machine, starts: &[MachineStart], options: &SettleOptions) -> Self {
+    pub fn survey(machine: &Machine, starts: &[events::Start], options: &SettleOptions) -> Self {
         let Some(reduced) = Reduced::new(machine, options) else { return Self::default() };
         let plain = starts.iter().filter_map(|start| reduced.start(start));
         let attractors = KnownAttractors::survey(reduced.oscillator(), plain, options);
@@ -53,7 +53,7 @@ impl KnownMotions {
 /// `go_on` at every step of a motion that the machine follows itself, and stops it if it returns false.
 ///
 /// ```
-/// use vibroimpact::events::MachineStart;
+/// use vibroimpact::events::Start;
 /// use vibroimpact::lanes::Width;
 /// use vibroimpact::machine::{Machine, MachineParts};
 /// use vibroimpact::verdict::{KnownMotions, SettleOptions, settle_machine_many};
@@ -65,8 +65,8 @@ impl KnownMotions {
 ///     .with_force(0, 1, 0.0, 1.0)
 ///     .with_rigid_stop("stop", &[1.0], 0.75, 0.5);
 /// let machine = Machine::new(parts)?;
-/// let start = |k: u32| MachineStart { qdot: vec![0.01 * f64::from(k) - 4.0], ..MachineStart::default() };
-/// let starts: Vec<MachineStart> = (0..800).map(start).collect();
+/// let start = |k: u32| events::Start { qdot: vec![0.01 * f64::from(k) - 4.0], ..events::Start::default() };
+/// let starts: Vec<events::Start> = (0..800).map(start).collect();
 /// let options = SettleOptions::default();
 /// let known = KnownMotions::survey(&machine, &starts[..8], &options);
 /// let settled = settle_machine_many(&machine, &starts, &known, &options, Width::best(), &|| true, &|| false)
@@ -77,7 +77,7 @@ impl KnownMotions {
 #[must_use]
 pub fn settle_machine_many(
     machine: &Machine,
-    starts: &[MachineStart],
+    starts: &[events::Start],
     known: &KnownMotions,
     options: &SettleOptions,
     width: Width,
@@ -97,7 +97,7 @@ pub fn settle_machine_many(
 /// it returns true; `go_on` at every step of a motion that a machine follows itself, and stops it if it returns false.
 #[must_use]
 pub fn settle_each_machine(
-    problems: &[(Machine, Vec<MachineStart>)],
+    problems: &[(Machine, Vec<events::Start>)],
     options: &SettleOptions,
     width: Width,
     go_on: &dyn Fn() -> bool,
@@ -130,7 +130,7 @@ pub fn settle_each_machine(
 /// The starts of a machine.
 struct Question<'a> {
     machine: &'a Machine,
-    starts: &'a [MachineStart],
+    starts: &'a [events::Start],
     known: &'a KnownMotions,
     options: &'a SettleOptions,
     reduced: Option<Reduced<'a>>,
@@ -141,7 +141,7 @@ struct Question<'a> {
 impl<'a> Question<'a> {
     fn new(
         machine: &'a Machine,
-        starts: &'a [MachineStart],
+        starts: &'a [events::Start],
         (known, options): (&'a KnownMotions, &'a SettleOptions),
     ) -> Self {
         let reduced = Reduced::new(machine, options);

@@ -1,11 +1,12 @@
 //! What is particular to verdicts on a machine.
 
 use super::super::outcome::{System, Verdict};
-use crate::events::{MachineStart, Place};
+use crate::events::{Place, Start};
 use crate::lyapunov::Measured;
 use crate::machine::Machine;
 use crate::math::general_eigenvalues;
-use crate::orbit::{Label, MachineCycle, MachineFrame, Stability};
+use crate::orbit::machine;
+use crate::orbit::{Label, MachineFrame, Stability};
 use crate::regime::{ContactState, Normal};
 use core::f64::consts::TAU;
 
@@ -22,7 +23,7 @@ impl State {
 
     /// The state as a start.
     #[must_use]
-    pub fn start(&self, machine: &Machine) -> MachineStart {
+    pub fn start(&self, machine: &Machine) -> Start {
         self.place.start(machine, &Normal::new(machine))
     }
 
@@ -60,7 +61,7 @@ impl Verdict<Machine> {
     /// A state of the motion that is reached: on the cycle, at the beginning of the last part of chaos that is measured, or
     /// after the last event; `None` for an undecided motion.
     #[must_use]
-    pub fn reached(&self, machine: &Machine) -> Option<MachineStart> {
+    pub fn reached(&self, machine: &Machine) -> Option<Start> {
         match self {
             Self::Periodic(cycle) => Some(cycle.state.clone()),
             Self::NoImpact(last) | Self::Stuck(last) => Some(last.start(machine)),
@@ -71,17 +72,17 @@ impl Verdict<Machine> {
 }
 
 impl System for Machine {
-    type Cycle = MachineCycle;
+    type Cycle = machine::Cycle;
     type NoImpact = State;
     type Place = State;
     type State = State;
     type Exponents = Vec<Measured>;
 
-    fn label(cycle: &MachineCycle) -> Label {
+    fn label(cycle: &machine::Cycle) -> Label {
         cycle.label
     }
 
-    fn same_cycle(a: &MachineCycle, b: &MachineCycle, tolerance: f64) -> bool {
+    fn same_cycle(a: &machine::Cycle, b: &machine::Cycle, tolerance: f64) -> bool {
         a.same_as(b, tolerance)
     }
 

@@ -9,12 +9,14 @@ use super::super::options::SettleOptions;
 use super::super::oscillator::NoImpact;
 use super::super::outcome::{Chaos, Settled, Undecided, UndecidedCause, Verdict};
 use super::outcome::State;
-use crate::events::{MachineLimits, MachineMotion, MachineStart, Place};
+use crate::events;
+use crate::events::{Limits, Motion, Place};
 use crate::flight::Flight;
 use crate::lyapunov::{Measured, Spectrum, Tail};
 use crate::machine::{Machine, Reduction};
 use crate::motion::ImpactState;
-use crate::orbit::{Cycle, MachineCycle, MachineFrame, flying};
+use crate::orbit::machine;
+use crate::orbit::{Cycle, MachineFrame, flying};
 use crate::system::{Oscillator, Side, Start};
 
 /// The time after a grazing contact at which the state of its motion is given, in units of the oscillator.
@@ -44,7 +46,7 @@ impl<'a> Reduced<'a> {
     }
 
     /// The same with the start of the oscillator.
-    pub(crate) fn of(machine: &'a Machine, start: &MachineStart, options: &'a SettleOptions) -> Option<(Self, Start)> {
+    pub(crate) fn of(machine: &'a Machine, start: &events::Start, options: &'a SettleOptions) -> Option<(Self, Start)> {
         let reduced = Self::new(machine, options)?;
         let from = reduced.start(start)?;
         Some((reduced, from))
@@ -56,7 +58,7 @@ impl<'a> Reduced<'a> {
     }
 
     /// The start of the oscillator; `None` for one that says what its contacts do, that has digits of its own, or that is not valid.
-    pub(crate) fn start(&self, start: &MachineStart) -> Option<Start> {
+    pub(crate) fn start(&self, start: &events::Start) -> Option<Start> {
         let number = |values: &[f64]| match values {
             [] => Some(0.0),
             [one] => Some(*one),
@@ -123,9 +125,9 @@ impl<'a> Reduced<'a> {
     }
 
     /// The cycle of the oscillator, closed by the machine; `None` if the machine gives it another label.
-    fn closed(&self, cycle: &Cycle) -> Option<MachineCycle> {
+    fn closed(&self, cycle: &Cycle) -> Option<machine::Cycle> {
         let from = self.place(flying(self.oscillator(), cycle)?)?;
-        let found = MachineCycle::near(&MachineFrame::new(self.machine), &from, cycle.label.periods)?;
+        let found = machine::Cycle::near(&MachineFrame::new(self.machine), &from, cycle.label.periods)?;
         (found.label == cycle.label).then_some(found)
     }
 
@@ -144,8 +146,8 @@ impl<'a> Reduced<'a> {
     /// The state of the machine at one of the oscillator.
     fn place(&self, at: Start) -> Option<Place> {
         let (q, qdot, phase) = self.reduction.state(at);
-        let start = MachineStart { q: vec![q], qdot: vec![qdot], phase, ..MachineStart::default() };
-        Some(MachineMotion::new(self.machine, &start, MachineLimits::default()).ok()?.place().clone())
+        let start = events::Start { q: vec![q], qdot: vec![qdot], phase, ..events::Start::default() };
+        Some(Motion::new(self.machine, &start, Limits::default()).ok()?.place().clone())
     }
 
     /// The unit of the oscillator's time in that of the machine.

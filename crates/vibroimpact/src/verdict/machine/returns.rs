@@ -1,10 +1,11 @@
 //! What the record of a motion needs to know of a machine: its returns are its steps from event to event.
 
 use super::super::recurring::{Measurement, Recurring};
-use crate::events::{MachineEvent, MachineMotion, Passage, Place, stretched, tangent_steps};
+use crate::events::{Event, Motion, Passage, Place, stretched, tangent_steps};
 use crate::lyapunov::{Frame, Measured, Run};
 use crate::math::dot;
-use crate::orbit::{MachineCycle, MachineFrame, MachineLap, Stability, crossing, rounding_decides};
+use crate::orbit::machine;
+use crate::orbit::{MachineFrame, MachineLap, Stability, crossing, rounding_decides};
 use crate::regime::GuardKind;
 use core::cell::Cell;
 use std::sync::Arc;
@@ -40,7 +41,7 @@ impl Step {
     }
 
     /// The next step of a motion, and the events on it; `None` at the end of the motion.
-    pub(crate) fn next(motion: &mut MachineMotion<'_>) -> Option<(Self, Vec<MachineEvent>)> {
+    pub(crate) fn next(motion: &mut Motion<'_>) -> Option<(Self, Vec<Event>)> {
         let begin = motion.place().clone();
         let passage = motion.step()?;
         let events = motion.take_events();
@@ -58,7 +59,7 @@ impl<'a> Recorded<'a> {
 
 impl Recurring for Recorded<'_> {
     type Return = Arc<Step>;
-    type Cycle = MachineCycle;
+    type Cycle = machine::Cycle;
     type Measure = Run;
     type Exponents = Vec<Measured>;
     /// It is kept by the record.
@@ -75,17 +76,17 @@ impl Recurring for Recorded<'_> {
         self.frame.machine.period().map_or(1.0, |period| time / period)
     }
 
-    fn cycle(&self, last: &Arc<Step>, _: u32, time: f64) -> Option<MachineCycle> {
+    fn cycle(&self, last: &Arc<Step>, _: u32, time: f64) -> Option<machine::Cycle> {
         // a machine that moves freely comes to rest anywhere: its motion without events begins after the last one
-        let attracts = |cycle: &MachineCycle| !cycle.events.is_empty() || cycle.translations() == 0;
-        MachineCycle::returning(&self.frame, &last.end, time).filter(attracts)
+        let attracts = |cycle: &machine::Cycle| !cycle.events.is_empty() || cycle.translations() == 0;
+        machine::Cycle::returning(&self.frame, &last.end, time).filter(attracts)
     }
 
-    fn stable(cycle: &MachineCycle) -> bool {
+    fn stable(cycle: &machine::Cycle) -> bool {
         cycle.stable()
     }
 
-    fn captured(&self, last: &Arc<Step>, cycle: &MachineCycle) -> bool {
+    fn captured(&self, last: &Arc<Step>, cycle: &machine::Cycle) -> bool {
         self.captures(&last.end, cycle).unwrap_or(false)
     }
 
@@ -128,11 +129,11 @@ impl Recorded<'_> {
     }
 
     /// The cycle of a motion that returns to a state after a time.
-    pub(crate) fn same(&self, step: &Arc<Step>, after: f64) -> Option<MachineCycle> {
+    pub(crate) fn same(&self, step: &Arc<Step>, after: f64) -> Option<machine::Cycle> {
         if !(0.5..LONGEST + 0.5).contains(&self.periods(after)) {
             return None;
         }
-        let cycle = MachineCycle::returning(&self.frame, &step.end, after)?;
+        let cycle = machine::Cycle::returning(&self.frame, &step.end, after)?;
         self.captured(step, &cycle).then_some(cycle)
     }
 
@@ -145,7 +146,7 @@ impl Recorded<'_> {
     /// directions contract but for the places of joints that hold all the time, and it is near at the phase of the states of the cycle,
     /// and its next period follows the linear law of the cycle so closely that the remainder cannot undo the contraction.
     /// Without forcing it is near where it crosses the plane across the flow at the state of the cycle.
-    pub(crate) fn captures(&self, place: &Place, cycle: &MachineCycle) -> Option<bool> {
+    pub(crate) fn captures(&self, place: &Place, cycle: &machine::Cycle) -> Option<bool> {
         let frame = &self.frame;
         let real = match frame.machine.parts().frequency {
             Some(frequency) => {
@@ -205,7 +206,7 @@ impl Recorded<'_> {
 
     /// Whether the motion from `real` stays on an unstable cycle for ever, as exactly symmetric ones do: for so many periods that
     /// a rounding error across it would have grown to the distance [`NEAR`].
-    fn stays(&self, real: &Place, cycle: &MachineCycle) -> bool {
+    fn stays(&self, real: &Place, cycle: &machine::Cycle) -> bool {
         let growth = crate::math::ln(cycle.multipliers.iter().map(|one| one.modulus()).fold(0.0, f64::max));
         let periods = crate::math::ln(NEAR / f64::EPSILON) / growth;
         let mut place = real.clone();

@@ -8,7 +8,8 @@ use super::super::settle::settle_while;
 use super::outcome::State;
 use super::reduced::Reduced;
 use super::returns::{Recorded, Step};
-use crate::events::{MachineEnd, MachineMotion, MachineStart};
+use crate::events;
+use crate::events::{End, Motion};
 use crate::lyapunov::{MEASURED_IMPACTS, Measured, Spectrum, Tail};
 use crate::machine::{Machine, MachineError};
 use crate::orbit::MachineFrame;
@@ -24,7 +25,7 @@ use std::sync::Arc;
 /// decide for the machine, and the motion from a start that says what its contacts do, is followed as that of any machine.
 ///
 /// ```
-/// use vibroimpact::events::MachineStart;
+/// use vibroimpact::events::Start;
 /// use vibroimpact::machine::{Machine, MachineParts};
 /// use vibroimpact::verdict::{SettleOptions, settle_machine};
 /// // N of the 1971 paper as a machine of one coordinate
@@ -35,7 +36,7 @@ use std::sync::Arc;
 ///     .with_force(0, 1, 0.0, 1.0)
 ///     .with_rigid_stop("stop", &[1.0], 0.25, 0.5);
 /// let machine = Machine::new(parts)?;
-/// let settled = settle_machine(&machine, &MachineStart::default(), &SettleOptions::default())?;
+/// let settled = settle_machine(&machine, &events::Start::default(), &SettleOptions::default())?;
 /// assert_eq!(settled.verdict.label(), "4/1");
 /// # Ok::<(), vibroimpact::machine::MachineError>(())
 /// ```
@@ -44,7 +45,7 @@ use std::sync::Arc;
 /// [`MachineError`] for an invalid start.
 pub fn settle_machine(
     machine: &Machine,
-    start: &MachineStart,
+    start: &events::Start,
     options: &SettleOptions,
 ) -> Result<Settled<Machine>, MachineError> {
     unstopped(settle_machine_while(machine, start, options, &|| true))
@@ -56,7 +57,7 @@ pub fn settle_machine(
 /// [`MachineError`] for an invalid start.
 pub fn settle_machine_while(
     machine: &Machine,
-    start: &MachineStart,
+    start: &events::Start,
     options: &SettleOptions,
     go_on: &dyn Fn() -> bool,
 ) -> Result<Option<Settled<Machine>>, MachineError> {
@@ -68,7 +69,7 @@ pub fn settle_machine_while(
 pub(crate) fn settle_as(
     reduced: Option<&(Reduced<'_>, Start)>,
     machine: &Machine,
-    start: &MachineStart,
+    start: &events::Start,
     options: &SettleOptions,
     go_on: &dyn Fn() -> bool,
 ) -> Result<Option<Settled<Machine>>, MachineError> {
@@ -88,7 +89,7 @@ pub(crate) fn settle_as(
 /// [`MachineError`] for an invalid start.
 pub fn settle_unreduced(
     machine: &Machine,
-    start: &MachineStart,
+    start: &events::Start,
     options: &SettleOptions,
 ) -> Result<Settled<Machine>, MachineError> {
     unstopped(settle_alone(machine, start, options, &|| true))
@@ -111,7 +112,7 @@ const RECENT: usize = 64;
 /// The verdict on the motion that the machine follows itself.
 pub(super) fn settle_alone(
     machine: &Machine,
-    start: &MachineStart,
+    start: &events::Start,
     options: &SettleOptions,
     go_on: &dyn Fn() -> bool,
 ) -> Result<Option<Settled<Machine>>, MachineError> {
@@ -133,7 +134,7 @@ pub(super) fn settle_alone(
 /// The record of a motion that a machine follows itself.
 struct Follow<'a> {
     system: Recorded<'a>,
-    motion: MachineMotion<'a>,
+    motion: Motion<'a>,
     record: Record<Recorded<'a>>,
     /// The sizes of coordinates and velocities at the latest steps.
     sizes: VecDeque<(f64, f64)>,
@@ -148,9 +149,9 @@ struct Follow<'a> {
 }
 
 impl<'a> Follow<'a> {
-    fn new(machine: &'a Machine, start: &MachineStart) -> Result<Self, MachineError> {
+    fn new(machine: &'a Machine, start: &events::Start) -> Result<Self, MachineError> {
         let system = Recorded::new(MachineFrame::new(machine));
-        let motion = MachineMotion::new(machine, start, system.frame.limits())?;
+        let motion = Motion::new(machine, start, system.frame.limits())?;
         Ok(Self {
             system,
             motion,
@@ -179,8 +180,8 @@ impl<'a> Follow<'a> {
         if let Some(end) = self.motion.end() {
             let last = State::of(self.motion.place());
             let verdict = match end {
-                MachineEnd::Never => Verdict::NoImpact(last),
-                MachineEnd::Stuck => Verdict::Stuck(last),
+                End::Never => Verdict::NoImpact(last),
+                End::Stuck => Verdict::Stuck(last),
                 end => return Some(self.undecided(UndecidedCause::Ended(end))),
             };
             self.time = before;
@@ -311,7 +312,7 @@ mod tests {
             for (x, v) in [(0.0, 0.0), (-2.0, 0.0), (0.1, -1.0)] {
                 let start = Start { x, v, phase: 0.0 };
                 let expected = settle(&osc, start, &SettleOptions::default()).verdict;
-                let own = MachineStart { q: vec![x], qdot: vec![v], phase: 0.0, ..MachineStart::default() };
+                let own = events::Start { q: vec![x], qdot: vec![v], phase: 0.0, ..events::Start::default() };
                 let found = settle_unreduced(&machine, &own, &SettleOptions::default()).unwrap().verdict;
                 assert_eq!(found.label(), expected.label(), "{} from {x} {v}", point.name);
                 if let (Verdict::Periodic(cycle), Verdict::Periodic(of)) = (&found, &expected) {

@@ -1,7 +1,7 @@
 //! Starts of a machine, spread evenly over a box that its motions fill.
 
 use super::super::attractors::{SAME, mix};
-use crate::events::{MachineLimits, MachineMotion, MachineStart};
+use crate::events::{Limits, Motion, Start};
 use crate::machine::{Machine, StopLaw};
 use crate::math::{add_scaled, dot};
 use crate::regime::Normal;
@@ -44,9 +44,9 @@ fn sizes(machine: &Machine) -> (Vec<f64>, Vec<f64>) {
 /// are the same on every machine.
 #[must_use]
 #[allow(clippy::cast_precision_loss)] // 53 bits are kept on purpose
-pub fn scattered_machine_starts(machine: &Machine, seed: u64, index: u64) -> MachineStart {
+pub fn scattered_machine_starts(machine: &Machine, seed: u64, index: u64) -> Start {
     let n = machine.n();
-    let mut start = MachineStart { q: vec![0.0; n], qdot: vec![0.0; n], ..MachineStart::default() };
+    let mut start = Start { q: vec![0.0; n], qdot: vec![0.0; n], ..Start::default() };
     if index > 0 {
         let (x, v) = sizes(machine);
         let dimensions = 2 * n + 1;
@@ -73,11 +73,11 @@ pub fn scattered_machine_starts(machine: &Machine, seed: u64, index: u64) -> Mac
 }
 
 /// The start with coordinates moved off rigid stops; at rest at 0 moved alike if they cannot be told.
-fn cleared(machine: &Machine, mut start: MachineStart) -> MachineStart {
+fn cleared(machine: &Machine, mut start: Start) -> Start {
     let normal = Normal::new(machine);
     let rigid = |j: &usize| matches!(machine.stops()[*j].law, StopLaw::Rigid { .. });
     for _ in 0..100 {
-        if MachineMotion::new(machine, &start, MachineLimits::default()).is_ok() {
+        if Motion::new(machine, &start, Limits::default()).is_ok() {
             return start;
         }
         let mut x = normal.to_normal(&start.q);

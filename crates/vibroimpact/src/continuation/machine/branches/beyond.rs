@@ -19,7 +19,7 @@ use crate::continuation::trace::tracer::{Tracer, last};
 use crate::events::Place;
 use crate::machine::{Machine, Opening, StopLaw};
 use crate::math::sort_by;
-use crate::orbit::{Chatter, MachineCycle, MachineFrame, MachineRing, RingEvent};
+use crate::orbit::{Chatter, MachineFrame, MachineRing, RingEvent, machine::Cycle};
 use crate::regime::{ContactState, GuardKind};
 
 /// The tracer beyond a point where these test functions of gaps are zero; `None` if none is found.
@@ -350,7 +350,7 @@ impl LastMotion {
         (low..=high).contains(&there).then_some(())?;
         let moved = equations.family.at(there)?;
         let frame = MachineFrame::new(&moved);
-        let cycle = MachineCycle::lasting(&frame, &self.begin, (self.periods, self.period))?;
+        let cycle = Cycle::lasting(&frame, &self.begin, (self.periods, self.period))?;
         let next = MachineRing::of(&frame, cycle.strobes.first()?, (self.periods, cycle.period))?;
         wanted(&next).then_some(())?;
         let w = MachineEquations::join(&moved, &next, [there]);

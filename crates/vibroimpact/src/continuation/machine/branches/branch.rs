@@ -6,15 +6,15 @@ use super::change::Difference;
 use super::complete_chatter::{ADAPTED, CompleteChatter};
 use super::equations::MachineEquations;
 use super::explained::explained;
-use super::family::MachineFamily;
+use super::family::Family;
 use super::meeting::meeting;
-use super::point::{MachineBranchEvent, MachinePoint};
+use super::point::{BranchEvent, SolutionPoint};
 use super::problem::{Judged, MachineProblem, MachineSolution};
 use super::test_functions::TestFunction;
 use crate::continuation::branches::{BranchError, BranchOptions, Direction, scale};
 use crate::continuation::trace::driver::{Driver, Path, PathEvent};
 use crate::continuation::trace::tracer::{Step, Tracer, last};
-use crate::orbit::{Chatter, MachineCycle, MachineFrame, MachineRing};
+use crate::orbit::{Chatter, MachineFrame, MachineRing, machine::Cycle};
 use core::ops::RangeInclusive;
 
 /// A branch by the equations of the machine.
@@ -37,10 +37,10 @@ struct Passed {
     number: f64,
     unknowns: usize,
     rises: bool,
-    event: MachineBranchEvent,
+    event: BranchEvent,
 }
 
-impl PathEvent for MachineBranchEvent {
+impl PathEvent for BranchEvent {
     const CLOSED: Self = Self::Closed;
     const STEP_LIMIT: Self = Self::StepLimit;
     const NO_CONVERGENCE: Self = Self::NoConvergence;
@@ -48,16 +48,16 @@ impl PathEvent for MachineBranchEvent {
 
 impl Path for EventPath {
     type Problem = MachineProblem;
-    type Event = MachineBranchEvent;
-    type Point = MachinePoint;
+    type Event = BranchEvent;
+    type Point = SolutionPoint;
 
     const EXACT: bool = true;
 
     /// At an event rounding can make a solution inadmissible: the cycle of the last point stands for it.
-    fn point(branch: &EventBranch, at: &MachineSolution, event: Option<MachineBranchEvent>) -> Option<MachinePoint> {
+    fn point(branch: &EventBranch, at: &MachineSolution, event: Option<BranchEvent>) -> Option<SolutionPoint> {
         let cycle = at.known.cycle.clone().or_else(|| branch.tracer.here.known.cycle.clone())?;
         let ring = event.and_then(|_| Some(branch.tracer.problem.equations.split(&at.w)?.1));
-        Some(MachinePoint { value: last(&at.w), cycle, event, ring })
+        Some(SolutionPoint { value: last(&at.w), cycle, event, ring })
     }
 
     fn go_through(branch: &mut EventBranch, step: Step<Judged>) {
@@ -73,7 +73,7 @@ impl Path for EventPath {
         }
         match across(&branch.tracer, &at, &branch.path.options) {
             Some(next) => branch.jump(&at, &found, Some(next)),
-            None => branch.end(&at, MachineBranchEvent::NoConvergence),
+            None => branch.end(&at, BranchEvent::NoConvergence),
         }
     }
 }
@@ -85,8 +85,8 @@ impl UnreducedBranch {
     /// # Errors
     /// [`BranchError`] if the branch cannot begin.
     pub(crate) fn new(
-        (family, value): (&MachineFamily, f64),
-        cycle: &MachineCycle,
+        (family, value): (&Family, f64),
+        cycle: &Cycle,
         range: &RangeInclusive<f64>,
         direction: Direction,
         options: BranchOptions,
@@ -109,9 +109,9 @@ impl UnreducedBranch {
 }
 
 impl Iterator for UnreducedBranch {
-    type Item = MachinePoint;
+    type Item = SolutionPoint;
 
-    fn next(&mut self) -> Option<MachinePoint> {
+    fn next(&mut self) -> Option<SolutionPoint> {
         self.0.next()
     }
 }
@@ -137,7 +137,7 @@ impl EventBranch {
     /// Reports the change of the events at `at` and goes on with the events beyond: with `next`, if that is known.
     pub(super) fn pass(&mut self, at: &MachineSolution, found: &Difference, next: Option<Tracer<MachineProblem>>) {
         if let Some(stop) = self.lost(at, found) {
-            return self.end(at, MachineBranchEvent::LossOfContact { stop });
+            return self.end(at, BranchEvent::LossOfContact { stop });
         }
         // how many impacts of a chatter are followed is no property of the cycle
         if matches!(found, Difference::Rest { joint: false, .. } | Difference::Other { .. })
@@ -156,7 +156,7 @@ impl EventBranch {
             Difference::Rest { place, joint: false, .. }
                 if chatters(ring, place) > 0 && chatters(ring, place) == chatters(other, place) =>
             {
-                MachineBranchEvent::Change { place: Some(place) }
+                BranchEvent::Change { place: Some(place) }
             }
             _ => found.event(turns_back(at, &next)),
         };
@@ -168,7 +168,7 @@ impl EventBranch {
             let value = (here != there).then(|| CompleteChatter::value_of_number(equations, complete, stop))??;
             let mut at = at.clone();
             *at.w.last_mut()? = value;
-            Some((at, MachineBranchEvent::Sticking { stop, begins }))
+            Some((at, BranchEvent::Sticking { stop, begins }))
         });
         let (at, event) = complete.unwrap_or_else(|| (at.clone(), event));
         self.go_on(&at, event, (next, None));
@@ -197,21 +197,21 @@ impl EventBranch {
         let Some((next, continues)) = next else {
             self.add(at, Some(found.event(false)));
             let end = match found {
-                Difference::Rest { joint: true, .. } => MachineBranchEvent::Discontinuity,
-                _ => MachineBranchEvent::NoConvergence,
+                Difference::Rest { joint: true, .. } => BranchEvent::Discontinuity,
+                _ => BranchEvent::NoConvergence,
             };
             return self.end(at, end);
         };
         let event = found.event(turns_back(at, &next));
-        self.go_on(at, event, (next, (!continues).then_some(MachineBranchEvent::Jump)));
+        self.go_on(at, event, (next, (!continues).then_some(BranchEvent::Jump)));
     }
 
     /// Reports an event and goes on with another tracer. The branch is closed if the same event was there before.
     fn go_on(
         &mut self,
         at: &MachineSolution,
-        event: MachineBranchEvent,
-        (next, landing): (Tracer<MachineProblem>, Option<MachineBranchEvent>),
+        event: BranchEvent,
+        (next, landing): (Tracer<MachineProblem>, Option<BranchEvent>),
     ) {
         let turns = turns_back(at, &next);
         let rings = self.tracer.problem.equations.split(&at.w).zip(next.problem.equations.split(&next.here.w));
@@ -224,7 +224,7 @@ impl EventBranch {
                 && (other.unknowns, other.rises, other.event) == (now.unknowns, now.rises, now.event)
         };
         if self.path.passed.iter().any(same) {
-            return self.end(at, MachineBranchEvent::Closed);
+            return self.end(at, BranchEvent::Closed);
         }
         self.path.passed.push(now);
         self.add(at, Some(event));

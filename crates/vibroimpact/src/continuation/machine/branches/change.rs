@@ -1,6 +1,6 @@
 //! How the events of a motion differ from those of a signature.
 
-use super::point::MachineBranchEvent;
+use super::point::BranchEvent;
 use super::problem::Judged;
 use crate::orbit::{MachineRing, RingEvent};
 use crate::regime::{ContactState, GuardKind};
@@ -23,14 +23,14 @@ pub(crate) enum Difference {
 
 impl Difference {
     /// The event of a branch.
-    pub(super) const fn event(&self, turns: bool) -> MachineBranchEvent {
+    pub(super) const fn event(&self, turns: bool) -> BranchEvent {
         match *self {
-            Self::Appears { stop, .. } => MachineBranchEvent::Grazing { stop, appears: true, turns },
-            Self::Disappears { stop, .. } => MachineBranchEvent::Grazing { stop, appears: false, turns },
-            Self::Corner { first, second } => MachineBranchEvent::Corner { first, second },
-            Self::Rest { place, joint: false, begins } => MachineBranchEvent::Sticking { stop: place, begins },
-            Self::Rest { place, begins, .. } => MachineBranchEvent::Holding { joint: place, begins },
-            Self::Other { place } => MachineBranchEvent::Change { place },
+            Self::Appears { stop, .. } => BranchEvent::Grazing { stop, appears: true, turns },
+            Self::Disappears { stop, .. } => BranchEvent::Grazing { stop, appears: false, turns },
+            Self::Corner { first, second } => BranchEvent::Corner { first, second },
+            Self::Rest { place, joint: false, begins } => BranchEvent::Sticking { stop: place, begins },
+            Self::Rest { place, begins, .. } => BranchEvent::Holding { joint: place, begins },
+            Self::Other { place } => BranchEvent::Change { place },
         }
     }
 }

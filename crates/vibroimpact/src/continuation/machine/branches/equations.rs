@@ -1,6 +1,6 @@
 //! The equations of a cycle of a machine with numbers of it among the unknowns: one along a branch, two along a curve.
 
-use super::family::MachineFamily;
+use super::family::Family;
 use crate::continuation::trace::equations::Equations;
 use crate::events::StateShape;
 use crate::machine::Machine;
@@ -11,7 +11,7 @@ use core::f64::consts::TAU;
 /// numbers of the machine.
 #[derive(Clone, Debug)]
 pub(crate) struct MachineEquations<const N: usize = 1> {
-    pub(crate) family: MachineFamily<N>,
+    pub(crate) family: Family<N>,
     /// The signature, with the unknowns with which the equations were made.
     pub(crate) ring: MachineRing,
     weights: Vec<f64>,
@@ -22,7 +22,7 @@ pub(crate) struct MachineEquations<const N: usize = 1> {
 impl<const N: usize> MachineEquations<N> {
     /// The equations for the signature of `ring`; `sizes` are the largest coordinates and velocities.
     pub(crate) fn new(
-        (machine, family): (&Machine, MachineFamily<N>),
+        (machine, family): (&Machine, Family<N>),
         ring: MachineRing,
         sizes: (f64, f64),
         scales: [f64; N],
@@ -132,7 +132,7 @@ impl<const N: usize> Equations for MachineEquations<N> {
 mod tests {
     use super::*;
     use crate::continuation::trace::equations::correct;
-    use crate::events::MachineStart;
+    use crate::events::Start;
     use crate::machine::{HarmonicMotion, MachineParts, Opening, StopLaw};
     use crate::verdict::{SettleOptions, Verdict, settle_machine};
 
@@ -173,11 +173,11 @@ mod tests {
     #[test]
     fn derivatives_and_convergence() {
         for (machine, gap) in [(machine(false), 0.5), (machine(true), 0.5), (on_belt(), 0.65)] {
-            let settled = settle_machine(&machine, &MachineStart::default(), &SettleOptions::default()).unwrap();
+            let settled = settle_machine(&machine, &Start::default(), &SettleOptions::default()).unwrap();
             let Verdict::Periodic(cycle) = settled.verdict else { panic!("{settled:?}") };
             let frame = MachineFrame::new(&machine);
             let ring = MachineRing::of(&frame, &cycle.strobes[0], (cycle.label.periods, cycle.period)).unwrap();
-            let (family, _) = MachineFamily::of_path(&machine, "stop.stop.gap").unwrap();
+            let (family, _) = Family::of_path(&machine, "stop.stop.gap").unwrap();
             let equations = MachineEquations::new((&machine, family), ring.clone(), cycle.sizes, [0.5]);
             let w = MachineEquations::join(&machine, &ring, [gap]);
             let (miss, rows) = equations.at(&w).unwrap();
@@ -281,7 +281,7 @@ mod tests {
     fn derivatives_by_every_number() {
         let (mut kinds, mut compared) = (std::collections::BTreeSet::new(), 0);
         for (place, machine) in machines().into_iter().enumerate() {
-            let settled = settle_machine(&machine, &MachineStart::default(), &SettleOptions::default()).unwrap();
+            let settled = settle_machine(&machine, &Start::default(), &SettleOptions::default()).unwrap();
             let Verdict::Periodic(cycle) = settled.verdict else { panic!("{place} {settled:?}") };
             let frame = MachineFrame::new(&machine);
             let ring = MachineRing::of(&frame, &cycle.strobes[0], (cycle.label.periods, cycle.period)).unwrap();
@@ -300,7 +300,7 @@ mod tests {
             }
             for path in paths {
                 let value = machine.number(&path).unwrap();
-                let (family, _) = MachineFamily::of_path(&machine, &path).unwrap();
+                let (family, _) = Family::of_path(&machine, &path).unwrap();
                 // without springs another stiffness is not allowed
                 let Some(rates) = family.rates([value], [1.0]) else { continue };
                 let exact = ring.by_number(&frame, &rates[0]).unwrap();

@@ -4,7 +4,7 @@
 //! the cycle: where a contact opens for no time, a joint on the same coordinate turns back in the same instant. So the whole
 //! signatures of both sides are compared, each contact for itself.
 
-use super::point::MachineBranchEvent;
+use super::point::BranchEvent;
 use super::summed::same_in_turn;
 use crate::orbit::{Chatter, MachineRing};
 use crate::regime::{ContactState, GuardKind};
@@ -80,11 +80,11 @@ fn told(ring: &MachineRing) -> Vec<(GuardKind, &[ContactState])> {
 /// The event, if it explains the difference of the cycle before it and that beyond; otherwise the one that does, and `None` if a
 /// change is none. `turns` says whether the number turns back here.
 pub(super) fn explained(
-    event: MachineBranchEvent,
+    event: BranchEvent,
     (before, beyond): (&MachineRing, &MachineRing),
     turns: bool,
-) -> Option<MachineBranchEvent> {
-    let changes = matches!(event, MachineBranchEvent::Change { .. });
+) -> Option<BranchEvent> {
+    let changes = matches!(event, BranchEvent::Change { .. });
     if changes && !turns && same_in_turn(&told(before), &told(beyond)) {
         return None;
     }
@@ -95,10 +95,10 @@ pub(super) fn explained(
     let explains = match event {
         // without rebound a rest is interrupted where the stop ceases to press for an instant: it closes once more. A joint begins
         // to hold at once where it turned back for a moment before
-        MachineBranchEvent::Grazing { stop: place, .. }
-        | MachineBranchEvent::Sticking { stop: place, .. }
-        | MachineBranchEvent::Holding { joint: place, .. } => old[place] != new[place],
-        MachineBranchEvent::Change { .. } => false,
+        BranchEvent::Grazing { stop: place, .. }
+        | BranchEvent::Sticking { stop: place, .. }
+        | BranchEvent::Holding { joint: place, .. } => old[place] != new[place],
+        BranchEvent::Change { .. } => false,
         _ => true,
     };
     // where nothing differs but the number of impacts of a chatter, what was found is all that is known
@@ -111,9 +111,9 @@ pub(super) fn explained(
         let pair = turned.map_or_else(|| closest_pair(before, None), |joint| closest_pair(more(joint), Some(joint)));
         pair.map_or(event, |(first, second)| {
             if first == second {
-                MachineBranchEvent::Holding { joint: first, begins: old[first].turns > new[first].turns }
+                BranchEvent::Holding { joint: first, begins: old[first].turns > new[first].turns }
             } else {
-                MachineBranchEvent::Corner { first, second }
+                BranchEvent::Corner { first, second }
             }
         })
     };
@@ -121,14 +121,14 @@ pub(super) fn explained(
         (Some(place), _) => {
             let begins = old[place].rests < new[place].rests;
             if place < stops {
-                MachineBranchEvent::Sticking { stop: place, begins }
+                BranchEvent::Sticking { stop: place, begins }
             } else {
-                MachineBranchEvent::Holding { joint: place, begins }
+                BranchEvent::Holding { joint: place, begins }
             }
         }
         (None, Some(stop)) => {
             let appears = old[stop].closings < new[stop].closings;
-            MachineBranchEvent::Grazing { stop, appears, turns }
+            BranchEvent::Grazing { stop, appears, turns }
         }
         _ => corner(),
     })

@@ -9,13 +9,13 @@ type Function<const N: usize, T> = Arc<dyn Fn([f64; N]) -> Option<T> + Send + Sy
 
 /// A machine for each value of a number, or of N numbers.
 #[derive(Clone)]
-pub struct MachineFamily<const N: usize = 1> {
+pub struct Family<const N: usize = 1> {
     machine: Function<N, Machine>,
     /// The oscillators that the machines are, where they need no machines.
     reduction: Option<Function<N, Reduction>>,
 }
 
-impl MachineFamily {
+impl Family {
     /// The machines that a function gives; `None` for values that are not allowed. The number of coordinates, of stops and
     /// of joints must not depend on the value.
     pub fn new(at: impl Fn(f64) -> Option<Machine> + Send + Sync + 'static) -> Self {
@@ -38,7 +38,7 @@ impl MachineFamily {
     }
 }
 
-impl<const N: usize> MachineFamily<N> {
+impl<const N: usize> Family<N> {
     /// The machines that a function of N numbers gives.
     pub fn of(machine: impl Fn([f64; N]) -> Option<Machine> + Send + Sync + 'static) -> Self {
         Self { machine: Arc::new(machine), reduction: None }
@@ -97,8 +97,8 @@ impl<const N: usize> MachineFamily<N> {
     }
 }
 
-impl<const N: usize> fmt::Debug for MachineFamily<N> {
+impl<const N: usize> fmt::Debug for Family<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("MachineFamily")
+        f.write_str("Family")
     }
 }

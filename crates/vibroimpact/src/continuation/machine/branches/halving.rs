@@ -5,7 +5,7 @@ use super::problem::{Judged, MINUS_ONE, MachineProblem, MachineSolution};
 use crate::continuation::trace::secant;
 use crate::continuation::trace::tracer::Problem;
 use crate::machine::Machine;
-use crate::orbit::{MachineCycle, MachineFrame, MachineLap, MachineRing};
+use crate::orbit::{MachineFrame, MachineLap, MachineRing, machine::Cycle};
 
 /// The solution at which the cycle of a branch repeats itself after half its period, near the unknowns `w` of the whole
 /// cycle; `here` is a solution near by. `None` if the halves of `w` differ.
@@ -26,7 +26,7 @@ fn flip_of_half(
     (machine, ring): (&Machine, MachineRing),
     sizes: (f64, f64),
     value: f64,
-) -> Option<(Vec<f64>, MachineCycle)> {
+) -> Option<(Vec<f64>, Cycle)> {
     let half = ring.half();
     let guess = MachineEquations::join(machine, &half, [value]);
     let equations = MachineEquations::new((machine, equations.family.clone()), half, sizes, equations.scales);
@@ -38,11 +38,11 @@ fn flip_of_half(
 }
 
 /// The motion of a cycle over twice its period, as a ring and as a cycle.
-fn repeated(frame: &MachineFrame<'_>, half: &MachineRing) -> Option<(MachineRing, MachineCycle)> {
+fn repeated(frame: &MachineFrame<'_>, half: &MachineRing) -> Option<(MachineRing, Cycle)> {
     let (_, begin) = half.middle(frame)?;
     let (periods, period) = (2 * half.periods, 2.0 * half.period(frame));
     let lap = MachineLap::fly(frame, &begin, period)?;
     let residual = frame.distance(&begin, &lap.end, lap.sizes);
-    let cycle = MachineCycle::of(frame, (&begin, periods), &lap, residual, vec![begin.clone()]);
+    let cycle = Cycle::of(frame, (&begin, periods), &lap, residual, vec![begin.clone()]);
     Some((MachineRing::of(frame, &begin, (periods, period))?, cycle))
 }

@@ -2,11 +2,11 @@
 //!
 //! | idea | file |
 //! |---|---|
-//! | a machine as a function of numbers | [`MachineFamily`] |
+//! | a machine as a function of numbers | [`Family`] |
 //! | the equations of all events, with one or two numbers of the machine among the unknowns | `equations` |
 //! | the test functions of events | `test_functions` |
 //! | the problem that the tracer solves, admissible solutions | `problem` |
-//! | a point of a branch, and its events | [`MachinePoint`], [`MachineBranchEvent`] |
+//! | a point of a branch, and its events | [`SolutionPoint`], [`BranchEvent`] |
 //! | where a tracer begins | `beginning` |
 //! | how the events of a motion differ from those of a signature | `change` |
 //! | the event that explains how the cycles before and beyond differ | `explained` |
@@ -52,9 +52,9 @@ pub(crate) use closest::closest;
 pub(crate) use complete_chatter::{ADAPTED, CompleteChatter};
 pub(crate) use edge::edge;
 pub(crate) use equations::MachineEquations;
-pub use family::MachineFamily;
+pub use family::Family;
 pub(crate) use joined::join;
 pub(crate) use matched::matched;
-pub use point::{MachineBranchEvent, MachinePoint};
+pub use point::{BranchEvent, SolutionPoint};
 pub(crate) use problem::{CLOSED, Judged, judge, over_pairs, seen_on};
 pub(crate) use rest::{Limit, RestZero, limits, rest_zero, size, touches};

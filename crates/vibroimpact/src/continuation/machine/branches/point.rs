@@ -1,17 +1,17 @@
 //! A point of a branch of a machine, and the events that are possible there.
 
-use crate::orbit::{MachineCycle, MachineRing};
+use crate::orbit::{MachineRing, machine::Cycle};
 
 /// A point of a branch.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
-pub struct MachinePoint {
+pub struct SolutionPoint {
     /// Value of the number that varies.
     pub value: f64,
     /// The cycle there.
-    pub cycle: MachineCycle,
+    pub cycle: Cycle,
     /// The event at this point; `None` for an ordinary point.
-    pub event: Option<MachineBranchEvent>,
+    pub event: Option<BranchEvent>,
     /// At an event the solution there, to rounding: a curve begins with it. Following the motion of `cycle` instead can miss a stop
     /// that it only touches.
     pub(crate) ring: Option<MachineRing>,
@@ -20,7 +20,7 @@ pub struct MachinePoint {
 /// An event at a point of a branch. Stops and joints are given by their place: joints are counted after the stops.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum MachineBranchEvent {
+pub enum BranchEvent {
     /// The number turns back; a multiplier is +1.
     Fold,
     /// A multiplier is +1 and another branch crosses here.
@@ -89,7 +89,7 @@ pub enum MachineBranchEvent {
     NoConvergence,
 }
 
-impl MachineBranchEvent {
+impl BranchEvent {
     /// Its name in JSON and tables.
     #[must_use]
     pub const fn name(&self) -> &'static str {

@@ -7,7 +7,7 @@ use super::test_functions::{TestFunction, clearance, pole_sign, rate};
 use crate::continuation::branches::{COARSE, RULES};
 use crate::continuation::trace::tracer::{Problem, Solution, StepRules};
 use crate::math::{Lu, Matrix, Multiplier, general_eigenvalues};
-use crate::orbit::{MachineBlock, MachineCycle, MachineFrame, MachineLap, MachineRing, RingEvent, events_of};
+use crate::orbit::{MachineBlock, MachineFrame, MachineLap, MachineRing, RingEvent, events_of, machine::Cycle};
 
 /// The equations of a branch with the range of the number, and the test functions of its events.
 #[derive(Clone, Debug)]
@@ -23,7 +23,7 @@ pub(crate) struct MachineProblem {
 #[derive(Clone, Debug)]
 pub(crate) struct Judged {
     /// The cycle, if the solution is admissible.
-    pub(crate) cycle: Option<MachineCycle>,
+    pub(crate) cycle: Option<Cycle>,
     pub(crate) multipliers: Vec<Multiplier>,
     /// The events that the motion has, beginning with the one after event `from` of the ring.
     pub(crate) seen: Vec<RingEvent>,
@@ -135,9 +135,9 @@ pub(crate) fn judge(
     let seen = matched(&wanted, &seen_on(&lap, ring.frequency(frame.machine)));
     let alike = seen.len() == m && (0..m).all(|i| seen[i] == ring.events[(from + 1 + i) % m]);
     let residual = frame.distance(&begin, &lap.end, lap.sizes);
-    let cycle = (alike && rising.is_none() && residual < CLOSED).then(|| MachineCycle {
+    let cycle = (alike && rising.is_none() && residual < CLOSED).then(|| Cycle {
         multipliers: multipliers.clone(),
-        ..MachineCycle::of(frame, (&begin, ring.periods), &lap, residual, vec![begin.clone()])
+        ..Cycle::of(frame, (&begin, ring.periods), &lap, residual, vec![begin.clone()])
     });
     Judged { cycle, multipliers, seen, from, rising }
 }

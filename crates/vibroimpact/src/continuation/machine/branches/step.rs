@@ -6,7 +6,7 @@ use super::change::{Difference, additional, difference, missing_hold};
 use super::edge::edge;
 use super::halving::halved;
 use super::joined::SHORT;
-use super::point::MachineBranchEvent;
+use super::point::BranchEvent;
 use super::problem::{Judged, MINUS_ONE, MachineSolution, PACE, PLUS_ONE, TORUS};
 use super::summed::{of_chatter, sums};
 use super::test_functions::TestFunction;
@@ -34,7 +34,7 @@ impl EventBranch {
             (step, grazing, edge) = (part, found, None);
         }
         if grazing.is_none() && !step.there.known.physical() && edge.is_none() {
-            return self.finish(MachineBranchEvent::NoConvergence);
+            return self.finish(BranchEvent::NoConvergence);
         }
         let crossed = match (&edge, &grazing) {
             // where the derivative is infinite, its test functions change sign without a zero
@@ -56,7 +56,7 @@ impl EventBranch {
             return self.graze(&at, &zeros);
         }
         if step.on_end {
-            return self.end(&step.there, MachineBranchEvent::EndOfRange);
+            return self.end(&step.there, BranchEvent::EndOfRange);
         }
         self.take(step.there);
         self.adapt();
@@ -106,22 +106,22 @@ impl EventBranch {
         let event = match what {
             None => {
                 let at = self.on_end(step, s).unwrap_or_else(|| self.tracer.here.clone());
-                self.end(&at, MachineBranchEvent::EndOfRange);
+                self.end(&at, BranchEvent::EndOfRange);
                 return false;
             }
             Some(PACE) => {
                 if crossing(step, PLUS_ONE).is_none()
                     && let Some(at) = self.halving(step, s)
                 {
-                    self.end(&at, MachineBranchEvent::Halving);
+                    self.end(&at, BranchEvent::Halving);
                     return false;
                 }
                 return true;
             }
-            Some(PLUS_ONE) if turns => MachineBranchEvent::Fold,
-            Some(PLUS_ONE) => MachineBranchEvent::BranchPoint,
-            Some(MINUS_ONE) => MachineBranchEvent::Flip,
-            Some(TORUS) => MachineBranchEvent::Torus,
+            Some(PLUS_ONE) if turns => BranchEvent::Fold,
+            Some(PLUS_ONE) => BranchEvent::BranchPoint,
+            Some(MINUS_ONE) => BranchEvent::Flip,
+            Some(TORUS) => BranchEvent::Torus,
             Some(_) => return true,
         };
         if let Some(at) = self.located(step, s, event)
@@ -142,8 +142,8 @@ impl EventBranch {
 
     /// The solution at an event near the distance `s` on a step. Where another curve of solutions crosses, the equations are
     /// singular, and rounding decides whether they can be solved there; then it is one beside its place.
-    fn located(&self, step: &Step<Judged>, s: f64, event: MachineBranchEvent) -> Option<MachineSolution> {
-        let singular = event == MachineBranchEvent::BranchPoint;
+    fn located(&self, step: &Step<Judged>, s: f64, event: BranchEvent) -> Option<MachineSolution> {
+        let singular = event == BranchEvent::BranchPoint;
         let s = if singular { self.branch_point(step, s) } else { s };
         let beside = |share: f64| self.tracer.between(step, (s + share * step.length).clamp(0.0, step.length));
         let solved = |share: f64| {
@@ -257,13 +257,13 @@ fn crossing(step: &Step<Judged>, test: usize) -> Option<f64> {
 }
 
 /// Whether the multipliers are those of an event that its test function shows.
-fn is_at(multipliers: &[Multiplier], event: MachineBranchEvent) -> bool {
+fn is_at(multipliers: &[Multiplier], event: BranchEvent) -> bool {
     let near = |value: f64| multipliers.iter().any(|m| (m.re - value).abs() + m.im.abs() < NEARBY);
     match event {
-        MachineBranchEvent::Torus => multipliers.iter().any(|m| m.is_on_circle()),
+        BranchEvent::Torus => multipliers.iter().any(|m| m.is_on_circle()),
         // beside a grazing contact one multiplier is so large that rounding decides the sign of the determinants
-        MachineBranchEvent::BranchPoint => near(1.0),
-        MachineBranchEvent::Flip => near(-1.0),
+        BranchEvent::BranchPoint => near(1.0),
+        BranchEvent::Flip => near(-1.0),
         _ => true,
     }
 }

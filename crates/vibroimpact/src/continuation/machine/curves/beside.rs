@@ -8,7 +8,7 @@ use super::moment::{Moment, OnFlight};
 use crate::continuation::machine::branches::{CLOSED, Judged, matched, seen_on};
 use crate::events::Place;
 use crate::math::Multiplier;
-use crate::orbit::{Chatter, MachineCycle, MachineFrame, MachineLap, MachineRing, RingEvent};
+use crate::orbit::{Chatter, MachineFrame, MachineLap, MachineRing, RingEvent, machine::Cycle};
 
 /// How long after and before, as a fraction of the flight to the next or from the last event.
 const BESIDE: f64 = 1e-4;
@@ -148,9 +148,9 @@ pub(super) fn judge_beside(
         Some((begin, MachineLap { sizes, ..lap }))
     };
     let Some((begin, lap)) = cycle() else { return nothing(multipliers, seen) };
-    let cycle = MachineCycle {
+    let cycle = Cycle {
         multipliers: multipliers.clone(),
-        ..MachineCycle::of(frame, (begin, ring.periods), &lap, residual, vec![begin.clone()])
+        ..Cycle::of(frame, (begin, ring.periods), &lap, residual, vec![begin.clone()])
     };
     Judged { cycle: Some(cycle), seen, ..nothing(multipliers, Vec::new()) }
 }

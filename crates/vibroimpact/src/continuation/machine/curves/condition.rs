@@ -89,7 +89,7 @@ impl Condition {
         })
     }
 
-    /// By how much the condition fails in a quantity with a meaning; see [`residual`](super::MachineCurvePoint::residual).
+    /// By how much the condition fails in a quantity with a meaning; see [`residual`](super::CurvePoint::residual).
     pub(super) fn residual(&self, frame: &MachineFrame<'_>, ring: &MachineRing, all: &[Multiplier]) -> f64 {
         let nearest = |to: f64| all.iter().map(|m| hypot(m.re - to, m.im)).fold(f64::INFINITY, f64::min);
         match self {

@@ -4,14 +4,14 @@ use super::beside::bare;
 use super::end::reason;
 use super::equations::CurveEquations;
 use super::origin::origin;
-use super::plane::MachinePlane;
-use super::point::MachineCurvePoint;
+use super::plane::Plane;
+use super::point::CurvePoint;
 use super::problem::{CurveProblem, CurveSolution, Watched};
 use crate::continuation::branches::BranchError;
 use crate::continuation::curves::{CurveEvent, CurveKind, CurveOptions};
 use crate::continuation::equations::plane_tracer::{beginning, first_step};
 use crate::continuation::machine::branches::{
-    ADAPTED, Difference, Judged, MachineEquations, MachinePoint, difference, edge,
+    ADAPTED, Difference, Judged, MachineEquations, SolutionPoint, difference, edge,
 };
 use crate::continuation::trace::driver::{Driver, Path};
 use crate::continuation::trace::equations::{correct, tangent, unit};
@@ -36,19 +36,19 @@ const AT_EDGE: f64 = 1e-7;
 impl Path for EventPath {
     type Problem = CurveProblem;
     type Event = CurveEvent;
-    type Point = MachineCurvePoint;
+    type Point = CurvePoint;
 
     const EXACT: bool = true;
 
     /// At an event rounding can make a solution inadmissible: the cycle of the last point stands for it.
-    fn point(curve: &EventCurve, at: &CurveSolution, event: Option<CurveEvent>) -> Option<MachineCurvePoint> {
+    fn point(curve: &EventCurve, at: &CurveSolution, event: Option<CurveEvent>) -> Option<CurvePoint> {
         let CurveProblem { equations, kind, .. } = &curve.tracer.problem;
         let (machine, ring) = equations.split(&at.w)?;
         let cycle = at.known.cycle.clone().or_else(|| curve.tracer.here.known.cycle.clone())?;
         let residual = equations.condition.residual(&MachineFrame::new(&machine), &ring, &at.known.multipliers);
         let touch = equations.condition.touch().map(|at| ring.place(at).phase);
         let touch = touch.filter(|_| machine.period().is_some() && matches!(kind, CurveKind::Grazing { .. }));
-        Some(MachineCurvePoint { values: CurveEquations::values(&at.w), cycle, residual, touch, event })
+        Some(CurvePoint { values: CurveEquations::values(&at.w), cycle, residual, touch, event })
     }
 
     fn go_through(curve: &mut EventCurve, step: Step<Judged>) {
@@ -74,9 +74,9 @@ impl UnreducedCurve {
     /// [`BranchError::NotThere`] for an event that begins no curve, [`BranchError::OutOfRange`] if the point lies outside the
     /// frame, [`BranchError::NoCycle`] if no curve is found through it.
     pub(crate) fn through(
-        plane: &MachinePlane,
+        plane: &Plane,
         values: (f64, f64),
-        point: &MachinePoint,
+        point: &SolutionPoint,
         options: CurveOptions,
     ) -> Result<[Self; 2], BranchError> {
         let (problem, w) = origin(plane, values, point)?;
@@ -99,9 +99,9 @@ impl UnreducedCurve {
 }
 
 impl Iterator for UnreducedCurve {
-    type Item = MachineCurvePoint;
+    type Item = CurvePoint;
 
-    fn next(&mut self) -> Option<MachineCurvePoint> {
+    fn next(&mut self) -> Option<CurvePoint> {
         self.0.next()
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! | idea | file |
 //! |---|---|
-//! | a machine as a function of two numbers, and their ranges | [`MachinePlane`] |
+//! | a machine as a function of two numbers, and their ranges | [`Plane`] |
 //! | singular equations of a cycle: a multiplier +1 or -1, smooth through grazing | `borders` |
 //! | the condition that holds along a curve | `condition` |
 //! | the equations of all events with two numbers and one condition | `equations` |
@@ -12,7 +12,7 @@
 //! | the events and the condition of a curve, from an event of a branch | `origin` |
 //! | the same where a rest begins or ends | `origin_at_rest` |
 //! | why a curve ends | `end` |
-//! | a point of a curve | [`MachineCurvePoint`] |
+//! | a point of a curve | [`CurvePoint`] |
 //! | the curve | `curve` |
 
 mod beside;
@@ -29,5 +29,5 @@ mod point;
 mod problem;
 
 pub(crate) use curve::UnreducedCurve;
-pub use plane::MachinePlane;
-pub use point::MachineCurvePoint;
+pub use plane::Plane;
+pub use point::CurvePoint;

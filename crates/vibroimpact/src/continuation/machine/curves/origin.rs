@@ -3,13 +3,11 @@
 use super::condition::{Condition, multipliers, pair};
 use super::equations::CurveEquations;
 use super::origin_at_rest;
-use super::plane::MachinePlane;
+use super::plane::Plane;
 use super::problem::CurveProblem;
 use crate::continuation::branches::BranchError;
 use crate::continuation::curves::{CurveKind, check};
-use crate::continuation::machine::branches::{
-    CompleteChatter, MachineBranchEvent, MachineEquations, MachinePoint, closest,
-};
+use crate::continuation::machine::branches::{BranchEvent, CompleteChatter, MachineEquations, SolutionPoint, closest};
 use crate::events::{Place, standing_back};
 use crate::machine::Machine;
 use crate::orbit::{MachineFrame, MachineRing, RingEvent};
@@ -17,9 +15,9 @@ use crate::regime::{ContactState, GuardKind};
 
 /// The equations and test functions of the curve through an event of a branch, and its unknowns there.
 pub(super) fn origin(
-    plane: &MachinePlane,
+    plane: &Plane,
     values: (f64, f64),
-    point: &MachinePoint,
+    point: &SolutionPoint,
 ) -> Result<(CurveProblem, Vec<f64>), BranchError> {
     check(&plane.ranges, values)?;
     let machine = plane.family.machine(values.into()).ok_or(BranchError::NoCycle)?;
@@ -30,10 +28,10 @@ pub(super) fn origin(
 type Origin = Result<(CurveProblem, Vec<f64>), BranchError>;
 
 fn begin(
-    plane: &MachinePlane,
+    plane: &Plane,
     (machine, values): (&Machine, (f64, f64)),
-    point: &MachinePoint,
-    event: MachineBranchEvent,
+    point: &SolutionPoint,
+    event: BranchEvent,
 ) -> Option<Origin> {
     let frame = MachineFrame::new(machine);
     let sizes = point.cycle.sizes;
@@ -47,14 +45,14 @@ fn begin(
     let both_sides = || BESIDE.into_iter().flat_map(|by| [by, -by]);
     let farther = || FARTHER.into_iter().flat_map(|by| [by, -by]);
     // where a rest begins, the solution can be that without it
-    let rests = matches!(event, MachineBranchEvent::Sticking { .. } | MachineBranchEvent::Holding { .. });
+    let rests = matches!(event, BranchEvent::Sticking { .. } | BranchEvent::Holding { .. });
     let solved = || point.ring.clone().filter(|_| !rests).or_else(|| ring_at(machine));
     let mut ring = solved().or_else(|| both_sides().chain(farther()).find_map(beside))?;
     let touch = |at: usize| Condition::Touch { at, size: sizes.1, contact: None, speed: sizes.1 };
     let (kind, condition) = match event {
-        MachineBranchEvent::Fold => (CurveKind::Fold, None),
-        MachineBranchEvent::Flip => (CurveKind::Flip, None),
-        MachineBranchEvent::Torus => {
+        BranchEvent::Fold => (CurveKind::Fold, None),
+        BranchEvent::Flip => (CurveKind::Flip, None),
+        BranchEvent::Torus => {
             let all = multipliers(&frame, &ring)?.1;
             // of the pairs of complex multipliers the one nearest to the circle
             let complex: Vec<_> = all.iter().copied().filter(|m| m.im != 0.0).collect();
@@ -62,7 +60,7 @@ fn begin(
                 complex.iter().min_by(|a, b| (a.modulus() - 1.0).abs().total_cmp(&(b.modulus() - 1.0).abs()))?;
             (CurveKind::Torus, Some(Condition::Pair { cosine: pair(&all, nearest.re)?.2 }))
         }
-        MachineBranchEvent::Grazing { stop, appears: true, .. } => {
+        BranchEvent::Grazing { stop, appears: true, .. } => {
             // by rounding the motion can have the impact that appears here
             let without = |ring: &MachineRing| touched(&frame, ring, stop).is_some();
             if !without(&ring) {
@@ -76,11 +74,11 @@ fn begin(
             ring.insert(leg + 1, RingEvent::touch(GuardKind::Gap(stop), &place.states, back), place);
             (CurveKind::Grazing { stop }, Some(touch(leg + 1)))
         }
-        MachineBranchEvent::Grazing { stop, .. } | MachineBranchEvent::LossOfContact { stop } => {
+        BranchEvent::Grazing { stop, .. } | BranchEvent::LossOfContact { stop } => {
             // by rounding the motion can miss the stop
             let rings = core::iter::once(ring.clone()).chain(both_sides().filter_map(beside));
             // an only closing is the one that disappears, whatever its speed beside the event
-            let lost = matches!(event, MachineBranchEvent::LossOfContact { .. });
+            let lost = matches!(event, BranchEvent::LossOfContact { .. });
             let slow = if lost { f64::INFINITY } else { NEAR * sizes.1 };
             let without = |mut ring: MachineRing| Some((without_contact(&frame, &mut ring, (stop, slow))?, ring));
             let Some((at, other)) = rings.into_iter().find_map(without) else {
@@ -89,7 +87,7 @@ fn begin(
             ring = other;
             (CurveKind::Grazing { stop }, Some(touch(at)))
         }
-        MachineBranchEvent::Corner { first, second } => {
+        BranchEvent::Corner { first, second } => {
             let stops = machine.stops().len();
             let of = |k: usize| ring.events[k % ring.len()].guard.place(stops);
             let both = |k: &usize| {
@@ -103,7 +101,7 @@ fn begin(
             ring.together = Some(at);
             (kind, Some(Condition::Together { at }))
         }
-        MachineBranchEvent::Sticking { stop: contact, .. } | MachineBranchEvent::Holding { joint: contact, .. } => {
+        BranchEvent::Sticking { stop: contact, .. } | BranchEvent::Holding { joint: contact, .. } => {
             // a chatter that is complete at its release is so before it on one side
             let chatter = |by: f64| {
                 let mut ring = beside(by)?;
