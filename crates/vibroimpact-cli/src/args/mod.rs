@@ -31,7 +31,7 @@ pub(crate) use figure::{FigureArgs, Format};
 pub(crate) use machine::{MachineArgs, MachineAxesArgs, StartOfMachineArgs, StudyAxesArgs};
 pub(crate) use numbers::{number, whole, within};
 pub(crate) use output::Globals;
-pub(crate) use outputs::{Files, OutputArgs, TableArgs};
+pub(crate) use outputs::{Files, OutputArgs};
 pub(crate) use overlay::OverlayArgs;
 pub(crate) use parameter_flag::{ParameterFlag, Varied, varied};
 pub(crate) use physical::PhysicalArgs;

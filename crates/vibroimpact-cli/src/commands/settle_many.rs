@@ -1,8 +1,8 @@
 //! `vibro settle-many`: the motions at many points of parameters and starts, listed or drawn.
 
 use crate::args::{
-    Convention, FieldsArgs, Interval, MachineArgs, PhysicalArgs, Place, StartOfMachineArgs, StoreArgs,
-    SystemStretchesArgs, TableArgs, VariedOver, whole,
+    Convention, FieldsArgs, Interval, MachineArgs, OutputArgs, PhysicalArgs, Place, StartOfMachineArgs, StoreArgs,
+    SystemStretchesArgs, VariedOver, whole,
 };
 use crate::commands::outputs::Outputs;
 use crate::commands::{respond, stored};
@@ -22,12 +22,15 @@ use vibroimpact_study::{
 ///
 /// --points FILE is a table with a header: a column for each parameter and coordinate of the start that varies. --sample
 /// draws points from the ranges A:B of parameters and starts, by Sobol's sequence or as a Latin hypercube. What is in no
-/// column and has no range is the same at all points. Without --csv or --json the command prints the shares of the motions.
+/// column and has no range is the same at all points. Without --csv, --plot or --json the command prints the shares of the motions.
 #[derive(Clone, Debug, Args)]
 #[command(
     mut_arg("restitution", |arg| arg.required(false)),
     mut_arg("csv", |arg| arg.help(
         "Write one row a point to this file; - for stdout. Columns: what varies, then label, and --fields"
+    )),
+    mut_arg("plot", |arg| arg.help(
+        "Draw the label of each point over the two numbers that vary first into this file, .svg, .png or .pdf"
     )),
     override_usage = "vibro settle-many --sample lhs:N --inverse-beta A:B --gap A:B --restitution E [OPTIONS]\n       \
         vibro settle-many --points FILE.csv --restitution E [OPTIONS]\n       \
@@ -101,7 +104,7 @@ pub(crate) struct SettleMany {
     transient: bool,
 
     #[command(flatten)]
-    output: TableArgs,
+    output: OutputArgs,
 }
 
 /// `sobol:N` or `lhs:N`.
