@@ -193,8 +193,8 @@ fn labels_over_the_points() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
     for (k, (line, across, label)) in [
-        ("--sample sobol:16 --beta 1 --gap 0.5:1 --restitution 0.5 --v -1:1", ">gap", ">1/1<"),
-        ("--machine two-mass-hammer --sample sobol:4 --over frequency=0.9:1.3 --over q.head=-1:0.4", ">frequency", "/"),
+        ("--sample sobol:16 --beta 1 --gap 0.5:1 --restitution 0.5 --v -1:1", ">δ<", "1/1"),
+        ("--machine two-mass-hammer --sample sobol:4 --over frequency=0.9:1.3 --over q.head=-1:0.4", "frequency", "/1"),
     ]
     .into_iter()
     .enumerate()
