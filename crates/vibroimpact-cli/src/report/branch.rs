@@ -209,6 +209,7 @@ pub(crate) fn remark_of_machine(event: &continuation::machine::BranchEvent, mach
             if turns { "turns" } else { "goes on" }
         ),
         continuation::machine::BranchEvent::LossOfContact { stop } => format!("{} is no longer reached", name(stop)),
+        continuation::machine::BranchEvent::RestForEver { stop } => format!("no force pulls it off {} any more", name(stop)),
         continuation::machine::BranchEvent::Corner { first, second } if first == second => {
             format!("two limits of {} at once", name(first))
         }
