@@ -136,9 +136,7 @@ pub(crate) fn meaning(verdict: &Verdict) -> String {
         Verdict::NoImpact(NoImpact::ForPeriods(n)) => {
             format!("no impact for at least {} forcing periods", short(*n))
         }
-        Verdict::NoImpact(NoImpact::GrazeLimit { .. }) => {
-            EVER_GENTLER.into()
-        }
+        Verdict::NoImpact(NoImpact::GrazeLimit { .. }) => EVER_GENTLER.into(),
         Verdict::NoImpact(NoImpact::Landing { periods, .. }) => {
             let periods =
                 if *periods == 1 { "forcing period".to_owned() } else { counted_word(*periods, "forcing period") };

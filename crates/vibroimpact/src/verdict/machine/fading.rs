@@ -5,7 +5,7 @@
 //! impact, until it is a rounding error. From there on rounding errors decide whether a swing reaches the stop: the impacts
 //! end, or go on at the speed to which a rounding error of the gap leads. Both motions are the same, and so is the verdict.
 
-use crate::events::Place;
+use crate::events::{Event, EventKind, Place};
 use crate::machine::{Machine, StopLaw};
 use crate::math::dot;
 use crate::orbit::MachineFrame;
@@ -49,6 +49,14 @@ impl Fading {
         let rate = frame.structure(&place.states).and_then(|structure| structure.slowest());
         self.begin = rate.map(|rate| Begin { place: place.clone(), time, steps: 0, rate });
         fades
+    }
+
+    /// Whether the impacts before a flight without an end have faded away: it touches a stop again and again.
+    pub(super) fn touches(frame: &MachineFrame<'_>, seen: &[Event]) -> bool {
+        frame.gains_no_energy()
+            && takes_energy(frame.machine)
+            && seen.len() >= STEPS as usize
+            && seen.iter().all(|event| event.kind == EventKind::Graze)
     }
 }
 

@@ -184,6 +184,9 @@ impl<'a> Follow<'a> {
             let last = State::of(self.motion.place());
             let verdict = match end {
                 End::Never => Verdict::NoImpact(last),
+                End::NoEventWithin if Fading::touches(&self.system.frame, &seen) => {
+                    Verdict::NoImpact(State { fades: true, ..last })
+                }
                 End::Stuck => Verdict::Stuck(last),
                 end => return Some(self.undecided(UndecidedCause::Ended(end))),
             };

@@ -157,9 +157,7 @@ impl EventBranch {
             return;
         }
         // how many impacts of a chatter are followed is no property of the cycle
-        if of_rest
-            && let Some(next) = same_beyond(&self.tracer, at, &self.path.options)
-        {
+        if of_rest && let Some(next) = same_beyond(&self.tracer, at, &self.path.options) {
             return self.exchange(next);
         }
         let Some(next) = next.or_else(|| replayed(&self.tracer, at, (&self.path.options, found))) else {

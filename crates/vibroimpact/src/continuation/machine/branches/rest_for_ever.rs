@@ -16,10 +16,7 @@ const PERIODS: f64 = 4.0;
 const EVENTS: usize = 2_000;
 
 /// The solution at which the structure begins to rest for ever, if that is right beyond this one, and the stop that it leaves before.
-pub(super) fn rest_for_ever(
-    tracer: &Tracer<MachineProblem>,
-    at: &MachineSolution,
-) -> Option<(MachineSolution, usize)> {
+pub(super) fn rest_for_ever(tracer: &Tracer<MachineProblem>, at: &MachineSolution) -> Option<(MachineSolution, usize)> {
     let equations = &tracer.problem.equations;
     let released = |guard| if let GuardKind::Reaction(stop) = guard { Some(stop) } else { None };
     let stop = equations.ring.events.iter().find_map(|event| released(event.guard))?;
