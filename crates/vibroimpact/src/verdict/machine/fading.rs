@@ -23,7 +23,7 @@ struct Begin {
     place: Place,
     time: f64,
     steps: u32,
-    /// The rate of the slowest mode.
+    /// The rate of the slowest mode with all stops open.
     rate: f64,
 }
 
@@ -46,7 +46,7 @@ impl Fading {
             }
         }
         let fades = self.begin.as_ref().is_some_and(|begin| begin.goes_on(frame, place, time));
-        let rate = frame.structure(&place.states).and_then(|structure| structure.slowest());
+        let rate = frame.open().and_then(|open| open.slowest());
         self.begin = rate.map(|rate| Begin { place: place.clone(), time, steps: 0, rate });
         fades
     }
