@@ -10,7 +10,7 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from vibroimpact import _core
-from vibroimpact._ask import MachineLike, Start, System
+from vibroimpact._ask import MachineLike, System
 from vibroimpact._axis import Axis, Interval, axes, beside, interval, sweep
 from vibroimpact._budget import Budget, seconds
 from vibroimpact._core import Oscillator

@@ -207,20 +207,21 @@ def _events_of_machines(points: MachineOver, found: dict[str, Any]) -> "xr.Datas
     from vibroimpact import _accessor  # registers ds.vibro
 
     event, machine = ("event", found["width"]), points.machine
-    names = dict(zip(machine.stops + machine.joints, range(len(machine.stops + machine.joints))))
-    kinds, ends = ({name: code for code, name in enumerate(found[of])} for of in ("kinds", "ends"))
+    events, stops = found["events"], machine.stops + machine.joints
+    names, kinds, ends = ({name: code for code, name in enumerate(of)} for of in (stops, events["kinds"], found["ends"]))
+    time, phase, speed, *states = events["real"]
     variables = {
-        "time": _variable(points, found["time"], event, "time of the event", "", ""),
-        "kind": _variable(points, found["kind"], event, "kind of the event", "", **_flags(kinds)),
-        "event_phase": _variable(points, found["phase"], event, "phase of the forcing at the event", "", "rad"),
-        "stop": _variable(points, found["stop"], event, "stop or joint of the event", "", **_flags(names)),
-        "speed": _variable(points, found["speed"], event, "speed of closing before the event", "", ""),
+        "time": _variable(points, time, event, "time of the event", "", ""),
+        "kind": _variable(points, events["kind"], event, "kind of the event", "", **_flags(kinds)),
+        "event_phase": _variable(points, phase, event, "phase of the forcing at the event", "", "rad"),
+        "stop": _variable(points, events["stop"], event, "stop or joint of the event", "", **_flags(names)),
+        "speed": _variable(points, speed, event, "speed of closing before the event", "", ""),
         "count": _variable(points, found["count"], None, "number of events", ""),
         "end": _variable(points, found["end"], None, "why the list ends", "", **_flags(ends)),
         "end_time": _variable(points, found["end_time"], None, "time at which the list ends", "", ""),
     }
-    for of, paths in zip(("q", "qdot"), names_of(machine)):
-        variables |= {path: _variable(points, values, event, f"{path} after the event", "", "") for path, values in zip(paths, found[of])}
+    paths = [path for of in names_of(machine) for path in of]
+    variables |= {path: _variable(points, values, event, f"{path} after the event", "", "") for path, values in zip(paths, states)}
     # what varies has the name of a variable: it is that of the start
     starts = {name: f"start.{name}" for name in points.coords if name in variables}
     coords = {starts.get(name, name): of for name, of in points.coords.items()}
