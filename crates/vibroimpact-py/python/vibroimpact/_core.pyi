@@ -70,7 +70,14 @@ __all__ = [
 __version__: str
 reaches_buckets: bool
 
-class QuestionError(ValueError): ...
+class QuestionError(ValueError):
+    name: str | None
+    given: float | None
+    least: float | None
+    most: float | None
+    @property
+    def hint(self) -> str | None: ...
+
 class StoppedError(Exception): ...
 class StoreError(OSError): ...
 

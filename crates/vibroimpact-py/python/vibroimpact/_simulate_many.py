@@ -13,7 +13,7 @@ from vibroimpact._core import QuestionError
 from vibroimpact._events import names_of
 from vibroimpact._over import MachineOver, Over, Points
 from vibroimpact._progress import Progress, watched
-from vibroimpact._whole import SIMULATED, maybe, threads_of, whole
+from vibroimpact._whole import SIMULATED, threads_of, whole
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -94,9 +94,7 @@ def simulate_many(
         raise QuestionError(f"periods = {periods} lies outside 0 < periods <= 1000000000")
     if given and impacts is not None:
         raise QuestionError(f"impacts has no meaning with {given[0]}\nhint: periods limits the time")
-    limit, threads = maybe("impacts", impacts, SIMULATED), threads_of(threads)
-    if limit == 0:
-        raise QuestionError(f"impacts = 0 lies outside {SIMULATED.least} <= impacts <= {SIMULATED.most}")
+    limit, threads = None if impacts is None else whole("impacts", impacts, SIMULATED, here=True), threads_of(threads)
     if isinstance(systems, MachineLike):
         if given:
             raise QuestionError(f"{given[0]} is for oscillators\nhint: simulate(...).waveform() has the states of a machine")
