@@ -6,8 +6,9 @@ use super::plane::place;
 use super::unit_text::UnitKind;
 use super::{Ranged, number};
 use crate::failure::Failure;
-use clap::builder::TypedValueParser;
-use clap::{Arg, Args, ValueEnum};
+use clap::builder::{Resettable, TypedValueParser};
+use clap::{Arg, Args, Id, ValueEnum};
+use core::cell::Cell;
 use vibroimpact::PhysicalParameter;
 use vibroimpact_report::{Asked, Units};
 use vibroimpact_study::{Parameter, SecondStop, SystemPlan};
@@ -94,8 +95,16 @@ fn maybe_length() -> impl TypedValueParser<Value = MaybeLength> {
 /// Reads lengths in units of F/k, or with units.
 fn maybe_lengths() -> impl TypedValueParser<Value = MaybeLength> {
     |text: &str| {
-        let metres = |text: &str| Ranged::read(text, |part| UnitKind::Length.parse(part)).map(MaybeLength::Metres);
-        text.parse::<Ranged>().map(MaybeLength::Plain).or_else(|why| metres(text).map_err(|_| why))
+        let plain = text.parse::<Ranged>().map(MaybeLength::Plain);
+        // a text without a unit has the error of plain numbers
+        let with_unit = Cell::new(false);
+        let metres = |part: &str| {
+            let (value, unit) = UnitKind::Length.split(part)?;
+            with_unit.set(with_unit.get() || unit);
+            Ok(value)
+        };
+        let metres = |why| Ranged::read(text, metres).ok().filter(|_| with_unit.get()).ok_or(why);
+        plain.or_else(|why| metres(why).map(MaybeLength::Metres))
     }
 }
 
@@ -110,10 +119,13 @@ pub(crate) fn values(arg: Arg) -> Arg {
     }
 }
 
-/// An argument of [`NumbersArgs`] as one value or a range A:B.
+/// An argument of [`NumbersArgs`] as one value or a range A:B, which may replace the value of a body.
 pub(crate) fn ranges(arg: Arg) -> Arg {
     match arg.get_id().as_str() {
-        "gap" | "second_gap" => arg.value_parser(|text: &str| place(text).map(MaybeLength::Plain)),
+        "gap" | "second_gap" => {
+            let plain = |text: &str| place(text).map(MaybeLength::Plain);
+            arg.value_parser(plain).conflicts_with(Resettable::<Id>::Reset)
+        }
         "beta" | "inverse_beta" | "restitution" | "damping" | "second_restitution" => arg.value_parser(place),
         _ => arg,
     }

@@ -126,8 +126,8 @@ fn f11c_all_that_is_missing_is_named() {
         ("settle --gap 1 --restitution 0.5", "the frequency is given nowhere"),
         ("settle --mass-kg 1", "missing: --stiffness-n-per-m, --force-n, --frequency-hz, --gap-m, --restitution"),
         ("diagram --vary gap --over 0:1:3", "the frequency ratio and the restitution are not given"),
-        ("map --starts 3", "--gap <D>"),
-        ("map --starts 3", "--beta <B>|--inverse-beta <X>"),
+        ("map --starts 3", "the frequency ratio, the gap and the restitution are not given"),
+        ("map --starts 3 --beta 1 --gap 0:5 --restitution 0.5", "0:5:41 is 41 values from 0 to 5"),
     ] {
         refused(line, sentence);
     }

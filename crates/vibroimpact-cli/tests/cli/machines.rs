@@ -646,8 +646,8 @@ fn refusals_of_questions() {
         ("settle --machine two-mass-hammer --q 1,2,3", "start.q: has 3 numbers, and 2 are needed"),
         ("settle --machine two-mass-hammer --impacts 0", "error: "),
         // without a machine all of the system is needed
-        ("map --gap 1 --starts 2", "--restitution <VALUES>"),
-        ("map --restitution 0.5 --starts 2", "<--gap <VALUES>|--gap-m <D>|--gaps-m <D>>"),
+        ("map --gap 1 --starts 2", "the frequency ratio and the restitution are not given"),
+        ("map --restitution 0.5 --starts 2", "the frequency ratio and the gap are not given"),
         (
             "branch --beta 1 --gap 1 --restitution 0.5 --label 1/1 --vary gapp --to 1",
             "error: invalid value 'gapp' for '--vary",

@@ -166,7 +166,7 @@ fn all_that_is_missing_is_named_at_once() {
     for (line, named) in [
         ("map", "--restitution --starts --beta --gap A:B:N"),
         ("map --gap 0:1:3", "--restitution --starts --beta"),
-        ("response", "--restitution --beta --gap A:B:N"),
+        ("response", "--restitution --beta --gap"),
         ("basin", &format!("--x --v {system}")),
         ("basin --x 0:0.5:3 --gap 1", "--v --beta --restitution"),
         ("attractors", &format!("--starts {system}")),
