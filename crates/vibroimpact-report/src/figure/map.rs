@@ -115,7 +115,7 @@ impl LabelledCells {
     }
 
     /// The legend: the labels, or their groups if there are many.
-    fn legend(&self, style: impl Fn(&str) -> ClassStyle) -> Legend {
+    pub(crate) fn legend(&self, style: impl Fn(&str) -> ClassStyle) -> Legend {
         let rank = |label: &str| GROUPS.iter().position(|group| *group == legend_group(label)).unwrap_or(GROUPS.len());
         let mut labels: Vec<&str> = self.labels.iter().map(String::as_str).collect();
         sort_by_key(&mut labels, |label| (rank(label), numbers(label)));
