@@ -7,7 +7,7 @@ use crate::lyapunov::{Frame, MEASURED_IMPACTS, Run, Stretch, Tail};
 use crate::machine::Machine;
 use crate::math::dot;
 use crate::orbit::machine;
-use crate::orbit::{MachineFrame, MachineLap, Stability, crossing, rounding_decides};
+use crate::orbit::{MachineFrame, MachineLap, Stability, passing, rounding_decides};
 use crate::regime::GuardKind;
 use core::cell::Cell;
 use std::sync::Arc;
@@ -157,22 +157,7 @@ impl Recorded<'_> {
     /// Without forcing it is near where it crosses the plane across the flow at the state of the cycle.
     pub(crate) fn captures(&self, place: &Place, cycle: &machine::Cycle) -> Option<bool> {
         let frame = &self.frame;
-        let real = match frame.machine.parts().frequency {
-            Some(frequency) => {
-                // to the phase of the cycle's states
-                let first = cycle.strobes.first()?;
-                let ahead = crate::system::phase::wrap(first.phase - place.phase) / frequency;
-                let mut real = MachineLap::fly(frame, place, ahead)?.end;
-                real.phase = first.phase;
-                real
-            }
-            None => crossing(frame, place, cycle)?,
-        };
-        let nearest = cycle
-            .strobes
-            .iter()
-            .min_by(|a, b| frame.distance(a, &real, cycle.sizes).total_cmp(&frame.distance(b, &real, cycle.sizes)))?;
-        let apart = frame.distance(nearest, &real, cycle.sizes);
+        let (real, nearest, apart) = passing(frame, place, cycle)?;
         if apart > NEAR {
             return Some(false);
         }
