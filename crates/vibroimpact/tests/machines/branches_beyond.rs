@@ -242,8 +242,8 @@ fn f42n_a_closed_stop_that_opens_for_no_time() {
     }
 }
 
-/// A hold with a static limit above its sliding force ends, and the cycle that goes on is another one, by a seventh of the size of the
-/// motion: a jump lies between both, also where the cycle beyond exists right there.
+/// A hold with a static limit above its sliding force ends, and the cycle beyond is another one. It exists right there, and the branch
+/// says with a jump that it does not continue the motion.
 #[test]
 fn a_hold_that_ends_in_a_jump() {
     let machine = |frequency: f64| {
