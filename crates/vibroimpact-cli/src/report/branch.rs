@@ -37,6 +37,8 @@ struct ToldEvent {
     name: &'static str,
     ends: bool,
     end_of_range: bool,
+    /// Whether a branch goes on here, beyond values at which it has no solution.
+    jump: bool,
     /// The labels on both sides of it.
     sides: (Label, Label),
     remark: String,
@@ -109,8 +111,10 @@ fn events(points: &[Told], names: &[String]) -> String {
     let rows: Vec<Vec<String>> = all
         .filter(|(.., event)| !event.ends)
         .map(|(k, point, event)| {
-            let before = beside(k.checked_sub(1).and_then(|k| points.get(k)), event.sides.0);
-            let after = beside(points.get(k + 1), event.sides.1);
+            let jumps = |k: usize| points.get(k).and_then(|point| point.event.as_ref()).is_some_and(|event| event.jump);
+            let side = |jump: bool, neighbour, label| if jump { "-".to_owned() } else { beside(neighbour, label) };
+            let before = side(jumps(k), k.checked_sub(1).and_then(|k| points.get(k)), event.sides.0);
+            let after = side(jumps(k + 1), points.get(k + 1), event.sides.1);
             core::iter::once(event.name.to_owned())
                 .chain(point.values.iter().map(|value| precise(*value)))
                 .chain([before, after, event.remark.clone()])
@@ -149,6 +153,7 @@ impl Told {
             name: event.name(),
             ends: event.ends(),
             end_of_range: event == BranchEvent::EndOfRange,
+            jump: false,
             sides: match event {
                 BranchEvent::Grazing { before, after, .. } | BranchEvent::SoftLanding { before, after, .. } => {
                     (before, after)
@@ -179,6 +184,7 @@ impl Told {
             name: event.name(),
             ends: event.ends(),
             end_of_range: event == continuation::machine::BranchEvent::EndOfRange,
+            jump: event == continuation::machine::BranchEvent::Jump,
             sides: (cycle.label, after),
             remark: remark_of_machine(&event, machine),
         });
@@ -209,6 +215,9 @@ pub(crate) fn remark_of_machine(event: &continuation::machine::BranchEvent, mach
             if turns { "turns" } else { "goes on" }
         ),
         continuation::machine::BranchEvent::LossOfContact { stop } => format!("{} is no longer reached", name(stop)),
+        continuation::machine::BranchEvent::RestForEver { stop } => {
+            format!("no force pulls it off {} any more", name(stop))
+        }
         continuation::machine::BranchEvent::Corner { first, second } if first == second => {
             format!("two limits of {} at once", name(first))
         }

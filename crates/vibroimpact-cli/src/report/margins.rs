@@ -5,39 +5,20 @@ use crate::report::motion::{InUnits, Teller};
 use crate::report::words::table;
 use std::fmt::Write;
 use vibroimpact::Oscillator;
-use vibroimpact::continuation::{BranchEvent, SolutionPoint};
+use vibroimpact::continuation::{SolutionPoint, machine::SolutionPoint as Point};
 use vibroimpact::machine::Machine;
-use vibroimpact::verdict::{Stability, Verdict};
+use vibroimpact::verdict::System;
 use vibroimpact_report::number::{percent, precise, short};
 use vibroimpact_report::{Units, Varied};
-use vibroimpact_study::{
-    EventRecord, Loss, MachineMargins, MarginEnd, MotionBox, MotionMargins, NumberEvent, NumberMargin, ParameterMargin,
-    counted,
-};
+use vibroimpact_study::{Loss, MarginEnd, MotionBox, MotionMargins, ParameterMargin, Solution, counted};
 
-/// The motion, its nearest events in each parameter, and its box.
+/// The motion of an oscillator, its nearest events in each parameter, and its box.
 pub(crate) fn text(found: &MotionMargins, osc: &Oscillator, units: &Units) -> String {
-    let label = found.motion.label();
-    let mut text = head(&InUnits(osc, units), &found.motion, found.motion.stability(osc));
-    if found.parameters.is_empty() {
-        text.push_str("  it is no single periodic motion, so it has no branch to follow and no margins\n");
-        return text;
-    }
-    text.push_str(&events(&found.parameters, units));
-    if let Some((margin, end)) = found.nearest() {
-        let event = end.event().map_or("", |event| event.name());
-        let way = if end.distance(&margin.scope) < 0.0 { "down" } else { "up" };
-        let _ = writeln!(
-            text,
-            "  nearest: {event} at {} {}, {way} by {} of {}",
-            margin.scope.parameter.words(units),
-            precise(end.value * units.of(margin.scope.parameter)),
-            percent(end.distance(&margin.scope).abs() / margin.scope.scale),
-            whole(core::slice::from_ref(margin))
-        );
-    }
+    let why = |point: &SolutionPoint| point.event.map_or_else(String::new, |event| remark(point, &event));
+    let mut text = events(found, (&InUnits(osc, units), osc), units, why);
     match &found.motion_box {
-        Some(found_box) => text.push_str(&of_box(found_box, &found.parameters, &label, units)),
+        _ if found.parameters.is_empty() => {}
+        Some(found_box) => text.push_str(&of_box(found_box, &found.parameters, &found.motion.label(), units)),
         None => {
             let stability = found.motion.stability(osc).map_or("undecided", |stability| stability.name());
             let _ = writeln!(text, "\nno box: the motion is {stability}");
@@ -46,42 +27,41 @@ pub(crate) fn text(found: &MotionMargins, osc: &Oscillator, units: &Units) -> St
     text
 }
 
-fn head<T: Teller>(teller: &T, motion: &Verdict<T::System>, stability: Option<Stability>) -> String {
-    let stable = stability.map_or_else(String::new, |stability| format!(", {stability}"));
-    let (label, by_stop, meaning) = (motion.label(), teller.by_stop(motion), teller.meaning(motion));
-    format!("{label}{by_stop}: {meaning}{stable}\n")
+/// The motion of a machine, and its nearest events in each number.
+pub(crate) fn of_machine(found: &MotionMargins<Machine, String, Point>, machine: &Machine) -> String {
+    let place = |point: &Point| point.event.and_then(|event| event.place());
+    let why = |point: &Point| place(point).map_or_else(String::new, |place| machine.name_of(place).to_owned());
+    events(found, (machine, machine), &Units::default(), why)
 }
 
-/// The motion of a machine, and its nearest events in each number.
-pub(crate) fn of_machine(found: &MachineMargins, machine: &Machine) -> String {
-    let mut text = head(machine, &found.motion, found.motion.stability(machine));
-    if found.numbers.is_empty() {
+/// The motion, and its nearest events in each number. `why` says what happens at an event.
+fn events<S: System, T: Teller<System = S>, V: Varied, P: Solution<System = S>>(
+    found: &MotionMargins<S, V, P>,
+    (teller, system): (&T, &S),
+    units: &Units,
+    why: impl Fn(&P) -> String,
+) -> String {
+    let stability = found.motion.stability(system);
+    let stable = stability.map_or_else(String::new, |stability| format!(", {stability}"));
+    let (by_stop, meaning) = (teller.by_stop(&found.motion), teller.meaning(&found.motion));
+    let mut text = format!("{}{by_stop}: {meaning}{stable}\n", found.motion.label());
+    if found.parameters.is_empty() {
         text.push_str("  it is no single periodic motion, so it has no branch to follow and no margins\n");
         return text;
     }
-    let row = |number: &NumberMargin, (way, limit, event): (&str, f64, Option<&NumberEvent>)| {
-        let begin = [number.path.clone(), short(number.value), way.to_owned()];
-        let told = event.and_then(|event| Some((event, event.point.event?)));
-        let ends = told.map_or_else(
-            || [String::new(), String::new(), String::new(), format!("none up to {}", short(limit))],
-            |(event, kind)| {
-                let distance = event.point.value - number.value;
-                let relative = 100.0 * distance / number.scale();
-                let before = event.point.cycle.label.to_string();
-                let beyond = event.after.as_ref().filter(|after| **after != before);
-                let beyond = beyond.map_or_else(String::new, |after| format!(" to {after}"));
-                let of = kind.place().map_or_else(String::new, |place| format!(": {}", machine.name_of(place)));
-                let words = format!("{}{beyond}{of}", kind.name());
-                [precise(event.point.value), short(distance), format!("{relative:+.2} %"), words]
-            },
-        );
-        begin.into_iter().chain(ends).collect::<Vec<String>>()
-    };
     let rows: Vec<Vec<String>> =
-        found.numbers.iter().flat_map(|number| number.ends().map(|end| row(number, end))).collect();
+        found.parameters.iter().flat_map(|margin| margin.ends().map(|end| row(margin, end, units, &why))).collect();
     text.push_str(&table(&HEADS.map(str::to_owned), &rows));
-    if let Some((number, way, scaled)) = found.nearest() {
-        let _ = writeln!(text, "  nearest: {way} in {}, by {} of its value", number.path, percent(scaled));
+    if let Some((margin, way, end)) = found.nearest() {
+        let _ = writeln!(
+            text,
+            "  nearest: {} at {} {}, {way} by {} of {}",
+            end.point.as_ref().and_then(P::event_name).unwrap_or_default(),
+            margin.scope.parameter.words(units),
+            precise(end.value * margin.scope.parameter.unit(units)),
+            percent(end.scaled(&margin.scope)),
+            whole(core::slice::from_ref(margin))
+        );
     }
     text
 }
@@ -90,48 +70,34 @@ pub(crate) fn of_machine(found: &MachineMargins, machine: &Machine) -> String {
 const HEADS: [&str; 7] = ["<parameter", "value", "<way", "event at", "distance", "relative", "<event"];
 
 /// What a box is measured in: the values of the parameters, or other scales.
-fn whole(parameters: &[ParameterMargin]) -> &'static str {
+fn whole<V, P>(parameters: &[ParameterMargin<V, P>]) -> &'static str {
     let usual = parameters.iter().all(|margin| margin.scope.scale == margin.scope.value.abs());
     if usual { "its value" } else { "its scale" }
 }
 
-/// One row for each parameter and direction.
-fn events(parameters: &[ParameterMargin], units: &Units) -> String {
-    let heads = HEADS.map(str::to_owned);
-    let rows: Vec<Vec<String>> = parameters
-        .iter()
-        .flat_map(|margin| {
-            let scope = &margin.scope;
-            let [down, up] = [("down", &margin.down, scope.low), ("up", &margin.up, scope.high)];
-            [row(margin, down, units), row(margin, up, units)]
-        })
-        .collect();
-    table(&heads, &rows)
-}
-
-fn row(margin: &ParameterMargin, (way, end, limit): (&str, &MarginEnd, f64), units: &Units) -> Vec<String> {
-    let (scope, unit) = (&margin.scope, units.of(margin.scope.parameter));
+/// The nearest event of a number in one direction.
+fn row<V: Varied, P: Solution>(
+    margin: &ParameterMargin<V, P>,
+    (way, limit, end): (&str, f64, &MarginEnd<P>),
+    units: &Units,
+    why: &impl Fn(&P) -> String,
+) -> Vec<String> {
+    let (scope, unit) = (&margin.scope, margin.scope.parameter.unit(units));
     let begin = [scope.parameter.words(units), short(scope.value * unit), way.to_owned()];
-    let (at, distance, relative, event) = match (&end.point, end.event()) {
-        (Some(point), Some(event)) => {
+    let ends = match end.point.as_ref().and_then(|point| Some((point, point.event_name()?))) {
+        Some((point, name)) => {
             let relative = end.relative(scope).map_or_else(String::new, |share| format!("{:+.2} %", 100.0 * share));
-            (precise(end.value * unit), short(end.distance(scope) * unit), relative, told(point, &event))
+            let before = point.label().to_string();
+            let beyond = end.after.as_ref().filter(|after| **after != before);
+            let beyond = beyond.map_or_else(String::new, |after| format!(" to {after}"));
+            let why = why(point);
+            let why = if why.is_empty() { why } else { format!(": {why}") };
+            let event = format!("{name}{beyond}{why}");
+            [precise(end.value * unit), short(end.distance(scope) * unit), relative, event]
         }
-        _ => (String::new(), String::new(), String::new(), format!("none up to {}", short(limit * unit))),
+        None => [String::new(), String::new(), String::new(), format!("none up to {}", short(limit * unit))],
     };
-    begin.into_iter().chain([at, distance, relative, event]).collect()
-}
-
-/// The name of an event, the motion beyond, and its meaning.
-fn told(point: &SolutionPoint, event: &BranchEvent) -> String {
-    let record = EventRecord::of(point, event);
-    let beyond = match record.label_after {
-        Some(after) if after != record.label_before => format!(" to {after}"),
-        _ => String::new(),
-    };
-    let why = remark(point, event);
-    let why = if why.is_empty() { why } else { format!(": {why}") };
-    format!("{}{beyond}{why}", event.name())
+    begin.into_iter().chain(ends).collect()
 }
 
 /// The box, and where the motion was lost next to it.

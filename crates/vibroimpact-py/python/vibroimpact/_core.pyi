@@ -7,13 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 from typing_extensions import Self
 
-from vibroimpact import (
-    _attractors, _branch, _curve, _grid, _lyapunov, _margins, _orbits, _region, _response, _settle, _simulate, _simulate_many,
-)
-
 _Fields: TypeAlias = dict[str, Any]
 _Start: TypeAlias = tuple[float | None, float, float]
 _MachineStart: TypeAlias = tuple[list[float], list[float], float]
+_Scales: TypeAlias = tuple[float, float, float]
 _Counts: TypeAlias = tuple[int, int, int, int]
 _Progress: TypeAlias = Callable[[int, int], object] | None
 _Array: TypeAlias = NDArray[np.float64]
@@ -22,7 +19,11 @@ _Columns: TypeAlias = list[tuple[str, _Array]]
 __all__ = [
     "answer",
     "plan_json",
-    "answer_json",
+    "Answer",
+    "shares_figure",
+    "palette",
+    "look_of",
+    "title_of",
     "share_interval",
     "basin_measures",
     "fill",
@@ -35,7 +36,6 @@ __all__ = [
     "point_coordinates",
     "scales_of_points",
     "scales_over",
-    "system_fields",
     "Store",
     "estimate_plan",
     "seconds_of",
@@ -46,16 +46,13 @@ __all__ = [
     "machine_names",
     "machine_state",
     "machine_waveform",
-    "simulate_machine",
     "simulate_machines",
     "varied_parameters",
-    "Oscillator",
-    "Units",
+    "OscillatorFile",
     "contains",
     "drawn_points",
     "settle_points",
     "settle_many",
-    "simulate",
     "crossings_of_points",
     "end_reasons",
     "simulate_points",
@@ -70,107 +67,32 @@ __all__ = [
 __version__: str
 reaches_buckets: bool
 
-class QuestionError(ValueError): ...
+class QuestionError(ValueError):
+    name: str | None
+    given: float | None
+    least: float | None
+    most: float | None
+    @property
+    def hint(self) -> str | None: ...
+
 class StoppedError(Exception): ...
 class StoreError(OSError): ...
 
 @final
-class Units:
-    def __new__(cls, *, length_m: float, time_s: float, mass_kg: float) -> Self: ...
-    @property
-    def length_m(self) -> float: ...
-    @property
-    def time_s(self) -> float: ...
-    @property
-    def mass_kg(self) -> float: ...
-    @property
-    def velocity_m_per_s(self) -> float: ...
-    def __eq__(self, other: object, /) -> bool: ...
-    def __hash__(self) -> int: ...
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, float]]: ...
-
-@final
-class Oscillator:
+class OscillatorFile:
     def __new__(
-        cls,
-        *,
-        beta: float | None = None,
-        inverse_beta: float | None = None,
-        gap: float,
-        restitution: float,
-        damping: float = 0.0,
-        second_gap: float | None = None,
-        second_restitution: float | None = None,
-        units: Units | None = None,
-        machine: str | None = None,
+        cls, beta: float | None, inverse_beta: float | None, gap: float, restitution: float, damping: float,
+        second: tuple[float, float] | None,
     ) -> Self: ...
-    @classmethod
-    def from_units(
-        cls,
-        *,
-        mass: float,
-        stiffness: float,
-        gap: float,
-        restitution: float,
-        force: float = 0.0,
-        frequency: float | None = None,
-        omega: float | None = None,
-        damping: float | None = None,
-        damping_ratio: float | None = None,
-        log_decrement: float | None = None,
-        second_gap: float | None = None,
-        second_restitution: float | None = None,
-        base_displacement: float | None = None,
-        base_velocity: float | None = None,
-        base_acceleration: float | None = None,
-        base_phase: float = 0.0,
-        stop_in_space: bool = False,
-        stop_displacement: float | None = None,
-        stop_phase: float = 0.0,
-        unbalance: float | None = None,
-        constant_force: float | None = None,
-        gravity: float | None = None,
-    ) -> Oscillator: ...
-    def replace(self, **changes: float | Units | None) -> Oscillator: ...
+    @staticmethod
+    def physical(numbers: dict[str, float], stop_in_space: bool) -> OscillatorFile: ...
+    @staticmethod
+    def read(given: str) -> OscillatorFile: ...
     @property
-    def beta(self) -> float: ...
-    @property
-    def inverse_beta(self) -> float: ...
-    @property
-    def gap(self) -> float: ...
-    @property
-    def restitution(self) -> float: ...
-    @property
-    def damping(self) -> float: ...
-    @property
-    def second_gap(self) -> float | None: ...
-    @property
-    def second_restitution(self) -> float | None: ...
-    @property
-    def units(self) -> Units | None: ...
-    @property
-    def period(self) -> float: ...
-    @property
-    def free_amplitude(self) -> float: ...
-    def __eq__(self, other: object, /) -> bool: ...
-    def __hash__(self) -> int: ...
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, float | Units]]: ...
-    # the functions of the package, whose first argument is the oscillator
-    simulate = _simulate.simulate
-    simulate_many = _simulate_many.simulate_many
-    settle = _settle.settle
-    settle_many = _settle.settle_many
-    attractors = _attractors.attractors
-    lyapunov = _lyapunov.lyapunov
-    orbits = _orbits.orbits
-    branch = _branch.branch
-    curve = _curve.curve
-    region = _region.region
-    margins = _margins.margins
-    response = _response.response
-    basin = _grid.basin
-    map = _grid.region_map
-    diagram = _grid.orbit_diagram
+    def json(self) -> str: ...
+    def with_number(self, name: str, value: float) -> OscillatorFile: ...
+    def numbers(self) -> _Fields: ...
+    def scales(self) -> _Scales | None: ...
 
 @final
 class MachineFile:
@@ -188,9 +110,6 @@ class MachineFile:
     def start(self, q: list[float] | None, qdot: list[float] | None, phase: float | None) -> _MachineStart: ...
     def __eq__(self, other: object, /) -> bool: ...
 
-def simulate_machine(
-    file: MachineFile, start: _MachineStart, impacts: int | None, periods: float | None, progress: _Progress
-) -> _Fields: ...
 def simulate_machines(
     file: MachineFile, numbers: list[tuple[str, list[float]]], starts: list[_MachineStart],
     limits: tuple[int | None, float | None], threads: int, progress: _Progress,
@@ -198,52 +117,62 @@ def simulate_machines(
 def machine_waveform(file: MachineFile, start: _MachineStart, until: float, step: float, events: bool) -> _Fields: ...
 def machine_names() -> list[str]: ...
 def machine_state(plan: str, event: int) -> str: ...
-def simulate(
-    osc: Oscillator, start: _Start, impacts: int | None, periods: float | None, progress: _Progress
-) -> _Fields: ...
 def waveform(
-    osc: Oscillator, start: _Start, until: float, step: float, events: bool
+    osc: OscillatorFile, start: _Start, until: float, step: float, events: bool
 ) -> tuple[_Array, _Array, _Array]: ...
 def settle_many(
-    osc: Oscillator, x: _Array, v: _Array, phase: _Array, threads: int, progress: _Progress
+    osc: OscillatorFile, x: _Array, v: _Array, phase: _Array, threads: int, progress: _Progress
 ) -> tuple[list[tuple[str, int]], NDArray[np.uint32]]: ...
 def drawn_points(drawn: str) -> list[_Array]: ...
 def settle_points(
-    osc: Oscillator, over: _Columns, start: _Start, options: tuple[int | None, list[str], bool], threads: int,
+    osc: OscillatorFile, over: _Columns, start: _Start, options: tuple[int | None, list[str], bool], threads: int,
     progress: _Progress,
 ) -> list[_Fields]: ...
 def simulate_points(
-    osc: Oscillator, over: _Columns, start: _Start, limits: tuple[int | None, float | None], threads: int,
+    osc: OscillatorFile, over: _Columns, start: _Start, limits: tuple[int | None, float | None], threads: int,
     progress: _Progress,
 ) -> _Fields: ...
 def end_reasons() -> list[str]: ...
 def states_of_points(
-    osc: Oscillator, over: _Columns, start: _Start, times: list[float], threads: int, progress: _Progress
+    osc: OscillatorFile, over: _Columns, start: _Start, times: list[float], threads: int, progress: _Progress
 ) -> _Fields: ...
 def strobes_of_points(
-    osc: Oscillator, over: _Columns, start: _Start, phase: float, count: int, threads: int, progress: _Progress
+    osc: OscillatorFile, over: _Columns, start: _Start, phase: float, count: int, threads: int, progress: _Progress
 ) -> _Fields: ...
 def crossings_of_points(
-    osc: Oscillator, over: _Columns, start: _Start, position: float, periods: float, threads: int, progress: _Progress
+    osc: OscillatorFile, over: _Columns, start: _Start, position: float, periods: float, threads: int, progress: _Progress
 ) -> _Fields: ...
 def share_interval(count: int, total: int) -> tuple[float, float]: ...
 def contains(polygons: list[tuple[_Array, bool]], p: _Array, q: _Array) -> NDArray[np.bool_]: ...
-def varied_parameters(osc: Oscillator) -> list[str]: ...
+def varied_parameters(osc: OscillatorFile) -> list[str]: ...
+@final
+class Answer:
+    def __new__(cls, plan: str) -> Self: ...
+    @property
+    def plan(self) -> str: ...
+    def json(self, brief: bool) -> str: ...
+    def figure(
+        self, units: _Scales | None, of_branch: tuple[bool, bool, int | None], quantity: str | None
+    ) -> str | None: ...
+    def columns(self) -> _Fields | None: ...
+
 def answer(
-    system: Oscillator | MachineFile, from_: _MachineStart | None, task: str, total: int, threads: int, progress: _Progress
-) -> _Fields: ...
+    system: OscillatorFile | MachineFile, from_: _MachineStart | None, task: str, total: int, threads: int, progress: _Progress
+) -> Answer: ...
+def palette() -> tuple[list[str], list[tuple[str, str]]]: ...
+def look_of(label: str) -> tuple[str, str]: ...
+def title_of(osc: OscillatorFile) -> str: ...
+def shares_figure(osc: OscillatorFile, shares: list[tuple[str, float]]) -> str: ...
 def plan_json(
-    system: Oscillator | MachineFile, from_: _MachineStart | None, task: str, tile: int | None
+    system: OscillatorFile | MachineFile, from_: _MachineStart | None, task: str, tile: int | None
 ) -> str: ...
-def answer_json(plan: str) -> str: ...
-def checked_plan(text: str) -> tuple[str, str, str, int]: ...
+def checked_plan(given: str) -> tuple[str, str, str, int]: ...
 def fixed_coordinates(text: str) -> list[tuple[str, float, str, str, str]]: ...
 def machine_parameters() -> dict[str, str]: ...
 def coordinate_words(name: str) -> tuple[str, str, str]: ...
-def point_coordinates(osc: Oscillator, start: _Start) -> list[tuple[str, float, str, str, str]]: ...
+def point_coordinates(osc: OscillatorFile, start: _Start) -> list[tuple[str, float, str, str, str]]: ...
 def scales_of_points(system: str, names: list[str], values: list[list[float]]) -> list[list[float]]: ...
 def scales_over(text: str, names: list[str], values: list[list[float]]) -> list[list[float]]: ...
-def system_fields(osc: Oscillator) -> str: ...
 def fill(plan: str, threads: int, progress: _Progress) -> tuple[list[_Fields], list[_Fields]]: ...
 def labels_of(codes: list[int]) -> list[str]: ...
 def vibro(words: list[str], program: str) -> int: ...

@@ -5,7 +5,6 @@ use crate::answer::Shown;
 use crate::branch_quantity::BranchQuantity;
 use crate::figure::coloured;
 use crate::figure::overlay::Overlay;
-use crate::json::margins::ParameterObject;
 use crate::response::ResponseView;
 use crate::scene::{self, View};
 use crate::{ReportError, Table, Units, figure, table};
@@ -15,8 +14,8 @@ use vibroimpact::verdict::{CountedMotion, Verdict};
 use vibroimpact_plot::{Figure, plain};
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{
-    BranchPlan, Control, Diagram, Plan, PlanError, RegionPlan, ResponseCurves, Results, Simulated, Task, Variable,
-    machine, run,
+    BranchPlan, Control, Diagram, Plan, PlanError, PointsPlan, RegionPlan, ResponseCurves, Results, Simulated, Task,
+    Variable, machine, run,
 };
 
 /// The largest number of characters of a title over an axis of ordinary width.
@@ -120,6 +119,11 @@ impl Answer {
                 figure::response::figure(&view, title)
             }
             machine::Results::Basin(found) => figure::basin::figure(found, &Units::default(), title)?,
+            machine::Results::Map(found) if found.axes.is_empty() => {
+                let labels = found.points.iter().map(|motions| motions.first().map(|motion| (*motion.label).into()));
+                let points = PointsPlan::Listed(found.columns.clone());
+                figure::scattered::figure(&points, labels, &Units::default(), title)?
+            }
             machine::Results::Map(found) => {
                 figure::map::figure(found, &Units::default(), title, Overlay::default().cells())?
             }
@@ -134,13 +138,7 @@ impl Answer {
             }
             machine::Results::Margins(found) => {
                 let label = figure::label(&found.motion.label());
-                if found.numbers.is_empty() {
-                    return Err(ReportError::NoMargins(label).into());
-                }
-                let all = found.numbers.iter();
-                let rows: Vec<_> =
-                    all.map(|of| (plain(&of.path), ParameterObject::of_machine(&self.machine, of))).collect();
-                figure::bars::margins(&rows, None, format!("{title}: {label}"))
+                figure::bars::margins(found, (&self.machine, &Units::default()), format!("{title}: {label}"))?
             }
             machine::Results::Lyapunov(..) => return Ok(None),
             machine::Results::Orbit(found) => figure::orbits::of_machine(found, title),
@@ -227,7 +225,7 @@ impl Answer {
                 let Task::Curve(plan) = &self.plan.task else { return Ok(None) };
                 table::curve::of_machine(&self.machine, &plan.typed()?, found)
             }
-            machine::Results::Margins(found) => table::margins::of_machine(found, &self.machine),
+            machine::Results::Margins(found) => table::margins::table(found, &self.machine, Units::default()),
             machine::Results::Region(found) => {
                 let Task::Region(plan) = &self.plan.task else { return Ok(None) };
                 table::region::table(found, &plan.typed::<String>()?, &Units::default())

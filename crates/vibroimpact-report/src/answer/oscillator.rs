@@ -3,7 +3,6 @@
 use crate::answer::Shown;
 use crate::figure::plane::varied;
 use crate::figure::{self, coloured, title};
-use crate::json::margins::ParameterObject;
 use crate::response::ResponseView;
 use crate::scene::{View, Viewed, phase_portrait};
 use crate::{AnswerError, Asked, ReportError, Table, json, table};
@@ -12,7 +11,7 @@ use serde::{Serialize, Serializer};
 use vibroimpact::verdict::{CountedMotion, PaperRule, PaperVerdict};
 use vibroimpact::{Oscillator, Parameter};
 use vibroimpact_plot::Figure;
-use vibroimpact_study::{BranchPlan, Control, Name, ParameterMargin, Plan, RegionPlan, Results, Task, run};
+use vibroimpact_study::{BranchPlan, Control, Name, Plan, RegionPlan, Results, Task, run};
 
 /// A plan of an oscillator and its result.
 #[derive(Clone, Debug)]
@@ -68,7 +67,9 @@ impl Serialize for Answer {
                 let object = json::response::document(asked, plan, osc, (task, found));
                 object.map_err(S::Error::custom)?.serialize(to)
             }
-            (_, Results::Margins(found)) => json::margins::document(asked, plan, osc, found).serialize(to),
+            (_, Results::Margins(start, found)) => {
+                json::margins::document(asked, plan, (osc, start.as_ref()), found).serialize(to)
+            }
             // `answer` combines each plan with its own results, so this does not occur
             _ => Err(S::Error::custom("the results belong to another task than the plan's")),
         }
@@ -164,18 +165,11 @@ impl Answer {
                 let share = |found: &CountedMotion| (found.verdict.label().into_owned(), census.share(found));
                 figure::bars::shares(&census.by_share().into_iter().map(share).collect::<Vec<_>>(), title(asked))
             }
-            (_, Results::Margins(found)) => {
+            (_, Results::Margins(_, found)) => {
+                let varied: Vec<Parameter> = found.parameters.iter().map(|of| of.scope.parameter).collect();
                 let label = figure::label(&found.motion.label());
-                if found.parameters.is_empty() {
-                    return Err(ReportError::NoMargins(label).into());
-                }
-                let of = &found.parameters;
-                let varied: Vec<Parameter> = of.iter().map(|of| of.scope.parameter).collect();
                 let title = [figure::title_without(asked, &varied), label].join(": ");
-                let name = |of: &ParameterMargin| figure::named(of.scope.parameter, &asked.units);
-                let rows: Vec<_> = of.iter().map(|of| (name(of), ParameterObject::new(of, &asked.units))).collect();
-                let size = found.motion_box.as_ref().map(|found| found.size);
-                figure::bars::margins(&rows, size, title.trim_start_matches(": ").to_owned())
+                figure::bars::margins(found, (osc, &asked.units), title.trim_start_matches(": ").to_owned())?
             }
             _ => return Ok(None),
         }))
@@ -213,7 +207,7 @@ impl Answer {
             (Task::Response(task), Results::Response(found)) => {
                 table::response::table(ResponseView::of_oscillator(found, task, units)?)
             }
-            (_, Results::Margins(found)) => table::margins::table(found, *units),
+            (_, Results::Margins(_, found)) => table::margins::table(found, osc, *units),
             _ => return Ok(None),
         }))
     }

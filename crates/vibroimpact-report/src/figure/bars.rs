@@ -2,12 +2,17 @@
 
 use crate::figure::label;
 use crate::figure::styles::EVENT_COLOURS;
+use crate::json::branch::EventPoint;
 use crate::json::margins::ParameterObject;
 use crate::number::short;
+use crate::varied::Varied;
+use crate::{ReportError, Units};
+use vibroimpact::verdict::System;
 use vibroimpact_plot::{
     Anchor, ClassStyle, Colour, Dash, Figure, FigureAxis, Hatch, Legend, Panel, Pattern, Rect, Rects, SERIES, Stroke,
     Text, Tick, VLine, class_style,
 };
+use vibroimpact_study::MotionMargins;
 
 /// Half the thickness of a bar.
 const HALF: f64 = 0.3;
@@ -38,9 +43,22 @@ pub fn shares(found: &[(String, f64)], title: String) -> Figure {
     Figure::new(panel).size(620.0, height).title(title)
 }
 
-/// The change of each number to its nearest events, in units of its scale, each with its name, and the size of the box in which the
-/// motion was found.
-pub(crate) fn margins(parameters: &[(String, ParameterObject<'_>)], found_box: Option<f64>, title: String) -> Figure {
+/// The change of each number to its nearest events, in units of its scale, and the size of the box in which the motion was found.
+///
+/// # Errors
+/// [`ReportError::NoMargins`] for a motion without a branch.
+pub(crate) fn margins<S: System, V: Varied, P: EventPoint<System = S>>(
+    found: &MotionMargins<S, V, P>,
+    (system, units): (&S, &Units),
+    title: String,
+) -> Result<Figure, ReportError> {
+    if found.parameters.is_empty() {
+        return Err(ReportError::NoMargins(label(&found.motion.label())));
+    }
+    let all = found.parameters.iter();
+    let parameters: Vec<(String, ParameterObject<'_>)> =
+        all.map(|of| (of.scope.parameter.axis(units), ParameterObject::new(of, system, units))).collect();
+    let found_box = found.motion_box.as_ref().map(|found| found.size);
     let (axis, height) = rows(parameters.iter().map(|(name, of)| format!("{name} = {}", short(of.value))));
     let mut kinds: Vec<&str> = Vec::new();
     let mut bars = Rects::new(Vec::new());
@@ -88,7 +106,7 @@ pub(crate) fn margins(parameters: &[(String, ParameterObject<'_>)], found_box: O
         legend = legend.line(stroke, "box");
     }
     texts.into_iter().for_each(|text| panel.add(text));
-    Figure::new(panel).size(680.0, height).title(title).legend(legend)
+    Ok(Figure::new(panel).size(680.0, height).title(title).legend(legend))
 }
 
 #[cfg(test)]

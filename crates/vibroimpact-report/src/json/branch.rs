@@ -16,7 +16,7 @@ use vibroimpact::continuation::{BranchEvent, SolutionPoint};
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::machine::Cycle;
 use vibroimpact_study::machine::MachineSource;
-use vibroimpact_study::{Branches, Chosen, Cut, EventRecord, Followed, OrbitNumber, Plan, SystemPlan};
+use vibroimpact_study::{Branches, Chosen, Cut, EventRecord, Followed, OrbitNumber, Plan, Solution, SystemPlan};
 
 /// The answer to `vibro branch`.
 #[derive(JsonSchema, Serialize)]
@@ -293,6 +293,25 @@ impl<'a> BranchEventObject<'a> {
                 machine,
             ),
         }
+    }
+}
+
+/// A point of a branch, whose event is told.
+pub(crate) trait EventPoint: Solution {
+    /// What is told of the event besides its name; `after` is the label beyond it.
+    fn fields<'a>(&self, after: Option<String>, system: &'a Self::System) -> EventFields<'a>;
+}
+
+impl EventPoint for SolutionPoint {
+    fn fields<'a>(&self, _: Option<String>, _: &'a Oscillator) -> EventFields<'a> {
+        self.event.map(|event| EventFields::of_oscillator(EventRecord::of(self, &event))).unwrap_or_default()
+    }
+}
+
+impl EventPoint for machine::SolutionPoint {
+    fn fields<'a>(&self, after: Option<String>, machine: &'a Machine) -> EventFields<'a> {
+        let of = |event| EventFields::of_machine(event, (self.cycle.label, after), machine);
+        self.event.map(of).unwrap_or_default()
     }
 }
 

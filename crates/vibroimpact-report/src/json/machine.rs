@@ -45,7 +45,10 @@ impl Serialize for Answer {
                 let task = task.typed().map_err(Error::custom)?;
                 self.document(CurveAnswer::of_machine(machine, &task, found), to)
             }
-            (_, machine::Results::Margins(found)) => self.document(MarginsAnswer::of_machine(machine, found), to),
+            (_, machine::Results::Margins(found)) => {
+                let motion = MotionObject::of_machine(machine, &found.motion);
+                self.document(MarginsAnswer::new(found, machine, motion, &Units::default()), to)
+            }
             (Task::Region(task), machine::Results::Region(found)) => {
                 let task: RegionPlan<String> = task.typed().map_err(Error::custom)?;
                 self.document(RegionAnswer::new(found, &task, task.neutral(source), &Units::default()), to)

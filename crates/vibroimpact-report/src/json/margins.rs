@@ -1,16 +1,15 @@
 //! The nearest events of a motion in each parameter, and the box of parameters in which the motion was found.
 
 use super::Document;
-use super::branch::EventFields;
+use super::branch::{EventFields, EventPoint};
 use super::motion::MotionObject;
+use crate::varied::Varied;
 use crate::{Asked, Units};
 use schemars::JsonSchema;
 use serde::Serialize;
-use vibroimpact::Oscillator;
-use vibroimpact::machine::Machine;
-use vibroimpact_study::{
-    EventRecord, MachineMargins, MarginEnd, MotionBox, MotionMargins, NumberMargin, ParameterMargin, Plan,
-};
+use vibroimpact::verdict::System;
+use vibroimpact::{Oscillator, Start};
+use vibroimpact_study::{MotionBox, MotionMargins, ParameterMargin, Plan, Scope};
 
 /// The answer to `vibro margins`.
 #[derive(JsonSchema, Serialize)]
@@ -19,7 +18,7 @@ pub(super) struct MarginsAnswer<'a> {
     parameters: Vec<ParameterObject<'a>>,
     nearest: Option<NearestObject<'a>>,
     #[serde(rename = "box")]
-    motion_box: Option<BoxObject>,
+    motion_box: Option<BoxObject<'a>>,
 }
 
 #[derive(JsonSchema, Serialize)]
@@ -49,12 +48,6 @@ pub(crate) struct MarginEvent<'a> {
     pub(crate) fields: EventFields<'a>,
 }
 
-impl MarginEvent<'static> {
-    fn new(record: EventRecord) -> Self {
-        Self { kind: record.kind, fields: EventFields::of_oscillator(record) }
-    }
-}
-
 /// The event with the smallest change in units of the scale of its parameter.
 #[derive(JsonSchema, Serialize)]
 struct NearestObject<'a> {
@@ -65,133 +58,111 @@ struct NearestObject<'a> {
 }
 
 #[derive(JsonSchema, Serialize)]
-struct BoxObject {
+struct BoxObject<'a> {
     /// Each parameter lies within this multiple of its scale from its value.
     size: f64,
     /// The largest size that was allowed.
     largest: f64,
-    parameters: Vec<RangeObject>,
+    parameters: Vec<RangeObject<'a>>,
     /// Number of points in the box at which the motion was found, and of the lines on which they lie.
     points: u64,
     lines: u64,
     /// Whether it is proved that the motion exists in the whole box.
     proved: bool,
-    edge: Option<EdgeObject>,
+    edge: Option<EdgeObject<'a>>,
 }
 
 #[derive(JsonSchema, Serialize)]
-struct RangeObject {
-    parameter: &'static str,
+struct RangeObject<'a> {
+    parameter: &'a str,
     from: f64,
     to: f64,
 }
 
 /// A point next to the box at which the motion was not found.
 #[derive(JsonSchema, Serialize)]
-struct EdgeObject {
+struct EdgeObject<'a> {
     loss: &'static str,
-    parameters: Vec<ValueObject>,
+    parameters: Vec<ValueObject<'a>>,
 }
 
 #[derive(JsonSchema, Serialize)]
-struct ValueObject {
-    parameter: &'static str,
+struct ValueObject<'a> {
+    parameter: &'a str,
     value: f64,
 }
 
 /// The object of `vibro margins`.
 #[must_use]
 pub fn document<'a>(
-    asked: &Asked,
+    asked: &'a Asked,
     plan: &'a Plan,
-    osc: &Oscillator,
-    found: &MotionMargins,
+    (osc, start): (&'a Oscillator, Option<&Start>),
+    found: &'a MotionMargins,
 ) -> impl Serialize + use<'a> {
-    let units = &asked.units;
-    let fields = MarginsAnswer {
-        motion: MotionObject::of_oscillator(&found.motion, osc, units),
-        parameters: found.parameters.iter().map(|margin| ParameterObject::new(margin, units)).collect(),
-        nearest: found.nearest().map(|(margin, end)| {
-            let distance = end.distance(&margin.scope);
-            NearestObject {
-                parameter: units.name_of(margin.scope.parameter),
-                direction: if distance < 0.0 { "down" } else { "up" },
-                scaled: distance.abs() / margin.scope.scale,
-            }
-        }),
-        motion_box: found.motion_box.as_ref().map(|found_box| BoxObject::new(found_box, &found.parameters, units)),
-    };
-    let document = Document::new(asked, osc, plan, fields);
-    match &found.start {
-        Some(start) => document.start(start, units),
+    let motion = MotionObject::of_oscillator(&found.motion, osc, &asked.units);
+    let document = Document::new(asked, osc, plan, MarginsAnswer::new(found, osc, motion, &asked.units));
+    match start {
+        Some(start) => document.start(start, &asked.units),
         None => document,
     }
 }
 
 impl<'a> MarginsAnswer<'a> {
-    pub(super) fn of_machine(machine: &'a Machine, found: &'a MachineMargins) -> Self {
-        let nearest =
-            found.nearest().map(|(of, direction, scaled)| NearestObject { parameter: &of.path, direction, scaled });
+    pub(super) fn new<S: System, V: Varied, P: EventPoint<System = S>>(
+        found: &'a MotionMargins<S, V, P>,
+        system: &'a S,
+        motion: MotionObject<'a>,
+        units: &'a Units,
+    ) -> Self {
+        let nearest = found.nearest().map(|(margin, direction, end)| NearestObject {
+            parameter: margin.scope.parameter.field(units),
+            direction,
+            scaled: end.scaled(&margin.scope),
+        });
         Self {
-            motion: MotionObject::of_machine(machine, &found.motion),
-            parameters: found.numbers.iter().map(|number| ParameterObject::of_machine(machine, number)).collect(),
+            motion,
+            parameters: found.parameters.iter().map(|margin| ParameterObject::new(margin, system, units)).collect(),
             nearest,
-            motion_box: None,
+            motion_box: found.motion_box.as_ref().map(|found_box| BoxObject::new(found_box, &found.parameters, units)),
         }
     }
 }
 
 impl<'a> ParameterObject<'a> {
-    pub(crate) fn of_machine(machine: &'a Machine, number: &'a NumberMargin) -> Self {
-        let [down, up] = number.ends().map(|(_, limit, event)| {
-            let at = event.map(|event| event.point.value);
-            let told = event.and_then(|event| Some((event, event.point.event?)));
-            EndObject {
-                limit,
-                at,
-                distance: at.map(|at| at - number.value),
-                relative: at.filter(|_| number.value != 0.0).map(|at| (at - number.value) / number.value.abs()),
-                event: told.map(|(event, kind)| MarginEvent {
-                    kind: kind.name(),
-                    fields: EventFields::of_machine(kind, (event.point.cycle.label, event.after.clone()), machine),
-                }),
-            }
-        });
-        Self { parameter: &number.path, value: number.value, scale: number.scale(), down, up }
-    }
-}
-
-impl ParameterObject<'static> {
-    pub(crate) fn new(margin: &ParameterMargin, units: &Units) -> Self {
+    pub(crate) fn new<V: Varied, P: EventPoint>(
+        margin: &'a ParameterMargin<V, P>,
+        system: &'a P::System,
+        units: &Units,
+    ) -> Self {
         let scope = &margin.scope;
-        let unit = units.of(scope.parameter);
-        let end = |end: &MarginEnd, limit: f64| {
-            let at = end.point.as_ref().and_then(|point| Some((point, point.event?)));
+        let unit = scope.parameter.unit(units);
+        let [down, up] = margin.ends().map(|(_, limit, end)| {
+            let event = end.point.as_ref().and_then(|point| Some((point, point.event_name()?)));
             EndObject {
                 limit: limit * unit,
-                at: at.map(|_| end.value * unit),
-                distance: at.map(|_| end.distance(scope) * unit),
-                relative: at.and_then(|_| end.relative(scope)),
-                event: at.map(|(point, event)| MarginEvent::new(EventRecord::of(point, &event))),
+                at: event.map(|_| end.value * unit),
+                distance: event.map(|_| end.distance(scope) * unit),
+                relative: event.and_then(|_| end.relative(scope)),
+                event: event.map(|(point, kind)| MarginEvent { kind, fields: point.fields(end.after.clone(), system) }),
             }
-        };
-        Self {
-            parameter: units.name_of(scope.parameter),
-            value: scope.value * unit,
-            scale: scope.scale * unit,
-            down: end(&margin.down, scope.low),
-            up: end(&margin.up, scope.high),
-        }
+        });
+        let (parameter, value, scale) = (scope.parameter.field(units), scope.value * unit, scope.scale * unit);
+        Self { parameter, value, scale, down, up }
     }
 }
 
-impl BoxObject {
-    fn new(found: &MotionBox, parameters: &[ParameterMargin], units: &Units) -> Self {
-        let names = || parameters.iter().map(|margin| (margin, units.of(margin.scope.parameter)));
-        let range = |(margin, unit): (&ParameterMargin, f64)| RangeObject {
-            parameter: units.name_of(margin.scope.parameter),
-            from: margin.scope.at(-found.size) * unit,
-            to: margin.scope.at(found.size) * unit,
+impl<'a> BoxObject<'a> {
+    fn new<V: Varied, P>(found: &MotionBox, parameters: &'a [ParameterMargin<V, P>], units: &Units) -> Self {
+        let names = || parameters.iter().map(|margin| (&margin.scope, margin.scope.parameter.unit(units)));
+        let range = |(scope, unit): (&'a Scope<V>, f64)| RangeObject {
+            parameter: scope.parameter.field(units),
+            from: scope.at(-found.size) * unit,
+            to: scope.at(found.size) * unit,
+        };
+        let value = |((scope, unit), value): ((&'a Scope<V>, f64), &f64)| ValueObject {
+            parameter: scope.parameter.field(units),
+            value: value * unit,
         };
         Self {
             size: found.size,
@@ -202,13 +173,7 @@ impl BoxObject {
             proved: false,
             edge: found.edge.as_ref().map(|edge| EdgeObject {
                 loss: edge.loss.name(),
-                parameters: names()
-                    .zip(&edge.values)
-                    .map(|((margin, unit), value)| ValueObject {
-                        parameter: units.name_of(margin.scope.parameter),
-                        value: value * unit,
-                    })
-                    .collect(),
+                parameters: names().zip(&edge.values).map(value).collect(),
             }),
         }
     }

@@ -2,28 +2,25 @@
 
 use super::Table;
 use crate::Units;
+use crate::json::branch::EventPoint;
 use crate::json::margins::ParameterObject;
 use crate::number::Number;
-use vibroimpact::machine::Machine;
-use vibroimpact_study::{MachineMargins, MotionMargins};
+use crate::varied::Varied;
+use vibroimpact::verdict::System;
+use vibroimpact_study::MotionMargins;
 
 const HEADER: &str = "parameter,value,direction,limit,at,distance,relative,event,before,after";
 
-/// The table of `vibro margins --machine`.
-#[must_use]
-pub fn of_machine<'a>(found: &'a MachineMargins, machine: &'a Machine) -> Table<'a> {
-    let numbers = found.numbers.iter();
-    let rows = numbers.flat_map(|number| both(&number.path, &ParameterObject::of_machine(machine, number)));
-    Table::new(HEADER.to_owned(), rows)
-}
-
 /// The table of `vibro margins`.
 #[must_use]
-pub fn table(found: &MotionMargins, units: Units) -> Table<'_> {
-    let rows = found
-        .parameters
-        .iter()
-        .flat_map(move |margin| both(units.column_of(margin.scope.parameter), &ParameterObject::new(margin, &units)));
+pub(crate) fn table<'a, S: System, V: Varied, P: EventPoint<System = S>>(
+    found: &'a MotionMargins<S, V, P>,
+    system: &'a S,
+    units: Units,
+) -> Table<'a> {
+    let rows = found.parameters.iter().flat_map(move |margin| {
+        both(margin.scope.parameter.column(&units), &ParameterObject::new(margin, system, &units))
+    });
     Table::new(HEADER.to_owned(), rows)
 }
 

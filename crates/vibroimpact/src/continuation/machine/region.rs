@@ -140,6 +140,7 @@ impl Search<'_> {
             Cycle::lasting(&MachineFrame::new(&machine), begin, time).filter(|cycle| self.wanted(cycle))
         };
         there().or_else(|| {
+            // the way is halved, and the cycle followed to its middle first
             let half = depth.checked_sub(1)?;
             let at = (0.5 * (from.at.0 + to.0), 0.5 * (from.at.1 + to.1));
             let middle = Known { at, cycle: self.followed(from, at, half)? };
@@ -165,6 +166,7 @@ impl Search<'_> {
 
     /// Whether a cycle can be followed to a point; it is remembered.
     fn holds(&self, at: (f64, f64)) -> bool {
+        // closer than the edge is outlined, one short try decides
         let mut from = self.nearest(at);
         let short =
             |from: &Known| self.apart(from.at, at) * f64::from(self.seeds.grid.0.min(self.seeds.grid.1)) < 4.0 * SHORT;
@@ -190,6 +192,7 @@ impl Search<'_> {
     fn survey(&self) -> Option<()> {
         let (columns, rows) = self.seeds.grid;
         let wanted = |(_, cycle): &&((u32, u32), Cycle)| self.wanted(cycle);
+        // they are taken from the end: so the first point comes first
         let mut waiting: Vec<((u32, u32), Cycle)> = self.seeds.cycles.iter().filter(wanted).rev().cloned().collect();
         while let Some(((i, j), cycle)) = waiting.pop() {
             (self.go_on)().then_some(())?;
@@ -197,6 +200,7 @@ impl Search<'_> {
             if !self.learn(from.at, from.cycle.clone()) {
                 continue;
             }
+            // a number below 0 wraps and is left out with those beyond the grid
             let beside = [(i.wrapping_sub(1), j), (i + 1, j), (i, j.wrapping_sub(1)), (i, j + 1)];
             for next in beside.into_iter().filter(|&(k, l)| k < columns && l < rows) {
                 waiting.extend(self.followed(&from, self.node(next), DEEPEST).map(|cycle| (next, cycle)));
@@ -208,6 +212,7 @@ impl Search<'_> {
     /// The region, with its edges.
     fn region(&self, options: RegionOptions) -> Option<Region> {
         self.survey()?;
+        // before the outline finds more
         let found: Vec<(f64, f64)> = self.known.borrow().iter().map(|one| one.at).collect();
         let options = RegionOptions { longest: EDGE.0, accuracy: EDGE.1, ..options };
         let (columns, rows) = self.seeds.grid;
@@ -235,6 +240,7 @@ impl Search<'_> {
     /// is +1; close to a torus bifurcation it is one of a complex pair until right before.
     fn bound(&self, at: (f64, f64)) -> Option<Bound> {
         let Known { cycle, .. } = self.nearest(at).into_iter().next()?;
+        // existence ends at +1 only; stability at any point of the circle
         let off = |m: &Multiplier| match self.kind {
             RegionKind::Existence => hypot(m.re - 1.0, m.im),
             RegionKind::Stability => (m.modulus() - 1.0).abs(),
@@ -257,6 +263,7 @@ impl Search<'_> {
             let lap = MachineLap::fly(&MachineFrame::new(&machine), cycle.strobes.first()?, cycle.period)?;
             let count = lap.events.iter().filter(|event| event.closes()).count();
             match count.cmp(&(closings as usize)) {
+                // an impact has lost its speed, or a new one has come
                 core::cmp::Ordering::Less => Some(Bound::NoSpeed),
                 core::cmp::Ordering::Greater => Some(Bound::Touch),
                 core::cmp::Ordering::Equal => None,

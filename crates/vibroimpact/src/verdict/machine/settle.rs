@@ -5,6 +5,7 @@ use super::super::outcome::{Settled, Undecided, UndecidedCause, Verdict};
 use super::super::record::Record;
 use super::super::recurring::Recurring;
 use super::super::settle::{Followed, settle_while};
+use super::fading::Fading;
 use super::outcome::State;
 use super::reduced::Reduced;
 use super::returns::{Recorded, Step};
@@ -132,13 +133,22 @@ struct Follow<'a> {
     time: f64,
     /// The latest release from each stop, and its time.
     releases: Vec<(Arc<Step>, f64)>,
+    fading: Fading,
 }
 
 impl<'a> Follow<'a> {
     fn new(machine: &'a Machine, start: &events::Start) -> Result<Self, MachineError> {
         let system = Recorded::new(MachineFrame::new(machine));
         let motion = Motion::new(machine, start, system.frame.limits())?;
-        Ok(Self { system, motion, record: Record::default(), sizes: VecDeque::new(), time: 0.0, releases: Vec::new() })
+        Ok(Self {
+            system,
+            motion,
+            record: Record::default(),
+            sizes: VecDeque::new(),
+            time: 0.0,
+            releases: Vec::new(),
+            fading: Fading::default(),
+        })
     }
 
     /// Includes a step in the size of the motion, to which distances are relative.
@@ -196,11 +206,17 @@ impl<'a> Followed for Follow<'a> {
             let last = State::of(self.motion.place());
             let verdict = match end {
                 End::Never => Verdict::NoImpact(last),
+                End::NoEventWithin if Fading::touches(&self.system.frame, &seen) => {
+                    Verdict::NoImpact(State { fades: true, ..last })
+                }
                 End::Stuck => Verdict::Stuck(last),
                 end => return Some(self.record.undecided(&self.system, UndecidedCause::Ended(end))),
             };
             self.time = before;
             return Some(verdict);
+        }
+        if self.fading.includes(&self.system.frame, &step.end, self.time) {
+            return Some(Verdict::NoImpact(State { fades: true, ..State::of(self.motion.place()) }));
         }
         self.measure_size(&step);
         let (interval, step) = (step.passage.time(), Arc::new(step));

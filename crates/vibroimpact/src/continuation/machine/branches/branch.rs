@@ -10,6 +10,7 @@ use super::family::Family;
 use super::meeting::meeting;
 use super::point::{BranchEvent, SolutionPoint};
 use super::problem::{Judged, MachineProblem, MachineSolution};
+use super::rest_for_ever::rest_for_ever;
 use super::step::{NEARBY, off_circle};
 use super::test_functions::TestFunction;
 use crate::continuation::branches::{BranchError, BranchOptions, Direction, scale};
@@ -74,6 +75,9 @@ impl Path for EventPath {
     fn stop(branch: &mut EventBranch) {
         let here = || (branch.tracer.here.clone(), Difference::Other { place: None });
         let (at, found) = meeting(&branch.tracer).unwrap_or_else(here);
+        if branch.rests(&at) {
+            return;
+        }
         if let Some((next, continues)) = replayed(&branch.tracer, &at, (&branch.path.options, &found)) {
             return branch.go_on(&at, found.event(false), (next, landing(continues)));
         }
@@ -130,6 +134,15 @@ impl EventBranch {
         (single && self.tracer.problem.equations.ring.len() <= 2).then_some(stop)
     }
 
+    /// Ends the branch if the structure rests for ever right beyond; returns whether it does.
+    pub(super) fn rests(&mut self, at: &MachineSolution) -> bool {
+        let found = rest_for_ever(&self.tracer, at);
+        if let Some((limit, stop)) = &found {
+            self.end(limit, BranchEvent::RestForEver { stop: *stop });
+        }
+        found.is_some()
+    }
+
     /// Reports that these test functions are zero at `at` and goes on with the events beyond.
     pub(super) fn graze(&mut self, at: &MachineSolution, zeros: &[TestFunction]) {
         let ring = &self.tracer.problem.equations.ring;
@@ -145,10 +158,12 @@ impl EventBranch {
         if let Some(stop) = self.lost(at, found) {
             return self.end(at, BranchEvent::LossOfContact { stop });
         }
+        let of_rest = matches!(found, Difference::Rest { joint: false, .. } | Difference::Other { .. });
+        if of_rest && self.rests(at) {
+            return;
+        }
         // how many impacts of a chatter are followed is no property of the cycle
-        if matches!(found, Difference::Rest { joint: false, .. } | Difference::Other { .. })
-            && let Some(next) = same_beyond(&self.tracer, at, &self.path.options)
-        {
+        if of_rest && let Some(next) = same_beyond(&self.tracer, at, &self.path.options) {
             return self.exchange(next);
         }
         let beyond = || replayed(&self.tracer, at, (&self.path.options, found));

@@ -34,7 +34,11 @@ impl EventBranch {
             (step, grazing, edge) = (part, found, None);
         }
         if grazing.is_none() && !step.there.known.physical() && edge.is_none() {
-            return self.finish(BranchEvent::NoConvergence);
+            let here = self.tracer.here.clone();
+            if !self.rests(&here) {
+                self.finish(BranchEvent::NoConvergence);
+            }
+            return;
         }
         let crossed = match (&edge, &grazing) {
             // where the derivative is infinite, its test functions change sign without a zero
