@@ -72,6 +72,11 @@ impl Chatter {
         rests.filter_map(|(rest, event)| Some(Self { stop: event.rests_on()?, rest })).collect()
     }
 
+    /// The number of chatters on a stop.
+    pub(crate) fn count(ring: &MachineRing, stop: usize) -> usize {
+        Self::all(ring).iter().filter(|own| own.stop == stop).count()
+    }
+
     /// Its impacts with a rebound.
     pub(crate) fn impacts(&self, ring: &MachineRing) -> Vec<usize> {
         let m = ring.len();

@@ -91,6 +91,15 @@ pub(super) fn explained(
     (before, beyond): (&MachineRing, &MachineRing),
     turns: bool,
 ) -> Option<BranchEvent> {
+    // a rest after a chatter on both sides does not begin or end here
+    let event = match event {
+        BranchEvent::Sticking { stop, .. }
+            if Chatter::count(before, stop) > 0 && Chatter::count(before, stop) == Chatter::count(beyond, stop) =>
+        {
+            BranchEvent::Change { place: Some(stop) }
+        }
+        event => event,
+    };
     let changes = matches!(event, BranchEvent::Change { .. });
     if changes && !turns && same_in_turn(&told(before), &told(beyond)) {
         return None;
