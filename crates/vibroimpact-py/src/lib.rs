@@ -43,7 +43,6 @@ mod _core {
     #[pymodule_export]
     use crate::plan::{
         checked_plan, coordinate_words, fixed_coordinates, machine_parameters, point_coordinates, scales_of_points,
-        scales_over,
     };
     #[pymodule_export]
     use crate::points::{drawn_points, settle_points};
