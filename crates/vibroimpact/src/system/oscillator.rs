@@ -168,6 +168,7 @@ impl Oscillator {
 
     /// This fraction, if flights repeat after a common period: without damping and away from resonance.
     pub(crate) fn common_period(&self) -> Option<(u32, u32)> {
+        // at resonance the motion grows and does not repeat
         if self.damping() > 0.0 { None } else { self.fraction.filter(|(p, q)| p != q) }
     }
 
@@ -225,6 +226,7 @@ impl Oscillator {
     #[must_use]
     pub fn free_amplitude(&self) -> f64 {
         let beta = self.beta();
+        // two factors: 1 - beta^2 would cancel near resonance
         1.0 / hypot((1.0 - beta) * (1.0 + beta), 2.0 * self.damping() * beta)
     }
 

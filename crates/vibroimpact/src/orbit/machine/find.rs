@@ -71,6 +71,7 @@ fn forced(
         let mut seen = 0;
         for after in AFTER {
             while motion.time() < after * period && seen < EVENTS && motion.step().is_some() {
+                // they would only take memory
                 motion.take_events();
                 seen += 1;
             }
@@ -80,6 +81,7 @@ fn forced(
             learn(&mut known, Cycle::near(frame, motion.place(), label.periods));
         }
     }
+    // pairs grow as the square of their number
     let stable: Vec<Cycle> = known.iter().filter(|cycle| cycle.stable()).take(BETWEEN).cloned().collect();
     for (i, j) in (0..stable.len()).flat_map(|i| (0..i).map(move |j| (i, j))) {
         for guess in on_border(frame, (&stable[i], &stable[j]), go_on) {
