@@ -84,6 +84,7 @@ impl Of {
         if self.known {
             return self.first_open(0);
         }
+        // the least of all samples first, because most spans are clear
         let less = |one: f64, other: f64| if one < other { one } else { other };
         let (eight, _) = self.samples.as_chunks::<8>();
         let mut least = eight[0];
@@ -102,6 +103,7 @@ impl Of {
         let mut error = self.error;
         if self.known && step == 0 {
             // the zero at the beginning is divided out
+            // the series over the part of the step
             c.copy_within(1.., 0);
             c[POWERS - 2] = 0.0;
             error += 64.0 * f64::EPSILON * (c[0].abs() + c[1].abs());
@@ -116,7 +118,9 @@ impl Of {
 /// Whether a polynomial with small higher terms is larger than an error on [0, 1]; `false` may be wrong.
 #[inline(always)]
 fn is_positive(c: &[f64; POWERS - 1], error: f64) -> bool {
+    // all that the terms beyond the parabola can take away
     let rest: f64 = c[3..].iter().map(|c| c.abs()).sum();
+    // the vertex of the parabola lies within the step
     let inside = c[2] > 0.0 && c[1] < 0.0 && -c[1] < 2.0 * c[2];
     let least = if inside { c[0] - c[1] * c[1] / (4.0 * c[2]) } else { c[0].min(c[0] + c[1] + c[2]) };
     least > error + rest
@@ -142,6 +146,7 @@ fn crossing(c: &[f64; POWERS - 1], error: f64) -> Option<f64> {
         }
     }
     // the terms that rise do so most at the end
+    // as far as the error can move the zero
     let end = t + 2.0 * error / slope.abs();
     let (mut steepest, mut power, mut k) = (c[1], end, 2.0);
     for c in &c[2..] {
@@ -149,6 +154,7 @@ fn crossing(c: &[f64; POWERS - 1], error: f64) -> Option<f64> {
         power *= end;
         k += 1.0;
     }
+    // the guard falls all the way to there, so this zero is the first
     (t > 0.0 && end <= 1.0 && steepest < -16.0 * error).then_some(t)
 }
 

@@ -48,6 +48,7 @@ impl Frame {
         for (k, log) in carry(&mut self.vectors, &self.metric).into_iter().enumerate() {
             if log > f64::NEG_INFINITY {
                 self.logs[k].add(log);
+                // vectors that are kept close ranks, and their sums with them
                 self.logs.swap(kept, k);
                 self.lost.swap(kept, k);
                 kept += 1;
@@ -58,6 +59,7 @@ impl Frame {
         for lost in &mut self.lost[self.vectors.len()..] {
             *lost = true;
         }
+        // another vector takes the place of one that is lost, so that the frame spans all directions
         while self.vectors.len() < self.logs.len() {
             let vector = self.any();
             self.vectors.push(vector);

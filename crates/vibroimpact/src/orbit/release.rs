@@ -90,6 +90,7 @@ impl Excursion {
                     }
                     excursion.stretches.push(after(event.side));
                 }
+                // the flight goes on: its time counts up to the impact
                 EventKind::Graze { .. } => continue,
             }
             flown = 0.0;

@@ -58,6 +58,7 @@ impl Plane {
         condition: Condition,
     ) -> Self {
         let m = ring.len();
+        // a mean over the impacts: lengths do not depend on their number
         let mut weights = vec![1.0 / m as f64; 2 * m];
         weights.extend([1.0 / (scales.0 * scales.0), 1.0 / (scales.1 * scales.1)]);
         let (sides, periods) = (ring.sides.clone(), ring.periods);

@@ -44,6 +44,7 @@ impl Borders {
             })
         };
         let (straight, turned) = (factors(&scaled)?, factors(&scaled.transposed())?);
+        // each solution is nearer to the singular vector than the border before
         for _ in 0..ROUNDS {
             borders.right = unit(&straight, &borders.left, &borders.right)?;
             borders.left = unit(&turned, &borders.right, &borders.left)?;
@@ -69,6 +70,7 @@ impl Borders {
         let size = matrix.rows();
         let scaled = self.scaled(matrix);
         let mut rows = Vec::with_capacity((size + 1) * (size + 1));
+        // the bordered matrix is regular; the last number of the solution is zero where the matrix itself is singular
         for (i, left) in self.left.iter().enumerate() {
             rows.extend_from_slice(scaled.row(i));
             rows.push(*left);
@@ -89,6 +91,7 @@ fn unit(lu: &Lu, from: &[f64], known: &[f64]) -> Option<Vec<f64>> {
     let mut x = from.to_vec();
     lu.solve(&mut x);
     let length = dot(&x, &x).sqrt();
+    // with the sign of the border before, so that the test function keeps its own
     let length = if dot(&x, known) < 0.0 { -length } else { length };
     (length != 0.0 && length.is_finite()).then(|| x.iter().map(|x| x / length).collect())
 }

@@ -164,6 +164,7 @@ impl CurveProblem {
                 let structure = frame.structure(&place.states)?;
                 let rate = structure.gap(&frame.normal, stop).1;
                 let mut pull = place.flight(&frame.normal, structure).first(&rate).1;
+                // the second derivative of the surface, a kappa^2 e^{-kappa t}
                 if let Some(surface) = place.surfaces[stop] {
                     pull += surface.rate * surface.rate * surface.size;
                 }
