@@ -103,7 +103,6 @@ impl Of {
         let mut error = self.error;
         if self.known && step == 0 {
             // the zero at the beginning is divided out
-            // the series over the part of the step
             c.copy_within(1.., 0);
             c[POWERS - 2] = 0.0;
             error += 64.0 * f64::EPSILON * (c[0].abs() + c[1].abs());
@@ -146,7 +145,6 @@ fn crossing(c: &[f64; POWERS - 1], error: f64) -> Option<f64> {
         }
     }
     // the terms that rise do so most at the end
-    // as far as the error can move the zero
     let end = t + 2.0 * error / slope.abs();
     let (mut steepest, mut power, mut k) = (c[1], end, 2.0);
     for c in &c[2..] {

@@ -245,8 +245,7 @@ fn search(
             }
             let first = first_of(&mut buffers.polynomials);
             let Some((near, _)) = first else {
-                // no zero after all
-                // after a whole window the state goes on from here; of a part it is not known
+                // no zero after all; after a whole window the state goes on from here, of a part it is not known
                 on_track = part >= 1.0;
                 buffers.track.step(series);
                 s = if on_track { buffers.track.s } else { until };

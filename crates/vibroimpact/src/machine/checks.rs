@@ -178,6 +178,7 @@ fn room(parts: &MachineParts) -> Result<(), MachineError> {
         for other in parts.stops[..k].iter().filter(rigid) {
             let (a, b) = (dot(&one.direction, &one.direction), dot(&other.direction, &other.direction));
             let across = dot(&one.direction, &other.direction);
+            // two stops face each other along one line
             if across < 0.0 && across * across >= (1.0 - 1e-12) * a * b {
                 let room = one.gap / a.sqrt() + other.gap / b.sqrt();
                 if room <= 0.0 {

@@ -162,8 +162,7 @@ fn by_difference(osc: &Oscillator, ring: &Ring, parameter: Parameter) -> Option<
         let changed = parameter.set(osc, value + step * h).ok()?;
         Some(blocks(&changed, ring)?.iter().flat_map(|b| b.miss).collect())
     };
-    // one-sided if damping would become negative
-    // differences of fourth order
+    // differences of fourth order, one-sided if damping would become negative
     let stencil: &[(f64, f64)] = if parameter == Parameter::Damping && value < 2.0 * h {
         &[(0.0, -25.0 / 12.0), (1.0, 4.0), (2.0, -3.0), (3.0, 4.0 / 3.0), (4.0, -0.25)]
     } else {

@@ -248,6 +248,7 @@ impl PhysicalParameter {
             Self::DampingCoefficient => machine.damping.ns_per_m(m, k),
             Self::DampingRatio => machine.damping.ratio(m, k),
             Self::Force => machine.force_n,
+            // in the unit in which it was given, so that no digit changes
             Self::Frequency => match machine.frequency {
                 Frequency::Hz(hertz) => hertz,
                 Frequency::RadPerS(omega) => omega / TAU,
