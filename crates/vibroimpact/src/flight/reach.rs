@@ -32,6 +32,7 @@ const MOST: u64 = 1 << 19;
 /// without an instruction for it.
 fn floor(x: f64) -> f64 {
     const WHOLE: f64 = 3.0 * (1_u64 << 51) as f64;
+    // the sum has no digits below 1, so the difference is the nearest whole number
     let nearest = (x + WHOLE) - WHOLE;
     if nearest > x { nearest - 1.0 } else { nearest }
 }
@@ -179,6 +180,7 @@ impl Reach {
         }
         let opens = asin(level / steady);
         let ahead = opens - (steady_angle + self.turned + beta * s);
+        // within one turn from now
         let ahead = ahead - TAU * floor(ahead * (1.0 / TAU));
         // it is large enough from `opens` to pi - `opens`
         if ahead > 2.0 * opens + PI { 0.0 } else { ahead / beta }

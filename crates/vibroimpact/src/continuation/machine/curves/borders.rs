@@ -32,12 +32,14 @@ impl Borders {
         let largest =
             |i: usize| matrix.row(i).iter().zip(&columns).fold(0.0_f64, |most, (a, c)| most.max((a * c).abs()));
         let rows: Vec<f64> = (0..size).map(|i| 1.0 / largest(i).max(f64::MIN_POSITIVE)).collect();
+        // uneven, so that they are not perpendicular to a singular vector by symmetry
         let some = || (0..size).map(|i| if i % 2 == 0 { 1.0 } else { 0.7 }).collect::<Vec<f64>>();
         let (left, right) = before.map_or_else(|| (some(), some()), |known| (known.left.clone(), known.right.clone()));
         let mut borders = Self { rows, columns, left, right };
         let scaled = borders.scaled(matrix);
         let factors = |matrix: &Matrix| {
             Lu::new(matrix.values().to_vec(), size).or_else(|| {
+                // singular to the last bit: a little beside, solutions have the singular direction all the same
                 let mut other = matrix.clone();
                 (0..size).for_each(|i| other[(i, i)] += BESIDE);
                 Lu::new(other.values().to_vec(), size)
