@@ -76,6 +76,7 @@ impl Meetings {
     fn new(parts: [Maxima; 2], until: f64) -> Option<Self> {
         let [a, b] = parts;
         let (faster, slower) = if a.period < b.period { (a, b) } else { (b, a) };
+        // at more than half a period of the slower part the maxima meet at any time
         let apart = (faster.half * faster.half + slower.half * slower.half).sqrt();
         let periods = until / faster.period + 2.0;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss)]
@@ -94,6 +95,7 @@ impl Meetings {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss)] // parts of the circle
     fn periods(&self, d: f64) -> Option<u64> {
         let unit = CIRCLE as f64 / self.slower.period;
+        // how far the next maximum of the slower part is ahead, less half the width in which they meet
         let low = if d > 0.0 { self.slower.period - d - self.apart } else { -d - self.apart };
         let slack = self.most + 16;
         let (low, high) = (low * unit, (low + 2.0 * self.apart) * unit);
@@ -105,6 +107,7 @@ impl Meetings {
     /// maxima that were examined.
     fn next(&self, s: f64, until: f64) -> (f64, u32) {
         let Self { faster, slower, apart, .. } = self;
+        // the last maximum that is over at s, so that none is left out
         let mut number = floor((s - faster.half - faster.at) / faster.period);
         for examined in 1..=ROW {
             let time = faster.at + number * faster.period;

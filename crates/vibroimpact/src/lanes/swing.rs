@@ -39,6 +39,7 @@ impl<L: Lane> Constants<L> {
         if !self.two_stops {
             return upper;
         }
+        // the lower stop is an upper one of the mirrored motion
         let arc = [-from.x, -c1, -c2, -(c3 - error), -c4, -c5, -to.x];
         let lower = split(arc, self.room(1, margin, size), error, -one);
         Swing {
