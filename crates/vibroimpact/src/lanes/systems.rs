@@ -241,6 +241,7 @@ impl Each {
             b,
             c,
         ];
+        // a step takes neighbouring slots, so its numbers lie side by side; other stages gather theirs by rows
         let (block, lane) = (&mut self.blocks[slot / WIDEST], slot % WIDEST);
         (block.0.two_stops, block.0.damped) = (self.kind.two_stops, self.kind.damped);
         block.0.put(roughly, |numbers, number| numbers[lane] = *number);
