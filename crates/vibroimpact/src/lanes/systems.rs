@@ -265,6 +265,7 @@ impl Systems for Each {
         let ((constants, pace), lane) = (&self.blocks[first / WIDEST], first % WIDEST);
         let mut row = [N::splat(0.0); 16];
         let mut k = 0;
+        // a loop, because a closure is not always compiled for the processor's instructions
         while k < row.len() {
             row[k] = N::load(&pace[k][lane..]);
             k += 1;

@@ -120,6 +120,7 @@ impl Oscillator {
     /// # Errors
     /// As [`Oscillator::new`].
     pub fn from_inverse_beta(inverse_beta: f64, gap: f64, restitution: f64) -> Result<Self, SystemError> {
+        // both, so that the error names the number that was given
         if !(RATIOS.contains(&inverse_beta) && RATIOS.contains(&(1.0 / inverse_beta))) {
             return Err(SystemError::InverseBeta(inverse_beta));
         }
