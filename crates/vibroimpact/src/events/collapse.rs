@@ -85,6 +85,7 @@ impl Motion<'_> {
             let (_, _, of_gap, of_rate) = self.place.gap(&self.normal, &turns, *j);
             (size, rate_size) = (size.max(of_gap), rate_size.max(of_rate));
         }
+        // how long a rounding error of a gap is, at the speed of the round
         let rounding = self.time_scale() + (size + round.left * rate_size) / round.speed;
         if round.error > ROUNDINGS * f64::EPSILON * rounding {
             return false;

@@ -280,6 +280,7 @@ impl Resolution<'_> {
             }
             let mut closed = states.clone();
             closed[k] = ContactState::Resting;
+            // the contact stays closed if all conditions hold with it too
             if let Some(other) = self.attempt(&closed)
                 && other.worst.is_none()
             {

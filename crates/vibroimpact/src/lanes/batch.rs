@@ -238,6 +238,7 @@ impl Batch {
             Progress::Hit(hit) => {
                 self.struck_at(slot, hit);
                 self.lists.struck.push(slot);
+                // the round lists slow impacts as gentle itself, but this one it has not found
                 self.sum_chatter(slot);
             }
         }

@@ -123,6 +123,7 @@ impl<L: Half> Lane for Pair<L> {
         let (first, second) = (L::rows(table, at), L::rows(table, &at[L::WIDTH..]));
         let mut columns = [Self::splat(0.0); N];
         let mut k = 0;
+        // a loop, because a closure is not always compiled for the processor's instructions
         while k < N {
             columns[k] = Self(first[k], second[k]);
             k += 1;

@@ -540,6 +540,7 @@ fn sixth_derivative(beta: f64, drag: f64) -> [f64; 2] {
         let (mut before, mut b, mut force) = (r, 1.0 + r + drag * r, 1.0);
         for _ in 0..4 {
             force *= beta;
+            // the derivative k + 2 by the two before it and the force, each by its bound
             (before, b) = (b, force + before + drag * b);
         }
         b
@@ -570,6 +571,7 @@ fn series(beta: f64, drag: f64) -> [Coefficients; 4] {
     let square = beta * beta;
     for (c, over) in c.iter_mut().zip(OVER_FACTORIAL).skip(2) {
         for n in 0..4 {
+            // from the equation of motion, differentiated once more each time
             (y[n], rate[n]) = (rate[n], force[n] - y[n] - drag * rate[n]);
             (force[n], slope[n]) = (slope[n], -square * force[n]);
             c[n] = rate[n] * over;

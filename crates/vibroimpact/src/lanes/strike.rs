@@ -335,6 +335,7 @@ impl<N: Numbers> Quintic<N> {
         let third = zero.less(between::<N, 2>(self.0, self.1));
         let second = zero.less(between::<N, 1>(self.0, self.1));
         let first = zero.less(between::<N, 0>(self.0, self.1));
+        // the middle of the quarter in which the sign changes, so that it is off by an eighth at most
         let late = N::choose(third, N::splat(0.625), N::splat(0.875));
         N::choose(first, N::splat(0.125), N::choose(second, N::splat(0.375), late))
     }
@@ -343,6 +344,7 @@ impl<N: Numbers> Quintic<N> {
     #[inline(always)]
     fn root(self, mut t: N, sixth: [N; 2]) -> N {
         let Self([x0, v0, a0], [x1, v1, a1]) = self;
+        // the polynomial of degree 5 that has position, velocity and acceleration of both ends
         let c2 = N::splat(0.5) * a0;
         let d0 = ((x1 - x0) - v0) - c2;
         let d1 = (v1 - v0) - a0;
@@ -362,6 +364,7 @@ impl<N: Numbers> Quintic<N> {
             t = (t - step).max(N::splat(0.0)).min(N::splat(1.0));
             slope = d;
         }
+        // it lacks the term t^3 (t - 1)^3 of the sixth derivative, which moves the root by this to first order
         let there = t * (t - N::splat(1.0));
         let sixth = sixth[0] + t * (sixth[1] - sixth[0]);
         t - sixth * (there * there * there) / slope

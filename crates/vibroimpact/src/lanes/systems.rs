@@ -241,6 +241,7 @@ impl Each {
             b,
             c,
         ];
+        // a step takes neighbouring slots, so its numbers lie side by side; other stages gather theirs by rows
         let (block, lane) = (&mut self.blocks[slot / WIDEST], slot % WIDEST);
         (block.0.two_stops, block.0.damped) = (self.kind.two_stops, self.kind.damped);
         block.0.put(roughly, |numbers, number| numbers[lane] = *number);
@@ -264,6 +265,7 @@ impl Systems for Each {
         let ((constants, pace), lane) = (&self.blocks[first / WIDEST], first % WIDEST);
         let mut row = [N::splat(0.0); 16];
         let mut k = 0;
+        // a loop, because a closure is not always compiled for the processor's instructions
         while k < row.len() {
             row[k] = N::load(&pace[k][lane..]);
             k += 1;

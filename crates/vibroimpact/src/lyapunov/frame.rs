@@ -64,6 +64,7 @@ impl Frame {
                     Stretch::By(factor) => self.logs[k].multiply(factor),
                     Stretch::Log(log) => self.logs[k].add(log),
                 }
+                // vectors that are kept close ranks, and their sums with them
                 self.logs.swap(kept, k);
                 self.lost.swap(kept, k);
                 kept += 1;
@@ -74,6 +75,7 @@ impl Frame {
         for lost in &mut self.lost[self.vectors.len()..] {
             *lost = true;
         }
+        // another vector takes the place of one that is lost, so that the frame spans all directions
         while self.vectors.len() < self.logs.len() {
             let vector = self.any();
             self.vectors.push(vector);

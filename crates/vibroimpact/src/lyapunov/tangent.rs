@@ -72,6 +72,7 @@ pub(crate) fn through(frame: &mut Frame, osc: &Oscillator, s: f64, at: &ImpactSt
         left -= 1.0;
     }
     let eps = osc.stop(at.side).map_or(0.0, |stop| stop.restitution);
+    // only touched: passed as a part of the flight
     let (jump, area) = if at.velocity == 0.0 {
         (Matrix2::IDENTITY, 0.0)
     } else {
@@ -86,6 +87,7 @@ pub(crate) fn through(frame: &mut Frame, osc: &Oscillator, s: f64, at: &ImpactSt
 fn carried(vectors: &mut Vec<Vec<f64>>, map: Matrix2, area: f64) -> [Stretch; 2] {
     let [first, second] = [0, 1].map(|k| map.apply([vectors[k][0], vectors[k][1]]));
     let along = (first[0] * first[0] + first[1] * first[1]).sqrt();
+    // the mass sticks: all neighbours become one motion
     if along == 0.0 || !along.is_finite() {
         vectors.clear();
         return [Stretch::By(0.0); 2];
@@ -98,6 +100,7 @@ fn carried(vectors: &mut Vec<Vec<f64>>, map: Matrix2, area: f64) -> [Stretch; 2]
     }
     vectors[1].copy_from_slice(&[-v, x]);
     let across = (x * second[1] - v * second[0]).abs();
+    // where the second vector has turned into the first, its stretch is known from the area alone
     [Stretch::By(along), if across > NARROW * along { Stretch::By(across) } else { Stretch::Log(area - ln(along)) }]
 }
 

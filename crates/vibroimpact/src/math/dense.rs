@@ -125,6 +125,7 @@ impl Matrix {
     /// The image of a vector under the transpose, into another one.
     pub(crate) fn apply_transposed_into(&self, vector: &[f64], image: &mut Vec<f64>) {
         image.clear();
+        // row by row, which is the order in memory
         image.resize(self.columns, 0.0);
         for (i, factor) in vector.iter().enumerate() {
             add_scaled(image, *factor, self.row(i));

@@ -157,6 +157,7 @@ fn hessenberg(a: &mut Matrix) {
         for (i, x) in v.iter_mut().enumerate().skip(k + 1) {
             *x = a[(i, k)];
         }
+        // of both signs the one for which nothing cancels
         v[k + 1] += if v[k + 1] < 0.0 { -norm } else { norm };
         let square: f64 = v.iter().map(|x| x * x).sum();
         let rows = a.apply_transposed(&v);
@@ -171,6 +172,7 @@ fn hessenberg(a: &mut Matrix) {
                 a[(i, j)] -= 2.0 / square * x * y;
             }
         }
+        // exactly zero, as the reflection makes them but for rounding
         for i in k + 2..n {
             a[(i, k)] = 0.0;
         }
@@ -193,6 +195,7 @@ fn paired(found: &[Complex], size: f64) -> Vec<Multiplier> {
         match partner {
             Some(place) if one.im.abs() > distance(&rest[place]) && one.im.abs() > 1e-15 * size => {
                 let other = rest.remove(place);
+                // their mean makes them conjugate to the last bit
                 let (re, im) = (0.5 * (one.re + other.re), 0.5 * (one.im - other.im).abs());
                 all.extend([Multiplier { re, im }, Multiplier { re, im: -im }]);
             }

@@ -108,6 +108,7 @@ impl Task for Columns<'_> {
     fn run<L: Lane>(self) -> Self::Output {
         let mut all = Self::Output::default();
         let mut k = 0;
+        // loops, because a closure is not always compiled for the processor's instructions
         while k < ABREAST {
             let [phase, side, restitution, next_phase, next_side, next_gap, speed] = &self.at;
             let at = Passage {

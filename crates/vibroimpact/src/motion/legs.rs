@@ -213,6 +213,7 @@ impl<'a> Motion<'a> {
                     self.mode = Mode::Resting { side, phase };
                     return Some(self.event(leg, phase, side, EventKind::Stick { chatter: false, error: 0.0 }));
                 }
+                // it begins on the stop and moves towards it: an impact at once
                 (0.0, side, velocity)
             }
             Contact::Grazing { time, side, depth } => {

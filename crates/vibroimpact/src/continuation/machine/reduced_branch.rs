@@ -158,6 +158,7 @@ impl ReducedBranch {
         let Some(of_oscillator) = self.branch.next() else { return Step::Beyond };
         let Some(mut point) = self.converted(&of_oscillator) else { return Step::Beyond };
         self.count += 1;
+        // unless the branch ends here anyway, the last of the points asked for says that it was cut off
         if self.count >= self.options.points && !point.event.is_some_and(|event| event.ends()) {
             point.event = Some(BranchEvent::StepLimit);
         }

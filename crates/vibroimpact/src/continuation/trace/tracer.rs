@@ -312,6 +312,7 @@ impl<P: Problem> Tracer<P> {
         let ahead = |solution: &Solution<P::Known>| {
             let mut off: Vec<f64> = solution.w.iter().zip(&begin.w).map(|(a, b)| a - b).collect();
             let turns = TAU * (off[0] / TAU).round();
+            // each impact has a phase and a velocity, in turn
             off[..self.problem.phases()].iter_mut().step_by(2).for_each(|theta| *theta -= turns);
             (self.problem.equations().dot(&off, &begin.tangent), self.problem.equations().length(&off))
         };
@@ -332,6 +333,7 @@ impl<P: Problem> Tracer<P> {
     pub(crate) fn take(&mut self, there: Solution<P::Known>) {
         let zero = self.problem.rules().zero;
         for (known, value) in self.signs.iter_mut().zip(&there.values) {
+            // within rounding of zero the last known sign stays
             *known = sign(*value, zero).or(*known);
         }
         self.here = there;

@@ -45,6 +45,7 @@ pub(crate) fn crossing(frame: &MachineFrame<'_>, place: &Place, cycle: &Cycle) -
     let crossings = flights.filter_map(|(_, begin, passage)| {
         let whole = passage.duration.min(period);
         let mut s = 0.5 * whole;
+        // Newton's method for the distance from the plane, whose rate is the flow across it
         for _ in 0..CROSSING_STEPS {
             let there = frame.moved(begin, &passage.structure, s);
             let change = along(&frame.apart(&there, state)) / along(&frame.flow(&there)?);

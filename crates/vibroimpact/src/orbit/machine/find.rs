@@ -88,6 +88,7 @@ impl Search<'_> {
         let mut seen = 0;
         for after in AFTER {
             while motion.time() < after * period && seen < EVENTS && motion.step().is_some() {
+                // they would only take memory
                 motion.take_events();
                 seen += 1;
             }
