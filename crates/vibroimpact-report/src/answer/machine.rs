@@ -2,20 +2,22 @@
 
 use crate::AnswerError;
 use crate::answer::Shown;
-use crate::branch_quantity::BranchQuantity;
-use crate::figure::coloured;
+use crate::figure::branch::Picture;
 use crate::figure::overlay::Overlay;
-use crate::json::margins::ParameterObject;
+use crate::figure::{coloured, tracks};
 use crate::response::ResponseView;
 use crate::scene::{self, View};
+use crate::solutions::{BranchesView, CurveView, machine_margins, machine_orbits};
 use crate::{ReportError, Table, Units, figure, table};
+use vibroimpact::continuation::machine::{CurvePoint, SolutionPoint};
 use vibroimpact::events::{Limits, Motion, Start};
 use vibroimpact::machine::Machine;
+use vibroimpact::orbit::machine::Cycle;
 use vibroimpact::verdict::{CountedMotion, Verdict};
 use vibroimpact_plot::{Figure, plain};
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{
-    BranchPlan, Control, Diagram, Plan, PlanError, RegionPlan, ResponseCurves, Results, Simulated, Task, Variable,
+    Branches, Control, Diagram, EventCurve, Plan, PlanError, RegionPlan, ResponseCurves, Results, Simulated, Task,
     machine, run,
 };
 
@@ -94,21 +96,22 @@ impl Answer {
                 }
             }
             machine::Results::Branch(found) => {
-                let Task::Branch(plan) = &self.plan.task else { return Ok(None) };
-                let cut = plan.typed::<String>()?.cut(&self.source)?;
-                let quantity = BranchQuantity::of(&self.machine, &self.source, &cut, found);
-                let path = quantity.as_ref().map(|quantity| quantity.path.as_str());
-                let behind = if shown.diagram { self.behind(plan, path, control)? } else { None };
-                figure::branch::of_machine(
-                    found.followed.iter().map(|branch| branch.points.as_slice()),
-                    &cut,
-                    (quantity.as_ref(), behind.as_ref()),
-                    title,
-                )?
+                let Some(view) = self.branches(found)? else { return Ok(None) };
+                let path = view.quantity.as_ref().map(|quantity| quantity.path.as_str());
+                let behind = if shown.diagram { self.behind(path, control)? } else { None };
+                let picture = Picture {
+                    cut: &view.cut,
+                    units: &view.units,
+                    shown: view.quantity.as_ref().map_or(tracks::Shown::Speeds, tracks::Shown::Quantity),
+                    ordinate: path.map_or_else(|| "speed of closing".to_owned(), plain),
+                    behind: behind.as_ref(),
+                    inadmissible: false,
+                };
+                figure::branch::figure(view.points(), &picture, title)?
             }
             machine::Results::Curve(found) => {
-                let Task::Curve(plan) = &self.plan.task else { return Ok(None) };
-                figure::curve::of_machine(found, &plan.typed()?, title)
+                let Some(view) = self.curve(found)? else { return Ok(None) };
+                figure::curve::figure(&view, title)
             }
             machine::Results::Region(found) => {
                 let Task::Region(plan) = &self.plan.task else { return Ok(None) };
@@ -137,13 +140,12 @@ impl Answer {
                 if found.numbers.is_empty() {
                     return Err(ReportError::NoMargins(label).into());
                 }
-                let all = found.numbers.iter();
-                let rows: Vec<_> =
-                    all.map(|of| (plain(&of.path), ParameterObject::of_machine(&self.machine, of))).collect();
-                figure::bars::margins(&rows, None, format!("{title}: {label}"))
+                figure::bars::margins(&machine_margins(found, &self.machine), None, format!("{title}: {label}"))
             }
             machine::Results::Lyapunov(..) => return Ok(None),
-            machine::Results::Orbit(found) => figure::orbits::of_machine(found, title),
+            machine::Results::Orbit(found) => {
+                figure::orbits::figure(&machine_orbits(found, &self.machine), "speed of closing".to_owned(), title)
+            }
         }))
     }
 
@@ -154,14 +156,39 @@ impl Answer {
         Some(ResponseView::of_machine(found, plan, &self.machine))
     }
 
+    /// The branches as they are told; `None` if the plan is that of another task.
+    ///
+    /// # Errors
+    /// [`PlanError`] for a number that the machine does not have.
+    pub fn branches<'a>(
+        &'a self,
+        found: &'a Branches<Cycle, SolutionPoint>,
+    ) -> Result<Option<BranchesView<'a, String>>, PlanError> {
+        let Task::Branch(plan) = &self.plan.task else { return Ok(None) };
+        let cut = plan.typed::<String>()?.cut(&self.source)?;
+        Ok(Some(BranchesView::of_machine(found, &cut, (&self.machine, &self.source))))
+    }
+
+    /// The curve as it is told; `None` if the plan is that of another task.
+    ///
+    /// # Errors
+    /// As [`Self::branches`].
+    pub fn curve<'a>(
+        &'a self,
+        found: &'a EventCurve<Cycle, SolutionPoint, CurvePoint>,
+    ) -> Result<Option<CurveView<'a, String>>, PlanError> {
+        let Task::Curve(plan) = &self.plan.task else { return Ok(None) };
+        Ok(Some(CurveView::of_machine(found, plan.typed()?, &self.machine)))
+    }
+
     /// The orbit diagram over the range of a branch, of closings or of a quantity; `None` if there is no machine at one end,
     /// where no branch can come either.
     fn behind(
         &self,
-        plan: &BranchPlan<Variable>,
         quantity: Option<&str>,
         control: &Control<'_>,
     ) -> Result<Option<Diagram<String, String>>, AnswerError> {
+        let Task::Branch(plan) = &self.plan.task else { return Ok(None) };
         let mut diagram = plan.typed::<String>()?.diagram(&self.source)?;
         if let Some(path) = quantity {
             path.clone_into(&mut diagram.show);
@@ -220,14 +247,14 @@ impl Answer {
             },
             machine::Results::Attractors(census) => table::attractors::of_machine(&self.machine, census),
             machine::Results::Branch(found) => {
-                let Task::Branch(plan) = &self.plan.task else { return Ok(None) };
-                table::branch::of_machine(&self.machine, &plan.typed::<String>()?.cut(&self.source)?, found)
+                let Some(view) = self.branches(found)? else { return Ok(None) };
+                table::branch::table(view)
             }
             machine::Results::Curve(found) => {
-                let Task::Curve(plan) = &self.plan.task else { return Ok(None) };
-                table::curve::of_machine(&self.machine, &plan.typed()?, found)
+                let Some(view) = self.curve(found)? else { return Ok(None) };
+                table::curve::table(view)
             }
-            machine::Results::Margins(found) => table::margins::of_machine(found, &self.machine),
+            machine::Results::Margins(found) => table::margins::table(machine_margins(found, &self.machine)),
             machine::Results::Region(found) => {
                 let Task::Region(plan) = &self.plan.task else { return Ok(None) };
                 table::region::table(found, &plan.typed::<String>()?, &Units::default())
@@ -240,7 +267,10 @@ impl Answer {
             machine::Results::Map(found) => table::map::table(found, &self.machine, (Units::default(), true))?,
             machine::Results::Diagram(found) => table::diagram::table(found, &self.machine, Units::default())?,
             machine::Results::Lyapunov(_, Some(points)) => table::section::of_machine(&self.machine, points),
-            machine::Results::Orbit(found) => table::orbits::of_machine(found, &self.machine),
+            machine::Results::Orbit(found) => {
+                let orbits = machine_orbits(found, &self.machine);
+                table::orbits::table(orbits, Some(&self.machine), &Units::default())
+            }
             machine::Results::Lyapunov(..) => return Ok(None),
         }))
     }

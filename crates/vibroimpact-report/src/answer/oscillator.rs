@@ -1,18 +1,20 @@
 //! The answer to a plan of an oscillator.
 
 use crate::answer::Shown;
+use crate::figure::branch::Picture;
 use crate::figure::plane::varied;
-use crate::figure::{self, coloured, title};
-use crate::json::margins::ParameterObject;
+use crate::figure::{self, coloured, title, tracks};
 use crate::response::ResponseView;
 use crate::scene::{View, Viewed, phase_portrait};
-use crate::{AnswerError, Asked, ReportError, Table, json, table};
-use serde::ser::Error as _;
-use serde::{Serialize, Serializer};
+use crate::solutions::{BranchesView, CurveView, margins, orbits};
+use crate::{AnswerError, Asked, ReportError, ShownValue as _, Table, table};
 use vibroimpact::verdict::{CountedMotion, PaperRule, PaperVerdict};
 use vibroimpact::{Oscillator, Parameter};
 use vibroimpact_plot::Figure;
-use vibroimpact_study::{BranchPlan, Control, Name, ParameterMargin, Plan, RegionPlan, Results, Task, run};
+use vibroimpact_study::diagram::Show;
+use vibroimpact_study::{
+    BranchPlan, Branches, Control, EventCurve, Name, Plan, PlanError, RegionPlan, Results, Task, run,
+};
 
 /// A plan of an oscillator and its result.
 #[derive(Clone, Debug)]
@@ -29,62 +31,13 @@ pub struct Answer {
     pub paper_rule: Option<(PaperRule, PaperVerdict)>,
 }
 
-impl Serialize for Answer {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let Self { plan, asked, osc, results, paper_rule } = self;
-        match (&plan.task, results) {
-            (_, Results::Simulate(start, found)) => {
-                json::simulate::document(asked, plan, (osc, start), found).serialize(to)
-            }
-            (_, Results::Settle(start, found)) => {
-                json::settle::document(asked, plan, (osc, start), found, *paper_rule).serialize(to)
-            }
-            (Task::Attractors { starts, seed, .. }, Results::Attractors(found)) => {
-                json::attractors::document(asked, plan, osc, (*starts, *seed), found).serialize(to)
-            }
-            (_, Results::Orbit(found)) => json::orbit::document(asked, plan, osc, found).serialize(to),
-            (_, Results::Basin(found)) => json::basin::document(asked, plan, osc, found).serialize(to),
-            (Task::Map(task), Results::Map(found)) => {
-                json::map::document(asked, plan, osc, ((task.starts, task.seed), found)).serialize(to)
-            }
-            (_, Results::Diagram(found)) => json::diagram::document(asked, plan, osc, found).serialize(to),
-            (_, Results::Lyapunov(start, found, _)) => {
-                json::lyapunov::document(asked, plan, (osc, start), found).serialize(to)
-            }
-            (Task::Branch(task), Results::Branch(found)) => {
-                let cut =
-                    task.typed::<Parameter>().and_then(|task| task.cut(&asked.system)).map_err(S::Error::custom)?;
-                json::branch::document(asked, plan, osc, found, &cut).serialize(to)
-            }
-            (Task::Curve(task), Results::Curve(found)) => {
-                let task = task.typed().map_err(S::Error::custom)?;
-                json::curve::document(asked, plan, osc, (&task, found)).serialize(to)
-            }
-            (Task::Region(task), Results::Region(found)) => {
-                let task = task.typed().map_err(S::Error::custom)?;
-                json::region::document(asked, plan, osc, (&task, found)).serialize(to)
-            }
-            (Task::Response(task), Results::Response(found)) => {
-                let object = json::response::document(asked, plan, osc, (task, found));
-                object.map_err(S::Error::custom)?.serialize(to)
-            }
-            (_, Results::Margins(found)) => json::margins::document(asked, plan, osc, found).serialize(to),
-            // `answer` combines each plan with its own results, so this does not occur
-            _ => Err(S::Error::custom("the results belong to another task than the plan's")),
-        }
-    }
-}
-
 impl Answer {
     /// The JSON object without what takes longest to compute: the harmonics and the transient of a settled motion.
     #[must_use]
     pub fn brief(&self) -> String {
         // texts and numbers can always be written as JSON
-        let Results::Settle(start, found) = &self.results else {
-            return serde_json::to_string(self).unwrap_or_default();
-        };
-        let object = json::settle::brief(&self.asked, &self.plan, (&self.osc, start), found);
-        serde_json::to_string(&object).unwrap_or_default()
+        let brief = self.brief_document().map(|object| serde_json::to_string(&object));
+        brief.unwrap_or_else(|| serde_json::to_string(self)).unwrap_or_default()
     }
 
     /// As [`Answer::figure`](super::Answer::figure).
@@ -128,7 +81,10 @@ impl Answer {
                 let span = (0.0, found.shown_until);
                 figure::waveform::figure(osc, *start, span, &asked.units, title(asked))
             }
-            (_, Results::Orbit(found)) => figure::orbits::figure(found, &asked.units, title(asked)),
+            (_, Results::Orbit(found)) => {
+                let ordinate = asked.units.named("speed before the impact", "m/s");
+                figure::orbits::figure(&orbits(found, osc, &asked.units), ordinate, title(asked))
+            }
             (_, Results::Basin(found)) => figure::basin::figure(found, &asked.units, title(asked))?,
             (_, Results::Map(found)) => {
                 let title = figure::title_without(asked, &varied(&found.axes));
@@ -144,6 +100,7 @@ impl Answer {
                 figure::response::figure(&view, figure::title_without(asked, &[vary]))
             }
             (Task::Branch(task), Results::Branch(found)) => {
+                let view = self.branches(found)?;
                 let task: BranchPlan = task.typed()?;
                 let behind = if shown.diagram {
                     let plan = Plan::new(asked.system, task.diagram(&asked.system)?);
@@ -151,10 +108,22 @@ impl Answer {
                 } else {
                     None
                 };
-                let cut = task.cut(&asked.system)?;
-                figure::branch::figure(&found.followed, &cut, behind.as_ref(), shown.inadmissible, asked)?
+                let picture = Picture {
+                    cut: &view.cut,
+                    units: &view.units,
+                    shown: tracks::Shown::Speeds,
+                    ordinate: Show::Velocity.ordinate(&asked.units),
+                    behind: behind.as_ref(),
+                    inadmissible: shown.inadmissible,
+                };
+                let varied: Vec<Parameter> = view.cut.names().copied().collect();
+                figure::branch::figure(view.points(), &picture, figure::title_without(asked, &varied))?
             }
-            (Task::Curve(task), Results::Curve(found)) => figure::curve::figure(found, &task.typed()?, asked),
+            (_, Results::Curve(found)) => {
+                let view = self.curve(found)?;
+                let title = figure::title_without(asked, &view.sides().map(|side| side.parameter));
+                figure::curve::figure(&view, title)
+            }
             (Task::Region(task), Results::Region(found)) => {
                 let task: RegionPlan = task.typed()?;
                 let title = figure::title_without(asked, &[task.across.parameter, task.up.parameter]);
@@ -169,16 +138,31 @@ impl Answer {
                 if found.parameters.is_empty() {
                     return Err(ReportError::NoMargins(label).into());
                 }
-                let of = &found.parameters;
-                let varied: Vec<Parameter> = of.iter().map(|of| of.scope.parameter).collect();
+                let varied: Vec<Parameter> = found.parameters.iter().map(|of| of.scope.parameter).collect();
                 let title = [figure::title_without(asked, &varied), label].join(": ");
-                let name = |of: &ParameterMargin| figure::named(of.scope.parameter, &asked.units);
-                let rows: Vec<_> = of.iter().map(|of| (name(of), ParameterObject::new(of, &asked.units))).collect();
                 let size = found.motion_box.as_ref().map(|found| found.size);
-                figure::bars::margins(&rows, size, title.trim_start_matches(": ").to_owned())
+                figure::bars::margins(&margins(found, &asked.units), size, title.trim_start_matches(": ").to_owned())
             }
             _ => return Ok(None),
         }))
+    }
+
+    /// The branches as they are told.
+    ///
+    /// # Errors
+    /// [`PlanError`] for a plan of another task.
+    pub fn branches<'a>(&'a self, found: &'a Branches) -> Result<BranchesView<'a, Parameter>, PlanError> {
+        let Task::Branch(task) = &self.plan.task else { return Err(PlanError::NoLabel) };
+        Ok(BranchesView::of_oscillator(found, &task.typed::<Parameter>()?.cut(&self.asked.system)?, &self.asked))
+    }
+
+    /// The curve as it is told.
+    ///
+    /// # Errors
+    /// As [`Self::branches`].
+    pub fn curve<'a>(&'a self, found: &'a EventCurve) -> Result<CurveView<'a, Parameter>, PlanError> {
+        let Task::Curve(task) = &self.plan.task else { return Err(PlanError::NoLabel) };
+        Ok(CurveView::of_oscillator(found, task.typed()?, &self.asked))
     }
 
     /// As [`Answer::table`](super::Answer::table).
@@ -198,22 +182,20 @@ impl Answer {
                 view.table()?.kept()
             }
             (_, Results::Attractors(found)) => table::attractors::table(found, osc, units),
-            (_, Results::Orbit(found)) => table::orbits::table(found, units),
+            (_, Results::Orbit(found)) => table::orbits::table(orbits(found, osc, units), None, units),
             (_, Results::Basin(found)) => table::basin::table(found, units)?,
             (_, Results::Map(found)) => table::map::table(found, &asked.system, (*units, false))?,
             (_, Results::Diagram(found)) => table::diagram::table(found, &asked.system, *units)?,
             (_, Results::Lyapunov(_, _, Some(points))) => table::section::table(points, osc, *units),
-            (Task::Branch(task), Results::Branch(found)) => {
-                table::branch::table(found, &task.typed::<Parameter>()?.cut(&asked.system)?, units)
-            }
-            (Task::Curve(task), Results::Curve(found)) => table::curve::table(found, task.typed()?, units),
+            (_, Results::Branch(found)) => table::branch::table(self.branches(found)?),
+            (_, Results::Curve(found)) => table::curve::table(self.curve(found)?),
             (Task::Region(task), Results::Region(found)) => {
                 table::region::table(found, &task.typed::<Parameter>()?, units)
             }
             (Task::Response(task), Results::Response(found)) => {
                 table::response::table(ResponseView::of_oscillator(found, task, units)?)
             }
-            (_, Results::Margins(found)) => table::margins::table(found, *units),
+            (_, Results::Margins(found)) => table::margins::table(margins(found, units)),
             _ => return Ok(None),
         }))
     }
@@ -225,7 +207,6 @@ mod tests {
     use crate::{Units, answer};
     use core::sync::atomic::AtomicBool;
     use core::sync::atomic::Ordering;
-    use vibroimpact_study::PlanError;
     use vibroimpact_study::{StartPlan, SystemPlan};
 
     const S: SystemPlan = SystemPlan {

@@ -2,8 +2,8 @@
 
 use crate::figure::label;
 use crate::figure::styles::EVENT_COLOURS;
-use crate::json::margins::ParameterObject;
 use crate::number::short;
+use crate::solutions::MarginView;
 use vibroimpact_plot::{
     Anchor, ClassStyle, Colour, Dash, Figure, FigureAxis, Hatch, Legend, Panel, Pattern, Rect, Rects, SERIES, Stroke,
     Text, Tick, VLine, class_style,
@@ -38,23 +38,24 @@ pub fn shares(found: &[(String, f64)], title: String) -> Figure {
     Figure::new(panel).size(620.0, height).title(title)
 }
 
-/// The change of each number to its nearest events, in units of its scale, each with its name, and the size of the box in which the
-/// motion was found.
-pub(crate) fn margins(parameters: &[(String, ParameterObject<'_>)], found_box: Option<f64>, title: String) -> Figure {
-    let (axis, height) = rows(parameters.iter().map(|(name, of)| format!("{name} = {}", short(of.value))));
+/// The change of each number to its nearest events, in units of its scale, and the size of the box in which the motion was found.
+#[must_use]
+pub fn margins(parameters: &[MarginView<'_>], found_box: Option<f64>, title: String) -> Figure {
+    let (axis, height) = rows(parameters.iter().map(|of| format!("{} = {}", of.axis, short(of.value))));
     let mut kinds: Vec<&str> = Vec::new();
     let mut bars = Rects::new(Vec::new());
     let mut texts = Vec::new();
-    for (k, (_, of)) in parameters.iter().enumerate() {
-        for end in [&of.down, &of.up] {
-            let kind = end.event.as_ref().map_or("no event", |event| event.kind);
+    for (k, of) in parameters.iter().enumerate() {
+        for end in &of.ends {
+            let at = end.nearest.as_ref().map(|nearest| nearest.at);
+            let kind = end.nearest.as_ref().map_or("no event", |nearest| nearest.event.name());
             let class = kinds.iter().position(|known| *known == kind).unwrap_or_else(|| {
                 kinds.push(kind);
                 kinds.len() - 1
             });
-            let (y, change) = (k as f64, (end.at.unwrap_or(end.limit) - of.value) / of.scale);
+            let (y, change) = (k as f64, (at.unwrap_or(end.limit) - of.value) / of.scale);
             bars.rects.push(Rect { x: (change.min(0.0), change.max(0.0)), y: (y - HALF, y + HALF), class });
-            if let Some(at) = end.at {
+            if let Some(at) = at {
                 let (anchor, dx) = if change < 0.0 { (Anchor::End, -4.0) } else { (Anchor::Start, 4.0) };
                 texts.push(Text::new(change, y, short(at)).anchor(anchor).shift(dx, 4.0));
             }
@@ -76,7 +77,7 @@ pub(crate) fn margins(parameters: &[(String, ParameterObject<'_>)], found_box: O
     }
     // room for the values at the ends of bars
     let widest = bars.rects.iter().fold(1e-3_f64, |most, bar| most.max(bar.x.1).max(-bar.x.0)) * 1.5;
-    let usual = parameters.iter().all(|(_, of)| of.scale == of.value.abs());
+    let usual = parameters.iter().all(|of| of.scale == of.value.abs());
     let name = if usual { "change relative to the value" } else { "change in units of the scale" };
     let mut panel = Panel::new(FigureAxis::new(name).range(-widest, widest), axis).with(bars);
     panel.add(VLine { x: 0.0, stroke: Stroke::new(Colour::BLACK) });

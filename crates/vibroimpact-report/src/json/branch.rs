@@ -1,22 +1,16 @@
 //! Branches of periodic orbits of any system: their points, their events, and the events at which further branches begin.
 
-use super::event::{self, EventObject, side};
-use super::motion::{drift, multipliers};
-use super::{Document, Pair};
-use crate::branch_quantity::BranchQuantity;
-use crate::{Asked, Units, Varied};
+use super::Pair;
+use super::event::{EventObject, side};
+use super::motion::multipliers;
+use crate::Varied;
+use crate::solutions::{BranchRows, BranchesView, Event, OriginView, PointView};
 use core::iter::once;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
-use vibroimpact::Label;
-use vibroimpact::Oscillator;
 use vibroimpact::continuation::machine;
-use vibroimpact::continuation::{BranchEvent, SolutionPoint};
-use vibroimpact::machine::Machine;
-use vibroimpact::orbit::machine::Cycle;
-use vibroimpact_study::machine::MachineSource;
-use vibroimpact_study::{Branches, Chosen, Cut, EventRecord, Followed, OrbitNumber, Plan, SystemPlan};
+use vibroimpact_study::{EventRecord, OrbitNumber};
 
 /// The answer to `vibro branch`.
 #[derive(JsonSchema, Serialize)]
@@ -41,9 +35,9 @@ pub(super) struct ChosenObject {
     count: u32,
 }
 
-impl ChosenObject {
-    pub(super) fn new<C>(chosen: &Chosen<C>) -> Option<Self> {
-        chosen.among.map(|OrbitNumber { number, count }| Self { number, count })
+impl From<OrbitNumber> for ChosenObject {
+    fn from(OrbitNumber { number, count }: OrbitNumber) -> Self {
+        Self { number, count }
     }
 }
 
@@ -132,195 +126,100 @@ struct TouchObject {
     phase: f64,
 }
 
-/// The object of `vibro branch`, for branches along this line.
-#[must_use]
-pub fn document<'a>(
-    asked: &Asked,
-    plan: &'a Plan,
-    osc: &'a Oscillator,
-    found: &'a Branches,
-    cut: &Cut,
-) -> impl Serialize + use<'a> {
-    Document::new(asked, osc, plan, BranchAnswer::of_oscillator(found, cut, asked))
-}
-
 impl<'a> BranchAnswer<'a> {
-    /// The branches of an orbit with this label along a line. `object` returns the branch with these points, and `event` what is at
-    /// the event at a point.
-    fn new<C, P, V: Varied>(
-        (found, label): (&'a Branches<C, P>, Label),
-        (cut, units): (&Cut<V>, &Units),
-        object: impl Fn(&'a [P]) -> BranchObject<'a>,
-        event: impl Fn(&P) -> (&'static str, f64),
-    ) -> Self {
+    pub(super) fn new<V: Varied>(view: &BranchesView<'a, V>) -> Self {
+        let (cut, units) = (&view.cut, &view.units);
         let unit = cut.vary.unit(units);
-        let branch = |branch: &'a Followed<P>| {
-            let from = branch.origin.as_ref().map(|origin| {
-                let (kind, value) = event(&origin.point);
-                OriginObject { kind, parameter: value * unit, branch: origin.branch + 1 }
-            });
-            BranchObject { from, ..object(&branch.points) }
-        };
         Self {
-            label: label.to_string(),
+            label: view.label.to_string(),
             vary: cut.vary.field(units).to_owned(),
             from: cut.ends.0 * unit,
             to: cut.ends.1 * unit,
             also: Pair::of(cut, units),
-            orbit: ChosenObject::new(&found.chosen),
-            branches: found.followed.iter().map(branch).collect(),
+            orbit: view.number.map(Into::into),
+            branches: view.branches.iter().map(|branch| BranchObject::new(branch, view)).collect(),
         }
-    }
-
-    fn of_oscillator(found: &'a Branches, cut: &Cut, Asked { system, units }: &Asked) -> Self {
-        let name = |point: &SolutionPoint| point.event.map_or("", |event| event.name());
-        let object = |points: &'a [SolutionPoint]| BranchObject {
-            from: None,
-            points: points.iter().map(|point| PointObject::of_oscillator(point, cut, system, units)).collect(),
-            events: (points.iter().enumerate())
-                .filter_map(|(k, point)| Some(BranchEventObject::of_oscillator(k, point, &point.event?, (cut, units))))
-                .collect(),
-            end: points.last().and_then(|point| point.event).map(|event| event.name()),
-        };
-        let label = found.chosen.cycle.label;
-        Self::new((found, label), (cut, units), object, |point| (name(point), point.value))
-    }
-
-    /// Those of a machine, for branches along this line.
-    pub(super) fn of_machine(
-        (machine, source): (&'a Machine, &MachineSource),
-        cut: &Cut<String>,
-        found: &'a Branches<Cycle, machine::SolutionPoint>,
-    ) -> Self {
-        let quantity = BranchQuantity::of(machine, source, cut, found);
-        let name = |point: &machine::SolutionPoint| point.event.map_or("", |event| event.name());
-        let object = |points: &'a [machine::SolutionPoint]| BranchObject {
-            from: None,
-            points: (points.iter())
-                .map(|point| PointObject::of_machine(point, machine, cut, quantity.as_ref()))
-                .collect(),
-            events: (0..points.len())
-                .filter_map(|k| Some(BranchEventObject::of_machine(k, points, points[k].event?, (machine, cut))))
-                .collect(),
-            end: points.last().and_then(|point| point.event).map(|event| event.name()),
-        };
-        let (label, units) = (found.chosen.cycle.label, Units::default());
-        Self::new((found, label), (cut, &units), object, |point| (name(point), point.value))
     }
 }
 
-impl PointObject<'static> {
-    fn of_oscillator(point: &SolutionPoint, cut: &Cut, system: &SystemPlan, units: &Units) -> Self {
-        let (cycle, there) = (&point.cycle, units.at(cut.vary, point.value));
-        let osc = cut.oscillator(system, point.value).ok();
-        let period = osc.map_or(f64::NAN, |osc| f64::from(cycle.label.periods) * osc.period() * there.time());
+impl<'a> BranchObject<'a> {
+    fn new<V: Varied>(branch: &BranchRows<'a>, view: &BranchesView<'a, V>) -> Self {
+        let points = &branch.points;
+        let event = |(k, point): (usize, &PointView<'a>)| Some(BranchEventObject::new(k, point, point.event.as_ref()?));
         Self {
-            parameter: point.value * units.of(cut.vary),
-            values: both(point.value, cut, units),
-            label: cycle.label.to_string(),
-            period,
-            cycle: osc.map_or_else(Vec::new, |osc| event::of_cycle(&osc, cycle, &there)),
-            multipliers: multipliers(&cycle.multipliers),
-            drift: None,
-            quantities: None,
-            stable: point.stable(),
-            stability: point.stability().name(),
-            admissible: point.physical,
+            from: branch.origin.map(|OriginView { branch, kind, value }| OriginObject {
+                kind,
+                parameter: value,
+                branch,
+            }),
+            points: points.iter().map(|point| PointObject::new(point, view)).collect(),
+            events: points.iter().enumerate().filter_map(event).collect(),
+            end: points.last().and_then(|point| point.event.as_ref()).map(Event::name),
         }
     }
 }
 
 impl<'a> PointObject<'a> {
-    fn of_machine(
-        point: &'a machine::SolutionPoint,
-        machine: &'a Machine,
-        cut: &Cut<String>,
-        quantity: Option<&BranchQuantity<'_>>,
-    ) -> Self {
-        let machine::SolutionPoint { value, cycle, .. } = point;
+    fn new<V: Varied>(point: &PointView<'a>, view: &BranchesView<'a, V>) -> Self {
+        let cycle = &point.cycle;
         Self {
-            parameter: *value,
-            values: both(*value, cut, &Units::default()),
-            label: cycle.label.to_string(),
-            period: cycle.period,
-            cycle: cycle.events.iter().map(|event| event::of_machine(machine, event)).collect(),
-            multipliers: multipliers(&cycle.multipliers),
-            drift: drift(machine, cycle),
-            quantities: quantity.map(|quantity| once((quantity.path.clone(), quantity.at(point).into())).collect()),
-            stable: cycle.stable(),
+            parameter: point.values[0],
+            values: both(point),
+            label: cycle.label().to_string(),
+            period: cycle.period(),
+            cycle: cycle.events(),
+            multipliers: multipliers(cycle.multipliers()),
+            drift: cycle.drift_by_name(|cycle| cycle.drift.clone()),
+            quantities: view.quantity.as_ref().map(|of| once((of.path.clone(), of.at(point).into())).collect()),
+            stable: point.stable(),
             stability: cycle.stability().name(),
-            // a branch of a machine ends where its orbit ceases to be admissible
-            admissible: true,
+            admissible: point.admissible,
         }
     }
 }
 
 /// The values of both parameters at a point of a line through two.
-fn both<V: Varied>(value: f64, cut: &Cut<V>, units: &Units) -> Option<[f64; 2]> {
-    let mut values = cut.names().zip(cut.values(value)).map(|(number, value)| value * number.unit(units));
-    Some([values.next()?, values.next()?])
-}
-
-impl BranchEventObject<'static> {
-    fn of_oscillator(place: usize, point: &SolutionPoint, event: &BranchEvent, (cut, units): (&Cut, &Units)) -> Self {
-        let record = EventRecord::of(point, event);
-        Self {
-            kind: record.kind,
-            parameter: point.value * units.of(cut.vary),
-            values: both(point.value, cut, units),
-            point: place,
-            fields: EventFields::of_oscillator(record),
-        }
-    }
+fn both(point: &PointView<'_>) -> Option<[f64; 2]> {
+    point.values.as_slice().try_into().ok()
 }
 
 impl<'a> BranchEventObject<'a> {
-    fn of_machine(
-        k: usize,
-        points: &[machine::SolutionPoint],
-        event: machine::BranchEvent,
-        (machine, cut): (&'a Machine, &Cut<String>),
-    ) -> Self {
+    fn new(place: usize, point: &PointView<'a>, event: &Event<'a>) -> Self {
         Self {
             kind: event.name(),
-            parameter: points[k].value,
-            values: both(points[k].value, cut, &Units::default()),
-            point: k,
-            // a point at an event has the cycle before it
-            fields: EventFields::of_machine(
-                event,
-                (points[k].cycle.label, points.get(k + 1).map(|next| next.cycle.label.to_string())),
-                machine,
-            ),
+            parameter: point.values[0],
+            values: both(point),
+            point: place,
+            fields: EventFields::new(event),
         }
     }
 }
 
 impl<'a> EventFields<'a> {
-    /// Those of an event of a machine, from the labels before and after it.
-    pub(super) fn of_machine(
-        event: machine::BranchEvent,
-        (before, after): (Label, Option<String>),
-        machine: &'a Machine,
-    ) -> Self {
-        let (appears, turns) = match event {
-            machine::BranchEvent::Grazing { appears, turns, .. } => (Some(appears), Some(turns)),
-            _ => (None, None),
-        };
-        Self {
-            ends: event.ends(),
-            before: before.to_string(),
-            after: after.filter(|_| !event.ends()),
-            stop: event.place().map(|place| machine.name_of(place)),
-            appears,
-            turns,
-            ..Self::default()
+    /// Those of an event of any system.
+    pub(crate) fn new(event: &Event<'a>) -> Self {
+        let ends = event.ends();
+        match event {
+            Event::Oscillator { point, event } => EventFields::of_record(EventRecord::of(point, event)),
+            Event::Machine { event: kind, labels: (before, after), .. } => Self {
+                ends,
+                before: before.to_string(),
+                after: after.clone().filter(|_| !ends),
+                stop: event.stop(),
+                ..Self::of_grazing(*kind)
+            },
         }
+    }
+
+    /// What only a grazing contact has.
+    fn of_grazing(event: machine::BranchEvent) -> Self {
+        let machine::BranchEvent::Grazing { appears, turns, .. } = event else { return Self::default() };
+        Self { appears: Some(appears), turns: Some(turns), ..Self::default() }
     }
 }
 
 impl EventFields<'static> {
-    pub(super) fn of_oscillator(record: EventRecord) -> Self {
+    fn of_record(record: EventRecord) -> Self {
         let EventRecord { ends, label_before, label_after, change, impact, side: at, phase, turns, also, .. } = record;
         Self {
             ends,

@@ -1,18 +1,12 @@
 //! Curves of events in a plane of two parameters: their points, and their points of codimension two.
 
-use super::Document;
 use super::branch::ChosenObject;
-use super::event::{self, EventObject};
+use super::event::EventObject;
 use super::motion::multipliers;
-use crate::{Asked, Units, Varied};
+use crate::Varied;
+use crate::solutions::{CurvePointView, CurveView};
 use schemars::JsonSchema;
 use serde::Serialize;
-use vibroimpact::continuation::machine;
-use vibroimpact::continuation::{CurvePoint, machine::SolutionPoint};
-use vibroimpact::machine::Machine;
-use vibroimpact::orbit::machine::Cycle;
-use vibroimpact::{Label, Oscillator};
-use vibroimpact_study::{CurvePlan, EventCurve, Plan};
 
 /// The answer to `vibro curve`. Pairs of values are in the order of `parameters`.
 #[derive(JsonSchema, Serialize)]
@@ -66,106 +60,38 @@ struct CurveEventObject<'a> {
     stop: Option<&'a str>,
 }
 
-/// The object of `vibro curve`.
-#[must_use]
-pub fn document<'a>(
-    asked: &Asked,
-    plan: &'a Plan,
-    osc: &Oscillator,
-    (task, found): (&CurvePlan, &EventCurve),
-) -> impl Serialize + use<'a> {
-    Document::new(asked, osc, plan, CurveAnswer::of_oscillator(found, task, asked))
-}
-
-/// Values of both parameters at a point, in the units of the results.
-#[must_use]
-pub fn values<V: Varied>((p, q): (f64, f64), plan: &CurvePlan<V>, units: &Units) -> [f64; 2] {
-    [p * plan.vary.parameter.unit(units), q * plan.and.parameter.unit(units)]
-}
-
-/// What the points of a curve are in the answer.
-struct Parts<'a> {
-    found_at: Vec<f64>,
-    points: Vec<PointObject<'a>>,
-    events: Vec<CurveEventObject<'a>>,
-}
-
 impl<'a> CurveAnswer<'a> {
-    fn new<C, E, P, V: Varied>(
-        (found, label): (&EventCurve<C, E, P>, Label),
-        (plan, units): (&CurvePlan<V>, &Units),
-        of: Vec<&'a str>,
-        Parts { found_at, points, events }: Parts<'a>,
-    ) -> Self {
+    pub(super) fn new<V: Varied>(view: &CurveView<'a, V>) -> Self {
+        let event = |(k, point): (usize, &CurvePointView<'a>)| {
+            let (kind, stop) = point.event?;
+            Some(CurveEventObject { kind, values: point.values, point: k, stop })
+        };
         Self {
-            label: label.to_string(),
-            kind: plan.kind.name(),
-            of,
-            parameters: [&plan.vary, &plan.and].map(|stretch| stretch.parameter.field(units).to_owned()),
-            orbit: ChosenObject::new(&found.chosen),
-            found_at,
-            through: Through { event: found.through + 1, point: found.begin },
-            points,
-            events,
+            label: view.label.to_string(),
+            kind: view.plan.kind.name(),
+            of: view.of.clone(),
+            parameters: view.sides().map(|side| side.parameter.field(&view.units).to_owned()),
+            orbit: view.number.map(Into::into),
+            found_at: view.found_at.clone(),
+            through: Through { event: view.through + 1, point: view.begin },
+            points: view.points.iter().map(PointObject::new).collect(),
+            events: view.points.iter().enumerate().filter_map(event).collect(),
         }
     }
+}
 
-    fn of_oscillator(found: &EventCurve, plan: &CurvePlan, Asked { system, units }: &Asked) -> Self {
-        let of = [plan.vary.parameter, plan.and.parameter];
-        let event = |(k, point): (usize, &CurvePoint)| {
-            let kind = point.event?.name();
-            Some(CurveEventObject { kind, values: values(point.values, plan, units), point: k, stop: None })
-        };
-        let point = |point: &CurvePoint| {
-            let there = units.at_both((of[0], of[1]), point.values);
-            let osc = system.with_all(of.into_iter().zip(<[f64; 2]>::from(point.values)));
-            let osc = osc.and_then(|system| system.oscillator()).ok();
-            let periods = f64::from(point.cycle.label.periods);
-            PointObject {
-                values: values(point.values, plan, units),
-                label: point.cycle.label.to_string(),
-                admissible: point.physical,
-                period: osc.map_or(f64::NAN, |osc| periods * osc.period() * there.time()),
-                cycle: osc.map_or_else(Vec::new, |osc| event::of_cycle(&osc, &point.cycle, &there)),
-                multipliers: multipliers(&point.cycle.multipliers),
-                residual: None,
-                touch: None,
-            }
-        };
-        let parts = Parts {
-            found_at: found.events.iter().map(|event| event.value * units.of(plan.vary.parameter)).collect(),
-            points: found.points.iter().map(point).collect(),
-            events: found.points.iter().enumerate().filter_map(event).collect(),
-        };
-        Self::new((found, found.chosen.cycle.label), (plan, units), Vec::new(), parts)
-    }
-
-    pub(super) fn of_machine(
-        machine: &'a Machine,
-        plan: &CurvePlan<String>,
-        found: &'a EventCurve<Cycle, SolutionPoint, machine::CurvePoint>,
-    ) -> Self {
-        let event = |(k, point): (usize, &machine::CurvePoint)| {
-            let event = point.event?;
-            let stop = event.place().map(|place| machine.name_of(place));
-            Some(CurveEventObject { kind: event.name(), values: point.values.into(), point: k, stop })
-        };
-        let point = |point: &'a machine::CurvePoint| PointObject {
-            values: point.values.into(),
-            label: point.cycle.label.to_string(),
-            admissible: true,
-            period: point.cycle.period,
-            cycle: point.cycle.events.iter().map(|event| event::of_machine(machine, event)).collect(),
-            multipliers: multipliers(&point.cycle.multipliers),
-            residual: Some(point.residual),
+impl<'a> PointObject<'a> {
+    fn new(point: &CurvePointView<'a>) -> Self {
+        let cycle = &point.cycle;
+        Self {
+            values: point.values,
+            label: cycle.label().to_string(),
+            admissible: point.admissible,
+            period: cycle.period(),
+            cycle: cycle.events(),
+            multipliers: multipliers(cycle.multipliers()),
+            residual: point.residual,
             touch: point.touch,
-        };
-        let parts = Parts {
-            found_at: found.events.iter().map(|event| event.value).collect(),
-            points: found.points.iter().map(point).collect(),
-            events: found.points.iter().enumerate().filter_map(event).collect(),
-        };
-        let of = found.places.iter().map(|place| machine.name_of(*place)).collect();
-        Self::new((found, found.chosen.cycle.label), (plan, &Units::default()), of, parts)
+        }
     }
 }

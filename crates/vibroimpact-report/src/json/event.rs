@@ -127,7 +127,7 @@ impl EventObject<'static> {
 
 /// The events of a cycle of an oscillator over one period, beginning with its fastest impact, from which times are counted. Of a
 /// complete chatter the first impacts are listed; those that are summed are not.
-pub(super) fn of_cycle(osc: &Oscillator, cycle: &Cycle, units: &Units) -> Vec<EventObject<'static>> {
+pub(crate) fn of_cycle(osc: &Oscillator, cycle: &Cycle, units: &Units) -> Vec<EventObject<'static>> {
     // a release that does not return to itself makes no cycle
     let segments = cycle_segments(osc, cycle).unwrap_or_default();
     let mut events: Vec<Event> = Vec::new();
@@ -179,7 +179,7 @@ pub(super) fn of_cycle(osc: &Oscillator, cycle: &Cycle, units: &Units) -> Vec<Ev
 
 /// A state from which a motion can be started.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct StateObject<'a> {
+pub(crate) struct StateObject<'a> {
     q: Cow<'a, [f64]>,
     qdot: Cow<'a, [f64]>,
     phase: f64,
@@ -190,7 +190,7 @@ pub(super) struct StateObject<'a> {
 }
 
 impl<'a> StateObject<'a> {
-    pub(super) fn of(machine: &Machine, start: &'a events::Start) -> Self {
+    pub(crate) fn of(machine: &Machine, start: &'a events::Start) -> Self {
         let events::Start { q, qdot, phase, .. } = start;
         let (contacts, exact) = (contacts(machine, start), exact(start));
         Self { q: q.into(), qdot: qdot.into(), phase: *phase, contacts, exact }
@@ -203,7 +203,7 @@ impl<'a> StateObject<'a> {
     }
 
     /// The state in the middle of the longest flight of a cycle of an oscillator.
-    pub(super) fn within(osc: &Oscillator, cycle: &Cycle, units: &Units) -> Option<StateObject<'static>> {
+    pub(crate) fn within(osc: &Oscillator, cycle: &Cycle, units: &Units) -> Option<StateObject<'static>> {
         let flights = cycle_segments(osc, cycle)?.into_iter().filter_map(|segment| match segment {
             Segment::Flight { flight, duration } => Some((flight, duration)),
             _ => None,
@@ -240,7 +240,7 @@ impl Serialize for EventOf<'_> {
 }
 
 /// An event of a machine.
-pub(super) fn of_machine<'a>(machine: &'a Machine, event: &'a events::Event) -> EventObject<'a> {
+pub(crate) fn of_machine<'a>(machine: &'a Machine, event: &'a events::Event) -> EventObject<'a> {
     // an event of a joint has no speed, but a direction
     let slips = event.kind == events::EventKind::Slip;
     EventObject {

@@ -1,16 +1,12 @@
 //! The nearest events of a motion in each parameter, and the box of parameters in which the motion was found.
 
-use super::Document;
 use super::branch::EventFields;
 use super::motion::MotionObject;
-use crate::{Asked, Units};
+use crate::Units;
+use crate::solutions::{MarginEndView, MarginView, nearest};
 use schemars::JsonSchema;
 use serde::Serialize;
-use vibroimpact::Oscillator;
-use vibroimpact::machine::Machine;
-use vibroimpact_study::{
-    EventRecord, MachineMargins, MarginEnd, MotionBox, MotionMargins, NumberMargin, ParameterMargin, Plan,
-};
+use vibroimpact_study::{MotionBox, ParameterMargin};
 
 /// The answer to `vibro margins`.
 #[derive(JsonSchema, Serialize)]
@@ -23,36 +19,30 @@ pub(super) struct MarginsAnswer<'a> {
 }
 
 #[derive(JsonSchema, Serialize)]
-pub(crate) struct ParameterObject<'a> {
-    pub(crate) parameter: &'a str,
-    pub(crate) value: f64,
-    pub(crate) scale: f64,
-    pub(crate) down: EndObject<'a>,
-    pub(crate) up: EndObject<'a>,
+struct ParameterObject<'a> {
+    parameter: &'a str,
+    value: f64,
+    scale: f64,
+    down: EndObject<'a>,
+    up: EndObject<'a>,
 }
 
 /// The nearest event in one direction. Without one, the last four are `null`.
 #[derive(JsonSchema, Serialize)]
-pub(crate) struct EndObject<'a> {
+struct EndObject<'a> {
     /// The end of the range in which events are looked for.
-    pub(crate) limit: f64,
-    pub(crate) at: Option<f64>,
-    pub(crate) distance: Option<f64>,
-    pub(crate) relative: Option<f64>,
-    pub(crate) event: Option<MarginEvent<'a>>,
+    limit: f64,
+    at: Option<f64>,
+    distance: Option<f64>,
+    relative: Option<f64>,
+    event: Option<MarginEvent<'a>>,
 }
 
 #[derive(JsonSchema, Serialize)]
-pub(crate) struct MarginEvent<'a> {
-    pub(crate) kind: &'static str,
+struct MarginEvent<'a> {
+    kind: &'static str,
     #[serde(flatten)]
-    pub(crate) fields: EventFields<'a>,
-}
-
-impl MarginEvent<'static> {
-    fn new(record: EventRecord) -> Self {
-        Self { kind: record.kind, fields: EventFields::of_oscillator(record) }
-    }
+    fields: EventFields<'a>,
 }
 
 /// The event with the smallest change in units of the scale of its parameter.
@@ -99,88 +89,43 @@ struct ValueObject {
     value: f64,
 }
 
-/// The object of `vibro margins`.
-#[must_use]
-pub fn document<'a>(
-    asked: &Asked,
-    plan: &'a Plan,
-    osc: &Oscillator,
-    found: &MotionMargins,
-) -> impl Serialize + use<'a> {
-    let units = &asked.units;
-    let fields = MarginsAnswer {
-        motion: MotionObject::of_oscillator(&found.motion, osc, units),
-        parameters: found.parameters.iter().map(|margin| ParameterObject::new(margin, units)).collect(),
-        nearest: found.nearest().map(|(margin, end)| {
-            let distance = end.distance(&margin.scope);
-            NearestObject {
-                parameter: units.name_of(margin.scope.parameter),
-                direction: if distance < 0.0 { "down" } else { "up" },
-                scaled: distance.abs() / margin.scope.scale,
-            }
-        }),
-        motion_box: found.motion_box.as_ref().map(|found_box| BoxObject::new(found_box, &found.parameters, units)),
-    };
-    let document = Document::new(asked, osc, plan, fields);
-    match &found.start {
-        Some(start) => document.start(start, units),
-        None => document,
-    }
-}
-
 impl<'a> MarginsAnswer<'a> {
-    pub(super) fn of_machine(machine: &'a Machine, found: &'a MachineMargins) -> Self {
-        let nearest =
-            found.nearest().map(|(of, direction, scaled)| NearestObject { parameter: &of.path, direction, scaled });
+    /// Of any system; `found_box` is the box around an oscillator's motion.
+    pub(super) fn new(
+        motion: MotionObject<'a>,
+        margins: &[MarginView<'a>],
+        found_box: Option<(&MotionBox, &[ParameterMargin], &Units)>,
+    ) -> Self {
+        let nearest = nearest(margins).map(|(of, end, nearest)| NearestObject {
+            parameter: of.field,
+            direction: end.direction,
+            scaled: nearest.scaled,
+        });
         Self {
-            motion: MotionObject::of_machine(machine, &found.motion),
-            parameters: found.numbers.iter().map(|number| ParameterObject::of_machine(machine, number)).collect(),
+            motion,
+            parameters: margins.iter().map(ParameterObject::new).collect(),
             nearest,
-            motion_box: None,
+            motion_box: found_box.map(|(found, parameters, units)| BoxObject::new(found, parameters, units)),
         }
     }
 }
 
 impl<'a> ParameterObject<'a> {
-    pub(crate) fn of_machine(machine: &'a Machine, number: &'a NumberMargin) -> Self {
-        let [down, up] = number.ends().map(|(_, limit, event)| {
-            let at = event.map(|event| event.point.value);
-            let told = event.and_then(|event| Some((event, event.point.event?)));
-            EndObject {
-                limit,
-                at,
-                distance: at.map(|at| at - number.value),
-                relative: at.filter(|_| number.value != 0.0).map(|at| (at - number.value) / number.value.abs()),
-                event: told.map(|(event, kind)| MarginEvent {
-                    kind: kind.name(),
-                    fields: EventFields::of_machine(kind, (event.point.cycle.label, event.after.clone()), machine),
-                }),
-            }
-        });
-        Self { parameter: &number.path, value: number.value, scale: number.scale(), down, up }
+    fn new(of: &MarginView<'a>) -> Self {
+        let [down, up] = of.ends.each_ref().map(EndObject::new);
+        Self { parameter: of.field, value: of.value, scale: of.scale, down, up }
     }
 }
 
-impl ParameterObject<'static> {
-    pub(crate) fn new(margin: &ParameterMargin, units: &Units) -> Self {
-        let scope = &margin.scope;
-        let unit = units.of(scope.parameter);
-        let end = |end: &MarginEnd, limit: f64| {
-            let at = end.point.as_ref().and_then(|point| Some((point, point.event?)));
-            EndObject {
-                limit: limit * unit,
-                at: at.map(|_| end.value * unit),
-                distance: at.map(|_| end.distance(scope) * unit),
-                relative: at.and_then(|_| end.relative(scope)),
-                event: at.map(|(point, event)| MarginEvent::new(EventRecord::of(point, &event))),
-            }
-        };
+impl<'a> EndObject<'a> {
+    fn new(end: &MarginEndView<'a>) -> Self {
+        let nearest = end.nearest.as_ref();
         Self {
-            parameter: units.name_of(scope.parameter),
-            value: scope.value * unit,
-            scale: scope.scale * unit,
-            down: end(&margin.down, scope.low),
-            up: end(&margin.up, scope.high),
+            limit: end.limit,
+            at: nearest.map(|of| of.at),
+            distance: nearest.map(|of| of.distance),
+            relative: nearest.and_then(|of| of.relative),
+            event: nearest.map(|of| MarginEvent { kind: of.event.name(), fields: EventFields::new(&of.event) }),
         }
     }
 }

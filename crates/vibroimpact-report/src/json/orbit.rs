@@ -1,27 +1,17 @@
 //! The orbits with a label: admissible ones and inadmissible solutions of the equations.
 
-use super::Document;
 use super::event::side;
-use super::motion::{MotionObject, of_oscillator_cycle};
-use crate::{Asked, Units};
+use super::motion::MotionObject;
+use crate::Units;
+use crate::solutions::OrbitView;
 use schemars::JsonSchema;
 use serde::Serialize;
-use vibroimpact::Oscillator;
-use vibroimpact::machine::Machine;
-use vibroimpact::orbit::{EarlierContact, Orbit, machine::Cycle};
-use vibroimpact_study::Plan;
+use vibroimpact::orbit::EarlierContact;
 
 /// The answer to `vibro orbit`.
 #[derive(JsonSchema, Serialize)]
 pub(super) struct OrbitAnswer<'a> {
     orbits: Vec<OrbitObject<'a>>,
-}
-
-/// The object of `vibro orbit`.
-#[must_use]
-pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, orbits: &[Orbit]) -> impl Serialize + use<'a> {
-    let orbits = orbits.iter().map(|orbit| OrbitObject::new(orbit, osc, &asked.units)).collect();
-    Document::new(asked, osc, plan, OrbitAnswer { orbits })
 }
 
 /// One orbit.
@@ -43,28 +33,23 @@ struct ContactObject {
 }
 
 impl<'a> OrbitAnswer<'a> {
-    pub(super) fn of_machine(machine: &'a Machine, found: &'a [Cycle]) -> Self {
-        let orbit = |cycle| OrbitObject {
-            motion: MotionObject::of_cycle(machine, cycle),
-            // others are not found
-            admissible: true,
-            earlier_contact: None,
-        };
-        Self { orbits: found.iter().map(orbit).collect() }
+    /// Of any system, in these units.
+    pub(super) fn new(orbits: &[OrbitView<'a>], units: &Units) -> Self {
+        Self { orbits: orbits.iter().map(|orbit| OrbitObject::new(orbit, units)).collect() }
     }
 }
 
-impl OrbitObject<'_> {
-    fn new(orbit: &Orbit, osc: &Oscillator, units: &Units) -> Self {
+impl<'a> OrbitObject<'a> {
+    fn new(orbit: &OrbitView<'a>, units: &Units) -> Self {
         let earlier = |contact: EarlierContact| ContactObject {
-            after_impact: (!orbit.cycle.points.is_empty()).then_some(contact.flight + 1),
+            after_impact: orbit.has_impacts().then_some(contact.flight + 1),
             stop: side(contact.side),
             time: contact.time * units.time(),
         };
         Self {
-            admissible: orbit.physical,
+            motion: MotionObject::of_cycle(&orbit.cycle),
+            admissible: orbit.admissible,
             earlier_contact: orbit.earlier.map(earlier),
-            motion: of_oscillator_cycle(&orbit.cycle, osc, units),
         }
     }
 }

@@ -4,7 +4,6 @@
 //! [`Figure::size`]: vibroimpact_plot::Figure::size
 
 mod bifurcation;
-mod machine_bifurcation;
 mod machine_phase;
 mod multipliers;
 mod phase;
@@ -12,8 +11,9 @@ mod sampled_motion;
 mod sections;
 mod view;
 
-pub use bifurcation::{BifurcationDiagram, BifurcationEvent, bifurcation, labels};
-pub use machine_bifurcation::{MachineBifurcation, machine_bifurcation};
+pub use bifurcation::{
+    BifurcationDiagram, BifurcationEvent, BranchSystem, MachineLine, bifurcation, labels, machine_bifurcation,
+};
 pub(crate) use machine_phase::portrait;
 pub use multipliers::multipliers;
 pub use phase::phase_portrait;

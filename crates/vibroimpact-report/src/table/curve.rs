@@ -1,49 +1,31 @@
 //! Curves of events in a plane of two parameters: one row for each point.
 
 use super::Table;
-use super::cycle::{Cells, Columns};
-use crate::Units;
-use crate::json::curve::values;
+use super::cycle::Columns;
+use crate::Varied;
 use crate::number::Number;
-use vibroimpact::continuation::machine::{CurvePoint, SolutionPoint};
-use vibroimpact::machine::Machine;
-use vibroimpact::orbit::machine::Cycle;
-use vibroimpact_study::{CurvePlan, EventCurve};
+use crate::solutions::{CurvePointView, CurveView};
 
-/// The table of `vibro curve`.
+/// The table of `vibro curve`. Of a machine with the stop of an event, the residual of the condition and the phase of the touch,
+/// which is none of the closings, and without forcing with the period.
 #[must_use]
-pub fn table<'a>(found: &'a EventCurve, plan: CurvePlan, units: &'a Units) -> Table<'a> {
-    let (p, q) = (units.column_of(plan.vary.parameter), units.column_of(plan.and.parameter));
-    let columns = Columns::of_oscillator(units);
-    let header = format!("{p},{q},label,admissible,event,{}", columns.names());
-    let rows = found.points.iter().map(move |point| {
-        let [p, q] = values(point.values, &plan, units);
-        let event = point.event.map_or("", |event| event.name());
-        let there = units.at_both((plan.vary.parameter, plan.and.parameter), point.values);
-        let cycle = columns.cells(&Cells::of_oscillator(&point.cycle, &there));
-        format!("{},{},{},{},{event}{cycle}", Number(p), Number(q), point.cycle.label, point.physical)
-    });
-    Table::new(header, rows)
+pub fn table<'a, V: Varied>(view: CurveView<'a, V>) -> Table<'a> {
+    let columns = Columns::new(view.machine, &view.units, false);
+    let [p, q] = view.sides().map(|side| side.parameter.column(&view.units));
+    let more = if view.machine.is_some() { ",stop,residual,touch" } else { "" };
+    let header = format!("{p},{q},label,admissible,event{more},{}", columns.names());
+    let more = !more.is_empty();
+    Table::new(header, view.points.into_iter().map(move |point| row(&point, &columns, more)))
 }
 
-/// The same of a machine, with the stop of an event, the residual of the condition and the phase of the touch, which is none of the
-/// closings, and without forcing with the period.
-pub(crate) fn of_machine<'a>(
-    machine: &'a Machine,
-    plan: &CurvePlan<String>,
-    found: &'a EventCurve<Cycle, SolutionPoint, CurvePoint>,
-) -> Table<'a> {
-    let (p, q) = (&plan.vary.parameter, &plan.and.parameter);
-    let columns = Columns::of_machine(machine, false);
-    let header = format!("{p},{q},label,admissible,event,stop,residual,touch,{}", columns.names());
-    let rows = found.points.iter().map(move |point| {
-        let (p, q) = point.values;
-        let event = point.event.map_or("", |event| event.name());
-        let stop = point.event.and_then(|event| event.place()).map_or("", |place| machine.name_of(place));
-        let touch = point.touch.map_or_else(String::new, |phase| Number(phase).to_string());
-        let (label, residual) = (point.cycle.label, Number(point.residual));
-        let cycle = columns.cells(&Cells::of_machine(&point.cycle, machine));
-        format!("{},{},{label},true,{event},{stop},{residual},{touch}{cycle}", Number(p), Number(q))
+fn row(point: &CurvePointView<'_>, columns: &Columns, more: bool) -> String {
+    let ([p, q], cell) =
+        (point.values.map(Number), |x: Option<f64>| x.map_or_else(String::new, |x| Number(x).to_string()));
+    let (event, stop) = point.event.unwrap_or_default();
+    let more = more.then(|| {
+        let stop = stop.unwrap_or_default();
+        format!(",{stop},{},{}", cell(point.residual), cell(point.touch))
     });
-    Table::new(header, rows)
+    let (label, cycle) = (point.cycle.label(), columns.cells(&point.cycle));
+    format!("{p},{q},{label},{},{event}{}{cycle}", point.admissible, more.unwrap_or_default())
 }

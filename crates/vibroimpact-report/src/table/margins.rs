@@ -1,40 +1,23 @@
-//! The nearest events of a motion: one row for each parameter and direction.
+//! The nearest events of a motion: one row for each number and direction.
 
 use super::Table;
-use crate::Units;
-use crate::json::margins::ParameterObject;
+use crate::json::branch::EventFields;
 use crate::number::Number;
-use vibroimpact::machine::Machine;
-use vibroimpact_study::{MachineMargins, MotionMargins};
+use crate::solutions::{MarginEndView, MarginView};
 
-const HEADER: &str = "parameter,value,direction,limit,at,distance,relative,event,before,after";
-
-/// The table of `vibro margins --machine`.
+/// The table of `vibro margins`. Without an event up to the limit of the range, the last six cells are empty.
 #[must_use]
-pub fn of_machine<'a>(found: &'a MachineMargins, machine: &'a Machine) -> Table<'a> {
-    let numbers = found.numbers.iter();
-    let rows = numbers.flat_map(|number| both(&number.path, &ParameterObject::of_machine(machine, number)));
-    Table::new(HEADER.to_owned(), rows)
+pub fn table<'a>(margins: Vec<MarginView<'a>>) -> Table<'a> {
+    let rows = margins.into_iter().flat_map(|of| of.ends.each_ref().map(|end| row(&of, end)));
+    Table::new("parameter,value,direction,limit,at,distance,relative,event,before,after".to_owned(), rows)
 }
 
-/// The table of `vibro margins`.
-#[must_use]
-pub fn table(found: &MotionMargins, units: Units) -> Table<'_> {
-    let rows = found
-        .parameters
-        .iter()
-        .flat_map(move |margin| both(units.column_of(margin.scope.parameter), &ParameterObject::new(margin, &units)));
-    Table::new(HEADER.to_owned(), rows)
-}
-
-/// The rows of a parameter. Without an event up to the limit of the range, the last six cells are empty.
-fn both(name: &str, of: &ParameterObject<'_>) -> [String; 2] {
-    let cell = |value: Option<f64>| value.map_or_else(String::new, |value| Number(value).to_string());
-    [("down", &of.down), ("up", &of.up)].map(|(way, end)| {
-        let begin = format!("{name},{},{way},{}", Number(of.value), Number(end.limit));
-        let Some(event) = &end.event else { return format!("{begin},,,,,,") };
-        let (at, distance, relative) = (cell(end.at), cell(end.distance), cell(end.relative));
-        let (before, after) = (&event.fields.before, event.fields.after.as_deref().unwrap_or_default());
-        format!("{begin},{at},{distance},{relative},{},{before},{after}", event.kind)
-    })
+fn row(of: &MarginView<'_>, end: &MarginEndView<'_>) -> String {
+    let begin = format!("{},{},{},{}", of.column, Number(of.value), end.direction, Number(end.limit));
+    let Some(nearest) = &end.nearest else { return format!("{begin},,,,,,") };
+    let relative = nearest.relative.map_or_else(String::new, |value| Number(value).to_string());
+    let EventFields { before, after, .. } = EventFields::new(&nearest.event);
+    let (at, distance) = (Number(nearest.at), Number(nearest.distance));
+    let (event, after) = (nearest.event.name(), after.unwrap_or_default());
+    format!("{begin},{at},{distance},{relative},{event},{before},{after}")
 }

@@ -1,0 +1,194 @@
+//! The bifurcation diagram along a line through one or two numbers that vary: the branches of several labels over the orbit diagram
+//! from simulation.
+
+mod machine;
+mod oscillator;
+
+pub use machine::{MachineLine, machine_bifurcation};
+pub use oscillator::{bifurcation, labels};
+
+use crate::figure::branch::{Picture, figure};
+use crate::figure::tracks::Shown;
+use crate::json::event::Stops;
+use crate::solutions::{Event, PointView};
+use crate::table::{Table, bifurcation as bifurcation_table};
+use crate::{AnswerError, BranchQuantity, ReportError, ShownValue, Units, Varied};
+use std::collections::BTreeMap;
+use vibroimpact::math::{sort_by, sort_by_key};
+use vibroimpact_plot::Figure;
+use vibroimpact_study::diagram::Diagram;
+use vibroimpact_study::{Control, Cut, Span, tiles};
+
+/// Number of values along the line at which motions are searched, if no labels are given.
+const SAMPLES: u32 = 24;
+/// Number of motions whose branches are followed then: those of most starts.
+const MOST_LABELS: usize = 6;
+/// Number of values at which orbits of a label are searched.
+const LOOKS: u32 = 25;
+/// Maximum number of further branches from each orbit.
+const FOLLOW: u32 = 3;
+/// Maximum number of points of each branch.
+const POINTS: u32 = 3_000;
+/// Number of starts at each value, to find the labels that occur.
+const STARTS: u64 = 4;
+/// Seed of the sequence of starts.
+const SEED: u64 = 1;
+/// A value belongs to a branch if it is closer to it than this fraction of the range.
+const NEAR: f64 = 1e-9;
+
+/// An event on an admissible branch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BifurcationEvent {
+    /// The label of the cycle at the event.
+    pub label: String,
+    /// The name of the event: fold, flip, grazing and so on.
+    pub kind: &'static str,
+    /// The value of what varies, as in the plan.
+    pub value: f64,
+}
+
+/// A system whose branches are drawn over an orbit diagram.
+pub trait BranchSystem {
+    /// What varies, what the diagram shows, and a point of a branch.
+    type Vary: Varied;
+    /// See above.
+    type Show: ShownValue;
+    /// See above.
+    type Point;
+
+    /// The points of a branch along a line.
+    fn view<'a>(&'a self, points: &'a [Self::Point], cut: &Cut<Self::Vary>) -> Vec<PointView<'a>>;
+
+    /// Whether a diagram shows states at phase 0 of the force.
+    fn is_strobe(show: &Self::Show) -> bool;
+
+    /// The quantity of each cycle that is shown, if any.
+    fn quantity(&self, show: &Self::Show, cut: &Cut<Self::Vary>) -> Option<BranchQuantity<'_>>;
+
+    /// The names of its stops.
+    fn stops(&self) -> &impl Stops;
+
+    /// The units of the results.
+    fn units(&self) -> Units;
+
+    /// The title of the figure, in which these numbers vary.
+    fn title(&self, varied: &Cut<Self::Vary>) -> String;
+}
+
+/// The bifurcation diagram along a line.
+#[derive(Clone, Debug)]
+pub struct BifurcationDiagram<B: BranchSystem> {
+    /// The orbit diagram behind the branches.
+    pub behind: Diagram<B::Vary, B::Show>,
+    /// The points of each branch, in order.
+    pub branches: Vec<Vec<B::Point>>,
+    system: B,
+}
+
+impl<B: BranchSystem> BifurcationDiagram<B> {
+    /// Its figure: stable orbits are solid and unstable ones dashed.
+    ///
+    /// # Errors
+    /// [`AnswerError`] if a value of what varies overflows in the units of the results.
+    pub fn figure(&self) -> Result<Figure, AnswerError> {
+        let (system, show, cut) = (&self.system, &self.behind.plan.show, &self.behind.plan.cut());
+        let (quantity, units, views) = (system.quantity(show, cut), system.units(), self.views());
+        let picture = Picture {
+            cut,
+            units: &units,
+            shown: shown::<B>(show, quantity.as_ref()),
+            ordinate: show.ordinate(&units),
+            behind: Some(&self.behind),
+            inadmissible: false,
+        };
+        Ok(figure(views.iter().map(Vec::as_slice), &picture, system.title(cut))?)
+    }
+
+    /// Its table: the points from simulation, then those of the branches.
+    ///
+    /// # Errors
+    /// As [`Self::figure`].
+    pub fn table(&self) -> Result<Table<'static>, AnswerError> {
+        let (system, show) = (&self.system, &self.behind.plan.show);
+        let quantity = system.quantity(show, &self.behind.plan.cut());
+        let (units, shown) = (system.units(), shown::<B>(show, quantity.as_ref()));
+        let table = bifurcation_table::table((&self.behind, &units), system.stops(), &self.views(), shown);
+        Ok(table.map_err(ReportError::from)?)
+    }
+
+    /// The events on the branches, in the order of their values.
+    #[must_use]
+    pub fn events(&self) -> Vec<BifurcationEvent> {
+        let views = self.views();
+        let events = views.iter().flatten().filter(|point| point.admissible).filter_map(|point| {
+            let event = point.event.as_ref().filter(|event| !event.is_end_of_search())?;
+            Some(BifurcationEvent {
+                label: point.cycle.label().to_string(),
+                kind: Event::name(event),
+                value: point.raw,
+            })
+        });
+        let (from, to) = self.behind.plan.over.ends();
+        distinct(events, NEAR * (to - from).abs())
+    }
+
+    fn views(&self) -> Vec<Vec<PointView<'_>>> {
+        let cut = self.behind.plan.cut();
+        self.branches.iter().map(|points| self.system.view(points, &cut)).collect()
+    }
+}
+
+fn shown<'a, B: BranchSystem>(show: &B::Show, quantity: Option<&'a BranchQuantity<'a>>) -> Shown<'a> {
+    match quantity {
+        Some(quantity) => Shown::Quantity(quantity),
+        None if B::is_strobe(show) => Shown::Strobes,
+        None => Shown::Speeds,
+    }
+}
+
+/// Events in the order of their values, those that are nearer to each other than `near` once.
+fn distinct(all: impl Iterator<Item = BifurcationEvent>, near: f64) -> Vec<BifurcationEvent> {
+    let mut events: Vec<BifurcationEvent> = Vec::new();
+    for event in all {
+        let same = |other: &BifurcationEvent| {
+            other.kind == event.kind && other.label == event.label && (other.value - event.value).abs() <= near
+        };
+        if !events.iter().any(same) {
+            events.push(event);
+        }
+    }
+    sort_by(&mut events, |a, b| a.value.total_cmp(&b.value));
+    events
+}
+
+/// `count` values between two ends, each with what is found there.
+fn along<T: Send>(
+    (from, to): (f64, f64),
+    count: u32,
+    control: &Control<'_>,
+    find: impl Fn(f64) -> T + Sync,
+) -> Result<Vec<(f64, T)>, AnswerError> {
+    let over = Span::new(from, to, if from == to { 1 } else { count.max(2) })?;
+    let found = tiles(u64::from(over.count()), 1, control, |range, tick| {
+        let mut found = Vec::new();
+        for value in range.filter_map(|k| u32::try_from(k).ok()).map(|k| over.at(k)) {
+            found.push((value, find(value)));
+            if tick() {
+                break;
+            }
+        }
+        found
+    })?;
+    Ok(found.into_iter().flatten().collect())
+}
+
+/// Labels with numbers of starts: those of most starts first.
+fn most_first(all: impl Iterator<Item = (String, u64)>) -> Vec<String> {
+    let mut counts: BTreeMap<String, u64> = BTreeMap::new();
+    for (label, count) in all {
+        *counts.entry(label).or_default() += count;
+    }
+    let mut list: Vec<(String, u64)> = counts.into_iter().collect();
+    sort_by_key(&mut list, |(_, count)| core::cmp::Reverse(*count));
+    list.into_iter().map(|(label, _)| label).collect()
+}
