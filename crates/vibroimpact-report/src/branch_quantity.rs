@@ -1,6 +1,5 @@
 //! The quantity that stands for each cycle of a branch of a machine without stops, which has no speeds of closings.
 
-use crate::solutions::PointView;
 use vibroimpact::continuation::machine::SolutionPoint;
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::machine::Cycle;
@@ -33,11 +32,7 @@ impl<'a> BranchQuantity<'a> {
         let (name, first) = (machine.parts().coordinates.first()?, found.followed.first()?.points.first()?);
         let of = |quantity: Quantity| Self::at_path(format!("q.{name}.{}", quantity.name()), source, cut);
         let displacement = of(Quantity::DisplacementMax);
-        Some(if displacement.of_cycle(&first.cycle, first.value).is_finite() {
-            displacement
-        } else {
-            of(Quantity::VelocityMax)
-        })
+        Some(if displacement.at(first).is_finite() { displacement } else { of(Quantity::VelocityMax) })
     }
 
     /// The quantity at a path.
@@ -46,17 +41,12 @@ impl<'a> BranchQuantity<'a> {
         Self { path, source, cut: cut.clone() }
     }
 
-    /// Its value at a point of a branch; `NaN` if it is not defined there.
+    /// Its value at a point; `NaN` if it is not defined there.
     #[must_use]
-    pub fn at(&self, point: &PointView<'_>) -> f64 {
-        point.cycle.machine_cycle().map_or(f64::NAN, |cycle| self.of_cycle(cycle, point.raw))
-    }
-
-    /// Its value of a cycle where what varies has a value.
-    fn of_cycle(&self, cycle: &Cycle, at: f64) -> f64 {
+    pub fn at(&self, point: &SolutionPoint) -> f64 {
         let value = || {
-            let machine = self.cut.source(self.source, at).ok()?.machine().ok()?;
-            machine_cycle_quantities(&machine, cycle)?.value(&machine, &self.path).ok()
+            let machine = self.cut.source(self.source, point.value).ok()?.machine().ok()?;
+            machine_cycle_quantities(&machine, &point.cycle)?.value(&machine, &self.path).ok()
         };
         value().unwrap_or(f64::NAN)
     }
@@ -81,12 +71,7 @@ mod tests {
         let (holds, slides) = (source.number("fs").unwrap(), source.number("f").unwrap());
         for point in &found.followed[0].points {
             let exact = slides + (holds - slides).hypot(point.value);
-            assert!(
-                (quantity.of_cycle(&point.cycle, point.value) - exact).abs() < 1e-12,
-                "{} {} {exact}",
-                point.value,
-                quantity.of_cycle(&point.cycle, point.value)
-            );
+            assert!((quantity.at(point) - exact).abs() < 1e-12, "{} {} {exact}", point.value, quantity.at(point));
         }
         let hammer = MachineSource::open("two-mass-hammer").unwrap();
         assert!(BranchQuantity::of(&hammer.machine().unwrap(), &hammer, &cut, &found).is_none());

@@ -13,7 +13,6 @@
 //! | the tables | [`Table`], [`table`] |
 //! | the figures | [`figure`] |
 //! | the views of a settled motion: waveform, phase portrait, multipliers, sections; a diagram with branches over it | [`scene`] |
-//! | cycles, branches, curves and margins of any system in the units of the results | [`solutions`] |
 //! | the same question as a command line and in Python | [`question`] |
 //! | numbers as text | [`number`] |
 //! | what varies, with its name and its unit | [`Varied`] |
@@ -28,7 +27,6 @@ pub mod number;
 pub mod question;
 pub mod response;
 pub mod scene;
-pub mod solutions;
 pub mod table;
 mod units;
 mod varied;

@@ -7,15 +7,17 @@ use vibroimpact::continuation::{BranchEvent, Change, SolutionPoint, Touch, machi
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::Cycle;
 use vibroimpact::verdict::Stability;
-use vibroimpact_report::Varied;
+use vibroimpact_report::json::branch::{
+    BranchAnswer, BranchEventObject, BranchObject, ChosenObject, Event, OriginObject, PointObject,
+};
 use vibroimpact_report::number::{precise, short};
-use vibroimpact_report::solutions::{BranchesView, Event, OriginView, PointView};
-use vibroimpact_study::{OrbitNumber, counted};
+use vibroimpact_report::{Units, Varied};
+use vibroimpact_study::{Cut, counted};
 
 /// The number of the orbit, if there are several, and its stability.
-pub(crate) fn chosen(number: Option<OrbitNumber>, stability: Option<Stability>) -> String {
-    let which = number.filter(|among| among.count > 1);
-    let which = which.map_or_else(String::new, |among| format!("orbit {} of {}, ", among.number, among.count));
+pub(crate) fn chosen(orbit: Option<ChosenObject>, stability: Option<Stability>) -> String {
+    let which = orbit.filter(|orbit| orbit.count > 1);
+    let which = which.map_or_else(String::new, |orbit| format!("orbit {} of {}, ", orbit.number, orbit.count));
     format!("{which}{} there", stability.map_or("inadmissible", |stability| stability.name()))
 }
 
@@ -27,89 +29,94 @@ struct Columns {
 }
 
 /// The text of all branches, each with its events and its end.
-pub(crate) fn text<V: Varied>(view: &BranchesView<'_, V>) -> String {
-    let names = view.cut.names().map(|name| name.words(&view.units)).collect();
-    let period = view.machine.is_some_and(|machine| machine.period().is_none());
-    let columns = Columns { names, period };
-    let place = |OriginView { kind, branch, value }: OriginView| {
-        format!("{kind} of branch {branch} at {} {}", columns.names[0], precise(value))
+pub(crate) fn text<V: Varied>(
+    answer: &BranchAnswer<'_>,
+    machine: Option<&Machine>,
+    (cut, units): (&Cut<V>, &Units),
+) -> String {
+    let names = cut.names().map(|name| name.words(units)).collect();
+    let columns = Columns { names, period: machine.is_some_and(|machine| machine.period().is_none()) };
+    let place = |OriginObject { kind, branch, parameter }: OriginObject| {
+        format!("{kind} of branch {branch} at {} {}", columns.names[0], precise(parameter))
     };
     let mut text = String::new();
-    for (k, branch) in view.branches.iter().enumerate() {
-        let points = &branch.points;
-        let count = counted(points.len() as u64, "point");
-        text.push_str(&match branch.origin {
+    for (k, branch) in answer.branches.iter().enumerate() {
+        let count = counted(branch.points.len() as u64, "point");
+        text.push_str(&match branch.from {
             None => {
-                let orbit = chosen(view.number, view.stability);
-                format!("branch 1: {} ({orbit}), {}, {count}\n", view.label, range(&view.cut, &view.units))
+                let orbit = chosen(answer.orbit, answer.stability);
+                format!("branch 1: {} ({orbit}), {}, {count}\n", answer.label, range(cut, units))
             }
             Some(origin) => {
-                let label = points.first().map_or_else(String::new, |point| point.cycle.label().to_string());
+                let label = branch.points.first().map_or("", |point| &point.label);
                 format!("\nbranch {}: {label} from the {}, {count}\n", k + 1, place(origin))
             }
         });
-        text.push_str(&events(points, &columns));
+        text.push_str(&events(branch, &columns));
     }
-    for origin in &view.lost {
+    for origin in &answer.lost {
         let _ = writeln!(text, "\nno branch was found at the {}", place(*origin));
     }
     text
 }
 
 /// One row for each event, and how the branch ends.
-fn events(points: &[PointView<'_>], columns: &Columns) -> String {
-    let period = columns.period.then(|| "period".to_owned());
+fn events(branch: &BranchObject<'_>, columns: &Columns) -> String {
     let heads: Vec<String> = core::iter::once("<event".to_owned())
         .chain(columns.names.iter().cloned())
-        .chain(period)
+        .chain(columns.period.then(|| "period".to_owned()))
         .chain(["<before", "<after", "<"].map(str::to_owned))
         .collect();
-    let all = points.iter().enumerate().filter_map(|(k, point)| Some((k, point, point.event.as_ref()?)));
-    let row = |(k, point, event): (usize, &PointView<'_>, &Event<'_>)| {
-        let (label_before, label_after) = event.labels();
-        let before = beside(k.checked_sub(1).and_then(|k| points.get(k)), &label_before);
-        let after = beside(points.get(k + 1), &label_after);
-        core::iter::once(event.name().to_owned())
-            .chain(point.values.iter().copied().chain(columns.period.then(|| point.cycle.period())).map(precise))
-            .chain([before, after, remark(event)])
-            .collect()
-    };
-    let rows: Vec<Vec<String>> = all.filter(|(.., event)| !event.ends()).map(row).collect();
+    let (ends, passed): (Vec<_>, Vec<_>) = branch.events.iter().partition(|event| event.fields.ends);
+    let rows: Vec<Vec<String>> = passed.into_iter().map(|event| row(branch, event, columns)).collect();
     let mut text = if rows.is_empty() { "  no events on the way\n".to_owned() } else { table(&heads, &rows) };
-    let end = points.last().and_then(|point| Some((point, point.event.as_ref().filter(|event| event.ends())?)));
-    if let Some((point, event)) = end {
+    if let Some(event) = ends.last() {
+        let plain = |(k, _): &(usize, &PointObject<'_>)| branch.event_at(*k).is_none();
+        let before = branch.points.iter().enumerate().rev().find(plain);
+        let before = before.map_or_else(String::new, |(_, point)| state(point));
         // without forcing the label does not say the period
-        let period = columns.period.then(|| format!(", period {}", precise(point.cycle.period())));
-        let value = precise(point.values[0]) + &period.unwrap_or_default();
-        let before = points.iter().rev().find(|point| point.event.is_none()).map_or_else(String::new, state);
-        let _ = writeln!(text, "  ends at {} {value}, {before}: {}{}", columns.names[0], event.name(), because(event));
+        let period = branch.points[event.point].period;
+        let period = if columns.period { format!(", period {}", precise(period)) } else { String::new() };
+        let (value, name, why) = (precise(event.parameter), event.kind, because(&event.event));
+        let _ = writeln!(text, "  ends at {} {value}{period}, {before}: {name}{why}", columns.names[0]);
     }
     text
 }
 
+fn row(branch: &BranchObject<'_>, event: &BranchEventObject<'_>, columns: &Columns) -> Vec<String> {
+    let point = &branch.points[event.point];
+    let before = &event.fields.before;
+    let after = event.fields.after.as_ref().unwrap_or(before);
+    let sides = [beside(branch, event.point.checked_sub(1), before), beside(branch, Some(event.point + 1), after)];
+    core::iter::once(event.kind.to_owned())
+        .chain(point.values().iter().copied().chain(columns.period.then_some(point.period)).map(precise))
+        .chain(sides)
+        .chain([remark(&event.event)])
+        .collect()
+}
+
 /// The stability of a branch next to an event. Unknown if there is no point between two events, because rounding hides
 /// the multipliers there, or if the branch ends at the event.
-fn beside(neighbour: Option<&PointView<'_>>, label: &str) -> String {
-    let Some(point) = neighbour else { return label.to_owned() };
-    match &point.event {
-        None if point.cycle.label().to_string() == label => state(point),
-        Some(event) if event.is_end_of_range() && point.cycle.label().to_string() == label => state(point),
-        Some(event) if event.ends() => format!("{label} not followed"),
+fn beside(branch: &BranchObject<'_>, neighbour: Option<usize>, label: &str) -> String {
+    let Some((k, point)) = neighbour.and_then(|k| Some((k, branch.points.get(k)?))) else { return label.to_owned() };
+    let event = branch.event_at(k);
+    match event {
+        _ if point.label == label && event.is_none_or(|event| event.event.is_end_of_range()) => state(point),
+        Some(event) if event.fields.ends => format!("{label} not followed"),
         _ => format!("{label} unresolved"),
     }
 }
 
 /// The state at a point, such as `1/1 stable`.
-fn state(point: &PointView<'_>) -> String {
-    let stability = if point.admissible { point.cycle.stability().name() } else { "inadmissible" };
-    format!("{} {stability}", point.cycle.label())
+fn state(point: &PointObject<'_>) -> String {
+    format!("{} {}", point.label, if point.admissible { point.stability } else { "inadmissible" })
 }
 
 /// What an event means, without its name.
 pub(crate) fn remark(event: &Event<'_>) -> String {
     match event {
-        Event::Oscillator { point, event } => of_oscillator(point, event),
-        Event::Machine { event, machine, .. } => of_machine(event, machine),
+        Event::Oscillator(point, event) => of_oscillator(point, event),
+        Event::Machine(machine, event) => of_machine(event, machine),
     }
 }
 

@@ -3,41 +3,37 @@
 use crate::report::branch::chosen;
 use crate::report::diagram::over;
 use crate::report::words::table;
-use vibroimpact_report::Varied;
+use vibroimpact_report::json::curve::{CurveAnswer, CurveEventObject};
 use vibroimpact_report::number::precise;
-use vibroimpact_report::solutions::{CurvePointView, CurveView};
-use vibroimpact_study::counted;
+use vibroimpact_report::{Units, Varied};
+use vibroimpact_study::{CurvePlan, counted};
 
 /// The description of a curve, and the events on it from one end to the other.
-pub(crate) fn text<V: Varied>(view: &CurveView<'_, V>) -> String {
-    let [p, q] = view.sides().map(|side| side.parameter.words(&view.units));
-    let at: Vec<String> = view.found_at.iter().map(|value| precise(*value)).collect();
+pub(crate) fn text<V: Varied>(answer: &CurveAnswer<'_>, (plan, units): (&CurvePlan<V>, &Units)) -> String {
+    let [p, q] = [&plan.vary, &plan.and].map(|side| side.parameter.words(units));
+    let at: Vec<String> = answer.found_at.iter().map(|value| precise(*value)).collect();
     let which =
-        if at.len() > 1 { format!(", the curve is that of number {}", view.through + 1) } else { String::new() };
-    let [across, up] = view.sides().map(|side| over(side, &view.units));
+        if at.len() > 1 { format!(", the curve is that of number {}", answer.through.event) } else { String::new() };
     let text = format!(
-        "{} of {} ({})\n  found at {p} {}{which}\n  followed over {across}, {up}: {}\n",
-        view.plan.kind.name(),
-        view.label,
-        chosen(view.number, view.stability),
+        "{} of {} ({})\n  found at {p} {}{which}\n  followed over {}, {}: {}\n",
+        plan.kind.name(),
+        answer.label,
+        chosen(answer.orbit, answer.stability),
         at.join(", "),
-        counted(view.points.len() as u64, "point")
+        over(&plan.vary, units),
+        over(&plan.and, units),
+        counted(answer.points.len() as u64, "point")
     );
-    let rows: Vec<Vec<String>> = (0..view.points.len()).filter_map(|k| row(view, k)).collect();
+    let rows: Vec<Vec<String>> = answer.events.iter().map(|event| row(answer, event)).collect();
     text + &table(&["<event".to_owned(), p, q, "<motion".into()], &rows)
 }
 
-/// The row of point number `k`, if it is an event.
-fn row<V>(view: &CurveView<'_, V>, k: usize) -> Option<Vec<String>> {
-    let all = &view.points;
-    let CurvePointView { event, values: [p, q], cycle, .. } = &all[k];
-    let (name, stop) = (*event)?;
+fn row(answer: &CurveAnswer<'_>, event: &CurveEventObject<'_>) -> Vec<String> {
+    let CurveEventObject { kind, values: [p, q], point, stop } = *event;
     let at = stop.map_or_else(String::new, |stop| format!(" at {stop}"));
     // at an event itself rounding decides, so the neighbouring points are used
-    let around = all.get(k.saturating_sub(1)..all.len().min(k + 2))?;
+    let around = &answer.points[point.saturating_sub(1)..answer.points.len().min(point + 2)];
     let admissible = around.iter().any(|point| point.admissible);
-    // on a curve of an oscillator the cycle may have an impact without speed, which its label does not count
-    let label = if view.machine.is_some() { cycle.label() } else { view.label };
-    let motion = if admissible { label.to_string() } else { "inadmissible".to_owned() };
-    Some(vec![format!("{name}{at}"), precise(*p), precise(*q), motion])
+    let motion = if admissible { &answer.points[point].label } else { "inadmissible" };
+    vec![format!("{kind}{at}"), precise(p), precise(q), motion.to_owned()]
 }

@@ -7,8 +7,8 @@ use std::fmt::Write;
 use vibroimpact::Oscillator;
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::{Stability, Verdict};
+use vibroimpact_report::json::margins::{EndObject, ParameterObject, machine_margins, margins, nearest};
 use vibroimpact_report::number::{percent, precise, short};
-use vibroimpact_report::solutions::{MarginEndView, MarginView, machine_margins, margins, nearest};
 use vibroimpact_report::{Units, Varied};
 use vibroimpact_study::{Loss, MachineMargins, MotionBox, MotionMargins, ParameterMargin, counted};
 
@@ -46,39 +46,35 @@ const fn whole(usual: bool) -> &'static str {
 }
 
 /// One row for each number and direction, and the nearest event.
-fn events(all: &[MarginView<'_>]) -> String {
+fn events(all: &[ParameterObject<'_>]) -> String {
     let heads = ["<parameter", "value", "<way", "event at", "distance", "relative", "<event"].map(str::to_owned);
-    let rows: Vec<Vec<String>> = all.iter().flat_map(|of| of.ends.each_ref().map(|end| row(of, end))).collect();
-    let mut text = table(&heads, &rows);
-    if let Some((of, end, nearest)) = nearest(all) {
-        let _ = writeln!(
-            text,
-            "  nearest: {} at {} {}, {} by {} of {}",
-            nearest.event.name(),
-            of.words,
-            precise(nearest.at),
-            end.direction,
-            percent(nearest.scaled),
-            whole(of.scale == of.value.abs())
-        );
+    let rows = all.iter().flat_map(|of| of.ends().map(|(way, end)| row(of, way, end)));
+    let mut text = table(&heads, &rows.collect::<Vec<_>>());
+    if let Some((of, way, EndObject { at: Some(at), event: Some(event), scaled, .. })) = nearest(all) {
+        let (name, at, change) = (&of.words, precise(*at), percent(*scaled));
+        let whole = whole(of.scale == of.value.abs());
+        let _ = writeln!(text, "  nearest: {} at {name} {at}, {way} by {change} of {whole}", event.kind);
     }
     text
 }
 
-fn row(of: &MarginView<'_>, end: &MarginEndView<'_>) -> Vec<String> {
-    let begin = [of.words.clone(), short(of.value), end.direction.to_owned()];
-    let ends = match &end.nearest {
-        Some(nearest) => {
-            let event = &nearest.event;
-            let relative = nearest.relative.map_or_else(String::new, |share| format!("{:+.2} %", 100.0 * share));
-            let (before, after) = event.labels();
-            let beyond = if event.ends() || after == before { String::new() } else { format!(" to {after}") };
-            let words = format!("{}{beyond}{}", event.name(), because(event));
-            [precise(nearest.at), short(nearest.distance), relative, words]
+fn row(of: &ParameterObject<'_>, way: &str, end: &EndObject<'_>) -> Vec<String> {
+    let ends = match &end.event {
+        Some(event) => {
+            let text = |value: Option<f64>, text: &dyn Fn(f64) -> String| value.map_or_else(String::new, text);
+            let (before, after) = (&event.fields.before, event.fields.after.as_ref());
+            let beyond = after.filter(|after| *after != before);
+            let beyond = beyond.map_or_else(String::new, |after| format!(" to {after}"));
+            [
+                text(end.at, &precise),
+                text(end.distance, &short),
+                text(end.relative, &|share| format!("{:+.2} %", 100.0 * share)),
+                format!("{}{beyond}{}", event.kind, because(&event.event)),
+            ]
         }
         None => [String::new(), String::new(), String::new(), format!("none up to {}", short(end.limit))],
     };
-    begin.into_iter().chain(ends).collect()
+    [of.words.clone(), short(of.value), way.to_owned()].into_iter().chain(ends).collect()
 }
 
 /// The box, and where the motion was lost next to it.

@@ -77,8 +77,10 @@ fn of_oscillator(answer: &oscillator::Answer) -> Result<String, Failure> {
         (Task::Map(task), Results::Map(found)) => map::text(found, task.starts, asked.system.second_stop.is_some()),
         (_, Results::Diagram(found)) => diagram::text(found, units),
         (_, Results::Lyapunov(start, found, _)) => from(start) + "\n" + &lyapunov::text(found, osc.period(), units),
-        (_, Results::Branch(found)) => system() + &branch::text(&answer.branches(found)?),
-        (_, Results::Curve(found)) => system() + &curve::text(&answer.curve(found)?),
+        (_, Results::Branch(found)) => {
+            system() + &branch::text(&answer.branches(found)?, None, (&answer.cut()?, units))
+        }
+        (_, Results::Curve(found)) => system() + &curve::text(&answer.curve(found)?, (&answer.curve_plan()?, units)),
         (Task::Region(task), Results::Region(found)) => {
             let task: RegionPlan = task.typed()?;
             region::text(found, &task, (task.neutral(&asked.system), region::in_closed_form(&task)), units)
@@ -107,9 +109,11 @@ fn of_machine(answer: &MachineAnswer) -> Result<String, Failure> {
         (Task::Orbit { label }, MachineResults::Orbit(found)) => orbit::of_machine(found, label, machine),
         (_, MachineResults::Lyapunov(found, _)) => lyapunov::of_machine(found, machine),
         (_, MachineResults::Branch(found)) => {
-            answer.branches(found)?.map_or_else(String::new, |view| branch::text(&view))
+            branch::text(&answer.branches(found)?, Some(machine), (&answer.cut()?, &Units::default()))
         }
-        (_, MachineResults::Curve(found)) => answer.curve(found)?.map_or_else(String::new, |view| curve::text(&view)),
+        (_, MachineResults::Curve(found)) => {
+            curve::text(&answer.curve(found)?, (&answer.curve_plan()?, &Units::default()))
+        }
         (_, MachineResults::Margins(found)) => margins::of_machine(found, machine),
         (Task::Region(task), MachineResults::Region(found)) => {
             let task: RegionPlan<String> = task.typed()?;

@@ -5,9 +5,12 @@ use crate::answer::Shown;
 use crate::figure::branch::Picture;
 use crate::figure::overlay::Overlay;
 use crate::figure::{coloured, tracks};
+use crate::json::branch::BranchAnswer;
+use crate::json::curve::CurveAnswer;
+use crate::json::margins::machine_margins;
+use crate::json::orbit::OrbitAnswer;
 use crate::response::ResponseView;
 use crate::scene::{self, View};
-use crate::solutions::{BranchesView, CurveView, machine_margins, machine_orbits};
 use crate::{ReportError, Table, Units, figure, table};
 use vibroimpact::continuation::machine::{CurvePoint, SolutionPoint};
 use vibroimpact::events::{Limits, Motion, Start};
@@ -17,8 +20,8 @@ use vibroimpact::verdict::{CountedMotion, Verdict};
 use vibroimpact_plot::{Figure, plain};
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{
-    Branches, Control, Diagram, EventCurve, Plan, PlanError, RegionPlan, ResponseCurves, Results, Simulated, Task,
-    machine, run,
+    Branches, Control, CurvePlan, Cut, Diagram, EventCurve, Plan, PlanError, RegionPlan, ResponseCurves, Results,
+    Simulated, Task, machine, run,
 };
 
 /// The largest number of characters of a title over an axis of ordinary width.
@@ -96,22 +99,21 @@ impl Answer {
                 }
             }
             machine::Results::Branch(found) => {
-                let Some(view) = self.branches(found)? else { return Ok(None) };
-                let path = view.quantity.as_ref().map(|quantity| quantity.path.as_str());
+                let answer = self.branches(found)?;
+                let path = answer.quantity.as_deref();
                 let behind = if shown.diagram { self.behind(path, control)? } else { None };
                 let picture = Picture {
-                    cut: &view.cut,
-                    units: &view.units,
-                    shown: view.quantity.as_ref().map_or(tracks::Shown::Speeds, tracks::Shown::Quantity),
+                    cut: &self.cut()?,
+                    units: &Units::default(),
+                    shown: if path.is_some() { tracks::Shown::Quantity } else { tracks::Shown::Speeds },
                     ordinate: path.map_or_else(|| "speed of closing".to_owned(), plain),
                     behind: behind.as_ref(),
                     inadmissible: false,
                 };
-                figure::branch::figure(view.points(), &picture, title)?
+                figure::branch::figure(&answer.branches, &picture, title)?
             }
             machine::Results::Curve(found) => {
-                let Some(view) = self.curve(found)? else { return Ok(None) };
-                figure::curve::figure(&view, title)
+                figure::curve::figure(&self.curve(found)?, (&self.curve_plan()?, &Units::default()), title)
             }
             machine::Results::Region(found) => {
                 let Task::Region(plan) = &self.plan.task else { return Ok(None) };
@@ -144,7 +146,8 @@ impl Answer {
             }
             machine::Results::Lyapunov(..) => return Ok(None),
             machine::Results::Orbit(found) => {
-                figure::orbits::figure(&machine_orbits(found, &self.machine), "speed of closing".to_owned(), title)
+                let answer = OrbitAnswer::of_machine(&self.machine, found);
+                figure::orbits::figure(&answer, "speed of closing".to_owned(), title)
             }
         }))
     }
@@ -156,29 +159,40 @@ impl Answer {
         Some(ResponseView::of_machine(found, plan, &self.machine))
     }
 
-    /// The branches as they are told; `None` if the plan is that of another task.
+    /// The line of its branches.
     ///
     /// # Errors
-    /// [`PlanError`] for a number that the machine does not have.
-    pub fn branches<'a>(
-        &'a self,
-        found: &'a Branches<Cycle, SolutionPoint>,
-    ) -> Result<Option<BranchesView<'a, String>>, PlanError> {
-        let Task::Branch(plan) = &self.plan.task else { return Ok(None) };
-        let cut = plan.typed::<String>()?.cut(&self.source)?;
-        Ok(Some(BranchesView::of_machine(found, &cut, (&self.machine, &self.source))))
+    /// [`PlanError`] for a number that the machine does not have, and for another task.
+    pub fn cut(&self) -> Result<Cut<String>, PlanError> {
+        let Task::Branch(plan) = &self.plan.task else { return Err(PlanError::NoLabel) };
+        plan.typed::<String>()?.cut(&self.source)
     }
 
-    /// The curve as it is told; `None` if the plan is that of another task.
+    /// The plan of its curve.
     ///
     /// # Errors
-    /// As [`Self::branches`].
+    /// As [`Self::cut`].
+    pub fn curve_plan(&self) -> Result<CurvePlan<String>, PlanError> {
+        if let Task::Curve(plan) = &self.plan.task { plan.typed() } else { Err(PlanError::NoLabel) }
+    }
+
+    /// The answer to `vibro branch`.
+    ///
+    /// # Errors
+    /// As [`Self::cut`].
+    pub fn branches<'a>(&'a self, found: &'a Branches<Cycle, SolutionPoint>) -> Result<BranchAnswer<'a>, PlanError> {
+        Ok(BranchAnswer::of_machine(found, &self.cut()?, (&self.machine, &self.source)))
+    }
+
+    /// The answer to `vibro curve`.
+    ///
+    /// # Errors
+    /// As [`Self::cut`].
     pub fn curve<'a>(
         &'a self,
         found: &'a EventCurve<Cycle, SolutionPoint, CurvePoint>,
-    ) -> Result<Option<CurveView<'a, String>>, PlanError> {
-        let Task::Curve(plan) = &self.plan.task else { return Ok(None) };
-        Ok(Some(CurveView::of_machine(found, plan.typed()?, &self.machine)))
+    ) -> Result<CurveAnswer<'a>, PlanError> {
+        Ok(CurveAnswer::of_machine(&self.machine, &self.curve_plan()?, found))
     }
 
     /// The orbit diagram over the range of a branch, of closings or of a quantity; `None` if there is no machine at one end,
@@ -247,12 +261,11 @@ impl Answer {
             },
             machine::Results::Attractors(census) => table::attractors::of_machine(&self.machine, census),
             machine::Results::Branch(found) => {
-                let Some(view) = self.branches(found)? else { return Ok(None) };
-                table::branch::table(view)
+                table::branch::table(self.branches(found)?, Some(&self.machine), (&self.cut()?, &Units::default()))
             }
             machine::Results::Curve(found) => {
-                let Some(view) = self.curve(found)? else { return Ok(None) };
-                table::curve::table(view)
+                let plan = (&self.curve_plan()?, &Units::default());
+                table::curve::table(self.curve(found)?, Some(&self.machine), plan)
             }
             machine::Results::Margins(found) => table::margins::table(machine_margins(found, &self.machine)),
             machine::Results::Region(found) => {
@@ -268,8 +281,8 @@ impl Answer {
             machine::Results::Diagram(found) => table::diagram::table(found, &self.machine, Units::default())?,
             machine::Results::Lyapunov(_, Some(points)) => table::section::of_machine(&self.machine, points),
             machine::Results::Orbit(found) => {
-                let orbits = machine_orbits(found, &self.machine);
-                table::orbits::table(orbits, Some(&self.machine), &Units::default())
+                let answer = OrbitAnswer::of_machine(&self.machine, found);
+                table::orbits::table(answer, Some(&self.machine), &Units::default())
             }
             machine::Results::Lyapunov(..) => return Ok(None),
         }))

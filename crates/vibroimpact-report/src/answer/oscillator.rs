@@ -4,16 +4,19 @@ use crate::answer::Shown;
 use crate::figure::branch::Picture;
 use crate::figure::plane::varied;
 use crate::figure::{self, coloured, title, tracks};
+use crate::json::branch::BranchAnswer;
+use crate::json::curve::CurveAnswer;
+use crate::json::margins::margins;
+use crate::json::orbit::OrbitAnswer;
 use crate::response::ResponseView;
 use crate::scene::{View, Viewed, phase_portrait};
-use crate::solutions::{BranchesView, CurveView, margins, orbits};
 use crate::{AnswerError, Asked, ReportError, ShownValue as _, Table, table};
 use vibroimpact::verdict::{CountedMotion, PaperRule, PaperVerdict};
 use vibroimpact::{Oscillator, Parameter};
 use vibroimpact_plot::Figure;
 use vibroimpact_study::diagram::Show;
 use vibroimpact_study::{
-    BranchPlan, Branches, Control, EventCurve, Name, Plan, PlanError, RegionPlan, Results, Task, run,
+    BranchPlan, Branches, Control, CurvePlan, Cut, EventCurve, Name, Plan, PlanError, RegionPlan, Results, Task, run,
 };
 
 /// A plan of an oscillator and its result.
@@ -83,7 +86,7 @@ impl Answer {
             }
             (_, Results::Orbit(found)) => {
                 let ordinate = asked.units.named("speed before the impact", "m/s");
-                figure::orbits::figure(&orbits(found, osc, &asked.units), ordinate, title(asked))
+                figure::orbits::figure(&OrbitAnswer::of_oscillator(found, osc, &asked.units), ordinate, title(asked))
             }
             (_, Results::Basin(found)) => figure::basin::figure(found, &asked.units, title(asked))?,
             (_, Results::Map(found)) => {
@@ -100,7 +103,7 @@ impl Answer {
                 figure::response::figure(&view, figure::title_without(asked, &[vary]))
             }
             (Task::Branch(task), Results::Branch(found)) => {
-                let view = self.branches(found)?;
+                let answer = self.branches(found)?;
                 let task: BranchPlan = task.typed()?;
                 let behind = if shown.diagram {
                     let plan = Plan::new(asked.system, task.diagram(&asked.system)?);
@@ -108,21 +111,22 @@ impl Answer {
                 } else {
                     None
                 };
+                let cut = task.cut(&asked.system)?;
                 let picture = Picture {
-                    cut: &view.cut,
-                    units: &view.units,
+                    cut: &cut,
+                    units: &asked.units,
                     shown: tracks::Shown::Speeds,
                     ordinate: Show::Velocity.ordinate(&asked.units),
                     behind: behind.as_ref(),
                     inadmissible: shown.inadmissible,
                 };
-                let varied: Vec<Parameter> = view.cut.names().copied().collect();
-                figure::branch::figure(view.points(), &picture, figure::title_without(asked, &varied))?
+                let varied: Vec<Parameter> = cut.names().copied().collect();
+                figure::branch::figure(&answer.branches, &picture, figure::title_without(asked, &varied))?
             }
             (_, Results::Curve(found)) => {
-                let view = self.curve(found)?;
-                let title = figure::title_without(asked, &view.sides().map(|side| side.parameter));
-                figure::curve::figure(&view, title)
+                let plan = self.curve_plan()?;
+                let title = figure::title_without(asked, &[plan.vary.parameter, plan.and.parameter]);
+                figure::curve::figure(&self.curve(found)?, (&plan, &asked.units), title)
             }
             (Task::Region(task), Results::Region(found)) => {
                 let task: RegionPlan = task.typed()?;
@@ -147,22 +151,37 @@ impl Answer {
         }))
     }
 
-    /// The branches as they are told.
+    /// The line of its branches.
     ///
     /// # Errors
-    /// [`PlanError`] for a plan of another task.
-    pub fn branches<'a>(&'a self, found: &'a Branches) -> Result<BranchesView<'a, Parameter>, PlanError> {
-        let Task::Branch(task) = &self.plan.task else { return Err(PlanError::NoLabel) };
-        Ok(BranchesView::of_oscillator(found, &task.typed::<Parameter>()?.cut(&self.asked.system)?, &self.asked))
+    /// [`PlanError`] for a parameter that the system does not have, and for another task.
+    pub fn cut(&self) -> Result<Cut, PlanError> {
+        let Task::Branch(plan) = &self.plan.task else { return Err(PlanError::NoLabel) };
+        plan.typed::<Parameter>()?.cut(&self.asked.system)
     }
 
-    /// The curve as it is told.
+    /// The plan of its curve.
     ///
     /// # Errors
-    /// As [`Self::branches`].
-    pub fn curve<'a>(&'a self, found: &'a EventCurve) -> Result<CurveView<'a, Parameter>, PlanError> {
-        let Task::Curve(task) = &self.plan.task else { return Err(PlanError::NoLabel) };
-        Ok(CurveView::of_oscillator(found, task.typed()?, &self.asked))
+    /// As [`Self::cut`].
+    pub fn curve_plan(&self) -> Result<CurvePlan, PlanError> {
+        if let Task::Curve(plan) = &self.plan.task { plan.typed() } else { Err(PlanError::NoLabel) }
+    }
+
+    /// The answer to `vibro branch`.
+    ///
+    /// # Errors
+    /// As [`Self::cut`].
+    pub fn branches<'a>(&self, found: &'a Branches) -> Result<BranchAnswer<'a>, PlanError> {
+        Ok(BranchAnswer::of_oscillator(found, &self.cut()?, &self.asked))
+    }
+
+    /// The answer to `vibro curve`.
+    ///
+    /// # Errors
+    /// As [`Self::cut`].
+    pub fn curve<'a>(&self, found: &'a EventCurve) -> Result<CurveAnswer<'a>, PlanError> {
+        Ok(CurveAnswer::of_oscillator(found, &self.curve_plan()?, &self.asked))
     }
 
     /// As [`Answer::table`](super::Answer::table).
@@ -182,13 +201,15 @@ impl Answer {
                 view.table()?.kept()
             }
             (_, Results::Attractors(found)) => table::attractors::table(found, osc, units),
-            (_, Results::Orbit(found)) => table::orbits::table(orbits(found, osc, units), None, units),
+            (_, Results::Orbit(found)) => {
+                table::orbits::table(OrbitAnswer::of_oscillator(found, osc, units), None, units)
+            }
             (_, Results::Basin(found)) => table::basin::table(found, units)?,
             (_, Results::Map(found)) => table::map::table(found, &asked.system, (*units, false))?,
             (_, Results::Diagram(found)) => table::diagram::table(found, &asked.system, *units)?,
             (_, Results::Lyapunov(_, _, Some(points))) => table::section::table(points, osc, *units),
-            (_, Results::Branch(found)) => table::branch::table(self.branches(found)?),
-            (_, Results::Curve(found)) => table::curve::table(self.curve(found)?),
+            (_, Results::Branch(found)) => table::branch::table(self.branches(found)?, None, (&self.cut()?, units)),
+            (_, Results::Curve(found)) => table::curve::table(self.curve(found)?, None, (&self.curve_plan()?, units)),
             (Task::Region(task), Results::Region(found)) => {
                 table::region::table(found, &task.typed::<Parameter>()?, units)
             }

@@ -2,8 +2,8 @@
 
 use crate::figure::label;
 use crate::figure::styles::EVENT_COLOURS;
+use crate::json::margins::ParameterObject;
 use crate::number::short;
-use crate::solutions::MarginView;
 use vibroimpact_plot::{
     Anchor, ClassStyle, Colour, Dash, Figure, FigureAxis, Hatch, Legend, Panel, Pattern, Rect, Rects, SERIES, Stroke,
     Text, Tick, VLine, class_style,
@@ -40,22 +40,21 @@ pub fn shares(found: &[(String, f64)], title: String) -> Figure {
 
 /// The change of each number to its nearest events, in units of its scale, and the size of the box in which the motion was found.
 #[must_use]
-pub fn margins(parameters: &[MarginView<'_>], found_box: Option<f64>, title: String) -> Figure {
+pub fn margins(parameters: &[ParameterObject<'_>], found_box: Option<f64>, title: String) -> Figure {
     let (axis, height) = rows(parameters.iter().map(|of| format!("{} = {}", of.axis, short(of.value))));
     let mut kinds: Vec<&str> = Vec::new();
     let mut bars = Rects::new(Vec::new());
     let mut texts = Vec::new();
     for (k, of) in parameters.iter().enumerate() {
-        for end in &of.ends {
-            let at = end.nearest.as_ref().map(|nearest| nearest.at);
-            let kind = end.nearest.as_ref().map_or("no event", |nearest| nearest.event.name());
+        for (_, end) in of.ends() {
+            let kind = end.event.as_ref().map_or("no event", |event| event.kind);
             let class = kinds.iter().position(|known| *known == kind).unwrap_or_else(|| {
                 kinds.push(kind);
                 kinds.len() - 1
             });
-            let (y, change) = (k as f64, (at.unwrap_or(end.limit) - of.value) / of.scale);
+            let (y, change) = (k as f64, (end.at.unwrap_or(end.limit) - of.value) / of.scale);
             bars.rects.push(Rect { x: (change.min(0.0), change.max(0.0)), y: (y - HALF, y + HALF), class });
-            if let Some(at) = at {
+            if let Some(at) = end.at {
                 let (anchor, dx) = if change < 0.0 { (Anchor::End, -4.0) } else { (Anchor::Start, 4.0) };
                 texts.push(Text::new(change, y, short(at)).anchor(anchor).shift(dx, 4.0));
             }

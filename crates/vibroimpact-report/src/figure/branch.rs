@@ -5,7 +5,7 @@ use crate::figure::diagram::backdrop;
 use crate::figure::styles::BRANCH_MARKS;
 use crate::figure::tracks::{Look, Shown, Track, TrackPoint};
 use crate::figure::{along, label, series, variant};
-use crate::solutions::PointView;
+use crate::json::branch::BranchObject;
 use crate::{ReportError, ShownValue, Units, Varied};
 use std::collections::BTreeMap;
 use vibroimpact_plot::{
@@ -37,7 +37,7 @@ pub(crate) struct Picture<'a, V, S> {
     pub(crate) cut: &'a Cut<V>,
     pub(crate) units: &'a Units,
     /// What is shown of each cycle, and its name.
-    pub(crate) shown: Shown<'a>,
+    pub(crate) shown: Shown,
     pub(crate) ordinate: String,
     /// The orbit diagram of the same from simulation.
     pub(crate) behind: Option<&'a Diagram<V, S>>,
@@ -49,8 +49,8 @@ pub(crate) struct Picture<'a, V, S> {
 ///
 /// # Errors
 /// [`ReportError::Plan`] if a value of the parameter overflows in these units.
-pub(crate) fn figure<'a, V: Varied, S: ShownValue>(
-    branches: impl Iterator<Item = &'a [PointView<'a>]>,
+pub(crate) fn figure<V: Varied, S: ShownValue>(
+    branches: &[BranchObject<'_>],
     picture: &Picture<'_, V, S>,
     title: String,
 ) -> Result<Figure, ReportError> {
@@ -63,7 +63,7 @@ pub(crate) fn figure<'a, V: Varied, S: ShownValue>(
             panel.add(dots);
         }
     }
-    let tracks: Vec<Track> = branches.map(|points| Track::of(points, *shown)).collect();
+    let tracks: Vec<Track> = branches.iter().map(|branch| Track::of(branch, *shown)).collect();
     let legend = draw(&mut panel, &tracks, *inadmissible);
     // a dot of the cloud is too small for the legend
     let simulation = behind.map(|_| Points::new([], [], GREY).size(7.0));

@@ -1,10 +1,10 @@
 //! The impacts of a branch, or its states at phase 0, as curves. Each impact is followed from point to point, and a
 //! curve changes its look where the stability changes. Branches of oscillators and of machines have the same points here.
 
-use crate::BranchQuantity;
-use crate::solutions::{Event, PointView};
+use crate::json::branch::{BranchObject, PointObject};
+use crate::json::event::closings;
+use crate::number::Number;
 use std::collections::BTreeMap;
-use vibroimpact::orbit::Stability;
 use vibroimpact::system::phase;
 
 /// The look of a part of a branch.
@@ -18,11 +18,12 @@ pub(crate) enum Look {
 }
 
 impl Look {
-    const fn of(stability: Stability) -> Self {
-        match stability {
-            Stability::Stable => Self::Stable,
-            Stability::Neutral => Self::Neutral,
-            Stability::Unstable => Self::Unstable,
+    fn of(point: &PointObject<'_>) -> Self {
+        match point.stability {
+            _ if !point.admissible => Self::Virtual,
+            "stable" => Self::Stable,
+            "neutral" => Self::Neutral,
+            _ => Self::Unstable,
         }
     }
 }
@@ -61,42 +62,30 @@ impl TrackPoint {
         self.list.iter().map(|(_, ordinate)| *ordinate).collect()
     }
 
-    fn of(point: &PointView<'_>, what: Shown<'_>) -> Self {
-        let cycle = &point.cycle;
-        let (mut list, mut places, sticks) = (Vec::new(), Vec::new(), cycle.sticks());
-        match what {
-            Shown::Speeds => {
-                for closing in cycle.closings() {
-                    list.push((closing.phase, closing.speed));
-                    places.push(closing.place);
-                }
-            }
-            Shown::Strobes if point.admissible => list = cycle.strobes(),
-            Shown::Strobes => {}
-            Shown::Quantity(quantity) => list.push((0.0, quantity.at(point))),
-        }
-        let (speeds, quantity) = (matches!(what, Shown::Speeds), matches!(what, Shown::Quantity(_)));
-        if !speeds {
-            places = (0..list.len()).map(|k| (0, k)).collect();
-        }
+    /// Point number `k` of a branch.
+    fn of(branch: &BranchObject<'_>, k: usize, what: Shown) -> Self {
+        let (point, event) = (&branch.points[k], branch.event_at(k));
+        let (list, places) = what.list(point);
+        let sticks = point.cycle.iter().any(|event| event.kind == "stick");
+        let changes = event.is_some_and(|event| event.event.changes_closings());
         Self {
-            value: point.values[0],
-            label: cycle.label().to_string(),
-            look: if point.admissible { Look::of(cycle.stability()) } else { Look::Virtual },
-            event: point.event.as_ref().map(Event::name),
+            value: point.parameter,
+            label: point.label.clone(),
+            look: Look::of(point),
+            event: event.map(|event| event.kind),
             list,
             places,
-            turns: !speeds || !sticks,
-            changes: sticks && !quantity && point.event.as_ref().is_some_and(Event::changes_closings),
+            turns: what != Shown::Speeds || !sticks,
+            changes: changes && sticks && what != Shown::Quantity,
         }
     }
 }
 
 impl Track {
     /// A branch, and what is shown of its cycles.
-    pub(crate) fn of(points: &[PointView<'_>], what: Shown<'_>) -> Self {
-        let positions = !matches!(what, Shown::Speeds);
-        Self { points: points.iter().map(|point| TrackPoint::of(point, what)).collect(), positions }
+    pub(crate) fn of(branch: &BranchObject<'_>, what: Shown) -> Self {
+        let points = (0..branch.points.len()).map(|k| TrackPoint::of(branch, k, what));
+        Self { points: points.collect(), positions: what != Shown::Speeds }
     }
 
     /// The square of the distance between two impacts or states.
@@ -148,14 +137,63 @@ impl Track {
 }
 
 /// What is shown of the cycles of a branch.
-#[derive(Clone, Copy)]
-pub(crate) enum Shown<'a> {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Shown {
     /// The speed of each closing.
     Speeds,
     /// The position at phase 0 of the force in each of its periods, of an oscillator.
     Strobes,
-    /// A quantity of a machine.
-    Quantity(&'a BranchQuantity<'a>),
+    /// The quantity of a machine.
+    Quantity,
+}
+
+/// Two numbers that identify each closing, state or value of a point, the second of which is the ordinate, and what identifies it
+/// across points.
+type Listed = (Vec<(f64, f64)>, Vec<(usize, usize)>);
+
+impl Shown {
+    fn list(self, point: &PointObject<'_>) -> Listed {
+        let list = match self {
+            Self::Speeds => return speeds(point),
+            Self::Strobes => point.strobes.clone(),
+            Self::Quantity => vec![(0.0, point.quantity())],
+        };
+        let places = (0..list.len()).map(|k| (0, k)).collect();
+        (list, places)
+    }
+
+    /// The cells of each closing, state or value in a table.
+    pub(crate) fn cells(self, point: &PointObject<'_>) -> Vec<String> {
+        match self {
+            Self::Speeds => closings(&point.cycle)
+                .map(|at| format!("{},{},{}", at.stop, Number(at.phase.unwrap_or(0.0)), Number(at.speed)))
+                .collect(),
+            Self::Strobes => point.strobes.iter().map(|(v, x)| format!("{},{}", Number(*x), Number(*v))).collect(),
+            Self::Quantity => vec![Number(point.quantity()).to_string()],
+        }
+    }
+}
+
+/// The phase and the speed of each closing, and the number of times that the motion sticks before it, and of closings since then: the
+/// number of listed impacts of a chatter varies from point to point. The list begins after the motion sticks on the first of the stops.
+fn speeds(point: &PointObject<'_>) -> Listed {
+    let sticks = point.cycle.iter().enumerate().filter(|(_, event)| event.kind == "stick");
+    let begin = sticks.min_by_key(|(_, event)| event.stop).map_or(0, |(k, _)| k + 1);
+    let (before, after) = point.cycle.split_at(begin);
+    let mut place = (0, 0);
+    let (mut list, mut places) = (Vec::new(), Vec::new());
+    for event in after.iter().chain(before) {
+        match event.kind {
+            "impact" | "close" => {
+                list.push((event.phase.unwrap_or(0.0), event.speed));
+                places.push(place);
+                place.1 += 1;
+            }
+            "stick" => place = (place.0 + 1, 0),
+            _ => {}
+        }
+    }
+    (list, places)
 }
 
 /// Divides a track where its look changes. Consecutive parts share a point.
@@ -182,16 +220,16 @@ fn between(a: &TrackPoint, b: &TrackPoint) -> Look {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solutions::points;
     use crate::{Asked, Units};
     use vibroimpact::continuation::{Branch, BranchOptions, Direction, SolutionPoint};
     use vibroimpact::orbit::{FindOptions, find};
     use vibroimpact::{Label, Oscillator, Parameter};
     use vibroimpact_study::{Cut, SecondStop, SystemPlan};
 
-    /// The points of a branch in one parameter.
-    fn views(all: &[SolutionPoint], vary: Parameter, system: SystemPlan) -> Vec<PointView<'_>> {
-        points(all, &Cut { vary, ends: (0.0, 1.0), also: None }, &Asked { system, units: Units::default() })
+    /// The branch of an oscillator with these points.
+    fn with_points(points: &[SolutionPoint], vary: Parameter, system: SystemPlan) -> BranchObject<'_> {
+        let cut = Cut { vary, ends: (0.0, 1.0), also: None };
+        BranchObject::of_oscillator(points, &cut, &Asked { system, units: Units::default() })
     }
 
     /// A cycle that sticks on both stops: the impacts of each chatter are identified even if the number of impacts
@@ -207,10 +245,10 @@ mod tests {
         let second_stop = Some(SecondStop { gap: 0.25, restitution: 0.5 });
         let system =
             SystemPlan { inverse_beta: Some(2.5), gap: 0.25, restitution: 0.5, second_stop, ..SystemPlan::default() };
-        let points = views(&points, Parameter::SecondGap, system);
-        let [one, two] = [points.first(), points.last()].map(|point| point.unwrap().cycle.closings());
-        assert!(one.len() != two.len() && one.iter().filter(|at| at.place.1 == 0).count() == 2, "{one:?}");
-        let curves = Track::of(&points, Shown::Speeds).curves();
+        let branch = with_points(&points, Parameter::SecondGap, system);
+        let [one, two] = [branch.points.first(), branch.points.last()].map(|point| speeds(point.unwrap()).1);
+        assert!(one.len() != two.len() && one.iter().filter(|place| place.1 == 0).count() == 2, "{one:?}");
+        let curves = Track::of(&branch, Shown::Speeds).curves();
         let (_, ys) = &curves[&("inf/1".to_owned(), Look::Stable)];
         let steps: Vec<f64> = ys.windows(2).map(|pair| (pair[1] - pair[0]).abs()).filter(|s| !s.is_nan()).collect();
         assert!(steps.len() > 500 && steps.iter().all(|step| *step < 0.05), "{:?}", steps.len());
@@ -226,8 +264,8 @@ mod tests {
             let (range, options) = (gap..=to, BranchOptions::default());
             let branch = Branch::new(&osc, &orbit.cycle, Parameter::Gap, range, Direction::Up, options).unwrap();
             let points: Vec<SolutionPoint> = branch.collect();
-            let points = views(&points, Parameter::Gap, SystemPlan::default());
-            let curves = Track::of(&points, Shown::Speeds).curves();
+            let system = SystemPlan { inverse_beta: Some(inverse), gap, restitution: 0.5, ..SystemPlan::default() };
+            let curves = Track::of(&with_points(&points, Parameter::Gap, system), Shown::Speeds).curves();
             for (xs, ys) in curves.values() {
                 for pair in xs.iter().zip(ys).collect::<Vec<_>>().windows(2) {
                     let step = (pair[1].1 - pair[0].1).abs();

@@ -3,8 +3,6 @@
 use super::Document;
 use super::attractors::AttractorsAnswer;
 use super::basin::BasinAnswer;
-use super::branch::BranchAnswer;
-use super::curve::CurveAnswer;
 use super::diagram::DiagramAnswer;
 use super::event::StateObject;
 use super::lyapunov::LyapunovAnswer;
@@ -19,7 +17,6 @@ use super::simulate::SimulateAnswer;
 use super::system::SystemObject;
 use crate::answer::{machine::Answer, oscillator};
 use crate::response::ResponseView;
-use crate::solutions::{machine_margins, machine_orbits, margins, orbits};
 use crate::{PROGRAM, Units};
 use serde::ser::Error;
 use serde::{Serialize, Serializer};
@@ -40,7 +37,7 @@ impl Serialize for oscillator::Answer {
             (Task::Attractors { seed, .. }, Results::Attractors(found)) => {
                 self.document(&[], AttractorsAnswer::of_oscillator(osc, *seed, found, units), to)
             }
-            (_, Results::Orbit(found)) => self.document(&[], OrbitAnswer::new(&orbits(found, osc, units), units), to),
+            (_, Results::Orbit(found)) => self.document(&[], OrbitAnswer::of_oscillator(found, osc, units), to),
             (_, Results::Basin(found)) => {
                 let StartPlan { x, v, phase } = found.plan.start();
                 let start = Start { x: x.unwrap_or_else(|| Start::at_rest(osc).x), v, phase };
@@ -54,12 +51,8 @@ impl Serialize for oscillator::Answer {
             (_, Results::Lyapunov(start, found, _)) => {
                 self.begin(start, LyapunovAnswer::of_oscillator(found, osc, units), to)
             }
-            (_, Results::Branch(found)) => {
-                self.document(&[], BranchAnswer::new(&self.branches(found).map_err(Error::custom)?), to)
-            }
-            (_, Results::Curve(found)) => {
-                self.document(&[], CurveAnswer::new(&self.curve(found).map_err(Error::custom)?), to)
-            }
+            (_, Results::Branch(found)) => self.document(&[], self.branches(found).map_err(Error::custom)?, to),
+            (_, Results::Curve(found)) => self.document(&[], self.curve(found).map_err(Error::custom)?, to),
             (Task::Region(task), Results::Region(found)) => {
                 let task: RegionPlan = task.typed().map_err(Error::custom)?;
                 let answer = RegionAnswer::new(found, &task, task.neutral(&asked.system), units);
@@ -71,9 +64,7 @@ impl Serialize for oscillator::Answer {
                 self.document(&[vary], ResponseAnswer::new(&view), to)
             }
             (_, Results::Margins(found)) => {
-                let motion = MotionObject::of_oscillator(&found.motion, osc, units);
-                let found_box = found.motion_box.as_ref().map(|of| (of, found.parameters.as_slice(), units));
-                let answer = MarginsAnswer::new(motion, &margins(found, units), found_box);
+                let answer = MarginsAnswer::of_oscillator(osc, found, units);
                 match &found.start {
                     Some(start) => self.begin(start, answer, to),
                     None => self.document(&[], answer, to),
@@ -120,22 +111,11 @@ impl Serialize for Answer {
             (Task::Attractors { seed, .. }, machine::Results::Attractors(census)) => {
                 self.document(AttractorsAnswer::of_machine(machine, *seed, census), to)
             }
-            (_, machine::Results::Orbit(found)) => {
-                self.document(OrbitAnswer::new(&machine_orbits(found, machine), &Units::default()), to)
-            }
+            (_, machine::Results::Orbit(found)) => self.document(OrbitAnswer::of_machine(machine, found), to),
             (_, machine::Results::Lyapunov(found, _)) => self.document(LyapunovAnswer::of_machine(machine, found), to),
-            (_, machine::Results::Branch(found)) => {
-                let view = self.branches(found).map_err(Error::custom)?.ok_or_else(|| Error::custom(OTHER))?;
-                self.document(BranchAnswer::new(&view), to)
-            }
-            (_, machine::Results::Curve(found)) => {
-                let view = self.curve(found).map_err(Error::custom)?.ok_or_else(|| Error::custom(OTHER))?;
-                self.document(CurveAnswer::new(&view), to)
-            }
-            (_, machine::Results::Margins(found)) => {
-                let motion = MotionObject::of_machine(machine, &found.motion);
-                self.document(MarginsAnswer::new(motion, &machine_margins(found, machine), None), to)
-            }
+            (_, machine::Results::Branch(found)) => self.document(self.branches(found).map_err(Error::custom)?, to),
+            (_, machine::Results::Curve(found)) => self.document(self.curve(found).map_err(Error::custom)?, to),
+            (_, machine::Results::Margins(found)) => self.document(MarginsAnswer::of_machine(machine, found), to),
             (Task::Region(task), machine::Results::Region(found)) => {
                 let task: RegionPlan<String> = task.typed().map_err(Error::custom)?;
                 self.document(RegionAnswer::new(found, &task, task.neutral(source), &Units::default()), to)

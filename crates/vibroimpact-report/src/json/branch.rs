@@ -1,22 +1,28 @@
 //! Branches of periodic orbits of any system: their points, their events, and the events at which further branches begin.
 
 use super::Pair;
-use super::event::{EventObject, side};
-use super::motion::multipliers;
-use crate::Varied;
-use crate::solutions::{BranchRows, BranchesView, Event, OriginView, PointView};
+use super::event::{self, EventObject, side};
+use super::motion::{drift, multipliers};
+use crate::branch_quantity::BranchQuantity;
+use crate::{Asked, Units, Varied};
 use core::iter::once;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
+use vibroimpact::Label;
 use vibroimpact::continuation::machine;
-use vibroimpact_study::{EventRecord, OrbitNumber};
+use vibroimpact::continuation::{BranchEvent, SolutionPoint};
+use vibroimpact::machine::Machine;
+use vibroimpact::orbit::machine::Cycle;
+use vibroimpact::verdict::Stability;
+use vibroimpact_study::machine::MachineSource;
+use vibroimpact_study::{Branches, Chosen, Cut, EventRecord, Followed, OrbitNumber, Origin};
 
 /// The answer to `vibro branch`.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct BranchAnswer<'a> {
+pub struct BranchAnswer<'a> {
     /// The label of the orbit at which the first branch begins.
-    label: String,
+    pub label: String,
     vary: String,
     from: f64,
     to: f64,
@@ -24,84 +30,127 @@ pub(super) struct BranchAnswer<'a> {
     also: Option<Pair>,
     /// Absent for the motion from the start of a machine.
     #[serde(skip_serializing_if = "Option::is_none")]
-    orbit: Option<ChosenObject>,
-    branches: Vec<BranchObject<'a>>,
+    pub orbit: Option<ChosenObject>,
+    /// The branches; that of the orbit comes first.
+    pub branches: Vec<BranchObject<'a>>,
+    /// The stability of the orbit; none of a solution that is not admissible.
+    #[serde(skip)]
+    pub stability: Option<Stability>,
+    /// Events at which a further branch was expected but could not be followed.
+    #[serde(skip)]
+    pub lost: Vec<OriginObject>,
+    /// The path of the quantity that stands for each cycle of a machine without stops.
+    #[serde(skip)]
+    pub(crate) quantity: Option<String>,
 }
 
 /// The orbit at which the branch begins.
-#[derive(JsonSchema, Serialize)]
-pub(super) struct ChosenObject {
-    number: u32,
-    count: u32,
+#[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
+pub struct ChosenObject {
+    /// Its number, counted from 1.
+    pub number: u32,
+    /// How many orbits with its label there are.
+    pub count: u32,
 }
 
-impl From<OrbitNumber> for ChosenObject {
-    fn from(OrbitNumber { number, count }: OrbitNumber) -> Self {
-        Self { number, count }
+impl ChosenObject {
+    pub(super) fn new<C>(chosen: &Chosen<C>) -> Option<Self> {
+        chosen.among.map(|OrbitNumber { number, count }| Self { number, count })
     }
 }
 
 /// A branch.
 #[derive(JsonSchema, Serialize)]
-struct BranchObject<'a> {
+pub struct BranchObject<'a> {
     /// The event at which it begins; null for that of the orbit that was asked for.
-    from: Option<OriginObject>,
-    points: Vec<PointObject<'a>>,
-    events: Vec<BranchEventObject<'a>>,
+    pub from: Option<OriginObject>,
+    /// Its points.
+    pub points: Vec<PointObject<'a>>,
+    /// Its events.
+    pub events: Vec<BranchEventObject<'a>>,
     /// The event with which it ends.
     end: Option<&'static str>,
 }
 
-#[derive(JsonSchema, Serialize)]
-struct OriginObject {
-    kind: &'static str,
-    parameter: f64,
+/// The event at which a branch begins.
+#[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
+pub struct OriginObject {
+    /// Its kind.
+    pub kind: &'static str,
+    /// The value of the parameter.
+    pub parameter: f64,
     /// Number of the branch of that event, counted from 1; the branch of the chosen orbit is number 1.
-    branch: usize,
+    pub branch: usize,
 }
 
+/// A point of a branch.
 #[derive(JsonSchema, Serialize)]
-struct PointObject<'a> {
-    parameter: f64,
+pub struct PointObject<'a> {
+    /// The value of the parameter.
+    pub parameter: f64,
     /// Values of both parameters, on a line through two.
     #[serde(skip_serializing_if = "Option::is_none")]
-    values: Option<[f64; 2]>,
-    label: String,
+    pub(crate) values: Option<[f64; 2]>,
+    /// The label of the cycle; at an event of the one before it.
+    pub label: String,
     /// The time of one period.
-    period: f64,
-    cycle: Vec<EventObject<'a>>,
-    multipliers: Vec<[f64; 2]>,
+    pub period: f64,
+    pub(crate) cycle: Vec<EventObject<'a>>,
+    pub(crate) multipliers: Vec<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    drift: Option<Map<String, Value>>,
+    pub(crate) drift: Option<Map<String, Value>>,
     /// The quantity that the figure shows, of a machine without stops.
     #[serde(skip_serializing_if = "Option::is_none")]
-    quantities: Option<Map<String, Value>>,
-    stable: bool,
-    stability: &'static str,
-    admissible: bool,
+    pub(crate) quantities: Option<Map<String, Value>>,
+    pub(crate) stable: bool,
+    /// Whether neighbours approach the cycle.
+    pub stability: &'static str,
+    /// Whether it is a motion.
+    pub admissible: bool,
+    /// Velocity and position of an oscillator at phase 0 of the force in each of its periods, where they are shown.
+    #[serde(skip)]
+    pub(crate) strobes: Vec<(f64, f64)>,
 }
 
+/// An event of a branch.
 #[derive(JsonSchema, Serialize)]
-struct BranchEventObject<'a> {
-    kind: &'static str,
-    parameter: f64,
+pub struct BranchEventObject<'a> {
+    /// Its kind.
+    pub kind: &'static str,
+    /// The value of the parameter.
+    pub parameter: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     values: Option<[f64; 2]>,
     /// Index among the points.
-    point: usize,
+    pub point: usize,
+    /// What does not depend on the branch.
     #[serde(flatten)]
-    fields: EventFields<'a>,
+    pub fields: EventFields<'a>,
+    /// The event itself.
+    #[serde(skip)]
+    pub event: Event<'a>,
+}
+
+/// An event of a branch of an oscillator at a point, or of a machine.
+#[derive(Clone, Copy, Debug)]
+pub enum Event<'a> {
+    /// Of an oscillator.
+    Oscillator(&'a SolutionPoint, BranchEvent),
+    /// Of a machine.
+    Machine(&'a Machine, machine::BranchEvent),
 }
 
 /// The fields of an event that do not depend on the branch.
 #[derive(Default, JsonSchema, Serialize)]
-pub(crate) struct EventFields<'a> {
-    ends: bool,
-    /// The labels on both sides; null where the branch ends.
-    pub(crate) before: String,
-    pub(crate) after: Option<String>,
+pub struct EventFields<'a> {
+    /// Whether the branch ends there.
+    pub ends: bool,
+    /// The label before it.
+    pub before: String,
+    /// The label after it; null where the branch ends.
+    pub after: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    stop: Option<&'a str>,
+    pub(crate) stop: Option<&'a str>,
     /// Of a grazing contact, whether an impact appears beyond it or disappears.
     #[serde(skip_serializing_if = "Option::is_none")]
     appears: Option<bool>,
@@ -127,99 +176,236 @@ struct TouchObject {
 }
 
 impl<'a> BranchAnswer<'a> {
-    pub(super) fn new<V: Varied>(view: &BranchesView<'a, V>) -> Self {
-        let (cut, units) = (&view.cut, &view.units);
+    /// The branches along a line. `branch` returns the branch with these points.
+    fn new<C, P, V: Varied>(
+        found: &'a Branches<C, P>,
+        label: Label,
+        (cut, units): (&Cut<V>, &Units),
+        branch: impl Fn(&'a [P]) -> BranchObject<'a>,
+    ) -> Self {
         let unit = cut.vary.unit(units);
+        let origin = |origin: &'a Origin<P>| {
+            let point = branch(core::slice::from_ref(&origin.point));
+            let (kind, parameter) = point.events.first().map_or(("event", f64::NAN), |at| (at.kind, at.parameter));
+            OriginObject { kind, parameter, branch: origin.branch + 1 }
+        };
+        let whole = |of: &'a Followed<P>| BranchObject { from: of.origin.as_ref().map(origin), ..branch(&of.points) };
         Self {
-            label: view.label.to_string(),
+            label: label.to_string(),
             vary: cut.vary.field(units).to_owned(),
             from: cut.ends.0 * unit,
             to: cut.ends.1 * unit,
             also: Pair::of(cut, units),
-            orbit: view.number.map(Into::into),
-            branches: view.branches.iter().map(|branch| BranchObject::new(branch, view)).collect(),
+            orbit: ChosenObject::new(&found.chosen),
+            branches: found.followed.iter().map(whole).collect(),
+            stability: found.chosen.stability,
+            lost: found.lost.iter().map(origin).collect(),
+            quantity: None,
         }
+    }
+
+    /// Those of an oscillator.
+    pub(crate) fn of_oscillator(found: &'a Branches, cut: &Cut, asked: &Asked) -> Self {
+        let branch = |points| BranchObject::of_oscillator(points, cut, asked);
+        Self::new(found, found.chosen.cycle.label, (cut, &asked.units), branch)
+    }
+
+    /// Those of a machine.
+    pub(crate) fn of_machine(
+        found: &'a Branches<Cycle, machine::SolutionPoint>,
+        cut: &Cut<String>,
+        (machine, source): (&'a Machine, &MachineSource),
+    ) -> Self {
+        let quantity = BranchQuantity::of(machine, source, cut, found);
+        let branch = |points| BranchObject::of_machine(points, cut, machine, quantity.as_ref());
+        let answer = Self::new(found, found.chosen.cycle.label, (cut, &Units::default()), branch);
+        Self { quantity: quantity.as_ref().map(|quantity| quantity.path.clone()), ..answer }
     }
 }
 
 impl<'a> BranchObject<'a> {
-    fn new<V: Varied>(branch: &BranchRows<'a>, view: &BranchesView<'a, V>) -> Self {
-        let points = &branch.points;
-        let event = |(k, point): (usize, &PointView<'a>)| Some(BranchEventObject::new(k, point, point.event.as_ref()?));
+    /// A branch of an oscillator with these points.
+    pub(crate) fn of_oscillator(points: &'a [SolutionPoint], cut: &Cut, asked: &Asked) -> Self {
+        let objects = points.iter().map(|point| PointObject::of_oscillator(point, cut, asked));
+        let event = |point: &'a SolutionPoint| {
+            let event = point.event?;
+            Some((Event::Oscillator(point, event), EventFields::of_record(EventRecord::of(point, &event))))
+        };
+        Self::new(objects.collect(), points.iter().map(event))
+    }
+
+    /// A branch of a machine with these points, and a quantity of each.
+    pub(crate) fn of_machine(
+        points: &'a [machine::SolutionPoint],
+        cut: &Cut<String>,
+        machine: &'a Machine,
+        quantity: Option<&BranchQuantity<'_>>,
+    ) -> Self {
+        let objects = points.iter().map(|point| PointObject::of_machine(point, machine, cut, quantity));
+        let event = |k: usize| {
+            let event = points[k].event?;
+            // a point at an event has the cycle before it
+            let labels = (points[k].cycle.label, points.get(k + 1).map(|next| next.cycle.label.to_string()));
+            Some((Event::Machine(machine, event), EventFields::of_machine(event, labels, machine)))
+        };
+        Self::new(objects.collect(), (0..points.len()).map(event))
+    }
+
+    fn new(points: Vec<PointObject<'a>>, events: impl Iterator<Item = Option<(Event<'a>, EventFields<'a>)>>) -> Self {
+        let event = |(k, at): (usize, Option<(Event<'a>, EventFields<'a>)>)| {
+            let (event, fields) = at?;
+            let (parameter, values) = (points[k].parameter, points[k].values);
+            Some(BranchEventObject { kind: event.name(), parameter, values, point: k, fields, event })
+        };
+        let events: Vec<_> = events.enumerate().filter_map(event).collect();
+        let end = events.last().filter(|event| event.point + 1 == points.len()).map(|event| event.kind);
+        Self { from: None, points, events, end }
+    }
+
+    /// The event at a point.
+    #[must_use]
+    pub fn event_at(&self, point: usize) -> Option<&BranchEventObject<'a>> {
+        let place = self.events.binary_search_by_key(&point, |event| event.point).ok()?;
+        Some(&self.events[place])
+    }
+}
+
+impl PointObject<'_> {
+    /// The quantity of a machine without stops.
+    pub(crate) fn quantity(&self) -> f64 {
+        self.quantities.iter().flat_map(Map::values).find_map(Value::as_f64).unwrap_or(f64::NAN)
+    }
+
+    /// The values of all numbers that vary.
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        self.values.as_ref().map_or(core::slice::from_ref(&self.parameter), <[f64; 2]>::as_slice)
+    }
+}
+
+impl PointObject<'static> {
+    fn of_oscillator(point: &SolutionPoint, cut: &Cut, Asked { system, units }: &Asked) -> Self {
+        let (cycle, there) = (&point.cycle, units.at(cut.vary, point.value));
+        let osc = cut.oscillator(system, point.value).ok();
+        let period = osc.map_or(f64::NAN, |osc| f64::from(cycle.label.periods) * osc.period() * there.time());
         Self {
-            from: branch.origin.map(|OriginView { branch, kind, value }| OriginObject {
-                kind,
-                parameter: value,
-                branch,
-            }),
-            points: points.iter().map(|point| PointObject::new(point, view)).collect(),
-            events: points.iter().enumerate().filter_map(event).collect(),
-            end: points.last().and_then(|point| point.event.as_ref()).map(Event::name),
+            parameter: point.value * units.of(cut.vary),
+            values: both(point.value, cut, units),
+            label: cycle.label.to_string(),
+            period,
+            cycle: osc.map_or_else(Vec::new, |osc| event::of_cycle(&osc, cycle, &there)),
+            multipliers: multipliers(&cycle.multipliers),
+            drift: None,
+            quantities: None,
+            stable: point.stable(),
+            stability: point.stability().name(),
+            admissible: point.physical,
+            strobes: Vec::new(),
         }
     }
 }
 
 impl<'a> PointObject<'a> {
-    fn new<V: Varied>(point: &PointView<'a>, view: &BranchesView<'a, V>) -> Self {
-        let cycle = &point.cycle;
+    fn of_machine(
+        point: &'a machine::SolutionPoint,
+        machine: &'a Machine,
+        cut: &Cut<String>,
+        quantity: Option<&BranchQuantity<'_>>,
+    ) -> Self {
+        let machine::SolutionPoint { value, cycle, .. } = point;
         Self {
-            parameter: point.values[0],
-            values: both(point),
-            label: cycle.label().to_string(),
-            period: cycle.period(),
-            cycle: cycle.events(),
-            multipliers: multipliers(cycle.multipliers()),
-            drift: cycle.drift_by_name(|cycle| cycle.drift.clone()),
-            quantities: view.quantity.as_ref().map(|of| once((of.path.clone(), of.at(point).into())).collect()),
-            stable: point.stable(),
+            parameter: *value,
+            values: both(*value, cut, &Units::default()),
+            label: cycle.label.to_string(),
+            period: cycle.period,
+            cycle: cycle.events.iter().map(|event| event::of_machine(machine, event)).collect(),
+            multipliers: multipliers(&cycle.multipliers),
+            drift: drift(machine, cycle),
+            quantities: quantity.map(|quantity| once((quantity.path.clone(), quantity.at(point).into())).collect()),
+            stable: cycle.stable(),
             stability: cycle.stability().name(),
-            admissible: point.admissible,
+            // a branch of a machine ends where its orbit ceases to be admissible
+            admissible: true,
+            strobes: Vec::new(),
         }
     }
 }
 
 /// The values of both parameters at a point of a line through two.
-fn both(point: &PointView<'_>) -> Option<[f64; 2]> {
-    point.values.as_slice().try_into().ok()
+fn both<V: Varied>(value: f64, cut: &Cut<V>, units: &Units) -> Option<[f64; 2]> {
+    let mut values = cut.names().zip(cut.values(value)).map(|(number, value)| value * number.unit(units));
+    Some([values.next()?, values.next()?])
 }
 
-impl<'a> BranchEventObject<'a> {
-    fn new(place: usize, point: &PointView<'a>, event: &Event<'a>) -> Self {
-        Self {
-            kind: event.name(),
-            parameter: point.values[0],
-            values: both(point),
-            point: place,
-            fields: EventFields::new(event),
+impl Event<'_> {
+    /// Its name.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Oscillator(_, event) => event.name(),
+            Self::Machine(_, event) => event.name(),
+        }
+    }
+
+    /// Whether what varies reached the end of its range.
+    #[must_use]
+    pub const fn is_end_of_range(&self) -> bool {
+        use machine::BranchEvent as M;
+        matches!(self, Self::Oscillator(_, BranchEvent::EndOfRange) | Self::Machine(_, M::EndOfRange))
+    }
+
+    /// Whether only the search for the branch ends there, and nothing happens to the motion.
+    pub(crate) const fn is_end_of_search(&self) -> bool {
+        use BranchEvent as E;
+        use machine::BranchEvent as M;
+        match self {
+            Self::Oscillator(_, event) => {
+                matches!(event, E::Closed | E::EndOfRange | E::StepLimit | E::ImpactLimit | E::NoConvergence)
+            }
+            Self::Machine(_, event) => {
+                matches!(event, M::Closed | M::EndOfRange | M::StepLimit | M::Discontinuity | M::NoConvergence)
+            }
+        }
+    }
+
+    /// Whether a cycle that sticks may have other closings with the same label beyond it.
+    pub(crate) const fn changes_closings(&self) -> bool {
+        use BranchEvent as E;
+        use machine::BranchEvent as M;
+        match self {
+            Self::Oscillator(_, event) => matches!(event, E::Grazing { .. } | E::SoftLanding { .. }),
+            Self::Machine(_, event) => {
+                matches!(event, M::Grazing { .. } | M::Sticking { .. } | M::Corner { .. } | M::Change { .. })
+            }
         }
     }
 }
 
 impl<'a> EventFields<'a> {
-    /// Those of an event of any system.
-    pub(crate) fn new(event: &Event<'a>) -> Self {
-        let ends = event.ends();
-        match event {
-            Event::Oscillator { point, event } => EventFields::of_record(EventRecord::of(point, event)),
-            Event::Machine { event: kind, labels: (before, after), .. } => Self {
-                ends,
-                before: before.to_string(),
-                after: after.clone().filter(|_| !ends),
-                stop: event.stop(),
-                ..Self::of_grazing(*kind)
-            },
+    /// Those of an event of a machine, from the labels before and after it.
+    pub(super) fn of_machine(
+        event: machine::BranchEvent,
+        (before, after): (Label, Option<String>),
+        machine: &'a Machine,
+    ) -> Self {
+        let (appears, turns) = match event {
+            machine::BranchEvent::Grazing { appears, turns, .. } => (Some(appears), Some(turns)),
+            _ => (None, None),
+        };
+        Self {
+            ends: event.ends(),
+            before: before.to_string(),
+            after: after.filter(|_| !event.ends()),
+            stop: event.place().map(|place| machine.name_of(place)),
+            appears,
+            turns,
+            ..Self::default()
         }
-    }
-
-    /// What only a grazing contact has.
-    fn of_grazing(event: machine::BranchEvent) -> Self {
-        let machine::BranchEvent::Grazing { appears, turns, .. } = event else { return Self::default() };
-        Self { appears: Some(appears), turns: Some(turns), ..Self::default() }
     }
 }
 
 impl EventFields<'static> {
-    fn of_record(record: EventRecord) -> Self {
+    pub(super) fn of_record(record: EventRecord) -> Self {
         let EventRecord { ends, label_before, label_after, change, impact, side: at, phase, turns, also, .. } = record;
         Self {
             ends,

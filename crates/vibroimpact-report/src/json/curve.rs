@@ -1,17 +1,24 @@
 //! Curves of events in a plane of two parameters: their points, and their points of codimension two.
 
 use super::branch::ChosenObject;
-use super::event::EventObject;
+use super::event::{self, EventObject};
 use super::motion::multipliers;
-use crate::Varied;
-use crate::solutions::{CurvePointView, CurveView};
+use crate::{Asked, Units, Varied};
 use schemars::JsonSchema;
 use serde::Serialize;
+use vibroimpact::Label;
+use vibroimpact::continuation::machine;
+use vibroimpact::continuation::{CurvePoint, machine::SolutionPoint};
+use vibroimpact::machine::Machine;
+use vibroimpact::orbit::machine::Cycle;
+use vibroimpact::verdict::Stability;
+use vibroimpact_study::{CurvePlan, EventCurve};
 
 /// The answer to `vibro curve`. Pairs of values are in the order of `parameters`.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct CurveAnswer<'a> {
-    label: String,
+pub struct CurveAnswer<'a> {
+    /// The label of the orbit on whose branch the event is.
+    pub label: String,
     kind: &'static str,
     /// The stop or joint of a curve of grazing, sticking or holding of a machine, or the stops and joints of a corner.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -19,79 +26,158 @@ pub(super) struct CurveAnswer<'a> {
     parameters: [String; 2],
     /// Absent for the motion from the start of a machine.
     #[serde(skip_serializing_if = "Option::is_none")]
-    orbit: Option<ChosenObject>,
+    pub orbit: Option<ChosenObject>,
     /// Values of the first parameter at the events of this kind on the branch.
-    found_at: Vec<f64>,
+    pub found_at: Vec<f64>,
     /// The number, counted from 1, of the event through which the curve passes, and its index among the points.
-    through: Through,
+    pub through: Through,
+    /// The points from one end to the other.
+    pub points: Vec<PointObject<'a>>,
+    /// The events among them.
+    pub events: Vec<CurveEventObject<'a>>,
+    /// The stability of the orbit; none of a solution that is not admissible.
+    #[serde(skip)]
+    pub stability: Option<Stability>,
+}
+
+/// An event of a branch on a curve.
+#[derive(JsonSchema, Serialize)]
+pub struct Through {
+    /// Its number among those of this kind on the branch.
+    pub event: usize,
+    /// Its index among the points of the curve.
+    pub point: usize,
+}
+
+/// A point of a curve.
+#[derive(JsonSchema, Serialize)]
+pub struct PointObject<'a> {
+    pub(crate) values: [f64; 2],
+    /// The label of the cycle.
+    pub label: String,
+    /// Whether it is a motion.
+    pub admissible: bool,
+    /// The time of one period.
+    pub(crate) period: f64,
+    /// The events; on a grazing curve of an oscillator including the impact of speed zero, on one of a machine without the touch.
+    pub(crate) cycle: Vec<EventObject<'a>>,
+    pub(crate) multipliers: Vec<[f64; 2]>,
+    /// By how much the condition of the curve of a machine fails, and the phase of the touch.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) residual: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) touch: Option<f64>,
+}
+
+/// An event of a curve.
+#[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
+pub struct CurveEventObject<'a> {
+    /// Its kind.
+    pub kind: &'static str,
+    /// The values of both parameters.
+    pub values: [f64; 2],
+    /// Index among the points.
+    pub point: usize,
+    /// The stop or joint of a machine.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stop: Option<&'a str>,
+}
+
+/// Values of both parameters at a point, in the units of the results.
+fn values<V: Varied>((p, q): (f64, f64), plan: &CurvePlan<V>, units: &Units) -> [f64; 2] {
+    [p * plan.vary.parameter.unit(units), q * plan.and.parameter.unit(units)]
+}
+
+/// What the points of a curve are in the answer.
+struct Parts<'a> {
+    found_at: Vec<f64>,
     points: Vec<PointObject<'a>>,
     events: Vec<CurveEventObject<'a>>,
 }
 
-#[derive(JsonSchema, Serialize)]
-struct Through {
-    event: usize,
-    point: usize,
-}
-
-#[derive(JsonSchema, Serialize)]
-struct PointObject<'a> {
-    values: [f64; 2],
-    label: String,
-    admissible: bool,
-    /// The time of one period.
-    period: f64,
-    /// The events; on a grazing curve of an oscillator including the impact of speed zero, on one of a machine without the touch.
-    cycle: Vec<EventObject<'a>>,
-    multipliers: Vec<[f64; 2]>,
-    /// By how much the condition of the curve of a machine fails, and the phase of the touch.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    residual: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    touch: Option<f64>,
-}
-
-#[derive(JsonSchema, Serialize)]
-struct CurveEventObject<'a> {
-    kind: &'static str,
-    values: [f64; 2],
-    point: usize,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    stop: Option<&'a str>,
-}
-
 impl<'a> CurveAnswer<'a> {
-    pub(super) fn new<V: Varied>(view: &CurveView<'a, V>) -> Self {
-        let event = |(k, point): (usize, &CurvePointView<'a>)| {
-            let (kind, stop) = point.event?;
-            Some(CurveEventObject { kind, values: point.values, point: k, stop })
-        };
+    fn new<C, E, P, V: Varied>(
+        (found, label): (&EventCurve<C, E, P>, Label),
+        (plan, units): (&CurvePlan<V>, &Units),
+        of: Vec<&'a str>,
+        Parts { found_at, points, events }: Parts<'a>,
+    ) -> Self {
         Self {
-            label: view.label.to_string(),
-            kind: view.plan.kind.name(),
-            of: view.of.clone(),
-            parameters: view.sides().map(|side| side.parameter.field(&view.units).to_owned()),
-            orbit: view.number.map(Into::into),
-            found_at: view.found_at.clone(),
-            through: Through { event: view.through + 1, point: view.begin },
-            points: view.points.iter().map(PointObject::new).collect(),
-            events: view.points.iter().enumerate().filter_map(event).collect(),
+            label: label.to_string(),
+            kind: plan.kind.name(),
+            of,
+            parameters: [&plan.vary, &plan.and].map(|stretch| stretch.parameter.field(units).to_owned()),
+            orbit: ChosenObject::new(&found.chosen),
+            found_at,
+            through: Through { event: found.through + 1, point: found.begin },
+            points,
+            events,
+            stability: found.chosen.stability,
         }
     }
-}
 
-impl<'a> PointObject<'a> {
-    fn new(point: &CurvePointView<'a>) -> Self {
-        let cycle = &point.cycle;
-        Self {
-            values: point.values,
-            label: cycle.label().to_string(),
-            admissible: point.admissible,
-            period: cycle.period(),
-            cycle: cycle.events(),
-            multipliers: multipliers(cycle.multipliers()),
-            residual: point.residual,
+    /// The event at a point.
+    pub(crate) fn event_at(&self, point: usize) -> Option<&CurveEventObject<'a>> {
+        let place = self.events.binary_search_by_key(&point, |event| event.point).ok()?;
+        Some(&self.events[place])
+    }
+
+    pub(crate) fn of_oscillator(found: &EventCurve, plan: &CurvePlan, Asked { system, units }: &Asked) -> Self {
+        let of = [plan.vary.parameter, plan.and.parameter];
+        let event = |(k, point): (usize, &CurvePoint)| {
+            let kind = point.event?.name();
+            Some(CurveEventObject { kind, values: values(point.values, plan, units), point: k, stop: None })
+        };
+        let point = |point: &CurvePoint| {
+            let there = units.at_both((of[0], of[1]), point.values);
+            let osc = system.with_all(of.into_iter().zip(<[f64; 2]>::from(point.values)));
+            let osc = osc.and_then(|system| system.oscillator()).ok();
+            let periods = f64::from(point.cycle.label.periods);
+            PointObject {
+                values: values(point.values, plan, units),
+                label: point.cycle.label.to_string(),
+                admissible: point.physical,
+                period: osc.map_or(f64::NAN, |osc| periods * osc.period() * there.time()),
+                cycle: osc.map_or_else(Vec::new, |osc| event::of_cycle(&osc, &point.cycle, &there)),
+                multipliers: multipliers(&point.cycle.multipliers),
+                residual: None,
+                touch: None,
+            }
+        };
+        let parts = Parts {
+            found_at: found.events.iter().map(|event| event.value * units.of(plan.vary.parameter)).collect(),
+            points: found.points.iter().map(point).collect(),
+            events: found.points.iter().enumerate().filter_map(event).collect(),
+        };
+        Self::new((found, found.chosen.cycle.label), (plan, units), Vec::new(), parts)
+    }
+
+    pub(crate) fn of_machine(
+        machine: &'a Machine,
+        plan: &CurvePlan<String>,
+        found: &'a EventCurve<Cycle, SolutionPoint, machine::CurvePoint>,
+    ) -> Self {
+        let event = |(k, point): (usize, &machine::CurvePoint)| {
+            let event = point.event?;
+            let stop = event.place().map(|place| machine.name_of(place));
+            Some(CurveEventObject { kind: event.name(), values: point.values.into(), point: k, stop })
+        };
+        let point = |point: &'a machine::CurvePoint| PointObject {
+            values: point.values.into(),
+            label: point.cycle.label.to_string(),
+            admissible: true,
+            period: point.cycle.period,
+            cycle: point.cycle.events.iter().map(|event| event::of_machine(machine, event)).collect(),
+            multipliers: multipliers(&point.cycle.multipliers),
+            residual: Some(point.residual),
             touch: point.touch,
-        }
+        };
+        let parts = Parts {
+            found_at: found.events.iter().map(|event| event.value).collect(),
+            points: found.points.iter().map(point).collect(),
+            events: found.points.iter().enumerate().filter_map(event).collect(),
+        };
+        let of = found.places.iter().map(|place| machine.name_of(*place)).collect();
+        Self::new((found, found.chosen.cycle.label), (plan, &Units::default()), of, parts)
     }
 }

@@ -44,15 +44,15 @@ impl Stops for Machine {
 /// An event of a motion.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct EventObject<'a> {
-    kind: &'static str,
+    pub(crate) kind: &'static str,
     /// The stop, or the friction joint.
-    stop: &'a str,
+    pub(crate) stop: &'a str,
     time: f64,
     /// Phase of the force; absent without forcing.
     #[serde(skip_serializing_if = "Option::is_none")]
-    phase: Option<f64>,
+    pub(crate) phase: Option<f64>,
     /// Speed of closing, or of separation at an opening; never negative.
-    speed: f64,
+    pub(crate) speed: f64,
     /// Where a joint begins to slip: forwards (1) or backwards (-1).
     #[serde(skip_serializing_if = "Option::is_none")]
     direction: Option<f64>,
@@ -125,9 +125,19 @@ impl EventObject<'static> {
     }
 }
 
+/// The closings of stops among events.
+pub(crate) fn closings<'e, 'a>(events: &'e [EventObject<'a>]) -> impl Iterator<Item = &'e EventObject<'a>> + Clone {
+    events.iter().filter(|event| matches!(event.kind, "impact" | "close"))
+}
+
+/// The speed of the fastest closing among events.
+pub(crate) fn fastest(events: &[EventObject<'_>]) -> f64 {
+    closings(events).map(|event| event.speed).fold(0.0, f64::max)
+}
+
 /// The events of a cycle of an oscillator over one period, beginning with its fastest impact, from which times are counted. Of a
 /// complete chatter the first impacts are listed; those that are summed are not.
-pub(crate) fn of_cycle(osc: &Oscillator, cycle: &Cycle, units: &Units) -> Vec<EventObject<'static>> {
+pub(super) fn of_cycle(osc: &Oscillator, cycle: &Cycle, units: &Units) -> Vec<EventObject<'static>> {
     // a release that does not return to itself makes no cycle
     let segments = cycle_segments(osc, cycle).unwrap_or_default();
     let mut events: Vec<Event> = Vec::new();
@@ -179,7 +189,7 @@ pub(crate) fn of_cycle(osc: &Oscillator, cycle: &Cycle, units: &Units) -> Vec<Ev
 
 /// A state from which a motion can be started.
 #[derive(JsonSchema, Serialize)]
-pub(crate) struct StateObject<'a> {
+pub(super) struct StateObject<'a> {
     q: Cow<'a, [f64]>,
     qdot: Cow<'a, [f64]>,
     phase: f64,
@@ -190,7 +200,7 @@ pub(crate) struct StateObject<'a> {
 }
 
 impl<'a> StateObject<'a> {
-    pub(crate) fn of(machine: &Machine, start: &'a events::Start) -> Self {
+    pub(super) fn of(machine: &Machine, start: &'a events::Start) -> Self {
         let events::Start { q, qdot, phase, .. } = start;
         let (contacts, exact) = (contacts(machine, start), exact(start));
         Self { q: q.into(), qdot: qdot.into(), phase: *phase, contacts, exact }
@@ -203,7 +213,7 @@ impl<'a> StateObject<'a> {
     }
 
     /// The state in the middle of the longest flight of a cycle of an oscillator.
-    pub(crate) fn within(osc: &Oscillator, cycle: &Cycle, units: &Units) -> Option<StateObject<'static>> {
+    pub(super) fn within(osc: &Oscillator, cycle: &Cycle, units: &Units) -> Option<StateObject<'static>> {
         let flights = cycle_segments(osc, cycle)?.into_iter().filter_map(|segment| match segment {
             Segment::Flight { flight, duration } => Some((flight, duration)),
             _ => None,
@@ -240,7 +250,7 @@ impl Serialize for EventOf<'_> {
 }
 
 /// An event of a machine.
-pub(crate) fn of_machine<'a>(machine: &'a Machine, event: &'a events::Event) -> EventObject<'a> {
+pub(super) fn of_machine<'a>(machine: &'a Machine, event: &'a events::Event) -> EventObject<'a> {
     // an event of a joint has no speed, but a direction
     let slips = event.kind == events::EventKind::Slip;
     EventObject {

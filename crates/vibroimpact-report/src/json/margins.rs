@@ -1,12 +1,17 @@
 //! The nearest events of a motion in each parameter, and the box of parameters in which the motion was found.
 
-use super::branch::EventFields;
+use super::branch::{Event, EventFields};
 use super::motion::MotionObject;
-use crate::Units;
-use crate::solutions::{MarginEndView, MarginView, nearest};
+use crate::figure::named;
+use crate::{Units, Varied as _};
 use schemars::JsonSchema;
 use serde::Serialize;
-use vibroimpact_study::{MotionBox, ParameterMargin};
+use vibroimpact::Oscillator;
+use vibroimpact::machine::Machine;
+use vibroimpact_plot::plain;
+use vibroimpact_study::{
+    EventRecord, MachineMargins, MarginEnd, MotionBox, MotionMargins, NumberEvent, NumberMargin, ParameterMargin,
+};
 
 /// The answer to `vibro margins`.
 #[derive(JsonSchema, Serialize)]
@@ -18,31 +23,55 @@ pub(super) struct MarginsAnswer<'a> {
     motion_box: Option<BoxObject>,
 }
 
+/// A number with its nearest events.
 #[derive(JsonSchema, Serialize)]
-struct ParameterObject<'a> {
+pub struct ParameterObject<'a> {
     parameter: &'a str,
-    value: f64,
-    scale: f64,
+    /// Its value.
+    pub value: f64,
+    /// The change that counts as 1.
+    pub scale: f64,
     down: EndObject<'a>,
     up: EndObject<'a>,
+    /// Its name in tables, and in sentences and figures.
+    #[serde(skip)]
+    pub(crate) column: &'a str,
+    /// Its name in sentences.
+    #[serde(skip)]
+    pub words: String,
+    #[serde(skip)]
+    pub(crate) axis: String,
 }
 
 /// The nearest event in one direction. Without one, the last four are `null`.
 #[derive(JsonSchema, Serialize)]
-struct EndObject<'a> {
+pub struct EndObject<'a> {
     /// The end of the range in which events are looked for.
-    limit: f64,
-    at: Option<f64>,
-    distance: Option<f64>,
-    relative: Option<f64>,
-    event: Option<MarginEvent<'a>>,
+    pub limit: f64,
+    /// The value at the event.
+    pub at: Option<f64>,
+    /// The change to it.
+    pub distance: Option<f64>,
+    /// The change relative to the size of the value; also `null` for a value of 0.
+    pub relative: Option<f64>,
+    /// The event.
+    pub event: Option<MarginEvent<'a>>,
+    /// The size of the change in units of the scale.
+    #[serde(skip)]
+    pub scaled: f64,
 }
 
+/// The nearest event.
 #[derive(JsonSchema, Serialize)]
-struct MarginEvent<'a> {
-    kind: &'static str,
+pub struct MarginEvent<'a> {
+    /// Its kind.
+    pub kind: &'static str,
+    /// What does not depend on the branch.
     #[serde(flatten)]
-    fields: EventFields<'a>,
+    pub fields: EventFields<'a>,
+    /// The event itself.
+    #[serde(skip)]
+    pub event: Event<'a>,
 }
 
 /// The event with the smallest change in units of the scale of its parameter.
@@ -90,42 +119,105 @@ struct ValueObject {
 }
 
 impl<'a> MarginsAnswer<'a> {
-    /// Of any system; `found_box` is the box around an oscillator's motion.
-    pub(super) fn new(
-        motion: MotionObject<'a>,
-        margins: &[MarginView<'a>],
-        found_box: Option<(&MotionBox, &[ParameterMargin], &Units)>,
-    ) -> Self {
-        let nearest = nearest(margins).map(|(of, end, nearest)| NearestObject {
-            parameter: of.field,
-            direction: end.direction,
-            scaled: nearest.scaled,
+    /// Of any system. An oscillator has a box around its motion.
+    pub(super) fn new(motion: MotionObject<'a>, parameters: Vec<ParameterObject<'a>>) -> Self {
+        let found = nearest(&parameters).map(|(of, direction, end)| NearestObject {
+            parameter: of.parameter,
+            direction,
+            scaled: end.scaled,
         });
-        Self {
-            motion,
-            parameters: margins.iter().map(ParameterObject::new).collect(),
-            nearest,
-            motion_box: found_box.map(|(found, parameters, units)| BoxObject::new(found, parameters, units)),
-        }
+        Self { motion, nearest: found, parameters, motion_box: None }
     }
+
+    pub(super) fn of_oscillator(osc: &Oscillator, found: &'a MotionMargins, units: &Units) -> Self {
+        let of_box = |of: &MotionBox| BoxObject::new(of, &found.parameters, units);
+        let motion_box = found.motion_box.as_ref().map(of_box);
+        Self { motion_box, ..Self::new(MotionObject::of_oscillator(&found.motion, osc, units), margins(found, units)) }
+    }
+
+    pub(super) fn of_machine(machine: &'a Machine, found: &'a MachineMargins) -> Self {
+        Self::new(MotionObject::of_machine(machine, &found.motion), machine_margins(found, machine))
+    }
+}
+
+/// The numbers of an oscillator with their nearest events.
+#[must_use]
+pub fn margins<'a>(found: &'a MotionMargins, units: &Units) -> Vec<ParameterObject<'a>> {
+    found.parameters.iter().map(|margin| ParameterObject::of_oscillator(margin, units)).collect()
+}
+
+/// The numbers of a machine with their nearest events.
+#[must_use]
+pub fn machine_margins<'a>(found: &'a MachineMargins, machine: &'a Machine) -> Vec<ParameterObject<'a>> {
+    found.numbers.iter().map(|number| ParameterObject::of_machine(machine, number)).collect()
+}
+
+/// The number, the direction and the event with the smallest change in units of the scale of its number.
+#[must_use]
+pub fn nearest<'v, 'a>(
+    all: &'v [ParameterObject<'a>],
+) -> Option<(&'v ParameterObject<'a>, &'static str, &'v EndObject<'a>)> {
+    let ends = all.iter().flat_map(|of| of.ends().map(move |(direction, end)| (of, direction, end)));
+    ends.filter(|(.., end)| end.event.is_some()).min_by(|a, b| a.2.scaled.total_cmp(&b.2.scaled))
 }
 
 impl<'a> ParameterObject<'a> {
-    fn new(of: &MarginView<'a>) -> Self {
-        let [down, up] = of.ends.each_ref().map(EndObject::new);
-        Self { parameter: of.field, value: of.value, scale: of.scale, down, up }
+    /// Both directions.
+    #[must_use]
+    pub const fn ends(&self) -> [(&'static str, &EndObject<'a>); 2] {
+        [("down", &self.down), ("up", &self.up)]
     }
-}
 
-impl<'a> EndObject<'a> {
-    fn new(end: &MarginEndView<'a>) -> Self {
-        let nearest = end.nearest.as_ref();
+    fn of_machine(machine: &'a Machine, number: &'a NumberMargin) -> Self {
+        let NumberMargin { path, value, .. } = number;
+        let [down, up] = number.ends().map(|(_, limit, event)| {
+            let at = event.map(|event| event.point.value);
+            let event = event.and_then(|NumberEvent { point, after }| {
+                let kind = point.event?;
+                let fields = EventFields::of_machine(kind, (point.cycle.label, after.clone()), machine);
+                Some(MarginEvent { kind: kind.name(), fields, event: Event::Machine(machine, kind) })
+            });
+            EndObject {
+                limit,
+                at,
+                distance: at.map(|at| at - value),
+                relative: at.filter(|_| *value != 0.0).map(|at| (at - value) / value.abs()),
+                event,
+                scaled: at.map_or(f64::NAN, |at| (at - value).abs() / number.scale()),
+            }
+        });
+        let (words, axis) = (path.clone(), plain(path));
+        Self { parameter: path, value: *value, scale: number.scale(), down, up, column: path, words, axis }
+    }
+
+    fn of_oscillator(margin: &'a ParameterMargin, units: &Units) -> Self {
+        let scope = &margin.scope;
+        let (parameter, unit) = (scope.parameter, units.of(scope.parameter));
+        let end = |end: &'a MarginEnd, limit: f64| {
+            let at = end.point.as_ref().and_then(|point| Some((point, point.event?)));
+            let event = at.map(|(point, event)| MarginEvent {
+                kind: event.name(),
+                fields: EventFields::of_record(EventRecord::of(point, &event)),
+                event: Event::Oscillator(point, event),
+            });
+            EndObject {
+                limit: limit * unit,
+                at: at.map(|_| end.value * unit),
+                distance: at.map(|_| end.distance(scope) * unit),
+                relative: at.and_then(|_| end.relative(scope)),
+                event,
+                scaled: end.distance(scope).abs() / scope.scale,
+            }
+        };
         Self {
-            limit: end.limit,
-            at: nearest.map(|of| of.at),
-            distance: nearest.map(|of| of.distance),
-            relative: nearest.and_then(|of| of.relative),
-            event: nearest.map(|of| MarginEvent { kind: of.event.name(), fields: EventFields::new(&of.event) }),
+            parameter: units.name_of(parameter),
+            value: scope.value * unit,
+            scale: scope.scale * unit,
+            down: end(&margin.down, scope.low),
+            up: end(&margin.up, scope.high),
+            column: units.column_of(parameter),
+            words: parameter.words(units),
+            axis: named(parameter, units),
         }
     }
 }

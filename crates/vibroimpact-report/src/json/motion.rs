@@ -1,46 +1,47 @@
 //! A steady motion of any system: its label, the events of its cycle, its stability, and the grounds of the verdict.
 
-use super::event::{EventObject, StateObject, side};
+use super::event::{self, EventObject, StateObject, side};
 use super::quantities;
 use crate::Units;
-use crate::solutions::CycleView;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
-use vibroimpact::Oscillator;
 use vibroimpact::chaos::{Measured, Spectrum};
 use vibroimpact::events::End;
 use vibroimpact::flight::Horizon;
 use vibroimpact::machine::Machine;
 use vibroimpact::math::Multiplier;
+use vibroimpact::orbit::Cycle;
 use vibroimpact::orbit::machine;
-use vibroimpact::quantities::{errors_of_verdict, machine_quantities, of_verdict};
+use vibroimpact::quantities::{errors_of_verdict, machine_cycle_quantities, machine_quantities, of_verdict};
 use vibroimpact::verdict::{Chaos, Count, NoImpact, Stability, Undecided, UndecidedCause, Verdict};
+use vibroimpact::{Oscillator, Side};
+use vibroimpact_study::ImpactsByStop;
 
 /// The JSON object of a motion.
 #[derive(Default, JsonSchema, Serialize)]
-pub(super) struct MotionObject<'a> {
+pub(crate) struct MotionObject<'a> {
     kind: &'static str,
-    label: String,
+    pub(crate) label: String,
     impacts: Option<u32>,
     periods: Option<u32>,
     /// The time of one period of a cycle.
     #[serde(skip_serializing_if = "Option::is_none")]
-    period: Option<f64>,
+    pub(crate) period: Option<f64>,
     /// Rests on stops, and holds of joints, in one period.
     sticks: Option<usize>,
-    stable: Option<bool>,
-    stability: Option<&'static str>,
+    pub(crate) stable: Option<bool>,
+    pub(crate) stability: Option<&'static str>,
     /// Closings of each stop in one period; null for infinitely many.
     #[serde(skip_serializing_if = "Option::is_none")]
     counts: Option<Map<String, Value>>,
-    multipliers: Option<Vec<[f64; 2]>>,
+    pub(crate) multipliers: Option<Vec<[f64; 2]>>,
     /// By how much each coordinate moves on in one period, and the mean velocity of this, in machines that can be translated.
     #[serde(skip_serializing_if = "Option::is_none")]
     drift: Option<Map<String, Value>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     drift_velocity: Option<Map<String, Value>>,
-    cycle: Vec<EventObject<'a>>,
+    pub(crate) cycle: Vec<EventObject<'a>>,
     /// The first stop that stays closed for ever, where the structure rests, and all of them, which compliant ones can be
     /// without a rest.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -156,9 +157,9 @@ impl HorizonObject {
     }
 }
 
-impl<'a> MotionObject<'a> {
+impl MotionObject<'static> {
     /// The motion of an oscillator, in these units.
-    pub(super) fn of_oscillator(verdict: &'a Verdict, osc: &Oscillator, units: &Units) -> Self {
+    pub(super) fn of_oscillator(verdict: &Verdict, osc: &Oscillator, units: &Units) -> Self {
         let stability = verdict.stability(osc);
         let bare = Self {
             kind: "undecided",
@@ -174,7 +175,17 @@ impl<'a> MotionObject<'a> {
         };
         let largest = |of: &[Measured; 2]| Estimate::per_time(of[0], units);
         match verdict {
-            Verdict::Periodic(cycle) => Self::of_cycle(&CycleView::of_oscillator(cycle, Some(*osc), *units)),
+            Verdict::Periodic(cycle) => Self {
+                kind: "periodic",
+                impacts: finite(cycle.label.impacts),
+                periods: Some(cycle.label.periods),
+                period: Some(f64::from(cycle.label.periods) * osc.period() * units.time()),
+                sticks: Some(cycle.rests.len()),
+                cycle: event::of_cycle(osc, cycle, units),
+                state: StateObject::within(osc, cycle, units),
+                residual: Some(cycle.residual),
+                ..bare
+            },
             Verdict::NoImpact(no_impact) => Self {
                 kind: "no_impact",
                 impacts: Some(0),
@@ -219,27 +230,28 @@ impl<'a> MotionObject<'a> {
 }
 
 impl<'a> MotionObject<'a> {
-    /// A cycle of any system.
-    pub(super) fn of_cycle(cycle: &CycleView<'a>) -> Self {
-        let (label, stability) = (cycle.label(), cycle.stability());
+    /// A cycle of a machine.
+    pub(super) fn of_cycle(machine: &'a Machine, cycle: &'a machine::Cycle) -> Self {
+        let counts = machine.stops().iter().zip(&cycle.counts);
+        let sticks = cycle.events.iter().filter(|event| matches!(event.kind.name(), "stick" | "hold")).count();
         Self {
             kind: "periodic",
-            label: label.to_string(),
-            impacts: finite(label.impacts),
+            label: cycle.label.to_string(),
+            impacts: finite(cycle.label.impacts),
             // 0 stands for no forcing
-            periods: Some(label.periods).filter(|periods| *periods > 0),
-            period: Some(cycle.period()),
-            sticks: Some(cycle.rests()),
-            stable: Some(stability.is_stable()),
-            stability: Some(stability.name()),
-            counts: Some(cycle.counts()),
-            multipliers: Some(multipliers(cycle.multipliers())),
-            drift: cycle.drift_by_name(|cycle| cycle.drift.clone()),
-            drift_velocity: cycle.drift_by_name(machine::Cycle::drift_velocity),
-            cycle: cycle.events(),
-            state: cycle.state(),
-            residual: Some(cycle.residual()),
-            quantities: cycle.quantities(),
+            periods: Some(cycle.label.periods).filter(|periods| *periods > 0),
+            period: Some(cycle.period),
+            sticks: Some(sticks),
+            stable: Some(cycle.stable()),
+            stability: Some(cycle.stability().name()),
+            counts: Some(counts.map(|(stop, count)| (stop.name.clone(), Value::from(*count))).collect()),
+            multipliers: Some(multipliers(&cycle.multipliers)),
+            drift: drift(machine, cycle),
+            drift_velocity: (cycle.translations() > 0).then(|| by_coordinate(machine, &cycle.drift_velocity())),
+            cycle: cycle.events.iter().map(|event| event::of_machine(machine, event)).collect(),
+            state: Some(StateObject::of(machine, &cycle.state)),
+            residual: Some(cycle.residual),
+            quantities: machine_cycle_quantities(machine, cycle).map(|found| quantities::of_machine(machine, &found)),
             ..Self::default()
         }
     }
@@ -247,7 +259,7 @@ impl<'a> MotionObject<'a> {
     /// The motion of a machine.
     pub(super) fn of_machine(machine: &'a Machine, verdict: &'a Verdict<Machine>) -> Self {
         if let Verdict::Periodic(cycle) = verdict {
-            return Self::of_cycle(&CycleView::of_machine(cycle, machine));
+            return Self::of_cycle(machine, cycle);
         }
         let found = machine_quantities(machine, verdict);
         let stability = verdict.stability(machine);
@@ -261,7 +273,7 @@ impl<'a> MotionObject<'a> {
             ..Self::default()
         };
         match verdict {
-            Verdict::Periodic(cycle) => Self::of_cycle(&CycleView::of_machine(cycle, machine)),
+            Verdict::Periodic(cycle) => Self::of_cycle(machine, cycle),
             Verdict::NoImpact(_) => Self { impacts: Some(0), stops, ..plain("no_impact") },
             Verdict::Stuck(_) => Self { impacts: Some(0), stop: stops.first().copied(), stops, ..plain("stuck") },
             Verdict::Chaotic(Chaos { spectrum, impacts: events, .. }) => Self {
@@ -291,12 +303,23 @@ const fn finite(impacts: Count) -> Option<u32> {
 
 /// Impacts on each stop of an oscillator in one period; `None` if the motion does not repeat.
 fn counts(osc: &Oscillator, verdict: &Verdict) -> Option<Map<String, Value>> {
-    let quiet = match verdict {
-        Verdict::NoImpact(NoImpact::ForPeriods(_)) => false,
-        Verdict::NoImpact(_) | Verdict::Stuck(_) => true,
-        Verdict::Periodic(_) | Verdict::Chaotic(_) | Verdict::Undecided(_) => false,
+    let by = match verdict {
+        Verdict::Periodic(cycle) => ImpactsByStop::of_cycle(cycle),
+        Verdict::NoImpact(NoImpact::ForPeriods(_)) | Verdict::Chaotic(_) | Verdict::Undecided(_) => return None,
+        Verdict::NoImpact(_) | Verdict::Stuck(_) => ImpactsByStop { upper: Some(0), lower: Some(0) },
     };
-    quiet.then(|| osc.stops().map(|(at, _)| (side(at).to_owned(), 0.into())).collect())
+    let count = |at: Side| if at == Side::Upper { by.upper } else { by.lower };
+    Some(osc.stops().map(|(at, _)| (side(at).to_owned(), count(at).into())).collect())
+}
+
+/// The drift of a cycle by coordinate; `None` in a machine without free translations.
+pub(super) fn drift(machine: &Machine, cycle: &machine::Cycle) -> Option<Map<String, Value>> {
+    (cycle.translations() > 0).then(|| by_coordinate(machine, &cycle.drift))
+}
+
+fn by_coordinate(machine: &Machine, values: &[f64]) -> Map<String, Value> {
+    let names = machine.parts().coordinates.iter().cloned();
+    names.zip(values.iter().map(|value| Value::from(*value))).collect()
 }
 
 /// The real and the imaginary part of each.
@@ -339,4 +362,9 @@ pub fn text(verdict: &Verdict, osc: &Oscillator) -> String {
 pub fn horizon(no_impact: &NoImpact) -> String {
     // texts and numbers can always be written as JSON
     serde_json::to_string(&HorizonObject::new(no_impact)).unwrap_or_default()
+}
+
+/// The cycle of an oscillator as a motion.
+pub(super) fn of_oscillator_cycle(cycle: &Cycle, osc: &Oscillator, units: &Units) -> MotionObject<'static> {
+    MotionObject::of_oscillator(&Verdict::Periodic(cycle.clone()), osc, units)
 }

@@ -1,25 +1,26 @@
 //! The orbits with a label: admissible ones and inadmissible solutions of the equations.
 
 use super::event::side;
-use super::motion::MotionObject;
+use super::motion::{MotionObject, of_oscillator_cycle};
 use crate::Units;
-use crate::solutions::OrbitView;
 use schemars::JsonSchema;
 use serde::Serialize;
-use vibroimpact::orbit::EarlierContact;
+use vibroimpact::Oscillator;
+use vibroimpact::machine::Machine;
+use vibroimpact::orbit::{EarlierContact, Orbit, machine::Cycle};
 
 /// The answer to `vibro orbit`.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct OrbitAnswer<'a> {
-    orbits: Vec<OrbitObject<'a>>,
+pub(crate) struct OrbitAnswer<'a> {
+    pub(crate) orbits: Vec<OrbitObject<'a>>,
 }
 
 /// One orbit.
 #[derive(JsonSchema, Serialize)]
-struct OrbitObject<'a> {
+pub(crate) struct OrbitObject<'a> {
     #[serde(flatten)]
-    motion: MotionObject<'a>,
-    admissible: bool,
+    pub(crate) motion: MotionObject<'a>,
+    pub(crate) admissible: bool,
     earlier_contact: Option<ContactObject>,
 }
 
@@ -33,23 +34,32 @@ struct ContactObject {
 }
 
 impl<'a> OrbitAnswer<'a> {
-    /// Of any system, in these units.
-    pub(super) fn new(orbits: &[OrbitView<'a>], units: &Units) -> Self {
-        Self { orbits: orbits.iter().map(|orbit| OrbitObject::new(orbit, units)).collect() }
+    pub(crate) fn of_oscillator(found: &[Orbit], osc: &Oscillator, units: &Units) -> Self {
+        Self { orbits: found.iter().map(|orbit| OrbitObject::new(orbit, osc, units)).collect() }
+    }
+
+    pub(crate) fn of_machine(machine: &'a Machine, found: &'a [Cycle]) -> Self {
+        let orbit = |cycle| OrbitObject {
+            motion: MotionObject::of_cycle(machine, cycle),
+            // others are not found
+            admissible: true,
+            earlier_contact: None,
+        };
+        Self { orbits: found.iter().map(orbit).collect() }
     }
 }
 
-impl<'a> OrbitObject<'a> {
-    fn new(orbit: &OrbitView<'a>, units: &Units) -> Self {
+impl OrbitObject<'_> {
+    fn new(orbit: &Orbit, osc: &Oscillator, units: &Units) -> Self {
         let earlier = |contact: EarlierContact| ContactObject {
-            after_impact: orbit.has_impacts().then_some(contact.flight + 1),
+            after_impact: (!orbit.cycle.points.is_empty()).then_some(contact.flight + 1),
             stop: side(contact.side),
             time: contact.time * units.time(),
         };
         Self {
-            motion: MotionObject::of_cycle(&orbit.cycle),
-            admissible: orbit.admissible,
+            admissible: orbit.physical,
             earlier_contact: orbit.earlier.map(earlier),
+            motion: of_oscillator_cycle(&orbit.cycle, osc, units),
         }
     }
 }

@@ -2,9 +2,9 @@
 
 use super::{Table, diagram};
 use crate::figure::tracks::Shown;
+use crate::json::branch::BranchObject;
 use crate::json::event::Stops;
 use crate::number::Number;
-use crate::solutions::PointView;
 use crate::{ShownValue, Units, Varied};
 use vibroimpact_study::PlanError;
 use vibroimpact_study::diagram::Diagram;
@@ -19,33 +19,19 @@ use vibroimpact_study::diagram::Diagram;
 pub(crate) fn table<V: Varied, S: ShownValue>(
     (behind, units): (&Diagram<V, S>, &Units),
     system: &impl Stops,
-    branches: &[Vec<PointView<'_>>],
-    shown: Shown<'_>,
+    branches: &[BranchObject<'_>],
+    shown: Shown,
 ) -> Result<Table<'static>, PlanError> {
     let simulated = diagram::table(behind, system, *units)?;
     let header = format!("{},label,event", simulated.header);
     let mut rows: Vec<String> = simulated.rows.map(|row| format!("{row},,")).collect();
-    for (number, points) in branches.iter().enumerate() {
-        for point in points.iter().filter(|point| point.admissible) {
-            let values: String = point.values.iter().map(|value| format!("{},", Number(*value))).collect();
-            let (label, stability) = (point.cycle.label(), point.cycle.stability());
-            let row =
-                |cells| format!("{values}branch {},{stability},{cells},{label},{}", number + 1, point.event_name());
-            rows.extend(cells(point, shown).into_iter().map(row));
+    for (number, branch) in branches.iter().enumerate() {
+        for (k, point) in branch.points.iter().enumerate().filter(|(_, point)| point.admissible) {
+            let values: String = point.values().iter().map(|value| format!("{},", Number(*value))).collect();
+            let event = branch.event_at(k).map_or("", |event| event.kind);
+            let head = format!("{values}branch {},{}", number + 1, point.stability);
+            rows.extend(shown.cells(point).into_iter().map(|cells| format!("{head},{cells},{},{event}", point.label)));
         }
     }
     Ok(Table::new(header, rows.into_iter()))
-}
-
-/// The cells of each closing, state or value that is shown of a point.
-fn cells(point: &PointView<'_>, shown: Shown<'_>) -> Vec<String> {
-    let cycle = &point.cycle;
-    match shown {
-        Shown::Quantity(quantity) => vec![Number(quantity.at(point)).to_string()],
-        Shown::Strobes => cycle.strobes().into_iter().map(|(v, x)| format!("{},{}", Number(x), Number(v))).collect(),
-        Shown::Speeds => {
-            let closings = cycle.closings().into_iter();
-            closings.map(|at| format!("{},{},{}", at.stop, Number(at.phase), Number(at.speed))).collect()
-        }
-    }
 }

@@ -1,30 +1,44 @@
 //! Branches of periodic orbits: one row for each point.
 
 use super::Table;
-use super::cycle::Columns;
-use crate::Varied;
+use super::cycle::{Cells, Columns};
+use crate::json::branch::{BranchAnswer, BranchEventObject, PointObject};
+use crate::json::event::fastest;
 use crate::number::Number;
-use crate::solutions::{BranchesView, Event, PointView};
+use crate::{Units, Varied};
 use vibroimpact::QuantityKind;
+use vibroimpact::machine::Machine;
+use vibroimpact_study::Cut;
 
 /// The table of `vibro branch`; of a machine that can be translated with the drift, and without forcing with the period.
-#[must_use]
-pub fn table<'a, V: Varied>(view: BranchesView<'a, V>) -> Table<'a> {
-    let mut points = view.branches.iter().flat_map(|branch| &branch.points);
-    let columns = Columns::new(view.machine, &view.units, points.any(|point| point.cycle.drift().is_some()));
-    let fastest = view.units.column("fastest", QuantityKind::Velocity);
-    let (varied, cycle) = (view.columns().join(","), columns.names());
-    let header = format!("branch,{varied},label,admissible,stable,stability,event,stop,{fastest},{cycle}");
-    let points = view.branches.into_iter().enumerate();
-    let points = points.flat_map(|(k, branch)| branch.points.into_iter().map(move |point| (k + 1, point)));
-    Table::new(header, points.map(move |(branch, point)| row(branch, &point, &columns)))
+pub(crate) fn table<'a, V: Varied>(
+    answer: BranchAnswer<'a>,
+    machine: Option<&Machine>,
+    (cut, units): (&Cut<V>, &Units),
+) -> Table<'a> {
+    let mut points = answer.branches.iter().flat_map(|branch| &branch.points);
+    let columns = Columns::new(machine, units, points.any(|point| point.drift.is_some()));
+    let varied: Vec<&str> = cut.names().map(|name| name.column(units)).collect();
+    let (varied, speed) = (varied.join(","), units.column("fastest", QuantityKind::Velocity));
+    let header = format!("branch,{varied},label,admissible,stable,stability,event,stop,{speed},{}", columns.names());
+    let rows = answer.branches.into_iter().enumerate().flat_map(move |(number, branch)| {
+        let points = branch.points.iter().enumerate();
+        let rows = points.map(|(k, point)| format!("{},{}", number + 1, row(point, branch.event_at(k), &columns)));
+        rows.collect::<Vec<_>>()
+    });
+    Table::new(header, rows)
 }
 
-fn row(branch: usize, point: &PointView<'_>, columns: &Columns) -> String {
-    let values: String = point.values.iter().map(|value| format!("{},", Number(*value))).collect();
-    let (cycle, admissible, stable, event) = (&point.cycle, point.admissible, point.stable(), point.event_name());
-    let stop = point.event.as_ref().and_then(Event::stop).unwrap_or_default();
-    let (label, stability) = (cycle.label(), cycle.stability());
-    let (fastest, cycle) = (Number(cycle.fastest()), columns.cells(cycle));
-    format!("{branch},{values}{label},{admissible},{stable},{stability},{event},{stop},{fastest}{cycle}")
+fn row(point: &PointObject<'_>, event: Option<&BranchEventObject<'_>>, columns: &Columns) -> String {
+    let values: String = point.values().iter().map(|value| format!("{},", Number(*value))).collect();
+    let PointObject { label, admissible, stable, stability, .. } = point;
+    let (kind, stop) = event.map_or(("", ""), |event| (event.kind, event.fields.stop.unwrap_or_default()));
+    let cells = columns.cells(&Cells {
+        multipliers: &point.multipliers,
+        drift: point.drift.as_ref(),
+        events: &point.cycle,
+        period: point.period,
+    });
+    let fastest = Number(fastest(&point.cycle));
+    format!("{values}{label},{admissible},{stable},{stability},{kind},{stop},{fastest}{cells}")
 }

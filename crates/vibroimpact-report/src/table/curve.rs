@@ -1,31 +1,41 @@
 //! Curves of events in a plane of two parameters: one row for each point.
 
 use super::Table;
-use super::cycle::Columns;
-use crate::Varied;
+use super::cycle::{Cells, Columns};
+use crate::json::curve::CurveAnswer;
 use crate::number::Number;
-use crate::solutions::{CurvePointView, CurveView};
+use crate::{Units, Varied};
+use vibroimpact::machine::Machine;
+use vibroimpact_study::CurvePlan;
 
 /// The table of `vibro curve`. Of a machine with the stop of an event, the residual of the condition and the phase of the touch,
 /// which is none of the closings, and without forcing with the period.
-#[must_use]
-pub fn table<'a, V: Varied>(view: CurveView<'a, V>) -> Table<'a> {
-    let columns = Columns::new(view.machine, &view.units, false);
-    let [p, q] = view.sides().map(|side| side.parameter.column(&view.units));
-    let more = if view.machine.is_some() { ",stop,residual,touch" } else { "" };
-    let header = format!("{p},{q},label,admissible,event{more},{}", columns.names());
-    let more = !more.is_empty();
-    Table::new(header, view.points.into_iter().map(move |point| row(&point, &columns, more)))
+pub(crate) fn table<'a, V: Varied>(
+    answer: CurveAnswer<'a>,
+    machine: Option<&Machine>,
+    (plan, units): (&CurvePlan<V>, &Units),
+) -> Table<'a> {
+    let columns = Columns::new(machine, units, false);
+    let (p, q) = (plan.vary.parameter.column(units), plan.and.parameter.column(units));
+    let more = machine.is_some();
+    let names = if more { ",stop,residual,touch" } else { "" };
+    let header = format!("{p},{q},label,admissible,event{names},{}", columns.names());
+    Table::new(header, (0..answer.points.len()).map(move |k| row(&answer, k, &columns, more)))
 }
 
-fn row(point: &CurvePointView<'_>, columns: &Columns, more: bool) -> String {
-    let ([p, q], cell) =
-        (point.values.map(Number), |x: Option<f64>| x.map_or_else(String::new, |x| Number(x).to_string()));
-    let (event, stop) = point.event.unwrap_or_default();
+fn row(answer: &CurveAnswer<'_>, k: usize, columns: &Columns, more: bool) -> String {
+    let (point, event) = (&answer.points[k], answer.event_at(k));
+    let cell = |x: Option<f64>| x.map_or_else(String::new, |x| Number(x).to_string());
     let more = more.then(|| {
-        let stop = stop.unwrap_or_default();
+        let stop = event.and_then(|event| event.stop).unwrap_or_default();
         format!(",{stop},{},{}", cell(point.residual), cell(point.touch))
     });
-    let (label, cycle) = (point.cycle.label(), columns.cells(&point.cycle));
-    format!("{p},{q},{label},{},{event}{}{cycle}", point.admissible, more.unwrap_or_default())
+    let cycle = columns.cells(&Cells {
+        multipliers: &point.multipliers,
+        drift: None,
+        events: &point.cycle,
+        period: point.period,
+    });
+    let ([p, q], kind) = (point.values.map(Number), event.map_or("", |event| event.kind));
+    format!("{p},{q},{},{},{kind}{}{cycle}", point.label, point.admissible, more.unwrap_or_default())
 }

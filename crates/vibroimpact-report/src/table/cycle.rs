@@ -1,11 +1,11 @@
 //! The columns of a cycle of any system: its multipliers, its drift and its closings.
 
 use crate::Units;
+use crate::json::event::{EventObject, closings};
 use crate::number::Number;
-use crate::solutions::{Closing, CycleView};
+use serde_json::{Map, Value};
 use vibroimpact::QuantityKind;
 use vibroimpact::machine::Machine;
-use vibroimpact::math::Multiplier;
 
 /// Which columns a table has.
 pub(super) struct Columns {
@@ -17,6 +17,15 @@ pub(super) struct Columns {
     period: bool,
 }
 
+/// What the cells of a cycle are written from.
+pub(super) struct Cells<'a> {
+    pub(super) multipliers: &'a [[f64; 2]],
+    /// By the coordinates of a machine that can be translated.
+    pub(super) drift: Option<&'a Map<String, Value>>,
+    pub(super) events: &'a [EventObject<'a>],
+    pub(super) period: f64,
+}
+
 /// The names of the columns of so many multipliers.
 pub(super) fn numbered(multipliers: usize) -> impl Iterator<Item = String> {
     (1..=multipliers).flat_map(|k| [format!("multiplier_{k}_re"), format!("multiplier_{k}_im")])
@@ -24,9 +33,9 @@ pub(super) fn numbered(multipliers: usize) -> impl Iterator<Item = String> {
 
 /// Real and imaginary parts, each after a comma. A number that is not finite, or of a multiplier that is not there, is an empty
 /// cell.
-pub(super) fn parts(multipliers: &[Multiplier], columns: usize) -> String {
+pub(super) fn parts(multipliers: &[[f64; 2]], columns: usize) -> String {
     let part = |x: f64| if x.is_finite() { format!(",{}", Number(x)) } else { ",".to_owned() };
-    let both = |k: usize| multipliers.get(k).map_or_else(|| ",,".to_owned(), |of| part(of.re) + &part(of.im));
+    let both = |k: usize| multipliers.get(k).map_or_else(|| ",,".to_owned(), |of| of.map(part).concat());
     (0..columns).map(both).collect()
 }
 
@@ -55,19 +64,19 @@ impl Columns {
     }
 
     /// The cells of a cycle, each after a comma. Phases, speeds and stops are lists with blanks between.
-    pub(super) fn cells(&self, of: &CycleView<'_>) -> String {
-        let closings = of.closings();
-        let list = |text: &dyn Fn(&Closing<'_>) -> String| {
-            format!(",{}", closings.iter().map(text).collect::<Vec<_>>().join(" "))
+    pub(super) fn cells(&self, of: &Cells<'_>) -> String {
+        let list = |text: &dyn Fn(&EventObject<'_>) -> String| {
+            format!(",{}", closings(of.events).map(text).collect::<Vec<_>>().join(" "))
         };
-        let mut cells = parts(of.multipliers(), self.multipliers);
-        let drift = of.drift().unwrap_or_default().iter().take(self.drift.len());
-        drift.for_each(|drift| cells.push_str(&format!(",{}", Number(*drift))));
-        cells.push_str(&list(&|closing| Number(closing.phase).to_string()));
+        let mut cells = parts(of.multipliers, self.multipliers);
+        let drift = of.drift.into_iter().flat_map(Map::values).filter_map(Value::as_f64).take(self.drift.len());
+        drift.for_each(|drift| cells.push_str(&format!(",{}", Number(drift))));
+        // without forcing there is no phase
+        cells.push_str(&list(&|closing| Number(closing.phase.unwrap_or(0.0)).to_string()));
         cells.push_str(&list(&|closing| Number(closing.speed).to_string()));
         cells.push_str(&list(&|closing| closing.stop.to_owned()));
         if self.period {
-            cells.push_str(&format!(",{}", Number(of.period())));
+            cells.push_str(&format!(",{}", Number(of.period)));
         }
         cells
     }

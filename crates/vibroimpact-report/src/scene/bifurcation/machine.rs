@@ -4,8 +4,8 @@ use super::{
     BifurcationDiagram, BranchSystem, FOLLOW, LOOKS, MOST_LABELS, POINTS, SAMPLES, SEED, STARTS, along, most_first,
 };
 use crate::answer::machine::machine_title;
+use crate::json::branch::BranchObject;
 use crate::json::event::Stops;
-use crate::solutions::{PointView, machine_points};
 use crate::{AnswerError, BranchQuantity, ReportError, Units};
 use vibroimpact::Label;
 use vibroimpact::continuation::{Direction, machine::SolutionPoint};
@@ -40,16 +40,9 @@ impl BranchSystem for MachineLine {
     type Show = String;
     type Point = SolutionPoint;
 
-    fn view<'a>(&'a self, all: &'a [SolutionPoint], cut: &Cut<String>) -> Vec<PointView<'a>> {
-        machine_points(all, cut, &self.machine)
-    }
-
-    fn is_strobe(_: &String) -> bool {
-        false
-    }
-
-    fn quantity(&self, show: &String, cut: &Cut<String>) -> Option<BranchQuantity<'_>> {
-        (!show.is_closings()).then(|| BranchQuantity::at_path(show.clone(), &self.source, cut))
+    fn branch<'a>(&'a self, points: &'a [SolutionPoint], cut: &Cut<String>, show: &String) -> BranchObject<'a> {
+        let quantity = (!show.is_closings()).then(|| BranchQuantity::at_path(show.clone(), &self.source, cut));
+        BranchObject::of_machine(points, cut, &self.machine, quantity.as_ref())
     }
 
     fn stops(&self) -> &impl Stops {
@@ -217,6 +210,7 @@ fn passes(branch: &[SolutionPoint], cycle: &Cycle, value: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::json::branch::PointObject;
     use vibroimpact_study::diagram::DiagramPoint;
 
     fn plan(name: &str, task: &str) -> Plan {
@@ -276,22 +270,19 @@ mod tests {
         let found = machine_bifurcation("den-hartog", &plan("den-hartog", task), None, &control).unwrap();
         assert!(!events(&found, "holding ends", "0").is_empty(), "{:?}", found.events());
         // the drawn values are those of simulation
-        let cut = found.behind.plan.cut();
-        let quantity = found.system.quantity(&found.behind.plan.show, &cut).unwrap();
-        let branches: Vec<Vec<PointView<'_>>> =
-            found.branches.iter().map(|points| found.system.view(points, &cut)).collect();
+        let branches = found.objects();
         let mut compared = 0;
         for (step, value) in found.behind.steps.iter().filter_map(|step| match step.points.first()? {
             DiagramPoint::Value(value) => Some((step, *value)),
             _ => None,
         }) {
             let at = found.behind.plan.over.at(step.index as usize);
-            let around = |pair: &&[PointView<'_>]| {
-                let (a, b) = (pair[0].raw, pair[1].raw);
+            let around = |pair: &&[PointObject<'_>]| {
+                let (a, b) = (pair[0].parameter, pair[1].parameter);
                 a.min(b) <= at && at <= a.max(b)
             };
-            let Some(pair) = branches.iter().flat_map(|points| points.windows(2)).find(around) else { continue };
-            let (a, b) = (quantity.at(&pair[0]), quantity.at(&pair[1]));
+            let Some(pair) = branches.iter().flat_map(|branch| branch.points.windows(2)).find(around) else { continue };
+            let (a, b) = (pair[0].quantity(), pair[1].quantity());
             assert!(value >= a.min(b) - 1e-3 && value <= a.max(b) + 1e-3, "{at}: {value} {a} {b}");
             compared += 1;
         }

@@ -9,10 +9,10 @@ pub use oscillator::{bifurcation, labels};
 
 use crate::figure::branch::{Picture, figure};
 use crate::figure::tracks::Shown;
+use crate::json::branch::{BranchEventObject, BranchObject, Event};
 use crate::json::event::Stops;
-use crate::solutions::{Event, PointView};
 use crate::table::{Table, bifurcation as bifurcation_table};
-use crate::{AnswerError, BranchQuantity, ReportError, ShownValue, Units, Varied};
+use crate::{AnswerError, ReportError, ShownValue, Units, Varied};
 use std::collections::BTreeMap;
 use vibroimpact::math::{sort_by, sort_by_key};
 use vibroimpact_plot::Figure;
@@ -56,14 +56,8 @@ pub trait BranchSystem {
     /// See above.
     type Point;
 
-    /// The points of a branch along a line.
-    fn view<'a>(&'a self, points: &'a [Self::Point], cut: &Cut<Self::Vary>) -> Vec<PointView<'a>>;
-
-    /// Whether a diagram shows states at phase 0 of the force.
-    fn is_strobe(show: &Self::Show) -> bool;
-
-    /// The quantity of each cycle that is shown, if any.
-    fn quantity(&self, show: &Self::Show, cut: &Cut<Self::Vary>) -> Option<BranchQuantity<'_>>;
+    /// A branch along a line, with what is shown of each cycle.
+    fn branch<'a>(&'a self, points: &'a [Self::Point], cut: &Cut<Self::Vary>, show: &Self::Show) -> BranchObject<'a>;
 
     /// The names of its stops.
     fn stops(&self) -> &impl Stops;
@@ -92,16 +86,16 @@ impl<B: BranchSystem> BifurcationDiagram<B> {
     /// [`AnswerError`] if a value of what varies overflows in the units of the results.
     pub fn figure(&self) -> Result<Figure, AnswerError> {
         let (system, show, cut) = (&self.system, &self.behind.plan.show, &self.behind.plan.cut());
-        let (quantity, units, views) = (system.quantity(show, cut), system.units(), self.views());
+        let units = system.units();
         let picture = Picture {
             cut,
             units: &units,
-            shown: shown::<B>(show, quantity.as_ref()),
+            shown: shown(show),
             ordinate: show.ordinate(&units),
             behind: Some(&self.behind),
             inadmissible: false,
         };
-        Ok(figure(views.iter().map(Vec::as_slice), &picture, system.title(cut))?)
+        Ok(figure(&self.objects(), &picture, system.title(cut))?)
     }
 
     /// Its table: the points from simulation, then those of the branches.
@@ -109,40 +103,41 @@ impl<B: BranchSystem> BifurcationDiagram<B> {
     /// # Errors
     /// As [`Self::figure`].
     pub fn table(&self) -> Result<Table<'static>, AnswerError> {
-        let (system, show) = (&self.system, &self.behind.plan.show);
-        let quantity = system.quantity(show, &self.behind.plan.cut());
-        let (units, shown) = (system.units(), shown::<B>(show, quantity.as_ref()));
-        let table = bifurcation_table::table((&self.behind, &units), system.stops(), &self.views(), shown);
+        let (behind, units) = (&self.behind, &self.system.units());
+        let shown = shown(&behind.plan.show);
+        let table = bifurcation_table::table((behind, units), self.system.stops(), &self.objects(), shown);
         Ok(table.map_err(ReportError::from)?)
     }
 
     /// The events on the branches, in the order of their values.
     #[must_use]
     pub fn events(&self) -> Vec<BifurcationEvent> {
-        let views = self.views();
-        let events = views.iter().flatten().filter(|point| point.admissible).filter_map(|point| {
-            let event = point.event.as_ref().filter(|event| !event.is_end_of_search())?;
-            Some(BifurcationEvent {
-                label: point.cycle.label().to_string(),
-                kind: Event::name(event),
-                value: point.raw,
-            })
+        let branches = self.objects();
+        let all = branches.iter().flat_map(|branch| branch.events.iter().map(move |event| (branch, event)));
+        let happens = |(branch, event): &(&BranchObject<'_>, &BranchEventObject<'_>)| {
+            branch.points[event.point].admissible && !event.event.is_end_of_search()
+        };
+        let events = all.filter(happens).map(|(branch, event)| BifurcationEvent {
+            label: branch.points[event.point].label.clone(),
+            kind: event.kind,
+            value: if let Event::Oscillator(point, _) = event.event { point.value } else { event.parameter },
         });
         let (from, to) = self.behind.plan.over.ends();
         distinct(events, NEAR * (to - from).abs())
     }
 
-    fn views(&self) -> Vec<Vec<PointView<'_>>> {
-        let cut = self.behind.plan.cut();
-        self.branches.iter().map(|points| self.system.view(points, &cut)).collect()
+    fn objects(&self) -> Vec<BranchObject<'_>> {
+        let (cut, show) = (self.behind.plan.cut(), &self.behind.plan.show);
+        self.branches.iter().map(|points| self.system.branch(points, &cut, show)).collect()
     }
 }
 
-fn shown<'a, B: BranchSystem>(show: &B::Show, quantity: Option<&'a BranchQuantity<'a>>) -> Shown<'a> {
-    match quantity {
-        Some(quantity) => Shown::Quantity(quantity),
-        None if B::is_strobe(show) => Shown::Strobes,
-        None => Shown::Speeds,
+/// What is shown of each cycle where a diagram shows this.
+fn shown(show: &impl ShownValue) -> Shown {
+    match (show.is_closings(), show.is_states()) {
+        (true, _) => Shown::Speeds,
+        (_, true) => Shown::Strobes,
+        _ => Shown::Quantity,
     }
 }
 

@@ -5,11 +5,12 @@ use super::{
     most_first,
 };
 use crate::figure::title_without;
+use crate::json::branch::BranchObject;
 use crate::json::event::Stops;
-use crate::solutions::{PointView, points};
-use crate::{AnswerError, Asked, BranchQuantity, ReportError, Units};
+use crate::{AnswerError, Asked, ReportError, Units};
 use vibroimpact::Label;
 use vibroimpact::continuation::SolutionPoint;
+use vibroimpact::motion::Strobes;
 use vibroimpact::verdict::{Count, CountedMotion, SettleOptions, Verdict, attractors};
 use vibroimpact_study::diagram::Show;
 use vibroimpact_study::{
@@ -21,17 +22,14 @@ impl BranchSystem for Asked {
     type Show = Show;
     type Point = SolutionPoint;
 
-    fn view<'a>(&'a self, all: &'a [SolutionPoint], cut: &Cut) -> Vec<PointView<'a>> {
-        points(all, cut, self)
-    }
-
-    fn is_strobe(show: &Show) -> bool {
-        *show == Show::Strobe
-    }
-
-    /// A branch of an oscillator has no figure over a quantity; `vibro response` draws that.
-    fn quantity(&self, _: &Show, _: &Cut) -> Option<BranchQuantity<'_>> {
-        None
+    fn branch<'a>(&'a self, points: &'a [SolutionPoint], cut: &Cut, show: &Show) -> BranchObject<'a> {
+        let mut branch = BranchObject::of_oscillator(points, cut, self);
+        if *show == Show::Strobe {
+            for (object, point) in branch.points.iter_mut().zip(points) {
+                object.strobes = strobes(point, cut, self);
+            }
+        }
+        branch
     }
 
     fn stops(&self) -> &impl Stops {
@@ -45,6 +43,15 @@ impl BranchSystem for Asked {
     fn title(&self, varied: &Cut) -> String {
         title_without(self, &varied.names().copied().collect::<Vec<_>>())
     }
+}
+
+/// Velocity and position at phase 0 of the force in each of its periods. A solution that is not admissible has none.
+fn strobes(point: &SolutionPoint, cut: &Cut, Asked { system, units }: &Asked) -> Vec<(f64, f64)> {
+    let osc = cut.oscillator(system, point.value).ok().filter(|_| point.physical);
+    let (Some(osc), Some(first)) = (osc, point.cycle.points.first()) else { return Vec::new() };
+    let there = units.at(cut.vary, point.value);
+    let states = Strobes::new(&osc, first.state.rebound(&osc), 0.0).take(point.cycle.label.periods as usize);
+    states.map(|state| (state.v * there.velocity(), state.x * there.length())).collect()
 }
 
 /// The branches of some labels over the orbit diagram of a plan, between the ends of its values. The plan also determines whether impact velocities or
