@@ -13,7 +13,6 @@ from vibroimpact._branch import rows_of
 from vibroimpact._core import Oscillator, QuestionError
 from vibroimpact._events import Events
 from vibroimpact._figure import named, new_axes
-from vibroimpact._palette import SERIES
 from vibroimpact._plane import broken, frame
 from vibroimpact._progress import Progress
 from vibroimpact._result import View
@@ -169,7 +168,7 @@ class Curve(View):
 def _draw(of: Curve, ax: "Axes | None") -> "Axes":
     """Draw the curve, dotted where the orbit is inadmissible, and its points of codimension two."""
     ax = new_axes(ax, (7.2, 4.8))
-    colour, events = EVENT_COLOURS.get(of.kind, SERIES[3]), {event.point for event in of.events}
+    colour, events = EVENT_COLOURS[of.kind], {event.point for event in of.events}
     # a motion with friction only has no impact that could name it
     name = of.kind if of.label == "0" else f"{of.kind} of {named(of.label)}"
     # an event separates two parts, so a step takes its look from the end that is no event

@@ -86,7 +86,11 @@ GROUP_RULES = (
 EVENT_COLOURS = {
     "fold": "#d55e00",
     "flip": "#0072b2",
+    "torus": "#cc79a7",
     "grazing": "#009e73",
+    "corner": "#56b4e9",
+    "sticking": "#e69f00",
+    "holding": "#000000",
 }
 
 #: Marks of events along branches, and whether they are at velocity zero.

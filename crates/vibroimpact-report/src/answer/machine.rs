@@ -88,7 +88,7 @@ impl Answer {
                 let title = format!("{title}: {}", figure::label(&found.verdict.label()));
                 match (shown.view.unwrap_or_default(), &found.verdict) {
                     (View::Waveform, _) => self.waveform(&from, time, title)?,
-                    (View::Phase, _) => scene::portrait(&self.machine, (&from, time), title)?,
+                    (View::Phase, _) => scene::machine_portrait(&self.machine, (&from, time), title)?,
                     (View::Multipliers, Verdict::Periodic(cycle)) => {
                         scene::multipliers(&cycle.multipliers, &cycle.stabilities()).title(title)
                     }
@@ -131,7 +131,7 @@ impl Answer {
             machine::Results::Diagram(found) => figure::diagram::figure(found, &Units::default(), title)?,
             machine::Results::Lyapunov(found, Some(points)) => {
                 let label = figure::label(&found.motion.label());
-                figure::machine_section::figure(points, &self.machine, format!("{title}: {label}"))
+                figure::section::of_machine(points, &self.machine, format!("{title}: {label}"))
             }
             machine::Results::Attractors(census) => {
                 let share = |found: &CountedMotion<Machine>| (found.verdict.label().into_owned(), census.share(found));

@@ -1,7 +1,7 @@
 //! The figure of a curve of events in the plane of its two parameters, with its points of codimension two.
 
 use crate::figure::label;
-use crate::figure::styles::{CURVE_COLOURS, CURVE_MARKS};
+use crate::figure::styles::{CURVE_MARKS, EVENT_COLOURS};
 use crate::json::curve::CurveAnswer;
 use crate::{Units, Varied};
 use std::collections::BTreeMap;
@@ -27,7 +27,7 @@ pub(crate) fn figure<V: Varied>(
     let (kind, of) = (plan.kind.name(), &answer.label);
     // a motion with friction only has no impact that could name it
     let name = if of == "0" { kind.to_owned() } else { format!("{kind} of {}", label(of)) };
-    let colour = CURVE_COLOURS.iter().find(|(kind, _)| *kind == plan.kind).map_or(Colour::BLACK, |(_, colour)| *colour);
+    let colour = EVENT_COLOURS.iter().find(|(kind, _)| *kind == plan.kind).map_or(Colour::BLACK, |(_, colour)| *colour);
     let mut panel = Panel::new(axis(&plan.vary), axis(&plan.and));
     let mut legend = Legend::below();
     for (admissible, dash) in [(true, Dash::Solid), (false, Dash::Dotted)] {

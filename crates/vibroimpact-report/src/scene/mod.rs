@@ -4,7 +4,6 @@
 //! [`Figure::size`]: vibroimpact_plot::Figure::size
 
 mod bifurcation;
-mod machine_phase;
 mod multipliers;
 mod phase;
 mod sampled_motion;
@@ -14,8 +13,8 @@ mod view;
 pub use bifurcation::{
     BifurcationDiagram, BifurcationEvent, BranchSystem, MachineLine, bifurcation, labels, machine_bifurcation,
 };
-pub(crate) use machine_phase::portrait;
 pub use multipliers::multipliers;
+pub(crate) use phase::machine_portrait;
 pub use phase::phase_portrait;
 pub use sampled_motion::SampledMotion;
 pub use view::{SECTION_POINTS, View, Viewed};
