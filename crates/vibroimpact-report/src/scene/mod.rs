@@ -11,7 +11,7 @@ mod sections;
 mod view;
 
 pub use bifurcation::{
-    BifurcationDiagram, BifurcationEvent, BranchSystem, MachineLine, bifurcation, labels, machine_bifurcation,
+    BifurcationDiagram, BifurcationEvent, BranchSystem, NamedMachine, bifurcation, labels, machine_bifurcation,
 };
 pub use multipliers::multipliers;
 pub(crate) use phase::machine_portrait;

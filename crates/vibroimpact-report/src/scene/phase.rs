@@ -20,6 +20,8 @@ const MARKED: usize = 120;
 /// Maximum number of impacts for which thick curves can be distinguished.
 const CLEAR: usize = 30;
 
+/// A change of velocity below this fraction of the largest velocity is rounding.
+const ROUNDING: f64 = 1e-12;
 /// Number of equal steps of a motion of a machine.
 const STEPS: f64 = 4000.0;
 /// Maximum number of coordinates with a panel each, and of panels beside each other.
@@ -37,8 +39,9 @@ pub fn phase_portrait(asked: &Asked, osc: &Oscillator, start: Start, (from, unti
     let fine = osc.period().min(core::f64::consts::TAU) / 240.0;
     #[allow(clippy::cast_precision_loss)] // far below 2^53
     let step = fine.max(span / MOST as f64).max(f64::MIN_POSITIVE);
-    let wave = sample(osc, begin, span, step, 2 * MOST).into_iter().filter(|point| at + point.time >= from);
+    let wave = sample(osc, begin, span, step, 2 * MOST);
     let (length, speed) = (units.length(), units.velocity());
+    let wave = wave.iter().filter(|point| at + point.time >= from);
     let trace = Trace::new(wave.map(|point| (point.time, point.x * length, point.v * speed)));
     let (low, high) = extremes(osc, &trace.xs, length);
     let mut panel = Panel::new(
@@ -100,11 +103,12 @@ struct Trace {
 
 impl Trace {
     /// Of the times, positions and velocities of a motion.
-    fn new(points: impl Iterator<Item = (f64, f64, f64)>) -> Self {
+    fn new(points: impl Iterator<Item = (f64, f64, f64)> + Clone) -> Self {
+        let fastest = points.clone().fold(0.0, |fastest: f64, (.., v)| fastest.max(v.abs()));
         let mut trace = Self { xs: Vec::new(), vs: Vec::new(), jumps: Vec::new() };
         let mut last = (f64::NAN, f64::NAN);
         for (time, x, v) in points {
-            if last.0 == time && last.1 != v {
+            if last.0 == time && (last.1 - v).abs() > ROUNDING * fastest {
                 trace.jumps.push((x, last.1, v));
                 trace.xs.push(f64::NAN);
                 trace.vs.push(f64::NAN);

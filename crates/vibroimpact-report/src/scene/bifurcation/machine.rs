@@ -29,13 +29,13 @@ const CLOSE: f64 = 1e-3;
 
 /// The machine of a line.
 #[derive(Clone, Debug)]
-pub struct MachineLine {
+pub struct NamedMachine {
     name: String,
     source: MachineSource,
     machine: Machine,
 }
 
-impl BranchSystem for MachineLine {
+impl BranchSystem for NamedMachine {
     type Vary = String;
     type Show = String;
     type Point = SolutionPoint;
@@ -72,7 +72,7 @@ pub fn machine_bifurcation(
     plan: &Plan,
     named: Option<&[String]>,
     control: &Control<'_>,
-) -> Result<BifurcationDiagram<MachineLine>, AnswerError> {
+) -> Result<BifurcationDiagram<NamedMachine>, AnswerError> {
     plan.check()?;
     let (System::Machine(source), Task::Diagram(diagram)) = (&plan.system, &plan.task) else {
         // the command asks for no other task
@@ -122,7 +122,7 @@ pub fn machine_bifurcation(
         }
     }
     branches.retain(|points| points.iter().any(|point| known(point.cycle.label)));
-    let system = MachineLine { name: name.to_owned(), source: (**source).clone(), machine };
+    let system = NamedMachine { name: name.to_owned(), source: (**source).clone(), machine };
     Ok(BifurcationDiagram { behind, branches, system })
 }
 
@@ -222,7 +222,7 @@ mod tests {
     }
 
     /// The values of events of a kind and a label.
-    fn events(found: &BifurcationDiagram<MachineLine>, kind: &str, label: &str) -> Vec<f64> {
+    fn events(found: &BifurcationDiagram<NamedMachine>, kind: &str, label: &str) -> Vec<f64> {
         let all = found.events();
         all.iter().filter(|event| event.kind == kind && event.label == label).map(|event| event.value).collect()
     }

@@ -4,7 +4,7 @@
 mod machine;
 mod oscillator;
 
-pub use machine::{MachineLine, machine_bifurcation};
+pub use machine::{NamedMachine, machine_bifurcation};
 pub use oscillator::{bifurcation, labels};
 
 use crate::figure::branch::{Picture, figure};
