@@ -43,7 +43,8 @@ fn mended_machines_keep_all_rules() {
 #[test]
 fn soft_cradles_come_to_an_end() {
     let case = DrawnFamily::named("cradles").unwrap().case(5);
-    for seed in [39, 42, 49, 52, 53] {
+    // of the last one a contact closed as the third power of the time, and 200000 windows did not tell it from a touch
+    for seed in [39, 42, 49, 52, 53, 57] {
         let (machine, start) = rounded(&case, seed);
         let mut motion = Motion::new(&machine, &start, Limits::default()).unwrap();
         let events = motion.by_ref().take(10_000).count();

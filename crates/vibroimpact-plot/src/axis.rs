@@ -2,9 +2,10 @@
 
 use crate::scale::Scale;
 use crate::ticks::{Tick, ticks};
+use serde::Serialize;
 
 /// One axis of a panel.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FigureAxis {
     /// Its name, in the markup of [labels](crate::plain): `"1/*β*"`.
     pub label: String,

@@ -3,6 +3,8 @@
 //! The difference is that of CIE 1976, the Euclidean distance in CIE L\*a\*b\* with white point D65 (CIE 15:2004). A
 //! difference of about 2.3 is just noticeable side by side; patches in a legend need ten or more.
 
+use serde::{Serialize, Serializer};
+
 /// An sRGB colour with opacity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Colour {
@@ -14,6 +16,13 @@ pub struct Colour {
     pub b: u8,
     /// Opacity: 0 is invisible, 255 opaque.
     pub a: u8,
+}
+
+/// As `#rrggbbaa`.
+impl Serialize for Colour {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.collect_str(&format_args!("{}{:02x}", self.to_hex(), self.a))
+    }
 }
 
 impl Colour {

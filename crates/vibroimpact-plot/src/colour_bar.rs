@@ -10,9 +10,10 @@ use crate::number::N;
 use crate::stroke::Stroke;
 use crate::theme;
 use crate::ticks::Tick;
+use serde::Serialize;
 
 /// A colour bar beside the panels, as high as the panels.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ColourBar {
     /// Its label, range, scale and ticks. A range that is not given, or empty, is widened as for other axes.
     pub axis: FigureAxis,

@@ -5,9 +5,10 @@ use crate::error::PlotError;
 use crate::legend::Legend;
 use crate::panel::Panel;
 use crate::theme::{self, UNITS_PER_MM};
+use serde::Serialize;
 
 /// A figure: panels, a title and a legend.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Figure {
     /// Width in figure units; see [`COLUMN`](crate::COLUMN).
     pub width: f64,

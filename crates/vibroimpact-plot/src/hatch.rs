@@ -2,9 +2,11 @@
 
 use crate::colour::Colour;
 use crate::number::N;
+use serde::Serialize;
 
 /// The lines of a hatch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Pattern {
     /// Rising to the right: `///`.
     Rising,
@@ -21,7 +23,7 @@ pub enum Pattern {
 }
 
 /// A hatch: lines in a colour, drawn over the fill.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 pub struct Hatch {
     /// The pattern of the lines.
     pub pattern: Pattern,

@@ -5,13 +5,15 @@
 use crate::colour::Colour;
 use crate::markup::{Level, SCRIPT, escape, parse};
 use crate::number::N;
+use serde::Serialize;
 
 /// Shift of a script, relative to the size of the surrounding text (positive is down).
 const SHIFT_DOWN: f64 = 0.20;
 const SHIFT_UP: f64 = -0.36;
 
 /// The position of the reference point of a text.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Anchor {
     /// At its left end.
     #[default]

@@ -9,9 +9,11 @@ use crate::number::N;
 use crate::palette::ClassStyle;
 use crate::stroke::Stroke;
 use crate::theme;
+use serde::Serialize;
 
 /// The place of the legend.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Place {
     /// To the right of the panels, which become narrower; or below them if it would take more than half of the width.
     Right,
@@ -21,7 +23,8 @@ pub enum Place {
 }
 
 /// The sign of an entry.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Key {
     /// A short line.
     Line(Stroke),
@@ -34,7 +37,7 @@ pub enum Key {
 }
 
 /// A sign and its meaning.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Entry {
     /// The sign.
     pub key: Key,
@@ -43,7 +46,7 @@ pub struct Entry {
 }
 
 /// The legend of a figure.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Legend {
     /// The entries, in columns from top to bottom.
     pub entries: Vec<Entry>,

@@ -11,6 +11,7 @@
 
 use crate::colour::Colour;
 use crate::hatch::{Hatch, Pattern};
+use serde::Serialize;
 
 /// The colours of Okabe and Ito for lines and points, in an order in which consecutive ones are easy to distinguish.
 pub const SERIES: [Colour; 8] = [
@@ -25,7 +26,7 @@ pub const SERIES: [Colour; 8] = [
 ];
 
 /// The style of a class on a map and in the legend.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 pub struct ClassStyle {
     /// The fill.
     pub colour: Colour,

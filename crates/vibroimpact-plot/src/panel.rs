@@ -9,9 +9,10 @@ use crate::markup;
 use crate::stroke::Stroke;
 use crate::theme;
 use crate::ticks::Tick;
+use serde::Serialize;
 
 /// A pair of axes and the marks between them.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Panel {
     /// The horizontal axis.
     pub x: FigureAxis,

@@ -1,7 +1,10 @@
 //! Linear and logarithmic axes.
 
+use serde::Serialize;
+
 /// The distribution of values along an axis.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Scale {
     /// Linear.
     #[default]

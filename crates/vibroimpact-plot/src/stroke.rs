@@ -2,9 +2,11 @@
 
 use crate::colour::Colour;
 use crate::number::N;
+use serde::Serialize;
 
 /// The dashes of a line.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Dash {
     /// A solid line.
     #[default]
@@ -18,7 +20,7 @@ pub enum Dash {
 }
 
 /// The style of a line.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Stroke {
     /// Its colour.
     pub colour: Colour,

@@ -4,9 +4,10 @@
 //! Gems, 1990). Logarithmic axes mark decades, or have linear steps if they show less than one decade.
 
 use crate::scale::Scale;
+use serde::Serialize;
 
 /// A tick of an axis.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Tick {
     /// Its position.
     pub value: f64,

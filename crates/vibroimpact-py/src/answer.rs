@@ -1,19 +1,23 @@
-//! The answer to a question about any system: the JSON object of the command, and the numbers that it does not have.
+//! The answer to a question about any system: the JSON object of the command, its figure, and columns that the object does not
+//! have.
 
 use crate::columns::{column, grid};
 use crate::door::{self, Watch};
 use crate::error::Trouble;
+use crate::events::{EventFields, Events};
 use crate::machine::{MachineFile, Start, start};
-use crate::oscillator::Oscillator;
+use crate::oscillator::{Oscillator, Units as UnitsOf};
+use crate::plan::{read, text};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
+use std::sync::Arc;
 use vibroimpact::chaos::Section;
-use vibroimpact_report::json::event::side;
-use vibroimpact_report::{Answer, Units};
-use vibroimpact_study::diagram::DiagramPoint;
+use vibroimpact_report::json::event::{self, EventObject, side};
+use vibroimpact_report::json::motion::horizon;
+use vibroimpact_report::{Asked, Shown, Units, figure};
 use vibroimpact_study::{
-    Diagram, MarginsPlan, Name, Parameter, Plan, PlanError, Quantity, ResponseCurves, ResponseRow, Results,
-    SectionPoints, SystemPlan, Task, machine,
+    MarginsPlan, Name, Parameter, Plan, PlanError, Quantity, ResponseCurves, ResponseRow, Results, SectionPoints,
+    Simulated, SystemPlan, Task, machine,
 };
 
 /// A system about which a question is asked.
@@ -22,6 +26,62 @@ use vibroimpact_study::{
 pub(crate) enum System<'py> {
     Oscillator(Oscillator),
     Machine(PyRef<'py, MachineFile>),
+}
+
+/// Columns that the JSON object of an answer does not have.
+#[derive(IntoPyObject)]
+pub(crate) enum Columns<'py> {
+    Simulation(SimulationFields<'py>),
+    Section(SectionFields<'py>),
+    Response(ResponseFields<'py>),
+}
+
+/// The events of a motion, and the reason why the list ends.
+#[derive(IntoPyObject)]
+pub(crate) struct SimulationFields<'py> {
+    events: EventFields<'py>,
+    with_: Vec<Vec<String>>,
+    tie: Bound<'py, PyArray1<bool>>,
+    depth: Bound<'py, PyArray1<f64>>,
+    chatter: Bound<'py, PyArray1<bool>>,
+    error: Bound<'py, PyArray1<f64>>,
+    end: &'static str,
+    end_time: f64,
+    /// The JSON object that says why there are no more impacts.
+    horizon: Option<String>,
+    shown_until: f64,
+}
+
+impl<'py> SimulationFields<'py> {
+    fn new<'a, E: 'a>(
+        py: Python<'py>,
+        found: &'a Simulated<E>,
+        n: usize,
+        object: impl Fn(&'a E) -> EventObject<'a>,
+    ) -> Self {
+        let (mut events, mut with_, mut tie) = (Events::new(n, Vec::new()), Vec::new(), Vec::new());
+        let (mut depth, mut chatter, mut error) = (Vec::new(), Vec::new(), Vec::new());
+        for event in found.events.iter().map(object) {
+            events.push(&event);
+            with_.push(event.with.iter().map(|name| (*name).to_owned()).collect());
+            tie.push(event.tie);
+            depth.push(event.depth.unwrap_or(f64::NAN));
+            chatter.push(event.chatter.unwrap_or(false));
+            error.push(event.error.unwrap_or(f64::NAN));
+        }
+        Self {
+            events: events.fields(py),
+            with_,
+            tie: column(py, tie.into_iter()),
+            depth: column(py, depth.into_iter()),
+            chatter: column(py, chatter.into_iter()),
+            error: column(py, error.into_iter()),
+            end: found.reason,
+            end_time: found.time,
+            horizon: found.horizon.as_ref().map(horizon),
+            shown_until: found.shown_until,
+        }
+    }
 }
 
 /// The points of both sections of an attractor: at the closings of stops, and at phase 0.
@@ -66,33 +126,6 @@ impl<'py> SectionFields<'py> {
     }
 }
 
-/// The points of an orbit diagram, and whether each is of a motion that repeats.
-#[derive(IntoPyObject)]
-pub(crate) struct DiagramFields<'py> {
-    parameter: Bound<'py, PyArray1<f64>>,
-    speed: Bound<'py, PyArray1<f64>>,
-    repeats: Bound<'py, PyArray1<bool>>,
-}
-
-impl<'py> DiagramFields<'py> {
-    fn new(py: Python<'py>, found: &Diagram<String, String>) -> Self {
-        let points = || found.steps.iter().flat_map(|step| step.points.iter().map(move |point| (step, point)));
-        Self {
-            parameter: column(py, points().map(|(step, _)| found.plan.over.at(step.index as usize))),
-            speed: column(
-                py,
-                points().map(|(_, point)| match *point {
-                    DiagramPoint::Impact { speed, .. } => speed,
-                    DiagramPoint::Chatter { .. } => 0.0,
-                    DiagramPoint::State { x, .. } => x,
-                    DiagramPoint::Value(value) => value,
-                }),
-            ),
-            repeats: column(py, points().map(|(step, _)| step.repeats(found.plan.keep))),
-        }
-    }
-}
-
 /// All quantities of the motions of a response: their names and units, and one row for each motion of both sweeps and of each
 /// branch.
 #[derive(IntoPyObject)]
@@ -128,16 +161,6 @@ impl<'py> ResponseFields<'py> {
             row.quantities[k] * scales.map_or(1.0, |scales| Quantity::ALL[k].kind().in_si(&scales))
         })
     }
-}
-
-/// The JSON object that the command prints, [brief](vibroimpact_report::Answer::brief), and what it does not have: the points of the sections of an attractor and of an orbit
-/// diagram, and all quantities of a response.
-#[derive(Default, IntoPyObject)]
-pub(crate) struct AnswerFields<'py> {
-    json: String,
-    section: Option<SectionFields<'py>>,
-    diagram: Option<DiagramFields<'py>>,
-    response: Option<ResponseFields<'py>>,
 }
 
 /// The plan of a task, which is JSON, for a system.
@@ -177,54 +200,165 @@ pub(crate) fn plan_json(
     task: &str,
     tile: Option<u32>,
 ) -> Result<String, Trouble> {
-    crate::simulate::text(&planned(&system, from, task, tile)?)
+    text(&planned(&system, from, task, tile)?)
+}
+
+/// A plan with its result.
+#[pyclass(frozen, module = "vibroimpact._core")]
+pub(crate) struct Answer(Arc<vibroimpact_report::Answer>);
+
+impl Answer {
+    fn computed(py: Python<'_>, watch: Watch, plan: Plan) -> Result<Self, Trouble> {
+        // results of this package are nondimensional
+        let plan = Plan { units: None, ..plan };
+        let found = door::run(py, watch, move |control| {
+            Ok(vibroimpact_report::answer(&plan, Units::default(), control)?.named(""))
+        })?;
+        Ok(Self(Arc::new(found)))
+    }
+}
+
+/// Keeps one of the branches only.
+fn only(answer: &mut vibroimpact_report::Answer, number: usize) {
+    fn keep<T>(all: &mut Vec<T>, number: usize) {
+        all.truncate(number + 1);
+        all.drain(..number.min(all.len()));
+    }
+    match answer {
+        vibroimpact_report::Answer::Oscillator(of) => {
+            if let Results::Branch(found) = &mut of.results {
+                keep(&mut found.followed, number);
+            }
+        }
+        vibroimpact_report::Answer::Machine(of) => {
+            if let machine::Results::Branch(found) = &mut of.results {
+                keep(&mut found.followed, number);
+            }
+        }
+    }
+}
+
+/// The title of the figures of an oscillator, in the markup of labels.
+#[pyfunction]
+pub(crate) fn title_of(osc: Oscillator) -> String {
+    figure::title(&Asked { system: osc.plan, units: Units::default() })
+}
+
+/// The figure of shares of starts by label, as JSON.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)] // arguments from Python
+pub(crate) fn shares_figure(osc: Oscillator, shares: Vec<(String, f64)>) -> Result<String, Trouble> {
+    text(&figure::bars::shares(&shares, title_of(osc)))
 }
 
 /// Computes the answer to a task, which is JSON, for a system.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)] // arguments from Python
-pub(crate) fn answer<'py>(
-    py: Python<'py>,
-    system: System<'py>,
+pub(crate) fn answer(
+    py: Python<'_>,
+    system: System<'_>,
     from: Option<Start>,
     task: &str,
     total: u64,
     threads: usize,
     progress: Option<Py<PyAny>>,
-) -> Result<AnswerFields<'py>, Trouble> {
+) -> Result<Answer, Trouble> {
     let plan = planned(&system, from, task, None)?;
     drop(system);
-    let watch = Watch { what: "computing an answer", total, progress, threads };
-    let (json, answer) = door::run(py, watch, move |control| {
-        let answer = vibroimpact_report::answer(&plan, Units::default(), control)?.named("");
-        Ok((answer.brief(), answer))
-    })?;
-    let mut fields = AnswerFields { json, ..AnswerFields::default() };
-    match answer {
-        Answer::Oscillator(of) => match (&of.plan.task, &of.results) {
-            (_, Results::Lyapunov(_, _, Some(points))) => {
-                fields.section = Some(SectionFields::of_oscillator(py, &of.osc, points)?);
-            }
-            (Task::Response(task), Results::Response(found)) => {
-                let vary = Parameter::of(task.vary.text())?;
-                fields.response = Some(ResponseFields::of_oscillator(py, found, vary, &of.asked.system)?);
-            }
-            _ => {}
-        },
-        Answer::Machine(of) => match &of.results {
-            machine::Results::Lyapunov(_, Some(points)) => {
-                let stops = points.closings.iter().map(|at| of.machine.name_of(at.place).to_owned()).collect();
-                fields.section = Some(SectionFields::of_machine(py, points, stops, of.machine.n())?);
-            }
-            machine::Results::Diagram(found) => fields.diagram = Some(DiagramFields::new(py, found)),
-            machine::Results::Response(found) => {
-                let units = vec![""; found.quantities.len()];
-                fields.response = Some(ResponseFields::new(py, found, units, |row, k| row.quantities[k])?);
-            }
-            _ => {}
-        },
+    Answer::computed(py, Watch { what: "computing an answer", total, progress, threads }, plan)
+}
+
+#[pymethods]
+impl Answer {
+    /// The answer to a plan, which is JSON.
+    #[new]
+    fn new(py: Python<'_>, plan: &str) -> Result<Self, Trouble> {
+        Self::computed(py, Watch { what: "computing an answer", total: 1, progress: None, threads: 0 }, read(plan)?)
     }
-    Ok(fields)
+
+    /// The plan, which is complete, as JSON.
+    #[getter]
+    fn plan(&self) -> Result<String, Trouble> {
+        text(self.0.plan())
+    }
+
+    /// The object that the command prints with `--json`; [brief](vibroimpact_report::Answer::brief), if it is asked.
+    fn json(&self, py: Python<'_>, brief: bool) -> Result<String, Trouble> {
+        let answer = Arc::clone(&self.0);
+        door::run(py, Watch::alone("writing an answer"), move |_| {
+            Ok(if brief { answer.brief() } else { answer.json() })
+        })
+    }
+
+    /// The figure that the command draws, as JSON; nothing for an answer without one. `units` are those of an oscillator in metres and
+    /// seconds. `of_branch`: whether the orbit diagram is behind a branch, whether inadmissible solutions are drawn, and the number
+    /// of the only branch that is drawn. `quantity` is that of a response.
+    fn figure(
+        &self,
+        py: Python<'_>,
+        units: Option<UnitsOf>,
+        of_branch: (bool, bool, Option<usize>),
+        quantity: Option<String>,
+    ) -> Result<Option<String>, Trouble> {
+        let (diagram, inadmissible, branch) = of_branch;
+        let mut answer = Arc::clone(&self.0);
+        if units.is_some() || quantity.is_some() || branch.is_some() {
+            let changed = Arc::make_mut(&mut answer);
+            if let Some(number) = branch {
+                only(changed, number);
+            }
+            if let (vibroimpact_report::Answer::Oscillator(of), Some(UnitsOf(scales))) = (&mut *changed, units) {
+                of.asked.units =
+                    Units { scales: Some(scales), si: true, machine: of.asked.system.machine, ..Units::default() };
+            }
+            let plan = match changed {
+                vibroimpact_report::Answer::Oscillator(of) => &mut of.plan,
+                vibroimpact_report::Answer::Machine(of) => &mut of.plan,
+            };
+            if let (Task::Response(task), Some(quantity)) = (&mut plan.task, quantity) {
+                task.quantity = Some(quantity);
+            }
+        }
+        let shown = Shown { diagram, inadmissible, ..Shown::default() };
+        let watch = Watch { what: "drawing a figure", total: 1, progress: None, threads: 0 };
+        let figure = door::run(py, watch, move |control| Ok(answer.figure(&shown, control)?))?;
+        figure.map(|figure| text(&figure)).transpose()
+    }
+
+    /// Columns that the JSON object does not have.
+    fn columns<'py>(&self, py: Python<'py>) -> Result<Option<Columns<'py>>, Trouble> {
+        Ok(Some(match &*self.0 {
+            vibroimpact_report::Answer::Oscillator(of) => match (&of.plan.task, &of.results) {
+                (_, Results::Simulate(_, found)) => {
+                    let object = |event| EventObject::of_oscillator(&of.osc, event, &Units::default());
+                    Columns::Simulation(SimulationFields::new(py, found, 1, object))
+                }
+                (_, Results::Lyapunov(_, _, Some(points))) => {
+                    Columns::Section(SectionFields::of_oscillator(py, &of.osc, points)?)
+                }
+                (Task::Response(task), Results::Response(found)) => {
+                    let vary = Parameter::of(task.vary.text())?;
+                    Columns::Response(ResponseFields::of_oscillator(py, found, vary, &of.asked.system)?)
+                }
+                _ => return Ok(None),
+            },
+            vibroimpact_report::Answer::Machine(of) => match &of.results {
+                machine::Results::Simulate(found) => {
+                    let object = |event| event::of_machine(&of.machine, event);
+                    Columns::Simulation(SimulationFields::new(py, found, of.machine.n(), object))
+                }
+                machine::Results::Lyapunov(_, Some(points)) => {
+                    let stops = points.closings.iter().map(|at| of.machine.name_of(at.place).to_owned()).collect();
+                    Columns::Section(SectionFields::of_machine(py, points, stops, of.machine.n())?)
+                }
+                machine::Results::Response(found) => {
+                    let units = vec![""; found.quantities.len()];
+                    Columns::Response(ResponseFields::new(py, found, units, |row, k| row.quantities[k])?)
+                }
+                _ => return Ok(None),
+            },
+        }))
+    }
 }
 
 /// The names of the parameters of an oscillator, the frequency in the form in which it was given.

@@ -2,15 +2,6 @@
 
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use vibroimpact::Side;
-
-/// +1 for the first stop, -1 for the second.
-pub(crate) const fn sign(side: Side) -> i8 {
-    match side {
-        Side::Upper => 1,
-        Side::Lower => -1,
-    }
-}
 
 /// Values as an array.
 pub(crate) fn column<T: numpy::Element>(py: Python<'_>, values: impl Iterator<Item = T>) -> Bound<'_, PyArray1<T>> {

@@ -10,7 +10,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SendError, Sender, channel};
 use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
-use vibroimpact_study::{Control, Plan, Results, Stopped};
+use vibroimpact_study::{Control, Stopped};
 
 /// Time to wait for stopped work before it is abandoned.
 const PATIENCE: Duration = Duration::from_millis(500);
@@ -29,12 +29,7 @@ pub(crate) struct Watch {
 impl Watch {
     /// For work without progress reports.
     pub(crate) const fn alone(what: &'static str) -> Self {
-        Self::one(what, 1, None)
-    }
-
-    /// For work on one thread; `total` is 1 if its size is not known.
-    pub(crate) const fn one(what: &'static str, total: u64, progress: Option<Py<PyAny>>) -> Self {
-        Self { what, total, progress, threads: 1 }
+        Self { what, total: 1, progress: None, threads: 1 }
     }
 }
 
@@ -101,18 +96,6 @@ fn on_a_thread(mut job: Job) -> Result<(), Trouble> {
     };
     thread::Builder::new().spawn(serve).map_err(|_| Trouble::Defect("starting a thread"))?;
     to.send(job).map_err(|_| Trouble::Defect("starting a thread"))
-}
-
-/// Checks a plan, computes its result, and extracts the variant that belongs to its task.
-pub(crate) fn result<T: Send + 'static>(
-    py: Python<'_>,
-    watch: Watch,
-    plan: &Plan,
-    take: impl FnOnce(Results) -> Option<T> + Send + 'static,
-) -> Result<T, Trouble> {
-    plan.check()?;
-    let (plan, what) = (plan.clone(), watch.what);
-    run(py, watch, move |control| take(vibroimpact_study::run(&plan, control)?).ok_or(Trouble::Defect(what)))
 }
 
 /// Runs the command, which handles Ctrl-C itself, on this thread.

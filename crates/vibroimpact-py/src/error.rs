@@ -9,7 +9,8 @@
 //! | a defect of this program | `RuntimeError` |
 
 use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
-use pyo3::{PyErr, create_exception};
+use pyo3::types::PyAnyMethods;
+use pyo3::{PyErr, Python, create_exception};
 use vibroimpact::SystemError;
 use vibroimpact::verdict::LabelError;
 use vibroimpact_report::AnswerError;
@@ -19,7 +20,7 @@ create_exception!(
     vibroimpact,
     QuestionError,
     PyValueError,
-    "The question makes no sense; the text names the value, the allowed range and often a hint."
+    "The question makes no sense; the text names the value, the allowed range and often a hint.\n\nAttributes\n----------\nname, given, least, most\n    The number that lies outside its range, and the range; None for other questions.\nhint : str or None\n    What helps."
 );
 create_exception!(vibroimpact, StoppedError, pyo3::exceptions::PyException, "The progress callback asked to stop.");
 
@@ -35,6 +36,8 @@ create_exception!(
 pub(crate) enum Trouble {
     /// The question is invalid.
     Question(String),
+    /// The question is invalid, because a number lies outside its range.
+    Outside(String, Outside),
     /// The work was stopped.
     Stopped(Stopped),
     /// A store cannot be used.
@@ -43,6 +46,63 @@ pub(crate) enum Trouble {
     Raised(PyErr),
     /// A defect of this program.
     Defect(&'static str),
+}
+
+/// The ends of a range such as `1 <= starts <= 100`.
+fn ends(range: &str) -> Option<(f64, f64)> {
+    let number = |text: Option<&str>| text?.trim_matches([' ', '=']).parse().ok();
+    let parts: Vec<&str> = range.split('<').collect();
+    Some((number(parts.first().copied())?, number(parts.last().copied())?))
+}
+
+/// A number outside its range, both ends of which are given.
+#[derive(Debug)]
+pub(crate) struct Outside {
+    name: &'static str,
+    given: f64,
+    range: (f64, f64),
+}
+
+impl Outside {
+    fn of_system(error: &SystemError) -> Option<Self> {
+        use SystemError as Of;
+        let (name, given, range) = match *error {
+            Of::Beta(given) => ("beta", given, (1e-15, 1e15)),
+            Of::InverseBeta(given) => ("inverse_beta", given, (1e-15, 1e15)),
+            Of::Gap(given) => ("gap", given, (-1e100, 1e100)),
+            Of::Restitution(given) => ("restitution", given, (0.0, 1.0)),
+            Of::Damping(given) => ("damping", given, (0.0, 1e15)),
+            Of::BeyondStop { x, lowest, highest } => ("x", x, (lowest, highest)),
+            Of::LargeStart { name, value } => (name, value, (-1e100, 1e100)),
+            Of::LargePhase(given) => ("phase", given, (-1e15, 1e15)),
+            Of::Quantity { name, value, range, .. } => (name, value, ends(range)?),
+            _ => return None,
+        };
+        Some(Self { name, given, range })
+    }
+
+    fn of_plan(error: &PlanError) -> Option<Self> {
+        match error {
+            PlanError::System(error) => Self::of_system(error),
+            PlanError::OutOfRange { name, given, range, .. } => {
+                Some(Self { name, given: given.parse().ok()?, range: ends(range)? })
+            }
+            _ => None,
+        }
+    }
+
+    /// An exception with these attributes.
+    fn on(&self, py: Python<'_>, sentence: String) -> PyErr {
+        let error = QuestionError::new_err(sentence);
+        let value = error.value(py);
+        let (least, most) = self.range;
+        // a new exception takes attributes
+        let _ = value.setattr("name", self.name);
+        for (name, number) in [("given", self.given), ("least", least), ("most", most)] {
+            let _ = value.setattr(name, number);
+        }
+        error
+    }
 }
 
 impl Trouble {
@@ -55,6 +115,7 @@ impl From<Trouble> for PyErr {
     fn from(trouble: Trouble) -> Self {
         match trouble {
             Trouble::Question(sentence) => QuestionError::new_err(sentence),
+            Trouble::Outside(sentence, outside) => Python::attach(|py| outside.on(py, sentence)),
             Trouble::Stopped(stopped) => StoppedError::new_err(stopped.to_string()),
             Trouble::Store(sentence) => StoreError::new_err(sentence),
             Trouble::Raised(error) => error,
@@ -86,13 +147,17 @@ impl From<PlanError> for Trouble {
             PlanError::Axes { .. } => "\nhint: a mapping of names to ranges, {\"gap\": \"0:1:11\"}",
             _ => "",
         };
-        Self::Question(in_python(&format!("{error}{hint}")))
+        let sentence = in_python(&format!("{error}{hint}"));
+        match Outside::of_plan(&error) {
+            Some(outside) => Self::Outside(sentence, outside),
+            None => Self::Question(sentence),
+        }
     }
 }
 
 impl From<SystemError> for Trouble {
     fn from(error: SystemError) -> Self {
-        Self::Question(error.to_string())
+        PlanError::System(error).into()
     }
 }
 

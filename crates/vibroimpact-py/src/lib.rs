@@ -10,6 +10,7 @@ mod columns;
 mod command;
 mod door;
 mod error;
+mod events;
 mod grid;
 mod machine;
 mod oscillator;
@@ -25,7 +26,7 @@ mod store;
 #[pyo3::pymodule]
 mod _core {
     #[pymodule_export]
-    use crate::answer::{answer, plan_json, varied_parameters};
+    use crate::answer::{Answer, answer, plan_json, shares_figure, title_of, varied_parameters};
     #[pymodule_export]
     use crate::command::vibro;
     #[pymodule_export]
@@ -33,15 +34,13 @@ mod _core {
     #[pymodule_export]
     use crate::grid::{basin_measures, fill, labels_of, span_values};
     #[pymodule_export]
-    use crate::machine::{
-        MachineFile, machine_names, machine_state, machine_waveform, simulate_machine, simulate_machines,
-    };
+    use crate::machine::{MachineFile, machine_names, machine_state, machine_waveform, simulate_machines};
     #[pymodule_export]
     use crate::oscillator::{Oscillator, Units};
     #[pymodule_export]
     use crate::plan::{
-        answer_json, checked_plan, coordinate_words, fixed_coordinates, machine_parameters, point_coordinates,
-        scales_of_points, scales_over, system_fields,
+        checked_plan, coordinate_words, fixed_coordinates, machine_parameters, point_coordinates, scales_of_points,
+        scales_over, system_fields,
     };
     #[pymodule_export]
     use crate::points::{drawn_points, settle_points};
@@ -50,7 +49,7 @@ mod _core {
     #[pymodule_export]
     use crate::settle::{settle_many, share_interval};
     #[pymodule_export]
-    use crate::simulate::{simulate, waveform};
+    use crate::simulate::waveform;
     #[pymodule_export]
     use crate::simulate_many::{
         crossings_of_points, end_reasons, simulate_points, states_of_points, strobes_of_points,

@@ -3,15 +3,17 @@
 use crate::columns::column;
 use crate::door::{self, Watch};
 use crate::error::Trouble;
+use crate::events::{EventFields, Events, code};
 use crate::simulate::checked_step;
 use numpy::{Element, IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use vibroimpact::events;
-use vibroimpact::events::{Event, Limits, Sample, Samples};
+use vibroimpact::events::{self, Event, Limits, Sample, Samples};
+use vibroimpact::machine::Machine;
 use vibroimpact::regime::ContactState;
+use vibroimpact_report::json::event::of_machine;
 use vibroimpact_study::machine::{CATALOGUE, MachineFileError, MachineProblem, MachineSource, StartText};
 use vibroimpact_study::{
-    Control, Plan, PlanError, Results, Simulated, System, Task, events_with_states, machine, most_events, run, tiles,
+    Control, Plan, PlanError, Results, Simulated, System, Task, events_with_states, machine, run, tiles,
 };
 
 /// A machine file that describes a machine.
@@ -126,24 +128,6 @@ impl MachineFile {
     }
 }
 
-/// The fields of `MachineSimulation`.
-#[derive(IntoPyObject)]
-pub(crate) struct Fields<'py> {
-    kind: Vec<&'static str>,
-    stop: Vec<String>,
-    time: Bound<'py, PyArray1<f64>>,
-    phase: Bound<'py, PyArray1<f64>>,
-    speed: Bound<'py, PyArray1<f64>>,
-    q: Bound<'py, PyArray2<f64>>,
-    qdot: Bound<'py, PyArray2<f64>>,
-    with_: Vec<Vec<String>>,
-    tie: Vec<bool>,
-    end: &'static str,
-    end_time: f64,
-    shown_until: f64,
-    plan: String,
-}
-
 /// The start with these coordinates, velocities and phase. That of the file has its contacts too.
 pub(crate) fn start(file: &MachineFile, (q, qdot, phase): Start) -> Result<events::Start, Trouble> {
     let own = events::Start::from(file.0.start()?);
@@ -178,95 +162,34 @@ fn rows<T: Element + Copy>(
     rows.flatten().collect::<Vec<T>>().into_pyarray(py).reshape([count, width])
 }
 
-/// Follows a machine event by event.
-#[pyfunction]
-pub(crate) fn simulate_machine<'py>(
-    py: Python<'py>,
-    file: &MachineFile,
-    from: Start,
-    impacts: Option<u64>,
-    periods: Option<f64>,
-    progress: Option<Py<PyAny>>,
-) -> Result<Fields<'py>, Trouble> {
-    // a start of the wrong size is refused by its path
-    let source = file.0.clone().starting(&start(file, from)?);
-    let (machine, most) = (source.machine()?, most_events(impacts, periods));
-    let plan = Plan::new(source, Task::Simulate { start: None, impacts, periods });
-    let text = crate::simulate::text(&plan)?;
-    let watch = Watch::one("following a machine", most, progress);
-    let Results::Machine(machine::Results::Simulate(found)) =
-        door::run(py, watch, move |control| Ok(run(&plan, control)?))?
-    else {
-        return Err(PlanError::NoStudy("simulate").into()); // the task of the plan is to simulate
-    };
-    let (n, events) = (machine.n(), &found.events);
-    let name = |place: usize| machine.name_of(place).to_owned();
-    Ok(Fields {
-        kind: events.iter().map(|event| event.kind.name()).collect(),
-        stop: events.iter().map(|event| name(event.place)).collect(),
-        time: column(py, events.iter().map(|event| event.time)),
-        phase: column(py, events.iter().map(|event| event.phase)),
-        speed: column(py, events.iter().map(|event| event.speed)),
-        q: rows(py, events.iter().map(|event| event.q.clone()), n)?,
-        qdot: rows(py, events.iter().map(|event| event.qdot.clone()), n)?,
-        with_: events.iter().map(|event| event.with.iter().map(|place| name(*place)).collect()).collect(),
-        tie: events.iter().map(|event| event.tie).collect(),
-        end: found.reason,
-        end_time: found.time,
-        shown_until: found.shown_until,
-        plan: text,
-    })
-}
-
-/// The events of motions of machines: a row of `width` events for each motion, filled up with -1 and not-a-number.
+/// The events of motions of machines: a row of `width` events for each motion.
 #[derive(IntoPyObject)]
 pub(crate) struct ManyEventFields<'py> {
     width: usize,
-    /// The names of kinds of events, and those of reasons for which lists end, by their codes.
-    kinds: Vec<&'static str>,
-    ends: Vec<&'static str>,
-    kind: Bound<'py, PyArray1<i8>>,
-    /// The numbers of stops and joints.
-    stop: Bound<'py, PyArray1<i32>>,
-    time: Bound<'py, PyArray1<f64>>,
-    phase: Bound<'py, PyArray1<f64>>,
-    speed: Bound<'py, PyArray1<f64>>,
-    /// One column for each coordinate.
-    q: Vec<Bound<'py, PyArray1<f64>>>,
-    qdot: Vec<Bound<'py, PyArray1<f64>>>,
+    events: EventFields<'py>,
     count: Bound<'py, PyArray1<i32>>,
-    end: Bound<'py, PyArray1<i8>>,
+    /// The names of reasons for which lists end, and the code of each list.
+    ends: Vec<String>,
+    end: Bound<'py, PyArray1<i32>>,
     end_time: Bound<'py, PyArray1<f64>>,
 }
 
-/// The code of a name in a list, to which it is added when it is new.
-fn code(names: &mut Vec<&'static str>, name: &'static str) -> i8 {
-    let place = names.iter().position(|known| *known == name).unwrap_or_else(|| {
-        names.push(name);
-        names.len() - 1
-    });
-    i8::try_from(place).unwrap_or(i8::MAX)
-}
-
 impl<'py> ManyEventFields<'py> {
-    fn new(py: Python<'py>, found: &[Simulated<Event>], n: usize) -> Self {
+    fn new(py: Python<'py>, found: &[Simulated<Event>], machine: &Machine) -> Self {
         let width = found.iter().map(|one| one.events.len()).max().unwrap_or(0);
-        let (mut kinds, mut ends) = (Vec::new(), Vec::new());
-        let cells = || found.iter().flat_map(|one| (0..width).map(move |k| one.events.get(k)));
-        let real = |of: &dyn Fn(&Event) -> f64| column(py, cells().map(|event| event.map_or(f64::NAN, of)));
+        let places = machine.stops().len() + machine.joints().len();
+        let mut events = Events::new(machine.n(), (0..places).map(|place| machine.name_of(place).to_owned()).collect());
+        for (row, one) in found.iter().enumerate() {
+            one.events.iter().for_each(|event| events.push(&of_machine(machine, event)));
+            events.fill((row + 1) * width);
+        }
+        let mut ends = Vec::new();
         Self {
-            kind: column(py, cells().map(|event| event.map_or(-1, |event| code(&mut kinds, event.kind.name())))),
-            stop: column(py, cells().map(|event| event.map_or(-1, |event| i32::try_from(event.place).unwrap_or(-1)))),
-            time: real(&|event| event.time),
-            phase: real(&|event| event.phase),
-            speed: real(&|event| event.speed),
-            q: (0..n).map(|i| real(&|event| event.q[i])).collect(),
-            qdot: (0..n).map(|i| real(&|event| event.qdot[i])).collect(),
+            width,
+            events: events.fields(py),
             count: column(py, found.iter().map(|one| i32::try_from(one.events.len()).unwrap_or(i32::MAX))),
             end: column(py, found.iter().map(|one| code(&mut ends, one.reason))),
             end_time: column(py, found.iter().map(|one| one.time)),
-            width,
-            kinds,
             ends,
         }
     }
@@ -284,7 +207,7 @@ pub(crate) fn simulate_machines<'py>(
     threads: usize,
     progress: Option<Py<PyAny>>,
 ) -> Result<ManyEventFields<'py>, Trouble> {
-    let (source, n, total) = (file.0.clone(), file.0.machine()?.n(), starts.len() as u64);
+    let (source, machine, total) = (file.0.clone(), file.0.machine()?, starts.len() as u64);
     let watch = Watch { what: "following machines", total, progress, threads };
     let found = door::run(py, watch, move |control| {
         let one = |k: usize| {
@@ -306,7 +229,7 @@ pub(crate) fn simulate_machines<'py>(
         })?;
         parts.into_iter().collect::<Result<Vec<_>, Trouble>>()
     })?;
-    Ok(ManyEventFields::new(py, &found, n))
+    Ok(ManyEventFields::new(py, &found, &machine))
 }
 
 /// The fields of `MachineWaveform`.

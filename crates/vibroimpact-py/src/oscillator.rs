@@ -27,7 +27,7 @@ fn hash_of(numbers: impl Iterator<Item = f64>) -> u64 {
 /// (0.005, 0.05)
 #[pyclass(frozen, from_py_object, module = "vibroimpact")]
 #[derive(Clone, Copy)]
-pub(crate) struct Units(Scales);
+pub(crate) struct Units(pub(crate) Scales);
 
 #[pymethods]
 impl Units {

@@ -1,13 +1,12 @@
 //! A plan from text in JSON or TOML: checked, and converted to the form in which it is stored.
 
-use crate::door::{self, Watch};
 use crate::error::Trouble;
 use crate::oscillator::Oscillator;
 use crate::simulate::{StartArgument, start_plan};
 use pyo3::prelude::*;
+use serde::Serialize;
 use std::collections::HashMap;
 use vibroimpact::PhysicalParameter;
-use vibroimpact_report::Units;
 use vibroimpact_study::{Axis, Coordinate, Parameter, Plan, PlanError, StartPlan, SystemPlan, Task, Variable};
 
 /// The plan of a text, in the form in which it is stored.
@@ -24,6 +23,11 @@ pub(crate) fn read(text: &str) -> Result<Plan, Trouble> {
     Ok(plan)
 }
 
+/// A plan, or another value, as JSON.
+pub(crate) fn text(of: &impl Serialize) -> Result<String, Trouble> {
+    serde_json::to_string(of).map_err(|_| Trouble::Defect("writing JSON"))
+}
+
 /// Number of points of the grid of a plan; 0 for a plan without a grid.
 pub(crate) fn points(plan: &Plan) -> u64 {
     let work = match &plan.task {
@@ -36,27 +40,15 @@ pub(crate) fn points(plan: &Plan) -> u64 {
 
 /// The plan in the form in which it is stored, its hash, its title, and the number of points of its grid.
 #[pyfunction]
-pub(crate) fn checked_plan(text: &str) -> Result<(String, String, String, u64), Trouble> {
-    let plan = read(text)?;
-    Ok((crate::simulate::text(&plan)?, plan.hash(), plan.title(), points(&plan)))
-}
-
-/// The object that the command prints with `--json` for a plan, which is computed.
-#[pyfunction]
-pub(crate) fn answer_json(py: Python<'_>, plan: &str) -> Result<String, Trouble> {
-    let plan = read(plan)?;
-    let watch = Watch { what: "computing an answer", total: 1, progress: None, threads: 0 };
-    door::run(py, watch, move |control| {
-        // results of this package are nondimensional
-        let plan = Plan { units: None, ..plan };
-        Ok(vibroimpact_report::answer(&plan, Units::default(), control)?.json())
-    })
+pub(crate) fn checked_plan(given: &str) -> Result<(String, String, String, u64), Trouble> {
+    let plan = read(given)?;
+    Ok((text(&plan)?, plan.hash(), plan.title(), points(&plan)))
 }
 
 /// The fields of the system of a plan as JSON, with the frequency in the form in which it was given.
 #[pyfunction]
 pub(crate) fn system_fields(osc: Oscillator) -> Result<String, Trouble> {
-    serde_json::to_string(&osc.plan).map_err(|_| Trouble::Defect("writing the system"))
+    text(&osc.plan)
 }
 
 /// The units of length, time and mass of a machine at each combination of values of some of its parameters, in the order

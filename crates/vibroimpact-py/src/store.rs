@@ -2,8 +2,7 @@
 
 use crate::door::{self, Watch};
 use crate::error::Trouble;
-use crate::plan::read;
-use crate::simulate::text;
+use crate::plan::{read, text};
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::Arc;

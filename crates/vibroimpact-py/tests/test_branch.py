@@ -75,4 +75,4 @@ def test_a_line_through_two_parameters() -> None:
     assert flip.values is not None and flip.values == [flip.parameter, found.second[flip.point]]
     assert abs(flip.parameter - flip_of_1_1(flip.values[1], 0.5)) < 1e-11
     assert found.to_dict()["also"] == {"parameter": "inverse_beta", "from": 1.11, "to": 1.05}
-    assert "with $1/\\beta$ from 1.11 to 1.05" in found.plot(diagram=True).get_xlabel()
+    assert "with 1/$β$ from 1.11 to 1.05" in found.plot(diagram=True).get_xlabel()

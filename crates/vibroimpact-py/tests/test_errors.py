@@ -103,6 +103,21 @@ def test_questions_that_make_no_sense(s: vi.Oscillator, ask: Callable[[vi.Oscill
     assert issubclass(vi.QuestionError, ValueError)
 
 
+def test_what_an_error_knows() -> None:
+    with pytest.raises(vi.QuestionError) as refusal:
+        vi.Oscillator(**{**GOOD, "restitution": 1.4})
+    found = refusal.value
+    assert (found.name, found.given, found.least, found.most) == ("restitution", 1.4, 0.0, 1.0)
+    assert found.hint == "eps is the ratio of velocities, not of energies"
+    with pytest.raises(vi.QuestionError) as refusal:
+        vi.Oscillator.from_units(**{**MACHINE, "mass": -1})
+    found = refusal.value
+    assert (found.given, found.least, found.most) == (-1.0, 0.0, math.inf) and found.name is not None and "mass" in found.name
+    with pytest.raises(vi.QuestionError) as refusal:
+        vi.Oscillator(gap=1, restitution=0.5)
+    assert refusal.value.name is None and refusal.value.least is None and refusal.value.hint
+
+
 @pytest.mark.parametrize(
     "ask",
     [

@@ -144,16 +144,15 @@ def test_diagrams_of_every_kind_are_those_of_the_command(
     assert here == command and len(here) > 10, here[0]
 
 
-def test_the_command_asks_for_it(store: Path, vibro: Callable[..., Any], tmp_path: Path) -> None:
-    if store.stem != "basin":
-        pytest.skip("one kind is enough")
-    (tmp_path / "parquet").touch()
-    for form, more in (("netcdf", ()), ("parquet", ("--force",))):
-        pytest.importorskip({"netcdf": "scipy", "parquet": "pyarrow"}[form])
-        words = ("export", store, f"--{form}", tmp_path / form, "--python", sys.executable)
-        assert not more or vibro(*words).returncode == 2
-        done = vibro(*words, *more)
-        assert done.returncode == 0 and (tmp_path / form).stat().st_size > 500, done.stderr
+def test_the_command_asks_for_it(s: vi.Oscillator, vibro: Callable[..., Any], tmp_path: Path) -> None:
+    """By `python -m vibroimpact export`; `test_vibro.py` has the command of the package, and another format."""
+    pytest.importorskip("scipy")
+    vi.run(vi.Plan.basin(s, {"x": "-4:0.75:9"}), tmp_path / "one.zarr")
+    (tmp_path / "one.nc").touch()
+    words = ("export", tmp_path / "one.zarr", "--netcdf", tmp_path / "one.nc", "--python", sys.executable)
+    assert vibro(*words).returncode == 2
+    done = vibro(*words, "--force")
+    assert done.returncode == 0 and (tmp_path / "one.nc").stat().st_size > 500, done.stderr
 
 
 def test_refusals(s: vi.Oscillator, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
@@ -171,13 +170,6 @@ def test_refusals(s: vi.Oscillator, tmp_path: Path, monkeypatch: pytest.MonkeyPa
     assert sorted(of.name for of in tmp_path.iterdir()) == ["one.zarr", "one.zarr.costs"]
     with pytest.raises(vi.QuestionError, match="format = `xls` is none of netcdf, parquet, csv"):
         _export.export(place, tmp_path / "x", "xls")
-
-
-def test_a_module_that_runs(s: vi.Oscillator, tmp_path: Path) -> None:
-    vi.run(vi.Plan.basin(s, {"x": "-4:0.75:9"}), tmp_path / "one.zarr")
-    words = [sys.executable, "-m", "vibroimpact", "export", "one.zarr", "--format", "csv", "one.csv"]
-    subprocess.run(words, cwd=tmp_path, check=True)
-    assert (tmp_path / "one.csv").read_text().startswith("x,label,cycle\n-4.0,")
 
 
 def test_without_zarr_a_store_says_what_is_missing(

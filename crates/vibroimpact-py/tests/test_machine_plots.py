@@ -33,7 +33,8 @@ def test_a_settled_motion_is_drawn_over_whole_periods() -> None:
 def test_shares_and_exponents() -> None:
     found = HAMMER.attractors(6)
     ax = found.plot()
-    assert [bar.get_width() for bar in ax.patches] == (100 * found.share).tolist() and ax.get_title() == TITLE
+    ends = [path.vertices[:, 0].max() for bars in ax.collections for path in bars.get_paths()]
+    assert ends == (100 * found.share).tolist() and ax.get_title() == TITLE
     measured = HAMMER.lyapunov(impacts=300)
     ax = plt.subplots()[1]
     assert measured.plot(ax) is ax and measured.exponents is not None
@@ -56,20 +57,20 @@ def test_a_branch_without_stops_shows_a_displacement() -> None:
 def test_orbits_branches_and_curves() -> None:
     found = HAMMER.orbits("1/1")
     ax = found.plot()
-    assert len(words(ax)) == len(found) and words(ax)[-1].startswith("1/1, no.")
-    np.testing.assert_array_equal(ax.get_lines()[-1].get_ydata(), found[-1].cycle.speed[np.isin(found[-1].cycle.kind, ("impact", "close"))])
+    assert len(words(ax)) == len(found) and words(ax)[0].startswith("orbit 1: 1/1, ")
+    np.testing.assert_array_equal(ax.get_lines()[len(found) - 1].get_ydata(), found[-1].cycle.speed[np.isin(found[-1].cycle.kind, ("impact", "close"))])
     branch = HAMMER.branch("frequency", 1.05)
     ax = branch.plot(diagram=False)
     assert ax.get_xlabel() == "frequency" and {"grazing", "fold", "1/1", "stable"} <= set(words(ax))
     drawn = np.concatenate([line.get_xdata() for line in ax.get_lines() if len(line.get_xdata()) > 1 and line.get_marker() == "None"])
-    assert set(branch.parameter.tolist()) == set(drawn.tolist())
+    assert set(branch.parameter.tolist()) == set(drawn[np.isfinite(drawn)].tolist())
     # a curve for each closing, not only for the fastest
     heights = np.concatenate([line.get_ydata() for line in ax.get_lines() if len(line.get_xdata()) > 1 and line.get_marker() == "None"])
     closings = np.concatenate([cycle.speed[np.isin(cycle.kind, ("impact", "close"))] for cycle in branch.cycles])
-    assert set(closings.tolist()) == set(heights.tolist())
+    assert set(closings.tolist()) == set(heights[np.isfinite(heights)].tolist())
     line = HAMMER.branch("frequency", 1.1, also={"b": 0.6})
     ax = line.plot()
-    assert ax.get_xlabel() == "frequency, with b from 0.6 to 0.5" and words(ax)[-1] == "stable" and "simulation" in words(ax)
+    assert ax.get_xlabel() == "frequency, with b from 0.6 to 0.5" and {"stable", "simulation"} <= set(words(ax))
     curve = HAMMER.curve("grazing", {"frequency": (0.9, 1.3), "b": (0.4, 0.6)})
     ax = curve.plot()
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("frequency", "b") and words(ax)[0] == f"grazing of {curve.label}"
@@ -79,11 +80,11 @@ def test_orbits_branches_and_curves() -> None:
 def test_sections() -> None:
     found = vi.Machine.named("impact-pair").lyapunov(impacts=300, points=200)
     drawn = found.plot_sections()
-    assert [ax.get_xlabel() for ax in drawn] == [r"phase $\theta$", "q.ball"] and drawn[1].get_ylabel() == "qdot.ball"
+    assert [ax.get_xlabel() for ax in drawn] == ["phase $θ$", "q.ball"] and drawn[1].get_ylabel() == "qdot.ball"
     assert words(drawn[0]) == ["right", "left"]
     np.testing.assert_array_equal(drawn[1].get_lines()[0].get_xdata(), found.strobes.q[:, 0])
-    with pytest.raises(vi.QuestionError, match="2 axes are needed"):
-        found.plot_sections([plt.subplots()[1]])
+    with pytest.raises(vi.QuestionError, match="3 axes are given for a figure of 2 panels"):
+        found.plot_sections([plt.subplots()[1]] * 3)
 
 
 def test_basins_and_maps() -> None:

@@ -40,12 +40,13 @@ def test_the_bars_end_at_the_events() -> None:
     ax = found.plot()
     ends = [(of, end) for of in found.parameters.values() for end in (of.down, of.up)]
     changes = [((end.limit if end.at is None else end.at) - of.value) / of.scale for of, end in ends]
-    bars = [bar for group in ax.containers for bar in group]
-    assert [bar.get_width() for bar in bars] == pytest.approx(changes)
-    assert [text.get_text() for text in ax.texts] == [f"{end.at:.3g}" for _, end in ends if end.at is not None]
-    assert found.box is not None and max(abs(x) for x in ax.patches[-1].get_bbox().intervalx) == pytest.approx(found.box.size)
+    bars = [path.vertices[:, 0] for of in ax.collections for path in of.get_paths()]
+    assert sorted(max(xs.min(), xs.max(), key=abs) for xs in bars) == pytest.approx(sorted(changes))
+    assert [text.get_text() for text in ax.texts] == [f"{end.at:.6g}" for _, end in ends if end.at is not None]
+    sides = [line.get_xdata()[0] for line in ax.get_lines() if line.get_linestyle() == "--" and len(line.get_xdata())]
+    assert found.box is not None and sides == [-found.box.size, found.box.size]
     chaotic = vi.margins(vi.Oscillator(inverse_beta=1.11, gap=3, restitution=0.5))
-    with pytest.raises(vi.QuestionError, match="the motion chaotic is not periodic, so it has no margins to draw"):
+    with pytest.raises(vi.QuestionError, match="the motion `chaotic` is not periodic, so it has no margins to draw"):
         chaotic.plot()
     assert "<img" not in chaotic._repr_html_()
 

@@ -88,7 +88,7 @@ def test_a_response() -> None:
     labels = {label for branch in found.branches for label in branch.label.tolist()}
     assert {"1/1", "2/1"} <= labels and any(not branch.stable.all() for branch in found.branches)
     ax = found.plot(quantity="power")
-    assert ax.get_ylabel() == "power" and len(ax.lines) > 4
+    assert ax.get_ylabel() == "power of the force" and len(ax.lines) > 4
     assert found.to_dict()["sweeps"][0]["points"][0]["label"] == "2/1"
     with pytest.raises(vi.QuestionError, match="no quantity"):
         found.plot(quantity="speed")

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import vibroimpact as vi
+from vibroimpact.__main__ import vibro as main
 
 #: What the script of the package does, as pip writes it.
 SCRIPT = "#!{python}\nimport sys\nfrom vibroimpact.__main__ import vibro\nsys.exit(vibro())\n"
@@ -32,10 +33,16 @@ def test_it_is_declared(root: Path) -> None:
     assert 'vibro = "vibroimpact.__main__:vibro"' in (root / "pyproject.toml").read_text()
 
 
-def test_it_answers_as_the_program(script: Path, vibro: Callable[..., "subprocess.CompletedProcess[str]"]) -> None:
+def test_it_answers_as_the_program(
+    script: Path, vibro: Callable[..., "subprocess.CompletedProcess[str]"], monkeypatch: pytest.MonkeyPatch,
+    capfd: pytest.CaptureFixture[str],
+) -> None:
     for words in ((*SETTLE, "--json"), SETTLE, ("--version",), ("settle", "--gap", 1), ("orbit", "--help"), ("nothing",)):
-        own, other = run(script, *words), vibro(*words)
-        assert (own.returncode, own.stdout, own.stderr) == (other.returncode, other.stdout, other.stderr)
+        other = vibro(*words)
+        monkeypatch.setattr(sys, "argv", [str(script), *map(str, words)])
+        code = main()
+        said = capfd.readouterr()
+        assert (code, said.out, said.err) == (other.returncode, other.stdout, other.stderr)
     assert run(script, "--version").stdout.strip() == f"vibro {vi.__version__}"
 
 

@@ -69,8 +69,10 @@ def test_f11_whole_numbers_are_refused_by_name(
     for value in (least - 1, None if most is None else most + 1):
         if value is None or value < 0 or (value == 0 and name in ("orbit", "event")):
             continue
-        with pytest.raises(vi.QuestionError, match=f"^{name} = {value} lies outside {least} <= {name}{upper}"):
+        with pytest.raises(vi.QuestionError, match=f"^{name} = {value} lies outside {least} <= {name}{upper}") as refusal:
             ask(s, **{name: value})
+        found = refusal.value
+        assert (found.name, found.given, found.least) == (name, value, least) and found.most in (most, None)
 
 
 def test_f11_parts_that_are_none(s: vi.Oscillator, tmp_path: Path) -> None:

@@ -4,6 +4,7 @@ use crate::Units;
 use crate::figure::{named, quantity_name};
 use vibroimpact::machine::Machine;
 use vibroimpact::quantities::machine_quantity;
+use vibroimpact_plot::plain;
 use vibroimpact_study::{
     Name, Parameter, PlanError, Quantity, ResponseCurves, ResponsePlan, ResponseRow, Values, Variable, quantity_path,
 };
@@ -68,7 +69,7 @@ impl<'a> ResponseView<'a> {
             axis: plan.vary.text().to_owned(),
             quantity: machine_quantity(machine, &path)
                 .map_or_else(|_| path.clone(), |(part, of)| part.description(of).to_owned()),
-            ordinate: found.quantities[found.shown].clone(),
+            ordinate: plain(&found.quantities[found.shown]),
             columns: found.quantities.clone(),
             units: None,
         }

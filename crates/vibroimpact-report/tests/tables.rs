@@ -5,8 +5,7 @@
 #![allow(clippy::expect_used)]
 
 use std::path::Path;
-use vibroimpact_plot::{Dash, GROUP_RULES, GROUPS, GroupRule, SERIES, SHADES, Shape, class_style, legend_text};
-use vibroimpact_report::figure::styles::{BOUND_STYLES, BRANCH_MARKS, CURVE_MARKS, EVENT_COLOURS};
+use vibroimpact_plot::{GROUP_RULES, GROUPS, GroupRule, SERIES, SHADES, class_style, legend_text};
 
 const PYTHON: &str = "../vibroimpact-py/python/vibroimpact/_tables.py";
 const PAGE: &str = "../vibroimpact-web/page/tables.js";
@@ -45,63 +44,7 @@ fn mathtext(markup: &str) -> String {
         .collect()
 }
 
-/// The name of a mark in matplotlib.
-const fn mark(shape: Shape) -> char {
-    match shape {
-        Shape::Circle => 'o',
-        Shape::Square => 's',
-        Shape::Diamond => 'D',
-        Shape::TriangleUp => '^',
-        Shape::TriangleDown => 'v',
-        Shape::TriangleRight => '>',
-        Shape::TriangleLeft => '<',
-        Shape::Pentagon => 'p',
-        Shape::Star => '*',
-        Shape::Bar => 'd',
-        Shape::Cross => 'X',
-        Shape::Plus => 'P',
-    }
-}
-
-/// The name of a dash in matplotlib.
-const fn dash(dash: Dash) -> &'static str {
-    match dash {
-        Dash::Solid => "-",
-        Dash::Dashed => "--",
-        Dash::Dotted => ":",
-        Dash::DashDot => "-.",
-    }
-}
-
-/// The styles of events in Python.
-fn events() -> String {
-    let colours: String = EVENT_COLOURS
-        .iter()
-        .map(|(kind, colour)| format!("    \"{}\": \"{}\",\n", kind.name(), colour.to_hex()))
-        .collect();
-    let branch: String = BRANCH_MARKS
-        .iter()
-        .map(|(name, shape, zero)| {
-            format!("    \"{name}\": (\"{}\", {}),\n", mark(*shape), if *zero { "True" } else { "False" })
-        })
-        .collect();
-    let curve: String =
-        CURVE_MARKS.iter().map(|(name, shape)| format!("    \"{name}\": \"{}\",\n", mark(*shape))).collect();
-    let bounds: String = BOUND_STYLES
-        .iter()
-        .map(|(bound, colour, line, text)| {
-            format!("    \"{}\": (\"{}\", \"{}\", \"{text}\"),\n", bound.name(), colour.to_hex(), dash(*line))
-        })
-        .collect();
-    format!(
-        "\n#: Colours of curves of events.\nEVENT_COLOURS = {{\n{colours}}}\n\n\
-         #: Marks of events along branches, and whether they are at velocity zero.\nBRANCH_MARKS = {{\n{branch}}}\n\n\
-         #: Marks of points of codimension two on curves.\nCURVE_MARKS = {{\n{curve}}}\n\n\
-         #: Colour, dash and text of each bound of a region.\nBOUND_STYLES = {{\n{bounds}}}\n"
-    )
-}
-
-/// The colours of series and of the groups of motions with their texts and rules, and the styles of events, in Python.
+/// The colours of series and of the groups of motions with their texts and rules in Python.
 fn python() -> String {
     let indented = |lines: String| lines.lines().map(|line| format!("    {line}\n")).collect::<String>();
     let series: String = SERIES.iter().map(|colour| format!("    \"{}\",\n", colour.to_hex())).collect();
@@ -113,14 +56,13 @@ fn python() -> String {
     let legend = group(&|group| mathtext(legend_text(group)));
     let rules = indented(rules(['(', ')'], ["False", "True"], "math.inf"));
     format!(
-        "\"\"\"Colours of series, groups of motions in the order of a legend, and styles of events.\n\n{WRITTEN}\n\"\"\"\n\nimport math\n\n\
+        "\"\"\"Colours of series, and groups of motions in the order of a legend.\n\n{WRITTEN}\n\"\"\"\n\nimport math\n\n\
          SERIES = (\n{series})\n\nCLASSES = {{\n{classes}}}\n\n\
          #: Further colours of groups: m/n has number (m + 2n) mod 5, where 0 is the colour of the group and infinitely many impacts count as 0.\n\
          SHADES = {{\n{shades}}}\n\n\
          #: The words of a legend.\nLEGEND = {{\n{legend}}}\n\n\
          #: The first row that holds for m/n names its group: m from and to, n from and to, whether m = n is asked.\n\
-         GROUP_RULES = (\n{rules})\n{}",
-        events()
+         GROUP_RULES = (\n{rules})\n"
     )
 }
 

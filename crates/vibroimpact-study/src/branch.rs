@@ -1,25 +1,21 @@
-//! Branches of periodic orbits in one parameter or along a line through two, and the branches that begin at their flips
+//! Branches of periodic orbits of any system in one number or along a line through two, and the branches that begin at their flips
 //! and branch points.
 
-use crate::chosen::{Chosen, choose, label};
-use crate::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
+use crate::chosen::Chosen;
+use crate::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Shown, SweepDirection};
+use crate::dynamics::{CycleOf, Dynamics, PointOf, Problem};
 use crate::name::{Name, Written};
-use crate::{
-    Control, Cut, DiagramPlan, Parameter, PlanError, RunError, Span, Stopped, Stretch, SystemPlan, Target, limits,
-};
-use core::ops::RangeInclusive;
+use crate::{Control, Cut, DiagramPlan, Parameter, PlanError, RunError, Span, Stretch, Target, limits};
 use serde::{Deserialize, Serialize};
-use vibroimpact::continuation::{Branch, BranchError, BranchEvent, BranchOptions, Direction, SolutionPoint};
+use vibroimpact::continuation::{Direction, SolutionPoint};
 use vibroimpact::orbit::Cycle;
-use vibroimpact::verdict::Count;
-use vibroimpact::{Label, Oscillator, ParameterPath};
 
 /// Default maximum number of points of a branch.
 pub const DEFAULT_BRANCH_POINTS: u32 = 5_000;
 /// Maximum number of further branches.
-pub(crate) const MOST_FOLLOWED: u32 = 100;
+const MOST_FOLLOWED: u32 = 100;
 /// Number of values of the orbit diagram drawn behind a branch.
-pub(crate) const DIAGRAM_VALUES: u32 = 401;
+const DIAGRAM_VALUES: u32 = 401;
 
 /// An orbit that is followed in one parameter, or along a line through two.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -69,17 +65,17 @@ impl<V> BranchPlan<V> {
     }
 }
 
-impl BranchPlan {
+impl<V: Name> BranchPlan<V> {
     /// Checks everything that can be checked without running the plan.
     ///
     /// # Errors
     /// [`PlanError`] names the first invalid value.
-    pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
-        label(self.label.as_deref())?;
-        let cut = self.cut(system)?;
-        cut.check(system)?;
+    pub(crate) fn check<D: Dynamics<Name = V>>(&self, of: &Problem<'_, D>) -> Result<(), PlanError> {
+        of.check_orbit((self.label.as_deref(), self.orbit), false)?;
+        let cut = self.cut(of.written)?;
+        of.written.check_line(&cut)?;
         if cut.ends.0 == self.to {
-            return Err(PlanError::Nowhere { name: self.vary.name().into(), value: self.to });
+            return Err(PlanError::Nowhere { name: self.vary.text().to_owned().into(), value: self.to });
         }
         limits::check("follow", self.follow, 0..=MOST_FOLLOWED)?;
         limits::branch_points(self.points)
@@ -88,28 +84,24 @@ impl BranchPlan {
     /// The line along which the orbit is followed.
     ///
     /// # Errors
-    /// [`PlanError`] for an invalid system, or for a parameter of a second stop if there is none.
-    pub fn cut(&self, system: &SystemPlan) -> Result<Cut, PlanError> {
-        let from = |Target { parameter, to }| system.value(parameter).map(|from| Stretch { parameter, from, to });
-        let also = self.also.map(from).transpose()?;
-        Ok(Cut { vary: self.vary, ends: (system.value(self.vary)?, self.to), also })
+    /// [`PlanError`] for an invalid system, or for a number that it does not have.
+    pub fn cut<D: Dynamics<Name = V>>(&self, system: &D) -> Result<Cut<V>, PlanError> {
+        let from = |Target { parameter, to }: &Target<V>| {
+            system.number(parameter).map(|from| Stretch { parameter: parameter.clone(), from, to: *to })
+        };
+        let also = self.also.as_ref().map(from).transpose()?;
+        Ok(Cut { vary: self.vary.clone(), ends: (system.number(&self.vary)?, self.to), also })
     }
 
-    /// The plan of an orbit diagram over the same range.
+    /// The plan of an orbit diagram of the closings of stops over the same range.
     ///
     /// # Errors
     /// [`PlanError`] for an invalid plan.
-    pub fn diagram(&self, system: &SystemPlan) -> Result<DiagramPlan, PlanError> {
+    pub fn diagram<D: Dynamics<Name = V>>(&self, system: &D) -> Result<DiagramPlan<V, D::Shown>, PlanError> {
         let Cut { vary, ends, also } = self.cut(system)?;
-        Ok(DiagramPlan {
-            vary,
-            over: Span::new(ends.0, ends.1, DIAGRAM_VALUES)?.into(),
-            also,
-            show: Show::Velocity,
-            direction: SweepDirection::Both,
-            transient: DEFAULT_TRANSIENT,
-            keep: DEFAULT_KEEP,
-        })
+        let over = Span::new(ends.0, ends.1, DIAGRAM_VALUES)?.into();
+        let (direction, transient, keep) = (SweepDirection::Both, DEFAULT_TRANSIENT, DEFAULT_KEEP);
+        Ok(DiagramPlan { vary, over, also, show: D::Shown::closings(), direction, transient, keep })
     }
 }
 
@@ -138,113 +130,43 @@ pub struct Branches<C = Cycle, P = SolutionPoint> {
     pub chosen: Chosen<C>,
     /// All branches; the branch of the chosen orbit comes first.
     pub followed: Vec<Followed<P>>,
-    /// Events of an oscillator at which a further branch was expected but could not be followed.
+    /// Events at which a further branch was expected but could not be followed.
     pub lost: Vec<Origin<P>>,
 }
 
 /// Follows the orbit of a plan and the branches that begin on its branch.
 ///
 /// # Errors
-/// [`RunError`] for an invalid plan, for an orbit that does not exist, or when stopped. The stop flag is read at every
-/// seed of the search and at every point.
-pub(crate) fn branches(system: &SystemPlan, plan: &BranchPlan, control: &Control<'_>) -> Result<Branches, RunError> {
-    plan.check(system)?;
-    let osc = system.oscillator()?;
-    let cut = plan.cut(system)?;
-    let vary = cut.varying(system, cut.ends.0)?;
-    let from = vary.get(&osc).map_err(PlanError::from)?;
-    let label = label(plan.label.as_deref())?;
-    let stopped = |done: usize| Stopped { done: done as u64, total: u64::from(plan.follow) + 1 };
-    let chosen = choose(&osc, label, plan.orbit, &|| !control.stopping())?.ok_or_else(|| stopped(0))?;
-    let range = from.min(plan.to)..=from.max(plan.to);
-    let direction = if plan.to > from { Direction::Up } else { Direction::Down };
-    let options = BranchOptions { points: plan.points, ..BranchOptions::default() };
-    let first = Branch::new(&osc, &chosen.cycle, vary.clone(), range.clone(), direction, options);
-    let ground = Ground { osc, vary, range, options, control };
-    let points = ground.points(first.map_err(PlanError::from)?);
-    let mut all = Branches { chosen, followed: vec![Followed { origin: None, points }], lost: Vec::new() };
-    all.follow(&ground, plan.follow as usize);
-    if control.stopping() {
-        return Err(stopped(all.followed.len() - 1).into());
-    }
-    Ok(all)
-}
-
-/// The data common to all branches of a plan.
-struct Ground<'a, 'c> {
-    osc: Oscillator,
-    vary: ParameterPath,
-    range: RangeInclusive<f64>,
-    options: BranchOptions,
-    control: &'a Control<'c>,
-}
-
-impl Ground<'_, '_> {
-    /// The points of a branch; ends early when the run is stopped.
-    fn points(&self, branch: Branch) -> Vec<SolutionPoint> {
-        branch.take_while(|_| !self.control.stopping()).collect()
-    }
-
-    /// The branches that begin at an event.
-    fn from(&self, point: &SolutionPoint) -> Result<Vec<Branch>, BranchError> {
-        let range = self.range.clone();
-        if point.event == Some(BranchEvent::Flip) {
-            return Ok(vec![Branch::from_flip(&self.osc, point, self.vary.clone(), range, self.options)?]);
-        }
-        let both = Branch::from_branch_point(&self.osc, point, self.vary.clone(), range, self.options)?;
-        Ok(both.into_iter().collect())
-    }
-}
-
-/// Two values of the parameter are the same event if they differ by less than this, relative to their size.
-const SAME: f64 = 1e-7;
-
-impl Branches {
-    /// Follows the branches that begin at the events of all branches so far, until there are `most` further branches.
-    fn follow(&mut self, ground: &Ground<'_, '_>, most: usize) {
-        let mut seen: Vec<(f64, Label)> = Vec::new();
-        let mut at = 0;
-        while at < self.followed.len() && self.followed.len() <= most {
-            let begins = |point: &&SolutionPoint| {
-                matches!(point.event, Some(BranchEvent::Flip | BranchEvent::BranchPoint)) && point.physical
-            };
-            let origins: Vec<SolutionPoint> = self.followed[at].points.iter().filter(begins).cloned().collect();
-            for point in origins {
-                let known = |(value, label): &(f64, Label)| {
-                    *label == point.cycle.label && (value - point.value).abs() <= SAME * (1.0 + value.abs())
-                };
-                if seen.iter().any(known) || self.followed.len() > most {
-                    continue;
-                }
-                seen.push((point.value, point.cycle.label));
-                let origin = Origin { branch: at, point };
-                match ground.from(&origin.point) {
-                    Ok(found) => {
-                        for branch in found.into_iter().take(most + 1 - self.followed.len()) {
-                            let points = ground.points(branch);
-                            seen.extend(points.iter().filter_map(other_end));
-                            self.followed.push(Followed { origin: Some(origin.clone()), points });
-                        }
-                    }
-                    Err(_) => self.lost.push(origin),
-                }
-            }
-            at += 1;
-        }
-    }
-}
-
-/// The flip at which a branch of twice the period ends. The branch that begins at this flip is already known.
-fn other_end(point: &SolutionPoint) -> Option<(f64, Label)> {
-    let Count::Finite(impacts) = point.cycle.label.impacts else { return None };
-    let half = Label::new(impacts / 2, point.cycle.label.periods / 2);
-    (point.event == Some(BranchEvent::Halving)).then_some((point.value, half))
+/// [`RunError`] for an orbit that does not exist, or when stopped. The stop flag is read at every seed of the search and at every
+/// point.
+pub(crate) fn branches<D: Dynamics>(
+    of: &Problem<'_, D>,
+    plan: &BranchPlan<D::Name>,
+    control: &Control<'_>,
+) -> Result<Branches<CycleOf<D>, PointOf<D>>, RunError> {
+    let cut = plan.cut(of.written)?;
+    let (from, to) = cut.ends;
+    let chosen = of.chosen((plan.label.as_deref(), plan.orbit), control)?;
+    let line = of.written.line(&cut, from, plan.points)?;
+    let direction = if to > from { Direction::Up } else { Direction::Down };
+    let points = line.trace((from, &chosen.cycle), direction, control)?;
+    let (further, lost) = line.beginning_on(&points, plan.follow as usize, &mut Vec::new(), control)?;
+    let followed = core::iter::once(Followed { origin: None, points }).chain(further).collect();
+    Ok(Branches { chosen, followed, lost })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Plan, Task};
+    use crate::{Plan, StartPlan, SystemPlan, Task};
+    use vibroimpact::Label;
+    use vibroimpact::continuation::BranchEvent;
+
+    fn branches(system: &SystemPlan, plan: &BranchPlan, control: &Control<'_>) -> Result<Branches, RunError> {
+        let problem = system.problem(StartPlan::default())?;
+        plan.check(&problem)?;
+        super::branches(&problem, plan, control)
+    }
 
     fn plan() -> (SystemPlan, BranchPlan) {
         let system = SystemPlan { inverse_beta: Some(1.11), gap: 1.5, restitution: 0.5, ..SystemPlan::default() };
@@ -332,8 +254,98 @@ mod tests {
             (BranchPlan { follow: 101, ..good.clone() }, "follow = 101 lies outside 0 <= follow <= 100"),
             (BranchPlan { points: 1, ..good.clone() }, "points = 1 lies outside 2 <= points <= 100000"),
         ] {
-            let message = branch.check(&system).unwrap_err().to_string();
+            let message = branch.check(&system.problem(StartPlan::default()).unwrap()).unwrap_err().to_string();
             assert!(message.starts_with(sentence), "{message}");
         }
+    }
+}
+
+#[cfg(test)]
+mod tests_of_machines {
+    use super::*;
+    use crate::machine::CATALOGUE;
+    use crate::machine::MachineSource;
+    use crate::{Plan, Results, Task, machine, run};
+    use vibroimpact::continuation::machine::{BranchEvent, SolutionPoint};
+    use vibroimpact::orbit::machine::Cycle;
+
+    fn hammer() -> MachineSource {
+        CATALOGUE.iter().find(|entry| entry.name == "two-mass-hammer").unwrap().source().unwrap()
+    }
+
+    fn asked(vary: &str, to: f64, also: Option<(&str, f64)>) -> BranchPlan<String> {
+        let also = also.map(|(path, to)| Target { parameter: path.to_owned(), to });
+        BranchPlan { label: None, orbit: None, vary: vary.to_owned(), to, also, points: 500, follow: 0 }
+    }
+
+    fn followed(source: &MachineSource, plan: &BranchPlan<String>) -> Branches<Cycle, SolutionPoint> {
+        let plan = Plan::new(source.clone(), Task::from(plan.clone()));
+        let Results::Machine(machine::Results::Branch(found)) = run(&plan, &Control::default()).unwrap() else {
+            panic!()
+        };
+        found
+    }
+
+    fn grazing(found: &Branches<Cycle, SolutionPoint>) -> f64 {
+        let is_grazing = |point: &&SolutionPoint| matches!(point.event, Some(BranchEvent::Grazing { .. }));
+        found.followed[0].points.iter().find(is_grazing).unwrap().value
+    }
+
+    #[test]
+    fn a_line_meets_the_grazing_that_its_first_number_meets_alone_there() {
+        let source = hammer();
+        let line = asked("frequency", 1.0, Some(("stop.anvil.gap", 0.6)));
+        let found = followed(&source, &line);
+        let value = grazing(&found);
+        let gap = line.cut(&source).unwrap().values(value).nth(1).unwrap();
+        assert!(gap > 0.5 && gap < 0.6, "{gap}");
+        let there = source.with("stop.anvil.gap", gap).unwrap();
+        assert!((grazing(&followed(&there, &asked("frequency", 1.0, None))) - value).abs() < 1e-9);
+        let ends = [1.2, 1.0].map(|end| line.cut(&source).unwrap().values(end).nth(1));
+        assert_eq!(ends, [Some(0.5), Some(0.6)]);
+        assert_eq!(line.diagram(&source).unwrap().cut(), line.cut(&source).unwrap());
+    }
+
+    #[test]
+    fn the_number_of_the_orbit() {
+        let source = hammer().with("frequency", 1.06).unwrap();
+        let of = |orbit| BranchPlan { label: Some("2/1".into()), orbit, ..asked("frequency", 1.065, None) };
+        let begins = |orbit| {
+            let found = followed(&source, &of(orbit));
+            let first = &found.followed[0].points[0].cycle;
+            (found.chosen.among, first.stable(), first.fastest())
+        };
+        let number = |number| Some(crate::OrbitNumber { number, count: 2 });
+        let (one, two) = (begins(Some(1)), begins(Some(2)));
+        assert_eq!((one.0, one.1, two.0, two.1), (number(1), false, number(2), true));
+        assert!(one.2 < two.2);
+        // the stable one by default
+        assert_eq!(begins(None), two);
+        let refused = |plan: BranchPlan<String>| {
+            let plan = Plan::new(source.clone(), Task::from(plan));
+            run(&plan, &Control::default()).unwrap_err().to_string()
+        };
+        for orbit in [0, 3] {
+            let said = refused(of(Some(orbit)));
+            assert!(said.starts_with(&format!("there is no orbit 2/1 number {orbit}; found: 2")), "{said}");
+        }
+        let unlabelled = BranchPlan { label: None, ..of(Some(1)) };
+        assert!(refused(unlabelled).starts_with("the number of an orbit is given without a label"));
+        let twice = asked("frequency", 1.0, Some(("frequency", 1.1)));
+        assert!(refused(twice).starts_with("frequency and frequency cannot vary together"));
+        let endless = asked("frequency", 1.0, Some(("b", f64::NAN)));
+        assert!(refused(endless).starts_with("b is to go from 0.5 to NaN"));
+    }
+
+    #[test]
+    fn a_plan_survives_json() {
+        let full =
+            BranchPlan { label: Some("2/1".into()), orbit: Some(1), follow: 2, ..asked("b", 0.7, Some(("mu", 0.6))) };
+        let text = serde_json::to_string(&full).unwrap();
+        assert_eq!(serde_json::from_str::<BranchPlan<String>>(&text).unwrap(), full);
+        let short = r#"{"vary":"b","to":0.7,"points":500}"#;
+        let plan: BranchPlan<String> = serde_json::from_str(short).unwrap();
+        assert_eq!(plan, asked("b", 0.7, None));
+        assert_eq!(serde_json::to_string(&plan).unwrap(), short);
     }
 }

@@ -1,17 +1,15 @@
-//! Curves of folds, flips and grazing impacts in a plane of two parameters. A curve begins at an event on a branch in
-//! the first parameter.
+//! Curves of events of an orbit of any system in a plane of two numbers. A curve begins at an event on a branch in the first one.
 
-use crate::chosen::{Chosen, choose, followable};
+use crate::chosen::Chosen;
+use crate::dynamics::{CycleOf, Dynamics, PointOf, Problem, not_stopped};
 use crate::name::Name;
-use crate::stretch::check_plane;
-use crate::{Control, Parameter, PlanError, RunError, Stopped, Stretch, SystemPlan, limits};
+use crate::orbit_line::{Along, OrbitLine, Solution};
+use crate::{Control, Parameter, PlanError, RunError, Stretch, limits};
 use serde::{Deserialize, Serialize};
-use vibroimpact::continuation::{
-    Branch, BranchEvent, BranchOptions, Curve, CurveEvent, CurveOptions, CurvePoint, Direction, SolutionPoint,
-};
+use vibroimpact::continuation::{CurveEvent, CurvePoint, Direction, SolutionPoint};
 use vibroimpact::math::sort_by;
 use vibroimpact::orbit::Cycle;
-use vibroimpact::{Label, Oscillator, ParameterPath};
+use vibroimpact::verdict::System;
 
 /// What holds along a curve. Torus, corner, sticking and holding are of machines only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -45,15 +43,6 @@ impl FollowedEvent {
             Self::Corner => "corner",
             Self::Sticking => "sticking",
             Self::Holding => "holding",
-        }
-    }
-
-    const fn is(self, event: BranchEvent) -> bool {
-        match self {
-            Self::Fold => matches!(event, BranchEvent::Fold),
-            Self::Flip => matches!(event, BranchEvent::Flip),
-            Self::Grazing => matches!(event, BranchEvent::Grazing { .. } | BranchEvent::LossOfContact { .. }),
-            Self::Torus | Self::Corner | Self::Sticking | Self::Holding => false,
         }
     }
 }
@@ -92,22 +81,20 @@ impl<V> CurvePlan<V> {
     }
 }
 
-impl CurvePlan {
+impl<V: Name> CurvePlan<V> {
     /// Checks everything that can be checked without running the plan.
     ///
     /// # Errors
     /// [`PlanError`] names the first invalid value.
-    pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
-        followable(self.label.as_deref())?;
-        if !matches!(self.kind, FollowedEvent::Fold | FollowedEvent::Flip | FollowedEvent::Grazing) {
-            return Err(PlanError::NoCurve(self.kind.name()));
-        }
+    pub(crate) fn check<D: Dynamics<Name = V>>(&self, of: &Problem<'_, D>) -> Result<(), PlanError> {
+        of.check_orbit((self.label.as_deref(), self.orbit), true)?;
+        D::check_curve(self.kind)?;
         self.points.map_or(Ok(()), limits::branch_points)?;
-        check_plane(system, &self.vary, &self.and)?;
+        of.written.check_plane(&self.vary, &self.and)?;
         for stretch in [&self.vary, &self.and] {
-            let value = system.value(stretch.parameter)?;
-            if !stretch.range().contains(&value) {
-                let name = stretch.parameter.name().into();
+            let value = of.written.number(&stretch.parameter)?;
+            if !(stretch.from..=stretch.to).contains(&value) {
+                let name = stretch.parameter.text().to_owned().into();
                 return Err(PlanError::Outside { name, value, from: stretch.from, to: stretch.to });
             }
         }
@@ -132,91 +119,84 @@ pub struct EventCurve<C = Cycle, E = SolutionPoint, P = CurvePoint> {
     pub begin: usize,
 }
 
-/// Follows an orbit in the first parameter to an event, and then follows the event in the plane.
+/// Follows an orbit in the first number to an event, and then follows the event in the plane.
 ///
 /// # Errors
-/// [`RunError`] for an invalid plan, for an orbit that does not exist, if there is no event of the requested kind, or
-/// when stopped. The stop flag is read at every seed of the search and at every point.
-pub(crate) fn curve(system: &SystemPlan, plan: &CurvePlan, control: &Control<'_>) -> Result<EventCurve, RunError> {
-    plan.check(system)?;
-    let osc = system.oscillator()?;
-    let label = followable(plan.label.as_deref())?;
-    let chosen = choose(&osc, label, plan.orbit, &|| !control.stopping())?.ok_or(Stopped { done: 0, total: 2 })?;
-    let going = || !control.stopping();
-    let stopped = |done| if going() { Ok(()) } else { Err(Stopped { done, total: 2 }) };
-    let physical = plan.vary.physical().or(plan.and.physical());
-    let line = match system.machine.filter(|_| physical.is_some()) {
-        Some(machine) => machine.line(plan.vary.parameter, None).map_err(PlanError::from)?,
-        None => plan.vary.parameter.into(),
-    };
-    let events = events(&osc, &chosen, plan, (&line, label), going)?;
-    stopped(0)?;
-    let own = system.value(plan.vary.parameter)?;
-    let nearest = || {
-        let off = |index: &usize| (events[*index].value - own).abs();
-        (0..events.len()).min_by(|a, b| off(a).total_cmp(&off(b)))
-    };
+/// [`RunError`] for an orbit that does not exist, if there is no event of the requested kind, or when stopped. The stop flag is read
+/// at every seed of the search and at every point.
+pub(crate) fn curve<D: Dynamics>(
+    of: &Problem<'_, D>,
+    plan: &CurvePlan<D::Name>,
+    control: &Control<'_>,
+) -> Result<EventCurve<CycleOf<D>, PointOf<D>, D::CurvePoint>, RunError> {
+    let chosen = of.chosen((plan.label.as_deref(), plan.orbit), control)?;
+    let (line, own) = D::line_of_events(of, plan)?;
+    let events = events::<D>(&line, (own, &chosen.cycle), plan, control)?;
+    let off = |index: &usize| (events[*index].value() - own).abs();
     let through = match plan.event {
         Some(given) => (given as usize).checked_sub(1).filter(|index| *index < events.len()),
-        None => nearest(),
+        None => (0..events.len()).min_by(|a, b| off(a).total_cmp(&off(b))),
     };
-    let through = through.ok_or(PlanError::NoEvent {
+    let through = through.ok_or_else(|| PlanError::NoEvent {
         kind: plan.kind.name(),
-        label,
-        name: plan.vary.parameter.name().into(),
+        label: D::System::label(&chosen.cycle),
+        name: plan.vary.parameter.text().to_owned().into(),
         from: plan.vary.from,
         to: plan.vary.to,
         count: events.len(),
         asked: plan.event,
     })?;
-    let usual = CurveOptions::default();
-    let options = CurveOptions { points: plan.points.unwrap_or(usual.points), ..usual };
-    let frame = plan.vary.frame(&plan.and, &system.with_all([(plan.vary.parameter, events[through].value)])?)?;
-    let [forth, back] = Curve::through(&osc, &events[through], line, &frame, options).map_err(PlanError::from)?;
-    let forth: Vec<CurvePoint> = forth.take_while(|_| going()).collect();
-    let closed = forth.last().is_some_and(|point| point.event == Some(CurveEvent::Closed));
+    let ([forth, back], places) = D::curve(of, plan, line, &events[through])?;
+    let forth: Vec<D::CurvePoint> = forth.take_while(|_| !control.stopping()).collect();
+    let closed = forth.last().is_some_and(|point| D::curve_event(point) == Some(CurveEvent::Closed));
     // the event itself is the first point of both directions, so one copy is skipped
-    let mut points: Vec<CurvePoint> = if closed { Vec::new() } else { back.skip(1).take_while(|_| going()).collect() };
-    stopped(1)?;
+    let back = back.skip(1).take_while(|_| !control.stopping());
+    let mut points: Vec<D::CurvePoint> = if closed { Vec::new() } else { back.collect() };
+    not_stopped(control)?;
     points.reverse();
     let begin = points.len();
     points.extend(forth);
-    Ok(EventCurve { chosen, places: Vec::new(), events, through, points, begin })
+    Ok(EventCurve { chosen, places, events, through, points, begin })
 }
 
 /// The events of the requested kind on the branch of the orbit, up to both ends of the range, as long as the label is
 /// unchanged.
-fn events(
-    osc: &Oscillator,
-    chosen: &Chosen,
-    plan: &CurvePlan,
-    (line, label): (&ParameterPath, Label),
-    going: impl Fn() -> bool,
-) -> Result<Vec<SolutionPoint>, PlanError> {
-    let own = line.get(osc)?;
-    let mut events: Vec<SolutionPoint> = Vec::new();
-    for (direction, end) in [(Direction::Up, plan.vary.to), (Direction::Down, plan.vary.from)] {
-        if (direction == Direction::Up && own >= end) || (direction == Direction::Down && own <= end) {
+fn events<D: Dynamics>(
+    line: &OrbitLine<D::Along>,
+    (own, cycle): (f64, &CycleOf<D>),
+    plan: &CurvePlan<D::Name>,
+    control: &Control<'_>,
+) -> Result<Vec<PointOf<D>>, RunError> {
+    let label = D::System::label(cycle);
+    let mut events: Vec<PointOf<D>> = Vec::new();
+    for (direction, beyond) in [(Direction::Up, own >= plan.vary.to), (Direction::Down, own <= plan.vary.from)] {
+        if beyond {
             continue;
         }
-        let cycle = &chosen.cycle;
-        // the inverse of a value at an end of the range may be rounded to a value outside
-        let range = plan.vary.from.min(own)..=plan.vary.to.max(own);
-        let branch = Branch::new(osc, cycle, line.clone(), range, direction, BranchOptions::default())?;
-        for point in branch.take_while(|point| point.cycle.label == label && going()) {
-            let known = |other: &SolutionPoint| (other.value - point.value).abs() <= 1e-9 * (1.0 + point.value.abs());
-            if point.event.is_some_and(|event| plan.kind.is(event)) && !events.iter().any(known) {
+        let branch = D::Along::branch(line, (own, cycle), direction).map_err(PlanError::from)?;
+        for point in branch.take_while(|point| point.label() == label && !control.stopping()) {
+            let near = |other: &PointOf<D>| (other.value() - point.value()).abs() <= 1e-9 * (1.0 + point.value().abs());
+            if point.is(plan.kind) && !events.iter().any(near) {
                 events.push(point);
             }
         }
     }
-    sort_by(&mut events, |a, b| a.value.total_cmp(&b.value));
+    not_stopped(control)?;
+    sort_by(&mut events, |a, b| a.value().total_cmp(&b.value()));
     Ok(events)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{StartPlan, SystemPlan};
+
+    fn curve(system: &SystemPlan, plan: &CurvePlan, control: &Control<'_>) -> Result<EventCurve, RunError> {
+        let problem = system.problem(StartPlan::default())?;
+        plan.check(&problem)?;
+        super::curve(&problem, plan, control)
+    }
+
     use crate::{Parameter, PhysicalPlan, Plan, Task};
 
     fn plan() -> (SystemPlan, CurvePlan) {
@@ -321,5 +301,67 @@ mod tests {
             let message = curve(&system, &plan, &Control::default()).unwrap_err().to_string();
             assert!(message.starts_with(sentence), "{message}");
         }
+    }
+}
+
+#[cfg(test)]
+mod tests_of_machines {
+    use super::*;
+    use crate::machine::CATALOGUE;
+    use crate::{Plan, Results, Task, machine, run};
+
+    fn plan(kind: FollowedEvent, event: Option<u32>) -> Plan {
+        let entry = CATALOGUE.iter().find(|entry| entry.name == "bouncing-ball").unwrap();
+        let source = entry.source().unwrap().with("Gamma", 1.2).unwrap();
+        let stretch = |path: &str, from, to| Stretch { parameter: path.to_owned(), from, to };
+        Plan::new(
+            source,
+            Task::from(CurvePlan {
+                label: Some("1/1".to_owned()),
+                orbit: None,
+                kind,
+                vary: stretch("Gamma", 0.2, 3.0),
+                and: stretch("e", 0.2, 0.9),
+                event,
+                points: Some(500),
+            }),
+        )
+    }
+
+    /// The fold of the ball on a table in closed form.
+    #[test]
+    fn the_ball_on_a_table() {
+        let plan = plan(FollowedEvent::Fold, None);
+        let text = serde_json::to_string(&plan).unwrap();
+        assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan);
+        let Results::Machine(machine::Results::Curve(found)) = run(&plan, &Control::default()).unwrap() else {
+            panic!()
+        };
+        assert!(found.points.len() > 20 && found.points[found.begin].event.is_none());
+        for point in &found.points {
+            let (gamma, e) = point.values;
+            assert!((gamma - core::f64::consts::PI * (1.0 - e) / (1.0 + e)).abs() < 1e-9, "{gamma} {e}");
+        }
+        assert!(found.points[0].event.is_some() && found.points.last().unwrap().event.is_some());
+    }
+
+    #[test]
+    fn nonsense_is_refused() {
+        let told = |plan: &Plan| run(plan, &Control::default()).unwrap_err().to_string();
+        assert!(told(&plan(FollowedEvent::Torus, None)).starts_with("no torus was found on the branch of 1/1"));
+        assert!(told(&plan(FollowedEvent::Flip, Some(4))).starts_with("there is no flip number 4 on the branch"));
+        let changed = |of: &dyn Fn(&mut Stretch<String>, &mut Stretch<String>)| {
+            let mut plan = plan(FollowedEvent::Fold, None);
+            let Task::Curve(asked) = &plan.task else { panic!() };
+            let mut asked: CurvePlan<String> = asked.typed().unwrap();
+            let CurvePlan { vary, and, .. } = &mut asked;
+            of(vary, and);
+            plan.task = asked.into();
+            told(&plan)
+        };
+        assert!(changed(&|_, and| and.to = 1.5).contains("restitution"), "{}", changed(&|_, and| and.to = 1.5));
+        assert!(changed(&|vary, _| vary.from = 2.0).starts_with("Gamma = 1.2 lies outside the range from 2 to 3"));
+        assert!(changed(&|vary, _| vary.to = -1.0).starts_with("Gamma from 0.2 to -1 is no range"));
+        assert!(changed(&|vary, and| *and = vary.clone()).contains("Gamma"));
     }
 }

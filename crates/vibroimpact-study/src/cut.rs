@@ -1,6 +1,8 @@
-//! A line in the space of parameters: one parameter varies between two values, and a second one may vary in proportion.
+//! A line in the space of the numbers of a system: one varies between two values, and a second one may vary in proportion.
 
+use crate::machine::{MachineSource, VariedMachine};
 use crate::{Parameter, PlanError, Stretch, SystemPlan};
+use vibroimpact::continuation::machine::Family;
 use vibroimpact::{Oscillator, ParameterPath, SystemError};
 
 /// The line of an orbit diagram or a branch. A point on it is given by the value of the first parameter.
@@ -89,6 +91,54 @@ impl Cut {
             self.oscillator(system, end)?;
         }
         self.varying(system, self.ends.0).map(|_| ())
+    }
+}
+
+impl Cut<String> {
+    /// The machine as it is written, where the first number has the value `value`. It is not checked.
+    ///
+    /// # Errors
+    /// [`PlanError::Machine`] if a path leads to no number.
+    pub fn source(&self, source: &MachineSource, value: f64) -> Result<MachineSource, PlanError> {
+        self.with(source, self.values(value))
+    }
+
+    /// The machine as it is written, with these values of the numbers that vary.
+    pub(crate) fn with(
+        &self,
+        source: &MachineSource,
+        values: impl Iterator<Item = f64>,
+    ) -> Result<MachineSource, PlanError> {
+        Ok(source.with_all(self.names().map(String::as_str).zip(values))?)
+    }
+
+    /// The machines along the line.
+    pub(crate) fn family(&self, source: &MachineSource) -> Family {
+        let samples = [self.ends.0, 0.5 * (self.ends.0 + self.ends.1), self.ends.1].map(|at| self.values(at).collect());
+        let (cut, varied) = (self.clone(), VariedMachine::new(source, self.names().map(String::as_str), &samples));
+        varied.family(move |[value]| cut.values(value).collect())
+    }
+
+    /// Checks that the second number is another one, that all values are finite, the paths, and the machine at the end.
+    ///
+    /// # Errors
+    /// [`PlanError`] names the first invalid value.
+    pub(crate) fn check(&self, source: &MachineSource) -> Result<(), PlanError> {
+        source.number(&self.vary)?;
+        let endless = |path: &String, (from, to): (f64, f64)| {
+            let finite = from.is_finite() && to.is_finite();
+            if finite { Ok(()) } else { Err(PlanError::Endless { name: path.clone().into(), from, to }) }
+        };
+        endless(&self.vary, self.ends)?;
+        if let Some(Stretch { parameter: path, from, to }) = &self.also {
+            if *path == self.vary {
+                return Err(PlanError::MachineTogether(path.clone()));
+            }
+            endless(path, (*from, *to))?;
+            source.number(path)?;
+        }
+        self.source(source, self.ends.1)?.parts()?;
+        Ok(())
     }
 }
 

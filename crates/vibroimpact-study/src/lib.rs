@@ -21,6 +21,8 @@
 //! | the motion after its transient at each value of a parameter | [`DiagramPlan`], [`Diagram`], [`diagram`] |
 //! | the impacts of a motion on each of two stops | [`ImpactsByStop`] |
 //! | the plan for Lyapunov exponents of a motion | [`LyapunovPlan`] |
+//! | what tasks ask of an oscillator and of a machine alike; a system with the start of a motion | [`Dynamics`], [`Problem`] |
+//! | a line along which orbits are followed | [`OrbitLine`] |
 //! | a branch of periodic orbits in one parameter, and the branches that begin on it | [`BranchPlan`], [`Branches`] |
 //! | the orbit at which a branch begins; the data of an event on a branch | [`Chosen`], [`EventRecord`] |
 //! | a curve of folds, flips or grazing impacts in two parameters | [`CurvePlan`], [`EventCurve`] |
@@ -43,6 +45,7 @@ mod control;
 mod curve;
 mod cut;
 pub mod diagram;
+mod dynamics;
 mod error;
 mod event_columns;
 mod event_record;
@@ -56,6 +59,7 @@ mod machine_plan;
 mod map;
 mod margins;
 mod name;
+mod orbit_line;
 mod parameter;
 mod physical;
 mod plan;
@@ -87,6 +91,7 @@ pub use control::{Control, Meter, Stopped, TileMeter, tiles};
 pub use curve::{CurvePlan, EventCurve, FollowedEvent};
 pub use cut::Cut;
 pub use diagram::{Diagram, DiagramPlan};
+pub use dynamics::{CycleOf, Dynamics, PointOf, Problem, machine_label, quantity_path};
 pub use error::{PlanError, RunError};
 pub use event_columns::{END_REASONS, EventColumns, REAL_COLUMNS};
 pub use event_record::EventRecord;
@@ -94,23 +99,21 @@ pub use field::{Column, Extra, Field, NumberType};
 pub use grid::{Block, Dimension, Grid, number, place};
 pub use limits::PLAN_VERSION;
 pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
-pub use machine_plan::{
-    BranchPlace, MachineMargins, ManyPlan, NumberEvent, NumberMargin, OrbitLine, SectionPoints, events_with_states,
-    machine_label, most_events, quantity_path,
-};
+pub use machine_plan::{ManyPlan, SectionPoints, events_with_states, most_events};
 pub use map::{MapPlan, RegionMap, Share};
 pub use margins::{
     BoxEdge, DEFAULT_LINES, DEFAULT_WITHIN, Loss, MarginEnd, MarginsPlan, MotionBox, MotionMargins, ParameterMargin,
     ScaledParameter, Scope,
 };
 pub use name::{Name, Variable};
+pub use orbit_line::{Along, BranchPlace, CycleOn, OrbitLine, Solution};
 pub use parameter::{Parameter, is_length};
 pub use physical::PhysicalPlan;
 pub use plan::Plan;
 pub use plan_text::is_machine_plan;
 pub use points::{DrawnPoints, ListedColumn, PointRange, PointRule, PointsPlan};
 pub use quantity::{Quantities, Quantity, unknown as unknown_quantity};
-pub use region::{DEFAULT_GRID, RegionPlan, Regions, stability_regions};
+pub use region::{DEFAULT_GRID, Over, RegionPlan, Regions, stability_regions};
 pub use response::{ResponseCurves, ResponsePlan, ResponseRow};
 pub use run::{Results, run};
 pub use simulate::{SEARCH_LIMIT, Simulated, simulate};

@@ -4,17 +4,17 @@
 //! documented here. Unknown fields are errors, so a misspelt parameter is not ignored.
 
 use crate::diagram::Show;
+use crate::dynamics::{Dynamics, Problem};
 use crate::limits::{self, MOST_STARTS, PLAN_VERSION, starts};
 use crate::machine::MachineSource;
 use crate::map::check_impacts;
 use crate::name::{Name, Variable};
 use crate::simulate::{check_lengths, most_impacts};
 use crate::{
-    Axis, Coordinate, Parameter, PlanError, PointsPlan, Quantity, RegionPlan, System, SystemPlan, Task, UnitsPlan,
-    machine_plan,
+    Axis, Coordinate, Parameter, PlanError, PointsPlan, Quantity, RegionPlan, StartPlan, System, SystemPlan, Task,
+    UnitsPlan, machine_plan,
 };
 use serde::Serialize;
-use vibroimpact::Label;
 
 /// A question: a system and a task.
 ///
@@ -223,22 +223,32 @@ impl Task {
             _ => false,
         };
         // points with starts of their own do not need that of the machine
-        let (machine, _) = if own_starts { source.described()? } else { source.problem()? };
+        let (machine, start) = if own_starts { source.described()? } else { source.problem()? };
+        let of = Problem { written: source, system: machine, start };
+        let machine = &of.system;
         match self {
-            Self::Simulate { impacts, periods, .. } => machine_plan::check_simulate(&machine, (*impacts, *periods)),
+            Self::Simulate { impacts, periods, .. } => machine_plan::check_simulate(machine, (*impacts, *periods)),
             Self::Settle { impacts, .. } => check_impacts(*impacts),
             Self::Attractors { starts, impacts, .. } => machine_plan::check_starts(*starts, *impacts),
-            Self::Lyapunov(plan) => plan.typed::<String>()?.check(source, &machine),
-            Self::Orbit { label } => machine_plan::machine_label(&machine, label).map(|_| ()),
-            Self::Branch(plan) => plan.typed::<String>()?.check(source, &machine),
-            Self::Curve(plan) => plan.typed::<String>()?.check(source, &machine),
-            Self::SettleMany(plan) => plan.typed::<String>()?.check(source, &machine),
-            Self::Margins(plan) => plan.typed::<String>()?.check(source, &machine),
-            Self::Response(plan) => plan.typed::<String, String>()?.check(source, &machine),
-            Self::Basin(plan) => plan.typed::<String, String>()?.check(&machine),
+            Self::Lyapunov(plan) => plan.typed::<String>()?.check(source, machine),
+            Self::SettleMany(plan) => plan.typed::<String>()?.check(source, machine),
+            Self::Margins(plan) => plan.typed::<String>()?.check(&of),
+            Self::Basin(plan) => plan.typed::<String, String>()?.check(machine),
             Self::Map(plan) => plan.typed::<String, String>()?.check(source),
             Self::Diagram(plan) => plan.typed::<String, String>()?.check(source),
-            Self::Region(plan) => plan.typed::<String>()?.check(source),
+            task => task.check_alike(&of),
+        }
+    }
+
+    /// Checks the tasks whose plans are checked alike for every system.
+    fn check_alike<D: Dynamics>(&self, of: &Problem<'_, D>) -> Result<(), PlanError> {
+        match self {
+            Self::Orbit { label } => of.check_orbit((Some(label), None), false),
+            Self::Branch(plan) => plan.typed::<D::Name>()?.check(of),
+            Self::Curve(plan) => plan.typed::<D::Name>()?.check(of),
+            Self::Region(plan) => plan.typed::<D::Name>()?.check(of),
+            Self::Response(plan) => plan.typed::<D::Name, D::Quantity>()?.check(of),
+            _ => Ok(()),
         }
     }
 
@@ -255,17 +265,13 @@ impl Task {
                 start.unwrap_or_default().start(&osc).map(|_| ())
             }
             Self::Attractors { starts: n, impacts, .. } => starts(*n, MOST_STARTS).and(check_impacts(*impacts)),
-            Self::Orbit { label } => Ok(label.parse::<Label>().map(|_| ())?),
             Self::Basin(basin) => basin.typed::<Coordinate, Quantity>()?.check(system),
             Self::Map(map) => map.typed::<Coordinate, Quantity>()?.check(system),
             Self::Diagram(diagram) => diagram.typed::<Parameter, Show>()?.check(system),
             Self::Lyapunov(lyapunov) => lyapunov.typed::<Coordinate>()?.check(system),
-            Self::Branch(branch) => branch.typed::<Parameter>()?.check(system),
-            Self::Curve(curve) => curve.typed::<Parameter>()?.check(system),
-            Self::Region(region) => region.typed::<Parameter>()?.check(system),
-            Self::Response(response) => response.typed::<Parameter, Quantity>()?.check(system),
             Self::Margins(margins) => margins.typed::<Parameter>()?.check(system),
             Self::SettleMany(_) => Err(PlanError::OfMachine),
+            task => task.check_alike(&system.problem(StartPlan::default())?),
         }
     }
 }

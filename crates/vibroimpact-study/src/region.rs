@@ -1,13 +1,13 @@
 //! The regions of a plane of two parameters in which a motion exists and in which it is stable.
 
-use crate::chosen::followable;
+use crate::dynamics::{Dynamics, Problem};
 use crate::name::Name;
-use crate::stretch::check_plane;
 use crate::{Control, Parameter, PlanError, RunError, Stretch, SystemPlan, limits, tiles};
 use serde::{Deserialize, Serialize};
 use vibroimpact::continuation::machine;
-use vibroimpact::continuation::{Frame, Region, RegionKind, RegionOptions, region_while};
-use vibroimpact::{Label, Oscillator, PhysicalParameter};
+use vibroimpact::continuation::{BranchError, Frame, Region, RegionKind, RegionOptions, region_while};
+use vibroimpact::verdict::Count;
+use vibroimpact::{Label, Oscillator};
 
 /// Default number of grid points, in each direction, at which orbits are searched.
 pub const DEFAULT_GRID: u32 = 24;
@@ -48,36 +48,39 @@ impl<V> RegionPlan<V> {
     }
 }
 
-impl RegionPlan {
+impl<V: Name> RegionPlan<V> {
     /// Checks everything that can be checked without running the plan.
     ///
     /// # Errors
     /// [`PlanError`] names the first invalid value.
-    pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
-        followable(Some(&self.label))?;
-        check_grid(self.grid)?;
-        check_plane(system, &self.across, &self.up)
+    pub(crate) fn check<D: Dynamics<Name = V>>(&self, of: &Problem<'_, D>) -> Result<(), PlanError> {
+        limits::check("grid", self.grid, 2..=MOST_GRID)?;
+        of.written.check_plane(&self.across, &self.up)?;
+        self.label(of, &of.written.over(&self.across, &self.up)?).map(|_| ())
+    }
+
+    /// The label. Cycles of oscillators with a rest are not followed.
+    fn label<D: Dynamics<Name = V>>(&self, of: &Problem<'_, D>, over: &Over) -> Result<Label, PlanError> {
+        match over {
+            Over::Oscillators(..) => followable(&self.label),
+            Over::Machines(_) => D::label(&of.system, Some(&self.label), true)?.ok_or(PlanError::NoLabel),
+        }
     }
 
     /// Whether the motion loses no energy anywhere in the plane. It is then neutrally stable and has no region of
     /// stability.
     #[must_use]
-    pub fn neutral(&self, system: &SystemPlan) -> bool {
-        let varied = |parameter| [self.across.parameter, self.up.parameter].contains(&parameter);
-        use PhysicalParameter::{DampingCoefficient, DampingRatio, Restitutions};
-        let any = |parameters: &[PhysicalParameter]| parameters.iter().any(|one| varied(Parameter::Physical(*one)));
-        let damps = varied(Parameter::Damping) || any(&[DampingCoefficient, DampingRatio]);
-        let undamped = system.damping == 0.0 && !damps;
-        let elastic = |parameter, restitution: f64| restitution == 1.0 && !varied(parameter) && !any(&[Restitutions]);
-        let lossless = elastic(Parameter::Restitution, system.restitution)
-            && system.second_stop.is_none_or(|stop| elastic(Parameter::SecondRestitution, stop.restitution));
-        undamped && (self.clears() || lossless)
+    pub fn neutral<D: Dynamics<Name = V>>(&self, system: &D) -> bool {
+        let Ok(Over::Oscillators(osc, frame)) = system.over(&self.across, &self.up) else { return false };
+        let loses = |osc: &Oscillator| osc.stops().any(|(_, stop)| stop.restitution < 1.0);
+        frame.everywhere(&osc, |osc| osc.damping() == 0.0 && (self.clears() || !loses(osc)))
     }
 }
 
-/// Checks the grid of a region.
-pub(crate) fn check_grid(grid: u32) -> Result<(), PlanError> {
-    limits::check("grid", grid, 2..=MOST_GRID)
+/// The label of an orbit of an oscillator, which can be followed in two parameters.
+fn followable(text: &str) -> Result<Label, PlanError> {
+    let label: Label = text.parse()?;
+    if label.impacts == Count::Infinite { Err(BranchError::Rests.into()) } else { Ok(label) }
 }
 
 /// The regions of one motion.
@@ -90,14 +93,16 @@ pub struct Regions {
 }
 
 /// The data common to the regions of several motions in one plane.
-pub(crate) struct Plane {
+struct Plane {
     over: Over,
     options: RegionOptions,
 }
 
 /// The systems of a plane.
-pub(crate) enum Over {
+pub enum Over {
+    /// Oscillators, of machines too where all of them are.
     Oscillators(Oscillator, Frame),
+    /// Machines.
     Machines(machine::Plane),
 }
 
@@ -112,17 +117,17 @@ impl Over {
 }
 
 impl Plane {
-    fn new(system: &SystemPlan, across: &Stretch, up: &Stretch, grid: u32) -> Result<Self, PlanError> {
-        let corner = system.with_all([(across.parameter, across.from), (up.parameter, up.from)])?;
-        Ok(Self::of(Over::Oscillators(corner.oscillator()?, across.frame(up, system)?), grid))
-    }
-
-    pub(crate) fn of(over: Over, grid: u32) -> Self {
-        Self { over, options: RegionOptions { grid: (grid, grid), ..RegionOptions::default() } }
+    fn new<D: Dynamics>(
+        system: &D,
+        (across, up): (&Stretch<D::Name>, &Stretch<D::Name>),
+        grid: u32,
+    ) -> Result<Self, PlanError> {
+        let options = RegionOptions { grid: (grid, grid), ..RegionOptions::default() };
+        Ok(Self { over: system.over(across, up)?, options })
     }
 
     /// Both regions of one motion.
-    pub(crate) fn both(&self, label: Label, control: &Control<'_>) -> Result<Regions, RunError> {
+    fn both(&self, label: Label, control: &Control<'_>) -> Result<Regions, RunError> {
         let wanted = [(label, RegionKind::Existence), (label, RegionKind::Stability)];
         let mut both = self.regions(&wanted, control)?.into_iter();
         let mut next = || both.next().unwrap_or(Region { polygons: Vec::new(), unresolved: Vec::new() });
@@ -158,27 +163,30 @@ pub fn stability_regions(
     grid: u32,
     control: &Control<'_>,
 ) -> Result<Vec<Region>, RunError> {
-    check_plane(system, across, up)?;
-    let wanted = labels.iter().map(|label| Ok((followable(Some(label))?, RegionKind::Stability)));
+    system.check_plane(across, up)?;
+    let wanted = labels.iter().map(|label| Ok((followable(label)?, RegionKind::Stability)));
     let wanted = wanted.collect::<Result<Vec<_>, PlanError>>()?;
-    Plane::new(system, across, up, grid)?.regions(&wanted, control)
+    Plane::new(system, (across, up), grid)?.regions(&wanted, control)
 }
 
 /// Computes both regions.
 ///
 /// # Errors
-/// [`RunError`] for an invalid plan, or when stopped. The stop flag is read at every point of the grid and at every
-/// step.
-pub(crate) fn regions(system: &SystemPlan, plan: &RegionPlan, control: &Control<'_>) -> Result<Regions, RunError> {
-    plan.check(system)?;
-    let label = followable(Some(&plan.label))?;
-    Plane::new(system, &plan.across, &plan.up, plan.grid)?.both(label, control)
+/// [`RunError`] when stopped. The stop flag is read at every point of the grid and at every step.
+pub(crate) fn regions<D: Dynamics>(
+    of: &Problem<'_, D>,
+    plan: &RegionPlan<D::Name>,
+    control: &Control<'_>,
+) -> Result<Regions, RunError> {
+    let plane = Plane::new(of.written, (&plan.across, &plan.up), plan.grid)?;
+    plane.both(plan.label(of, &plane.over)?, control)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::Plan;
+    use crate::dynamics::at_rest;
 
     fn plan() -> (SystemPlan, RegionPlan) {
         let system = SystemPlan { inverse_beta: Some(1.05), gap: 1.0, restitution: 0.5, ..SystemPlan::default() };
@@ -191,12 +199,12 @@ mod tests {
     #[test]
     fn one_impact_a_period_about_its_flip() {
         let (system, plan) = plan();
-        let found = regions(&system, &plan, &Control { threads: 1, ..Control::default() }).unwrap();
+        let found = regions(&at_rest(&system), &plan, &Control { threads: 1, ..Control::default() }).unwrap();
         for (gap, stable) in [(1.828, true), (1.830, false)] {
             assert!(found.existence.contains((1.11, gap)));
             assert_eq!(found.stability.contains((1.11, gap)), stable, "{gap}");
         }
-        assert_eq!(regions(&system, &plan, &Control { threads: 2, ..Control::default() }).unwrap(), found);
+        assert_eq!(regions(&at_rest(&system), &plan, &Control { threads: 2, ..Control::default() }).unwrap(), found);
         let (two, plane) = (["1/1".to_owned(), "1/2".to_owned()], (&plan.across, &plan.up));
         let stable = stability_regions(&system, &two, plane, plan.grid, &Control::default()).unwrap();
         assert_eq!(stable[0], found.stability);
@@ -210,13 +218,13 @@ mod tests {
         let damped = SystemPlan { damping: 0.05, ..system };
         let up = Stretch { parameter: Parameter::Gap, from: 1.0, to: 8.0 };
         let zero = RegionPlan { label: "0".into(), up, ..plan.clone() };
-        let found = regions(&damped, &zero, &Control::default()).unwrap();
+        let found = regions(&at_rest(&damped), &zero, &Control::default()).unwrap();
         // |f| is 3.17 at 1/beta = 1.199 and 6.9 at 1.06
         assert!(found.existence == found.stability && found.existence.contains((1.199, 3.3)));
         assert!(
             !found.existence.contains((1.199, 3.1)) && !found.existence.contains((1.06, 6.0)) && !zero.neutral(&damped)
         );
-        let undamped = regions(&system, &zero, &Control::default()).unwrap();
+        let undamped = regions(&at_rest(&system), &zero, &Control::default()).unwrap();
         // without damping |f| is 3.29 and 9.1
         assert!(undamped.existence.contains((1.199, 3.4)) && !undamped.existence.contains((1.06, 7.9)));
         assert!(undamped.stability.polygons.is_empty() && zero.neutral(&system) && !plan.neutral(&system));
@@ -244,7 +252,7 @@ mod tests {
         let plan =
             RegionPlan { label: "1/1".into(), across: over(mass, 0.7, 0.95), up: over(force, 10.0, 60.0), grid: 12 };
         assert_eq!(Plan::new(system, plan.clone()).check(), Ok(()));
-        let found = regions(&system, &plan, &Control::default()).unwrap();
+        let found = regions(&at_rest(&system), &plan, &Control::default()).unwrap();
         let plain = SystemPlan { machine: None, ..system };
         let known = RegionPlan {
             across: over(Parameter::InverseBeta, 1.0, 1.25),
@@ -252,7 +260,7 @@ mod tests {
             grid: 24,
             ..plan.clone()
         };
-        let known = regions(&plain, &known, &Control::default()).unwrap();
+        let known = regions(&at_rest(&plain), &known, &Control::default()).unwrap();
         let (mut inside, mut points) = (0, 0);
         for i in 0..25 {
             for j in 0..25 {
@@ -272,7 +280,7 @@ mod tests {
         assert!(inside > points / 20 && inside < points * 19 / 20, "{inside} of {points}");
         // the motion without impacts, against its amplitude
         let free = RegionPlan { label: "0".into(), ..plan.clone() };
-        let found = regions(&system, &free, &Control::default()).unwrap();
+        let found = regions(&at_rest(&system), &free, &Control::default()).unwrap();
         assert!(found.existence.unresolved.is_empty() && found.stability == found.existence);
         for (m, f) in (0..200).map(|k| (0.701 + 0.00123 * f64::from(k), 10.1 + 49.0 * (0.618 * f64::from(k)).fract())) {
             let osc = system.with_all([(mass, m), (force, f)]).unwrap().oscillator().unwrap();
@@ -280,7 +288,7 @@ mod tests {
             assert!(found.existence.contains((m, f)) == (room > 0.0) || room.abs() < 1e-3, "{m} kg, {f} N: {room}");
         }
         let mixed = RegionPlan { up: over(Parameter::Gap, 0.4, 2.0), ..plan };
-        assert!(matches!(mixed.check(&system), Err(PlanError::MixedPlane("gap", "mass_kg"))));
+        assert!(matches!(mixed.check(&at_rest(&system)), Err(PlanError::MixedPlane("gap", "mass_kg"))));
     }
 
     #[test]
@@ -295,7 +303,7 @@ mod tests {
             });
             // a plan that takes some minutes
             let plan = RegionPlan { label: "2/3".into(), grid: 300, ..plan };
-            let stopped = regions(&system, &plan, &Control { stop: &stop, ..Control::default() });
+            let stopped = regions(&at_rest(&system), &plan, &Control { stop: &stop, ..Control::default() });
             assert!(matches!(stopped, Err(RunError::Stopped(_))), "{stopped:?}");
         });
     }
@@ -312,8 +320,86 @@ mod tests {
             (RegionPlan { label: "inf/1".into(), ..good.clone() }, "a cycle that rests"),
             (RegionPlan { up: good.across, ..good.clone() }, "inverse_beta and inverse_beta do not span a plane"),
         ] {
-            let message = plan.check(&system).unwrap_err().to_string();
+            let message = plan.check(&at_rest(&system)).unwrap_err().to_string();
             assert!(message.starts_with(sentence), "{message}");
         }
+    }
+}
+
+#[cfg(test)]
+mod tests_of_machines {
+    use super::*;
+    use crate::dynamics::at_rest;
+    use crate::machine::MachineSource;
+    use crate::{Parameter, Plan, Results, Stretch, SystemPlan, machine, run};
+
+    const MACHINE: &str = r#"
+        [machine]
+        coordinates = ["body"]
+        mass = [1]
+        stiffness = [1]
+        frequency = 0.9
+        [[machine.force]]
+        order = 1
+        cos = [0]
+        sin = [1]
+        [[machine.stop]]
+        name = "wall"
+        direction = [1]
+        gap = 1.0
+        restitution = 0.5
+    "#;
+
+    fn plan(change: impl Fn(&mut RegionPlan<String>)) -> Plan {
+        let source = MachineSource::from_text(MACHINE, machine::no_files).unwrap();
+        let stretch = |path: &str, from, to| Stretch { parameter: path.to_owned(), from, to };
+        let across = stretch("frequency", 0.83, 0.95);
+        let up = stretch("stop.wall.gap", 1.0, 2.5);
+        let mut region = RegionPlan { label: "1/1".to_owned(), across, up, grid: 5 };
+        change(&mut region);
+        Plan::new(source, region)
+    }
+
+    fn regions(plan: &Plan) -> Regions {
+        let Results::Machine(machine::Results::Region(found)) = run(plan, &Control::default()).unwrap() else {
+            panic!()
+        };
+        found
+    }
+
+    /// In the units of the oscillator the regions are its own, to the last digit but for the direction of steps.
+    #[test]
+    fn those_of_the_oscillator() {
+        let plan = plan(|_| ());
+        let text = serde_json::to_string(&plan).unwrap();
+        assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan);
+        let found = regions(&plan);
+        let system = SystemPlan { beta: Some(0.9), gap: 1.0, restitution: 0.5, ..SystemPlan::default() };
+        let over = |parameter, from, to| Stretch { parameter, from, to };
+        let known = RegionPlan {
+            label: "1/1".into(),
+            across: over(Parameter::Beta, 0.83, 0.95),
+            up: over(Parameter::Gap, 1.0, 2.5),
+            grid: 5,
+        };
+        let known = crate::region::regions(&at_rest(&system), &known, &Control::default()).unwrap();
+        for (own, other) in [(&found.existence, &known.existence), (&found.stability, &known.stability)] {
+            assert!(own.unresolved.is_empty() && own.polygons.len() == other.polygons.len());
+            for k in 0..900 {
+                let at = (0.832 + 0.004 * f64::from(k % 30), 1.013 + 0.05 * f64::from(k / 30));
+                assert_eq!(own.contains(at), other.contains(at), "{at:?}");
+            }
+        }
+        assert!(found.stability.contains((1.0 / 1.11, 1.828)) && !found.stability.contains((1.0 / 1.11, 1.830)));
+    }
+
+    /// A label that has no region, and a plane that is none.
+    #[test]
+    fn nonsense_is_refused() {
+        let refused = |plan: Plan| run(&plan, &Control::default()).unwrap_err().to_string();
+        assert!(refused(plan(|plan| plan.label = "inf/1".into())).starts_with("a cycle that rests"));
+        assert!(refused(plan(|plan| plan.grid = 1)).starts_with("grid = 1 lies outside"));
+        assert!(refused(plan(|plan| plan.up = plan.across.clone())).contains("frequency"));
+        assert!(refused(plan(|plan| plan.up.to = 0.5)).starts_with("stop.wall.gap from 1 to 0.5 is no range"));
     }
 }

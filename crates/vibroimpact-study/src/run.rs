@@ -10,8 +10,9 @@ use crate::response::response;
 use crate::simulate::simulate;
 use crate::study::SweepFill;
 use crate::{
-    Basin, Branches, Control, Diagram, EventCurve, LyapunovPlan, MotionMargins, Plan, PlanError, RegionMap, Regions,
-    ResponseCurves, RunError, Simulated, Stopped, System, SystemPlan, Task, machine, machine_plan,
+    Basin, Branches, Control, Diagram, EventCurve, LyapunovPlan, MarginsPlan, MotionMargins, Plan, PlanError,
+    RegionMap, Regions, ResponseCurves, RunError, Simulated, StartPlan, Stopped, System, SystemPlan, Task, machine,
+    machine_plan,
 };
 use core::sync::atomic::{AtomicU64, Ordering};
 use vibroimpact::chaos::{Exponents, Section, exponents_while, section_while};
@@ -48,8 +49,8 @@ pub enum Results {
     Region(Regions),
     /// The motions of two sweeps, and their branches.
     Response(ResponseCurves),
-    /// The distances of a motion from its nearest events.
-    Margins(MotionMargins),
+    /// The start, unless the motion is given by its label, and the distances of the motion from its nearest events.
+    Margins(Option<Start>, MotionMargins),
     /// The result of a task of a machine.
     Machine(machine::Results),
 }
@@ -83,7 +84,8 @@ pub fn run(plan: &Plan, control: &Control<'_>) -> Result<Results, RunError> {
 
 /// Computes the result of the task of an oscillator, which was checked.
 fn run_oscillator(system: &SystemPlan, plan: &Plan, control: &Control<'_>) -> Result<Results, RunError> {
-    let osc = system.oscillator()?;
+    let of = system.problem(StartPlan::default())?;
+    let osc = of.system;
     // one motion reports its impacts
     let impacts = AtomicU64::new(0);
     let go_on = || {
@@ -133,11 +135,15 @@ fn run_oscillator(system: &SystemPlan, plan: &Plan, control: &Control<'_>) -> Re
             let exponents = exponents_while(&osc, start, &task.options(), &go_on).ok_or(stopped)?;
             Results::Lyapunov(start, exponents, section)
         }
-        Task::Branch(task) => Results::Branch(branches(system, &task.typed()?, control)?),
-        Task::Curve(task) => Results::Curve(curve(system, &task.typed()?, control)?),
-        Task::Region(task) => Results::Region(regions(system, &task.typed()?, control)?),
-        Task::Response(task) => Results::Response(response(system, &task.typed()?, control)?),
-        Task::Margins(task) => Results::Margins(margins(system, &task.typed()?, control)?),
+        Task::Branch(task) => Results::Branch(branches(&of, &task.typed()?, control)?),
+        Task::Curve(task) => Results::Curve(curve(&of, &task.typed()?, control)?),
+        Task::Region(task) => Results::Region(regions(&of, &task.typed()?, control)?),
+        Task::Response(task) => Results::Response(response(&of, &task.typed()?, control)?),
+        Task::Margins(task) => {
+            let task: MarginsPlan = task.typed()?;
+            let of = system.problem(task.start())?;
+            Results::Margins(task.label.is_none().then_some(of.start), margins(&of, &task, control)?)
+        }
         Task::SettleMany(_) => return Err(PlanError::OfMachine.into()),
     })
 }

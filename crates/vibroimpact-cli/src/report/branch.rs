@@ -87,7 +87,13 @@ fn row(branch: &BranchObject<'_>, event: &BranchEventObject<'_>, columns: &Colum
     let point = &branch.points[event.point];
     let before = &event.fields.before;
     let after = event.fields.after.as_ref().unwrap_or(before);
-    let sides = [beside(branch, event.point.checked_sub(1), before), beside(branch, Some(event.point + 1), after)];
+    // on the other side of a jump there is another part of the branch
+    let jumps = |k: usize| branch.event_at(k).is_some_and(|event| event.event.is_jump());
+    let side = |jump: bool, k: Option<usize>, label: &str| {
+        if jump { "-".to_owned() } else { beside(branch, k, label) }
+    };
+    let next = event.point + 1;
+    let sides = [side(jumps(event.point), event.point.checked_sub(1), before), side(jumps(next), Some(next), after)];
     core::iter::once(event.kind.to_owned())
         .chain(point.values().iter().copied().chain(columns.period.then_some(point.period)).map(precise))
         .chain(sides)
@@ -136,6 +142,7 @@ fn of_machine(event: &machine::BranchEvent, machine: &Machine) -> String {
             if turns { "turns" } else { "goes on" }
         ),
         machine::BranchEvent::LossOfContact { stop } => format!("{} is no longer reached", name(stop)),
+        machine::BranchEvent::RestForEver { stop } => format!("no force pulls it off {} any more", name(stop)),
         machine::BranchEvent::Corner { first, second } if first == second => {
             format!("two limits of {} at once", name(first))
         }

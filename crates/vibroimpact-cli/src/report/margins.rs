@@ -5,76 +5,98 @@ use crate::report::motion::{InUnits, Teller};
 use crate::report::words::table;
 use std::fmt::Write;
 use vibroimpact::Oscillator;
+use vibroimpact::continuation::{SolutionPoint, machine::SolutionPoint as Point};
 use vibroimpact::machine::Machine;
-use vibroimpact::verdict::{Stability, Verdict};
-use vibroimpact_report::json::margins::{EndObject, ParameterObject, machine_margins, margins, nearest};
+use vibroimpact::verdict::System;
+use vibroimpact_report::json::branch::Event;
 use vibroimpact_report::number::{percent, precise, short};
 use vibroimpact_report::{Units, Varied};
-use vibroimpact_study::{Loss, MachineMargins, MotionBox, MotionMargins, ParameterMargin, counted};
+use vibroimpact_study::{Loss, MarginEnd, MotionBox, MotionMargins, ParameterMargin, Solution, counted};
 
-/// The motion, its nearest events in each parameter, and its box.
+/// The motion of an oscillator, its nearest events in each parameter, and its box.
 pub(crate) fn text(found: &MotionMargins, osc: &Oscillator, units: &Units) -> String {
-    let (label, stability) = (found.motion.label(), found.motion.stability(osc));
-    let head = head(&InUnits(osc, units), &found.motion, stability);
-    if found.parameters.is_empty() {
-        return head + NONE;
-    }
-    let text = head + &events(&margins(found, units));
-    text + &match &found.motion_box {
-        Some(found_box) => of_box(found_box, &found.parameters, &label, units),
-        None => format!("\nno box: the motion is {}\n", stability.map_or("undecided", |stability| stability.name())),
-    }
-}
-
-/// The motion of a machine, and its nearest events in each number.
-pub(crate) fn of_machine(found: &MachineMargins, machine: &Machine) -> String {
-    let head = head(machine, &found.motion, found.motion.stability(machine));
-    if found.numbers.is_empty() { head + NONE } else { head + &events(&machine_margins(found, machine)) }
-}
-
-const NONE: &str = "  it is no single periodic motion, so it has no branch to follow and no margins\n";
-
-fn head<T: Teller>(teller: &T, motion: &Verdict<T::System>, stability: Option<Stability>) -> String {
-    let stable = stability.map_or_else(String::new, |stability| format!(", {stability}"));
-    let (label, by_stop, meaning) = (motion.label(), teller.by_stop(motion), teller.meaning(motion));
-    format!("{label}{by_stop}: {meaning}{stable}\n")
-}
-
-/// What a change is measured in: the value of the number, or another scale.
-const fn whole(usual: bool) -> &'static str {
-    if usual { "its value" } else { "its scale" }
-}
-
-/// One row for each number and direction, and the nearest event.
-fn events(all: &[ParameterObject<'_>]) -> String {
-    let heads = ["<parameter", "value", "<way", "event at", "distance", "relative", "<event"].map(str::to_owned);
-    let rows = all.iter().flat_map(|of| of.ends().map(|(way, end)| row(of, way, end)));
-    let mut text = table(&heads, &rows.collect::<Vec<_>>());
-    if let Some((of, way, EndObject { at: Some(at), event: Some(event), scaled, .. })) = nearest(all) {
-        let (name, at, change) = (&of.words, precise(*at), percent(*scaled));
-        let whole = whole(of.scale == of.value.abs());
-        let _ = writeln!(text, "  nearest: {} at {name} {at}, {way} by {change} of {whole}", event.kind);
+    let why =
+        |point: &SolutionPoint| point.event.map_or_else(String::new, |event| because(&Event::Oscillator(point, event)));
+    let mut text = events(found, (&InUnits(osc, units), osc), units, why);
+    match &found.motion_box {
+        _ if found.parameters.is_empty() => {}
+        Some(found_box) => text.push_str(&of_box(found_box, &found.parameters, &found.motion.label(), units)),
+        None => {
+            let stability = found.motion.stability(osc).map_or("undecided", |stability| stability.name());
+            let _ = writeln!(text, "\nno box: the motion is {stability}");
+        }
     }
     text
 }
 
-fn row(of: &ParameterObject<'_>, way: &str, end: &EndObject<'_>) -> Vec<String> {
-    let ends = match &end.event {
-        Some(event) => {
-            let text = |value: Option<f64>, text: &dyn Fn(f64) -> String| value.map_or_else(String::new, text);
-            let (before, after) = (&event.fields.before, event.fields.after.as_ref());
-            let beyond = after.filter(|after| *after != before);
+/// The motion of a machine, and its nearest events in each number.
+pub(crate) fn of_machine(found: &MotionMargins<Machine, String, Point>, machine: &Machine) -> String {
+    let why = |point: &Point| point.event.map_or_else(String::new, |event| because(&Event::Machine(machine, event)));
+    events(found, (machine, machine), &Units::default(), why)
+}
+
+/// The motion, and its nearest events in each number. `why` says what happens at an event.
+fn events<S: System, T: Teller<System = S>, V: Varied, P: Solution<System = S>>(
+    found: &MotionMargins<S, V, P>,
+    (teller, system): (&T, &S),
+    units: &Units,
+    why: impl Fn(&P) -> String,
+) -> String {
+    let stability = found.motion.stability(system);
+    let stable = stability.map_or_else(String::new, |stability| format!(", {stability}"));
+    let (by_stop, meaning) = (teller.by_stop(&found.motion), teller.meaning(&found.motion));
+    let mut text = format!("{}{by_stop}: {meaning}{stable}\n", found.motion.label());
+    if found.parameters.is_empty() {
+        text.push_str("  it is no single periodic motion, so it has no branch to follow and no margins\n");
+        return text;
+    }
+    let rows: Vec<Vec<String>> =
+        found.parameters.iter().flat_map(|margin| margin.ends().map(|end| row(margin, end, units, &why))).collect();
+    text.push_str(&table(&HEADS.map(str::to_owned), &rows));
+    if let Some((margin, way, end)) = found.nearest() {
+        let _ = writeln!(
+            text,
+            "  nearest: {} at {} {}, {way} by {} of {}",
+            end.point.as_ref().and_then(P::event_name).unwrap_or_default(),
+            margin.scope.parameter.words(units),
+            precise(end.value * margin.scope.parameter.unit(units)),
+            percent(end.scaled(&margin.scope)),
+            whole(core::slice::from_ref(margin))
+        );
+    }
+    text
+}
+
+/// The columns of the events.
+const HEADS: [&str; 7] = ["<parameter", "value", "<way", "event at", "distance", "relative", "<event"];
+
+/// What a box is measured in: the values of the parameters, or other scales.
+fn whole<V, P>(parameters: &[ParameterMargin<V, P>]) -> &'static str {
+    let usual = parameters.iter().all(|margin| margin.scope.scale == margin.scope.value.abs());
+    if usual { "its value" } else { "its scale" }
+}
+
+/// The nearest event of a number in one direction.
+fn row<V: Varied, P: Solution>(
+    margin: &ParameterMargin<V, P>,
+    (way, limit, end): (&str, f64, &MarginEnd<P>),
+    units: &Units,
+    why: &impl Fn(&P) -> String,
+) -> Vec<String> {
+    let (scope, unit) = (&margin.scope, margin.scope.parameter.unit(units));
+    let begin = [scope.parameter.words(units), short(scope.value * unit), way.to_owned()];
+    let ends = match end.point.as_ref().and_then(|point| Some((point, point.event_name()?))) {
+        Some((point, name)) => {
+            let relative = end.relative(scope).map_or_else(String::new, |share| format!("{:+.2} %", 100.0 * share));
+            let before = point.label().to_string();
+            let beyond = end.after.as_ref().filter(|after| **after != before);
             let beyond = beyond.map_or_else(String::new, |after| format!(" to {after}"));
-            [
-                text(end.at, &precise),
-                text(end.distance, &short),
-                text(end.relative, &|share| format!("{:+.2} %", 100.0 * share)),
-                format!("{}{beyond}{}", event.kind, because(&event.event)),
-            ]
+            let event = format!("{name}{beyond}{}", why(point));
+            [precise(end.value * unit), short(end.distance(scope) * unit), relative, event]
         }
-        None => [String::new(), String::new(), String::new(), format!("none up to {}", short(end.limit))],
+        None => [String::new(), String::new(), String::new(), format!("none up to {}", short(limit * unit))],
     };
-    [of.words.clone(), short(of.value), way.to_owned()].into_iter().chain(ends).collect()
+    begin.into_iter().chain(ends).collect()
 }
 
 /// The box, and where the motion was lost next to it.
@@ -82,7 +104,7 @@ fn of_box(found: &MotionBox, parameters: &[ParameterMargin], label: &str, units:
     let mut text = format!(
         "\nbox: each parameter within {} of {}; {label} was found by trying {} on {}, not proved\n",
         percent(found.size),
-        whole(parameters.iter().all(|margin| margin.scope.scale == margin.scope.value.abs())),
+        whole(parameters),
         counted(found.points, "point"),
         counted(found.lines, "line")
     );

@@ -89,10 +89,8 @@ fn of_oscillator(answer: &oscillator::Answer) -> Result<String, Failure> {
             &ResponseView::of_oscillator(found, task, units)?,
             &Parameter::of(task.vary.text())?.words(units),
         ),
-        (_, Results::Margins(found)) => match &found.start {
-            Some(start) => from(start) + "\n" + &margins::text(found, osc, units),
-            None => system() + &margins::text(found, osc, units),
-        },
+        (_, Results::Margins(Some(start), found)) => from(start) + "\n" + &margins::text(found, osc, units),
+        (_, Results::Margins(None, found)) => system() + &margins::text(found, osc, units),
         _ => return Err(Failure::Failed("the results belong to another task than the plan's".into())),
     })
 }

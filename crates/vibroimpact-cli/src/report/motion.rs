@@ -111,6 +111,7 @@ impl Teller for Machine {
     fn meaning(&self, verdict: &Verdict<Machine>) -> String {
         match verdict {
             Verdict::Periodic(cycle) => meaning_of_cycle(cycle),
+            Verdict::NoImpact(last) if last.fades() => words::EVER_GENTLER.to_owned(),
             Verdict::NoImpact(_) => {
                 let closed = closed(self, verdict);
                 let closed = if closed.is_empty() { closed } else { format!("; it stays on {closed}") };
@@ -166,6 +167,7 @@ impl Teller for Machine {
             Verdict::Periodic(cycle) => {
                 format!("Newton's method on its events returns to itself within {:.0e}", cycle.residual.max(1e-16))
             }
+            Verdict::NoImpact(last) if last.fades() => words::IMPACTS_FADE.to_owned(),
             Verdict::NoImpact(_) => "no stop and no joint changes its state any more".to_owned(),
             Verdict::Stuck(_) => "it rests, and no force ever pulls it off".to_owned(),
             Verdict::Chaotic(chaos) => largest_exponent(&chaos.spectrum),

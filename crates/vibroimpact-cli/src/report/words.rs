@@ -109,6 +109,12 @@ pub(super) const ROUNDING_DECIDES: &str =
 pub(super) const ROUNDING_GROWS: &str =
     "from the release to the next rest the rounding errors grow beyond what tells one motion from another";
 
+/// What a motion is whose impacts fade away.
+pub(super) const EVER_GENTLER: &str = "ever gentler impacts: in the limit it only touches the stop";
+
+/// Why impacts of a machine fade away.
+pub(super) const IMPACTS_FADE: &str = "impact speeds tend to zero, and rounding errors decide how many impacts follow";
+
 /// The meaning of a verdict, as a sentence without full stop.
 pub(crate) fn meaning(verdict: &Verdict) -> String {
     match verdict {
@@ -130,9 +136,7 @@ pub(crate) fn meaning(verdict: &Verdict) -> String {
         Verdict::NoImpact(NoImpact::ForPeriods(n)) => {
             format!("no impact for at least {} forcing periods", short(*n))
         }
-        Verdict::NoImpact(NoImpact::GrazeLimit { .. }) => {
-            "ever gentler impacts: in the limit it only touches the stop".into()
-        }
+        Verdict::NoImpact(NoImpact::GrazeLimit { .. }) => EVER_GENTLER.into(),
         Verdict::NoImpact(NoImpact::Landing { periods, .. }) => {
             let periods =
                 if *periods == 1 { "forcing period".to_owned() } else { counted_word(*periods, "forcing period") };

@@ -6,9 +6,10 @@ use crate::hatch::{Hatch, Pattern};
 use crate::mark::extent::Extent;
 use crate::number::N;
 use crate::stroke::Stroke;
+use serde::Serialize;
 
 /// A horizontal line across the panel.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct HLine {
     /// Its ordinate.
     pub y: f64,
@@ -17,7 +18,7 @@ pub struct HLine {
 }
 
 /// A vertical line across the panel.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct VLine {
     /// Its abscissa.
     pub x: f64,
@@ -26,7 +27,8 @@ pub struct VLine {
 }
 
 /// The side of the line on which the wall of a stop is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum TextSide {
     /// At larger y.
     Above,
@@ -39,7 +41,7 @@ pub enum TextSide {
 }
 
 /// A stop: a line, with the area behind it hatched to the edge of the panel.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Wall {
     /// The coordinate of the stop.
     pub at: f64,

@@ -5,9 +5,10 @@ use crate::colour::Colour;
 use crate::mark::extent::Extent;
 use crate::mark::thin;
 use crate::stroke::{Dash, Stroke};
+use serde::Serialize;
 
 /// A polyline; a `NaN` or infinite coordinate breaks it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Line {
     /// Abscissae.
     pub xs: Vec<f64>,

@@ -18,10 +18,12 @@ use points::Points;
 use raster::Raster;
 use rects::Rects;
 use region::FilledRegion;
+use serde::Serialize;
 use text::Text;
 
 /// A mark of any kind.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Mark {
     /// A polyline.
     Line(Line),

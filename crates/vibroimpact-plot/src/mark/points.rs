@@ -7,9 +7,11 @@ use crate::canvas::{Canvas, Frame};
 use crate::colour::Colour;
 use crate::mark::extent::Extent;
 use crate::number::N;
+use serde::Serialize;
 
 /// The shape of a point.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Shape {
     /// ●
     #[default]
@@ -102,7 +104,7 @@ fn around(x: f64, y: f64, distances: &[f64]) -> String {
 }
 
 /// The style of points.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PointStyle {
     /// The shape.
     pub shape: Shape,
@@ -141,7 +143,7 @@ impl PointStyle {
 }
 
 /// Points with a common style.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Points {
     /// Abscissae.
     pub xs: Vec<f64>,

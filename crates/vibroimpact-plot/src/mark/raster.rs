@@ -10,9 +10,10 @@ use crate::mark::extent::Extent;
 use crate::number::N;
 use crate::scale::Scale;
 use crate::vision::Vision;
+use serde::Serialize;
 
 /// Equal cells over a rectangle, each in the colour of its class.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Raster {
     x: (f64, f64),
     y: (f64, f64),

@@ -4,9 +4,10 @@ use crate::canvas::{Canvas, Frame};
 use crate::mark::extent::Extent;
 use crate::number::N;
 use crate::palette::ClassStyle;
+use serde::Serialize;
 
 /// A rectangle.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Rect {
     /// Left and right edge.
     pub x: (f64, f64),
@@ -17,7 +18,7 @@ pub struct Rect {
 }
 
 /// Rectangles in the styles of their classes. A class without a style is not drawn.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Rects {
     /// The rectangles.
     pub rects: Vec<Rect>,

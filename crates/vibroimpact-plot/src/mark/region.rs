@@ -6,9 +6,10 @@ use crate::hatch::Hatch;
 use crate::mark::extent::Extent;
 use crate::number::N;
 use crate::stroke::Stroke;
+use serde::Serialize;
 
 /// Closed rings. An area inside an even number of rings is outside the region.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct FilledRegion {
     /// The rings, each a list of corners; the last corner is joined to the first.
     pub rings: Vec<Vec<(f64, f64)>>,

@@ -6,9 +6,10 @@ use crate::label::{Anchor, Placed};
 use crate::mark::extent::Extent;
 use crate::number::N;
 use crate::theme;
+use serde::Serialize;
 
 /// A label. It is shown if its point lies inside the axes, and is never clipped by them.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Text {
     /// Abscissa of its point.
     pub x: f64,

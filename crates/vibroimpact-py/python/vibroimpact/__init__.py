@@ -69,6 +69,10 @@ if TYPE_CHECKING:
     from vibroimpact._accessor import VibroAccessor
 
 _register()
+# of a question that is refused for another reason than its range
+for _name in ("name", "given", "least", "most"):
+    setattr(QuestionError, _name, None)
+setattr(QuestionError, "hint", property(lambda error: str(error).partition("\nhint: ")[2] or None))
 # the questions are methods of both systems
 for _name in ("simulate", "simulate_many", "settle", "settle_many", "attractors", "lyapunov", "orbits", "branch", "curve", "region", "margins",
               "response", "basin", "map", "diagram"):

@@ -99,27 +99,14 @@ def _finite(value: Any, name: str) -> None:
         raise QuestionError(f"{name} = {'NaN' if math.isnan(value) else value} is not a finite number")
 
 
-def answered(
+def ask(
     system: System, name: str, task: Mapping[str, Any], start: Start | None = None, *, total: int = 1, threads: int = 1,
     progress: Progress = None, what: str = "motions",
-) -> dict[str, Any]:
-    """The JSON object of the command for a task as "object", and what it does not have: the sections of an attractor as
-    "section", the points of an orbit diagram as "diagram", all quantities of a response as "response"."""
+) -> _core.Answer:
+    """The answer to a task."""
     file = system if isinstance(system, Oscillator) else system._file
     from_ = (start or Start(system)).of_machine
     threads = threads_of(threads)
     _finite(task, name)
     with watched(progress, what) as tell:
-        found = _core.answer(file, from_, json.dumps({name: task}), total, threads, tell)
-    return {**found, "object": json.loads(found["json"])}
-
-
-def ask(
-    system: System, name: str, task: Mapping[str, Any], start: Start | None = None, *, total: int = 1, threads: int = 1,
-    progress: Progress = None, what: str = "motions",
-) -> dict[str, Any]:
-    """The JSON object of the command for a task."""
-    found: dict[str, Any] = answered(
-        system, name, task, start, total=total, threads=threads, progress=progress, what=what
-    )["object"]
-    return found
+        return _core.answer(file, from_, json.dumps({name: task}), total, threads, tell)

@@ -2,21 +2,16 @@
 
 from collections.abc import Iterator
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact._ask import System, ask
-from vibroimpact._figure import heading
 from vibroimpact._motion import Motion
 from vibroimpact._progress import Progress
 from vibroimpact._result import View
-from vibroimpact._styled import styled
 from vibroimpact._whole import BUDGET, SEED, STARTS, maybe, whole
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 
 class Attractor(Motion):
@@ -100,15 +95,6 @@ class Attractors(View):
         """One row for each motion."""
         return table(self.motions)
 
-    def plot(self, ax: "Axes | None" = None, *, legend: bool = True, title: str | None = None, **line: Any) -> "Axes":
-        """Draw the shares as bars."""
-        from vibroimpact import _figure
-
-        def draw(ax: "Axes | None") -> "Axes":
-            return _figure.shares(heading(self.system), [(m.label, m.share) for m in self], ax)
-
-        return styled(draw, ax, legend, title, line)
-
 
 def attractors(
     system: System,
@@ -149,4 +135,5 @@ def attractors(
     """
     starts = whole("starts", starts, STARTS)
     task = {"starts": starts, "seed": whole("seed", seed, SEED), "impacts": maybe("impacts", impacts, BUDGET)}
-    return Attractors(ask(system, "attractors", task, total=starts, threads=threads, progress=progress, what="starts"), system)
+    found = ask(system, "attractors", task, total=starts, threads=threads, progress=progress, what="starts")
+    return Attractors.answering(found, system)

@@ -3,23 +3,19 @@
 import copy
 from collections.abc import Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from vibroimpact._ask import Start, System, answered, ask, given
+from vibroimpact._ask import Start, System, ask, given
 from vibroimpact._axis import beside
-from vibroimpact._core import Oscillator, QuestionError
+from vibroimpact._core import Answer, Oscillator, QuestionError
 from vibroimpact._events import Events
 from vibroimpact._motion import complex_of
 from vibroimpact._progress import Progress
-from vibroimpact._result import View
-from vibroimpact._styled import styled
+from vibroimpact._result import Column, View
 from vibroimpact._whole import BRANCH, FOLLOW, NUMBER, maybe, whole
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 _Floats = NDArray[np.float64]
 
@@ -129,12 +125,18 @@ class Branch(View):
     """
 
     vary: str
+    period, parameter, label = Column(np.float64), Column(np.float64), Column(np.str_)
+    stable, admissible, stability = Column(np.bool_), Column(np.bool_), Column(np.str_)
 
-    def __init__(self, of: dict[str, Any], system: Any, number: int = 0) -> None:
-        super().__init__(of, system)
+    def __init__(self, of: dict[str, Any], system: Any, answer: Answer | None = None, number: int = 0) -> None:
+        super().__init__(of, system, answer)
         self.number = number
         self._one: dict[str, Any] = of["branches"][number]
-        self._points: list[dict[str, Any]] = self._one["points"]
+
+    @property
+    def _rows(self) -> list[dict[str, Any]]:
+        points: list[dict[str, Any]] = self._one["points"]
+        return points
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Branch) and self.number == other.number and super().__eq__(other)
@@ -142,7 +144,7 @@ class Branch(View):
     __hash__ = None
 
     def __len__(self) -> int:
-        return len(self._points)
+        return len(self._rows)
 
     def __repr__(self) -> str:
         more = f", {len(self.followed)} more begin on it" if self.followed else ""
@@ -176,7 +178,7 @@ class Branch(View):
     def followed(self) -> "list[Branch]":
         """The branches that begin on it."""
         further = range(1, len(self._of["branches"])) if self.number == 0 else range(0)
-        return [Branch(self._of, self.system, k) for k in further]
+        return [Branch(self._of, self.system, self._answer, k) for k in further]
 
     @cached_property
     def events(self) -> list[BranchEvent]:
@@ -186,50 +188,17 @@ class Branch(View):
     @cached_property
     def cycles(self) -> list[Events]:
         """The events at each point."""
-        return [Events.of(point["cycle"], self.system) for point in self._points]
-
-    def _column(self, name: str, kind: Any = np.float64) -> NDArray[Any]:
-        return np.array([point[name] for point in self._points], dtype=kind)
-
-    @cached_property
-    def parameter(self) -> _Floats:
-        """The value of the number."""
-        return self._column("parameter")
+        return [Events.of(point["cycle"], self.system) for point in self._rows]
 
     @cached_property
     def second(self) -> _Floats | None:
         """The value of the second number."""
-        return None if self.also is None else self._column("values")[:, 1]
-
-    @cached_property
-    def label(self) -> NDArray[np.str_]:
-        """m/n."""
-        return self._column("label", np.str_)
-
-    @cached_property
-    def period(self) -> _Floats:
-        """The time of one period."""
-        return self._column("period")
-
-    @cached_property
-    def stable(self) -> NDArray[np.bool_]:
-        """Whether the orbit is stable."""
-        return self._column("stable", np.bool_)
-
-    @cached_property
-    def stability(self) -> NDArray[np.str_]:
-        """The stability in words."""
-        return self._column("stability", np.str_)
-
-    @cached_property
-    def admissible(self) -> NDArray[np.bool_]:
-        """Whether the orbit is admissible."""
-        return self._column("admissible", np.bool_)
+        return None if self.also is None else np.array([point["values"][1] for point in self._rows], dtype=np.float64)
 
     @cached_property
     def multipliers(self) -> NDArray[np.complex128]:
         """Floquet multipliers in rows."""
-        return rows_of(self._points)
+        return rows_of(self._rows)
 
     @cached_property
     def speed(self) -> _Floats:
@@ -240,13 +209,13 @@ class Branch(View):
     def drift(self) -> _Floats:
         """By how much each coordinate moves on."""
         width = len(self._of["system"]["coordinates"])
-        rows = [list(point["drift"].values()) if "drift" in point else [0.0] * width for point in self._points]
+        rows = [list(point["drift"].values()) if "drift" in point else [0.0] * width for point in self._rows]
         return np.array(rows, dtype=np.float64).reshape(len(self), width)
 
     @property
     def quantity(self) -> str | None:
         """The quantity of a machine without stops."""
-        return next((next(iter(point["quantities"])) for point in self._points if "quantities" in point), None)
+        return next((next(iter(point["quantities"])) for point in self._rows if "quantities" in point), None)
 
     @property
     def value(self) -> _Floats | None:
@@ -254,12 +223,12 @@ class Branch(View):
         name = self.quantity
         if name is None:
             return None
-        return np.array([point["quantities"][name] for point in self._points if "quantities" in point], dtype=np.float64)
+        return np.array([point["quantities"][name] for point in self._rows if "quantities" in point], dtype=np.float64)
 
     def plot(
-        self, ax: "Axes | None" = None, *, diagram: bool = True, inadmissible: bool = False, si: bool = False,
-        legend: bool = True, title: str | None = None, **line: Any,
-    ) -> "Axes":
+        self, ax: Any = None, *, diagram: bool = True, inadmissible: bool = False, si: bool = False, legend: bool = True,
+        title: str | None = None, **line: Any,
+    ) -> Any:
         """Draw the bifurcation diagram: speeds of closings, or of a machine without stops the `quantity`, solid if stable, dashed and
         dotted if neutral, dashed if unstable, with the events.
 
@@ -274,30 +243,8 @@ class Branch(View):
         si : bool
             Whether to draw in metres and seconds, for an oscillator with units.
         """
-        from vibroimpact import _tracks
-
-        behind = self._behind(_tracks.VALUES) if diagram else None
-        return styled(lambda ax: _tracks.plot(self, ax, behind, inadmissible, si), ax, legend, title, line)
-
-    def _behind(self, count: int) -> "tuple[_Floats, _Floats, NDArray[np.bool_]]":
-        """The points of the orbit diagram, and whether each is of a motion that repeats."""
-        over = f"{self.ends[0]!r}:{self.ends[1]!r}:{count}"
-        if isinstance(self.system, Oscillator):
-            from vibroimpact._grid import orbit_diagram
-
-            also = None if self.also is None else {self.also[0]: self.also[1:]}
-            ds = orbit_diagram(self.system, self.vary, over, also=also)
-            ys = ds["velocity"].transpose("sweep", self.vary, "point").values
-            xs = np.broadcast_to(ds[self.vary].values[:, None], ys.shape)
-            there = np.isfinite(ys)
-            repeats = np.broadcast_to(there.sum(axis=-1, keepdims=True) < ys.shape[-1], ys.shape)
-            return xs[there], ys[there], repeats[there]
-        task = given(vary=self.vary, over=over, show=self.quantity)
-        if self.also is not None:
-            task["also"] = dict(zip(("path", "from", "to"), self.also))
-        # the sweeps use all cores
-        found = answered(self.system, "diagram", task, threads=0)["diagram"]
-        return found["parameter"], found["speed"], found["repeats"]
+        figure = self._figure(si=si, diagram=diagram, inadmissible=inadmissible, branch=self.number or None)
+        return self._painted(figure, ax, legend, title, line)
 
     def _draw(self, ax: Any) -> None:
         self.plot(ax, diagram=False)
@@ -389,4 +336,4 @@ def branch(
         follow=whole("follow", follow, FOLLOW), points=whole("points", points, BRANCH),
     )
     start = Start(system, None, None, q, qdot, phase if not isinstance(system, Oscillator) else None)
-    return Branch(ask(system, "branch", task, start, progress=progress, what="branches"), system)
+    return Branch.answering(ask(system, "branch", task, start, progress=progress, what="branches"), system)

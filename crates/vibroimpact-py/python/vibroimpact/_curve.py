@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,17 +12,9 @@ from vibroimpact._axis import Interval, plane
 from vibroimpact._branch import rows_of
 from vibroimpact._core import Oscillator, QuestionError
 from vibroimpact._events import Events
-from vibroimpact._figure import named, new_axes
-from vibroimpact._plane import broken, frame
 from vibroimpact._progress import Progress
-from vibroimpact._result import View
-from vibroimpact._styled import styled
-from vibroimpact._tables import CURVE_MARKS, EVENT_COLOURS
+from vibroimpact._result import Column, View
 from vibroimpact._whole import BRANCH, NUMBER, maybe
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
 
 class CurveEvent(View):
     """A point of codimension two on a curve, or an end of the curve.
@@ -89,13 +81,14 @@ class Curve(View):
     kind: str
     of: list[str] | None
     found_at: list[float]
+    admissible, residual = Column(np.bool_), Column(np.float64)
 
     def __repr__(self) -> str:
         p, q = self.parameters
         return f"<Curve of {self.kind} of {self.label} over {p} and {q}, {len(self)} points, {len(self.events)} events>"
 
     def __len__(self) -> int:
-        return len(self._of["points"])
+        return len(self._rows)
 
     @property
     def parameters(self) -> tuple[str, str]:
@@ -121,70 +114,31 @@ class Curve(View):
         found = self._of.get("orbit")
         return None if found is None else (found["number"], found["count"])
 
-    def _column(self, name: str, kind: Any) -> NDArray[Any]:
-        return np.array([point.get(name, np.nan) for point in self._of["points"]], dtype=kind)
-
     @cached_property
     def values(self) -> NDArray[np.float64]:
         """Values of the two numbers."""
-        return self._column("values", np.float64).reshape(len(self), 2)
-
-    @cached_property
-    def admissible(self) -> NDArray[np.bool_]:
-        """Whether the orbit is admissible."""
-        return self._column("admissible", np.bool_)
-
-    @cached_property
-    def residual(self) -> NDArray[np.float64]:
-        """By how much the condition fails."""
-        return self._column("residual", np.float64)
+        return np.array([point["values"] for point in self._rows], dtype=np.float64).reshape(len(self), 2)
 
     @cached_property
     def multipliers(self) -> NDArray[np.complex128]:
         """Floquet multipliers in rows."""
-        return rows_of(self._of["points"])
+        return rows_of(self._rows)
 
     @cached_property
     def cycles(self) -> list[Events]:
         """The events at each point."""
-        return [Events.of(point["cycle"], self.system) for point in self._of["points"]]
+        return [Events.of(point["cycle"], self.system) for point in self._rows]
 
     @cached_property
     def events(self) -> list[CurveEvent]:
         """The points of codimension two and the ends."""
         return [CurveEvent(of, self.system) for of in self._of["events"]]
 
-    def plot(self, ax: "Axes | None" = None, *, legend: bool = True, title: str | None = None, **line: Any) -> "Axes":
-        """Draw the curve in its plane, dotted where the orbit is inadmissible, and its points of codimension two."""
-        return styled(lambda ax: _draw(self, ax), ax, legend, title, line)
-
     def _table(self) -> dict[str, Any]:
         """One row for each point."""
         p, q = self.parameters
         columns = {p: self.values[:, 0], q: self.values[:, 1], "admissible": self.admissible}
         return columns if isinstance(self.system, Oscillator) else {**columns, "residual": self.residual}
-
-
-def _draw(of: Curve, ax: "Axes | None") -> "Axes":
-    """Draw the curve, dotted where the orbit is inadmissible, and its points of codimension two."""
-    ax = new_axes(ax, (7.2, 4.8))
-    colour, events = EVENT_COLOURS[of.kind], {event.point for event in of.events}
-    # a motion with friction only has no impact that could name it
-    name = of.kind if of.label == "0" else f"{of.kind} of {named(of.label)}"
-    # an event separates two parts, so a step takes its look from the end that is no event
-    steps = [k if k + 1 in events and k not in events else k + 1 for k in range(len(of) - 1)]
-    for admissible, dash, words in ((True, "-", ""), (False, ":", ", inadmissible")):
-        xs, ys = (np.array(column, dtype=float) for column in broken(of.values, of.admissible[steps] == admissible))
-        if len(xs):
-            ax.plot(xs, ys, dash, color=colour, linewidth=1.8, label=f"{name}{words}")
-    kinds = dict.fromkeys(event.kind for event in of.events if not event.kind.startswith("end"))
-    for k, kind in enumerate(kinds):
-        xs, ys = np.array([event.values for event in of.events if event.kind == kind]).T
-        ax.plot(xs, ys, CURVE_MARKS.get(kind, "osD^v"[k % 5]), color="white", markeredgecolor="black", markersize=8, label=kind,
-                zorder=4, clip_on=False)
-    ax.plot(*of.values[of.through[1]], "o", color="black", markersize=5, label="found on the branch", zorder=5)
-    frame(ax, of.system, of.parameters, of.ranges)
-    return ax
 
 
 def curve(
@@ -249,4 +203,4 @@ def curve(
     task = given(label=label, kind=kind, vary=vary, orbit=maybe("orbit", orbit, NUMBER), event=maybe("event", event, NUMBER),
                  points=maybe("points", points, BRANCH))
     start = Start(system, None, None, q, qdot, phase if not isinstance(system, Oscillator) else None)
-    return Curve(ask(system, "curve", {**task, "and": and_}, start, progress=progress, what="curves"), system)
+    return Curve.answering(ask(system, "curve", {**task, "and": and_}, start, progress=progress, what="curves"), system)

@@ -35,6 +35,15 @@ def named_columns(system: Any, q: _Floats, qdot: _Floats) -> dict[str, _Floats]:
     return {**dict(zip(positions, q.T)), **dict(zip(velocities, qdot.T))}
 
 
+def columns_of(found: Mapping[str, Any], n: int) -> dict[str, Any]:
+    """The columns of events of the compiled module, of a system with `n` coordinates."""
+    time, phase, speed, *states = found["real"]
+    kinds, stops = (np.array(found[name], dtype=np.str_) for name in ("kinds", "stops"))
+    kind, stop = (names[codes] if len(names) else np.empty(0, np.str_) for names, codes in ((kinds, found["kind"]), (stops, found["stop"])))
+    q, qdot = (np.stack(of, axis=1) for of in (states[:n], states[n:]))
+    return {"kind": kind, "stop": stop, "time": time, "phase": phase, "speed": speed, "q": q, "qdot": qdot}
+
+
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
 class Events(Result):
     """The events of a cycle in order of time, beginning with the fastest closing of a stop.

@@ -1,6 +1,5 @@
 """Lyapunov exponents of a motion and the dimension of its attractor."""
 
-from collections.abc import Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -8,12 +7,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact import _core
-from vibroimpact._ask import Start, System, answered, given
+from vibroimpact._ask import Start, System, ask, given
 from vibroimpact._core import Oscillator
 from vibroimpact._figure import heading, named
-from vibroimpact._motion import Measured, Motion, all_measured, measured
+from vibroimpact._motion import Motion, all_measured, maybe_measured
 from vibroimpact._progress import Progress
-from vibroimpact._result import View, equal
+from vibroimpact._result import Field, View, equal
 from vibroimpact._styled import styled
 from vibroimpact._whole import MEASURED, SECTION, SIMULATED, TRANSIENT, maybe
 
@@ -74,11 +73,14 @@ class Lyapunov(View):
     identity: float | None
     exact: bool
     grounds: dict[str, Any] | None
+    exponents, exponents_per_period = Field(all_measured), Field(all_measured)
+    sum, impacts_per_period = Field(maybe_measured), Field(maybe_measured)
+    dimension, flow_dimension = Field(maybe_measured, "dimension.section"), Field(maybe_measured, "dimension.flow")
 
-    def __init__(self, of: dict[str, Any], system: Any, points: Mapping[str, Any] | None) -> None:
-        super().__init__(of, system)
+    def __init__(self, of: dict[str, Any], system: Any, answer: _core.Answer | None = None) -> None:
+        super().__init__(of, system, answer)
         none, states = np.empty(0), np.empty((0, len(of["system"]["coordinates"])))
-        found = points or {
+        found = (None if answer is None else answer.columns()) or {
             "stop": [], "phase": none, "speed": none, **{name: states for name in ("q", "qdot", "strobe_q", "strobe_qdot")},
         }
         stop = np.array(found["stop"], dtype=np.str_)
@@ -96,39 +98,6 @@ class Lyapunov(View):
         """The motion."""
         return Motion(self._of["motion"], self.system)
 
-    @property
-    def exponents(self) -> tuple[Measured, ...] | None:
-        """Per unit of time."""
-        return all_measured(self._of["exponents"])
-
-    @property
-    def exponents_per_period(self) -> tuple[Measured, ...] | None:
-        """Per forcing period."""
-        return all_measured(self._of["exponents_per_period"])
-
-    def _one(self, of: Mapping[str, Any] | None) -> Measured | None:
-        return None if of is None else measured(of)
-
-    @property
-    def sum(self) -> Measured | None:
-        """The measured sum."""
-        return self._one(self._of.get("sum"))
-
-    @property
-    def impacts_per_period(self) -> Measured | None:
-        """Closings per forcing period."""
-        return self._one(self._of["impacts_per_period"])
-
-    @property
-    def dimension(self) -> Measured | None:
-        """Of the stroboscopic section."""
-        return self._one(self._of["dimension"]["section"])
-
-    @property
-    def flow_dimension(self) -> Measured | None:
-        """Of the flow."""
-        return self._one(self._of["dimension"]["flow"])
-
     def __repr__(self) -> str:
         first = f"{self.exponents[0].value:.5g} +- {self.exponents[0].error:.1g}" if self.exponents else "unknown"
         return f"<Lyapunov, largest {first}, {self.motion.label}>"
@@ -143,8 +112,10 @@ class Lyapunov(View):
         found |= {name: of for name, of in more.items() if of is not None}
         return {"name": list(found), "value": [of.value for of in found.values()], "error": [of.error for of in found.values()]}
 
-    def plot(self, ax: "Axes | None" = None, *, legend: bool = True, title: str | None = None, **line: Any) -> "Axes":
-        """Draw the exponents with their error bars."""
+    def plot(
+        self, ax: Any = None, *, si: bool = False, legend: bool = True, title: str | None = None, **line: Any
+    ) -> "Axes":
+        """Draw the exponents with their error bars, per unit of time of the system."""
         from vibroimpact import _exponents
 
         if not self.exponents:
@@ -158,13 +129,12 @@ class Lyapunov(View):
         """Draw both sections of the attractor: the phase and speed of closings, and the plane of each coordinate and its velocity
         at phase 0.
 
-        `axes` are one axes more than there are coordinates. Returns the axes.
+        `axes` are as many as there are panels. Returns the axes.
         """
-        from vibroimpact import _sections
-
         if not len(self.closings.phase) and not len(self.strobes.q):
             raise _core.QuestionError("there are no points of the sections\nhint: lyapunov(..., points=5000)")
-        return styled(lambda axes: _sections.sections(self, axes), axes, legend, title, line)
+        drawn: NDArray[Any] = self._painted(self._figure(), axes, legend, title, line)
+        return drawn
 
 
 def lyapunov(
@@ -218,7 +188,5 @@ def lyapunov(
     task = start.within(given(impacts=impacts, transient=transient, points=points))
     before = 1000 if transient is None else transient
     total = before + (impacts or 100_000) + (0 if points is None else before + points)
-    found = answered(
-        system, "lyapunov", task, start, total=total if isinstance(system, Oscillator) else 1, progress=progress, what="impacts"
-    )
-    return Lyapunov(found["object"], system, found["section"])
+    total = total if isinstance(system, Oscillator) else 1
+    return Lyapunov.answering(ask(system, "lyapunov", task, start, total=total, progress=progress, what="impacts"), system)

@@ -1,9 +1,9 @@
 """How far a periodic motion is from the events that end or change it."""
 
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from functools import cached_property
+from typing import Any, NamedTuple
 
 from numpy.typing import ArrayLike
 
@@ -12,12 +12,8 @@ from vibroimpact._ask import Start, System, ask, given
 from vibroimpact._core import Oscillator
 from vibroimpact._motion import Motion
 from vibroimpact._progress import Progress
-from vibroimpact._result import Result
-from vibroimpact._styled import styled
+from vibroimpact._result import View
 from vibroimpact._whole import LINES, maybe
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,8 +66,7 @@ class MotionBox:
     #: Why the motion was not found next to the box, and the values of the parameters there; None if the box ends at the end of a range.
     edge: tuple[str, dict[str, float]] | None
 
-@dataclass(frozen=True, eq=False, repr=False, slots=True)
-class Margins(Result):
+class Margins(View):
     """The distances of a motion from the events that end or change it, and a box of parameters in which it was found.
 
     Attributes
@@ -91,12 +86,32 @@ class Margins(Result):
         The plan as JSON.
     """
 
-    system: Any
-    motion: Motion
-    parameters: dict[str, ParameterMargin]
-    nearest: Nearest | None
-    box: MotionBox | None
-    plan: str
+    @cached_property
+    def motion(self) -> Motion:
+        """The motion."""
+        return Motion(self._of["motion"], self.system)
+
+    @cached_property
+    def parameters(self) -> dict[str, ParameterMargin]:
+        """The nearest events in each parameter."""
+        ends = [{**of, "down": MarginEnd(**of["down"]), "up": MarginEnd(**of["up"])} for of in self._of["parameters"]]
+        return {of["parameter"]: ParameterMargin(**of) for of in ends}
+
+    @property
+    def nearest(self) -> Nearest | None:
+        """The event with the smallest change."""
+        found = self._of["nearest"]
+        return None if found is None else Nearest(**found)
+
+    @cached_property
+    def box(self) -> MotionBox | None:
+        """The largest box."""
+        of = self._of["box"]
+        if of is None:
+            return None
+        ranges = {one["parameter"]: (one["from"], one["to"]) for one in of["parameters"]}
+        edge = of["edge"] and (of["edge"]["loss"], {one["parameter"]: one["value"] for one in of["edge"]["parameters"]})
+        return MotionBox(of["size"], of["largest"], ranges, of["points"], of["lines"], edge)
 
     def __repr__(self) -> str:
         if self.nearest is None:
@@ -115,12 +130,6 @@ class Margins(Result):
             **{name: [getattr(end, name) for _, _, end in ends] for name in ("limit", "at", "distance", "relative")},
             "event": [None if end.event is None else end.event["kind"] for _, _, end in ends],
         }
-
-    def plot(self, ax: "Axes | None" = None, *, legend: bool = True, title: str | None = None, **line: Any) -> "Axes":
-        """Draw the change of each parameter to its nearest events as bars, with the values there, and the box."""
-        from vibroimpact import _margin_bars
-
-        return styled(lambda ax: _margin_bars.plot(self, ax), ax, legend, title, line)
 
 
 def margins(
@@ -193,22 +202,4 @@ def margins(
     else:
         varied = list(vary or [])
     task = start.within(given(label=label, vary=varied, within=float(within), lines=count))
-    found = ask(system, "margins", task, start, progress=progress, what="margins")
-    return Margins(
-        system=system,
-        motion=Motion(found["motion"], system),
-        parameters={of["parameter"]: _parameter(of) for of in found["parameters"]},
-        nearest=None if found["nearest"] is None else Nearest(**found["nearest"]),
-        box=None if found["box"] is None else _box(found["box"]),
-        plan=json.dumps(found["plan"]),
-    )
-
-
-def _parameter(of: Mapping[str, Any]) -> ParameterMargin:
-    return ParameterMargin(**{**of, "down": MarginEnd(**of["down"]), "up": MarginEnd(**of["up"])})
-
-
-def _box(of: Mapping[str, Any]) -> MotionBox:
-    ranges = {one["parameter"]: (one["from"], one["to"]) for one in of["parameters"]}
-    edge = of["edge"] and (of["edge"]["loss"], {one["parameter"]: one["value"] for one in of["edge"]["parameters"]})
-    return MotionBox(of["size"], of["largest"], ranges, of["points"], of["lines"], edge)
+    return Margins.answering(ask(system, "margins", task, start, progress=progress, what="margins"), system)

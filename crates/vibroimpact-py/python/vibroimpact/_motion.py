@@ -3,21 +3,17 @@
 import math
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact._ask import MachineLike
 from vibroimpact._core import Oscillator, QuestionError
 from vibroimpact._events import Events
-from vibroimpact._result import View
-from vibroimpact._simulate import simulate
-from vibroimpact._styled import styled
+from vibroimpact._figure import named
+from vibroimpact._result import Field, View
+from vibroimpact._simulate import Simulation, simulate
 from vibroimpact._waveform import Waveform, waveform
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 #: Minimum number of forcing periods, and of cycles without forcing, in a figure of a periodic motion.
 _SHOWN, _CYCLES = 6, 3
@@ -41,14 +37,19 @@ def measured(given: Mapping[str, Any]) -> Measured:
     return Measured(value, error if error is not None else 0.0 if math.isinf(value) else math.nan)
 
 
+def maybe_measured(given: Mapping[str, Any] | None) -> Measured | None:
+    """Of the JSON object; None if there is none."""
+    return None if given is None else measured(given)
+
+
 def all_measured(given: Sequence[Mapping[str, Any]] | None) -> tuple[Measured, ...] | None:
     """Of a list of them; None if there is none."""
     return None if given is None else tuple(measured(one) for one in given)
 
 
-def complex_of(pairs: Sequence[Sequence[float | None]]) -> NDArray[np.complex128]:
+def complex_of(pairs: Sequence[Sequence[float | None]] | None) -> NDArray[np.complex128]:
     """Complex numbers of pairs; null is infinite."""
-    numbers = [complex(*(math.inf if part is None else part for part in pair)) for pair in pairs]
+    numbers = [complex(*(math.inf if part is None else part for part in pair)) for pair in pairs or ()]
     return np.array(numbers, dtype=np.complex128)
 
 
@@ -149,6 +150,10 @@ class Motion(View):
     seen_events: int | None
     horizon: dict[str, Any] | None
     why: str | None
+    stops: Field[tuple[str, ...]] = Field(lambda of: tuple(of or ()))
+    counts: Field[dict[str, int | None]] = Field(lambda of: dict(of or {}))
+    multipliers, exponents, lyapunov = Field(complex_of), Field(all_measured), Field(maybe_measured)
+    quantities, quantities_error = Field(_by_path), Field(_by_path)
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self._words()}{self._remark()}>"
@@ -163,46 +168,10 @@ class Motion(View):
     def _remark(self) -> str:
         return ""
 
-    @property
-    def stops(self) -> tuple[str, ...]:
-        """The stops that stay closed for ever."""
-        return tuple(self._of.get("stops", ()))
-
-    @property
-    def counts(self) -> dict[str, int | None]:
-        """The closings of each stop in one period."""
-        return dict(self._of.get("counts") or {})
-
-    @cached_property
-    def multipliers(self) -> NDArray[np.complex128]:
-        """Floquet multipliers."""
-        return complex_of(self._of.get("multipliers") or [])
-
     @cached_property
     def cycle(self) -> Events:
         """The events of one period."""
         return Events.of(self._of["cycle"], self.system)
-
-    @cached_property
-    def exponents(self) -> tuple[Measured, ...] | None:
-        """Lyapunov exponents."""
-        return all_measured(self._of.get("exponents"))
-
-    @property
-    def lyapunov(self) -> Measured | None:
-        """The largest exponent."""
-        found = self._of.get("lyapunov")
-        return None if found is None else measured(found)
-
-    @cached_property
-    def quantities(self) -> dict[str, float] | None:
-        """Quantities by name."""
-        return _by_path(self._of["quantities"])
-
-    @cached_property
-    def quantities_error(self) -> dict[str, float] | None:
-        """Their errors, of a chaotic motion."""
-        return _by_path(self._of.get("quantities_error"))
 
     def _table(self) -> dict[str, Any]:
         """One row for each event of the cycle."""
@@ -241,40 +210,25 @@ class Motion(View):
         machine = self.system.starting(self.state)
         return waveform(machine, machine.start_of(), until, step, events)
 
-    def plot(
-        self, ax: Any = None, *, si: bool = False, legend: bool = True, title: str | None = None, **line: Any
-    ) -> Any:
+    def plot(self, ax: Any = None, *, si: bool = False, legend: bool = True, title: str | None = None, **line: Any) -> Any:
         """Draw some periods of the motion: of an oscillator the position with the stops, of a machine the coordinates, and below
         them the contact forces, if there are any.
 
         `ax` is the axes to draw into, of a machine one or two. Returns the axes. `si` selects metres and seconds for an
         oscillator with units.
         """
-        return styled(lambda ax: self._drawn(ax, si), ax, legend, title, line)
+        shown = self._some_periods()
+        figure = shown._figure(si=si)
+        figure["title"] = f"{(figure['title'] or 'machine').split(': ')[0]}: {named(self.label)}"
+        return shown._painted(figure, ax, legend, title, line)
 
-    def _drawn(self, ax: Any, si: bool) -> Any:
-        if not isinstance(self.system, Oscillator):
-            return self._plot_machine(self.system, ax)
-        from vibroimpact import _figure
-
+    def _some_periods(self) -> Simulation:
+        """The motion over some of its periods."""
         turns = self.periods or 1
-        periods = turns * max(2, math.ceil(_SHOWN / turns))
-        wave = self.waveform(self.system.period / 200, periods=periods)
-        struck = np.zeros(0, dtype=np.intp) if self.sticks else np.flatnonzero(self.cycle.kind == "impact")
-        period = turns * self.system.period
-        times = np.concatenate([self.cycle.time[struck] + k * period for k in range(periods // turns + 1)])
-        places = np.tile(self.cycle.q[struck, 0], periods // turns + 1)
-        return _figure.waveform(self.system, wave, (times, places), self.label, ax, si)
-
-    def _plot_machine(self, machine: MachineLike, axes: Any) -> "NDArray[Any]":
-        from vibroimpact import _machine_figure
-        from vibroimpact._figure import heading, named
-
+        if isinstance(self.system, Oscillator):
+            return simulate(self.system, **self.start(), periods=turns * max(2, math.ceil(_SHOWN / turns)))
         if self.state is None:
             raise QuestionError(f"the motion {self.label} has no cycle to draw\nhint: simulate(...).plot() draws it from its start")
-        turns = self.periods or 1
-        impacts = max(_CYCLES * len(self.cycle), 1) if machine.period is None else None
+        impacts = max(_CYCLES * len(self.cycle), 1) if self.system.period is None else None
         periods = None if impacts else turns * max(2, math.ceil(_SHOWN / turns))
-        drawn = _machine_figure.draw(simulate(machine.starting(self.state), impacts=impacts, periods=periods), axes)
-        drawn[0].set_title(f"{heading(machine)}: {named(self.label)}")
-        return drawn
+        return simulate(self.system.starting(self.state), impacts=impacts, periods=periods)

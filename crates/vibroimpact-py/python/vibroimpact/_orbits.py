@@ -2,28 +2,17 @@
 
 from collections.abc import Iterator
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from vibroimpact import _figure
 from vibroimpact._ask import System, ask
 from vibroimpact._core import QuestionError
-from vibroimpact._figure import heading, named, new_axes
 from vibroimpact._motion import Motion
-from vibroimpact._palette import SERIES
 from vibroimpact._progress import Progress
 from vibroimpact._result import View
-from vibroimpact._styled import styled
+from vibroimpact._simulate import Simulation
 from vibroimpact._waveform import Waveform
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-
-#: Number of colours of lines; the others of the series are too light, or black.
-_USABLE = 6
 
 
 class EarlierContact(NamedTuple):
@@ -53,9 +42,16 @@ class Orbit(Motion):
 
     def waveform(self, step: float | None = None, *, periods: float | None = None, events: bool = True) -> Waveform:
         """As for a Motion. Raises QuestionError for an inadmissible solution."""
+        self._check()
+        return Motion.waveform(self, step, periods=periods, events=events)
+
+    def _some_periods(self) -> Simulation:
+        self._check()
+        return Motion._some_periods(self)
+
+    def _check(self) -> None:
         if not self.admissible:
             raise QuestionError(f"this solution {self.label} is inadmissible: it passes through a stop on its way")
-        return Motion.waveform(self, step, periods=periods, events=events)
 
 
 class Orbits(View):
@@ -95,25 +91,11 @@ class Orbits(View):
         number = np.repeat(np.arange(1, len(self) + 1), [len(of.cycle) for of in self])
         return {"orbit": number, **{name: np.concatenate([table[name] for table in tables]) for name in names}}
 
-    def plot(self, ax: "Axes | None" = None, *, legend: bool = True, title: str | None = None, **line: Any) -> "Axes":
-        """Draw the speed and the phase of each closing of a stop, for all orbits."""
+    def plot(self, ax: Any = None, **options: Any) -> Any:
+        """Draw the speed and the phase of each closing of a stop, for all orbits; options as for other results."""
         if not len(self):
             raise QuestionError("there are no orbits to draw")
-        return styled(self._drawn, ax, legend, title, line)
-
-    def _drawn(self, ax: "Axes | None") -> "Axes":
-        ax = new_axes(ax, (6.4, 4.2))
-        for k, one in enumerate(self):
-            at, colour = one.cycle.closes, SERIES[k % _USABLE]
-            ax.plot(one.cycle.phase[at], one.cycle.speed[at], "o" if one.stable else "s", color=colour, markersize=7,
-                    markerfacecolor=colour if one.stable else "white",
-                    label=f"{named(one.label)}, no. {k + 1}, {one.stability}{one._remark()}")
-        ax.set_xlim(0, 2 * np.pi)
-        ax.set_xlabel(r"phase $\theta$")
-        ax.set_ylabel("speed of closing")
-        ax.set_title(heading(self.system))
-        _figure.legend(ax)
-        return ax
+        return super().plot(ax, **options)
 
 
 def orbits(system: System, label: str, *, progress: Progress = None) -> Orbits:
@@ -143,4 +125,4 @@ def orbits(system: System, label: str, *, progress: Progress = None) -> Orbits:
     >>> vi.Machine.named("two-mass-hammer").orbits("1/1")[-1].stable
     True
     """
-    return Orbits(ask(system, "orbit", {"label": label}, progress=progress, what="searches"), system)
+    return Orbits.answering(ask(system, "orbit", {"label": label}, progress=progress, what="searches"), system)

@@ -10,7 +10,7 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from vibroimpact import _core
-from vibroimpact._ask import MachineLike, Start, System
+from vibroimpact._ask import MachineLike, System
 from vibroimpact._axis import Axis, Interval, axes, beside, interval, sweep
 from vibroimpact._budget import Budget, seconds
 from vibroimpact._core import Oscillator
@@ -137,9 +137,7 @@ class Plan:
         >>> cost.points, cost.threads, 0 < low <= cost.processor_seconds <= high
         (20000, 2, True)
         """
-        blocks, threads = whole("sample", sample, BLOCKS), threads_of(threads)
-        if not 1 <= blocks <= (BLOCKS.most or blocks):
-            raise _core.QuestionError(f"sample = {blocks} lies outside 1 <= sample <= {BLOCKS.most}")
+        blocks, threads = whole("sample", sample, BLOCKS, here=True), threads_of(threads)
         found = json.loads(_core.estimate_plan(self.json, blocks, seconds("budget", budget), threads))
         low, high = found.pop("processor_seconds_interval")
         return Estimate(**found, processor_seconds_interval=(low, high))

@@ -84,10 +84,7 @@ def refine(
     """
     import xarray as xr
 
-    cells, rounds = whole("cells", cells, CELLS), whole("rounds", rounds, ROUNDS)
-    for name, given, allowed in (("cells", cells, CELLS), ("rounds", rounds, ROUNDS)):
-        if not allowed.least <= given <= (allowed.most or given):
-            raise QuestionError(f"{name} = {given} lies outside {allowed.least} <= {name} <= {allowed.most}")
+    cells, rounds = whole("cells", cells, CELLS, here=True), whole("rounds", rounds, ROUNDS, here=True)
     if not isinstance(over, Mapping) or not 1 <= len(over) <= _MOST_SIDES:
         raise QuestionError(f'over has the ranges of 1 to {_MOST_SIDES} numbers: {{"inverse_beta": (0.5, 2), "gap": (0, 3)}}')
     sides = [(str(name), *interval(of)) for name, of in over.items()]

@@ -1,9 +1,8 @@
 """The regions of a plane of two parameters in which a motion exists and in which it is stable."""
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,17 +11,9 @@ from vibroimpact import _core
 from vibroimpact._ask import System, ask
 from vibroimpact._axis import Interval, numbers, plane
 from vibroimpact._core import Oscillator
-from vibroimpact._figure import named, new_axes
-from vibroimpact._palette import class_colour
-from vibroimpact._plane import broken, frame
 from vibroimpact._progress import Progress
-from vibroimpact._result import Result
-from vibroimpact._styled import styled
-from vibroimpact._tables import BOUND_STYLES
+from vibroimpact._result import Field, Result, View
 from vibroimpact._whole import GRID, whole
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
@@ -83,8 +74,7 @@ class Part(Result):
         inside = _core.contains(polygons, np.ascontiguousarray(p).reshape(-1), np.ascontiguousarray(q).reshape(-1))
         return inside.reshape(p.shape)
 
-@dataclass(frozen=True, eq=False, repr=False, slots=True)
-class Region(Result):
+class Region(View):
     """The regions of existence and stability of a motion in a plane.
 
     Attributes
@@ -105,14 +95,25 @@ class Region(Result):
         The plan as JSON.
     """
 
-    system: System
     label: str
-    parameters: tuple[str, str]
-    ranges: tuple[tuple[float, float], tuple[float, float]]
     neutrally_stable: bool
-    existence: Part
-    stability: Part
-    plan: str
+    existence: Field[Part] = Field(lambda of: _part(of))
+    stability: Field[Part] = Field(lambda of: _part(of))
+
+    @property
+    def parameters(self) -> tuple[str, str]:
+        """The two parameters."""
+        return tuple(next(iter(side.values())) for side in self._sides)
+
+    @property
+    def ranges(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Their ranges."""
+        return tuple((side["from"], side["to"]) for side in self._sides)  # type: ignore[return-value]
+
+    @property
+    def _sides(self) -> list[dict[str, Any]]:
+        task = self._of["plan"]["task"]["region"]
+        return [task["across"], task["up"]]
 
     def __repr__(self) -> str:
         parts = f"existence {len(self.existence.polygons)}, stability {len(self.stability.polygons)} polygons"
@@ -122,9 +123,6 @@ class Region(Result):
         """One row for each vertex of the polygons of both regions."""
         return _vertices([("existence", self.existence), ("stability", self.stability)], self.parameters)
 
-    def plot(self, ax: "Axes | None" = None, *, legend: bool = True, title: str | None = None, **line: Any) -> "Axes":
-        """Draw both regions. The colour of an edge shows the kind of boundary."""
-        return styled(lambda ax: _draw(self, ax), ax, legend, title, line)
 
 def _vertices(parts: "list[tuple[str, Part]]", names: tuple[str, str]) -> dict[str, Any]:
     """The vertices of all polygons as columns."""
@@ -135,51 +133,6 @@ def _vertices(parts: "list[tuple[str, Part]]", names: tuple[str, str]) -> dict[s
                 for name, value in zip(table, (region_, k, polygon.hole, p, q, bound)):
                     table[name].append(value)
     return table
-
-
-def _draw(of: Region, ax: "Axes | None") -> "Axes":
-    """Draw both regions. The colour of an edge shows its kind; edges of the sheet above are thin."""
-    ax = new_axes(ax, (7.2, 5.2))
-    name = named(of.label)
-    exists = "exists, neutral" if of.neutrally_stable else "exists, unstable"
-    fills = ((of.existence, "#ececec", exists), (of.stability, class_colour(of.label), "stable"))
-    for part, colour, words in fills[: 1 if of.neutrally_stable else 2]:
-        _fill(ax, part, colour)
-        ax.fill([], [], color=colour, label=f"{name} {words}")
-    polygons = of.existence.polygons + of.stability.polygons
-    for bound, (colour, dash, words) in BOUND_STYLES.items():
-        label: str | None = words
-        for sheet, width in (("above", 0.9), ("below", 2.0)):
-            for polygon in polygons:
-                xs, ys = _edges(polygon, bound) if polygon.sheet == sheet else ([], [])
-                if xs:
-                    ax.plot(xs, ys, dash, color=colour, linewidth=width, zorder=2)
-                    if label is not None:
-                        ax.plot([], [], dash, color=colour, linewidth=2, label=label)
-                        label = None
-    frame(ax, of.system, of.parameters, of.ranges)
-    return ax
-
-
-def _edges(polygon: Polygon, bound: str) -> tuple[list[float], list[float]]:
-    closed = np.vstack([polygon.vertices, polygon.vertices[:1]])
-    return broken(closed, np.array([of == bound for of in polygon.bounds]))
-
-
-def _fill(ax: "Axes", part: Part, colour: str) -> None:
-    """Fill each outer ring with its holes separately, because the sheets of a surface may overlap."""
-    from matplotlib.patches import PathPatch
-    from matplotlib.path import Path
-
-    for outer in (polygon for polygon in part.polygons if not polygon.hole):
-        alone = Part([outer], part.unresolved[:0])
-        holes = [
-            hole
-            for hole in part.polygons
-            if hole.hole and hole.sheet == outer.sheet and bool(alone.contains(*hole.vertices[0]))
-        ]
-        rings = [Path(np.vstack([ring.vertices, ring.vertices[:1]]), closed=True) for ring in (outer, *holes)]
-        ax.add_patch(PathPatch(Path.make_compound_path(*rings), facecolor=colour, edgecolor="none", zorder=1))
 
 
 def region(
@@ -227,10 +180,7 @@ def region(
     sides = [{kind: name, "from": low, "to": high} for name, low, high in (first, second)]
     task = {"label": label, "across": sides[0], "up": sides[1], "grid": whole("grid", grid, GRID)}
     found = ask(system, "region", task, total=2, threads=threads, progress=progress, what="regions")
-    return Region(
-        system, label.strip(), (first[0], second[0]), (first[1:], second[1:]), found["neutrally_stable"],
-        _part(found["existence"]), _part(found["stability"]), json.dumps(found["plan"]),
-    )
+    return Region.answering(found, system)
 
 
 def _part(of: Mapping[str, Any]) -> Part:

@@ -7,15 +7,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact import _core, _figure
-from vibroimpact._ask import System, answered, given
+from vibroimpact import _core
+from vibroimpact._ask import System, ask, given
 from vibroimpact._axis import Axis, sweep
-from vibroimpact._core import Oscillator
-from vibroimpact._figure import axis_of, heading, named, new_axes
 from vibroimpact._progress import Progress
-from vibroimpact._result import Result
-from vibroimpact._styled import styled
-from vibroimpact._tracks import LOOKS, curve
+from vibroimpact._result import Result, View
 from vibroimpact._whole import BUDGET, maybe
 
 if TYPE_CHECKING:
@@ -59,8 +55,7 @@ class ResponseCurve(Result):
         return f"<ResponseCurve with {len(self)} points: {', '.join(dict.fromkeys(self.label.tolist()))}>"
 
 
-@dataclass(frozen=True, eq=False, repr=False, slots=True)
-class Response(Result):
+class Response(View):
     """A quantity of all motions over one parameter.
 
     Attributes
@@ -79,14 +74,12 @@ class Response(Result):
         The plan as JSON.
     """
 
-    system: Any
     vary: str
     quantity: str
     up: ResponseCurve
     down: ResponseCurve
     branches: list[ResponseCurve]
     units: dict[str, str]
-    plan: str
 
     def __repr__(self) -> str:
         count = len(self.branches)
@@ -101,7 +94,7 @@ class Response(Result):
         return {"curve": of, self.vary: joined.pop("parameter"), **joined}
 
     def plot(
-        self, ax: "Axes | None" = None, *, quantity: str | None = None, legend: bool = True, title: str | None = None, **line: Any
+        self, ax: Any = None, *, quantity: str | None = None, si: bool = False, legend: bool = True, title: str | None = None, **line: Any
     ) -> "Axes":
         """Draw a quantity over the parameter: stable branches solid, neutral ones dashed and dotted, unstable ones dashed, the motions of the sweeps as dots.
 
@@ -111,52 +104,20 @@ class Response(Result):
             The axes to draw in; new ones by default.
         quantity : str
             Another quantity than that of the response.
+        si : bool
+            Whether to draw in metres and seconds, for an oscillator with units; over a number in SI units this is always so.
         """
-        quantity = quantity or self.quantity
-        if quantity not in self.up.quantities:
+        if quantity is not None and quantity not in self.up.quantities:
             known = ", ".join(self.up.quantities)
             raise _core.QuestionError(f"`{quantity}` is no quantity; there are {known}")
-        return styled(lambda ax: self._drawn(ax, quantity), ax, legend, title, line)
+        figure = self._figure(si=si or any(self.units.values()), quantity=quantity)
+        drawn: Axes = self._painted(figure, ax, legend, title, line)
+        return drawn
 
-    def _drawn(self, ax: "Axes | None", quantity: str) -> "Axes":
-        ax = new_axes(ax, (7.2, 4.8))
-        for name, of, size, colour in (("sweep up", self.up, 6.0, "0.77"), ("sweep down", self.down, 3.0, "0.38")):
-            ax.plot(of.parameter, of.quantities[quantity], "o", color=colour, markersize=size, markeredgewidth=0, label=name)
-        labels, looks = list[str](), set[str]()
-        for branch in self.branches:
-            for begin, end in _runs(branch):
-                label, stability = str(branch.label[end]), str(branch.stability[end])
-                looks.add(stability)
-                xs, ys = branch.parameter[begin : end + 1], branch.quantities[quantity][begin : end + 1]
-                curve(ax, xs, ys, LOOKS[stability], label)
-                if label not in labels:
-                    labels.append(label)
-                    curve(ax, [], [], "-", label, label=named(label))
-        for word in ("neutral", "unstable"):
-            if word in looks:
-                ax.plot([], [], LOOKS[word], color="black", linewidth=1.8, label=word)
-        ax.set_xlabel(axis_of(self.system, self.vary))
-        unit = self.units[quantity]
-        words = quantity.replace("_", " ") if isinstance(self.system, Oscillator) else quantity
-        ax.set_ylabel(words + (f" ({unit})" if unit else ""))
-        ax.set_title(heading(self.system, (self.vary,)))
-        _figure.legend(ax)
-        return ax
-
-
-def _runs(branch: ResponseCurve) -> list[tuple[int, int]]:
-    """The first and last point of each part with one label and stability; parts share a point. Inadmissible ones are left out."""
-    runs: list[tuple[int, int]] = []
-    for k in range(1, len(branch)):
-        if not branch.admissible[k]:
-            continue
-        last = runs[-1] if runs else None
-        same = last is not None and last[1] == k - 1 and branch.label[k] == branch.label[k - 1]
-        if same and branch.stability[k] == branch.stability[k - 1] and last is not None:
-            runs[-1] = (last[0], k)
-        else:
-            runs.append((k - 1, k))
-    return runs
+    def to_dict(self) -> dict[str, Any]:
+        """The object that the command prints with --json."""
+        found: dict[str, Any] = json.loads(self._whole.json(False))
+        return found
 
 
 def response(
@@ -206,12 +167,13 @@ def response(
     count = len(_core.span_values(values)) if isinstance(values, str) else len(values)
     shown = quantity.replace("-", "_") if quantity is not None else None
     task = given(vary=vary, over=values, quantity=shown, impacts=maybe("impacts", impacts, BUDGET))
-    answer = answered(system, "response", task, total=2 * count, progress=progress, what="motions")
-    found, all_ = answer["object"], answer["response"]
+    answer = ask(system, "response", task, total=2 * count, progress=progress, what="motions")
+    found, all_ = json.loads(answer.json(True)), answer.columns() or {}
     lists = [*(of["points"] for of in found["sweeps"]), *(of["points"] for of in found["branches"])]
     up, down, *branches = [_curve(points, all_["names"], values) for points, values in zip(lists, all_["curves"])]
     units = dict(zip(all_["names"], all_["units"]))
-    return Response(system, vary, found["quantity"], up, down, branches, units, json.dumps(found["plan"]))
+    of = {"vary": vary, "quantity": found["quantity"], "up": up, "down": down, "branches": branches, "units": units, "plan": found["plan"]}
+    return Response(of, system, answer)
 
 
 def _curve(points: list[dict[str, Any]], names: list[str], values: NDArray[np.float64]) -> ResponseCurve:

@@ -5,14 +5,23 @@ import copy
 import html
 import io
 import json
+from collections.abc import Callable
 from dataclasses import fields, is_dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
+from vibroimpact import _core
+from vibroimpact._core import QuestionError
+from vibroimpact._styled import styled
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
+    from typing_extensions import Self
+
+N = TypeVar("N", bound=np.generic)
+R = TypeVar("R")
 
 #: Size of the picture in inches, and its dots per inch.
 _SIZE, _DOTS = (5.6, 2.6), 80
@@ -38,14 +47,6 @@ def equal(a: object, b: object) -> bool:
     return a == b
 
 
-def answer(plan: str) -> dict[str, Any]:
-    """The object that the command prints with --json for a plan, which is computed for it."""
-    from vibroimpact import _core
-
-    found: dict[str, Any] = json.loads(_core.answer_json(plan))
-    return found
-
-
 class Result:
     """The base of all results."""
 
@@ -60,10 +61,6 @@ class Result:
         """The columns of the table of the result."""
         raise NotImplementedError
 
-    def to_dict(self) -> dict[str, Any]:
-        """The object that the command prints with --json for the plan of the result, which is computed again for it."""
-        return answer(self.plan)  # type: ignore[attr-defined]
-
     def to_dataframe(self) -> "pd.DataFrame":
         """The result as a table of pandas: one row for each event, motion, point or value."""
         import pandas as pd
@@ -74,8 +71,6 @@ class Result:
     def to_xarray(self) -> "xr.Dataset":
         """The table as a Dataset of xarray over its rows, with the plan as an attribute, if there is one."""
         import xarray as xr
-
-        from vibroimpact import _core
 
         plan = {} if getattr(self, "plan", None) is None else {"plan": self.plan}  # type: ignore[attr-defined]
         columns = {name: ("row", np.asarray(values)) for name, values in self._table().items()}
@@ -89,8 +84,6 @@ class Result:
     def _picture(self) -> str | None:
         """The figure as a small PNG in base64; None for a result that has no figure."""
         from matplotlib.figure import Figure
-
-        from vibroimpact._core import QuestionError
 
         figure = Figure(figsize=_SIZE, dpi=_DOTS, layout="constrained")
         try:
@@ -107,8 +100,8 @@ class Result:
 
 
 class View(Result):
-    """A part of the JSON object that the command prints for a system. Its attributes are the fields of the object; those that
-    are declared and absent in it are None."""
+    """An object, or a part of one, that the command prints for a system. Its attributes are the fields of the object; those that are
+    declared and absent in it are None."""
 
     _declared: frozenset[str] = frozenset()
     #: The system: an `Oscillator` or a `Machine`.
@@ -118,8 +111,13 @@ class View(Result):
         super().__init_subclass__()
         cls._declared = cls._declared | cls.__annotations__.keys()
 
-    def __init__(self, of: "dict[str, Any]", system: Any) -> None:
-        self._of, self.system = of, system
+    def __init__(self, of: dict[str, Any], system: Any, answer: _core.Answer | None = None) -> None:
+        self._of, self.system, self._answer = of, system, answer
+
+    @classmethod
+    def answering(cls, answer: _core.Answer, system: Any) -> "Self":
+        """The view of a whole answer."""
+        return cls(json.loads(answer.json(True)), system, answer)
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_") or name not in self._of and name not in self._declared:
@@ -133,14 +131,90 @@ class View(Result):
 
     __hash__ = None
 
+    def __getstate__(self) -> dict[str, Any]:
+        # what the compiled module keeps is computed again where it is needed
+        return {**self.__dict__, "_answer": None}
+
     @property
     def plan(self) -> str:
         """The plan as JSON."""
         return json.dumps(self._of["plan"])
 
+    @property
+    def _rows(self) -> list[dict[str, Any]]:
+        """The rows of its columns."""
+        found: list[dict[str, Any]] = self._of["points"]
+        return found
+
+    @property
+    def _whole(self) -> _core.Answer:
+        """The answer of the compiled module."""
+        if self._answer is None:
+            self._answer = _core.Answer(self.plan)
+        return self._answer
+
     def to_dict(self) -> dict[str, Any]:
         """The object in the JSON of the command."""
         return copy.deepcopy(self._of)
+
+    def _figure(
+        self, *, si: bool = False, diagram: bool = False, inadmissible: bool = False, branch: int | None = None,
+        quantity: str | None = None,
+    ) -> dict[str, Any]:
+        """The figure that the command draws."""
+        units = getattr(self.system, "units", None) if si else None
+        if si and units is None:
+            raise QuestionError("si=True needs the system in physical units\nhint: Oscillator.from_units")
+        found: dict[str, Any] = json.loads(self._whole.figure(units, (diagram, inadmissible, branch), quantity) or "null")
+        return found
+
+    def plot(self, ax: Any = None, *, si: bool = False, legend: bool = True, title: str | None = None, **line: Any) -> Any:
+        """Draw the figure that the command draws with `--plot`.
+
+        `ax` is the axes to draw into, or an array of them for a figure of several panels; by default those of a new figure. Returns the
+        axes. `si` selects metres and seconds for an oscillator with units, `line` are properties of the lines.
+        """
+        return self._painted(self._figure(si=si), ax, legend, title, line)
+
+    def _painted(
+        self, figure: dict[str, Any], ax: Any, legend: bool, title: str | None, line: dict[str, Any], /
+    ) -> Any:
+        from vibroimpact._paint import paint
+
+        return styled(lambda ax: paint(figure, ax), ax, legend, title, line)
+
+
+class Column(Generic[N]):
+    """An attribute that is a column: the field of its name of each row of a view; nan where a row lacks it."""
+
+    def __init__(self, kind: type[N]) -> None:
+        self._kind = kind
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    def __get__(self, view: Any, owner: object = None) -> NDArray[N]:
+        found = np.array([row.get(self._name, np.nan) for row in view._rows], dtype=self._kind)
+        view.__dict__[self._name] = found
+        return found
+
+
+class Field(Generic[R]):
+    """An attribute that is a field of the object of a view, or of an object in it, converted; it is named by its path."""
+
+    def __init__(self, convert: Callable[[Any], R], path: str | None = None) -> None:
+        self._convert, self._path = convert, path
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name, self._path = name, self._path or name
+
+    def __get__(self, view: Any, owner: object = None) -> R:
+        of: Any = view._of
+        for name in str(self._path).split("."):
+            of = None if of is None else of.get(name)
+        found = self._convert(of)
+        view.__dict__[self._name] = found
+        return found
 
 
 def flat(of: dict[str, Any]) -> dict[str, Any]:

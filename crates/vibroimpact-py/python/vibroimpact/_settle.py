@@ -3,7 +3,6 @@
 import copy
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
 from typing import TYPE_CHECKING, Any, overload
@@ -13,21 +12,18 @@ from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact import _core
 from vibroimpact._ask import MachineLike, Start, System, ask, given
-from vibroimpact._attractors import Attractor, table
+from vibroimpact._attractors import Attractors
 from vibroimpact._axis import numbers
 from vibroimpact._core import Oscillator
 from vibroimpact._motion import Motion, all_measured
 from vibroimpact._over import Points
 from vibroimpact._progress import Progress, watched
-from vibroimpact._result import Result, answer
 from vibroimpact._sample import Sample
-from vibroimpact._styled import styled
 from vibroimpact._whole import BUDGET, maybe, threads_of
 
 if TYPE_CHECKING:
     import xarray as xr
     from distributed import Client
-    from matplotlib.axes import Axes
 
 
 class Settled(Motion):
@@ -50,14 +46,14 @@ class Settled(Motion):
         The plan as JSON.
     """
 
-    def __init__(self, of: dict[str, Any], system: Any) -> None:
-        super().__init__(of["motion"], system)
-        self._whole = of
+    def __init__(self, of: dict[str, Any], system: Any, answer: _core.Answer | None = None) -> None:
+        super().__init__(of["motion"], system, answer)
+        self._object = of
 
     @property
     def plan(self) -> str:
         """The plan as JSON."""
-        return json.dumps(self._whole["plan"])
+        return json.dumps(self._object["plan"])
 
     @property
     def motion(self) -> Motion:
@@ -67,28 +63,29 @@ class Settled(Motion):
     @property
     def events_followed(self) -> int:
         """The number of events that were followed."""
-        return int(self._whole["events_followed"])
+        return int(self._object["events_followed"])
 
     @property
     def time_followed(self) -> float:
         """The time that was followed."""
-        return float(self._whole["time_followed"])
+        return float(self._object["time_followed"])
 
     @property
     def chaotic_transient(self) -> dict[str, Any] | None:
         """Chaos before the motion settled."""
-        found = self._whole.get("chaotic_transient")
+        found = self._object.get("chaotic_transient")
         return None if found is None else {**found, "exponents": all_measured(found["exponents"])}
 
     @cached_property
     def _complete(self) -> dict[str, Any]:
         """The object that the command prints with --json, computed once: its harmonics and transient take another settling."""
-        return answer(self.plan)
+        found: dict[str, Any] = json.loads(self._whole.json(False))
+        return found
 
     @property
     def harmonics(self) -> list[dict[str, float]]:
         """The spectrum of the position."""
-        return list(self.to_dict().get("harmonics", ()))
+        return list(self._complete.get("harmonics", ()))
 
     @property
     def transient(self) -> dict[str, Any] | None:
@@ -97,7 +94,7 @@ class Settled(Motion):
         return found
 
     def to_dict(self) -> dict[str, Any]:
-        """The object that the command prints with --json, which is computed again for its harmonics and transient."""
+        """The object that the command prints with --json."""
         return copy.deepcopy(self._complete)
 
 
@@ -133,51 +130,39 @@ def settle(
     """
     start = Start(system, x, v, q, qdot, phase)
     task = start.within(given(impacts=maybe("impacts", impacts, BUDGET)))
-    return Settled(ask(system, "settle", task, start, progress=progress), system)
+    return Settled.answering(ask(system, "settle", task, start, progress=progress), system)
 
 
-@dataclass(frozen=True, eq=False, repr=False, slots=True)
-class Settlement(Result):
-    """The motions to which many starts lead.
+class Settlement(Attractors):
+    """The motions to which many starts lead, in the order of their first start, with their shares.
 
     Attributes
     ----------
-    osc : Oscillator
+    system : Oscillator
         The system.
     motions : list of Attractor
-        The distinct motions in the order of their first start, with their shares.
+        The motions.
     cells : ndarray of uint32
         The motion of each start as an index into `motions`, in the shape of the starts.
     """
 
-    osc: Oscillator
-    motions: list[Attractor]
     cells: NDArray[np.uint32]
 
     def __repr__(self) -> str:
-        return f"<Settlement of {self.cells.size} starts: {', '.join(m.label for m in self.motions)}>"
-
-    def _table(self) -> dict[str, Any]:
-        """One row for each motion."""
-        return table(self.motions)
+        return f"<Settlement of {self.cells.size} starts: {', '.join(m.label for m in self)}>"
 
     def to_dict(self) -> dict[str, Any]:
         """The motions as in the JSON of the command, and the number of the motion of each start."""
-        return {"motions": [motion.to_dict() for motion in self.motions], "cells": self.cells.tolist()}
+        return {"motions": [motion.to_dict() for motion in self], "cells": self.cells.tolist()}
 
-    def plot(self, ax: "Axes | None" = None, *, legend: bool = True, title: str | None = None, **line: Any) -> "Axes":
-        """Draw the shares as bars."""
-        from vibroimpact import _figure
-
-        def draw(ax: "Axes | None") -> "Axes":
-            return _figure.shares(_figure.title(self.osc), [(motion.label, motion.share) for motion in self.motions], ax)
-
-        return styled(draw, ax, legend, title, line)
+    def _figure(self, **shown: Any) -> dict[str, Any]:
+        found: dict[str, Any] = json.loads(_core.shares_figure(self.system, [(motion.label, motion.share) for motion in self]))
+        return found
 
     @property
     def labels(self) -> NDArray[np.str_]:
         """The label of the motion of each start, in the shape of the starts."""
-        names = np.array([motion.label for motion in self.motions], dtype=np.str_)
+        names = np.array([motion.label for motion in self], dtype=np.str_)
         return names[self.cells]
 
 
@@ -360,10 +345,6 @@ def _of_starts(
         flat[0] = np.ascontiguousarray(np.broadcast_to(flat[0], (size,)))
     with watched(progress, "starts") as tell:
         found, cells = _core.settle_many(osc, flat[0], flat[1], flat[2], threads, tell)
-    motions = [
-        Attractor(
-            {**json.loads(told), "share": count / max(size, 1), "starts": count}, osc, _core.share_interval(count, size)
-        )
-        for told, count in found
-    ]
-    return Settlement(osc, motions, cells.reshape(shape))
+    motions = [{**json.loads(told), "share": count / max(size, 1), "starts": count} for told, count in found]
+    intervals = [_core.share_interval(count, size) for _, count in found]
+    return Settlement({"motions": motions, "share_intervals": intervals, "starts": size, "cells": cells.reshape(shape)}, osc)

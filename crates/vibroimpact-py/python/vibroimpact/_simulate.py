@@ -1,30 +1,24 @@
 """Simulation of a motion event by event."""
 
 import json
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact import _core
-from vibroimpact._ask import MachineLike, Start, State, System
-from vibroimpact._core import Oscillator, QuestionError
-from vibroimpact._events import named_columns
-from vibroimpact._progress import Progress, watched
-from vibroimpact._result import Result
-from vibroimpact._styled import styled
+from vibroimpact._ask import Start, System, ask, given
+from vibroimpact._core import Oscillator
+from vibroimpact._events import columns_of, named_columns, names_of
+from vibroimpact._progress import Progress
+from vibroimpact._result import View
 from vibroimpact._waveform import Waveform, waveform
 from vibroimpact._whole import SIMULATED, maybe
 
 _Floats = NDArray[np.float64]
 
-#: Kinds of events of an oscillator by their code.
-_KINDS = np.array(["impact", "graze", "stick", "release"])
 
-
-@dataclass(frozen=True, eq=False, repr=False, slots=True)
-class Simulation(Result):
+class Simulation(View):
     """The events of a motion as columns, and the reason why the list ends.
 
     Attributes
@@ -66,7 +60,6 @@ class Simulation(Result):
         The plan as JSON.
     """
 
-    system: System
     start: tuple[Any, Any, float]
     kind: NDArray[np.str_]
     stop: NDArray[np.str_]
@@ -84,7 +77,6 @@ class Simulation(Result):
     end_time: float
     horizon: dict[str, Any] | None
     shown_until: float
-    plan: str
 
     def __repr__(self) -> str:
         return f"<Simulation of {len(self)} events, ends with {self.end} at time {self.end_time:.6g}>"
@@ -119,31 +111,15 @@ class Simulation(Result):
         """
         return waveform(self.system, self.start, self.shown_until, step, events)
 
-    def plot(
-        self, ax: Any = None, *, si: bool = False, legend: bool = True, title: str | None = None, **line: Any
-    ) -> Any:
-        """Draw the motion over time: of an oscillator the position with the stops and the impacts, of a machine the coordinates with
-        contacts and impacts, and below them the contact forces, if there are any.
+    def to_dict(self) -> dict[str, Any]:
+        """The object that the command prints with --json."""
+        found: dict[str, Any] = json.loads(self._whole.json(False))
+        return found
 
-        `ax` is the axes to draw into, of a machine one or two. Returns the axes. `si` selects metres and seconds for an
-        oscillator with units.
-        """
-        return styled(lambda ax: self._drawn(ax, si), ax, legend, title, line)
-
-    def _drawn(self, ax: Any, si: bool) -> Any:
-        if not isinstance(self.system, Oscillator):
-            from vibroimpact import _machine_figure
-
-            if si:
-                raise QuestionError("si=True is for an oscillator in physical units; a machine has its own units")
-            return _machine_figure.draw(self, ax)
-        from vibroimpact import _figure
-
-        fine = max(240.0, 240.0 * self.system.beta**-1) if self.system.beta < 1 else 240.0
-        points = max(min(fine, 400_000 * self.system.period / max(self.shown_until, 1e-300)), 1.0)
-        wave = self.waveform(self.system.period / points)
-        struck = self.kind == "impact"
-        return _figure.waveform(self.system, wave, (self.time[struck], self.q[struck, 0]), None, ax, si)
+    def _painted(self, *how: Any) -> Any:
+        # that of a machine may have two panels
+        drawn = super()._painted(*how)
+        return drawn if isinstance(self.system, Oscillator) else np.atleast_1d(drawn)
 
     def _table(self) -> dict[str, Any]:
         """One row for each event; coordinates and velocities by their paths."""
@@ -152,9 +128,6 @@ class Simulation(Result):
         if isinstance(self.system, Oscillator):
             return columns | {"depth": self.depth, "chatter": self.chatter, "error": self.error}
         return columns | {"with": [", ".join(names) for names in self.with_], "tie": self.tie}
-
-    def _draw(self, ax: Any) -> None:
-        self.plot(ax if isinstance(self.system, Oscillator) else [ax])
 
 
 def simulate(
@@ -204,33 +177,12 @@ def simulate(
     9950.0
     """
     limit = maybe("impacts", impacts, SIMULATED)
-    of = Start(system, x, v, q, qdot, phase)
-    if not isinstance(system, Oscillator):
-        state = of.of_machine or ([], [], 0.0)
-        with watched(progress, "events") as tell:
-            return _of_machine(system, state, _core.simulate_machine(system._file, state, limit, periods, tell))
-    start = (x, v or 0.0, phase or 0.0)
-    with watched(progress, "impacts") as tell:
-        fields = _core.simulate(system, start, limit, periods, tell)
-    return _of_oscillator(system, start, fields)
-
-
-def _of_oscillator(system: Oscillator, start: tuple[float | None, float, float], fields: dict[str, Any]) -> Simulation:
-    """The events of an oscillator, from the fields of the compiled module."""
-    horizon, code, side = (fields.pop(name) for name in ("horizon", "code", "side"))
-    return Simulation(
-        system=system, start=start, kind=_KINDS[code], stop=np.where(side > 0, "upper", "lower"), end=fields.pop("reason"),
-        horizon=horizon and json.loads(horizon), with_=((),) * len(code), tie=np.zeros(len(code), dtype=np.bool_), **fields,
-    )
-
-
-def _of_machine(system: MachineLike, start: State, fields: dict[str, Any]) -> Simulation:
-    """The events of a machine."""
-    kind, stop = (np.array(fields.pop(name), dtype=np.str_) for name in ("kind", "stop"))
-    with_ = tuple(tuple(names) for names in fields.pop("with_"))
-    tie = np.array(fields.pop("tie"), dtype=np.bool_)
-    nothing, no = np.full(len(kind), np.nan), np.zeros(len(kind), dtype=np.bool_)
-    return Simulation(
-        system=system, start=start, kind=kind, stop=stop, with_=with_, tie=tie, depth=nothing, chatter=no, error=nothing, horizon=None,
-        **fields,
-    )
+    start = Start(system, x, v, q, qdot, phase)
+    task = start.within(given(impacts=limit, periods=periods))
+    total = limit or (1 if periods is not None else 100)
+    answer = ask(system, "simulate", task, start, total=total, progress=progress, what="events")
+    found, n = answer.columns() or {}, len(names_of(system)[0])
+    found |= columns_of(found.pop("events"), n)
+    horizon, with_ = found["horizon"], tuple(tuple(names) for names in found["with_"])
+    of = {"start": start.of_machine or (x, v or 0.0, phase or 0.0), "horizon": horizon and json.loads(horizon), "with_": with_}
+    return Simulation({**found, **of, "plan": json.loads(answer.plan)}, system, answer)

@@ -13,7 +13,7 @@ from vibroimpact._core import QuestionError
 from vibroimpact._events import names_of
 from vibroimpact._over import MachineOver, Over, Points
 from vibroimpact._progress import Progress, watched
-from vibroimpact._whole import SIMULATED, maybe, threads_of, whole
+from vibroimpact._whole import SIMULATED, threads_of, whole
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -94,9 +94,7 @@ def simulate_many(
         raise QuestionError(f"periods = {periods} lies outside 0 < periods <= 1000000000")
     if given and impacts is not None:
         raise QuestionError(f"impacts has no meaning with {given[0]}\nhint: periods limits the time")
-    limit, threads = maybe("impacts", impacts, SIMULATED), threads_of(threads)
-    if limit == 0:
-        raise QuestionError(f"impacts = 0 lies outside {SIMULATED.least} <= impacts <= {SIMULATED.most}")
+    limit, threads = None if impacts is None else whole("impacts", impacts, SIMULATED, here=True), threads_of(threads)
     if isinstance(systems, MachineLike):
         if given:
             raise QuestionError(f"{given[0]} is for oscillators\nhint: simulate(...).waveform() has the states of a machine")
@@ -207,20 +205,21 @@ def _events_of_machines(points: MachineOver, found: dict[str, Any]) -> "xr.Datas
     from vibroimpact import _accessor  # registers ds.vibro
 
     event, machine = ("event", found["width"]), points.machine
-    names = dict(zip(machine.stops + machine.joints, range(len(machine.stops + machine.joints))))
-    kinds, ends = ({name: code for code, name in enumerate(found[of])} for of in ("kinds", "ends"))
+    events, stops = found["events"], machine.stops + machine.joints
+    names, kinds, ends = ({name: code for code, name in enumerate(of)} for of in (stops, events["kinds"], found["ends"]))
+    time, phase, speed, *states = events["real"]
     variables = {
-        "time": _variable(points, found["time"], event, "time of the event", "", ""),
-        "kind": _variable(points, found["kind"], event, "kind of the event", "", **_flags(kinds)),
-        "event_phase": _variable(points, found["phase"], event, "phase of the forcing at the event", "", "rad"),
-        "stop": _variable(points, found["stop"], event, "stop or joint of the event", "", **_flags(names)),
-        "speed": _variable(points, found["speed"], event, "speed of closing before the event", "", ""),
+        "time": _variable(points, time, event, "time of the event", "", ""),
+        "kind": _variable(points, events["kind"], event, "kind of the event", "", **_flags(kinds)),
+        "event_phase": _variable(points, phase, event, "phase of the forcing at the event", "", "rad"),
+        "stop": _variable(points, events["stop"], event, "stop or joint of the event", "", **_flags(names)),
+        "speed": _variable(points, speed, event, "speed of closing before the event", "", ""),
         "count": _variable(points, found["count"], None, "number of events", ""),
         "end": _variable(points, found["end"], None, "why the list ends", "", **_flags(ends)),
         "end_time": _variable(points, found["end_time"], None, "time at which the list ends", "", ""),
     }
-    for of, paths in zip(("q", "qdot"), names_of(machine)):
-        variables |= {path: _variable(points, values, event, f"{path} after the event", "", "") for path, values in zip(paths, found[of])}
+    paths = [path for of in names_of(machine) for path in of]
+    variables |= {path: _variable(points, values, event, f"{path} after the event", "", "") for path, values in zip(paths, states)}
     # what varies has the name of a variable: it is that of the start
     starts = {name: f"start.{name}" for name in points.coords if name in variables}
     coords = {starts.get(name, name): of for name, of in points.coords.items()}

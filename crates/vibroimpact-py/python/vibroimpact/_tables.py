@@ -1,4 +1,4 @@
-"""Colours of series, groups of motions in the order of a legend, and styles of events.
+"""Colours of series, and groups of motions in the order of a legend.
 
 Written by crates/vibroimpact-report/tests/tables.rs; do not edit.
 """
@@ -81,72 +81,3 @@ GROUP_RULES = (
     ((3, 3), (2, 2), False, "3/2"),
     ((2, math.inf), (2, math.inf), False, "m/n"),
 )
-
-#: Colours of curves of events.
-EVENT_COLOURS = {
-    "fold": "#d55e00",
-    "flip": "#0072b2",
-    "torus": "#cc79a7",
-    "grazing": "#009e73",
-    "corner": "#56b4e9",
-    "sticking": "#e69f00",
-    "holding": "#000000",
-}
-
-#: Marks of events along branches, and whether they are at velocity zero.
-BRANCH_MARKS = {
-    "fold": ("s", False),
-    "flip": ("D", False),
-    "branch point": ("o", False),
-    "grazing": ("^", True),
-    "loss of contact": ("v", True),
-    "soft landing": ("P", True),
-    "end of rest": ("X", True),
-    "rest for ever": ("X", True),
-    "chatter": ("X", True),
-    "torus": ("P", False),
-    "corner": ("X", False),
-    "sticking begins": (">", False),
-    "sticking ends": ("<", False),
-    "holding begins": ("p", False),
-    "holding ends": ("d", False),
-    "jump": ("*", False),
-    "change": ("X", False),
-}
-
-#: Marks of points of codimension two on curves.
-CURVE_MARKS = {
-    "cusp": "v",
-    "resonant grazing": "D",
-    "double grazing": "s",
-    "degenerate grazing": "^",
-    "touch": "o",
-    "1:2": "o",
-    "degenerate flip": "X",
-    "loss of contact": "P",
-    "whole periods": "P",
-    "speeds without bound": "P",
-    "fold-flip": "o",
-    "1:1": "o",
-    "1:3": "o",
-    "1:4": "o",
-    "fold-torus": "P",
-    "flip-torus": "P",
-    "fold-grazing": "D",
-    "flip-grazing": "D",
-    "torus-grazing": "D",
-    "degenerate rest": "^",
-    "corner": "X",
-    "rest": "X",
-}
-
-#: Colour, dash and text of each bound of a region.
-BOUND_STYLES = {
-    "fold": ("#d55e00", "-", "fold"),
-    "flip": ("#0072b2", "--", "flip"),
-    "no speed": ("#009e73", "-.", "an impact without speed"),
-    "touch": ("#000000", "-", "a touch on the way"),
-    "merging": ("#cc79a7", ":", "merging"),
-    "torus": ("#e69f00", "--", "torus"),
-    "change": ("#56b4e9", "-.", "another change of the events"),
-}

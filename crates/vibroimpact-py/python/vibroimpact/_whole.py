@@ -57,8 +57,17 @@ SPAN = Range(1)
 _SMALL = 2**32 - 1
 
 
-def whole(name: str, value: SupportsIndex, allowed: Range) -> int:
-    """The number, if the compiled module can represent it. Raises TypeError or QuestionError otherwise."""
+def outside(name: str, given: float, least: float, most: float | None, hint: str = "") -> QuestionError:
+    """The error of a number outside its range."""
+    upper = "" if most is None else f" <= {most}"
+    error = QuestionError(f"{name} = {given} lies outside {least} <= {name}{upper}" + (hint and f"\nhint: {hint}"))
+    error.name, error.given, error.least, error.most = name, given, least, most
+    return error
+
+
+def whole(name: str, value: SupportsIndex, allowed: Range, *, here: bool = False) -> int:
+    """The number, if the compiled module can represent it, or, checked `here`, if it is allowed. Raises TypeError or QuestionError
+    otherwise."""
     try:
         number = operator.index(value)
     except TypeError:
@@ -66,9 +75,10 @@ def whole(name: str, value: SupportsIndex, allowed: Range) -> int:
     least, most = allowed
     # numbers that fit are checked by the compiled module, whose messages have hints; it does not check the number of threads
     largest = THREADS.most if allowed == THREADS else max(most or 0, _SMALL)
-    if number < 0 or (largest is not None and number > largest):
-        upper = "" if most is None else f" <= {most}"
-        raise QuestionError(f"{name} = {number} lies outside {least} <= {name}{upper}")
+    if here:
+        largest = most
+    if number < (least if here else 0) or (largest is not None and number > largest):
+        raise outside(name, number, least, most)
     return number
 
 

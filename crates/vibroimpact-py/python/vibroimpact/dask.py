@@ -28,7 +28,7 @@ from vibroimpact._plan import Plan
 from vibroimpact._progress import Progress, watched
 from vibroimpact._rolling import rolling
 from vibroimpact._store import Ran
-from vibroimpact._whole import AHEAD, COUNT, whole
+from vibroimpact._whole import AHEAD, COUNT, outside, whole
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -84,7 +84,7 @@ def run(
     """
     retries, in_flight = whole("retries", retries, COUNT), whole("in_flight", in_flight, AHEAD)
     if in_flight < 1:
-        raise _core.QuestionError("in_flight = 0 lies outside 1 <= in_flight\nhint: more than the cluster has threads")
+        raise outside("in_flight", in_flight, 1, None, "more than the cluster has threads")
     end = None if budget is None else time.monotonic() + seconds("budget", budget)
     place = fspath(store)
     here = _core.Store(place, plan.json)

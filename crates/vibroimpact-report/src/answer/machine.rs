@@ -7,7 +7,6 @@ use crate::figure::overlay::Overlay;
 use crate::figure::{coloured, tracks};
 use crate::json::branch::BranchAnswer;
 use crate::json::curve::CurveAnswer;
-use crate::json::margins::machine_margins;
 use crate::json::orbit::OrbitAnswer;
 use crate::response::ResponseView;
 use crate::scene::{self, View};
@@ -139,10 +138,7 @@ impl Answer {
             }
             machine::Results::Margins(found) => {
                 let label = figure::label(&found.motion.label());
-                if found.numbers.is_empty() {
-                    return Err(ReportError::NoMargins(label).into());
-                }
-                figure::bars::margins(&machine_margins(found, &self.machine), None, format!("{title}: {label}"))
+                figure::bars::margins(found, (&self.machine, &Units::default()), format!("{title}: {label}"))?
             }
             machine::Results::Lyapunov(..) => return Ok(None),
             machine::Results::Orbit(found) => {
@@ -267,7 +263,7 @@ impl Answer {
                 let plan = (&self.curve_plan()?, &Units::default());
                 table::curve::table(self.curve(found)?, Some(&self.machine), plan)
             }
-            machine::Results::Margins(found) => table::margins::table(machine_margins(found, &self.machine)),
+            machine::Results::Margins(found) => table::margins::table(found, &self.machine, Units::default()),
             machine::Results::Region(found) => {
                 let Task::Region(plan) = &self.plan.task else { return Ok(None) };
                 table::region::table(found, &plan.typed::<String>()?, &Units::default())

@@ -6,7 +6,6 @@ use crate::figure::plane::varied;
 use crate::figure::{self, coloured, title, tracks};
 use crate::json::branch::BranchAnswer;
 use crate::json::curve::CurveAnswer;
-use crate::json::margins::margins;
 use crate::json::orbit::OrbitAnswer;
 use crate::response::ResponseView;
 use crate::scene::{View, Viewed, phase_portrait};
@@ -137,15 +136,11 @@ impl Answer {
                 let share = |found: &CountedMotion| (found.verdict.label().into_owned(), census.share(found));
                 figure::bars::shares(&census.by_share().into_iter().map(share).collect::<Vec<_>>(), title(asked))
             }
-            (_, Results::Margins(found)) => {
-                let label = figure::label(&found.motion.label());
-                if found.parameters.is_empty() {
-                    return Err(ReportError::NoMargins(label).into());
-                }
+            (_, Results::Margins(_, found)) => {
                 let varied: Vec<Parameter> = found.parameters.iter().map(|of| of.scope.parameter).collect();
+                let label = figure::label(&found.motion.label());
                 let title = [figure::title_without(asked, &varied), label].join(": ");
-                let size = found.motion_box.as_ref().map(|found| found.size);
-                figure::bars::margins(&margins(found, &asked.units), size, title.trim_start_matches(": ").to_owned())
+                figure::bars::margins(found, (osc, &asked.units), title.trim_start_matches(": ").to_owned())?
             }
             _ => return Ok(None),
         }))
@@ -216,7 +211,7 @@ impl Answer {
             (Task::Response(task), Results::Response(found)) => {
                 table::response::table(ResponseView::of_oscillator(found, task, units)?)
             }
-            (_, Results::Margins(found)) => table::margins::table(margins(found, units)),
+            (_, Results::Margins(_, found)) => table::margins::table(found, osc, *units),
             _ => return Ok(None),
         }))
     }

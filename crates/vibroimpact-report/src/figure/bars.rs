@@ -2,12 +2,17 @@
 
 use crate::figure::label;
 use crate::figure::styles::EVENT_COLOURS;
+use crate::json::branch::EventPoint;
 use crate::json::margins::ParameterObject;
 use crate::number::short;
+use crate::varied::Varied;
+use crate::{ReportError, Units};
+use vibroimpact::verdict::System;
 use vibroimpact_plot::{
     Anchor, ClassStyle, Colour, Dash, Figure, FigureAxis, Hatch, Legend, Panel, Pattern, Rect, Rects, SERIES, Stroke,
     Text, Tick, VLine, class_style,
 };
+use vibroimpact_study::MotionMargins;
 
 /// Half the thickness of a bar.
 const HALF: f64 = 0.3;
@@ -41,14 +46,27 @@ pub fn shares(found: &[(String, f64)], title: String) -> Figure {
 }
 
 /// The change of each number to its nearest events, in units of its scale, and the size of the box in which the motion was found.
-#[must_use]
-pub fn margins(parameters: &[ParameterObject<'_>], found_box: Option<f64>, title: String) -> Figure {
-    let (axis, height) = rows(parameters.iter().map(|of| format!("{} = {}", of.axis, short(of.value))));
+///
+/// # Errors
+/// [`ReportError::NoMargins`] for a motion without a branch.
+pub(crate) fn margins<S: System, V: Varied, P: EventPoint<System = S>>(
+    found: &MotionMargins<S, V, P>,
+    (system, units): (&S, &Units),
+    title: String,
+) -> Result<Figure, ReportError> {
+    if found.parameters.is_empty() {
+        return Err(ReportError::NoMargins(label(&found.motion.label())));
+    }
+    let all = found.parameters.iter();
+    let parameters: Vec<(String, ParameterObject<'_>)> =
+        all.map(|of| (of.scope.parameter.axis(units), ParameterObject::new(of, system, units))).collect();
+    let found_box = found.motion_box.as_ref().map(|found| found.size);
+    let (axis, height) = rows(parameters.iter().map(|(name, of)| format!("{name} = {}", short(of.value))));
     let mut kinds: Vec<&str> = Vec::new();
     let mut bars = Rects::new(Vec::new());
     let mut texts = Vec::new();
-    for (k, of) in parameters.iter().enumerate() {
-        for (_, end) in of.ends() {
+    for (k, (_, of)) in parameters.iter().enumerate() {
+        for end in [&of.down, &of.up] {
             let kind = end.event.as_ref().map_or("no event", |event| event.kind);
             let class = kinds.iter().position(|known| *known == kind).unwrap_or_else(|| {
                 kinds.push(kind);
@@ -80,7 +98,7 @@ pub fn margins(parameters: &[ParameterObject<'_>], found_box: Option<f64>, title
     }
     // room for the values at the ends of bars
     let widest = bars.rects.iter().fold(1e-3_f64, |most, bar| most.max(bar.x.1).max(-bar.x.0)) * 1.5;
-    let usual = parameters.iter().all(|of| of.scale == of.value.abs());
+    let usual = parameters.iter().all(|(_, of)| of.scale == of.value.abs());
     let name = if usual { "change relative to the value" } else { "change in units of the scale" };
     let mut panel = Panel::new(FigureAxis::new(name).range(-widest, widest), axis).with(bars);
     panel.add(VLine { x: 0.0, stroke: Stroke::new(Colour::BLACK) });
@@ -92,7 +110,7 @@ pub fn margins(parameters: &[ParameterObject<'_>], found_box: Option<f64>, title
         legend = legend.line(stroke, "box");
     }
     texts.into_iter().for_each(|text| panel.add(text));
-    Figure::new(panel).size(680.0, height).title(title).legend(legend)
+    Ok(Figure::new(panel).size(680.0, height).title(title).legend(legend))
 }
 
 #[cfg(test)]

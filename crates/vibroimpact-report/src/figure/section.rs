@@ -94,10 +94,10 @@ pub fn of_machine(found: &SectionPoints, machine: &Machine, title: String) -> Fi
 
 /// The panels, of this height each; `length` and `speed` are values that are not rounding.
 fn draw(closings: Closings, planes: Vec<Plane>, (length, speed): (f64, f64), height: f64) -> Figure {
-    let all = |of: fn(&(String, Vec<f64>, Vec<f64>)) -> &Vec<f64>| closings.stops.iter().flat_map(of).copied();
-    let speeds: Vec<f64> = all(|(.., speeds)| speeds).collect();
-    let ordinate = fitted(closings.ordinate.clone(), &speeds, closings.unit);
-    let mut panel = Panel::new(phases(all(|(_, phases, _)| phases)), ordinate).caption(closings.caption);
+    let speeds: Vec<f64> = closings.stops.iter().flat_map(|(.., speeds)| speeds).copied().collect();
+    let across = phases(closings.stops.iter().flat_map(|(_, phases, _)| phases).copied());
+    let ordinate = fitted(closings.ordinate, &speeds, closings.unit);
+    let mut panel = Panel::new(across, ordinate).caption(closings.caption);
     let mut legend = Legend::below();
     let several = closings.stops.len() > 1;
     for (k, (name, phases, speeds)) in closings.stops.into_iter().enumerate() {

@@ -153,6 +153,7 @@ mod tests {
             machine::BranchEvent::BranchPoint,
             machine::BranchEvent::Grazing { stop, appears: true, turns: false },
             machine::BranchEvent::LossOfContact { stop },
+            machine::BranchEvent::RestForEver { stop },
         ] {
             assert!(BRANCH_MARKS.iter().any(|(name, ..)| *name == event.name()), "{event:?}");
         }

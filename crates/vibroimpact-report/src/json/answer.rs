@@ -63,9 +63,10 @@ impl Serialize for oscillator::Answer {
                 let vary = Parameter::of(task.vary.text()).map_err(Error::custom)?;
                 self.document(&[vary], ResponseAnswer::new(&view), to)
             }
-            (_, Results::Margins(found)) => {
-                let answer = MarginsAnswer::of_oscillator(osc, found, units);
-                match &found.start {
+            (_, Results::Margins(start, found)) => {
+                let motion = MotionObject::of_oscillator(&found.motion, osc, units);
+                let answer = MarginsAnswer::new(found, osc, motion, units);
+                match start {
                     Some(start) => self.begin(start, answer, to),
                     None => self.document(&[], answer, to),
                 }
@@ -115,7 +116,10 @@ impl Serialize for Answer {
             (_, machine::Results::Lyapunov(found, _)) => self.document(LyapunovAnswer::of_machine(machine, found), to),
             (_, machine::Results::Branch(found)) => self.document(self.branches(found).map_err(Error::custom)?, to),
             (_, machine::Results::Curve(found)) => self.document(self.curve(found).map_err(Error::custom)?, to),
-            (_, machine::Results::Margins(found)) => self.document(MarginsAnswer::of_machine(machine, found), to),
+            (_, machine::Results::Margins(found)) => {
+                let motion = MotionObject::of_machine(machine, &found.motion);
+                self.document(MarginsAnswer::new(found, machine, motion, &Units::default()), to)
+            }
             (Task::Region(task), machine::Results::Region(found)) => {
                 let task: RegionPlan<String> = task.typed().map_err(Error::custom)?;
                 self.document(RegionAnswer::new(found, &task, task.neutral(source), &Units::default()), to)

@@ -9,14 +9,14 @@ use core::iter::once;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
-use vibroimpact::Label;
 use vibroimpact::continuation::machine;
 use vibroimpact::continuation::{BranchEvent, SolutionPoint};
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::machine::Cycle;
 use vibroimpact::verdict::Stability;
+use vibroimpact::{Label, Oscillator};
 use vibroimpact_study::machine::MachineSource;
-use vibroimpact_study::{Branches, Chosen, Cut, EventRecord, Followed, OrbitNumber, Origin};
+use vibroimpact_study::{Branches, Chosen, Cut, EventRecord, Followed, OrbitNumber, Origin, Solution};
 
 /// The answer to `vibro branch`.
 #[derive(JsonSchema, Serialize)]
@@ -347,6 +347,12 @@ impl Event<'_> {
         }
     }
 
+    /// Whether a branch goes on here, beyond values at which it has no solution.
+    #[must_use]
+    pub const fn is_jump(&self) -> bool {
+        matches!(self, Self::Machine(_, machine::BranchEvent::Jump))
+    }
+
     /// Whether what varies reached the end of its range.
     #[must_use]
     pub const fn is_end_of_range(&self) -> bool {
@@ -378,6 +384,25 @@ impl Event<'_> {
                 matches!(event, M::Grazing { .. } | M::Sticking { .. } | M::Corner { .. } | M::Change { .. })
             }
         }
+    }
+}
+
+/// A point of a branch, whose event is told.
+pub(crate) trait EventPoint: Solution {
+    /// What is told of the event besides its name; `after` is the label beyond it.
+    fn fields<'a>(&self, after: Option<String>, system: &'a Self::System) -> EventFields<'a>;
+}
+
+impl EventPoint for SolutionPoint {
+    fn fields<'a>(&self, _: Option<String>, _: &'a Oscillator) -> EventFields<'a> {
+        self.event.map(|event| EventFields::of_record(EventRecord::of(self, &event))).unwrap_or_default()
+    }
+}
+
+impl EventPoint for machine::SolutionPoint {
+    fn fields<'a>(&self, after: Option<String>, machine: &'a Machine) -> EventFields<'a> {
+        let of = |event| EventFields::of_machine(event, (self.cycle.label, after), machine);
+        self.event.map(of).unwrap_or_default()
     }
 }
 

@@ -44,52 +44,51 @@ impl Stops for Machine {
 /// An event of a motion.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct EventObject<'a> {
-    pub(crate) kind: &'static str,
+    /// Its kind: `impact`, `close`, `open`, `stick`, `release`, `slip`, `hold`, `graze` or `collapse`.
+    pub kind: &'static str,
     /// The stop, or the friction joint.
-    pub(crate) stop: &'a str,
-    time: f64,
+    pub stop: &'a str,
+    /// Time since the start.
+    pub time: f64,
     /// Phase of the force; absent without forcing.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) phase: Option<f64>,
+    pub phase: Option<f64>,
     /// Speed of closing, or of separation at an opening; never negative.
-    pub(crate) speed: f64,
+    pub speed: f64,
     /// Where a joint begins to slip: forwards (1) or backwards (-1).
     #[serde(skip_serializing_if = "Option::is_none")]
-    direction: Option<f64>,
-    /// Coordinates and velocities after the event.
-    q: Cow<'a, [f64]>,
-    qdot: Cow<'a, [f64]>,
+    pub direction: Option<f64>,
+    /// Coordinates.
+    pub q: Cow<'a, [f64]>,
+    /// Velocities after the event.
+    pub qdot: Cow<'a, [f64]>,
     /// Other stops that take part at the same time.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    with: Vec<&'a str>,
+    pub with: Vec<&'a str>,
     /// Whether the impacts would lead elsewhere if one of the stops were struck first.
     #[serde(skip_serializing_if = "core::ops::Not::not")]
-    tie: bool,
+    pub tie: bool,
     /// The distance from the stop at a grazing contact of an oscillator, zero to within rounding.
     #[serde(skip_serializing_if = "Option::is_none")]
-    depth: Option<f64>,
-    /// Whether a complete chatter ends where an oscillator begins to stick, and a bound on the error of the time.
+    pub depth: Option<f64>,
+    /// Whether a complete chatter ends where an oscillator begins to stick.
     #[serde(skip_serializing_if = "Option::is_none")]
-    chatter: Option<bool>,
+    pub chatter: Option<bool>,
+    /// A bound on the error of that time.
     #[serde(skip_serializing_if = "Option::is_none")]
-    error: Option<f64>,
-    /// What the stops and joints of a machine do after it, and the digits that the numbers leave out, where the event has its
-    /// state: all fields of a [`StateObject`] are there then.
+    pub error: Option<f64>,
+    /// What the stops and joints of a machine do after it, where the event has its state: all fields of a state are there then.
     #[serde(skip_serializing_if = "Option::is_none")]
-    contacts: Option<Map<String, Value>>,
+    pub contacts: Option<Map<String, Value>>,
+    /// The digits that the numbers leave out.
     #[serde(skip_serializing_if = "Option::is_none")]
-    exact: Option<Map<String, Value>>,
+    pub exact: Option<Map<String, Value>>,
 }
 
 impl EventObject<'static> {
-    /// `impact`, `graze`, `stick` or `release`.
-    #[must_use]
-    pub const fn kind(&self) -> &'static str {
-        self.kind
-    }
-
     /// An event of an oscillator, in these units.
-    pub(crate) fn of_oscillator(osc: &Oscillator, event: &Event, units: &Units) -> Self {
+    #[must_use]
+    pub fn of_oscillator(osc: &Oscillator, event: &Event, units: &Units) -> Self {
         let stop = osc.stop(event.side).map_or(f64::NAN, |stop| event.side.sign() * stop.gap * units.length());
         let bare = Self {
             kind: "release",
@@ -250,7 +249,8 @@ impl Serialize for EventOf<'_> {
 }
 
 /// An event of a machine.
-pub(super) fn of_machine<'a>(machine: &'a Machine, event: &'a events::Event) -> EventObject<'a> {
+#[must_use]
+pub fn of_machine<'a>(machine: &'a Machine, event: &'a events::Event) -> EventObject<'a> {
     // an event of a joint has no speed, but a direction
     let slips = event.kind == events::EventKind::Slip;
     EventObject {

@@ -141,8 +141,12 @@ struct CommonPeriod {
 }
 
 impl HorizonObject {
+    fn forever(why: &'static str) -> Self {
+        Self { kind: "forever", periods: None, why, common_period: None }
+    }
+
     pub(super) fn new(no_impact: &NoImpact) -> Self {
-        let forever = |why| Self { kind: "forever", periods: None, why, common_period: None };
+        let forever = Self::forever;
         match no_impact {
             NoImpact::Flight(Horizon::Amplitude) => forever("amplitude"),
             NoImpact::Flight(Horizon::CommonPeriod { p, q }) => Self {
@@ -274,7 +278,12 @@ impl<'a> MotionObject<'a> {
         };
         match verdict {
             Verdict::Periodic(cycle) => Self::of_cycle(machine, cycle),
-            Verdict::NoImpact(_) => Self { impacts: Some(0), stops, ..plain("no_impact") },
+            Verdict::NoImpact(last) => Self {
+                impacts: Some(0),
+                stops,
+                horizon: last.fades().then(|| HorizonObject::forever("graze_limit")),
+                ..plain("no_impact")
+            },
             Verdict::Stuck(_) => Self { impacts: Some(0), stop: stops.first().copied(), stops, ..plain("stuck") },
             Verdict::Chaotic(Chaos { spectrum, impacts: events, .. }) => Self {
                 quantities_error: found.as_ref().map(|found| quantities::errors_of_machine(machine, found)),

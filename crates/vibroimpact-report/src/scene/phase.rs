@@ -21,7 +21,7 @@ const MARKED: usize = 120;
 const CLEAR: usize = 30;
 
 /// A change of velocity below this fraction of the largest velocity is rounding.
-const ROUNDING: f64 = 1e-12;
+const ROUNDING: f64 = 1e-8;
 /// Number of equal steps of a motion of a machine.
 const STEPS: f64 = 4000.0;
 /// Maximum number of coordinates with a panel each, and of panels beside each other.

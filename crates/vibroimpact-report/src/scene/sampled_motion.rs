@@ -126,7 +126,7 @@ mod tests {
         let start = Start::at_rest(&osc);
         let settled = settle(&osc, start, &SettleOptions::default());
         let track = SampledMotion::settled(&osc, start, &settled, 3.0, &Units::default());
-        let impacts = track.events.iter().filter(|event| event.kind() == "impact").count();
+        let impacts = track.events.iter().filter(|event| event.kind == "impact").count();
         assert!((11..=12).contains(&impacts), "{impacts}");
         let k = track.time.iter().position(|t| *t > 4.0).unwrap();
         assert!(track.position[k] < -0.5, "{}", track.position[k]);

@@ -1,21 +1,37 @@
-//! The nearest events of a motion: one row for each number and direction.
+//! The nearest events of a motion: one row for each parameter and direction.
 
 use super::Table;
-use crate::json::margins::{EndObject, ParameterObject};
+use crate::Units;
+use crate::json::branch::EventPoint;
+use crate::json::margins::ParameterObject;
 use crate::number::Number;
+use crate::varied::Varied;
+use vibroimpact::verdict::System;
+use vibroimpact_study::MotionMargins;
 
-/// The table of `vibro margins`. Without an event up to the limit of the range, the last six cells are empty.
+const HEADER: &str = "parameter,value,direction,limit,at,distance,relative,event,before,after";
+
+/// The table of `vibro margins`.
 #[must_use]
-pub fn table(margins: Vec<ParameterObject<'_>>) -> Table<'_> {
-    let rows = margins.into_iter().flat_map(|of| of.ends().map(|(direction, end)| row(&of, direction, end)));
-    Table::new("parameter,value,direction,limit,at,distance,relative,event,before,after".to_owned(), rows)
+pub(crate) fn table<'a, S: System, V: Varied, P: EventPoint<System = S>>(
+    found: &'a MotionMargins<S, V, P>,
+    system: &'a S,
+    units: Units,
+) -> Table<'a> {
+    let rows = found.parameters.iter().flat_map(move |margin| {
+        both(margin.scope.parameter.column(&units), &ParameterObject::new(margin, system, &units))
+    });
+    Table::new(HEADER.to_owned(), rows)
 }
 
-fn row(of: &ParameterObject<'_>, direction: &str, end: &EndObject<'_>) -> String {
+/// The rows of a parameter. Without an event up to the limit of the range, the last six cells are empty.
+fn both(name: &str, of: &ParameterObject<'_>) -> [String; 2] {
     let cell = |value: Option<f64>| value.map_or_else(String::new, |value| Number(value).to_string());
-    let begin = format!("{},{},{direction},{}", of.column, Number(of.value), Number(end.limit));
-    let Some(event) = &end.event else { return format!("{begin},,,,,,") };
-    let (at, distance, relative) = (cell(end.at), cell(end.distance), cell(end.relative));
-    let (before, after) = (&event.fields.before, event.fields.after.as_deref().unwrap_or_default());
-    format!("{begin},{at},{distance},{relative},{},{before},{after}", event.kind)
+    [("down", &of.down), ("up", &of.up)].map(|(way, end)| {
+        let begin = format!("{name},{},{way},{}", Number(of.value), Number(end.limit));
+        let Some(event) = &end.event else { return format!("{begin},,,,,,") };
+        let (at, distance, relative) = (cell(end.at), cell(end.distance), cell(end.relative));
+        let (before, after) = (&event.fields.before, event.fields.after.as_deref().unwrap_or_default());
+        format!("{begin},{at},{distance},{relative},{},{before},{after}", event.kind)
+    })
 }

@@ -15,7 +15,7 @@ mod strobes;
 pub(crate) use follow::{AfterTransient, SAME, carried_state};
 pub use follow::{DiagramPoint, MotionKind};
 pub use plan::{DEFAULT_KEEP, DEFAULT_TRANSIENT, DiagramPlan, Show, ShowText, Shown, SweepDirection};
-pub(crate) use plan::{SPEED, check_order, check_shown};
+pub(crate) use plan::{check_order, check_shown};
 pub(crate) use settled::state_on;
 
 use crate::{Parameter, PlanError, SystemPlan, Values};

@@ -113,6 +113,9 @@ impl From<String> for ShowText {
 
 /// What a diagram shows of a motion of any system.
 pub trait Shown: Clone + PartialEq + core::fmt::Debug {
+    /// Each closing of a stop, with its phase and speed.
+    fn closings() -> Self;
+
     /// Whether it is each closing of a stop, with its phase and speed.
     fn is_closings(&self) -> bool;
 
@@ -121,6 +124,10 @@ pub trait Shown: Clone + PartialEq + core::fmt::Debug {
 }
 
 impl Shown for Show {
+    fn closings() -> Self {
+        Self::Velocity
+    }
+
     fn is_closings(&self) -> bool {
         *self == Self::Velocity
     }
@@ -131,10 +138,14 @@ impl Shown for Show {
 }
 
 /// What is shown of closings of a machine.
-pub(crate) const SPEED: &str = "speed";
+const SPEED: &str = "speed";
 
 /// What is shown of a machine, as in [`ShowText`].
 impl Shown for String {
+    fn closings() -> Self {
+        SPEED.to_owned()
+    }
+
     fn is_closings(&self) -> bool {
         self == SPEED
     }

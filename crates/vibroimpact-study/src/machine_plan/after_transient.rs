@@ -4,6 +4,7 @@ use super::grid::values_of;
 use super::simulate::limits;
 use crate::PlanError;
 use crate::diagram::{AfterTransient, DiagramPoint, MotionKind, SAME};
+use crate::dynamics::refused;
 use crate::map::options;
 use core::f64::consts::TAU;
 use vibroimpact::events::{End, Limits, Motion, Sample, Samples, Start};
@@ -19,10 +20,6 @@ const BEFORE: u64 = 10;
 
 fn near(a: f64, b: f64) -> bool {
     (a - b).abs() <= SAME * (1.0 + a.abs())
-}
-
-pub(super) fn refused(error: vibroimpact::machine::MachineError) -> PlanError {
-    PlanError::Machine(error.into())
 }
 
 /// Follows the motion for `transient` closings and returns the next `keep` ones, or fewer if they repeat. A motion that

@@ -1,7 +1,7 @@
 //! The plan for the Lyapunov exponents of a machine: of the motion from its start, or at each point of a grid.
 
 use super::grid::{StartAxis, check_axes};
-use super::verdicts::refused;
+use crate::dynamics::refused;
 use crate::machine::MachineSource;
 use crate::{Control, LyapunovPlan, PlanError, RunError, Stopped, limits};
 use vibroimpact::chaos::{DEFAULT_EVENTS, DEFAULT_MACHINE_TRANSIENT, Exponents, machine_exponents_while};

@@ -1,17 +1,20 @@
 //! The results of the tasks of machines.
 
-use super::branch;
-use super::curve;
-use super::margins::MachineMargins;
 use super::section::{self, SectionPoints};
 use super::simulate::simulate;
-use super::{margins, orbits, region, response, verdicts};
+use super::verdicts;
+use crate::branch::branches;
+use crate::curve::curve;
+use crate::dynamics::{Dynamics, Problem, machine_label};
 use crate::in_memory::DIAGRAM_TILE;
 use crate::machine::MachineSource;
+use crate::margins::margins;
+use crate::region::regions;
+use crate::response::response;
 use crate::study::SweepFill;
 use crate::{
-    Basin, Branches, Control, Diagram, EventCurve, LyapunovPlan, RegionMap, Regions, ResponseCurves, RunError,
-    Simulated, Task, in_memory,
+    Basin, Branches, Control, Diagram, EventCurve, LyapunovPlan, MotionMargins, RegionMap, Regions, ResponseCurves,
+    RunError, Simulated, Task, in_memory,
 };
 use vibroimpact::chaos::Exponents;
 use vibroimpact::continuation::machine::{CurvePoint, SolutionPoint};
@@ -38,7 +41,7 @@ pub enum Results {
     /// The curve.
     Curve(EventCurve<Cycle, SolutionPoint, CurvePoint>),
     /// The margins.
-    Margins(MachineMargins),
+    Margins(MotionMargins<Machine, String, SolutionPoint>),
     /// Both regions.
     Region(Regions),
     /// The response.
@@ -54,35 +57,36 @@ pub enum Results {
 /// Computes the result of a task of a machine, which was checked.
 pub(crate) fn run(source: &MachineSource, task: &Task, control: &Control<'_>) -> Result<Results, RunError> {
     let (machine, start) = source.described()?;
+    let of = Problem { written: source, system: machine, start };
+    let (machine, start) = (&of.system, &of.start);
     Ok(match task {
         Task::Simulate { impacts, periods, .. } => {
-            Results::Simulate(simulate(&machine, &start, (*impacts, *periods), control)?)
+            Results::Simulate(simulate(machine, start, (*impacts, *periods), control)?)
         }
-        Task::Settle { impacts, .. } => Results::Settle(verdicts::settle(&machine, &start, *impacts, control)?),
+        Task::Settle { impacts, .. } => Results::Settle(MachineSource::settle(machine, start, *impacts, control)?),
         Task::Attractors { starts, seed, impacts } => {
-            Results::Attractors(verdicts::attractors(&machine, (*starts, *seed, *impacts), control)?)
+            Results::Attractors(verdicts::attractors(machine, (*starts, *seed, *impacts), control)?)
         }
         Task::Lyapunov(lyapunov) => {
             let lyapunov: LyapunovPlan<String> = lyapunov.typed()?;
-            let found = lyapunov.run(&machine, &start, control)?;
+            let found = lyapunov.run(machine, start, control)?;
             let before = u64::from(lyapunov.events().1);
-            let section = |points| section::section(&machine, &start, (before, points), control);
+            let section = |points| section::section(machine, start, (before, points), control);
             Results::Lyapunov(found, lyapunov.points.map(section).transpose()?)
         }
-        Task::Orbit { label } => Results::Orbit(orbits::orbits(&machine, orbits::label(&machine, label)?, control)?),
-        Task::Branch(asked) => Results::Branch(branch::branch(source, (&machine, &start), &asked.typed()?, control)?),
-        Task::Curve(asked) => Results::Curve(curve::curve(source, (&machine, &start), &asked.typed()?, control)?),
+        Task::Orbit { label } => {
+            let found = MachineSource::orbits(machine, machine_label(machine, label)?, control)?;
+            Results::Orbit(found.into_iter().map(|(cycle, _)| cycle).collect())
+        }
+        Task::Branch(asked) => Results::Branch(branches(&of, &asked.typed()?, control)?),
+        Task::Curve(asked) => Results::Curve(curve(&of, &asked.typed()?, control)?),
+        Task::Margins(asked) => Results::Margins(margins(&of, &asked.typed()?, control)?),
+        Task::Region(asked) => Results::Region(regions(&of, &asked.typed()?, control)?),
+        Task::Response(asked) => Results::Response(response(&of, &asked.typed()?, control)?),
         Task::SettleMany(asked) => {
-            Results::Map(in_memory::machine_points(source, (&machine, &start), &asked.typed()?, control)?)
+            Results::Map(in_memory::machine_points(source, (machine, start), &asked.typed()?, control)?)
         }
-        Task::Margins(asked) => {
-            Results::Margins(margins::margins(source, (&machine, &start), &asked.typed()?, control)?)
-        }
-        Task::Region(asked) => Results::Region(region::regions(source, &asked.typed()?, control)?),
-        Task::Response(asked) => {
-            Results::Response(response::response(source, (&machine, &start), &asked.typed()?, control)?)
-        }
-        Task::Basin(basin) => Results::Basin(in_memory::machine_basin((&machine, &start), &basin.typed()?, control)?),
+        Task::Basin(basin) => Results::Basin(in_memory::machine_basin((machine, start), &basin.typed()?, control)?),
         Task::Map(map) => Results::Map(in_memory::machine_map(source, &map.typed()?, control)?),
         Task::Diagram(diagram) => {
             let task = SweepFill::of_machine(source, &diagram.typed()?, Some(DIAGRAM_TILE));

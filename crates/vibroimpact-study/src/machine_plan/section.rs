@@ -1,6 +1,7 @@
 //! Points of the attractor of a machine: its closings of stops, and its states once in every forcing period.
 
-use super::after_transient::{EVENTS_EACH, at_phase_zero, refused};
+use super::after_transient::{EVENTS_EACH, at_phase_zero};
+use crate::dynamics::refused;
 use crate::{Control, RunError, Stopped};
 use vibroimpact::events;
 use vibroimpact::events::{Event, Limits, Motion, Sample};

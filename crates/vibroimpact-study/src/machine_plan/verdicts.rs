@@ -1,38 +1,21 @@
-//! What motions of a machine settle into, and their exponents.
+//! What motions of a machine from scattered starts settle into.
 
 use crate::map::{check_impacts, options};
-use crate::{Control, PlanError, RunError, Stopped, limits, tiles};
+use crate::{Control, PlanError, RunError, limits, tiles};
 use vibroimpact::events::Start;
 use vibroimpact::lanes::Width;
-use vibroimpact::machine::{Machine, MachineError};
-use vibroimpact::verdict::{
-    Census, KnownMotions, Settled, scattered_machine_starts, settle_machine_many, settle_machine_while,
-};
+use vibroimpact::machine::Machine;
+use vibroimpact::verdict::{Census, KnownMotions, scattered_machine_starts, settle_machine_many};
 
 /// Starts of a tile.
 const TILE: u32 = 4;
 /// The same of machines that are oscillators, whose starts share lanes.
 const WIDE_TILE: u32 = 256;
 
-pub(super) fn refused(error: MachineError) -> RunError {
-    RunError::Plan(PlanError::Machine(error.into()))
-}
-
 /// Checks a number of starts and a budget of events.
 pub(crate) fn check_starts(starts: u64, impacts: Option<u32>) -> Result<(), PlanError> {
     limits::starts(starts, limits::MOST_STARTS)?;
     check_impacts(impacts)
-}
-
-/// The verdict on a motion.
-pub(super) fn settle(
-    machine: &Machine,
-    start: &Start,
-    impacts: Option<u32>,
-    control: &Control<'_>,
-) -> Result<Settled<Machine>, RunError> {
-    let settled = settle_machine_while(machine, start, &options(impacts), &|| !control.stopping()).map_err(refused)?;
-    settled.ok_or_else(|| Stopped { done: 0, total: 1 }.into())
 }
 
 /// The number of starts of a tile, of a machine or of machines like it.

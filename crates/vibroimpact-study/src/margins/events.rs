@@ -1,193 +1,133 @@
-//! The nearest event of a motion in each parameter, up and down.
+//! The nearest event of a motion in each number of its system, up and down.
 
 use super::plan::MarginsPlan;
 use super::scope::Scope;
-use super::tried_box::{MotionBox, tried_box};
+use super::tried_box::MotionBox;
+use crate::dynamics::{Dynamics, PointOf, Problem};
+use crate::orbit_line::Solution;
+use crate::{Control, Cut, Parameter, RunError};
+use vibroimpact::Oscillator;
+use vibroimpact::continuation::{Direction, SolutionPoint};
+use vibroimpact::verdict::{System, Verdict};
 
-use crate::chosen::choose;
-use crate::{Control, Parameter, PlanError, RunError, Stopped, SystemPlan};
-use vibroimpact::continuation::{Branch, BranchEvent, BranchOptions, Direction, SolutionPoint};
-use vibroimpact::orbit::{Cycle, without_impacts};
-use vibroimpact::verdict::{NoImpact, SettleOptions, Verdict, settle_while};
-use vibroimpact::{Label, Oscillator, ParameterPath, Start};
-
-/// The distances of a motion from its nearest events.
+/// The distances of a motion of any system from its nearest events.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MotionMargins {
-    /// The start that leads to the motion; `None` if the motion is given by its label.
-    pub start: Option<Start>,
+pub struct MotionMargins<S: System = Oscillator, V = Parameter, P = SolutionPoint> {
     /// The motion.
-    pub motion: Verdict,
-    /// The nearest events in each parameter; empty for a motion that is not periodic.
-    pub parameters: Vec<ParameterMargin>,
-    /// The box in which the motion was found; `None` for a motion that is not periodic, or not stable.
+    pub motion: Verdict<S>,
+    /// The nearest events in each number; empty for a motion that is not periodic.
+    pub parameters: Vec<ParameterMargin<V, P>>,
+    /// The box in which the motion was found; `None` for a motion that is not periodic, or not stable, and for a machine.
     pub motion_box: Option<MotionBox>,
 }
 
-/// The nearest events in one parameter.
+/// The nearest events in one number.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ParameterMargin {
-    /// The parameter, its range and its scale.
-    pub scope: Scope,
+pub struct ParameterMargin<V = Parameter, P = SolutionPoint> {
+    /// The number, its range and its scale.
+    pub scope: Scope<V>,
     /// The nearest event at a smaller value.
-    pub down: MarginEnd,
+    pub down: MarginEnd<P>,
     /// The nearest event at a larger value.
-    pub up: MarginEnd,
+    pub up: MarginEnd<P>,
 }
 
 /// The nearest event in one direction.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MarginEnd {
-    /// The value of the parameter at the event; without an event the end of the range.
+pub struct MarginEnd<P = SolutionPoint> {
+    /// The value of the number at the event; without an event the end of the range.
     pub value: f64,
     /// The point of the branch with its event; `None` if there is no event up to the end of the range.
-    pub point: Option<SolutionPoint>,
+    pub point: Option<P>,
+    /// The label beyond the event; `None` if there is none, or if the branch ends.
+    pub after: Option<String>,
 }
 
-impl MarginEnd {
-    /// The event; `None` if there is none up to the end of the range.
+impl<P> MarginEnd<P> {
+    /// The change of the number to this end.
     #[must_use]
-    pub fn event(&self) -> Option<BranchEvent> {
-        self.point.as_ref().and_then(|point| point.event)
-    }
-
-    /// The change of the parameter to this end.
-    #[must_use]
-    pub fn distance(&self, scope: &Scope) -> f64 {
+    pub fn distance<V>(&self, scope: &Scope<V>) -> f64 {
         self.value - scope.value
     }
 
     /// The change relative to the size of the value; `None` for a value 0.
     #[must_use]
-    pub fn relative(&self, scope: &Scope) -> Option<f64> {
+    pub fn relative<V>(&self, scope: &Scope<V>) -> Option<f64> {
         (scope.value != 0.0).then(|| self.distance(scope) / scope.value.abs())
     }
-}
 
-impl ParameterMargin {
-    /// Both ends, the lower one first.
+    /// The size of the change in units of the scale of the number.
     #[must_use]
-    pub const fn ends(&self) -> [&MarginEnd; 2] {
-        [&self.down, &self.up]
+    pub fn scaled<V>(&self, scope: &Scope<V>) -> f64 {
+        self.distance(scope).abs() / scope.scale
     }
 }
 
-impl MotionMargins {
-    /// The parameter and the end of the event with the smallest change in units of the scale of its parameter; `None`
+impl<V, P> ParameterMargin<V, P> {
+    /// Both ends, the lower one first, with their names and the ends of the range.
+    #[must_use]
+    pub const fn ends(&self) -> [(&'static str, f64, &MarginEnd<P>); 2] {
+        [("down", self.scope.low, &self.down), ("up", self.scope.high, &self.up)]
+    }
+}
+
+impl<S: System, V, P> MotionMargins<S, V, P> {
+    /// The number, the direction and the end of the event with the smallest change in units of the scale of its number; `None`
     /// if there is no event in the ranges.
     #[must_use]
-    pub fn nearest(&self) -> Option<(&ParameterMargin, &MarginEnd)> {
-        let ends = self.parameters.iter().flat_map(|one| one.ends().map(|end| (one, end)));
-        let size = |(one, end): &(&ParameterMargin, &MarginEnd)| end.distance(&one.scope).abs() / one.scope.scale;
-        ends.filter(|(_, end)| end.point.is_some()).min_by(|a, b| size(a).total_cmp(&size(b)))
+    pub fn nearest(&self) -> Option<(&ParameterMargin<V, P>, &'static str, &MarginEnd<P>)> {
+        let ends = self.parameters.iter().flat_map(|one| one.ends().map(|(way, _, end)| (one, way, end)));
+        let events = ends.filter(|(.., end)| end.point.is_some());
+        events.min_by(|(a, _, one), (b, _, other)| one.scaled(&a.scope).total_cmp(&other.scaled(&b.scope)))
     }
 }
+
+/// The largest number of points of a branch.
+const MOST_POINTS: u32 = 20_000;
 
 /// The motion of a plan, its nearest events, and the box in which it was found.
 ///
 /// # Errors
-/// [`RunError`] for an invalid plan, for a label that no orbit has, for an orbit that cannot be followed, or when
-/// stopped. The stop flag is read at every seed of the search, at every impact, at every point of a branch and at every
-/// line of the box.
-pub(crate) fn margins(
-    system: &SystemPlan,
-    plan: &MarginsPlan,
+/// [`RunError`] for a label that no orbit has, for an orbit that cannot be followed, or when stopped. The stop flag is read at every
+/// seed of the search, at every impact, at every point of a branch and at every line of the box.
+pub(crate) fn margins<D: Dynamics>(
+    of: &Problem<'_, D>,
+    plan: &MarginsPlan<D::Name>,
     control: &Control<'_>,
-) -> Result<MotionMargins, RunError> {
-    plan.check(system)?;
-    let (osc, go_on) = (system.oscillator()?, || !control.stopping());
-    let stopped = Stopped { done: 0, total: 1 };
-    let (start, motion) = match &plan.label {
-        Some(label) => {
-            let label: Label = label.parse().map_err(PlanError::from)?;
-            let chosen = choose(&osc, label, None, &go_on)?.ok_or(stopped)?;
-            (None, Verdict::Periodic(chosen.cycle))
-        }
-        None => {
-            let start = plan.start().start(&osc)?;
-            let settled = settle_while(&osc, start, &SettleOptions::default(), &go_on).ok_or(stopped)?;
-            (Some(start), settled.verdict)
-        }
+) -> Result<MotionMargins<D::System, D::Name, PointOf<D>>, RunError> {
+    let motion = match &plan.label {
+        Some(label) => Verdict::Periodic(of.chosen((Some(label), None), control)?.cycle),
+        None => D::settle(&of.system, &of.start, None, control)?.verdict,
     };
-    let mut all = MotionMargins { start, motion, parameters: Vec::new(), motion_box: None };
-    let Some(cycle) = cycle_of(&all.motion, &osc) else { return Ok(all) };
-    let scopes = plan.scopes(system)?;
-    for scope in &scopes {
-        let path = match (scope.parameter, system.machine) {
-            (parameter @ Parameter::Physical(_), Some(machine)) => {
-                machine.line(parameter, None).map_err(PlanError::from)?
-            }
-            (parameter, _) => ParameterPath::from(parameter),
+    let mut all = MotionMargins { motion, parameters: Vec::new(), motion_box: None };
+    let Some(cycle) = D::cycle(&of.system, &all.motion) else { return Ok(all) };
+    for scope in plan.scopes(of.written)? {
+        let cut = Cut { vary: scope.parameter.clone(), ends: (scope.low, scope.high), also: None };
+        let line = of.written.line(&cut, scope.value, MOST_POINTS)?;
+        let end = |limit: f64, direction| {
+            let at = (scope.value, &cycle);
+            let found = if limit == scope.value { None } else { line.first_event(at, direction, control)? };
+            Ok::<_, RunError>(match found {
+                Some((point, after)) => MarginEnd { value: point.value(), point: Some(point), after },
+                None => MarginEnd { value: limit, point: None, after: None },
+            })
         };
-        let end = |direction| nearest(&osc, &cycle, (scope, path.clone()), direction, control);
-        let (down, up) = (end(Direction::Down)?, end(Direction::Up)?);
-        all.parameters.push(ParameterMargin { scope: *scope, down, up });
+        let (down, up) = (end(scope.low, Direction::Down)?, end(scope.high, Direction::Up)?);
+        all.parameters.push(ParameterMargin { scope, down, up });
+        (control.progress)(all.parameters.len() as u64);
     }
-    if control.stopping() {
-        return Err(stopped.into());
-    }
-    if cycle.stable() {
-        let largest = largest(&all.parameters);
-        all.motion_box = Some(tried_box(system, &cycle, (&scopes, largest), plan.lines(), control)?);
-    }
+    all.motion_box = of.written.motion_box(&cycle, &all.parameters, plan, control)?;
     Ok(all)
-}
-
-/// The cycle of a motion that can be followed; the motion without impacts is one if it is damped.
-fn cycle_of(motion: &Verdict, osc: &Oscillator) -> Option<Cycle> {
-    match motion {
-        Verdict::Periodic(cycle) => Some(cycle.clone()),
-        Verdict::NoImpact(NoImpact::Landing { .. }) => None,
-        Verdict::NoImpact(_) => {
-            without_impacts(osc).filter(|cycle| vibroimpact::orbit::earlier_contact(osc, cycle).is_none())
-        }
-        _ => None,
-    }
-}
-
-/// The first event of the branch of a cycle in one direction.
-fn nearest(
-    osc: &Oscillator,
-    cycle: &Cycle,
-    (scope, path): (&Scope, ParameterPath),
-    direction: Direction,
-    control: &Control<'_>,
-) -> Result<MarginEnd, PlanError> {
-    let limit = if direction == Direction::Up { scope.high } else { scope.low };
-    let none = MarginEnd { value: limit, point: None };
-    if limit == scope.value {
-        return Ok(none);
-    }
-    let range = scope.low..=scope.high;
-    let branch = Branch::new(osc, cycle, path, range, direction, BranchOptions::default())?;
-    let mut points = branch.take_while(|_| !control.stopping());
-    let first = points.find(|point| point.event.is_some());
-    Ok(match first.filter(|point| point.event != Some(BranchEvent::EndOfRange)) {
-        Some(point) => MarginEnd { value: point.value, point: Some(point) },
-        None => none,
-    })
-}
-
-/// The largest size of a box that stays in all ranges and contains no event in one parameter alone.
-fn largest(parameters: &[ParameterMargin]) -> f64 {
-    let events = parameters.iter().flat_map(|one| {
-        let ends = one.ends().into_iter().filter(|end| end.point.is_some());
-        ends.map(|end| end.distance(&one.scope).abs() / one.scope.scale)
-    });
-    let ranges = parameters.iter().map(|one| one.scope.largest());
-    let size = events.chain(ranges).fold(f64::INFINITY, f64::min);
-    if size.is_finite() {
-        return size;
-    }
-    // all ends of the ranges are ends of the possible values
-    parameters.iter().map(|one| one.scope.farthest()).fold(0.0, f64::max)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::SystemPlan;
+    use crate::dynamics::at_rest;
     use crate::margins::{Loss, ScaledParameter};
     use crate::{BranchPlan, Parameter, Plan, SecondStop, StartPlan, Task};
+    use vibroimpact::continuation::BranchEvent;
     use vibroimpact::orbit::one_impact;
 
     /// The gaps of the fold and of the flip of 1/1 in closed form, from the amplitude equations.
@@ -205,7 +145,7 @@ mod tests {
     }
 
     fn found(system: &SystemPlan, plan: &MarginsPlan) -> MotionMargins {
-        margins(system, plan, &Control::default()).unwrap()
+        margins(&system.problem(plan.start()).unwrap(), plan, &Control::default()).unwrap()
     }
 
     /// Whether 1/1 exists and is stable, from its closed form.
@@ -235,12 +175,13 @@ mod tests {
         let names: Vec<_> = all.parameters.iter().map(|of| of.scope.parameter).collect();
         assert_eq!(names, [Parameter::Beta, Parameter::Gap, Parameter::Restitution, Parameter::Damping]);
         let gap = &all.parameters[1];
-        assert_eq!(gap.up.event(), Some(BranchEvent::Flip));
+        assert_eq!(gap.up.point.as_ref().and_then(|point| point.event), Some(BranchEvent::Flip));
         assert!((gap.up.distance(&gap.scope) - (flip - 1.5)).abs() < 1e-11);
         assert!((gap.up.relative(&gap.scope).unwrap() - (flip - 1.5) / 1.5).abs() < 1e-11);
         // the flip in the restitution: in closed form the gap of the flip is that of the system
         let eps = &all.parameters[2];
-        let event = eps.ends().into_iter().find(|end| end.event() == Some(BranchEvent::Flip)).unwrap();
+        let flips = |end: &&MarginEnd| end.point.as_ref().is_some_and(|point| point.event == Some(BranchEvent::Flip));
+        let event = [&eps.down, &eps.up].into_iter().find(flips).unwrap();
         assert!((fold_and_flip(1.0 / 1.11, event.value, 0.0).1 - 1.5).abs() < 1e-9, "{event:?}");
         // without damping it is the lower end of its range
         let damping = &all.parameters[3];
@@ -249,7 +190,7 @@ mod tests {
         let system = SystemPlan { beta: Some(1.4), restitution: 0.7, damping: 0.05, gap: 2.0, ..SYSTEM };
         let (fold, _) = fold_and_flip(1.4, 0.7, 0.05);
         let gap = &found(&system, &one()).parameters[1];
-        assert_eq!(gap.up.event(), Some(BranchEvent::Fold));
+        assert_eq!(gap.up.point.as_ref().and_then(|point| point.event), Some(BranchEvent::Fold));
         assert!((gap.up.value - fold).abs() < 1e-9, "{} {fold}", gap.up.value);
     }
 
@@ -259,7 +200,7 @@ mod tests {
         let all = found(&system, &MarginsPlan::default());
         let mut events = 0;
         for margin in &all.parameters {
-            for (end, limit) in margin.ends().into_iter().zip([margin.scope.low, margin.scope.high]) {
+            for (_, limit, end) in margin.ends() {
                 let task = BranchPlan {
                     label: Some("1/1".into()),
                     vary: margin.scope.parameter,
@@ -269,7 +210,7 @@ mod tests {
                     follow: 0,
                     points: 20_000,
                 };
-                let branches = crate::branch::branches(&system, &task, &Control::default()).unwrap();
+                let branches = crate::branch::branches(&at_rest(&system), &task, &Control::default()).unwrap();
                 let points = &branches.followed[0].points;
                 let first = points.iter().find(|point| point.event.is_some()).unwrap();
                 assert!((first.value - end.value).abs() < 1e-9 * (1.0 + end.value.abs()), "{margin:?}");
@@ -278,10 +219,10 @@ mod tests {
             }
         }
         assert!(events >= 3, "{events}");
-        let (margin, end) = all.nearest().unwrap();
+        let (margin, _, end) = all.nearest().unwrap();
         let size = |margin: &ParameterMargin, end: &MarginEnd| end.relative(&margin.scope).unwrap().abs();
         for other in &all.parameters {
-            for one in other.ends().into_iter().filter(|one| one.point.is_some()) {
+            for (.., one) in other.ends().into_iter().filter(|(.., one)| one.point.is_some()) {
                 assert!(size(margin, end) <= size(other, one));
             }
         }
@@ -315,8 +256,8 @@ mod tests {
         assert!(edge.loss == Loss::Unstable && !one_exists(&at(&edge.values)), "{edge:?}");
         // a box in one parameter ends at its nearest event
         let vary = vec![ScaledParameter { parameter: Parameter::Gap, scale: Some(0.1) }];
-        let alone = margins(&system, &MarginsPlan { vary, ..one() }, &Control::default()).unwrap();
-        let (margin, end) = alone.nearest().unwrap();
+        let alone = margins(&at_rest(&system), &MarginsPlan { vary, ..one() }, &Control::default()).unwrap();
+        let (margin, _, end) = alone.nearest().unwrap();
         let (size, to) = (alone.motion_box.as_ref().unwrap().size, end.distance(&margin.scope).abs() / 0.1);
         assert!(size <= to && size > to * (1.0 - 1e-5), "{size} {to}");
     }
@@ -335,7 +276,7 @@ mod tests {
         let system = SystemPlan { beta: Some(2.0), gap: 0.4, damping: 0.1, ..SYSTEM };
         let free = found(&system, &MarginsPlan::default());
         let gap = &free.parameters[1];
-        assert!(matches!(gap.down.event(), Some(BranchEvent::Grazing { .. })));
+        assert!(gap.down.point.as_ref().and_then(Solution::event_name) == Some("grazing"));
         assert!((gap.down.value - system.oscillator().unwrap().free_amplitude()).abs() < 1e-12);
         assert!(free.motion_box.unwrap().size > 0.0);
         // an unstable orbit has distances, and no box
@@ -357,13 +298,64 @@ mod tests {
         // the start decides which motion it is
         let other = StartPlan { v: 1.0, ..StartPlan::default() };
         let plan = Plan::new(SYSTEM, Task::Margins(MarginsPlan { start: Some(other), ..MarginsPlan::default() }));
-        assert!(matches!(crate::run(&plan, &Control::default()), Ok(crate::Results::Margins(_))));
+        assert!(matches!(crate::run(&plan, &Control::default()), Ok(crate::Results::Margins(..))));
     }
 
     #[test]
     fn it_stops_when_told_to() {
         let stop = core::sync::atomic::AtomicBool::new(true);
-        let stopped = margins(&SYSTEM, &one(), &Control { stop: &stop, ..Control::default() });
+        let stopped = margins(&at_rest(&SYSTEM), &one(), &Control { stop: &stop, ..Control::default() });
         assert!(matches!(stopped, Err(RunError::Stopped(_))), "{stopped:?}");
+    }
+}
+
+#[cfg(test)]
+mod tests_of_machines {
+    use super::*;
+    use crate::machine::MachineSource;
+    use crate::{BranchPlan, Plan, Results, ScaledParameter, Task, machine, run};
+
+    /// The nearest events are those of the branches in each number alone.
+    #[test]
+    fn the_first_events_of_branches() {
+        let source = MachineSource::open("two-mass-hammer").unwrap();
+        let vary = vec!["frequency".to_owned(), "stop.anvil.gap".to_owned(), "stop.anvil.restitution".to_owned()];
+        let scaled = vary.iter().map(|path| ScaledParameter { parameter: path.clone(), scale: None });
+        let task = Task::from(MarginsPlan { vary: scaled.collect(), ..MarginsPlan::default() });
+        let plan = Plan::new(source.clone(), task);
+        assert_eq!(Plan::from_text(&plan.to_toml()).unwrap(), plan);
+        let Results::Machine(machine::Results::Margins(found)) = run(&plan, &Control::default()).unwrap() else {
+            panic!()
+        };
+        assert_eq!(found.motion.label(), "1/1");
+        let mut events = 0;
+        for (margin, path) in found.parameters.iter().zip(vary) {
+            for (_, limit, end) in margin.ends() {
+                let branch = BranchPlan {
+                    label: None,
+                    orbit: None,
+                    vary: path.clone(),
+                    to: limit,
+                    also: None,
+                    points: 5000,
+                    follow: 0,
+                };
+                let plan = Plan::new(source.clone(), Task::from(branch));
+                let Results::Machine(machine::Results::Branch(branch)) = run(&plan, &Control::default()).unwrap()
+                else {
+                    panic!()
+                };
+                let first = branch.followed[0].points.iter().find(|point| point.event.is_some()).unwrap();
+                match &end.point {
+                    Some(point) => {
+                        let apart = (point.value - first.value).abs();
+                        assert!(apart < 1e-9 && point.event == first.event, "{path} {point:?}");
+                        events += 1;
+                    }
+                    None => assert!(first.value == limit, "{path} {:?}", first.event),
+                }
+            }
+        }
+        assert!(events >= 2 && found.nearest().is_some(), "{events}");
     }
 }

@@ -17,7 +17,7 @@ mod tried_box;
 pub use carry::Loss;
 pub(crate) use events::margins;
 pub use events::{MarginEnd, MotionMargins, ParameterMargin};
-pub(crate) use plan::check_within;
 pub use plan::{DEFAULT_LINES, DEFAULT_WITHIN, MarginsPlan};
 pub use scope::{ScaledParameter, Scope};
+pub(crate) use tried_box::tried_box;
 pub use tried_box::{BoxEdge, MotionBox};

@@ -1,6 +1,8 @@
 //! The plan for the margins of a motion.
 
 use super::scope::{ScaledParameter, Scope};
+use crate::dynamics::{Dynamics, Problem};
+use crate::machine::MachineSource;
 use crate::name::Name;
 use crate::{Parameter, PlanError, StartPlan, SystemPlan, limits};
 use serde::{Deserialize, Serialize};
@@ -129,20 +131,39 @@ impl MarginsPlan {
         }
         self.scopes(system).map(|_| ())
     }
+}
 
-    /// The parameters that vary, with their ranges and scales.
+impl<V: Name> MarginsPlan<V> {
+    /// The numbers that vary, with their ranges and scales.
     ///
     /// # Errors
-    /// [`PlanError`] for an invalid system, or for a parameter of a second stop if there is none.
-    pub(crate) fn scopes(&self, system: &SystemPlan) -> Result<Vec<Scope>, PlanError> {
-        let all = || Self::parameters(system).into_iter().map(|parameter| ScaledParameter { parameter, scale: None });
-        let varied = if self.vary.is_empty() { all().collect() } else { self.vary.clone() };
-        varied.into_iter().map(|one| Scope::new(system, one, self.within)).collect()
+    /// [`PlanError`] for an invalid system, or for a number that it does not have.
+    pub(crate) fn scopes<D: Dynamics<Name = V>>(&self, system: &D) -> Result<Vec<Scope<V>>, PlanError> {
+        if !self.vary.is_empty() {
+            return self.vary.iter().map(|one| system.scope(one, self.within)).collect();
+        }
+        let alone = |parameter| system.scope(&ScaledParameter { parameter, scale: None }, self.within);
+        system.free_numbers()?.into_iter().map(alone).collect()
+    }
+}
+
+impl MarginsPlan<String> {
+    /// Checks everything that can be checked without running the plan.
+    ///
+    /// # Errors
+    /// [`PlanError`] names the first invalid value.
+    pub(crate) fn check(&self, of: &Problem<'_, MachineSource>) -> Result<(), PlanError> {
+        check_within(self.within)?;
+        of.check_orbit((self.label.as_deref(), None), false)?;
+        if self.lines.is_some() || self.vary.iter().any(|one| one.scale.is_some()) {
+            return Err(PlanError::NoBox);
+        }
+        self.vary.iter().try_for_each(|one| Ok(of.written.number(&one.parameter).map(drop)?))
     }
 }
 
 /// Checks the ratio of the ends of ranges to values.
-pub(crate) fn check_within(given: f64) -> Result<(), PlanError> {
+fn check_within(given: f64) -> Result<(), PlanError> {
     if given > 1.0 && given <= MOST_WITHIN {
         return Ok(());
     }

@@ -79,11 +79,11 @@ impl<V: Name> JsonSchema for ScaledParameter<V> {
     }
 }
 
-/// A parameter that varies: its value, its range and its scale.
+/// A number that varies: its value, its range and its scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Scope {
-    /// The parameter.
-    pub parameter: Parameter,
+pub struct Scope<V = Parameter> {
+    /// The number.
+    pub parameter: V,
     /// Its value in the system.
     pub value: f64,
     /// Lower end of the range.
@@ -106,7 +106,7 @@ impl Scope {
     ///
     /// # Errors
     /// [`PlanError`] for an invalid system, or for a parameter of a second stop if there is none.
-    pub(super) fn new(system: &SystemPlan, varied: ScaledParameter, within: f64) -> Result<Self, PlanError> {
+    pub(crate) fn new(system: &SystemPlan, varied: ScaledParameter, within: f64) -> Result<Self, PlanError> {
         let ScaledParameter { parameter, scale } = varied;
         let value = system.value(parameter)?;
         let usual = match parameter {
@@ -167,7 +167,9 @@ impl Scope {
     pub(super) fn farthest(&self) -> f64 {
         (self.high - self.value).max(self.value - self.low) / self.scale
     }
+}
 
+impl<V> Scope<V> {
     /// The value at a distance from the value of the system, in units of the scale, and not beyond the range.
     #[must_use]
     pub fn at(&self, distance: f64) -> f64 {

@@ -8,6 +8,7 @@
 //! points between.
 
 use super::carry::{Loss, carry};
+use super::events::ParameterMargin;
 use super::scope::Scope;
 use crate::{Control, RunError, Stopped, SystemPlan};
 use vibroimpact::Oscillator;
@@ -51,20 +52,21 @@ const ROUNDS: u32 = 4;
 /// The largest number of lines whose directions are varied.
 const VARIED: usize = 4;
 
-/// The box around a system of the stable motion `cycle`, up to this size at most.
+/// The box around a system of the stable motion `cycle`, up to its nearest event in one parameter at most.
 ///
 /// # Errors
 /// [`RunError`] for an invalid system, or when stopped. The stop flag is read at every line.
-pub(super) fn tried_box(
+pub(crate) fn tried_box(
     system: &SystemPlan,
     cycle: &Cycle,
-    (scopes, largest): (&[Scope], f64),
+    margins: &[ParameterMargin],
     scattered: u32,
     control: &Control<'_>,
 ) -> Result<MotionBox, RunError> {
+    let (scopes, largest): (Vec<Scope>, f64) = (margins.iter().map(|one| one.scope).collect(), largest(margins));
     let none = MotionBox { size: 0.0, largest, lines: 0, points: 0, edge: None };
     let Ok(centre) = carry(&system.oscillator()?, cycle) else { return Ok(none) };
-    let mut trial = Trial { system, scopes, centre, largest, control, lines: 0, sizes: Vec::new() };
+    let mut trial = Trial { system, scopes: &scopes, centre, largest, control, lines: 0, sizes: Vec::new() };
     let n = scopes.len();
     let mut lost: Vec<(Vec<f64>, Lost)> = Vec::new();
     for direction in directions(n, scattered) {
@@ -84,6 +86,21 @@ pub(super) fn tried_box(
     let size = first.as_ref().map_or(largest, |first| first.size);
     let points = 1 + trial.sizes.iter().filter(|tried| **tried <= size).count() as u64;
     Ok(MotionBox { size, largest, lines: trial.lines, points, edge: first.map(|first| first.edge) })
+}
+
+/// The largest size of a box that stays in all ranges and contains no event in one parameter alone.
+fn largest(margins: &[ParameterMargin]) -> f64 {
+    let events = margins.iter().flat_map(|one| {
+        let ends = one.ends().into_iter().filter(|(.., end)| end.point.is_some());
+        ends.map(|(.., end)| end.scaled(&one.scope))
+    });
+    let ranges = margins.iter().map(|one| one.scope.largest());
+    let size = events.chain(ranges).fold(f64::INFINITY, f64::min);
+    if size.is_finite() {
+        return size;
+    }
+    // all ends of the ranges are ends of the possible values
+    margins.iter().map(|one| one.scope.farthest()).fold(0.0, f64::max)
 }
 
 /// The place on a line where the motion is lost: the last size at which it was found, and the point next to it.

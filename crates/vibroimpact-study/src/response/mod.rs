@@ -1,56 +1,154 @@
-//! The response over a parameter: a quantity of the motions that sweeps up and down find, and of all branches, stable or
+//! The response over a number: a quantity of the motions that sweeps up and down find, and of all branches, stable or
 //! not, on which their cycles lie.
 
-mod branches;
 mod plan;
 mod row;
-mod sweep;
 
-pub(crate) use branches::{MOST_BRANCHES, MOST_POINTS};
 pub use plan::ResponsePlan;
-pub(crate) use plan::check_values;
 pub use row::{ResponseCurves, ResponseRow};
 
-use crate::{Control, Quantity, RunError, Stopped, SystemPlan};
-use sweep::SweptMotion;
+use crate::dynamics::{CycleOf, Dynamics, PointOf, Problem, not_stopped};
+use crate::orbit_line::{OrbitLine, Solution};
+use crate::{Control, Cut, RunError};
+use vibroimpact::math::sort_by;
+
+/// Maximum number of branches, and of points in each direction along one.
+const MOST_BRANCHES: usize = 40;
+const MOST_POINTS: u32 = 3_000;
 
 /// Computes both sweeps and the branches.
 ///
 /// # Errors
-/// [`RunError`] for an invalid plan, or when stopped. The stop flag is read at every event of a motion and at every point
+/// [`RunError`] for a start that is not allowed, or when stopped. The stop flag is read at every event of a motion and at every point
 /// of a branch.
-pub(crate) fn response(
-    system: &SystemPlan,
-    plan: &ResponsePlan,
+pub(crate) fn response<D: Dynamics>(
+    of: &Problem<'_, D>,
+    plan: &ResponsePlan<D::Name, D::Quantity>,
     control: &Control<'_>,
 ) -> Result<ResponseCurves, RunError> {
-    plan.check(system)?;
-    let total = plan.motions();
-    let stopped = |done: usize| Stopped { done: done as u64, total };
-    let mut done = 0;
-    let mut sweep = |rising: bool| {
-        let motions = sweep::sweep(system, plan, rising, done, control)?;
-        done += motions.len();
-        (motions.len() as u64 == total / 2).then_some(motions).ok_or_else(|| RunError::from(stopped(done)))
-    };
-    let (up, down) = (sweep(true)?, sweep(false)?);
-    let branches = branches::branches(system, plan, up.iter().chain(&down), control)?;
-    if control.stopping() {
-        return Err(stopped(done).into());
-    }
-    let rows = |motions: Vec<SweptMotion>| motions.into_iter().map(|motion| motion.row).collect();
+    let cut = plan.cut();
+    let line = of.written.line(&cut, cut.ends.0, MOST_POINTS)?;
+    let over = Over { of, plan, cut, line, quantities: D::quantity_names(&of.system), control };
+    let up = over.sweep(true, 0)?;
+    let down = over.sweep(false, up.len())?;
+    let branches = over.branches(up.iter().chain(&down))?;
+    let shown = D::quantity(&of.system, plan.quantity.as_ref()).replace('-', "_");
+    let rows = |motions: Vec<SweptMotion<D>>| motions.into_iter().map(|(row, _)| row).collect();
     Ok(ResponseCurves {
-        quantities: Quantity::ALL.map(|quantity| quantity.name().to_owned()).to_vec(),
-        shown: Quantity::ALL.iter().position(|quantity| *quantity == plan.quantity()).unwrap_or(0),
+        shown: over.quantities.iter().position(|name| *name == shown).unwrap_or(0),
         up: rows(up),
         down: rows(down),
         branches,
+        quantities: over.quantities,
+    })
+}
+
+/// The motion of a sweep at one value, and its cycle if it has one that can be followed.
+type SweptMotion<D> = (ResponseRow, Option<CycleOf<D>>);
+
+/// The systems over the values of a number.
+struct Over<'a, 'c, D: Dynamics> {
+    of: &'a Problem<'a, D>,
+    plan: &'a ResponsePlan<D::Name, D::Quantity>,
+    cut: Cut<D::Name>,
+    line: OrbitLine<D::Along>,
+    quantities: Vec<String>,
+    control: &'a Control<'c>,
+}
+
+impl<D: Dynamics> Over<'_, '_, D> {
+    fn system(&self, value: f64) -> Option<D::System> {
+        self.of.written.system_on(&self.cut, &self.line, value)
+    }
+
+    /// All quantities; not-a-number where they are not defined.
+    fn all(&self, found: Option<Vec<f64>>) -> Vec<f64> {
+        found.unwrap_or_else(|| vec![f64::NAN; self.quantities.len()])
+    }
+
+    /// The motions of one sweep: at each value the motion is settled from the state that the motion at the value before has.
+    /// `before` motions were done before.
+    fn sweep(&self, rising: bool, before: usize) -> Result<Vec<SweptMotion<D>>, RunError> {
+        let mut values: Vec<f64> = self.plan.over.all();
+        sort_by(&mut values, f64::total_cmp);
+        if !rising {
+            values.reverse();
+        }
+        let mut motions = Vec::with_capacity(values.len());
+        let mut last: Option<(f64, D::Start)> = None;
+        for value in values {
+            let Some(system) = self.system(value) else { continue };
+            let start = D::carried(self.of, &self.cut, last, (value, &system))?;
+            let motion = D::settle(&system, &start, self.plan.impacts, self.control)?.verdict;
+            last = Some((value, D::reached(&system, &motion, start)));
+            let row = ResponseRow {
+                value,
+                label: motion.label().into_owned(),
+                admissible: true,
+                stability: motion.stability(&system),
+                event: None,
+                quantities: self.all(D::quantities(&system, &motion)),
+            };
+            motions.push((row, D::cycle(&system, &motion)));
+            (self.control.progress)((before + motions.len()) as u64);
+        }
+        Ok(motions)
+    }
+
+    /// The branch of each cycle of the sweeps that lies on none of the branches so far.
+    fn branches<'m>(&self, motions: impl Iterator<Item = &'m SweptMotion<D>>) -> Result<Vec<Vec<ResponseRow>>, RunError>
+    where
+        CycleOf<D>: 'm,
+    {
+        let mut found: Vec<Vec<PointOf<D>>> = Vec::new();
+        for (row, cycle) in motions {
+            let Some(cycle) = cycle.as_ref().filter(|_| found.len() < MOST_BRANCHES) else { continue };
+            let Some(system) = self.system(row.value) else { continue };
+            if found.iter().any(|points| passes::<D>(points, &system, cycle, row.value)) {
+                continue;
+            }
+            let line = self.of.written.line(&self.cut, row.value, MOST_POINTS)?;
+            let points = line.both_ways((row.value, cycle), self.control)?;
+            // a motion without equations by which it can be followed is no branch
+            found.extend((!points.is_empty()).then_some(points));
+        }
+        let row = |point: &PointOf<D>| {
+            not_stopped(self.control)?;
+            let quantities = self.system(point.value()).and_then(|there| D::cycle_quantities(&there, point.cycle()));
+            Ok(ResponseRow {
+                value: point.value(),
+                label: point.label().to_string(),
+                admissible: point.admissible(),
+                stability: Some(point.stability()),
+                event: point.event_name(),
+                quantities: self.all(quantities),
+            })
+        };
+        found.iter().map(|points| points.iter().map(row).collect()).collect()
+    }
+}
+
+/// Whether a branch passes through a cycle at a value.
+fn passes<D: Dynamics>(points: &[PointOf<D>], system: &D::System, cycle: &CycleOf<D>, value: f64) -> bool {
+    points.windows(2).any(|pair| {
+        let [a, b] = [&pair[0], &pair[1]];
+        let between = (a.value().min(b.value())..=a.value().max(b.value())).contains(&value);
+        between && D::passes(system, cycle, [a, b])
     })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::SystemPlan;
+    use crate::dynamics::at_rest;
+
+    fn response(system: &SystemPlan, plan: &ResponsePlan, control: &Control<'_>) -> Result<ResponseCurves, RunError> {
+        let problem = at_rest(system);
+        plan.check(&problem)?;
+        super::response(&problem, plan, control)
+    }
+
     use crate::{Parameter, Plan, Span, Task, Values};
 
     /// A damped oscillator with a wide gap has the classical response of a linear oscillator.
@@ -87,7 +185,7 @@ mod tests {
         let plan = Plan::new(system, Task::from(listed));
         assert_eq!((Plan::from_text(&plan.to_toml()).unwrap(), plan.check()), (plan.clone(), Ok(())));
         let twice = ResponsePlan::new(Parameter::Gap, Values::Listed(vec![0.5, 0.5]));
-        assert!(twice.check(&system).unwrap_err().to_string().contains("0.5"));
+        assert!(twice.check(&at_rest(&system)).unwrap_err().to_string().contains("0.5"));
     }
 
     /// The parameter that varies need not be in the system, and the plan is the same when it is written and read.
@@ -127,5 +225,43 @@ mod tests {
             });
             assert!(near, "{} at {} lies on no branch", motion.label, motion.value);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests_of_machines {
+    use super::*;
+    use crate::machine::MachineSource;
+    use crate::{Plan, Results, Span, Task, machine, run};
+
+    fn response(name: &str, plan: ResponsePlan<String, String>) -> ResponseCurves {
+        let plan = Plan::new(MachineSource::open(name).unwrap(), Task::from(plan));
+        let plan = Plan::from_text(&plan.to_toml()).unwrap();
+        let Results::Machine(machine::Results::Response(found)) = run(&plan, &Control::default()).unwrap() else {
+            panic!()
+        };
+        found
+    }
+
+    /// Motions of both sweeps lie on the branches through them.
+    #[test]
+    fn sweeps_lie_on_branches() {
+        let over = "0.9:1.2:7".parse::<Span>().unwrap().into();
+        let quantity = Some("stop.anvil.impact-speed-max".to_owned());
+        let plan = ResponsePlan { vary: "frequency".to_owned(), over, quantity, impacts: None };
+        let found = response("two-mass-hammer", plan);
+        assert_eq!((found.up.len(), found.down.len()), (7, 7));
+        assert_eq!(found.quantities[found.shown], "stop.anvil.impact_speed_max");
+        let (mut compared, shown) = (0, found.shown);
+        for motion in found.up.iter().chain(&found.down).filter(|motion| motion.label.contains('/')) {
+            let near = found.branches.iter().flat_map(|branch| branch.windows(2)).any(|pair| {
+                let ((a, x), (b, y)) = ((pair[0].value, &pair[0].quantities), (pair[1].value, &pair[1].quantities));
+                let apart = (x[shown] - y[shown]).abs() + 1e-6;
+                (a.min(b)..=a.max(b)).contains(&motion.value) && (motion.quantities[shown] - x[shown]).abs() <= apart
+            });
+            assert!(near, "{} at {}", motion.label, motion.value);
+            compared += 1;
+        }
+        assert!(compared >= 10 && found.branches.iter().flatten().any(|row| row.event == Some("fold")));
     }
 }

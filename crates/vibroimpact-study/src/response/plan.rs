@@ -1,9 +1,10 @@
 //! The plan of a response.
 
+use crate::dynamics::{Dynamics, Problem};
 use crate::map::check_impacts;
 use crate::name::{Name, Written};
 use crate::quantity::Quantity;
-use crate::{Cut, Parameter, PlanError, SystemPlan, Values, limits};
+use crate::{Cut, Parameter, PlanError, Values, limits};
 use serde::{Deserialize, Serialize};
 
 /// A quantity of all motions over the values of one parameter.
@@ -53,35 +54,36 @@ impl<V, Q> ResponsePlan<V, Q> {
 }
 
 impl ResponsePlan {
-    /// The quantity that is reported.
+    /// The quantity of an oscillator that is reported.
     #[must_use]
     pub fn quantity(&self) -> Quantity {
         self.quantity.unwrap_or(Quantity::DisplacementAmplitude)
     }
+}
 
-    /// The line over which the parameter varies, from the smaller to the larger end.
+impl<V: Name, Q: Name> ResponsePlan<V, Q> {
+    /// The line over which the number varies, from the smaller to the larger end.
     #[must_use]
-    pub fn cut(&self) -> Cut {
-        Cut { vary: self.vary, ends: self.over.extent(), also: None }
+    pub fn cut(&self) -> Cut<V> {
+        Cut { vary: self.vary.clone(), ends: self.over.extent(), also: None }
     }
 
     /// Checks everything that can be checked without running the plan.
     ///
     /// # Errors
     /// [`PlanError`] names the first invalid value.
-    pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
-        check_values(&self.over, self.vary.name())?;
+    pub(crate) fn check<D>(&self, of: &Problem<'_, D>) -> Result<(), PlanError>
+    where
+        D: Dynamics<Name = V, Quantity = Q>,
+    {
+        self.over.check()?;
+        let (from, to) = self.over.extent();
+        if from == to {
+            return Err(PlanError::Nowhere { name: self.vary.text().to_owned().into(), value: from });
+        }
+        limits::check("values", u32::try_from(self.over.count()).unwrap_or(u32::MAX), 2..=MOST_VALUES)?;
         check_impacts(self.impacts)?;
-        self.cut().check(system)
+        D::check_quantity(&of.system, &D::quantity(&of.system, self.quantity.as_ref()))?;
+        of.written.check_ends(&self.cut())
     }
-}
-
-/// Checks that the values of a response differ, and their number.
-pub(crate) fn check_values(over: &Values, name: &'static str) -> Result<(), PlanError> {
-    over.check()?;
-    let (from, to) = over.extent();
-    if from == to {
-        return Err(PlanError::Nowhere { name: name.into(), value: from });
-    }
-    limits::check("values", u32::try_from(over.count()).unwrap_or(u32::MAX), 2..=MOST_VALUES)
 }

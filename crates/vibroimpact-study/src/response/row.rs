@@ -1,7 +1,5 @@
 //! What is told of the motions of a response, for every kind of system.
 
-use crate::Quantity;
-use vibroimpact::quantities::Quantities;
 use vibroimpact::verdict::Stability;
 
 /// A motion of a sweep, or an orbit at a point of a branch.
@@ -42,9 +40,4 @@ pub struct ResponseCurves {
     pub down: Vec<ResponseRow>,
     /// The branches on which cycles of the sweeps lie, from one end to the other.
     pub branches: Vec<Vec<ResponseRow>>,
-}
-
-/// The values of all quantities; not-a-number where one is not defined.
-pub(super) fn all(of: Option<Quantities>) -> Vec<f64> {
-    Quantity::ALL.into_iter().map(|quantity| of.map_or(f64::NAN, |of| of.get(quantity))).collect()
 }

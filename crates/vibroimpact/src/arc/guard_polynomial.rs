@@ -55,6 +55,13 @@ impl GuardPolynomial {
         q[0] > 0.0 && first_zero(&q).is_none()
     }
 
+    /// A point at which it is below zero by so many rounding errors, if it is not at the beginning.
+    pub(super) fn below(&self, roundings: f64) -> Option<f64> {
+        let mut q = self.p;
+        q[0] += roundings * self.error;
+        if q[0] > 0.0 { first_zero(&q) } else { None }
+    }
+
     /// Whether it is positive over the window, by a quick test; `false` may be wrong.
     pub(super) fn is_positive(&self) -> bool {
         is_positive(&self.beside(-1.0))

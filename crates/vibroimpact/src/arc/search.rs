@@ -157,16 +157,22 @@ fn together(flight: &MachineFlight, s: f64, guards: &mut Guards, buffers: &mut B
     }
 }
 
-/// The first zero of the guards that fall below zero by more than their errors, if the guard `g` does.
-fn below(flight: &MachineFlight, (s, window): (f64, f64), g: usize, buffers: &mut Buffers) -> Option<(f64, usize)> {
+/// The first zero of the guards that fall below zero by more than their errors, if the guard `g` does: one that has been touched also
+/// later in the window.
+fn below(
+    flight: &MachineFlight,
+    (s, window): (f64, f64),
+    (g, touched): (usize, bool),
+    buffers: &mut Buffers,
+) -> Option<(f64, usize)> {
     let zero = |guard: usize, buffers: &mut Buffers| {
-        let GuardPolynomial { p, error, from, .. } = buffers.polynomials[guard];
+        let of = buffers.polynomials[guard];
+        let GuardPolynomial { p, error, from, .. } = of;
         let from = from?;
         let (touch, _) = lowest(&p, from);
-        if value(&without_remainder(&p), touch).0 >= -error - p[ORDER] {
-            return None;
-        }
-        let bracket = (s + from * window, s + touch * window);
+        let falls = value(&without_remainder(&p), touch).0 < -error - p[ORDER];
+        let below = if falls { touch } else { of.below(FLAT).filter(|_| touched && guard == g)? };
+        let bracket = (s + from * window, s + below * window);
         Some(refine(flight, guard, bracket, None, RESOLUTION * window, &mut buffers.modes))
     };
     let mut first = (zero(g, buffers)?, g);
@@ -316,7 +322,7 @@ fn search(
         if remainder <= error || window * 0.01 <= f64::EPSILON * s {
             // a touch within rounding, or a zero that cannot be told from one
             let (touch, after) = lowest(&p, near);
-            if let Some((at, guard)) = below(flight, (s, window), g, buffers) {
+            if let Some((at, guard)) = below(flight, (s, window), (g, touched[g]), buffers) {
                 return Found::Zero { s: at, guards: Guards::One([guard]) };
             }
             // one touch until the guard is clearly positive again; from there on what is flat is passed

@@ -126,7 +126,7 @@ fn measured(
         }
         seen += 1;
         system.pass(&mut run, &step, step.passage.time());
-        tail.impact(&State { place: step.end }, run.left());
+        tail.impact(&State::of(&step.end), run.left());
     }
     let none = || (vec![Measured::exact(f64::NAN); 2 * machine.n()], Measured::exact(f64::NAN));
     let Some((spectrum, blocks)) = run.spectrum(MEASURE) else {

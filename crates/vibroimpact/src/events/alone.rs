@@ -1,9 +1,10 @@
 //! Events that change one stop and nothing else: no joint is there, and nothing rests. They are what most motions consist
 //! of; the general way (`motion`, `strike`) does the same with them.
 
+use super::advance::Approach;
 use super::chatter::is_far_from_an_end;
 use super::event::EventKind;
-use super::motion::{Approach, Motion};
+use super::motion::Motion;
 use super::passage::Blow;
 use crate::machine::StopLaw;
 use crate::math::add_scaled;

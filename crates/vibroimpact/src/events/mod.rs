@@ -7,6 +7,7 @@
 //! | the laws of impact at one stop and at several, impacts | `impulses`, `collision`, `strike` |
 //! | the end of a chatter on stops that are struck at the same times | `chatter` |
 //! | rounds of impacts on several stops in turn, or with joints; their end | `instants`, `collapse` |
+//! | from one event to the next, and what happens to the contacts there | `advance`, `contact_change` |
 //! | events that change one stop alone | `alone` |
 //! | the state at one time | `place` |
 //! | a whole state as a start, and back | [`ContactStart`], `state` |
@@ -18,11 +19,13 @@
 //! | the forces of stops and joints during a flight | `contact_force` |
 //! | states, gaps and forces at one time, at equal steps | [`Sample`], [`Samples`] |
 
+mod advance;
 mod alone;
 mod by_number;
 mod chatter;
 mod collapse;
 mod collision;
+mod contact_change;
 mod contact_force;
 mod event;
 mod event_by_number;

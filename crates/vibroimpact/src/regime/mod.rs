@@ -11,8 +11,11 @@
 //! | the directions in which it is free | `complement` |
 //! | the directions along which the whole machine can be moved | `translations` |
 //! | the constant force on its modes at a position | `rest_force` |
-//! | the gap of a closed stop as a function of its modes | `closed_stop` |
-//! | the structure in one regime, its guards | `structure` |
+//! | a closed stop: its force, and its gap as a function of its modes | `closed_stop` |
+//! | what stops at rest and joints that hold prescribe | `constraints` |
+//! | the motion in the directions that are left free | `free_motion` |
+//! | the structure in one regime | `structure` |
+//! | its guards | `guards` |
 //! | small changes of its state, and the gradients of guards | `change` |
 //! | the panels over which its motion is integrated | `panels` |
 //! | polynomials in Bernstein's form | `bernstein` |
@@ -25,7 +28,10 @@ mod bernstein;
 mod change;
 mod closed_stop;
 mod complement;
+mod constraints;
 mod contact_state;
+mod free_motion;
+mod guards;
 mod mode;
 mod normal;
 mod panels;
@@ -42,13 +48,15 @@ pub(crate) use bernstein::{TERMS, bernstein};
 pub(crate) use change::ModalChange;
 pub(crate) use closed_stop::ClosedStop;
 pub(crate) use complement::{Orthonormal, independent};
+pub(crate) use constraints::idles;
 pub use contact_state::ContactState;
+pub(crate) use guards::GuardKind;
 pub(crate) use mode::{FreeMode, Mode, Turned};
 pub(crate) use normal::{Normal, NormalRate, compliant};
 pub(crate) use panels::{panels, rates};
 pub(crate) use rest_force::RestBuffers;
 pub(crate) use sampled::{POWERS, REST, SAMPLES, Sampled, Span};
 pub(crate) use signal::{Observable, Signal, turned};
-pub(crate) use structure::{GuardKind, Structure, idles};
+pub(crate) use structure::Structure;
 pub(crate) use translations::Translations;
 pub(crate) use window::{ALL, REACH, Window, add_harmonic, derivative_bounds};

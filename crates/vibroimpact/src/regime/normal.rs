@@ -53,6 +53,11 @@ pub(crate) struct Normal {
 }
 
 impl Normal {
+    /// A signal that is zero.
+    pub(super) fn no_signal(&self) -> Signal {
+        Signal::zero(self.directions.len() - self.walls.len(), self.rates.len())
+    }
+
     pub(crate) fn new(machine: &Machine) -> Self {
         let parts = machine.parts();
         let (n, factor) = (machine.n(), machine.factor().clone());

@@ -1,73 +1,20 @@
 //! The linear structure in one regime: its modes, what drives them, and its guards.
 
-use super::basis::{Basis, inverse};
-use super::closed_stop::{ClosedStop, less_motion};
-use super::complement::{complement, independent};
+use super::closed_stop::{ClosedStop, Contact};
+use super::constraints::{Constraints, Sharing};
 use super::contact_state::ContactState;
+use super::free_motion::{FreeMotion, applied};
+use super::guards::Guard;
 use super::mode::Mode;
 use super::normal::{Normal, compliant};
 use super::pass::Moved;
-use super::refined::refined;
-use super::rest_force::{RestBuffers, RestContact, RestForce};
+use super::rest_force::{RestBuffers, RestForce};
 use super::sampled::Sampled;
 use super::signal::{Observable, Signal};
 use super::window::{Window, windows};
-use crate::machine::{Machine, Opening, StopLaw};
-use crate::math::{Matrix, add_scaled, dot, sort_by, sort_by_key};
+use crate::machine::Machine;
+use crate::math::{Matrix, add_scaled, dot};
 use std::sync::OnceLock;
-
-/// A gap that changes by less than this part of the motion along its direction does not change.
-const STILL: f64 = 1e-12;
-
-/// What a guard is; the number is the place of the stop, or of the joint among the joints.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum GuardKind {
-    /// The gap of an open stop.
-    Gap(usize),
-    /// The depth $`-g`$ of a closed compliant stop.
-    Depth(usize),
-    /// The force of a closed compliant stop that cannot pull.
-    Force(usize),
-    /// The reaction of a stop at rest.
-    Reaction(usize),
-    /// What is missing to the preload of a compliant stop at rest.
-    Preload(usize),
-    /// The relative velocity of a joint, in the direction in which it slides.
-    Sliding(usize),
-    /// What is missing to the limit of a joint that holds, against sliding forward and backward.
-    LimitForward(usize),
-    LimitBackward(usize),
-}
-
-impl GuardKind {
-    /// The stop of a guard, or the joint, counted after the stops.
-    pub(crate) const fn place(self, stops: usize) -> usize {
-        match self {
-            Self::Gap(j) | Self::Depth(j) | Self::Force(j) | Self::Reaction(j) | Self::Preload(j) => j,
-            Self::Sliding(joint) | Self::LimitForward(joint) | Self::LimitBackward(joint) => stops + joint,
-        }
-    }
-}
-
-/// A guard: a linear function of the state that is positive as long as the regime holds.
-#[derive(Clone, Debug)]
-pub(crate) struct Guard {
-    pub(crate) kind: GuardKind,
-    pub(crate) function: Observable,
-    /// Whether it is the gap of a rigid stop: its zero is an impact.
-    pub(crate) strikes: bool,
-}
-
-/// A joint that holds along with a constraint and shares its load.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Sharing {
-    /// The joint, counted after the stops.
-    pub(crate) place: usize,
-    /// The constraint.
-    pub(crate) held: usize,
-    /// Whether its direction is that of the constraint, 1, or the opposite one, -1.
-    pub(crate) side: f64,
-}
 
 /// The structure in one regime.
 #[derive(Clone, Debug)]
@@ -135,270 +82,37 @@ const SOFT: f64 = 1e-12;
 impl Structure {
     /// `None` if the constraints depend on each other.
     pub(crate) fn new(machine: &Machine, normal: &Normal, states: &[ContactState]) -> Option<Self> {
-        let (n, stops, joints) = (normal.n, machine.stops().len(), machine.joints().len());
-        let harmonics = normal.rates.len();
-        let zero = || Signal::zero(joints, harmonics);
-        let rates = &normal.rates;
-
-        // forces of joints that slide
-        let (stiffness, damping) = (&normal.stiffness, &normal.damping);
-        let mut force = normal.force.clone();
-        for (j, joint) in machine.joints().iter().enumerate() {
-            let size = match states[stops + j] {
-                ContactState::Forward => joint.sliding,
-                ContactState::Backward => -joint.sliding,
-                _ => continue,
-            };
-            for (signal, factor) in force.iter_mut().zip(&normal.directions[stops + j]) {
-                signal.constant -= size * factor;
-            }
-        }
-        // closed stops, the stiffest first: their directions become the first free ones, so that a large stiffness is
-        // added to few elements and hides no digits of the others
-        let mut closed: Vec<Contact<'_>> = (0..stops)
-            .filter(|j| states[*j] == ContactState::Closed)
-            .filter_map(|j| {
-                let (k, c, p) = compliant(&machine.stops()[j].law)?;
-                // -lambda = k (wall - w.x) + c (wall' - w.x') - p
-                let mut pushed = zero();
-                pushed.add(k, &normal.walls[j]);
-                pushed.add(c, &normal.walls[j].derivative(rates));
-                pushed.constant -= p;
-                Some(Contact { place: j, k, c, p, pushed, direction: &normal.directions[j] })
-            })
-            .collect();
-        let weight = |contact: &Contact<'_>| contact.k * dot(contact.direction, contact.direction);
-        sort_by(&mut closed, |one, other| weight(other).total_cmp(&weight(one)));
-
-        // constraints w.x = wall(t), or the set point and the way of the belt: x = x_c(t) + N eta
-        // those that bear a load come first, and contacts without force only where they are free
-        let mut constraints: Vec<usize> = (0..states.len()).filter(|place| states[*place].constrains()).collect();
-        sort_by_key(&mut constraints, |place| (states[*place] == ContactState::Touching, idles(machine, *place)));
-        let bearing = independent(constraints.iter().map(|place| normal.directions[*place].as_slice()));
-        let held: Vec<usize> = bearing.iter().map(|at| constraints[*at]).collect();
-        let directions: Vec<Vec<f64>> = held.iter().map(|place| normal.directions[*place].clone()).collect();
-        // joints that hold along with another constraint share its load: their limits add to its range
-        let (mut shared, mut sharing) = (vec![0.0; held.len()], Vec::new());
-        for place in constraints.iter().filter(|place| !held.contains(place)) {
-            if states[*place] == ContactState::Resting {
-                return None;
-            }
-            if states[*place] == ContactState::Holding
-                && let Some((at, ratio)) = parallel(&directions, &normal.directions[*place])
-            {
-                shared[at] += ratio.abs() * machine.joints()[*place - stops].limit;
-                sharing.push(Sharing { place: *place, held: at, side: ratio.signum() });
-            }
-        }
-        let along: Vec<&[f64]> = closed.iter().map(|contact| contact.direction).collect();
-        let (free, shares) = complement(&directions, &along, n)?;
-        let mut gram = Matrix::zeros(held.len(), held.len());
-        for (i, one) in directions.iter().enumerate() {
-            for (j, other) in directions.iter().enumerate() {
-                gram[(i, j)] = dot(one, other);
-            }
-        }
-        let gram = inverse(&gram)?;
-        let wanted: Vec<Signal> = held
-            .iter()
-            .map(|place| {
-                if *place < stops {
-                    return normal.walls[*place].clone();
-                }
-                let mut point = zero();
-                point.set[*place - stops] = 1.0;
-                point.ramp = machine.joints()[*place - stops].belt;
-                point
-            })
-            .collect();
-        // the columns of W G^-1
-        let across: Vec<Vec<f64>> = (0..held.len())
-            .map(|j| {
-                let mut column = vec![0.0; n];
-                for (i, direction) in directions.iter().enumerate() {
-                    add_scaled(&mut column, gram[(i, j)], direction);
-                }
-                column
-            })
-            .collect();
-        let mut carried: Vec<Signal> = (0..n).map(|_| zero()).collect();
-        for (column, signal) in across.iter().zip(&wanted) {
-            for (own, factor) in carried.iter_mut().zip(column) {
-                own.add(*factor, signal);
-            }
-        }
-        let carried_rate: Vec<Signal> = carried.iter().map(|signal| signal.derivative(rates)).collect();
-
-        // the motion in the directions that are free
-        let m = free.columns();
-        let turned = |a: &Matrix| free.transposed().times(&a.times(&free)).symmetrised();
-        let (mut own_stiffness, mut own_damping) = (turned(stiffness), turned(damping));
-        let mut pull = force.clone();
-        for i in 0..n {
-            for j in 0..n {
-                pull[i].add(-stiffness[(i, j)], &carried[j]);
-                pull[i].add(-damping[(i, j)], &carried_rate[j]);
-            }
-        }
-        let mut on_free: Vec<Signal> = (0..m).map(|_| zero()).collect();
-        for (k, signal) in on_free.iter_mut().enumerate() {
-            for (i, pulled) in pull.iter().enumerate() {
-                signal.add(free[(i, k)], pulled);
-            }
-        }
-        for (contact, share) in closed.iter().zip(&shares) {
-            own_stiffness.add_outer(contact.k, share, share);
-            own_damping.add_outer(contact.c, share, share);
-            // without what the constraints carry along already
-            let mut pushed = contact.pushed.clone();
-            for (i, factor) in contact.direction.iter().enumerate() {
-                pushed.add(-contact.k * factor, &carried[i]);
-                pushed.add(-contact.c * factor, &carried_rate[i]);
-            }
-            for (signal, factor) in on_free.iter_mut().zip(share) {
-                signal.add(*factor, &pushed);
-            }
-        }
-        let basis = Basis::new(&own_stiffness, &own_damping).map(|basis| {
-            // without coupling the shapes come from rotations, which keep the digits of small components
-            let refined = if basis.coupled { refined(&basis, &own_stiffness, &own_damping) } else { None };
-            refined.unwrap_or(basis)
-        });
-        let dense = basis.is_none().then(|| (own_stiffness.clone(), own_damping.clone()));
-        let basis = basis.unwrap_or_else(|| Basis::identity(&own_stiffness, &own_damping));
-        let applied = |matrix: &Matrix, signals: &[Signal]| -> Vec<Signal> {
-            (0..matrix.rows())
-                .map(|i| {
-                    let mut sum = zero();
-                    for (factor, signal) in matrix.row(i).iter().zip(signals) {
-                        sum.add(*factor, signal);
-                    }
-                    sum
-                })
-                .collect()
-        };
-        // y' = z + P1, z' = -k y - 2d z + P2, so y'' + 2d y' + k y = P2 + P1' + 2d P1
-        let slip = applied(&basis.a[1], &on_free);
-        let mut drive = applied(&basis.b[1], &on_free);
-        for (i, signal) in drive.iter_mut().enumerate() {
-            signal.add(1.0, &slip[i].derivative(rates));
-            signal.add(2.0 * basis.modes[i].1, &slip[i]);
-        }
-
-        // x = x_c + N (E1 y + E2 (y' - P1)), and its velocity
-        let state = |from: &[Matrix; 2], carried: &[Signal]| -> Vec<Observable> {
-            let (one, two) = (free.times(&from[0]), free.times(&from[1]));
-            let offset = applied(&two, &slip);
-            (0..n)
-                .map(|i| {
-                    let mut signal = carried[i].clone();
-                    signal.add(-1.0, &offset[i]);
-                    Observable { position: one.row(i).to_vec(), velocity: two.row(i).to_vec(), signal }
-                })
-                .collect()
-        };
-        let x = state(&basis.e, &carried);
-        let v = state(&basis.v, &carried_rate);
-        // and back, with xi = N' x, because x_c is orthogonal to N
-        let back = free.transposed();
-        let to_y = [basis.a[0].times(&back), basis.a[1].times(&back)];
-        let to_z = [basis.b[0].times(&back), basis.b[1].times(&back)];
-        let offset = |maps: &[Matrix; 2]| -> Vec<Signal> {
-            let mut sum = applied(&maps[0], &carried);
-            for (own, other) in sum.iter_mut().zip(applied(&maps[1], &carried_rate)) {
+        let force = applied_force(machine, normal, states);
+        let contacts = Contact::closed(machine, normal, states);
+        let constraints = Constraints::of(machine, normal, states)?;
+        let motion = FreeMotion::new(normal, &force, &contacts, &constraints)?;
+        let (basis, dense) = motion.basis();
+        let (drive, slip) = motion.drive(normal, &basis);
+        let x = motion.state(normal, &basis.e, &constraints.carried, &slip);
+        let v = motion.state(normal, &basis.v, &constraints.carried_rate, &slip);
+        // and back, with eta = N' x, because x_c is orthogonal to N
+        let back = motion.directions.transposed();
+        let to_modes = |maps: &[Matrix; 2]| [maps[0].times(&back), maps[1].times(&back)];
+        let (to_y, to_z) = (to_modes(&basis.a), to_modes(&basis.b));
+        let offset = |maps: &[Matrix; 2]| {
+            let mut sum = applied(normal, &maps[0], &constraints.carried);
+            for (own, other) in sum.iter_mut().zip(applied(normal, &maps[1], &constraints.carried_rate)) {
                 own.add(1.0, &other);
             }
             sum
         };
-        let mut push = basis.b[1].clone();
-        for (i, (_, d)) in basis.modes.iter().enumerate() {
-            for j in 0..m {
-                push[(i, j)] += 2.0 * d * basis.a[1][(i, j)];
-            }
-        }
-        let rest = RestForce {
-            stiffness: stiffness.clone(),
-            force: (0..n)
-                .map(|i| (0..n).fold(force[i].constant, |sum, j| sum - damping[(i, j)] * carried_rate[j].constant))
-                .collect(),
-            free: free.clone(),
-            contacts: closed
-                .iter()
-                .zip(&shares)
-                .map(|(contact, share)| {
-                    let along = contact.direction.iter().zip(&carried_rate).map(|(w, rate)| w * rate.constant);
-                    RestContact {
-                        stiffness: contact.k,
-                        force: -contact.p - contact.c * along.sum::<f64>(),
-                        direction: contact.direction.to_vec(),
-                        push: push.apply(share),
-                    }
-                })
-                .collect(),
-            carried: carried.clone(),
-            carries: carried.iter().any(Signal::moves),
-            push_of_force: push.times(&free.transposed()),
-            drift: basis.a[1].clone(),
-            drifts: basis.a[1].largest() > 0.0,
-        };
-        let (to_y_signal, to_z_signal) = (offset(&to_y), offset(&to_z));
-        let closed_stops = closed.iter().zip(&shares).map(|(contact, share)| {
-            // the wall, without what the constraints carry along
-            let prescribed = |wall: &Signal, carried: &[Signal]| {
-                let mut signal = wall.clone();
-                for (factor, carried) in contact.direction.iter().zip(carried) {
-                    signal.add(-factor, carried);
-                }
-                signal
-            };
-            let wall = &normal.walls[contact.place];
-            let (place, rate) = (prescribed(wall, &carried), prescribed(&wall.derivative(rates), &carried_rate));
-            ClosedStop {
-                place: contact.place,
-                law: (contact.k, contact.c, contact.p),
-                gap: less_motion(place, share, &basis.e, &slip),
-                rate: less_motion(rate, share, &basis.v, &slip),
-            }
-        });
-        let closed_stops: Vec<ClosedStop> = closed_stops.collect();
-
-        // reactions: G^-1 (W' (F - K x - C x') - wanted'')
-        let reactions: Vec<Observable> = across
-            .iter()
-            .enumerate()
-            .map(|(j, column)| {
-                let mut sum = Observable::zero(m, joints, harmonics);
-                let (by_x, by_v) = (stiffness.apply(column), damping.apply(column));
-                for contact in &closed {
-                    // the force of a closed stop, k (wall - w.x) + ..., along the column
-                    let share = dot(contact.direction, column);
-                    if share.abs()
-                        <= 1e-15 * dot(contact.direction, contact.direction).sqrt() * dot(column, column).sqrt()
-                    {
-                        continue;
-                    }
-                    sum.signal.add(share, &contact.pushed);
-                    for (i, factor) in contact.direction.iter().enumerate() {
-                        sum.add(-share * contact.k * factor, &x[i]);
-                        sum.add(-share * contact.c * factor, &v[i]);
-                    }
-                }
-                for i in 0..n {
-                    sum.signal.add(column[i], &force[i]);
-                    sum.add(-by_x[i], &x[i]);
-                    sum.add(-by_v[i], &v[i]);
-                }
-                for (i, signal) in wanted.iter().enumerate() {
-                    sum.signal.add(-gram[(j, i)], &signal.derivative(rates).derivative(rates));
-                }
-                sum
-            })
-            .collect();
-
-        let modes: Vec<Mode> = basis.modes.iter().map(|(k, d)| Mode::new(*k, *d, rates)).collect();
-        let mut structure = Self {
+        let closed = contacts.iter().zip(&motion.shares);
+        let closed =
+            closed.map(|(contact, share)| contact.stop(normal, &constraints, share, (&basis, &slip))).collect();
+        let modes: Vec<Mode> = basis.modes.iter().map(|(k, d)| Mode::new(*k, *d, &normal.rates)).collect();
+        let structure = Self {
             states: states.to_vec(),
-            joints,
+            joints: machine.joints().len(),
+            rest: motion.rest_force(normal, &force, &contacts, &constraints, &basis),
+            to_y_signal: offset(&to_y),
+            to_z_signal: offset(&to_z),
+            reactions: constraints.reactions(normal, (&force, &contacts), (&x, &v), modes.len()),
+            mobility: constraints.mobility(normal, &contacts),
             modes,
             dense,
             drive,
@@ -409,29 +123,13 @@ impl Structure {
             to_z,
             back,
             from_free: [basis.a, basis.b],
-            to_y_signal,
-            to_z_signal,
             guards: Vec::new(),
-            closed: closed_stops,
-            held,
-            reactions,
-            mobility: across
-                .iter()
-                .enumerate()
-                .map(|(j, column)| {
-                    let contacts = closed.iter().map(|contact| {
-                        let share = dot(contact.direction, column);
-                        contact.c * share * share
-                    });
-                    let drag = dot(column, &damping.apply(column)) + contacts.sum::<f64>();
-                    (1.0 / gram[(j, j)], drag / dot(column, column))
-                })
-                .collect(),
-            across,
-            shared,
-            sharing,
-            rates: rates.clone(),
-            rest,
+            closed,
+            held: constraints.held,
+            across: constraints.across,
+            shared: constraints.shared,
+            sharing: constraints.sharing,
+            rates: normal.rates.clone(),
             plain: false,
             pressing: Vec::new(),
             windows: OnceLock::new(),
@@ -440,19 +138,24 @@ impl Structure {
             swings: false,
             fastest: 0.0,
         };
+        Some(structure.completed(machine, normal))
+    }
+
+    /// With what follows from its modes, states and reactions.
+    fn completed(mut self, machine: &Machine, normal: &Normal) -> Self {
         let still = |signals: &[Signal]| signals.iter().all(Signal::is_zero);
-        structure.plain = structure.to_y[1].largest() == 0.0
-            && structure.to_z[0].largest() == 0.0
-            && still(&structure.to_y_signal)
-            && still(&structure.to_z_signal)
-            && still(&structure.slip);
-        structure.carries = structure.x.iter().chain(&structure.v).any(|of| of.signal.moves());
-        structure.swings = structure.carries || structure.closed.iter().any(|closed| closed.gap.signal.moves());
-        structure.pressing = structure.reactions.iter().map(|reaction| structure.pressing(reaction)).collect();
-        structure.fastest =
-            structure.modes.iter().map(|mode| mode.rate).fold(rates.last().copied().unwrap_or(0.0), f64::max);
-        structure.guards = structure.all_guards(machine, normal);
-        Some(structure)
+        self.plain = self.to_y[1].largest() == 0.0
+            && self.to_z[0].largest() == 0.0
+            && still(&self.to_y_signal)
+            && still(&self.to_z_signal)
+            && still(&self.slip);
+        self.carries = self.x.iter().chain(&self.v).any(|of| of.signal.moves());
+        self.swings = self.carries || self.closed.iter().any(|closed| closed.gap.signal.moves());
+        self.pressing = self.reactions.iter().map(|reaction| self.pressing(reaction)).collect();
+        let forcing = self.rates.last().copied().unwrap_or(0.0);
+        self.fastest = self.modes.iter().map(|mode| mode.rate).fold(forcing, f64::max);
+        self.guards = self.all_guards(machine, normal);
+        self
     }
 
     /// Windows of useful lengths, the shortest first; none without modes.
@@ -548,82 +251,6 @@ impl Structure {
         self.held.iter().position(|held| *held == place).map(|at| (&self.reactions[at], self.shared[at]))
     }
 
-    /// Whether a gap, or the velocity of a joint, can change beyond rounding errors: not where constraints hold it already. `along`
-    /// are those of the coordinates, and `wall` what else moves.
-    fn changes(&self, of: &Observable, w: &[f64], (along, wall): (&[Observable], Option<&Signal>)) -> bool {
-        let still = |of: &[f64]| of.iter().all(|factor| factor.abs() <= STILL * dot(w, w).sqrt());
-        let size = |signal: &Signal| signal.harmonics.iter().map(|(a, b)| a.abs() + b.abs()).sum::<f64>();
-        let swing = wall.map_or(0.0, size) + dot(w, w).sqrt() * along.iter().map(|of| size(&of.signal)).sum::<f64>();
-        !(still(&of.position) && still(&of.velocity) && of.signal.ramp == 0.0 && size(&of.signal) <= STILL * swing)
-    }
-
-    fn all_guards(&self, machine: &Machine, normal: &Normal) -> Vec<Guard> {
-        let mut guards = Vec::new();
-        let rigid = |j: usize| matches!(machine.stops()[j].law, StopLaw::Rigid { .. });
-        let mut add = |kind, function| {
-            let strikes = matches!(kind, GuardKind::Gap(j) if rigid(j));
-            guards.push(Guard { kind, function, strikes });
-        };
-        let moves = |j: usize| {
-            let (gap, _) = self.gap(normal, j);
-            self.changes(&gap, &normal.directions[j], (&self.x, Some(&normal.walls[j])))
-        };
-        let missing = |limit: f64, of: Observable| {
-            let mut sum = of;
-            sum.signal.constant += limit;
-            sum
-        };
-        for (j, stop) in machine.stops().iter().enumerate() {
-            match (self.states[j], &stop.law) {
-                (ContactState::Closed, StopLaw::Compliant { opening, damping, preload, .. }) => {
-                    // without damper and preload both are zero together
-                    let depth = *opening == Opening::Position || *preload > 0.0 || *damping == 0.0;
-                    if depth && moves(j) {
-                        add(GuardKind::Depth(j), self.gap(normal, j).0.scaled(-1.0));
-                    }
-                    if *opening == Opening::Force
-                        && *damping > 0.0
-                        && let Some(force) = self.force(machine, normal, j)
-                    {
-                        add(GuardKind::Force(j), force);
-                    }
-                }
-                (ContactState::Resting, law) => {
-                    if let Some((reaction, shared)) = self.reaction(j) {
-                        add(GuardKind::Reaction(j), missing(shared, reaction.clone()));
-                        if let StopLaw::Compliant { preload, .. } = law {
-                            add(GuardKind::Preload(j), missing(*preload + shared, reaction.scaled(-1.0)));
-                        }
-                    }
-                }
-                (ContactState::Touching, _) => {}
-                _ if !moves(j) => {}
-                _ => add(GuardKind::Gap(j), self.gap(normal, j).0),
-            }
-        }
-        for (j, joint) in machine.joints().iter().enumerate() {
-            let place = machine.stops().len() + j;
-            match self.states[place] {
-                ContactState::Forward | ContactState::Backward => {
-                    let sliding = self.sliding(machine, normal, j);
-                    // a joint that other constraints hold has the force of sliding as long as they do
-                    if self.changes(&sliding, &normal.directions[place], (&self.v, None)) {
-                        let sign = if self.states[place] == ContactState::Forward { 1.0 } else { -1.0 };
-                        add(GuardKind::Sliding(j), sliding.scaled(sign));
-                    }
-                }
-                _ => {
-                    if let Some((reaction, shared)) = self.reaction(place) {
-                        // a positive force holds it against sliding forward
-                        add(GuardKind::LimitForward(j), missing(joint.limit + shared, reaction.scaled(-1.0)));
-                        add(GuardKind::LimitBackward(j), missing(joint.limit + shared, reaction.clone()));
-                    }
-                }
-            }
-        }
-        guards
-    }
-
     /// The constant force on each mode at the position `x`, less that of its own stiffness there: the force that remains if
     /// modal displacements are counted from there. `gaps` are those of the closed stops,
     /// `turns` are sine and cosine of the harmonics there.
@@ -705,15 +332,6 @@ impl Structure {
     }
 }
 
-/// The direction to which another one is parallel, and its multiple of it.
-fn parallel(directions: &[Vec<f64>], other: &[f64]) -> Option<(usize, f64)> {
-    directions.iter().enumerate().find_map(|(at, direction)| {
-        let one = core::iter::once(direction.as_slice());
-        let depends = independent(one.chain(core::iter::once(other))).len() == 1;
-        depends.then(|| (at, dot(other, direction) / dot(direction, direction)))
-    })
-}
-
 /// A linear function of the mass-normalised state.
 #[derive(Clone, Debug)]
 struct Pressing {
@@ -722,19 +340,18 @@ struct Pressing {
     signal: Signal,
 }
 
-/// A closed stop.
-struct Contact<'a> {
-    place: usize,
-    k: f64,
-    c: f64,
-    p: f64,
-    /// Its force on the direction at x = 0.
-    pushed: Signal,
-    direction: &'a [f64],
-}
-
-/// Whether a constraint can be without load: not a preloaded stop. Of constraints that depend on each other those that cannot
-/// come first.
-pub(crate) fn idles(machine: &Machine, place: usize) -> bool {
-    machine.stops().get(place).is_none_or(|stop| compliant(&stop.law).is_none())
+/// The force on each coordinate, with those of joints that slide.
+fn applied_force(machine: &Machine, normal: &Normal, states: &[ContactState]) -> Vec<Signal> {
+    let mut force = normal.force.clone();
+    for (joint, place) in machine.joints().iter().zip(machine.stops().len()..) {
+        let size = match states[place] {
+            ContactState::Forward => joint.sliding,
+            ContactState::Backward => -joint.sliding,
+            _ => continue,
+        };
+        for (signal, factor) in force.iter_mut().zip(&normal.directions[place]) {
+            signal.constant -= size * factor;
+        }
+    }
+    force
 }

@@ -5,7 +5,7 @@ use vibroimpact::continuation::{
     machine::{Branch, BranchEvent, Family, SolutionPoint},
 };
 use vibroimpact::events::Start;
-use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
+use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::math::Matrix;
 use vibroimpact::orbit::machine::Cycle;
 use vibroimpact::verdict::{SettleOptions, Verdict, settle_machine};
@@ -238,5 +238,46 @@ fn f42n_a_closed_stop_that_opens_for_no_time() {
             "{events:?}"
         );
         assert!((events[0].1 - 0.123_374_360_093_306_28).abs() < 2e-15, "{events:?}");
+    }
+}
+
+/// Bodies on tables that shake, with this restitution.
+fn balls(n: usize, restitution: f64, gamma: f64) -> Machine {
+    let mut parts = MachineParts::new((1..=n).map(|k| format!("b{k}"))).with_frequency(1.0);
+    for k in 0..n {
+        let down: Vec<f64> = parts.along(k).iter().map(|w| -w).collect();
+        let name = format!("f{}", k + 1);
+        parts = parts.with_mass(k, 1.0).with_constant(k, -1.0).with_rigid_stop(&name, &down, 0.0, restitution);
+        parts.stops[k].motion = vec![HarmonicMotion { order: 1, cos: 0.0, sin: gamma }];
+    }
+    Machine::new(parts).unwrap()
+}
+
+/// Where the table is accelerated less than a falling body a ball rests for ever: the branch of its motion ends there, at the
+/// frequency sqrt(1/Gamma), or at Gamma = 1. It ended without convergence or turned back at a `change`. Two balls beside each other are one
+/// ball twice, and the upper one of a stack has nothing to say.
+#[test]
+fn f42x_a_branch_ends_where_a_ball_rests_for_ever() {
+    let mut stack = balls(2, 0.0, 1.5).parts().clone();
+    (stack.stops[1].direction, stack.stops[1].motion) = (vec![1.0, -1.0], Vec::new());
+    let stack = Machine::new(stack).unwrap();
+    let cases = [
+        (stack, "frequency", 0.5, (1.0 / 1.5_f64).sqrt()),
+        (balls(1, 0.4, 1.2), "frequency", 0.7, (1.0 / 1.2_f64).sqrt()),
+        (balls(2, 0.4, 1.2), "frequency", 0.7, (1.0 / 1.2_f64).sqrt()),
+        (balls(1, 0.5, 1.2), "stop.f1.motion.1.sin", 0.9, 1.0),
+    ];
+    for (machine, path, low, limit) in cases {
+        let start = Start { q: vec![3.0; machine.n()], ..Start::default() };
+        let cycle = settled(&machine, &start).unwrap();
+        let high = machine.number(path).unwrap();
+        let (family, value) = Family::of_path(&machine, path).unwrap();
+        let branch = Branch::new((&family, value), &cycle, &(low..=high), Direction::Down, BranchOptions::default());
+        let points: Vec<SolutionPoint> = branch.unwrap().collect();
+        let found = events(&points);
+        let [(BranchEvent::RestForEver { stop: 0 }, at)] = found[..] else { panic!("{path}: {found:?}") };
+        assert!((at - limit).abs() < 1e-12, "{path}: {at} instead of {limit}");
+        // the flight vanishes on the way there
+        assert!(points[points.len() - 2].value - limit < 3e-3, "{path}");
     }
 }

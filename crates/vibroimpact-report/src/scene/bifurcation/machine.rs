@@ -116,7 +116,7 @@ pub fn machine_bifurcation(
                 // at the end of the range, or where the cycle ceases to exist, there is no branch in this direction
                 Err(RunError::Plan(_)) => continue,
             };
-            let further = line.beginning_on(&points, FOLLOW as usize, &mut seen, control)?;
+            let (further, _) = line.beginning_on(&points, FOLLOW as usize, &mut seen, control)?;
             branches.push(points);
             branches.extend(further.into_iter().map(|followed| followed.points));
         }

@@ -20,12 +20,10 @@ const LONGEST: f64 = 1e-11;
 const SHORTEST: f64 = 1e-18;
 
 impl RingEvent {
-    /// The stop of an impact on this stop alone.
+    /// The stop of an impact on this stop, alone or with others that rebound as it does.
     pub(crate) fn struck(&self) -> Option<usize> {
-        match (self.guard, &self.pushed[..]) {
-            (GuardKind::Gap(stop), [(pushed, _)]) if *pushed == stop => Some(stop),
-            _ => None,
-        }
+        let (GuardKind::Gap(stop), [(first, rests), others @ ..]) = (self.guard, &self.pushed[..]) else { return None };
+        (*first == stop && others.iter().all(|(_, other)| other == rests)).then_some(stop)
     }
 
     /// The stop on which a rest begins here instead of the impacts of a chatter that follow.
@@ -87,7 +85,9 @@ impl Chatter {
     pub(crate) fn rebound(&self, frame: &MachineFrame<'_>, ring: &MachineRing, k: usize) -> Option<Rebound> {
         let mut place = Place { known: Vec::new(), ..ring.place(k) };
         let speed = place.gap(&frame.normal, &place.turns(&frame.normal), self.stop).1;
-        place.states[self.stop] = ContactState::Resting;
+        for (stop, _) in &ring.events[self.rest].pushed {
+            place.states[*stop] = ContactState::Resting;
+        }
         frame.constrain(&mut place)?;
         let structure = frame.structure(&place.states)?;
         let held = structure.held.iter().position(|held| *held == self.stop)?;
@@ -167,7 +167,8 @@ impl Chatter {
         let open = ring.events[before].after.clone();
         ring.places[self.rest].states.clone_from(&open);
         let event = &mut ring.events[self.rest];
-        (event.after, event.pushed[0].1) = (open, false);
+        event.after = open;
+        event.pushed.iter_mut().for_each(|(_, rests)| *rests = false);
         let miss = ring.miss(frame, before)?;
         let wanted = frame.shape.values(&ring.places[self.rest]);
         let values: Vec<f64> = wanted.iter().zip(&miss[1..]).map(|(wanted, miss)| wanted + miss).collect();

@@ -55,7 +55,7 @@ impl<'a> MachineFrame<'a> {
     }
 
     /// The structure with all stops open, and all joints sliding.
-    fn open(&self) -> Option<Arc<Structure>> {
+    pub(crate) fn open(&self) -> Option<Arc<Structure>> {
         let (stops, joints) = (self.machine.stops().len(), self.machine.joints().len());
         self.structure(&[vec![ContactState::Open; stops], vec![ContactState::Forward; joints]].concat())
     }

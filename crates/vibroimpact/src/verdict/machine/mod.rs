@@ -6,9 +6,11 @@
 //! | what the record of a motion needs to know of a machine | `returns` |
 //! | starts spread over the states of a machine | [`scattered_machine_starts`] |
 //! | from a start to a verdict | [`settle_machine`] |
+//! | impacts that fade away | `fading` |
 //! | the same for a machine that is an oscillator | `reduced` |
 //! | many starts: of one machine, of several | [`settle_machine_many`], [`settle_each_machine`], [`Settlement`] |
 
+mod fading;
 mod many;
 mod outcome;
 mod reduced;

@@ -89,7 +89,7 @@ impl<'a> Reduced<'a> {
             // with fewer impacts the search of long flights has used up its steps
             Verdict::Undecided(of) if of.impacts >= u64::from(self.options.max_impacts) => self.undecided(verdict),
             Verdict::NoImpact(NoImpact::GrazeLimit { phase, .. }) => {
-                self.grazing(*phase).map(|place| Verdict::NoImpact(State { place }))
+                self.grazing(*phase).map(|place| Verdict::NoImpact(State { place, fades: true }))
             }
             Verdict::Stuck(_) | Verdict::NoImpact(NoImpact::Flight(_)) => return Converted::Kind,
             Verdict::NoImpact(_) | Verdict::Undecided(_) => None,
@@ -119,7 +119,7 @@ impl<'a> Reduced<'a> {
 
     /// Chaos of the oscillator.
     fn chaos(&self, Chaos { spectrum, impacts, tail }: &Chaos) -> Option<Chaos<Machine>> {
-        let state = |at: ImpactState| Some(State { place: self.place(at.rebound(self.oscillator()))? });
+        let state = |at: ImpactState| Some(State::of(&self.place(at.rebound(self.oscillator()))?));
         let tail = Tail { from: state(tail.from)?, last: state(tail.last)?, impacts: tail.impacts };
         Some(Chaos { spectrum: self.in_time(spectrum), impacts: *impacts, tail })
     }

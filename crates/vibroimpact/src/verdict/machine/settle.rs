@@ -5,6 +5,7 @@ use super::super::outcome::{Chaos, Settled, Undecided, UndecidedCause, Verdict};
 use super::super::record::{Record, Shown};
 use super::super::recurring::Recurring;
 use super::super::settle::settle_while;
+use super::fading::Fading;
 use super::outcome::State;
 use super::reduced::Reduced;
 use super::returns::{Recorded, Step};
@@ -146,6 +147,7 @@ struct Follow<'a> {
     unconfirmed: bool,
     /// The latest chaos, which may have ended.
     over: Option<Chaos<Machine>>,
+    fading: Fading,
 }
 
 impl<'a> Follow<'a> {
@@ -162,6 +164,7 @@ impl<'a> Follow<'a> {
             releases: Vec::new(),
             unconfirmed: false,
             over: None,
+            fading: Fading::default(),
         })
     }
 
@@ -181,11 +184,17 @@ impl<'a> Follow<'a> {
             let last = State::of(self.motion.place());
             let verdict = match end {
                 End::Never => Verdict::NoImpact(last),
+                End::NoEventWithin if Fading::touches(&self.system.frame, &seen) => {
+                    Verdict::NoImpact(State { fades: true, ..last })
+                }
                 End::Stuck => Verdict::Stuck(last),
                 end => return Some(self.undecided(UndecidedCause::Ended(end))),
             };
             self.time = before;
             return Some(verdict);
+        }
+        if self.fading.includes(&self.system.frame, &step.end, self.time) {
+            return Some(Verdict::NoImpact(State { fades: true, ..State::of(self.motion.place()) }));
         }
         self.measure_size(&step);
         let (interval, step) = (step.passage.time(), Arc::new(step));

@@ -321,16 +321,16 @@ fn forward(at: &MachineSolution) -> f64 {
 }
 
 /// The motion at the last solution.
-struct LastMotion {
-    number: f64,
+pub(super) struct LastMotion {
+    pub(super) number: f64,
     /// A state between two events.
-    begin: Place,
+    pub(super) begin: Place,
     periods: u32,
-    period: f64,
+    pub(super) period: f64,
 }
 
 impl LastMotion {
-    fn of(tracer: &Tracer<MachineProblem>, at: &MachineSolution) -> Option<Self> {
+    pub(super) fn of(tracer: &Tracer<MachineProblem>, at: &MachineSolution) -> Option<Self> {
         let (machine, ring) = tracer.problem.equations.split(&at.w)?;
         let frame = MachineFrame::new(&machine);
         let begin = ring.middle(&frame)?.1;

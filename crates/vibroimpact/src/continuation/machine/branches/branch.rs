@@ -10,6 +10,7 @@ use super::family::Family;
 use super::meeting::meeting;
 use super::point::{BranchEvent, SolutionPoint};
 use super::problem::{Judged, MachineProblem, MachineSolution};
+use super::rest_for_ever::rest_for_ever;
 use super::test_functions::TestFunction;
 use crate::continuation::branches::{BranchError, BranchOptions, Direction, scale};
 use crate::continuation::trace::driver::{Driver, Path, PathEvent};
@@ -68,6 +69,9 @@ impl Path for EventPath {
     fn stop(branch: &mut EventBranch) {
         let here = || (branch.tracer.here.clone(), Difference::Other { place: None });
         let (at, found) = meeting(&branch.tracer).unwrap_or_else(here);
+        if branch.rests(&at) {
+            return;
+        }
         if let Some(next) = replayed(&branch.tracer, &at, (&branch.path.options, &found)) {
             return branch.go_on(&at, found.event(false), (next, None));
         }
@@ -124,6 +128,15 @@ impl EventBranch {
         (single && self.tracer.problem.equations.ring.len() <= 2).then_some(stop)
     }
 
+    /// Ends the branch if the structure rests for ever right beyond; returns whether it does.
+    pub(super) fn rests(&mut self, at: &MachineSolution) -> bool {
+        let found = rest_for_ever(&self.tracer, at);
+        if let Some((limit, stop)) = &found {
+            self.end(limit, BranchEvent::RestForEver { stop: *stop });
+        }
+        found.is_some()
+    }
+
     /// Reports that these test functions are zero at `at` and goes on with the events beyond.
     pub(super) fn graze(&mut self, at: &MachineSolution, zeros: &[TestFunction]) {
         let ring = &self.tracer.problem.equations.ring;
@@ -139,10 +152,12 @@ impl EventBranch {
         if let Some(stop) = self.lost(at, found) {
             return self.end(at, BranchEvent::LossOfContact { stop });
         }
+        let of_rest = matches!(found, Difference::Rest { joint: false, .. } | Difference::Other { .. });
+        if of_rest && self.rests(at) {
+            return;
+        }
         // how many impacts of a chatter are followed is no property of the cycle
-        if matches!(found, Difference::Rest { joint: false, .. } | Difference::Other { .. })
-            && let Some(next) = same_beyond(&self.tracer, at, &self.path.options)
-        {
+        if of_rest && let Some(next) = same_beyond(&self.tracer, at, &self.path.options) {
             return self.exchange(next);
         }
         let Some(next) = next.or_else(|| replayed(&self.tracer, at, (&self.path.options, found))) else {

@@ -20,6 +20,7 @@
 //! | where the impacts of a chatter become infinitely many | `complete_chatter` |
 //! | two events that come so close that no further step converges | `meeting` |
 //! | the branch beyond such a change | `beyond` |
+//! | where the structure rests for ever beyond | `rest_for_ever` |
 //! | the cycle of twice the period beside a flip, and where it is the other one repeated | `switch`, `halving` |
 //! | the branch, and the events of a step | `branch`, `step` |
 
@@ -41,6 +42,7 @@ mod meeting;
 mod point;
 mod problem;
 mod rest;
+mod rest_for_ever;
 mod step;
 mod summed;
 mod switch;

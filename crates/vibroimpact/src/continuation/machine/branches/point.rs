@@ -79,6 +79,11 @@ pub enum BranchEvent {
         /// The stop.
         stop: usize,
     },
+    /// The structure rests on a stop in the cycle; beyond, no force pulls it off for ever.
+    RestForEver {
+        /// The stop.
+        stop: usize,
+    },
     /// The branch is closed: the next point would be the first.
     Closed,
     /// The number reached the end of its range.
@@ -100,6 +105,7 @@ impl BranchEvent {
             Self::Halving => "halving",
             Self::Torus => "torus",
             Self::LossOfContact { .. } => "loss of contact",
+            Self::RestForEver { .. } => "rest for ever",
             Self::Grazing { .. } => "grazing",
             Self::Corner { .. } => "corner",
             Self::Sticking { begins: true, .. } => "sticking begins",
@@ -120,7 +126,10 @@ impl BranchEvent {
     #[must_use]
     pub const fn place(&self) -> Option<usize> {
         match *self {
-            Self::Grazing { stop, .. } | Self::Sticking { stop, .. } | Self::LossOfContact { stop } => Some(stop),
+            Self::Grazing { stop, .. }
+            | Self::Sticking { stop, .. }
+            | Self::LossOfContact { stop }
+            | Self::RestForEver { stop } => Some(stop),
             Self::Corner { first, .. } => Some(first),
             Self::Holding { joint, .. } => Some(joint),
             Self::Change { place } => place,
@@ -136,6 +145,7 @@ impl BranchEvent {
             Self::Halving
                 | Self::Discontinuity
                 | Self::LossOfContact { .. }
+                | Self::RestForEver { .. }
                 | Self::Closed
                 | Self::EndOfRange
                 | Self::StepLimit

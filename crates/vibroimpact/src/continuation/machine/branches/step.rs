@@ -34,7 +34,8 @@ impl EventBranch {
             (step, grazing, edge) = (part, found, None);
         }
         if grazing.is_none() && !step.there.known.physical() && edge.is_none() {
-            return self.finish(BranchEvent::NoConvergence);
+            let here = self.tracer.here.clone();
+            return if self.rests(&here) { () } else { self.finish(BranchEvent::NoConvergence) };
         }
         let crossed = match (&edge, &grazing) {
             // where the derivative is infinite, its test functions change sign without a zero

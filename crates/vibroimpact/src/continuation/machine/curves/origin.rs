@@ -10,6 +10,7 @@ use crate::continuation::curves::{CurveKind, check};
 use crate::continuation::machine::branches::{BranchEvent, CompleteChatter, MachineEquations, SolutionPoint, closest};
 use crate::events::{Place, standing_back};
 use crate::machine::Machine;
+use crate::math::Multiplier;
 use crate::orbit::{MachineFrame, MachineRing, RingEvent};
 use crate::regime::{ContactState, GuardKind};
 
@@ -20,125 +21,152 @@ pub(super) fn origin(
     point: &SolutionPoint,
 ) -> Result<(CurveProblem, Vec<f64>), BranchError> {
     check(&plane.ranges, values)?;
-    let machine = plane.family.machine(values.into()).ok_or(BranchError::NoCycle)?;
+    let machine = &plane.family.machine(values.into()).ok_or(BranchError::NoCycle)?;
     let event = point.event.ok_or(BranchError::NotThere)?;
-    begin(plane, (&machine, values), point, event).unwrap_or(Err(BranchError::NoCycle))
-}
-
-type Origin = Result<(CurveProblem, Vec<f64>), BranchError>;
-
-fn begin(
-    plane: &Plane,
-    (machine, values): (&Machine, (f64, f64)),
-    point: &SolutionPoint,
-    event: BranchEvent,
-) -> Option<Origin> {
-    let frame = MachineFrame::new(machine);
-    let sizes = point.cycle.sizes;
-    let begin = point.cycle.strobes.first()?;
-    let ring_at = |machine: &Machine| {
-        MachineRing::of(&MachineFrame::new(machine), begin, (point.cycle.label.periods, point.cycle.period))
-    };
-    // a point of an oscillator has no solution of the machine's equations: its motion is followed, and rounding can let that end at
-    // a limit, or miss a stop that it grazes
-    let beside = |by: f64| ring_at(&plane.family.machine([values.0 + by * plane.scales()[0], values.1])?);
-    let both_sides = || BESIDE.into_iter().flat_map(|by| [by, -by]);
-    let farther = || FARTHER.into_iter().flat_map(|by| [by, -by]);
-    // where a rest begins, the solution can be that without it
-    let rests = matches!(event, BranchEvent::Sticking { .. } | BranchEvent::Holding { .. });
-    let solved = || point.ring.clone().filter(|_| !rests).or_else(|| ring_at(machine));
-    let mut ring = solved().or_else(|| both_sides().chain(farther()).find_map(beside))?;
-    let touch = |at: usize| Condition::Touch { at, size: sizes.1, contact: None, speed: sizes.1 };
-    let (kind, condition) = match event {
-        BranchEvent::Fold => (CurveKind::Fold, None),
-        BranchEvent::Flip => (CurveKind::Flip, None),
-        BranchEvent::Torus => {
-            let all = multipliers(&frame, &ring)?.1;
-            // of the pairs of complex multipliers the one nearest to the circle
-            let complex: Vec<_> = all.iter().copied().filter(|m| m.im != 0.0).collect();
-            let nearest =
-                complex.iter().min_by(|a, b| (a.modulus() - 1.0).abs().total_cmp(&(b.modulus() - 1.0).abs()))?;
-            (CurveKind::Torus, Some(Condition::Pair { cosine: pair(&all, nearest.re)?.2 }))
-        }
-        BranchEvent::Grazing { stop, appears: true, .. } => {
-            // by rounding the motion can have the impact that appears here
-            let without = |ring: &MachineRing| touched(&frame, ring, stop).is_some();
-            if !without(&ring) {
-                ring = both_sides().filter_map(beside).find(without)?;
-            }
-            let (leg, (gap, place)) = touched(&frame, &ring, stop)?;
-            if gap.abs() > NEAR * sizes.0 {
-                return Some(Err(BranchError::NotThere));
-            }
-            let back = place.surfaces.iter().map(Option::is_some).collect();
-            ring.insert(leg + 1, RingEvent::touch(GuardKind::Gap(stop), &place.states, back), place);
-            (CurveKind::Grazing { stop }, Some(touch(leg + 1)))
-        }
-        BranchEvent::Grazing { stop, .. } | BranchEvent::LossOfContact { stop } => {
-            // by rounding the motion can miss the stop
-            let rings = core::iter::once(ring.clone()).chain(both_sides().filter_map(beside));
-            // an only closing is the one that disappears, whatever its speed beside the event
-            let lost = matches!(event, BranchEvent::LossOfContact { .. });
-            let slow = if lost { f64::INFINITY } else { NEAR * sizes.1 };
-            let without = |mut ring: MachineRing| Some((without_contact(&frame, &mut ring, (stop, slow))?, ring));
-            let Some((at, other)) = rings.into_iter().find_map(without) else {
-                return Some(Err(BranchError::NotThere));
-            };
-            ring = other;
-            (CurveKind::Grazing { stop }, Some(touch(at)))
-        }
-        BranchEvent::Corner { first, second } => {
-            let stops = machine.stops().len();
-            let of = |k: usize| ring.events[k % ring.len()].guard.place(stops);
-            let both = |k: &usize| {
-                let (a, b) = (of(*k), of(k + 1));
-                (a, b) == (first, second) || (b, a) == (first, second)
-            };
-            let at = (0..ring.len())
-                .filter(both)
-                .min_by(|a, b| (ring.theta(a + 1) - ring.theta(*a)).total_cmp(&(ring.theta(b + 1) - ring.theta(*b))))?;
-            let kind = CurveKind::Corner { first: of(at), second: of(at + 1) };
-            ring.together = Some(at);
-            (kind, Some(Condition::Together { at }))
-        }
-        BranchEvent::Sticking { stop: contact, .. } | BranchEvent::Holding { joint: contact, .. } => {
-            // a chatter that is complete at its release is so before it on one side
-            let chatter = |by: f64| {
-                let mut ring = beside(by)?;
-                Some((CompleteChatter::shortened(&frame, &mut ring, contact)?, ring))
-            };
-            let bounces = machine.stops().get(contact).is_some_and(|stop| CurveProblem::rigid(&stop.law));
-            let complete = bounces.then(|| both_sides().chain(farther()).find_map(chatter)).flatten();
-            let condition = if let Some((chatter, complete)) = complete {
-                ring = complete;
-                Condition::Chatter(chatter)
-            } else if let Some(condition) = origin_at_rest::condition(&frame, &mut ring, (contact, sizes.1)) {
-                condition
-            } else {
-                return Some(Err(BranchError::NotThere));
-            };
-            let kind = if contact < machine.stops().len() {
-                CurveKind::Sticking { stop: contact }
-            } else {
-                CurveKind::Holding { joint: contact }
-            };
-            (kind, Some(condition))
-        }
-        _ => return Some(Err(BranchError::NotThere)),
-    };
+    let (kind, ring, condition) =
+        Origin { plane, machine, values, point, frame: MachineFrame::new(machine) }.beginning(event)?;
     let w = MachineEquations::join(machine, &ring, values.into());
-    let rigid =
-        if let CurveKind::Grazing { stop } = kind { CurveProblem::rigid(&machine.stops()[stop].law) } else { false };
-    let together = Condition::Together { at: 0 };
-    let events = MachineEquations::new((machine, plane.family.clone()), ring, sizes, plane.scales());
-    let (ranges, condition) = (plane.ranges.clone(), condition.unwrap_or(together));
-    let equations = CurveEquations { events, ranges, condition };
+    let speed = point.cycle.sizes.1;
+    let rigid = matches!(kind, CurveKind::Grazing { stop } if CurveProblem::rigid(&machine.stops()[stop].law));
+    let events = MachineEquations::new((machine, plane.family.clone()), ring, point.cycle.sizes, plane.scales());
+    let equations = CurveEquations { events, ranges: plane.ranges.clone(), condition };
     let equations = match kind {
-        CurveKind::Fold => equations.singular(machine, 1.0)?,
-        CurveKind::Flip => equations.singular(machine, -1.0)?,
+        CurveKind::Fold => equations.singular(machine, 1.0).ok_or(BranchError::NoCycle)?,
+        CurveKind::Flip => equations.singular(machine, -1.0).ok_or(BranchError::NoCycle)?,
         _ => equations,
     };
-    Some(Ok((CurveProblem::new(equations, kind, (sizes.1, rigid)), w)))
+    Ok((CurveProblem::new(equations, kind, (speed, rigid)), w))
+}
+
+/// An event of a branch at which a curve begins.
+struct Origin<'a> {
+    plane: &'a Plane,
+    machine: &'a Machine,
+    values: (f64, f64),
+    point: &'a SolutionPoint,
+    frame: MachineFrame<'a>,
+}
+
+/// The kind of a curve, the events of its cycle, and its condition.
+type Beginning = (CurveKind, MachineRing, Condition);
+
+impl Origin<'_> {
+    fn beginning(&self, event: BranchEvent) -> Result<Beginning, BranchError> {
+        let ring = self.ring(event).ok_or(BranchError::NoCycle)?;
+        // that of a fold or a flip replaces it: its matrix is singular
+        let singular = Condition::Together { at: 0 };
+        match event {
+            BranchEvent::Fold => Ok((CurveKind::Fold, ring, singular)),
+            BranchEvent::Flip => Ok((CurveKind::Flip, ring, singular)),
+            BranchEvent::Torus => self.torus(ring).ok_or(BranchError::NoCycle),
+            BranchEvent::Grazing { stop, appears: true, .. } => self.appearing(ring, stop),
+            BranchEvent::Grazing { stop, .. } => self.disappearing(&ring, stop, NEAR * self.point.cycle.sizes.1),
+            // an only closing is the one that disappears, whatever its speed beside the event
+            BranchEvent::LossOfContact { stop } => self.disappearing(&ring, stop, f64::INFINITY),
+            BranchEvent::Corner { first, second } => self.corner(ring, [first, second]).ok_or(BranchError::NoCycle),
+            BranchEvent::Sticking { stop, .. } => self.resting(ring, stop, CurveKind::Sticking { stop }),
+            BranchEvent::Holding { joint, .. } => self.resting(ring, joint, CurveKind::Holding { joint }),
+            _ => Err(BranchError::NotThere),
+        }
+    }
+
+    /// The solution at the event. A point of an oscillator has no solution of the machine's equations: its motion is followed, and
+    /// rounding can let that end at a limit, or miss a stop that it grazes; then it is that of a value beside it.
+    fn ring(&self, event: BranchEvent) -> Option<MachineRing> {
+        // where a rest begins, the solution can be that without it
+        let rests = matches!(event, BranchEvent::Sticking { .. } | BranchEvent::Holding { .. });
+        let solved = self.point.ring.clone().filter(|_| !rests).or_else(|| self.followed(self.machine));
+        solved.or_else(|| self.beside().chain(self.farther()).next())
+    }
+
+    fn followed(&self, machine: &Machine) -> Option<MachineRing> {
+        let cycle = &self.point.cycle;
+        let begin = cycle.strobes.first()?;
+        MachineRing::of(&MachineFrame::new(machine), begin, (cycle.label.periods, cycle.period))
+    }
+
+    /// The motions at values close to that of the event, the closest first.
+    fn beside(&self) -> impl Iterator<Item = MachineRing> {
+        self.followed_at(BESIDE)
+    }
+
+    fn farther(&self) -> impl Iterator<Item = MachineRing> {
+        self.followed_at(FARTHER)
+    }
+
+    fn followed_at(&self, distances: [f64; 4]) -> impl Iterator<Item = MachineRing> {
+        let both = distances.into_iter().flat_map(|by| [by, -by]);
+        both.filter_map(|by| {
+            let value = self.values.0 + by * self.plane.scales()[0];
+            self.followed(&self.plane.family.machine([value, self.values.1])?)
+        })
+    }
+
+    fn torus(&self, ring: MachineRing) -> Option<Beginning> {
+        let all = multipliers(&self.frame, &ring)?.1;
+        // of the pairs of complex multipliers the one nearest to the circle
+        let complex = all.iter().copied().filter(|multiplier| multiplier.im != 0.0);
+        let off = |multiplier: &Multiplier| (multiplier.modulus() - 1.0).abs();
+        let nearest = complex.min_by(|a, b| off(a).total_cmp(&off(b)))?;
+        let cosine = pair(&all, nearest.re)?.2;
+        Some((CurveKind::Torus, ring, Condition::Pair { cosine }))
+    }
+
+    fn touch(&self, stop: usize, ring: MachineRing, at: usize) -> Beginning {
+        let speed = self.point.cycle.sizes.1;
+        (CurveKind::Grazing { stop }, ring, Condition::Touch { at, size: speed, contact: None, speed })
+    }
+
+    /// That of a grazing contact which appears: a touch in the flight that comes closest to the stop.
+    fn appearing(&self, ring: MachineRing, stop: usize) -> Result<Beginning, BranchError> {
+        let touched = |ring: MachineRing| Some((touched(&self.frame, &ring, stop)?, ring));
+        // by rounding the motion can have the impact that appears here
+        let rings = core::iter::once_with(|| ring).chain(self.beside());
+        let ((leg, (gap, place)), mut ring) = rings.filter_map(touched).next().ok_or(BranchError::NoCycle)?;
+        if gap.abs() > NEAR * self.point.cycle.sizes.0 {
+            return Err(BranchError::NotThere);
+        }
+        let back = place.surfaces.iter().map(Option::is_some).collect();
+        ring.insert(leg + 1, RingEvent::touch(GuardKind::Gap(stop), &place.states, back), place);
+        Ok(self.touch(stop, ring, leg + 1))
+    }
+
+    /// That of a closing which disappears: a touch in its place. `slow` is the largest speed of one that does.
+    fn disappearing(&self, ring: &MachineRing, stop: usize, slow: f64) -> Result<Beginning, BranchError> {
+        let without = |mut ring: MachineRing| Some((without_contact(&self.frame, &mut ring, (stop, slow))?, ring));
+        // by rounding the motion can miss the stop
+        let mut rings = core::iter::once(ring.clone()).chain(self.beside());
+        let (at, ring) = rings.find_map(without).ok_or(BranchError::NotThere)?;
+        Ok(self.touch(stop, ring, at))
+    }
+
+    /// That of two events of these contacts at one instant: of those that follow each other the closest in time.
+    fn corner(&self, mut ring: MachineRing, contacts: [usize; 2]) -> Option<Beginning> {
+        let stops = self.machine.stops().len();
+        let of = |k: usize| ring.events[k % ring.len()].guard.place(stops);
+        let both = |k: &usize| {
+            let found = [of(*k), of(k + 1)];
+            found == contacts || [found[1], found[0]] == contacts
+        };
+        let apart = |k: usize| ring.theta(k + 1) - ring.theta(k);
+        let at = (0..ring.len()).filter(both).min_by(|a, b| apart(*a).total_cmp(&apart(*b)))?;
+        let kind = CurveKind::Corner { first: of(at), second: of(at + 1) };
+        ring.together = Some(at);
+        Some((kind, ring, Condition::Together { at }))
+    }
+
+    /// That of a rest, or of the hold of a joint, that begins or ends.
+    fn resting(&self, mut ring: MachineRing, contact: usize, kind: CurveKind) -> Result<Beginning, BranchError> {
+        // a chatter that is complete at its release is so before it on one side
+        let chatter = |mut ring| Some((CompleteChatter::shortened(&self.frame, &mut ring, contact)?, ring));
+        let bounces = self.machine.stops().get(contact).is_some_and(|stop| CurveProblem::rigid(&stop.law));
+        if bounces && let Some((chatter, complete)) = self.beside().chain(self.farther()).find_map(chatter) {
+            return Ok((kind, complete, Condition::Chatter(chatter)));
+        }
+        let speed = self.point.cycle.sizes.1;
+        let condition = origin_at_rest::condition(&self.frame, &mut ring, (contact, speed));
+        Ok((kind, ring, condition.ok_or(BranchError::NotThere)?))
+    }
 }
 
 /// The changes of the number at which the motion is followed instead, in its scale.

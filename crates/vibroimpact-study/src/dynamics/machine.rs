@@ -1,0 +1,275 @@
+//! A machine, as tasks ask for it.
+
+use super::{Dynamics, Problem};
+use crate::machine::{MachineSource, VariedMachine};
+use crate::map::options;
+use crate::margins::{MotionBox, ParameterMargin};
+use crate::orbit_line::OrbitLine;
+use crate::region::Over;
+use crate::{
+    Control, CurvePlan, Cut, DEFAULT_BRANCH_POINTS, FollowedEvent, MarginsPlan, PlanError, RunError, ScaledParameter,
+    Scope, Stopped, Stretch,
+};
+use vibroimpact::Label;
+use vibroimpact::continuation::machine::{Curve, CurvePoint, Family, Plane, SolutionPoint};
+use vibroimpact::continuation::{BranchOptions, CurveEvent, CurveKind, CurveOptions};
+use vibroimpact::events::Start;
+use vibroimpact::machine::{Machine, MachineError};
+use vibroimpact::orbit::{Stability, find_machine_while, machine::Cycle};
+use vibroimpact::quantities::machine::Quantities;
+use vibroimpact::quantities::{machine_cycle_quantities, machine_quantities, machine_quantity, machine_quantity_paths};
+use vibroimpact::verdict::{Settled, Verdict, scattered_machine_starts, settle_machine_while};
+
+/// Starts of the search for orbits.
+const STARTS: u64 = 48;
+/// How often the end of a range is moved half way to the value, while no machine has it.
+const HALVINGS: u32 = 12;
+/// The longest step along a curve: longer than that of an oscillator, because a point takes more work.
+const LONGEST: f64 = 0.1;
+/// Two speeds that differ by less than this part of them are equal.
+const CLOSE: f64 = 1e-6;
+
+/// The error of a machine or a start that is not allowed.
+pub(crate) fn refused(error: MachineError) -> PlanError {
+    PlanError::Machine(error.into())
+}
+
+/// The label of an orbit of a machine: m/n with forcing, m/T without.
+///
+/// # Errors
+/// [`PlanError`] for a text that is no such label.
+pub fn machine_label(machine: &Machine, text: &str) -> Result<Label, PlanError> {
+    let given = || text.chars().take(40).collect();
+    match (machine.period().is_some(), Label::unforced(text)) {
+        (false, label) => label.ok_or_else(|| PlanError::LabelUnforced(given())),
+        (true, Some(_)) => Err(PlanError::LabelForced(given())),
+        (true, None) => Ok(text.parse()?),
+    }
+}
+
+/// The path of the quantity of a response: the displacement amplitude of the first coordinate if none is given.
+#[must_use]
+pub fn quantity_path(given: Option<&str>, machine: &Machine) -> String {
+    let first = || machine.parts().coordinates.first().map_or("", String::as_str);
+    given.map_or_else(|| format!("q.{}.displacement_amplitude", first()), str::to_owned)
+}
+
+/// The plane of two numbers over their ranges.
+fn plane(source: &MachineSource, one: &Stretch<String>, two: &Stretch<String>) -> Plane {
+    let corners: Vec<Vec<f64>> =
+        [one.from, one.to].iter().flat_map(|p| [vec![*p, two.from], vec![*p, two.to]]).collect();
+    let varied = VariedMachine::new(source, [one, two].into_iter().map(|side| side.parameter.as_str()), &corners);
+    let family = varied.family(|values: [f64; 2]| values.to_vec());
+    Plane::of(family, (one.from..=one.to, two.from..=two.to))
+}
+
+/// The values of all quantities.
+fn all(found: Quantities) -> Vec<f64> {
+    found.iter().map(|(.., of)| of.value).collect()
+}
+
+impl Dynamics for MachineSource {
+    type Name = String;
+    type Quantity = String;
+    type Shown = String;
+    type System = Machine;
+    type Start = Start;
+    type Along = Family;
+    type CurvePoint = CurvePoint;
+    type Curve = Curve;
+
+    fn number(&self, name: &String) -> Result<f64, PlanError> {
+        Ok(Self::number(self, name)?)
+    }
+
+    fn check_line(&self, cut: &Cut<String>) -> Result<(), PlanError> {
+        cut.check(self)
+    }
+
+    fn check_ends(&self, cut: &Cut<String>) -> Result<(), PlanError> {
+        let there = |value| Ok(cut.source(self, value)?.machine().map(drop)?);
+        there(cut.ends.0).and_then(|()| there(cut.ends.1))
+    }
+
+    fn check_quantity(machine: &Machine, name: &str) -> Result<(), PlanError> {
+        machine_quantity(machine, name).map(drop).map_err(refused)
+    }
+
+    fn check_curve(_: FollowedEvent) -> Result<(), PlanError> {
+        Ok(())
+    }
+
+    fn check_plane(&self, one: &Stretch<String>, two: &Stretch<String>) -> Result<(), PlanError> {
+        for Stretch { parameter: path, from, to } in [one, two] {
+            Self::number(self, path)?;
+            if !(from.is_finite() && to.is_finite() && from < to) {
+                return Err(PlanError::Stretch { name: path.clone().into(), from: *from, to: *to });
+            }
+        }
+        if one.parameter == two.parameter {
+            return Err(PlanError::SameParameter(one.parameter.clone().into(), two.parameter.clone().into()));
+        }
+        for p in [one.from, one.to] {
+            for q in [two.from, two.to] {
+                self.with(&one.parameter, p)?.with(&two.parameter, q)?.machine()?;
+            }
+        }
+        Ok(())
+    }
+
+    fn over(&self, across: &Stretch<String>, up: &Stretch<String>) -> Result<Over, PlanError> {
+        let plane = plane(self, across, up);
+        Ok(match plane.reduced((across.from, up.from)) {
+            Some((osc, frame)) => Over::Oscillators(osc, frame),
+            None => Over::Machines(plane),
+        })
+    }
+
+    fn line(&self, cut: &Cut<String>, _: f64, points: u32) -> Result<OrbitLine<Family>, PlanError> {
+        Ok(OrbitLine::new(self, cut, points))
+    }
+
+    fn system_on(&self, _: &Cut<String>, line: &OrbitLine<Family>, value: f64) -> Option<Machine> {
+        line.along.at(value)
+    }
+
+    fn label(machine: &Machine, text: Option<&str>, _: bool) -> Result<Option<Label>, PlanError> {
+        text.map(|text| machine_label(machine, text)).transpose()
+    }
+
+    /// From scattered starts.
+    fn orbits(machine: &Machine, label: Label, control: &Control<'_>) -> Result<Vec<(Cycle, bool)>, RunError> {
+        let starts = (0..STARTS).map(|k| scattered_machine_starts(machine, 1, k));
+        let found = find_machine_while(machine, label, starts, &|| !control.stopping());
+        let found = found.ok_or(Stopped { done: 0, total: 1 })?;
+        Ok(found.into_iter().map(|cycle| (cycle, true)).collect())
+    }
+
+    fn no_orbit(label: Label, _: usize) -> PlanError {
+        PlanError::NoMachineOrbit(label)
+    }
+
+    fn settle(
+        machine: &Machine,
+        start: &Start,
+        impacts: Option<u32>,
+        control: &Control<'_>,
+    ) -> Result<Settled<Machine>, RunError> {
+        let settled = settle_machine_while(machine, start, &options(impacts), &|| !control.stopping());
+        settled.map_err(refused)?.ok_or_else(|| Stopped { done: 0, total: 1 }.into())
+    }
+
+    fn stability(cycle: &Cycle) -> Stability {
+        cycle.stability()
+    }
+
+    fn cycle(_: &Machine, motion: &Verdict<Machine>) -> Option<Cycle> {
+        if let Verdict::Periodic(cycle) = motion { Some(cycle.clone()) } else { None }
+    }
+
+    fn free_numbers(&self) -> Result<Vec<String>, PlanError> {
+        Ok(Self::free_numbers(self)?.0.into_iter().map(|(path, _)| path).collect())
+    }
+
+    /// The change that counts as 1 is the size of the value. The range ends where no machine has such a number, as where two stops
+    /// leave no room.
+    fn scope(&self, varied: &ScaledParameter<String>, within: f64) -> Result<Scope<String>, PlanError> {
+        let path = &varied.parameter;
+        let value = Self::number(self, path)?;
+        let ends = match value {
+            _ if path.ends_with(".restitution") => [0.0, 1.0],
+            0.0 => [1.0 - within, within - 1.0],
+            _ => [(value / within).min(value * within), (value / within).max(value * within)],
+        };
+        let allowed = |mut end: f64| {
+            let there = |end: f64| self.with(path, end).is_ok_and(|source| source.machine().is_ok());
+            for _ in 0..HALVINGS {
+                if there(end) {
+                    return end;
+                }
+                end = value + 0.5 * (end - value);
+            }
+            value
+        };
+        let [low, high] = ends.map(allowed);
+        let scale = if value == 0.0 { 1.0 } else { value.abs() };
+        Ok(Scope { parameter: path.clone(), value, low, high, scale })
+    }
+
+    /// None is looked for.
+    fn motion_box(
+        &self,
+        _: &Cycle,
+        _: &[ParameterMargin<String, SolutionPoint>],
+        _: &MarginsPlan<String>,
+        _: &Control<'_>,
+    ) -> Result<Option<MotionBox>, RunError> {
+        Ok(None)
+    }
+
+    fn carried(
+        of: &Problem<'_, Self>,
+        _: &Cut<String>,
+        before: Option<(f64, Start)>,
+        (_, machine): (f64, &Machine),
+    ) -> Result<Start, PlanError> {
+        Ok(before.map_or_else(|| of.start.clone(), |(_, left)| left).within_stops(machine))
+    }
+
+    fn reached(machine: &Machine, motion: &Verdict<Machine>, start: Start) -> Start {
+        motion.reached(machine).unwrap_or(start)
+    }
+
+    fn quantity_names(machine: &Machine) -> Vec<String> {
+        machine_quantity_paths(machine)
+    }
+
+    fn quantity(machine: &Machine, given: Option<&String>) -> String {
+        quantity_path(given.map(String::as_str), machine)
+    }
+
+    fn quantities(machine: &Machine, motion: &Verdict<Machine>) -> Option<Vec<f64>> {
+        machine_quantities(machine, motion).map(all)
+    }
+
+    fn cycle_quantities(machine: &Machine, cycle: &Cycle) -> Option<Vec<f64>> {
+        machine_cycle_quantities(machine, cycle).map(all)
+    }
+
+    /// The points differ from the cycle by no more than from each other.
+    fn passes(_: &Machine, cycle: &Cycle, between: [&SolutionPoint; 2]) -> bool {
+        let speeds = between.map(|point| point.cycle.fastest());
+        let apart = (speeds[0] - speeds[1]).abs() + CLOSE * cycle.fastest();
+        between.iter().any(|point| point.cycle.label == cycle.label && point.cycle.counts == cycle.counts)
+            && speeds.iter().all(|speed| (speed - cycle.fastest()).abs() <= apart)
+    }
+
+    fn line_of_events(of: &Problem<'_, Self>, plan: &CurvePlan<String>) -> Result<(OrbitLine<Family>, f64), PlanError> {
+        let cut = Cut { vary: plan.vary.parameter.clone(), ends: (plan.vary.from, plan.vary.to), also: None };
+        let line = OrbitLine::new(of.written, &cut, BranchOptions::default().points);
+        Ok((line, Self::number(of.written, &cut.vary)?))
+    }
+
+    fn curve(
+        of: &Problem<'_, Self>,
+        plan: &CurvePlan<String>,
+        _: OrbitLine<Family>,
+        event: &SolutionPoint,
+    ) -> Result<([Curve; 2], Vec<usize>), PlanError> {
+        let plane = plane(of.written, &plan.vary, &plan.and);
+        let at = (event.value, Self::number(of.written, &plan.and.parameter)?);
+        let options = CurveOptions { longest: LONGEST, points: plan.points.unwrap_or(DEFAULT_BRANCH_POINTS) };
+        let both = Curve::through(&plane, at, event, options)?;
+        let places = match both[0].kind() {
+            CurveKind::Grazing { stop } | CurveKind::Sticking { stop } => vec![stop],
+            CurveKind::Holding { joint } => vec![joint],
+            CurveKind::Corner { first, second } => vec![first, second],
+            _ => Vec::new(),
+        };
+        Ok((both, places))
+    }
+
+    fn curve_event(point: &CurvePoint) -> Option<CurveEvent> {
+        point.event
+    }
+}

@@ -1,0 +1,280 @@
+//! What tasks ask of a system as it is written in a plan: the same of an oscillator and of a machine.
+
+mod machine;
+mod oscillator;
+
+pub(crate) use machine::refused;
+pub use machine::{machine_label, quantity_path};
+#[cfg(test)]
+pub(crate) use oscillator::at_rest;
+
+use crate::diagram::Shown;
+use crate::margins::{MotionBox, ParameterMargin};
+use crate::name::Name;
+use crate::orbit_line::{Along, OrbitLine, Solution};
+use crate::region::Over;
+use crate::{
+    Chosen, Control, CurvePlan, Cut, FollowedEvent, MarginsPlan, OrbitNumber, PlanError, RunError, ScaledParameter,
+    Scope, Stopped, Stretch,
+};
+use core::fmt::Debug;
+use vibroimpact::Label;
+use vibroimpact::continuation::CurveEvent;
+use vibroimpact::orbit::Stability;
+use vibroimpact::verdict::{Settled, System, Verdict};
+
+/// A system as it is written in a plan.
+pub trait Dynamics: Sized {
+    /// The name of a number.
+    type Name: Name;
+    /// The name of a quantity.
+    type Quantity: Name;
+    /// What an orbit diagram shows of a motion.
+    type Shown: Shown;
+    /// The system.
+    type System: System;
+    /// Where a motion starts.
+    type Start: Clone;
+    /// The systems along a line through numbers.
+    type Along: Along<Point: Solution<System = Self::System>>;
+    /// A point of a curve of events.
+    type CurvePoint: Clone + Debug;
+    /// The points of such a curve, one after another.
+    type Curve: Iterator<Item = Self::CurvePoint>;
+
+    /// The value of a number.
+    ///
+    /// # Errors
+    /// [`PlanError`] for a number that the system does not have.
+    fn number(&self, name: &Self::Name) -> Result<f64, PlanError>;
+
+    /// Checks that a line goes through different numbers, and the systems at its ends.
+    ///
+    /// # Errors
+    /// [`PlanError`] names the first invalid value.
+    fn check_line(&self, cut: &Cut<Self::Name>) -> Result<(), PlanError>;
+
+    /// Checks the systems at the ends of a line through one number.
+    ///
+    /// # Errors
+    /// As [`check_line`](Self::check_line).
+    fn check_ends(&self, cut: &Cut<Self::Name>) -> Result<(), PlanError>;
+
+    /// Checks that motions have a quantity.
+    ///
+    /// # Errors
+    /// [`PlanError`] for another name.
+    fn check_quantity(system: &Self::System, name: &str) -> Result<(), PlanError>;
+
+    /// Checks that the system has curves of a kind.
+    ///
+    /// # Errors
+    /// [`PlanError::NoCurve`] if it has none.
+    fn check_curve(kind: FollowedEvent) -> Result<(), PlanError>;
+
+    /// Checks that the ranges of two numbers span a plane of valid systems.
+    ///
+    /// # Errors
+    /// [`PlanError`] for ends out of order, for equal numbers, and for an invalid system at a corner.
+    fn check_plane(&self, one: &Stretch<Self::Name>, two: &Stretch<Self::Name>) -> Result<(), PlanError>;
+
+    /// The systems of the plane of two numbers.
+    ///
+    /// # Errors
+    /// [`PlanError`] for numbers that the system does not have.
+    fn over(&self, across: &Stretch<Self::Name>, up: &Stretch<Self::Name>) -> Result<Over, PlanError>;
+
+    /// The line on which orbits are followed from a value of its first number, and the largest number of points of each branch.
+    ///
+    /// # Errors
+    /// [`PlanError`] for numbers that the system does not have.
+    fn line(&self, cut: &Cut<Self::Name>, from: f64, points: u32) -> Result<OrbitLine<Self::Along>, PlanError>;
+
+    /// The system where the first number of a line has a value; `None` if the value is not allowed.
+    fn system_on(&self, cut: &Cut<Self::Name>, line: &OrbitLine<Self::Along>, value: f64) -> Option<Self::System>;
+
+    /// The label of an orbit. One that is followed `in_a_plane` has no infinite number of impacts if it is an oscillator's.
+    ///
+    /// # Errors
+    /// [`PlanError`] for a text that is no such label, and for one that is not given where it is needed.
+    fn label(system: &Self::System, text: Option<&str>, in_a_plane: bool) -> Result<Option<Label>, PlanError>;
+
+    /// The orbits with a label in order of rising speed, and whether each is admissible.
+    ///
+    /// # Errors
+    /// [`PlanError`] for a label whose orbits cannot be followed, [`Stopped`] when stopped.
+    fn orbits(
+        system: &Self::System,
+        label: Label,
+        control: &Control<'_>,
+    ) -> Result<Vec<(CycleOf<Self>, bool)>, RunError>;
+
+    /// The error where no orbit with a label is admissible, with the number of the others.
+    fn no_orbit(label: Label, others: usize) -> PlanError;
+
+    /// The motion from a start, and how far it was followed.
+    ///
+    /// # Errors
+    /// [`PlanError`] for a start that is not allowed, [`Stopped`] when stopped.
+    fn settle(
+        system: &Self::System,
+        start: &Self::Start,
+        impacts: Option<u32>,
+        control: &Control<'_>,
+    ) -> Result<Settled<Self::System>, RunError>;
+
+    /// Whether neighbours approach a cycle.
+    fn stability(cycle: &CycleOf<Self>) -> Stability;
+
+    /// The cycle of a motion; `None` for a motion that cannot be followed.
+    fn cycle(system: &Self::System, motion: &Verdict<Self::System>) -> Option<CycleOf<Self>>;
+
+    /// The numbers that vary where a plan of margins does not say it.
+    ///
+    /// # Errors
+    /// [`PlanError`] for an invalid system.
+    fn free_numbers(&self) -> Result<Vec<Self::Name>, PlanError>;
+
+    /// The range and the scale of a number.
+    ///
+    /// # Errors
+    /// [`PlanError`] for a number that the system does not have.
+    fn scope(&self, varied: &ScaledParameter<Self::Name>, within: f64) -> Result<Scope<Self::Name>, PlanError>;
+
+    /// The box of numbers in which a stable motion is found by trying; `None` where none is looked for.
+    ///
+    /// # Errors
+    /// [`RunError`] for an invalid system, or when stopped.
+    fn motion_box(
+        &self,
+        cycle: &CycleOf<Self>,
+        margins: &[ParameterMargin<Self::Name, PointOf<Self>>],
+        plan: &MarginsPlan<Self::Name>,
+        control: &Control<'_>,
+    ) -> Result<Option<MotionBox>, RunError>;
+
+    /// The start of a motion of a sweep, at a value of the first number of a line: the state that the motion at the value before
+    /// has left there.
+    ///
+    /// # Errors
+    /// [`PlanError`] for an invalid system.
+    fn carried(
+        of: &Problem<'_, Self>,
+        cut: &Cut<Self::Name>,
+        before: Option<(f64, Self::Start)>,
+        at: (f64, &Self::System),
+    ) -> Result<Self::Start, PlanError>;
+
+    /// A state of the settled motion from a start.
+    fn reached(system: &Self::System, motion: &Verdict<Self::System>, start: Self::Start) -> Self::Start;
+
+    /// The names of all quantities of a motion.
+    fn quantity_names(system: &Self::System) -> Vec<String>;
+
+    /// The name of the quantity of a response, if another one is not given.
+    fn quantity(system: &Self::System, given: Option<&Self::Quantity>) -> String;
+
+    /// The values of all quantities of a motion; `None` if they are not defined.
+    fn quantities(system: &Self::System, motion: &Verdict<Self::System>) -> Option<Vec<f64>>;
+
+    /// The same of a cycle, which need not be admissible.
+    fn cycle_quantities(system: &Self::System, cycle: &CycleOf<Self>) -> Option<Vec<f64>>;
+
+    /// Whether a branch passes through a cycle at a value between two of its points.
+    fn passes(system: &Self::System, cycle: &CycleOf<Self>, between: [&PointOf<Self>; 2]) -> bool;
+
+    /// The line on which the events of a curve are looked for, and the value from which the orbit is followed.
+    ///
+    /// # Errors
+    /// [`PlanError`] for numbers that the system does not have.
+    fn line_of_events(
+        of: &Problem<'_, Self>,
+        plan: &CurvePlan<Self::Name>,
+    ) -> Result<(OrbitLine<Self::Along>, f64), PlanError>;
+
+    /// The two directions of the curve through an event, and the stops and joints to which it belongs.
+    ///
+    /// # Errors
+    /// [`PlanError::Branch`] if the curve cannot begin.
+    fn curve(
+        of: &Problem<'_, Self>,
+        plan: &CurvePlan<Self::Name>,
+        line: OrbitLine<Self::Along>,
+        event: &PointOf<Self>,
+    ) -> Result<([Self::Curve; 2], Vec<usize>), PlanError>;
+
+    /// The event at a point of a curve.
+    fn curve_event(point: &Self::CurvePoint) -> Option<CurveEvent>;
+}
+
+/// A cycle of a system.
+pub type CycleOf<D> = <<D as Dynamics>::System as System>::Cycle;
+
+/// A point of a branch of a system.
+pub type PointOf<D> = <<D as Dynamics>::Along as Along>::Point;
+
+/// A system with the start of a motion.
+#[derive(Debug)]
+pub struct Problem<'a, D: Dynamics> {
+    /// The system as it is written.
+    pub written: &'a D,
+    /// The system, checked.
+    pub system: D::System,
+    /// The start.
+    pub start: D::Start,
+}
+
+/// Whether a run goes on: the error of a run that was stopped.
+pub(crate) fn not_stopped(control: &Control<'_>) -> Result<(), Stopped> {
+    if control.stopping() { Err(Stopped { done: 0, total: 1 }) } else { Ok(()) }
+}
+
+impl<D: Dynamics> Problem<'_, D> {
+    /// Checks the label and the number of an orbit.
+    pub(crate) fn check_orbit(
+        &self,
+        (label, number): (Option<&str>, Option<u32>),
+        in_a_plane: bool,
+    ) -> Result<(), PlanError> {
+        match D::label(&self.system, label, in_a_plane)? {
+            None if number.is_some() => Err(PlanError::NumberWithoutLabel),
+            _ => Ok(()),
+        }
+    }
+
+    /// The orbit with a label and a number. Without a number: the stable orbit, or else the fastest admissible one; without a label
+    /// the motion from the start.
+    pub(crate) fn chosen(
+        &self,
+        (text, number): (Option<&str>, Option<u32>),
+        control: &Control<'_>,
+    ) -> Result<Chosen<CycleOf<D>>, RunError> {
+        let Some(label) = D::label(&self.system, text, false)? else {
+            return match D::settle(&self.system, &self.start, None, control)?.verdict {
+                Verdict::Periodic(cycle) => {
+                    let stability = Some(D::stability(&cycle));
+                    Ok(Chosen { cycle, among: None, stability })
+                }
+                other => Err(PlanError::NotPeriodic(other.label().into_owned()).into()),
+            };
+        };
+        let orbits = D::orbits(&self.system, label, control)?;
+        let count = orbits.len();
+        let index = match number {
+            Some(given) => {
+                let index = usize::try_from(given).ok().and_then(|n| n.checked_sub(1)).filter(|index| *index < count);
+                index.ok_or(PlanError::NoSuchOrbit { given, count, label })?
+            }
+            None => {
+                let stable = |(cycle, _): &(CycleOf<D>, bool)| D::stability(cycle).is_stable();
+                let rank = |orbit: &(CycleOf<D>, bool)| (orbit.1, orbit.1 && stable(orbit));
+                // of several with the same rank, the last one, which is the fastest
+                let best = (0..count).max_by_key(|index| rank(&orbits[*index]));
+                best.filter(|index| orbits[*index].1).ok_or_else(|| D::no_orbit(label, count))?
+            }
+        };
+        let (cycle, admissible) = orbits.into_iter().nth(index).ok_or_else(|| D::no_orbit(label, 0))?;
+        let stability = admissible.then(|| D::stability(&cycle));
+        Ok(Chosen { cycle, among: Some(OrbitNumber::new(index, count)), stability })
+    }
+}

@@ -1,0 +1,243 @@
+//! An oscillator, as tasks ask for it.
+
+use super::{Dynamics, Problem};
+use crate::diagram::{Show, carried_state, state_on};
+use crate::map::options;
+use crate::margins::{MotionBox, ParameterMargin, tried_box};
+use crate::name::Name;
+use crate::orbit_line::OrbitLine;
+use crate::region::Over;
+use crate::stretch::check_plane;
+use crate::{
+    Control, CurvePlan, Cut, FollowedEvent, MarginsPlan, Parameter, PlanError, Quantity, RunError, ScaledParameter,
+    Scope, StartPlan, Stopped, Stretch, SystemPlan,
+};
+use vibroimpact::continuation::{
+    BranchError, BranchOptions, Curve, CurveEvent, CurveOptions, CurvePoint, SolutionPoint,
+};
+use vibroimpact::orbit::{Cycle, FindOptions, Stability, earlier_contact, find_while, refine, without_impacts};
+use vibroimpact::quantities::{Quantities, of_cycle, of_verdict};
+use vibroimpact::verdict::{Count, NoImpact, Settled, Verdict, settle_while};
+use vibroimpact::{Label, Oscillator, ParameterPath, Start};
+
+/// Two cycles closer than this are the same one.
+const SAME: f64 = 1e-6;
+
+/// The values of all quantities.
+fn all(of: Quantities) -> Vec<f64> {
+    Quantity::ALL.into_iter().map(|quantity| of.get(quantity)).collect()
+}
+
+impl SystemPlan {
+    /// The oscillator with a start.
+    ///
+    /// # Errors
+    /// [`PlanError`] for an invalid system, and for a start that lies beyond a stop or is not finite.
+    pub(crate) fn problem(&self, start: StartPlan) -> Result<Problem<'_, Self>, PlanError> {
+        let system = self.oscillator()?;
+        Ok(Problem { written: self, start: start.start(&system)?, system })
+    }
+}
+
+impl Dynamics for SystemPlan {
+    type Name = Parameter;
+    type Quantity = Quantity;
+    type Shown = Show;
+    type System = Oscillator;
+    type Start = Start;
+    type Along = (Oscillator, ParameterPath);
+    type CurvePoint = CurvePoint;
+    type Curve = Curve;
+
+    fn number(&self, name: &Parameter) -> Result<f64, PlanError> {
+        self.value(*name)
+    }
+
+    fn check_line(&self, cut: &Cut) -> Result<(), PlanError> {
+        cut.check(self)
+    }
+
+    fn check_ends(&self, cut: &Cut) -> Result<(), PlanError> {
+        cut.check(self)
+    }
+
+    fn check_quantity(_: &Oscillator, name: &str) -> Result<(), PlanError> {
+        Quantity::of(name).map(drop)
+    }
+
+    fn check_curve(kind: FollowedEvent) -> Result<(), PlanError> {
+        match kind {
+            FollowedEvent::Fold | FollowedEvent::Flip | FollowedEvent::Grazing => Ok(()),
+            _ => Err(PlanError::NoCurve(kind.name())),
+        }
+    }
+
+    fn check_plane(&self, one: &Stretch, two: &Stretch) -> Result<(), PlanError> {
+        check_plane(self, one, two)
+    }
+
+    fn over(&self, across: &Stretch, up: &Stretch) -> Result<Over, PlanError> {
+        let corner = self.with_all([(across.parameter, across.from), (up.parameter, up.from)])?;
+        Ok(Over::Oscillators(corner.oscillator()?, across.frame(up, self)?))
+    }
+
+    fn line(&self, cut: &Cut, from: f64, points: u32) -> Result<OrbitLine<Self::Along>, PlanError> {
+        let own = self.value(cut.vary).is_ok_and(|own| own == from);
+        let osc = if own { self.oscillator()? } else { cut.oscillator(self, from)? };
+        let path = cut.varying(self, from)?;
+        // the inverse of a value may be rounded to a value outside the range
+        let begin = path.get(&osc)?;
+        let end = |end: f64| if end == from { begin } else { end };
+        Ok(OrbitLine::over((osc, path), (end(cut.ends.0), end(cut.ends.1)), points))
+    }
+
+    fn system_on(&self, cut: &Cut, _: &OrbitLine<Self::Along>, value: f64) -> Option<Oscillator> {
+        cut.oscillator(self, value).ok()
+    }
+
+    fn label(_: &Oscillator, text: Option<&str>, in_a_plane: bool) -> Result<Option<Label>, PlanError> {
+        let label: Label = text.ok_or(PlanError::NoLabel)?.parse()?;
+        if in_a_plane && label.impacts == Count::Infinite {
+            return Err(BranchError::Rests.into());
+        }
+        Ok(Some(label))
+    }
+
+    fn orbits(osc: &Oscillator, label: Label, control: &Control<'_>) -> Result<Vec<(Cycle, bool)>, RunError> {
+        if label.impacts == Count::Finite(0) && osc.damping() == 0.0 {
+            return Err(PlanError::from(BranchError::Undamped).into());
+        }
+        let found = find_while(osc, label, FindOptions::default(), &|| !control.stopping());
+        let found = found.ok_or(Stopped { done: 0, total: 1 })?;
+        Ok(found.into_iter().map(|orbit| (orbit.cycle, orbit.physical)).collect())
+    }
+
+    fn no_orbit(label: Label, others: usize) -> PlanError {
+        PlanError::NoOrbit { label, others }
+    }
+
+    fn settle(
+        osc: &Oscillator,
+        start: &Start,
+        impacts: Option<u32>,
+        control: &Control<'_>,
+    ) -> Result<Settled, RunError> {
+        let settled = settle_while(osc, *start, &options(impacts), &|| !control.stopping());
+        settled.ok_or_else(|| Stopped { done: 0, total: 1 }.into())
+    }
+
+    fn stability(cycle: &Cycle) -> Stability {
+        cycle.stability()
+    }
+
+    /// The motion without impacts is a cycle if it is damped.
+    fn cycle(osc: &Oscillator, motion: &Verdict) -> Option<Cycle> {
+        match motion {
+            Verdict::Periodic(cycle) => Some(cycle.clone()),
+            Verdict::NoImpact(NoImpact::Landing { .. }) => None,
+            Verdict::NoImpact(_) => without_impacts(osc).filter(|cycle| earlier_contact(osc, cycle).is_none()),
+            _ => None,
+        }
+    }
+
+    fn free_numbers(&self) -> Result<Vec<Parameter>, PlanError> {
+        Ok(MarginsPlan::parameters(self))
+    }
+
+    fn scope(&self, varied: &ScaledParameter, within: f64) -> Result<Scope, PlanError> {
+        Scope::new(self, *varied, within)
+    }
+
+    fn motion_box(
+        &self,
+        cycle: &Cycle,
+        margins: &[ParameterMargin],
+        plan: &MarginsPlan,
+        control: &Control<'_>,
+    ) -> Result<Option<MotionBox>, RunError> {
+        if !cycle.stable() {
+            return Ok(None);
+        }
+        Ok(Some(tried_box(self, cycle, margins, plan.lines(), control)?))
+    }
+
+    fn carried(
+        of: &Problem<'_, Self>,
+        cut: &Cut,
+        before: Option<(f64, Start)>,
+        (value, osc): (f64, &Oscillator),
+    ) -> Result<Start, PlanError> {
+        let Some((from, left)) = before else { return Ok(Start::at_rest(osc)) };
+        carried_state(left, &cut.system(of.written, from)?, &cut.system(of.written, value)?)
+    }
+
+    fn reached(osc: &Oscillator, motion: &Verdict, start: Start) -> Start {
+        state_on(osc, motion, start)
+    }
+
+    fn quantity_names(_: &Oscillator) -> Vec<String> {
+        Quantity::ALL.map(|quantity| quantity.name().to_owned()).to_vec()
+    }
+
+    fn quantity(_: &Oscillator, given: Option<&Quantity>) -> String {
+        given.map_or(Quantity::DisplacementAmplitude, |given| *given).name().to_owned()
+    }
+
+    fn quantities(osc: &Oscillator, motion: &Verdict) -> Option<Vec<f64>> {
+        of_verdict(osc, motion).map(all)
+    }
+
+    fn cycle_quantities(osc: &Oscillator, cycle: &Cycle) -> Option<Vec<f64>> {
+        of_cycle(osc, cycle).map(all)
+    }
+
+    /// Newton's method from one of the points leads to the cycle.
+    fn passes(osc: &Oscillator, cycle: &Cycle, between: [&SolutionPoint; 2]) -> bool {
+        between.into_iter().any(|point| {
+            let guess = &point.cycle;
+            if guess.label != cycle.label {
+                return false;
+            }
+            if guess.points.is_empty() || !cycle.rests.is_empty() {
+                // the only motion of its label: the steady one, or that of a release
+                return guess.rests.len() == cycle.rests.len();
+            }
+            refine(osc, guess).is_some_and(|orbit| orbit.cycle.same_as(cycle, SAME))
+        })
+    }
+
+    fn line_of_events(of: &Problem<'_, Self>, plan: &CurvePlan) -> Result<(OrbitLine<Self::Along>, f64), PlanError> {
+        let physical = plan.vary.physical().or(plan.and.physical());
+        let path = match of.written.machine.filter(|_| physical.is_some()) {
+            Some(machine) => machine.line(plan.vary.parameter, None)?,
+            None => plan.vary.parameter.into(),
+        };
+        let own = path.get(&of.system)?;
+        // the inverse of a value at an end of the range may be rounded to a value outside
+        let range = (plan.vary.from.min(own), plan.vary.to.max(own));
+        Ok((OrbitLine::over((of.system, path), range, BranchOptions::default().points), own))
+    }
+
+    fn curve(
+        of: &Problem<'_, Self>,
+        plan: &CurvePlan,
+        line: OrbitLine<Self::Along>,
+        event: &SolutionPoint,
+    ) -> Result<([Curve; 2], Vec<usize>), PlanError> {
+        let usual = CurveOptions::default();
+        let options = CurveOptions { points: plan.points.unwrap_or(usual.points), ..usual };
+        let there = of.written.with_all([(plan.vary.parameter, event.value)])?;
+        let frame = plan.vary.frame(&plan.and, &there)?;
+        Ok((Curve::through(&of.system, event, line.along.1, &frame, options)?, Vec::new()))
+    }
+
+    fn curve_event(point: &CurvePoint) -> Option<CurveEvent> {
+        point.event
+    }
+}
+
+/// An oscillator that starts at rest.
+#[cfg(test)]
+pub(crate) fn at_rest(system: &SystemPlan) -> Problem<'_, SystemPlan> {
+    system.problem(StartPlan::default()).unwrap()
+}

@@ -1,0 +1,49 @@
+//! Where the flight of a cycle that rests vanishes: beyond, no force pulls the structure off the stop.
+
+use super::beyond::LastMotion;
+use super::problem::{MachineProblem, MachineSolution};
+use crate::continuation::trace::tracer::{Tracer, last};
+use crate::events::End;
+use crate::machine::Machine;
+use crate::orbit::MachineFrame;
+use crate::regime::GuardKind;
+
+/// How far beyond a solution the motion is followed, in the scale of the number. Closer to the limit than the last one, the flight
+/// is so short that rounding decides its events.
+const BEYOND: [f64; 3] = [1e-7, 1e-5, 1e-3];
+/// For how many periods, and how many events.
+const PERIODS: f64 = 4.0;
+const EVENTS: usize = 2_000;
+
+/// The solution at which the structure begins to rest for ever, if that is right beyond this one, and the stop that it leaves before.
+pub(super) fn rest_for_ever(tracer: &Tracer<MachineProblem>, at: &MachineSolution) -> Option<(MachineSolution, usize)> {
+    let equations = &tracer.problem.equations;
+    let released = |guard| if let GuardKind::Reaction(stop) = guard { Some(stop) } else { None };
+    let stop = equations.ring.events.iter().find_map(|event| released(event.guard))?;
+    let motion = LastMotion::of(tracer, at)?;
+    let rests = |number: f64| equations.family.at(number).is_some_and(|machine| motion.rests(&machine));
+    let step = last(&at.tangent).signum() * equations.scales[0];
+    let (mut low, (from, to)) = (motion.number, tracer.problem.range);
+    let beyond = BEYOND.into_iter().map(|by| low + by * step);
+    let mut high = beyond.filter(|number| (from..=to).contains(number)).find(|number| rests(*number))?;
+    loop {
+        let middle = 0.5 * (low + high);
+        if middle == low || middle == high {
+            break;
+        }
+        if rests(middle) { high = middle } else { low = middle }
+    }
+    let mut limit = at.clone();
+    *limit.w.last_mut()? = high;
+    Some((limit, stop))
+}
+
+impl LastMotion {
+    /// Whether the motion of another machine from here comes to rest for ever.
+    fn rests(&self, machine: &Machine) -> bool {
+        let mut motion = MachineFrame::new(machine).resume(self.begin.clone());
+        let until = PERIODS * self.period;
+        let _ = motion.by_ref().take(EVENTS).take_while(|event| event.time < until).count();
+        motion.end() == Some(End::Stuck)
+    }
+}
