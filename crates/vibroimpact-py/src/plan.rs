@@ -1,7 +1,7 @@
 //! A plan from text in JSON or TOML: checked, and converted to the form in which it is stored.
 
 use crate::error::Trouble;
-use crate::oscillator::Oscillator;
+use crate::oscillator::OscillatorFile;
 use crate::simulate::{StartArgument, start_plan};
 use pyo3::prelude::*;
 use serde::Serialize;
@@ -43,12 +43,6 @@ pub(crate) fn points(plan: &Plan) -> u64 {
 pub(crate) fn checked_plan(given: &str) -> Result<(String, String, String, u64), Trouble> {
     let plan = read(given)?;
     Ok((text(&plan)?, plan.hash(), plan.title(), points(&plan)))
-}
-
-/// The fields of the system of a plan as JSON, with the frequency in the form in which it was given.
-#[pyfunction]
-pub(crate) fn system_fields(osc: Oscillator) -> Result<String, Trouble> {
-    text(&osc.plan)
 }
 
 /// The units of length, time and mass of a machine at each combination of values of some of its parameters, in the order
@@ -140,7 +134,7 @@ fn all_coordinates(system: &SystemPlan, start: Option<StartPlan>) -> Vec<(Coordi
 
 /// The parameters of a system and the coordinates of a start, described.
 #[pyfunction]
-pub(crate) fn point_coordinates(osc: Oscillator, start: StartArgument) -> Vec<Fixed> {
+pub(crate) fn point_coordinates(osc: OscillatorFile, start: StartArgument) -> Vec<Fixed> {
     all_coordinates(&osc.plan, Some(start_plan(start))).into_iter().map(described).collect()
 }
 

@@ -3,7 +3,7 @@
 
 use crate::chosen::Chosen;
 use crate::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Shown, SweepDirection};
-use crate::dynamics::{CycleOf, Dynamics, PointOf, Problem};
+use crate::dynamics::{CycleOf, Dynamics, PointOf, Setup};
 use crate::name::{Name, Written};
 use crate::{Control, Cut, DiagramPlan, Parameter, PlanError, RunError, Span, Stretch, Target, limits};
 use serde::{Deserialize, Serialize};
@@ -70,7 +70,7 @@ impl<V: Name> BranchPlan<V> {
     ///
     /// # Errors
     /// [`PlanError`] names the first invalid value.
-    pub(crate) fn check<D: Dynamics<Name = V>>(&self, of: &Problem<'_, D>) -> Result<(), PlanError> {
+    pub(crate) fn check<D: Dynamics<Name = V>>(&self, of: &Setup<'_, D>) -> Result<(), PlanError> {
         of.check_orbit((self.label.as_deref(), self.orbit), false)?;
         let cut = self.cut(of.written)?;
         of.written.check_line(&cut)?;
@@ -140,7 +140,7 @@ pub struct Branches<C = Cycle, P = SolutionPoint> {
 /// [`RunError`] for an orbit that does not exist, or when stopped. The stop flag is read at every seed of the search and at every
 /// point.
 pub(crate) fn branches<D: Dynamics>(
-    of: &Problem<'_, D>,
+    of: &Setup<'_, D>,
     plan: &BranchPlan<D::Name>,
     control: &Control<'_>,
 ) -> Result<Branches<CycleOf<D>, PointOf<D>>, RunError> {
@@ -163,7 +163,7 @@ mod tests {
     use vibroimpact::continuation::BranchEvent;
 
     fn branches(system: &SystemPlan, plan: &BranchPlan, control: &Control<'_>) -> Result<Branches, RunError> {
-        let problem = system.problem(StartPlan::default())?;
+        let problem = system.setup(StartPlan::default())?;
         plan.check(&problem)?;
         super::branches(&problem, plan, control)
     }
@@ -254,7 +254,7 @@ mod tests {
             (BranchPlan { follow: 101, ..good.clone() }, "follow = 101 lies outside 0 <= follow <= 100"),
             (BranchPlan { points: 1, ..good.clone() }, "points = 1 lies outside 2 <= points <= 100000"),
         ] {
-            let message = branch.check(&system.problem(StartPlan::default()).unwrap()).unwrap_err().to_string();
+            let message = branch.check(&system.setup(StartPlan::default()).unwrap()).unwrap_err().to_string();
             assert!(message.starts_with(sentence), "{message}");
         }
     }

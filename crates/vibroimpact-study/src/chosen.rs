@@ -38,7 +38,7 @@ mod tests {
     use core::sync::atomic::AtomicBool;
 
     fn chosen(system: &SystemPlan, label: &str, number: Option<u32>) -> Result<Chosen, RunError> {
-        system.problem(StartPlan::default())?.chosen((Some(label), number), &Control::default())
+        system.setup(StartPlan::default())?.chosen((Some(label), number), &Control::default())
     }
 
     fn at(inverse_beta: f64, gap: f64) -> SystemPlan {
@@ -60,7 +60,7 @@ mod tests {
         }
         let stop = AtomicBool::new(true);
         let control = Control { stop: &stop, ..Control::default() };
-        let stopped = system.problem(StartPlan::default()).unwrap().chosen((Some("2/1"), None), &control);
+        let stopped = system.setup(StartPlan::default()).unwrap().chosen((Some("2/1"), None), &control);
         assert!(matches!(stopped, Err(RunError::Stopped(_))), "{stopped:?}");
         let far = at(0.7, 40.0);
         let error = chosen(&far, "1/1", None).unwrap_err().to_string();

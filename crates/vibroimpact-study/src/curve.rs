@@ -1,7 +1,7 @@
 //! Curves of events of an orbit of any system in a plane of two numbers. A curve begins at an event on a branch in the first one.
 
 use crate::chosen::Chosen;
-use crate::dynamics::{CycleOf, Dynamics, PointOf, Problem, not_stopped};
+use crate::dynamics::{CycleOf, Dynamics, PointOf, Setup, not_stopped};
 use crate::name::Name;
 use crate::orbit_line::{Along, OrbitLine, Solution};
 use crate::{Control, Parameter, PlanError, RunError, Stretch, limits};
@@ -86,7 +86,7 @@ impl<V: Name> CurvePlan<V> {
     ///
     /// # Errors
     /// [`PlanError`] names the first invalid value.
-    pub(crate) fn check<D: Dynamics<Name = V>>(&self, of: &Problem<'_, D>) -> Result<(), PlanError> {
+    pub(crate) fn check<D: Dynamics<Name = V>>(&self, of: &Setup<'_, D>) -> Result<(), PlanError> {
         of.check_orbit((self.label.as_deref(), self.orbit), true)?;
         D::check_curve(self.kind)?;
         self.points.map_or(Ok(()), limits::branch_points)?;
@@ -125,7 +125,7 @@ pub struct EventCurve<C = Cycle, E = SolutionPoint, P = CurvePoint> {
 /// [`RunError`] for an orbit that does not exist, if there is no event of the requested kind, or when stopped. The stop flag is read
 /// at every seed of the search and at every point.
 pub(crate) fn curve<D: Dynamics>(
-    of: &Problem<'_, D>,
+    of: &Setup<'_, D>,
     plan: &CurvePlan<D::Name>,
     control: &Control<'_>,
 ) -> Result<EventCurve<CycleOf<D>, PointOf<D>, D::CurvePoint>, RunError> {
@@ -192,7 +192,7 @@ mod tests {
     use crate::{StartPlan, SystemPlan};
 
     fn curve(system: &SystemPlan, plan: &CurvePlan, control: &Control<'_>) -> Result<EventCurve, RunError> {
-        let problem = system.problem(StartPlan::default())?;
+        let problem = system.setup(StartPlan::default())?;
         plan.check(&problem)?;
         super::curve(&problem, plan, control)
     }

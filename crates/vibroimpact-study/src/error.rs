@@ -71,9 +71,6 @@ pub enum PlanError {
     /// No orbit of a machine with a label was found.
     #[error("no orbit {0} was found at this machine\nhint: `vibro attractors --machine` lists the stable ones")]
     NoMachineOrbit(Label),
-    /// A branch of a machine cannot begin.
-    #[error("{0}")]
-    MachineBranch(String),
     /// An axis of a basin of a machine that is no part of a start.
     #[error("`{given}` is no part of a start\nhint: q.NAME, qdot.NAME or phase; the coordinates are {coordinates}")]
     MachineStartAxis {

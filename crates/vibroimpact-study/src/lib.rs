@@ -21,7 +21,7 @@
 //! | the motion after its transient at each value of a parameter | [`DiagramPlan`], [`Diagram`], [`diagram`] |
 //! | the impacts of a motion on each of two stops | [`ImpactsByStop`] |
 //! | the plan for Lyapunov exponents of a motion | [`LyapunovPlan`] |
-//! | what tasks ask of an oscillator and of a machine alike; a system with the start of a motion | [`Dynamics`], [`Problem`] |
+//! | what tasks ask of an oscillator and of a machine alike | `dynamics` |
 //! | a line along which orbits are followed | [`OrbitLine`] |
 //! | a branch of periodic orbits in one parameter, and the branches that begin on it | [`BranchPlan`], [`Branches`] |
 //! | the orbit at which a branch begins; the data of an event on a branch | [`Chosen`], [`EventRecord`] |
@@ -91,7 +91,7 @@ pub use control::{Control, Meter, Stopped, TileMeter, tiles};
 pub use curve::{CurvePlan, EventCurve, FollowedEvent};
 pub use cut::Cut;
 pub use diagram::{Diagram, DiagramPlan};
-pub use dynamics::{CycleOf, Dynamics, PointOf, Problem, machine_label, quantity_path};
+pub use dynamics::{machine_label, quantity_path};
 pub use error::{PlanError, RunError};
 pub use event_columns::{END_REASONS, EventColumns, REAL_COLUMNS};
 pub use event_record::EventRecord;
@@ -106,7 +106,7 @@ pub use margins::{
     ScaledParameter, Scope,
 };
 pub use name::{Name, Variable};
-pub use orbit_line::{Along, BranchPlace, CycleOn, OrbitLine, Solution};
+pub use orbit_line::{BranchPlace, OrbitLine, Solution};
 pub use parameter::{Parameter, is_length};
 pub use physical::PhysicalPlan;
 pub use plan::Plan;

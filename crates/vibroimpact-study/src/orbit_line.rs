@@ -152,9 +152,6 @@ pub trait Along: Sized {
     type Branch: Iterator<Item = Self::Point>;
 
     /// The branch of a cycle at a value of the first number.
-    ///
-    /// # Errors
-    /// [`BranchError`] if it cannot begin.
     fn branch(
         line: &OrbitLine<Self>,
         at: (f64, &CycleOn<Self>),
@@ -162,14 +159,11 @@ pub trait Along: Sized {
     ) -> Result<Self::Branch, BranchError>;
 
     /// The branches that begin at the event at a point.
-    ///
-    /// # Errors
-    /// [`BranchError`] if they cannot be followed.
     fn leaving(line: &OrbitLine<Self>, point: &Self::Point) -> Result<Vec<Self::Branch>, BranchError>;
 }
 
 /// A cycle of the systems along a line.
-pub type CycleOn<A> = <<<A as Along>::Point as Solution>::System as System>::Cycle;
+pub(crate) type CycleOn<A> = <<<A as Along>::Point as Solution>::System as System>::Cycle;
 
 impl Along for (Oscillator, ParameterPath) {
     type Point = continuation::SolutionPoint;

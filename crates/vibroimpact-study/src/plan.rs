@@ -4,7 +4,7 @@
 //! documented here. Unknown fields are errors, so a misspelt parameter is not ignored.
 
 use crate::diagram::Show;
-use crate::dynamics::{Dynamics, Problem};
+use crate::dynamics::{Dynamics, Setup};
 use crate::limits::{self, MOST_STARTS, PLAN_VERSION, starts};
 use crate::machine::MachineSource;
 use crate::map::check_impacts;
@@ -224,7 +224,7 @@ impl Task {
         };
         // points with starts of their own do not need that of the machine
         let (machine, start) = if own_starts { source.described()? } else { source.problem()? };
-        let of = Problem { written: source, system: machine, start };
+        let of = Setup { written: source, system: machine, start };
         let machine = &of.system;
         match self {
             Self::Simulate { impacts, periods, .. } => machine_plan::check_simulate(machine, (*impacts, *periods)),
@@ -241,7 +241,7 @@ impl Task {
     }
 
     /// Checks the tasks whose plans are checked alike for every system.
-    fn check_alike<D: Dynamics>(&self, of: &Problem<'_, D>) -> Result<(), PlanError> {
+    fn check_alike<D: Dynamics>(&self, of: &Setup<'_, D>) -> Result<(), PlanError> {
         match self {
             Self::Orbit { label } => of.check_orbit((Some(label), None), false),
             Self::Branch(plan) => plan.typed::<D::Name>()?.check(of),
@@ -271,7 +271,7 @@ impl Task {
             Self::Lyapunov(lyapunov) => lyapunov.typed::<Coordinate>()?.check(system),
             Self::Margins(margins) => margins.typed::<Parameter>()?.check(system),
             Self::SettleMany(_) => Err(PlanError::OfMachine),
-            task => task.check_alike(&system.problem(StartPlan::default())?),
+            task => task.check_alike(&system.setup(StartPlan::default())?),
         }
     }
 }

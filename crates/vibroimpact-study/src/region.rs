@@ -1,6 +1,6 @@
 //! The regions of a plane of two parameters in which a motion exists and in which it is stable.
 
-use crate::dynamics::{Dynamics, Problem};
+use crate::dynamics::{Dynamics, Setup};
 use crate::name::Name;
 use crate::{Control, Parameter, PlanError, RunError, Stretch, SystemPlan, limits, tiles};
 use serde::{Deserialize, Serialize};
@@ -53,14 +53,14 @@ impl<V: Name> RegionPlan<V> {
     ///
     /// # Errors
     /// [`PlanError`] names the first invalid value.
-    pub(crate) fn check<D: Dynamics<Name = V>>(&self, of: &Problem<'_, D>) -> Result<(), PlanError> {
+    pub(crate) fn check<D: Dynamics<Name = V>>(&self, of: &Setup<'_, D>) -> Result<(), PlanError> {
         limits::check("grid", self.grid, 2..=MOST_GRID)?;
         of.written.check_plane(&self.across, &self.up)?;
         self.label(of, &of.written.over(&self.across, &self.up)?).map(|_| ())
     }
 
     /// The label. Cycles of oscillators with a rest are not followed.
-    fn label<D: Dynamics<Name = V>>(&self, of: &Problem<'_, D>, over: &Over) -> Result<Label, PlanError> {
+    fn label<D: Dynamics<Name = V>>(&self, of: &Setup<'_, D>, over: &Over) -> Result<Label, PlanError> {
         match over {
             Over::Oscillators(..) => followable(&self.label),
             Over::Machines(_) => D::label(&of.system, Some(&self.label), true)?.ok_or(PlanError::NoLabel),
@@ -174,7 +174,7 @@ pub fn stability_regions(
 /// # Errors
 /// [`RunError`] when stopped. The stop flag is read at every point of the grid and at every step.
 pub(crate) fn regions<D: Dynamics>(
-    of: &Problem<'_, D>,
+    of: &Setup<'_, D>,
     plan: &RegionPlan<D::Name>,
     control: &Control<'_>,
 ) -> Result<Regions, RunError> {

@@ -84,7 +84,7 @@ pub fn run(plan: &Plan, control: &Control<'_>) -> Result<Results, RunError> {
 
 /// Computes the result of the task of an oscillator, which was checked.
 fn run_oscillator(system: &SystemPlan, plan: &Plan, control: &Control<'_>) -> Result<Results, RunError> {
-    let of = system.problem(StartPlan::default())?;
+    let of = system.setup(StartPlan::default())?;
     let osc = of.system;
     // one motion reports its impacts
     let impacts = AtomicU64::new(0);
@@ -141,7 +141,7 @@ fn run_oscillator(system: &SystemPlan, plan: &Plan, control: &Control<'_>) -> Re
         Task::Response(task) => Results::Response(response(&of, &task.typed()?, control)?),
         Task::Margins(task) => {
             let task: MarginsPlan = task.typed()?;
-            let of = system.problem(task.start())?;
+            let of = system.setup(task.start())?;
             Results::Margins(task.label.is_none().then_some(of.start), margins(&of, &task, control)?)
         }
         Task::SettleMany(_) => return Err(PlanError::OfMachine.into()),

@@ -4,10 +4,10 @@ use super::FigureArgs;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
-/// The outputs of a command without a figure. A command says in its help what its table has.
+/// The outputs of a command. A command says in its help what its table has.
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Output")]
-pub(crate) struct TableArgs {
+pub(crate) struct OutputArgs {
     /// Write the answer as a table to this file; - for stdout
     #[arg(long, value_name = "FILE")]
     pub(crate) csv: Option<PathBuf>,
@@ -15,14 +15,6 @@ pub(crate) struct TableArgs {
     /// Print one JSON object instead of text
     #[arg(long)]
     pub(crate) json: bool,
-}
-
-/// The outputs of a command.
-#[derive(Clone, Debug, Args)]
-#[command(next_help_heading = "Output")]
-pub(crate) struct OutputArgs {
-    #[command(flatten)]
-    pub(crate) table: TableArgs,
 
     /// Draw the answer into this file, .svg, .png or .pdf
     #[arg(long, value_name = "FILE")]
@@ -41,19 +33,14 @@ pub(crate) struct Files<'a> {
     pub(crate) json: bool,
 }
 
-impl TableArgs {
-    pub(crate) fn files(&self) -> Files<'_> {
-        Files { csv: self.csv.as_deref(), plot: None, look: None, json: self.json }
-    }
-}
-
 impl OutputArgs {
     pub(crate) fn files(&self) -> Files<'_> {
-        Files { plot: self.plot.as_deref(), look: Some(&self.figure), ..self.table.files() }
+        let (csv, plot) = (self.csv.as_deref(), self.plot.as_deref());
+        Files { csv, plot, look: Some(&self.figure), json: self.json }
     }
 
     /// Whether a table or a figure is asked for.
     pub(crate) const fn any_file(&self) -> bool {
-        self.table.csv.is_some() || self.plot.is_some()
+        self.csv.is_some() || self.plot.is_some()
     }
 }

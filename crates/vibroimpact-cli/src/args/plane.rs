@@ -1,11 +1,11 @@
 //! PLANE: ranges of parameters, `A:B`, with or without the name of the parameter.
 
+use super::Ranged;
 use super::numbers::{self, shown};
 use super::parameter_flag::{ParameterFlag, Varied};
 use crate::failure::Failure;
 use core::str::FromStr;
 use vibroimpact_study::typed::{self, decimal, meant};
-use vibroimpact_study::{Parameter, Stretch};
 
 /// `A:B`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,43 +34,16 @@ fn hint(text: &str) -> String {
     }
 }
 
-/// A value, or a range of values.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Place {
-    At(f64),
-    Over(Interval),
-}
-
-impl Place {
-    /// The value, or the smallest value of the range.
-    pub(crate) const fn first(self) -> f64 {
-        match self {
-            Self::At(value) | Self::Over(Interval(value, _)) => value,
-        }
+/// Reads a value, or a range A:B.
+pub(crate) fn place(text: &str) -> Result<Ranged, String> {
+    if text.contains(':') {
+        return text.parse().map(|Interval(from, to)| Ranged::Ends(from, to));
     }
-
-    /// The range, if it is one.
-    pub(crate) const fn over(self, parameter: Parameter) -> Option<Stretch> {
-        match self {
-            Self::At(_) => None,
-            Self::Over(Interval(from, to)) => Some(Stretch { parameter, from, to }),
-        }
-    }
-}
-
-impl FromStr for Place {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        if text.contains(':') {
-            return text.parse().map(Self::Over);
-        }
-        let hint = || Some(hint(text)).filter(|hint| !hint.is_empty()).unwrap_or_else(|| numbers::hint(text));
-        decimal(text).map(Self::At).ok_or_else(|| match meant(text) {
-            Some(number) => format!("`{}` is neither a number nor a range A:B\nhint: write {number}", shown(text)),
-            None => format!("`{}` is neither a number nor a range A:B{}", shown(text), hint()),
-        })
-    }
+    let hint = || Some(hint(text)).filter(|hint| !hint.is_empty()).unwrap_or_else(|| numbers::hint(text));
+    decimal(text).map(Ranged::At).ok_or_else(|| match meant(text) {
+        Some(number) => format!("`{}` is neither a number nor a range A:B\nhint: write {number}", shown(text)),
+        None => format!("`{}` is neither a number nor a range A:B{}", shown(text), hint()),
+    })
 }
 
 /// `A:B` with the ends in any order.
@@ -159,12 +132,13 @@ impl<T: FromStr<Err: core::fmt::Display>> FromStr for VariedNamed<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use vibroimpact_study::Parameter;
 
     #[test]
     fn ranges_and_what_is_none() {
         assert_eq!("-1:5".parse(), Ok(Interval(-1.0, 5.0)));
-        assert_eq!("0.5".parse(), Ok(Place::At(0.5)));
-        assert_eq!("0.4:2".parse(), Ok(Place::Over(Interval(0.4, 2.0))));
+        assert_eq!(place("0.5"), Ok(Ranged::At(0.5)));
+        assert_eq!(place("0.4:2"), Ok(Ranged::Ends(0.4, 2.0)));
         let plain = |parameter| ParameterFlag { parameter };
         assert_eq!("second-gap=1:2".parse(), Ok(Named(plain(Parameter::SecondGap), Interval(1.0, 2.0))));
         assert_eq!("gap=2:1".parse(), Ok(Named(plain(Parameter::Gap), Ends(2.0, 1.0))));
@@ -188,8 +162,8 @@ mod tests {
         ] {
             assert!(bad.parse::<Interval>().is_err_and(|why| why.ends_with(&format!("\nhint: {hint}"))), "{bad}");
         }
-        assert!("1,5".parse::<Place>().is_err_and(|why| why.ends_with("\nhint: write 1.5")));
-        assert!("25:15".parse::<Place>().is_err_and(|why| why.ends_with("\nhint: write 15:25")));
+        assert!(place("1,5").is_err_and(|why| why.ends_with("\nhint: write 1.5")));
+        assert!(place("25:15").is_err_and(|why| why.ends_with("\nhint: write 15:25")));
         for bad in ["gap", "gap=", "mass=1:2", "=1:2", "gap=2:1", "gap:1=2"] {
             assert!(bad.parse::<Named<Interval>>().is_err(), "{bad}");
         }

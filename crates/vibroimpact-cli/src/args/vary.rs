@@ -3,6 +3,7 @@
 use super::SystemArgs;
 use super::parameter_flag::{ParameterFlag, flag};
 use super::physical::alone;
+use super::system::without_second_restitution;
 use crate::failure::Failure;
 use vibroimpact::PhysicalParameter;
 use vibroimpact_report::Asked;
@@ -39,24 +40,22 @@ impl SystemArgs {
         let mut args = self.clone();
         for (ParameterFlag { parameter }, _, [varies, over]) in varied {
             let given = Parameter::ALL.into_iter().filter(|other| other.same_number(*parameter));
-            if let Some(given) = given.into_iter().find(|parameter| args.has(*parameter)) {
+            if let Some(given) = given.into_iter().find(|parameter| args.numbers.has(*parameter)) {
                 return Err(Failure::bad(format!(
                     "--{} cannot go together with --{varies} {}\nhint: leave it out, --{over} has its values",
                     flag(given),
                     flag(*parameter)
                 )));
             }
-            if *parameter == Parameter::Restitution && args.second_stop_follows() {
-                return Err(Failure::bad(
-                    "the restitution varies and that of the second stop is not given\nhint: --second-restitution E2",
-                ));
+            if *parameter == Parameter::Restitution && args.numbers.second_stop_follows(&args.machine) {
+                return Err(without_second_restitution());
             }
         }
         let machine = args.is_machine();
         let restitution = |p: Parameter| matches!(p, Parameter::Restitution | Parameter::SecondRestitution);
         for (ParameterFlag { parameter }, first, _) in varied {
             if !machine || restitution(*parameter) {
-                args.set(*parameter, Some(*first));
+                args.numbers.set(*parameter, Some(*first));
             }
         }
         let set: Vec<(PhysicalParameter, f64)> =

@@ -75,7 +75,7 @@ pub(super) fn run(args: &Lyapunov, session: &Session) -> Result<(), Failure> {
     if !study && args.store.store.is_some() {
         return Err(Failure::bad("one motion needs no store\nhint: --axis gap=0:5:41 for the exponents over an axis"));
     }
-    if study && args.store.store.is_none() && !args.output.any_file() && !args.output.table.json {
+    if study && args.store.store.is_none() && !args.output.any_file() && !args.output.json {
         return Err(Failure::bad(
             "the exponents of the points would be lost\nhint: --csv FILE, --plot FILE or --store DIR",
         ));

@@ -20,12 +20,6 @@ use vibroimpact_study::{Axis, MapPlan};
 /// summary.
 #[derive(Clone, Debug, Args)]
 #[command(
-    // a machine of several coordinates stands for all of the system
-    mut_arg("restitution", |arg| {
-        arg.required(false).required_unless_present("machine").requires("frequency").requires("distance")
-    }),
-    mut_group("frequency", |group| group.required(false)),
-    mut_group("distance", |group| group.required(false)),
     override_usage = "vibro map --inverse-beta A:B:N --gap A:B:N --restitution E --starts N [OPTIONS]\n       \
         vibro map --machine NAME|FILE --axis PATH=A:B:N [--axis PATH=A:B:N] --starts N [OPTIONS]",
     after_help = "Examples:\n  \

@@ -130,6 +130,8 @@ fn drawable(plan: &Plan) -> Result<(), Failure> {
 fn drawable_over<V: Varied>(task: &Task) -> Result<(), Failure> {
     let units = Units::default();
     match task {
+        // points that are no grid
+        Task::Basin(plan) if plan.points.is_some() && plan.axes.is_empty() => {}
         Task::Basin(_) | Task::Map(_) => Sides::of(&typed_axes::<V>(task.axes())?, &units).map(drop)?,
         Task::Lyapunov(_) => {
             typed_axes::<V>(task.axes())?.iter().try_for_each(|axis| PlaneAxis::of(axis, &units).map(drop))?;

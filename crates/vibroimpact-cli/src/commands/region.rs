@@ -1,14 +1,14 @@
 //! `vibro region`: the regions of a plane of two parameters in which a motion exists and in which it is stable.
 
 use crate::args::{
-    AxesArgs, Convention, MachineArgs, OutputArgs, PhysicalArgs, SystemStretchesArgs, VariedOver, of_oscillator, whole,
+    AxesArgs, Convention, MachineArgs, NumbersArgs, OutputArgs, PhysicalArgs, VariedOver, of_oscillator, ranges, whole,
 };
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
-use vibroimpact_report::{Asked, Shown};
+use vibroimpact_report::Shown;
 use vibroimpact_study::{DEFAULT_GRID, RegionPlan, Stretch, Variable};
 
 /// Where a motion exists and where it is stable, over two parameters: closed polygons
@@ -27,7 +27,7 @@ use vibroimpact_study::{DEFAULT_GRID, RegionPlan, Stretch, Variable};
 /// begin with --grid 8.
 #[derive(Clone, Debug, Args)]
 #[command(
-    mut_arg("restitution", |arg| arg.required(false).required_unless_present("machine")),
+    mut_args(ranges),
     override_usage = "vibro region --label m/n --inverse-beta A:B --gap A:B --restitution E [OPTIONS]\n       \
         vibro region --machine NAME|FILE --label m/n --axis PATH=A:B --axis PATH=A:B [OPTIONS]",
     after_help = "Examples:\n  \
@@ -54,7 +54,7 @@ pub(crate) struct Region {
     label: String,
 
     #[command(flatten, next_help_heading = "Plane")]
-    system: SystemStretchesArgs,
+    system: NumbersArgs,
 
     #[command(flatten, next_help_heading = "Plane")]
     axes: AxesArgs,
@@ -82,12 +82,7 @@ pub(crate) struct Region {
 
 impl Region {
     /// The two parameters with ranges, the abscissa first.
-    fn plane(&self, asked: &Asked, over: Vec<Stretch>) -> Result<(Stretch, Stretch), Failure> {
-        if self.system.second_stop_follows(asked) {
-            return Err(Failure::bad(
-                "the restitution varies and that of the second stop is not given\nhint: --second-restitution E2",
-            ));
-        }
+    fn plane(&self, over: Vec<Stretch>) -> Result<(Stretch, Stretch), Failure> {
         let over = self.axes.order(over, |stretch| stretch.parameter)?;
         match over.as_slice() {
             [across, up] => Ok((*across, *up)),
@@ -118,8 +113,8 @@ impl Region {
 pub(super) fn run(args: &Region, session: &Session) -> Result<(), Failure> {
     let mut plane = None;
     let system = args.of_machine.or_oscillator(None, || {
-        let (asked, over) = args.system.asked((&args.machine, args.units), &[], of_oscillator)?;
-        let (across, up) = args.plane(&asked, over)?;
+        let (asked, over) = args.system.over_ranges((&args.machine, args.units), &[], of_oscillator)?;
+        let (across, up) = args.plane(over)?;
         plane =
             Some([across, up].map(|side| Stretch { parameter: side.parameter.into(), from: side.from, to: side.to }));
         Ok(asked)

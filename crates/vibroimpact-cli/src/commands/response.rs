@@ -16,12 +16,6 @@ use vibroimpact_study::{Axis, ResponsePlan};
 /// over the range through its folds and grazing impacts, stable or not. Orbits on branches that no sweep meets are not found.
 #[derive(Clone, Debug, Args)]
 #[command(
-    // a machine of several coordinates stands for all of the system
-    mut_arg("restitution", |arg| {
-        arg.required(false).required_unless_present("machine").requires("frequency").requires("distance")
-    }),
-    mut_group("frequency", |group| group.required(false)),
-    mut_group("distance", |group| group.required(false)),
     override_usage = "vibro response --beta A:B:N --gap D --restitution E [OPTIONS]\n       \
         vibro response --machine NAME|FILE --axis PATH=A:B:N [OPTIONS]",
     after_help = "Examples:\n  \

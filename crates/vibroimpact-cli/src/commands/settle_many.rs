@@ -1,8 +1,8 @@
 //! `vibro settle-many`: the motions at many points of parameters and starts, listed or drawn.
 
 use crate::args::{
-    Convention, FieldsArgs, Interval, MachineArgs, PhysicalArgs, Place, StartOfMachineArgs, StoreArgs,
-    SystemStretchesArgs, TableArgs, VariedOver, whole,
+    Convention, FieldsArgs, MachineArgs, NumbersArgs, OutputArgs, PhysicalArgs, Ranged, StartOfMachineArgs, StoreArgs,
+    VariedOver, place, ranges, whole,
 };
 use crate::commands::outputs::Outputs;
 use crate::commands::{respond, stored};
@@ -22,12 +22,15 @@ use vibroimpact_study::{
 ///
 /// --points FILE is a table with a header: a column for each parameter and coordinate of the start that varies. --sample
 /// draws points from the ranges A:B of parameters and starts, by Sobol's sequence or as a Latin hypercube. What is in no
-/// column and has no range is the same at all points. Without --csv or --json the command prints the shares of the motions.
+/// column and has no range is the same at all points. Without --csv, --plot or --json the command prints the shares of the motions.
 #[derive(Clone, Debug, Args)]
 #[command(
-    mut_arg("restitution", |arg| arg.required(false)),
+    mut_args(ranges),
     mut_arg("csv", |arg| arg.help(
         "Write one row a point to this file; - for stdout. Columns: what varies, then label, and --fields"
+    )),
+    mut_arg("plot", |arg| arg.help(
+        "Draw the label of each point over the two numbers that vary first into this file, .svg, .png or .pdf"
     )),
     override_usage = "vibro settle-many --sample lhs:N --inverse-beta A:B --gap A:B --restitution E [OPTIONS]\n       \
         vibro settle-many --points FILE.csv --restitution E [OPTIONS]\n       \
@@ -57,7 +60,7 @@ pub(crate) struct SettleMany {
     seed: u64,
 
     #[command(flatten, next_help_heading = "System")]
-    system: SystemStretchesArgs,
+    system: NumbersArgs,
 
     #[command(flatten)]
     machine: PhysicalArgs,
@@ -75,16 +78,16 @@ pub(crate) struct SettleMany {
     units: Convention,
 
     /// Position, a value or a range A:B [default: 0, or on the stop when the gap is negative]
-    #[arg(long, value_name = "X", allow_hyphen_values = true, help_heading = "Starts")]
-    x: Option<Place>,
+    #[arg(long, value_parser = place, value_name = "X", allow_hyphen_values = true, help_heading = "Starts")]
+    x: Option<Ranged>,
 
     /// Velocity, a value or a range A:B [default: 0]
-    #[arg(long, value_name = "V", allow_hyphen_values = true, help_heading = "Starts")]
-    v: Option<Place>,
+    #[arg(long, value_parser = place, value_name = "V", allow_hyphen_values = true, help_heading = "Starts")]
+    v: Option<Ranged>,
 
     /// Phase of the force in radians, a value or a range A:B [default: 0]
-    #[arg(long, value_name = "P", allow_hyphen_values = true, help_heading = "Starts")]
-    phase: Option<Place>,
+    #[arg(long, value_parser = place, value_name = "P", allow_hyphen_values = true, help_heading = "Starts")]
+    phase: Option<Ranged>,
 
     /// Budget of impacts for each start, 1 to 1000000; what is not settled by then is undecided
     #[arg(long, value_parser = whole::<u32>, value_name = "N", allow_hyphen_values = true, help_heading = "Starts")]
@@ -101,7 +104,7 @@ pub(crate) struct SettleMany {
     transient: bool,
 
     #[command(flatten)]
-    output: TableArgs,
+    output: OutputArgs,
 }
 
 /// `sobol:N` or `lhs:N`.
@@ -145,28 +148,25 @@ impl SettleMany {
         }
     }
 
-    fn starts(&self) -> [(Coordinate, Option<Place>); 3] {
-        [(Coordinate::X, self.x), (Coordinate::V, self.v), (Coordinate::Phase, self.phase)]
+    fn starts(&self) -> impl Iterator<Item = (Coordinate, &Ranged)> {
+        let all = [(Coordinate::X, &self.x), (Coordinate::V, &self.v), (Coordinate::Phase, &self.phase)];
+        all.into_iter().filter_map(|(vary, given)| Some((vary, given.as_ref()?)))
     }
 
     /// The coordinates that are the same at all points.
     fn start(&self, units: &Units) -> StartPlan {
-        let at = |place: Option<Place>| match place {
-            Some(Place::At(value)) => Some(value),
-            _ => None,
-        };
+        let at = |given: &Option<Ranged>| given.as_ref().filter(|given| given.is_one()).map(Ranged::first);
         StartPlan {
-            x: at(self.x).map(|x| x / units.length()),
-            v: at(self.v).unwrap_or(0.0) / units.velocity(),
-            phase: at(self.phase).unwrap_or(0.0),
+            x: at(&self.x).map(|x| x / units.length()),
+            v: at(&self.v).unwrap_or(0.0) / units.velocity(),
+            phase: at(&self.phase).unwrap_or(0.0),
         }
     }
 
     /// The system and the points of a table.
     fn listed(&self, columns: Vec<ListedColumn>) -> Result<(Asked, PointsPlan), Failure> {
-        let starts = self.starts();
-        let of_starts = starts.iter().filter_map(|(vary, place)| place.map(|_| *vary));
-        let flags: Vec<Coordinate> = of_starts.chain(self.system.given().map(Coordinate::Parameter)).collect();
+        let of_system = self.system.given().map(|(parameter, _)| Coordinate::Parameter(parameter));
+        let flags: Vec<Coordinate> = self.starts().map(|(vary, _)| vary).chain(of_system).collect();
         let same = |a: Coordinate, b: Coordinate| match (a, b) {
             (Coordinate::Parameter(a), Coordinate::Parameter(b)) => a.same_number(b),
             (a, b) => a == b,
@@ -185,8 +185,7 @@ impl SettleMany {
         };
         let first: Vec<(Parameter, f64)> = columns.iter().filter_map(first).collect();
         let (asked, over) = self.asked(&first)?;
-        let ranged =
-            starts.iter().find(|(_, place)| matches!(place, Some(Place::Over(_)))).map(|(vary, _)| vary.name());
+        let ranged = self.starts().find(|(_, given)| !given.is_one()).map(|(vary, _)| vary.name());
         if let Some(name) = over.first().map(|stretch| stretch.parameter.name()).or(ranged) {
             return Err(Failure::bad(format!(
                 "--{} is a range, and points of a table have one value\nhint: --sample lhs:N draws points from ranges",
@@ -209,12 +208,9 @@ impl SettleMany {
             from: stretch.from,
             to: stretch.to,
         });
-        let of_starts = self.starts().into_iter().filter_map(|(vary, place)| match place {
-            Some(Place::Over(Interval(from, to))) => {
-                let unit = asked.units.of_coordinate(vary);
-                Some(PointRange { vary, from: from / unit, to: to / unit })
-            }
-            _ => None,
+        let of_starts = self.starts().filter_map(|(vary, given)| {
+            let ((from, to), unit) = (given.ends()?, asked.units.of_coordinate(vary));
+            Some(PointRange { vary, from: from / unit, to: to / unit })
         });
         let over: Vec<PointRange> = of_system.chain(of_starts).collect();
         if over.is_empty() {
@@ -229,13 +225,7 @@ impl SettleMany {
         let as_they_are = |_: &mut Asked, flags: &[crate::args::ParameterFlag]| {
             flags.iter().map(|named| named.parameter).collect::<Vec<_>>()
         };
-        let (asked, over) = self.system.asked((&self.machine, self.units), first, as_they_are)?;
-        if self.system.second_stop_follows(&asked) {
-            return Err(Failure::bad(
-                "the restitution varies and that of the second stop is not given\nhint: --second-restitution E2",
-            ));
-        }
-        Ok((asked, over))
+        self.system.over_ranges((&self.machine, self.units), first, as_they_are)
     }
 }
 

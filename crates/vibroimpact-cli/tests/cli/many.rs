@@ -186,3 +186,24 @@ fn points_of_a_machine() {
         assert!(output.status.code() == Some(2) && said.contains(sentence), "{flags}: {said}");
     }
 }
+
+/// The figure of labels over the points is the same from memory and from a store.
+#[test]
+fn labels_over_the_points() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    for (k, (line, across, label)) in [
+        ("--sample sobol:16 --beta 1 --gap 0.5:1 --restitution 0.5 --v -1:1", ">δ<", "1/1"),
+        ("--machine two-mass-hammer --sample sobol:4 --over frequency=0.9:1.3 --over q.head=-1:0.4", "frequency", "/1"),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        told(here, &format!("settle-many {line} --plot {k}.svg"));
+        told(here, &format!("settle-many {line} --store {k}.zarr"));
+        told(here, &format!("plot {k}.zarr stored-{k}.svg"));
+        let drawn = fs::read_to_string(here.join(format!("{k}.svg"))).unwrap();
+        assert!(drawn.contains(across) && drawn.contains(label), "{drawn}");
+        assert_eq!(drawn, fs::read_to_string(here.join(format!("stored-{k}.svg"))).unwrap(), "{line}");
+    }
+}

@@ -10,9 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact._ask import Start, System, ask, given
 from vibroimpact._axis import beside
-from vibroimpact._core import Answer, Oscillator, QuestionError
+from vibroimpact._core import Answer, QuestionError
 from vibroimpact._events import Events
 from vibroimpact._motion import complex_of
+from vibroimpact._oscillator import Oscillator
 from vibroimpact._progress import Progress
 from vibroimpact._result import Column, View
 from vibroimpact._whole import BRANCH, FOLLOW, NUMBER, maybe, whole

@@ -10,8 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 from vibroimpact._ask import Start, System, ask, given
 from vibroimpact._axis import Interval, plane
 from vibroimpact._branch import rows_of
-from vibroimpact._core import Oscillator, QuestionError
+from vibroimpact._core import QuestionError
 from vibroimpact._events import Events
+from vibroimpact._oscillator import Oscillator
 from vibroimpact._progress import Progress
 from vibroimpact._result import Column, View
 from vibroimpact._whole import BRANCH, NUMBER, maybe

@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from vibroimpact import _core
-from vibroimpact._core import QuestionError, Units
+from vibroimpact._core import QuestionError
+from vibroimpact._oscillator import Units
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -19,8 +19,8 @@ use vibroimpact::verdict::{CountedMotion, Verdict};
 use vibroimpact_plot::{Figure, plain};
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{
-    Branches, Control, CurvePlan, Cut, Diagram, EventCurve, Plan, PlanError, RegionPlan, ResponseCurves, Results,
-    Simulated, Task, machine, run,
+    Branches, Control, CurvePlan, Cut, Diagram, EventCurve, Plan, PlanError, PointsPlan, RegionPlan, ResponseCurves,
+    Results, Simulated, Task, machine, run,
 };
 
 /// The largest number of characters of a title over an axis of ordinary width.
@@ -124,6 +124,11 @@ impl Answer {
                 figure::response::figure(&view, title)
             }
             machine::Results::Basin(found) => figure::basin::figure(found, &Units::default(), title)?,
+            machine::Results::Map(found) if found.axes.is_empty() => {
+                let labels = found.points.iter().map(|motions| motions.first().map(|motion| (*motion.label).into()));
+                let points = PointsPlan::Listed(found.columns.clone());
+                figure::scattered::figure(&points, labels, &Units::default(), title)?
+            }
             machine::Results::Map(found) => {
                 figure::map::figure(found, &Units::default(), title, Overlay::default().cells())?
             }

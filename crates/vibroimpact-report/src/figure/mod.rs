@@ -15,6 +15,7 @@ pub mod plane;
 pub mod point_motion;
 pub mod region;
 pub mod response;
+pub(crate) mod scattered;
 pub mod section;
 pub mod settle;
 pub mod shares;

@@ -5,15 +5,20 @@ use crate::figure::coloured::{self, Coloured, Value, asked_for, place};
 use crate::figure::overlay::Overlay;
 use crate::figure::plane::{Plane, PlaneAxis, Sides, varied};
 use crate::figure::point_motion::{PointMotion, group};
-use crate::figure::{basin, diagram, map, quantity_name, shares, title_without};
+use crate::figure::{basin, diagram, map, quantity_name, scattered, shares, title_without};
+use crate::varied::Varied;
 use crate::{AnswerError, Asked, ReportError, Units};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use vibroimpact::QuantityKind;
 use vibroimpact::math::sort_by_key;
 use vibroimpact_plot::{Colour, Figure, FigureAxis, Line, Panel, SERIES, plain};
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::study::{NOT_COMPUTED, REFUSED, StudyArrays, diagram_of, label_of, machine_diagram_of};
-use vibroimpact_study::{Axis, Column, Control, Parameter, Plan, Quantity, System, SystemPlan, Task, typed_axes};
+use vibroimpact_study::{
+    Axis, BasinPlan, Column, Control, Coordinate, Parameter, Plan, PointsPlan, Quantity, System, SystemPlan, Task,
+    typed_axes,
+};
 
 /// Draws the figure of a study; that of a map or basin in the colours of a quantity, if one is given, and that of a map
 /// with what lies over it.
@@ -76,6 +81,13 @@ fn of_task<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     asked: &Asked,
 ) -> Result<Figure, E> {
     match task {
+        Task::Basin(plan) if plan.points.is_some() && axes.is_empty() => {
+            let plan: BasinPlan = plan.typed().map_err(ReportError::from)?;
+            let points = plan.points.ok_or(ReportError::Scattered)?;
+            let number = |varied| if let Coordinate::Parameter(number) = varied { Some(number) } else { None };
+            let title = title_without(asked, &points.varied().filter_map(number).collect::<Vec<Parameter>>());
+            of_points(store, &points, &asked.units, title)
+        }
         Task::Basin(_) => of_basin(store, &Sides::of(axes, &asked.units)?, title_without(asked, &varied(axes))),
         Task::Lyapunov(_) => {
             let [axis] = axes else { return Err(ReportError::Exponents.into()) };
@@ -124,6 +136,9 @@ fn of_machine<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
             Sides::Plane(plane) => of_map(store, &plane, title, Overlay::default().cells()),
         },
         Task::Basin(_) => of_basin(store, &Sides::of(&axes, &units)?, title),
+        Task::SettleMany(plan) => {
+            of_points(store, &plan.typed::<String>().map_err(ReportError::from)?.points, &units, title)
+        }
         Task::Diagram(diagram) => {
             let diagram = diagram.typed().map_err(ReportError::from)?;
             Ok(diagram::figure(&machine_diagram_of(&diagram, &columns::<A, E>(store)?), &units, title)?)
@@ -183,6 +198,20 @@ fn points<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
         points.push(motions);
     }
     Ok(points)
+}
+
+/// The motions at points that are no grid.
+fn of_points<A: StudyArrays, E: From<A::Error> + From<ReportError>, V: Varied + Into<Cow<'static, str>>>(
+    store: &A,
+    points: &PointsPlan<V>,
+    units: &Units,
+    title: String,
+) -> Result<Figure, E> {
+    let Some(label) = store.field_number("label") else { return Err(ReportError::NoLabels.into()) };
+    let width = store.study().fields()[label].width();
+    let column = store.array(label)?;
+    let labels = column.whole().chunks(width).map(|codes| label_of(codes[0]).map(Cow::from));
+    Ok(scattered::figure(points, labels, units, title)?)
 }
 
 fn of_map<A: StudyArrays, E: From<A::Error> + From<ReportError>>(

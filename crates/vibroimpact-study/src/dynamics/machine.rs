@@ -1,6 +1,6 @@
 //! A machine, as tasks ask for it.
 
-use super::{Dynamics, Problem};
+use super::{Dynamics, Setup};
 use crate::machine::{MachineSource, VariedMachine};
 use crate::map::options;
 use crate::margins::{MotionBox, ParameterMargin};
@@ -89,10 +89,6 @@ impl Dynamics for MachineSource {
     fn check_ends(&self, cut: &Cut<String>) -> Result<(), PlanError> {
         let there = |value| Ok(cut.source(self, value)?.machine().map(drop)?);
         there(cut.ends.0).and_then(|()| there(cut.ends.1))
-    }
-
-    fn check_quantity(machine: &Machine, name: &str) -> Result<(), PlanError> {
-        machine_quantity(machine, name).map(drop).map_err(refused)
     }
 
     fn check_curve(_: FollowedEvent) -> Result<(), PlanError> {
@@ -208,7 +204,7 @@ impl Dynamics for MachineSource {
     }
 
     fn carried(
-        of: &Problem<'_, Self>,
+        of: &Setup<'_, Self>,
         _: &Cut<String>,
         before: Option<(f64, Start)>,
         (_, machine): (f64, &Machine),
@@ -224,8 +220,10 @@ impl Dynamics for MachineSource {
         machine_quantity_paths(machine)
     }
 
-    fn quantity(machine: &Machine, given: Option<&String>) -> String {
-        quantity_path(given.map(String::as_str), machine)
+    fn quantity(machine: &Machine, given: Option<&String>) -> Result<String, PlanError> {
+        let path = quantity_path(given.map(String::as_str), machine);
+        machine_quantity(machine, &path).map_err(refused)?;
+        Ok(path)
     }
 
     fn quantities(machine: &Machine, motion: &Verdict<Machine>) -> Option<Vec<f64>> {
@@ -244,14 +242,14 @@ impl Dynamics for MachineSource {
             && speeds.iter().all(|speed| (speed - cycle.fastest()).abs() <= apart)
     }
 
-    fn line_of_events(of: &Problem<'_, Self>, plan: &CurvePlan<String>) -> Result<(OrbitLine<Family>, f64), PlanError> {
+    fn line_of_events(of: &Setup<'_, Self>, plan: &CurvePlan<String>) -> Result<(OrbitLine<Family>, f64), PlanError> {
         let cut = Cut { vary: plan.vary.parameter.clone(), ends: (plan.vary.from, plan.vary.to), also: None };
         let line = OrbitLine::new(of.written, &cut, BranchOptions::default().points);
         Ok((line, Self::number(of.written, &cut.vary)?))
     }
 
     fn curve(
-        of: &Problem<'_, Self>,
+        of: &Setup<'_, Self>,
         plan: &CurvePlan<String>,
         _: OrbitLine<Family>,
         event: &SolutionPoint,

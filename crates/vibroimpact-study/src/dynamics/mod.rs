@@ -23,7 +23,7 @@ use vibroimpact::continuation::CurveEvent;
 use vibroimpact::orbit::Stability;
 use vibroimpact::verdict::{Settled, System, Verdict};
 
-/// A system as it is written in a plan.
+/// A system as it is written in a plan. Errors are [`PlanError`]s that name what is wrong, and of searches [`Stopped`].
 pub trait Dynamics: Sized {
     /// The name of a number.
     type Name: Name;
@@ -43,66 +43,33 @@ pub trait Dynamics: Sized {
     type Curve: Iterator<Item = Self::CurvePoint>;
 
     /// The value of a number.
-    ///
-    /// # Errors
-    /// [`PlanError`] for a number that the system does not have.
     fn number(&self, name: &Self::Name) -> Result<f64, PlanError>;
 
     /// Checks that a line goes through different numbers, and the systems at its ends.
-    ///
-    /// # Errors
-    /// [`PlanError`] names the first invalid value.
     fn check_line(&self, cut: &Cut<Self::Name>) -> Result<(), PlanError>;
 
     /// Checks the systems at the ends of a line through one number.
-    ///
-    /// # Errors
-    /// As [`check_line`](Self::check_line).
     fn check_ends(&self, cut: &Cut<Self::Name>) -> Result<(), PlanError>;
 
-    /// Checks that motions have a quantity.
-    ///
-    /// # Errors
-    /// [`PlanError`] for another name.
-    fn check_quantity(system: &Self::System, name: &str) -> Result<(), PlanError>;
-
     /// Checks that the system has curves of a kind.
-    ///
-    /// # Errors
-    /// [`PlanError::NoCurve`] if it has none.
     fn check_curve(kind: FollowedEvent) -> Result<(), PlanError>;
 
     /// Checks that the ranges of two numbers span a plane of valid systems.
-    ///
-    /// # Errors
-    /// [`PlanError`] for ends out of order, for equal numbers, and for an invalid system at a corner.
     fn check_plane(&self, one: &Stretch<Self::Name>, two: &Stretch<Self::Name>) -> Result<(), PlanError>;
 
     /// The systems of the plane of two numbers.
-    ///
-    /// # Errors
-    /// [`PlanError`] for numbers that the system does not have.
     fn over(&self, across: &Stretch<Self::Name>, up: &Stretch<Self::Name>) -> Result<Over, PlanError>;
 
     /// The line on which orbits are followed from a value of its first number, and the largest number of points of each branch.
-    ///
-    /// # Errors
-    /// [`PlanError`] for numbers that the system does not have.
     fn line(&self, cut: &Cut<Self::Name>, from: f64, points: u32) -> Result<OrbitLine<Self::Along>, PlanError>;
 
     /// The system where the first number of a line has a value; `None` if the value is not allowed.
     fn system_on(&self, cut: &Cut<Self::Name>, line: &OrbitLine<Self::Along>, value: f64) -> Option<Self::System>;
 
     /// The label of an orbit. One that is followed `in_a_plane` has no infinite number of impacts if it is an oscillator's.
-    ///
-    /// # Errors
-    /// [`PlanError`] for a text that is no such label, and for one that is not given where it is needed.
     fn label(system: &Self::System, text: Option<&str>, in_a_plane: bool) -> Result<Option<Label>, PlanError>;
 
     /// The orbits with a label in order of rising speed, and whether each is admissible.
-    ///
-    /// # Errors
-    /// [`PlanError`] for a label whose orbits cannot be followed, [`Stopped`] when stopped.
     fn orbits(
         system: &Self::System,
         label: Label,
@@ -113,9 +80,6 @@ pub trait Dynamics: Sized {
     fn no_orbit(label: Label, others: usize) -> PlanError;
 
     /// The motion from a start, and how far it was followed.
-    ///
-    /// # Errors
-    /// [`PlanError`] for a start that is not allowed, [`Stopped`] when stopped.
     fn settle(
         system: &Self::System,
         start: &Self::Start,
@@ -130,21 +94,12 @@ pub trait Dynamics: Sized {
     fn cycle(system: &Self::System, motion: &Verdict<Self::System>) -> Option<CycleOf<Self>>;
 
     /// The numbers that vary where a plan of margins does not say it.
-    ///
-    /// # Errors
-    /// [`PlanError`] for an invalid system.
     fn free_numbers(&self) -> Result<Vec<Self::Name>, PlanError>;
 
     /// The range and the scale of a number.
-    ///
-    /// # Errors
-    /// [`PlanError`] for a number that the system does not have.
     fn scope(&self, varied: &ScaledParameter<Self::Name>, within: f64) -> Result<Scope<Self::Name>, PlanError>;
 
     /// The box of numbers in which a stable motion is found by trying; `None` where none is looked for.
-    ///
-    /// # Errors
-    /// [`RunError`] for an invalid system, or when stopped.
     fn motion_box(
         &self,
         cycle: &CycleOf<Self>,
@@ -155,11 +110,8 @@ pub trait Dynamics: Sized {
 
     /// The start of a motion of a sweep, at a value of the first number of a line: the state that the motion at the value before
     /// has left there.
-    ///
-    /// # Errors
-    /// [`PlanError`] for an invalid system.
     fn carried(
-        of: &Problem<'_, Self>,
+        of: &Setup<'_, Self>,
         cut: &Cut<Self::Name>,
         before: Option<(f64, Self::Start)>,
         at: (f64, &Self::System),
@@ -171,8 +123,8 @@ pub trait Dynamics: Sized {
     /// The names of all quantities of a motion.
     fn quantity_names(system: &Self::System) -> Vec<String>;
 
-    /// The name of the quantity of a response, if another one is not given.
-    fn quantity(system: &Self::System, given: Option<&Self::Quantity>) -> String;
+    /// The name of the quantity of a response, checked.
+    fn quantity(system: &Self::System, given: Option<&Self::Quantity>) -> Result<String, PlanError>;
 
     /// The values of all quantities of a motion; `None` if they are not defined.
     fn quantities(system: &Self::System, motion: &Verdict<Self::System>) -> Option<Vec<f64>>;
@@ -184,20 +136,14 @@ pub trait Dynamics: Sized {
     fn passes(system: &Self::System, cycle: &CycleOf<Self>, between: [&PointOf<Self>; 2]) -> bool;
 
     /// The line on which the events of a curve are looked for, and the value from which the orbit is followed.
-    ///
-    /// # Errors
-    /// [`PlanError`] for numbers that the system does not have.
     fn line_of_events(
-        of: &Problem<'_, Self>,
+        of: &Setup<'_, Self>,
         plan: &CurvePlan<Self::Name>,
     ) -> Result<(OrbitLine<Self::Along>, f64), PlanError>;
 
     /// The two directions of the curve through an event, and the stops and joints to which it belongs.
-    ///
-    /// # Errors
-    /// [`PlanError::Branch`] if the curve cannot begin.
     fn curve(
-        of: &Problem<'_, Self>,
+        of: &Setup<'_, Self>,
         plan: &CurvePlan<Self::Name>,
         line: OrbitLine<Self::Along>,
         event: &PointOf<Self>,
@@ -208,14 +154,14 @@ pub trait Dynamics: Sized {
 }
 
 /// A cycle of a system.
-pub type CycleOf<D> = <<D as Dynamics>::System as System>::Cycle;
+pub(crate) type CycleOf<D> = <<D as Dynamics>::System as System>::Cycle;
 
 /// A point of a branch of a system.
-pub type PointOf<D> = <<D as Dynamics>::Along as Along>::Point;
+pub(crate) type PointOf<D> = <<D as Dynamics>::Along as Along>::Point;
 
 /// A system with the start of a motion.
 #[derive(Debug)]
-pub struct Problem<'a, D: Dynamics> {
+pub struct Setup<'a, D: Dynamics> {
     /// The system as it is written.
     pub written: &'a D,
     /// The system, checked.
@@ -229,7 +175,7 @@ pub(crate) fn not_stopped(control: &Control<'_>) -> Result<(), Stopped> {
     if control.stopping() { Err(Stopped { done: 0, total: 1 }) } else { Ok(()) }
 }
 
-impl<D: Dynamics> Problem<'_, D> {
+impl<D: Dynamics> Setup<'_, D> {
     /// Checks the label and the number of an orbit.
     pub(crate) fn check_orbit(
         &self,

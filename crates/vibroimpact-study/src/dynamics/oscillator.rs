@@ -1,10 +1,9 @@
 //! An oscillator, as tasks ask for it.
 
-use super::{Dynamics, Problem};
+use super::{Dynamics, Setup};
 use crate::diagram::{Show, carried_state, state_on};
 use crate::map::options;
 use crate::margins::{MotionBox, ParameterMargin, tried_box};
-use crate::name::Name;
 use crate::orbit_line::OrbitLine;
 use crate::region::Over;
 use crate::stretch::check_plane;
@@ -33,9 +32,9 @@ impl SystemPlan {
     ///
     /// # Errors
     /// [`PlanError`] for an invalid system, and for a start that lies beyond a stop or is not finite.
-    pub(crate) fn problem(&self, start: StartPlan) -> Result<Problem<'_, Self>, PlanError> {
+    pub(crate) fn setup(&self, start: StartPlan) -> Result<Setup<'_, Self>, PlanError> {
         let system = self.oscillator()?;
-        Ok(Problem { written: self, start: start.start(&system)?, system })
+        Ok(Setup { written: self, start: start.start(&system)?, system })
     }
 }
 
@@ -59,10 +58,6 @@ impl Dynamics for SystemPlan {
 
     fn check_ends(&self, cut: &Cut) -> Result<(), PlanError> {
         cut.check(self)
-    }
-
-    fn check_quantity(_: &Oscillator, name: &str) -> Result<(), PlanError> {
-        Quantity::of(name).map(drop)
     }
 
     fn check_curve(kind: FollowedEvent) -> Result<(), PlanError> {
@@ -162,7 +157,7 @@ impl Dynamics for SystemPlan {
     }
 
     fn carried(
-        of: &Problem<'_, Self>,
+        of: &Setup<'_, Self>,
         cut: &Cut,
         before: Option<(f64, Start)>,
         (value, osc): (f64, &Oscillator),
@@ -179,8 +174,8 @@ impl Dynamics for SystemPlan {
         Quantity::ALL.map(|quantity| quantity.name().to_owned()).to_vec()
     }
 
-    fn quantity(_: &Oscillator, given: Option<&Quantity>) -> String {
-        given.map_or(Quantity::DisplacementAmplitude, |given| *given).name().to_owned()
+    fn quantity(_: &Oscillator, given: Option<&Quantity>) -> Result<String, PlanError> {
+        Ok(given.map_or(Quantity::DisplacementAmplitude, |given| *given).name().to_owned())
     }
 
     fn quantities(osc: &Oscillator, motion: &Verdict) -> Option<Vec<f64>> {
@@ -206,7 +201,7 @@ impl Dynamics for SystemPlan {
         })
     }
 
-    fn line_of_events(of: &Problem<'_, Self>, plan: &CurvePlan) -> Result<(OrbitLine<Self::Along>, f64), PlanError> {
+    fn line_of_events(of: &Setup<'_, Self>, plan: &CurvePlan) -> Result<(OrbitLine<Self::Along>, f64), PlanError> {
         let physical = plan.vary.physical().or(plan.and.physical());
         let path = match of.written.machine.filter(|_| physical.is_some()) {
             Some(machine) => machine.line(plan.vary.parameter, None)?,
@@ -219,7 +214,7 @@ impl Dynamics for SystemPlan {
     }
 
     fn curve(
-        of: &Problem<'_, Self>,
+        of: &Setup<'_, Self>,
         plan: &CurvePlan,
         line: OrbitLine<Self::Along>,
         event: &SolutionPoint,
@@ -238,6 +233,6 @@ impl Dynamics for SystemPlan {
 
 /// An oscillator that starts at rest.
 #[cfg(test)]
-pub(crate) fn at_rest(system: &SystemPlan) -> Problem<'_, SystemPlan> {
-    system.problem(StartPlan::default()).unwrap()
+pub(crate) fn at_rest(system: &SystemPlan) -> Setup<'_, SystemPlan> {
+    system.setup(StartPlan::default()).unwrap()
 }

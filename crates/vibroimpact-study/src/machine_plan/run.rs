@@ -5,7 +5,7 @@ use super::simulate::simulate;
 use super::verdicts;
 use crate::branch::branches;
 use crate::curve::curve;
-use crate::dynamics::{Dynamics, Problem, machine_label};
+use crate::dynamics::{Dynamics, Setup, machine_label};
 use crate::in_memory::DIAGRAM_TILE;
 use crate::machine::MachineSource;
 use crate::margins::margins;
@@ -57,7 +57,7 @@ pub enum Results {
 /// Computes the result of a task of a machine, which was checked.
 pub(crate) fn run(source: &MachineSource, task: &Task, control: &Control<'_>) -> Result<Results, RunError> {
     let (machine, start) = source.described()?;
-    let of = Problem { written: source, system: machine, start };
+    let of = Setup { written: source, system: machine, start };
     let (machine, start) = (&of.system, &of.start);
     Ok(match task {
         Task::Simulate { impacts, periods, .. } => {

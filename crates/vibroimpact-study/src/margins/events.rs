@@ -3,7 +3,7 @@
 use super::plan::MarginsPlan;
 use super::scope::Scope;
 use super::tried_box::MotionBox;
-use crate::dynamics::{Dynamics, PointOf, Problem};
+use crate::dynamics::{Dynamics, PointOf, Setup};
 use crate::orbit_line::Solution;
 use crate::{Control, Cut, Parameter, RunError};
 use vibroimpact::Oscillator;
@@ -91,7 +91,7 @@ const MOST_POINTS: u32 = 20_000;
 /// [`RunError`] for a label that no orbit has, for an orbit that cannot be followed, or when stopped. The stop flag is read at every
 /// seed of the search, at every impact, at every point of a branch and at every line of the box.
 pub(crate) fn margins<D: Dynamics>(
-    of: &Problem<'_, D>,
+    of: &Setup<'_, D>,
     plan: &MarginsPlan<D::Name>,
     control: &Control<'_>,
 ) -> Result<MotionMargins<D::System, D::Name, PointOf<D>>, RunError> {
@@ -145,7 +145,7 @@ mod tests {
     }
 
     fn found(system: &SystemPlan, plan: &MarginsPlan) -> MotionMargins {
-        margins(&system.problem(plan.start()).unwrap(), plan, &Control::default()).unwrap()
+        margins(&system.setup(plan.start()).unwrap(), plan, &Control::default()).unwrap()
     }
 
     /// Whether 1/1 exists and is stable, from its closed form.

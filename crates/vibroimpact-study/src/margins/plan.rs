@@ -1,7 +1,7 @@
 //! The plan for the margins of a motion.
 
 use super::scope::{ScaledParameter, Scope};
-use crate::dynamics::{Dynamics, Problem};
+use crate::dynamics::{Dynamics, Setup};
 use crate::machine::MachineSource;
 use crate::name::Name;
 use crate::{Parameter, PlanError, StartPlan, SystemPlan, limits};
@@ -152,7 +152,7 @@ impl MarginsPlan<String> {
     ///
     /// # Errors
     /// [`PlanError`] names the first invalid value.
-    pub(crate) fn check(&self, of: &Problem<'_, MachineSource>) -> Result<(), PlanError> {
+    pub(crate) fn check(&self, of: &Setup<'_, MachineSource>) -> Result<(), PlanError> {
         check_within(self.within)?;
         of.check_orbit((self.label.as_deref(), None), false)?;
         if self.lines.is_some() || self.vary.iter().any(|one| one.scale.is_some()) {

@@ -7,7 +7,7 @@ mod row;
 pub use plan::ResponsePlan;
 pub use row::{ResponseCurves, ResponseRow};
 
-use crate::dynamics::{CycleOf, Dynamics, PointOf, Problem, not_stopped};
+use crate::dynamics::{CycleOf, Dynamics, PointOf, Setup, not_stopped};
 use crate::orbit_line::{OrbitLine, Solution};
 use crate::{Control, Cut, RunError};
 use vibroimpact::math::sort_by;
@@ -22,7 +22,7 @@ const MOST_POINTS: u32 = 3_000;
 /// [`RunError`] for a start that is not allowed, or when stopped. The stop flag is read at every event of a motion and at every point
 /// of a branch.
 pub(crate) fn response<D: Dynamics>(
-    of: &Problem<'_, D>,
+    of: &Setup<'_, D>,
     plan: &ResponsePlan<D::Name, D::Quantity>,
     control: &Control<'_>,
 ) -> Result<ResponseCurves, RunError> {
@@ -32,7 +32,7 @@ pub(crate) fn response<D: Dynamics>(
     let up = over.sweep(true, 0)?;
     let down = over.sweep(false, up.len())?;
     let branches = over.branches(up.iter().chain(&down))?;
-    let shown = D::quantity(&of.system, plan.quantity.as_ref()).replace('-', "_");
+    let shown = D::quantity(&of.system, plan.quantity.as_ref())?.replace('-', "_");
     let rows = |motions: Vec<SweptMotion<D>>| motions.into_iter().map(|(row, _)| row).collect();
     Ok(ResponseCurves {
         shown: over.quantities.iter().position(|name| *name == shown).unwrap_or(0),
@@ -48,7 +48,7 @@ type SweptMotion<D> = (ResponseRow, Option<CycleOf<D>>);
 
 /// The systems over the values of a number.
 struct Over<'a, 'c, D: Dynamics> {
-    of: &'a Problem<'a, D>,
+    of: &'a Setup<'a, D>,
     plan: &'a ResponsePlan<D::Name, D::Quantity>,
     cut: Cut<D::Name>,
     line: OrbitLine<D::Along>,

@@ -1,6 +1,6 @@
 //! The plan of a response.
 
-use crate::dynamics::{Dynamics, Problem};
+use crate::dynamics::{Dynamics, Setup};
 use crate::map::check_impacts;
 use crate::name::{Name, Written};
 use crate::quantity::Quantity;
@@ -72,7 +72,7 @@ impl<V: Name, Q: Name> ResponsePlan<V, Q> {
     ///
     /// # Errors
     /// [`PlanError`] names the first invalid value.
-    pub(crate) fn check<D>(&self, of: &Problem<'_, D>) -> Result<(), PlanError>
+    pub(crate) fn check<D>(&self, of: &Setup<'_, D>) -> Result<(), PlanError>
     where
         D: Dynamics<Name = V, Quantity = Q>,
     {
@@ -83,7 +83,7 @@ impl<V: Name, Q: Name> ResponsePlan<V, Q> {
         }
         limits::check("values", u32::try_from(self.over.count()).unwrap_or(u32::MAX), 2..=MOST_VALUES)?;
         check_impacts(self.impacts)?;
-        D::check_quantity(&of.system, &D::quantity(&of.system, self.quantity.as_ref()))?;
+        D::quantity(&of.system, self.quantity.as_ref())?;
         of.written.check_ends(&self.cut())
     }
 }

@@ -62,11 +62,13 @@ impl Motion<'_> {
             }
             Found::Zero { s, guards } => self.arrive(&flight, *s, guards),
         }
+        // its memory is used again two flights later
         self.spare[0] = Some(flight);
     }
 
     /// The time after which the first surface that stands back reaches its holder: it changes its guard without an event.
     fn recovery(&self) -> f64 {
+        // without an offset a surface comes back in the limit only
         let standing = self.place.surfaces.iter().flatten().filter(|surface| surface.offset > 0.0);
         let times = standing.map(|surface| crate::math::ln(surface.size / surface.offset) / surface.rate);
         times.fold(f64::INFINITY, f64::min)

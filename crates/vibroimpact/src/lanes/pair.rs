@@ -54,6 +54,7 @@ impl<M: Mask> Mask for PairMask<M> {
     }
     #[inline(always)]
     fn bits(self) -> u32 {
+        // the bits of the second half follow those of the first
         self.0.bits() | self.1.bits() << self.2
     }
 }
@@ -158,6 +159,7 @@ impl<N: Single> Single for Pair<N> {
     #[inline(always)]
     fn store_some(self, bits: u32, to: &mut [f32]) {
         let first = bits & ((1 << N::WIDTH) - 1);
+        // only chosen numbers are stored: the second half goes on where the first one stopped
         self.0.store_some(first, to);
         self.1.store_some(bits >> N::WIDTH, &mut to[first.count_ones() as usize..]);
     }

@@ -56,6 +56,7 @@ impl<L: Numbers> Mirror<L> {
     #[inline(always)]
     fn at(constants: &Constants<L>, side: L) -> Self {
         let [upper, lower] = constants.gap;
+        // with one stop there is nothing to choose in any lane
         if !constants.two_stops {
             return Self { two_stops: false, side, gap: upper };
         }
@@ -136,6 +137,7 @@ impl<N: Numbers> Constants<N> {
     pub(super) fn guess(&self, h: N, s: N, from: &End<N>, to: &End<N>) -> Guess<N> {
         let mut side = N::splat(1.0);
         if self.two_stops {
+            // below the lower stop at the end of the step
             side = N::choose(to.x.less(-self.gap[1]), -side, side);
         }
         let mirror = Mirror::at(self, side);
@@ -176,10 +178,12 @@ impl<L: Lane> Constants<L> {
             let (room, state) = self.carried(&launch, &propagators.whole(guess.time), mirror.gap);
             return Approach { room, state };
         }
+        // rounded to a whole number in any case, so a product with the inverse will do
         let nearest = (guess.time * (L::splat(1.0) / self.h)).nearest();
         let (room, node) = self.carried(&launch, &propagators.node(nearest), mirror.gap);
         let rest = propagators.rest(guess.time - nearest * self.h);
         let (_, state) = self.carried(&node, &rest, mirror.gap);
+        // the distance at the node less the displacement since: no digits of a short way are lost
         Approach { room: room - Self::moved(&node, &rest), state }
     }
 
@@ -188,6 +192,7 @@ impl<L: Lane> Constants<L> {
     pub(super) fn polish(&self, guess: &Guess<L>, approach: &Approach<L>) -> Strike<L> {
         let Approach { room: g, state: Launch { x, v: p, sin, cos } } = *approach;
         let Self { damped, beta, drag, .. } = *self;
+        // the derivatives of the position, one after another from x'' = sin - x - 2 zeta x'
         let square = beta * beta;
         let q = if damped { (sin - x) - drag * p } else { sin - x };
         let j = if damped { (beta * cos - p) - drag * q } else { beta * cos - p };

@@ -281,3 +281,20 @@ fn f42x_a_branch_ends_where_a_ball_rests_for_ever() {
         assert!(points[points.len() - 2].value - limit < 3e-3, "{path}");
     }
 }
+
+/// A chatter that moves a friction joint: how many of its impacts are followed, each with the joint that turns back after it, is no event.
+/// Over the frequency it was a `corner` eleven times, although simulation has the same events on both sides.
+#[test]
+fn f42y_a_chatter_with_a_joint_has_no_corners() {
+    let parts = MachineParts::new(["x"])
+        .with_mass(0, 1.0)
+        .with_link(&[1.0], 1.0, 0.1)
+        .with_frequency(0.5)
+        .with_force(0, 1, 0.0, 1.5)
+        .with_rigid_stop("wall", &[1.0], 0.5, 0.6)
+        .with_joint("guide", &[1.0], 0.2, 0.2, 0.0);
+    let machine = Machine::new(parts).unwrap();
+    let cycle = settled(&machine, &Start::default()).unwrap();
+    let points = traced((&machine, "frequency"), &cycle, (0.3, 0.5), Direction::Down);
+    assert_eq!(events(&points), [(BranchEvent::EndOfRange, 0.3)]);
+}

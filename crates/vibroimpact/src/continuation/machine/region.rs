@@ -106,6 +106,7 @@ impl Search<'_> {
             Cycle::lasting(&MachineFrame::new(&machine), begin, time).filter(|cycle| self.wanted(cycle))
         };
         there().or_else(|| {
+            // the way is halved, and the cycle followed to its middle first
             let half = depth.checked_sub(1)?;
             let at = (0.5 * (from.at.0 + to.0), 0.5 * (from.at.1 + to.1));
             let middle = Known { at, cycle: self.followed(from, at, half)? };
@@ -131,6 +132,7 @@ impl Search<'_> {
 
     /// Whether a cycle can be followed to a point; it is remembered.
     fn holds(&self, at: (f64, f64)) -> bool {
+        // closer than the edge is outlined, one short try decides
         let mut from = self.nearest(at);
         let short = |from: &Known| self.apart(from.at, at) * f64::from(self.grid.0.min(self.grid.1)) < 4.0 * SHORT;
         let depth = if from.first().is_some_and(short) { 0 } else { DEEPEST };
@@ -155,6 +157,7 @@ impl Search<'_> {
     fn survey(&self) -> Option<()> {
         let (columns, rows) = self.grid;
         let some = |count: u32| (0..count).filter(move |k| k % EVERY == (EVERY / 2).min(count - 1));
+        // in the middle of each block of points
         let mut waiting: Vec<((u32, u32), Cycle)> = Vec::new();
         for (i, j) in some(rows).flat_map(|j| some(columns).map(move |i| (i, j))) {
             let Some(machine) = self.plane.family.machine(self.node((i, j)).into()) else { continue };
@@ -162,6 +165,7 @@ impl Search<'_> {
             let found = find_unreduced(&machine, self.label, starts, self.go_on)?;
             waiting.extend(found.into_iter().filter(|cycle| self.wanted(cycle)).map(|cycle| ((i, j), cycle)));
         }
+        // they are taken from the end: so the first point comes first
         waiting.reverse();
         while let Some(((i, j), cycle)) = waiting.pop() {
             (self.go_on)().then_some(())?;
@@ -169,6 +173,7 @@ impl Search<'_> {
             if !self.learn(from.at, from.cycle.clone()) {
                 continue;
             }
+            // a number below 0 wraps and is left out with those beyond the grid
             let beside = [(i.wrapping_sub(1), j), (i + 1, j), (i, j.wrapping_sub(1)), (i, j + 1)];
             for next in beside.into_iter().filter(|&(k, l)| k < columns && l < rows) {
                 waiting.extend(self.followed(&from, self.node(next), DEEPEST).map(|cycle| (next, cycle)));
@@ -180,6 +185,7 @@ impl Search<'_> {
     /// The region, with its edges.
     fn region(&self, options: RegionOptions) -> Option<Region> {
         self.survey()?;
+        // before the outline finds more
         let found: Vec<(f64, f64)> = self.known.borrow().iter().map(|one| one.at).collect();
         let options = RegionOptions { longest: EDGE.0, accuracy: EDGE.1, ..options };
         let cells = self.grid.0.max(self.grid.1);
@@ -207,6 +213,7 @@ impl Search<'_> {
     fn bound(&self, at: (f64, f64)) -> Option<Bound> {
         let Known { cycle, .. } = self.nearest(at).into_iter().next()?;
         let off = |m: &Multiplier| (m.modulus() - 1.0).abs();
+        // existence ends at +1 only; stability at any point of the circle
         let any = |m: &&Multiplier| self.kind == RegionKind::Stability || m.im == 0.0 && m.re > 0.0;
         let nearest = || cycle.multipliers.iter().filter(any).min_by(|a, b| off(a).total_cmp(&off(b)));
         let bifurcation = |m: &Multiplier| match (m.im == 0.0, m.re > 0.0) {
@@ -226,6 +233,7 @@ impl Search<'_> {
             let lap = MachineLap::fly(&MachineFrame::new(&machine), cycle.strobes.first()?, cycle.period)?;
             let count = lap.events.iter().filter(|event| event.closes()).count();
             match count.cmp(&(closings as usize)) {
+                // an impact has lost its speed, or a new one has come
                 core::cmp::Ordering::Less => Some(Bound::NoSpeed),
                 core::cmp::Ordering::Greater => Some(Bound::Touch),
                 core::cmp::Ordering::Equal => None,

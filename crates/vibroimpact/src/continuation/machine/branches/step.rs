@@ -35,7 +35,10 @@ impl EventBranch {
         }
         if grazing.is_none() && !step.there.known.physical() && edge.is_none() {
             let here = self.tracer.here.clone();
-            return if self.rests(&here) { () } else { self.finish(BranchEvent::NoConvergence) };
+            if !self.rests(&here) {
+                self.finish(BranchEvent::NoConvergence);
+            }
+            return;
         }
         let crossed = match (&edge, &grazing) {
             // where the derivative is infinite, its test functions change sign without a zero
