@@ -147,7 +147,7 @@ fn entries(labels: &[&str], style: impl Fn(&str) -> ClassStyle) -> Legend {
     for label in labels {
         let group = legend_group(label);
         let named = group.contains('/') || unforced(label).is_some();
-        let word = if named { legend_label(label).into() } else { legend_text(group).to_owned() };
+        let word = if named { legend_label(label) } else { legend_text(group).to_owned() };
         match entries.iter_mut().find(|(other, _)| *other == style(label)) {
             Some((_, words)) => words.push_str(&format!(", {word}")),
             None => entries.push((style(label), word)),
