@@ -109,6 +109,11 @@ fn instead(flag: &str) -> &'static str {
 fn lacking(words: &[String], named: &[String]) -> Vec<String> {
     let known = |word: &&String| OF_ONE_SYSTEM.iter().chain(&OF_RANGES).any(|name| name == word);
     let Some(command) = words.iter().find(known).map(String::as_str) else { return Vec::new() };
+    let ranges = OF_RANGES.contains(&command) && value(words, "--axis").is_none();
+    // a machine brings its numbers
+    if value(words, "--machine").is_some() {
+        return if ranges { vec!["--axis <PATH=A:B:N>".to_owned()] } else { Vec::new() };
+    }
     let varied: Vec<String> = ["--vary", "--also"]
         .iter()
         .filter_map(|flag| value(words, flag))
@@ -118,8 +123,9 @@ fn lacking(words: &[String], named: &[String]) -> Vec<String> {
     if command == "diagram" && varied.is_empty() {
         return Vec::new();
     }
-    let given =
-        |flag: &&str| value(words, flag).is_some() || (command == "diagram" && varied.iter().any(|v| v == flag));
+    let axes = axes(words);
+    let varies = |flag: &&str| axes.iter().chain(varied.iter().filter(|_| command == "diagram")).any(|v| v == flag);
+    let given = |flag: &&str| value(words, flag).is_some() || varies(flag);
     let machine = MACHINE.iter().flat_map(|(flags, _)| *flags).any(|flag| !OF_BOTH.contains(flag) && given(flag));
     let needed: &[Needed] = if machine { &MACHINE } else { &NONDIMENSIONAL };
     let open = |(flags, _): &&Needed| {
@@ -128,10 +134,20 @@ fn lacking(words: &[String], named: &[String]) -> Vec<String> {
     let mut all: Vec<String> = needed.iter().filter(open).map(|(_, text)| (*text).to_owned()).collect();
     let ranged = |flag: &str| value(words, &format!("--{flag}")).is_some_and(|text| text.contains([':', ',']));
     let mut varying = ParameterFlag::all().map(ParameterFlag::flag).chain(SHORT);
-    if OF_RANGES.contains(&command) && !varying.any(ranged) {
+    if ranges && !varying.any(ranged) {
         all.push("a range A:B:N instead of one of the values".to_owned());
     }
     all
+}
+
+/// The flags of the numbers that axes vary.
+fn axes(words: &[String]) -> Vec<String> {
+    let after = |(k, word): (usize, &String)| match word.strip_prefix("--axis")? {
+        "" => words.get(k + 1).cloned(),
+        rest => rest.strip_prefix('=').map(str::to_owned),
+    };
+    let flag = |text: String| format!("--{}", text.split('=').next().unwrap_or_default().replace('_', "-"));
+    words.iter().enumerate().filter_map(after).map(flag).collect()
 }
 
 /// The value of a flag.
@@ -186,6 +202,10 @@ mod tests {
         let range = "a range A:B:N instead of one of the values";
         assert_eq!(lacks("vibro map --beta 1 --gap 1 --restitution 0.5", &["--starts <N>"]), [range]);
         assert_eq!(lacks("vibro map --beta 1 --gap 0:1:3 --restitution 0.5", &["--starts <N>"]), [""; 0]);
+        assert_eq!(lacks("vibro map --restitution 0.5 --beta 1 --axis gap=0:1:3", &["--starts <N>"]), [""; 0]);
+        assert_eq!(lacks("vibro map --machine chain", &["--starts <N>"]), ["--axis <PATH=A:B:N>"]);
+        assert_eq!(lacks("vibro map --machine chain --axis frequency=1:2:3", &["--starts <N>"]), [""; 0]);
+        assert_eq!(lacks("vibro basin --machine=chain", &["--label <m/n>"]), [""; 0]);
         assert_eq!(lacks("vibro run", &["<PLAN>"]), [""; 0]);
     }
 

@@ -6,7 +6,7 @@ use crate::door::{self, Watch};
 use crate::error::Trouble;
 use crate::events::{EventFields, Events};
 use crate::machine::{MachineFile, Start, start};
-use crate::oscillator::{Oscillator, Units as UnitsOf};
+use crate::oscillator::{OscillatorFile, ScalesOf, scales};
 use crate::plan::{read, text};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
@@ -24,7 +24,7 @@ use vibroimpact_study::{
 #[derive(FromPyObject)]
 #[allow(clippy::large_enum_variant, reason = "there is one of them in a call")]
 pub(crate) enum System<'py> {
-    Oscillator(Oscillator),
+    Oscillator(OscillatorFile),
     Machine(PyRef<'py, MachineFile>),
 }
 
@@ -240,14 +240,14 @@ fn only(answer: &mut vibroimpact_report::Answer, number: usize) {
 
 /// The title of the figures of an oscillator, in the markup of labels.
 #[pyfunction]
-pub(crate) fn title_of(osc: Oscillator) -> String {
+pub(crate) fn title_of(osc: OscillatorFile) -> String {
     figure::title(&Asked { system: osc.plan, units: Units::default() })
 }
 
 /// The figure of shares of starts by label, as JSON.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)] // arguments from Python
-pub(crate) fn shares_figure(osc: Oscillator, shares: Vec<(String, f64)>) -> Result<String, Trouble> {
+pub(crate) fn shares_figure(osc: OscillatorFile, shares: Vec<(String, f64)>) -> Result<String, Trouble> {
     text(&figure::bars::shares(&shares, title_of(osc)))
 }
 
@@ -296,7 +296,7 @@ impl Answer {
     fn figure(
         &self,
         py: Python<'_>,
-        units: Option<UnitsOf>,
+        units: Option<ScalesOf>,
         of_branch: (bool, bool, Option<usize>),
         quantity: Option<String>,
     ) -> Result<Option<String>, Trouble> {
@@ -307,9 +307,13 @@ impl Answer {
             if let Some(number) = branch {
                 only(changed, number);
             }
-            if let (vibroimpact_report::Answer::Oscillator(of), Some(UnitsOf(scales))) = (&mut *changed, units) {
-                of.asked.units =
-                    Units { scales: Some(scales), si: true, machine: of.asked.system.machine, ..Units::default() };
+            if let (vibroimpact_report::Answer::Oscillator(of), Some(units)) = (&mut *changed, units) {
+                of.asked.units = Units {
+                    scales: Some(scales(units)),
+                    si: true,
+                    machine: of.asked.system.machine,
+                    ..Units::default()
+                };
             }
             let plan = match changed {
                 vibroimpact_report::Answer::Oscillator(of) => &mut of.plan,
@@ -363,6 +367,6 @@ impl Answer {
 
 /// The names of the parameters of an oscillator, the frequency in the form in which it was given.
 #[pyfunction]
-pub(crate) fn varied_parameters(osc: Oscillator) -> Vec<&'static str> {
+pub(crate) fn varied_parameters(osc: OscillatorFile) -> Vec<&'static str> {
     MarginsPlan::parameters(&osc.plan).into_iter().map(Parameter::name).collect()
 }

@@ -8,13 +8,12 @@ pub(crate) fn column<T: numpy::Element>(py: Python<'_>, values: impl Iterator<It
     values.collect::<Vec<T>>().into_pyarray(py)
 }
 
-/// Rows of `width` values each as an array.
+/// Rows of `width` values each as an array; `width` may be 0.
 pub(crate) fn grid<T: numpy::Element>(
     py: Python<'_>,
-    rows: impl Iterator<Item = Vec<T>>,
+    rows: impl ExactSizeIterator<Item = Vec<T>>,
     width: usize,
 ) -> PyResult<Bound<'_, PyArray2<T>>> {
-    let flat: Vec<T> = rows.flatten().collect();
-    let count = flat.len() / width;
-    flat.into_pyarray(py).reshape([count, width])
+    let count = rows.len();
+    rows.flatten().collect::<Vec<T>>().into_pyarray(py).reshape([count, width])
 }

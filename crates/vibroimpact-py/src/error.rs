@@ -9,8 +9,8 @@
 //! | a defect of this program | `RuntimeError` |
 
 use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
-use pyo3::{PyErr, Python, create_exception};
 use pyo3::types::PyAnyMethods;
+use pyo3::{PyErr, Python, create_exception};
 use vibroimpact::SystemError;
 use vibroimpact::verdict::LabelError;
 use vibroimpact_report::AnswerError;

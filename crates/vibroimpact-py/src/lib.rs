@@ -14,6 +14,7 @@ mod events;
 mod grid;
 mod machine;
 mod oscillator;
+mod palette;
 mod plan;
 mod points;
 mod region;
@@ -36,11 +37,12 @@ mod _core {
     #[pymodule_export]
     use crate::machine::{MachineFile, machine_names, machine_state, machine_waveform, simulate_machines};
     #[pymodule_export]
-    use crate::oscillator::{Oscillator, Units};
+    use crate::oscillator::OscillatorFile;
+    #[pymodule_export]
+    use crate::palette::{look_of, palette};
     #[pymodule_export]
     use crate::plan::{
         checked_plan, coordinate_words, fixed_coordinates, machine_parameters, point_coordinates, scales_of_points,
-        scales_over, system_fields,
     };
     #[pymodule_export]
     use crate::points::{drawn_points, settle_points};

@@ -1,11 +1,11 @@
 //! Machines: a machine as it is written, the events of its motion, and its waveform.
 
-use crate::columns::column;
+use crate::columns::{column, grid};
 use crate::door::{self, Watch};
 use crate::error::Trouble;
 use crate::events::{EventFields, Events, code};
 use crate::simulate::checked_step;
-use numpy::{Element, IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
+use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use vibroimpact::events::{self, Event, Limits, Sample, Samples};
 use vibroimpact::machine::Machine;
@@ -152,16 +152,6 @@ pub(crate) fn machine_state(py: Python<'_>, plan: &str, event: usize) -> Result<
     })
 }
 
-/// Rows of `width` values each as an array; `width` may be 0.
-fn rows<T: Element + Copy>(
-    py: Python<'_>,
-    rows: impl ExactSizeIterator<Item = Vec<T>>,
-    width: usize,
-) -> PyResult<Bound<'_, PyArray2<T>>> {
-    let count = rows.len();
-    rows.flatten().collect::<Vec<T>>().into_pyarray(py).reshape([count, width])
-}
-
 /// The events of motions of machines: a row of `width` events for each motion.
 #[derive(IntoPyObject)]
 pub(crate) struct ManyEventFields<'py> {
@@ -272,11 +262,11 @@ pub(crate) fn machine_waveform<'py>(
     Ok(WaveformFields {
         time: column(py, wave.iter().map(|sample| sample.time)),
         phase: column(py, wave.iter().map(|sample| sample.phase)),
-        q: rows(py, wave.iter().map(|sample| sample.q.clone()), n)?,
-        qdot: rows(py, wave.iter().map(|sample| sample.qdot.clone()), n)?,
-        gap: rows(py, wave.iter().map(|sample| sample.gaps.clone()), stops)?,
-        force: rows(py, wave.iter().map(|sample| sample.forces.clone()), stops + joints)?,
-        contact: rows(py, wave.iter().map(contact), stops)?,
+        q: grid(py, wave.iter().map(|sample| sample.q.clone()), n)?,
+        qdot: grid(py, wave.iter().map(|sample| sample.qdot.clone()), n)?,
+        gap: grid(py, wave.iter().map(|sample| sample.gaps.clone()), stops)?,
+        force: grid(py, wave.iter().map(|sample| sample.forces.clone()), stops + joints)?,
+        contact: grid(py, wave.iter().map(contact), stops)?,
     })
 }
 

@@ -1,7 +1,7 @@
 //! A plan from text in JSON or TOML: checked, and converted to the form in which it is stored.
 
 use crate::error::Trouble;
-use crate::oscillator::Oscillator;
+use crate::oscillator::OscillatorFile;
 use crate::simulate::{StartArgument, start_plan};
 use pyo3::prelude::*;
 use serde::Serialize;
@@ -43,41 +43,6 @@ pub(crate) fn points(plan: &Plan) -> u64 {
 pub(crate) fn checked_plan(given: &str) -> Result<(String, String, String, u64), Trouble> {
     let plan = read(given)?;
     Ok((text(&plan)?, plan.hash(), plan.title(), points(&plan)))
-}
-
-/// The fields of the system of a plan as JSON, with the frequency in the form in which it was given.
-#[pyfunction]
-pub(crate) fn system_fields(osc: Oscillator) -> Result<String, Trouble> {
-    text(&osc.plan)
-}
-
-/// The units of length, time and mass of a machine at each combination of values of some of its parameters, in the order
-/// of the parameters, the last one fastest. Combinations that are no machine have not-a-number.
-#[pyfunction]
-#[allow(clippy::needless_pass_by_value)] // arguments from Python
-pub(crate) fn scales_over(text: &str, names: Vec<String>, values: Vec<Vec<f64>>) -> Result<[Vec<f64>; 3], Trouble> {
-    let plan = read(text)?;
-    let system = plan.oscillator().ok_or(Trouble::Defect("the scales of a machine"))?;
-    let parameters = names.iter().map(|name| crate::axis::parameter(name)).collect::<Result<Vec<_>, _>>()?;
-    let count = values.iter().map(Vec::len).product();
-    let mut found = [(); 3].map(|()| Vec::with_capacity(count));
-    for k in 0..count {
-        let mut rest = k;
-        let place: Vec<f64> = values
-            .iter()
-            .rev()
-            .map(|values| {
-                let value = values[rest % values.len()];
-                rest /= values.len();
-                value
-            })
-            .collect();
-        let there = system.with_all(parameters.iter().copied().zip(place.into_iter().rev()));
-        let scales = there.ok().and_then(|there| there.scales());
-        let of = scales.map_or([f64::NAN; 3], |scales| [scales.length_m, scales.time_s, scales.mass_kg]);
-        found.iter_mut().zip(of).for_each(|(column, value)| column.push(value));
-    }
-    Ok(found)
 }
 
 /// The units of length, time and mass of a machine, the system of a plan as JSON, at points: columns of values of some of
@@ -140,7 +105,7 @@ fn all_coordinates(system: &SystemPlan, start: Option<StartPlan>) -> Vec<(Coordi
 
 /// The parameters of a system and the coordinates of a start, described.
 #[pyfunction]
-pub(crate) fn point_coordinates(osc: Oscillator, start: StartArgument) -> Vec<Fixed> {
+pub(crate) fn point_coordinates(osc: OscillatorFile, start: StartArgument) -> Vec<Fixed> {
     all_coordinates(&osc.plan, Some(start_plan(start))).into_iter().map(described).collect()
 }
 

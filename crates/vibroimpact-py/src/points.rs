@@ -3,7 +3,7 @@
 use crate::door::{self, Watch};
 use crate::error::Trouble;
 use crate::grid::{Variable, arrays};
-use crate::oscillator::Oscillator;
+use crate::oscillator::OscillatorFile;
 use crate::simulate::{StartArgument, start_plan};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -28,7 +28,7 @@ pub(crate) fn column(name: &str, values: Vec<f64>) -> Result<ListedColumn, Troub
 #[allow(clippy::too_many_arguments, clippy::needless_pass_by_value)] // called from Python
 pub(crate) fn settle_points<'py>(
     py: Python<'py>,
-    osc: Oscillator,
+    osc: OscillatorFile,
     over: Vec<(String, PyReadonlyArray1<'py, f64>)>,
     start: StartArgument,
     options: (Option<u32>, Vec<String>, bool),

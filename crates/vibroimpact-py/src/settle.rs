@@ -2,7 +2,7 @@
 
 use crate::door::{self, Watch};
 use crate::error::Trouble;
-use crate::oscillator::Oscillator;
+use crate::oscillator::OscillatorFile;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use vibroimpact::Start;
@@ -86,7 +86,7 @@ pub(crate) type Many<'py> = (Vec<(String, u64)>, Bound<'py, PyArray1<u32>>);
 #[allow(clippy::needless_pass_by_value)] // called from Python
 pub(crate) fn settle_many<'py>(
     py: Python<'py>,
-    osc: Oscillator,
+    osc: OscillatorFile,
     x: PyReadonlyArray1<'py, f64>,
     v: PyReadonlyArray1<'py, f64>,
     phase: PyReadonlyArray1<'py, f64>,

@@ -3,7 +3,7 @@
 use crate::columns::column;
 use crate::door::{self, Watch};
 use crate::error::Trouble;
-use crate::oscillator::Oscillator;
+use crate::oscillator::OscillatorFile;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use vibroimpact::Start;
@@ -38,7 +38,7 @@ type Waveform<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Boun
 #[pyfunction]
 pub(crate) fn waveform<'py>(
     py: Python<'py>,
-    osc: Oscillator,
+    osc: OscillatorFile,
     start: StartArgument,
     until: f64,
     step: f64,

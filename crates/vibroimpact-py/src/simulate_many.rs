@@ -2,7 +2,7 @@
 
 use crate::door::{self, Watch};
 use crate::error::Trouble;
-use crate::oscillator::Oscillator;
+use crate::oscillator::OscillatorFile;
 use crate::points::column;
 use crate::simulate::{StartArgument, start_plan};
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1};
@@ -23,7 +23,7 @@ struct Asked {
 }
 
 impl Asked {
-    fn new(osc: Oscillator, over: &Over<'_>, start: StartArgument) -> Result<Self, Trouble> {
+    fn new(osc: OscillatorFile, over: &Over<'_>, start: StartArgument) -> Result<Self, Trouble> {
         let columns = over.iter().map(|(name, values)| column(name, values.as_array().to_vec()));
         let points = PointsPlan::Listed(columns.collect::<Result<_, _>>()?);
         Ok(Self { points, system: osc.plan, start: start_plan(start) })
@@ -88,7 +88,7 @@ pub(crate) const fn end_reasons() -> [&'static str; END_REASONS.len()] {
 #[allow(clippy::needless_pass_by_value)] // called from Python
 pub(crate) fn simulate_points<'py>(
     py: Python<'py>,
-    osc: Oscillator,
+    osc: OscillatorFile,
     over: Over<'py>,
     start: StartArgument,
     limits: (Option<u64>, Option<f64>),
@@ -145,7 +145,7 @@ impl<'py> StateFields<'py> {
 #[allow(clippy::needless_pass_by_value)] // called from Python
 pub(crate) fn states_of_points<'py>(
     py: Python<'py>,
-    osc: Oscillator,
+    osc: OscillatorFile,
     over: Over<'py>,
     start: StartArgument,
     times: Vec<f64>,
@@ -165,7 +165,7 @@ pub(crate) fn states_of_points<'py>(
 #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)] // called from Python
 pub(crate) fn strobes_of_points<'py>(
     py: Python<'py>,
-    osc: Oscillator,
+    osc: OscillatorFile,
     over: Over<'py>,
     start: StartArgument,
     phase: f64,
@@ -187,7 +187,7 @@ pub(crate) fn strobes_of_points<'py>(
 #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)] // called from Python
 pub(crate) fn crossings_of_points<'py>(
     py: Python<'py>,
-    osc: Oscillator,
+    osc: OscillatorFile,
     over: Over<'py>,
     start: StartArgument,
     position: f64,

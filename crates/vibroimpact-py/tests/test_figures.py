@@ -1,8 +1,6 @@
 """Figures: drawn without warnings, with the required contents."""
 
-import re
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import matplotlib
@@ -55,9 +53,10 @@ def test_a_branch_is_solid_where_it_is_stable_and_dashed_where_not() -> None:
     drawn(ax)
     assert words(ax) == ["1/1", "2/2", "1/2", "stable", "unstable", "flip", "fold", "grazing"]
     flip = found.events[0].parameter
-    for line in (line for line in ax.lines if len(line.get_xdata()) > 5 and line.get_color() == _palette.SERIES[0]):
-        xs = np.asarray(line.get_xdata())
-        assert (xs.max() <= flip + 1e-9) if line.get_linestyle() == "-" else (xs.min() >= flip - 1e-9)
+    stable = [line for line in ax.lines if len(line.get_xdata()) > 5 and line.get_color().startswith(_palette.class_colour("1/1"))]
+    assert stable and all(line.get_linestyle() == "-" and np.nanmax(line.get_xdata()) <= flip + 1e-9 for line in stable)
+    dashed = [line for line in ax.lines if len(line.get_xdata()) > 5 and line.get_linestyle() == "--"]
+    assert dashed and all(np.nanmin(line.get_xdata()) >= flip - 1e-9 for line in dashed)
     assert "simulation" in words(found.plot(plt.subplots()[1]))
 
 
@@ -96,7 +95,7 @@ def test_cells_have_the_colours_of_their_motions(s: vi.Oscillator) -> None:
     expected = np.searchsorted(["1/1", "2/1"], ds.vibro.labels().values)
     np.testing.assert_array_equal(shown, expected)
     colours = [matplotlib.colors.to_hex(patch.get_facecolor()) for patch in ax.get_legend().get_patches()]
-    assert colours == [_palette.CLASSES["1/1"], _palette.CLASSES["2/1"]]
+    assert colours == [_palette.class_colour("1/1"), _palette.class_colour("2/1")]
     with pytest.raises(vi.QuestionError, match="a figure has two axes, and there are 1"):
         ds.isel(x=0).vibro.plot()
 
@@ -115,24 +114,6 @@ def test_a_region_is_filled_and_bounded(s: vi.Oscillator) -> None:
     ax = vi.region(s, "1/1", {"inverse_beta": (0.4, 2), "gap": (-1, 5)}).plot()
     assert words(ax)[:4] == ["1/1 exists, unstable", "1/1 stable", "fold", "flip"]
     assert ax.get_xlim() == (0.4, 2) and ax.get_ylim() == (-1, 5) and ax.get_title() == "$ε$ = 0.5"
-
-
-def test_colours_are_those_of_the_command(root: Path) -> None:
-    source = (root / "crates/vibroimpact-plot/src/palette.rs").read_text()
-    series = re.search(r"SERIES: \[Colour; 8\] = \[(.*?)\];", source, re.S)
-    assert series is not None
-    colours = [f"#{code.replace('_', '')}" for code in re.findall(r"0x([0-9a-f_]+)", series[1])]
-    assert list(_palette.SERIES) == colours
-    styles = source[source.index("pub fn class_style") :]
-    found = dict(re.findall(r'"([^"]+)" => (?:plain|ClassStyle::hatched)\(0x([0-9a-f_]+)', styles))
-    assert {name: f"#{code.replace('_', '')}" for name, code in found.items()} == {
-        name: colour for name, colour in _palette.CLASSES.items() if name != "other"
-    }
-    tests = re.search(r"fn labels_find_their_group.*?\] \{", source, re.S)
-    assert tests is not None
-    pairs = [(label, group) for label, group in re.findall(r'\("([^"]*)", "([^"]*)"\)', tests[0])]
-    ours = [(label, group) for label, group in pairs if label not in ("", " 4/1 ", "2/1'", "∞/2", "Chaotic")]
-    assert len(ours) > 12 and all(_palette.legend_group(label) == group for label, group in ours)
 
 
 def coloured(ds: Any, **options: Any) -> tuple[Axes, Any]:

@@ -42,7 +42,7 @@ def test_examples_in_the_documentation_are_true() -> None:
             runner.run(test)
             tested.add(test.name)
     assert runner.summarize(verbose=False).failed == 0
-    assert {"vibroimpact.Oscillator", "vibroimpact.Oscillator.from_units", "vibroimpact"} <= tested
+    assert {"vibroimpact._oscillator.Oscillator", "vibroimpact._oscillator.Oscillator.from_units", "vibroimpact"} <= tested
 
 
 def listings(path: Path) -> list[str]:

@@ -67,6 +67,15 @@ def test_results_are_values(name: str) -> None:
     assert not plt.get_fignums()
 
 
+@pytest.mark.parametrize("name", ["branch", "settlement", "machine simulation"])
+def test_results_from_pickles_are_drawn(name: str) -> None:
+    one = RESULTS[name]()
+    lines = [np.atleast_1d(of.plot())[0].get_lines() for of in (one, pickle.loads(pickle.dumps(one)))]
+    assert len(lines[0]) == len(lines[1])
+    for a, b in zip(*lines):
+        np.testing.assert_array_equal(a.get_ydata(), b.get_ydata())
+
+
 def test_other_values_are_other_results() -> None:
     assert vi.simulate(OSC, impacts=5) != vi.simulate(OSC, impacts=6)
     assert vi.branch(OSC, "gap", 2.0, label="1/1") != vi.branch(OSC, "gap", 2.1, label="1/1")

@@ -106,12 +106,27 @@ pub enum Over {
     Machines(machine::Plane),
 }
 
+/// The label of a motion, the cycles of machines with it, and which of its regions is computed.
+type Wanted<'a> = (Label, Option<&'a machine::Seeds>, RegionKind);
+
 impl Over {
-    fn region(&self, label: Label, kind: RegionKind, options: RegionOptions, control: &Control<'_>) -> Option<Region> {
+    /// The cycles from which both regions of a motion of machines begin.
+    fn seeds(&self, label: Label, options: RegionOptions, control: &Control<'_>) -> Option<machine::Seeds> {
+        let Self::Machines(plane) = self else { return None };
+        plane.seeds_while(label, options, &|| !control.stopping())
+    }
+
+    fn region(
+        &self,
+        (label, seeds): (Label, Option<&machine::Seeds>),
+        kind: RegionKind,
+        options: RegionOptions,
+        control: &Control<'_>,
+    ) -> Option<Region> {
         let go_on = || !control.stopping();
         match self {
             Self::Oscillators(osc, frame) => region_while(osc, label, kind, frame, options, &go_on),
-            Self::Machines(plane) => plane.region_while(label, kind, options, &go_on),
+            Self::Machines(plane) => plane.region_from(seeds?, kind, options, &go_on),
         }
     }
 }
@@ -128,18 +143,19 @@ impl Plane {
 
     /// Both regions of one motion.
     fn both(&self, label: Label, control: &Control<'_>) -> Result<Regions, RunError> {
-        let wanted = [(label, RegionKind::Existence), (label, RegionKind::Stability)];
+        let seeds = self.over.seeds(label, self.options, control);
+        let wanted = [RegionKind::Existence, RegionKind::Stability].map(|kind| (label, seeds.as_ref(), kind));
         let mut both = self.regions(&wanted, control)?.into_iter();
         let mut next = || both.next().unwrap_or(Region { polygons: Vec::new(), unresolved: Vec::new() });
         Ok(Regions { existence: next(), stability: next() })
     }
 
     /// Computes several regions, each on a thread of its own.
-    fn regions(&self, wanted: &[(Label, RegionKind)], control: &Control<'_>) -> Result<Vec<Region>, RunError> {
+    fn regions(&self, wanted: &[Wanted<'_>], control: &Control<'_>) -> Result<Vec<Region>, RunError> {
         let each = tiles(wanted.len() as u64, 1, control, |range, tick| {
             // one region for each tile
-            let (label, kind) = wanted[usize::try_from(range.start).unwrap_or(0)];
-            let region = self.over.region(label, kind, self.options, control);
+            let (label, seeds, kind) = wanted[usize::try_from(range.start).unwrap_or(0)];
+            let region = self.over.region((label, seeds), kind, self.options, control);
             if region.is_some() {
                 tick();
             }
@@ -164,7 +180,7 @@ pub fn stability_regions(
     control: &Control<'_>,
 ) -> Result<Vec<Region>, RunError> {
     system.check_plane(across, up)?;
-    let wanted = labels.iter().map(|label| Ok((followable(label)?, RegionKind::Stability)));
+    let wanted = labels.iter().map(|label| Ok((followable(label)?, None, RegionKind::Stability)));
     let wanted = wanted.collect::<Result<Vec<_>, PlanError>>()?;
     Plane::new(system, (across, up), grid)?.regions(&wanted, control)
 }

@@ -3,232 +3,157 @@
 use crate::report::diagram::range;
 use crate::report::words::{stop_name, table};
 use std::fmt::Write;
-use vibroimpact::Label;
-use vibroimpact::continuation;
-use vibroimpact::continuation::{BranchEvent, Change, SolutionPoint, Touch};
+use vibroimpact::continuation::{BranchEvent, Change, SolutionPoint, Touch, machine};
 use vibroimpact::machine::Machine;
-use vibroimpact::orbit;
 use vibroimpact::orbit::Cycle;
+use vibroimpact::verdict::Stability;
+use vibroimpact_report::json::branch::{
+    BranchAnswer, BranchEventObject, BranchObject, ChosenObject, Event, OriginObject, PointObject,
+};
 use vibroimpact_report::number::{precise, short};
 use vibroimpact_report::{Units, Varied};
-use vibroimpact_study::{Branches, Chosen, Cut, Origin, counted};
+use vibroimpact_study::{Cut, counted};
 
 /// The number of the orbit, if there are several, and its stability.
-pub(crate) fn chosen<C>(chosen: &Chosen<C>) -> String {
-    let which = chosen.among.filter(|among| among.count > 1);
-    let which = which.map_or_else(String::new, |among| format!("orbit {} of {}, ", among.number, among.count));
-    format!("{which}{} there", chosen.stability.map_or("inadmissible", |stability| stability.name()))
+pub(crate) fn chosen(orbit: Option<ChosenObject>, stability: Option<Stability>) -> String {
+    let which = orbit.filter(|orbit| orbit.count > 1);
+    let which = which.map_or_else(String::new, |orbit| format!("orbit {} of {}, ", orbit.number, orbit.count));
+    format!("{which}{} there", stability.map_or("inadmissible", |stability| stability.name()))
 }
 
-/// The name of the column of the period.
-const PERIOD: &str = "period";
-
-/// A point of a branch of any system, as it is told.
-struct Told {
-    /// The values of the parameters, in the units of the results.
-    values: Vec<f64>,
-    label: Label,
-    stability: &'static str,
-    /// The event at the point.
-    event: Option<ToldEvent>,
-}
-
-struct ToldEvent {
-    name: &'static str,
-    ends: bool,
-    end_of_range: bool,
-    /// Whether a branch goes on here, beyond values at which it has no solution.
-    jump: bool,
-    /// The labels on both sides of it.
-    sides: (Label, Label),
-    remark: String,
+/// What the columns of a table of events say of a point.
+struct Columns {
+    names: Vec<String>,
+    /// Whether there is no forcing: with it the label says the period.
+    period: bool,
 }
 
 /// The text of all branches, each with its events and its end.
-pub(crate) fn text(found: &Branches, cut: &Cut, units: &Units) -> String {
-    let names: Vec<String> = cut.names().map(|parameter| parameter.words(units)).collect();
-    let told = |points: &[SolutionPoint]| points.iter().map(|point| Told::of_oscillator(point, cut, units)).collect();
-    let event = |point: &SolutionPoint| (point.event.map_or("event", |event| event.name()), point.value);
-    branches_text(found, found.chosen.cycle.label, (cut, units, &names), told, event)
-}
-
-/// The same of a machine.
-pub(crate) fn of_machine(
-    found: &Branches<orbit::machine::Cycle, continuation::machine::SolutionPoint>,
-    cut: &Cut<String>,
-    machine: &Machine,
+pub(crate) fn text<V: Varied>(
+    answer: &BranchAnswer<'_>,
+    machine: Option<&Machine>,
+    (cut, units): (&Cut<V>, &Units),
 ) -> String {
-    // with forcing the label says the period
-    let period = machine.period().is_none().then(|| PERIOD.to_owned());
-    let names: Vec<String> = cut.names().cloned().chain(period).collect();
-    let told = |points: &[continuation::machine::SolutionPoint]| {
-        (0..points.len()).map(|k| Told::of_machine(points, k, cut, machine)).collect()
-    };
-    let event =
-        |point: &continuation::machine::SolutionPoint| (point.event.map_or("event", |event| event.name()), point.value);
-    branches_text(found, found.chosen.cycle.label, (cut, &Units::default(), &names), told, event)
-}
-
-/// The branches of an orbit with this label. `told` says what is at the points of a branch, and `event` which event is at a point.
-fn branches_text<C, P, V: Varied>(
-    found: &Branches<C, P>,
-    label: Label,
-    (cut, units, names): (&Cut<V>, &Units, &[String]),
-    told: impl Fn(&[P]) -> Vec<Told>,
-    event: impl Fn(&P) -> (&'static str, f64),
-) -> String {
-    let place = |origin: &Origin<P>| {
-        let (kind, value) = event(&origin.point);
-        let value = precise(value * cut.vary.unit(units));
-        format!("{kind} of branch {} at {} {value}", origin.branch + 1, names[0])
+    let names = cut.names().map(|name| name.words(units)).collect();
+    let columns = Columns { names, period: machine.is_some_and(|machine| machine.period().is_none()) };
+    let place = |OriginObject { kind, branch, parameter }: OriginObject| {
+        format!("{kind} of branch {branch} at {} {}", columns.names[0], precise(parameter))
     };
     let mut text = String::new();
-    for (k, branch) in found.followed.iter().enumerate() {
-        let points = told(&branch.points);
-        let count = counted(points.len() as u64, "point");
-        text.push_str(&match &branch.origin {
-            None => format!("branch 1: {label} ({}), {}, {count}\n", chosen(&found.chosen), range(cut, units)),
+    for (k, branch) in answer.branches.iter().enumerate() {
+        let count = counted(branch.points.len() as u64, "point");
+        text.push_str(&match branch.from {
+            None => {
+                let orbit = chosen(answer.orbit, answer.stability);
+                format!("branch 1: {} ({orbit}), {}, {count}\n", answer.label, range(cut, units))
+            }
             Some(origin) => {
-                let label = points.first().map_or_else(String::new, |point| point.label.to_string());
+                let label = branch.points.first().map_or("", |point| &point.label);
                 format!("\nbranch {}: {label} from the {}, {count}\n", k + 1, place(origin))
             }
         });
-        text.push_str(&events(&points, names));
+        text.push_str(&events(branch, &columns));
     }
-    for origin in &found.lost {
-        let _ = writeln!(text, "\nno branch was found at the {}", place(origin));
+    for origin in &answer.lost {
+        let _ = writeln!(text, "\nno branch was found at the {}", place(*origin));
     }
     text
 }
 
 /// One row for each event, and how the branch ends.
-fn events(points: &[Told], names: &[String]) -> String {
+fn events(branch: &BranchObject<'_>, columns: &Columns) -> String {
     let heads: Vec<String> = core::iter::once("<event".to_owned())
-        .chain(names.iter().cloned())
+        .chain(columns.names.iter().cloned())
+        .chain(columns.period.then(|| "period".to_owned()))
         .chain(["<before", "<after", "<"].map(str::to_owned))
         .collect();
-    let all = points.iter().enumerate().filter_map(|(k, point)| Some((k, point, point.event.as_ref()?)));
-    let rows: Vec<Vec<String>> = all
-        .filter(|(.., event)| !event.ends)
-        .map(|(k, point, event)| {
-            let jumps = |k: usize| points.get(k).and_then(|point| point.event.as_ref()).is_some_and(|event| event.jump);
-            let side = |jump: bool, neighbour, label| if jump { "-".to_owned() } else { beside(neighbour, label) };
-            let before = side(jumps(k), k.checked_sub(1).and_then(|k| points.get(k)), event.sides.0);
-            let after = side(jumps(k + 1), points.get(k + 1), event.sides.1);
-            core::iter::once(event.name.to_owned())
-                .chain(point.values.iter().map(|value| precise(*value)))
-                .chain([before, after, event.remark.clone()])
-                .collect()
-        })
-        .collect();
+    let (ends, passed): (Vec<_>, Vec<_>) = branch.events.iter().partition(|event| event.fields.ends);
+    let rows: Vec<Vec<String>> = passed.into_iter().map(|event| row(branch, event, columns)).collect();
     let mut text = if rows.is_empty() { "  no events on the way\n".to_owned() } else { table(&heads, &rows) };
-    let end = points.last().and_then(|point| Some((point, point.event.as_ref().filter(|event| event.ends)?)));
-    if let Some((point, event)) = end {
+    if let Some(event) = ends.last() {
+        let plain = |(k, _): &(usize, &PointObject<'_>)| branch.event_at(*k).is_none();
+        let before = branch.points.iter().enumerate().rev().find(plain);
+        let before = before.map_or_else(String::new, |(_, point)| state(point));
         // without forcing the label does not say the period
-        let period =
-            names.iter().position(|name| name == PERIOD).map(|k| format!(", period {}", precise(point.values[k])));
-        let value = precise(point.values[0]) + &period.unwrap_or_default();
-        let before = points.iter().rev().find(|point| point.event.is_none()).map_or_else(String::new, Told::state);
-        let why = if event.remark.is_empty() { String::new() } else { format!(": {}", event.remark) };
-        let _ = writeln!(text, "  ends at {} {value}, {before}: {}{why}", names[0], event.name);
+        let period = branch.points[event.point].period;
+        let period = if columns.period { format!(", period {}", precise(period)) } else { String::new() };
+        let (value, name, why) = (precise(event.parameter), event.kind, because(&event.event));
+        let _ = writeln!(text, "  ends at {} {value}{period}, {before}: {name}{why}", columns.names[0]);
     }
     text
 }
 
+fn row(branch: &BranchObject<'_>, event: &BranchEventObject<'_>, columns: &Columns) -> Vec<String> {
+    let point = &branch.points[event.point];
+    let before = &event.fields.before;
+    let after = event.fields.after.as_ref().unwrap_or(before);
+    // on the other side of a jump there is another part of the branch
+    let jumps = |k: usize| branch.event_at(k).is_some_and(|event| event.event.is_jump());
+    let side = |jump: bool, k: Option<usize>, label: &str| {
+        if jump { "-".to_owned() } else { beside(branch, k, label) }
+    };
+    let next = event.point + 1;
+    let sides = [side(jumps(event.point), event.point.checked_sub(1), before), side(jumps(next), Some(next), after)];
+    core::iter::once(event.kind.to_owned())
+        .chain(point.values().iter().copied().chain(columns.period.then_some(point.period)).map(precise))
+        .chain(sides)
+        .chain([remark(&event.event)])
+        .collect()
+}
+
 /// The stability of a branch next to an event. Unknown if there is no point between two events, because rounding hides
 /// the multipliers there, or if the branch ends at the event.
-fn beside(neighbour: Option<&Told>, label: Label) -> String {
-    match neighbour {
-        Some(point) if point.plain() && point.label == label => point.state(),
-        Some(point) if point.event.as_ref().is_some_and(|event| event.ends) => format!("{label} not followed"),
-        Some(_) => format!("{label} unresolved"),
-        None => label.to_string(),
+fn beside(branch: &BranchObject<'_>, neighbour: Option<usize>, label: &str) -> String {
+    let Some((k, point)) = neighbour.and_then(|k| Some((k, branch.points.get(k)?))) else { return label.to_owned() };
+    let event = branch.event_at(k);
+    match event {
+        _ if point.label == label && event.is_none_or(|event| event.event.is_end_of_range()) => state(point),
+        Some(event) if event.fields.ends => format!("{label} not followed"),
+        _ => format!("{label} unresolved"),
     }
 }
 
-impl Told {
-    fn of_oscillator(point: &SolutionPoint, cut: &Cut, units: &Units) -> Self {
-        let label = point.cycle.label;
-        let event = point.event.map(|event| ToldEvent {
-            name: event.name(),
-            ends: event.ends(),
-            end_of_range: event == BranchEvent::EndOfRange,
-            jump: false,
-            sides: match event {
-                BranchEvent::Grazing { before, after, .. } | BranchEvent::SoftLanding { before, after, .. } => {
-                    (before, after)
-                }
-                _ => (label, label),
-            },
-            remark: remark(point, &event),
-        });
-        Self {
-            values: cut.names().zip(cut.values(point.value)).map(|(of, value)| value * units.of(*of)).collect(),
-            label,
-            stability: if point.physical { point.stability().name() } else { "inadmissible" },
-            event,
-        }
-    }
+/// The state at a point, such as `1/1 stable`.
+fn state(point: &PointObject<'_>) -> String {
+    format!("{} {}", point.label, if point.admissible { point.stability } else { "inadmissible" })
+}
 
-    /// Point number `k` of a branch of a machine.
-    fn of_machine(
-        points: &[continuation::machine::SolutionPoint],
-        k: usize,
-        cut: &Cut<String>,
-        machine: &Machine,
-    ) -> Self {
-        let continuation::machine::SolutionPoint { value, cycle, event, .. } = &points[k];
-        // a point at an event has the cycle before it
-        let after = points.get(k + 1).map_or(cycle.label, |next| next.cycle.label);
-        let event = event.map(|event| ToldEvent {
-            name: event.name(),
-            ends: event.ends(),
-            end_of_range: event == continuation::machine::BranchEvent::EndOfRange,
-            jump: event == continuation::machine::BranchEvent::Jump,
-            sides: (cycle.label, after),
-            remark: remark_of_machine(&event, machine),
-        });
-        let period = machine.period().is_none().then_some(cycle.period);
-        let values = cut.values(*value).chain(period).collect();
-        Self { values, label: cycle.label, stability: cycle.stability().name(), event }
-    }
-
-    /// Whether the point has no event other than the end of the range.
-    fn plain(&self) -> bool {
-        self.event.as_ref().is_none_or(|event| event.end_of_range)
-    }
-
-    /// The state at the point, such as `1/1 stable`.
-    fn state(&self) -> String {
-        format!("{} {}", self.label, self.stability)
+/// What an event means, without its name.
+pub(crate) fn remark(event: &Event<'_>) -> String {
+    match event {
+        Event::Oscillator(point, event) => of_oscillator(point, event),
+        Event::Machine(machine, event) => of_machine(event, machine),
     }
 }
 
-/// What an event of a machine means, without its name.
-pub(crate) fn remark_of_machine(event: &continuation::machine::BranchEvent, machine: &Machine) -> String {
+/// The same after a colon; empty if there is nothing to say.
+pub(crate) fn because(event: &Event<'_>) -> String {
+    let why = remark(event);
+    if why.is_empty() { why } else { format!(": {why}") }
+}
+
+fn of_machine(event: &machine::BranchEvent, machine: &Machine) -> String {
     let name = |place: usize| machine.name_of(place);
     match *event {
-        continuation::machine::BranchEvent::Grazing { stop, appears, turns } => format!(
+        machine::BranchEvent::Grazing { stop, appears, turns } => format!(
             "an impact on {} {}; the parameter {}",
             name(stop),
             if appears { "appears" } else { "disappears" },
             if turns { "turns" } else { "goes on" }
         ),
-        continuation::machine::BranchEvent::LossOfContact { stop } => format!("{} is no longer reached", name(stop)),
-        continuation::machine::BranchEvent::RestForEver { stop } => {
-            format!("no force pulls it off {} any more", name(stop))
-        }
-        continuation::machine::BranchEvent::Corner { first, second } if first == second => {
+        machine::BranchEvent::LossOfContact { stop } => format!("{} is no longer reached", name(stop)),
+        machine::BranchEvent::RestForEver { stop } => format!("no force pulls it off {} any more", name(stop)),
+        machine::BranchEvent::Corner { first, second } if first == second => {
             format!("two limits of {} at once", name(first))
         }
-        continuation::machine::BranchEvent::Corner { first, second } => {
+        machine::BranchEvent::Corner { first, second } => {
             format!("{} and {} at once", name(first), name(second))
         }
-        continuation::machine::BranchEvent::Sticking { stop: place, .. }
-        | continuation::machine::BranchEvent::Holding { joint: place, .. }
-        | continuation::machine::BranchEvent::Change { place: Some(place) } => format!("at {}", name(place)),
-        continuation::machine::BranchEvent::Halving => HALF.into(),
-        continuation::machine::BranchEvent::StepLimit => LIMIT.into(),
+        machine::BranchEvent::Sticking { stop: place, .. }
+        | machine::BranchEvent::Holding { joint: place, .. }
+        | machine::BranchEvent::Change { place: Some(place) } => format!("at {}", name(place)),
+        machine::BranchEvent::Halving => HALF.into(),
+        machine::BranchEvent::StepLimit => LIMIT.into(),
         _ => String::new(),
     }
 }
@@ -250,8 +175,7 @@ fn touch(cycle: &Cycle, change: Change, touch: &Touch) -> String {
     }
 }
 
-/// What an event means, without its name.
-pub(crate) fn remark(point: &SolutionPoint, event: &BranchEvent) -> String {
+fn of_oscillator(point: &SolutionPoint, event: &BranchEvent) -> String {
     match event {
         BranchEvent::Grazing { change, impact, side, phase, turns, also, .. } => {
             let way = match (point.cycle.rests.is_empty(), turns) {

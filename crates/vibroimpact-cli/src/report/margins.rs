@@ -1,6 +1,6 @@
 //! The nearest events of a motion as text, and the box of parameters in which it was found.
 
-use crate::report::branch::remark;
+use crate::report::branch::because;
 use crate::report::motion::{InUnits, Teller};
 use crate::report::words::table;
 use std::fmt::Write;
@@ -8,13 +8,15 @@ use vibroimpact::Oscillator;
 use vibroimpact::continuation::{SolutionPoint, machine::SolutionPoint as Point};
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::System;
+use vibroimpact_report::json::branch::Event;
 use vibroimpact_report::number::{percent, precise, short};
 use vibroimpact_report::{Units, Varied};
 use vibroimpact_study::{Loss, MarginEnd, MotionBox, MotionMargins, ParameterMargin, Solution, counted};
 
 /// The motion of an oscillator, its nearest events in each parameter, and its box.
 pub(crate) fn text(found: &MotionMargins, osc: &Oscillator, units: &Units) -> String {
-    let why = |point: &SolutionPoint| point.event.map_or_else(String::new, |event| remark(point, &event));
+    let why =
+        |point: &SolutionPoint| point.event.map_or_else(String::new, |event| because(&Event::Oscillator(point, event)));
     let mut text = events(found, (&InUnits(osc, units), osc), units, why);
     match &found.motion_box {
         _ if found.parameters.is_empty() => {}
@@ -29,8 +31,7 @@ pub(crate) fn text(found: &MotionMargins, osc: &Oscillator, units: &Units) -> St
 
 /// The motion of a machine, and its nearest events in each number.
 pub(crate) fn of_machine(found: &MotionMargins<Machine, String, Point>, machine: &Machine) -> String {
-    let place = |point: &Point| point.event.and_then(|event| event.place());
-    let why = |point: &Point| place(point).map_or_else(String::new, |place| machine.name_of(place).to_owned());
+    let why = |point: &Point| point.event.map_or_else(String::new, |event| because(&Event::Machine(machine, event)));
     events(found, (machine, machine), &Units::default(), why)
 }
 
@@ -90,9 +91,7 @@ fn row<V: Varied, P: Solution>(
             let before = point.label().to_string();
             let beyond = end.after.as_ref().filter(|after| **after != before);
             let beyond = beyond.map_or_else(String::new, |after| format!(" to {after}"));
-            let why = why(point);
-            let why = if why.is_empty() { why } else { format!(": {why}") };
-            let event = format!("{name}{beyond}{why}");
+            let event = format!("{name}{beyond}{}", why(point));
             [precise(end.value * unit), short(end.distance(scope) * unit), relative, event]
         }
         None => [String::new(), String::new(), String::new(), format!("none up to {}", short(limit * unit))],

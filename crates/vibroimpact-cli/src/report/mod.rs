@@ -77,10 +77,10 @@ fn of_oscillator(answer: &oscillator::Answer) -> Result<String, Failure> {
         (Task::Map(task), Results::Map(found)) => map::text(found, task.starts, asked.system.second_stop.is_some()),
         (_, Results::Diagram(found)) => diagram::text(found, units),
         (_, Results::Lyapunov(start, found, _)) => from(start) + "\n" + &lyapunov::text(found, osc.period(), units),
-        (Task::Branch(task), Results::Branch(found)) => {
-            system() + &branch::text(found, &task.typed::<Parameter>()?.cut(&asked.system)?, units)
+        (_, Results::Branch(found)) => {
+            system() + &branch::text(&answer.branches(found)?, None, (&answer.cut()?, units))
         }
-        (Task::Curve(task), Results::Curve(found)) => system() + &curve::text(found, &task.typed()?, units),
+        (_, Results::Curve(found)) => system() + &curve::text(&answer.curve(found)?, (&answer.curve_plan()?, units)),
         (Task::Region(task), Results::Region(found)) => {
             let task: RegionPlan = task.typed()?;
             region::text(found, &task, (task.neutral(&asked.system), region::in_closed_form(&task)), units)
@@ -106,10 +106,12 @@ fn of_machine(answer: &MachineAnswer) -> Result<String, Failure> {
         (_, MachineResults::Attractors(found)) => attractors::of_machine(found, machine),
         (Task::Orbit { label }, MachineResults::Orbit(found)) => orbit::of_machine(found, label, machine),
         (_, MachineResults::Lyapunov(found, _)) => lyapunov::of_machine(found, machine),
-        (Task::Branch(task), MachineResults::Branch(found)) => {
-            branch::of_machine(found, &task.typed::<String>()?.cut(source)?, machine)
+        (_, MachineResults::Branch(found)) => {
+            branch::text(&answer.branches(found)?, Some(machine), (&answer.cut()?, &Units::default()))
         }
-        (Task::Curve(task), MachineResults::Curve(found)) => curve::of_machine(found, &task.typed()?, machine),
+        (_, MachineResults::Curve(found)) => {
+            curve::text(&answer.curve(found)?, (&answer.curve_plan()?, &Units::default()))
+        }
         (_, MachineResults::Margins(found)) => margins::of_machine(found, machine),
         (Task::Region(task), MachineResults::Region(found)) => {
             let task: RegionPlan<String> = task.typed()?;

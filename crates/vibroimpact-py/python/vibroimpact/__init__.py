@@ -43,7 +43,7 @@ from vibroimpact import dask
 from vibroimpact._attractors import Attractor, Attractors, attractors
 from vibroimpact._axis import Span, span
 from vibroimpact._branch import Branch, BranchEvent, Origin, branch
-from vibroimpact._core import Oscillator, QuestionError, StoppedError, StoreError, Units, __version__
+from vibroimpact._core import QuestionError, StoppedError, StoreError, __version__
 from vibroimpact._curve import Curve, CurveEvent, curve
 from vibroimpact._events import Events
 from vibroimpact._grid import basin, orbit_diagram, region_map
@@ -52,6 +52,7 @@ from vibroimpact._machine import Machine
 from vibroimpact._margins import MarginEnd, Margins, MotionBox, Nearest, ParameterMargin, margins
 from vibroimpact._motion import Measured, Motion
 from vibroimpact._orbits import EarlierContact, Orbit, Orbits, orbits
+from vibroimpact._oscillator import Oscillator, Questions, Units
 from vibroimpact._plan import Estimate, Plan
 from vibroimpact._refine import refine
 from vibroimpact._region import Part, Polygon, Region, region
@@ -74,9 +75,11 @@ for _name in ("name", "given", "least", "most"):
     setattr(QuestionError, _name, None)
 setattr(QuestionError, "hint", property(lambda error: str(error).partition("\nhint: ")[2] or None))
 # the questions are methods of both systems
-for _name in ("simulate", "simulate_many", "settle", "settle_many", "attractors", "lyapunov", "orbits", "branch", "curve", "region", "margins",
-              "response", "basin", "map", "diagram"):
-    setattr(Oscillator, _name, getattr(Machine, _name))
+_QUESTIONS = (
+    simulate, simulate_many, settle, settle_many, attractors, lyapunov, orbits, branch, curve, region, margins, response, basin,
+)
+for _name, _question in {**{of.__name__: of for of in _QUESTIONS}, "map": region_map, "diagram": orbit_diagram}.items():
+    setattr(Questions, _name, _question)
 
 
 def __getattr__(name: str) -> object:

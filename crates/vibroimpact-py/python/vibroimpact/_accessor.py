@@ -6,8 +6,9 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact import _core
-from vibroimpact._core import QuestionError, Units
+from vibroimpact._core import QuestionError
 from vibroimpact._names import here, restored
+from vibroimpact._oscillator import Units
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -3,13 +3,15 @@
 import json
 import math
 from collections.abc import Mapping
-from typing import Any, Protocol, TypeAlias, runtime_checkable
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from vibroimpact import _core
-from vibroimpact._core import Oscillator, QuestionError
+from vibroimpact._core import QuestionError
+from vibroimpact._machine import Machine
+from vibroimpact._oscillator import Oscillator
 from vibroimpact._progress import Progress, watched
 from vibroimpact._whole import threads_of
 
@@ -17,33 +19,7 @@ from vibroimpact._whole import threads_of
 State: TypeAlias = tuple[list[float], list[float], float]
 
 
-@runtime_checkable
-class MachineLike(Protocol):
-    """What is asked of a `Machine`."""
-
-    _file: _core.MachineFile
-
-    @property
-    def coordinates(self) -> tuple[str, ...]: ...
-    @property
-    def stops(self) -> tuple[str, ...]: ...
-    @property
-    def joints(self) -> tuple[str, ...]: ...
-    @property
-    def title(self) -> str | None: ...
-    @property
-    def period(self) -> float | None: ...
-    @property
-    def paths(self) -> list[str]: ...
-    def number(self, path: str) -> float: ...
-    def set(self, changes: Mapping[str, float] | None = None, /) -> "MachineLike": ...
-    def starting(self, state: Mapping[str, Any], /) -> "MachineLike": ...
-    def start_of(
-        self, q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None
-    ) -> State: ...
-
-
-System: TypeAlias = Oscillator | MachineLike
+System: TypeAlias = Oscillator | Machine
 
 
 class Start:
@@ -104,9 +80,8 @@ def ask(
     progress: Progress = None, what: str = "motions",
 ) -> _core.Answer:
     """The answer to a task."""
-    file = system if isinstance(system, Oscillator) else system._file
     from_ = (start or Start(system)).of_machine
     threads = threads_of(threads)
     _finite(task, name)
     with watched(progress, what) as tell:
-        return _core.answer(file, from_, json.dumps({name: task}), total, threads, tell)
+        return _core.answer(system._file, from_, json.dumps({name: task}), total, threads, tell)

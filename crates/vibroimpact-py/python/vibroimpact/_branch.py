@@ -10,14 +10,20 @@ from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact._ask import Start, System, ask, given
 from vibroimpact._axis import beside
-from vibroimpact._core import Answer, Oscillator, QuestionError
+from vibroimpact._core import Answer, QuestionError
 from vibroimpact._events import Events
 from vibroimpact._motion import complex_of
+from vibroimpact._oscillator import Oscillator
 from vibroimpact._progress import Progress
-from vibroimpact._result import Column, View
+from vibroimpact._result import Column, Field, View
 from vibroimpact._whole import BRANCH, FOLLOW, NUMBER, maybe, whole
 
 _Floats = NDArray[np.float64]
+
+
+def orbit_of(found: Mapping[str, Any] | None) -> tuple[int, int] | None:
+    """The number of an orbit, and how many there are."""
+    return None if found is None else (found["number"], found["count"])
 
 
 class BranchEvent(View):
@@ -125,6 +131,7 @@ class Branch(View):
     """
 
     vary: str
+    orbit = Field(orbit_of)
     period, parameter, label = Column(np.float64), Column(np.float64), Column(np.str_)
     stable, admissible, stability = Column(np.bool_), Column(np.bool_), Column(np.str_)
 
@@ -161,12 +168,6 @@ class Branch(View):
         """The second number of a line."""
         found = self._of.get("also")
         return None if found is None else (found["parameter"], found["from"], found["to"])
-
-    @property
-    def orbit(self) -> tuple[int, int] | None:
-        """The number of the orbit, and how many there are."""
-        found = self._of.get("orbit")
-        return None if found is None else (found["number"], found["count"])
 
     @property
     def origin(self) -> Origin | None:

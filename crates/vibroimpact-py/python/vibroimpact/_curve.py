@@ -9,11 +9,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact._ask import Start, System, ask, given
 from vibroimpact._axis import Interval, plane
-from vibroimpact._branch import rows_of
-from vibroimpact._core import Oscillator, QuestionError
+from vibroimpact._branch import orbit_of, rows_of
+from vibroimpact._core import QuestionError
 from vibroimpact._events import Events
+from vibroimpact._oscillator import Oscillator
 from vibroimpact._progress import Progress
-from vibroimpact._result import Column, View
+from vibroimpact._result import Column, Field, View
 from vibroimpact._whole import BRANCH, NUMBER, maybe
 
 class CurveEvent(View):
@@ -81,6 +82,8 @@ class Curve(View):
     kind: str
     of: list[str] | None
     found_at: list[float]
+    orbit = Field(orbit_of)
+    through: Field[tuple[int, int]] = Field(lambda of: (of["event"], of["point"]))
     admissible, residual = Column(np.bool_), Column(np.float64)
 
     def __repr__(self) -> str:
@@ -102,17 +105,6 @@ class Curve(View):
         task = self._of["plan"]["task"]["curve"]
         one, two = ((task[name]["from"], task[name]["to"]) for name in ("vary", "and"))
         return one, two
-
-    @property
-    def through(self) -> tuple[int, int]:
-        """The event through which the curve passes."""
-        return self._of["through"]["event"], self._of["through"]["point"]
-
-    @property
-    def orbit(self) -> tuple[int, int] | None:
-        """The number of the orbit, and how many there are."""
-        found = self._of.get("orbit")
-        return None if found is None else (found["number"], found["count"])
 
     @cached_property
     def values(self) -> NDArray[np.float64]:

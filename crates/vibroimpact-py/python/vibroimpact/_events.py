@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact._core import Oscillator
+from vibroimpact._oscillator import Oscillator
 from vibroimpact._result import Result
 
 _Floats = NDArray[np.float64]

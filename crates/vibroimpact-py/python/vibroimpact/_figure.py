@@ -4,7 +4,7 @@ import re
 from typing import TYPE_CHECKING, Any
 
 from vibroimpact import _core
-from vibroimpact._core import Oscillator
+from vibroimpact._oscillator import Oscillator
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -88,7 +88,7 @@ def mathtext(markup: str) -> str:
 def heading(system: Any) -> str:
     """The title of a figure: the parameters of an oscillator, or the name of a machine."""
     if isinstance(system, Oscillator):
-        return mathtext(_core.title_of(system))
+        return mathtext(_core.title_of(system._file))
     return str(system.title or "machine").split(": ")[0]
 
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from vibroimpact import _core
 from vibroimpact._ask import System
 from vibroimpact._axis import Axis, Interval
-from vibroimpact._core import Oscillator, Units
+from vibroimpact._oscillator import Oscillator, Units
 from vibroimpact._plan import Plan
 from vibroimpact._progress import Progress, watched
 from vibroimpact._whole import threads_of

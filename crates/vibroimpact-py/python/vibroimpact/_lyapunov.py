@@ -8,9 +8,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact import _core
 from vibroimpact._ask import Start, System, ask, given
-from vibroimpact._core import Oscillator
 from vibroimpact._figure import heading, named
 from vibroimpact._motion import Motion, all_measured, maybe_measured
+from vibroimpact._oscillator import Oscillator
 from vibroimpact._progress import Progress
 from vibroimpact._result import Field, View, equal
 from vibroimpact._styled import styled

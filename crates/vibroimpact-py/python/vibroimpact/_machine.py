@@ -11,19 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vibroimpact import _core
-from vibroimpact._attractors import attractors
-from vibroimpact._branch import branch
 from vibroimpact._core import QuestionError
-from vibroimpact._curve import curve
-from vibroimpact._grid import basin, orbit_diagram, region_map
-from vibroimpact._lyapunov import lyapunov
-from vibroimpact._margins import margins
-from vibroimpact._orbits import orbits
-from vibroimpact._region import region
-from vibroimpact._response import response
-from vibroimpact._settle import settle, settle_many
-from vibroimpact._simulate import simulate
-from vibroimpact._simulate_many import simulate_many
+from vibroimpact._oscillator import Questions
 
 _Part = Mapping[str, Any]
 
@@ -58,7 +47,7 @@ def _no_files(name: str) -> str:
     raise QuestionError("there is no folder to look in")
 
 
-class Machine:
+class Machine(Questions):
     """A linear structure with forces, rigid and compliant stops, and friction joints.
 
     M q'' + C q' + K q = constant + harmonics of the forcing + contact and friction forces
@@ -268,20 +257,3 @@ class Machine:
     ) -> tuple[list[float], list[float], float]:
         """Coordinates, velocities and phase of a start: what is given, and else those of the table `start`, or 0."""
         return self._file.start(_vector(q), _vector(qdot), None if phase is None else float(phase))
-
-    # the functions of the package, whose first argument is the machine
-    simulate = simulate
-    simulate_many = simulate_many
-    settle = settle
-    settle_many = settle_many
-    attractors = attractors
-    lyapunov = lyapunov
-    orbits = orbits
-    branch = branch
-    curve = curve
-    region = region
-    margins = margins
-    response = response
-    basin = basin
-    map = region_map
-    diagram = orbit_diagram

@@ -28,7 +28,7 @@ def dataset(over: Over, title: str, variables: Mapping[str, Any]) -> "xr.Dataset
             "source": f"vibroimpact {_core.__version__}",
             "history": f"computed by vibroimpact {_core.__version__}",
             # what varies is in the coordinates
-            "system": _core.system_fields(over.osc),
+            "system": over.osc._file.json,
             **_si.attributes(over.osc.units),
         },
     )
@@ -40,7 +40,7 @@ def _coordinates(over: Over) -> dict[str, Any]:
     from vibroimpact._unit_names import described
 
     varied = [name for name, _ in over.columns if name in over.coords]
-    known = {name: (value, described(*words)) for name, value, *words in _core.point_coordinates(over.osc, over.start)}
+    known = {name: (value, described(*words)) for name, value, *words in _core.point_coordinates(over.osc._file, over.start)}
     frequency = {"beta", "inverse_beta"}
     found: dict[str, Any] = {}
     for name, (value, attributes) in known.items():

@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike
 
 from vibroimpact import _core
 from vibroimpact._ask import Start, System, ask, given
-from vibroimpact._core import Oscillator
 from vibroimpact._motion import Motion
+from vibroimpact._oscillator import Oscillator
 from vibroimpact._progress import Progress
 from vibroimpact._result import View
 from vibroimpact._whole import LINES, maybe
@@ -192,7 +192,7 @@ def margins(
         raise TypeError(f'vary = {vary!r} is not a list of numbers, such as ["gap"]')
     start, scales, count = Start(system, x, v, q, qdot, phase), dict(scale or {}), maybe("lines", lines, LINES)
     if isinstance(system, Oscillator):
-        names = list(vary) if vary is not None else _core.varied_parameters(system) if scales else []
+        names = list(vary) if vary is not None else _core.varied_parameters(system._file) if scales else []
         unknown = [name for name in scales if name not in names]
         if unknown:
             raise _core.QuestionError(f"the scale of {unknown[0]} has no effect: it does not vary\nhint: vary has its name")

@@ -8,9 +8,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact._core import Oscillator, QuestionError
+from vibroimpact._core import QuestionError
 from vibroimpact._events import Events
 from vibroimpact._figure import named
+from vibroimpact._oscillator import Oscillator
 from vibroimpact._result import Field, View
 from vibroimpact._simulate import Simulation, simulate
 from vibroimpact._waveform import Waveform, waveform

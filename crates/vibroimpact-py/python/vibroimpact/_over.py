@@ -6,10 +6,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from vibroimpact._ask import MachineLike, State
+from vibroimpact._ask import State
 from vibroimpact._axis import numbers
-from vibroimpact._core import Oscillator, QuestionError
+from vibroimpact._core import QuestionError
 from vibroimpact._events import names_of
+from vibroimpact._machine import Machine
+from vibroimpact._oscillator import Oscillator
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -46,7 +48,7 @@ class MachineOver(NamedTuple):
     """Points of a machine, as `Over`."""
 
     #: The machine and its start, of which the numbers count that do not vary.
-    machine: MachineLike
+    machine: Machine
     start: State
     columns: list[tuple[str, NDArray[np.float64]]]
     sizes: dict[str, int]
@@ -86,7 +88,7 @@ def points(
     return Over(osc, columns, (x, v or 0.0, phase or 0.0), sizes, coords)
 
 
-def machine_points(machine: MachineLike, over: "Points | None", starts: "Points | None") -> MachineOver:
+def machine_points(machine: Machine, over: "Points | None", starts: "Points | None") -> MachineOver:
     """The points of a machine and its starts."""
     positions, velocities = names_of(machine)
     parts = (*positions, *velocities, "phase")

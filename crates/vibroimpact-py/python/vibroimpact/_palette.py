@@ -1,4 +1,4 @@
-"""Colours of figures, the same as those of the command (crates/vibroimpact-plot/src/palette.rs).
+"""Colours of figures, which are those of the command.
 
 The series are the set of M. Okabe and K. Ito, "Color Universal Design" (2002, 2008), https://jfly.uni-koeln.de/color/.
 Motions of one group have similar colours: m/1 light to dark blue, 1/n yellow to red-brown, other periodic motions green, chatter pink.
@@ -7,34 +7,22 @@ The labels of a group with several labels have its colour and its shades in turn
 
 from collections.abc import Iterable
 
-from vibroimpact._tables import CLASSES, GROUP_RULES, LEGEND, SERIES, SHADES
+from vibroimpact import _core
+from vibroimpact._figure import mathtext
 
+SERIES, _GROUPS = _core.palette()
+#: The groups in the order of a legend, and their words.
+LEGEND = {group: mathtext(words) for group, words in _GROUPS}
 #: Groups that hold several labels, and the largest number of them that a legend names.
 _SEVERAL = ("m/1", "1/n", "k/k", "m/n", "inf/n", "other")
 _NAMED = 4
 #: The largest number of labels each of which a legend names.
 _EACH = 12
 
-__all__ = ["CLASSES", "LEGEND", "SERIES", "class_colour", "legend_group", "legend_text", "legend_words", "variant"]
-
 
 def legend_group(label: str) -> str:
-    """The key of `CLASSES` for the label of a motion."""
-    impacts, slash, periods = label.partition("/")
-    if not slash:
-        return label if label in CLASSES else "other"
-    if periods == "T" and impacts.isdigit():
-        # a machine without forcing has no motions m/n: those with m closings have the colours of (m+1)/1
-        return legend_group(f"{int(impacts) + 1}/1")
-    if impacts == "inf":
-        return "inf/n"
-    if not (impacts.isdigit() and periods.isdigit()):
-        return "other"
-    m, n = int(impacts), int(periods)
-    for (fewest, most), (shortest, longest), equal, group in GROUP_RULES:
-        if fewest <= m <= most and shortest <= n <= longest and (m == n or not equal):
-            return group
-    return "other"
+    """The group of the label of a motion, a key of `LEGEND`."""
+    return _core.look_of(label)[0]
 
 
 def legend_text(group: str, labels: Iterable[str]) -> str:
@@ -54,7 +42,7 @@ def legend_words(labels: Iterable[str]) -> dict[str, str]:
     labels are given first."""
     there = list(dict.fromkeys(labels))
     groups = {label: legend_group(label) for label in there}
-    ordered = sorted(there, key=lambda label: (list(CLASSES).index(groups[label]), _numbers(label)))
+    ordered = sorted(there, key=lambda label: (list(LEGEND).index(groups[label]), _numbers(label)))
     few = len(there) <= _EACH
     of_group = {group: [label for label in there if groups[label] == group] for group in groups.values()}
     return {label: legend_text(groups[label], [label] if few else of_group[groups[label]]) for label in ordered}
@@ -69,16 +57,7 @@ def _numbers(label: str) -> tuple[int, int]:
 
 def class_colour(label: str) -> str:
     """The colour of the label of a motion, the same in every figure."""
-    if label in CLASSES:
-        return CLASSES[label]
-    group = legend_group(label)
-    if group not in SHADES:
-        return CLASSES[group]
-    impacts, _, periods = label.partition("/")
-    if periods == "T":
-        impacts, periods = (impacts if impacts == "inf" else str(int(impacts) + 1)), "1"
-    number = ((0 if impacts == "inf" else int(impacts)) + 2 * int(periods)) % 5
-    return (CLASSES[group], *SHADES[group])[number]
+    return _core.look_of(label)[1]
 
 
 def variant(colour: str, k: int) -> tuple[float, float, float]:

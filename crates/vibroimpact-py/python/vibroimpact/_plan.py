@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -10,16 +10,14 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from vibroimpact import _core
-from vibroimpact._ask import MachineLike, System
+from vibroimpact._ask import Start, System, given
 from vibroimpact._axis import Axis, Interval, axes, beside, interval, sweep
 from vibroimpact._budget import Budget, seconds
-from vibroimpact._core import Oscillator
+from vibroimpact._machine import Machine
+from vibroimpact._oscillator import Oscillator
 from vibroimpact._over import MachineOver, Points, machine_points, points
 from vibroimpact._sample import Sample
 from vibroimpact._whole import BLOCKS, BUDGET, KEEP, MEASURED, POINT_STARTS, REFINE, SEED, SHARD, SIMULATED, STARTS, TILE, TRANSIENT, maybe, threads_of, whole
-
-#: Version of the fields of a plan.
-_VERSION = 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -201,11 +199,8 @@ class Plan:
             "impacts": maybe("impacts", impacts, BUDGET),
             "fields": names(fields),
         }
-        if not isinstance(osc, Oscillator):
-            _absent("a machine has q and qdot", x=x, v=v)
-            return cls._of(osc, "basin", task, tile, osc.start_of(q, qdot, phase))
-        _absent("an oscillator has x and v", q=q, qdot=qdot)
-        return cls._of(osc, "basin", {**task, "start": _start(x, v or 0.0, phase or 0.0)}, tile)
+        start = Start(osc, x, v, q, qdot, phase)
+        return cls._of(osc, "basin", start.within(task), tile, start)
 
     @classmethod
     def samples(
@@ -223,12 +218,12 @@ class Plan:
 
         The plan of a `Sample` keeps how its points are drawn; that of arrays keeps them.
         """
-        given: dict[str, Any] = {"systems": systems, "over": over, "starts": starts}
-        drawn = {name: of for name, of in given.items() if isinstance(of, Sample)}
+        all_given: dict[str, Any] = {"systems": systems, "over": over, "starts": starts}
+        drawn = {name: of for name, of in all_given.items() if isinstance(of, Sample)}
         if len(drawn) > 1:
             raise _core.QuestionError(f"{' and '.join(drawn)} are two samples\nhint: one sample of all that varies")
-        asked: dict[str, Any] = {name: of.low() if isinstance(of, Sample) else of for name, of in given.items()}
-        all_ = machine_points(*asked.values()) if isinstance(systems, MachineLike) else points(*asked.values())
+        asked: dict[str, Any] = {name: of.low() if isinstance(of, Sample) else of for name, of in all_given.items()}
+        all_ = machine_points(*asked.values()) if isinstance(systems, Machine) else points(*asked.values())
         if drawn:
             if all_.sizes:
                 raise _core.QuestionError("a sample and arrays are two sets of points\nhint: the arrays of the sample, dict(sample)")
@@ -241,7 +236,7 @@ class Plan:
         if isinstance(all_, MachineOver):
             if transient:
                 raise _core.QuestionError("transient counts the impacts of an oscillator")
-            return cls._of(all_.machine, "settle_many", task, tile, all_.start)
+            return cls._of(all_.machine, "settle_many", task, tile, Start(all_.machine, None, None, *all_.start))
         start = {name: of for name, of in zip(("x", "v", "phase"), all_.start) if name not in varied}
         task |= {
             "start": {name: of for name, of in start.items() if of is not None},
@@ -316,11 +311,8 @@ class Plan:
             "impacts": maybe("impacts", impacts, MEASURED if isinstance(osc, Oscillator) else SIMULATED),
             "transient": whole("transient", transient, TRANSIENT),
         }
-        if not isinstance(osc, Oscillator):
-            _absent("a machine has q and qdot", x=x, v=v)
-            return cls._of(osc, "lyapunov", task, tile, osc.start_of(q, qdot, phase))
-        _absent("an oscillator has x and v", q=q, qdot=qdot)
-        return cls._of(osc, "lyapunov", {**task, "start": _start(x, v or 0.0, phase or 0.0)}, tile)
+        start = Start(osc, x, v, q, qdot, phase)
+        return cls._of(osc, "lyapunov", start.within(task), tile, start)
 
     @classmethod
     def attractors(
@@ -336,32 +328,14 @@ class Plan:
 
     @classmethod
     def _of(
-        cls,
-        osc: System,
-        name: str,
-        task: dict[str, Any],
-        tile: int | None,
-        start: tuple[list[float], list[float], float] | None = None,
+        cls, osc: System, name: str, task: dict[str, Any], tile: int | None, start: Start | None = None
     ) -> "Plan":
-        given = {key: value for key, value in task.items() if value is not None}
-        tile = maybe("tile", tile, TILE)
-        if not isinstance(osc, Oscillator):
-            return cls(_core.plan_json(osc._file, start or osc.start_of(), json.dumps({name: given}), tile))
-        plan: dict[str, Any] = {"version": _VERSION, "system": json.loads(_core.system_fields(osc)), "task": {name: given}}
-        if tile is not None:
-            plan["tile"] = tile
-        units = osc.units
-        if units is not None:
+        from_, asked = (start or Start(osc)).of_machine, json.dumps({name: given(**task)})
+        text = _core.plan_json(osc._file, from_, asked, maybe("tile", tile, TILE))
+        if isinstance(osc, Oscillator) and osc.units is not None:
             # the numbers of the plan are nondimensional; its results can be converted with these units
-            plan["units"] = {"length_m": units.length_m, "time_s": units.time_s, "mass_kg": units.mass_kg}
-        return cls(json.dumps(plan))
-
-
-def _absent(hint: str, **given: object) -> None:
-    """Refuse parts of a start that the system does not have."""
-    for name, value in given.items():
-        if value is not None:
-            raise _core.QuestionError(f"{name} is no part of the start of this system\nhint: {hint}")
+            text = json.dumps({**json.loads(text), "units": asdict(osc.units)})
+        return cls(text)
 
 
 def _known(what: str, given: str, known: tuple[str, ...]) -> None:
@@ -374,18 +348,3 @@ def names(fields: Sequence[str]) -> list[str] | None:
     if isinstance(fields, str):
         raise _core.QuestionError(f"fields = `{fields}` is one text\nhint: a list of names, fields=[\"{fields}\"]")
     return [str(name) for name in fields] or None
-
-
-def _start(x: float | None, v: float, phase: float) -> dict[str, float]:
-    given = {"x": x, "v": v, "phase": phase}
-    return {name: float(value) for name, value in given.items() if value is not None}
-
-
-def oscillator(plan: dict[str, Any]) -> Oscillator:
-    """The oscillator from the fields of a plan."""
-    system = dict(plan["system"])
-    second = system.pop("second_stop", None) or {}
-    machine = system.pop("machine", None)
-    if machine is not None:
-        system["machine"] = json.dumps(machine)
-    return Oscillator(**system, **{f"second_{name}": value for name, value in second.items()})

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact._axis import Interval, interval
-from vibroimpact._core import Oscillator, QuestionError
+from vibroimpact._core import QuestionError
+from vibroimpact._oscillator import Oscillator
 from vibroimpact._plan import Plan
 from vibroimpact._progress import Progress
 from vibroimpact._whole import CELLS, ROUNDS, whole

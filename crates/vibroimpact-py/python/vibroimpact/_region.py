@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from vibroimpact import _core
 from vibroimpact._ask import System, ask
 from vibroimpact._axis import Interval, numbers, plane
-from vibroimpact._core import Oscillator
+from vibroimpact._oscillator import Oscillator
 from vibroimpact._progress import Progress
 from vibroimpact._result import Field, Result, View
 from vibroimpact._whole import GRID, whole

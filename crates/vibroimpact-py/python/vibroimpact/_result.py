@@ -165,7 +165,8 @@ class View(Result):
         units = getattr(self.system, "units", None) if si else None
         if si and units is None:
             raise QuestionError("si=True needs the system in physical units\nhint: Oscillator.from_units")
-        found: dict[str, Any] = json.loads(self._whole.figure(units, (diagram, inadmissible, branch), quantity) or "null")
+        scales = units and (units.length_m, units.time_s, units.mass_kg)
+        found: dict[str, Any] = json.loads(self._whole.figure(scales, (diagram, inadmissible, branch), quantity) or "null")
         return found
 
     def plot(self, ax: Any = None, *, si: bool = False, legend: bool = True, title: str | None = None, **line: Any) -> Any:

@@ -11,11 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact import _core
-from vibroimpact._ask import MachineLike, Start, System, ask, given
+from vibroimpact._ask import Start, System, ask, given
 from vibroimpact._attractors import Attractors
 from vibroimpact._axis import numbers
-from vibroimpact._core import Oscillator
+from vibroimpact._machine import Machine
 from vibroimpact._motion import Motion, all_measured
+from vibroimpact._oscillator import Oscillator
 from vibroimpact._over import Points
 from vibroimpact._progress import Progress, watched
 from vibroimpact._sample import Sample
@@ -156,7 +157,7 @@ class Settlement(Attractors):
         return {"motions": [motion.to_dict() for motion in self], "cells": self.cells.tolist()}
 
     def _figure(self, **shown: Any) -> dict[str, Any]:
-        found: dict[str, Any] = json.loads(_core.shares_figure(self.system, [(motion.label, motion.share) for motion in self]))
+        found: dict[str, Any] = json.loads(_core.shares_figure(self.system._file, [(motion.label, motion.share) for motion in self]))
         return found
 
     @property
@@ -274,7 +275,7 @@ def settle_many(
     if x is None:
         if any(np.ndim(of) > 0 or of != 0.0 for of in (v, phase)):
             raise TypeError('velocities and phases without positions are written starts={"v": ..., "phase": ...}')
-        if store is None and client is None and tile is None and not isinstance(systems, MachineLike):
+        if store is None and client is None and tile is None and not isinstance(systems, Machine):
             budget = maybe("impacts", impacts, BUDGET)
             return _of_points((systems, over, starts), (budget, fields, transient), threads, progress)
         from vibroimpact import _grid, _many, _over
@@ -285,7 +286,7 @@ def settle_many(
         )
         units = systems.units if isinstance(systems, Oscillator) else None
         ds = _many.with_whole_numbers(_grid.computed(plan, units, store, client, threads, progress))
-        if not isinstance(systems, MachineLike) or store is not None or any(isinstance(of, Sample) for of in (over, starts)):
+        if not isinstance(systems, Machine) or store is not None or any(isinstance(of, Sample) for of in (over, starts)):
             return ds
         return _many.in_shape(ds, _over.machine_points(systems, over, starts))
     if over is not None or starts is not None or len(fields) or transient or impacts is not None or store is not None:
@@ -310,7 +311,7 @@ def _of_points(
     impacts, fields, transient = options
     with watched(progress, "starts") as tell:
         found = _core.settle_points(
-            over.osc, over.columns, over.start, (impacts, names(fields) or [], bool(transient)), threads, tell
+            over.osc._file, over.columns, over.start, (impacts, names(fields) or [], bool(transient)), threads, tell
         )
     variables = {}
     for of in found:
@@ -344,7 +345,7 @@ def _of_starts(
     if size > 0 and all(column.size == 1 for column in flat):
         flat[0] = np.ascontiguousarray(np.broadcast_to(flat[0], (size,)))
     with watched(progress, "starts") as tell:
-        found, cells = _core.settle_many(osc, flat[0], flat[1], flat[2], threads, tell)
+        found, cells = _core.settle_many(osc._file, flat[0], flat[1], flat[2], threads, tell)
     motions = [{**json.loads(told), "share": count / max(size, 1), "starts": count} for told, count in found]
     intervals = [_core.share_interval(count, size) for _, count in found]
     return Settlement({"motions": motions, "share_intervals": intervals, "starts": size, "cells": cells.reshape(shape)}, osc)

@@ -1,11 +1,13 @@
 """Conversion of Datasets to metres and seconds."""
 
+import json
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from vibroimpact import _core
-from vibroimpact._core import QuestionError, Units
+from vibroimpact._core import QuestionError
+from vibroimpact._oscillator import Units
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -85,19 +87,11 @@ def _scales(ds: "xr.Dataset", units: Units) -> tuple[Any, Any, Any]:
     import xarray as xr
 
     names = [str(name) for name in ds.coords if name in _core.machine_parameters()]
-    if "system" in ds.attrs and any(ds[name].ndim for name in names):
-        # points: the numbers of the machine vary together
-        columns = xr.broadcast(*(ds[name] for name in names))
-        flat = [of.values.astype(np.float64).reshape(-1).tolist() for of in columns]
-        scales = _core.scales_of_points(ds.attrs["system"], names, flat)
-        together = [xr.DataArray(np.reshape(of, columns[0].shape), dims=columns[0].dims) for of in scales]
-        return together[0], together[1], together[2]
-    if not names or "plan" not in ds.attrs:
+    system = ds.attrs.get("system") or json.dumps(json.loads(ds.attrs.get("plan", "{}")).get("system"))
+    if not names or system == "null":
         return units.length_m, units.time_s, units.mass_kg
-    values = [np.atleast_1d(np.asarray(ds[name].values, dtype=np.float64)) for name in names]
-    shape = [len(of) for of in values]
-    arrays = _core.scales_over(ds.attrs["plan"], names, [of.tolist() for of in values])
-    # a number that is one value, as after a selection, is no dimension
-    dropped = [name for name in names if ds[name].ndim == 0]
-    of = [xr.DataArray(np.reshape(array, shape), dims=names).squeeze(dropped) for array in arrays]
-    return of[0], of[1], of[2]
+    columns = xr.broadcast(*(ds[name] for name in names))
+    flat = [of.values.astype(np.float64).reshape(-1).tolist() for of in columns]
+    scales = _core.scales_of_points(system, names, flat)
+    arrays = [xr.DataArray(np.reshape(of, columns[0].shape), dims=columns[0].dims) for of in scales]
+    return arrays[0], arrays[1], arrays[2]

@@ -8,8 +8,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact import _core
 from vibroimpact._ask import Start, System, ask, given
-from vibroimpact._core import Oscillator
 from vibroimpact._events import columns_of, named_columns, names_of
+from vibroimpact._oscillator import Oscillator
 from vibroimpact._progress import Progress
 from vibroimpact._result import View
 from vibroimpact._waveform import Waveform, waveform

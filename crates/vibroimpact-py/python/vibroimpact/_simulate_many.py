@@ -7,10 +7,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact import _core, _over
-from vibroimpact._ask import MachineLike, State, System
+from vibroimpact._ask import State, System
 from vibroimpact._axis import numbers
 from vibroimpact._core import QuestionError
 from vibroimpact._events import names_of
+from vibroimpact._machine import Machine
 from vibroimpact._over import MachineOver, Over, Points
 from vibroimpact._progress import Progress, watched
 from vibroimpact._whole import SIMULATED, threads_of, whole
@@ -95,7 +96,7 @@ def simulate_many(
     if given and impacts is not None:
         raise QuestionError(f"impacts has no meaning with {given[0]}\nhint: periods limits the time")
     limit, threads = None if impacts is None else whole("impacts", impacts, SIMULATED, here=True), threads_of(threads)
-    if isinstance(systems, MachineLike):
+    if isinstance(systems, Machine):
         if given:
             raise QuestionError(f"{given[0]} is for oscillators\nhint: simulate(...).waveform() has the states of a machine")
         of_machine = _over.machine_points(systems, over, starts)
@@ -103,7 +104,7 @@ def simulate_many(
             return _events_of_machines(of_machine, _core.simulate_machines(*_asked(of_machine), (limit, periods), threads, tell))
     points = _over.points(systems, over, starts)
     with watched(progress, "motions") as tell:
-        common = (points.osc, points.columns, points.start)
+        common = (points.osc._file, points.columns, points.start)
         if at is not None:
             if periods is not None:
                 raise QuestionError("periods has no meaning with at\nhint: the last time limits the time")

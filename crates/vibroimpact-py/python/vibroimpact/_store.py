@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vibroimpact import _core, _whole
 from vibroimpact._budget import Budget, seconds
+from vibroimpact._oscillator import Units
 from vibroimpact._plan import Plan
 from vibroimpact._progress import Progress, watched
 from vibroimpact._whole import COUNT, SEED, threads_of, whole
@@ -248,7 +249,7 @@ def with_status(store: str | PathLike[str]) -> "xr.Dataset":
     units = json.loads(ds.attrs["plan"]).get("units")
     if units is not None:
         of = {name: float(units[name]) for name in ("length_m", "time_s", "mass_kg")}
-        ds.attrs |= _si.attributes(_core.Units(**of))
+        ds.attrs |= _si.attributes(Units(**of))
     return with_fixed(ds)
 
 

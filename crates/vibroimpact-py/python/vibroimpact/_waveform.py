@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from vibroimpact import _core
 from vibroimpact._ask import System
-from vibroimpact._core import Oscillator
 from vibroimpact._events import named_columns, stops_of
+from vibroimpact._oscillator import Oscillator
 from vibroimpact._result import Result
 
 _Floats = NDArray[np.float64]
@@ -70,7 +70,7 @@ def waveform(system: System, start: Any, until: float, step: float | None, event
         step = system.period / _PER_PERIOD if system.period is not None else until / _WHOLE or 1.0
     if not isinstance(system, Oscillator):
         return Waveform(system=system, **_core.machine_waveform(system._file, start, until, float(step), events))
-    time, x, v = _core.waveform(system, start, until, float(step), events)
+    time, x, v = _core.waveform(system._file, start, until, float(step), events)
     phase = (start[2] + system.beta * time) % (2 * math.pi)
     walls = [(system.gap, 1.0)] + ([] if system.second_gap is None else [(system.second_gap, -1.0)])
     gap = np.stack([at - side * x for at, side in walls], axis=1)

@@ -2,20 +2,25 @@
 
 use crate::AnswerError;
 use crate::answer::Shown;
-use crate::branch_quantity::BranchQuantity;
-use crate::figure::coloured;
+use crate::figure::branch::Picture;
 use crate::figure::overlay::Overlay;
+use crate::figure::{coloured, tracks};
+use crate::json::branch::BranchAnswer;
+use crate::json::curve::CurveAnswer;
+use crate::json::orbit::OrbitAnswer;
 use crate::response::ResponseView;
 use crate::scene::{self, View};
 use crate::{ReportError, Table, Units, figure, table};
+use vibroimpact::continuation::machine::{CurvePoint, SolutionPoint};
 use vibroimpact::events::{Limits, Motion, Start};
 use vibroimpact::machine::Machine;
+use vibroimpact::orbit::machine::Cycle;
 use vibroimpact::verdict::{CountedMotion, Verdict};
 use vibroimpact_plot::{Figure, plain};
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{
-    BranchPlan, Control, Diagram, Plan, PlanError, PointsPlan, RegionPlan, ResponseCurves, Results, Simulated, Task,
-    Variable, machine, run,
+    Branches, Control, CurvePlan, Cut, Diagram, EventCurve, Plan, PlanError, PointsPlan, RegionPlan, ResponseCurves,
+    Results, Simulated, Task, machine, run,
 };
 
 /// The largest number of characters of a title over an axis of ordinary width.
@@ -82,7 +87,7 @@ impl Answer {
                 let title = format!("{title}: {}", figure::label(&found.verdict.label()));
                 match (shown.view.unwrap_or_default(), &found.verdict) {
                     (View::Waveform, _) => self.waveform(&from, time, title)?,
-                    (View::Phase, _) => scene::portrait(&self.machine, (&from, time), title)?,
+                    (View::Phase, _) => scene::machine_portrait(&self.machine, (&from, time), title)?,
                     (View::Multipliers, Verdict::Periodic(cycle)) => {
                         scene::multipliers(&cycle.multipliers, &cycle.stabilities()).title(title)
                     }
@@ -93,21 +98,21 @@ impl Answer {
                 }
             }
             machine::Results::Branch(found) => {
-                let Task::Branch(plan) = &self.plan.task else { return Ok(None) };
-                let cut = plan.typed::<String>()?.cut(&self.source)?;
-                let quantity = BranchQuantity::of(&self.machine, &self.source, &cut, found);
-                let path = quantity.as_ref().map(|quantity| quantity.path.as_str());
-                let behind = if shown.diagram { self.behind(plan, path, control)? } else { None };
-                figure::branch::of_machine(
-                    found.followed.iter().map(|branch| branch.points.as_slice()),
-                    &cut,
-                    (quantity.as_ref(), behind.as_ref()),
-                    title,
-                )?
+                let answer = self.branches(found)?;
+                let path = answer.quantity.as_deref();
+                let behind = if shown.diagram { self.behind(path, control)? } else { None };
+                let picture = Picture {
+                    cut: &self.cut()?,
+                    units: &Units::default(),
+                    shown: if path.is_some() { tracks::Shown::Quantity } else { tracks::Shown::Speeds },
+                    ordinate: path.map_or_else(|| "speed of closing".to_owned(), plain),
+                    behind: behind.as_ref(),
+                    inadmissible: false,
+                };
+                figure::branch::figure(&answer.branches, &picture, title)?
             }
             machine::Results::Curve(found) => {
-                let Task::Curve(plan) = &self.plan.task else { return Ok(None) };
-                figure::curve::of_machine(found, &plan.typed()?, title)
+                figure::curve::figure(&self.curve(found)?, (&self.curve_plan()?, &Units::default()), title)
             }
             machine::Results::Region(found) => {
                 let Task::Region(plan) = &self.plan.task else { return Ok(None) };
@@ -130,7 +135,7 @@ impl Answer {
             machine::Results::Diagram(found) => figure::diagram::figure(found, &Units::default(), title)?,
             machine::Results::Lyapunov(found, Some(points)) => {
                 let label = figure::label(&found.motion.label());
-                figure::machine_section::figure(points, &self.machine, format!("{title}: {label}"))
+                figure::section::of_machine(points, &self.machine, format!("{title}: {label}"))
             }
             machine::Results::Attractors(census) => {
                 let share = |found: &CountedMotion<Machine>| (found.verdict.label().into_owned(), census.share(found));
@@ -141,7 +146,10 @@ impl Answer {
                 figure::bars::margins(found, (&self.machine, &Units::default()), format!("{title}: {label}"))?
             }
             machine::Results::Lyapunov(..) => return Ok(None),
-            machine::Results::Orbit(found) => figure::orbits::of_machine(found, title),
+            machine::Results::Orbit(found) => {
+                let answer = OrbitAnswer::of_machine(&self.machine, found);
+                figure::orbits::figure(&answer, "speed of closing".to_owned(), title)
+            }
         }))
     }
 
@@ -152,14 +160,50 @@ impl Answer {
         Some(ResponseView::of_machine(found, plan, &self.machine))
     }
 
+    /// The line of its branches.
+    ///
+    /// # Errors
+    /// [`PlanError`] for a number that the machine does not have, and for another task.
+    pub fn cut(&self) -> Result<Cut<String>, PlanError> {
+        let Task::Branch(plan) = &self.plan.task else { return Err(PlanError::NoLabel) };
+        plan.typed::<String>()?.cut(&self.source)
+    }
+
+    /// The plan of its curve.
+    ///
+    /// # Errors
+    /// As [`Self::cut`].
+    pub fn curve_plan(&self) -> Result<CurvePlan<String>, PlanError> {
+        if let Task::Curve(plan) = &self.plan.task { plan.typed() } else { Err(PlanError::NoLabel) }
+    }
+
+    /// The answer to `vibro branch`.
+    ///
+    /// # Errors
+    /// As [`Self::cut`].
+    pub fn branches<'a>(&'a self, found: &'a Branches<Cycle, SolutionPoint>) -> Result<BranchAnswer<'a>, PlanError> {
+        Ok(BranchAnswer::of_machine(found, &self.cut()?, (&self.machine, &self.source)))
+    }
+
+    /// The answer to `vibro curve`.
+    ///
+    /// # Errors
+    /// As [`Self::cut`].
+    pub fn curve<'a>(
+        &'a self,
+        found: &'a EventCurve<Cycle, SolutionPoint, CurvePoint>,
+    ) -> Result<CurveAnswer<'a>, PlanError> {
+        Ok(CurveAnswer::of_machine(&self.machine, &self.curve_plan()?, found))
+    }
+
     /// The orbit diagram over the range of a branch, of closings or of a quantity; `None` if there is no machine at one end,
     /// where no branch can come either.
     fn behind(
         &self,
-        plan: &BranchPlan<Variable>,
         quantity: Option<&str>,
         control: &Control<'_>,
     ) -> Result<Option<Diagram<String, String>>, AnswerError> {
+        let Task::Branch(plan) = &self.plan.task else { return Ok(None) };
         let mut diagram = plan.typed::<String>()?.diagram(&self.source)?;
         if let Some(path) = quantity {
             path.clone_into(&mut diagram.show);
@@ -218,12 +262,11 @@ impl Answer {
             },
             machine::Results::Attractors(census) => table::attractors::of_machine(&self.machine, census),
             machine::Results::Branch(found) => {
-                let Task::Branch(plan) = &self.plan.task else { return Ok(None) };
-                table::branch::of_machine(&self.machine, &plan.typed::<String>()?.cut(&self.source)?, found)
+                table::branch::table(self.branches(found)?, Some(&self.machine), (&self.cut()?, &Units::default()))
             }
             machine::Results::Curve(found) => {
-                let Task::Curve(plan) = &self.plan.task else { return Ok(None) };
-                table::curve::of_machine(&self.machine, &plan.typed()?, found)
+                let plan = (&self.curve_plan()?, &Units::default());
+                table::curve::table(self.curve(found)?, Some(&self.machine), plan)
             }
             machine::Results::Margins(found) => table::margins::table(found, &self.machine, Units::default()),
             machine::Results::Region(found) => {
@@ -238,7 +281,10 @@ impl Answer {
             machine::Results::Map(found) => table::map::table(found, &self.machine, (Units::default(), true))?,
             machine::Results::Diagram(found) => table::diagram::table(found, &self.machine, Units::default())?,
             machine::Results::Lyapunov(_, Some(points)) => table::section::of_machine(&self.machine, points),
-            machine::Results::Orbit(found) => table::orbits::of_machine(found, &self.machine),
+            machine::Results::Orbit(found) => {
+                let answer = OrbitAnswer::of_machine(&self.machine, found);
+                table::orbits::table(answer, Some(&self.machine), &Units::default())
+            }
             machine::Results::Lyapunov(..) => return Ok(None),
         }))
     }

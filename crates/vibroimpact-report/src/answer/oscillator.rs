@@ -1,17 +1,22 @@
 //! The answer to a plan of an oscillator.
 
 use crate::answer::Shown;
+use crate::figure::branch::Picture;
 use crate::figure::plane::varied;
-use crate::figure::{self, coloured, title};
+use crate::figure::{self, coloured, title, tracks};
+use crate::json::branch::BranchAnswer;
+use crate::json::curve::CurveAnswer;
+use crate::json::orbit::OrbitAnswer;
 use crate::response::ResponseView;
 use crate::scene::{View, Viewed, phase_portrait};
-use crate::{AnswerError, Asked, ReportError, Table, json, table};
-use serde::ser::Error as _;
-use serde::{Serialize, Serializer};
+use crate::{AnswerError, Asked, ReportError, ShownValue as _, Table, table};
 use vibroimpact::verdict::{CountedMotion, PaperRule, PaperVerdict};
 use vibroimpact::{Oscillator, Parameter};
 use vibroimpact_plot::Figure;
-use vibroimpact_study::{BranchPlan, Control, Name, Plan, RegionPlan, Results, Task, run};
+use vibroimpact_study::diagram::Show;
+use vibroimpact_study::{
+    BranchPlan, Branches, Control, CurvePlan, Cut, EventCurve, Name, Plan, PlanError, RegionPlan, Results, Task, run,
+};
 
 /// A plan of an oscillator and its result.
 #[derive(Clone, Debug)]
@@ -28,64 +33,13 @@ pub struct Answer {
     pub paper_rule: Option<(PaperRule, PaperVerdict)>,
 }
 
-impl Serialize for Answer {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let Self { plan, asked, osc, results, paper_rule } = self;
-        match (&plan.task, results) {
-            (_, Results::Simulate(start, found)) => {
-                json::simulate::document(asked, plan, (osc, start), found).serialize(to)
-            }
-            (_, Results::Settle(start, found)) => {
-                json::settle::document(asked, plan, (osc, start), found, *paper_rule).serialize(to)
-            }
-            (Task::Attractors { starts, seed, .. }, Results::Attractors(found)) => {
-                json::attractors::document(asked, plan, osc, (*starts, *seed), found).serialize(to)
-            }
-            (_, Results::Orbit(found)) => json::orbit::document(asked, plan, osc, found).serialize(to),
-            (_, Results::Basin(found)) => json::basin::document(asked, plan, osc, found).serialize(to),
-            (Task::Map(task), Results::Map(found)) => {
-                json::map::document(asked, plan, osc, ((task.starts, task.seed), found)).serialize(to)
-            }
-            (_, Results::Diagram(found)) => json::diagram::document(asked, plan, osc, found).serialize(to),
-            (_, Results::Lyapunov(start, found, _)) => {
-                json::lyapunov::document(asked, plan, (osc, start), found).serialize(to)
-            }
-            (Task::Branch(task), Results::Branch(found)) => {
-                let cut =
-                    task.typed::<Parameter>().and_then(|task| task.cut(&asked.system)).map_err(S::Error::custom)?;
-                json::branch::document(asked, plan, osc, found, &cut).serialize(to)
-            }
-            (Task::Curve(task), Results::Curve(found)) => {
-                let task = task.typed().map_err(S::Error::custom)?;
-                json::curve::document(asked, plan, osc, (&task, found)).serialize(to)
-            }
-            (Task::Region(task), Results::Region(found)) => {
-                let task = task.typed().map_err(S::Error::custom)?;
-                json::region::document(asked, plan, osc, (&task, found)).serialize(to)
-            }
-            (Task::Response(task), Results::Response(found)) => {
-                let object = json::response::document(asked, plan, osc, (task, found));
-                object.map_err(S::Error::custom)?.serialize(to)
-            }
-            (_, Results::Margins(start, found)) => {
-                json::margins::document(asked, plan, (osc, start.as_ref()), found).serialize(to)
-            }
-            // `answer` combines each plan with its own results, so this does not occur
-            _ => Err(S::Error::custom("the results belong to another task than the plan's")),
-        }
-    }
-}
-
 impl Answer {
     /// The JSON object without what takes longest to compute: the harmonics and the transient of a settled motion.
     #[must_use]
     pub fn brief(&self) -> String {
         // texts and numbers can always be written as JSON
-        let Results::Settle(start, found) = &self.results else {
-            return serde_json::to_string(self).unwrap_or_default();
-        };
-        let object = json::settle::brief(&self.asked, &self.plan, (&self.osc, start), found);
-        serde_json::to_string(&object).unwrap_or_default()
+        let brief = self.brief_document().map(|object| serde_json::to_string(&object));
+        brief.unwrap_or_else(|| serde_json::to_string(self)).unwrap_or_default()
     }
 
     /// As [`Answer::figure`](super::Answer::figure).
@@ -129,7 +83,10 @@ impl Answer {
                 let span = (0.0, found.shown_until);
                 figure::waveform::figure(osc, *start, span, &asked.units, title(asked))
             }
-            (_, Results::Orbit(found)) => figure::orbits::figure(found, &asked.units, title(asked)),
+            (_, Results::Orbit(found)) => {
+                let ordinate = asked.units.named("speed before the impact", "m/s");
+                figure::orbits::figure(&OrbitAnswer::of_oscillator(found, osc, &asked.units), ordinate, title(asked))
+            }
             (_, Results::Basin(found)) => figure::basin::figure(found, &asked.units, title(asked))?,
             (_, Results::Map(found)) => {
                 let title = figure::title_without(asked, &varied(&found.axes));
@@ -145,6 +102,7 @@ impl Answer {
                 figure::response::figure(&view, figure::title_without(asked, &[vary]))
             }
             (Task::Branch(task), Results::Branch(found)) => {
+                let answer = self.branches(found)?;
                 let task: BranchPlan = task.typed()?;
                 let behind = if shown.diagram {
                     let plan = Plan::new(asked.system, task.diagram(&asked.system)?);
@@ -153,9 +111,22 @@ impl Answer {
                     None
                 };
                 let cut = task.cut(&asked.system)?;
-                figure::branch::figure(&found.followed, &cut, behind.as_ref(), shown.inadmissible, asked)?
+                let picture = Picture {
+                    cut: &cut,
+                    units: &asked.units,
+                    shown: tracks::Shown::Speeds,
+                    ordinate: Show::Velocity.ordinate(&asked.units),
+                    behind: behind.as_ref(),
+                    inadmissible: shown.inadmissible,
+                };
+                let varied: Vec<Parameter> = cut.names().copied().collect();
+                figure::branch::figure(&answer.branches, &picture, figure::title_without(asked, &varied))?
             }
-            (Task::Curve(task), Results::Curve(found)) => figure::curve::figure(found, &task.typed()?, asked),
+            (_, Results::Curve(found)) => {
+                let plan = self.curve_plan()?;
+                let title = figure::title_without(asked, &[plan.vary.parameter, plan.and.parameter]);
+                figure::curve::figure(&self.curve(found)?, (&plan, &asked.units), title)
+            }
             (Task::Region(task), Results::Region(found)) => {
                 let task: RegionPlan = task.typed()?;
                 let title = figure::title_without(asked, &[task.across.parameter, task.up.parameter]);
@@ -175,6 +146,39 @@ impl Answer {
         }))
     }
 
+    /// The line of its branches.
+    ///
+    /// # Errors
+    /// [`PlanError`] for a parameter that the system does not have, and for another task.
+    pub fn cut(&self) -> Result<Cut, PlanError> {
+        let Task::Branch(plan) = &self.plan.task else { return Err(PlanError::NoLabel) };
+        plan.typed::<Parameter>()?.cut(&self.asked.system)
+    }
+
+    /// The plan of its curve.
+    ///
+    /// # Errors
+    /// As [`Self::cut`].
+    pub fn curve_plan(&self) -> Result<CurvePlan, PlanError> {
+        if let Task::Curve(plan) = &self.plan.task { plan.typed() } else { Err(PlanError::NoLabel) }
+    }
+
+    /// The answer to `vibro branch`.
+    ///
+    /// # Errors
+    /// As [`Self::cut`].
+    pub fn branches<'a>(&self, found: &'a Branches) -> Result<BranchAnswer<'a>, PlanError> {
+        Ok(BranchAnswer::of_oscillator(found, &self.cut()?, &self.asked))
+    }
+
+    /// The answer to `vibro curve`.
+    ///
+    /// # Errors
+    /// As [`Self::cut`].
+    pub fn curve<'a>(&self, found: &'a EventCurve) -> Result<CurveAnswer<'a>, PlanError> {
+        Ok(CurveAnswer::of_oscillator(found, &self.curve_plan()?, &self.asked))
+    }
+
     /// As [`Answer::table`](super::Answer::table).
     ///
     /// # Errors
@@ -192,15 +196,15 @@ impl Answer {
                 view.table()?.kept()
             }
             (_, Results::Attractors(found)) => table::attractors::table(found, osc, units),
-            (_, Results::Orbit(found)) => table::orbits::table(found, units),
+            (_, Results::Orbit(found)) => {
+                table::orbits::table(OrbitAnswer::of_oscillator(found, osc, units), None, units)
+            }
             (_, Results::Basin(found)) => table::basin::table(found, units)?,
             (_, Results::Map(found)) => table::map::table(found, &asked.system, (*units, false))?,
             (_, Results::Diagram(found)) => table::diagram::table(found, &asked.system, *units)?,
             (_, Results::Lyapunov(_, _, Some(points))) => table::section::table(points, osc, *units),
-            (Task::Branch(task), Results::Branch(found)) => {
-                table::branch::table(found, &task.typed::<Parameter>()?.cut(&asked.system)?, units)
-            }
-            (Task::Curve(task), Results::Curve(found)) => table::curve::table(found, task.typed()?, units),
+            (_, Results::Branch(found)) => table::branch::table(self.branches(found)?, None, (&self.cut()?, units)),
+            (_, Results::Curve(found)) => table::curve::table(self.curve(found)?, None, (&self.curve_plan()?, units)),
             (Task::Region(task), Results::Region(found)) => {
                 table::region::table(found, &task.typed::<Parameter>()?, units)
             }
@@ -219,7 +223,6 @@ mod tests {
     use crate::{Units, answer};
     use core::sync::atomic::AtomicBool;
     use core::sync::atomic::Ordering;
-    use vibroimpact_study::PlanError;
     use vibroimpact_study::{StartPlan, SystemPlan};
 
     const S: SystemPlan = SystemPlan {

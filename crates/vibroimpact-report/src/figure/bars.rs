@@ -19,6 +19,8 @@ const HALF: f64 = 0.3;
 /// Height of a row, and of all else.
 const ROW: f64 = 34.0;
 const FRAME: f64 = 150.0;
+/// The first colour of events without one of their own: those before are of the most frequent events.
+const OTHERS: usize = 3;
 /// The look of a range without an event.
 const NONE: ClassStyle =
     ClassStyle { colour: Colour::hex(0xee_eeee), hatch: Some(Hatch::new(Pattern::Rising, Colour::hex(0x99_9999))) };
@@ -79,7 +81,9 @@ pub(crate) fn margins<S: System, V: Varied, P: EventPoint<System = S>>(
         }
     }
     let known = |kind: &str| EVENT_COLOURS.iter().find(|(event, _)| event.name() == kind).map(|(_, colour)| *colour);
-    let mut others = SERIES.iter().filter(|colour| !EVENT_COLOURS.iter().any(|(_, taken)| taken == *colour)).cycle();
+    // other events have colours that no event in the figure has
+    let taken: Vec<Colour> = kinds.iter().filter_map(|kind| known(kind)).collect();
+    let mut others = SERIES[OTHERS..].iter().filter(|colour| !taken.contains(colour)).cycle();
     let style = |kind: &&str| match *kind {
         "no event" => NONE,
         kind => {

@@ -1,19 +1,18 @@
 //! The bifurcation diagram: impact velocities of orbits over the parameter, or their positions at phase 0. Stable
 //! orbits are solid, neutral ones dashed and dotted, and unstable ones dashed. Events are marked, and the orbit diagram from simulation is behind.
 
-use crate::branch_quantity::BranchQuantity;
 use crate::figure::diagram::backdrop;
 use crate::figure::styles::BRANCH_MARKS;
-use crate::figure::tracks::{Followed as What, Look, Track, TrackPoint};
-use crate::figure::{along, label, series, title_without, variant};
-use crate::{Asked, ReportError, ShownValue, Units};
+use crate::figure::tracks::{Look, Shown, Track, TrackPoint};
+use crate::figure::{along, label, series, variant};
+use crate::json::branch::BranchObject;
+use crate::{ReportError, ShownValue, Units, Varied};
 use std::collections::BTreeMap;
-use vibroimpact::continuation::machine::SolutionPoint;
 use vibroimpact_plot::{
-    Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, Shape, Stroke, class_style, legend_group, plain,
+    Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, Shape, Stroke, class_style, legend_group,
 };
-use vibroimpact_study::diagram::{Diagram, Show};
-use vibroimpact_study::{Cut, Followed, counted};
+use vibroimpact_study::diagram::Diagram;
+use vibroimpact_study::{Cut, counted};
 
 /// Colour of the orbit diagram from simulation.
 const GREY: Colour = Colour::hex(0xb0_b0b0);
@@ -32,92 +31,48 @@ const NAMED: usize = 12;
 /// Colour of the other labels.
 const OTHERS: Colour = Colour::hex(0x50_5050);
 
-/// The figure of `vibro branch`: branches along a line, with the orbit diagram from simulation behind, and with
-/// inadmissible solutions if requested. Impact velocities or positions are shown as in the orbit diagram; without one,
-/// impact velocities.
+/// What is drawn besides the branches.
+pub(crate) struct Picture<'a, V, S> {
+    /// The line, and the units of the results.
+    pub(crate) cut: &'a Cut<V>,
+    pub(crate) units: &'a Units,
+    /// What is shown of each cycle, and its name.
+    pub(crate) shown: Shown,
+    pub(crate) ordinate: String,
+    /// The orbit diagram of the same from simulation.
+    pub(crate) behind: Option<&'a Diagram<V, S>>,
+    /// Whether inadmissible solutions are drawn.
+    pub(crate) inadmissible: bool,
+}
+
+/// The figure of `vibro branch`: branches along a line, with the orbit diagram from simulation behind.
 ///
 /// # Errors
 /// [`ReportError::Plan`] if a value of the parameter overflows in these units.
-pub fn figure(
-    followed: &[Followed],
-    cut: &Cut,
-    behind: Option<&Diagram>,
-    show_virtual: bool,
-    asked: &Asked,
-) -> Result<Figure, ReportError> {
-    let show = behind.map_or(Show::Velocity, |diagram| diagram.plan.show);
-    let oscillator = |value: f64| cut.oscillator(&asked.system, value).ok();
-    let what = match show {
-        // a branch has no figure over a quantity; `vibro response` draws that
-        Show::Velocity | Show::Quantity(_) => What::Velocity,
-        Show::Strobe => What::Position(&oscillator),
-    };
-    // the unit of the ordinate where the parameter has this value
-    let size = |value: f64| {
-        let units = asked.units.at(cut.vary, value);
-        if show == Show::Strobe { units.length() } else { units.velocity() }
-    };
-    let unit = asked.units.of(cut.vary);
-    let (from, to) = cut.ends;
-    let mut panel = Panel::new(
-        FigureAxis::new(along(cut, &asked.units)).range(from.min(to) * unit, from.max(to) * unit),
-        FigureAxis::new(show.ordinate(&asked.units)),
-    );
-    if let Some(diagram) = behind {
-        for dots in backdrop(diagram, &asked.units, GREY)? {
-            panel.add(dots);
-        }
-    }
-    let tracks: Vec<Track> = followed.iter().map(|branch| Track::of(&branch.points, what)).collect();
-    let mut legend = draw(&mut panel, &tracks, show_virtual, (unit, &size));
-    if behind.is_some() {
-        legend = with_simulation(legend);
-    }
-    Ok(Figure::new(panel)
-        .size(680.0, 520.0)
-        .title(title_without(asked, &cut.names().copied().collect::<Vec<_>>()))
-        .legend(legend))
-}
-
-/// The figure of `vibro branch --machine`: the speeds of the closings of all stops along a line, or a [quantity](BranchQuantity)
-/// of each cycle, with the orbit diagram of the same from simulation behind, if it is given.
-///
-/// # Errors
-/// As [`figure`].
-pub fn of_machine<'a>(
-    branches: impl Iterator<Item = &'a [SolutionPoint]>,
-    cut: &Cut<String>,
-    (quantity, behind): (Option<&BranchQuantity<'_>>, Option<&Diagram<String, String>>),
+pub(crate) fn figure<V: Varied, S: ShownValue>(
+    branches: &[BranchObject<'_>],
+    picture: &Picture<'_, V, S>,
     title: String,
 ) -> Result<Figure, ReportError> {
-    let (from, to) = cut.ends;
-    let units = Units::default();
-    let abscissa = FigureAxis::new(along(cut, &units)).range(from.min(to), from.max(to));
-    let ordinate = quantity.map_or_else(|| "speed of closing".to_owned(), |quantity| plain(&quantity.path));
-    let mut panel = Panel::new(abscissa, FigureAxis::new(ordinate));
+    let Picture { cut, units, shown, ordinate, behind, inadmissible } = picture;
+    let ((from, to), unit) = (cut.ends, cut.vary.unit(units));
+    let abscissa = FigureAxis::new(along(cut, units)).range(from.min(to) * unit, from.max(to) * unit);
+    let mut panel = Panel::new(abscissa, FigureAxis::new(ordinate.clone()));
     if let Some(diagram) = behind {
-        for dots in backdrop(diagram, &units, GREY)? {
+        for dots in backdrop(diagram, units, GREY)? {
             panel.add(dots);
         }
     }
-    let track = |points| match quantity {
-        None => Track::of_machine(points),
-        Some(quantity) => Track::of_quantity(points, |point| quantity.at(point)),
-    };
-    let tracks: Vec<Track> = branches.map(track).collect();
-    let legend = draw(&mut panel, &tracks, false, (1.0, &|_| 1.0));
-    let legend = if behind.is_some() { with_simulation(legend) } else { legend };
+    let tracks: Vec<Track> = branches.iter().map(|branch| Track::of(branch, *shown)).collect();
+    let legend = draw(&mut panel, &tracks, *inadmissible);
+    // a dot of the cloud is too small for the legend
+    let simulation = behind.map(|_| Points::new([], [], GREY).size(7.0));
+    let legend = simulation.iter().fold(legend, |legend, dots| legend.points(dots, "simulation"));
     Ok(Figure::new(panel).size(680.0, 520.0).title(title).legend(legend))
 }
 
-/// The legend with the dots of the orbit diagram behind.
-fn with_simulation(legend: Legend) -> Legend {
-    // a dot of the cloud is too small for the legend
-    legend.points(&Points::new([], [], GREY).size(7.0), "simulation")
-}
-
-/// Draws branches with their events, with the units of both axes, and returns the legend.
-fn draw(panel: &mut Panel, tracks: &[Track], show_virtual: bool, (unit, size): (f64, &dyn Fn(f64) -> f64)) -> Legend {
+/// Draws branches with their events, and returns the legend.
+fn draw(panel: &mut Panel, tracks: &[Track], show_virtual: bool) -> Legend {
     let mut legend = Legend::below();
     let colours = colours(tracks);
     let mut looks: Vec<Look> = Vec::new();
@@ -129,8 +84,6 @@ fn draw(panel: &mut Panel, tracks: &[Track], show_virtual: bool, (unit, size): (
             looks.push(look);
         }
         let colour = colours.iter().find(|(name, _)| *name == label).map_or(Colour::BLACK, |(_, colour)| *colour);
-        let ys: Vec<f64> = ys.into_iter().zip(&xs).map(|(y, x)| y * size(*x)).collect();
-        let xs: Vec<f64> = xs.into_iter().map(|x| x * unit).collect();
         let (width, dash) = pen(look);
         motion_line(panel, (xs, ys), &label, Stroke::new(colour).width(width).dash(dash));
     }
@@ -151,7 +104,7 @@ fn draw(panel: &mut Panel, tracks: &[Track], show_virtual: bool, (unit, size): (
         let (width, dash) = pen(look);
         legend = legend.line(Stroke::new(Colour::BLACK).width(width).dash(dash), name);
     }
-    for (kind, points) in marks(tracks, show_virtual, (unit, size)) {
+    for (kind, points) in marks(tracks, show_virtual) {
         legend = legend.points(&points, kind);
         panel.add(points);
     }
@@ -203,11 +156,7 @@ fn colours(tracks: &[Track]) -> Vec<(String, Colour)> {
 }
 
 /// The marks of events, by kind.
-fn marks(
-    tracks: &[Track],
-    show_virtual: bool,
-    (unit, size): (f64, &dyn Fn(f64) -> f64),
-) -> BTreeMap<&'static str, Points> {
+fn marks(tracks: &[Track], show_virtual: bool) -> BTreeMap<&'static str, Points> {
     let mut places: BTreeMap<&'static str, (Shape, Vec<f64>, Vec<f64>)> = BTreeMap::new();
     for (track, point) in tracks.iter().flat_map(|track| track.points.iter().map(move |point| (track, point))) {
         let Some((kind, shape, ordinates)) = point.event.and_then(|event| mark(track, point, event)) else { continue };
@@ -215,8 +164,8 @@ fn marks(
             continue;
         }
         let (_, xs, ys) = places.entry(kind).or_insert((shape, Vec::new(), Vec::new()));
-        xs.extend(ordinates.iter().map(|_| point.value * unit));
-        ys.extend(ordinates.iter().map(|ordinate| ordinate * size(point.value)));
+        xs.extend(ordinates.iter().map(|_| point.value));
+        ys.extend(ordinates);
     }
     let count: usize = places.values().map(|(_, xs, _)| xs.len()).sum();
     let wide = if count > MANY { SMALL_MARK } else { MARK };

@@ -2,6 +2,7 @@
 //! forces.
 
 use crate::ReportError;
+use crate::figure::first_of;
 use crate::table::waveform::samples;
 use vibroimpact::events::{Event, EventKind, Sample, Start};
 use vibroimpact::machine::{Machine, StopLaw};
@@ -91,11 +92,7 @@ pub fn figure(
         }
         panels.push(panel);
     }
-    let title = if coordinates.len() > shown {
-        format!("{title}: the first {shown} of {} coordinates", coordinates.len())
-    } else {
-        title
-    };
+    let title = first_of(title, shown, coordinates.len());
     let height = 400.0 + 260.0 * (panels.len() - 1) as f64;
     Ok(Figure::grid(1, panels).size(1000.0, height).title(title).legend(legend))
 }

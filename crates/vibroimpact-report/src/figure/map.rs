@@ -119,19 +119,10 @@ impl LabelledCells {
         let rank = |label: &str| GROUPS.iter().position(|group| *group == legend_group(label)).unwrap_or(GROUPS.len());
         let mut labels: Vec<&str> = self.labels.iter().map(String::as_str).collect();
         sort_by_key(&mut labels, |label| (rank(label), numbers(label)));
-        let mut legend = Legend::below();
         if labels.len() <= NAMED {
-            for label in labels {
-                let group = legend_group(label);
-                let word = if group.contains('/') || unforced(label).is_some() {
-                    legend_label(label)
-                } else {
-                    legend_text(group).into()
-                };
-                legend = legend.patch(style(label), word);
-            }
-            return legend;
+            return entries(&labels, style);
         }
+        let mut legend = Legend::below();
         // motions m/T have no group
         let (closings, grouped): (Vec<Option<u64>>, Vec<&str>) = (
             labels.iter().map(|label| unforced(label)).collect(),
@@ -148,6 +139,21 @@ impl LabelledCells {
         }
         legend
     }
+}
+
+/// A legend with all labels. Those of one group that have the same style, because a group has five, share an entry.
+fn entries(labels: &[&str], style: impl Fn(&str) -> ClassStyle) -> Legend {
+    let mut entries: Vec<(ClassStyle, String)> = Vec::new();
+    for label in labels {
+        let group = legend_group(label);
+        let named = group.contains('/') || unforced(label).is_some();
+        let word = if named { legend_label(label) } else { legend_text(group).to_owned() };
+        match entries.iter_mut().find(|(other, _)| *other == style(label)) {
+            Some((_, words)) => words.push_str(&format!(", {word}")),
+            None => entries.push((style(label), word)),
+        }
+    }
+    entries.into_iter().fold(Legend::below(), |legend, (style, words)| legend.patch(style, words))
 }
 
 /// The numbers of impacts and periods of a label, by which labels of one group are ordered.
@@ -304,5 +310,14 @@ mod tests {
         assert_eq!(figure.legend.as_ref().unwrap().entries.len(), 1);
         let Mark::Rects(rects) = &figure.panels[0].marks[0] else { panic!("cells") };
         assert_eq!(rects.styles[1], class_style("6/1"));
+    }
+
+    #[test]
+    fn labels_of_one_style_share_an_entry() {
+        let figure = draw(&plane(3, 1), &cells(&[&["12/2"], &["15/3"], &["13/3"]]), String::new()).unwrap();
+        assert_eq!(class_style("12/2"), class_style("15/3"));
+        let texts: Vec<&str> =
+            figure.legend.iter().flat_map(|legend| &legend.entries).map(|entry| &*entry.label).collect();
+        assert_eq!(texts, ["12/2, 15/3", "13/3"]);
     }
 }

@@ -7,7 +7,6 @@ pub mod coloured;
 pub mod curve;
 pub mod diagram;
 pub mod machine;
-pub mod machine_section;
 pub mod machine_waveform;
 pub mod map;
 pub mod orbits;
@@ -144,6 +143,11 @@ pub fn label(label: &str) -> String {
         "0" => "no impact".into(),
         label => plain(label).replace("inf", "∞"),
     }
+}
+
+/// A title of a figure with the first `shown` of so many coordinates.
+pub(crate) fn first_of(title: String, shown: usize, all: usize) -> String {
+    if all > shown { format!("{title}: the first {shown} of {all} coordinates") } else { title }
 }
 
 /// Colour number `k` of a series: without black, which is used for marks, and yellow, which is too light for thin lines and dots.

@@ -1,59 +1,130 @@
-//! The figure of both sections of an attractor, one above the other: phase and speed of its impacts, and its states at
-//! phase 0.
+//! The figure of both sections of an attractor: phase and speed of its closings of stops, and its states at phase 0.
 
 use crate::Asked;
-use crate::figure::title;
+use crate::figure::{first_of, series, title};
 use crate::number::short;
 use core::f64::consts::PI;
 use vibroimpact::chaos::Section;
+use vibroimpact::machine::{self, Machine};
 use vibroimpact::{Oscillator, Side, Stop};
-use vibroimpact_plot::{COLUMN, Colour, Figure, FigureAxis, Legend, Panel, Points, SERIES, Tick};
-use vibroimpact_study::SystemPlan;
+use vibroimpact_plot::{COLUMN, Colour, Figure, FigureAxis, Legend, Panel, Points, Tick, plain};
+use vibroimpact_study::{SectionPoints, SystemPlan};
 
 /// Maximum number of distinct points that are drawn as large dots.
 const FEW: usize = 200;
 /// Two points are the same if they differ by less than this fraction of the range.
 const SAME: f64 = 1e-6;
+/// Maximum number of coordinates with a panel each.
+const PLANES: usize = 5;
+/// Maximum number of panels below each other.
+const ROWS: usize = 3;
 /// Diameter of a large dot, and of a dot in a cloud.
-pub(super) const LARGE: f64 = 9.0;
+const LARGE: f64 = 9.0;
 const SMALL: f64 = 2.6;
+
+/// What is drawn of the closings of stops.
+struct Closings {
+    caption: &'static str,
+    ordinate: String,
+    /// A speed that is not rounding.
+    unit: f64,
+    /// The name of each stop, and the phases and speeds of its closings.
+    stops: Vec<(String, Vec<f64>, Vec<f64>)>,
+}
+
+/// The names of both axes of a plane of states, and displacements and velocities.
+type Plane = ([String; 2], Vec<f64>, Vec<f64>);
 
 /// The figure of `vibro lyapunov`.
 #[must_use]
 pub fn figure(found: &Section, osc: &Oscillator, asked: &Asked) -> Figure {
     let units = &asked.units;
-    let speeds: Vec<f64> = found.impacts.iter().map(|impact| impact.velocity * units.velocity()).collect();
-    let ordinate = fitted(units.named("arrival velocity *u*_−", "m/s"), &speeds, units.velocity());
-    let phases = phases(found.impacts.iter().map(|impact| impact.phase));
-    let mut above = Panel::new(phases, ordinate).caption("impacts");
-    let second = osc.stop(Side::Lower);
-    let of_second = |stop: Stop| {
-        format!("second stop, *δ*_2 = {}, *ε*_2 = {}", short(stop.gap), short(stop.restitution)).replace('-', "−")
-    };
-    let mut legend = Legend::below();
-    for (side, colour) in [(Side::Upper, SERIES[0]), (Side::Lower, SERIES[1])] {
-        let name = match (side, second) {
-            (Side::Upper, _) => "stop".into(),
-            (Side::Lower, Some(stop)) => of_second(stop),
-            (Side::Lower, None) => continue,
+    let stop = |(side, stop): (Side, Stop)| {
+        let name = match side {
+            Side::Upper => "stop".to_owned(),
+            Side::Lower => {
+                let (gap, restitution) = (short(stop.gap), short(stop.restitution));
+                format!("second stop, *δ*_2 = {gap}, *ε*_2 = {restitution}").replace('-', "−")
+            }
         };
         let at = found.impacts.iter().filter(|impact| impact.side == side);
-        let (xs, ys): (Vec<f64>, Vec<f64>) = at.map(|at| (at.phase, at.velocity * units.velocity())).unzip();
-        let points = dots(xs, ys, colour);
-        // a dot of the cloud is too small for the legend
-        legend = legend.points(&points.clone().size(LARGE), name);
-        above.add(points);
-    }
-    let states = found.strobes.iter();
-    let (xs, ys): (Vec<f64>, Vec<f64>) = states.map(|at| (at.x * units.length(), at.v * units.velocity())).unzip();
-    let across = fitted(units.named("*ξ*", "m"), &xs, units.length());
-    let below = Panel::new(across, fitted(units.named("velocity *ξ*′", "m/s"), &ys, units.velocity()))
-        .caption("states at phase 0")
-        .with(dots(xs, ys, Colour::BLACK));
+        let (phases, speeds) = at.map(|at| (at.phase, at.velocity * units.velocity())).unzip();
+        (name, phases, speeds)
+    };
+    let closings = Closings {
+        caption: "impacts",
+        ordinate: units.named("arrival velocity *u*_−", "m/s"),
+        unit: units.velocity(),
+        stops: osc.stops().map(stop).collect(),
+    };
+    let states = found.strobes.iter().map(|at| (at.x * units.length(), at.v * units.velocity()));
+    let (xs, vs) = states.unzip();
+    let plane = ([units.named("*ξ*", "m"), units.named("velocity *ξ*′", "m/s")], xs, vs);
     // the legend names the second stop; a title with all parameters would be too long for a column
     let title = title(&Asked { system: SystemPlan { second_stop: None, ..asked.system }, ..*asked });
-    let figure = Figure::grid(1, vec![above, below]).size(COLUMN, 860.0).title(title);
-    if second.is_some() { figure.legend(legend) } else { figure }
+    draw(closings, vec![plane], (units.length(), units.velocity()), 430.0).title(title)
+}
+
+/// The figure of `vibro lyapunov --machine`: a plane for each coordinate and its velocity.
+#[must_use]
+pub fn of_machine(found: &SectionPoints, machine: &Machine, title: String) -> Figure {
+    let coordinates = &machine.parts().coordinates;
+    let shown = coordinates.len().min(PLANES);
+    let stop = |(k, stop): (usize, &machine::Stop)| {
+        let at = found.closings.iter().filter(|closing| closing.place == k);
+        let (phases, speeds) = at.map(|closing| (closing.phase, closing.speed)).unzip();
+        (plain(&stop.name), phases, speeds)
+    };
+    let closings = Closings {
+        caption: "closings of stops",
+        ordinate: "speed of closing".to_owned(),
+        unit: largest(found.closings.iter().map(|closing| closing.speed)),
+        stops: machine.stops().iter().enumerate().map(stop).collect(),
+    };
+    let plane = |(i, name): (usize, &String)| {
+        let (xs, vs) = found.strobes.iter().map(|state| (state.q[i], state.qdot[i])).unzip();
+        (["q", "qdot"].map(|of| format!("{of}.{}", plain(name))), xs, vs)
+    };
+    let planes = coordinates[..shown].iter().enumerate().map(plane).collect();
+    // lengths and velocities are small or large relative to those of all coordinates
+    let length = largest(found.strobes.iter().flat_map(|state| state.q.iter().copied()));
+    let speed = largest(found.strobes.iter().flat_map(|state| state.qdot.iter().copied()));
+    draw(closings, planes, (length, speed), 380.0).title(first_of(title, shown, coordinates.len()))
+}
+
+/// The panels, of this height each; `length` and `speed` are values that are not rounding.
+fn draw(closings: Closings, planes: Vec<Plane>, (length, speed): (f64, f64), height: f64) -> Figure {
+    let speeds: Vec<f64> = closings.stops.iter().flat_map(|(.., speeds)| speeds).copied().collect();
+    let across = phases(closings.stops.iter().flat_map(|(_, phases, _)| phases).copied());
+    let ordinate = fitted(closings.ordinate, &speeds, closings.unit);
+    let mut panel = Panel::new(across, ordinate).caption(closings.caption);
+    let mut legend = Legend::below();
+    let several = closings.stops.len() > 1;
+    for (k, (name, phases, speeds)) in closings.stops.into_iter().enumerate() {
+        let points = dots(phases, speeds, series(k));
+        // a dot of the cloud is too small for the legend
+        legend = legend.points(&points.clone().size(LARGE), name);
+        panel.add(points);
+    }
+    let plane = |([x, v], xs, vs): Plane| {
+        Panel::new(fitted(x, &xs, length), fitted(v, &vs, speed)).caption("states at phase 0").with(dots(
+            xs,
+            vs,
+            Colour::BLACK,
+        ))
+    };
+    let panels: Vec<Panel> = core::iter::once(panel).chain(planes.into_iter().map(plane)).collect();
+    let columns = panels.len().div_ceil(ROWS);
+    #[allow(clippy::cast_precision_loss)] // a few panels
+    let (width, height) = (COLUMN * columns as f64, height * panels.len().div_ceil(columns) as f64);
+    let figure = Figure::grid(columns, panels).size(width, height);
+    if several { figure.legend(legend) } else { figure }
+}
+
+/// The largest absolute value; 1 if all are 0.
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    let largest = values.fold(0.0, |largest: f64, value| largest.max(value.abs()));
+    if largest > 0.0 { largest } else { 1.0 }
 }
 
 /// A spread below this fraction of the values, or of a unit of length or velocity, is rounding.
@@ -61,7 +132,7 @@ const ROUNDING: f64 = 1e-6;
 
 /// An axis over some values. Values that are equal to rounding are placed in the middle of a range of suitable size, so
 /// that they appear as one point. An axis fitted to their last digits would show rounding as structure.
-pub(super) fn fitted(name: String, values: &[f64], unit: f64) -> FigureAxis {
+fn fitted(name: String, values: &[f64], unit: f64) -> FigureAxis {
     let axis = FigureAxis::new(name);
     let (low, high) = extremes(values.iter().copied());
     let size = low.abs().max(high.abs()).max(unit);
@@ -74,7 +145,7 @@ pub(super) fn fitted(name: String, values: &[f64], unit: f64) -> FigureAxis {
 
 /// The axis of the phase: the full period in fractions of pi, or the part with impacts if that is less than half of it
 /// (and more than one point).
-pub(super) fn phases(values: impl Iterator<Item = f64>) -> FigureAxis {
+fn phases(values: impl Iterator<Item = f64>) -> FigureAxis {
     let (low, high) = extremes(values);
     let axis = FigureAxis::new("phase *θ*");
     if (0.01..PI).contains(&(high - low)) {
@@ -89,7 +160,7 @@ fn extremes(values: impl Iterator<Item = f64>) -> (f64, f64) {
 }
 
 /// Points as large dots if few are distinct, otherwise as a cloud of small dots.
-pub(super) fn dots(xs: Vec<f64>, ys: Vec<f64>, colour: Colour) -> Points {
+fn dots(xs: Vec<f64>, ys: Vec<f64>, colour: Colour) -> Points {
     let size = if distinct(&xs, &ys) <= FEW { LARGE } else { SMALL };
     Points::new(xs, ys, colour).size(size)
 }

@@ -5,10 +5,6 @@ use vibroimpact::continuation::Bound;
 use vibroimpact_plot::{Colour, Dash, SERIES, Shape};
 use vibroimpact_study::FollowedEvent;
 
-/// The colours of curves of events of an oscillator, as Python draws them.
-pub const EVENT_COLOURS: [(FollowedEvent, Colour); 3] =
-    [(FollowedEvent::Fold, SERIES[1]), (FollowedEvent::Flip, SERIES[0]), (FollowedEvent::Grazing, SERIES[2])];
-
 /// The marks of events along branches by name, and whether the mark is at velocity zero, because an impact appears or
 /// disappears there. Other events have no mark.
 pub const BRANCH_MARKS: [(&str, Shape, bool); 17] = [
@@ -59,8 +55,8 @@ pub const CURVE_MARKS: [(&str, Shape); 22] = [
     ("rest", Shape::Cross),
 ];
 
-/// The colours of curves of events of any system.
-pub const CURVE_COLOURS: [(FollowedEvent, Colour); 7] = [
+/// The colours of events.
+pub const EVENT_COLOURS: [(FollowedEvent, Colour); 7] = [
     (FollowedEvent::Fold, SERIES[1]),
     (FollowedEvent::Flip, SERIES[0]),
     (FollowedEvent::Torus, SERIES[3]),

@@ -1,13 +1,10 @@
 //! The impacts of a branch, or its states at phase 0, as curves. Each impact is followed from point to point, and a
 //! curve changes its look where the stability changes. Branches of oscillators and of machines have the same points here.
 
+use crate::json::branch::{BranchObject, PointObject};
+use crate::json::event::closings;
+use crate::number::Number;
 use std::collections::BTreeMap;
-use vibroimpact::Oscillator;
-use vibroimpact::continuation::machine;
-use vibroimpact::continuation::{BranchEvent, SolutionPoint};
-use vibroimpact::events::EventKind;
-use vibroimpact::motion::Strobes;
-use vibroimpact::orbit::{Cycle, RestSpan, Stability};
 use vibroimpact::system::phase;
 
 /// The look of a part of a branch.
@@ -21,11 +18,12 @@ pub(crate) enum Look {
 }
 
 impl Look {
-    const fn of(stability: Stability) -> Self {
-        match stability {
-            Stability::Stable => Self::Stable,
-            Stability::Neutral => Self::Neutral,
-            Stability::Unstable => Self::Unstable,
+    fn of(point: &PointObject<'_>) -> Self {
+        match point.stability {
+            _ if !point.admissible => Self::Virtual,
+            "stable" => Self::Stable,
+            "neutral" => Self::Neutral,
+            _ => Self::Unstable,
         }
     }
 }
@@ -64,89 +62,30 @@ impl TrackPoint {
         self.list.iter().map(|(_, ordinate)| *ordinate).collect()
     }
 
-    fn of(point: &SolutionPoint, what: Followed<'_>) -> Self {
-        let list = what.list(point);
-        let places = match what {
-            Followed::Velocity => places(&point.cycle),
-            Followed::Position(_) => (0..list.len()).map(|k| (0, k)).collect(),
-        };
-        // a cycle with sticking may have other impacts with the same label
-        let changes = matches!(point.event, Some(BranchEvent::Grazing { .. } | BranchEvent::SoftLanding { .. }))
-            && !point.cycle.rests.is_empty();
+    /// Point number `k` of a branch.
+    fn of(branch: &BranchObject<'_>, k: usize, what: Shown) -> Self {
+        let (point, event) = (&branch.points[k], branch.event_at(k));
+        let (list, places) = what.list(point);
+        let sticks = point.cycle.iter().any(|event| event.kind == "stick");
+        let changes = event.is_some_and(|event| event.event.changes_closings());
         Self {
-            value: point.value,
-            label: point.cycle.label.to_string(),
-            look: if point.physical { Look::of(point.cycle.stability()) } else { Look::Virtual },
-            event: point.event.map(|event| event.name()),
+            value: point.parameter,
+            label: point.label.clone(),
+            look: Look::of(point),
+            event: event.map(|event| event.kind),
             list,
             places,
-            turns: what.turns(&point.cycle),
-            changes,
-        }
-    }
-
-    /// The closings of stops, with their speeds.
-    fn of_machine(point: &machine::SolutionPoint) -> Self {
-        let (mut list, mut places, mut place) = (Vec::new(), Vec::new(), (0, 0));
-        for event in &point.cycle.events {
-            match event.kind {
-                EventKind::Impact | EventKind::Close => {
-                    list.push((event.phase, event.speed));
-                    places.push(place);
-                    place.1 += 1;
-                }
-                EventKind::Stick => place = (place.0 + 1, 0),
-                _ => {}
-            }
-        }
-        let rests = place.0 > 0;
-        let changed = matches!(
-            point.event,
-            Some(
-                machine::BranchEvent::Grazing { .. }
-                    | machine::BranchEvent::Sticking { .. }
-                    | machine::BranchEvent::Corner { .. }
-                    | machine::BranchEvent::Change { .. }
-            )
-        );
-        Self {
-            value: point.value,
-            label: point.cycle.label.to_string(),
-            look: Look::of(point.cycle.stability()),
-            event: point.event.map(|event| event.name()),
-            list,
-            places,
-            turns: !rests,
-            changes: changed && rests,
+            turns: what != Shown::Speeds || !sticks,
+            changes: changes && sticks && what != Shown::Quantity,
         }
     }
 }
 
 impl Track {
-    /// A branch of an oscillator.
-    pub(crate) fn of(points: &[SolutionPoint], what: Followed<'_>) -> Self {
-        let positions = matches!(what, Followed::Position(_));
-        Self { points: points.iter().map(|point| TrackPoint::of(point, what)).collect(), positions }
-    }
-
-    /// A branch of a machine.
-    pub(crate) fn of_machine(points: &[machine::SolutionPoint]) -> Self {
-        Self { points: points.iter().map(TrackPoint::of_machine).collect(), positions: false }
-    }
-
-    /// The same, with one value of each cycle.
-    pub(crate) fn of_quantity(
-        points: &[machine::SolutionPoint],
-        value: impl Fn(&machine::SolutionPoint) -> f64,
-    ) -> Self {
-        let one = |point: &machine::SolutionPoint| TrackPoint {
-            list: vec![(0.0, value(point))],
-            places: vec![(0, 0)],
-            turns: true,
-            changes: false,
-            ..TrackPoint::of_machine(point)
-        };
-        Self { points: points.iter().map(one).collect(), positions: true }
+    /// A branch, and what is shown of its cycles.
+    pub(crate) fn of(branch: &BranchObject<'_>, what: Shown) -> Self {
+        let points = (0..branch.points.len()).map(|k| TrackPoint::of(branch, k, what));
+        Self { points: points.collect(), positions: what != Shown::Speeds }
     }
 
     /// The square of the distance between two impacts or states.
@@ -155,7 +94,7 @@ impl Track {
         first.powi(2) + (a.1 - b.1).powi(2)
     }
 
-    /// The ordinates of all impacts or states over the parameter, in nondimensional units.
+    /// The ordinates of all impacts or states over the parameter.
     pub(crate) fn curves(&self) -> Curves {
         let mut curves = Curves::new();
         let mut rest = self.points.as_slice();
@@ -197,58 +136,65 @@ impl Track {
     }
 }
 
-/// The quantity that is followed along a branch.
-#[derive(Clone, Copy)]
-pub(crate) enum Followed<'a> {
-    /// The speed before each impact.
-    Velocity,
-    /// The position at phase 0 of the force in each of its periods. The function gives the oscillator at a value of the
-    /// parameter.
-    Position(&'a dyn Fn(f64) -> Option<Oscillator>),
+/// What is shown of the cycles of a branch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Shown {
+    /// The speed of each closing.
+    Speeds,
+    /// The position at phase 0 of the force in each of its periods, of an oscillator.
+    Strobes,
+    /// The quantity of a machine.
+    Quantity,
 }
 
-impl Followed<'_> {
-    /// Two numbers that identify each impact or state at a point.
-    pub(crate) fn list(self, point: &SolutionPoint) -> Vec<(f64, f64)> {
-        let cycle = &point.cycle;
-        let oscillator = match self {
-            Self::Velocity => return cycle.points.iter().map(|p| (p.state.phase, p.state.velocity)).collect(),
-            Self::Position(oscillator) => oscillator(point.value),
+/// Two numbers that identify each closing, state or value of a point, the second of which is the ordinate, and what identifies it
+/// across points.
+type Listed = (Vec<(f64, f64)>, Vec<(usize, usize)>);
+
+impl Shown {
+    fn list(self, point: &PointObject<'_>) -> Listed {
+        let list = match self {
+            Self::Speeds => return speeds(point),
+            Self::Strobes => point.strobes.clone(),
+            Self::Quantity => vec![(0.0, point.quantity())],
         };
-        // an inadmissible solution has no states
-        let (Some(osc), Some(first), true) = (oscillator, cycle.points.first(), point.physical) else {
-            return Vec::new();
-        };
-        let states = Strobes::new(&osc, first.state.rebound(&osc), 0.0).take(cycle.label.periods as usize);
-        states.map(|state| (state.v, state.x)).collect()
+        let places = (0..list.len()).map(|k| (0, k)).collect();
+        (list, places)
     }
 
-    /// Whether the list may begin with another impact or state at the next point.
-    fn turns(self, cycle: &Cycle) -> bool {
-        matches!(self, Self::Position(_)) || cycle.rests.is_empty()
+    /// The cells of each closing, state or value in a table.
+    pub(crate) fn cells(self, point: &PointObject<'_>) -> Vec<String> {
+        match self {
+            Self::Speeds => closings(&point.cycle)
+                .map(|at| format!("{},{},{}", at.stop, Number(at.phase.unwrap_or(0.0)), Number(at.speed)))
+                .collect(),
+            Self::Strobes => point.strobes.iter().map(|(v, x)| format!("{},{}", Number(*x), Number(*v))).collect(),
+            Self::Quantity => vec![Number(point.quantity()).to_string()],
+        }
     }
 }
 
-/// Identifies the impacts of a cycle across values of the parameter: the number of phases of sticking before the impact
-/// in the list, and the number of impacts since the last of these. (The number of listed impacts of a chatter varies.)
-fn places(cycle: &Cycle) -> Vec<(usize, usize)> {
-    let last = |rest: &RestSpan| {
-        let all = cycle.points.iter().enumerate().filter(|(_, point)| point.state.side == rest.side);
-        let ago = |at: f64| phase::wrap(rest.begin - at + NOTHING);
-        all.min_by(|a, b| ago(a.1.state.phase).total_cmp(&ago(b.1.state.phase))).map(|(k, _)| k)
-    };
-    let ends: Vec<usize> = cycle.rests.iter().filter_map(last).collect();
+/// The phase and the speed of each closing, and the number of times that the motion sticks before it, and of closings since then: the
+/// number of listed impacts of a chatter varies from point to point. The list begins after the motion sticks on the first of the stops.
+fn speeds(point: &PointObject<'_>) -> Listed {
+    let sticks = point.cycle.iter().enumerate().filter(|(_, event)| event.kind == "stick");
+    let begin = sticks.min_by_key(|(_, event)| event.stop).map_or(0, |(k, _)| k + 1);
+    let (before, after) = point.cycle.split_at(begin);
     let mut place = (0, 0);
-    let step = |k| {
-        let here = place;
-        place = if ends.contains(&k) { (place.0 + 1, 0) } else { (place.0, place.1 + 1) };
-        here
-    };
-    (0..cycle.points.len()).map(step).collect()
+    let (mut list, mut places) = (Vec::new(), Vec::new());
+    for event in after.iter().chain(before) {
+        match event.kind {
+            "impact" | "close" => {
+                list.push((event.phase.unwrap_or(0.0), event.speed));
+                places.push(place);
+                place.1 += 1;
+            }
+            "stick" => place = (place.0 + 1, 0),
+            _ => {}
+        }
+    }
+    (list, places)
 }
-
-/// Phases closer than this are equal.
-const NOTHING: f64 = 1e-9;
 
 /// Divides a track where its look changes. Consecutive parts share a point.
 fn add(curves: &mut Curves, label: &str, run: &[TrackPoint], track: &[f64]) {
@@ -274,9 +220,17 @@ fn between(a: &TrackPoint, b: &TrackPoint) -> Look {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use vibroimpact::continuation::{Branch, BranchOptions, Direction};
+    use crate::{Asked, Units};
+    use vibroimpact::continuation::{Branch, BranchOptions, Direction, SolutionPoint};
     use vibroimpact::orbit::{FindOptions, find};
-    use vibroimpact::{Label, Parameter};
+    use vibroimpact::{Label, Oscillator, Parameter};
+    use vibroimpact_study::{Cut, SecondStop, SystemPlan};
+
+    /// The branch of an oscillator with these points.
+    fn with_points(points: &[SolutionPoint], vary: Parameter, system: SystemPlan) -> BranchObject<'_> {
+        let cut = Cut { vary, ends: (0.0, 1.0), also: None };
+        BranchObject::of_oscillator(points, &cut, &Asked { system, units: Units::default() })
+    }
 
     /// A cycle that sticks on both stops: the impacts of each chatter are identified even if the number of impacts
     /// listed before them changes.
@@ -288,9 +242,13 @@ mod tests {
         let (range, options) = (0.0..=2.0, BranchOptions::default());
         let branch = Branch::new(&osc, &cycle, Parameter::SecondGap, range, Direction::Up, options).unwrap();
         let points: Vec<SolutionPoint> = branch.collect();
-        let [one, two] = [points.first(), points.last()].map(|point| places(&point.unwrap().cycle));
+        let second_stop = Some(SecondStop { gap: 0.25, restitution: 0.5 });
+        let system =
+            SystemPlan { inverse_beta: Some(2.5), gap: 0.25, restitution: 0.5, second_stop, ..SystemPlan::default() };
+        let branch = with_points(&points, Parameter::SecondGap, system);
+        let [one, two] = [branch.points.first(), branch.points.last()].map(|point| speeds(point.unwrap()).1);
         assert!(one.len() != two.len() && one.iter().filter(|place| place.1 == 0).count() == 2, "{one:?}");
-        let curves = Track::of(&points, Followed::Velocity).curves();
+        let curves = Track::of(&branch, Shown::Speeds).curves();
         let (_, ys) = &curves[&("inf/1".to_owned(), Look::Stable)];
         let steps: Vec<f64> = ys.windows(2).map(|pair| (pair[1] - pair[0]).abs()).filter(|s| !s.is_nan()).collect();
         assert!(steps.len() > 500 && steps.iter().all(|step| *step < 0.05), "{:?}", steps.len());
@@ -306,7 +264,8 @@ mod tests {
             let (range, options) = (gap..=to, BranchOptions::default());
             let branch = Branch::new(&osc, &orbit.cycle, Parameter::Gap, range, Direction::Up, options).unwrap();
             let points: Vec<SolutionPoint> = branch.collect();
-            let curves = Track::of(&points, Followed::Velocity).curves();
+            let system = SystemPlan { inverse_beta: Some(inverse), gap, restitution: 0.5, ..SystemPlan::default() };
+            let curves = Track::of(&with_points(&points, Parameter::Gap, system), Shown::Speeds).curves();
             for (xs, ys) in curves.values() {
                 for pair in xs.iter().zip(ys).collect::<Vec<_>>().windows(2) {
                     let step = (pair[1].1 - pair[0].1).abs();

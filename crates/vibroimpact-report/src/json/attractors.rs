@@ -1,15 +1,13 @@
 //! The attractors to which scattered starts lead, and their shares.
 
-use super::Document;
 use super::certainty::Certainty;
 use super::motion::{MotionObject, SharedMotion};
-use crate::Asked;
+use crate::Units;
 use schemars::JsonSchema;
 use serde::Serialize;
 use vibroimpact::Oscillator;
 use vibroimpact::machine::Machine;
-use vibroimpact::verdict::{Census, StartBox};
-use vibroimpact_study::Plan;
+use vibroimpact::verdict::{Census, StartBox, System, Verdict};
 
 /// The answer to `vibro attractors`.
 #[derive(JsonSchema, Serialize)]
@@ -32,36 +30,24 @@ struct Area {
     phase: (f64, f64),
 }
 
-/// The object of `vibro attractors`, for a number of starts of a sequence in the natural box of the system.
-#[must_use]
-pub fn document<'a>(
-    asked: &Asked,
-    plan: &'a Plan,
-    osc: &Oscillator,
-    (starts, seed): (u64, u64),
-    census: &Census,
-) -> impl Serialize + use<'a> {
-    let (units, area) = (&asked.units, StartBox::natural(osc));
-    let scaled = |(a, b): (f64, f64), unit: f64| (a * unit, b * unit);
-    let shared = census.by_share().into_iter().map(|found| SharedMotion {
-        motion: MotionObject::of_oscillator(&found.verdict, osc, units),
-        share: census.share(found),
-        starts: found.count,
-    });
-    let area = Area { x: scaled(area.x, units.length()), v: scaled(area.v, units.velocity()), phase: area.phase };
-    let certainty = Certainty::of(census.by_share().into_iter().map(|found| found.count), census.total());
-    Document::new(
-        asked,
-        osc,
-        plan,
-        AttractorsAnswer { motions: shared.collect(), certainty, starts, seed, area: Some(area) },
-    )
-}
-
 impl<'a> AttractorsAnswer<'a> {
+    /// The motions of a sequence of starts in the natural box of an oscillator.
+    pub(super) fn of_oscillator(osc: &Oscillator, seed: u64, census: &'a Census, units: &Units) -> Self {
+        let area = StartBox::natural(osc);
+        let scaled = |(a, b): (f64, f64), unit: f64| (a * unit, b * unit);
+        let area = Area { x: scaled(area.x, units.length()), v: scaled(area.v, units.velocity()), phase: area.phase };
+        let motion = |verdict| MotionObject::of_oscillator(verdict, osc, units);
+        Self { area: Some(area), ..Self::new(census, seed, motion) }
+    }
+
+    /// Those of a machine.
     pub(super) fn of_machine(machine: &'a Machine, seed: u64, census: &'a Census<Machine>) -> Self {
+        Self::new(census, seed, |verdict| MotionObject::of_machine(machine, verdict))
+    }
+
+    fn new<S: System>(census: &'a Census<S>, seed: u64, motion: impl Fn(&'a Verdict<S>) -> MotionObject<'a>) -> Self {
         let shared = census.by_share().into_iter().map(|found| SharedMotion {
-            motion: MotionObject::of_machine(machine, &found.verdict),
+            motion: motion(&found.verdict),
             share: census.share(found),
             starts: found.count,
         });

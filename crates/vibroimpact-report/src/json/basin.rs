@@ -1,14 +1,14 @@
 //! The motions of a basin and their shares of its starts.
 
+use super::AxisObject;
 use super::certainty::Certainty;
 use super::motion::{MotionObject, SharedMotion};
-use super::{AxisObject, Document};
-use crate::{Asked, Units, Varied};
+use crate::{Units, Varied};
 use schemars::JsonSchema;
 use serde::Serialize;
+use vibroimpact::Oscillator;
 use vibroimpact::verdict::{System, Verdict};
-use vibroimpact::{Oscillator, Start};
-use vibroimpact_study::{Basin, Plan, StartPlan};
+use vibroimpact_study::Basin;
 
 /// The answer to `vibro basin`. Coordinates on no axis are those of the start.
 #[derive(JsonSchema, Serialize)]
@@ -76,20 +76,12 @@ impl MeasureFields {
     }
 }
 
-/// The object of `vibro basin`.
-#[must_use]
-pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &Basin) -> impl Serialize + use<'a> {
-    let units = &asked.units;
-    let StartPlan { x, v, phase } = found.plan.start();
-    let start = Start { x: x.unwrap_or_else(|| Start::at_rest(osc).x), v, phase };
-    let answer = BasinAnswer {
-        measures: MeasureFields::of(found),
-        ..BasinAnswer::new(found, units, |verdict| MotionObject::of_oscillator(verdict, osc, units))
-    };
-    Document::new(asked, osc, plan, answer).start(&start, units)
-}
-
 impl<'a> BasinAnswer<'a> {
+    pub(super) fn of_oscillator(found: &'a Basin, osc: &Oscillator, units: &Units) -> Self {
+        let motion = |verdict| MotionObject::of_oscillator(verdict, osc, units);
+        Self { measures: MeasureFields::of(found), ..Self::new(found, units, motion) }
+    }
+
     /// The motions in order of falling numbers of starts.
     pub(super) fn new<'b, S: System, V: Varied, F>(
         found: &'b Basin<S, V, F>,

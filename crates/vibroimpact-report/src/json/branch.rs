@@ -1,28 +1,28 @@
 //! Branches of periodic orbits of any system: their points, their events, and the events at which further branches begin.
 
+use super::Pair;
 use super::event::{self, EventObject, side};
 use super::motion::{drift, multipliers};
-use super::{Document, Pair};
 use crate::branch_quantity::BranchQuantity;
 use crate::{Asked, Units, Varied};
 use core::iter::once;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
-use vibroimpact::Label;
-use vibroimpact::Oscillator;
 use vibroimpact::continuation::machine;
 use vibroimpact::continuation::{BranchEvent, SolutionPoint};
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::machine::Cycle;
+use vibroimpact::verdict::Stability;
+use vibroimpact::{Label, Oscillator};
 use vibroimpact_study::machine::MachineSource;
-use vibroimpact_study::{Branches, Chosen, Cut, EventRecord, Followed, OrbitNumber, Plan, Solution, SystemPlan};
+use vibroimpact_study::{Branches, Chosen, Cut, EventRecord, Followed, OrbitNumber, Origin, Solution};
 
 /// The answer to `vibro branch`.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct BranchAnswer<'a> {
+pub struct BranchAnswer<'a> {
     /// The label of the orbit at which the first branch begins.
-    label: String,
+    pub label: String,
     vary: String,
     from: f64,
     to: f64,
@@ -30,15 +30,27 @@ pub(super) struct BranchAnswer<'a> {
     also: Option<Pair>,
     /// Absent for the motion from the start of a machine.
     #[serde(skip_serializing_if = "Option::is_none")]
-    orbit: Option<ChosenObject>,
-    branches: Vec<BranchObject<'a>>,
+    pub orbit: Option<ChosenObject>,
+    /// The branches; that of the orbit comes first.
+    pub branches: Vec<BranchObject<'a>>,
+    /// The stability of the orbit; none of a solution that is not admissible.
+    #[serde(skip)]
+    pub stability: Option<Stability>,
+    /// Events at which a further branch was expected but could not be followed.
+    #[serde(skip)]
+    pub lost: Vec<OriginObject>,
+    /// The path of the quantity that stands for each cycle of a machine without stops.
+    #[serde(skip)]
+    pub(crate) quantity: Option<String>,
 }
 
 /// The orbit at which the branch begins.
-#[derive(JsonSchema, Serialize)]
-pub(super) struct ChosenObject {
-    number: u32,
-    count: u32,
+#[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
+pub struct ChosenObject {
+    /// Its number, counted from 1.
+    pub number: u32,
+    /// How many orbits with its label there are.
+    pub count: u32,
 }
 
 impl ChosenObject {
@@ -49,65 +61,96 @@ impl ChosenObject {
 
 /// A branch.
 #[derive(JsonSchema, Serialize)]
-struct BranchObject<'a> {
+pub struct BranchObject<'a> {
     /// The event at which it begins; null for that of the orbit that was asked for.
-    from: Option<OriginObject>,
-    points: Vec<PointObject<'a>>,
-    events: Vec<BranchEventObject<'a>>,
+    pub from: Option<OriginObject>,
+    /// Its points.
+    pub points: Vec<PointObject<'a>>,
+    /// Its events.
+    pub events: Vec<BranchEventObject<'a>>,
     /// The event with which it ends.
     end: Option<&'static str>,
 }
 
-#[derive(JsonSchema, Serialize)]
-struct OriginObject {
-    kind: &'static str,
-    parameter: f64,
+/// The event at which a branch begins.
+#[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
+pub struct OriginObject {
+    /// Its kind.
+    pub kind: &'static str,
+    /// The value of the parameter.
+    pub parameter: f64,
     /// Number of the branch of that event, counted from 1; the branch of the chosen orbit is number 1.
-    branch: usize,
+    pub branch: usize,
 }
 
+/// A point of a branch.
 #[derive(JsonSchema, Serialize)]
-struct PointObject<'a> {
-    parameter: f64,
+pub struct PointObject<'a> {
+    /// The value of the parameter.
+    pub parameter: f64,
     /// Values of both parameters, on a line through two.
     #[serde(skip_serializing_if = "Option::is_none")]
-    values: Option<[f64; 2]>,
-    label: String,
+    pub(crate) values: Option<[f64; 2]>,
+    /// The label of the cycle; at an event of the one before it.
+    pub label: String,
     /// The time of one period.
-    period: f64,
-    cycle: Vec<EventObject<'a>>,
-    multipliers: Vec<[f64; 2]>,
+    pub period: f64,
+    pub(crate) cycle: Vec<EventObject<'a>>,
+    pub(crate) multipliers: Vec<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    drift: Option<Map<String, Value>>,
+    pub(crate) drift: Option<Map<String, Value>>,
     /// The quantity that the figure shows, of a machine without stops.
     #[serde(skip_serializing_if = "Option::is_none")]
-    quantities: Option<Map<String, Value>>,
-    stable: bool,
-    stability: &'static str,
-    admissible: bool,
+    pub(crate) quantities: Option<Map<String, Value>>,
+    pub(crate) stable: bool,
+    /// Whether neighbours approach the cycle.
+    pub stability: &'static str,
+    /// Whether it is a motion.
+    pub admissible: bool,
+    /// Velocity and position of an oscillator at phase 0 of the force in each of its periods, where they are shown.
+    #[serde(skip)]
+    pub(crate) strobes: Vec<(f64, f64)>,
 }
 
+/// An event of a branch.
 #[derive(JsonSchema, Serialize)]
-struct BranchEventObject<'a> {
-    kind: &'static str,
-    parameter: f64,
+pub struct BranchEventObject<'a> {
+    /// Its kind.
+    pub kind: &'static str,
+    /// The value of the parameter.
+    pub parameter: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     values: Option<[f64; 2]>,
     /// Index among the points.
-    point: usize,
+    pub point: usize,
+    /// What does not depend on the branch.
     #[serde(flatten)]
-    fields: EventFields<'a>,
+    pub fields: EventFields<'a>,
+    /// The event itself.
+    #[serde(skip)]
+    pub event: Event<'a>,
+}
+
+/// An event of a branch of an oscillator at a point, or of a machine.
+#[derive(Clone, Copy, Debug)]
+pub enum Event<'a> {
+    /// Of an oscillator.
+    Oscillator(&'a SolutionPoint, BranchEvent),
+    /// Of a machine.
+    Machine(&'a Machine, machine::BranchEvent),
 }
 
 /// The fields of an event that do not depend on the branch.
 #[derive(Default, JsonSchema, Serialize)]
-pub(crate) struct EventFields<'a> {
-    ends: bool,
-    /// The labels on both sides; null where the branch ends.
-    pub(crate) before: String,
-    pub(crate) after: Option<String>,
+pub struct EventFields<'a> {
+    /// Whether the branch ends there.
+    pub ends: bool,
+    /// The label before it.
+    pub before: String,
+    /// The label after it; null where the branch ends.
+    pub after: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    stop: Option<&'a str>,
+    pub(crate) stop: Option<&'a str>,
     /// Of a grazing contact, whether an impact appears beyond it or disappears.
     #[serde(skip_serializing_if = "Option::is_none")]
     appears: Option<bool>,
@@ -132,35 +175,21 @@ struct TouchObject {
     phase: f64,
 }
 
-/// The object of `vibro branch`, for branches along this line.
-#[must_use]
-pub fn document<'a>(
-    asked: &Asked,
-    plan: &'a Plan,
-    osc: &'a Oscillator,
-    found: &'a Branches,
-    cut: &Cut,
-) -> impl Serialize + use<'a> {
-    Document::new(asked, osc, plan, BranchAnswer::of_oscillator(found, cut, asked))
-}
-
 impl<'a> BranchAnswer<'a> {
-    /// The branches of an orbit with this label along a line. `object` returns the branch with these points, and `event` what is at
-    /// the event at a point.
+    /// The branches along a line. `branch` returns the branch with these points.
     fn new<C, P, V: Varied>(
-        (found, label): (&'a Branches<C, P>, Label),
+        found: &'a Branches<C, P>,
+        label: Label,
         (cut, units): (&Cut<V>, &Units),
-        object: impl Fn(&'a [P]) -> BranchObject<'a>,
-        event: impl Fn(&P) -> (&'static str, f64),
+        branch: impl Fn(&'a [P]) -> BranchObject<'a>,
     ) -> Self {
         let unit = cut.vary.unit(units);
-        let branch = |branch: &'a Followed<P>| {
-            let from = branch.origin.as_ref().map(|origin| {
-                let (kind, value) = event(&origin.point);
-                OriginObject { kind, parameter: value * unit, branch: origin.branch + 1 }
-            });
-            BranchObject { from, ..object(&branch.points) }
+        let origin = |origin: &'a Origin<P>| {
+            let point = branch(core::slice::from_ref(&origin.point));
+            let (kind, parameter) = point.events.first().map_or(("event", f64::NAN), |at| (at.kind, at.parameter));
+            OriginObject { kind, parameter, branch: origin.branch + 1 }
         };
+        let whole = |of: &'a Followed<P>| BranchObject { from: of.origin.as_ref().map(origin), ..branch(&of.points) };
         Self {
             label: label.to_string(),
             vary: cut.vary.field(units).to_owned(),
@@ -168,49 +197,94 @@ impl<'a> BranchAnswer<'a> {
             to: cut.ends.1 * unit,
             also: Pair::of(cut, units),
             orbit: ChosenObject::new(&found.chosen),
-            branches: found.followed.iter().map(branch).collect(),
+            branches: found.followed.iter().map(whole).collect(),
+            stability: found.chosen.stability,
+            lost: found.lost.iter().map(origin).collect(),
+            quantity: None,
         }
     }
 
-    fn of_oscillator(found: &'a Branches, cut: &Cut, Asked { system, units }: &Asked) -> Self {
-        let name = |point: &SolutionPoint| point.event.map_or("", |event| event.name());
-        let object = |points: &'a [SolutionPoint]| BranchObject {
-            from: None,
-            points: points.iter().map(|point| PointObject::of_oscillator(point, cut, system, units)).collect(),
-            events: (points.iter().enumerate())
-                .filter_map(|(k, point)| Some(BranchEventObject::of_oscillator(k, point, &point.event?, (cut, units))))
-                .collect(),
-            end: points.last().and_then(|point| point.event).map(|event| event.name()),
-        };
-        let label = found.chosen.cycle.label;
-        Self::new((found, label), (cut, units), object, |point| (name(point), point.value))
+    /// Those of an oscillator.
+    pub(crate) fn of_oscillator(found: &'a Branches, cut: &Cut, asked: &Asked) -> Self {
+        let branch = |points| BranchObject::of_oscillator(points, cut, asked);
+        Self::new(found, found.chosen.cycle.label, (cut, &asked.units), branch)
     }
 
-    /// Those of a machine, for branches along this line.
-    pub(super) fn of_machine(
-        (machine, source): (&'a Machine, &MachineSource),
-        cut: &Cut<String>,
+    /// Those of a machine.
+    pub(crate) fn of_machine(
         found: &'a Branches<Cycle, machine::SolutionPoint>,
+        cut: &Cut<String>,
+        (machine, source): (&'a Machine, &MachineSource),
     ) -> Self {
         let quantity = BranchQuantity::of(machine, source, cut, found);
-        let name = |point: &machine::SolutionPoint| point.event.map_or("", |event| event.name());
-        let object = |points: &'a [machine::SolutionPoint]| BranchObject {
-            from: None,
-            points: (points.iter())
-                .map(|point| PointObject::of_machine(point, machine, cut, quantity.as_ref()))
-                .collect(),
-            events: (0..points.len())
-                .filter_map(|k| Some(BranchEventObject::of_machine(k, points, points[k].event?, (machine, cut))))
-                .collect(),
-            end: points.last().and_then(|point| point.event).map(|event| event.name()),
+        let branch = |points| BranchObject::of_machine(points, cut, machine, quantity.as_ref());
+        let answer = Self::new(found, found.chosen.cycle.label, (cut, &Units::default()), branch);
+        Self { quantity: quantity.as_ref().map(|quantity| quantity.path.clone()), ..answer }
+    }
+}
+
+impl<'a> BranchObject<'a> {
+    /// A branch of an oscillator with these points.
+    pub(crate) fn of_oscillator(points: &'a [SolutionPoint], cut: &Cut, asked: &Asked) -> Self {
+        let objects = points.iter().map(|point| PointObject::of_oscillator(point, cut, asked));
+        let event = |point: &'a SolutionPoint| {
+            let event = point.event?;
+            Some((Event::Oscillator(point, event), EventFields::of_record(EventRecord::of(point, &event))))
         };
-        let (label, units) = (found.chosen.cycle.label, Units::default());
-        Self::new((found, label), (cut, &units), object, |point| (name(point), point.value))
+        Self::new(objects.collect(), points.iter().map(event))
+    }
+
+    /// A branch of a machine with these points, and a quantity of each.
+    pub(crate) fn of_machine(
+        points: &'a [machine::SolutionPoint],
+        cut: &Cut<String>,
+        machine: &'a Machine,
+        quantity: Option<&BranchQuantity<'_>>,
+    ) -> Self {
+        let objects = points.iter().map(|point| PointObject::of_machine(point, machine, cut, quantity));
+        let event = |k: usize| {
+            let event = points[k].event?;
+            // a point at an event has the cycle before it
+            let labels = (points[k].cycle.label, points.get(k + 1).map(|next| next.cycle.label.to_string()));
+            Some((Event::Machine(machine, event), EventFields::of_machine(event, labels, machine)))
+        };
+        Self::new(objects.collect(), (0..points.len()).map(event))
+    }
+
+    fn new(points: Vec<PointObject<'a>>, events: impl Iterator<Item = Option<(Event<'a>, EventFields<'a>)>>) -> Self {
+        let event = |(k, at): (usize, Option<(Event<'a>, EventFields<'a>)>)| {
+            let (event, fields) = at?;
+            let (parameter, values) = (points[k].parameter, points[k].values);
+            Some(BranchEventObject { kind: event.name(), parameter, values, point: k, fields, event })
+        };
+        let events: Vec<_> = events.enumerate().filter_map(event).collect();
+        let end = events.last().filter(|event| event.point + 1 == points.len()).map(|event| event.kind);
+        Self { from: None, points, events, end }
+    }
+
+    /// The event at a point.
+    #[must_use]
+    pub fn event_at(&self, point: usize) -> Option<&BranchEventObject<'a>> {
+        let place = self.events.binary_search_by_key(&point, |event| event.point).ok()?;
+        Some(&self.events[place])
+    }
+}
+
+impl PointObject<'_> {
+    /// The quantity of a machine without stops.
+    pub(crate) fn quantity(&self) -> f64 {
+        self.quantities.iter().flat_map(Map::values).find_map(Value::as_f64).unwrap_or(f64::NAN)
+    }
+
+    /// The values of all numbers that vary.
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        self.values.as_ref().map_or(core::slice::from_ref(&self.parameter), <[f64; 2]>::as_slice)
     }
 }
 
 impl PointObject<'static> {
-    fn of_oscillator(point: &SolutionPoint, cut: &Cut, system: &SystemPlan, units: &Units) -> Self {
+    fn of_oscillator(point: &SolutionPoint, cut: &Cut, Asked { system, units }: &Asked) -> Self {
         let (cycle, there) = (&point.cycle, units.at(cut.vary, point.value));
         let osc = cut.oscillator(system, point.value).ok();
         let period = osc.map_or(f64::NAN, |osc| f64::from(cycle.label.periods) * osc.period() * there.time());
@@ -226,6 +300,7 @@ impl PointObject<'static> {
             stable: point.stable(),
             stability: point.stability().name(),
             admissible: point.physical,
+            strobes: Vec::new(),
         }
     }
 }
@@ -251,6 +326,7 @@ impl<'a> PointObject<'a> {
             stability: cycle.stability().name(),
             // a branch of a machine ends where its orbit ceases to be admissible
             admissible: true,
+            strobes: Vec::new(),
         }
     }
 }
@@ -261,37 +337,52 @@ fn both<V: Varied>(value: f64, cut: &Cut<V>, units: &Units) -> Option<[f64; 2]> 
     Some([values.next()?, values.next()?])
 }
 
-impl BranchEventObject<'static> {
-    fn of_oscillator(place: usize, point: &SolutionPoint, event: &BranchEvent, (cut, units): (&Cut, &Units)) -> Self {
-        let record = EventRecord::of(point, event);
-        Self {
-            kind: record.kind,
-            parameter: point.value * units.of(cut.vary),
-            values: both(point.value, cut, units),
-            point: place,
-            fields: EventFields::of_oscillator(record),
+impl Event<'_> {
+    /// Its name.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Oscillator(_, event) => event.name(),
+            Self::Machine(_, event) => event.name(),
         }
     }
-}
 
-impl<'a> BranchEventObject<'a> {
-    fn of_machine(
-        k: usize,
-        points: &[machine::SolutionPoint],
-        event: machine::BranchEvent,
-        (machine, cut): (&'a Machine, &Cut<String>),
-    ) -> Self {
-        Self {
-            kind: event.name(),
-            parameter: points[k].value,
-            values: both(points[k].value, cut, &Units::default()),
-            point: k,
-            // a point at an event has the cycle before it
-            fields: EventFields::of_machine(
-                event,
-                (points[k].cycle.label, points.get(k + 1).map(|next| next.cycle.label.to_string())),
-                machine,
-            ),
+    /// Whether a branch goes on here, beyond values at which it has no solution.
+    #[must_use]
+    pub const fn is_jump(&self) -> bool {
+        matches!(self, Self::Machine(_, machine::BranchEvent::Jump))
+    }
+
+    /// Whether what varies reached the end of its range.
+    #[must_use]
+    pub const fn is_end_of_range(&self) -> bool {
+        use machine::BranchEvent as M;
+        matches!(self, Self::Oscillator(_, BranchEvent::EndOfRange) | Self::Machine(_, M::EndOfRange))
+    }
+
+    /// Whether only the search for the branch ends there, and nothing happens to the motion.
+    pub(crate) const fn is_end_of_search(&self) -> bool {
+        use BranchEvent as E;
+        use machine::BranchEvent as M;
+        match self {
+            Self::Oscillator(_, event) => {
+                matches!(event, E::Closed | E::EndOfRange | E::StepLimit | E::ImpactLimit | E::NoConvergence)
+            }
+            Self::Machine(_, event) => {
+                matches!(event, M::Closed | M::EndOfRange | M::StepLimit | M::Discontinuity | M::NoConvergence)
+            }
+        }
+    }
+
+    /// Whether a cycle that sticks may have other closings with the same label beyond it.
+    pub(crate) const fn changes_closings(&self) -> bool {
+        use BranchEvent as E;
+        use machine::BranchEvent as M;
+        match self {
+            Self::Oscillator(_, event) => matches!(event, E::Grazing { .. } | E::SoftLanding { .. }),
+            Self::Machine(_, event) => {
+                matches!(event, M::Grazing { .. } | M::Sticking { .. } | M::Corner { .. } | M::Change { .. })
+            }
         }
     }
 }
@@ -304,7 +395,7 @@ pub(crate) trait EventPoint: Solution {
 
 impl EventPoint for SolutionPoint {
     fn fields<'a>(&self, _: Option<String>, _: &'a Oscillator) -> EventFields<'a> {
-        self.event.map(|event| EventFields::of_oscillator(EventRecord::of(self, &event))).unwrap_or_default()
+        self.event.map(|event| EventFields::of_record(EventRecord::of(self, &event))).unwrap_or_default()
     }
 }
 
@@ -339,7 +430,7 @@ impl<'a> EventFields<'a> {
 }
 
 impl EventFields<'static> {
-    pub(super) fn of_oscillator(record: EventRecord) -> Self {
+    pub(super) fn of_record(record: EventRecord) -> Self {
         let EventRecord { ends, label_before, label_after, change, impact, side: at, phase, turns, also, .. } = record;
         Self {
             ends,

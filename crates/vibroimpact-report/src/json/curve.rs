@@ -1,23 +1,24 @@
 //! Curves of events in a plane of two parameters: their points, and their points of codimension two.
 
-use super::Document;
 use super::branch::ChosenObject;
 use super::event::{self, EventObject};
 use super::motion::multipliers;
 use crate::{Asked, Units, Varied};
 use schemars::JsonSchema;
 use serde::Serialize;
+use vibroimpact::Label;
 use vibroimpact::continuation::machine;
 use vibroimpact::continuation::{CurvePoint, machine::SolutionPoint};
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::machine::Cycle;
-use vibroimpact::{Label, Oscillator};
-use vibroimpact_study::{CurvePlan, EventCurve, Plan};
+use vibroimpact::verdict::Stability;
+use vibroimpact_study::{CurvePlan, EventCurve};
 
 /// The answer to `vibro curve`. Pairs of values are in the order of `parameters`.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct CurveAnswer<'a> {
-    label: String,
+pub struct CurveAnswer<'a> {
+    /// The label of the orbit on whose branch the event is.
+    pub label: String,
     kind: &'static str,
     /// The stop or joint of a curve of grazing, sticking or holding of a machine, or the stops and joints of a corner.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -25,61 +26,65 @@ pub(super) struct CurveAnswer<'a> {
     parameters: [String; 2],
     /// Absent for the motion from the start of a machine.
     #[serde(skip_serializing_if = "Option::is_none")]
-    orbit: Option<ChosenObject>,
+    pub orbit: Option<ChosenObject>,
     /// Values of the first parameter at the events of this kind on the branch.
-    found_at: Vec<f64>,
+    pub found_at: Vec<f64>,
     /// The number, counted from 1, of the event through which the curve passes, and its index among the points.
-    through: Through,
-    points: Vec<PointObject<'a>>,
-    events: Vec<CurveEventObject<'a>>,
+    pub through: Through,
+    /// The points from one end to the other.
+    pub points: Vec<PointObject<'a>>,
+    /// The events among them.
+    pub events: Vec<CurveEventObject<'a>>,
+    /// The stability of the orbit; none of a solution that is not admissible.
+    #[serde(skip)]
+    pub stability: Option<Stability>,
 }
 
+/// An event of a branch on a curve.
 #[derive(JsonSchema, Serialize)]
-struct Through {
-    event: usize,
-    point: usize,
+pub struct Through {
+    /// Its number among those of this kind on the branch.
+    pub event: usize,
+    /// Its index among the points of the curve.
+    pub point: usize,
 }
 
+/// A point of a curve.
 #[derive(JsonSchema, Serialize)]
-struct PointObject<'a> {
-    values: [f64; 2],
-    label: String,
-    admissible: bool,
+pub struct PointObject<'a> {
+    pub(crate) values: [f64; 2],
+    /// The label of the cycle.
+    pub label: String,
+    /// Whether it is a motion.
+    pub admissible: bool,
     /// The time of one period.
-    period: f64,
+    pub(crate) period: f64,
     /// The events; on a grazing curve of an oscillator including the impact of speed zero, on one of a machine without the touch.
-    cycle: Vec<EventObject<'a>>,
-    multipliers: Vec<[f64; 2]>,
+    pub(crate) cycle: Vec<EventObject<'a>>,
+    pub(crate) multipliers: Vec<[f64; 2]>,
     /// By how much the condition of the curve of a machine fails, and the phase of the touch.
     #[serde(skip_serializing_if = "Option::is_none")]
-    residual: Option<f64>,
+    pub(crate) residual: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    touch: Option<f64>,
+    pub(crate) touch: Option<f64>,
 }
 
-#[derive(JsonSchema, Serialize)]
-struct CurveEventObject<'a> {
-    kind: &'static str,
-    values: [f64; 2],
-    point: usize,
+/// An event of a curve.
+#[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
+pub struct CurveEventObject<'a> {
+    /// Its kind.
+    pub kind: &'static str,
+    /// The values of both parameters.
+    pub values: [f64; 2],
+    /// Index among the points.
+    pub point: usize,
+    /// The stop or joint of a machine.
     #[serde(skip_serializing_if = "Option::is_none")]
-    stop: Option<&'a str>,
-}
-
-/// The object of `vibro curve`.
-#[must_use]
-pub fn document<'a>(
-    asked: &Asked,
-    plan: &'a Plan,
-    osc: &Oscillator,
-    (task, found): (&CurvePlan, &EventCurve),
-) -> impl Serialize + use<'a> {
-    Document::new(asked, osc, plan, CurveAnswer::of_oscillator(found, task, asked))
+    pub stop: Option<&'a str>,
 }
 
 /// Values of both parameters at a point, in the units of the results.
-#[must_use]
-pub fn values<V: Varied>((p, q): (f64, f64), plan: &CurvePlan<V>, units: &Units) -> [f64; 2] {
+fn values<V: Varied>((p, q): (f64, f64), plan: &CurvePlan<V>, units: &Units) -> [f64; 2] {
     [p * plan.vary.parameter.unit(units), q * plan.and.parameter.unit(units)]
 }
 
@@ -107,10 +112,17 @@ impl<'a> CurveAnswer<'a> {
             through: Through { event: found.through + 1, point: found.begin },
             points,
             events,
+            stability: found.chosen.stability,
         }
     }
 
-    fn of_oscillator(found: &EventCurve, plan: &CurvePlan, Asked { system, units }: &Asked) -> Self {
+    /// The event at a point.
+    pub(crate) fn event_at(&self, point: usize) -> Option<&CurveEventObject<'a>> {
+        let place = self.events.binary_search_by_key(&point, |event| event.point).ok()?;
+        Some(&self.events[place])
+    }
+
+    pub(crate) fn of_oscillator(found: &EventCurve, plan: &CurvePlan, Asked { system, units }: &Asked) -> Self {
         let of = [plan.vary.parameter, plan.and.parameter];
         let event = |(k, point): (usize, &CurvePoint)| {
             let kind = point.event?.name();
@@ -140,7 +152,7 @@ impl<'a> CurveAnswer<'a> {
         Self::new((found, found.chosen.cycle.label), (plan, units), Vec::new(), parts)
     }
 
-    pub(super) fn of_machine(
+    pub(crate) fn of_machine(
         machine: &'a Machine,
         plan: &CurvePlan<String>,
         found: &'a EventCurve<Cycle, SolutionPoint, machine::CurvePoint>,

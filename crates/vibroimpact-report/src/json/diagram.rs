@@ -1,12 +1,10 @@
 //! A summary of an orbit diagram: numbers of motions of each kind.
 
-use super::{Document, Pair, Place};
+use super::{Pair, Place};
 use crate::table::diagram::columns;
-use crate::{Asked, ShownValue, Units, Varied};
+use crate::{ShownValue, Units, Varied};
 use schemars::JsonSchema;
 use serde::Serialize;
-use vibroimpact::Oscillator;
-use vibroimpact_study::Plan;
 use vibroimpact_study::diagram::{Diagram, MotionKind, Sweep, SweepDirection};
 
 /// The answer to `vibro diagram`.
@@ -19,12 +17,6 @@ pub(super) struct DiagramAnswer {
     /// The columns of the table.
     columns: Vec<String>,
     sweeps: Vec<Counts>,
-}
-
-/// The object of `vibro diagram`.
-#[must_use]
-pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &Diagram) -> impl Serialize + use<'a> {
-    Document::new(asked, osc, plan, DiagramAnswer::new(found, &asked.units))
 }
 
 impl DiagramAnswer {

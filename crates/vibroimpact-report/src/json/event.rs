@@ -124,6 +124,16 @@ impl EventObject<'static> {
     }
 }
 
+/// The closings of stops among events.
+pub(crate) fn closings<'e, 'a>(events: &'e [EventObject<'a>]) -> impl Iterator<Item = &'e EventObject<'a>> + Clone {
+    events.iter().filter(|event| matches!(event.kind, "impact" | "close"))
+}
+
+/// The speed of the fastest closing among events.
+pub(crate) fn fastest(events: &[EventObject<'_>]) -> f64 {
+    closings(events).map(|event| event.speed).fold(0.0, f64::max)
+}
+
 /// The events of a cycle of an oscillator over one period, beginning with its fastest impact, from which times are counted. Of a
 /// complete chatter the first impacts are listed; those that are summed are not.
 pub(super) fn of_cycle(osc: &Oscillator, cycle: &Cycle, units: &Units) -> Vec<EventObject<'static>> {

@@ -1,15 +1,13 @@
 //! Lyapunov exponents with error bars, dimensions, and how they were obtained.
 
-use super::Document;
 use super::event::side;
 use super::motion::{Estimate, HorizonObject, MotionObject};
-use crate::{Asked, Units};
+use crate::Units;
 use schemars::JsonSchema;
 use serde::Serialize;
+use vibroimpact::Oscillator;
 use vibroimpact::chaos::{Exponents, Grounds, Measured};
 use vibroimpact::machine::Machine;
-use vibroimpact::{Oscillator, Start};
-use vibroimpact_study::Plan;
 
 /// The answer to `vibro lyapunov`.
 #[derive(JsonSchema, Serialize)]
@@ -30,17 +28,6 @@ pub(super) struct LyapunovAnswer<'a> {
     dimension: Dimensions,
     #[serde(skip_serializing_if = "Option::is_none")]
     grounds: Option<GroundsObject>,
-}
-
-/// The object of `vibro lyapunov`.
-#[must_use]
-pub fn document<'a>(
-    asked: &Asked,
-    plan: &'a Plan,
-    (osc, start): (&Oscillator, &Start),
-    found: &Exponents,
-) -> impl Serialize + use<'a> {
-    Document::new(asked, osc, plan, LyapunovAnswer::of_oscillator(found, osc, &asked.units)).start(start, &asked.units)
 }
 
 /// Kaplan-Yorke dimensions; `null` if the larger exponent is not known to differ from 0.
@@ -64,7 +51,7 @@ enum GroundsObject {
 }
 
 impl<'a> LyapunovAnswer<'a> {
-    fn of_oscillator(found: &Exponents, osc: &Oscillator, units: &Units) -> Self {
+    pub(super) fn of_oscillator(found: &'a Exponents, osc: &Oscillator, units: &Units) -> Self {
         let per_time = |of: Measured| Estimate::from(scaled(of, 1.0 / units.time()));
         let identity = found.identity / units.time();
         Self {

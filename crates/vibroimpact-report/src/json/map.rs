@@ -9,8 +9,8 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
+use vibroimpact::Start;
 use vibroimpact::quantities::Quantity;
-use vibroimpact::{Oscillator, Start};
 use vibroimpact_plot::{GROUPS, legend_group};
 use vibroimpact_study::{
     Axis, BasinPlan, Coordinate, Parameter, Plan, PlanError, PointsPlan, RegionMap, Share, SystemPlan, Values,
@@ -63,20 +63,6 @@ pub struct LabelCount {
     pub points: u64,
     /// Its share of all starts.
     pub share: f64,
-}
-
-/// The object of `vibro map`.
-#[must_use]
-pub fn document<'a>(
-    asked: &Asked,
-    plan: &'a Plan,
-    osc: &Oscillator,
-    (starts, found): ((u64, u64), &RegionMap),
-) -> impl Serialize + use<'a> {
-    let varied: Vec<Parameter> = (found.varied())
-        .filter_map(|vary| if let Coordinate::Parameter(parameter) = vary { Some(*parameter) } else { None })
-        .collect();
-    Document::over(asked, osc, &varied, plan, MapAnswer::new(found, &asked.system, starts, &asked.units))
 }
 
 impl MapAnswer {

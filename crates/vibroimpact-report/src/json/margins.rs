@@ -1,15 +1,13 @@
 //! The nearest events of a motion in each parameter, and the box of parameters in which the motion was found.
 
-use super::Document;
 use super::branch::{EventFields, EventPoint};
 use super::motion::MotionObject;
+use crate::Units;
 use crate::varied::Varied;
-use crate::{Asked, Units};
 use schemars::JsonSchema;
 use serde::Serialize;
 use vibroimpact::verdict::System;
-use vibroimpact::{Oscillator, Start};
-use vibroimpact_study::{MotionBox, MotionMargins, ParameterMargin, Plan, Scope};
+use vibroimpact_study::{MotionBox, MotionMargins, ParameterMargin, Scope};
 
 /// The answer to `vibro margins`.
 #[derive(JsonSchema, Serialize)]
@@ -90,22 +88,6 @@ struct EdgeObject<'a> {
 struct ValueObject<'a> {
     parameter: &'a str,
     value: f64,
-}
-
-/// The object of `vibro margins`.
-#[must_use]
-pub fn document<'a>(
-    asked: &'a Asked,
-    plan: &'a Plan,
-    (osc, start): (&'a Oscillator, Option<&Start>),
-    found: &'a MotionMargins,
-) -> impl Serialize + use<'a> {
-    let motion = MotionObject::of_oscillator(&found.motion, osc, &asked.units);
-    let document = Document::new(asked, osc, plan, MarginsAnswer::new(found, osc, motion, &asked.units));
-    match start {
-        Some(start) => document.start(start, &asked.units),
-        None => document,
-    }
 }
 
 impl<'a> MarginsAnswer<'a> {

@@ -1,7 +1,6 @@
 //! The JSON objects, one file for each command. Numbers that are not finite are `null`.
-//!
-//! Each `document` function returns the whole object that the command of the same name prints with `--json`.
 
+mod answer;
 pub mod attractors;
 pub mod basin;
 pub mod branch;
@@ -10,12 +9,11 @@ pub mod curve;
 pub mod diagram;
 pub mod event;
 pub mod lyapunov;
-mod machine;
 pub mod map;
 pub mod margins;
 pub mod motion;
 pub mod orbit;
-mod quantities;
+pub(crate) mod quantities;
 pub mod region;
 pub mod response;
 mod schema;
@@ -50,12 +48,7 @@ struct Document<'a, T, P> {
 }
 
 impl<'a, T: Serialize> Document<'a, T, Plan> {
-    /// An object of an oscillator with the fields of the command.
-    fn new(asked: &Asked, osc: &Oscillator, plan: &'a Plan, result: T) -> Self {
-        Self::over(asked, osc, &[], plan, result)
-    }
-
-    /// The same where parameters vary.
+    /// An object of an oscillator with the fields of the command, over parameters that vary.
     fn over(asked: &Asked, osc: &Oscillator, varied: &[Parameter], plan: &'a Plan, result: T) -> Self {
         let system = SystemObject::of_oscillator(asked, osc, varied);
         Self { system, start: None, result, units: Some(asked.units.name()), plan, program: PROGRAM }

@@ -20,28 +20,28 @@ use vibroimpact_study::ImpactsByStop;
 
 /// The JSON object of a motion.
 #[derive(Default, JsonSchema, Serialize)]
-pub(super) struct MotionObject<'a> {
+pub(crate) struct MotionObject<'a> {
     kind: &'static str,
-    label: String,
+    pub(crate) label: String,
     impacts: Option<u32>,
     periods: Option<u32>,
     /// The time of one period of a cycle.
     #[serde(skip_serializing_if = "Option::is_none")]
-    period: Option<f64>,
+    pub(crate) period: Option<f64>,
     /// Rests on stops, and holds of joints, in one period.
     sticks: Option<usize>,
-    stable: Option<bool>,
-    stability: Option<&'static str>,
+    pub(crate) stable: Option<bool>,
+    pub(crate) stability: Option<&'static str>,
     /// Closings of each stop in one period; null for infinitely many.
     #[serde(skip_serializing_if = "Option::is_none")]
     counts: Option<Map<String, Value>>,
-    multipliers: Option<Vec<[f64; 2]>>,
+    pub(crate) multipliers: Option<Vec<[f64; 2]>>,
     /// By how much each coordinate moves on in one period, and the mean velocity of this, in machines that can be translated.
     #[serde(skip_serializing_if = "Option::is_none")]
     drift: Option<Map<String, Value>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     drift_velocity: Option<Map<String, Value>>,
-    cycle: Vec<EventObject<'a>>,
+    pub(crate) cycle: Vec<EventObject<'a>>,
     /// The first stop that stays closed for ever, where the structure rests, and all of them, which compliant ones can be
     /// without a rest.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -161,7 +161,7 @@ impl HorizonObject {
     }
 }
 
-impl MotionObject<'_> {
+impl MotionObject<'static> {
     /// The motion of an oscillator, in these units.
     pub(super) fn of_oscillator(verdict: &Verdict, osc: &Oscillator, units: &Units) -> Self {
         let stability = verdict.stability(osc);

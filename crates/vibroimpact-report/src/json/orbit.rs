@@ -1,35 +1,26 @@
 //! The orbits with a label: admissible ones and inadmissible solutions of the equations.
 
-use super::Document;
 use super::event::side;
 use super::motion::{MotionObject, of_oscillator_cycle};
-use crate::{Asked, Units};
+use crate::Units;
 use schemars::JsonSchema;
 use serde::Serialize;
 use vibroimpact::Oscillator;
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::{EarlierContact, Orbit, machine::Cycle};
-use vibroimpact_study::Plan;
 
 /// The answer to `vibro orbit`.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct OrbitAnswer<'a> {
-    orbits: Vec<OrbitObject<'a>>,
-}
-
-/// The object of `vibro orbit`.
-#[must_use]
-pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, orbits: &[Orbit]) -> impl Serialize + use<'a> {
-    let orbits = orbits.iter().map(|orbit| OrbitObject::new(orbit, osc, &asked.units)).collect();
-    Document::new(asked, osc, plan, OrbitAnswer { orbits })
+pub(crate) struct OrbitAnswer<'a> {
+    pub(crate) orbits: Vec<OrbitObject<'a>>,
 }
 
 /// One orbit.
 #[derive(JsonSchema, Serialize)]
-struct OrbitObject<'a> {
+pub(crate) struct OrbitObject<'a> {
     #[serde(flatten)]
-    motion: MotionObject<'a>,
-    admissible: bool,
+    pub(crate) motion: MotionObject<'a>,
+    pub(crate) admissible: bool,
     earlier_contact: Option<ContactObject>,
 }
 
@@ -43,7 +34,11 @@ struct ContactObject {
 }
 
 impl<'a> OrbitAnswer<'a> {
-    pub(super) fn of_machine(machine: &'a Machine, found: &'a [Cycle]) -> Self {
+    pub(crate) fn of_oscillator(found: &[Orbit], osc: &Oscillator, units: &Units) -> Self {
+        Self { orbits: found.iter().map(|orbit| OrbitObject::new(orbit, osc, units)).collect() }
+    }
+
+    pub(crate) fn of_machine(machine: &'a Machine, found: &'a [Cycle]) -> Self {
         let orbit = |cycle| OrbitObject {
             motion: MotionObject::of_cycle(machine, cycle),
             // others are not found

@@ -1,12 +1,10 @@
 //! Regions of existence and stability: their polygons and the kinds of their boundaries.
 
-use super::Document;
-use crate::{Asked, Units, Varied};
+use crate::{Units, Varied};
 use schemars::JsonSchema;
 use serde::Serialize;
-use vibroimpact::Oscillator;
 use vibroimpact::continuation::{Polygon, Region, Vertex};
-use vibroimpact_study::{Plan, RegionPlan, Regions};
+use vibroimpact_study::{RegionPlan, Regions};
 
 /// The answer to `vibro region`. Pairs of values are in the order of `parameters`.
 #[derive(JsonSchema, Serialize)]
@@ -34,19 +32,6 @@ struct PolygonObject {
     /// The kind of boundary from each vertex to the next: fold, flip, no speed, touch, merging, frame; of a machine also torus and
     /// change.
     bounds: Vec<&'static str>,
-}
-
-/// The object of `vibro region`. Parameters that vary have no value in the system.
-#[must_use]
-pub fn document<'a>(
-    asked: &Asked,
-    plan: &'a Plan,
-    osc: &Oscillator,
-    (task, found): (&RegionPlan, &Regions),
-) -> impl Serialize + use<'a> {
-    let varied = [task.across.parameter, task.up.parameter];
-    let answer = RegionAnswer::new(found, task, task.neutral(&asked.system), &asked.units);
-    Document::over(asked, osc, &varied, plan, answer)
 }
 
 impl RegionAnswer {

@@ -1,12 +1,10 @@
 //! The response over a number: the motions of two sweeps, and the branches on which they lie.
 
-use super::{Document, Place};
+use super::Place;
 use crate::response::ResponseView;
-use crate::{Asked, Units};
 use schemars::JsonSchema;
 use serde::Serialize;
-use vibroimpact::Oscillator;
-use vibroimpact_study::{Name, Parameter, Plan, PlanError, ResponseCurves, ResponsePlan, ResponseRow, Variable};
+use vibroimpact_study::ResponseRow;
 
 /// The answer to `vibro response`.
 #[derive(JsonSchema, Serialize)]
@@ -42,22 +40,6 @@ struct PointObject {
     admissible: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     event: Option<&'static str>,
-}
-
-/// The object of `vibro response`.
-///
-/// # Errors
-/// [`PlanError`] for what is no parameter.
-pub fn document<'a>(
-    asked: &Asked,
-    plan: &'a Plan,
-    osc: &Oscillator,
-    (task, found): (&'a ResponsePlan<Variable, String>, &'a ResponseCurves),
-) -> Result<impl Serialize + use<'a>, PlanError> {
-    let units: &Units = &asked.units;
-    let view = ResponseView::of_oscillator(found, task, units)?;
-    let vary = Parameter::of(task.vary.text())?;
-    Ok(Document::over(asked, osc, &[vary], plan, ResponseAnswer::new(&view)))
 }
 
 impl<'a> ResponseAnswer<'a> {

@@ -1,9 +1,8 @@
 //! A settled motion, and the verdict of the rule of the 1971 paper.
 
-use super::Document;
 use super::motion::{ChaosObject, MotionObject};
 use super::quantities;
-use crate::{Asked, Units};
+use crate::Units;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -11,7 +10,6 @@ use vibroimpact::machine::Machine;
 use vibroimpact::quantities::{Harmonic, harmonics, of_transient};
 use vibroimpact::verdict::{PaperRule, PaperVerdict, Settled, Verdict};
 use vibroimpact::{Oscillator, Start};
-use vibroimpact_study::Plan;
 
 /// The answer to `vibro settle`.
 #[derive(JsonSchema, Serialize)]
@@ -87,39 +85,23 @@ struct PaperAnswer {
     impacts: Option<u32>,
 }
 
-/// The object of `vibro settle`, without what takes ten times as long as the motion itself: its harmonics and its transient.
-#[must_use]
-pub fn brief<'a>(
-    asked: &Asked,
-    plan: &'a Plan,
-    (osc, start): (&Oscillator, &Start),
-    settled: &Settled,
-) -> impl Serialize + use<'a> {
-    let answer = SettleAnswer::brief(settled, osc, &asked.units);
-    Document::new(asked, osc, plan, answer).start(start, &asked.units)
-}
+impl<'a> SettleAnswer<'a> {
+    pub(super) fn of_oscillator(
+        settled: &'a Settled,
+        (osc, start): (&Oscillator, &Start),
+        paper: Option<(PaperRule, PaperVerdict)>,
+        units: &Units,
+    ) -> Self {
+        Self {
+            harmonics: harmonics_of(&settled.verdict, osc, units),
+            transient: transient_of(settled, osc, start, units),
+            paper_rule: paper.map(|(rule, verdict)| PaperAnswer::new(rule, verdict)),
+            ..Self::brief(settled, osc, units)
+        }
+    }
 
-/// The object of `vibro settle`.
-#[must_use]
-pub fn document<'a>(
-    asked: &Asked,
-    plan: &'a Plan,
-    (osc, start): (&Oscillator, &Start),
-    settled: &Settled,
-    paper: Option<(PaperRule, PaperVerdict)>,
-) -> impl Serialize + use<'a> {
-    let units = &asked.units;
-    let answer = SettleAnswer {
-        harmonics: harmonics_of(&settled.verdict, osc, units),
-        transient: transient_of(settled, osc, start, units),
-        paper_rule: paper.map(|(rule, verdict)| PaperAnswer::new(rule, verdict)),
-        ..SettleAnswer::brief(settled, osc, units)
-    };
-    Document::new(asked, osc, plan, answer).start(start, units)
-}
-
-impl SettleAnswer<'_> {
-    fn brief(settled: &Settled, osc: &Oscillator, units: &Units) -> Self {
+    /// Without what takes ten times as long as the motion itself: its harmonics and its transient.
+    pub(super) fn brief(settled: &'a Settled, osc: &Oscillator, units: &Units) -> Self {
         Self {
             motion: MotionObject::of_oscillator(&settled.verdict, osc, units),
             events_followed: settled.impacts,

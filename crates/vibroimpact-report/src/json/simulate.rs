@@ -1,17 +1,16 @@
 //! The events of a motion, and the reason why the list ends.
 
-use super::Document;
 use super::event::{self, EventObject};
 use super::motion::HorizonObject;
-use crate::{Asked, Units};
+use crate::Units;
 use schemars::JsonSchema;
 use serde::ser::Error;
 use serde::{Serialize, Serializer};
+use vibroimpact::Oscillator;
 use vibroimpact::events;
 use vibroimpact::machine::Machine;
 use vibroimpact::motion::Event;
-use vibroimpact::{Oscillator, Start};
-use vibroimpact_study::{Plan, Simulated, events_with_states};
+use vibroimpact_study::{Simulated, events_with_states};
 
 /// The answer to `vibro simulate`.
 #[derive(JsonSchema, Serialize)]
@@ -38,21 +37,13 @@ struct EndObject {
     horizon: Option<HorizonObject>,
 }
 
-/// The object of `vibro simulate`.
-#[must_use]
-pub fn document<'a>(
-    asked: &Asked,
-    plan: &'a Plan,
-    (osc, start): (&'a Oscillator, &Start),
-    followed: &'a Simulated,
-) -> impl Serialize + use<'a> {
-    let horizon = followed.horizon.as_ref().map(HorizonObject::new);
-    let end = EndObject { reason: followed.reason, time: followed.time * asked.units.time(), horizon };
-    let answer = SimulateAnswer { events: Events::Oscillator(osc, &followed.events, Box::new(asked.units)), end };
-    Document::new(asked, osc, plan, answer).start(start, &asked.units)
-}
-
 impl<'a> SimulateAnswer<'a> {
+    pub(super) fn of_oscillator(osc: &'a Oscillator, found: &'a Simulated, units: &Units) -> Self {
+        let horizon = found.horizon.as_ref().map(HorizonObject::new);
+        let end = EndObject { reason: found.reason, time: found.time * units.time(), horizon };
+        Self { events: Events::Oscillator(osc, &found.events, Box::new(*units)), end }
+    }
+
     pub(super) fn of_machine(
         problem: (&'a Machine, &'a events::Start),
         periods: Option<f64>,

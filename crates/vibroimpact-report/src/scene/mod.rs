@@ -4,18 +4,17 @@
 //! [`Figure::size`]: vibroimpact_plot::Figure::size
 
 mod bifurcation;
-mod machine_bifurcation;
-mod machine_phase;
 mod multipliers;
 mod phase;
 mod sampled_motion;
 mod sections;
 mod view;
 
-pub use bifurcation::{BifurcationDiagram, BifurcationEvent, bifurcation, labels};
-pub use machine_bifurcation::{MachineBifurcation, machine_bifurcation};
-pub(crate) use machine_phase::portrait;
+pub use bifurcation::{
+    BifurcationDiagram, BifurcationEvent, BranchSystem, NamedMachine, bifurcation, labels, machine_bifurcation,
+};
 pub use multipliers::multipliers;
+pub(crate) use phase::machine_portrait;
 pub use phase::phase_portrait;
 pub use sampled_motion::SampledMotion;
 pub use view::{SECTION_POINTS, View, Viewed};

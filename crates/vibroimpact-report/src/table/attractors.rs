@@ -5,6 +5,7 @@ use super::cycle::{drifts, numbered, parts};
 use super::quantities::{cells, columns, finite};
 use super::remarks::remarks;
 use crate::Units;
+use crate::json::motion::multipliers;
 use crate::number::Number;
 use vibroimpact::Oscillator;
 use vibroimpact::machine::Machine;
@@ -17,7 +18,7 @@ use vibroimpact::verdict::{Census, Verdict};
 #[must_use]
 pub fn table(found: &Census, osc: &Oscillator, units: &Units) -> Table<'static> {
     let row = |motion: &&vibroimpact::verdict::CountedMotion| {
-        let parts = parts(motion.verdict.multipliers(osc).as_ref().map_or(&[], |both| both), 2);
+        let parts = parts(&motion.verdict.multipliers(osc).map_or_else(Vec::new, |both| multipliers(&both)), 2);
         let quantities = cells(&Quantity::ALL, of_verdict(osc, &motion.verdict), units);
         format!("{},{},{}{parts}{quantities}", motion.verdict.label(), Number(found.share(motion)), motion.count)
     };
@@ -42,11 +43,11 @@ pub(crate) fn of_machine<'a>(machine: &'a Machine, census: &'a Census<Machine>) 
     let rows = census.by_share().into_iter().map(move |found| {
         let mut row = format!("{},{},{}", found.verdict.label(), Number(census.share(found)), found.count);
         let cycle = cycle_of(&found.verdict);
-        let (counts, multipliers) = (cycle.map(|cycle| &cycle.counts), cycle.map(|cycle| &cycle.multipliers));
+        let (counts, factors) = (cycle.map(|cycle| &cycle.counts), cycle.map(|cycle| multipliers(&cycle.multipliers)));
         for k in 0..machine.stops().len() {
             row.push_str(&counts.map_or_else(|| ",".to_owned(), |counts| format!(",{}", counts[k])));
         }
-        row.push_str(&parts(multipliers.map_or(&[], |all| all.as_slice()), 2 * machine.n()));
+        row.push_str(&parts(&factors.unwrap_or_default(), 2 * machine.n()));
         if drifting {
             let undefined = vec![f64::NAN; machine.n()];
             row.push_str(&finite(cycle.map_or(&undefined, |cycle| &cycle.drift)));

@@ -2,99 +2,43 @@
 
 use super::Table;
 use super::cycle::{Cells, Columns};
-use crate::Units;
-use crate::json::event::side;
+use crate::json::branch::{BranchAnswer, BranchEventObject, PointObject};
+use crate::json::event::fastest;
 use crate::number::Number;
+use crate::{Units, Varied};
 use vibroimpact::QuantityKind;
-use vibroimpact::continuation::SolutionPoint;
-use vibroimpact::continuation::machine;
 use vibroimpact::machine::Machine;
-use vibroimpact::orbit::machine::Cycle;
-use vibroimpact_study::{Branches, Cut, EventRecord};
+use vibroimpact_study::Cut;
 
-/// A point of a branch of any system.
-struct Row<'a> {
-    branch: usize,
-    /// The values of what varies, in the units of the results.
-    values: Vec<f64>,
-    label: String,
-    admissible: bool,
-    stable: bool,
-    stability: &'static str,
-    event: &'static str,
-    /// The stop of the event.
-    stop: &'a str,
-    fastest: f64,
-    cycle: Cells<'a>,
-}
-
-/// The table with these names of what varies, of the fastest closing, and of the columns of cycles.
-fn written<'a>(
-    varied: impl Iterator<Item = String>,
-    fastest: &str,
-    columns: Columns,
-    rows: impl Iterator<Item = Row<'a>> + 'a,
+/// The table of `vibro branch`; of a machine that can be translated with the drift, and without forcing with the period.
+pub(crate) fn table<'a, V: Varied>(
+    answer: BranchAnswer<'a>,
+    machine: Option<&Machine>,
+    (cut, units): (&Cut<V>, &Units),
 ) -> Table<'a> {
-    let (varied, cycle) = (varied.collect::<Vec<_>>().join(","), columns.names());
-    let header = format!("branch,{varied},label,admissible,stable,stability,event,stop,{fastest},{cycle}");
-    let rows = rows.map(move |row| {
-        let Row { branch, label, admissible, stable, stability, event, stop, .. } = &row;
-        let values: String = row.values.iter().map(|value| format!("{},", Number(*value))).collect();
-        let (fastest, cycle) = (Number(row.fastest), columns.cells(&row.cycle));
-        format!("{branch},{values}{label},{admissible},{stable},{stability},{event},{stop},{fastest}{cycle}")
+    let mut points = answer.branches.iter().flat_map(|branch| &branch.points);
+    let columns = Columns::new(machine, units, points.any(|point| point.drift.is_some()));
+    let varied: Vec<&str> = cut.names().map(|name| name.column(units)).collect();
+    let (varied, speed) = (varied.join(","), units.column("fastest", QuantityKind::Velocity));
+    let header = format!("branch,{varied},label,admissible,stable,stability,event,stop,{speed},{}", columns.names());
+    let rows = answer.branches.into_iter().enumerate().flat_map(move |(number, branch)| {
+        let points = branch.points.iter().enumerate();
+        let rows = points.map(|(k, point)| format!("{},{}", number + 1, row(point, branch.event_at(k), &columns)));
+        rows.collect::<Vec<_>>()
     });
     Table::new(header, rows)
 }
 
-/// The table of `vibro branch`.
-#[must_use]
-pub fn table<'a>(found: &'a Branches, cut: &Cut, units: &'a Units) -> Table<'a> {
-    let cut = *cut;
-    let row = move |branch: usize, point: &'a SolutionPoint| {
-        let there = units.at(cut.vary, point.value);
-        Row {
-            branch,
-            values: cut.names().zip(cut.values(point.value)).map(|(number, value)| value * there.of(*number)).collect(),
-            label: point.cycle.label.to_string(),
-            admissible: point.physical,
-            stable: point.stable(),
-            stability: point.stability().name(),
-            event: point.event.map_or("", |event| event.name()),
-            stop: point.event.and_then(|event| EventRecord::of(point, &event).side).map_or("", side),
-            fastest: point.cycle.fastest() * there.velocity(),
-            cycle: Cells::of_oscillator(&point.cycle, &there),
-        }
-    };
-    let branches = found.followed.iter().enumerate();
-    let rows = branches.flat_map(move |(k, branch)| branch.points.iter().map(move |point| row(k + 1, point)));
-    let varied: Vec<String> = cut.names().map(|parameter| units.column_of(*parameter).to_owned()).collect();
-    let fastest = units.column("fastest", QuantityKind::Velocity);
-    written(varied.into_iter(), &fastest, Columns::of_oscillator(units), rows)
-}
-
-/// The same of a machine, with the drift of one that can be translated, and without forcing with the period.
-pub(crate) fn of_machine<'a>(
-    machine: &'a Machine,
-    cut: &Cut<String>,
-    found: &'a Branches<Cycle, machine::SolutionPoint>,
-) -> Table<'a> {
-    let all = || found.followed.iter().map(|branch| &branch.points);
-    let drifting = all().flatten().any(|point| point.cycle.translations() > 0);
-    let varied: Vec<String> = cut.names().cloned().collect();
-    let cut = cut.clone();
-    let points = all().enumerate().flat_map(|(k, points)| points.iter().map(move |point| (k + 1, point)));
-    let rows = points.map(move |(branch, machine::SolutionPoint { value, cycle, event, .. })| Row {
-        branch,
-        values: cut.values(*value).collect(),
-        label: cycle.label.to_string(),
-        // a branch ends where its orbit ceases to be admissible
-        admissible: true,
-        stable: cycle.stable(),
-        stability: cycle.stability().name(),
-        event: event.map_or("", |event| event.name()),
-        stop: event.and_then(|event| event.place()).map_or("", |place| machine.name_of(place)),
-        fastest: cycle.fastest(),
-        cycle: Cells::of_machine(cycle, machine),
+fn row(point: &PointObject<'_>, event: Option<&BranchEventObject<'_>>, columns: &Columns) -> String {
+    let values: String = point.values().iter().map(|value| format!("{},", Number(*value))).collect();
+    let PointObject { label, admissible, stable, stability, .. } = point;
+    let (kind, stop) = event.map_or(("", ""), |event| (event.kind, event.fields.stop.unwrap_or_default()));
+    let cells = columns.cells(&Cells {
+        multipliers: &point.multipliers,
+        drift: point.drift.as_ref(),
+        events: &point.cycle,
+        period: point.period,
     });
-    written(varied.into_iter(), "fastest", Columns::of_machine(machine, drifting), rows)
+    let fastest = Number(fastest(&point.cycle));
+    format!("{values}{label},{admissible},{stable},{stability},{kind},{stop},{fastest}{cells}")
 }

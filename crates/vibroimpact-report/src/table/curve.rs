@@ -2,48 +2,40 @@
 
 use super::Table;
 use super::cycle::{Cells, Columns};
-use crate::Units;
-use crate::json::curve::values;
+use crate::json::curve::CurveAnswer;
 use crate::number::Number;
-use vibroimpact::continuation::machine::{CurvePoint, SolutionPoint};
+use crate::{Units, Varied};
 use vibroimpact::machine::Machine;
-use vibroimpact::orbit::machine::Cycle;
-use vibroimpact_study::{CurvePlan, EventCurve};
+use vibroimpact_study::CurvePlan;
 
-/// The table of `vibro curve`.
-#[must_use]
-pub fn table<'a>(found: &'a EventCurve, plan: CurvePlan, units: &'a Units) -> Table<'a> {
-    let (p, q) = (units.column_of(plan.vary.parameter), units.column_of(plan.and.parameter));
-    let columns = Columns::of_oscillator(units);
-    let header = format!("{p},{q},label,admissible,event,{}", columns.names());
-    let rows = found.points.iter().map(move |point| {
-        let [p, q] = values(point.values, &plan, units);
-        let event = point.event.map_or("", |event| event.name());
-        let there = units.at_both((plan.vary.parameter, plan.and.parameter), point.values);
-        let cycle = columns.cells(&Cells::of_oscillator(&point.cycle, &there));
-        format!("{},{},{},{},{event}{cycle}", Number(p), Number(q), point.cycle.label, point.physical)
-    });
-    Table::new(header, rows)
+/// The table of `vibro curve`. Of a machine with the stop of an event, the residual of the condition and the phase of the touch,
+/// which is none of the closings, and without forcing with the period.
+pub(crate) fn table<'a, V: Varied>(
+    answer: CurveAnswer<'a>,
+    machine: Option<&Machine>,
+    (plan, units): (&CurvePlan<V>, &Units),
+) -> Table<'a> {
+    let columns = Columns::new(machine, units, false);
+    let (p, q) = (plan.vary.parameter.column(units), plan.and.parameter.column(units));
+    let more = machine.is_some();
+    let names = if more { ",stop,residual,touch" } else { "" };
+    let header = format!("{p},{q},label,admissible,event{names},{}", columns.names());
+    Table::new(header, (0..answer.points.len()).map(move |k| row(&answer, k, &columns, more)))
 }
 
-/// The same of a machine, with the stop of an event, the residual of the condition and the phase of the touch, which is none of the
-/// closings, and without forcing with the period.
-pub(crate) fn of_machine<'a>(
-    machine: &'a Machine,
-    plan: &CurvePlan<String>,
-    found: &'a EventCurve<Cycle, SolutionPoint, CurvePoint>,
-) -> Table<'a> {
-    let (p, q) = (&plan.vary.parameter, &plan.and.parameter);
-    let columns = Columns::of_machine(machine, false);
-    let header = format!("{p},{q},label,admissible,event,stop,residual,touch,{}", columns.names());
-    let rows = found.points.iter().map(move |point| {
-        let (p, q) = point.values;
-        let event = point.event.map_or("", |event| event.name());
-        let stop = point.event.and_then(|event| event.place()).map_or("", |place| machine.name_of(place));
-        let touch = point.touch.map_or_else(String::new, |phase| Number(phase).to_string());
-        let (label, residual) = (point.cycle.label, Number(point.residual));
-        let cycle = columns.cells(&Cells::of_machine(&point.cycle, machine));
-        format!("{},{},{label},true,{event},{stop},{residual},{touch}{cycle}", Number(p), Number(q))
+fn row(answer: &CurveAnswer<'_>, k: usize, columns: &Columns, more: bool) -> String {
+    let (point, event) = (&answer.points[k], answer.event_at(k));
+    let cell = |x: Option<f64>| x.map_or_else(String::new, |x| Number(x).to_string());
+    let more = more.then(|| {
+        let stop = event.and_then(|event| event.stop).unwrap_or_default();
+        format!(",{stop},{},{}", cell(point.residual), cell(point.touch))
     });
-    Table::new(header, rows)
+    let cycle = columns.cells(&Cells {
+        multipliers: &point.multipliers,
+        drift: None,
+        events: &point.cycle,
+        period: point.period,
+    });
+    let ([p, q], kind) = (point.values.map(Number), event.map_or("", |event| event.kind));
+    format!("{p},{q},{},{},{kind}{}{cycle}", point.label, point.admissible, more.unwrap_or_default())
 }

@@ -1,14 +1,11 @@
 //! The columns of a cycle of any system: its multipliers, its drift and its closings.
 
 use crate::Units;
-use crate::json::event::side;
+use crate::json::event::{EventObject, closings};
 use crate::number::Number;
-use std::borrow::Cow;
+use serde_json::{Map, Value};
 use vibroimpact::QuantityKind;
 use vibroimpact::machine::Machine;
-use vibroimpact::math::Multiplier;
-use vibroimpact::orbit::Cycle;
-use vibroimpact::orbit::machine;
 
 /// Which columns a table has.
 pub(super) struct Columns {
@@ -20,13 +17,13 @@ pub(super) struct Columns {
     period: bool,
 }
 
-/// What the cells of a cycle say.
+/// What the cells of a cycle are written from.
 pub(super) struct Cells<'a> {
-    multipliers: Cow<'a, [Multiplier]>,
-    drift: &'a [f64],
-    /// Phase, speed and stop of each closing.
-    closings: Vec<(f64, f64, &'a str)>,
-    period: f64,
+    pub(super) multipliers: &'a [[f64; 2]],
+    /// By the coordinates of a machine that can be translated.
+    pub(super) drift: Option<&'a Map<String, Value>>,
+    pub(super) events: &'a [EventObject<'a>],
+    pub(super) period: f64,
 }
 
 /// The names of the columns of so many multipliers.
@@ -36,9 +33,9 @@ pub(super) fn numbered(multipliers: usize) -> impl Iterator<Item = String> {
 
 /// Real and imaginary parts, each after a comma. A number that is not finite, or of a multiplier that is not there, is an empty
 /// cell.
-pub(super) fn parts(multipliers: &[Multiplier], columns: usize) -> String {
+pub(super) fn parts(multipliers: &[[f64; 2]], columns: usize) -> String {
     let part = |x: f64| if x.is_finite() { format!(",{}", Number(x)) } else { ",".to_owned() };
-    let both = |k: usize| multipliers.get(k).map_or_else(|| ",,".to_owned(), |of| part(of.re) + &part(of.im));
+    let both = |k: usize| multipliers.get(k).map_or_else(|| ",,".to_owned(), |of| of.map(part).concat());
     (0..columns).map(both).collect()
 }
 
@@ -48,18 +45,13 @@ pub(super) fn drifts(machine: &Machine) -> impl Iterator<Item = String> {
 }
 
 impl Columns {
-    pub(super) fn of_oscillator(units: &Units) -> Self {
-        let speeds = units.column("speeds", QuantityKind::Velocity);
-        Self { multipliers: 2, speeds, drift: Vec::new(), period: false }
-    }
-
-    /// Those of a machine, with its drift where it `drifts`.
-    pub(super) fn of_machine(machine: &Machine, drifts: bool) -> Self {
+    /// Those of an oscillator in these units, or of a machine, with its drift where it `drifts`.
+    pub(super) fn new(machine: Option<&Machine>, units: &Units, drifts: bool) -> Self {
         Self {
-            multipliers: 2 * machine.n(),
-            speeds: "speeds".to_owned(),
-            drift: self::drifts(machine).filter(|_| drifts).collect(),
-            period: machine.period().is_none(),
+            multipliers: machine.map_or(2, |machine| 2 * machine.n()),
+            speeds: units.column("speeds", QuantityKind::Velocity),
+            drift: machine.filter(|_| drifts).into_iter().flat_map(self::drifts).collect(),
+            period: machine.is_some_and(|machine| machine.period().is_none()),
         }
     }
 
@@ -73,43 +65,19 @@ impl Columns {
 
     /// The cells of a cycle, each after a comma. Phases, speeds and stops are lists with blanks between.
     pub(super) fn cells(&self, of: &Cells<'_>) -> String {
-        let list = |text: &dyn Fn(&(f64, f64, &str)) -> String| {
-            format!(",{}", of.closings.iter().map(text).collect::<Vec<_>>().join(" "))
+        let list = |text: &dyn Fn(&EventObject<'_>) -> String| {
+            format!(",{}", closings(of.events).map(text).collect::<Vec<_>>().join(" "))
         };
-        let drift = of.drift.iter().take(self.drift.len()).map(|drift| format!(",{}", Number(*drift)));
-        let mut cells = parts(&of.multipliers, self.multipliers) + &drift.collect::<String>();
-        cells.push_str(&list(&|(phase, ..)| Number(*phase).to_string()));
-        cells.push_str(&list(&|(_, speed, _)| Number(*speed).to_string()));
-        cells.push_str(&list(&|(.., stop)| (*stop).to_owned()));
+        let mut cells = parts(of.multipliers, self.multipliers);
+        let drift = of.drift.into_iter().flat_map(Map::values).filter_map(Value::as_f64).take(self.drift.len());
+        drift.for_each(|drift| cells.push_str(&format!(",{}", Number(drift))));
+        // without forcing there is no phase
+        cells.push_str(&list(&|closing| Number(closing.phase.unwrap_or(0.0)).to_string()));
+        cells.push_str(&list(&|closing| Number(closing.speed).to_string()));
+        cells.push_str(&list(&|closing| closing.stop.to_owned()));
         if self.period {
             cells.push_str(&format!(",{}", Number(of.period)));
         }
         cells
-    }
-}
-
-impl<'a> Cells<'a> {
-    pub(super) fn of_oscillator(cycle: &'a Cycle, units: &Units) -> Self {
-        let closings = cycle
-            .points
-            .iter()
-            .map(|point| (point.state.phase, point.state.velocity * units.velocity(), side(point.state.side)));
-        Self {
-            multipliers: Cow::Borrowed(&cycle.multipliers),
-            drift: &[],
-            closings: closings.collect(),
-            // the label says it
-            period: f64::NAN,
-        }
-    }
-
-    pub(super) fn of_machine(cycle: &'a machine::Cycle, machine: &'a Machine) -> Self {
-        let closings = cycle.events.iter().filter(|event| event.closes());
-        Self {
-            multipliers: Cow::Borrowed(&cycle.multipliers),
-            drift: &cycle.drift,
-            closings: closings.map(|event| (event.phase, event.speed, machine.name_of(event.place))).collect(),
-            period: cycle.period,
-        }
     }
 }

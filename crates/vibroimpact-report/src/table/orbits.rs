@@ -3,55 +3,28 @@
 use super::Table;
 use super::cycle::{Cells, Columns};
 use crate::Units;
+use crate::json::event::fastest;
+use crate::json::orbit::{OrbitAnswer, OrbitObject};
 use crate::number::Number;
+use vibroimpact::QuantityKind;
 use vibroimpact::machine::Machine;
-use vibroimpact::orbit::{Orbit, machine::Cycle};
-use vibroimpact::verdict::Stability;
-use vibroimpact::{Label, QuantityKind};
 
-/// An orbit of any system.
-struct Row<'a> {
-    label: Label,
-    admissible: bool,
-    stability: Stability,
-    fastest: f64,
-    cycle: Cells<'a>,
-}
-
-/// Number, label, whether it is admissible and stable, its stability, fastest closing, multipliers, and of each closing the phase,
-/// speed and stop.
-fn written<'a>(fastest: &str, columns: Columns, rows: impl Iterator<Item = Row<'a>> + 'a) -> Table<'a> {
-    let header = format!("orbit,label,admissible,stable,stability,{fastest},{}", columns.names());
-    let rows = rows.enumerate().map(move |(k, Row { label, admissible, stability, fastest, cycle })| {
-        let (stable, cycle) = (admissible && stability.is_stable(), columns.cells(&cycle));
-        format!("{},{label},{admissible},{stable},{stability},{}{cycle}", k + 1, Number(fastest))
+/// The table of `vibro orbit`: number, label, whether it is admissible and stable, its stability, fastest closing, multipliers, and
+/// of each closing the phase, speed and stop; of a machine without forcing the period.
+pub(crate) fn table<'a>(answer: OrbitAnswer<'a>, machine: Option<&Machine>, units: &Units) -> Table<'a> {
+    let columns = Columns::new(machine, units, false);
+    let speed = units.column("fastest", QuantityKind::Velocity);
+    let header = format!("orbit,label,admissible,stable,stability,{speed},{}", columns.names());
+    let rows = answer.orbits.into_iter().enumerate().map(move |(k, OrbitObject { motion, admissible, .. })| {
+        let cells = columns.cells(&Cells {
+            multipliers: motion.multipliers.as_deref().unwrap_or_default(),
+            drift: None,
+            events: &motion.cycle,
+            period: motion.period.unwrap_or(f64::NAN),
+        });
+        let (stable, stability) = (admissible && motion.stable == Some(true), motion.stability.unwrap_or_default());
+        let (label, fastest) = (motion.label, Number(fastest(&motion.cycle)));
+        format!("{},{label},{admissible},{stable},{stability},{fastest}{cells}", k + 1)
     });
     Table::new(header, rows)
-}
-
-/// The table of `vibro orbit`.
-#[must_use]
-pub fn table<'a>(found: &'a [Orbit], units: &'a Units) -> Table<'a> {
-    let rows = found.iter().map(|orbit| Row {
-        label: orbit.cycle.label,
-        admissible: orbit.physical,
-        stability: orbit.cycle.stability(),
-        fastest: orbit.cycle.fastest() * units.velocity(),
-        cycle: Cells::of_oscillator(&orbit.cycle, units),
-    });
-    written(&units.column("fastest", QuantityKind::Velocity), Columns::of_oscillator(units), rows)
-}
-
-/// The same of a machine, and without forcing the period.
-#[must_use]
-pub fn of_machine<'a>(found: &'a [Cycle], machine: &'a Machine) -> Table<'a> {
-    let rows = found.iter().map(|cycle| Row {
-        label: cycle.label,
-        // others are not found
-        admissible: true,
-        stability: cycle.stability(),
-        fastest: cycle.fastest(),
-        cycle: Cells::of_machine(cycle, machine),
-    });
-    written("fastest", Columns::of_machine(machine, false), rows)
 }

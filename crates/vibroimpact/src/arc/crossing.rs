@@ -84,6 +84,7 @@ impl Of {
         if self.known {
             return self.first_open(0);
         }
+        // the least of all samples first, because most spans are clear
         let less = |one: f64, other: f64| if one < other { one } else { other };
         let (eight, _) = self.samples.as_chunks::<8>();
         let mut least = eight[0];
@@ -116,7 +117,9 @@ impl Of {
 /// Whether a polynomial with small higher terms is larger than an error on [0, 1]; `false` may be wrong.
 #[inline(always)]
 fn is_positive(c: &[f64; POWERS - 1], error: f64) -> bool {
+    // all that the terms beyond the parabola can take away
     let rest: f64 = c[3..].iter().map(|c| c.abs()).sum();
+    // the vertex of the parabola lies within the step
     let inside = c[2] > 0.0 && c[1] < 0.0 && -c[1] < 2.0 * c[2];
     let least = if inside { c[0] - c[1] * c[1] / (4.0 * c[2]) } else { c[0].min(c[0] + c[1] + c[2]) };
     least > error + rest
@@ -149,6 +152,7 @@ fn crossing(c: &[f64; POWERS - 1], error: f64) -> Option<f64> {
         power *= end;
         k += 1.0;
     }
+    // the guard falls all the way to there, so this zero is the first
     (t > 0.0 && end <= 1.0 && steepest < -16.0 * error).then_some(t)
 }
 

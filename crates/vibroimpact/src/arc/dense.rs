@@ -46,6 +46,7 @@ impl Dense<'_> {
             (row[0], row[1]) = (moved[i], v[i]);
             self.drive.coefficients(i, s, &harmonics, row);
         }
+        // power by power, because each direction needs the lower powers of all
         let mut k = 0.0;
         for j in 2..terms {
             for i in 0..count {
@@ -81,6 +82,7 @@ impl Dense<'_> {
     pub(super) fn at(&self, v: &[f64], s: f64, steps: &mut Steps) -> (Vec<f64>, Vec<f64>, f64) {
         let step = if self.rate > 0.0 { STEP / self.rate } else { f64::INFINITY };
         let whole = (s / step).floor();
+        // what is kept is of another beginning, or beyond this time
         if steps.count > whole || steps.begin.0 != self.drive.steady || steps.begin.1 != v {
             steps.count = 0.0;
             steps.begin = (self.drive.steady.clone(), v.to_vec());
@@ -93,10 +95,12 @@ impl Dense<'_> {
             steps.count += 1.0;
         }
         let (mut moved, mut v) = (steps.moved.clone(), steps.v.clone());
+        // without any rate a step is infinite, and no part of it a number
         let begin = if whole > 0.0 { whole * step } else { 0.0 };
         self.go(&mut moved, &mut v, begin, s - begin, &mut c);
         let slow = self.rate.max(f64::MIN_POSITIVE).max(1.0 / s.max(1e-300));
         let size = dot(&moved, &moved).sqrt() + dot(&v, &v).sqrt() / slow;
+        // each step adds its rounding errors
         (moved, v, 0.5 * f64::EPSILON * size * (4.0 + whole))
     }
 }

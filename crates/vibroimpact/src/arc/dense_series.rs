@@ -19,6 +19,7 @@ impl DenseSeries {
     pub(super) fn expand(&mut self, flight: &MachineFlight, modes: &Modes, window: f64) {
         let Some(dense) = flight.dense() else { return };
         dense.coefficients(&modes.moved, &modes.v, modes.s, TERMS + 1, &mut self.terms);
+        // twice the energy of all directions together
         let square = dot(&modes.v, &modes.v) + dot(&modes.moved, &dense.stiffness.apply(&modes.moved));
         // the forces on all directions together
         let drive = &flight.drive;
@@ -63,9 +64,11 @@ impl DenseSeries {
                 size += a.abs() * (c[1] * window).abs().max((c[2] * window * window).abs());
             }
             if b != 0.0 {
+                // the velocity has the coefficients of the displacement one power higher
                 for k in 0..ORDER {
                     p[k] += b * real(k + 1) * c[k + 1];
                 }
+                // the ninth coefficient of the velocity is ten times the tenth of the displacement, per length
                 remainder += b.abs() * self.tenth * real(ORDER + 1) / window;
                 size += b.abs() * c[1].abs().max((c[2] * window).abs());
             }
@@ -75,6 +78,7 @@ impl DenseSeries {
             if *a == 0.0 && *b == 0.0 {
                 continue;
             }
+            // the harmonic and its rate at the time of the modes
             let (mut now, mut next) = (a * turned.cos + b * turned.sin, w * (b * turned.cos - a * turned.sin));
             let mut bound = a.abs() + b.abs();
             size += bound;
@@ -87,6 +91,7 @@ impl DenseSeries {
         }
         if let Some(surface) = start.recovery {
             let mut term = surface.size * crate::system::decay(surface.rate * s).0;
+            // the series alternates: the first term that is left out bounds the rest
             size += term;
             let mut bound = term;
             for (k, sum) in p.iter_mut().enumerate().take(ORDER) {

@@ -40,6 +40,7 @@ impl Drive {
     /// are turned to this time.
     pub(super) fn coefficients(&self, mode: usize, s: f64, harmonics: &[(f64, f64)], c: &mut [f64]) {
         let terms = c.len();
+        // the coefficient of a power stands where it enters that of the mode, two powers later
         c[2..].fill(0.0);
         c[2] += self.steady[mode] + self.ramp[mode] * s;
         if terms > 3 {

@@ -171,6 +171,7 @@ impl MachineFlight {
             let function = &guard.function;
             let mut moving = function.signal.swing(turns);
             self.harmonics.extend(function.signal.turned(turns));
+            // the value at the beginning; what is `moving` in it is counted from there later on
             let (mut sum, mut size);
             if let GuardKind::Gap(j) = guard.kind {
                 // coordinates can have more digits of a small gap than modes, which share those of the whole motion; one that is
@@ -180,6 +181,7 @@ impl MachineFlight {
                     let start = gap(j);
                     (sum, size) = (start.gap, start.size);
                 }
+                // with plain modes a gap has no part in velocities
                 if !structure.plain {
                     moving += dot(&function.velocity, v);
                 }
@@ -196,6 +198,7 @@ impl MachineFlight {
                 }
             }
             if let Some(surface) = recovery {
+                // the wall stands back by the part of the surface that has not yet recovered
                 sum += surface.size - surface.offset;
                 size += surface.size + surface.offset;
             }
@@ -205,15 +208,18 @@ impl MachineFlight {
                 && self.gaps[at].sharp
             {
                 let ClosedStop { law: (stiffness, damping, preload), rate, .. } = &structure.closed[at];
+                // a sharp gap has more digits than the modes, and so has what the stop's law makes of it
                 let depth = -self.gaps[at].gap;
                 let rate = || dot(&rate.position, y) + dot(&rate.velocity, v) + value_of(&rate.signal);
                 let is_force = matches!(guard.kind, GuardKind::Force(_));
                 sum = if is_force { preload + stiffness * depth - damping * rate() } else { depth };
             }
+            // a guard on which the flight begins is exactly zero: a rounding error would be an event at once
             let value = if known > 0 { 0.0 } else { sum };
             self.guards.push(GuardStart { value, size, constant: value - moving, known, recovery });
         }
         let drive = &mut self.drive;
+        // the harmonics drive the modes apart from this: of walls that swing the force has the mean place
         let gaps = self.gaps.iter().map(|closed| closed.gap - closed.swing);
         structure.rest_force(x, rate, turns, gaps, &mut self.rest, &mut drive.steady);
         drive.harmonics.clear();
@@ -285,12 +291,14 @@ impl MachineFlight {
             (modes.moved, modes.v) = (moved, v);
             return;
         }
+        // the series gives the same here; this only saves its work
         if s == 0.0 {
             modes.moved.resize(self.v.len(), 0.0);
             modes.error.resize(self.v.len(), (0.0, 0.0));
             modes.v.extend_from_slice(&self.v);
             return;
         }
+        // the orders of the harmonics are sorted: the last is the fastest, and the series must resolve it too
         let fastest = self.structure.rates.last().copied().unwrap_or(0.0);
         for (i, mode) in self.structure.modes.iter().enumerate() {
             let turn = s * mode.rate.max(fastest);
@@ -327,6 +335,7 @@ impl MachineFlight {
         let free = mode.free(s);
         let v = self.v[i];
         let (p0, p1) = (self.drive.steady[i], self.drive.ramp[i]);
+        // y = v S + p_0 I_1 + p_1 I_2 and its rate, with I_1' = S and I_2' = I_1 (see `mode`)
         let mut moved = v * free.s;
         let mut rate = v * free.s_rate + p0 * free.s;
         let (mut size, mut size_of_rate) = ((v * free.s).abs(), (v * free.s_rate).abs() + (p0 * free.s).abs());
@@ -339,6 +348,7 @@ impl MachineFlight {
             size_of_rate += (p1 * free.step).abs();
             size += p1.abs() * free.ramp.abs() + (p1 / mode.k.max(1e-300)).abs().min(p1.abs() * s * s) * s;
         }
+        // the rates of the convolutions of S with cosine and sine are S - w K_s and w K_c
         for (h, (a, b)) in self.drive.of(i).iter().enumerate() {
             if *a == 0.0 && *b == 0.0 {
                 continue;
@@ -367,6 +377,8 @@ impl MachineFlight {
         self.coefficients(i, 0.0, self.v[i], 0.0, self.drive.of(i), &mut c[..terms + 2]);
         let (mut y, mut v, mut size) = (0.0, 0.0, 0.0);
         let mut real = f64::from(u32::try_from(terms + 1).unwrap_or(0));
+        // Horner's scheme from the highest power down; the power 0 is left out, because displacements begin at zero,
+        // and one factor `s` comes at the end
         for k in (1..terms + 2).rev() {
             y = y * s + c[k];
             size = size * s + c[k].abs();
@@ -385,6 +397,8 @@ impl MachineFlight {
         (c[0], c[1]) = (y, v);
         self.drive.coefficients(i, s, harmonics, c);
         let mut k = 0.0;
+        // `c` has the coefficients of what drives the mode; y'' + 2dy' + ky = q gives those of the mode, two powers
+        // later
         for j in 2..terms {
             c[j] = (c[j] - 2.0 * mode.d * (k + 1.0) * c[j - 1] - mode.k * c[j - 2]) / ((k + 1.0) * (k + 2.0));
             k += 1.0;
@@ -414,11 +428,14 @@ impl MachineFlight {
         for i in 0..modes.moved.len() {
             let push = self.push(i, modes);
             let mode = &self.structure.modes[i];
+            // the equation of motion at the beginning of the step; the displacement is exact to second order with it
             let a = push - 2.0 * mode.d * modes.v[i] - mode.k * modes.moved[i];
             modes.moved[i] += (modes.v[i] + 0.5 * a * s) * s;
             modes.v[i] += a * s;
         }
         for (turned, w) in modes.turned.iter_mut().zip(&self.drive.rates) {
+            // near the beginning the versine is small and needs its second order; for sine and cosine that is below
+            // rounding
             let angle = w * s;
             turned.versine += angle * (turned.sin + 0.5 * angle * turned.cos);
             (turned.sin, turned.cos) = (turned.sin + angle * turned.cos, turned.cos - angle * turned.sin);
@@ -428,9 +445,11 @@ impl MachineFlight {
     /// The value of a guard, its rate, and a bound of its rounding error.
     pub(crate) fn guard(&self, g: usize, modes: &Modes) -> (f64, f64, f64) {
         let (function, start) = (&self.structure.guards[g].function, &self.guards[g]);
+        // the value at the beginning and what each term has gained since: so no digits of a small guard cancel
         let mut value = start.value;
         let mut rate = function.signal.ramp;
         value += function.signal.ramp * modes.s;
+        // in halves of an ulp, until the bound is returned
         let mut error = if start.known > 0 { 0.0 } else { start.size };
         for i in 0..modes.moved.len() {
             let (a, b) = (function.position[i], function.velocity[i]);
@@ -446,11 +465,13 @@ impl MachineFlight {
                 error += b.abs() * (modes.v[i].abs() + self.v[i].abs() + modes.error[i].1 / HALF_ULP);
             }
         }
+        // a cosine has moved by minus its versine: the difference of two cosines would lose digits over short times
         for ((a, b), (turned, w)) in self.harmonics(g).iter().zip(modes.turned.iter().zip(&self.structure.rates)) {
             value += b * turned.sin - a * turned.versine;
             rate += w * (b * turned.cos - a * turned.sin);
             error += (a.abs() + b.abs()) * w * modes.s * 0.5 + (b * turned.sin).abs() + (a * turned.versine).abs();
         }
+        // a(e^{-kappa s} - 1) is what the surface has recovered
         if let Some(surface) = start.recovery {
             let (kept, loss) = crate::system::decay(surface.rate * modes.s);
             value -= surface.size * loss;
@@ -464,6 +485,8 @@ impl MachineFlight {
     pub(crate) fn first(&self, of: &Observable) -> (f64, f64) {
         let signal = &of.signal;
         let mut value = signal.steady(&self.set) + signal.swing(&self.turns);
+        // turned to the phase of the beginning, the rate of a harmonic is its sine's amplitude times w, its value the
+        // cosine's
         let rates = signal.turned(&self.turns).zip(&self.structure.rates);
         let mut rate = rates.fold(signal.ramp, |sum, ((_, b), w)| sum + w * b);
         let unmoved = vec![0.0; self.v.len()];
@@ -493,6 +516,7 @@ impl MachineFlight {
             } else {
                 c.copy_from_slice(&dense[i * (N + 1)..(i + 1) * (N + 1)]);
             }
+            // the series counts from the beginning, the function from where the modal displacements are zero
             c[0] = self.origin[i];
             // bounds of the derivatives: forces that cancel in equilibrium have rounding errors of their sizes
             let (rate, push) =
@@ -506,6 +530,7 @@ impl MachineFlight {
                 *size = derivative / factorial;
                 derivative *= rate;
             }
+            // by the displacement, and by the velocity, whose coefficients are one power lower
             for (k, (value, sum)) in result.iter_mut().enumerate() {
                 let next = beta * real(k + 1);
                 *value += alpha * c[k] + next * c[k + 1];
@@ -522,6 +547,7 @@ impl MachineFlight {
             for (k, sum) in result.iter_mut().enumerate() {
                 sum.0 += now;
                 sum.1 += size;
+                // the second derivative of a harmonic is -w^2 times it
                 (now, next) = (next, -w * w * now / (real(k + 1) * real(k + 2)));
                 size *= w / real(k + 1);
             }
@@ -538,6 +564,7 @@ impl MachineFlight {
             let terms = self.taylor::<ORDERS>(&self.structure.guards[g].function);
             let Some(first) = terms.get(known).map(|(value, _)| *value) else { return 0.0 };
             let others = |time: f64| terms[known + 1..].iter().rev().fold(0.0, |sum, (_, size)| (sum + size) * time);
+            // half of the first term is kept: the guard stays positive even if all others have the worst sign
             let mut time = self.shortest();
             while others(time) > 0.5 * first && time > 0.0 {
                 time *= 0.5;
@@ -583,6 +610,7 @@ impl MachineFlight {
     /// Whether the reaction of a constraint is zero for the whole flight, within rounding errors of the forces on the machine.
     pub(crate) fn presses_never(&self, normal: &Normal, held: usize) -> bool {
         let reaction = &self.structure.reactions[held];
+        // a bound of all forces on the machine in a radian of its fastest motion: what is small beside it is rounding
         let (x, v) = (dot(&self.x, &self.x).sqrt(), dot(&self.rate, &self.rate).sqrt());
         let time = self.shortest();
         let moved: f64 = (0..self.v.len()).map(|i| self.swing_size(i, time)).sum();

@@ -24,6 +24,7 @@ impl Pair {
         let square = mode.d * mode.d - mode.k;
         let root = square.abs().sqrt();
         if square > 0.0 && root * s > APART {
+            // the slow rate from the product of both, k: as a difference it would lose its digits
             let sum = mode.d + root;
             return Self::Decays { fast: -sum, slow: -mode.k / sum };
         }
@@ -44,6 +45,7 @@ impl Pair {
             }
             (0.5 * (up + down), sum)
         };
+        // without the factor e^{-ds}, which is the scale of the rows
         let turn = [[c + mode.d * unit, unit], [-mode.k * unit, c - mode.d * unit]];
         Self::Turns { turn, decay: -mode.d * s }
     }
@@ -73,6 +75,7 @@ impl Structure {
                     (companion[(m + i, j)], companion[(m + i, m + j)]) = (-stiffness[(i, j)], -damping[(i, j)]);
                 }
             }
+            // damping lets nothing grow; more is rounding
             rates.extend(crate::math::general_eigenvalues(&companion)?.iter().map(|value| value.re.min(0.0)));
         } else {
             for mode in &self.modes {
@@ -113,6 +116,7 @@ impl Structure {
             let mixed = |a: f64, b: f64| y.iter().zip(&v).map(|(y, v)| a * y + b * v).collect::<Vec<f64>>();
             match Pair::of(mode, s) {
                 Pair::Decays { fast, slow } => {
+                    // the amplitudes of both decays: y is their sum, v that of each times its rate
                     let over = 1.0 / (slow - fast);
                     graded.push(mixed(-fast * over, over), slow * s);
                     graded.push(mixed(slow * over, -over), fast * s);

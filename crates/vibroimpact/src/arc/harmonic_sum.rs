@@ -32,6 +32,7 @@ pub(super) fn stays_above(harmonics: &[Harmonic], level: f64) -> bool {
     let size: f64 = harmonics.iter().map(Harmonic::amplitude).sum();
     // rounding errors of the angles
     let level = level + 4.0 * f64::EPSILON * harmonics.iter().map(|of| of.order * of.amplitude()).sum::<f64>();
+    // all harmonics together do not reach the level
     if -size > level {
         return true;
     }
@@ -63,11 +64,13 @@ pub(super) fn stays_above(harmonics: &[Harmonic], level: f64) -> bool {
             ends.push((end, at(end)));
         }
         let Some(&(end, last)) = ends.last() else { break };
+        // the sum is below the level, or so near that the angles do not suffice
         if left == 0 || value.min(last) <= level {
             return false;
         }
         left -= 1;
         let length = end - begin;
+        // above the smaller end by what the curvature can bend at most
         if value.min(last) - 0.125 * curvature * length * length > level {
             (begin, value) = (end, last);
             ends.pop();

@@ -19,6 +19,7 @@ impl MachineFlight {
     pub(crate) fn never_after(&self, s: f64, normal: &Normal, modes: &mut Modes) -> bool {
         self.at(s, modes);
         let Some(steady) = Steady::of(self, modes) else { return false };
+        // a whole period without an event has passed, and all repeats
         if self.repeats_after().is_some_and(|period| s >= period * (1.0 + 1e-9)) {
             return true;
         }
@@ -39,6 +40,8 @@ impl MachineFlight {
             harmonics: waves.map(|((cos, sin), order)| Harmonic { order: *order, cos, sin }).collect(),
             ..Outlook::default()
         };
+        // at the beginning each cosine is its amplitude: without these, and without the velocities below, the constant
+        // is left
         for wave in &outlook.harmonics {
             outlook.constant -= wave.cos;
         }
@@ -90,6 +93,7 @@ impl MachineFlight {
         if moves || modes.iter().any(|mode| mode.k == 0.0 || mode.d > 0.0) {
             return None;
         }
+        // in units of the first mode, whose turns are then whole numbers where all frequencies are commensurable
         let of = |w: f64| w / first;
         let rates = self.structure.rates.iter().copied().chain(modes.iter().map(|mode| mode.omega));
         let periods = crate::system::common_period(rates.map(of))?;

@@ -55,6 +55,7 @@ fn crossing(p: &[f64; TERMS], from: f64, width: f64, b: &[f64; TERMS], guess: f6
             break;
         }
         let mut next = t - height / slope;
+        // halving ends where Newton's method goes to and fro
         if !(next > low && next < high) || round > 12 {
             next = 0.5 * (low + high);
         }
@@ -86,12 +87,14 @@ fn search(p: &[f64; TERMS], b: &[f64; TERMS], (from, width): (f64, f64), depth: 
     if b.iter().all(|value| *value > 0.0) {
         return None;
     }
+    // an interval that cannot be halved further counts as a zero
     if b[0] <= 0.0 || depth == 0 {
         return Some(from);
     }
     if crosses_once(b) {
         return Some(crossing(p, from, width, b, guess));
     }
+    // the left half first: the first zero is asked for
     let (left, right) = halves(b);
     search(p, &left, (from, 0.5 * width), depth - 1, guess)
         .or_else(|| search(p, &right, (from + 0.5 * width, 0.5 * width), depth - 1, guess))
@@ -101,6 +104,7 @@ fn search(p: &[f64; TERMS], b: &[f64; TERMS], (from, width): (f64, f64), depth: 
 fn halves(b: &[f64; TERMS]) -> ([f64; TERMS], [f64; TERMS]) {
     let (mut left, mut right) = (*b, *b);
     for k in 1..TERMS {
+        // from the end, so that each value is still that of the round before
         for j in (k..TERMS).rev() {
             left[j] = 0.5 * (left[j - 1] + left[j]);
         }
@@ -130,6 +134,7 @@ pub(super) fn falls(p: &[f64; TERMS], from: f64, to: f64) -> bool {
         d[j - 1] = k * p[j];
         k += 1.0;
     }
+    // the shift by Horner's scheme, one power after another
     for i in 0..TERMS {
         for j in (i..TERMS - 1).rev() {
             d[j] += from * d[j + 1];
@@ -137,6 +142,7 @@ pub(super) fn falls(p: &[f64; TERMS], from: f64, to: f64) -> bool {
     }
     let (width, mut power) = (to - from, 1.0);
     for c in &mut d {
+        // the negative slope, which must be positive between both points
         *c *= -power;
         power *= width;
     }

@@ -209,6 +209,7 @@ fn search(
             return Found::NoneBefore(until);
         }
         let is_quiet = s < 0.999 * quiet;
+        // whether the modes are those at `s`: they cost more than all else of a window
         let mut here = false;
         if let Some(series) = series
             && (reach == 1.0 || decays)
@@ -224,6 +225,7 @@ fn search(
             }
             on_track = false;
             let blocked = buffers.track.pass(flight, until, &mut steps, &mut buffers.polynomials);
+            // up to here all guards are clearly positive
             if buffers.track.s > s {
                 s = buffers.track.s;
                 touched.fill(false);
@@ -243,7 +245,7 @@ fn search(
             }
             let first = first_of(&mut buffers.polynomials);
             let Some((near, _)) = first else {
-                // no zero after all
+                // no zero after all; after a whole window the state goes on from here, of a part it is not known
                 on_track = part >= 1.0;
                 buffers.track.step(series);
                 s = if on_track { buffers.track.s } else { until };
@@ -302,6 +304,7 @@ fn search(
         }
         let Some((near, g)) = first_of(&mut buffers.polynomials) else {
             s += window;
+            // of free bodies: the window has been shortened by powers of ten, and grows back as fast
             reach = (reach * if rate == 0.0 && reach < 1e-3 { 100.0 } else { 1.5 }).min(1.0);
             continue;
         };
@@ -346,8 +349,10 @@ fn search(
                 touch
             };
             let next = s + onward.min(0.999 * first) * window;
+            // at least by the smallest number, so that the search goes on
             s = if next > s || !again { next } else { s * (1.0 + f64::EPSILON) + f64::MIN_POSITIVE };
             reach = 1.0;
+        // positive up to there: the next window begins just before, where its bound is tighter
         } else if near > 0.25 {
             s += near * window * (1.0 - 1e-3);
             reach = (0.7 * reach).max(1e-12);

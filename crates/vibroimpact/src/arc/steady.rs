@@ -95,12 +95,14 @@ impl SteadyMode {
     fn of(flight: &MachineFlight, i: usize, modes: &Modes) -> Option<Self> {
         let mode = &flight.structure.modes[i];
         let push = flight.drive.steady[i];
+        // under a force that grows there is no steady motion
         if flight.drive.ramp[i] != 0.0 {
             return None;
         }
         let mut middle = if mode.k > 0.0 { push / mode.k } else { 0.0 };
         let (mut y, mut v) = (modes.moved[i] - middle, modes.v[i]);
         let mut waves = Vec::with_capacity(flight.structure.rates.len());
+        // displacement and velocity less those of the steady response: the transient is what is left
         for (((a, b), w), turned) in flight.drive.of(i).iter().zip(&flight.structure.rates).zip(&modes.turned) {
             if *a == 0.0 && *b == 0.0 {
                 waves.push((0.0, 0.0));
@@ -108,6 +110,7 @@ impl SteadyMode {
             }
             let (c, d) = mode.steady(*w, (*a, *b));
             let size = c.abs() + d.abs();
+            // also where the response is NaN, as at a resonance without damping
             if size.is_nan() || size >= RESONANT * (a.abs() + b.abs()) / (mode.k + w * w) {
                 return None;
             }
@@ -116,6 +119,7 @@ impl SteadyMode {
             waves.push((c, d));
         }
         let mut drift = 0.0;
+        // the energy of the transient does not grow: its root bounds the speed, and over the frequency the displacement
         let (swing, speed) = if mode.k > 0.0 {
             let energy = (v * v + mode.k * y * y).sqrt();
             (energy / mode.omega, energy)
@@ -124,6 +128,7 @@ impl SteadyMode {
             (middle, drift) = (y, push / (2.0 * mode.d));
             v -= drift;
             (v.abs() / (2.0 * mode.d), v.abs())
+        // nothing holds or brakes it: it is its own steady motion, with no transient
         } else {
             (middle, drift) = (y, v);
             (0.0, 0.0)
@@ -144,6 +149,7 @@ impl SteadyMode {
 
 /// Adds $`\alpha y + \beta\dot y`$ of these waves to harmonics.
 fn add_waves(to: &mut [Harmonic], (alpha, beta): (f64, f64), waves: impl Iterator<Item = (f64, f64)>, rates: &[f64]) {
+    // the derivative of a cos wt + b sin wt is wb cos wt - wa sin wt
     for ((sum, (a, b)), w) in to.iter_mut().zip(waves).zip(rates) {
         sum.cos += alpha * a + beta * w * b;
         sum.sin += alpha * b - beta * w * a;
@@ -187,6 +193,7 @@ impl SteadyWhole {
         if drive.ramp.iter().any(|ramp| *ramp != 0.0) {
             return None;
         }
+        // the eigenvalues are sorted: those that are zero come first
         let (values, shapes) = symmetric_eigen(stiffness);
         let without =
             |values: &[f64], of: &Matrix| values.iter().take_while(|value| **value <= NOTHING * of.largest()).count();
@@ -194,6 +201,7 @@ impl SteadyWhole {
         let stiff: Vec<(f64, Vec<f64>)> = (count..m).map(|i| (values[i], shapes.column(i))).collect();
         // directions without stiffness, turned so that damping does not couple them
         let free: Vec<Vec<f64>> = (0..count).map(|i| shapes.column(i)).collect();
+        // N'CN, whose eigenvectors decouple the free directions
         let mut own = Matrix::zeros(count, count);
         for (i, one) in free.iter().enumerate() {
             let dragged = damping.apply(one);
@@ -209,13 +217,17 @@ impl SteadyWhole {
             shape
         };
 
+        // what springs must hold in the steady motion: the force less what accelerates or drags free directions
         let mut remaining = push.clone();
         let (mut place, mut v) = (modes.moved.clone(), modes.v.clone());
         let mut waves = Vec::with_capacity(rates.len());
         for ((h, w), of) in rates.iter().enumerate().zip(&modes.turned) {
+            // the amplitudes are stored mode after mode: those of one harmonic stand as far apart as there are
+            // harmonics
             let forces = drive.harmonics.iter().skip(h).step_by(rates.len());
             let (cos, sin): (Vec<f64>, Vec<f64>) = forces.copied().unzip();
             let (c, d) = response((stiffness, damping), *w, (cos, sin))?;
+            // less the steady response, as for single modes
             add_scaled(&mut place, -of.cos, &c);
             add_scaled(&mut place, -of.sin, &d);
             add_scaled(&mut v, -w * of.cos, &d);
@@ -224,6 +236,7 @@ impl SteadyWhole {
         }
         let mut undamped: Vec<Free> = Vec::new();
         for shape in (0..resting).map(turned) {
+            // without spring and damper the force along it only accelerates
             let acceleration = dot(&shape, push);
             add_scaled(&mut remaining, -acceleration, &shape);
             undamped.push(Free { place: 0.0, drift: 0.0, acceleration, shape });
@@ -232,12 +245,15 @@ impl SteadyWhole {
         for (k, damping_along) in drags.iter().enumerate().take(count).skip(resting) {
             let shape = turned(k);
             let drag = damping.apply(&shape);
+            // the drift in which the damper balances the force; its drag on other directions is part of what springs
+            // hold
             let drift = dot(&shape, push) / damping_along;
             add_scaled(&mut remaining, -drift, &drag);
             add_scaled(&mut v, -drift, &shape);
             let free = Free { place: 0.0, drift, acceleration: 0.0, shape };
             damped.push(DampedFree { free, damping: *damping_along, drag });
         }
+        // the pseudo-inverse of the stiffness, which sees no free direction
         let mut middle = vec![0.0; m];
         for (k, shape) in &stiff {
             add_scaled(&mut middle, dot(shape, &remaining) / k, shape);
@@ -248,6 +264,8 @@ impl SteadyWhole {
             add_scaled(&mut v, -own.drift, &own.shape);
         }
         for own in &mut damped {
+            // where it comes to rest, by the sum that stays constant (see above), when velocities and strains have died
+            // out
             own.free.place = (dot(&own.free.shape, &v) + dot(&own.drag, &place)) / own.damping;
         }
         let strained: f64 = stiff.iter().map(|(k, shape)| k * dot(shape, &place) * dot(shape, &place)).sum();
@@ -278,6 +296,8 @@ impl SteadyWhole {
                 add_scaled(&mut by_place, -alpha / damping, drag);
             }
         }
+        // the bound by the energy (see above), with K^+ by its
+        // eigenvectors
         let strain = |shape: &[f64]| dot(shape, &by_place);
         let strained: f64 = self.stiff.iter().map(|(k, shape)| strain(shape) * strain(shape) / k).sum();
         outlook.transient += self.energy * (strained + dot(&by_rate, &by_rate)).sqrt();
@@ -299,6 +319,7 @@ fn response(
     if push == 0.0 {
         return Some((vec![0.0; m], vec![0.0; m]));
     }
+    // (K - w^2) c + w C d = a and (K - w^2) d - w C c = b as one system of equations
     let mut system = Matrix::zeros(2 * m, 2 * m);
     for i in 0..m {
         for j in 0..m {
@@ -309,6 +330,7 @@ fn response(
     }
     let mut both: Vec<f64> = cos.into_iter().chain(sin).collect();
     Lu::new(system.values().to_vec(), 2 * m)?.solve(&mut both);
+    // a singular system can pass the elimination by rounding errors: then its solution is far too large
     let size: f64 = both.iter().map(|x| x.abs()).sum();
     let far = RESONANT * push / (stiffness.largest() + w * w);
     let d = both.split_off(m);

@@ -26,11 +26,14 @@ impl Track {
     pub(super) fn settle(&mut self, flight: &MachineFlight, modes: &Modes) {
         self.z.clear();
         for i in 0..modes.moved.len() {
+            // the harmonics stand at the end of the state, so the force here is the constant and the ramp only
             self.z.extend([modes.moved[i], modes.v[i], flight.drive.steady[i] + flight.drive.ramp[i] * modes.s]);
         }
         for ((sin, cos), turned) in flight.turns.iter().zip(&modes.turned) {
+            // by the addition theorems from the phase of the beginning: no angle is added up
             self.z.extend([cos * turned.cos - sin * turned.sin, sin * turned.cos + cos * turned.sin]);
         }
+        // time and one make the equations of the state linear and homogeneous, with ramps too
         self.z.extend([modes.s, 1.0]);
         (self.s, self.settled, self.windows) = (modes.s, modes.s, 0.0);
     }
@@ -43,6 +46,7 @@ impl Track {
             if mode.k <= 0.0 {
                 return (z[1].abs(), z[1].abs());
             }
+            // the energy about the equilibrium under the constant force
             let shifted = z[0] - z[2] / mode.k;
             let energy = (z[1] * z[1] + mode.k * shifted * shifted).sqrt();
             let decaying = || z[1].abs() + mode.k * mode.largest_response() * shifted.abs();
@@ -66,6 +70,7 @@ impl Track {
         let mut p = series.at(&self.z);
         let part = length / window.length;
         let (value, _, error) = flight.guard(g, modes);
+        // a guard on which the flight begins is exactly zero, and so are its derivatives up to `known`
         p[0] = if known > 0 { 0.0 } else { value };
         p[ORDER] = series.bounds(&self.energies, &self.z, 0.0, 0.0).0;
         let lowest = known.min(ORDER - 1);
@@ -79,6 +84,7 @@ impl Track {
             }
             power *= part;
         }
+        // what rounding errors are relative to: a guard that begins at zero is as large as its first terms
         let mut size = p[0].abs();
         if known > 0 {
             size += (series.size(&self.z, 1) * part).max(series.size(&self.z, 2) * part * part);
@@ -87,6 +93,7 @@ impl Track {
             let mut term = surface.size * crate::system::decay(surface.rate * self.s).0;
             size += term;
             let (mut bound, mut k) = (term, 1.0);
+            // a(-kappa t)^k/k!; the series alternates, so the next term bounds the rest
             for c in &mut p[1..ORDER] {
                 term *= -surface.rate * length / k;
                 bound *= surface.rate * length / k;
@@ -106,11 +113,13 @@ impl Track {
         let positive = |window: &&Window| {
             let mut guards = flight.guards.iter().enumerate();
             guards.all(|(g, guard)| {
+                // only the beginning lies on a guard; later its derivatives are not known to vanish
                 let known = if modes.s == 0.0 { guard.known } else { 0 };
                 self.polynomial(flight, g, window, window.length, known, modes).is_positive()
             })
         };
         let useful = |window: &&Window| window.leaves_out_decays() && window.length <= until;
+        // windows are sorted from short to long: the last that is positive is the longest
         flight.structure.windows().iter().rev().filter(useful).find(positive).map(|window| window.length)
     }
 
@@ -121,6 +130,7 @@ impl Track {
         // a surface that stands back only adds to the gap
         let surface = start.recovery.map_or(0.0, |surface| surface.size);
         let faint: f64 = if window.faint.is_empty() { 0.0 } else { series.lowered(&self.faint) };
+        // rounding errors have grown with each window since the state was computed by the closed form
         let (remainder, rounding) = series.bounds(&self.energies, &self.z, self.windows, self.s - self.settled);
         let error = rounding + 8.0 * f64::EPSILON * (start.size + start.constant.abs() + surface);
         (start.constant - surface - faint, remainder, error)
@@ -144,6 +154,7 @@ impl Track {
             let (constant, remainder, bound) = self.constant(flight, window, g);
             let mut known = 0;
             let (mut error, mut size) = (0.0, 0.0);
+            // exactly zero, as in `polynomial`
             if self.s == 0.0 && start.known > 0 {
                 known = start.known;
                 p[0] = 0.0;
@@ -153,6 +164,7 @@ impl Track {
                 error = bound;
             }
             p[ORDER] = remainder;
+            // the powers of a part of the window; the remainder, in the last place, shrinks with them
             if part < 1.0 {
                 let mut power = part;
                 for c in &mut p[1..] {
@@ -171,6 +183,7 @@ impl Track {
         let start = &flight.guards[g];
         c[0] = if self.s == 0.0 && start.known > 0 { 0.0 } else { c[0] + start.constant };
         let (mut t, mut bend) = (t, 0.0);
+        // Newton's method; one pass of Horner's scheme gives value, slope and half the second derivative
         for _ in 0..6 {
             let (mut value, mut slope) = (0.0, 0.0);
             bend = 0.0;
@@ -181,6 +194,7 @@ impl Track {
             }
             let step = value / slope;
             t -= step;
+            // the method is quadratic: the next step would be below rounding
             if step.abs() < 1e-8 || step.is_nan() {
                 break;
             }
@@ -205,8 +219,10 @@ impl Track {
         all: &mut Vec<GuardPolynomial>,
     ) -> Option<f64> {
         let windows = flight.structure.windows();
+        // after a fall to a shorter window, `stay` windows of that length pass before a longer one is tried again
         let (mut level, mut stay) = (0, 0_u32);
         while *steps > 0 && self.s < until && self.windows < WINDOWS {
+            // a window longer than what is left would prove more than is asked, and could fail for it
             let left = until - self.s;
             while level > 0 && left < windows[level].length {
                 level -= 1;
@@ -214,7 +230,9 @@ impl Track {
             let window = &windows[level];
             let part = if left < window.length { left / window.length } else { 1.0 };
             *steps -= 1;
+            // bounds of the remainders for this window: the energies here, which forcing has changed
             self.energies(flight);
+            // the hull is for whole windows away from guards; at the beginning and at the end the polynomial is needed
             let free = if self.s > 0.0 && part == 1.0 {
                 self.clear(flight, window)
             } else {
@@ -243,6 +261,7 @@ impl Track {
                 self.step(&windows[1]);
                 level = 1;
             } else {
+                // the hull has failed, so the polynomials are not there yet
                 if self.s > 0.0 && part == 1.0 {
                     self.expand(flight, window, part, all);
                 }

@@ -34,6 +34,7 @@ impl Structure {
         }
         for (i, (mode, free)) in self.modes.iter().zip(free).enumerate() {
             let (y, v, p) = (change.y[i], change.v[i], change.push[i]);
+            // by 1 - C, so that a short time changes little and loses no digits
             change.y[i] = y - y * free.one_minus_c + v * free.s + p * free.step;
             change.v[i] = (p - mode.k * y) * free.s + v * free.s_rate;
         }

@@ -27,6 +27,7 @@ pub(super) fn kaplan_yorke(exponents: &[Measured], exact_sum: f64, blocks: &[Blo
         return None;
     }
     let (mut whole, mut sum) = (0.0, 0.0);
+    // as many directions as a volume in them does not shrink, and a part of the next one
     for (j, of) in exponents.iter().enumerate() {
         if sum + of.value < 0.0 && (exact_sum.is_nan() || exact_sum < 0.0) {
             let part = if blocks.is_empty() {

@@ -213,6 +213,7 @@ pub fn exponents_while(
 ) -> Option<Exponents> {
     let mut motion = Motion::with_limits(osc, start, options.limits);
     let mut run = Impacts::new(options.impacts, options.transient);
+    // chaos is measured here: only what the motion settles into is watched
     let watch = SettleOptions { chaos_over: 0, limits: options.limits, ..SettleOptions::default() };
     let (mut follow, releases) = (Follow::default(), &mut Releases::default());
     let mut settled: Option<Verdict> = None;
@@ -231,6 +232,7 @@ pub fn exponents_while(
                 run.impact(osc, state);
                 if settled.is_none() {
                     settled = follow.impact(osc, &watch, state, interval);
+                    // what has been measured so far belongs to the transient
                     if settled.is_some() && run.run.measured() > Some(0) {
                         run.begin_again();
                     }
@@ -257,6 +259,7 @@ pub fn exponents_while(
                 }
             }
             EventKind::Release => {
+                // at rest neighbouring motions become one: the measurement begins again
                 run.begin_again();
                 settled = settled.or_else(|| follow.release(osc, releases, event.side, interval));
             }
@@ -295,6 +298,8 @@ fn of_flight(damping: f64) -> [f64; 2] {
         // adding to 0 avoids a negative zero
         return [0.0 - damping; 2];
     }
+    // two roots, because the square of the damping less 1 would lose digits near critical damping
     let fast = damping + (damping - 1.0).sqrt() * (damping + 1.0).sqrt();
+    // their product is 1: as a quotient the slow one keeps its digits
     [-1.0 / fast, -fast]
 }

@@ -49,6 +49,7 @@ pub fn machine_exponents_while(
     let exact = |motion: Verdict<Machine>, rates: Option<Vec<f64>>, closings: f64| {
         let grounds = rates.as_ref().map_or(Grounds::Undecided { impacts: 0 }, |_| Grounds::Exact);
         let mut rates = rates.unwrap_or_else(|| vec![f64::NAN; 2 * machine.n()]);
+        // the largest first
         sort_by(&mut rates, |a, b| b.total_cmp(a));
         let exponents = rates.into_iter().map(Measured::exact).collect();
         let forced = machine.period().is_some();
@@ -56,6 +57,7 @@ pub fn machine_exponents_while(
     };
     match &motion {
         Verdict::Periodic(cycle) => {
+            // the logarithm of a multiplier is the growth in a period
             let own = cycle.logs.iter().map(|log| log / cycle.period);
             // a neighbour that is moved along a free translation stays as far away, and without forcing one that is ahead
             let kept = cycle.translations() + if machine.period().is_none() { 1 } else { 0 };
@@ -68,6 +70,7 @@ pub fn machine_exponents_while(
             let frame = MachineFrame::new(machine);
             let mut last = Motion::new(machine, start, frame.limits())?;
             while last.step().is_some() {
+                // nobody looks at them: they would only take memory
                 last.take_events();
                 if !go_on() {
                     return Ok(None);

@@ -62,11 +62,13 @@ impl Motion<'_> {
             }
             Found::Zero { s, guards } => self.arrive(&flight, *s, guards),
         }
+        // its memory is used again two flights later
         self.spare[0] = Some(flight);
     }
 
     /// The time after which the first surface that stands back reaches its holder: it changes its guard without an event.
     fn recovery(&self) -> f64 {
+        // without an offset a surface comes back in the limit only
         let standing = self.place.surfaces.iter().flatten().filter(|surface| surface.offset > 0.0);
         let times = standing.map(|surface| crate::math::ln(surface.size / surface.offset) / surface.rate);
         times.fold(f64::INFINITY, f64::min)
@@ -86,6 +88,7 @@ impl Motion<'_> {
             (found, never)
         };
         let steps = self.limits.steps;
+        // a few steps first: most flights end within them, and of the others it is asked whether they end at all
         let (mut found, mut never) = search(self, steps.min(PATIENCE));
         if let (Found::NoneBefore(s), false) = (&found, never)
             && *s < until
@@ -107,6 +110,7 @@ impl Motion<'_> {
                 // a flight that begins here begins on the stop without speed
                 self.place.note(GuardKind::Gap(j), 2);
                 self.announce(EventKind::Graze, j, 0.0, Vec::new());
+                // the flight goes on as if nothing had happened
                 (self.place, self.time) = (place, time);
             }
         }
@@ -156,6 +160,7 @@ impl Motion<'_> {
 
     /// The flight from here, in the memory of an earlier one; `None` if its constraints depend on each other.
     fn fly(&mut self) -> Option<Box<MachineFlight>> {
+        // the memory of the last flight in this regime, if it is one of the last two
         if !matches!(&self.spare[0], Some(last) if last.structure.is_in(&self.place.states)) {
             self.spare.swap(0, 1);
         }
@@ -193,6 +198,7 @@ impl Motion<'_> {
 
     /// What follows when these guards of a structure of this rate are zero.
     fn happen(&mut self, kinds: &[GuardKind], fastest: f64) {
+        // most events: one impact, with nothing that rests, holds or slides
         if let [kind] = *kinds
             && self.machine.joints().is_empty()
             && !self.place.states.iter().any(|state| state.constrains())

@@ -42,6 +42,8 @@ impl Motion<'_> {
                         self.instants.keep(EventKind::Impact, j, speed);
                         self.struck.push((j, speed));
                         self.announce(EventKind::Impact, j, speed, Vec::new());
+                        // the state that is announced tells of the impact; whether a chatter ends with it is decided
+                        // below
                         self.struck.clear();
                         let open = self.place.states.iter().all(|state| *state == ContactState::Open);
                         let turns = self.scratch.turns_at(&self.place, &self.normal);

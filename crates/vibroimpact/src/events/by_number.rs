@@ -100,6 +100,7 @@ impl<'a> ByNumber<'a> {
         };
         let walls = normal.walls.iter().zip(&rate.walls).map(|(own, change)| {
             let (velocity, by_velocity) = later(own, change);
+            // the same rule again, for the second derivative
             let (acceleration, by_acceleration) = later(&velocity, &by_velocity);
             [moving(own, change), moving(&velocity, &by_velocity), moving(&acceleration, &by_acceleration)]
         });
@@ -134,6 +135,7 @@ impl<'a> ByNumber<'a> {
     /// The change of the duration of a flight between fixed phases.
     pub(crate) fn duration(&self, time: f64) -> f64 {
         match (self.machine.parts().frequency, self.parts.frequency) {
+            // the time between fixed phases is their difference over the frequency
             (Some(frequency), Some(change)) => -time * change / frequency,
             _ => 0.0,
         }
@@ -148,6 +150,7 @@ impl<'a> ByNumber<'a> {
     fn gap(&self, stop: usize, at: &Instant<'_>) -> (f64, f64) {
         let (w, wall) = (&self.normal.directions[stop], &self.normal.walls[stop]);
         let known = at.gaps.iter().find(|(of, _)| *of == stop);
+        // a flight knows the gaps of closed stops with more digits than coordinates and wall
         let gap = known.map_or_else(|| wall.constant + wall.swing(at.turns) - dot(w, at.x), |(_, gap)| *gap);
         (gap, self.wall_rates[stop].swing(at.turns) - dot(w, at.v))
     }
@@ -168,6 +171,7 @@ impl<'a> ByNumber<'a> {
     pub(super) fn pull(&self, stop: usize, at: &Instant<'_>, change: (&[f64], &[f64])) -> Option<(f64, f64)> {
         let ((k, c, p), (dk, dc, dp)) = self.law(stop)?;
         let ((gap, rate), (by_gap, by_rate)) = (self.gap(stop, at), self.gap_change(stop, at, change));
+        // minus the force with which the stop pushes
         Some((k * gap + c * rate - p, dk * gap + k * by_gap + dc * rate + c * by_rate - dp))
     }
 
@@ -200,6 +204,7 @@ impl<'a> ByNumber<'a> {
         for (place, force, _) in self.sliding(structure) {
             add_scaled(&mut missing, force, &self.normal.directions[place]);
         }
+        // each row takes out of what is missing the reaction of one constraint
         structure.across.iter().map(|across| dot(across, &missing)).collect()
     }
 
@@ -225,6 +230,7 @@ impl<'a> ByNumber<'a> {
             add_scaled(&mut force, own, &self.rate.directions[place]);
             add_scaled(&mut force, change, &self.normal.directions[place]);
         }
+        // a reaction pushes against its direction, which the number turns
         for (place, reaction) in structure.held.iter().zip(reactions) {
             add_scaled(&mut force, -reaction, &self.rate.directions[*place]);
         }
@@ -236,6 +242,7 @@ impl<'a> ByNumber<'a> {
         let stops = self.machine.stops().len();
         let still = vec![0.0; self.normal.n];
         let mut carried = StateChange::zero(self.normal.n);
+        // what the constraints demand: gaps that stay zero, joints that stay where they began on their belt
         for (place, across) in structure.held.iter().zip(&structure.across) {
             let (way, rate) = if *place < stops {
                 self.gap_change(*place, at, (&still, &still))
@@ -275,9 +282,11 @@ impl<'a> ByNumber<'a> {
             Vec::new()
         };
         for (begin, length) in all {
+            // the rule is symmetric: half of its points are listed
             for (point, weight) in RULE.iter().flat_map(|(point, weight)| [(*point, *weight), (-point, *weight)]) {
                 let t = (begin + 0.5 * length * (1.0 + point)) * time.signum();
                 let at = seen.at(&flight, t, pace * t, &from.x);
+                // the change of the acceleration at this point, carried on to the end of the flight
                 let reactions = self.reactions(structure, &at);
                 let carried = self.carried(structure, &at);
                 let force = self.force(structure, &at, &reactions, (&carried.x, &carried.v))?;
@@ -294,6 +303,7 @@ impl<'a> ByNumber<'a> {
             end.v[i] += structure.changed(&structure.v[i], &sum);
         }
         let later = self.duration(time);
+        // the flight ends later, with the velocities and accelerations that it has at its end
         if later != 0.0 {
             let flow = shape.flow(structure, self.normal, before);
             add_scaled(&mut end.x, later, &flow[..n]);
@@ -302,6 +312,7 @@ impl<'a> ByNumber<'a> {
         end.surfaces = (0..before.surfaces.len())
             .map(|j| match (before.surfaces[j], self.law(j)) {
                 (Some(surface), Some(((_, c, _), (dk, dc, _)))) => {
+                    // the rate is k/c: its change, and that of the duration, act on e^{-rate t}
                     let rate = (dk - surface.rate * dc) / c;
                     -(rate * time + surface.rate * later) * surface.size
                 }

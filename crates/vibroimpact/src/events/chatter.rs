@@ -34,6 +34,7 @@ impl Return {
         }
         let k = rebound / a;
         let r = 1.0 - restitution;
+        // each rebound takes 2w/a, and its speed is the restitution times that before: a geometric sum
         let first = 2.0 * k / r;
         let second = -2.0 * (jerk / a * k + 0.5 * drag * k) / (3.0 * r);
         let small = second.abs() <= SMALL && first * fastest.max(drag) <= 10.0 * SMALL;

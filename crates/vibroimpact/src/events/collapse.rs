@@ -85,6 +85,7 @@ impl Motion<'_> {
             let (_, _, of_gap, of_rate) = self.place.gap(&self.normal, &turns, *j);
             (size, rate_size) = (size.max(of_gap), rate_size.max(of_rate));
         }
+        // how long a rounding error of a gap is, at the speed of the round
         let rounding = self.time_scale() + (size + round.left * rate_size) / round.speed;
         if round.error > ROUNDINGS * f64::EPSILON * rounding {
             return false;
@@ -128,11 +129,13 @@ impl Motion<'_> {
         let flight = self.place.flight(&self.normal, free.clone());
         let turns = self.place.turns(&self.normal);
         let directions = &self.normal.directions;
+        // what rests and holds stays so: impulses act beside it
         let kept = Orthonormal::spanning(free.held.iter().map(|at| &directions[*at]));
         let along: Vec<Vec<f64>> = stops.iter().map(|j| kept.beside(&directions[*j])).collect::<Option<_>>()?;
         let gaps = stops.iter().map(|j| {
             let StopLaw::Rigid { restitution } = self.machine.stops()[*j].law else { return None };
             let (gap, rate) = self.place.gap_and_rate(&self.normal, &turns, *j);
+            // a stop that has just been struck is exactly closed
             let struck = self.place.known.iter().any(|(kind, _)| *kind == GuardKind::Gap(*j));
             let acceleration = flight.first(&free.gap(&self.normal, *j).1).1;
             Some(FreeGap { gap: if struck { 0.0 } else { gap.max(0.0) }, rate, acceleration, restitution })
@@ -143,6 +146,7 @@ impl Motion<'_> {
         let last = LAST * stops.len();
         let (mut time, mut recent) = (0.0, VecDeque::from(vec![0.0; last]));
         for step in 0..STEPS {
+            // the stop that is struck next
             let (k, s) = gaps
                 .iter()
                 .enumerate()
@@ -152,13 +156,16 @@ impl Motion<'_> {
             gaps.iter_mut().for_each(|own| own.advance(s));
             let own = &mut gaps[k];
             own.gap = 0.0;
+            // by restitution, and the other gaps by their share of the same impulse
             let change = -(1.0 + own.restitution) * own.rate;
             let square = dot(&along[k], &along[k]);
             for (own, w) in gaps.iter_mut().zip(&along) {
                 own.rate += dot(w, &along[k]) / square * change;
             }
+            // the time so many impacts ago: when none passes between, the impacts have accumulated
             recent.push_back(time);
             let before = recent.pop_front()?;
+            // too late for accelerations that do not change
             if time > limit {
                 return None;
             }
@@ -236,12 +243,14 @@ impl FreeGap {
     /// The time after which it closes.
     fn closes_after(&self) -> Option<f64> {
         let Self { gap, rate, acceleration: a, .. } = *self;
+        // the form in which nothing cancels, for a gap that opens and for one that closes
         let root = (rate * rate - 2.0 * a * gap).sqrt();
         let time = if rate > 0.0 { (rate + root) / -a } else { 2.0 * gap / (root - rate) };
         (time >= 0.0 && time.is_finite()).then_some(time)
     }
 
     fn advance(&mut self, s: f64) {
+        // rounding errors do not take it beyond
         self.gap = (self.gap + s * (self.rate + 0.5 * self.acceleration * s)).max(0.0);
         self.rate += self.acceleration * s;
     }

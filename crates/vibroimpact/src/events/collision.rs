@@ -83,6 +83,7 @@ impl Collision {
         let mut now = rates.to_vec();
         for round in 0..ROUNDS {
             let closes = |k: &usize| {
+                // rounding errors of the rate: those of its terms, and of the rates before
                 let terms = directions[*k].iter().zip(&self.v).map(|(w, v)| (w * v).abs()).sum::<f64>();
                 now[*k] < -ROUNDINGS * f64::EPSILON * (size + terms)
             };
@@ -96,11 +97,13 @@ impl Collision {
                 closing.retain(|k| *k == first);
             }
             self.round(directions, &now, restitutions, &closing)?;
+            // from the change of velocities since the beginning, so that no rounding errors add up from round to round
             for (now, (w, rate)) in now.iter_mut().zip(directions.iter().zip(rates)) {
                 let gained = self.v.iter().zip(v).map(|(after, before)| after - before);
                 *now = rate - w.iter().zip(gained).map(|(w, gained)| w * gained).sum::<f64>();
             }
         }
+        // the rest of the collision without restitution, so that it ends
         self.round(directions, &now, &vec![0.0; rates.len()], &all)
     }
 
@@ -110,6 +113,7 @@ impl Collision {
         let along: Vec<&[f64]> = stops.iter().map(|k| directions[*k]).collect();
         let found = impulses(&along, &of(rates), &of(restitutions))?;
         let mut pushing = Vec::new();
+        // a stop does not pull
         for (k, impulse) in stops.iter().zip(found).filter(|(_, impulse)| *impulse > 0.0) {
             add_scaled(&mut self.v, -impulse, directions[*k]);
             self.impulses[*k] += impulse;

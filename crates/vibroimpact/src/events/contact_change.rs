@@ -36,6 +36,7 @@ impl Motion<'_> {
         ended: &[usize],
     ) -> Option<()> {
         let turns = self.place.turns(&self.normal);
+        // before the impacts change them
         let speeds: Vec<f64> = (0..self.machine.stops().len()).map(|j| self.closing_speed(j, &turns)).collect();
         let (rigid, soft): (Vec<usize>, Vec<usize>) =
             closing.iter().partition(|j| compliant(&self.machine.stops()[**j].law).is_none());

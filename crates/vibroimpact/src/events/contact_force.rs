@@ -38,6 +38,7 @@ pub(crate) fn contact_forces(
                 }
             }
             GuardKind::Force(j) => forces[j] = value().0,
+            // the guard counts what joints that hold along with the stop can bear
             GuardKind::Reaction(j) => forces[j] = value().0 - shared(j),
             GuardKind::LimitForward(j) => {
                 forces[stops + j] = machine.joints()[j].limit + shared(stops + j) - value().0;
@@ -52,12 +53,14 @@ pub(crate) fn contact_forces(
         let whole = structure.sharing.iter().filter(|other| other.held == sharing.held);
         if whole.clone().next().is_some_and(|first| first.place == sharing.place) {
             let load = forces[place];
+            // a stop with stiffness bears at most its preload, a rigid one any load, but neither pulls
             let (own, rest) = match machine.stops().get(place).map(|stop| compliant(&stop.law)) {
                 Some(law) => {
                     let own = load.clamp(0.0, law.map_or(f64::INFINITY, |(_, _, preload)| preload));
                     (own, if limits > 0.0 { (load - own) / limits } else { 0.0 })
                 }
                 None => {
+                    // all joints at the same part of their limits
                     let limit = machine.joints()[place - stops].limit;
                     let part = if limit + limits > 0.0 { load / (limit + limits) } else { 0.0 };
                     (part * limit, part)

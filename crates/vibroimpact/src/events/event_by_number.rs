@@ -39,6 +39,8 @@ impl ByNumber<'_> {
             let across = &structure.across[held];
             let mut sum = dot(across, &force);
             for (other, own) in structure.held.iter().zip(&structure.across) {
+                // a constraint keeps w x'' at the acceleration of its wall, also where the number turns w or moves the
+                // wall
                 let mut wanted = dot(&self.rate.directions[*other], at.acceleration);
                 if *other < stops {
                     wanted -= self.wall(*other, 2, (at.turns, at.shift));
@@ -80,6 +82,7 @@ impl ByNumber<'_> {
 
     /// The change of the offset p/k of the surface of a stop.
     fn offset(&self, stop: usize) -> f64 {
+        // the derivative of p/k
         self.law(stop).map_or(0.0, |((k, _, p), (dk, _, dp))| (dp - dk * p / k) / k)
     }
 
@@ -93,6 +96,7 @@ impl ByNumber<'_> {
         change: StateChange,
     ) -> Option<StateChange> {
         let turns = before.turns(self.normal);
+        // the rest that stands for a summed chatter has no rebound, whatever the restitution
         let restitution = |j: usize| match self.parts.stops[j].law {
             StopLaw::Rigid { restitution } if !summed(j) => restitution,
             _ => 0.0,
@@ -129,6 +133,7 @@ impl ByNumber<'_> {
             round.iter().zip(&w).map(|((j, _), w)| self.wall_rates[*j].swing(turns) - dot(w, v)).collect();
         let mut push: Vec<f64> = round.iter().zip(&rates).map(|((_, e), rate)| (1.0 + e) * rate).collect();
         lu.solve(&mut push);
+        // G push = (1 + e) rate, differentiated: G push' = e' rate + (1 + e) rate' - G' push
         let by_push = |i: usize| {
             let (j, e) = round[i];
             let by_rate = self.wall(j, 1, (turns, 0.0)) - dot(by_w[i], v) - dot(w[i], by_v);

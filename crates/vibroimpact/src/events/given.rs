@@ -61,9 +61,11 @@ impl Motion<'_> {
                     ));
                 }
                 ContactState::Holding => {
+                    // exactly the velocity of its belt: the rest is rounding of the given numbers
                     let w = &self.normal.directions[at];
                     add_scaled(&mut place.v, -speed / dot(w, w), w);
                 }
+                // it begins to slide now: its velocity is zero and has no error
                 _ if still => place.note(GuardKind::Sliding(joint), 1),
                 ContactState::Forward if speed > 0.0 => {}
                 ContactState::Backward if speed < 0.0 => {}
@@ -82,6 +84,7 @@ impl Motion<'_> {
                         format!("the gap of the stop is {gap} and its rate {rate}: the structure does not rest on it");
                     return Err(contact_error(self.machine, at, what));
                 }
+                // exactly onto the stop
                 self.normal.move_by(&[(at, gap)], &mut place.x);
                 self.normal.move_by(&[(at, rate)], &mut place.v);
             }
@@ -89,11 +92,13 @@ impl Motion<'_> {
                 return Err(contact_error(self.machine, at, format!("the stop has the gap {gap} and is not closed")));
             }
             ContactState::Closed => {
+                // it has just closed: the depth is zero, and so is its rate if it is still
                 if gap.abs() <= ROUNDED * size && (still || rate < 0.0) {
                     place.note(GuardKind::Depth(at), if still { 2 } else { 1 });
                 }
             }
             _ => {
+                // only damped stops that open by force have a surface
                 let back = standing_back(&stop.law, surface).filter(|_| surface > 0.0);
                 place.surfaces[at] = back;
                 let (distance, rate) = (gap + surface, rate - back.map_or(0.0, |back| back.rate * back.size));
@@ -106,9 +111,11 @@ impl Motion<'_> {
                     place.surfaces[at] = None;
                     return Ok(Beginning::Unknown);
                 }
+                // it closes at once
                 if on && !still && rate < 0.0 {
                     return Ok(Beginning::Closing);
                 }
+                // it has just opened: the zero here is no event
                 if on {
                     place.note(GuardKind::Gap(at), if still { 2 } else { 1 });
                 }

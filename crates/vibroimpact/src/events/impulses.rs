@@ -31,6 +31,8 @@ pub(super) fn impulses(directions: &[&[f64]], rates: &[f64], restitutions: &[f64
                     size += (gram(j, *i) * values[*i]).abs();
                 }
                 let square = gram(j, j).sqrt();
+                // per length of the direction, so that no unit decides which stop is next; what is below the rounding
+                // of the sum is open
                 (if left < -16.0 * f64::EPSILON * size { left / square } else { 0.0 }, j)
             })
             .fold((0.0, count), |best, next| if next.0 < best.0 { next } else { best });
@@ -81,6 +83,7 @@ fn enter(directions: &[&[f64]], pushing: &mut Vec<usize>, values: &mut [f64], j:
     let mut shares: Vec<f64> = pushing.iter().map(|i| dot(directions[*i], directions[j])).collect();
     lu.solve(&mut shares);
     let small = 1e-9 * shares.iter().fold(0.0_f64, |most, share| most.max(share.abs()));
+    // the first whose load would be used up leaves for the new one; the impulse on the whole structure stays
     let loads = pushing.iter().zip(&shares).enumerate().filter(|(_, (_, share))| **share > small);
     let Some((load, at)) = loads.map(|(at, (i, share))| (values[*i] / share, at)).min_by(|a, b| a.0.total_cmp(&b.0))
     else {
@@ -103,6 +106,7 @@ fn solution(gram: &impl Fn(usize, usize) -> f64, b: &[f64], pushing: &[usize]) -
     let lu = Lu::new(pushing.iter().flat_map(|i| pushing.iter().map(|j| gram(*i, *j))).collect(), pushing.len())?;
     let mut values: Vec<f64> = pushing.iter().map(|i| -b[*i]).collect();
     lu.solve(&mut values);
+    // residuals with twice the digits, so that two corrections are as good as one rounding of the exact solution
     for _ in 0..2 {
         let residual = |i: &usize| {
             let (mut sum, mut low) = (-b[*i], 0.0);

@@ -128,11 +128,14 @@ impl Instants {
             *speed = larger(FORGOTTEN * *speed, v.abs());
             (of_x, of_v) = (of_x + x * x, of_v + v * v);
         }
+        // squares are forgotten by the square of the factor
         self.fastest = larger(FORGOTTEN * FORGOTTEN * self.fastest, of_v);
+        // how far the flight went if it had this speed all along
         let way = self.passed * self.passed * of_v;
         self.square = larger(FORGOTTEN * FORGOTTEN * self.square, larger(of_x, way));
         self.longest *= FORGOTTEN;
         self.short = self.passed <= SHORT * self.longest;
+        // after a long flight nothing accumulates
         if !self.short {
             self.longest = self.longest.max(self.passed);
             self.count = 0;
@@ -276,6 +279,7 @@ impl Instants {
         let length = |k: usize| (k..k + period).map(|i| all[i].after).sum::<f64>();
         // impacts that fall at one instant take no time
         let at_once = length(0) <= BELOW * f64::EPSILON * self.longest;
+        // by how much shorter each round is than the one before
         let factor = if at_once { 0.0 } else { length(0) / length(period) };
         let slower = |k: usize| all[k].speed / all[k + period].speed;
         let impacts = |until: usize| (0..until).filter(|k| all[*k].is_impact());
@@ -284,6 +288,7 @@ impl Instants {
         if !falls(factor) || !falls(first) || !one(period + 1, EQUAL) {
             return None;
         }
+        // the sum of all rounds that follow
         let left = length(0) * factor / (1.0 - factor);
         // the factor of three rounds tells how much it still changes
         let third = (period + 1..=2 * period).all(repeated) && one(2 * period, EQUAL);
@@ -291,6 +296,7 @@ impl Instants {
             if third && one(2 * period, SETTLED) { 0.0 } else { f64::INFINITY }
         } else if third {
             let before = length(period) / length(2 * period);
+            // the derivative of q/(1 - q) is 1/(1 - q)^2
             length(0) * (factor - before).abs() / ((1.0 - factor) * (1.0 - factor))
         } else {
             left
@@ -316,6 +322,7 @@ impl Instants {
         if count < FEW || !self.count.is_multiple_of(EVERY) {
             return None;
         }
+        // while few changes are kept, they must slow down by much more before they count as a crowd
         let factor = if count < KEPT { MUCH_SLOWER } else { SLOWER };
         let late = fastest(self.latest.iter().take(count / ENDS));
         let early = fastest(self.latest.iter().rev().take(count / ENDS));

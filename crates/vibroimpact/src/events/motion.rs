@@ -126,6 +126,7 @@ impl<'a> Motion<'a> {
     fn go_on(&mut self, place: Place, history: ImpactHistory) {
         self.place = place;
         (self.largest_impact, self.instants, self.struck) = (history.largest, history.instants, history.last);
+        // the state is that right after these impacts, whose chatter has not been summed yet
         if !self.struck.is_empty() {
             let turns = self.place.turns(&self.normal);
             self.after_impacts(&turns);
@@ -180,6 +181,7 @@ impl<'a> Motion<'a> {
         let absent = |at: usize| !given.contains(&at);
         for (j, stop) in self.machine.stops().iter().enumerate().filter(|(j, _)| absent(*j)) {
             let (gap, rate, size, rate_size) = self.place.gap(&self.normal, &turns, j);
+            // a gap or a rate that is smaller than its rounding error is zero
             let on = gap.abs() <= 4.0 * f64::EPSILON * size;
             let approaching = rate < -4.0 * f64::EPSILON * rate_size;
             let still = rate.abs() <= 4.0 * f64::EPSILON * rate_size;
@@ -187,6 +189,8 @@ impl<'a> Motion<'a> {
                 StopLaw::Rigid { .. } if gap < 0.0 && !on => {
                     return Err(MachineError::new(format!("stop.{}", stop.name), Fault::Beyond(-gap)));
                 }
+                // the stop is compressed: it pushes, or it has opened by force and its surface stands back at this
+                // depth
                 StopLaw::Compliant { stiffness, damping, preload, opening } if gap < 0.0 && !on => {
                     let force = preload - stiffness * gap - damping * rate;
                     if opening == Opening::Position || force > 0.0 {
@@ -195,6 +199,7 @@ impl<'a> Motion<'a> {
                         self.place.surfaces[j] = standing_back(&stop.law, -gap);
                     }
                 }
+                // on the stop: an impact now, a candidate for rest, or a gap that opens and whose zero here is no event
                 _ if on && approaching => closing.push(j),
                 _ if on && still => candidates.push(j),
                 _ if on => self.place.note(GuardKind::Gap(j), 1),
@@ -206,6 +211,7 @@ impl<'a> Motion<'a> {
             if !absent(at) {
                 continue;
             }
+            // whether it can hold is decided with the other candidates
             let (speed, size) = self.place.sliding(self.machine, &self.normal, joint);
             if speed.abs() <= 4.0 * f64::EPSILON * size {
                 candidates.push(at);
@@ -222,6 +228,7 @@ impl<'a> Motion<'a> {
         let before: Vec<ContactState> = self.place.states.iter().enumerate().map(before).collect();
         self.instants.land(&self.place.x, &self.place.v);
         self.change(&before, &closing, candidates, &[]);
+        // the given states may not be those that the forces allow
         let checked = !given.is_empty() && closing.is_empty() && self.end.is_none();
         if checked { self.check_guards() } else { Ok(()) }
     }
@@ -260,6 +267,7 @@ impl<'a> Motion<'a> {
         let modes = self.buffers.modes_at(flight, s);
         self.place.move_along(flight, (modes, s), self.machine.parts().frequency);
         let before = self.time.value();
+        // a flight can be so short that the time, as a number, stays: only then does the crowd of events grow
         self.time += s;
         if self.time.value() > before {
             self.crowd = 0;

@@ -24,6 +24,7 @@ impl Structures {
         normal: &Normal,
         states: &[ContactState],
     ) -> Option<Arc<Structure>> {
+        // a few comparisons instead of a search in the tree
         if let Some(known) = self.last.iter().flatten().find(|last| last.is_in(states)) {
             return Some(known.clone());
         }
@@ -51,6 +52,7 @@ impl Structures {
 /// The surface of a damped stop that has opened by force at this depth; `None` for any other stop.
 pub(crate) fn standing_back(law: &StopLaw, depth: f64) -> Option<Recovery> {
     let (stiffness, damping, preload) = compliant(law)?;
+    // the spring pushes on beyond the place at which the preload holds it
     let offset = preload / stiffness;
     (damping > 0.0).then(|| Recovery { size: depth + offset, rate: stiffness / damping, offset })
 }
@@ -71,6 +73,7 @@ pub(super) struct Scratch {
 impl Scratch {
     /// Sine and cosine of all harmonics at a place, computed once for a phase.
     pub(super) fn turns_at(&mut self, place: &Place, normal: &Normal) -> &[(f64, f64)] {
+        // a phase is the same to the last bit where nothing has moved
         if self.phase != Some(place.phase) {
             place.turns_into(normal, &mut self.turns);
             self.phase = Some(place.phase);
@@ -105,6 +108,7 @@ impl Place {
     }
 
     fn turns_into(&self, normal: &Normal, turns: &mut Vec<(f64, f64)>) {
+        // a product must be reduced to one turn again; the phase itself is
         let phase = |order: f64| if order == 1.0 { self.phase } else { phase::wrap(order * self.phase) };
         turns.clear();
         turns.extend(normal.orders.iter().map(|order| sin_cos(phase(*order))));
@@ -148,6 +152,7 @@ impl Place {
         }
         let turns: &'a [(f64, f64)] = turns;
         let gap = move |stop: usize| {
+            // where the stop has just closed its gap is exactly 0
             let at_zero = self.known.iter().any(|(kind, _)| *kind == GuardKind::Depth(stop));
             let sharp = if at_zero { Some(0.0) } else { self.sharp_gap(stop) };
             let (w, wall) = (&normal.directions[stop], &normal.walls[stop]);
@@ -203,6 +208,7 @@ impl Place {
         self.states[j] = ContactState::Open;
         let mut known = 1;
         if let GuardKind::Force(_) = kind {
+            // the force depends on the gap: the one with all digits
             let depth = -self.sharp_gap(j).unwrap_or(gap);
             if depth > 0.0 {
                 self.surfaces[j] = standing_back(law, depth);

@@ -80,6 +80,7 @@ impl Resolution<'_> {
             };
             tried.push(states.clone());
             states[k] = violation.instead;
+            // it goes round in a circle
             if tried.contains(&states) {
                 break self.enumerated()?;
             }
@@ -92,6 +93,7 @@ impl Resolution<'_> {
         if at >= self.machine.stops().len() {
             return ContactState::Holding;
         }
+        // without preload it yields to any force and cannot rest
         let soft = compliant(&self.machine.stops()[at].law).is_some_and(|(_, _, preload)| preload == 0.0);
         if soft { ContactState::Open } else { ContactState::Resting }
     }
@@ -101,6 +103,7 @@ impl Resolution<'_> {
         let mut states = self.place.states.clone();
         self.candidates.iter().zip(of).for_each(|(at, state)| states[*at] = *state);
         let mut closed: Vec<usize> = (0..states.len()).filter(|at| states[*at].constrains()).collect();
+        // those that bear a load first: the others may turn out to depend on them
         sort_by_key(&mut closed, |at| idles(self.machine, *at));
         let bearing = independent(closed.iter().map(|at| self.normal.directions[*at].as_slice()));
         for (k, at) in closed.iter().enumerate() {
@@ -139,6 +142,7 @@ impl Resolution<'_> {
         limits: &mut Vec<(GuardKind, usize)>,
     ) -> (usize, Option<Violation>) {
         let structure = &flight.structure;
+        // of a stop it is not used
         let joint = at.wrapping_sub(self.machine.stops().len());
         // at least zero: a multiple of a function and a constant
         let condition = |of: &Observable, (sign, constant): (f64, f64), from: usize, instead: ContactState| {
@@ -149,6 +153,7 @@ impl Resolution<'_> {
             (order, (value < 0.0).then_some(Violation { order, amount: -value, instead }))
         };
         let mut limit = |kind: GuardKind, of: (usize, Option<Violation>)| {
+            // the force is at its limit now and leaves it later: a guard that begins at zero
             if of.0 > 0 && of.0 < ORDERS {
                 limits.push((kind, of.0));
             }
@@ -231,6 +236,7 @@ impl Resolution<'_> {
                 combinations.iter().flat_map(|states| options.iter().map(move |state| with(states, state))).collect();
             combinations.truncate(COMBINATIONS);
         }
+        // most constraints first, as in the search
         sort_by_key(&mut combinations, |states| states.iter().filter(|state| !state.constrains()).count());
         let mut best: Option<(Violation, Trial, Vec<ContactState>)> = None;
         for states in combinations {
@@ -274,6 +280,7 @@ impl Resolution<'_> {
             }
             let mut closed = states.clone();
             closed[k] = ContactState::Resting;
+            // the contact stays closed if all conditions hold with it too
             if let Some(other) = self.attempt(&closed)
                 && other.worst.is_none()
             {

@@ -50,6 +50,7 @@ impl StateShape {
 
     /// The state with these components, in the same regime and at the same phase, between events.
     pub(crate) fn with_values(&self, place: &Place, values: &[f64]) -> Place {
+        // known derivatives and digits of gaps belong to the other state
         let mut other = Place { known: Vec::new(), gaps: Vec::new(), ..place.clone() };
         other.x.copy_from_slice(&values[..self.n]);
         other.v.copy_from_slice(&values[self.n..2 * self.n]);
@@ -63,6 +64,7 @@ impl StateShape {
 
     /// The derivative of the state a time `s` later in one regime by the state at `place`.
     pub(crate) fn transition(&self, structure: &Structure, normal: &Normal, place: &Place, s: f64) -> Matrix {
+        // within a regime surfaces recover on their own: coordinates do not feel them, nor they the coordinates
         let inner = structure.transition(normal, s);
         let mut whole = Matrix::zeros(self.size(), self.size());
         for i in 0..2 * self.n {
@@ -134,6 +136,7 @@ impl EventLaw<'_> {
         let guard = &self.structure.guards[guard];
         let (value, rate) = at.flight(normal, self.structure.clone()).first(&guard.function);
         match guard.kind {
+            // the surface stands between the wall and the coordinates, and its rate is part of the gap's
             GuardKind::Gap(j) => at.surfaces[j].map_or((value, rate), |surface| {
                 (value + (surface.size - surface.offset), rate - surface.rate * surface.size)
             }),
@@ -146,7 +149,9 @@ impl EventLaw<'_> {
         let mut after = before.clone();
         let turns = before.turns(normal);
         for round in self.in_rounds() {
+            // a round of impacts begins with the velocities that the one before it left
             let rate = |j: usize| after.gap(normal, &turns, j).1;
+            // all rates are read before any velocity changes: the impacts of a round are at once
             let pushes: Vec<(Vec<f64>, f64)> =
                 pushes(normal, round)?.into_iter().map(|(push, j)| (push, rate(j))).collect();
             pushes.iter().for_each(|(push, rate)| add_scaled(&mut after.v, *rate, push));
@@ -172,6 +177,7 @@ impl EventLaw<'_> {
 fn pushes(normal: &Normal, pushed: &[(usize, f64)]) -> Option<Vec<(Vec<f64>, usize)>> {
     let count = pushed.len();
     let w: Vec<&[f64]> = pushed.iter().map(|(j, _)| normal.directions[*j].as_slice()).collect();
+    // G = W^T W
     let gram = w.iter().flat_map(|a| w.iter().map(|b| dot(a, b))).collect();
     let lu = Lu::new(gram, count)?;
     Some(
@@ -229,6 +235,7 @@ impl LinearEvent {
         let (reset, reset_rate) = law.reset(shape, normal, before, after)?;
         let flow_before = shape.flow(law.structure, normal, before);
         let jump = jump((&reset, &reset_rate), &flow_before, &shape.flow(next, normal, after));
+        // one guard has the whole change
         let jumps = if law.guards.len() < 2 {
             vec![jump]
         } else {
@@ -240,6 +247,7 @@ impl LinearEvent {
             let mut gradient = law.structure.gradient(normal, &guard.function);
             gradient.resize(shape.size(), 0.0);
             let (_, rate) = law.value_and_rate_of(*g, normal, before);
+            // a surface that stands back adds to the gap of its stop
             if let GuardKind::Gap(j) = guard.kind
                 && before.surfaces[j].is_some()
                 && let Some(k) = shape.surfaces.iter().position(|of| *of == j)
@@ -255,6 +263,7 @@ impl LinearEvent {
     pub(crate) fn saltation(&self) -> Option<Matrix> {
         let mut result = self.reset.clone();
         for guard in &self.guards {
+            // the guard is only touched: neighbours miss it or not, and the derivative grows without bound
             if guard.rate == 0.0 || !guard.rate.is_finite() {
                 return None;
             }
@@ -266,6 +275,7 @@ impl LinearEvent {
 
 /// $`F_+ - DR\,F_- - R_t`$.
 fn jump((reset, reset_rate): (&Matrix, &[f64]), flow_before: &[f64], flow_after: &[f64]) -> Vec<f64> {
+    // DR F_-
     let carried = reset.apply(flow_before);
     let after = flow_after.iter().zip(carried.iter().zip(reset_rate));
     after.map(|(after, (carried, rate))| after - carried - rate).collect()
@@ -283,22 +293,26 @@ impl EventLaw<'_> {
         structure: &mut dyn FnMut(&[ContactState]) -> Option<Arc<Structure>>,
     ) -> Option<Vec<Vec<f64>>> {
         let mut shares = Vec::with_capacity(self.guards.len());
+        // each guard as if the others were not zero
         for k in 0..self.guards.len() {
             shares.push(self.share(shape, normal, states, (flow_before, &[k]), structure)?);
         }
         let groups = self.groups(normal, states.0.surfaces.len());
         let mut left = jump_of_all.to_vec();
         for group in &groups {
+            // if all act on each other, the whole change is theirs; one alone has been computed
             let mut own = match &group[..] {
                 _ if groups.len() == 1 => left.clone(),
                 [alone] => shares[*alone].clone(),
                 several => self.share(shape, normal, states, (flow_before, several), structure)?,
             };
+            // what no group explains is left for all
             if groups.len() > 1 {
                 add_scaled(&mut left, -1.0, &own);
             } else {
                 left.fill(0.0);
             }
+            // what the group does together beyond what its members do alone
             group.iter().for_each(|k| add_scaled(&mut own, -1.0, &shares[*k]));
             let part = 1.0 / count(group);
             group.iter().for_each(|k| add_scaled(&mut shares[*k], part, &own));
@@ -323,6 +337,7 @@ impl EventLaw<'_> {
         let others: Vec<usize> =
             (0..self.guards.len()).map(|k| contact(&k)).filter(|j| !contacts.contains(j)).collect();
         let guards: Vec<usize> = members.iter().map(|k| self.guards[*k]).collect();
+        // an impulse of another guard would be that guard's part
         let of_round = |round: &[(usize, f64)]| {
             round.iter().copied().filter(|(j, _)| !others.contains(j)).collect::<Vec<(usize, f64)>>()
         };
@@ -335,6 +350,7 @@ impl EventLaw<'_> {
             pushed: &rounds.concat(),
             rounds: if in_turn { &counts } else { &[] },
         };
+        // the state that these guards alone would lead to: their impulses, their new contacts
         let mut reached = before.clone();
         reached.v = own.rebound(normal, before)?;
         for contact in contacts {
@@ -343,6 +359,7 @@ impl EventLaw<'_> {
                 reached.surfaces[contact] = after.surfaces[contact];
             }
         }
+        // with these contacts alone the machine has no regime; the whole change is then divided with the rest
         let Some(next) = structure(&reached.states) else { return Some(vec![0.0; flow_before.len()]) };
         let (reset, rate) = own.reset(shape, normal, before, &reached)?;
         Some(jump((&reset, &rate), flow_before, &shape.flow(&next, normal, &reached)))
@@ -357,6 +374,7 @@ impl EventLaw<'_> {
         };
         let mut groups: Vec<Vec<usize>> = Vec::new();
         for k in 0..self.guards.len() {
+            // a guard joins all groups it acts on, and makes them one
             let (with, mut others): (Vec<Vec<usize>>, Vec<Vec<usize>>) =
                 groups.into_iter().partition(|group| group.iter().any(|other| act(*other, k)));
             others.push(with.into_iter().flatten().chain([k]).collect());
@@ -380,6 +398,7 @@ impl EventLaw<'_> {
         let mut reset = Matrix::identity(shape.size());
         let mut rate = vec![0.0; shape.size()];
         let turns = before.turns(normal);
+        // the rounds are composed: each acts on the derivative that the one before it left
         for round in self.in_rounds() {
             self.push_all(round, normal, &turns, (&mut reset, &mut rate))?;
         }
@@ -398,6 +417,8 @@ impl EventLaw<'_> {
         let n = normal.n;
         let pushes = pushes(normal, round)?;
         let along = |j: usize, reset: &Matrix, rate: &[f64]| {
+            // the rate of the gap is (d - r)' - w v: its derivative by the state is minus `row`, by the time
+            // `late`
             let wall = normal.walls[j].derivative(&normal.rates).derivative(&normal.rates).swing(turns);
             let mut row = vec![0.0; reset.columns()];
             let mut late = wall;
@@ -407,6 +428,7 @@ impl EventLaw<'_> {
             }
             (row, late)
         };
+        // all rows before any changes, as in `rebound`
         let before: Vec<(Vec<f64>, f64)> = pushes.iter().map(|(_, j)| along(*j, reset, rate)).collect();
         for ((push, _), (row, late)) in pushes.iter().zip(before) {
             for (k, push) in push.iter().enumerate() {
@@ -436,6 +458,7 @@ fn back_surfaces(
                 reset[(row, row)] = 0.0;
                 rate[row] = -normal.walls[*j].derivative(&normal.rates).swing(turns);
             }
+            // a stop that closes loses its surface
             (_, None) => reset[(row, row)] = 0.0,
             _ => {}
         }

@@ -90,12 +90,14 @@ impl Place {
         let mut add = |name: String, values: Vec<f64>| start.exact.push((name, values));
         add("machine".to_owned(), vec![fingerprint]);
         for (name, exact, rounded) in [("x", &self.x, &start.q), ("v", &self.v, &start.qdot)] {
+            // only where the rounded numbers do not give back the exact ones
             if !equal_bits(&normal.to_normal(rounded), exact) {
                 add(name.to_owned(), exact.clone());
             }
         }
         for (j, surface) in self.surfaces.iter().enumerate() {
             if let Some(Recovery { size, offset, .. }) = surface
+                // what is told of it is the size less the offset, which has fewer digits
                 && *offset > 0.0
             {
                 add(format!("spring.{}", machine.name_of(j)), vec![*size]);
@@ -162,6 +164,7 @@ impl Place {
         normal: &Normal,
         start: &Start,
     ) -> Result<Option<(Self, ImpactHistory)>, MachineError> {
+        // digits of another machine would be wrong ones
         let own = start.exact.iter().any(|(name, values)| name == "machine" && values[..] == [fingerprint(machine)]);
         if !own || start.contacts.len() != self.states.len() {
             return Ok(None);
@@ -203,6 +206,8 @@ impl Place {
                     let Some(stop) = of(rest).filter(|at| *at < stops) else { return wrong("there is no such stop") };
                     match (kind, &mut place.surfaces[stop]) {
                         ("spring", Some(surface)) => surface.size = *value,
+                        // the numbers of the start have been changed since: without its digits it is a start all the
+                        // same
                         ("spring", None) => return Ok(None),
                         ("gap", _) => place.gaps.push((stop, *value)),
                         _ => history.last.push((stop, *value)),
@@ -218,6 +223,7 @@ impl Place {
     fn has_digits_of(&self, normal: &Normal, start: &Start) -> bool {
         let own = self.numbers(normal);
         let same =
+            // no numbers are zeros
             |one: &[f64], other: &[f64]| one == other || other.is_empty() && one.iter().all(|value| *value == 0.0);
         let has = |contact: &ContactStart| start.contacts.contains(contact);
         same(&own.q, &start.q) && same(&own.qdot, &start.qdot) && own.contacts.iter().all(has)
@@ -230,6 +236,7 @@ pub(super) fn fingerprint(machine: &Machine) -> f64 {
     impl core::fmt::Write for Hash {
         fn write_str(&mut self, text: &str) -> core::fmt::Result {
             for byte in text.bytes() {
+                // the hash of Fowler, Noll and Vo, FNV-1a
                 self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
             }
             Ok(())

@@ -48,6 +48,7 @@ impl<'a> Stretches<'a> {
 
     /// Goes to the next stretch; `false` at the end of the motion, where the last one is kept.
     pub fn advance(&mut self) -> bool {
+        // the next stretch must be known before the present one is left
         while self.trail.len() < 1 + usize::from(self.begun) {
             let more = self.motion.next().is_some();
             let known = self.trail.len();
@@ -79,6 +80,7 @@ impl<'a> Stretches<'a> {
     #[must_use]
     pub fn end(&self) -> f64 {
         self.trail.front().map_or(0.0, |stretch| {
+            // a sum with more digits: the end of a stretch is the beginning of the next one
             let mut end = stretch.begin;
             end += stretch.duration;
             end.value()
@@ -117,6 +119,7 @@ impl<'a> Stretches<'a> {
         for (g, guard) in flight.structure.guards.iter().enumerate() {
             match guard.kind {
                 GuardKind::Gap(j) if place.surfaces[j].is_none() => gaps[j] = flight.guard(g, &buffers.modes).0,
+                // taken from 0, so that no zero is negative
                 GuardKind::Depth(j) => gaps[j] = 0.0 - flight.guard(g, &buffers.modes).0,
                 GuardKind::Reaction(j) => gaps[j] = 0.0,
                 _ => {}

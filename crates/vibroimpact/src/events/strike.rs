@@ -162,6 +162,7 @@ impl Motion<'_> {
             }
             let (_, mut rate, _, size) = self.place.gap(&self.normal, turns, j);
             let size = size.max(sizes[j]);
+            // the surface moves too, towards its holder
             if let Some(surface) = self.place.surfaces[j] {
                 rate -= surface.rate * surface.size;
             }

@@ -101,7 +101,9 @@ pub(crate) fn tangent_steps(
     }
     let after = passage.after.as_ref()?;
     let event = LinearEvent::of(shape, machine, normal, structures, passage)?;
+    // a contact that begins to constrain takes differences away
     let constrained = begin.states.iter().zip(&after.states).any(|(was, now)| now.constrains() && !was.constrains());
+    // and so does an impact without rebound
     let forgets = constrained || passage.pushed.iter().any(|(_, restitution)| *restitution == 0.0);
     steps.push(TangentStep::Event(event.saltation()?, forgets));
     if let Some((rest, time)) = &passage.rest {
@@ -133,6 +135,7 @@ impl TangentStep {
                 if let Some(stretch) = graded(shape, normal, (structure, from, *time), frame, (metric, remove)) {
                     return vec![stretch];
                 }
+                // in parts, in which the fastest decay stays above rounding errors
                 let parts = (structure.contraction() * time / PART).ceil().max(1.0);
                 let part = shape.transition(structure, normal, from, time / parts);
                 let least = VANISHED * metric.largest(&part);
@@ -161,6 +164,7 @@ fn graded(
     let (mut rows, mut back) = structure.graded(normal, time, frame)?;
     let size = shape.size();
     back.iter_mut().for_each(|state| state.resize(size, 0.0));
+    // a surface recovers by itself: a direction of its own, which decays at its rate
     for (k, j) in shape.surfaces.iter().enumerate() {
         if let Some(surface) = from.surfaces[*j] {
             let mut unit = vec![0.0; size];
@@ -170,8 +174,10 @@ fn graded(
         }
     }
     let factors = rows.factors(frame.len());
+    // the vectors with a scale: the others have vanished
     let there: Vec<usize> = (0..frame.len()).filter(|j| factors.scales[*j] > f64::NEG_INFINITY).collect();
     let vectors = there.iter().map(|j| combined(&back, &factors.lower[*j])).collect();
+    // the frame is made orthonormal once more: the triangular factors multiply
     let FrameChange { left, kept, .. } = orthonormal(frame, (vectors, remove), (metric, 0.0));
     let kept: Vec<usize> = kept.iter().map(|j| there[*j]).collect();
     let mut right = Matrix::zeros(kept.len(), kept.len());
@@ -235,6 +241,7 @@ pub(crate) fn stretched(
     let mut there: Vec<usize> = (0..frame.len()).collect();
     for step in steps {
         for stretch in step.carry(shape, normal, frame, (metric, &|_: &mut Vec<f64>| ())) {
+            // the places in the frame with which the step began
             let kept: Vec<usize> = stretch.kept.iter().map(|k| there[*k]).collect();
             there.iter().filter(|k| !kept.contains(k)).for_each(|k| logs[*k] = f64::NEG_INFINITY);
             kept.iter().enumerate().for_each(|(k, place)| logs[*place] += stretch.log(k));

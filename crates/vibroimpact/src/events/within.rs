@@ -43,6 +43,7 @@ impl Start {
                 });
                 let gap = stop.gap - motion.sum::<f64>() - dot(&stop.direction, &start.q);
                 if gap < 0.0 {
+                    // M^-1 w, by the factor of the mass
                     let along = mass.solve_lower_transposed(&mass.solve_lower(&stop.direction));
                     let share = gap / dot(&stop.direction, &along);
                     start.q.iter_mut().zip(along).for_each(|(q, along)| *q += share * along);

@@ -123,6 +123,7 @@ impl Flight {
         let free = self.v * p.s - self.x * p.one_minus_c;
         let forced = self.sin * p.kc + self.cos * p.ks;
         let displacement = free + forced;
+        // with K' = S + i beta K
         let v = self.v * p.s_rate - self.x * p.s + self.sin * (p.s - beta * p.ks) + self.cos * (beta * p.kc);
         let force = self.sin * p.cos_turn + self.cos * p.sin_turn;
         let a = force - (self.x + displacement) - 2.0 * zeta * v;
@@ -153,12 +154,14 @@ impl Flight {
         let mut real = 1.0;
         while k + 2 <= terms {
             (sine, cosine) = (beta * cosine * INVERSE[k], -beta * sine * INVERSE[k]);
+            // x^(k+2) of the module's recursion, over (k+2)!
             c[k + 2] = (sine - c[k] - zeta2 * (real + 1.0) * c[k + 1]) * (INVERSE[k + 1] * INVERSE[k + 2]);
             k += 1;
             real += 1.0;
         }
         let (mut x, mut v, mut a, mut j, mut size) = (0.0, 0.0, 0.0, 0.0, 0.0);
         real += 1.0; // = terms, as a float
+        // Horner's scheme for the function and its first three derivatives at once
         for k in (1..=terms).rev() {
             x = x * s + c[k];
             size = size * s + c[k].abs();

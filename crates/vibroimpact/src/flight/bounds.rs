@@ -146,6 +146,7 @@ pub(super) fn leave_time(flight: &Flight, sign: f64, gap: f64, r: f64) -> Option
     let mut window = 0.5 / (1.0 + flight.fastest);
     if p < 0.0 {
         if q > 0.0 {
+            // four times the time after which a constant acceleration would bring it back
             window = window.min(-8.0 * p / q);
         }
         let b4 = Window::new(flight, r, p.abs(), window).b4(flight);

@@ -106,6 +106,7 @@ impl Local {
     /// The largest value of the quadratic part over the next `h`, and where that is.
     fn highest(&self, h: f64) -> (f64, f64) {
         let at = |s: f64| self.value + s * (self.first + 0.5 * self.second * s);
+        // the vertex of the parabola; beyond the interval, or below, one of the ends is higher
         let peak = -self.first / self.second;
         let inside = self.second < 0.0 && peak > 0.0 && peak < h;
         let ends = if at(h) > self.value { (at(h), h) } else { (self.value, 0.0) };
@@ -120,6 +121,7 @@ impl Local {
     /// A distance before (`side` -1) or after this point (1) within which no value is larger.
     fn clear(&self, side: f64) -> f64 {
         let slope = side * self.first;
+        // it rises in this direction: only next to a maximum no value is larger
         if slope > 0.0 {
             // f''r^2/2 + B r^3/6 <= f''r^2/4 up to here, which the slope exceeds by slope^2/|f''| at most
             return if self.flat() { -1.5 * self.second / self.bound } else { 0.0 };
@@ -127,6 +129,7 @@ impl Local {
         // the positive zero of slope + f''r/2 + B r^2/6
         let (half, c) = (0.5 * self.second, self.bound / 6.0);
         let root = (half * half - 4.0 * c * slope).sqrt();
+        // the form in which nothing cancels
         if half > 0.0 { -2.0 * slope / (half + root) } else { (root - half) / (2.0 * c) }
     }
 }
@@ -198,6 +201,7 @@ impl Extremes {
             if quiet < length {
                 self.all(flight, begin, &point, length);
             }
+            // exactly the end: a sum of lengths would have rounding errors
             begin = if length < rest { begin + length } else { end };
         }
     }
@@ -300,6 +304,7 @@ impl Extremes {
             let point = piece.flight.at(s + place);
             self.include_point(&point);
             let local = piece.local(&point, target);
+            // Newton's method for a zero of the slope
             let next = (place - local.first / local.second).clamp(0.0, h);
             steps += 1;
             if steps > STEPS || local.second >= 0.0 || local.flat() || next == place {

@@ -32,6 +32,7 @@ const MOST: u64 = 1 << 19;
 /// without an instruction for it.
 fn floor(x: f64) -> f64 {
     const WHOLE: f64 = 3.0 * (1_u64 << 51) as f64;
+    // the sum has no digits below 1, so the difference is the nearest whole number
     let nearest = (x + WHOLE) - WHOLE;
     if nearest > x { nearest - 1.0 } else { nearest }
 }
@@ -75,6 +76,7 @@ impl Meetings {
     fn new(parts: [Maxima; 2], until: f64) -> Option<Self> {
         let [a, b] = parts;
         let (faster, slower) = if a.period < b.period { (a, b) } else { (b, a) };
+        // at more than half a period of the slower part the maxima meet at any time
         let apart = (faster.half * faster.half + slower.half * slower.half).sqrt();
         let periods = until / faster.period + 2.0;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss)]
@@ -93,6 +95,7 @@ impl Meetings {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss)] // parts of the circle
     fn periods(&self, d: f64) -> Option<u64> {
         let unit = CIRCLE as f64 / self.slower.period;
+        // how far the next maximum of the slower part is ahead, less half the width in which they meet
         let low = if d > 0.0 { self.slower.period - d - self.apart } else { -d - self.apart };
         let slack = self.most + 16;
         let (low, high) = (low * unit, (low + 2.0 * self.apart) * unit);
@@ -104,6 +107,7 @@ impl Meetings {
     /// maxima that were examined.
     fn next(&self, s: f64, until: f64) -> (f64, u32) {
         let Self { faster, slower, apart, .. } = self;
+        // the last maximum that is over at s, so that none is left out
         let mut number = floor((s - faster.half - faster.at) / faster.period);
         for examined in 1..=ROW {
             let time = faster.at + number * faster.period;
@@ -179,6 +183,7 @@ impl Reach {
         }
         let opens = asin(level / steady);
         let ahead = opens - (steady_angle + self.turned + beta * s);
+        // within one turn from now
         let ahead = ahead - TAU * floor(ahead * (1.0 / TAU));
         // it is large enough from `opens` to pi - `opens`
         if ahead > 2.0 * opens + PI { 0.0 } else { ahead / beta }

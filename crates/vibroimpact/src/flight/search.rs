@@ -129,6 +129,7 @@ impl<'a> Search<'a> {
             return Some(self.refine(view.side, self.s + span));
         }
         let step = safe * SLACK;
+        // a step that its window limited is followed by a longer window
         self.reach = if step >= self.reach { 2.0 * step } else { 1.25 * step };
         let next = self.s + step;
         if next <= self.s {

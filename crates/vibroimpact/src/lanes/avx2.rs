@@ -45,6 +45,7 @@ impl Neg for Four {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
+        // flips the sign bit, of zeros and NaN too, as one number does
         Self(unsafe { _mm256_xor_pd(self.0, _mm256_set1_pd(-0.0)) })
     }
 }
@@ -90,10 +91,12 @@ impl Numbers for Four {
     }
     #[inline(always)]
     fn less(self, other: Self) -> FourMask {
+        // false where one is NaN, as for one number
         FourMask(unsafe { _mm256_cmp_pd::<_CMP_LT_OQ>(self.0, other.0) })
     }
     #[inline(always)]
     fn choose(mask: FourMask, yes: Self, no: Self) -> Self {
+        // the intrinsic takes its second operand where the sign bit of the mask is set
         Self(unsafe { _mm256_blendv_pd(no.0, yes.0, mask.0) })
     }
 }
@@ -130,6 +133,7 @@ impl Lane for Four {
     #[inline(always)]
     fn widened(from: Pack<f32, 4>) -> Self {
         let [a, b, c, d] = from.0.map(f64::from);
+        // the intrinsic takes the last number first
         Self(unsafe { _mm256_set_pd(d, c, b, a) })
     }
     #[inline(always)]

@@ -43,6 +43,7 @@ impl Neg for Eight {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
+        // flips the sign bit, of zeros and NaN too, as one number does
         Self(unsafe { _mm512_xor_pd(self.0, _mm512_set1_pd(-0.0)) })
     }
 }
@@ -88,10 +89,12 @@ impl Numbers for Eight {
     }
     #[inline(always)]
     fn less(self, other: Self) -> EightMask {
+        // false where one is NaN, as for one number
         EightMask(unsafe { _mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0) })
     }
     #[inline(always)]
     fn choose(mask: EightMask, yes: Self, no: Self) -> Self {
+        // the intrinsic takes its second operand where the mask is set
         Self(unsafe { _mm512_mask_blend_pd(mask.0, no.0, yes.0) })
     }
 }
@@ -172,11 +175,14 @@ impl Lane for Eight {
     #[inline(always)]
     fn turned(quarters: Self, sin: Self, cos: Self) -> (Self, Self) {
         unsafe {
+            // the low bits of the sum with the shift count quarter turns: the lowest, and the one above it, are moved
+            // to the sign
             let bits = _mm512_castpd_si512(quarters.0);
             let (odd, half) = (_mm512_slli_epi64::<63>(bits), _mm512_slli_epi64::<62>(bits));
             let swapped = _mm512_movepi64_mask(odd);
             let (a, b) = (_mm512_mask_blend_pd(swapped, sin.0, cos.0), _mm512_mask_blend_pd(swapped, cos.0, sin.0));
             let sign = _mm512_set1_pd(-0.0);
+            // the cosine changes its sign in the second and third quarter
             let both = _mm512_xor_pd(_mm512_castsi512_pd(half), _mm512_castsi512_pd(odd));
             (
                 Self(_mm512_xor_pd(a, _mm512_and_pd(_mm512_castsi512_pd(half), sign))),

@@ -85,6 +85,7 @@ impl Batch {
     /// The longest flight whose end the lanes can find.
     #[must_use]
     pub fn longest(&self) -> f64 {
+        // one system has one longest flight
         let slots = if let Oscillators::One(_) = &self.systems { 1 } else { self.len() };
         (0..slots).map(|slot| self.stride(slot).longest()).fold(0.0, f64::max)
     }
@@ -155,9 +156,11 @@ impl Batch {
             Oscillators::One(one) => self.width.round(&mut self.slots, one, &mut self.lists),
             Oscillators::Each(each) => round_of_each(&mut self.slots, each, &mut self.lists),
         }
+        // by index, because `refine` adds to other lists of `self`
         for k in 0..self.lists.left.len() {
             self.refine(self.lists.left[k]);
         }
+        // after `refine`, which may have found more of them
         self.rare.extend_from_slice(&self.lists.late);
         for k in 0..self.lists.gentle.len() {
             self.sum_chatter(self.lists.gentle[k]);
@@ -203,6 +206,7 @@ impl Batch {
     /// is.
     pub fn carefully(&mut self, slot: u32, limits: SearchLimits) -> (Contact, u32) {
         let flight = Flight::new(self.osc(slot), self.launched(slot));
+        // the rounds have proven the flight clear up to here
         let clear = f64::from(self.slots.state(slot as usize).s);
         let (contact, steps) = counted(self.osc(slot), &flight, limits, clear);
         if let Contact::Impact { time, side, velocity } = contact {
@@ -234,6 +238,7 @@ impl Batch {
             Progress::Hit(hit) => {
                 self.struck_at(slot, hit);
                 self.lists.struck.push(slot);
+                // the round lists slow impacts as gentle itself, but this one it has not found
                 self.sum_chatter(slot);
             }
         }

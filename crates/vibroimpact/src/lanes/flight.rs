@@ -28,6 +28,7 @@ pub(crate) fn found(
 ) -> (Contact, u32) {
     match stride.map_or(Err(0.0), |stride| stride.first_contact(flight, cache)) {
         Ok(hit) if hit.time <= limits.horizon(osc) => (hit.into(), 1),
+        // beyond the horizon the careful search says what it knows
         Ok(_) => counted(osc, flight, limits, 0.0),
         Err(clear) => counted(osc, flight, limits, clear),
     }
@@ -77,6 +78,7 @@ impl Stride {
             } else {
                 let guess = Guess::of(&roughly.guess(rough.h, state.s, &from, &to));
                 let strike = constants.polish(&guess, &constants.approach(launch, &guess, with));
+                // as the lanes do it: the bits are those of a batch
                 if Constants::first_roughly(roughly, &strike, state.s, &from) == 1 {
                     return Ok(strike.into());
                 }
@@ -96,6 +98,7 @@ impl Stride {
     /// may be proven.
     fn promising(&self, state: &State<f64>) -> usize {
         let a = self.constants.end(state).a;
+        // twice the time after which it returns, so that a step holds the whole arc
         let back = if state.v * a < 0.0 { -4.0 * state.v / a } else { f64::INFINITY };
         let mut h = self.constants.h;
         let mut level = 0;
@@ -144,6 +147,7 @@ impl Stride {
                     return Progress::Hit(strike.into());
                 }
             }
+            // the next level, or straight to one with which the arc may be proven
             level = (level + 1).max(self.promising(&state));
         }
         Progress::Rare

@@ -50,6 +50,7 @@ impl<L: Numbers> Hull<L> {
     pub(super) fn of(scale: &HullScale<L>, from: &End<L>, to: &End<L>) -> Self {
         let size = from.x.abs() + from.v.abs();
         let error = scale.error + scale.error_rate * size;
+        // h/6 times the velocities; twice that is h/3
         let (leave, arrive) = (scale.sixth * from.v, scale.sixth * to.v);
         let c1 = from.x + leave;
         let c2 = from.x + ((leave + leave) + scale.thirtieth * from.a);
@@ -89,6 +90,7 @@ impl<N: Numbers> Constants<N> {
     pub(super) fn clear(&self, scale: &HullScale<N>, from: &End<N>, to: &End<N>, margin: N, arrives: bool) -> N::Mask {
         let Hull { size, error, coefficients: [c1, c2, c3, c4, c5] } = Hull::of(scale, from, to);
         let mut highest = c1.max(c2).max((c3 + error).max(c4)).max(c5);
+        // the contact itself is at the stop
         if !arrives {
             highest = highest.max(to.x);
         }
@@ -100,6 +102,7 @@ impl<N: Numbers> Constants<N> {
         if !arrives {
             lowest = lowest.min(to.x);
         }
+        // mirrored, the lowest is the highest
         clear.and((-lowest).less(self.room(1, margin, size)))
     }
 

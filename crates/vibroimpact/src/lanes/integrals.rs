@@ -19,6 +19,7 @@ fn add_with(width: Width, integrals: &mut FlightIntegrals, panels: &Panels, flig
         return integrals.add(flight, duration);
     }
     let sums = width.run(Sums { flight, duration, panels });
+    // in the order of the points, whatever the width
     let [x, x_squared, v_squared, work] = sums.map(|points| points.into_iter().sum::<f64>());
     integrals.x += x;
     integrals.x_squared += x_squared;
@@ -53,6 +54,7 @@ impl Task for Sums<'_> {
             here = here.then(response.beta(), &panel.end);
             left -= longest;
         }
+        // the last panel is shorter, with points of its own
         let half = 0.5 * left;
         let mut k = 0;
         while k < POINTS {

@@ -45,6 +45,7 @@ impl<const N: usize> Mask for PackMask<N> {
     }
     #[inline(always)]
     fn bits(self) -> u32 {
+        // from the last to the first, which has the lowest bit
         self.0.iter().rev().fold(0, |bits, &set| bits << 1 | u32::from(set))
     }
 }

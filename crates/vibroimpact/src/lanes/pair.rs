@@ -54,6 +54,7 @@ impl<M: Mask> Mask for PairMask<M> {
     }
     #[inline(always)]
     fn bits(self) -> u32 {
+        // the bits of the second half follow those of the first
         self.0.bits() | self.1.bits() << self.2
     }
 }
@@ -122,6 +123,7 @@ impl<L: Half> Lane for Pair<L> {
         let (first, second) = (L::rows(table, at), L::rows(table, &at[L::WIDTH..]));
         let mut columns = [Self::splat(0.0); N];
         let mut k = 0;
+        // a loop, because a closure is not always compiled for the processor's instructions
         while k < N {
             columns[k] = Self(first[k], second[k]);
             k += 1;
@@ -158,6 +160,7 @@ impl<N: Single> Single for Pair<N> {
     #[inline(always)]
     fn store_some(self, bits: u32, to: &mut [f32]) {
         let first = bits & ((1 << N::WIDTH) - 1);
+        // only chosen numbers are stored: the second half goes on where the first one stopped
         self.0.store_some(first, to);
         self.1.store_some(bits >> N::WIDTH, &mut to[first.count_ones() as usize..]);
     }

@@ -103,6 +103,7 @@ pub(super) const PLACES: ([f64; POINTS], [f64; POINTS]) = {
     let mut k = 0;
     while k < RULE.len() {
         let (place, weight) = RULE[k];
+        // the rule is symmetric: each place of its table stands for two
         (places[2 * k], places[2 * k + 1]) = (-place, place);
         (weights[2 * k], weights[2 * k + 1]) = (weight, weight);
         k += 1;

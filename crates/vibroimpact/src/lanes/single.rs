@@ -39,6 +39,7 @@ impl Neg for EightSingle {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
+        // flips the sign bit, of zeros and NaN too, as one number does
         Self(unsafe { _mm256_xor_ps(self.0, _mm256_set1_ps(-0.0)) })
     }
 }
@@ -105,6 +106,7 @@ impl Single for EightSingle {
     }
     #[inline(always)]
     fn store_some(self, bits: u32, to: &mut [f32]) {
+        // the chosen numbers move to the front; what is stored behind them is overwritten by the next ones
         let places = PLACES_OF_BITS[(bits & 0xff) as usize];
         let front = unsafe {
             _mm256_permutevar8x32_ps(self.0, _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(i64::from_le_bytes(places))))

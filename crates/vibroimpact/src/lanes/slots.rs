@@ -98,6 +98,7 @@ impl Slots {
         let last = self.count;
         self.put(slot, self.state(last));
         self.launches[slot] = self.launches[last];
+        // the lane is computed in each round all the same: from zeros nothing grows but the time
         self.put(last, State { s: 0.0, x: 0.0, v: 0.0, sin: 0.0, cos: 0.0 });
     }
 
@@ -122,6 +123,7 @@ impl Slots {
                 };
                 let (constants, pace) = systems.step::<N>(first + lane);
                 let next = pace.step(state);
+                // the hull of a step follows from the states at both of its ends
                 let (from, to) = (constants.end(&state), constants.end(&next));
                 let clear = constants.clear(&pace.scale, &from, &to, constants.margin(state.s), false);
                 N::choose(clear, next.s, state.s).store(&mut s[lane..]);
@@ -136,6 +138,7 @@ impl Slots {
                 if doubtful != 0 {
                     doubts.add(doubtful, first + lane, state.s, &from, &to);
                 }
+                // a flight that is late is only listed once its step is clear: the other lists have it otherwise
                 let gone = clear.and(constants.late(next.s)).bits() & valid;
                 if gone != 0 {
                     let mut more = [0; WIDEST];
@@ -182,6 +185,7 @@ impl Slots {
                 let (s, from, _) = lists.doubts.steps::<L::Rough>(first);
                 let proven = Constants::first_roughly(&systems.roughly(&of[k]), &hits[k], s, &from);
                 let slots = *lists.doubts.slots(first);
+                // the last group may have lanes that are not used
                 let there = (1_u32 << (count - first).min(L::WIDTH)) - 1;
                 self.relaunch(&systems.constants(&of[k]), &slots, phases[k], &hits[k], proven & there, lists);
                 each(!proven & there, |lane| lists.open.push(slots[lane]));
@@ -210,9 +214,11 @@ impl Slots {
             let guess = constants.guess_near(pace.h, &ends, &swing);
             let strike = constants.polish(&guess, &constants.approach(&launch, &guess, &propagators));
             let clear = swing.clear.bits();
+            // a step that is clear has no contact, whatever the guess has found
             let proven = swing.above.and(constants.first(&strike, s, &ends.1)).bits() & !clear;
             let there = (1_u32 << few.len()) - 1;
             let mut on = [[0.0; WIDEST]; 5];
+            // the next rounds go on in single precision
             for (on, number) in on.iter_mut().zip([next.s, next.x, next.v, next.sin, next.cos]) {
                 number.rounded().store(on);
             }
@@ -243,6 +249,7 @@ impl Slots {
         proven: u32,
         lists: &mut Lists,
     ) {
+        // for all lanes; only what is proven is stored
         let next = rebound(constants, phases, (hits.time, hits.velocity, hits.side));
         let mut rows = [[0.0; 8]; WIDEST];
         L::store_rows(next, &mut rows);
@@ -257,8 +264,10 @@ impl Slots {
             self.put(slot as usize, State { s: 0.0, x, v, sin, cos });
             lists.struck.push(slot);
         });
+        // how hard the force presses the mass against the stop where it rebounds
         let pressed = next[SIN] - next[X];
         let pressed = if constants.two_stops { hits.side * pressed } else { pressed }.max(L::splat(0.0));
+        // twice the bound of a chatter that is summed: the exact test is left to the few slots that pass this one
         let soft = next[V].abs().less(L::splat(2.0 * chatter::SLOW) * pressed).bits();
         each(soft & proven, |lane| lists.gentle.push(slots[lane]));
     }
@@ -269,6 +278,7 @@ impl Slots {
 fn each(mut bits: u32, mut f: impl FnMut(usize)) {
     while bits != 0 {
         f(bits.trailing_zeros() as usize % WIDEST);
+        // clears the lowest bit that is set
         bits &= bits - 1;
     }
 }

@@ -142,8 +142,10 @@ impl Stride {
         let bound = sixth_derivative(beta, drag);
         let response = *osc.response();
         let pace = Pace::new(&response, h, bound);
+        // h^6/6!, the factor of the sixth derivative in the hull
         let power = h * h * h * h * h * h / 720.0;
         let force = beta * beta * (1.0 + beta * beta);
+        // a stop that is not there is infinitely far: the same operations, and no contact
         let gap = [upper.gap, lower.map_or(f64::INFINITY, |stop| stop.gap)];
         let constants = Constants {
             two_stops: lower.is_some(),
@@ -213,6 +215,7 @@ impl Stride {
 #[inline(always)]
 fn of_sums<L: Lane>(sums: [[L; 2]; 4], (damped, beta, drag): (bool, L, L), (t, z, zz): (L, L, L)) -> Row<L> {
     let one = L::splat(1.0);
+    // two factors keep the digits near resonance, where 1 - beta^2 is small
     let detuning = (one - beta) * (one + beta);
     let [[free_c, free_c_odd], [free_s_even, free_s], [forced_c, forced_c_odd], [forced_s_even, forced_s]] = sums;
     let (mut omc, mut s) = (z * free_c, t * free_s);
@@ -225,6 +228,7 @@ fn of_sums<L: Lane>(sums: [[L; 2]; 4], (damped, beta, drag): (bool, L, L), (t, z
         ks = ks + zz * forced_s_even;
     }
     let c = one - omc;
+    // S' = C - 2 zeta S
     let s_rate = c - drag * s;
     // cos and sin of beta t follow from K'' + 2 zeta K' + K = e^{i beta t}
     let cross = drag * beta;
@@ -302,6 +306,7 @@ pub(super) trait Propagators<L: Lane> {
             let series = self.rest(time);
             let mut k = 0;
             while k < row.len() {
+                // in most rounds no lane needs the series
                 row[k] = L::choose(early, series[k], row[k]);
                 k += 1;
             }
@@ -337,6 +342,7 @@ impl Halvings for Stride {
     fn pace(&self, level: usize) -> Pace<f64> {
         let mut h = self.constants.h;
         for _ in 0..level {
+            // halving is exact: the nodes of all levels are the same numbers
             h *= 0.5;
         }
         Pace::new(&self.response, h, self.constants.bound)
@@ -356,6 +362,7 @@ impl Table {
             k += 1.0;
             stride.node(k)
         });
+        // up to those of `longest`
         Self { nodes: rows.take(nodes(stride.constants.damped) as usize + 4).collect() }
     }
 
@@ -418,6 +425,7 @@ impl Pace<f64> {
             kc: p.kc,
             ks: p.ks,
             s_rate: p.s_rate,
+            // K' = S + i beta K
             ks_rate: p.s - beta * p.ks,
             kc_rate: beta * p.kc,
             cos: p.cos_turn,
@@ -532,6 +540,7 @@ fn sixth_derivative(beta: f64, drag: f64) -> [f64; 2] {
         let (mut before, mut b, mut force) = (r, 1.0 + r + drag * r, 1.0);
         for _ in 0..4 {
             force *= beta;
+            // the derivative k + 2 by the two before it and the force, each by its bound
             (before, b) = (b, force + before + drag * b);
         }
         b
@@ -562,6 +571,7 @@ fn series(beta: f64, drag: f64) -> [Coefficients; 4] {
     let square = beta * beta;
     for (c, over) in c.iter_mut().zip(OVER_FACTORIAL).skip(2) {
         for n in 0..4 {
+            // from the equation of motion, differentiated once more each time
             (y[n], rate[n]) = (rate[n], force[n] - y[n] - drag * rate[n]);
             (force[n], slope[n]) = (slope[n], -square * force[n]);
             c[n] = rate[n] * over;

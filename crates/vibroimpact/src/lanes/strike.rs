@@ -56,6 +56,7 @@ impl<L: Numbers> Mirror<L> {
     #[inline(always)]
     fn at(constants: &Constants<L>, side: L) -> Self {
         let [upper, lower] = constants.gap;
+        // with one stop there is nothing to choose in any lane
         if !constants.two_stops {
             return Self { two_stops: false, side, gap: upper };
         }
@@ -136,6 +137,7 @@ impl<N: Numbers> Constants<N> {
     pub(super) fn guess(&self, h: N, s: N, from: &End<N>, to: &End<N>) -> Guess<N> {
         let mut side = N::splat(1.0);
         if self.two_stops {
+            // below the lower stop at the end of the step
             side = N::choose(to.x.less(-self.gap[1]), -side, side);
         }
         let mirror = Mirror::at(self, side);
@@ -176,10 +178,12 @@ impl<L: Lane> Constants<L> {
             let (room, state) = self.carried(&launch, &propagators.whole(guess.time), mirror.gap);
             return Approach { room, state };
         }
+        // rounded to a whole number in any case, so a product with the inverse will do
         let nearest = (guess.time * (L::splat(1.0) / self.h)).nearest();
         let (room, node) = self.carried(&launch, &propagators.node(nearest), mirror.gap);
         let rest = propagators.rest(guess.time - nearest * self.h);
         let (_, state) = self.carried(&node, &rest, mirror.gap);
+        // the distance at the node less the displacement since: no digits of a short way are lost
         Approach { room: room - Self::moved(&node, &rest), state }
     }
 
@@ -188,6 +192,7 @@ impl<L: Lane> Constants<L> {
     pub(super) fn polish(&self, guess: &Guess<L>, approach: &Approach<L>) -> Strike<L> {
         let Approach { room: g, state: Launch { x, v: p, sin, cos } } = *approach;
         let Self { damped, beta, drag, .. } = *self;
+        // the derivatives of the position, one after another from x'' = sin - x - 2 zeta x'
         let square = beta * beta;
         let q = if damped { (sin - x) - drag * p } else { sin - x };
         let j = if damped { (beta * cos - p) - drag * q } else { beta * cos - p };
@@ -330,6 +335,7 @@ impl<N: Numbers> Quintic<N> {
         let third = zero.less(between::<N, 2>(self.0, self.1));
         let second = zero.less(between::<N, 1>(self.0, self.1));
         let first = zero.less(between::<N, 0>(self.0, self.1));
+        // the middle of the quarter in which the sign changes, so that it is off by an eighth at most
         let late = N::choose(third, N::splat(0.625), N::splat(0.875));
         N::choose(first, N::splat(0.125), N::choose(second, N::splat(0.375), late))
     }
@@ -338,6 +344,7 @@ impl<N: Numbers> Quintic<N> {
     #[inline(always)]
     fn root(self, mut t: N, sixth: [N; 2]) -> N {
         let Self([x0, v0, a0], [x1, v1, a1]) = self;
+        // the polynomial of degree 5 that has position, velocity and acceleration of both ends
         let c2 = N::splat(0.5) * a0;
         let d0 = ((x1 - x0) - v0) - c2;
         let d1 = (v1 - v0) - a0;
@@ -357,6 +364,7 @@ impl<N: Numbers> Quintic<N> {
             t = (t - step).max(N::splat(0.0)).min(N::splat(1.0));
             slope = d;
         }
+        // it lacks the term t^3 (t - 1)^3 of the sixth derivative, which moves the root by this to first order
         let there = t * (t - N::splat(1.0));
         let sixth = sixth[0] + t * (sixth[1] - sixth[0]);
         t - sixth * (there * there * there) / slope

@@ -39,6 +39,7 @@ impl<L: Lane> Constants<L> {
         if !self.two_stops {
             return upper;
         }
+        // the lower stop is an upper one of the mirrored motion
         let arc = [-from.x, -c1, -c2, -(c3 - error), -c4, -c5, -to.x];
         let lower = split(arc, self.room(1, margin, size), error, -one);
         Swing {
@@ -56,6 +57,7 @@ impl<L: Lane> Constants<L> {
 fn split<L: Lane>(mut arc: [L; 7], room: L, error: L, side: L) -> Swing<L> {
     let end = arc[6];
     let whole = arc[1].max(arc[2]).max(arc[3]).max(arc[4].max(arc[5])).max(end).less(room);
+    // no lane needs the parts
     if whole.bits() == (1 << L::WIDTH) - 1 {
         return Swing { clear: whole, above: room.less(room), estimate: room, side };
     }
@@ -90,6 +92,7 @@ fn summit<L: Lane>(arc: &[L; 7]) -> (L, L) {
         slope[k] = arc[k + 1] - arc[k];
         k += 1;
     }
+    // where the line between both ends of the slope is zero
     let mut t = (slope[0] / (slope[0] - slope[5])).max(zero).min(one);
     let mut bend = zero;
     let mut iteration = 0;
@@ -106,6 +109,7 @@ fn summit<L: Lane>(arc: &[L; 7]) -> (L, L) {
         }
         // the remaining two coefficients are the tangent at t
         let rise = rows[1] - rows[0];
+        // Newton's method: a polynomial of degree 5 has 5 times this difference as its slope
         t = (t - (rows[0] + t * rise) / (L::splat(5.0) * rise)).max(zero).min(one);
         bend = L::splat(30.0) * rise;
         iteration += 1;

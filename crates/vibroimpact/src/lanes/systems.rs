@@ -149,6 +149,7 @@ impl Kind {
     pub(crate) fn of(osc: &Oscillator) -> Option<(Self, f64)> {
         let h = whole_step(osc)?;
         let damped = osc.damping() != 0.0;
+        // with damping the closed form is not used: all such systems are of one kind
         let form = if damped { FormKind::Plain } else { osc.response().undamped_form().kind };
         Some((Self { two_stops: osc.stop(Side::Lower).is_some(), damped, form }, longest(damped, h)))
     }
@@ -196,6 +197,7 @@ impl Each {
 
     /// Gives a slot, which may be the next one, a system of this kind.
     pub(super) fn set(&mut self, slot: usize, osc: &Oscillator) {
+        // `Kind::of` has found that the lanes can follow it
         let Some(system) = OfSlot::new(osc) else { return };
         if slot == self.systems.len() {
             self.systems.push(system);
@@ -208,6 +210,7 @@ impl Each {
     /// Removes a slot; the last one moves to its place.
     pub(super) fn remove(&mut self, slot: usize) {
         self.systems.swap_remove(slot);
+        // the last slot is in another place now, where the lanes read its numbers
         if slot < self.systems.len() {
             self.write(slot);
         }
@@ -238,6 +241,7 @@ impl Each {
             b,
             c,
         ];
+        // a step takes neighbouring slots, so its numbers lie side by side; other stages gather theirs by rows
         let (block, lane) = (&mut self.blocks[slot / WIDEST], slot % WIDEST);
         (block.0.two_stops, block.0.damped) = (self.kind.two_stops, self.kind.damped);
         block.0.put(roughly, |numbers, number| numbers[lane] = *number);
@@ -261,6 +265,7 @@ impl Systems for Each {
         let ((constants, pace), lane) = (&self.blocks[first / WIDEST], first % WIDEST);
         let mut row = [N::splat(0.0); 16];
         let mut k = 0;
+        // a loop, because a closure is not always compiled for the processor's instructions
         while k < row.len() {
             row[k] = N::load(&pace[k][lane..]);
             k += 1;
@@ -278,6 +283,7 @@ impl Systems for Each {
             beta,
             drag,
             gap: [up, low],
+            // what follows from other columns is not one of the sixteen
             bulk: [one + up.abs(), one + low.abs()],
             restitution: [up_rest, low_rest],
             h,
@@ -329,6 +335,7 @@ impl<L: Lane> Propagators<L> for OfGroup<'_, L> {
     #[inline(always)]
     fn node(&self, k: L) -> Row<L> {
         let constants = &self.group.constants;
+        // without damping one formula serves all lanes; with it each lane reads the table of its own system
         if !constants.damped {
             return closed_at_node(&self.group.form, k * constants.h);
         }

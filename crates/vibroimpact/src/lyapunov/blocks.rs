@@ -62,6 +62,7 @@ impl LogSum {
     /// Multiplies the product by `factor`, which must not be negative.
     pub(crate) fn multiply(&mut self, factor: f64) {
         let product = self.product * factor;
+        // one logarithm for many factors: it takes longer than the product
         if (1e-100..=1e100).contains(&product) {
             self.product = product;
         } else {
@@ -98,6 +99,7 @@ pub(crate) fn quotient<B>(blocks: &[B], least: f64, above: impl Fn(&B) -> f64, b
         let square: f64 = deviations.iter().map(|d| d * d).sum();
         // a single block has no deviation from the mean
         error = error.max(if n > 1.0 { 3.0 * (n / (n - 1.0) * square).sqrt() } else { f64::INFINITY });
+        // the next ones would be fewer than a standard error needs
         if deviations.len() < 2 * FEWEST {
             return Measured { value, error: error / b.abs() };
         }

@@ -22,6 +22,13 @@ pub(crate) struct Frame {
     lost: Vec<bool>,
 }
 
+/// By how much a vector is stretched: a factor, or its logarithm. Factors are multiplied, which saves a logarithm for each.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Stretch {
+    By(f64),
+    Log(f64),
+}
+
 impl Frame {
     /// The first `count` unit vectors of `size` components.
     pub(crate) fn new(size: usize, metric: Metric, count: usize) -> Self {
@@ -41,13 +48,23 @@ impl Frame {
         }
     }
 
-    /// Passes a step. `carry` moves the vectors and gives the logarithm by which each is stretched; it removes those that
-    /// vanish, whose logarithms are minus infinity.
-    pub(crate) fn carry<L: IntoIterator<Item = f64>>(&mut self, carry: impl FnOnce(&mut Vec<Vec<f64>>, &Metric) -> L) {
+    /// Passes a step. `carry` moves the vectors and gives the stretch of each; it removes those that vanish, which are stretched by 0.
+    pub(crate) fn carry<L: IntoIterator<Item = Stretch>>(
+        &mut self,
+        carry: impl FnOnce(&mut Vec<Vec<f64>>, &Metric) -> L,
+    ) {
         let mut kept = 0;
-        for (k, log) in carry(&mut self.vectors, &self.metric).into_iter().enumerate() {
-            if log > f64::NEG_INFINITY {
-                self.logs[k].add(log);
+        for (k, stretch) in carry(&mut self.vectors, &self.metric).into_iter().enumerate() {
+            let vanishes = match stretch {
+                Stretch::By(factor) => factor == 0.0,
+                Stretch::Log(log) => log == f64::NEG_INFINITY,
+            };
+            if !vanishes {
+                match stretch {
+                    Stretch::By(factor) => self.logs[k].multiply(factor),
+                    Stretch::Log(log) => self.logs[k].add(log),
+                }
+                // vectors that are kept close ranks, and their sums with them
                 self.logs.swap(kept, k);
                 self.lost.swap(kept, k);
                 kept += 1;
@@ -58,6 +75,7 @@ impl Frame {
         for lost in &mut self.lost[self.vectors.len()..] {
             *lost = true;
         }
+        // another vector takes the place of one that is lost, so that the frame spans all directions
         while self.vectors.len() < self.logs.len() {
             let vector = self.any();
             self.vectors.push(vector);

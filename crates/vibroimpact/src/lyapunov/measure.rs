@@ -114,6 +114,7 @@ impl Measure {
         self.left = self.left.saturating_sub(1);
         self.tail.impact(&next, u64::from(self.left));
         self.pending.push((next, interval));
+        // as many as are computed side by side
         if self.pending.len() == ABREAST || self.complete() {
             self.catch_up(osc);
         }
@@ -134,6 +135,7 @@ impl Measure {
     /// Carries the tangent vectors through a flight and its impact.
     fn stretch(&mut self, d: Matrix2, interval: f64) {
         let (u, w) = (d.apply(self.u), d.apply(self.w));
+        // the first vector takes the direction that is stretched most
         let along = (u[0] * u[0] + u[1] * u[1]).sqrt();
         self.u = [u[0] / along, u[1] / along];
         // the part of w perpendicular to u is the area divided by the length
@@ -157,6 +159,7 @@ impl Measure {
         if self.pending.is_empty() {
             return self.blocks.clone();
         }
+        // the measurement itself goes on unchanged
         let mut all = self.clone();
         all.catch_up(osc);
         all.blocks
@@ -168,6 +171,7 @@ impl Measure {
     pub(crate) fn chaos(&self, osc: &Oscillator) -> Option<(Spectrum, bool)> {
         let blocks = self.blocks(osc);
         let spectrum = Self::over(&blocks).filter(|_| blocks.len() >= FEWEST_BLOCKS)?;
+        // the sum of the logarithms of the stretches in the last blocks
         let last: f64 = blocks.iter().rev().take(FEWEST_BLOCKS).map(|(means, t)| means[0] * t).sum();
         Some((spectrum, spectrum.chaotic() && last > 0.0))
     }
@@ -198,6 +202,7 @@ fn mean(blocks: &[(f64, f64)]) -> Measured {
     let spread: f64 = blocks
         .iter()
         .map(|(x, t)| {
+            // relative to a block of mean length
             let deviation = (x - value) * t * count / total;
             deviation * deviation
         })

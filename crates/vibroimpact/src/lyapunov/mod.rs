@@ -17,7 +17,7 @@ mod spectrum;
 mod tail;
 pub mod tangent;
 
-pub(crate) use frame::Frame;
+pub(crate) use frame::{Frame, Stretch};
 pub(crate) use measure::Measure;
 pub use measure::lyapunov;
 pub(crate) use run::Run;

@@ -100,6 +100,7 @@ impl Run {
         let mut exponents: Vec<(usize, Measured)> =
             directions.map(|k| (k, rate(least, &|block| block.stretch[k]))).collect();
         sort_by(&mut exponents, |(_, a), (_, b)| b.value.total_cmp(&a.value));
+        // the stretches of the blocks in the same order
         let sorted = |block: &Block| exponents.iter().map(|(k, _)| block.stretch[*k]).collect();
         let blocks = self.blocks.iter().map(|block| Block { stretch: sorted(block), ..block.clone() }).collect();
         let impact_rate = rate(0.0, &|block| block.impacts);

@@ -20,7 +20,7 @@
 //! motion; it is passed as a part of the flight. When the mass sticks, all neighbours become the same motion, and the
 //! derivative beyond is zero.
 
-use super::frame::Frame;
+use super::frame::{Frame, Stretch};
 use crate::events::Metric;
 use crate::math::{Matrix2, ln, sin_cos};
 use crate::motion::ImpactState;
@@ -72,6 +72,7 @@ pub(crate) fn through(frame: &mut Frame, osc: &Oscillator, s: f64, at: &ImpactSt
         left -= 1.0;
     }
     let eps = osc.stop(at.side).map_or(0.0, |stop| stop.restitution);
+    // only touched: passed as a part of the flight
     let (jump, area) = if at.velocity == 0.0 {
         (Matrix2::IDENTITY, 0.0)
     } else {
@@ -82,23 +83,25 @@ pub(crate) fn through(frame: &mut Frame, osc: &Oscillator, s: f64, at: &ImpactSt
 }
 
 /// Applies a linear map to two perpendicular vectors, whose change of area has the logarithm `area`, and makes them orthonormal
-/// again; returns the logarithms of their stretches. Vectors that vanish are removed.
-fn carried(vectors: &mut Vec<Vec<f64>>, map: Matrix2, area: f64) -> [f64; 2] {
+/// again; returns their stretches. Vectors that vanish are removed.
+fn carried(vectors: &mut Vec<Vec<f64>>, map: Matrix2, area: f64) -> [Stretch; 2] {
     let [first, second] = [0, 1].map(|k| map.apply([vectors[k][0], vectors[k][1]]));
     let along = (first[0] * first[0] + first[1] * first[1]).sqrt();
+    // the mass sticks: all neighbours become one motion
     if along == 0.0 || !along.is_finite() {
         vectors.clear();
-        return [f64::NEG_INFINITY; 2];
+        return [Stretch::By(0.0); 2];
     }
     let [x, v] = [first[0] / along, first[1] / along];
     vectors[0].copy_from_slice(&[x, v]);
     if area == f64::NEG_INFINITY {
         vectors.truncate(1);
-        return [ln(along), area];
+        return [Stretch::By(along), Stretch::By(0.0)];
     }
     vectors[1].copy_from_slice(&[-v, x]);
-    let (across, stretch) = ((x * second[1] - v * second[0]).abs(), ln(along));
-    [stretch, if across > NARROW * along { ln(across) } else { area - stretch }]
+    let across = (x * second[1] - v * second[0]).abs();
+    // where the second vector has turned into the first, its stretch is known from the area alone
+    [Stretch::By(along), if across > NARROW * along { Stretch::By(across) } else { Stretch::Log(area - ln(along)) }]
 }
 
 #[cfg(test)]

@@ -46,6 +46,7 @@ pub(super) fn check(parts: &MachineParts) -> Result<(), MachineError> {
         direction(&path, &joint.direction, n)?;
         range(&format!("{path}.sliding"), joint.sliding, 0.0..=f64::MAX, "sliding >= 0")?;
         finite(&format!("{path}.belt"), joint.belt)?;
+        // negated, so that it refuses what is not a number
         if !(joint.limit >= joint.sliding && joint.limit.is_finite()) {
             let fault = Fault::Range { value: joint.limit, range: "static >= sliding" };
             return Err(MachineError::new(format!("{path}.static"), fault));
@@ -178,7 +179,9 @@ fn room(parts: &MachineParts) -> Result<(), MachineError> {
         for other in parts.stops[..k].iter().filter(rigid) {
             let (a, b) = (dot(&one.direction, &one.direction), dot(&other.direction, &other.direction));
             let across = dot(&one.direction, &other.direction);
+            // two stops face each other along one line
             if across < 0.0 && across * across >= (1.0 - 1e-12) * a * b {
+                // lengths along the line, because a gap is in the unit of its direction
                 let room = one.gap / a.sqrt() + other.gap / b.sqrt();
                 if room <= 0.0 {
                     let fault = Fault::NoRoom { other: other.name.clone(), room };

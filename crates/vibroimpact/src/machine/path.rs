@@ -164,6 +164,7 @@ pub(super) fn all(parts: &MachineParts) -> Vec<(String, f64)> {
         for (i, one) in names.iter().enumerate() {
             let row = matrix.row(i);
             all.push((format!("{kind}.{one}"), row[i]));
+            // symmetric, so each pair once
             let others = names.iter().zip(row).skip(i + 1).filter(|(_, value)| **value != 0.0);
             all.extend(others.map(|(other, value)| (format!("{kind}.{one}.{other}"), *value)));
         }
@@ -179,6 +180,7 @@ pub(super) fn all(parts: &MachineParts) -> Vec<(String, f64)> {
         all.extend(of(&format!("force.{order}.sin"), sin));
     }
     for stop in &parts.stops {
+        // found as for a change, so that the listed paths are those that can be changed; that takes a stop of its own
         let mut copy = stop.clone();
         let numbers = numbers_of_stop(stop).into_iter().filter_map(|number| {
             let words: Vec<&str> = number.split('.').collect();

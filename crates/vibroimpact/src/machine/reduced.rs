@@ -110,10 +110,12 @@ impl VariedReduction {
         let (parts, numbers) = (machine.parts(), Numbers::of(machine.parts())?);
         let place = |path: &String| {
             let mut changed = parts.clone();
+            // one is added to the number, to see which of the list it is
             let value = parts.number(path).ok()? + 1.0;
             changed.set(path, value).ok()?;
             let (before, after) = (numbers.list(), Numbers::of(&changed)?.list());
             let mut differ = (0..COUNT).filter(|k| before[*k] != after[*k]);
+            // exactly one may change, and to the same value: otherwise other numbers hang on the path
             differ.next().filter(|k| differ.next().is_none() && after[*k] == value)
         };
         Some(Self { numbers, places: paths.iter().map(place).collect::<Option<_>>()? })
@@ -195,6 +197,7 @@ impl Numbers {
     /// The oscillator; see [`Machine::reduced`].
     fn reduction(&self) -> Option<Reduction> {
         let Self { mass: m, damping: c, stiffness: k, frequency, force, .. } = *self;
+        // also if one is not a number
         if !(m > 0.0 && k > 0.0) {
             return None;
         }
@@ -202,28 +205,35 @@ impl Numbers {
         let mut swing: Option<(f64, f64)> = None;
         for (stop, of) in self.stops.iter().flatten().enumerate() {
             let w = of.direction;
+            // s = -r/w
             let own = (-of.motion.0 / w, -of.motion.1 / w);
+            // equal to the last bit, or their distance would not be constant
             if *swing.get_or_insert(own) != own {
                 return None;
             }
             let wall = Wall { stop, at: of.gap / w, direction: w.abs() };
+            // two stops on one side: the farther one is never reached, and the oscillator has no place for it
             if walls[usize::from(w < 0.0)].replace((wall, of.restitution)).is_some() {
                 return None;
             }
         }
         let swing = swing?;
         let [above, below] = walls;
+        // a single stop is the upper one: below, the machine is mirrored
         let (sign, first, second) = if above.is_some() { (1.0, above?, below) } else { (-1.0, below?, None) };
+        // k - m omega^2 + i omega c, the complex stiffness by which the motion of the stops adds to the force
         let (re, im) = (k - m * frequency * frequency, frequency * c);
         let drive =
             (sign * (force.0 - (re * swing.0 - im * swing.1)), sign * (force.1 - (re * swing.1 + im * swing.0)));
         let amplitude = hypot(drive.0, drive.1);
         let (length, time, offset) = (amplitude / k, (m / k).sqrt(), self.constant / k);
+        // without a force there is no unit of length
         if !(length > 0.0 && length.is_finite()) {
             return None;
         }
         let gap = |wall: &Wall, side: f64| side * (wall.at - offset) / length;
         let oscillator = Oscillator::new(frequency * time, gap(&first.0, sign), first.1).ok()?;
+        // zeta = c / (2 sqrt(km))
         let mut oscillator = oscillator.with_damping(0.5 * c / (k * m).sqrt()).ok()?;
         if let Some((wall, restitution)) = &second {
             oscillator = oscillator.with_second_stop(gap(wall, -1.0), *restitution).ok()?;

@@ -39,6 +39,7 @@ impl Machine {
     pub fn new(parts: MachineParts) -> Result<Self, MachineError> {
         checks::check(&parts)?;
         let mut parts = parts;
+        // to the last bit, so that it does not matter which triangle is read
         for matrix in [&mut parts.mass, &mut parts.damping, &mut parts.stiffness] {
             matrix.symmetrise();
         }

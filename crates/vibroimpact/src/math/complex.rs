@@ -23,6 +23,7 @@ impl Complex {
         if size == 0.0 {
             return Self::default();
         }
+        // the larger part by the root, the other one by the quotient: no difference loses digits
         let re = (0.5 * (size + self.re.abs())).sqrt();
         let im = 0.5 * self.im.abs() / re;
         let (re, im) = if self.re < 0.0 { (im, re) } else { (re, im) };

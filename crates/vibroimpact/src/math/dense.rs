@@ -93,6 +93,7 @@ impl Matrix {
         let mut product = Self::zeros(self.rows, other.columns);
         for i in 0..self.rows {
             for (k, factor) in self.row(i).iter().enumerate() {
+                // matrices of machines have many zeros
                 if *factor == 0.0 {
                     continue;
                 }
@@ -124,6 +125,7 @@ impl Matrix {
     /// The image of a vector under the transpose, into another one.
     pub(crate) fn apply_transposed_into(&self, vector: &[f64], image: &mut Vec<f64>) {
         image.clear();
+        // row by row, which is the order in memory
         image.resize(self.columns, 0.0);
         for (i, factor) in vector.iter().enumerate() {
             add_scaled(image, *factor, self.row(i));
@@ -196,9 +198,11 @@ impl Matrix {
         for i in 0..self.rows {
             first[i] = (0..i).find(|j| self[(i, *j)] != 0.0).unwrap_or(i);
             for j in first[i]..=i {
+                // before, one of both rows has zeros only
                 let from = first[i].max(first[j]).min(j);
                 let sum = self[(i, j)] - dot(&factor.row(i)[from..j], &factor.row(j)[from..j]);
                 if i == j {
+                    // a pivot that is a rounding error of its diagonal is not positive
                     if !(sum > 8.0 * f64::EPSILON * self[(i, i)] && sum.is_finite()) {
                         return None;
                     }

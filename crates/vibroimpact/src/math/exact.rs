@@ -6,6 +6,7 @@ use core::ops::{Add, AddAssign, Mul};
 /// `a + b` as a rounded sum and its exact error.
 #[inline(always)]
 pub(crate) fn two_sum<L: Lane>(a: L, b: L) -> (L, L) {
+    // Knuth's six operations, which need not know which of both is larger
     let s = a + b;
     let bb = s - a;
     (s, (a - (s - bb)) + (b - bb))
@@ -19,6 +20,7 @@ pub(crate) fn two_prod<L: Lane>(a: L, b: L) -> (L, L) {
     let (ah, al) = split(a);
     let (bh, bl) = split(b);
     let p = a * b;
+    // the largest of the four exact products first, so that each difference is exact
     (p, ((ah * bh - p) + ah * bl + al * bh) + al * bl)
 }
 
@@ -80,6 +82,7 @@ impl Mul for Wide {
     #[inline]
     fn mul(self, other: Self) -> Self {
         let (product, error) = two_prod(self.hi, other.hi);
+        // the product of both low parts is below the last digit
         Self::of_sum(product, error + (self.hi * other.lo + self.lo * other.hi))
     }
 }

@@ -54,6 +54,7 @@ impl Gauss {
         let mut degree = 2.0;
         for k in 2..POINTS {
             for j in 0..POINTS {
+                // k P_k = (2k - 1) x P_{k-1} - (k - 1) P_{k-2}
                 let before = if j > 0 { powers[k - 1][j - 1] } else { 0.0 };
                 powers[k][j] = ((2.0 * degree - 1.0) * before - (degree - 1.0) * powers[k - 2][j]) / degree;
             }
@@ -77,6 +78,7 @@ impl Gauss {
         // every Legendre polynomial lies between -1 and 1, and its derivatives are largest at the ends
         let (mut reach, mut curve, mut twist, mut degree) = (0.0, 0.0, 0.0, 1.0);
         for c in series[1..].iter().map(|c| c.abs()) {
+            // the second derivative of the Legendre polynomial at 1; the third follows from it
             let second = (degree - 1.0) * degree * (degree + 1.0) * (degree + 2.0) / 8.0;
             reach += c;
             curve += c * second;

@@ -27,6 +27,7 @@ pub(crate) fn general_eigenvalues(matrix: &Matrix) -> Option<Vec<Multiplier>> {
         let last = end - 1;
         // the block that ends here and has no negligible element below its diagonal
         let mut begin = last;
+        // an element is negligible beside its neighbours on the diagonal
         while begin > 0 {
             let near = h[begin][begin].modulus() + h[begin - 1][begin - 1].modulus();
             if h[begin][begin - 1].modulus() <= 0.5 * f64::EPSILON * near {
@@ -35,6 +36,7 @@ pub(crate) fn general_eigenvalues(matrix: &Matrix) -> Option<Vec<Multiplier>> {
             }
             begin -= 1;
         }
+        // the block is a single element, or is taken as it is, so that the loop ends
         if begin == last || steps >= STEPS {
             found[last] = h[last][last];
             end -= 1;
@@ -58,6 +60,7 @@ fn wilkinson(a: Complex, b: Complex, c: Complex, d: Complex) -> Complex {
     let half = Complex::from(0.5);
     let middle = half * (a - d);
     let root = (middle * middle + b * c).sqrt();
+    // the sum in which nothing cancels
     let sum = if (middle + root).modulus() > (middle - root).modulus() { middle + root } else { middle - root };
     if sum.modulus() == 0.0 { d } else { d - b * c / sum }
 }
@@ -65,12 +68,14 @@ fn wilkinson(a: Complex, b: Complex, c: Complex, d: Complex) -> Complex {
 #[allow(clippy::needless_range_loop)] // two rows at a time
 /// One QR step on the block from `begin` to `last`, by Givens rotations.
 fn qr_step(h: &mut [Vec<Complex>], begin: usize, last: usize, shift: Complex) {
+    // the shift is taken away, and added again at the end
     for (i, row) in h.iter_mut().enumerate().take(last + 1).skip(begin) {
         row[i] = row[i] - shift;
     }
     let mut turns = Vec::with_capacity(last - begin);
     for k in begin..last {
         let (x, y) = (h[k][k], h[k + 1][k]);
+        // a rotation that makes the element below the diagonal 0
         let size = super::hypot(x.modulus(), y.modulus());
         let (c, s) = if size == 0.0 {
             (Complex::from(1.0), Complex::default())
@@ -87,6 +92,7 @@ fn qr_step(h: &mut [Vec<Complex>], begin: usize, last: usize, shift: Complex) {
     }
     for (k, (c, s)) in (begin..last).zip(turns) {
         let conj = |z: Complex| Complex::new(z.re, -z.im);
+        // in Hessenberg form all that stands farther below is 0
         for row in h.iter_mut().take((k + 2).min(last) + 1).skip(begin) {
             let (p, q) = (row[k], row[k + 1]);
             row[k] = p * c + q * s;
@@ -110,9 +116,11 @@ fn balanced(matrix: &Matrix) -> Matrix {
                 row += a[(i, j)].abs();
                 column += a[(j, i)].abs();
             }
+            // without coupling no factor makes both alike
             if row == 0.0 || column == 0.0 {
                 continue;
             }
+            // powers of two change no digits
             let mut factor = 1.0;
             while column * factor * factor < 0.5 * row && factor < 1e100 {
                 factor *= 2.0;
@@ -149,6 +157,7 @@ fn hessenberg(a: &mut Matrix) {
         for (i, x) in v.iter_mut().enumerate().skip(k + 1) {
             *x = a[(i, k)];
         }
+        // of both signs the one for which nothing cancels
         v[k + 1] += if v[k + 1] < 0.0 { -norm } else { norm };
         let square: f64 = v.iter().map(|x| x * x).sum();
         let rows = a.apply_transposed(&v);
@@ -163,6 +172,7 @@ fn hessenberg(a: &mut Matrix) {
                 a[(i, j)] -= 2.0 / square * x * y;
             }
         }
+        // exactly zero, as the reflection makes them but for rounding
         for i in k + 2..n {
             a[(i, k)] = 0.0;
         }
@@ -185,6 +195,7 @@ fn paired(found: &[Complex], size: f64) -> Vec<Multiplier> {
         match partner {
             Some(place) if one.im.abs() > distance(&rest[place]) && one.im.abs() > 1e-15 * size => {
                 let other = rest.remove(place);
+                // their mean makes them conjugate to the last bit
                 let (re, im) = (0.5 * (one.re + other.re), 0.5 * (one.im - other.im).abs());
                 all.extend([Multiplier { re, im }, Multiplier { re, im: -im }]);
             }

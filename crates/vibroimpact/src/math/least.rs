@@ -37,6 +37,7 @@ pub(crate) fn change_along(directions: &[(&[f64], f64)], x: &mut [f64]) {
     let mut along = gradient(&left);
     let mut square = dot(&along, &along);
     let (first, mut change) = (square, vec![0.0; x.len()]);
+    // exact arithmetic needs as many steps as there are directions; the rest is for rounding
     for _ in 0..2 * directions.len() {
         let seen: Vec<f64> = directions.iter().zip(&lengths).map(|((w, _), length)| dot(w, &along) / length).collect();
         let step = square / dot(&seen, &seen);
@@ -50,6 +51,7 @@ pub(crate) fn change_along(directions: &[(&[f64], f64)], x: &mut [f64]) {
         if square <= DONE * first {
             break;
         }
+        // conjugate to the one before
         along = next.iter().zip(&along).map(|(next, along)| next + square / before * along).collect();
     }
     add_scaled(x, largest, &change);

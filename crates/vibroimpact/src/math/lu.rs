@@ -35,9 +35,11 @@ impl Lu {
             let (upper, lower) = rows.split_at_mut((k + 1) * n);
             let top = &upper[k * n..];
             for row in lower.chunks_exact_mut(n) {
+                // a row that is 0 here stays as it is
                 if row[k] == 0.0 {
                     continue;
                 }
+                // the multiplier stands in the place of the element that becomes 0
                 let factor = row[k] / top[k];
                 row[k] = factor;
                 for (x, t) in row[k + 1..].iter_mut().zip(&top[k + 1..]) {
@@ -58,6 +60,7 @@ impl Lu {
     /// Replaces the right side `x` by the solution.
     pub(crate) fn solve(&self, x: &mut [f64]) {
         let n = self.n;
+        // whole rows were exchanged, with their multipliers, so all exchanges come first
         for (k, &pivot) in self.pivots.iter().enumerate() {
             x.swap(k, pivot);
         }

@@ -42,6 +42,7 @@ impl Matrix2 {
     pub fn solve(self, v: [f64; 2]) -> Option<[f64; 2]> {
         let [[a, b], [c, d]] = self.0;
         let det = self.determinant();
+        // the determinant is a difference: it is zero if it is small beside its terms
         let size = (a * d).abs() + (b * c).abs();
         if !det.is_finite() || det.abs() <= 1e-15 * size {
             return None;

@@ -35,6 +35,7 @@ macro_rules! one_number {
             }
             #[inline(always)]
             fn max(self, other: Self) -> Self {
+                // the operand is chosen as by the vector instructions, also if one is not a number
                 if self > other { self } else { other }
             }
             #[inline(always)]

@@ -50,6 +50,7 @@ fn rotate(a: &mut Matrix, vectors: &mut Matrix, p: usize, q: usize) -> bool {
         return false;
     }
     let half = (aqq - app) / (2.0 * off);
+    // the smaller of the two angles, with which the rotations converge; the square of a large quotient would overflow
     let tangent = if half.abs() > 1e150 {
         0.5 / half
     } else {

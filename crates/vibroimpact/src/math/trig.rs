@@ -35,6 +35,7 @@ const MEANINGLESS: f64 = 9_007_199_254_740_992.0;
 #[allow(clippy::cast_possible_truncation)] // |n| < 2^53, or NaN which becomes 0 and stays NaN in r
 pub fn sin_cos(x: f64) -> (f64, f64) {
     let (n, r, lo) = if x.abs() <= FAST { reduce_fast(x) } else { reduce_large(x) };
+    // sine and cosine of the remainder; the number of quarter turns says which is which
     let s = kernel_sin(r, lo);
     let c = kernel_cos(r, lo);
     match n as i64 & 3 {
@@ -83,6 +84,7 @@ fn reduce_large(x: f64) -> (f64, f64, f64) {
 
 /// $`x - n \pi/2`$ as high and low part.
 fn subtract_quarters(x: f64, n: f64) -> (f64, f64) {
+    // the first two pieces are full doubles: their products with n have rounding errors, which are carried along
     let (p, pe) = two_prod(n, Q1);
     let (q, qe) = two_prod(n, Q2);
     let (r, e1) = two_sum(x - p, -pe);

@@ -89,6 +89,7 @@ impl<R: Recorder> Abreast<R> {
                 return self.one_by_one();
             }
             self.batch.round();
+            // copied, because what follows changes the lists of the batch
             list.clear();
             list.extend_from_slice(self.batch.struck());
             for &slot in &list {
@@ -160,6 +161,7 @@ impl<R: Recorder> Abreast<R> {
 
     /// Continues a slot whose impact is not followed by a flight.
     fn settling(&mut self, slot: u32) {
+        // its impact has ended it in this round
         if self.slots[slot as usize].done {
             return;
         }
@@ -178,9 +180,11 @@ impl<R: Recorder> Abreast<R> {
         let end = match contact {
             Contact::Impact { .. } => {
                 self.struck(slot, u64::from(steps));
+                // the impact that has just been found may be one of a chatter
                 return self.settling(slot);
             }
             Contact::Grazing { .. } | Contact::Contact { .. } => {
+                // it repeats this flight, and goes on as a single motion does
                 return self.hand_over(slot, &osc, Motion::with_limits(&osc, launched, self.limits));
             }
             Contact::Never(why) => End::Never(why),

@@ -48,6 +48,7 @@ fn with(width: Width, osc: &Oscillator, first: &ImpactState, others: &[(ImpactSt
         before = next;
     }
     let (count, times) = (others.len().min(ABREAST), columns.times);
+    // in lanes sines are exact up to this angle only, and there is no free motion without oscillation
     let long = times.iter().any(|time| time * osc.beta().max(1.0) > LONGEST);
     if long || osc.damping() >= 1.0 {
         columns.by = Responses::Alone;
@@ -57,6 +58,7 @@ fn with(width: Width, osc: &Oscillator, first: &ImpactState, others: &[(ImpactSt
         }
     } else if osc.damping() > 0.0 {
         columns.by = Responses::Damped;
+        // the exponential has no lanes: it is computed one by one
         for (k, time) in times.into_iter().enumerate().take(count) {
             let (kept, loss) = decay(osc.damping() * time);
             columns.know(k, [kept, loss, 0.0, 0.0]);
@@ -106,6 +108,7 @@ impl Task for Columns<'_> {
     fn run<L: Lane>(self) -> Self::Output {
         let mut all = Self::Output::default();
         let mut k = 0;
+        // loops, because a closure is not always compiled for the processor's instructions
         while k < ABREAST {
             let [phase, side, restitution, next_phase, next_side, next_gap, speed] = &self.at;
             let at = Passage {

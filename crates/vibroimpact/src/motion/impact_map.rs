@@ -62,6 +62,7 @@ pub(crate) struct ImpactMap<'a>(Motion<'a>, PropagatorCache);
 impl<'a> ImpactMap<'a> {
     /// With these limits of the search for each contact.
     pub(crate) fn new(osc: &'a Oscillator, limits: SearchLimits) -> Self {
+        // any state: `after` begins with its own
         let motion = Motion::after(osc, &ImpactState { phase: 0.0, velocity: 0.0, side: Side::Upper }, limits);
         Self(motion, PropagatorCache::new())
     }

@@ -55,6 +55,7 @@ impl Leg {
     /// time `known`. `s` only selects the period, so the rounding error of a sum of many periods has no effect.
     #[must_use]
     pub fn at_phase(&self, osc: &Oscillator, s: f64, wanted: f64, known: f64) -> Start {
+        // the time to the phase that is wanted, by less than half a period
         let early = phase::difference(wanted, phase::advance(self.phase, osc.beta(), s)) / osc.beta();
         Start { phase: wanted, ..self.start(osc, (s + early).clamp(0.0, known)) }
     }
@@ -116,6 +117,7 @@ impl<'a> Motion<'a> {
     /// The motion after an impact.
     #[must_use]
     pub fn after(osc: &'a Oscillator, state: &ImpactState, limits: SearchLimits) -> Self {
+        // any mode: `restart` sets it
         let mut motion = Self::begin(osc, limits, Mode::Ended(End::Stuck(state.side)));
         motion.restart(state);
         motion
@@ -192,6 +194,7 @@ impl<'a> Motion<'a> {
             |duration| Leg { begin: self.time.value(), duration, phase: flight.phase, path: Path::Flight(flight) };
         let (contact, steps) = lanes::found((self.stride.as_ref(), cache), self.osc, &flight, self.limits);
         self.steps += u64::from(steps);
+        // it has left the stop and comes back to it without an impact: it rests again
         if let Contact::Impact { time, side, .. } | Contact::Grazing { time, side, .. } = contact
             && released == Some(side)
             && let Some(landing) = landing::landing(self.osc, side).filter(|landing| landing.is_at(self.osc, time))
@@ -210,10 +213,12 @@ impl<'a> Motion<'a> {
                     self.mode = Mode::Resting { side, phase };
                     return Some(self.event(leg, phase, side, EventKind::Stick { chatter: false, error: 0.0 }));
                 }
+                // it begins on the stop and moves towards it: an impact at once
                 (0.0, side, velocity)
             }
             Contact::Grazing { time, side, depth } => {
                 let (phase, leg) = (flight.phase_at(time), leg(time));
+                // the flight goes on from the stop, without velocity towards it
                 self.mode = Mode::Flying(Flight::new(self.osc, self.on_stop(side, 0.0, phase)));
                 return Some(self.event(leg, phase, side, EventKind::Graze { depth }));
             }

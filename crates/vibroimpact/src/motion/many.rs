@@ -57,11 +57,13 @@ pub fn record_events(
 ) {
     let batch = if starts.len() < FEW { None } else { Batch::new(osc, MOST.min(starts.len()), width) };
     let mut events = Events { osc, starts, next: 0, recorder };
+    // the lanes search each flight to their own end, and a shorter limit would end a motion earlier
     match batch.filter(|batch| batch.longest() < limits.horizon(osc)) {
         Some(batch) => {
             Abreast::new(batch, limits, events).run();
         }
         None => {
+            // one oscillator, so one cache for all motions
             let cache = PropagatorCache::new();
             for (number, start) in starts.iter().enumerate() {
                 let mut track = Track { number, time: Wide::default() };
@@ -107,6 +109,7 @@ impl Recorder for Events<'_> {
     }
 
     fn impact(&mut self, track: &mut Track, osc: &Oscillator, state: ImpactState, (interval, _): (f64, u64)) -> bool {
+        // with the digits of a single motion
         track.time += interval;
         let ImpactState { phase, velocity, side } = state;
         let rebound = osc.stop(side).map_or(0.0, |stop| stop.rebound(velocity));
@@ -132,6 +135,7 @@ impl Recorder for Events<'_> {
             }
             if let EventKind::Impact { velocity_before: velocity, .. } = event.kind {
                 let state = ImpactState { phase: event.phase, velocity, side: event.side };
+                // the lanes take it back
                 if leave(&state) {
                     track.time = motion.time();
                     return Some(state);

@@ -55,6 +55,7 @@ impl Iterator for Strobes<'_> {
 
     #[allow(clippy::cast_precision_loss)] // exact far beyond any count that is reached
     fn next(&mut self) -> Option<Start> {
+        // a product, so that no rounding errors add up over many periods
         let time = self.first + self.count as f64 * self.osc.period();
         let mut events = 0;
         let leg = loop {

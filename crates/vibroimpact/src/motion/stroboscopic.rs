@@ -27,6 +27,7 @@ pub fn stroboscopic_map(osc: &Oscillator, start: Start, cap: u32) -> Option<Stro
         let left = period - leg.begin;
         if event.is_none() || leg.duration > left {
             strobe.stuck |= matches!(leg.path, super::Path::Rest(_));
+            // after one period the phase is the same, exactly
             strobe.state = Start { phase: start.phase, ..leg.start(osc, left) };
             return Some(strobe);
         }

@@ -127,6 +127,7 @@ fn turning(flight: &Flight, sign: f64, mut low: f64, mut high: f64) -> (f64, Fli
         } else {
             high = s;
         }
+        // Newton's method for a zero of the velocity
         let mut next = s - point.v / point.a;
         if !(next > low && next < high) {
             next = 0.5 * (low + high);

@@ -50,6 +50,7 @@ pub(crate) fn block(osc: &Oscillator, ring: &Ring, k: usize) -> Option<Block> {
     let (sin, cos) = sin_cos(flight.phase);
     let to = next.sign();
     let same = next == ring.side(k);
+    // back on the stop that it left, the displacement itself is the miss
     let room = if same { 0.0 } else { osc.stop(next).map_or(0.0, |stop| stop.gap) - to * flight.x };
     let divisor = if same { time } else { 1.0 };
     let over = to * point.displacement - room;
@@ -58,6 +59,7 @@ pub(crate) fn block(osc: &Oscillator, ring: &Ring, k: usize) -> Option<Block> {
     let rebound = -sign * restitution;
     let by_theta = [to * (cos * p.kc - sin * p.ks), to * (cos * (p.s - beta * p.ks) - sin * beta * p.kc)];
     let by_speed = [to * p.s * rebound, to * p.s_rate * rebound];
+    // the quotient rule, where the miss is divided by the time
     let by_time = if same { (speed - over / time) / time } else { speed };
     Some(Block {
         miss: [over / divisor, speed - ring.speed(k + 1)],
@@ -96,6 +98,7 @@ pub(crate) fn fill(rows: &mut [f64], width: usize, blocks: &[Block]) {
         for row in 0..2 {
             let base = (2 * k + row) * width;
             for column in 0..2 {
+                // of a single impact both blocks have the same columns
                 rows[base + 2 * k + column] += block.left.0[row][column];
                 rows[base + 2 * ((k + 1) % m) + column] += block.right.0[row][column];
             }
@@ -159,7 +162,7 @@ fn by_difference(osc: &Oscillator, ring: &Ring, parameter: Parameter) -> Option<
         let changed = parameter.set(osc, value + step * h).ok()?;
         Some(blocks(&changed, ring)?.iter().flat_map(|b| b.miss).collect())
     };
-    // one-sided if damping would become negative
+    // differences of fourth order, one-sided if damping would become negative
     let stencil: &[(f64, f64)] = if parameter == Parameter::Damping && value < 2.0 * h {
         &[(0.0, -25.0 / 12.0), (1.0, 4.0), (2.0, -3.0), (3.0, 4.0 / 3.0), (4.0, -0.25)]
     } else {

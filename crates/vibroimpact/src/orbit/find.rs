@@ -107,6 +107,7 @@ pub(crate) fn struck(
         if !known
             && cycle.fastest() > REST
             && cycle.residual <= CLOSED
+            // an orbit with a graze lies on the border between orbits with and without this impact
             && !(0..ring.len()).any(|k| grazes(osc, &ring, k))
             && ring.smallest(options.tolerance).len() == m as usize
         {

@@ -45,7 +45,7 @@ pub use find::{FindOptions, find, find_while};
 pub use free::without_impacts;
 pub use label::{Count, Label, LabelError};
 pub(crate) use machine::{
-    Chatter, MachineBlock, MachineFrame, MachineLap, MachineRing, Rebound, RingEvent, crossing, events_of, flying,
+    Chatter, MachineBlock, MachineFrame, MachineLap, MachineRing, Rebound, RingEvent, events_of, flying, passing,
     rounding_decides,
 };
 pub use machine::{find_machine_while, find_unreduced};

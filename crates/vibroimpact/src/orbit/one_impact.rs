@@ -78,6 +78,7 @@ pub fn one_impact(osc: &Oscillator, n: u32) -> Vec<OneImpact> {
     if !(disc >= 0.0 && qa > 0.0) {
         return Vec::new();
     }
+    // the root in which nothing cancels; the other one from the product of both
     let large = if qb > 0.0 { -qb - disc.sqrt() } else { -qb + disc.sqrt() };
     let mut roots = [large / qa, if large == 0.0 { 0.0 } else { qc / large }];
     sort_by(&mut roots, f64::total_cmp);

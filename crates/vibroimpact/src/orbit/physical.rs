@@ -73,6 +73,8 @@ fn blocked(osc: &Oscillator, start: Start, interval: f64, end: Side) -> Option<(
     let (mut start, mut passed) = (start, 0.0);
     for _ in 0..MAX_TOUCHES {
         let flight = Flight::new(osc, start);
+        // the search counts the longer one of the periods of force and machine; a little more, so that the end is
+        // within
         let periods = 1.01 * (interval - passed) / osc.period().max(core::f64::consts::TAU);
         match first_contact(osc, &flight, SearchLimits { periods, ..SearchLimits::default() }) {
             Contact::Impact { time, side, .. } => {

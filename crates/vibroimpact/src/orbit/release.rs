@@ -82,6 +82,7 @@ impl Excursion {
                 EventKind::Release => {
                     let rest = here.rest.as_mut()?;
                     (rest.span.release, rest.held) = (event.phase, flown);
+                    // the same release as at the beginning, so all repeats from here on
                     if event.side == side {
                         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a count, saturating
                         let count = (event.time / osc.period()).round() as u32;
@@ -90,6 +91,7 @@ impl Excursion {
                     }
                     excursion.stretches.push(after(event.side));
                 }
+                // the flight goes on: its time counts up to the impact
                 EventKind::Graze { .. } => continue,
             }
             flown = 0.0;
@@ -112,6 +114,7 @@ impl Excursion {
         let periods = self.periods?;
         let mut points = Vec::new();
         for stretch in &self.stretches {
+            // an impact has the interval after it, and a strike the flight before it
             let next = stretch.strikes.iter().skip(1).map(|strike| strike.flown);
             let intervals = next.chain(stretch.rest.map(|rest| rest.settled));
             points.extend(

@@ -35,6 +35,7 @@ fn largest_error(osc: &Oscillator, stretch: &Stretch) -> f64 {
     for strike in &stretch.strikes {
         let step = derivative(osc, strike);
         let [[a, b], [c, d]] = step.0;
+        // the covariance of the errors, carried over by A E A^T, with a new rounding in each number
         errors = step.times(Matrix2(errors)).times(Matrix2([[a, c], [b, d]])).0;
         errors[0][0] += NEW * NEW;
         errors[1][1] += NEW * NEW;
@@ -54,6 +55,7 @@ fn derivative(osc: &Oscillator, strike: &Strike) -> Matrix2 {
     let velocity = state.side.sign() * state.velocity;
     let pressed = sin_cos(state.phase).0 - state.side.sign() * gap;
     let drag = 2.0 * osc.damping() * velocity;
+    // the saltation: e times the acceleration before the impact and that after it, by the velocity
     let jump = (restitution * (pressed - drag) + pressed + restitution * drag) / velocity;
     Matrix2([[-restitution, 0.0], [jump, -restitution]]).times(Matrix2([[p.c, p.s], [-p.s, p.s_rate]]))
 }

@@ -79,6 +79,7 @@ impl Ring {
         let Some(&first) = self.unknowns.first() else { return };
         let shift = phase::wrap(first) - first;
         if shift != 0.0 {
+            // a whole number of turns, because the shift itself is rounded
             let turns = (shift / TAU).round();
             self.unknowns.iter_mut().step_by(2).for_each(|theta| *theta += turns * TAU);
         }
@@ -104,6 +105,7 @@ impl Ring {
         if step == 0 || !m.is_multiple_of(step) || !(self.periods as usize).is_multiple_of(m / step) {
             return None;
         }
+        // the shorter cycle takes this angle
         let period = TAU * f64::from(self.periods) / (m / step) as f64;
         let mut unlike = 0.0_f64;
         for k in 0..m {

@@ -80,6 +80,7 @@ fn newton(
             return Err(ShootingError::Broken);
         }
         let improves = best.as_ref().is_none_or(|(so_far, _)| residual < *so_far);
+        // no better than before: what is left is rounding
         if !improves && best.as_ref().is_some_and(|(so_far, _)| *so_far <= CLOSED) {
             break;
         }
@@ -94,6 +95,7 @@ fn newton(
             break;
         }
         let Matrix2([[a, b], [c, d]]) = derivative;
+        // (J - I) step = -miss
         let step = Matrix2([[a - 1.0, b], [c, d - 1.0]]).solve([-miss[0], -miss[1]]).ok_or(ShootingError::Singular)?;
         // a step is shortened if it would reverse the velocity or change the phase by more than half a radian
         let shorten = (0.5 * state.velocity / step[1].abs()).min(0.5 / step[0].abs()).min(1.0);
@@ -200,6 +202,7 @@ pub(crate) fn assemble(osc: &Oscillator, points: Vec<(ImpactState, f64)>, n: u32
     let (mut det, mut length) = (1.0, 0.0);
     for (state, interval) in &points {
         let eps = osc.stop(state.side).map_or(0.0, |stop| stop.restitution);
+        // the determinants of impacts are exact, as is that of the flights below
         det *= eps * eps;
         length += interval;
     }

@@ -63,6 +63,7 @@ pub fn cycle_segments(osc: &Oscillator, cycle: &Cycle) -> Option<Vec<Segment>> {
 pub(super) fn after_release(osc: &Oscillator, side: Side, periods: u32) -> Option<Vec<Segment>> {
     let mut parts = Vec::new();
     let (mut events, mut closed) = (0, false);
+    // half a period before: the time of the release has rounding errors
     let until = (f64::from(periods) - 0.5) * osc.period();
     follow(
         &mut Motion::released(osc, side),

@@ -58,6 +58,7 @@ pub fn harmonics(osc: &Oscillator, cycle: &Cycle, highest: u32) -> Option<Vec<Ha
                 }),
                 Segment::Chatter { side, duration, .. } | Segment::Rest { side, duration, .. } => {
                     let x = side.sign() * osc.stop(*side).map_or(0.0, |stop| stop.gap);
+                    // the integral of a constant position, by the angle in the middle
                     let half = 0.5 * rate * duration;
                     let (sin, cos) = sin_cos(begin + half);
                     let length = 2.0 * sin_cos(half).0 / rate;

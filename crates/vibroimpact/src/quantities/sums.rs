@@ -91,8 +91,10 @@ impl Sums {
         match quantity {
             Quantity::ImpactSpeedMean => {
                 let impacts = self[Sum::Impacts];
+                // a chatter has infinitely many impacts, and then the mean speed is not defined
                 if impacts > 0.0 && impacts.is_finite() { sum / impacts } else { f64::NAN }
             }
+            // a difference of two sums of squares can be negative by rounding
             Quantity::DisplacementRms | Quantity::VelocityRms => (sum.max(0.0) / time).sqrt(),
             Quantity::DampingPower => damping * sum / time,
             Quantity::DampingLossPerPeriod => damping * sum / periods,
@@ -104,6 +106,7 @@ impl Sums {
 /// A mean over blocks of a motion, with three standard errors; NaN for the mean speed of infinitely many impacts.
 pub(super) fn mean_over(blocks: &[Sums], quantity: Quantity, scale: Scale) -> Measured {
     let by_impacts = quantity == Quantity::ImpactSpeedMean;
+    // the mean speed is one per impact, all others are means over time
     let below = |sums: &Sums| sums[if by_impacts { Sum::Impacts } else { Sum::Time }];
     if by_impacts && !blocks.iter().all(|sums| below(sums).is_finite()) {
         return Measured { value: f64::NAN, error: f64::NAN };

@@ -102,6 +102,7 @@ impl<'a> Tally<'a> {
         self.pass(segment.duration());
         match *segment {
             Segment::Flight { flight, duration } => {
+                // in units of the fastest change
                 self.flown += duration * self.osc.beta().max(1.0 + 2.0 * self.osc.damping());
                 self.skipped |= self.flown > LONGEST + EACH_IMPACT * self.sums[Sum::Impacts];
                 if !self.skipped {
@@ -127,6 +128,7 @@ impl<'a> Tally<'a> {
         self.fastest = self.fastest.max(speed);
         self.sums[Sum::Impulse] += speed + rebound;
         self.hardest = self.hardest.max(speed + rebound);
+        // half the difference of the squares, as a product in which nothing cancels
         self.sums[Sum::ImpactLoss] += 0.5 * (speed - rebound) * (speed + rebound);
     }
 
@@ -157,8 +159,10 @@ impl<'a> Tally<'a> {
         let (sin_middle, ratio) = (sin * cos_half + cos * sin_half, if half > 0.0 { sin_half / half } else { 1.0 });
         let impulse = duration * (sin_middle * ratio - stop.gap) - rebound + 2.0 / 3.0 * k * cubes;
         self.sums[Sum::Impulse] += impulse;
+        // each impulse is 1 + eps times the speed of arrival
         self.sums[Sum::Speeds] += impulse / (1.0 + eps);
         self.sums[Sum::Impacts] = f64::INFINITY;
+        // just before the mass comes to rest the force presses it with a
         self.extremes.acceleration = self.extremes.acceleration.max(a);
         self.hold(side, duration);
     }

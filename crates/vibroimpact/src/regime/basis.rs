@@ -38,6 +38,7 @@ impl Basis {
             *value = if *value < 64.0 * f64::EPSILON * stiffness.largest() { 0.0 } else { *value };
         }
         align(&values, &mut phi, damping);
+        // the damping between the eigenvectors: off the diagonal, what couples them
         let c = phi.transposed().times(&damping.times(&phi));
         let zero = || Matrix::zeros(m, m);
         let mut basis = Self {
@@ -69,6 +70,7 @@ impl Basis {
             }
             group.sort_unstable();
             if let [one] = group[..] {
+                // damping does not feed a mode; less than 0 is rounding
                 basis.modes[one] = (values[one], 0.5 * c[(one, one)].max(0.0));
                 for k in 0..m {
                     let x = phi[(k, one)];
@@ -120,6 +122,7 @@ impl Basis {
         }
         let inverse = inverse(&columns)?;
         for k in 0..2 * p {
+            // the amplification of rounding errors on the way to the modes and back
             let sum: f64 = (0..2 * p).map(|j| (columns[(k, j)] * inverse[(j, k)]).abs()).sum();
             if sum > CONDITION || sum.is_nan() {
                 return None;
@@ -154,6 +157,7 @@ fn align(values: &[f64], phi: &mut Matrix, damping: &Matrix) {
     let mut begin = 0;
     while begin < m {
         let mut end = begin + 1;
+        // equal to rounding: such eigenvectors can be turned within their plane
         while end < m && values[end] - values[begin] <= 1e-13 * largest {
             end += 1;
         }
@@ -188,6 +192,7 @@ struct Plane {
 
 fn planes(stiffness: &[f64], damping: &Matrix) -> Option<Vec<Plane>> {
     let p = stiffness.len();
+    // the state (xi, xi') as a system of first order
     let mut companion = Matrix::zeros(2 * p, 2 * p);
     for i in 0..p {
         companion[(i, p + i)] = 1.0;
@@ -201,12 +206,15 @@ fn planes(stiffness: &[f64], damping: &Matrix) -> Option<Vec<Plane>> {
     let unit = |i: usize| (0..p).map(|k| if k == i { 1.0 } else { 0.0 }).collect();
     let mut real: Vec<(f64, Vec<f64>)> = rigid.iter().map(|i| (0.0, unit(*i))).collect();
     let mut found = Vec::new();
+    // sorted by size: the zeros of the rigid modes are the last
     for value in general_eigenvalues(&companion)?.into_iter().take(2 * p - rigid.len()) {
+        // one of each pair
         if value.im < 0.0 {
             continue;
         }
         let (lambda, v) = eigenpair(stiffness, damping, Complex::new(value.re, value.im))?;
         if value.im == 0.0 {
+            // damping feeds no mode: growth is rounding
             real.push((lambda.re.min(0.0), v.iter().map(|z| z.re).collect()));
             continue;
         }
@@ -215,6 +223,7 @@ fn planes(stiffness: &[f64], damping: &Matrix) -> Option<Vec<Plane>> {
         let rate: Vec<Complex> = v.iter().map(|z| Complex::new(a, b) * *z).collect();
         let both = || v.iter().chain(&rate);
         found.push(Plane {
+            // with lambda = a + ib, k is its square and d is -a
             k: a * a + b * b,
             d: -a,
             e1: both().map(|z| z.re - a / b * z.im).collect(),
@@ -229,11 +238,13 @@ fn planes(stiffness: &[f64], damping: &Matrix) -> Option<Vec<Plane>> {
         let alike = |other: &(f64, Vec<f64>)| dot(&v, &other.1).abs();
         let place = (0..real.len()).max_by(|i, j| alike(&real[*i]).total_cmp(&alike(&real[*j])))?;
         let (two, mut w) = real.remove(place);
+        // the same direction for both, so that their difference is small where they are alike
         if dot(&v, &w) < 0.0 {
             for x in &mut w {
                 *x = -*x;
             }
         }
+        // a double eigenvalue with one eigenvector has no such plane
         if one == two {
             return None;
         }
@@ -241,6 +252,7 @@ fn planes(stiffness: &[f64], damping: &Matrix) -> Option<Vec<Plane>> {
             |lambda: f64, v: &[f64]| -> Vec<f64> { v.iter().copied().chain(v.iter().map(|x| lambda * x)).collect() };
         let (x, y) = (state(one, &v), state(two, &w));
         let over = 1.0 / (one - two);
+        // k is the product of both eigenvalues and -2d their sum
         found.push(Plane {
             k: one * two,
             d: -0.5 * (one + two),
@@ -256,6 +268,7 @@ fn planes(stiffness: &[f64], damping: &Matrix) -> Option<Vec<Plane>> {
 fn eigenpair(stiffness: &[f64], damping: &Matrix, mut lambda: Complex) -> Option<(Complex, Vec<Complex>)> {
     let p = stiffness.len();
     let real = lambda.im == 0.0;
+    // uneven, so that no symmetry of the structure makes it perpendicular to the eigenvector
     let mut v: Vec<Complex> =
         (0..p).map(|i| Complex::new(1.0 + 0.1 * f64::from(u32::try_from(i).unwrap_or(0)), 0.0)).collect();
     for _ in 0..4 {
@@ -288,6 +301,7 @@ fn eigenpair(stiffness: &[f64], damping: &Matrix, mut lambda: Complex) -> Option
         }
         let value = lambda * lambda * square + lambda * loss + spring;
         let slope = lambda * square * Complex::from(2.0) + loss;
+        // near a double eigenvalue the slope is lost; a long step would lead to another eigenvalue
         if slope.modulus() > 1e-6 * (lambda.modulus() * square.modulus() + loss.modulus()) {
             let step = value / slope;
             if step.modulus() < 1e-6 * lambda.modulus() {
@@ -296,6 +310,7 @@ fn eigenpair(stiffness: &[f64], damping: &Matrix, mut lambda: Complex) -> Option
         }
     }
     let square = v.iter().fold(Complex::default(), |sum, z| sum + *z * *z);
+    // so that v'v is real
     let turn = square.sqrt();
     if turn.modulus() > 1e-8 {
         for z in &mut v {
@@ -313,6 +328,7 @@ fn solve(mut rows: Vec<Vec<Complex>>, mut right: Vec<Complex>) -> Option<Vec<Com
         let pivot = (k..p).max_by(|i, j| rows[*i][k].modulus().total_cmp(&rows[*j][k].modulus()))?;
         rows.swap(k, pivot);
         right.swap(k, pivot);
+        // only the direction is wanted, which the pivot does not change
         if rows[k][k].modulus() == 0.0 {
             rows[k][k] = Complex::from(f64::MIN_POSITIVE.sqrt());
         }

@@ -30,6 +30,7 @@ const TO_BERNSTEIN: [[f64; TERMS]; TERMS] = {
         while k <= j {
             table[j][k] = value;
             if k < j {
+                // the next quotient of binomial coefficients from this one
                 #[allow(clippy::cast_precision_loss)]
                 {
                     value = value * (top as f64) / (bottom as f64);

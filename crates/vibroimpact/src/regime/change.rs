@@ -29,6 +29,7 @@ impl Structure {
     pub(crate) fn modal_change(&self, normal: &Normal, x: &[f64], v: &[f64]) -> ModalChange {
         let stops = self.stops();
         let set: Vec<f64> = (0..self.joints)
+            // where a joint holds moves with the state; of others the set point has no effect
             .map(|joint| match self.states[stops + joint] {
                 ContactState::Holding => dot(&normal.directions[stops + joint], x),
                 _ => 0.0,

@@ -41,6 +41,7 @@ impl<'a> Contact<'a> {
         let contact = |place: usize| {
             let (k, c, p) = compliant(&machine.stops()[place].law)?;
             let wall = &normal.walls[place];
+            // k d + c d' - p
             let mut pushed = normal.no_signal();
             pushed.add(k, wall);
             pushed.add(c, &wall.derivative(&normal.rates));

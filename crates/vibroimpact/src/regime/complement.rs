@@ -50,6 +50,7 @@ impl Orthonormal {
 pub(crate) fn independent<'a>(directions: impl Iterator<Item = &'a [f64]>) -> Vec<usize> {
     let (mut basis, mut places): (Vec<Vec<f64>>, Vec<usize>) = Default::default();
     for (place, direction) in directions.enumerate() {
+        // of length 1, so that what is left of it is a part of it
         let mut vector = scaled(direction, dot(direction, direction).sqrt());
         let rest = project(&basis, &mut vector);
         if rest >= DEPENDENT {
@@ -79,6 +80,7 @@ pub(super) fn complement(held: &[Vec<f64>], along: &[&[f64]], n: usize) -> Optio
         let size = dot(direction, direction).sqrt();
         let mut vector = scaled(direction, size);
         let rest = project(&basis, &mut vector);
+        // all that reaches beyond rounding: the components must be exact there
         if rest > 1e-12 && basis.len() < n {
             basis.push(scaled(&vector, rest));
         }
@@ -92,6 +94,7 @@ pub(super) fn complement(held: &[Vec<f64>], along: &[&[f64]], n: usize) -> Optio
             let mut vector = vec![0.0; n];
             vector[*i] = 1.0;
             let rest = project(&basis, &mut vector);
+            // of equal ones the first, whatever their rounding errors
             if rest > best.0 * (1.0 + 1e-9) {
                 best = (rest, place, vector);
             }

@@ -67,6 +67,7 @@ impl Constraints {
         let wanted: Vec<Signal> = held.iter().map(|place| wanted(machine, normal, *place)).collect();
         let across = across(&gram, &directions, normal.n);
         let mut carried = vec![normal.no_signal(); normal.n];
+        // x_c is W G^-1 times what they prescribe
         for (column, signal) in across.iter().zip(&wanted) {
             for (own, factor) in carried.iter_mut().zip(column) {
                 own.add(*factor, signal);
@@ -88,6 +89,7 @@ impl Constraints {
         let none = Observable { position: vec![0.0; modes], velocity: vec![0.0; modes], signal: normal.no_signal() };
         let reaction = |(j, column): (usize, &Vec<f64>)| {
             let mut sum = none.clone();
+            // the matrices are symmetric, so these are rows as well
             let (by_x, by_v) = (normal.stiffness.apply(column), normal.damping.apply(column));
             for contact in closed {
                 contact.push_along(column, (x, v), &mut sum);
@@ -113,6 +115,7 @@ impl Constraints {
                 contact.c * share * share
             });
             let drag = dot(column, &normal.damping.apply(column)) + contacts.sum::<f64>();
+            // while the other constraints hold
             (1.0 / self.gram[(j, j)], drag / dot(column, column))
         };
         self.across.iter().enumerate().map(of).collect()
@@ -141,6 +144,7 @@ fn products(directions: &[Vec<f64>]) -> Matrix {
 fn wanted(machine: &Machine, normal: &Normal, place: usize) -> Signal {
     let Some(joint) = place.checked_sub(machine.stops().len()) else { return normal.walls[place].clone() };
     let mut point = normal.no_signal();
+    // the set point of the joint as a number of its own, and the way of its belt
     point.set[joint] = 1.0;
     point.ramp = machine.joints()[joint].belt;
     point

@@ -33,10 +33,12 @@ impl FreeMotion {
     ) -> Option<Self> {
         let along: Vec<&[f64]> = closed.iter().map(|contact| contact.direction).collect();
         let (directions, shares) = complement(&constraints.directions, &along, normal.n)?;
+        // N'AN, made exactly symmetric
         let turned = |a: &Matrix| directions.transposed().times(&a.times(&directions)).symmetrised();
         let mut stiffness = turned(&normal.stiffness);
         let mut damping = turned(&normal.damping);
         let mut on_free = turned_force(normal, force, constraints, &directions);
+        // a closed stop is a spring and a damper along its direction
         for (contact, share) in closed.iter().zip(&shares) {
             stiffness.add_outer(contact.k, share, share);
             damping.add_outer(contact.c, share, share);
@@ -67,6 +69,7 @@ impl FreeMotion {
     /// What drives each mode, and its slip $`P_1`$: with $`\dot y = z + P_1`$ and $`\dot z = -ky - 2dz + P_2`$ there is
     /// $`\ddot y + 2d\dot y + ky = P_2 + \dot P_1 + 2dP_1`$.
     pub(super) fn drive(&self, normal: &Normal, basis: &Basis) -> (Vec<Signal>, Vec<Signal>) {
+        // z is y' less this: of the force the modes take what changes y at once
         let slip = applied(normal, &basis.a[1], &self.force);
         let mut drive = applied(normal, &basis.b[1], &self.force);
         for (i, signal) in drive.iter_mut().enumerate() {

@@ -94,6 +94,7 @@ impl Mode {
         let forced = forced.collect();
         let apart = stiff && d * d > APART * k;
         let decays = apart.then(|| {
+            // the slow rate from the product of both, k: as a difference it would lose its digits
             let fast = d + (d * d - k).sqrt();
             (k / fast, fast)
         });
@@ -117,6 +118,7 @@ impl Mode {
             s: unit,
             s_rate: free.s_rate,
             step,
+            // k I_2 = s - S - 2d I_1, whose terms nearly cancel over short times
             ramp: if self.rate * s < 1.0 { self.ramp_series(s) } else { (s - unit - 2.0 * self.d * step) / self.k },
             size: free.size,
             // the scaled time itself is rounded
@@ -154,6 +156,7 @@ impl Mode {
             }
             (s * one, s * s * two, s * s * s * three)
         } else {
+            // from 2d I_1 = s - S and 2d I_2 = s^2/2 - I_1, whose terms nearly cancel over short times
             let unit = loss / rate;
             let step = (s - unit) / rate;
             (unit, step, (0.5 * s * s - step) / rate)
@@ -163,6 +166,7 @@ impl Mode {
 
     /// The steady response to $`a\cos ws + b\sin ws`$, as factors of cosine and sine; infinite at resonance without damping.
     pub(crate) fn steady(&self, w: f64, (a, b): (f64, f64)) -> (f64, f64) {
+        // two factors keep the digits near resonance
         let (re, im) = ((self.omega - w) * (self.omega + w), 2.0 * self.d * w);
         let norm = re * re + im * im;
         ((a * re - b * im) / norm, (b * re + a * im) / norm)
@@ -173,6 +177,7 @@ impl Mode {
     pub(crate) fn forced(&self, h: usize, s: f64, free: &FreeMode, turned: &Turned) -> (f64, f64, f64) {
         match &self.forced[h] {
             Forced::Plain { w, z } => {
+                // 1 - C less the versine is cos - C, with the digits of both small numbers
                 let n = (free.one_minus_c - turned.versine, turned.sin - w * free.s);
                 let norm = z.0 * z.0 + z.1 * z.1;
                 let (kc, ks) = ((n.0 * z.0 + n.1 * z.1) / norm, (n.1 * z.0 - n.0 * z.1) / norm);

@@ -61,6 +61,7 @@ impl Normal {
     pub(crate) fn new(machine: &Machine) -> Self {
         let parts = machine.parts();
         let (n, factor) = (machine.n(), machine.factor().clone());
+        // an order that drives several places is one harmonic
         let mut orders: Vec<u32> = parts.forces.iter().map(|force| force.order).collect();
         orders.extend(parts.stops.iter().flat_map(|stop| stop.motion.iter().map(|motion| motion.order)));
         orders.sort_unstable();
@@ -70,7 +71,9 @@ impl Normal {
         let (stiffness, damping) = (parts.stiffness.reduced(&factor), parts.damping.reduced(&factor));
         let approach = |(stop, wall): (&Stop, &Signal)| {
             let w = factor.solve_lower(&stop.direction);
+            // minus the second derivative of the gap: the wall's acceleration counts against that of the body
             let mut signal = wall.derivative(&rates).derivative(&rates);
+            // the signal less twice itself is its negative
             signal.add(-2.0, &signal.clone());
             for (factor, force) in w.iter().zip(&force) {
                 signal.add(*factor, force);
@@ -95,6 +98,7 @@ impl Normal {
             rates,
             orders: orders.iter().map(|order| f64::from(*order)).collect(),
             translations: Translations::new(parts, &factor),
+            // the factor is lower triangular: nothing else stands above the diagonal
             diagonal: (0..n)
                 .all(|i| (0..i).all(|j| factor[(i, j)] == 0.0))
                 .then(|| (0..n).map(|i| factor[(i, i)]).collect()),
@@ -163,6 +167,7 @@ fn signals(parts: &MachineParts, orders: &[u32], factor: &Matrix) -> (Vec<Signal
         wall.constant = stop.gap;
         for HarmonicMotion { order, cos, sin } in &stop.motion {
             let h = place(*order);
+            // the wall is at d - r
             wall.harmonics[h].0 -= cos;
             wall.harmonics[h].1 -= sin;
         }
@@ -202,11 +207,14 @@ impl NormalRate {
         let (mut stiffness, mut damping) = (change.stiffness.reduced(factor), change.damping.reduced(factor));
         let mut turning = change.mass.reduced(factor);
         let turns = turning.largest() > 0.0;
+        // Phi from the whole X
         if turns {
             for i in 0..normal.n {
                 turning[(i, i)] *= 0.5;
                 turning.row_mut(i)[i + 1..].fill(0.0);
             }
+            // the derivative of L^-1 K L^-T has -Phi K - K Phi^T: the second term is the transpose of the first, as K
+            // is symmetric
             for (own, of) in [(&mut stiffness, &normal.stiffness), (&mut damping, &normal.damping)] {
                 let turned = turning.times(of);
                 for i in 0..normal.n {
@@ -215,6 +223,7 @@ impl NormalRate {
                     }
                 }
             }
+            // directions and forces are L^-1 times those of the machine, and turn with it
             for (own, of) in directions.iter_mut().zip(&normal.directions) {
                 add_scaled(own, -1.0, &turning.apply(of));
             }

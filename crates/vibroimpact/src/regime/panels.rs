@@ -26,10 +26,12 @@ pub(crate) fn rates(structure: &Structure) -> Vec<(f64, f64)> {
     let mut rates: Vec<(f64, f64)> = structure.rates.last().map(|rate| (*rate, 0.0)).into_iter().collect();
     for mode in &structure.modes {
         if mode.k == 0.0 {
+            // a free body: its velocity decays at the rate 2d
             rates.push((2.0 * mode.d, 2.0 * mode.d));
         } else if mode.d < mode.omega {
             rates.push((mode.omega, mode.d));
         } else {
+            // far from critical damping both rates in the form in which nothing cancels
             let fast = mode.d + ((mode.d - mode.omega) * (mode.d + mode.omega)).sqrt();
             rates.extend([(fast, fast), (mode.k / fast, mode.k / fast)]);
         }

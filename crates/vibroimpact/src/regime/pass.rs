@@ -60,11 +60,13 @@ impl Pass {
             // what a ramp adds to displacement, velocity and force
             ramps.push([drive.ramp * free.ramp, drive.ramp * free.step, drive.ramp * length]);
             for (h, ((a, b), w)) in drive.harmonics.iter().zip(of.rates).enumerate() {
+                // the harmonic by the cosine and by the sine of its phase at the beginning, as in `sampled`
                 let (kc, ks, _) = mode.forced(h, length, &free, &Turned::of(w * length));
                 let (kc_rate, ks_rate) = (free.s - w * ks, w * kc);
                 forced.push([a * kc + b * ks, b * kc - a * ks, a * kc_rate + b * ks_rate, b * kc_rate - a * ks_rate]);
             }
         }
+        // then `pass` has nothing to add
         if of.drive.iter().all(|drive| drive.ramp == 0.0) {
             ramps.clear();
         }
@@ -88,8 +90,10 @@ impl Pass {
                 moved += f[0] * cos + f[1] * sin;
                 rate += f[2] * cos + f[3] * sin;
             }
+            // both from the state before
             (*y, *v) = (moved, rate);
         }
+        // after the motion under the force at the beginning: a ramp changes the force itself too
         for ([y, v, q], ramp) in modes.iter_mut().zip(&self.ramps) {
             (*y, *v, *q) = (*y + ramp[0], *v + ramp[1], *q + ramp[2]);
         }

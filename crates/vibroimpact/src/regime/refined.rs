@@ -69,6 +69,7 @@ impl WideMatrix {
         let mut result = Matrix::zeros(n, n);
         for i in 0..n {
             let mut row = vec![Wide::default(); n];
+            // minus the identity, so that the sums are minus what is missing
             row[i] = Wide::from(-1.0);
             for k in 0..n {
                 let factor = self.at(i, k);
@@ -98,6 +99,7 @@ pub(super) fn refined(basis: &Basis, stiffness: &Matrix, damping: &Matrix) -> Op
         }
         let moved = columns.rounded().times(&change);
         columns.add(&moved);
+        // X + X(I - CX), the correction of an inverse, twice for as many digits as the columns
         for _ in 0..2 {
             let missing = columns.missing(&inverse);
             let moved = inverse.rounded().times(&missing);

@@ -63,6 +63,7 @@ impl RestForce {
     ) -> &'a [f64] {
         let RestBuffers { swung, mean, pulled, on_free, drift, .. } = buffers;
         let mean = if self.carries {
+            // counted from the mean of what swings: the harmonics drive the modes apart from this
             swung.resize(x.len(), 0.0);
             for (swung, signal) in swung.iter_mut().zip(&self.carried) {
                 *swung = signal.swing(turns);
@@ -75,6 +76,7 @@ impl RestForce {
         };
         fit(pulled, x.len());
         for (i, (pulled, force)) in pulled.iter_mut().zip(&self.force).enumerate() {
+            // the force less that of the springs, in the coordinates, where stiff stops are no part of it
             *pulled = force - dot(self.stiffness.row(i), mean);
         }
         self.push_of_force.apply_into(pulled, push);

@@ -90,6 +90,7 @@ pub(crate) struct GuardParts {
 impl Sampled {
     /// `None` without any rate, or where a ramp drives a mode or moves a guard.
     pub(super) fn new(of: Moved<'_>, guards: &[&Observable]) -> Option<Self> {
+        // the tables leave out time and one, which only ramps need
         let ramps = of.drive.iter().chain(guards.iter().map(|guard| &guard.signal)).any(|signal| signal.ramp != 0.0);
         let levels = levels(of);
         let fastest = levels.first().map_or(0.0, |(_, rate)| *rate);
@@ -114,6 +115,7 @@ impl Sampled {
         let ((modes, _), (turns, _)) = (modes.as_chunks::<3>(), turns.as_chunks::<2>());
         fit(to, modes.len());
         for (to, (part, [y, v, q])) in to.iter_mut().zip(self.parts.iter().zip(modes)) {
+            // the free part: less the equilibrium under the constant force and less the steady response
             let (mut u, mut rate) = (y - if part.k > 0.0 { q / part.k } else { 0.0 }, *v);
             for (r, [cos, sin]) in part.response.iter().zip(turns) {
                 u -= r[0] * cos + r[1] * sin;
@@ -138,6 +140,7 @@ impl Sampled {
     pub(crate) fn expand(&self, z: &[f64], to: &mut Vec<[f64; POWERS]>) {
         let (modes, turns) = z.split_at(3 * self.parts.len());
         let (modes, _) = modes.as_chunks::<3>();
+        // time and one have no rows
         let turns = &turns[..turns.len() - 2];
         fit(to, modes.len());
         let mut rest = self.series.as_slice();
@@ -161,19 +164,23 @@ impl Part {
     fn new(of: Moved<'_>, i: usize) -> Self {
         let mode = &of.modes[i];
         let harmonics = || of.drive[i].harmonics.iter().zip(of.rates);
+        // the factors of cosine and sine, of the displacement and, by its derivative, of the velocity
         let response: Vec<[f64; 4]> = harmonics()
             .map(|(force, w)| {
+                // without a force the formula would give 0/0 at a resonance without damping
                 let (x, y) = if *force == (0.0, 0.0) { (0.0, 0.0) } else { mode.steady(*w, *force) };
                 [x, y, w * y, -w * x]
             })
             .collect();
         let size = |((a, b), _): (&(f64, f64), &f64)| hypot(*a, *b);
         let near = |(r, (force, w)): (&[f64; 4], (&(f64, f64), &f64))| {
+            // the response without the resonance: held by the spring or, beyond it, by the mass
             let fixed = size((force, w)) / mode.k.max(w * w);
             let steady = hypot(r[0], r[1]);
             steady.is_nan() || steady > RESONANT * fixed
         };
         let loose = if mode.k > 0.0 { 0.0 } else { 1.0 };
+        // near a resonance the whole force counts as one that feeds the energy of the free part
         if response.iter().zip(harmonics()).any(near) {
             let growth = harmonics().map(size).sum();
             return Self { k: mode.k, response: vec![[0.0; 4]; response.len()], growth, loose };
@@ -204,6 +211,7 @@ impl Span {
 
 impl GuardSamples {
     fn new(of: Moved<'_>, guard: &Observable, (parts, faint): (&[Part], &[usize]), passes: &[Pass]) -> Self {
+        // the functional of the state that is the guard; its products with the propagators are the table
         let first = 3 * of.modes.len();
         let mut row = vec![0.0; of.elements()];
         let mut waves = guard.signal.harmonics.clone();
@@ -216,6 +224,7 @@ impl GuardSamples {
         for (i, (part, mode)) in parts.iter().zip(of.modes).enumerate() {
             let (a, b) = (guard.position[i], guard.velocity[i]);
             let is_faint = faint.contains(&i);
+            // `waves` are the guard's harmonics with the steady responses: their bend does not depend on the free parts
             for (h, (wave, r)) in waves.iter_mut().zip(&part.response).enumerate() {
                 let (cos, sin) = (a * r[0] + b * r[2], a * r[1] + b * r[3]);
                 (wave.0, wave.1) = (wave.0 + cos, wave.1 + sin);
@@ -224,20 +233,25 @@ impl GuardSamples {
                     row[first + 2 * h + 1] += sin;
                 }
             }
+            // of a faint mode the row has the steady response only; the energy bounds what the free part takes away
             if is_faint {
                 row[3 * i + 2] = a / part.k;
                 samples.bend[i][1] = a.abs() / mode.omega + b.abs();
                 continue;
             }
             (row[3 * i], row[3 * i + 1]) = (a, b);
+            // by |u''| <= Er for the displacement and |u'''| <= Er^2 for the velocity
             samples.bend[i][0] = (a.abs() + b.abs() * mode.rate) * mode.rate;
+            // a force beside the steady response bends u'' by its size, and u''' by its rate and by the mode's
             samples.constant += (a.abs() + 2.0 * b.abs() * fastest) * part.growth;
             if part.loose > 0.0 {
                 samples.bend_of_push.push((i, a.abs() + b.abs() * mode.rate));
             }
         }
         samples.constant += waves.iter().zip(of.rates).map(|((a, b), w)| w * w * hypot(*a, *b)).sum::<f64>();
+        // the zeros at the end of the row cost nothing
         let used = row.iter().rposition(|value| *value != 0.0).map_or(0, |last| last + 1);
+        // a column for each element of the state: the guard of a unit of it after 0, 1, 2, ... steps
         samples.rows = (0..of.elements() - 2)
             .map(|element| {
                 let mut of_element = [0.0; SAMPLES];
@@ -296,6 +310,8 @@ impl GuardParts {
             }
             own.swing +=
                 part.response.iter().map(|r| a.abs() * hypot(r[0], r[1]) + b.abs() * hypot(r[2], r[3])).sum::<f64>();
+            // displacements and velocities are counted from the beginning: they differ by at most twice their
+            // amplitudes
             let (a, b) = (2.0 * a.abs(), 2.0 * b.abs());
             if mode.k > 0.0 {
                 own.sizes[i] = [a / mode.omega + b, a / mode.k + b / mode.omega];
@@ -305,6 +321,8 @@ impl GuardParts {
         }
         // the rows of a guard without harmonics would add nothing
         for ((a, b), w) in guard.signal.harmonics.iter().zip(of.rates).filter(|_| guard.signal.moves()) {
+            // a cos (theta + ws) + b sin (theta + ws) by cos theta and by sin theta at the beginning of the
+            // step
             own.harmonics.extend([harmonic((*a, *b), w * step), harmonic((*b, -a), w * step)]);
         }
         own
@@ -319,6 +337,7 @@ impl GuardParts {
             size += factor[0] * energy + factor[1] * mode[2].abs();
         }
         for (i, a, b) in &self.loose {
+            // a free body: its speed grows with the force
             let gained = s * z[3 * i + 2].abs();
             size += a * s * (energies[*i] + gained) + b * (energies[*i] + gained);
         }
@@ -336,6 +355,7 @@ impl GuardParts {
         for (i, a, b) in &self.factors {
             let mode = &modes[*i];
             add(&mut sum, *a, mode);
+            // the series of the velocity is the derivative; its last coefficient is not known, so a guard has one less
             if *b != 0.0 {
                 let mut k = 0.0;
                 for (sum, c) in sum.iter_mut().zip(&mode[1..]) {
@@ -363,6 +383,7 @@ fn add<const N: usize>(sum: &mut [f64; N], factor: f64, row: &[f64; N]) {
 fn harmonic((a, b): (f64, f64), turn: f64) -> [f64; POWERS] {
     let mut c = [0.0; POWERS];
     let (mut now, mut next, mut k) = (a, turn * b, 1.0);
+    // the second derivative is -w^2 times the function: each coefficient from that two before
     for value in &mut c {
         *value = now;
         (now, next) = (next, -turn * turn * now / (k * (k + 1.0)));
@@ -379,6 +400,7 @@ fn series(of: Moved<'_>, i: usize, step: f64) -> Vec<[f64; POWERS]> {
         (c[0], c[1]) = (y, v * step);
         let mut k = 0.0;
         for j in 2..POWERS {
+            // y'' + 2dy' + ky = q, power by power, in parts of the step
             let pull = 2.0 * mode.d * step * (k + 1.0) * c[j - 1] + mode.k * step * step * c[j - 2];
             c[j] = (push[j - 2] * step * step - pull) / ((k + 1.0) * (k + 2.0));
             k += 1.0;
@@ -388,6 +410,7 @@ fn series(of: Moved<'_>, i: usize, step: f64) -> Vec<[f64; POWERS]> {
     let none = [0.0; POWERS];
     let mut constant = none;
     constant[0] = 1.0;
+    // in the order of the state: displacement, velocity, force
     let mut rows = vec![moved(1.0, 0.0, &none), moved(0.0, 1.0, &none), moved(0.0, 0.0, &constant)];
     for ((a, b), w) in of.drive[i].harmonics.iter().zip(of.rates) {
         for force in [(*a, *b), (*b, -*a)] {

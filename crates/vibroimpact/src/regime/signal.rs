@@ -48,6 +48,7 @@ impl Signal {
 
     /// The derivative with respect to time; `rates` are the angular frequencies of the harmonics.
     pub(crate) fn derivative(&self, rates: &[f64]) -> Self {
+        // a cos + b sin has the rate w b cos - w a sin
         let harmonics = self.harmonics.iter().zip(rates).map(|((cos, sin), rate)| (rate * sin, -rate * cos)).collect();
         Self { constant: self.ramp, ramp: 0.0, set: vec![0.0; self.set.len()], harmonics }
     }

@@ -152,8 +152,10 @@ impl Structure {
         self.carries = self.x.iter().chain(&self.v).any(|of| of.signal.moves());
         self.swings = self.carries || self.closed.iter().any(|closed| closed.gap.signal.moves());
         self.pressing = self.reactions.iter().map(|reaction| self.pressing(reaction)).collect();
+        // the rates of the harmonics are sorted
         let forcing = self.rates.last().copied().unwrap_or(0.0);
         self.fastest = self.modes.iter().map(|mode| mode.rate).fold(forcing, f64::max);
+        // last, because guards read all of the above
         self.guards = self.all_guards(machine, normal);
         self
     }
@@ -198,6 +200,7 @@ impl Structure {
     /// The slowest rate of the modes with stiffness; `None` if there is none.
     pub(crate) fn slowest(&self) -> Option<f64> {
         let stiff = |least: f64| self.modes.iter().map(|mode| mode.k).filter(move |k| *k > least);
+        // a stiffness that is a rounding error of the largest one is none
         let least = SOFT * stiff(0.0).fold(0.0, f64::max);
         stiff(least).min_by(f64::total_cmp).map(f64::sqrt)
     }
@@ -317,6 +320,7 @@ impl Structure {
             add_scaled(&mut pressing.v, a, self.to_y[1].row(i));
             add_scaled(&mut pressing.x, b, self.to_z[0].row(i));
             add_scaled(&mut pressing.v, b, self.to_z[1].row(i));
+            // y and z have the signals taken away, and z the slip too
             pressing.signal.add(-a, &self.to_y_signal[i]);
             pressing.signal.add(-b, &self.to_z_signal[i]);
             pressing.signal.add(b, &self.slip[i]);
@@ -350,6 +354,7 @@ fn applied_force(machine: &Machine, normal: &Normal, states: &[ContactState]) ->
             _ => continue,
         };
         for (signal, factor) in force.iter_mut().zip(&normal.directions[place]) {
+            // friction pulls against the sliding
             signal.constant -= size * factor;
         }
     }

@@ -100,6 +100,7 @@ impl Translations {
         }
         let n = self.along.len() + self.across.len();
         let x = &mut values[..n];
+        // what is left is put together anew: to subtract a large part along them would leave its rounding errors
         let rest: Vec<f64> = self.across.iter().map(|direction| dot(direction, x)).collect();
         x.fill(0.0);
         for (direction, share) in self.across.iter().zip(rest) {

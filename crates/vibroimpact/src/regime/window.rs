@@ -108,6 +108,7 @@ fn window_levels(of: Moved<'_>) -> Vec<Level> {
     sort_by(&mut parts, |one, other| one.0.total_cmp(&other.0));
     let mut all: Vec<Level> = Vec::new();
     let mut level = Level { faint: Vec::new(), decaying: Vec::new(), rate: 0.0 };
+    // from the fastest part on, one part after another is left out, until one has to stay in all windows
     loop {
         let rate = parts.last().map_or(0.0, |(rate, ..)| *rate).max(of.rate());
         let last = all.last().map_or(f64::INFINITY, |level| level.rate);
@@ -126,6 +127,8 @@ fn window_levels(of: Moved<'_>) -> Vec<Level> {
         let mode = &of.modes[i];
         if decaying {
             level.decaying.push(i);
+        // its slow decay is expanded, not bounded; without stiffness, near the forcing or under a ramp it has no slow
+        // steady response and a bounded free part
         } else if level.decaying.contains(&i)
             || mode.k <= 0.0
             || mode.omega < FAR * of.rate()
@@ -145,8 +148,11 @@ impl Moved<'_> {
         let mut to = vec![0.0; of.len()];
         let (at_time, at_one) = (of.len() - 2, of.len() - 1);
         let harmonics = 3 * self.modes.len();
+        // time has the rate one
         to[at_one] = of[at_time];
         for (i, mode) in self.modes.iter().enumerate() {
+            // y' = v and v' = q + a cos + b sin - ky - 2dv for all harmonics, read backwards: what reads v reads all of
+            // these
             let (y, v, q) = (of[3 * i], of[3 * i + 1], of[3 * i + 2]);
             to[3 * i] -= mode.k * v;
             to[3 * i + 1] += y - 2.0 * mode.d * v;
@@ -158,6 +164,7 @@ impl Moved<'_> {
             }
         }
         for (h, w) in self.rates.iter().enumerate() {
+            // cos' = -w sin and sin' = w cos
             let (c, s) = (of[harmonics + 2 * h], of[harmonics + 2 * h + 1]);
             to[harmonics + 2 * h] += w * s;
             to[harmonics + 2 * h + 1] -= w * c;
@@ -180,6 +187,7 @@ pub(super) fn levels(of: Moved<'_>) -> Vec<(Vec<usize>, f64)> {
     for kept in (0..=order.len()).rev() {
         if let Some(left) = order.get(kept) {
             let mode = &of.modes[*left];
+            // such a mode has no steady response as slow as the forcing: it, and all slower ones, stay in every window
             if mode.k <= 0.0 || mode.omega < FAR * of.rate() || of.drive[*left].ramp != 0.0 {
                 break;
             }
@@ -229,6 +237,7 @@ impl GuardSeries {
         for (h, (a, b)) in guard.signal.harmonics.iter().enumerate() {
             (row[harmonics + 2 * h], row[harmonics + 2 * h + 1]) = (*a, *b);
         }
+        // the ninth term of each harmonic
         let mut constant: f64 =
             guard.signal.harmonics.iter().zip(of.rates).map(|((a, b), w)| hypot(*a, *b) * power(w * length)).sum();
         let swing = guard.signal.harmonics.iter().map(|(a, b)| hypot(*a, *b)).sum();
@@ -238,6 +247,8 @@ impl GuardSeries {
         for i in 0..of.modes.len() {
             let (a, b) = (guard.position[i], guard.velocity[i]);
             let mode = &of.modes[i];
+            // for rounding errors: counted from the beginning of the flight, a displacement is up to twice the
+            // amplitude
             if mode.k > 0.0 {
                 weights[i].size_of_energy = 2.0 * a.abs() / mode.omega;
                 weights[i].size_of_speed = 2.0 * b.abs();
@@ -246,6 +257,7 @@ impl GuardSeries {
                 loose.push((i, a.abs(), b.abs()));
             }
             if let Some(faint) = is_faint(i) {
+                // the steady response, which is as slow as the forcing, is all that is expanded of a faint mode
                 row[3 * i + 2] = a / faint.k;
                 for (h, (x, y)) in faint.response.iter().enumerate() {
                     let w = of.rates[h];
@@ -265,12 +277,15 @@ impl GuardSeries {
             }
             (row[3 * i], row[3 * i + 1]) = (a, b);
             let bounds = Bounds::new(&of, i, length);
+            // the ninth coefficient of the velocity is this times the tenth of the displacement
             let rate = 10.0 / length;
             let sum = |(ninth, tenth): (f64, f64)| a.abs() * ninth + b.abs() * rate * tenth;
             weights[i].energy = sum(bounds.energy);
             weights[i].push = sum(bounds.push);
             constant += sum(bounds.constant);
         }
+        // the most that a free part takes away: the displacement is at most E/sqrt(k), the velocity at most E; of a
+        // fast decay by its rate
         for faint in faint {
             let (a, b) = (guard.position[faint.mode], guard.velocity[faint.mode]);
             lost.push(match faint.decays {
@@ -278,6 +293,7 @@ impl GuardSeries {
                 None => a.abs() / faint.k.sqrt() + b.abs(),
             });
         }
+        // g A^k H^k / k!, one derivative after another
         let mut rows = vec![[0.0; TERMS]; row.len()];
         let (mut size, mut k) = (1.0, 1.0);
         let mut tail = if faint.is_empty() { vec![[0.0; TAIL]; row.len()] } else { Vec::new() };
@@ -313,8 +329,10 @@ impl GuardSeries {
         for (row, z) in self.hull.iter().zip(z) {
             add(&mut b, *z, row);
         }
+        // the ninth power has a part in the last coefficient of Bernstein's form only
         b[ORDER] -= remainder;
         let less = |one: f64, other: f64| if one < other { one } else { other };
+        // in pairs: no comparison waits for more than four others
         let half = [less(b[0], b[5]), less(b[1], b[6]), less(b[2], b[7]), less(b[3], b[8]), less(b[4], b[9])];
         less(less(less(half[0], half[1]), less(half[2], half[3])), half[4])
     }
@@ -354,10 +372,12 @@ impl GuardSeries {
             remainder += weight.energy * energy + weight.push * push;
             size += weight.size_of_energy * energy + weight.size_of_speed * speed + weight.size_of_push * push;
         }
+        // a free body: it moves on with its speed, which the force increases
         for (i, a, b) in &self.loose {
             let z = &z[3 * i..];
             size += a * (z[0].abs() + time * (z[1].abs() + time * z[2].abs())) + b * (z[1].abs() + time * z[2].abs());
         }
+        // each window that has passed adds its rounding errors
         (remainder, 32.0 * f64::EPSILON * (windows + 1.0) * size)
     }
 
@@ -366,6 +386,7 @@ impl GuardSeries {
     pub(crate) fn lowered_by_decays(&self, faint: &[Faint], z: &[f64], (n, length): (usize, f64)) -> f64 {
         let lost = self.faint.iter().zip(faint).filter_map(|(factor, faint)| {
             let (_, fast) = faint.decays?;
+            // the remainder of e^{-lambda t} after n terms is at most (lambda t)^n/n!
             let (mut share, mut k) = (1.0, 1.0);
             for _ in 0..n {
                 share *= fast * length / k;
@@ -413,6 +434,7 @@ impl Faint {
     fn add_slow(&self, rows: &mut [[f64; TERMS]], (a, b): (f64, f64), length: f64) {
         let Some((slow, fast)) = self.decays else { return };
         let harmonics = rows.len() - 2 - 2 * self.rates.len();
+        // the factor of the decay in the guard: its velocity is minus the rate times it
         let mut c = (a - b * slow) / (fast - slow);
         for (order, k) in (0..ORDER).zip(1_u32..) {
             rows[3 * self.mode][order] += c * fast;

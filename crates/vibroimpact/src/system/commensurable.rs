@@ -42,6 +42,7 @@ pub(super) fn fraction(beta: f64) -> Option<(u32, u32)> {
     let mut rest = beta;
     for _ in 0..20 {
         let whole = rest.floor();
+        // each convergent from the two before it
         (p0, p1) = (p1, whole * p1 + p0);
         (q0, q1) = (q1, whole * q1 + q0);
         if q1 > LARGEST || p1 > LARGEST_NUMERATOR {

@@ -139,9 +139,11 @@ impl Excitation {
         let (m, k) = (machine.mass_kg, machine.stiffness_n_per_m);
         let c = machine.damping.ns_per_m(m, k);
         let omega = machine.frequency.rad_per_s();
+        // amplitudes of sine and cosine as one complex number
         let (mut re, mut im) = (machine.force_n + self.unbalance_kg_m * omega * omega, 0.0);
         let mut add = |(a, b): (f64, f64), shaking: &Shaking| {
             let (sin, cos) = sin_cos(shaking.phase);
+            // (a + ib) times the turn of the phase
             let displacement_m = shaking.amplitude.displacement_m(omega);
             re += displacement_m * (a * cos - b * sin);
             im += displacement_m * (a * sin + b * cos);
@@ -150,6 +152,8 @@ impl Excitation {
             // the terms of the spring and the damper cancel exactly
             add((m * omega * omega, 0.0), &self.base);
         } else {
+            // the base acts through spring and damper; in the frame of the stop its acceleration acts on the mass, and
+            // they are pulled back
             add((k, omega * c), &self.base);
             add((m * omega * omega - k, -omega * c), &self.stop);
         }

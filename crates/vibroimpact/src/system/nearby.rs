@@ -53,9 +53,11 @@ impl Response {
         let (kept, loss) = decay(zeta * middle);
         let further = loss_of(L::splat(zeta) * offset);
         let kept = L::splat(kept);
+        // the decay to the middle time and on from there
         let (kept, loss) = (kept - kept * further, L::splat(loss) + kept * further);
         let (sw, cw) = (L::splat(self.free.root) * s).sine_and_cosine();
         let free_s = kept * sw / L::splat(self.free.root);
+        // C = E cos + zeta S and S' = E cos - zeta S
         let c = kept * cw + L::splat(zeta) * free_s;
         let s_rate = kept * cw - L::splat(zeta) * free_s;
         let (kc, ks, sin_turn, cos_turn) = if let Regime::Light { detuning } = self.regime {
@@ -79,6 +81,7 @@ fn loss_of<L: Lane>(y: L) -> L {
     let mut sum = L::splat(1.0);
     let mut k = TERMS;
     while k > 1 {
+        // 1 - e^-y = y (1 - y/2 (1 - y/3 (1 - ...)))
         sum = L::splat(1.0) - y * L::splat(1.0 / f64::from(k)) * sum;
         k -= 1;
     }

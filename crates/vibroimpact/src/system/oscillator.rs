@@ -120,6 +120,7 @@ impl Oscillator {
     /// # Errors
     /// As [`Oscillator::new`].
     pub fn from_inverse_beta(inverse_beta: f64, gap: f64, restitution: f64) -> Result<Self, SystemError> {
+        // both, so that the error names the number that was given
         if !(RATIOS.contains(&inverse_beta) && RATIOS.contains(&(1.0 / inverse_beta))) {
             return Err(SystemError::InverseBeta(inverse_beta));
         }
@@ -168,6 +169,7 @@ impl Oscillator {
 
     /// This fraction, if flights repeat after a common period: without damping and away from resonance.
     pub(crate) fn common_period(&self) -> Option<(u32, u32)> {
+        // at resonance the motion grows and does not repeat
         if self.damping() > 0.0 { None } else { self.fraction.filter(|(p, q)| p != q) }
     }
 
@@ -225,6 +227,7 @@ impl Oscillator {
     #[must_use]
     pub fn free_amplitude(&self) -> f64 {
         let beta = self.beta();
+        // two factors: 1 - beta^2 would cancel near resonance
         1.0 / hypot((1.0 - beta) * (1.0 + beta), 2.0 * self.damping() * beta)
     }
 

@@ -86,6 +86,7 @@ impl ParameterPath {
     pub fn get(&self, osc: &Oscillator) -> Result<f64, SystemError> {
         match &self.0 {
             Line::Parameters { first, also } => {
+                // only to refuse a parameter that this oscillator lacks
                 also.map_or(Ok(0.0), |(other, _)| value(other, osc))?;
                 value(*first, osc)
             }

@@ -43,6 +43,7 @@ pub(crate) fn advance_lanes<L: Lane>(phase: L, beta: L, s: L) -> L {
 /// The phase after a time `s`, not reduced, as a sum of two numbers.
 #[inline(always)]
 fn advanced<L: Lane>(phase: L, beta: L, s: L) -> (L, L) {
+    // the product and its rounding error, so that a long flight loses no digits of the phase
     let (turn, turn_low) = two_prod(beta, s);
     let (hi, lo) = two_sum(phase, turn);
     (hi, lo + turn_low)

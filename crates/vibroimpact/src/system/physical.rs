@@ -232,6 +232,7 @@ impl PhysicalParameter {
             Self::BaseDisplacement | Self::BaseVelocity | Self::BaseAcceleration => Self::BaseDisplacement,
             other => other,
         };
+        // the gap of both stops determines each of them
         let both = |a, b| a == Self::Gaps && matches!(b, Self::Gap | Self::SecondGap);
         group(self) == group(other) || both(self, other) || both(other, self)
     }
@@ -248,18 +249,21 @@ impl PhysicalParameter {
             Self::DampingCoefficient => machine.damping.ns_per_m(m, k),
             Self::DampingRatio => machine.damping.ratio(m, k),
             Self::Force => machine.force_n,
+            // in the unit in which it was given, so that no digit changes
             Self::Frequency => match machine.frequency {
                 Frequency::Hz(hertz) => hertz,
                 Frequency::RadPerS(omega) => omega / TAU,
             },
             Self::Gap => machine.gap_m,
             Self::SecondGap => machine.second_stop?.gap_m,
+            // stops that differ have no such number
             Self::Gaps => Some(machine.gap_m).filter(|gap| machine.second_stop.is_some_and(|s| s.gap_m == *gap))?,
             Self::Restitutions => {
                 Some(machine.restitution).filter(|e| machine.second_stop.is_none_or(|s| s.restitution == *e))?
             }
             Self::BaseDisplacement => base.displacement_m(omega),
             Self::BaseVelocity => match base {
+                // as it was given, so that no digit changes
                 Amplitude::VelocityMPerS(v) => v,
                 other => other.displacement_m(omega) * omega,
             },

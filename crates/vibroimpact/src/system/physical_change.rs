@@ -24,6 +24,7 @@ impl DrivenOscillator {
             Parameter::Damping => machine.damping = Damping::Ratio(value),
             Parameter::Gap => {
                 let Reduced { scales, offset_m, .. } = self.reduced()?;
+                // the gaps of the oscillator count from the equilibrium under the constant force
                 machine.gap_m = value * scales.length_m + offset_m;
             }
             Parameter::Restitution => machine.restitution = value,

@@ -91,6 +91,7 @@ impl Response {
         } else if damping == 0.0 {
             Regime::Undamped { detuning: beta - 1.0, over_sum: 1.0 / (beta + 1.0) }
         } else {
+            // beta - w in full relative accuracy, as the difference of the two would not be
             Regime::Light { detuning: (beta - 1.0) + free.shift }
         };
         Self { beta, free, regime }
@@ -159,6 +160,7 @@ impl Response {
                 UndampedForm { kind, numbers: [0.5 * detuning, 1.0 / detuning, over_sum] }
             }
             _ => {
+                // two factors: 1 - beta^2 would cancel
                 let over = 1.0 / ((1.0 - self.beta) * (1.0 + self.beta));
                 UndampedForm { kind: FormKind::Plain, numbers: [self.beta, over, 0.0] }
             }
@@ -179,6 +181,7 @@ impl Response {
     #[inline(always)]
     fn light<L: Lane>(&self, s: L, detuning: f64, decay: (L, L)) -> Damped<L> {
         let swing = self.free.swing_angle(s);
+        // h = (beta - w) s/2
         let half = (L::splat(0.5 * detuning) * s).sine_and_cosine();
         let near = NearForced::new(self, detuning, swing, half, decay);
         let (first, second) = (near.first, near.second);
@@ -200,6 +203,7 @@ impl Response {
         let (beta, z) = (L::splat(self.beta), self.denominator());
         let (st, ct) = (beta * s).sine_and_cosine();
         let versine = versine(st, ct);
+        // 1 - C and the versine are small numbers with all their digits, C and the cosine are not
         let (kc, ks) = divide((free.one_minus_c - versine, st - beta * free.s), z);
         let size = versine + free.size + st.abs() + (beta * free.s).abs();
         let over = L::splat(z.0.abs().max(z.1));
@@ -266,6 +270,7 @@ impl<L: Lane> NearForced<L> {
         (kept, loss): (L, L),
     ) -> Self {
         let (zeta, w) = (response.free.damping, response.free.root);
+        // sine and cosine of A = ws + h
         let (sa, ca) = (sw * ch + cw * sh, cw * ch - sw * sh);
         let both = L::splat(1.0) + kept;
         let first = divide((loss * ch, both * sh), (zeta, detuning));
@@ -274,6 +279,7 @@ impl<L: Lane> NearForced<L> {
         let re = (ca * first.0 - sa * first.1) - (ch * second.0 - sh * second.1);
         let im = (sa * first.0 + ca * first.1) - (sh * second.0 + ch * second.1);
         let over = L::splat(2.0 * w);
+        // by 2iw: the real part over i is the imaginary one; beta s = A + h
         Self { first, second, kc: im / over, ks: -re / over, sin_turn: sa * ch + ca * sh, cos_turn: ca * ch - sa * sh }
     }
 }
@@ -365,6 +371,7 @@ impl<L: Lane> UndampedForm<L> {
         }
         let [beta, ..] = self.numbers;
         let (one, turn) = (L::splat(1.0), Turn::of(beta * s));
+        // by the operations of `quotient`, for its bits
         let z = ((one - beta) * (one + beta), L::splat(0.0));
         let (kc, ks) = divided((free.versine - turn.versine, turn.sin - beta * free.sin), z);
         let (sin_turn, cos_turn, forced_size) = (turn.sin, turn.cos, L::splat(0.0));
@@ -377,6 +384,7 @@ impl<L: Lane> UndampedForm<L> {
         let [half, over_detuning, over_sum] = self.numbers;
         let (ss, cs) = (free.sin, free.cos);
         let (sh, ch) = (half * s).sine_and_cosine();
+        // sin h/(beta - 1), which at resonance is 0/0 with the limit s/2
         let q = if self.kind == FormKind::Resonance { L::splat(0.5) * s } else { sh * over_detuning };
         let (sa, ca) = (ss * ch + cs * sh, cs * ch - ss * sh);
         let part = sa * over_sum;

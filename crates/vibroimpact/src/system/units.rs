@@ -47,8 +47,10 @@ impl Damping {
     #[must_use]
     pub fn ratio(self, mass_kg: f64, stiffness_n_per_m: f64) -> f64 {
         match self {
+            // not the root of the product, which can overflow or underflow although both numbers are valid
             Self::NsPerM(c) => c / (2.0 * (stiffness_n_per_m.sqrt() * mass_kg.sqrt())),
             Self::Ratio(zeta) => zeta,
+            // the definition solved for the ratio
             Self::LogDecrement(decrement) => decrement / hypot(TAU, decrement),
         }
     }
@@ -159,6 +161,7 @@ impl PhysicalOscillator {
         let natural = (self.stiffness_n_per_m / self.mass_kg).sqrt();
         let scales =
             Scales { length_m: self.force_n / self.stiffness_n_per_m, time_s: 1.0 / natural, mass_kg: self.mass_kg };
+        // quotients of valid numbers can still overflow or underflow
         for (name, value) in [("F/k", scales.length_m), ("omega_n", natural), ("1/omega_n", scales.time_s)] {
             if !(value > 0.0 && value.is_finite()) {
                 return Err(SystemError::Scaling { name, value });

@@ -4,7 +4,7 @@
 use super::follow::{Follow, Releases, ended};
 use super::options::SettleOptions;
 use super::outcome::Verdict;
-use super::settle::Drive;
+use super::settle::{Drive, Followed};
 use crate::lanes::{Batch, PropagatorCache};
 use crate::motion::{Abreast, End, ImpactState, Launched, Motion, Recorder};
 use crate::system::Oscillator;
@@ -69,12 +69,12 @@ impl<S: Source> Recorder for Settling<'_, S> {
         (interval, steps): (f64, u64),
     ) -> bool {
         let (Track { place, follow }, options) = (track, self.options);
-        follow.steps += steps;
+        follow.record.steps += steps;
         if self.source.caught(*place, follow, &state, options) {
             return true;
         }
         let verdict = match follow.impact(osc, options, state, interval) {
-            None if !follow.within(options) => Some(follow.last_look(osc, options)),
+            None if !follow.record.within(options) => Some(follow.record.last_look(osc, options)),
             verdict => verdict,
         };
         let decided = verdict.is_some();
@@ -98,8 +98,8 @@ impl<S: Source> Recorder for Settling<'_, S> {
     ) -> Option<ImpactState> {
         let (Track { place, follow }, options) = (track, self.options);
         let releases = self.source.releases(*place);
-        let mut drive = Drive { osc, options, follow, releases, cache, time: 0.0 };
-        match drive.on(&mut motion, &|follow| leave(&follow.last())) {
+        let mut drive = Drive { osc, follow, releases, motion: &mut motion, cache, time: 0.0, returned: false };
+        match drive.verdict(options, &|drive| leave(&drive.follow.last())) {
             None => Some(follow.last()),
             Some(verdict) => {
                 self.source.decided(*place, verdict, follow, options);

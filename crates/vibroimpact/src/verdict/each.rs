@@ -10,7 +10,7 @@ use super::follow::{Follow, Releases};
 use super::many::{FEW, KnownAttractors, settle_many};
 use super::options::SettleOptions;
 use super::outcome::Verdict;
-use super::settle::{Drive, settle};
+use super::settle::{Drive, Followed, settle};
 use super::settlement::{Part, Settlement};
 use crate::contact::chatter;
 use crate::lanes::{Batch, Kind, PropagatorCache, Width};
@@ -179,11 +179,11 @@ impl Source for Points<'_> {
             let system = self.points[number].system;
             let (osc, options) = (&self.systems[system].0, self.options);
             follow.reset();
-            let mut motion = Motion::with_limits(osc, (self.start)(system, k as u64), options.limits);
+            let motion = &mut Motion::with_limits(osc, (self.start)(system, k as u64), options.limits);
             let (releases, cache) = (&mut self.points[number].releases, PropagatorCache::new());
-            let mut drive = Drive { osc, options, follow, releases, cache: Some(&cache), time: 0.0 };
+            let mut drive = Drive { osc, follow, releases, motion, cache: Some(&cache), time: 0.0, returned: false };
             let flies_on = |follow: &Follow| !chatter::settles_after(osc, &follow.last());
-            match drive.on(&mut motion, &|follow| follow.count() >= self.long && flies_on(follow)) {
+            match drive.verdict(options, &|drive| drive.follow.count() >= self.long && flies_on(drive.follow)) {
                 Some(verdict) => self.decide((number, k), verdict, follow),
                 None => {
                     self.places.push((number, k));

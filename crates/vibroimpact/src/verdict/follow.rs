@@ -7,8 +7,8 @@
 use super::graze_limit::Fading;
 use super::options::SettleOptions;
 use super::oscillator::NoImpact;
-use super::outcome::{Chaos, Undecided, UndecidedCause, Verdict};
-use super::record::{LOOK, Record, Shown};
+use super::outcome::{Undecided, UndecidedCause, Verdict};
+use super::record::{LOOK, Record};
 use super::trapping_region::Depth;
 use crate::flight::SearchLimits;
 use crate::lyapunov::{Arrivals, MEASURED_IMPACTS};
@@ -19,7 +19,7 @@ use crate::system::{Oscillator, Side};
 /// The record of a motion.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Follow {
-    record: Record<Oscillator>,
+    pub(super) record: Record<Oscillator>,
     /// Time since the last impact.
     since: f64,
     /// The number of impacts before the first release from each stop.
@@ -28,10 +28,6 @@ pub(crate) struct Follow {
     grazes: u32,
     /// The number of impacts before the last grazing contact.
     grazed: Option<usize>,
-    /// The number of search steps.
-    pub(crate) steps: u64,
-    /// Chaos that has ended because the motion stuck.
-    over: Option<Chaos>,
 }
 
 /// The verdicts on the motion after a release, which is the same for every motion of an oscillator. Each is computed at
@@ -90,20 +86,12 @@ impl Follow {
         self.record.count()
     }
 
-    /// Whether the budget permits more. A measurement that began because the one before diverged too little for a
-    /// decision is completed beyond the budget.
-    pub(crate) fn within(&self, options: &SettleOptions) -> bool {
-        let longer = options.extend && self.record.undecided_measurement();
-        longer && self.steps < 3 * options.max_steps
-            || self.count() < options.max_impacts as usize && self.steps < options.max_steps
-    }
-
     /// Whether a motion captured by a trapping region of this depth would be decided as that cycle without the region,
     /// before any other decision is possible: when it is close to the cycle, and at the next search for a recurrence.
     pub(super) fn reaches(&self, depth: Depth, options: &SettleOptions) -> bool {
         let close = self.count() + depth.impacts;
         close + LOOK + LOOK.max(close / 8) <= self.record.undisturbed(options)
-            && self.steps + depth.steps <= options.max_steps
+            && self.record.steps + depth.steps <= options.max_steps
     }
 
     /// The last impact; before the first impact, a state with velocity 0 on the upper stop.
@@ -121,15 +109,13 @@ impl Follow {
         interval: f64,
     ) -> Option<Verdict> {
         let since = self.since + interval;
+        self.record.events += 1;
         self.record.push(options, state, since);
         (self.since, self.grazes) = (0.0, 0);
         if self.fading.strikes(osc, state, interval) {
             return Some(Verdict::NoImpact(NoImpact::GrazeLimit { velocity: state.velocity, phase: state.phase }));
         }
-        self.record.decide(osc, options, &state, since).map(|shown| match shown {
-            Shown::Cycle(cycle) => Verdict::Periodic(cycle),
-            Shown::Chaos((spectrum, tail)) => Verdict::Chaotic(Chaos { spectrum, impacts: self.count() as u64, tail }),
-        })
+        self.record.decide(osc, options, &state, since)
     }
 
     /// The impacts of the tail of a chaotic motion, just after its verdict. Empty for any other motion, where the record
@@ -148,12 +134,6 @@ impl Follow {
         }
     }
 
-    /// Chaos that was measured and has ended, if the motion has settled into something else.
-    pub(crate) fn transient(&self, osc: &Oscillator) -> Option<Chaos> {
-        let found = self.record.was_chaotic(osc);
-        found.map(|(spectrum, tail)| Chaos { spectrum, impacts: self.count() as u64, tail }).or(self.over)
-    }
-
     /// Records a grazing contact `interval` after the last event; returns the verdict if it is decided.
     pub(crate) fn graze(&mut self, osc: &Oscillator, side: Side, phase: f64, interval: f64) -> Option<Verdict> {
         self.since += interval;
@@ -168,9 +148,8 @@ impl Follow {
     /// Records that the mass sticks. All neighbouring motions are the same from then on, so chaos has ended.
     pub(crate) fn stick(&mut self, osc: &Oscillator, interval: f64) {
         self.since += interval;
-        self.over = self.transient(osc);
         self.fading.rests();
-        self.record.unmeasured();
+        self.record.end_chaos(osc);
     }
 
     /// Records a release; returns the verdict if the motion after it returns to the same release. It is computed
@@ -193,19 +172,6 @@ impl Follow {
             Verdict::Undecided(of) => Verdict::Undecided(Undecided { impacts: now as u64, ..of }),
             verdict => verdict,
         })
-    }
-
-    /// The verdict when the budget is used up, after a last search for a recurrence.
-    pub(crate) fn last_look(&mut self, osc: &Oscillator, options: &SettleOptions) -> Verdict {
-        let last = self.record.returns.last().map(|(state, _)| *state);
-        match last.and_then(|state| self.record.look(osc, options, &state)) {
-            Some(cycle) => Verdict::Periodic(cycle),
-            None => {
-                let impacts = self.count() as u64;
-                let spectrum = self.record.latest(osc).map(|(spectrum, _)| spectrum);
-                Verdict::Undecided(Undecided { why: UndecidedCause::Budget, impacts, spectrum })
-            }
-        }
     }
 }
 

@@ -5,7 +5,7 @@
 //! | the label m/n | [`Label`] |
 //! | the possible verdicts, of any [`System`] | [`Verdict`] |
 //! | what is particular to an oscillator | `oscillator` |
-//! | from a start to a verdict | [`settle`], `follow` |
+//! | from a start to a verdict: the loop for any system, and an oscillator | [`settle`], `follow` |
 //! | the latest returns, recurrence, chaos: for the oscillator and for machines | `record`, `recurrence`, `recurring` |
 //! | what is particular to machines | [`machine`] |
 //! | many starts side by side: of one oscillator, of several; what both need | [`settle_many`], [`settle_each`], `abreast`, `settlement` |

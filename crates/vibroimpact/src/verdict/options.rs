@@ -26,7 +26,8 @@ pub struct SettleOptions {
     pub recurrence: f64,
     /// The limits of the search for the first contact of each flight.
     pub limits: SearchLimits,
-    /// The largest number of search steps of all flights together; it limits the time if every flight is long.
+    /// The largest number of search steps of all flights together; it limits the time if every flight is long. Each event of a machine
+    /// counts as one.
     pub max_steps: u64,
 }
 

@@ -3,8 +3,9 @@
 //! chaos. It is the same for the oscillator, whose returns are impacts, and for machines, whose returns are events.
 
 use super::options::SettleOptions;
+use super::outcome::{Chaos, Settled, Undecided, UndecidedCause, Verdict};
 use super::recurrence::{Candidate, candidates};
-use super::recurring::{Measurement, Recurring};
+use super::recurring::{CycleOf, Measurement, Recurring};
 
 /// The record of a motion.
 #[derive(Clone, Debug)]
@@ -17,7 +18,7 @@ pub(crate) struct Record<R: Recurring> {
     earlier: usize,
     /// The number of returns before the motion last forgot its past.
     forgotten: usize,
-    candidate: Option<R::Cycle>,
+    candidate: Option<CycleOf<R>>,
     next_look: usize,
     /// The current measurement for chaos. It is boxed, because most motions settle before it begins and a reset writes
     /// all fields.
@@ -27,6 +28,13 @@ pub(crate) struct Record<R: Recurring> {
     spectrum: Option<Measurement<R>>,
     /// Whether the latest one showed chaos.
     chaotic: bool,
+    /// Chaos that has ended, or may have.
+    over: Option<Chaos<R::System>>,
+    /// Whether the motion has returned to a release whose cycle was not confirmed.
+    pub(super) unconfirmed: bool,
+    /// The number of impacts of an oscillator, or events of a machine, that were followed, and that of search steps.
+    pub(super) events: u64,
+    pub(super) steps: u64,
 }
 
 impl<R: Recurring> Default for Record<R> {
@@ -42,17 +50,12 @@ impl<R: Recurring> Default for Record<R> {
             windows: 0,
             spectrum: None,
             chaotic: false,
+            over: None,
+            unconfirmed: false,
+            events: 0,
+            steps: 0,
         }
     }
-}
-
-/// What a return decides.
-#[derive(Clone, Debug)]
-pub(crate) enum Shown<R: Recurring> {
-    /// The motion is captured by this cycle.
-    Cycle(R::Cycle),
-    /// It is chaotic.
-    Chaos(Measurement<R>),
 }
 
 /// The lengths of successive measurements for chaos, in units of [`SettleOptions::chaos_over`]; weak chaos needs a
@@ -80,7 +83,7 @@ impl<R: Recurring> Record<R> {
     }
 
     /// Whether a measurement goes on that began because the one before diverged too little for a decision.
-    pub(super) fn undecided_measurement(&self) -> bool {
+    fn undecided_measurement(&self) -> bool {
         self.windows + 1 == WINDOWS.len()
             && !self.chaotic
             && self.measure.is_some()
@@ -111,6 +114,14 @@ impl<R: Recurring> Record<R> {
         self.returns.push((state, since));
     }
 
+    /// Whether the budget permits more. A measurement that began because the one before diverged too little for a decision is
+    /// completed beyond the budget.
+    pub(super) fn within(&self, options: &SettleOptions) -> bool {
+        let longer = options.extend && self.undecided_measurement();
+        longer && self.steps < 3 * options.max_steps
+            || self.count() < options.max_impacts as usize && self.steps < options.max_steps
+    }
+
     /// What the last return decides, which is `state`, so long `since` the one before.
     pub(super) fn decide(
         &mut self,
@@ -118,15 +129,34 @@ impl<R: Recurring> Record<R> {
         options: &SettleOptions,
         state: &R::Return,
         since: f64,
-    ) -> Option<Shown<R>> {
+    ) -> Option<Verdict<R::System>> {
         let complete = self.measured(system, options, state, since);
         if complete || self.count() >= self.next_look.max(LOOK) {
-            let shown = self.look(system, options, state);
-            if shown.is_some() || !complete {
-                return shown.map(Shown::Cycle);
+            let cycle = self.look(system, options, state);
+            if cycle.is_some() || !complete {
+                return cycle.map(Verdict::Periodic);
             }
         }
-        if complete { self.judged(system, options, state).map(Shown::Chaos) } else { None }
+        let found = if complete { self.judged(system, options, state) } else { None };
+        let chaos = self.chaos_of(found?)?;
+        if R::LASTING {
+            self.over = Some(chaos);
+            return None;
+        }
+        Some(Verdict::Chaotic(chaos))
+    }
+
+    /// The verdict when the budget is used up, after a last search for a recurrence.
+    pub(super) fn last_look(&mut self, system: &R, options: &SettleOptions) -> Verdict<R::System> {
+        let last = self.returns.last().map(|(state, _)| state.clone());
+        if let Some(cycle) = last.and_then(|state| self.look(system, options, &state)) {
+            return Verdict::Periodic(cycle);
+        }
+        if self.unconfirmed {
+            return self.undecided(system, UndecidedCause::Unconfirmed);
+        }
+        let chaos = if R::LASTING { self.chaos(system).and_then(|found| self.chaos_of(found)) } else { None };
+        chaos.map_or_else(|| self.undecided(system, UndecidedCause::Budget), Verdict::Chaotic)
     }
 
     /// Continues or begins the measurement for chaos at this return; returns whether it is complete.
@@ -156,22 +186,37 @@ impl<R: Recurring> Record<R> {
     }
 
     /// The exponents of the measurement in progress.
-    pub(super) fn so_far(&self, system: &R) -> Option<Measurement<R>> {
+    fn so_far(&self, system: &R) -> Option<Measurement<R>> {
         self.measure.as_ref().and_then(|measure| system.chaos(measure)).map(|(measured, _)| measured)
     }
 
-    /// The exponents of the measurement in progress, or else of the last one.
-    pub(super) fn latest(&self, system: &R) -> Option<Measurement<R>> {
-        self.so_far(system).or_else(|| self.spectrum.clone())
+    /// The verdict on a motion that is undecided, with the exponents of the measurement in progress, or else of the last one.
+    pub(super) fn undecided(&self, system: &R, why: UndecidedCause) -> Verdict<R::System> {
+        let spectrum = self.so_far(system).or_else(|| self.spectrum.clone()).map(|(spectrum, _)| spectrum);
+        Verdict::Undecided(Undecided { why, impacts: self.events, spectrum })
     }
 
-    /// Exponents of the measurement in progress or of the last one that show chaos.
-    pub(super) fn was_chaotic(&self, system: &R) -> Option<Measurement<R>> {
-        self.so_far(system).into_iter().chain(self.spectrum.clone()).find(|(spectrum, _)| spectrum.chaotic())
+    /// Chaos with these exponents up to here.
+    fn chaos_of(&self, (spectrum, tail): Measurement<R>) -> Option<Chaos<R::System>> {
+        Some(Chaos { spectrum, impacts: self.events, tail: R::tail(tail, &self.returns)? })
+    }
+
+    /// Chaos that the measurement in progress or the last one shows, or that has ended before.
+    fn transient(&self, system: &R) -> Option<Chaos<R::System>> {
+        let mut measured = self.so_far(system).into_iter().chain(self.spectrum.clone());
+        let chaos = measured.find(|(spectrum, _)| spectrum.chaotic()).and_then(|found| self.chaos_of(found));
+        chaos.or_else(|| self.over.clone())
+    }
+
+    /// What is known of a motion with this verdict after this time, with the chaos before it.
+    pub(super) fn settled(&self, system: &R, verdict: Verdict<R::System>, time: f64) -> Settled<R::System> {
+        let open = matches!(verdict, Verdict::Chaotic(_) | Verdict::Undecided(_));
+        let transient = if open { None } else { self.transient(system) };
+        Settled { verdict, impacts: self.events, time, transient }
     }
 
     /// The exponents of the measurement in progress, or else of the last one, if they show chaos.
-    pub(super) fn chaos(&self, system: &R) -> Option<Measurement<R>> {
+    fn chaos(&self, system: &R) -> Option<Measurement<R>> {
         match self.measure.as_ref().and_then(|measure| system.chaos(measure)) {
             Some((measured, chaotic)) => chaotic.then_some(measured),
             None => self.spectrum.clone().filter(|_| self.chaotic),
@@ -184,14 +229,20 @@ impl<R: Recurring> Record<R> {
         self.unmeasured();
     }
 
+    /// All neighbouring motions are the same from here on, so chaos has ended.
+    pub(super) fn end_chaos(&mut self, system: &R) {
+        self.over = self.transient(system);
+        self.unmeasured();
+    }
+
     /// Forgets all measurements.
-    pub(super) fn unmeasured(&mut self) {
+    fn unmeasured(&mut self) {
         (self.measure, self.spectrum, self.windows, self.chaotic) = (None, None, 0, false);
     }
 
     /// Searches for a recurrence, and confirms the cycle by Newton's method and the test whether it captures the
     /// motion.
-    pub(super) fn look(&mut self, system: &R, options: &SettleOptions, state: &R::Return) -> Option<R::Cycle> {
+    fn look(&mut self, system: &R, options: &SettleOptions, state: &R::Return) -> Option<CycleOf<R>> {
         let count = self.count();
         self.next_look = count + LOOK.max(count / 8);
         if let Some(cycle) = &self.candidate

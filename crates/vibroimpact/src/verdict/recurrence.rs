@@ -1,7 +1,7 @@
 //! Recurrence of impacts, which suggests a period, and the test whether a motion is captured by a cycle.
 
 use super::recurring::{Measurement, Recurring};
-use crate::lyapunov::{Measure, Measured, Tail};
+use crate::lyapunov::{Measure, Tail};
 use crate::motion::ImpactState;
 use crate::orbit::{Cycle, Lap, Stability, cycle_distance, flight_limits, shoot_stable};
 use crate::system::Oscillator;
@@ -85,11 +85,11 @@ const NEAR: f64 = 1e-3;
 const AT_ROUNDING: f64 = 1e-10;
 
 impl Recurring for Oscillator {
+    type System = Self;
+    const LASTING: bool = false;
     type Return = ImpactState;
-    type Cycle = Cycle;
     type Measure = Measure;
-    type Exponents = [Measured; 2];
-    type Tail = Tail;
+    type MeasuredTail = Tail;
 
     fn distance(&self, a: &ImpactState, b: &ImpactState) -> f64 {
         cycle_distance(a, b)
@@ -128,5 +128,9 @@ impl Recurring for Oscillator {
 
     fn chaos(&self, measure: &Measure) -> Option<(Measurement<Self>, bool)> {
         measure.chaos(self).map(|(spectrum, chaotic)| ((spectrum, measure.tail()), chaotic))
+    }
+
+    fn tail(measured: Tail, _: &[(ImpactState, f64)]) -> Option<Tail> {
+        Some(measured)
     }
 }

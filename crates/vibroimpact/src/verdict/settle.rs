@@ -24,6 +24,8 @@
 use super::follow::{Follow, Releases, ended};
 use super::options::SettleOptions;
 use super::outcome::{Settled, Verdict};
+use super::record::Record;
+use super::recurring::{Recurring, SystemOf};
 use crate::lanes::PropagatorCache;
 use crate::lyapunov::Arrivals;
 use crate::motion::{EventKind, ImpactState, Motion};
@@ -80,64 +82,95 @@ fn drive(
 ) -> Option<(Settled, Arrivals)> {
     let mut follow = Follow::keeping_tail();
     let cache = PropagatorCache::new();
-    let mut motion = Motion::with_limits(osc, start, options.limits);
-    let mut drive = Drive { osc, options, follow: &mut follow, releases, cache: Some(&cache), time: 0.0 };
-    let verdict = drive.on(&mut motion, &|_| !go_on())?;
+    let motion = &mut Motion::with_limits(osc, start, options.limits);
+    let mut drive =
+        Drive { osc, follow: &mut follow, releases, motion, cache: Some(&cache), time: 0.0, returned: false };
+    let verdict = drive.verdict(options, &|_| !go_on())?;
     let time = drive.time;
-    let transient =
-        if matches!(verdict, Verdict::Chaotic(_) | Verdict::Undecided(_)) { None } else { follow.transient(osc) };
     let arrivals = follow.arrivals(&verdict, options);
-    Some((Settled { verdict, impacts: follow.count() as u64, time, transient }, arrivals))
+    Some((follow.record.settled(osc, verdict, time), arrivals))
 }
 
-/// Follows a motion event by event.
-pub(super) struct Drive<'a> {
+/// A motion that is followed to its verdict: of the oscillator from impact to impact, of a machine from event to event.
+pub(super) trait Followed {
+    /// What its record needs to know.
+    type Of: Recurring;
+
+    /// The system, and the record of the motion.
+    fn record(&mut self) -> (&Self::Of, &mut Record<Self::Of>);
+    /// Follows the motion by an event; returns the verdict if it is decided.
+    fn step(&mut self, options: &SettleOptions) -> Option<Verdict<SystemOf<Self::Of>>>;
+    /// Whether the last event was a return, from which the motion can be followed in another way.
+    fn returned(&self) -> bool;
+
+    /// Follows the motion to a verdict, or to the first return after which `leave` returns true of it.
+    fn verdict(
+        &mut self,
+        options: &SettleOptions,
+        leave: &dyn Fn(&Self) -> bool,
+    ) -> Option<Verdict<SystemOf<Self::Of>>> {
+        while self.record().1.within(options) {
+            let verdict = self.step(options);
+            if verdict.is_some() {
+                return verdict;
+            }
+            if self.returned() && self.record().1.within(options) && leave(self) {
+                return None;
+            }
+        }
+        let (system, record) = self.record();
+        Some(record.last_look(system, options))
+    }
+}
+
+/// A motion of an oscillator.
+pub(super) struct Drive<'a, 'b> {
     pub(super) osc: &'a Oscillator,
-    pub(super) options: &'a SettleOptions,
     pub(super) follow: &'a mut Follow,
     pub(super) releases: &'a mut Releases,
+    pub(super) motion: &'a mut Motion<'b>,
     /// The propagators of the oscillator, kept for a motion that may be long.
     pub(super) cache: Option<&'a PropagatorCache>,
     /// The time followed so far.
     pub(super) time: f64,
+    /// Whether the last event was an impact.
+    pub(super) returned: bool,
 }
 
-impl Drive<'_> {
-    /// Follows the motion to a verdict, or to the first impact after which `leave` returns true of its record.
-    pub(super) fn on(&mut self, motion: &mut Motion<'_>, leave: &dyn Fn(&Follow) -> bool) -> Option<Verdict> {
-        let Self { osc, options, follow, cache, .. } = self;
-        let before = follow.steps;
-        // every other event is followed by an impact or ends the motion; runs of grazing contacts are limited
-        while follow.within(options) {
-            let Some(event) = motion.advance(*cache) else {
-                return Some(ended(osc, motion.end(), options.limits, follow.count() as u64));
-            };
-            self.time = event.time;
-            follow.steps = before + motion.steps();
-            let interval = motion.leg().map_or(0.0, |leg| leg.duration);
-            let shown = match event.kind {
-                EventKind::Impact { velocity_before, .. } => {
-                    let state = ImpactState { phase: event.phase, velocity: velocity_before, side: event.side };
-                    follow.impact(osc, options, state, interval)
-                }
-                EventKind::Graze { .. } => follow.graze(osc, event.side, event.phase, interval),
-                EventKind::Stick { .. } => {
-                    follow.stick(osc, interval);
-                    None
-                }
-                EventKind::Release => follow.release(osc, self.releases, event.side, interval),
-            };
-            if shown.is_some() {
-                return shown;
+impl Followed for Drive<'_, '_> {
+    type Of = Oscillator;
+
+    fn record(&mut self) -> (&Oscillator, &mut Record<Oscillator>) {
+        (self.osc, &mut self.follow.record)
+    }
+
+    /// Every other event is followed by an impact or ends the motion; runs of grazing contacts are limited.
+    fn step(&mut self, options: &SettleOptions) -> Option<Verdict> {
+        let Self { osc, follow, motion, .. } = self;
+        let before = motion.steps();
+        let Some(event) = motion.advance(self.cache) else {
+            return Some(ended(osc, motion.end(), options.limits, follow.count() as u64));
+        };
+        self.time = event.time;
+        follow.record.steps += motion.steps() - before;
+        let interval = motion.leg().map_or(0.0, |leg| leg.duration);
+        self.returned = matches!(event.kind, EventKind::Impact { .. });
+        match event.kind {
+            EventKind::Impact { velocity_before, .. } => {
+                let state = ImpactState { phase: event.phase, velocity: velocity_before, side: event.side };
+                follow.impact(osc, options, state, interval)
             }
-            if !matches!(event.kind, EventKind::Impact { .. }) {
-                continue;
+            EventKind::Graze { .. } => follow.graze(osc, event.side, event.phase, interval),
+            EventKind::Stick { .. } => {
+                follow.stick(osc, interval);
+                None
             }
-            if follow.within(options) && leave(follow) {
-                return None;
-            }
+            EventKind::Release => follow.release(osc, self.releases, event.side, interval),
         }
-        Some(follow.last_look(osc, options))
+    }
+
+    fn returned(&self) -> bool {
+        self.returned
     }
 }
 

@@ -1,5 +1,6 @@
 //! Branches of machines through events at which the motion is not smooth, against simulation beside them.
 
+use crate::curves::hammer;
 use vibroimpact::continuation::{
     BranchOptions, Direction,
     machine::{Branch, BranchEvent, Family, SolutionPoint},
@@ -7,7 +8,7 @@ use vibroimpact::continuation::{
 use vibroimpact::events::Start;
 use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::math::Matrix;
-use vibroimpact::orbit::machine::Cycle;
+use vibroimpact::orbit::{Stability, machine::Cycle};
 use vibroimpact::verdict::{SettleOptions, Verdict, settle_machine};
 
 fn settled(machine: &Machine, start: &Start) -> Option<Cycle> {
@@ -241,6 +242,50 @@ fn f42n_a_closed_stop_that_opens_for_no_time() {
     }
 }
 
+/// A hold with a static limit above its sliding force ends, and the cycle beyond is another one. It exists right there, and the branch
+/// says with a jump that it does not continue the motion.
+#[test]
+fn a_hold_that_ends_in_a_jump() {
+    let machine = |frequency: f64| {
+        let parts = MachineParts::new(["x0", "x1"])
+            .with_frequency(frequency)
+            .with_mass(0, 1.328_142_036_290_394)
+            .with_link(&[1.0, 0.0], 0.864_963_678_733_350_8, 0.040_037_357_332_829_26)
+            .with_mass(1, 0.748_117_126_780_899_4)
+            .with_link(&[-1.0, 1.0], 1.317_285_143_524_758_1, 0.121_547_426_989_143_24)
+            .with_force(0, 1, -0.164_961_417_137_048_15, 1.492_879_042_427_676_8)
+            .with_rigid_stop("stop", &[-1.0, 1.0], -0.101_773_904_033_291_03, 0.742_753_547_749_479_3)
+            .with_joint("floor", &[0.0, 1.0], 0.349_176_882_905_587_6, 0.546_401_058_361_651_5, 0.0);
+        Machine::new(parts).unwrap()
+    };
+    let from = machine(1.2831);
+    let cycle = settled(&from, &Start::default().within_stops(&from)).unwrap();
+    let points = traced((&from, "frequency"), &cycle, (1.08, 1.3), Direction::Down);
+    let at = points.iter().position(|point| matches!(point.event, Some(BranchEvent::Holding { begins: false, .. })));
+    let [.., before, end, beyond] = &points[..at.unwrap() + 2] else { panic!("{:?}", events(&points)) };
+    assert!((end.value - 1.098_300_354).abs() < 1e-8, "{:?}", events(&points));
+    assert_eq!(beyond.event, Some(BranchEvent::Jump), "{:?}", events(&points));
+    let apart = |a: &SolutionPoint, b: &SolutionPoint| (a.cycle.fastest() - b.cycle.fastest()).abs();
+    assert!(apart(end, beyond) > 10.0 * apart(before, end), "{} {}", apart(end, beyond), apart(before, end));
+}
+
+/// At a bifurcation a multiplier is on the unit circle, whatever its last digits are.
+#[test]
+fn a_cycle_at_a_bifurcation_is_not_stable() {
+    let family = Family::new(|frequency| hammer(frequency, 0.5));
+    let cycle = settled(&hammer(1.2, 0.5).unwrap(), &Start::default()).unwrap();
+    let branch = Branch::new((&family, 1.2), &cycle, &(0.8..=1.2), Direction::Down, BranchOptions::default()).unwrap();
+    let mut bifurcations = 0;
+    for point in branch {
+        if matches!(point.event, Some(BranchEvent::Fold | BranchEvent::Flip | BranchEvent::Torus)) {
+            bifurcations += 1;
+            let (each, multipliers) = (point.cycle.stabilities(), &point.cycle.multipliers);
+            assert!(each.contains(&Stability::Neutral), "{:?} {multipliers:?}", point.event);
+        }
+    }
+    assert!(bifurcations > 1);
+}
+
 /// Bodies on tables that shake, with this restitution.
 fn balls(n: usize, restitution: f64, gamma: f64) -> Machine {
     let mut parts = MachineParts::new((1..=n).map(|k| format!("b{k}"))).with_frequency(1.0);
@@ -280,4 +325,21 @@ fn f42x_a_branch_ends_where_a_ball_rests_for_ever() {
         // the flight vanishes on the way there
         assert!(points[points.len() - 2].value - limit < 3e-3, "{path}");
     }
+}
+
+/// A chatter that moves a friction joint: how many of its impacts are followed, each with the joint that turns back after it, is no event.
+/// Over the frequency it was a `corner` eleven times, although simulation has the same events on both sides.
+#[test]
+fn f42y_a_chatter_with_a_joint_has_no_corners() {
+    let parts = MachineParts::new(["x"])
+        .with_mass(0, 1.0)
+        .with_link(&[1.0], 1.0, 0.1)
+        .with_frequency(0.5)
+        .with_force(0, 1, 0.0, 1.5)
+        .with_rigid_stop("wall", &[1.0], 0.5, 0.6)
+        .with_joint("guide", &[1.0], 0.2, 0.2, 0.0);
+    let machine = Machine::new(parts).unwrap();
+    let cycle = settled(&machine, &Start::default()).unwrap();
+    let points = traced((&machine, "frequency"), &cycle, (0.3, 0.5), Direction::Down);
+    assert_eq!(events(&points), [(BranchEvent::EndOfRange, 0.3)]);
 }

@@ -56,6 +56,7 @@ pub(crate) fn arriving(equations: &CycleEquations, osc: &Oscillator, value: f64,
 /// stops. A step must not pass such a resonance.
 pub(crate) fn hides(from: &Oscillator, to: &Oscillator) -> bool {
     let zeta = to.damping();
+    // where the steady amplitude is largest, 1/(2 zeta sqrt(1 - zeta^2))
     let highest = (1.0 - 2.0 * zeta * zeta).max(0.0).sqrt();
     let (low, high) = (from.beta().min(to.beta()), from.beta().max(to.beta()));
     let amplitude = 1.0 / (2.0 * zeta * ((1.0 - zeta) * (1.0 + zeta)).max(0.0).sqrt());

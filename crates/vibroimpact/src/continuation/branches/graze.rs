@@ -53,6 +53,7 @@ pub(crate) fn beyond(
         row.splice(2 * k + 2..2 * k + 2, [0.0, 0.0]);
     }
     for &k in &old {
+        // impacts that were inserted before have moved it
         let k = k + new.iter().filter(|(j, ..)| *j < k).count();
         next.remove(k);
         row.drain(2 * k..2 * k + 2);
@@ -61,6 +62,7 @@ pub(crate) fn beyond(
         return None;
     }
     let whole = next.len();
+    // without the impacts the cycle may repeat a shorter one
     if new.is_empty() {
         next = next.smallest(SAME);
         row.truncate(2 * next.len());
@@ -94,6 +96,7 @@ pub(crate) fn striking(equations: CycleEquations, w: Vec<f64>, new: &[usize]) ->
 /// The direction in which the flights `freed` clear the stop.
 fn clearing(equations: CycleEquations, w: Vec<f64>, along: &[f64], freed: &[(usize, Side)]) -> Option<Beyond> {
     let mut tangent = tangent(&equations, &w, &equations.row(along))
+        // at a fold in the old direction, that in which the parameter changes
         .or_else(|| tangent(&equations, &w, &equations.parameter_row()))?;
     let clear = |sign: f64| -> Option<f64> {
         let moved: Vec<f64> = w.iter().zip(&tangent).map(|(w, t)| w + sign * AHEAD * t).collect();
@@ -101,6 +104,7 @@ fn clearing(equations: CycleEquations, w: Vec<f64>, along: &[f64], freed: &[(usi
         let distance = |&(k, side): &(usize, Side)| closest(&osc, &ring, k, side).map_or(f64::INFINITY, |c| c.distance);
         freed.iter().map(distance).reduce(f64::min)
     };
+    // the direction in which the flights come away from the stops
     if clear(-1.0)? > clear(1.0)? {
         tangent.iter_mut().for_each(|t| *t = -*t);
     }

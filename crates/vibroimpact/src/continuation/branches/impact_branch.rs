@@ -71,12 +71,15 @@ impl ImpactBranch {
     ) -> Result<Self, BranchError> {
         let value = place(osc, &varying)?;
         let ring = Ring::of(osc, cycle).ok_or(BranchError::Rests)?;
+        // it is one of a continuum of motions, and the equations of a cycle need an isolated one
         if ring.len() == 0 && osc.damping() == 0.0 {
             return Err(BranchError::Undamped);
         }
+        // the given cycle may have fewer digits than the tracer needs
         let (ring, _) = solve(osc, ring).ok_or(BranchError::NoCycle)?;
         let equations = CycleEquations::new(osc, varying, &ring, scale(&range, value)?);
         let w = CycleEquations::join(&ring, value);
+        // of both directions of the tangent the one in which the parameter changes so
         let row = unit(w.len(), w.len() - 1, if direction == Direction::Up { 1.0 } else { -1.0 });
         let along = tangent(&equations, &w, &row).ok_or(BranchError::NoCycle)?;
         Self::begin(equations, w, along, &range, options)
@@ -114,6 +117,7 @@ impl ImpactBranch {
         };
         // at the event itself rounding can make the solution inadmissible
         tracer.here.known.physical = true;
+        // at the event itself they are zero within rounding, so that their signs have to be told
         for (known, test) in tracer.signs.iter_mut().zip(&tracer.problem.tests) {
             if positive.contains(test) {
                 *known = Some(true);

@@ -66,6 +66,7 @@ impl Problem for BranchProblem {
     /// A step must not pass the end of admissibility unnoticed: neither an inadmissible solution without an event
     /// before it nor, without impacts, a resonance between two frequencies at which the mass clears the stops.
     fn admits(&self, here: &BranchSolution, there: &BranchSolution, crossed: &[usize]) -> bool {
+        // nothing that is watched tells why it has become inadmissible: the step is too long
         if here.known.physical && !there.known.physical && !crossed.iter().any(|&j| self.tests[j].needed()) {
             return false;
         }

@@ -33,6 +33,7 @@ impl Branch {
         let varying = varying.into();
         let (osc, ring, flights) = solved(osc, flip, &varying)?;
         let once = carried(&osc, &ring, &flights, -1.0).ok_or(BranchError::NoCycle)?;
+        // after one period the direction is reversed
         let direction: Vec<f64> = once.iter().copied().chain(once.iter().map(|d| -d)).collect();
         leave(&osc, &ring.repeated(2), (varying, flip.value), range, direction, options)
     }
@@ -87,6 +88,7 @@ fn carried(osc: &Oscillator, ring: &Ring, flights: &[Block], multiplier: f64) ->
     let mut all = Vec::with_capacity(2 * ring.len());
     for block in flights {
         all.extend(at);
+        // the equations of a flight: `left` times the change before it and `right` times that after it add up to zero
         let driven = block.left.apply(at);
         at = block.right.solve([-driven[0], -driven[1]])?;
     }
@@ -117,6 +119,7 @@ fn leave(
     options: BranchOptions,
 ) -> Result<Branch, BranchError> {
     let equations = CycleEquations::new(osc, varying, ring, scale(&range, value)?);
+    // to first order the parameter does not change
     direction.push(0.0);
     let length = equations.length(&direction);
     direction.iter_mut().for_each(|d| *d /= length);

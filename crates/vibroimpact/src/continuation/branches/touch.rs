@@ -83,6 +83,7 @@ impl ImpactBranch {
         }) else {
             return self.finish(BranchEvent::NoConvergence);
         };
+        // the parameter goes back on the branch that continues
         let turns = self.cycles().pace(&at.tangent) * equations.pace(&tangent) < 0.0;
         let impact = self.listed(at, k);
         let event = BranchEvent::Grazing { change, impact, side, phase, before, after, turns, also };

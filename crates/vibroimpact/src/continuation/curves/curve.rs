@@ -235,6 +235,7 @@ impl ConditionCurve {
             let (p, q) = (row.len() - 2, row.len() - 1);
             (row[p], row[q]) = (a, b);
             let (mut w, _) = correct(&self.tracer.problem.plane, &here.w, &row, c)?;
+            // exactly on the edge
             let at = if a == 0.0 { (q, c / b) } else { (p, c / a) };
             w[at.0] = at.1;
             self.tracer.solution(w)
@@ -244,6 +245,7 @@ impl ConditionCurve {
     /// Ends the curve on an edge of the frame.
     fn end_of_box(&mut self, spot: &PlaneSolution) {
         let turn = self.tracer.problem.plane.flights(&spot.w).map(|(o, r, f)| Floquet::new(&o, &r, &f).determinant);
+        // with a determinant of 1 the other multiplier is -1 as well
         if self.path.kind == CurveKind::Flip && turn.is_some_and(|det| (det - 1.0).abs() < 1e-12) {
             self.add(spot, Some(CurveEvent::OneToTwo));
         }

@@ -33,6 +33,7 @@ impl Trail {
         let w = &tracer.here.w;
         let Some(unlike) = tracer.problem.plane.split(w).and_then(|(_, ring)| unlike(&ring)) else { return };
         match self.0.last() {
+            // the halves go apart: what comes is another approach
             Some((last, _)) if unlike > *last => self.0.clear(),
             Some((last, _)) if unlike > NEARER * last => return,
             _ => {}
@@ -101,6 +102,7 @@ pub(crate) fn reason(tracer: &PlaneTracer, kind: CurveKind, trail: &Trail) -> Op
     if m > 1 && (0..m).all(|k| ring.speed(k).abs() < still) {
         // extrapolates along the tangent to the point at which the fastest impact has speed zero
         let fastest = (0..m).max_by(|&a, &b| ring.speed(a).abs().total_cmp(&ring.speed(b).abs()))?;
+        // Newton's step along the tangent
         let step = -ring.speed(fastest) / here.tangent[2 * fastest + 1];
         return (step.abs() < 1e3 * still).then(|| (solution(onward(step)), CurveEvent::LossOfContact));
     }
@@ -176,6 +178,7 @@ fn unbounded(tracer: &PlaneTracer, ring: &Ring) -> Option<Vec<f64>> {
     }
     let mut limit = w.clone();
     limit[eps] = 1.0;
+    // with the parameter p = limit + c/U, the difference from the limit is -U dp/dU
     limit[other] += ring.speed(0) * along[other] / along[1];
     Some(limit)
 }

@@ -21,6 +21,7 @@ impl CycleEquations {
     /// of all phases by one radian.
     pub(crate) fn new(osc: &Oscillator, varying: ParameterPath, ring: &Ring, scale: f64) -> Self {
         let m = ring.len();
+        // a mean over the impacts: lengths do not depend on their number
         let mut weights = vec![1.0 / m as f64; 2 * m];
         weights.push(1.0 / (scale * scale));
         Self { osc: *osc, varying, sides: ring.sides.clone(), periods: ring.periods, weights, scale }

@@ -58,6 +58,7 @@ impl Plane {
         condition: Condition,
     ) -> Self {
         let m = ring.len();
+        // a mean over the impacts: lengths do not depend on their number
         let mut weights = vec![1.0 / m as f64; 2 * m];
         weights.extend([1.0 / (scales.0 * scales.0), 1.0 / (scales.1 * scales.1)]);
         let (sides, periods) = (ring.sides.clone(), ring.periods);
@@ -128,6 +129,7 @@ impl Plane {
             Condition::Unlike(k, l, by) => w[2 * k + 1] - w[2 * l + 1] - by,
             Condition::Clear(k, side) => {
                 let (osc, ring) = self.split(w)?;
+                // an iteration can go to a flight that ends before it begins
                 if ring.turn(k) <= 0.0 {
                     return None;
                 }
@@ -135,6 +137,7 @@ impl Plane {
             }
             Condition::Pull(k) => {
                 let (osc, ring) = self.split(w)?;
+                // the force of the spring at the stop less that of the excitation
                 osc.stop(ring.side(k))?.gap - ring.side(k).sign() * sin_cos(ring.theta(k)).0
             }
             Condition::PlusOne | Condition::NearPlusOne(_) | Condition::MinusOne | Condition::Trace => {
@@ -204,6 +207,7 @@ impl Equations for Plane {
         let rates = self.over.rates(Self::values(w)).ok()?;
         let mut rows = slopes(&osc, &ring, &flights, &rates)?;
         let mut miss: Vec<f64> = flights.iter().flat_map(|b| b.miss).collect();
+        // the row that the equations of the cycle leave to the condition
         let last = (width - 2) * width;
         rows[last..last + width].copy_from_slice(&self.gradient(self.condition, w)?);
         miss.push(self.value(self.condition, w)?);

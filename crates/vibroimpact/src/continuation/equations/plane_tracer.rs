@@ -45,6 +45,7 @@ pub(crate) fn beginning<E: Equations>(equations: &E, w: &[f64], way: f64) -> Opt
         [w.len() - 2, w.len() - 1].into_iter().find(changes)
     };
     let row = row(usable(SLOWEST).or_else(|| usable(0.0))?);
+    // onto the curve, perpendicular to its direction
     let fix = equations.row(&tangent(equations, w, &row)?);
     let level = fix.iter().zip(w).map(|(r, w)| r * w).sum();
     let (w, _) = correct(equations, w, &fix, level)?;

@@ -20,3 +20,4 @@ pub use branches::{BranchEvent, Family, SolutionPoint};
 pub use curves::{CurvePoint, Plane};
 pub use reduced_branch::Branch;
 pub use reduced_curve::Curve;
+pub use region::Seeds;

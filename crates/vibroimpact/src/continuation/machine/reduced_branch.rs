@@ -126,6 +126,7 @@ impl ReducedBranch {
     ) -> Option<Self> {
         let reduction = family.reduction([value])?;
         let width = range.end() - range.start();
+        // a check at a few values: where the machine is none in between, the branch of the oscillator ends there
         let at = |k: u32| range.start() + width * f64::from(k) / f64::from(PARTS);
         let same = |k: u32| family.reduction([at(k)]).is_some_and(|other| other.same_sides(&reduction));
         if !(0..=PARTS).all(same) {
@@ -157,6 +158,7 @@ impl ReducedBranch {
         let Some(of_oscillator) = self.branch.next() else { return Step::Beyond };
         let Some(mut point) = self.converted(&of_oscillator) else { return Step::Beyond };
         self.count += 1;
+        // unless the branch ends here anyway, the last of the points asked for says that it was cut off
         if self.count >= self.options.points && !point.event.is_some_and(|event| event.ends()) {
             point.event = Some(BranchEvent::StepLimit);
         }
@@ -187,6 +189,7 @@ impl ReducedBranch {
     /// The branch of the machine from the last point on.
     fn beyond(&self) -> Option<UnreducedBranch> {
         let points = self.options.points.checked_sub(self.count)?;
+        // one more, for the point that is passed over
         let options = BranchOptions { points: points + 1, ..self.options };
         let (value, cycle) = self.here()?;
         let mut further =

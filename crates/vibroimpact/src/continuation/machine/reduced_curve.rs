@@ -122,6 +122,7 @@ impl ReducedCurve {
 
     fn converted(&self, point: &curves::CurvePoint) -> Option<CurvePoint> {
         let reduction = self.plane.family.reduction(point.values.into())?;
+        // the oscillator counts the upper stop first, the machine as it is described
         let stop = |place: usize| reduction.stop(if place == 0 { Side::Upper } else { Side::Lower }).unwrap_or(place);
         let event = point.event.map(|event| match event {
             CurveEvent::ResonantGrazing { stop: place } => CurveEvent::ResonantGrazing { stop: stop(place) },
@@ -130,6 +131,7 @@ impl ReducedCurve {
             CurveEvent::Touch { stop: place } => CurveEvent::Touch { stop: stop(place) },
             other => other,
         });
+        // how far the multiplier is from the value that the curve prescribes
         let nearest = |to: f64| {
             let off = point.cycle.multipliers.iter().map(|one| hypot(one.re - to, one.im));
             off.fold(f64::INFINITY, f64::min)
@@ -200,6 +202,7 @@ fn without_touch(osc: &Oscillator, cycle: &orbit::Cycle) -> Option<(orbit::Cycle
     let speed = |k: &usize| points[*k].state.velocity.abs();
     let touch = (0..points.len()).min_by(|a, b| speed(a).total_cmp(&speed(b)))?;
     let removed = points.remove(touch);
+    // the flights before and after the touch are one
     if let Some(last) = points.len().checked_sub(1) {
         points[touch.checked_sub(1).unwrap_or(last)].interval += removed.interval;
     }

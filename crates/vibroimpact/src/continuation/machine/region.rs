@@ -40,11 +40,18 @@ struct Known {
     cycle: Cycle,
 }
 
+/// The cycles with a label at some points of a grid over a plane. The regions of existence and of stability begin with the same.
+#[derive(Clone, Debug)]
+pub struct Seeds {
+    label: Label,
+    grid: (u32, u32),
+    cycles: Vec<((u32, u32), Cycle)>,
+}
+
 struct Search<'a> {
     plane: &'a Plane,
-    label: Label,
+    seeds: &'a Seeds,
     kind: RegionKind,
-    grid: (u32, u32),
     /// All cycles so far.
     known: RefCell<Vec<Known>>,
     go_on: &'a dyn Fn() -> bool,
@@ -82,19 +89,46 @@ impl Plane {
         options: RegionOptions,
         go_on: &dyn Fn() -> bool,
     ) -> Option<Region> {
-        let known = RefCell::default();
-        Search { plane: self, label, kind, grid: options.grid, known, go_on }.region(options)
+        self.region_from(&self.seeds_while(label, options, go_on)?, kind, options, go_on)
+    }
+
+    /// The cycles from which [regions](Self::region_from) begin; `None` when `go_on` returned false.
+    #[must_use]
+    pub fn seeds_while(&self, label: Label, options: RegionOptions, go_on: &dyn Fn() -> bool) -> Option<Seeds> {
+        let (columns, rows) = options.grid;
+        let some = |count: u32| (0..count).filter(move |k| k % EVERY == (EVERY / 2).min(count - 1));
+        let mut cycles = Vec::new();
+        for place in some(rows).flat_map(|j| some(columns).map(move |i| (i, j))) {
+            let at = node(&self.ranges, place, options.grid);
+            let Some(machine) = self.family.machine(at.into()) else { continue };
+            let starts = (0..STARTS).map(|k| scattered_machine_starts(&machine, 1, k));
+            let found = find_unreduced(&machine, label, starts, go_on)?;
+            cycles.extend(found.into_iter().map(|cycle| (place, cycle)));
+        }
+        Some(Seeds { label, grid: options.grid, cycles })
+    }
+
+    /// The [region](Self::region_while) of the cycles to which these lead, with the same options.
+    #[must_use]
+    pub fn region_from(
+        &self,
+        seeds: &Seeds,
+        kind: RegionKind,
+        options: RegionOptions,
+        go_on: &dyn Fn() -> bool,
+    ) -> Option<Region> {
+        Search { plane: self, seeds, kind, known: RefCell::default(), go_on }.region(options)
     }
 }
 
 impl Search<'_> {
     /// The point `(i, j)` of the grid.
     fn node(&self, place: (u32, u32)) -> (f64, f64) {
-        node(&self.plane.ranges, place, self.grid)
+        node(&self.plane.ranges, place, self.seeds.grid)
     }
 
     fn wanted(&self, cycle: &Cycle) -> bool {
-        cycle.label == self.label && (self.kind == RegionKind::Existence || cycle.stable())
+        cycle.label == self.seeds.label && (self.kind == RegionKind::Existence || cycle.stable())
     }
 
     /// The cycle at `to` to which one at `from` leads, followed along the straight line between both.
@@ -106,6 +140,7 @@ impl Search<'_> {
             Cycle::lasting(&MachineFrame::new(&machine), begin, time).filter(|cycle| self.wanted(cycle))
         };
         there().or_else(|| {
+            // the way is halved, and the cycle followed to its middle first
             let half = depth.checked_sub(1)?;
             let at = (0.5 * (from.at.0 + to.0), 0.5 * (from.at.1 + to.1));
             let middle = Known { at, cycle: self.followed(from, at, half)? };
@@ -131,8 +166,10 @@ impl Search<'_> {
 
     /// Whether a cycle can be followed to a point; it is remembered.
     fn holds(&self, at: (f64, f64)) -> bool {
+        // closer than the edge is outlined, one short try decides
         let mut from = self.nearest(at);
-        let short = |from: &Known| self.apart(from.at, at) * f64::from(self.grid.0.min(self.grid.1)) < 4.0 * SHORT;
+        let short =
+            |from: &Known| self.apart(from.at, at) * f64::from(self.seeds.grid.0.min(self.seeds.grid.1)) < 4.0 * SHORT;
         let depth = if from.first().is_some_and(short) { 0 } else { DEEPEST };
         from.truncate(if depth == 0 { 1 } else { NEAREST });
         let found = from.iter().find_map(|from| self.followed(from, at, depth));
@@ -151,24 +188,19 @@ impl Search<'_> {
         new
     }
 
-    /// Searches for cycles at some points of the grid, and follows all to their neighbours until none is new.
+    /// Follows the first cycles to the neighbours of their points, and so on until none is new.
     fn survey(&self) -> Option<()> {
-        let (columns, rows) = self.grid;
-        let some = |count: u32| (0..count).filter(move |k| k % EVERY == (EVERY / 2).min(count - 1));
-        let mut waiting: Vec<((u32, u32), Cycle)> = Vec::new();
-        for (i, j) in some(rows).flat_map(|j| some(columns).map(move |i| (i, j))) {
-            let Some(machine) = self.plane.family.machine(self.node((i, j)).into()) else { continue };
-            let starts = (0..STARTS).map(|k| scattered_machine_starts(&machine, 1, k));
-            let found = find_unreduced(&machine, self.label, starts, self.go_on)?;
-            waiting.extend(found.into_iter().filter(|cycle| self.wanted(cycle)).map(|cycle| ((i, j), cycle)));
-        }
-        waiting.reverse();
+        let (columns, rows) = self.seeds.grid;
+        let wanted = |(_, cycle): &&((u32, u32), Cycle)| self.wanted(cycle);
+        // they are taken from the end: so the first point comes first
+        let mut waiting: Vec<((u32, u32), Cycle)> = self.seeds.cycles.iter().filter(wanted).rev().cloned().collect();
         while let Some(((i, j), cycle)) = waiting.pop() {
             (self.go_on)().then_some(())?;
             let from = Known { at: self.node((i, j)), cycle };
             if !self.learn(from.at, from.cycle.clone()) {
                 continue;
             }
+            // a number below 0 wraps and is left out with those beyond the grid
             let beside = [(i.wrapping_sub(1), j), (i + 1, j), (i, j.wrapping_sub(1)), (i, j + 1)];
             for next in beside.into_iter().filter(|&(k, l)| k < columns && l < rows) {
                 waiting.extend(self.followed(&from, self.node(next), DEEPEST).map(|cycle| (next, cycle)));
@@ -180,15 +212,16 @@ impl Search<'_> {
     /// The region, with its edges.
     fn region(&self, options: RegionOptions) -> Option<Region> {
         self.survey()?;
+        // before the outline finds more
         let found: Vec<(f64, f64)> = self.known.borrow().iter().map(|one| one.at).collect();
         let options = RegionOptions { longest: EDGE.0, accuracy: EDGE.1, ..options };
-        let cells = self.grid.0.max(self.grid.1);
+        let (columns, rows) = self.seeds.grid;
+        let cells = columns.max(rows);
         let holds = |at| self.holds(at);
         let polygons =
             Outline { ranges: &self.plane.ranges, cells, halvings: HALVINGS, options, holds: &holds }.polygons();
         let polygons = polygons.into_iter().map(|polygon| self.named(polygon)).collect();
         let mut region = Region { polygons, unresolved: Vec::new() };
-        let (columns, rows) = self.grid;
         let nodes = (0..rows).flat_map(|j| (0..columns).map(move |i| self.node((i, j))));
         region.unresolved = nodes.filter(|at| found.contains(at) != region.contains(*at)).collect();
         (self.go_on)().then_some(region)
@@ -203,13 +236,17 @@ impl Search<'_> {
     }
 
     /// What bounds the region close to the last point inside: another number of closings of the motion a little beyond, or a
-    /// multiplier of its cycle on the unit circle. An orbit that ceases to exist with its events does so at a fold.
+    /// multiplier of its cycle on the unit circle. An orbit that ceases to exist with its events does so at a fold, where a multiplier
+    /// is +1; close to a torus bifurcation it is one of a complex pair until right before.
     fn bound(&self, at: (f64, f64)) -> Option<Bound> {
         let Known { cycle, .. } = self.nearest(at).into_iter().next()?;
-        let off = |m: &Multiplier| (m.modulus() - 1.0).abs();
-        let any = |m: &&Multiplier| self.kind == RegionKind::Stability || m.im == 0.0 && m.re > 0.0;
-        let nearest = || cycle.multipliers.iter().filter(any).min_by(|a, b| off(a).total_cmp(&off(b)));
-        let bifurcation = |m: &Multiplier| match (m.im == 0.0, m.re > 0.0) {
+        // existence ends at +1 only; stability at any point of the circle
+        let off = |m: &Multiplier| match self.kind {
+            RegionKind::Existence => hypot(m.re - 1.0, m.im),
+            RegionKind::Stability => (m.modulus() - 1.0).abs(),
+        };
+        let nearest = || cycle.multipliers.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+        let bifurcation = |m: &Multiplier| match (m.im == 0.0 || self.kind == RegionKind::Existence, m.re > 0.0) {
             (true, true) => Bound::Fold,
             (true, false) => Bound::Flip,
             _ => Bound::Torus,
@@ -226,6 +263,7 @@ impl Search<'_> {
             let lap = MachineLap::fly(&MachineFrame::new(&machine), cycle.strobes.first()?, cycle.period)?;
             let count = lap.events.iter().filter(|event| event.closes()).count();
             match count.cmp(&(closings as usize)) {
+                // an impact has lost its speed, or a new one has come
                 core::cmp::Ordering::Less => Some(Bound::NoSpeed),
                 core::cmp::Ordering::Greater => Some(Bound::Touch),
                 core::cmp::Ordering::Equal => None,

@@ -126,6 +126,8 @@ impl Limit {
             match self.x.parameter {
                 Parameter::Beta | Parameter::InverseBeta => {
                     let betas = levels.iter().flat_map(|g| frequencies(*g, zeta));
+                    // at sqrt(1 - 2 zeta^2) is the peak of the resonance, so that the amplitude is monotonic between
+                    // the breaks
                     let betas = betas.chain([(1.0 - 2.0 * zeta * zeta).max(0.0).sqrt()]).filter(|beta| *beta > 0.0);
                     let inverse = self.x.parameter == Parameter::InverseBeta;
                     breaks.extend(betas.map(|beta| if inverse { 1.0 / beta } else { beta }));

@@ -101,6 +101,7 @@ impl Outline<'_> {
     }
 
     /// The last point of the set on the way from one of its points to one outside; on the frame both are the same point.
+    // bisection keeps a point on each side, and the inner one is returned, so that all vertices are in the set
     fn edge(&self, mut inside: (f64, f64), mut outside: (f64, f64)) -> (f64, f64) {
         for _ in 0..self.halvings {
             let middle = middle(inside, outside);
@@ -150,6 +151,7 @@ impl Outline<'_> {
         let sign = if (self.holds)(m) { 1.0 } else { -1.0 };
         let aside = |part: f64| (m.0 + sign * part * dy * scales.0, m.1 - sign * part * dx * scales.1);
         let parts = (0..NEAR).rev().map(|k| 0.5 / f64::from(1_u32 << k));
+        // the nearest places first, so that another part of the set is not taken for this edge
         let Some(beyond) = parts.map(aside).find(|at| (self.holds)(*at) != (sign > 0.0)) else { return };
         let found = if sign > 0.0 { self.edge(m, beyond) } else { self.edge(beyond, m) };
         let off = hypot((found.0 - m.0) / scales.0, (found.1 - m.1) / scales.1);

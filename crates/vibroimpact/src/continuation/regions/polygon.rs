@@ -93,6 +93,7 @@ impl Polygon {
             let ((ax, ay), (bx, by)) = (scaled(a), scaled(b));
             let (dx, dy) = (bx - ax, by - ay);
             let square = dx * dx + dy * dy;
+            // the foot of the perpendicular, or the nearer end of the edge
             let t = if square > 0.0 { (-(ax * dx + ay * dy) / square).clamp(0.0, 1.0) } else { 0.0 };
             crate::math::hypot(ax + t * dx, ay + t * dy)
         };

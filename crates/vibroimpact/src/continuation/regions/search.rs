@@ -286,6 +286,7 @@ fn unlike(one: &[f64], other: &[f64]) -> f64 {
     let means = |impacts: &[f64]| {
         let mut sums = [0.0; 4];
         for impact in impacts.chunks_exact(2) {
+            // twice the phase: a mirrored impact comes half a turn later and counts as the same
             let (sin, cos) = sin_cos(2.0 * impact[0]);
             for (sum, part) in sums.iter_mut().zip([impact[1], impact[1] * impact[1], cos, sin]) {
                 *sum += part / (impacts.len() / 2) as f64;

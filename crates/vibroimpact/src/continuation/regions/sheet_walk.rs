@@ -112,6 +112,7 @@ impl<'a> SheetWalk<'a> {
     /// takes more steps than a polygon may have vertices.
     pub(crate) fn out(&self, (dp, dq): (f64, f64)) -> Option<(usize, Vec<f64>, PlaneTracer)> {
         let (p, q) = Plane::values(&self.w);
+        // the line through the orbit in this direction
         let line = Condition::Line(dq, -dp, dq * p - dp * q);
         let mut row = vec![0.0; self.w.len()];
         let width = row.len();
@@ -226,6 +227,7 @@ impl<'a> SheetWalk<'a> {
             edge.push(&step.there.w, bound);
             let off = sagitta(&walk.problem.plane, &walk.here, &step.there);
             if off > self.options.accuracy {
+                // the distance from the chord grows as the square of the step
                 walk.step.now *= (0.5 * self.options.accuracy / off).sqrt();
             } else if off > 0.25 * self.options.accuracy {
                 walk.step.now = walk.step.now.min(step.length);

@@ -117,6 +117,7 @@ impl<P: Path> Driver<P> {
 
     /// Goes on with other equations.
     pub(crate) fn exchange(&mut self, tracer: Tracer<P::Problem>) {
+        // with other equations the first point is none of theirs, and no loop closes there
         (self.tracer, self.begin) = (tracer, None);
     }
 

@@ -55,6 +55,7 @@ pub(crate) fn correct<E: Equations>(equations: &E, guess: &[f64], row: &[f64], l
     let mut w = guess.to_vec();
     for count in 1..=MAX_CORRECTIONS {
         let (miss, mut rows) = equations.at(&w)?;
+        // the last equation holds the distance along the tangent
         rows[width * (width - 1)..].copy_from_slice(row);
         let off: f64 = row.iter().zip(&w).map(|(r, w)| r * w).sum::<f64>() - level;
         let mut change: Vec<f64> = miss.iter().map(|m| -m).chain([-off]).collect();
@@ -66,6 +67,7 @@ pub(crate) fn correct<E: Equations>(equations: &E, guess: &[f64], row: &[f64], l
         for (w, change) in w.iter_mut().zip(&change) {
             *w += change;
         }
+        // the method is quadratic: the next correction would be below rounding
         if size <= SETTLED {
             return Some((w, count));
         }
@@ -79,6 +81,7 @@ pub(crate) fn tangent<E: Equations>(equations: &E, w: &[f64], row: &[f64]) -> Op
     let width = w.len();
     let (_, mut rows) = equations.at(w)?;
     rows[width * (width - 1)..].copy_from_slice(row);
+    // along the curve no equation changes; the last one gives the direction
     let mut along = unit(width, width - 1, 1.0);
     Lu::new(rows, width)?.solve(&mut along);
     let length = equations.length(&along);

@@ -15,6 +15,7 @@ pub(crate) fn at(x: f64, values: &[f64]) -> f64 {
 /// The zero of the cubic near 0, for values that pass through zero there with nearly constant slope. Newton's method
 /// with the mean slope, limited to the interval from -2 to 2.
 pub(crate) fn zero(values: &[f64]) -> f64 {
+    // the slope over the whole range serves all steps of Newton's method
     let slope = (values[3] - values[0]) / 4.0;
     let mut x = 0.0;
     for _ in 0..20 {

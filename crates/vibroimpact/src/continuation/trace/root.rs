@@ -40,6 +40,7 @@ pub(crate) fn between(
         }
         if (value > 0.0) == (at_high > 0.0) {
             (high, at_high) = (s, value);
+            // the rule of Illinois: where one end stays, half its value brings the next point to its side of the zero
             if last == 1 {
                 at_low *= 0.5;
             }

@@ -24,6 +24,7 @@ pub(in crate::continuation) fn zero(
     let mut there = from + FIRST * (1.0 + from.abs());
     for _ in 0..MAX_STEPS {
         let here = at(&before.0, there)?;
+        // the zero of the line through both
         let next = there - here.1 * (there - from) / (here.1 - before.1);
         if !next.is_finite() || (next - there).abs() <= f64::EPSILON * there.abs() {
             return Some(here.0);

@@ -168,6 +168,7 @@ impl<P: Problem> Tracer<P> {
     /// Predicts and corrects a step of length `h`, or a step to the end of the range if that is nearer.
     fn reach(&self, h: f64) -> Option<Step<P::Known>> {
         let (here, rules) = (&self.here, self.problem.rules());
+        // whether the step would leave the range, and how long it is to its end
         let end = self.problem.range().and_then(|(low, high)| {
             let (value, rate) = (last(&here.w), last(&here.tangent));
             let end = if rate > 0.0 { high } else { low };
@@ -183,6 +184,7 @@ impl<P: Problem> Tracer<P> {
         let off: Vec<f64> = w.iter().zip(&guess).map(|(w, g)| w - g).collect();
         let along = self.tangent_at(&w)?;
         let cosine = self.problem.equations().dot(&along, &here.tangent);
+        // written so that a number that is no number refuses the step
         if !(self.problem.equations().length(&off) <= rules.stray * h + rules.rounding && cosine >= rules.bend) {
             return None;
         }
@@ -310,6 +312,7 @@ impl<P: Problem> Tracer<P> {
         let ahead = |solution: &Solution<P::Known>| {
             let mut off: Vec<f64> = solution.w.iter().zip(&begin.w).map(|(a, b)| a - b).collect();
             let turns = TAU * (off[0] / TAU).round();
+            // each impact has a phase and a velocity, in turn
             off[..self.problem.phases()].iter_mut().step_by(2).for_each(|theta| *theta -= turns);
             (self.problem.equations().dot(&off, &begin.tangent), self.problem.equations().length(&off))
         };
@@ -330,6 +333,7 @@ impl<P: Problem> Tracer<P> {
     pub(crate) fn take(&mut self, there: Solution<P::Known>) {
         let zero = self.problem.rules().zero;
         for (known, value) in self.signs.iter_mut().zip(&there.values) {
+            // within rounding of zero the last known sign stays
             *known = sign(*value, zero).or(*known);
         }
         self.here = there;

@@ -62,6 +62,7 @@ fn find(frame: &MachineFrame<'_>, (a, b): (&Cycle, &Cycle), go_on: &dyn Fn() -> 
         }
         None
     };
+    // the border lies between a state that leads to the first orbit and one that does not
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..BISECTIONS {
         let middle = 0.5 * (low + high);

@@ -49,6 +49,7 @@ impl Rebound {
     /// The time to the next impact where the acceleration changes evenly: the first zero of $`v - at/2 + jt^2/6`$, with j for the
     /// jerk. `None` if there is none.
     fn duration(&self) -> Option<f64> {
+        // the first zero in the form in which nothing cancels, also without a jerk
         let root = (1.0 - 8.0 * self.speed * self.jerk / (3.0 * self.a * self.a)).sqrt();
         let time = 4.0 * self.speed / (self.a * (1.0 + root));
         (time > 0.0 && time.is_finite()).then_some(time)
@@ -71,6 +72,11 @@ impl Chatter {
         rests.filter_map(|(rest, event)| Some(Self { stop: event.rests_on()?, rest })).collect()
     }
 
+    /// The number of chatters on a stop.
+    pub(crate) fn count(ring: &MachineRing, stop: usize) -> usize {
+        Self::all(ring).iter().filter(|own| own.stop == stop).count()
+    }
+
     /// Its impacts with a rebound.
     pub(crate) fn impacts(&self, ring: &MachineRing) -> Vec<usize> {
         let m = ring.len();
@@ -85,6 +91,7 @@ impl Chatter {
     pub(crate) fn rebound(&self, frame: &MachineFrame<'_>, ring: &MachineRing, k: usize) -> Option<Rebound> {
         let mut place = Place { known: Vec::new(), ..ring.place(k) };
         let speed = place.gap(&frame.normal, &place.turns(&frame.normal), self.stop).1;
+        // at rest the reaction is the force that would close the gap: over the mobility, the acceleration
         for (stop, _) in &ring.events[self.rest].pushed {
             place.states[*stop] = ContactState::Resting;
         }
@@ -115,6 +122,7 @@ impl Chatter {
         };
         let (size, fastest) = frame.sizes(&ring.place(k));
         let frequency = ring.frequency(frame.machine);
+        // v^2/2a for the time 2v/a
         speed * speed * speed / (a * a) * frequency / size.max(fastest / frequency)
     }
 
@@ -124,6 +132,7 @@ impl Chatter {
             let small = |k: &usize| chatter.left_out(frame, ring, *k) < TAIL;
             Some((chatter, chatter.impacts(ring).into_iter().find(small)?))
         };
+        // a cut changes the numbers of the events, so the search begins anew
         while let Some((chatter, k)) = Self::all(ring).into_iter().find_map(|chatter| last(ring, chatter)) {
             chatter.cut(frame, ring, k)?;
         }
@@ -153,6 +162,7 @@ impl Chatter {
         frame.constrain(&mut place)?;
         ring.places[k] = place;
         ring.events[k] = ring.events[self.rest].clone();
+        // the last ones first, so that the numbers of the others stay
         let mut gone: Vec<usize> = (1..=(self.rest + m - k) % m).map(|i| (k + i) % m).collect();
         gone.sort_unstable();
         gone.iter().rev().for_each(|k| ring.remove(*k));
@@ -165,11 +175,13 @@ impl Chatter {
         let before = (self.rest + m - 1) % m;
         let rest = ring.events[self.rest].clone();
         let open = ring.events[before].after.clone();
+        // the impact rebounds: the contacts after it are those before it
         ring.places[self.rest].states.clone_from(&open);
         let event = &mut ring.events[self.rest];
         event.after = open;
         event.pushed.iter_mut().for_each(|(_, rests)| *rests = false);
         let miss = ring.miss(frame, before)?;
+        // the residual is the difference between the rebound and the rest that the state was at
         let wanted = frame.shape.values(&ring.places[self.rest]);
         let values: Vec<f64> = wanted.iter().zip(&miss[1..]).map(|(wanted, miss)| wanted + miss).collect();
         ring.places[self.rest] = frame.shape.with_values(&ring.places[self.rest], &values);

@@ -1,12 +1,35 @@
-//! Where a motion of a machine without forcing passes the state of a cycle: in the plane across the flow there.
+//! Where a motion of a machine passes the states of a cycle: at their phase, or without forcing in the plane across the flow there.
 
 use super::cycle::Cycle;
 use super::frame::MachineFrame;
 use super::lap::MachineLap;
 use crate::events::Place;
+use crate::system::phase;
 
 /// The largest number of steps of Newton's method to the plane.
 const CROSSING_STEPS: u32 = 20;
+
+/// The next state of the motion from `place` where it passes those of a cycle, with the nearest of these and their distance.
+pub(crate) fn passing<'c>(
+    frame: &MachineFrame<'_>,
+    place: &Place,
+    cycle: &'c Cycle,
+) -> Option<(Place, &'c Place, f64)> {
+    let real = match frame.machine.parts().frequency {
+        Some(frequency) => {
+            let first = cycle.strobes.first()?;
+            let ahead = phase::wrap(first.phase - place.phase) / frequency;
+            let mut real = MachineLap::fly(frame, place, ahead)?.end;
+            real.phase = first.phase;
+            real
+        }
+        None => crossing(frame, place, cycle)?,
+    };
+    let apart = |strobe: &Place| frame.distance(strobe, &real, cycle.sizes);
+    let nearest = cycle.strobes.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)))?;
+    let distance = apart(nearest);
+    Some((real, nearest, distance))
+}
 
 /// The state in which the motion from `place` crosses the plane across the flow at the state of a cycle, within a period of
 /// that, nearest to that state.
@@ -22,6 +45,7 @@ pub(crate) fn crossing(frame: &MachineFrame<'_>, place: &Place, cycle: &Cycle) -
     let crossings = flights.filter_map(|(_, begin, passage)| {
         let whole = passage.duration.min(period);
         let mut s = 0.5 * whole;
+        // Newton's method for the distance from the plane, whose rate is the flow across it
         for _ in 0..CROSSING_STEPS {
             let there = frame.moved(begin, &passage.structure, s);
             let change = along(&frame.apart(&there, state)) / along(&frame.flow(&there)?);

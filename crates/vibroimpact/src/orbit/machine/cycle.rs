@@ -136,6 +136,7 @@ impl Cycle {
                 && apart.into_iter().all(|apart| near(apart, 0.0, size))
                 && p.qdot.iter().zip(&q.qdot).all(|(x, y)| near(*x, *y, rate))
         };
+        // the same events may be counted from any of them
         (0..a.len()).any(|shift| (0..a.len()).all(|k| close(&a[k], &b[(k + shift) % b.len()])))
     }
 
@@ -158,10 +159,12 @@ impl Cycle {
         let mut events = lap.events.clone();
         let fastest = (0..events.len())
             .filter(|k| events[*k].closes())
+            // of equally fast ones the first
             .max_by(|a, b| events[*a].speed.total_cmp(&events[*b].speed).then(b.cmp(a)));
         let first = fastest.unwrap_or(0);
         if let Some(zero) = events.get(first).map(|event| event.time) {
             for (k, event) in events.iter_mut().enumerate() {
+                // those before it come again a period later
                 event.time += if k < first { period - zero } else { -zero };
             }
             events.rotate_left(first);

@@ -5,7 +5,7 @@ use super::cycle::Cycle;
 use super::frame::MachineFrame;
 use super::near_returns::near_returns;
 use super::reduced::orbits;
-use crate::events::{Motion, Start};
+use crate::events::{Motion, Place, Start};
 use crate::machine::Machine;
 use crate::math::sort_by;
 use crate::orbit::Label;
@@ -50,88 +50,75 @@ pub fn find_unreduced(
     starts: impl IntoIterator<Item = Start>,
     go_on: &dyn Fn() -> bool,
 ) -> Option<Vec<Cycle>> {
-    let (frame, starts) = (MachineFrame::new(machine), &mut starts.into_iter());
-    match machine.period() {
-        Some(period) => forced(&frame, (label, period), starts, go_on),
-        None => unforced(&frame, label, starts, go_on),
+    let frame = MachineFrame::new(machine);
+    let mut search = Search { frame: &frame, label, known: Vec::new(), go_on };
+    for start in starts {
+        let Ok(motion) = Motion::new(machine, &start, frame.limits()) else { continue };
+        search.follow(motion)?;
     }
+    let stable: Vec<Cycle> = search.known.iter().filter(|cycle| cycle.stable()).take(BETWEEN).cloned().collect();
+    for (i, j) in (0..stable.len()).flat_map(|i| (0..i).map(move |j| (i, j))) {
+        search.between((&stable[i], &stable[j]))?;
+    }
+    let mut found = search.known;
+    found.retain(|cycle| cycle.label == label);
+    sort_by(&mut found, |a, b| a.fastest().total_cmp(&b.fastest()));
+    Some(found)
 }
 
-/// The cycles of a machine whose forcing has this period.
-fn forced(
-    frame: &MachineFrame<'_>,
-    (label, period): (Label, f64),
-    starts: &mut dyn Iterator<Item = Start>,
-    go_on: &dyn Fn() -> bool,
-) -> Option<Vec<Cycle>> {
-    // of all labels of as many periods
-    let mut known: Vec<Cycle> = Vec::new();
-    for start in starts {
-        let Ok(mut motion) = Motion::new(frame.machine, &start, frame.limits()) else { continue };
+/// A search for cycles from motions; each step is `None` once `go_on` has returned false.
+struct Search<'a> {
+    frame: &'a MachineFrame<'a>,
+    label: Label,
+    /// The cycles so far, of all labels of as many periods.
+    known: Vec<Cycle>,
+    go_on: &'a dyn Fn() -> bool,
+}
+
+impl Search<'_> {
+    /// Adds the cycles to which states of a motion lead: after some forcing periods, or where it comes close to an earlier state.
+    fn follow(&mut self, mut motion: Motion<'_>) -> Option<()> {
+        let Some(period) = self.frame.machine.period() else {
+            for (guess, time) in near_returns(self.frame, motion, self.label.impacts) {
+                (self.go_on)().then_some(())?;
+                self.learn(Cycle::returning(self.frame, &guess, time));
+            }
+            return Some(());
+        };
         let mut seen = 0;
         for after in AFTER {
             while motion.time() < after * period && seen < EVENTS && motion.step().is_some() {
+                // they would only take memory
                 motion.take_events();
                 seen += 1;
             }
-            if !go_on() {
-                return None;
-            }
-            learn(&mut known, Cycle::near(frame, motion.place(), label.periods));
-        }
-    }
-    let stable: Vec<Cycle> = known.iter().filter(|cycle| cycle.stable()).take(BETWEEN).cloned().collect();
-    for (i, j) in (0..stable.len()).flat_map(|i| (0..i).map(move |j| (i, j))) {
-        for guess in on_border(frame, (&stable[i], &stable[j]), go_on) {
-            if !go_on() {
-                return None;
-            }
-            learn(&mut known, Cycle::near(frame, &guess, label.periods));
-        }
-    }
-    Some(of_label(known, label))
-}
-
-/// The same without forcing.
-fn unforced(
-    frame: &MachineFrame<'_>,
-    label: Label,
-    starts: &mut dyn Iterator<Item = Start>,
-    go_on: &dyn Fn() -> bool,
-) -> Option<Vec<Cycle>> {
-    let mut known: Vec<Cycle> = Vec::new();
-    let from = |known: &mut Vec<Cycle>, motion: Motion<'_>| {
-        for (guess, time) in near_returns(frame, motion, label.impacts) {
-            go_on().then_some(())?;
-            learn(known, Cycle::returning(frame, &guess, time));
+            self.learn_near(motion.place())?;
         }
         Some(())
-    };
-    for start in starts {
-        let Ok(motion) = Motion::new(frame.machine, &start, frame.limits()) else { continue };
-        from(&mut known, motion)?;
     }
-    let stable: Vec<Cycle> = known.iter().filter(|cycle| cycle.stable()).take(BETWEEN).cloned().collect();
-    for (i, j) in (0..stable.len()).flat_map(|i| (0..i).map(move |j| (i, j))) {
-        if let Some(place) = on_border(frame, (&stable[i], &stable[j]), go_on).into_iter().next() {
-            from(&mut known, frame.resume(place).limited(frame.limits().time))?;
+
+    /// Adds the cycles to which states on the border between two stable ones lead.
+    fn between(&mut self, stable: (&Cycle, &Cycle)) -> Option<()> {
+        let guesses = on_border(self.frame, stable, self.go_on);
+        if self.frame.unforced() {
+            let resumed = |place| self.frame.resume(place).limited(self.frame.limits().time);
+            return guesses.into_iter().next().map(resumed).map_or(Some(()), |motion| self.follow(motion));
         }
+        guesses.iter().try_for_each(|guess| self.learn_near(guess))
     }
-    Some(of_label(known, label))
-}
 
-/// The cycles with a label, the fastest last.
-fn of_label(known: Vec<Cycle>, label: Label) -> Vec<Cycle> {
-    let mut found: Vec<Cycle> = known.into_iter().filter(|cycle| cycle.label == label).collect();
-    sort_by(&mut found, |a, b| a.fastest().total_cmp(&b.fastest()));
-    found
-}
+    fn learn_near(&mut self, guess: &Place) -> Option<()> {
+        (self.go_on)().then_some(())?;
+        self.learn(Cycle::near(self.frame, guess, self.label.periods));
+        Some(())
+    }
 
-/// Adds a cycle that is new.
-fn learn(known: &mut Vec<Cycle>, cycle: Option<Cycle>) {
-    if let Some(cycle) = cycle
-        && !known.iter().any(|other| other.same_as(&cycle, SAME))
-    {
-        known.push(cycle);
+    /// Adds a cycle that is new.
+    fn learn(&mut self, cycle: Option<Cycle>) {
+        if let Some(cycle) = cycle
+            && !self.known.iter().any(|other| other.same_as(&cycle, SAME))
+        {
+            self.known.push(cycle);
+        }
     }
 }

@@ -58,10 +58,12 @@ impl MachineRing {
         frame.constrain(&mut from)?;
         let event = &self.events[next];
         let time = self.time(k, frame.machine);
+        // a contact that vanishes along a branch is followed a little beyond
         let brief = self.contact(k).is_some() && time * self.frequency(frame.machine) > -BRIEF;
         if !((time > 0.0 || self.together == Some(k) || self.rests(k) || brief) && time.is_finite()) {
             return None;
         }
+        // the depth is zero at once, where the contact begins: this zero is divided out
         let divisor = if self.is_between_zeros(k) { time } else { 1.0 };
         if divisor == 0.0 {
             return None;
@@ -75,6 +77,7 @@ impl MachineRing {
             StopLaw::Compliant { .. } => 0.0,
         };
         let pushed = event.pushed.iter().map(|(j, still)| (*j, if *still { 0.0 } else { restitution(*j) })).collect();
+        // the cycle closes here
         let drifts = next == 0 && !frame.normal.translations.is_empty();
         let (to, after) = (self.place(next), before.clone());
         let mut flight =
@@ -115,6 +118,7 @@ impl MachineRing {
         left[(0, 0)] = -dot(&guarded, &start) / frequency;
         left.row_mut(0)[1..].copy_from_slice(&guarded);
         let carried = through.apply(&start);
+        // a later end at the same beginning: the flow there through the event, and the rate of the reset
         let ended = linear.reset.apply(&linear.flow_before);
         let mut late = vec![first.rate / frequency];
         for i in 0..size {
@@ -122,6 +126,7 @@ impl MachineRing {
             left.row_mut(i + 1)[1..].copy_from_slice(through.row(i));
             late.push((ended[i] + linear.reset_rate[i]) / frequency);
         }
+        // the quotient rule, for a divisor that is the time between both phases
         if self.is_between_zeros(k) {
             left.row_mut(0).iter_mut().chain(&mut late[..1]).for_each(|value| *value /= time);
             left[(0, 0)] += miss[0] / (time * frequency);
@@ -165,6 +170,7 @@ impl RingFlight<'_> {
         let law = self.law();
         let flown = by.flown(&frame.shape, &self.structure, (&self.from, &self.before), self.time)?;
         let mut guard = by.guard(&law, &self.before, &flown)? / self.divisor;
+        // the time depends on the number too, if this is the frequency
         if self.divisor == self.time {
             guard -= law.value(&frame.normal, &self.before) * by.duration(self.time) / (self.time * self.time);
         }

@@ -27,6 +27,7 @@ pub(crate) fn distance(free: &Translations, (a, b): (&Place, &Place), (size, spe
         return f64::INFINITY;
     }
     let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+    // along a free translation all places are the same motion
     let x = if free.is_empty() {
         apart(&a.x, &b.x)
     } else {
@@ -34,6 +35,7 @@ pub(crate) fn distance(free: &Translations, (a, b): (&Place, &Place), (size, spe
         free.remove(&mut x);
         x.iter().fold(0.0_f64, |most, x| most.max(x.abs()))
     };
+    // two zeros are not apart, also where the size is zero
     let part = |apart: f64, size: f64| if apart == 0.0 { 0.0 } else { apart / size };
     let (x, v) = (part(x, size), part(apart(&a.v, &b.v), speed));
     x.max(v).max(phase::difference(a.phase, b.phase).abs())
@@ -98,6 +100,7 @@ impl<'a> MachineFrame<'a> {
         let structure = self.structure(&place.states)?;
         let turns = place.turns(&self.normal);
         let stops = self.machine.stops().len();
+        // all gaps are read at the same state, before any of them is closed
         let (mut x, mut v) = (place.x.clone(), place.v.clone());
         for (held, across) in structure.held.iter().zip(&structure.across) {
             if *held < stops {
@@ -123,6 +126,7 @@ impl<'a> MachineFrame<'a> {
         }
         let mut x = place.x.clone();
         free.remove(&mut x);
+        // the way in a radian of the forcing
         (largest(&x).max(self.machine.parts().frequency.map_or(0.0, |frequency| speed / frequency)), speed)
     }
 
@@ -142,6 +146,7 @@ impl<'a> MachineFrame<'a> {
     /// velocities. Without some directions it has other coordinates, and is taken as it is.
     pub(crate) fn rounding(&self, derivative: &Matrix, steps: usize, (size, speed): (f64, f64)) -> f64 {
         let (n, complete) = (self.shape.n, derivative.rows() == self.shape.size());
+        // in units of the sizes, so that displacements and velocities can be added up
         let unit = |i: usize| if complete && (n..2 * n).contains(&i) { speed / size } else { 1.0 };
         let mut sum = 0.0;
         for i in 0..derivative.rows() {
@@ -215,6 +220,7 @@ impl<'a> MachineFrame<'a> {
     /// forcing, along the motion: those say nothing of it.
     pub(crate) fn across_cycles(&self, derivative: Matrix, at: &Place) -> Matrix {
         let reduced = self.without_translations(derivative);
+        // with forcing the phase tells the states along a motion apart, and nothing is divided out
         let Some(flow) = self.unforced().then(|| self.flow(at)).flatten() else { return reduced };
         let free = &self.normal.translations;
         let flow = if free.is_empty() { flow } else { free.others(self.shape.size()).transposed().apply(&flow) };
@@ -249,9 +255,11 @@ fn complement(vector: &[f64]) -> Option<Matrix> {
         return None;
     }
     let mut normal: Vec<f64> = vector.iter().map(|x| x / length).collect();
+    // the sign for which nothing cancels
     normal[pivot] += normal[pivot].signum();
     let half = 0.5 * dot(&normal, &normal);
     let mut columns = Matrix::zeros(size, size - 1);
+    // the reflection takes the pivot's direction to the vector itself: the other columns are perpendicular to it
     for (k, j) in (0..size).filter(|j| *j != pivot).enumerate() {
         for i in 0..size {
             let unit = if i == j { 1.0 } else { 0.0 };

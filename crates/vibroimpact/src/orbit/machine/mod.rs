@@ -10,7 +10,7 @@
 //! | their equations, and the derivatives | `flight` |
 //! | how many impacts of a chatter are among them | `chatters` |
 //! | the events of a motion | `of_motion` |
-//! | without forcing, where a motion passes the state of a cycle | `crossing` |
+//! | where a motion passes the states of a cycle | `crossing` |
 //! | guesses of unstable ones between two that are stable | `border` |
 //! | guesses without forcing: where a motion comes close to an earlier state | `near_returns` |
 //! | all with a label, from many guesses | [`find_machine_while`] |
@@ -35,7 +35,7 @@ mod ring;
 mod rounding;
 
 pub(crate) use chatters::{Chatter, Rebound};
-pub(crate) use crossing::crossing;
+pub(crate) use crossing::passing;
 pub use cycle::Cycle;
 pub use find::{find_machine_while, find_unreduced};
 pub(crate) use frame::MachineFrame;

@@ -41,6 +41,7 @@ pub(super) fn multipliers(frame: &MachineFrame<'_>, begin: &Place, lap: &Machine
         .collect();
     product.truncate(count);
     let Some(mut found) = by_frames(frame, (begin, lap), &product) else { return Some(product) };
+    // what has vanished along the lap has the multiplier 0
     found.resize(count, Stretching { multiplier: Multiplier::default(), log: f64::NEG_INFINITY });
     Some(found)
 }
@@ -51,6 +52,7 @@ fn parts(frame: &MachineFrame<'_>, lap: &MachineLap) -> Option<Vec<TangentStep>>
     let last = lap.steps.len().checked_sub(1)?;
     for (k, (begin, from, passage)) in lap.steps.iter().enumerate() {
         let left = lap.time - begin;
+        // the lap ends within the last step
         if k == last && left <= passage.duration {
             parts.push(TangentStep::Flight(passage.structure.clone(), Box::new(from.clone()), left));
             break;
@@ -87,14 +89,17 @@ fn by_frames(
         let mut whole = true;
         for part in &parts {
             for change in part.carry(&frame.shape, &frame.normal, &mut basis, (&metric, &remove)) {
+                // where a vector vanishes before others, those after it take other places: no frame to compare with
                 whole &= change.kept.len() == change.kept.iter().max().map_or(0, |last| last + 1);
                 changes.push(change);
             }
         }
         whole &= basis.len() == before.len();
+        // nothing is left but the direction of the motion: all multipliers are 0
         if basis.len() <= first {
             return Some(Vec::new());
         }
+        // rounding errors turn it away from the motion, so it is set again in each round
         if let Some(along) = &along {
             basis[0].clone_from(along);
             basis = independent(&basis);
@@ -103,6 +108,8 @@ fn by_frames(
             continue;
         }
         let d = basis.len();
+        // how the frame has turned in the round; where it is invariant, by a triangular matrix with 1 and -1 on the
+        // diagonal
         let mut turn = Matrix::zeros(d, d);
         for (i, old) in before.iter().enumerate() {
             for (j, new) in basis.iter().enumerate() {
@@ -112,12 +119,14 @@ fn by_frames(
         let logs: Vec<f64> = (0..d).map(|k| changes.iter().map(|change| change.log(k)).sum()).collect();
         let determinant: f64 = logs[first..].iter().sum();
         let own: f64 = product.iter().map(|of| of.log).sum();
+        // nothing has been lost in the product: its eigenvalues are the better ones
         if d - first == product.len() && (own - determinant).abs() <= AGREED {
             return None;
         }
         // where the subspaces of the first vectors are invariant
         let splits: Vec<usize> =
             (1..d).filter(|k| (*k..d).all(|i| (0..*k).all(|j| turn[(i, j)].abs() <= INVARIANT))).collect();
+        // more rounds for subspaces that have not converged, unless their stretches are of about one size
         let open = (1..d).any(|k| !splits.contains(&k) && (round < SETTLED || logs[k - 1] - logs[k] > APART));
         if open && round + 1 < ROUNDS {
             continue;
@@ -143,6 +152,7 @@ fn block(
 ) -> Option<Vec<Stretching>> {
     let size = end - begin;
     if size == 1 {
+        // a single direction: its stretch, with the sign of all factors
         let negative = changes
             .iter()
             .filter(|change| (change.left[(begin, begin)] < 0.0) != (change.right[(begin, begin)] < 0.0))
@@ -162,6 +172,7 @@ fn block(
     let (mut product, mut scale) = (Matrix::identity(size), 0.0);
     for change in changes {
         let own = &change.scales[begin..end];
+        // relative to the largest stretch, so that nothing overflows
         let largest = own.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         product = cut(&change.right).times(&product);
         for (i, own) in own.iter().enumerate() {
@@ -173,6 +184,7 @@ fn block(
         if size == 0.0 || !size.is_finite() {
             return None;
         }
+        // and again after each product
         product = product.times(&Matrix::diagonal(&vec![1.0 / size; product.rows()]));
         scale += largest + ln(size);
     }
@@ -198,6 +210,7 @@ fn states(frame: &MachineFrame<'_>, at: &Place) -> Option<Vec<Vec<f64>>> {
 fn independent(vectors: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let mut basis: Vec<Vec<f64>> = Vec::new();
     for vector in vectors {
+        // twice, so that what is left is perpendicular to rounding
         let before = dot(vector, vector).sqrt();
         let mut rest = vector.clone();
         for _ in 0..2 {

@@ -46,6 +46,7 @@ impl Cycle {
         let period = f64::from(cycle.label.periods) * reduction.period();
         rotate_to_fastest(&mut events, period);
         let strobes = strobes(reduction, stops, cycle)?;
+        // to mass-normalised coordinates, which places have
         let root = reduction.mass().sqrt();
         let largest = |of: fn(&Event) -> f64, strobe: f64| {
             events.iter().map(|event| root * of(event).abs()).fold(strobe.abs(), f64::max)
@@ -54,6 +55,7 @@ impl Cycle {
             largest(|event| event.q[0], strobes[0].x[0]),
             largest(|event| event.qdot[0].abs().max(event.speed), strobes[0].v[0]),
         );
+        // no stop is closed in the middle of a flight
         let contacts = Vec::new();
         let state = Start {
             q: vec![strobes[0].x[0] / root],
@@ -85,6 +87,7 @@ impl Cycle {
         let [one, two] = *self.multipliers.as_slice() else { return None };
         let point = |(k, event): (usize, &&Event)| {
             let next = impacts.get(k + 1).map_or(self.period + impacts[0].time, |next| next.time);
+            // an event that is no impact, as the release of a stop, means that it rests
             let side = reduction.side(event.place).filter(|_| event.kind == EventKind::Impact)?;
             let state = ImpactState {
                 phase: phase::wrap(event.phase + reduction.phase()),
@@ -105,6 +108,7 @@ impl Cycle {
 
 /// Makes the fastest event the first one, at time 0.
 fn rotate_to_fastest(events: &mut [Event], period: f64) {
+    // of equal speeds the first one
     let faster = |a: &usize, b: &usize| events[*a].speed.total_cmp(&events[*b].speed).then(b.cmp(a));
     let Some(first) = (0..events.len()).max_by(faster).filter(|first| *first > 0) else { return };
     let zero = events[first].time;
@@ -118,6 +122,7 @@ fn rotate_to_fastest(events: &mut [Event], period: f64) {
 fn strobes(reduction: &Reduction, stops: usize, cycle: &orbit::Cycle) -> Option<Vec<Place>> {
     let (osc, points, root) = (&reduction.oscillator, &cycle.points, reduction.mass().sqrt());
     let longest = (0..points.len()).max_by(|a, b| points[*a].interval.total_cmp(&points[*b].interval));
+    // without impacts it is the steady motion
     let Some(longest) = longest else { return Some(vec![place(reduction, stops, root, system::Start::steady(osc))]) };
     let (mut k, mut time) = (longest, 0.5 * points[longest].interval);
     let first = phase::wrap(points[longest].state.phase + osc.beta() * time);
@@ -128,6 +133,7 @@ fn strobes(reduction: &Reduction, stops: usize, cycle: &orbit::Cycle) -> Option<
             k = (k + 1) % points.len();
         }
         let (x, v) = Flight::new(osc, points[k].state.rebound(osc)).state(time);
+        // one phase for all of them, without the rounding of the time
         all.push(place(reduction, stops, root, system::Start { x, v, phase: first }));
         time += osc.period();
     }
@@ -174,6 +180,7 @@ pub(super) fn orbits(frame: &MachineFrame<'_>, label: Label, go_on: &dyn Fn() ->
         [] => Cycle::of_oscillator(&reduction, frame.machine.stops().len(), cycle),
         _ => closed(frame, &reduction, cycle),
     };
+    // the oscillator lists orbits that would pass through a stop, too
     let admissible = found.iter().filter(|orbit| orbit.physical);
     let mut cycles: Vec<Cycle> = match admissible.map(|orbit| of(&orbit.cycle)).collect() {
         // without damping the motion without impacts is one of a continuum, which the oscillator does not list

@@ -134,6 +134,7 @@ impl MachineRing {
     }
 
     /// The phase of one period of the cycle.
+    // without forcing the phases are counted so that the cycle ends at 0
     pub(crate) fn angle(&self) -> f64 {
         if self.unforced() { -self.places[0].phase } else { TAU * f64::from(self.periods) }
     }
@@ -242,6 +243,7 @@ impl MachineRing {
         for k in (0..m).filter(|k| self.events[*k].guard == GuardKind::Force(stop)).collect::<Vec<_>>() {
             let place = self.place(k);
             let depth = (-place.gap(&frame.normal, &place.turns(&frame.normal), stop).0).max(LEAST.0);
+            // the surface is taken along through the events after it, until its stop closes again
             let surface = standing_back(&frame.machine.stops()[stop].law, depth)?;
             let later = |time: f64| Recovery { size: surface.size * decay(surface.rate * time).0, ..surface };
             let mut stands = vec![(k, surface)];
@@ -250,6 +252,7 @@ impl MachineRing {
                 stands.push((i, later(time)));
                 time += self.time(i, frame.machine);
             }
+            // it stands back as long as its size is above the offset; otherwise it has come back before the stop closes
             if later(time).size > surface.offset.max(LEAST.1) {
                 for (i, surface) in stands {
                     self.events[i].back[stop] = true;
@@ -279,6 +282,7 @@ impl MachineRing {
                 if !ends {
                     row[next] += turn * block.late[i];
                 }
+                // the first residual is the guard's, which does not see the state after the event
                 if i > 0 {
                     row[next + i] -= turn;
                 }
@@ -294,6 +298,7 @@ impl MachineRing {
             let step = block.step.clone()?;
             product = Some(match product {
                 None => step,
+                // the later flight acts on the derivative of all before it
                 Some(so_far) => step.times(&so_far),
             });
         }
@@ -322,6 +327,7 @@ impl MachineRing {
             && periods.is_multiple_of(parts)
             && (0..self.len() - part).all(|k| {
                 let (one, mut two) = (self.place(k), self.place(k + part));
+                // each part must take the same share of the period, and be the same in events and states
                 let ahead = self.theta(k + part) - self.theta(k) - self.angle() / f64::from(parts);
                 two.phase = one.phase;
                 self.events[k] == self.events[k + part]
@@ -333,6 +339,7 @@ impl MachineRing {
     /// The cycle over its smallest period, if it repeats itself after a part of its period.
     pub(crate) fn shortest(mut self, frame: &MachineFrame<'_>, sizes: (f64, f64)) -> Self {
         let most = u32::try_from(self.len()).unwrap_or(1);
+        // the largest number of parts that repeat leaves the smallest period
         if let Some(parts) = (2..=most).rev().find(|parts| self.repeats(frame, *parts, sizes)) {
             self.keep_one_of(parts);
         }
@@ -352,6 +359,7 @@ impl MachineRing {
         self.events.truncate(part);
         self.places.truncate(part);
         self.periods /= parts;
+        // it was the number of an event of the longer cycle
         self.together = None;
         self.end_at(end);
     }
@@ -365,6 +373,7 @@ impl MachineRing {
 
     /// A state between two events: the middle of the longest flight, with the event before it.
     pub(crate) fn middle(&self, frame: &MachineFrame<'_>) -> Option<(usize, Place)> {
+        // in the middle of the longest flight a state is as far from events as it can be
         let time = |k: usize| self.time(k, frame.machine);
         let longest = (0..self.len()).max_by(|a, b| time(*a).total_cmp(&time(*b)))?;
         let mut from = self.place(longest);

@@ -44,6 +44,7 @@ fn largest_error(frame: &MachineFrame<'_>, lap: &MachineLap, steps: impl Iterato
         } else {
             frame.with(|structures| step_derivative(shape, frame.machine, normal, structures, from, passage))?
         };
+        // the errors so far, carried through the step, and new ones
         errors = derivative.times(&errors).times(&derivative.transposed());
         for i in 0..shape.size() {
             let new = NEW * scale(i);

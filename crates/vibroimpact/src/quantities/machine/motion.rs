@@ -139,6 +139,7 @@ fn over_time(frame: &MachineFrame<'_>, from: &Place, time: f64) -> Option<Quanti
     loop {
         let (begin, left) = (motion.place().clone(), time - motion.time());
         let passage = motion.step()?;
+        // after the last event the motion is the last flight for as long as it is asked for
         let for_ever = matches!(motion.end(), Some(End::Never | End::Stuck));
         if left <= passage.duration || for_ever {
             tally.flight(&begin, &passage.structure, left, &[]);

@@ -65,6 +65,7 @@ impl PartSums {
             Part::Joint(j) => self.joints[j],
             Part::Coordinate(i) => self.coordinates[i],
         };
+        // all parts have the time of the motion
         sums[Sum::Time] = self.time;
         sums
     }
@@ -77,6 +78,7 @@ impl Extremes {
         // forces are not negative where only the largest is asked for
         let none = (f64::NEG_INFINITY, 0.0);
         Self {
+            // of velocity and acceleration only the size is asked for, which is not negative
             coordinates: vec![[NOTHING, (0.0, 0.0), (0.0, 0.0)]; machine.n()],
             forces: (0..stops).map(|_| none).chain(machine.joints().iter().map(|_| (0.0, 0.0))).collect(),
             speeds: vec![0.0; stops],

@@ -106,6 +106,7 @@ impl<'a> Tally<'a> {
         }
         self.sums.time += duration;
         self.stand_still(from, duration, chatter);
+        // once a flight is left out the integrals are not known, and no panels are spent on others
         let all = if self.skipped { None } else { panels(&rates(structure), duration, self.left) };
         let Some(all) = all else {
             self.skipped = true;
@@ -114,6 +115,7 @@ impl<'a> Tally<'a> {
         self.left -= all.len();
         let flight = from.flight(&self.frame.normal, structure.clone());
         let leg = Leg { states: &from.states, flight: &flight, chatter };
+        // the first panel begins where the one before it would have ended
         self.go(&leg, 0.0);
         self.told(|(_, ends), value| ends[1] = value);
         for panel in all {
@@ -148,6 +150,7 @@ impl<'a> Tally<'a> {
                 _ => {}
             }
             if let (Some(surface), Some((k, ..))) = (from.surfaces[j], compliant(&machine.stops()[j].law)) {
+                // 1 - e^{-2 kappa t} as a product, in which no digits cancel
                 let (kept, lost) = decay(surface.rate * duration);
                 sums[Sum::ContactLoss] += 0.5 * k * surface.size * surface.size * lost * (1.0 + kept);
             }
@@ -156,6 +159,7 @@ impl<'a> Tally<'a> {
                 && matches!(from.states[j], ContactState::Closed | ContactState::Resting);
             match (contact.now, closed) {
                 (None, true) => contact.now = Some(0.0),
+                // a contact that began before the motion is not complete: `close` joins it to the one at the end
                 (Some(impulse), false) => {
                     if contact.opened {
                         self.extremes.impulses[j] = self.extremes.impulses[j].max(impulse);
@@ -184,6 +188,7 @@ impl<'a> Tally<'a> {
             self.add(leg, half * weight);
             self.told(|(values, _), value| values[k] = value);
         }
+        // after the loop over the points: the values stand point by point for each coordinate
         for (sums, all) in self.sums.coordinates.iter_mut().zip(self.values.chunks_exact(3)) {
             for (k, (_, weight)) in self.gauss.points.iter().enumerate() {
                 let (q, qdot) = (all[0][k], all[1][k]);
@@ -204,6 +209,7 @@ impl<'a> Tally<'a> {
             let acts = matches!(leg.states[at], ContactState::Closed | ContactState::Resting | ContactState::Holding);
             if acts && !leg.chatter.contains(&at) {
                 self.gauss.widen(&self.values[3 * n + at], self.ends[3 * n + at], range);
+            // a force that does not act or is friction that slides is constant over the panel
             } else if !acts {
                 range.1 = range.1.max(self.point.forces[at].abs());
             }
@@ -243,6 +249,7 @@ impl<'a> Tally<'a> {
                 ContactState::Closed => {
                     sums[Sum::Impulse] += force;
                     if let Some((_, c, _)) = compliant(&machine.stops()[j].law) {
+                        // the rate at which the gap opens, with which the damper works
                         let rate = moves - dot(&normal.directions[j], v);
                         sums[Sum::ContactLoss] += weight * c * rate * rate;
                     }
@@ -260,6 +267,7 @@ impl<'a> Tally<'a> {
         for (j, sums) in self.sums.joints.iter_mut().enumerate() {
             let (joint, force) = (&machine.joints()[j], forces[stops + j]);
             sums[Sum::Impulse] += weight * force;
+            // the belt moves against the force of the joint on it
             sums[Sum::Work] -= weight * force * joint.belt;
             if leg.states[stops + j] != ContactState::Holding {
                 sums[Sum::FrictionLoss] += weight * force * (dot(&normal.directions[stops + j], v) - joint.belt);
@@ -296,6 +304,7 @@ impl<'a> Tally<'a> {
         for blow in &passage.blows {
             let StopLaw::Rigid { restitution } = self.frame.machine.stops()[blow.stop].law else { continue };
             let sums = &mut self.sums.stops[blow.stop];
+            // at once, so it is not part of the integral of the force
             sums[Sum::Impulse] += blow.impulse;
             // the mean of the velocities of the gap before and after, -(1 - e) U/2, times the impulse
             sums[Sum::ImpactLoss] += 0.5 * (1.0 - restitution) * blow.speed * blow.impulse;
@@ -342,6 +351,7 @@ impl<'a> Tally<'a> {
         let (machine, normal) = (self.frame.machine, &self.frame.normal);
         let (stops, turns) = (machine.stops().len(), after.turns(normal));
         let mut before = passage.before.as_ref().map_or_else(|| after.v.clone(), |before| before.v.clone());
+        // less the impulses, which push against the directions: the velocities after the impact
         for blow in &passage.blows {
             add_scaled(&mut before, -blow.impulse, &normal.directions[blow.stop]);
         }
@@ -350,6 +360,7 @@ impl<'a> Tally<'a> {
         }
         let change: Vec<f64> = after.v.iter().zip(&before).map(|(after, before)| after - before).collect();
         for (held, across) in rest.held.iter().zip(&rest.across) {
+            // the impulses along what holds at rest that make this change
             let impulse = -dot(across, &change);
             if *held >= stops {
                 let joint = &mut self.sums.joints[*held - stops];
@@ -361,8 +372,10 @@ impl<'a> Tally<'a> {
             let moves = self.walls[*held].swing(&turns);
             sums[Sum::Work] -= impulse * moves;
             if chatter.contains(held) {
+                // infinitely many, in a finite time
                 sums[Sum::Impacts] = f64::INFINITY;
                 sums[Sum::Impulse] += impulse;
+                // as in `event`: the gap moves with the rebound before and not at all after, so the mean is half of it
                 let rebound = moves - dot(&normal.directions[*held], &before);
                 sums[Sum::ImpactLoss] -= 0.5 * rebound * impulse;
             } else {

@@ -1,11 +1,13 @@
 //! What the record of a motion needs to know of a machine: its returns are its steps from event to event.
 
 use super::super::recurring::{Measurement, Recurring};
+use super::outcome::State;
 use crate::events::{Event, Motion, Passage, Place, stretched, tangent_steps};
-use crate::lyapunov::{Frame, Measured, Run};
+use crate::lyapunov::{Frame, MEASURED_IMPACTS, Run, Stretch, Tail};
+use crate::machine::Machine;
 use crate::math::dot;
 use crate::orbit::machine;
-use crate::orbit::{MachineFrame, MachineLap, Stability, crossing, rounding_decides};
+use crate::orbit::{MachineFrame, MachineLap, Stability, passing, rounding_decides};
 use crate::regime::GuardKind;
 use core::cell::Cell;
 use std::sync::Arc;
@@ -58,12 +60,12 @@ impl<'a> Recorded<'a> {
 }
 
 impl Recurring for Recorded<'_> {
+    type System = Machine;
+    const LASTING: bool = true;
     type Return = Arc<Step>;
-    type Cycle = machine::Cycle;
     type Measure = Run;
-    type Exponents = Vec<Measured>;
-    /// It is kept by the record.
-    type Tail = ();
+    /// The returns are the tail.
+    type MeasuredTail = ();
 
     fn distance(&self, a: &Arc<Step>, b: &Arc<Step>) -> f64 {
         if a.passage.guards != b.passage.guards || a.begin.states != b.begin.states {
@@ -106,6 +108,12 @@ impl Recurring for Recorded<'_> {
     fn chaos(&self, measure: &Run) -> Option<(Measurement<Self>, bool)> {
         measure.chaos().map(|(spectrum, chaotic)| ((spectrum, ()), chaotic))
     }
+
+    fn tail((): (), returns: &[(Arc<Step>, f64)]) -> Option<Tail<State>> {
+        let count = returns.len().min(usize::try_from(MEASURED_IMPACTS).unwrap_or(usize::MAX));
+        let (first, last) = (&returns.get(returns.len() - count)?.0, &returns.last()?.0);
+        Some(Tail { from: State::of(&first.begin), last: State::of(&last.end), impacts: count as u64 })
+    }
 }
 
 impl Recorded<'_> {
@@ -122,7 +130,8 @@ impl Recorded<'_> {
         });
         let Some(steps) = steps else { return };
         let carry = |tangents: &mut Frame| {
-            tangents.carry(|vectors, metric| stretched(&frame.shape, &frame.normal, &steps, vectors, metric));
+            let logs = |vectors: &mut _, metric: &_| stretched(&frame.shape, &frame.normal, &steps, vectors, metric);
+            tangents.carry(|vectors, metric| logs(vectors, metric).into_iter().map(Stretch::Log));
             f64::NAN
         };
         measure.add(carry, interval, f64::from(step.closings));
@@ -148,22 +157,7 @@ impl Recorded<'_> {
     /// Without forcing it is near where it crosses the plane across the flow at the state of the cycle.
     pub(crate) fn captures(&self, place: &Place, cycle: &machine::Cycle) -> Option<bool> {
         let frame = &self.frame;
-        let real = match frame.machine.parts().frequency {
-            Some(frequency) => {
-                // to the phase of the cycle's states
-                let first = cycle.strobes.first()?;
-                let ahead = crate::system::phase::wrap(first.phase - place.phase) / frequency;
-                let mut real = MachineLap::fly(frame, place, ahead)?.end;
-                real.phase = first.phase;
-                real
-            }
-            None => crossing(frame, place, cycle)?,
-        };
-        let nearest = cycle
-            .strobes
-            .iter()
-            .min_by(|a, b| frame.distance(a, &real, cycle.sizes).total_cmp(&frame.distance(b, &real, cycle.sizes)))?;
-        let apart = frame.distance(nearest, &real, cycle.sizes);
+        let (real, nearest, apart) = passing(frame, place, cycle)?;
         if apart > NEAR {
             return Some(false);
         }

@@ -1,17 +1,16 @@
 //! The verdict on the motion of a machine from a start.
 
 use super::super::options::SettleOptions;
-use super::super::outcome::{Chaos, Settled, Undecided, UndecidedCause, Verdict};
-use super::super::record::{Record, Shown};
+use super::super::outcome::{Settled, Undecided, UndecidedCause, Verdict};
+use super::super::record::Record;
 use super::super::recurring::Recurring;
-use super::super::settle::settle_while;
+use super::super::settle::{Followed, settle_while};
 use super::fading::Fading;
 use super::outcome::State;
 use super::reduced::Reduced;
 use super::returns::{Recorded, Step};
 use crate::events;
 use crate::events::{End, Motion};
-use crate::lyapunov::{MEASURED_IMPACTS, Measured, Spectrum, Tail};
 use crate::machine::{Machine, MachineError};
 use crate::orbit::MachineFrame;
 use crate::system::Start;
@@ -120,16 +119,8 @@ pub(super) fn settle_alone(
     // chatters and contacts take many events in each period
     let options = &SettleOptions { longest: options.longest.saturating_mul(EVENTS_PER_IMPACT), ..*options };
     let mut follow = Follow::new(machine, start)?;
-    while follow.within(options) {
-        if !go_on() {
-            return Ok(None);
-        }
-        if let Some(verdict) = follow.step(options) {
-            return Ok(Some(follow.settled(verdict)));
-        }
-    }
-    let verdict = follow.last_look(options);
-    Ok(Some(follow.settled(verdict)))
+    let verdict = follow.verdict(options, &|_| !go_on());
+    Ok(verdict.map(|verdict| follow.record.settled(&follow.system, verdict, follow.time)))
 }
 
 /// The record of a motion that a machine follows itself.
@@ -139,14 +130,9 @@ struct Follow<'a> {
     record: Record<Recorded<'a>>,
     /// The sizes of coordinates and velocities at the latest steps.
     sizes: VecDeque<(f64, f64)>,
-    events: u64,
     time: f64,
     /// The latest release from each stop, and its time.
     releases: Vec<(Arc<Step>, f64)>,
-    /// Whether the motion has returned to a release whose cycle was not confirmed.
-    unconfirmed: bool,
-    /// The latest chaos, which may have ended.
-    over: Option<Chaos<Machine>>,
     fading: Fading,
 }
 
@@ -159,60 +145,10 @@ impl<'a> Follow<'a> {
             motion,
             record: Record::default(),
             sizes: VecDeque::new(),
-            events: 0,
             time: 0.0,
             releases: Vec::new(),
-            unconfirmed: false,
-            over: None,
             fading: Fading::default(),
         })
-    }
-
-    /// Whether the budget permits more. A measurement that began because the one before diverged too little for a decision is
-    /// completed beyond the budget.
-    fn within(&self, options: &SettleOptions) -> bool {
-        let (count, most) = (self.record.count(), options.max_impacts as usize);
-        count < most || options.extend && self.record.undecided_measurement() && count < 3 * most
-    }
-
-    /// Follows the motion by a step; returns the verdict if it is decided.
-    fn step(&mut self, options: &SettleOptions) -> Option<Verdict<Machine>> {
-        let Some((step, seen)) = Step::next(&mut self.motion) else { return Some(self.last_look(options)) };
-        self.events += seen.len() as u64;
-        let before = core::mem::replace(&mut self.time, self.motion.time());
-        if let Some(end) = self.motion.end() {
-            let last = State::of(self.motion.place());
-            let verdict = match end {
-                End::Never => Verdict::NoImpact(last),
-                End::NoEventWithin if Fading::touches(&self.system.frame, &seen) => {
-                    Verdict::NoImpact(State { fades: true, ..last })
-                }
-                End::Stuck => Verdict::Stuck(last),
-                end => return Some(self.undecided(UndecidedCause::Ended(end))),
-            };
-            self.time = before;
-            return Some(verdict);
-        }
-        if self.fading.includes(&self.system.frame, &step.end, self.time) {
-            return Some(Verdict::NoImpact(State { fades: true, ..State::of(self.motion.place()) }));
-        }
-        self.measure_size(&step);
-        let (interval, step) = (step.passage.time(), Arc::new(step));
-        self.record.push(options, step.clone(), interval);
-        let released = self.release(&step);
-        if released.is_some() {
-            return released;
-        }
-        if self.record.count().is_multiple_of(64) {
-            self.system.frame.keep(&self.motion);
-        }
-        match self.record.decide(&self.system, options, &step, interval) {
-            Some(Shown::Cycle(cycle)) => return Some(Verdict::Periodic(cycle)),
-            // chaos of a machine is often a transient of thousands of events: the motion is followed to the end of the budget
-            Some(Shown::Chaos((spectrum, ()))) => self.over = Some(self.chaos(spectrum)),
-            None => {}
-        }
-        None
     }
 
     /// Includes a step in the size of the motion, to which distances are relative.
@@ -239,57 +175,64 @@ impl<'a> Follow<'a> {
             }
             if self.system.rounding_decides(step, self.time - then) {
                 // from this release the motion is always the same, and a longer run shows no more of it
-                return Some(self.undecided(UndecidedCause::Unconfirmed));
+                return Some(self.record.undecided(&self.system, UndecidedCause::Unconfirmed));
             }
-            self.unconfirmed |= step.was_still();
+            self.record.unconfirmed |= step.was_still();
         }
         if step.was_still() {
-            self.over = self.transient();
+            self.record.end_chaos(&self.system);
             self.record.forget();
         }
         self.releases.push((step.clone(), self.time));
         None
     }
+}
 
-    /// Chaos with these exponents, and the last steps so far.
-    fn chaos(&self, spectrum: Spectrum<Vec<Measured>>) -> Chaos<Machine> {
-        let steps = &self.record.returns;
-        let count = steps.len().min(usize::try_from(MEASURED_IMPACTS).unwrap_or(usize::MAX));
-        let last = self.motion.place();
-        let from = steps[steps.len() - count..].first().map_or(last, |(step, _)| &step.begin);
-        let tail = Tail { from: State::of(from), last: State::of(last), impacts: count as u64 };
-        Chaos { spectrum, impacts: self.events, tail }
+impl<'a> Followed for Follow<'a> {
+    type Of = Recorded<'a>;
+
+    fn record(&mut self) -> (&Recorded<'a>, &mut Record<Recorded<'a>>) {
+        (&self.system, &mut self.record)
     }
 
-    fn undecided(&self, why: UndecidedCause) -> Verdict<Machine> {
-        let spectrum = self.record.latest(&self.system).map(|(spectrum, ())| spectrum);
-        Verdict::Undecided(Undecided { why, impacts: self.events, spectrum })
-    }
-
-    /// Chaos that was measured and has ended, if the motion has settled into something else.
-    fn transient(&self) -> Option<Chaos<Machine>> {
-        let found = self.record.was_chaotic(&self.system);
-        found.map(|(spectrum, ())| self.chaos(spectrum)).or_else(|| self.over.clone())
-    }
-
-    /// The verdict when the budget is used up, after a last search for a recurrence.
-    fn last_look(&mut self, options: &SettleOptions) -> Verdict<Machine> {
-        let last = self.record.returns.last().map(|(step, _)| step.clone());
-        if let Some(cycle) = last.and_then(|step| self.record.look(&self.system, options, &step)) {
-            return Verdict::Periodic(cycle);
+    fn step(&mut self, options: &SettleOptions) -> Option<Verdict<Machine>> {
+        let Some((step, seen)) = Step::next(&mut self.motion) else {
+            return Some(self.record.last_look(&self.system, options));
+        };
+        self.record.events += seen.len() as u64;
+        self.record.steps += 1;
+        let before = core::mem::replace(&mut self.time, self.motion.time());
+        if let Some(end) = self.motion.end() {
+            let last = State::of(self.motion.place());
+            let verdict = match end {
+                End::Never => Verdict::NoImpact(last),
+                End::NoEventWithin if Fading::touches(&self.system.frame, &seen) => {
+                    Verdict::NoImpact(State { fades: true, ..last })
+                }
+                End::Stuck => Verdict::Stuck(last),
+                end => return Some(self.record.undecided(&self.system, UndecidedCause::Ended(end))),
+            };
+            self.time = before;
+            return Some(verdict);
         }
-        match self.record.chaos(&self.system) {
-            Some((spectrum, ())) if !self.unconfirmed => Verdict::Chaotic(self.chaos(spectrum)),
-            _ if self.unconfirmed => self.undecided(UndecidedCause::Unconfirmed),
-            _ => self.undecided(UndecidedCause::Budget),
+        if self.fading.includes(&self.system.frame, &step.end, self.time) {
+            return Some(Verdict::NoImpact(State { fades: true, ..State::of(self.motion.place()) }));
         }
+        self.measure_size(&step);
+        let (interval, step) = (step.passage.time(), Arc::new(step));
+        self.record.push(options, step.clone(), interval);
+        let released = self.release(&step);
+        if released.is_some() {
+            return released;
+        }
+        if self.record.count().is_multiple_of(64) {
+            self.system.frame.keep(&self.motion);
+        }
+        self.record.decide(&self.system, options, &step, interval)
     }
 
-    /// The verdict, and how far the motion was followed.
-    fn settled(&self, verdict: Verdict<Machine>) -> Settled<Machine> {
-        let open = matches!(verdict, Verdict::Chaotic(_) | Verdict::Undecided(_));
-        let transient = if open { None } else { self.transient() };
-        Settled { verdict, impacts: self.events, time: self.time, transient }
+    fn returned(&self) -> bool {
+        true
     }
 }
 

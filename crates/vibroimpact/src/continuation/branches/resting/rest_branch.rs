@@ -97,6 +97,7 @@ impl RestBranch {
     /// The motion from the release at a value of the parameter, over half a forcing period more than the cycle at the
     /// current value.
     pub(crate) fn excursion_at(&self, value: f64) -> Option<Excursion> {
+        // half a period more than the cycle takes: a motion that is not back by then is another one
         let periods = 0.5 + f64::from(self.excursion.periods.unwrap_or(1));
         Excursion::new(&self.at(value)?, self.side, DEFAULT_EVENTS, periods)
     }
@@ -131,6 +132,7 @@ impl RestBranch {
             return self.added.clear();
         }
         self.added.push(value);
+        // the distances of these events shrink: the limit to which they tend is near
         if let [.., before, last] = self.added[..]
             && self.added.len() >= MANY
             && let Some(FoundEvent { value, event, cycle }) = self.other_rests(self.ahead(2.0 * (last - before).abs()))
@@ -146,6 +148,7 @@ impl RestBranch {
         }
         let narrow = NARROW * self.scale;
         loop {
+            // exactly to the end of the range
             self.step.now = self.step.now.min((self.end - self.value).abs());
             let (target, there, alike) = self.look(self.step.now);
             if let (Likeness::Alike(unlike), Some(there)) = (&alike, &there)

@@ -43,6 +43,7 @@ impl RestBranch {
                 let off = |touched: &Touched| (touched.value - self.value).abs();
                 let mut touched: Vec<Touched> =
                     places.iter().filter_map(|&place| self.touch(place, to, there)).collect();
+                // the first event on the way, with all others at the same value
                 sort_by(&mut touched, |a, b| off(a).total_cmp(&off(b)));
                 let first = touched.first()?.value;
                 touched.retain(|touched| (touched.value - first).abs() <= TOGETHER * (1.0 + first.abs()));
@@ -86,6 +87,7 @@ impl RestBranch {
         };
         let width = (to - self.value).abs();
         let (here, beyond) = (near(self.value)?.0, near(to)?.0);
+        // without a change of sign the flight does not graze between both values
         if here * beyond >= 0.0 {
             return None;
         }
@@ -129,6 +131,7 @@ impl RestBranch {
                 if let Some(stretch) = excursion.stretches.get_mut(s).filter(|stretch| k < stretch.strikes.len()) {
                     let gone = stretch.strikes.remove(k);
                     if let Some(next) = stretch.strikes.get_mut(k) {
+                        // the flight goes on to the next impact
                         next.flown += gone.flown;
                     }
                 }
@@ -188,6 +191,8 @@ impl RestBranch {
         let then = |value: f64| -> Option<(f64, f64, f64)> {
             let osc = self.at(value)?;
             let flight = leaving(&osc, self.excursion_at(value)?.stretches.get(s)?, first)?;
+            // the sine is symmetric about a quarter turn: the force begins to press as long before it as it releases
+            // after it
             let pressed = phase::wrap(PI - release_phase(&osc, side)?);
             let time = strike.flown + phase::difference(pressed, strike.state.phase) / osc.beta();
             let point = flight.at(time);
@@ -223,6 +228,7 @@ impl RestBranch {
         let (mut inside, mut outside) = (self.value, to);
         for _ in 0..MAX_HALVINGS {
             let middle = 0.5 * (inside + outside);
+            // no number lies between both
             if middle == inside || middle == outside {
                 break;
             }

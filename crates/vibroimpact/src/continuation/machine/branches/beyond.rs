@@ -19,7 +19,7 @@ use crate::continuation::trace::tracer::{Tracer, last};
 use crate::events::Place;
 use crate::machine::{Machine, Opening, StopLaw};
 use crate::math::sort_by;
-use crate::orbit::{Chatter, MachineFrame, MachineRing, RingEvent, machine::Cycle};
+use crate::orbit::{Chatter, MachineFrame, MachineRing, RingEvent, machine::Cycle, passing};
 use crate::regime::{ContactState, GuardKind};
 
 /// The tracer beyond a point where these test functions of gaps are zero; `None` if none is found.
@@ -199,21 +199,29 @@ const BESIDE: [f64; 5] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2];
 /// The same where a rest on a stop begins or ends: the numbers at which a chatter gets one more impact accumulate there.
 const BESIDE_REST: [f64; 5] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-2];
 
-/// The cycle a little beyond, from the last one. Beyond a corner its events may be the same in cyclic order.
+/// The cycle a little beyond, from the last one, and whether it continues the motion. Beyond a corner its events may be the same in
+/// cyclic order.
 pub(super) fn replayed(
     tracer: &Tracer<MachineProblem>,
     at: &MachineSolution,
     (options, found): (&BranchOptions, &Difference),
-) -> Option<Tracer<MachineProblem>> {
+) -> Option<(Tracer<MachineProblem>, bool)> {
     let (ring, forward) = (&tracer.problem.equations.ring, forward(at));
     let corner = matches!(found, Difference::Corner { .. });
     let beside = if matches!(found, Difference::Rest { joint: false, .. }) { BESIDE_REST } else { BESIDE };
     let motion = LastMotion::of(tracer, at)?;
     let steps = [forward, -forward].into_iter().flat_map(|up| beside.map(|by| up * by));
-    steps.into_iter().find_map(|by| {
+    let found = steps.into_iter().filter_map(|by| {
         let other = |next: &MachineRing| !same_in_turn(&next.events, &ring.events) || corner && by * forward > 0.0;
         motion.beside(tracer, (by, options), other)
-    })
+    });
+    first_continuing(found)
+}
+
+/// The first that continues the motion, or else the first.
+fn first_continuing<T>(mut found: impl Iterator<Item = (T, bool)>) -> Option<(T, bool)> {
+    let first = found.next()?;
+    if first.1 { Some(first) } else { found.find(|(_, continues)| *continues).or(Some(first)) }
 }
 
 /// How far beyond a change the motion is followed for its events only.
@@ -296,6 +304,16 @@ fn admissible(mut tracer: Tracer<MachineProblem>) -> Option<Tracer<MachineProble
     None
 }
 
+/// A cycle beside a solution that differs, in its size, by less continues it.
+const NO_JUMP: f64 = 5e-4;
+/// Another one does if the difference falls to less than the last part at each of some numbers that are nearer by this factor.
+const NEARER: f64 = 0.0625;
+const NEARER_TIMES: u32 = 6;
+const LIMIT: f64 = 0.6;
+/// Where there is none nearer it does if the difference is less than this times the root of the distance of their numbers in the
+/// scale of the number: beyond a grazing contact a cycle changes as fast as the root.
+const BEND: f64 = 0.5;
+
 /// How far beyond a solution its cycle with a complete chatter is looked for, and by how much it may differ there.
 const SAME: f64 = 1e-7;
 const ALIKE: f64 = 1e-4;
@@ -311,7 +329,7 @@ pub(super) fn same_beyond(
     let chatters = Chatter::all(ring).len();
     (chatters > 0).then_some(())?;
     let other = |next: &MachineRing| next.events != ring.events && Chatter::all(next).len() == chatters;
-    let next = LastMotion::of(tracer, at)?.beside(tracer, (SAME * forward(at), options), other)?;
+    let (next, _) = LastMotion::of(tracer, at)?.beside(tracer, (SAME * forward(at), options), other)?;
     next.here.known.cycle.as_ref().is_some_and(|next| next.same_as(cycle, ALIKE)).then_some(next)
 }
 
@@ -337,24 +355,52 @@ impl LastMotion {
         Some(Self { number: last(&at.w), begin, periods: ring.periods, period: ring.period(&frame) })
     }
 
-    /// The cycle close to it at a number that differs by `by` in its scale; `None` if it is not `wanted`.
+    /// The cycle close to it at a number that differs by `by` in its scale, with the machine there, and how far it is from the motion
+    /// in its size.
+    fn cycle(&self, tracer: &Tracer<MachineProblem>, by: f64) -> Option<(Machine, Cycle, f64)> {
+        let (low, high) = tracer.problem.range;
+        let there = self.number + by * tracer.problem.equations.scales[0];
+        (low..=high).contains(&there).then_some(())?;
+        let machine = tracer.problem.equations.family.at(there)?;
+        let frame = MachineFrame::new(&machine);
+        let cycle = Cycle::lasting(&frame, &self.begin, (self.periods, self.period))?;
+        let apart = passing(&frame, &self.begin, &cycle).map_or(f64::INFINITY, |(.., apart)| apart);
+        Some((machine, cycle, apart))
+    }
+
+    /// Whether the cycles come to the motion where the number does, when that at the distance `by` is so far `apart`.
+    fn is_limit(&self, tracer: &Tracer<MachineProblem>, mut by: f64, mut apart: f64) -> bool {
+        for _ in 0..NEARER_TIMES {
+            if apart < NO_JUMP {
+                return true;
+            }
+            let bend = BEND * by.abs().sqrt();
+            by *= NEARER;
+            match self.cycle(tracer, by) {
+                None => return apart < bend,
+                Some((.., nearer)) if nearer > LIMIT * apart => return false,
+                Some((.., nearer)) => apart = nearer,
+            }
+        }
+        true
+    }
+
+    /// The cycle close to it at a number that differs by `by` in its scale, and whether it continues the motion; `None` if it is not
+    /// `wanted`.
     fn beside(
         &self,
         tracer: &Tracer<MachineProblem>,
         (by, options): (f64, &BranchOptions),
         wanted: impl Fn(&MachineRing) -> bool,
-    ) -> Option<Tracer<MachineProblem>> {
-        let equations = &tracer.problem.equations;
-        let (low, high) = tracer.problem.range;
-        let there = self.number + by * equations.scales[0];
-        (low..=high).contains(&there).then_some(())?;
-        let moved = equations.family.at(there)?;
-        let frame = MachineFrame::new(&moved);
-        let cycle = Cycle::lasting(&frame, &self.begin, (self.periods, self.period))?;
+    ) -> Option<(Tracer<MachineProblem>, bool)> {
+        let (machine, cycle, apart) = self.cycle(tracer, by)?;
+        let frame = MachineFrame::new(&machine);
         let next = MachineRing::of(&frame, cycle.strobes.first()?, (self.periods, cycle.period))?;
         wanted(&next).then_some(())?;
-        let w = MachineEquations::join(&moved, &next, [there]);
-        let problem = with_ring(tracer, &moved, next, cycle.sizes);
-        begun(problem, &w, there, by.signum(), *options).filter(|tracer| tracer.here.known.physical())
+        let there = self.number + by * tracer.problem.equations.scales[0];
+        let w = MachineEquations::join(&machine, &next, [there]);
+        let problem = with_ring(tracer, &machine, next, cycle.sizes);
+        let next = begun(problem, &w, there, by.signum(), *options)?;
+        next.here.known.physical().then(|| (next, self.is_limit(tracer, by, apart)))
     }
 }

@@ -11,6 +11,7 @@ use super::meeting::meeting;
 use super::point::{BranchEvent, SolutionPoint};
 use super::problem::{Judged, MachineProblem, MachineSolution};
 use super::rest_for_ever::rest_for_ever;
+use super::step::{NEARBY, off_circle};
 use super::test_functions::TestFunction;
 use crate::continuation::branches::{BranchError, BranchOptions, Direction, scale};
 use crate::continuation::trace::driver::{Driver, Path, PathEvent};
@@ -56,7 +57,12 @@ impl Path for EventPath {
 
     /// At an event rounding can make a solution inadmissible: the cycle of the last point stands for it.
     fn point(branch: &EventBranch, at: &MachineSolution, event: Option<BranchEvent>) -> Option<SolutionPoint> {
-        let cycle = at.known.cycle.clone().or_else(|| branch.tracer.here.known.cycle.clone())?;
+        let mut cycle = at.known.cycle.clone().or_else(|| branch.tracer.here.known.cycle.clone())?;
+        // at a bifurcation a multiplier is on the unit circle, to the error of the place where it was located
+        let off = event.map_or(f64::INFINITY, |event| off_circle(&cycle.multipliers, event));
+        if off < NEARBY {
+            cycle.rounding = cycle.rounding.max(off);
+        }
         let ring = event.and_then(|_| Some(branch.tracer.problem.equations.split(&at.w)?.1));
         Some(SolutionPoint { value: last(&at.w), cycle, event, ring })
     }
@@ -72,8 +78,8 @@ impl Path for EventPath {
         if branch.rests(&at) {
             return;
         }
-        if let Some(next) = replayed(&branch.tracer, &at, (&branch.path.options, &found)) {
-            return branch.go_on(&at, found.event(false), (next, None));
+        if let Some((next, continues)) = replayed(&branch.tracer, &at, (&branch.path.options, &found)) {
+            return branch.go_on(&at, found.event(false), (next, landing(continues)));
         }
         match across(&branch.tracer, &at, &branch.path.options) {
             Some(next) => branch.jump(&at, &found, Some(next)),
@@ -160,23 +166,16 @@ impl EventBranch {
         if of_rest && let Some(next) = same_beyond(&self.tracer, at, &self.path.options) {
             return self.exchange(next);
         }
-        let Some(next) = next.or_else(|| replayed(&self.tracer, at, (&self.path.options, found))) else {
+        let beyond = || replayed(&self.tracer, at, (&self.path.options, found));
+        let Some((next, continues)) = next.map(|next| (next, true)).or_else(beyond) else {
             let next = across(&self.tracer, at, &self.path.options);
             return self.jump(at, found, next);
         };
         let (ring, other) = (&self.tracer.problem.equations.ring, &next.problem.equations.ring);
         // a chatter that is complete on one side only
-        let chatters = |ring: &MachineRing, stop| Chatter::all(ring).iter().filter(|own| own.stop == stop).count();
-        let event = match *found {
-            Difference::Rest { place, joint: false, .. }
-                if chatters(ring, place) > 0 && chatters(ring, place) == chatters(other, place) =>
-            {
-                BranchEvent::Change { place: Some(place) }
-            }
-            _ => found.event(turns_back(at, &next)),
-        };
+        let event = found.event(turns_back(at, &next));
         let complete = (0..ring.events.first().map_or(0, |event| event.back.len())).find_map(|stop| {
-            let (here, there) = (chatters(ring, stop), chatters(other, stop));
+            let (here, there) = (Chatter::count(ring, stop), Chatter::count(other, stop));
             let begins = here < there;
             let (equations, complete) =
                 if begins { (&next.problem.equations, &next.here) } else { (&self.tracer.problem.equations, at) };
@@ -186,7 +185,7 @@ impl EventBranch {
             Some((at, BranchEvent::Sticking { stop, begins }))
         });
         let (at, event) = complete.unwrap_or_else(|| (at.clone(), event));
-        self.go_on(&at, event, (next, None));
+        self.go_on(&at, event, (next, landing(continues)));
     }
 
     /// Changes the number of impacts of chatters in the signature where too much of them is left out, or too little.
@@ -218,7 +217,7 @@ impl EventBranch {
             return self.end(at, end);
         };
         let event = found.event(turns_back(at, &next));
-        self.go_on(at, event, (next, (!continues).then_some(BranchEvent::Jump)));
+        self.go_on(at, event, (next, landing(continues)));
     }
 
     /// Reports an event and goes on with another tracer. The branch is closed if the same event was there before.
@@ -231,7 +230,10 @@ impl EventBranch {
         let turns = turns_back(at, &next);
         let rings = self.tracer.problem.equations.split(&at.w).zip(next.problem.equations.split(&next.here.w));
         let explained = rings.map_or(Some(event), |((_, ring), (_, other))| explained(event, (&ring, &other), turns));
-        let Some(event) = explained else { return self.exchange(next) };
+        let event = match explained {
+            None if landing.is_none() => return self.exchange(next),
+            explained => explained.unwrap_or(event),
+        };
         let now = Passed { number: last(&at.w), unknowns: at.w.len(), rises: last(&at.tangent) > 0.0, event };
         let near = 1e-9 * self.tracer.problem.equations.scales[0];
         let same = |other: &Passed| {
@@ -246,6 +248,11 @@ impl EventBranch {
         self.exchange(next);
         self.add(&self.tracer.here.clone(), landing);
     }
+}
+
+/// The event where the branch goes on, if the motion there does not continue the one before.
+fn landing(continues: bool) -> Option<BranchEvent> {
+    (!continues).then_some(BranchEvent::Jump)
 }
 
 /// Whether the number changes in the other direction on a branch that goes on with `next`.

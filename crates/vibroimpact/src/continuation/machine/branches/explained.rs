@@ -26,21 +26,14 @@ impl Tally {
     fn all(ring: &MachineRing) -> Vec<Self> {
         let m = ring.len();
         let stops = ring.events.first().map_or(0, |event| event.back.len());
-        // the impacts of chatters, between which a joint can turn back
-        let of_chatter = |stop: usize, k: usize| {
-            let event = &ring.events[k];
-            event.struck() == Some(stop) || event.guard.place(stops) >= stops
-        };
-        let impacts = |Chatter { stop, rest }: Chatter| {
-            (0..m).map(move |i| (rest + m - i) % m).take_while(move |k| of_chatter(stop, *k))
-        };
-        let summed: Vec<usize> = Chatter::all(ring).into_iter().flat_map(impacts).collect();
+        let summed = summed(ring);
         let mut all = vec![Self::default(); ring.events.first().map_or(0, |event| event.after.len())];
         for (k, event) in ring.events.iter().enumerate() {
             let before = &ring.events[(k + m - 1) % m].after;
             if let GuardKind::Gap(stop) = event.guard
                 && !event.touches(before)
                 && !summed.contains(&k)
+                && event.rests_on().is_none()
             {
                 all[stop].closings += 1;
             }
@@ -52,6 +45,21 @@ impl Tally {
         }
         all
     }
+}
+
+/// The events of all complete chatters before their rests: impacts, and what a joint does between them. How many of these are
+/// followed is no property of the cycle.
+fn summed(ring: &MachineRing) -> Vec<usize> {
+    let m = ring.len();
+    let stops = ring.events.first().map_or(0, |event| event.back.len());
+    let of_chatter = |stop: usize, k: usize| {
+        let event = &ring.events[k];
+        event.struck() == Some(stop) || event.guard.place(stops) >= stops
+    };
+    let before = |Chatter { stop, rest }: Chatter| {
+        (1..m).map(move |i| (rest + m - i) % m).take_while(move |k| of_chatter(stop, *k))
+    };
+    Chatter::all(ring).into_iter().flat_map(before).collect()
 }
 
 /// The two contacts whose events are the closest to each other in time among those where one is of a joint, or both of `joint`.
@@ -68,11 +76,10 @@ fn closest_pair(ring: &MachineRing, joint: Option<usize>) -> Option<(usize, usiz
     Some((of(at), of(at + 1)))
 }
 
-/// The guards of all events and the states after them, without touches and without the impacts of a complete chatter right before
-/// its rest: how many of these are followed is no property of the cycle.
+/// The guards of all events and the states after them, without touches and without those of complete chatters.
 fn told(ring: &MachineRing) -> Vec<(GuardKind, &[ContactState])> {
     let m = ring.len();
-    let summed: Vec<usize> = Chatter::all(ring).iter().flat_map(|chatter| chatter.impacts(ring)).collect();
+    let summed = summed(ring);
     let tells = |k: &usize| !summed.contains(k) && !ring.events[*k].touches(&ring.events[(k + m - 1) % m].after);
     (0..m).filter(tells).map(|k| (ring.events[k].guard, &ring.events[k].after[..])).collect()
 }
@@ -84,6 +91,15 @@ pub(super) fn explained(
     (before, beyond): (&MachineRing, &MachineRing),
     turns: bool,
 ) -> Option<BranchEvent> {
+    // a rest after a chatter on both sides does not begin or end here
+    let event = match event {
+        BranchEvent::Sticking { stop, .. }
+            if Chatter::count(before, stop) > 0 && Chatter::count(before, stop) == Chatter::count(beyond, stop) =>
+        {
+            BranchEvent::Change { place: Some(stop) }
+        }
+        event => event,
+    };
     let changes = matches!(event, BranchEvent::Change { .. });
     if changes && !turns && same_in_turn(&told(before), &told(beyond)) {
         return None;

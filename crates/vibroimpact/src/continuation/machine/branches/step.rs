@@ -35,7 +35,10 @@ impl EventBranch {
         }
         if grazing.is_none() && !step.there.known.physical() && edge.is_none() {
             let here = self.tracer.here.clone();
-            return if self.rests(&here) { () } else { self.finish(BranchEvent::NoConvergence) };
+            if !self.rests(&here) {
+                self.finish(BranchEvent::NoConvergence);
+            }
+            return;
         }
         let crossed = match (&edge, &grazing) {
             // where the derivative is infinite, its test functions change sign without a zero
@@ -257,20 +260,29 @@ fn crossing(step: &Step<Judged>, test: usize) -> Option<f64> {
     step.crossed.iter().find(|(_, what)| *what == Some(test)).map(|(s, _)| *s)
 }
 
+/// How far the multiplier of a bifurcation is from its place on the unit circle; infinite for other events.
+pub(super) fn off_circle(multipliers: &[Multiplier], event: BranchEvent) -> f64 {
+    let off = |m: &Multiplier| match event {
+        BranchEvent::Fold | BranchEvent::BranchPoint | BranchEvent::Halving => (m.re - 1.0).abs() + m.im.abs(),
+        BranchEvent::Flip => (m.re + 1.0).abs() + m.im.abs(),
+        BranchEvent::Torus if m.im != 0.0 => (m.modulus() - 1.0).abs(),
+        _ => f64::INFINITY,
+    };
+    multipliers.iter().map(off).fold(f64::INFINITY, f64::min)
+}
+
 /// Whether the multipliers are those of an event that its test function shows.
 fn is_at(multipliers: &[Multiplier], event: BranchEvent) -> bool {
-    let near = |value: f64| multipliers.iter().any(|m| (m.re - value).abs() + m.im.abs() < NEARBY);
     match event {
         BranchEvent::Torus => multipliers.iter().any(|m| m.is_on_circle()),
         // beside a grazing contact one multiplier is so large that rounding decides the sign of the determinants
-        BranchEvent::BranchPoint => near(1.0),
-        BranchEvent::Flip => near(-1.0),
+        BranchEvent::BranchPoint | BranchEvent::Flip => off_circle(multipliers, event) < NEARBY,
         _ => true,
     }
 }
 
 /// How far from 1 or -1 a multiplier is at most at a bifurcation, which is located to rounding.
-const NEARBY: f64 = 0.1;
+pub(super) const NEARBY: f64 = 0.1;
 /// Values of the number that differ by less, in its scale, are those of one event.
 const HERE: f64 = 1e-7;
 /// The distance, in parts of a step, from a grazing solution to that at which the signs of test functions are compared

@@ -32,18 +32,21 @@ impl Borders {
         let largest =
             |i: usize| matrix.row(i).iter().zip(&columns).fold(0.0_f64, |most, (a, c)| most.max((a * c).abs()));
         let rows: Vec<f64> = (0..size).map(|i| 1.0 / largest(i).max(f64::MIN_POSITIVE)).collect();
+        // uneven, so that they are not perpendicular to a singular vector by symmetry
         let some = || (0..size).map(|i| if i % 2 == 0 { 1.0 } else { 0.7 }).collect::<Vec<f64>>();
         let (left, right) = before.map_or_else(|| (some(), some()), |known| (known.left.clone(), known.right.clone()));
         let mut borders = Self { rows, columns, left, right };
         let scaled = borders.scaled(matrix);
         let factors = |matrix: &Matrix| {
             Lu::new(matrix.values().to_vec(), size).or_else(|| {
+                // singular to the last bit: a little beside, solutions have the singular direction all the same
                 let mut other = matrix.clone();
                 (0..size).for_each(|i| other[(i, i)] += BESIDE);
                 Lu::new(other.values().to_vec(), size)
             })
         };
         let (straight, turned) = (factors(&scaled)?, factors(&scaled.transposed())?);
+        // each solution is nearer to the singular vector than the border before
         for _ in 0..ROUNDS {
             borders.right = unit(&straight, &borders.left, &borders.right)?;
             borders.left = unit(&turned, &borders.right, &borders.left)?;
@@ -69,6 +72,7 @@ impl Borders {
         let size = matrix.rows();
         let scaled = self.scaled(matrix);
         let mut rows = Vec::with_capacity((size + 1) * (size + 1));
+        // the bordered matrix is regular; the last number of the solution is zero where the matrix itself is singular
         for (i, left) in self.left.iter().enumerate() {
             rows.extend_from_slice(scaled.row(i));
             rows.push(*left);
@@ -89,6 +93,7 @@ fn unit(lu: &Lu, from: &[f64], known: &[f64]) -> Option<Vec<f64>> {
     let mut x = from.to_vec();
     lu.solve(&mut x);
     let length = dot(&x, &x).sqrt();
+    // with the sign of the border before, so that the test function keeps its own
     let length = if dot(&x, known) < 0.0 { -length } else { length };
     (length != 0.0 && length.is_finite()).then(|| x.iter().map(|x| x / length).collect())
 }

@@ -54,6 +54,7 @@ pub(super) fn pair(all: &[Multiplier], cosine: f64) -> Option<((usize, usize), f
     pairs
         .filter_map(|(i, j)| {
             let (a, b) = (all[i], all[j]);
+            // the product of any other two is not real
             let real = a.im == 0.0 && b.im == 0.0;
             let conjugate = a.re == b.re && a.im == -b.im;
             (real || conjugate).then_some(((i, j), a.re * b.re - a.im * b.im - 1.0, 0.5 * (a.re + b.re)))
@@ -69,6 +70,7 @@ impl Condition {
             Self::Pair { cosine } => Some(pair(&multipliers(frame, ring)?.1, *cosine)?.1),
             Self::Touch { at, size, .. } => {
                 let before = (at + ring.len() - 1) % ring.len();
+                // the rate of the guard by the phase, times that of the phase
                 Some(ring.block(frame, before)?.late[0] * ring.frequency(frame.machine) / size)
             }
             Self::Limit { limit, size, .. } => Some(limit.of(frame, ring)?.value / size),
@@ -107,6 +109,7 @@ impl Condition {
             Self::Touch { at, contact, speed, .. } => {
                 let mut moments = vec![Moment::Events(*at, *at)];
                 if let Some(contact) = contact {
+                    // not the flights that end and begin at the touch itself
                     let other = |leg: usize| leg != *at && (leg + 1) % m != *at;
                     let also = touches(frame, ring, *contact, *speed).into_iter();
                     let also = also.filter(|(value, touch)| value.abs() < AT_LIMIT && other(touch.leg));
@@ -142,6 +145,7 @@ impl Condition {
     pub(super) fn by_terms(&self, terms: &[f64]) -> Vec<f64> {
         let Self::Chatter(_) = self else { return vec![1.0] };
         let mut moved = terms.to_vec();
+        // a central difference, relative to the term
         let mut at = |i: usize, part: f64| {
             moved[i] = terms[i] * (1.0 + part);
             let value = CompleteChatter::of_terms(&moved);

@@ -112,6 +112,7 @@ impl EventCurve {
         let outside = (!step.there.known.physical()).then(|| edge(&self.tracer, &step, step.length, Judged::physical));
         let until = match &outside {
             Some(Some((s, ..))) => *s,
+            // not even the edge was found: nothing on the step counts
             Some(None) => 0.0,
             None => f64::INFINITY,
         };
@@ -127,6 +128,7 @@ impl EventCurve {
                     let edge = self.on_edge(&at, f64::INFINITY).unwrap_or(at);
                     return self.end(&edge, CurveEvent::EndOfBox);
                 }
+                // two real multipliers with the product 1 are no bifurcation
                 Some(_) if what == Watched::Pair && !at.known.multipliers.iter().any(|m| m.is_on_circle()) => {}
                 // at a cusp the curve turns back in the plane
                 Some(_) if what == Watched::Bending && !self.turns(&step) => {}
@@ -150,6 +152,7 @@ impl EventCurve {
             let Some((problem, w)) = self.tracer.problem.adapted(&self.tracer.here) else { break };
             let way = self.tracer.problem.equations.course(&self.tracer.here.tangent);
             let length = w.len();
+            // the number that changes more is held while the other events are solved anew
             let (at, by) = if way.0.abs() > way.1.abs() { (length - 2, way.0) } else { (length - 1, way.1) };
             let row = unit(length, at, by.signum());
             let Some((w, _)) = correct(&problem.equations, &w, &row, by.signum() * w[at]) else { break };
@@ -223,6 +226,7 @@ impl EventCurve {
         let column = at.w.len() - 2 + which;
         let row = unit(at.w.len(), column, 1.0);
         let (mut w, _) = correct(&problem.equations, &at.w, &row, end)?;
+        // the correction leaves it within rounding
         w[column] = end;
         self.tracer.solution(w)
     }

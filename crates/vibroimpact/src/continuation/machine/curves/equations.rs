@@ -50,6 +50,7 @@ impl CurveEquations {
     fn gradient(&self, frame: &MachineFrame<'_>, w: &[f64], ring: &MachineRing) -> Option<Vec<f64>> {
         let count = w.len() - 2;
         let terms = |moved: &[f64], i: usize| {
+            // another state needs no other machine: only the two numbers do
             if i < count {
                 self.condition.terms(frame, &self.events.ring.with(frame.machine, &moved[..count]))
             } else {
@@ -73,6 +74,7 @@ impl CurveEquations {
                 terms
             };
             let (up, down) = (at(w[i] + h), at(w[i] - h));
+            // one-sided where a solution has no value on one side
             let width = h * f64::from(u8::from(up.is_some()) + u8::from(down.is_some()));
             let (up, down) = (up.as_ref().unwrap_or(&here), down.as_ref().unwrap_or(&here));
             (width > 0.0).then_some(())?;
@@ -92,6 +94,7 @@ impl CurveEquations {
             let moved: Vec<f64> = w.iter().zip(&vector).map(|(w, v)| w + h / length * v).collect();
             self.condition.value(&frame, &self.events.ring.with(&machine, &moved))
         };
+        // along the direction in which the equations are singular
         Some((at(ALONG)? - at(-ALONG)?) / (2.0 * ALONG))
     }
 }

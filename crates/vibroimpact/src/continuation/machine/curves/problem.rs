@@ -115,6 +115,7 @@ impl CurveProblem {
             });
             nearest.into_iter().collect::<Vec<usize>>()
         };
+        // the condition holds them where they are, so that a product with them would be zero on the whole curve
         let own = match &self.equations.condition {
             Condition::Singular { turn, .. } => off(*turn),
             Condition::Pair { cosine } => pair(all, *cosine).map_or_else(Vec::new, |((i, j), ..)| vec![i, j]),
@@ -136,6 +137,7 @@ impl CurveProblem {
             Some(self.others(all()?).iter().fold(1.0, |product, m| {
                 // the factors of a pair are positive together
                 let factor = if m.im == 0.0 { m.re - to } else { crate::math::hypot(m.re - to, m.im) };
+                // so that a product of large multipliers stays finite
                 product * factor.clamp(-1e3, 1e3)
             }))
         };
@@ -144,6 +146,7 @@ impl CurveProblem {
                 let CurveEquations { events, ranges, .. } = &self.equations;
                 let (value, scale) = (MachineEquations::<2>::numbers(w)[which], events.scales[which]);
                 let range = if which == 0 { &ranges.0 } else { &ranges.1 };
+                // positive within the frame
                 Some(if upper { (range.end() - value) / scale } else { (value - range.start()) / scale })
             }
             Watched::Bending => self.equations.bending(w),
@@ -164,6 +167,7 @@ impl CurveProblem {
                 let structure = frame.structure(&place.states)?;
                 let rate = structure.gap(&frame.normal, stop).1;
                 let mut pull = place.flight(&frame.normal, structure).first(&rate).1;
+                // the second derivative of the surface, a kappa^2 e^{-kappa t}
                 if let Some(surface) = place.surfaces[stop] {
                     pull += surface.rate * surface.rate * surface.size;
                 }
@@ -203,6 +207,7 @@ impl CurveProblem {
         let event = match (what, self.kind) {
             (Watched::Edge(..), _) => return None,
             (Watched::Bending, _) => CurveEvent::Cusp,
+            // at a double multiplier of +1 or -1 a curve of tori ends; through the resonances 1:3 and 1:4 it goes on
             (Watched::Cosine(1.0), _) => return Some((CurveEvent::OneToOne, true)),
             (Watched::Cosine(-1.0), _) => return Some((CurveEvent::OneToTwo, true)),
             (Watched::Cosine(0.0), _) => CurveEvent::OneToFour,
@@ -215,6 +220,7 @@ impl CurveProblem {
             (Watched::MinusOne, CurveKind::Grazing { .. }) => CurveEvent::FlipGrazing,
             (Watched::PlusOne | Watched::MinusOne, _) => CurveEvent::FoldFlip,
             (Watched::Pair, _) => CurveEvent::TorusGrazing,
+            // beyond it the touch is no minimum of the gap
             (Watched::Pull, _) => return Some((CurveEvent::DegenerateGrazing { stop: stop? }, true)),
             (Watched::Release, CurveKind::Sticking { stop: place } | CurveKind::Holding { joint: place }) => {
                 return Some((CurveEvent::DegenerateRest { place }, true));
@@ -267,6 +273,7 @@ impl Problem for CurveProblem {
     fn test(&self, j: usize, w: &[f64], _tangent: impl Fn() -> Option<Vec<f64>>) -> Option<f64> {
         let (machine, ring) = self.equations.split(w)?;
         let frame = MachineFrame::new(&machine);
+        // edges of the frame need no monodromy matrix
         let at = if matches!(self.watched[j], Watched::Edge(..)) { None } else { multipliers(&frame, &ring) };
         self.value(self.watched[j], (&frame, &ring), w, &at)
     }

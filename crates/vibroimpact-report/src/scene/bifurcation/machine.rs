@@ -1,30 +1,24 @@
-//! The bifurcation diagram of a machine along a line through one or two of its numbers: the branches of several labels over
-//! the orbit diagram from simulation.
+//! The branches of a machine along a line.
 
-use super::bifurcation::{
-    BifurcationEvent, FOLLOW, LOOKS, MOST_LABELS, NEAR, POINTS, SAMPLES, SEED, STARTS, distinct, most_first,
+use super::{
+    BifurcationDiagram, BranchSystem, FOLLOW, LOOKS, MOST_LABELS, POINTS, SAMPLES, SEED, STARTS, along, most_first,
 };
 use crate::answer::machine::machine_title;
-use crate::branch_quantity::BranchQuantity;
-use crate::table::{Table, bifurcation as bifurcation_table};
-use crate::{AnswerError, ReportError, figure};
-use std::collections::BTreeMap;
+use crate::json::branch::BranchObject;
+use crate::json::event::Stops;
+use crate::{AnswerError, BranchQuantity, ReportError, Units};
 use vibroimpact::Label;
-use vibroimpact::continuation::{
-    Direction,
-    machine::{BranchEvent as E, SolutionPoint},
-};
+use vibroimpact::continuation::{Direction, machine::SolutionPoint};
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::{find_machine_while, machine::Cycle};
 use vibroimpact::verdict::{
     Census, CountedMotion, SettleOptions, Verdict, scattered_machine_starts, settle_machine_while,
 };
-use vibroimpact_plot::Figure;
 use vibroimpact_study::diagram::Shown as _;
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{
-    BranchPlace, Control, Cut, Diagram, DiagramPlan, OrbitLine, Plan, Results, RunError, Span, System, Task, machine,
-    machine_label, run, tiles,
+    BranchPlace, Control, Cut, DiagramPlan, OrbitLine, Plan, Results, RunError, System, Task, machine, machine_label,
+    run,
 };
 
 /// Starts from which orbits of a given label are searched at each value.
@@ -33,57 +27,34 @@ const ORBIT_STARTS: u64 = 16;
 /// of their size.
 const CLOSE: f64 = 1e-3;
 
-/// The bifurcation diagram of a machine along a line.
+/// The machine of a line.
 #[derive(Clone, Debug)]
-pub struct MachineBifurcation {
-    /// The orbit diagram behind the branches.
-    pub behind: Diagram<String, String>,
-    /// The points of each branch, in order.
-    pub branches: Vec<Vec<SolutionPoint>>,
+pub struct NamedMachine {
     name: String,
     source: MachineSource,
     machine: Machine,
 }
 
-impl MachineBifurcation {
-    /// The quantity of each cycle that is shown; `None` for the speeds of closings.
-    fn quantity(&self) -> Option<BranchQuantity<'_>> {
-        let plan = &self.behind.plan;
-        (!plan.show.is_closings()).then(|| BranchQuantity::at_path(plan.show.clone(), &self.source, &plan.cut()))
+impl BranchSystem for NamedMachine {
+    type Vary = String;
+    type Show = String;
+    type Point = SolutionPoint;
+
+    fn branch<'a>(&'a self, points: &'a [SolutionPoint], cut: &Cut<String>, show: &String) -> BranchObject<'a> {
+        let quantity = (!show.is_closings()).then(|| BranchQuantity::at_path(show.clone(), &self.source, cut));
+        BranchObject::of_machine(points, cut, &self.machine, quantity.as_ref())
     }
 
-    /// Its figure: stable orbits are solid and unstable ones dashed.
-    ///
-    /// # Errors
-    /// [`ReportError`] if its values neither rise nor fall.
-    pub fn figure(&self) -> Result<Figure, ReportError> {
-        let title = machine_title(&self.source, &self.name);
-        let branches = self.branches.iter().map(Vec::as_slice);
-        let quantity = self.quantity();
-        figure::branch::of_machine(branches, &self.behind.plan.cut(), (quantity.as_ref(), Some(&self.behind)), title)
+    fn stops(&self) -> &impl Stops {
+        &self.machine
     }
 
-    /// Its table: the points from simulation, then those of the branches.
-    ///
-    /// # Errors
-    /// [`ReportError`] for values that are not allowed.
-    pub fn table(&self) -> Result<Table<'_>, ReportError> {
-        Ok(bifurcation_table::of_machine(&self.behind, &self.branches, &self.machine, self.quantity().as_ref())?)
+    fn units(&self) -> Units {
+        Units::default()
     }
 
-    /// The events on the branches, in the order of their values.
-    #[must_use]
-    pub fn events(&self) -> Vec<BifurcationEvent> {
-        let events = self.branches.iter().flatten().filter_map(|point| {
-            // where the search for a branch ends nothing happens to the motion
-            let ends = |event: &E| {
-                matches!(event, E::Closed | E::EndOfRange | E::StepLimit | E::Discontinuity | E::NoConvergence)
-            };
-            let event = point.event.filter(|event| !ends(event))?;
-            Some(BifurcationEvent { label: point.cycle.label.to_string(), kind: event.name(), value: point.value })
-        });
-        let (from, to) = self.behind.plan.over.ends();
-        distinct(events, NEAR * (to - from).abs())
+    fn title(&self, _: &Cut<String>) -> String {
+        machine_title(&self.source, &self.name)
     }
 }
 
@@ -101,7 +72,7 @@ pub fn machine_bifurcation(
     plan: &Plan,
     named: Option<&[String]>,
     control: &Control<'_>,
-) -> Result<MachineBifurcation, AnswerError> {
+) -> Result<BifurcationDiagram<NamedMachine>, AnswerError> {
     plan.check()?;
     let (System::Machine(source), Task::Diagram(diagram)) = (&plan.system, &plan.task) else {
         // the command asks for no other task
@@ -151,34 +122,24 @@ pub fn machine_bifurcation(
         }
     }
     branches.retain(|points| points.iter().any(|point| known(point.cycle.label)));
-    Ok(MachineBifurcation { behind, branches, name: name.to_owned(), source: (**source).clone(), machine })
+    let system = NamedMachine { name: name.to_owned(), source: (**source).clone(), machine };
+    Ok(BifurcationDiagram { behind, branches, system })
 }
 
 /// Cycles at a value of the number, and for how many starts each stands.
 type Seeds = Vec<(f64, Vec<(Cycle, u64)>)>;
 
-/// `count` values along a line, with what is found at each.
-fn along(
+/// Cycles at `count` values along a line. A value at which there is no machine has none.
+fn cycles(
     source: &MachineSource,
     (cut, count): (&Cut<String>, u32),
     control: &Control<'_>,
     find: impl Fn(&Machine) -> Vec<(Cycle, u64)> + Sync,
 ) -> Result<Seeds, AnswerError> {
-    let (from, to) = cut.ends;
-    let over = Span::new(from, to, if from == to { 1 } else { count.max(2) })?;
-    let found = tiles(u64::from(over.count()), 1, control, |range, tick| {
-        let mut found = Vec::new();
-        for value in range.filter_map(|k| u32::try_from(k).ok()).map(|k| over.at(k)) {
-            // a value at which there is no machine has no cycles
-            let machine = cut.source(source, value).and_then(|source| Ok(source.machine()?));
-            found.push((value, machine.map_or_else(|_| Vec::new(), |machine| find(&machine))));
-            if tick() {
-                break;
-            }
-        }
-        found
-    })?;
-    Ok(found.into_iter().flatten().collect())
+    along(cut.ends, count, control, |value| {
+        let machine = cut.source(source, value).and_then(|source| Ok(source.machine()?));
+        machine.map_or_else(|_| Vec::new(), |machine| find(&machine))
+    })
 }
 
 /// The orbits with these labels along a line.
@@ -188,7 +149,7 @@ fn orbits(
     labels: &[Label],
     control: &Control<'_>,
 ) -> Result<Seeds, AnswerError> {
-    along(source, (cut, LOOKS), control, |machine| {
+    cycles(source, (cut, LOOKS), control, |machine| {
         let starts = || (0..ORBIT_STARTS).map(|k| scattered_machine_starts(machine, SEED, k));
         let of = |label: &Label| find_machine_while(machine, *label, starts(), &|| !control.stopping());
         labels.iter().flat_map(|label| of(label).unwrap_or_default()).map(|cycle| (cycle, 1)).collect()
@@ -203,7 +164,7 @@ fn motions(
     control: &Control<'_>,
 ) -> Result<Seeds, AnswerError> {
     let options = SettleOptions::default();
-    along(source, (cut, SAMPLES), control, |machine| {
+    cycles(source, (cut, SAMPLES), control, |machine| {
         let mut census = Census::default();
         for k in 0..STARTS {
             let start = scattered_machine_starts(machine, SEED, k);
@@ -223,11 +184,8 @@ fn motions(
 
 /// The labels of the cycles of most starts.
 fn common(seeds: &Seeds) -> Vec<String> {
-    let mut counts: BTreeMap<String, u64> = BTreeMap::new();
-    for (cycle, count) in seeds.iter().flat_map(|(_, cycles)| cycles) {
-        *counts.entry(cycle.label.to_string()).or_default() += count;
-    }
-    let mut labels = most_first(counts);
+    let cycles = seeds.iter().flat_map(|(_, cycles)| cycles);
+    let mut labels = most_first(cycles.map(|(cycle, count)| (cycle.label.to_string(), *count)));
     labels.truncate(MOST_LABELS);
     labels
 }
@@ -252,6 +210,7 @@ fn passes(branch: &[SolutionPoint], cycle: &Cycle, value: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::json::branch::PointObject;
     use vibroimpact_study::diagram::DiagramPoint;
 
     fn plan(name: &str, task: &str) -> Plan {
@@ -263,7 +222,7 @@ mod tests {
     }
 
     /// The values of events of a kind and a label.
-    fn events(found: &MachineBifurcation, kind: &str, label: &str) -> Vec<f64> {
+    fn events(found: &BifurcationDiagram<NamedMachine>, kind: &str, label: &str) -> Vec<f64> {
         let all = found.events();
         all.iter().filter(|event| event.kind == kind && event.label == label).map(|event| event.value).collect()
     }
@@ -311,19 +270,19 @@ mod tests {
         let found = machine_bifurcation("den-hartog", &plan("den-hartog", task), None, &control).unwrap();
         assert!(!events(&found, "holding ends", "0").is_empty(), "{:?}", found.events());
         // the drawn values are those of simulation
-        let quantity = found.quantity().unwrap();
+        let branches = found.objects();
         let mut compared = 0;
         for (step, value) in found.behind.steps.iter().filter_map(|step| match step.points.first()? {
             DiagramPoint::Value(value) => Some((step, *value)),
             _ => None,
         }) {
             let at = found.behind.plan.over.at(step.index as usize);
-            let around = |pair: &&[SolutionPoint]| {
-                let (a, b) = (pair[0].value, pair[1].value);
+            let around = |pair: &&[PointObject<'_>]| {
+                let (a, b) = (pair[0].parameter, pair[1].parameter);
                 a.min(b) <= at && at <= a.max(b)
             };
-            let Some(pair) = found.branches.iter().flat_map(|points| points.windows(2)).find(around) else { continue };
-            let (a, b) = (quantity.at(&pair[0]), quantity.at(&pair[1]));
+            let Some(pair) = branches.iter().flat_map(|branch| branch.points.windows(2)).find(around) else { continue };
+            let (a, b) = (pair[0].quantity(), pair[1].quantity());
             assert!(value >= a.min(b) - 1e-3 && value <= a.max(b) + 1e-3, "{at}: {value} {a} {b}");
             compared += 1;
         }

@@ -1,80 +1,57 @@
-//! The bifurcation diagram along a line through one or two parameters: the branches of several labels over the orbit
-//! diagram from simulation.
+//! The branches of an oscillator along a line.
 
-use crate::figure::branch::figure;
-use crate::table::{Table, bifurcation as bifurcation_table};
-use crate::{AnswerError, Asked, ReportError};
-use std::collections::BTreeMap;
+use super::{
+    BifurcationDiagram, BranchSystem, FOLLOW, LOOKS, MOST_LABELS, NEAR, POINTS, SAMPLES, SEED, STARTS, along,
+    most_first,
+};
+use crate::figure::title_without;
+use crate::json::branch::BranchObject;
+use crate::json::event::Stops;
+use crate::{AnswerError, Asked, ReportError, Units};
 use vibroimpact::Label;
-use vibroimpact::continuation::BranchEvent as E;
-use vibroimpact::math::{sort_by, sort_by_key};
-use vibroimpact::verdict::{Count, SettleOptions, Verdict, attractors};
-use vibroimpact_plot::Figure;
-use vibroimpact_study::diagram::Diagram;
+use vibroimpact::continuation::SolutionPoint;
+use vibroimpact::motion::Strobes;
+use vibroimpact::verdict::{Count, CountedMotion, SettleOptions, Verdict, attractors};
+use vibroimpact_study::diagram::Show;
 use vibroimpact_study::{
-    BranchPlan, Control, DiagramPlan, Followed, Plan, Results, RunError, Span, Stopped, Target, run, tiles,
+    BranchPlan, Control, Cut, DiagramPlan, Parameter, Plan, PlanError, Results, RunError, Span, Stopped, Target, run,
 };
 
-/// Number of values along the line at which motions are searched, if no labels are given.
-pub(super) const SAMPLES: u32 = 24;
-/// Number of motions whose branches are followed then: those of most starts.
-pub(super) const MOST_LABELS: usize = 6;
-/// Number of values at which orbits of a label are searched.
-pub(super) const LOOKS: u32 = 25;
-/// Maximum number of further branches from each orbit.
-pub(super) const FOLLOW: u32 = 3;
-/// Maximum number of points of each branch.
-pub(super) const POINTS: u32 = 3_000;
-/// Number of starts at each value, to find the labels that occur.
-pub(super) const STARTS: u64 = 4;
-/// Seed of the sequence of starts.
-pub(super) const SEED: u64 = 1;
-/// A value belongs to a branch if it is closer to it than this fraction of the range.
-pub(super) const NEAR: f64 = 1e-9;
+impl BranchSystem for Asked {
+    type Vary = Parameter;
+    type Show = Show;
+    type Point = SolutionPoint;
 
-/// An event on an admissible branch.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BifurcationEvent {
-    /// The label of the cycle at the event.
-    pub label: String,
-    /// The name of the event: fold, flip, grazing and so on.
-    pub kind: &'static str,
-    /// The value of the parameter that varies.
-    pub value: f64,
+    fn branch<'a>(&'a self, points: &'a [SolutionPoint], cut: &Cut, show: &Show) -> BranchObject<'a> {
+        let mut branch = BranchObject::of_oscillator(points, cut, self);
+        if *show == Show::Strobe {
+            for (object, point) in branch.points.iter_mut().zip(points) {
+                object.strobes = strobes(point, cut, self);
+            }
+        }
+        branch
+    }
+
+    fn stops(&self) -> &impl Stops {
+        &self.system
+    }
+
+    fn units(&self) -> Units {
+        self.units
+    }
+
+    fn title(&self, varied: &Cut) -> String {
+        title_without(self, &varied.names().copied().collect::<Vec<_>>())
+    }
 }
 
-/// The bifurcation diagram along a line.
-#[derive(Clone, Debug)]
-pub struct BifurcationDiagram {
-    /// The orbit diagram behind the branches.
-    pub behind: Diagram,
-    /// The branches.
-    pub followed: Vec<Followed>,
-    asked: Asked,
-}
-
-impl BifurcationDiagram {
-    /// Its figure: stable orbits are solid and unstable ones dashed.
-    ///
-    /// # Errors
-    /// [`AnswerError`] if a value of the parameter overflows in the units of the results.
-    pub fn figure(&self) -> Result<Figure, AnswerError> {
-        Ok(figure(&self.followed, &self.behind.plan.cut(), Some(&self.behind), false, &self.asked)?)
-    }
-
-    /// Its table: the points from simulation, then those of the branches.
-    ///
-    /// # Errors
-    /// As [`Self::figure`].
-    pub fn table(&self) -> Result<Table<'static>, AnswerError> {
-        Ok(bifurcation_table::table(&self.behind, &self.followed, &self.asked).map_err(ReportError::from)?)
-    }
-
-    /// The events on the branches, in the order of their values.
-    #[must_use]
-    pub fn events(&self) -> Vec<BifurcationEvent> {
-        events(&self.followed, self.behind.plan.over.ends())
-    }
+/// Velocity and position at phase 0 of the force in each of its periods. A solution that is not admissible has none.
+fn strobes(point: &SolutionPoint, cut: &Cut, Asked { system, units }: &Asked) -> Vec<(f64, f64)> {
+    let osc = cut.oscillator(system, point.value).ok().filter(|_| point.physical);
+    let (Some(osc), Some(first)) = (osc, point.cycle.points.first()) else { return Vec::new() };
+    let there = units.at(cut.vary, point.value);
+    let states = Strobes::new(&osc, first.state.rebound(&osc), 0.0).take(point.cycle.label.periods as usize);
+    states.map(|state| (state.v * there.velocity(), state.x * there.length())).collect()
 }
 
 /// The branches of some labels over the orbit diagram of a plan, between the ends of its values. The plan also determines whether impact velocities or
@@ -91,7 +68,7 @@ pub fn bifurcation(
     plan: &DiagramPlan,
     named: Option<&[String]>,
     control: &Control<'_>,
-) -> Result<BifurcationDiagram, AnswerError> {
+) -> Result<BifurcationDiagram<Asked>, AnswerError> {
     let found;
     let labels = match named {
         Some(labels) => labels,
@@ -104,41 +81,12 @@ pub fn bifurcation(
         // the task of this plan has no other result
         return Err(ReportError::NoLabels.into());
     };
-    let mut followed = Vec::new();
+    let mut branches = Vec::new();
     for label in labels {
-        follow(asked, plan, label, &mut followed, control)?;
+        follow(asked, plan, label, &mut branches, control)?;
     }
-    let known = |branch: &Followed| branch.points.iter().any(|point| labels.contains(&point.cycle.label.to_string()));
-    followed.retain(known);
-    Ok(BifurcationDiagram { behind, followed, asked: *asked })
-}
-
-/// The events on branches, each once.
-fn events(followed: &[Followed], (from, to): (f64, f64)) -> Vec<BifurcationEvent> {
-    let points = followed.iter().flat_map(|branch| &branch.points).filter(|point| point.physical);
-    let events = points.filter_map(|point| {
-        // where the search for a branch ends nothing happens to the motion
-        let event = point.event.filter(|event| {
-            !matches!(event, E::Closed | E::EndOfRange | E::StepLimit | E::ImpactLimit | E::NoConvergence)
-        })?;
-        Some(BifurcationEvent { label: point.cycle.label.to_string(), kind: event.name(), value: point.value })
-    });
-    distinct(events, NEAR * (to - from).abs())
-}
-
-/// Events in the order of their values, those that are nearer to each other than `near` once.
-pub(super) fn distinct(all: impl Iterator<Item = BifurcationEvent>, near: f64) -> Vec<BifurcationEvent> {
-    let mut events: Vec<BifurcationEvent> = Vec::new();
-    for event in all {
-        let same = |other: &BifurcationEvent| {
-            other.kind == event.kind && other.label == event.label && (other.value - event.value).abs() <= near
-        };
-        if !events.iter().any(same) {
-            events.push(event);
-        }
-    }
-    sort_by(&mut events, |a, b| a.value.total_cmp(&b.value));
-    events
+    branches.retain(|points| points.iter().any(|point| labels.contains(&point.cycle.label.to_string())));
+    Ok(BifurcationDiagram { behind, branches, system: *asked })
 }
 
 /// Adds the branches of a label, unless an existing branch passes through its orbit.
@@ -146,17 +94,17 @@ fn follow(
     asked: &Asked,
     plan: &DiagramPlan,
     label: &str,
-    followed: &mut Vec<Followed>,
+    branches: &mut Vec<Vec<SolutionPoint>>,
     control: &Control<'_>,
 ) -> Result<(), AnswerError> {
-    let name: Label = label.parse().map_err(vibroimpact_study::PlanError::from)?;
+    let name: Label = label.parse().map_err(PlanError::from)?;
     let (from, to) = plan.over.ends();
     let looks = if from == to { return Ok(()) } else { Span::new(from, to, LOOKS)? };
     for (k, value) in (0_u64..).zip(looks.values()) {
         if control.stopping() {
             return Err(Stopped { done: k, total: u64::from(LOOKS) }.into());
         }
-        if followed.iter().any(|branch| passes(branch, name, value, NEAR * (to - from).abs())) {
+        if branches.iter().any(|points| passes(points, name, value, NEAR * (to - from).abs())) {
             continue;
         }
         let cut = plan.cut();
@@ -166,7 +114,7 @@ fn follow(
             let label = Some(label.to_owned());
             let task = BranchPlan { label, vary: cut.vary, to: end, also, orbit: None, follow: FOLLOW, points: POINTS };
             match run(&Plan::new(system, task), control) {
-                Ok(Results::Branch(found)) => followed.extend(found.followed),
+                Ok(Results::Branch(found)) => branches.extend(found.followed.into_iter().map(|branch| branch.points)),
                 Ok(_) => {}
                 Err(RunError::Stopped(stopped)) => return Err(stopped.into()),
                 // an absent orbit is no error: the label exists only on a part of the line
@@ -178,8 +126,8 @@ fn follow(
 }
 
 /// Whether a branch has a cycle with this label at a value.
-fn passes(branch: &Followed, label: Label, value: f64, near: f64) -> bool {
-    let points = branch.points.windows(2);
+fn passes(points: &[SolutionPoint], label: Label, value: f64, near: f64) -> bool {
+    let points = points.windows(2);
     points.filter(|pair| pair[0].cycle.label == label && pair[1].cycle.label == label).any(|pair| {
         let (a, b) = (pair[0].value, pair[1].value);
         a.min(b) - near <= value && value <= a.max(b) + near
@@ -198,46 +146,28 @@ pub fn labels(
     control: &Control<'_>,
 ) -> Result<Vec<String>, AnswerError> {
     plan.check(&asked.system)?;
-    let (from, to) = plan.over.ends();
-    let over = Span::new(from, to, if from == to { 1 } else { count.max(2) })?;
     let options = SettleOptions::default();
-    let found = tiles(u64::from(over.count()), 1, control, |range, tick| {
-        let mut found = Vec::new();
-        for value in range.filter_map(|k| u32::try_from(k).ok()).map(|k| over.at(k)) {
-            let osc = plan.cut().oscillator(&asked.system, value);
-            found.push(osc.map(|osc| attractors(&osc, STARTS, SEED, &options)));
-            if tick() {
-                break;
-            }
-        }
-        found
+    let found = along(plan.over.ends(), count, control, |value| {
+        let osc = plan.cut().oscillator(&asked.system, value)?;
+        Ok(attractors(&osc, STARTS, SEED, &options))
     })?;
-    let mut counts: BTreeMap<String, u64> = BTreeMap::new();
-    for census in found.into_iter().flatten() {
-        for motion in census?.motions() {
-            // motions without impacts, or with infinitely many, have no branch of impacts
-            if let Verdict::Periodic(cycle) = &motion.verdict
-                && matches!(cycle.label.impacts, Count::Finite(1..))
-            {
-                *counts.entry(cycle.label.to_string()).or_default() += motion.count;
-            }
+    let found: Result<Vec<_>, PlanError> = found.into_iter().map(|(_, census)| census).collect();
+    let motions = found?.into_iter().flat_map(|census| census.motions().to_vec());
+    // motions without impacts, or with infinitely many, have no branch of impacts
+    let label = |motion: CountedMotion| match &motion.verdict {
+        Verdict::Periodic(cycle) if matches!(cycle.label.impacts, Count::Finite(1..)) => {
+            Some((cycle.label.to_string(), motion.count))
         }
-    }
-    Ok(most_first(counts))
-}
-
-/// Labels with their numbers of starts: those of most starts first.
-pub(super) fn most_first(counts: BTreeMap<String, u64>) -> Vec<String> {
-    let mut list: Vec<(String, u64)> = counts.into_iter().collect();
-    sort_by_key(&mut list, |(_, count)| core::cmp::Reverse(*count));
-    list.into_iter().map(|(label, _)| label).collect()
+        _ => None,
+    };
+    Ok(most_first(motions.filter_map(label)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::Units;
-    use vibroimpact_plot::{Dash, Mark};
+    use vibroimpact_plot::{Dash, Figure, Mark};
     use vibroimpact_study::diagram::{DiagramPoint, Show};
     use vibroimpact_study::{Parameter, Stretch, SystemPlan};
 
