@@ -119,6 +119,9 @@ pub struct EventCurve<C = Cycle, E = SolutionPoint, P = CurvePoint> {
     pub begin: usize,
 }
 
+/// A curve of a system.
+type CurveOf<D> = EventCurve<CycleOf<D>, PointOf<D>, <D as Dynamics>::CurvePoint>;
+
 /// Follows an orbit in the first number to an event, and then follows the event in the plane.
 ///
 /// # Errors
@@ -128,7 +131,7 @@ pub(crate) fn curve<D: Dynamics>(
     of: &Setup<'_, D>,
     plan: &CurvePlan<D::Name>,
     control: &Control<'_>,
-) -> Result<EventCurve<CycleOf<D>, PointOf<D>, D::CurvePoint>, RunError> {
+) -> Result<CurveOf<D>, RunError> {
     let chosen = of.chosen((plan.label.as_deref(), plan.orbit), control)?;
     let (line, own) = D::line_of_events(of, plan)?;
     let events = events::<D>(&line, (own, &chosen.cycle), plan, control)?;

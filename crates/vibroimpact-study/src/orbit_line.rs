@@ -223,6 +223,12 @@ pub struct OrbitLine<A> {
 /// The label and the value of the number at an event at which branches begin.
 pub type BranchPlace = (String, f64);
 
+/// The first event of a branch, if there is one, and the label beyond it unless the branch ends.
+type FirstEvent<P> = Option<(P, Option<String>)>;
+
+/// Branches that begin on another one, and the events at which a branch was expected but could not be followed.
+type Beginning<P> = (Vec<Followed<P>>, Vec<Origin<P>>);
+
 /// Two values of the number are the same event if they differ by less than this, relative to the size of the range.
 const SAME: f64 = 1e-7;
 /// Two cycles closer than this are the same one.
@@ -295,7 +301,7 @@ impl<A: Along> OrbitLine<A> {
         at: (f64, &CycleOn<A>),
         direction: Direction,
         control: &Control<'_>,
-    ) -> Result<Option<(A::Point, Option<String>)>, RunError> {
+    ) -> Result<FirstEvent<A::Point>, RunError> {
         let mut branch = A::branch(self, at, direction).map_err(PlanError::from)?;
         let event = branch.by_ref().take_while(|_| !control.stopping()).find(|point| point.event_name().is_some());
         not_stopped(control)?;
@@ -318,7 +324,7 @@ impl<A: Along> OrbitLine<A> {
         most: usize,
         seen: &mut Vec<BranchPlace>,
         control: &Control<'_>,
-    ) -> Result<(Vec<Followed<A::Point>>, Vec<Origin<A::Point>>), RunError> {
+    ) -> Result<Beginning<A::Point>, RunError> {
         let close = SAME * (self.range.start().abs() + self.range.end().abs());
         let mut waiting: VecDeque<Origin<A::Point>> = origins(points, 0).collect();
         let (mut followed, mut lost) = (Vec::new(), Vec::new());

@@ -64,7 +64,7 @@ fn plane(source: &MachineSource, one: &Stretch<String>, two: &Stretch<String>) -
 }
 
 /// The values of all quantities.
-fn all(found: Quantities) -> Vec<f64> {
+fn all(found: &Quantities) -> Vec<f64> {
     found.iter().map(|(.., of)| of.value).collect()
 }
 
@@ -227,11 +227,11 @@ impl Dynamics for MachineSource {
     }
 
     fn quantities(machine: &Machine, motion: &Verdict<Machine>) -> Option<Vec<f64>> {
-        machine_quantities(machine, motion).map(all)
+        machine_quantities(machine, motion).as_ref().map(all)
     }
 
     fn cycle_quantities(machine: &Machine, cycle: &Cycle) -> Option<Vec<f64>> {
-        machine_cycle_quantities(machine, cycle).map(all)
+        machine_cycle_quantities(machine, cycle).as_ref().map(all)
     }
 
     /// The points differ from the cycle by no more than from each other.

@@ -25,6 +25,7 @@ use vibroimpact::verdict::{Census, Settled};
 
 /// The result of a [`Task`] of a machine.
 #[derive(Clone, Debug)]
+#[allow(clippy::large_enum_variant, reason = "there is one of them for a plan")]
 pub enum Results {
     /// The events of the motion.
     Simulate(Simulated<Event>),

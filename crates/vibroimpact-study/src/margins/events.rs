@@ -85,6 +85,9 @@ impl<S: System, V, P> MotionMargins<S, V, P> {
 /// The largest number of points of a branch.
 const MOST_POINTS: u32 = 20_000;
 
+/// The margins of a motion of a system.
+type MarginsOf<D> = MotionMargins<<D as Dynamics>::System, <D as Dynamics>::Name, PointOf<D>>;
+
 /// The motion of a plan, its nearest events, and the box in which it was found.
 ///
 /// # Errors
@@ -94,7 +97,7 @@ pub(crate) fn margins<D: Dynamics>(
     of: &Setup<'_, D>,
     plan: &MarginsPlan<D::Name>,
     control: &Control<'_>,
-) -> Result<MotionMargins<D::System, D::Name, PointOf<D>>, RunError> {
+) -> Result<MarginsOf<D>, RunError> {
     let motion = match &plan.label {
         Some(label) => Verdict::Periodic(of.chosen((Some(label), None), control)?.cycle),
         None => D::settle(&of.system, &of.start, None, control)?.verdict,
