@@ -314,7 +314,7 @@ mod tests {
 
     #[test]
     fn labels_of_one_style_share_an_entry() {
-        let figure = draw(&plane(3, 1), &cells(&[&["12/2"], &["15/3"], &["13/3"]]), String::new()).unwrap();
+        let figure = draw(&plane(2, 2), &cells(&[&["12/2"], &["15/3"], &["13/3"], &["15/3"]]), String::new()).unwrap();
         assert_eq!(class_style("12/2"), class_style("15/3"));
         let texts: Vec<&str> =
             figure.legend.iter().flat_map(|legend| &legend.entries).map(|entry| &*entry.label).collect();
