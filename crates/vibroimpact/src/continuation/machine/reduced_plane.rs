@@ -15,7 +15,7 @@ impl Plane {
     ///
     /// ```
     /// use vibroimpact::Label;
-    /// use vibroimpact::continuation::{Plane, RegionKind, RegionOptions, region};
+    /// use vibroimpact::continuation::{RegionKind, RegionOptions, machine::Plane, region};
     /// use vibroimpact::machine::{Machine, MachineParts};
     /// let parts = MachineParts::new(["body"]).with_mass(0, 2.0).with_link(&[1.0], 800.0, 4.0).with_frequency(40.0);
     /// let machine = Machine::new(parts.with_force(0, 1, 0.0, 4.0).with_rigid_stop("wall", &[1.0], 0.005, 0.5))?;

@@ -70,7 +70,7 @@ impl Plane {
     ///
     /// ```
     /// use vibroimpact::Label;
-    /// use vibroimpact::continuation::{Plane, RegionKind, RegionOptions};
+    /// use vibroimpact::continuation::{RegionKind, RegionOptions, machine::Plane};
     /// use vibroimpact::machine::{Machine, MachineParts};
     /// let parts = MachineParts::new(["frame", "head"]).with_mass(0, 1.0).with_mass(1, 0.5);
     /// let parts = parts.with_link(&[1.0, 0.0], 1.0, 0.1).with_link(&[1.0, -1.0], 1.0, 0.1).with_frequency(1.0);

@@ -65,8 +65,8 @@ impl KnownMotions {
 ///     .with_force(0, 1, 0.0, 1.0)
 ///     .with_rigid_stop("stop", &[1.0], 0.75, 0.5);
 /// let machine = Machine::new(parts)?;
-/// let start = |k: u32| events::Start { qdot: vec![0.01 * f64::from(k) - 4.0], ..events::Start::default() };
-/// let starts: Vec<events::Start> = (0..800).map(start).collect();
+/// let start = |k: u32| Start { qdot: vec![0.01 * f64::from(k) - 4.0], ..Start::default() };
+/// let starts: Vec<Start> = (0..800).map(start).collect();
 /// let options = SettleOptions::default();
 /// let known = KnownMotions::survey(&machine, &starts[..8], &options);
 /// let settled = settle_machine_many(&machine, &starts, &known, &options, Width::best(), &|| true, &|| false)

@@ -36,7 +36,7 @@ use std::sync::Arc;
 ///     .with_force(0, 1, 0.0, 1.0)
 ///     .with_rigid_stop("stop", &[1.0], 0.25, 0.5);
 /// let machine = Machine::new(parts)?;
-/// let settled = settle_machine(&machine, &events::Start::default(), &SettleOptions::default())?;
+/// let settled = settle_machine(&machine, &Start::default(), &SettleOptions::default())?;
 /// assert_eq!(settled.verdict.label(), "4/1");
 /// # Ok::<(), vibroimpact::machine::MachineError>(())
 /// ```
