@@ -114,16 +114,13 @@ fn lacking(words: &[String], named: &[String]) -> Vec<String> {
     if value(words, "--machine").is_some() {
         return if ranges { vec!["--axis <PATH=A:B:N>".to_owned()] } else { Vec::new() };
     }
-    let varied: Vec<String> = ["--vary", "--also"]
-        .iter()
-        .filter_map(|flag| value(words, flag))
-        .map(|text| format!("--{}", text.split('=').next().unwrap_or(text)))
-        .collect();
+    let varied: Vec<String> =
+        ["--vary", "--also"].iter().filter_map(|flag| value(words, flag)).map(varied_flag).collect();
     // without --vary it is not known which parameter is left out
     if command == "diagram" && varied.is_empty() {
         return Vec::new();
     }
-    let axes = axes(words);
+    let axes: Vec<String> = values(words, "--axis").map(varied_flag).collect();
     let varies = |flag: &&str| axes.iter().chain(varied.iter().filter(|_| command == "diagram")).any(|v| v == flag);
     let given = |flag: &&str| value(words, flag).is_some() || varies(flag);
     let machine = MACHINE.iter().flat_map(|(flags, _)| *flags).any(|flag| !OF_BOTH.contains(flag) && given(flag));
@@ -140,23 +137,22 @@ fn lacking(words: &[String], named: &[String]) -> Vec<String> {
     all
 }
 
-/// The flags of the numbers that axes vary.
-fn axes(words: &[String]) -> Vec<String> {
-    let after = |(k, word): (usize, &String)| match word.strip_prefix("--axis")? {
-        "" => words.get(k + 1).cloned(),
-        rest => rest.strip_prefix('=').map(str::to_owned),
-    };
-    let flag = |text: String| format!("--{}", text.split('=').next().unwrap_or_default().replace('_', "-"));
-    words.iter().enumerate().filter_map(after).map(flag).collect()
-}
-
 /// The value of a flag.
 fn value<'a>(words: &'a [String], flag: &str) -> Option<&'a str> {
-    let after = |(k, word): (usize, &'a String)| {
+    values(words, flag).next()
+}
+
+/// The values of a flag that can be repeated.
+fn values<'a>(words: &'a [String], flag: &str) -> impl Iterator<Item = &'a str> {
+    words.iter().enumerate().filter_map(move |(k, word)| {
         let rest = word.strip_prefix(flag)?;
         if rest.is_empty() { Some(words.get(k + 1).map_or("", String::as_str)) } else { rest.strip_prefix('=') }
-    };
-    words.iter().enumerate().find_map(after)
+    })
+}
+
+/// The flag of the number in the value of a flag that varies it, as in `--axis gap=0:1:3`.
+fn varied_flag(text: &str) -> String {
+    format!("--{}", text.split('=').next().unwrap_or(text).replace('_', "-"))
 }
 
 /// The tip for a flag with another number of dashes: `-beta`, `gap=1`, or with the long dash of typeset text.

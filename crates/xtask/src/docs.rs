@@ -1,7 +1,6 @@
 //! `cargo xtask docs`: the API documentation with typeset formulas. A warning is a failure.
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use crate::command;
 
@@ -25,7 +24,7 @@ pub(crate) fn build(root: &Path) -> Result<String, String> {
     // rustdoc needs the absolute path, and the encoded form allows blanks in it
     let flags = ["-D", "warnings", "--html-in-header", &header.to_string_lossy()].join("\u{1f}");
     command.env("CARGO_ENCODED_RUSTDOCFLAGS", flags);
-    if let Some((clippy, arguments)) = clippy() {
+    if let Some((clippy, arguments)) = clippy(root) {
         command.env("RUSTC_WORKSPACE_WRAPPER", clippy).env("CLIPPY_ARGS", arguments);
     }
     command::run(command)?;
@@ -34,8 +33,8 @@ pub(crate) fn build(root: &Path) -> Result<String, String> {
 
 /// The compiler of the lints and its arguments, as `cargo clippy -- -D warnings` calls it: what the lints checked is then not
 /// checked a second time for rustdoc, which saves half of the time. Without it the documentation is the same.
-fn clippy() -> Option<(PathBuf, String)> {
-    let rustc = Command::new("rustc").args(["--print", "sysroot"]).output().ok()?;
+fn clippy(root: &Path) -> Option<(PathBuf, String)> {
+    let rustc = command::words(root, "rustc --print sysroot").output().ok()?;
     let clippy = Path::new(String::from_utf8(rustc.stdout).ok()?.trim()).join("bin/clippy-driver");
     let arguments = ["-D", "warnings", ""].join("__CLIPPY_HACKERY__");
     clippy.is_file().then_some((clippy, arguments))

@@ -110,7 +110,6 @@ impl Motion<'_> {
                 // a flight that begins here begins on the stop without speed
                 self.place.note(GuardKind::Gap(j), 2);
                 self.announce(EventKind::Graze, j, 0.0, Vec::new());
-                // the flight goes on as if nothing had happened
                 (self.place, self.time) = (place, time);
             }
         }

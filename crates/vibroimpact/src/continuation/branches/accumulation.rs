@@ -7,6 +7,7 @@
 
 use super::impact_branch::ImpactBranch;
 use super::point::{BranchEvent, Change, SolutionPoint};
+use crate::continuation::trace::root;
 use crate::orbit::{DEFAULT_EVENTS, Excursion, cycle_distance};
 use crate::system::Side;
 use crate::verdict::Label;
@@ -33,22 +34,12 @@ impl ImpactBranch {
             (excursion.periods == Some(ring.periods)).then_some(excursion)
         };
         // twice as far as the limit of the geometric series of these values
-        let mut outside = last;
-        let mut inside = last + 2.0 * step * ratio / (1.0 - ratio);
+        let outside = last;
+        let inside = last + 2.0 * step * ratio / (1.0 - ratio);
         if rests(outside).is_some() {
             return None;
         }
-        for _ in 0..MAX_HALVINGS {
-            let middle = 0.5 * (inside + outside);
-            if middle == inside || middle == outside {
-                break;
-            }
-            if rests(middle).is_some() {
-                inside = middle;
-            } else {
-                outside = middle;
-            }
-        }
+        let (inside, _) = root::border(inside, outside, |value| rests(value).is_some());
         let (osc, _) = self.cycles().split_at(&self.tracer.here.w, inside)?;
         let limit = rests(inside)?;
         let rest = limit.rests().last().filter(|rest| rest.held * osc.beta() < SHRUNK)?.span;
@@ -70,8 +61,6 @@ impl ImpactBranch {
 
 /// The number of impacts that must have appeared one after another.
 const LEAST: usize = 3;
-/// The largest number of bisections; fewer reach neighbouring numbers.
-const MAX_HALVINGS: u32 = 100;
 /// A time of sticking below this, as a phase, counts as zero if there is no sticking at the neighbouring value.
 const SHRUNK: f64 = 1e-6;
 /// The largest distance of the impacts in the first half of the cycle from those of the limit.

@@ -1,7 +1,9 @@
-//! A zero of a function within a bracket.
+//! A zero of a function within a bracket, and the border of a property.
 
 /// The largest number of evaluations.
 const MAX_EVALUATIONS: u32 = 90;
+/// The largest number of bisections; fewer reach neighbouring numbers.
+const MAX_HALVINGS: u32 = 100;
 
 /// The place at which `f` changes sign between `low` and `high`, to within `resolution`; the values at both ends are
 /// given. The method is regula falsi in which the value of an end that stays is halved (Illinois). The bracket is
@@ -56,6 +58,23 @@ pub(crate) fn between(
     Some(if at_low.abs() < at_high.abs() { low } else { high })
 }
 
+/// The neighbouring numbers between which a property ends, which the number `inside` has and `outside` has not: the one with it
+/// and the one without it.
+pub(crate) fn border(mut inside: f64, mut outside: f64, has: impl Fn(f64) -> bool) -> (f64, f64) {
+    for _ in 0..MAX_HALVINGS {
+        let middle = 0.5 * (inside + outside);
+        if middle == inside || middle == outside {
+            break;
+        }
+        if has(middle) {
+            inside = middle;
+        } else {
+            outside = middle;
+        }
+    }
+    (inside, outside)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -66,5 +85,11 @@ mod tests {
         assert!((find(|s| s * s - 2.0) - 2.0_f64.sqrt()).abs() < 3e-15);
         assert!((find(|s| (1.25 - s) * (1.25 - s) * (1.25 - s)) - 1.25).abs() < 1e-5);
         assert!((find(|s| if s < 0.7 { -0.01 } else { f64::INFINITY }) - 0.7).abs() < 3e-15);
+    }
+
+    #[test]
+    fn a_border_lies_between_neighbouring_numbers() {
+        let (inside, outside) = border(0.0, 3.0, |s| s * s < 2.0);
+        assert!(inside * inside < 2.0 && outside * outside >= 2.0 && outside == inside.next_up());
     }
 }

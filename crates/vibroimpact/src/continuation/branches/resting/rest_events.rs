@@ -225,19 +225,8 @@ impl RestBranch {
         if self.excursion_at(to).is_some_and(|there| same(&there)) {
             return None;
         }
-        let (mut inside, mut outside) = (self.value, to);
-        for _ in 0..MAX_HALVINGS {
-            let middle = 0.5 * (inside + outside);
-            // no number lies between both
-            if middle == inside || middle == outside {
-                break;
-            }
-            if self.excursion_at(middle).is_some_and(|excursion| same(&excursion)) {
-                inside = middle;
-            } else {
-                outside = middle;
-            }
-        }
+        let rests = |value: f64| self.excursion_at(value).is_some_and(|excursion| same(&excursion));
+        let (inside, outside) = root::border(self.value, to, rests);
         let excursion = self.excursion_at(inside).filter(|inside| self.begins_like(inside))?;
         let cycle = excursion.cycle()?;
         let osc = self.at(outside)?;
@@ -279,8 +268,6 @@ const UNSEEN: f64 = 1e-4;
 const SOFT: f64 = 1e-6;
 /// Grazing contacts at values closer than this, relative to the value, are one event.
 const TOGETHER: f64 = 1e-11;
-/// The largest number of bisections; fewer reach neighbouring numbers.
-const MAX_HALVINGS: u32 = 100;
 /// The largest number of steps back from a grazing event, each ten times as long as the one before.
 const MAX_BACK: u32 = 14;
 /// A time of sticking below this, as a phase, counts as zero next to a value at which there is none.

@@ -2,6 +2,7 @@
 
 use super::beyond::LastMotion;
 use super::problem::{MachineProblem, MachineSolution};
+use crate::continuation::trace::root;
 use crate::continuation::trace::tracer::{Tracer, last};
 use crate::events::End;
 use crate::machine::Machine;
@@ -23,18 +24,12 @@ pub(super) fn rest_for_ever(tracer: &Tracer<MachineProblem>, at: &MachineSolutio
     let motion = LastMotion::of(tracer, at)?;
     let rests = |number: f64| equations.family.at(number).is_some_and(|machine| motion.rests(&machine));
     let step = last(&at.tangent).signum() * equations.scales[0];
-    let (mut low, (from, to)) = (motion.number, tracer.problem.range);
-    let beyond = BEYOND.into_iter().map(|by| low + by * step);
-    let mut high = beyond.filter(|number| (from..=to).contains(number)).find(|number| rests(*number))?;
-    loop {
-        let middle = 0.5 * (low + high);
-        if middle == low || middle == high {
-            break;
-        }
-        if rests(middle) { high = middle } else { low = middle }
-    }
+    let (from, to) = tracer.problem.range;
+    let beyond = BEYOND.into_iter().map(|by| motion.number + by * step);
+    let resting = beyond.filter(|number| (from..=to).contains(number)).find(|number| rests(*number))?;
+    let (first, _) = root::border(resting, motion.number, rests);
     let mut limit = at.clone();
-    *limit.w.last_mut()? = high;
+    *limit.w.last_mut()? = first;
     Some((limit, stop))
 }
 

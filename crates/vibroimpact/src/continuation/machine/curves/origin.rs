@@ -121,8 +121,8 @@ impl Origin<'_> {
     fn appearing(&self, ring: MachineRing, stop: usize) -> Result<Beginning, BranchError> {
         let touched = |ring: MachineRing| Some((touched(&self.frame, &ring, stop)?, ring));
         // by rounding the motion can have the impact that appears here
-        let rings = core::iter::once_with(|| ring).chain(self.beside());
-        let ((leg, (gap, place)), mut ring) = rings.filter_map(touched).next().ok_or(BranchError::NoCycle)?;
+        let mut rings = core::iter::once(ring).chain(self.beside());
+        let ((leg, (gap, place)), mut ring) = rings.find_map(touched).ok_or(BranchError::NoCycle)?;
         if gap.abs() > NEAR * self.point.cycle.sizes.0 {
             return Err(BranchError::NotThere);
         }
