@@ -79,6 +79,7 @@ impl<T: Numbers<Mask = bool>, const N: usize> Numbers for Pack<T, N> {
     }
     #[inline(always)]
     fn choose(mask: Self::Mask, yes: Self, no: Self) -> Self {
+        // a choice in each element and no branch, so that the compiler can use the vector instruction
         Self(from_fn(|k| T::choose(mask.0[k], yes.0[k], no.0[k])))
     }
 }
@@ -123,6 +124,7 @@ impl<const N: usize> Lane for Pack<f64, N> {
     }
     #[inline(always)]
     fn turned(quarters: Self, sin: Self, cos: Self) -> (Self, Self) {
+        // the scalar function in each element, so that the bits are those of the scalar sine and cosine
         let both = from_fn::<_, N, _>(|k| turned(quarters.0[k], sin.0[k], cos.0[k]));
         (Self(both.map(|(sin, _)| sin)), Self(both.map(|(_, cos)| cos)))
     }
@@ -141,6 +143,7 @@ impl<const N: usize> Single for Pack<f32, N> {
     fn store_some(self, bits: u32, to: &mut [f32]) {
         let mut count = 0;
         for k in 0..N {
+            // chosen numbers follow each other without gaps: the next block reads them as one list
             if bits >> k & 1 == 1 {
                 to[count] = self.0[k];
                 count += 1;

@@ -84,6 +84,7 @@ impl<L: Numbers> Numbers for Pair<L> {
     }
     #[inline(always)]
     fn less(self, other: Self) -> Self::Mask {
+        // the width goes with the mask, because masks of two types can have the same bits
         PairMask(self.0.less(other.0), self.1.less(other.1), L::WIDTH)
     }
     #[inline(always)]
@@ -132,6 +133,7 @@ impl<L: Half> Lane for Pair<L> {
     }
     #[inline(always)]
     fn store_rows(c: [Self; 8], rows: &mut [[f64; 8]]) {
+        // the two halves write disjoint rows
         let (first, second) = rows.split_at_mut(L::WIDTH);
         L::store_rows([c[0].0, c[1].0, c[2].0, c[3].0, c[4].0, c[5].0, c[6].0, c[7].0], first);
         L::store_rows([c[0].1, c[1].1, c[2].1, c[3].1, c[4].1, c[5].1, c[6].1, c[7].1], second);
@@ -176,6 +178,7 @@ impl<H: Half> Half for Pair<H> {
     }
     #[inline(always)]
     fn both_rounded(self, second: Self) -> Self::Double {
+        // four quarters in their order: the first pair is the first half of the result
         Pair(self.0.both_rounded(self.1), second.0.both_rounded(second.1))
     }
 }

@@ -170,6 +170,7 @@ impl MachineParts {
     /// to the ground is that of one coordinate, of a link between two their difference.
     #[must_use]
     pub fn with_link(mut self, direction: &[f64], stiffness: f64, damping: f64) -> Self {
+        // energy (k/2) (w q)^2, so the matrix is k w w^T, symmetric and semidefinite by construction
         self.stiffness.add_outer(stiffness, direction, direction);
         self.damping.add_outer(damping, direction, direction);
         self
@@ -193,6 +194,7 @@ impl MachineParts {
     #[must_use]
     pub fn with_force(mut self, coordinate: usize, order: u32, cos: f64, sin: f64) -> Self {
         let n = self.n();
+        // one entry for each order: forces of one order on several coordinates are one harmonic
         let place = self.forces.iter().position(|force| force.order == order).unwrap_or_else(|| {
             self.forces.push(HarmonicForce { order, cos: vec![0.0; n], sin: vec![0.0; n] });
             self.forces.len() - 1

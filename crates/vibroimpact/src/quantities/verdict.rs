@@ -36,9 +36,11 @@ pub fn of_verdict_only(osc: &Oscillator, verdict: &Verdict, asked: &[Quantity]) 
         Verdict::Periodic(cycle) => add_cycle(tally, osc, cycle),
         Verdict::NoImpact(NoImpact::Landing { side, periods }) => {
             let mut tally = tally;
+            // its flights have no impact, so no cycle of impacts describes them: they are flown again from the release
             after_release(osc, *side, *periods)?.iter().for_each(|part| tally.add(part));
             Some(tally.over(f64::from(*periods)))
         }
+        // with damping all of them become the steady response
         Verdict::NoImpact(_) => match orbit::without_impacts(osc) {
             Some(cycle) => add_cycle(tally, osc, &cycle),
             None => Some(Quantities::from_fn(quiet)),
@@ -59,6 +61,7 @@ pub fn of_arrivals(
     asked: &[Quantity],
 ) -> Option<Quantities> {
     let Verdict::Chaotic(chaos) = verdict else { return of_verdict_only(osc, verdict, asked) };
+    // the tail was not kept: it is flown again
     if arrivals.is_empty() {
         return of_verdict_only(osc, verdict, asked);
     }
@@ -68,6 +71,7 @@ pub fn of_arrivals(
         if tally.flights() {
             tally.add(&Segment::Flight { flight: Flight::new(osc, from.rebound(osc)), duration: *duration });
         } else {
+            // sums over impacts alone need the times between them only
             tally.pass(*duration);
         }
         tally.add(&Segment::Impact { side: state.side, speed: state.velocity });
@@ -94,6 +98,7 @@ fn quiet(quantity: Quantity) -> f64 {
 
 fn stuck(osc: &Oscillator, side: Side) -> Quantities {
     let mut tally = Tally::new(osc);
+    // one forcing period is enough: the mass does not move, and the force on the stop is periodic
     tally.add(&Segment::Rest { side, phase: 0.0, duration: osc.period() });
     tally.over(1.0)
 }
@@ -104,6 +109,7 @@ fn measured(tally: Tally<'_>, osc: &Oscillator, tail: &Tail) -> Option<Quantitie
     let mut tally = tally.between_stops();
     let mut motion = Motion::after(osc, &tail.from, SearchLimits::default());
     let count = add_impacts(&mut tally, &mut motion, tail.impacts, EVENTS.saturating_mul(tail.impacts));
+    // fewer impacts than the verdict counted: a mean over them would be another motion's
     (count == tail.impacts && count > 0).then(|| tally.over_all())
 }
 
@@ -130,6 +136,7 @@ pub fn of_transient(osc: &Oscillator, start: Start, impacts: u64) -> Quantities 
     let mut motion = Motion::new(osc, start);
     let mut tally = Tally::new(osc);
     add_impacts(&mut tally, &mut motion, impacts, EVENTS.saturating_mul(impacts.saturating_add(LEAST)));
+    // the tally has no last flight yet, because a flight is added at the event that ends it
     if let Some(leg) = motion.leg().filter(|leg| leg.duration.is_infinite()) {
         let duration = LAST_PERIODS * osc.period();
         tally.add(&match leg.path {

@@ -36,6 +36,7 @@ pub(super) const SAME: f64 = 1e-6;
 impl<S: System> Census<S> {
     /// Adds a motion of another census with all its starts, and returns its index here.
     pub fn add_found(&mut self, found: &CountedMotion<S>) -> usize {
+        // the verdict itself is counted once by `add`
         let number = self.add(&found.verdict);
         self.found[number].count += found.count - 1;
         self.total += found.count - 1;
@@ -97,6 +98,7 @@ impl StartBox {
     /// to $`\delta`$, velocities within $`\pm A(1+\beta)/2`$ but at most $`\pm 2A`$, all phases.
     #[must_use]
     pub fn natural(osc: &Oscillator) -> Self {
+        // twice the amplitude that the force and the gap give: larger motions only decay into it
         let size = osc.size();
         let (lowest, highest) = Start::room(osc);
         let speed = size * (0.5 * (1.0 + osc.beta())).min(2.0);
@@ -125,10 +127,12 @@ pub fn scattered_starts(osc: &Oscillator, area: StartBox, seed: u64, index: u64)
     // 2^64 / g, 2^64 / g^2, 2^64 / g^3 with g^4 = g + 1
     const STEP: [u64; 3] = [0xD1B5_4A32_D192_ED03, 0xABC9_8388_FB8F_AC03, 0x8CB9_2BA7_2F3D_8DD7];
     let unit = |k: usize| {
+        // each coordinate is shifted by another number, so that seeds give different points
         let shift = mix(seed.wrapping_mul(3).wrapping_add(k as u64 + 1));
         let turn = STEP[k].wrapping_mul(index.wrapping_add(1)).wrapping_add(shift);
         (turn >> 11) as f64 / (1_u64 << 53) as f64
     };
+    // rounding may exceed the stop by one unit in the last place, so positions are clamped
     let at = |(low, high): (f64, f64), t: f64| low + (high - low) * t;
     let (lowest, highest) = Start::room(osc);
     Start {

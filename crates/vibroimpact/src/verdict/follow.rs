@@ -41,6 +41,7 @@ impl Releases {
     /// because most motions that stick on their way never do so again, and following such a motion to the end costs far
     /// more.
     fn verdict(&mut self, osc: &Oscillator, side: Side, again: Option<usize>) -> Option<Verdict> {
+        // one place for each stop, and for the short and the long search
         let known = &mut self.0[usize::from(side == Side::Lower)][usize::from(again.is_some())];
         // the motion between two releases is the cycle, so it is found again within as many events
         let events = again
@@ -51,6 +52,7 @@ impl Releases {
                     return Some(undecided(UndecidedCause::Unconfirmed, 0));
                 };
                 let periods = cycle.label.periods;
+                // a cycle whose contacts all have speed 0 has no impact
                 let landing = cycle.points.is_empty();
                 Some(if landing {
                     Verdict::NoImpact(NoImpact::Landing { side, periods })
@@ -70,6 +72,7 @@ impl Follow {
     #[allow(clippy::cast_possible_truncation)] // a thousand
     pub(crate) fn keeping_tail() -> Self {
         let mut follow = Self::default();
+        // as many impacts as the quantities of a chaotic motion are measured over
         follow.record.latest = MEASURED_IMPACTS as usize;
         follow
     }
@@ -89,6 +92,8 @@ impl Follow {
     /// Whether a motion captured by a trapping region of this depth would be decided as that cycle without the region,
     /// before any other decision is possible: when it is close to the cycle, and at the next search for a recurrence.
     pub(super) fn reaches(&self, depth: Depth, options: &SettleOptions) -> bool {
+        // the region promises closeness after so many impacts; a recurrence is then found at the next search or at the
+        // one after it
         let close = self.count() + depth.impacts;
         close + LOOK + LOOK.max(close / 8) <= self.record.undisturbed(options)
             && self.record.steps + depth.steps <= options.max_steps
@@ -108,10 +113,12 @@ impl Follow {
         state: ImpactState,
         interval: f64,
     ) -> Option<Verdict> {
+        // grazing contacts, rests and releases since the last impact belong to the same return
         let since = self.since + interval;
         self.record.events += 1;
         self.record.push(options, state, since);
         (self.since, self.grazes) = (0.0, 0);
+        // before a decision by the record: gentler and gentler impacts also resemble a cycle of speed 0
         if self.fading.strikes(osc, state, interval) {
             return Some(Verdict::NoImpact(NoImpact::GrazeLimit { velocity: state.velocity, phase: state.phase }));
         }
@@ -127,6 +134,7 @@ impl Follow {
         let impacts = usize::try_from(chaos.tail.impacts).unwrap_or(usize::MAX);
         let returns = &self.record.returns;
         let kept = returns.len().checked_sub(impacts);
+        // a flight from impact to impact passes a grazing contact without an event
         let grazed = self.grazed.is_some_and(|before| before + impacts >= self.count());
         match kept {
             Some(first) if !grazed && options.limits == SearchLimits::default() => returns[first..].to_vec(),
@@ -138,6 +146,7 @@ impl Follow {
     pub(crate) fn graze(&mut self, osc: &Oscillator, side: Side, phase: f64, interval: f64) -> Option<Verdict> {
         self.since += interval;
         self.grazes += 1;
+        // a contact without speed changes no velocity; it counts for the limit of ever gentler impacts
         self.grazed = Some(self.count());
         if self.fading.strikes(osc, ImpactState { phase, velocity: 0.0, side }, interval) {
             return Some(Verdict::NoImpact(NoImpact::GrazeLimit { velocity: 0.0, phase }));
@@ -163,9 +172,11 @@ impl Follow {
     ) -> Option<Verdict> {
         self.since += interval;
         let now = self.count();
+        // the release is at one phase and position, so nothing before it matters for chaos
         self.record.forget();
         let first = &mut self.released[usize::from(side == Side::Lower)];
         let again = first.map(|then| now - then);
+        // the second release shows how many impacts a cycle through it may have
         first.get_or_insert(now);
         let verdict = releases.verdict(osc, side, again);
         verdict.map(|verdict| match verdict {
@@ -187,6 +198,7 @@ pub(crate) fn ended(osc: &Oscillator, end: Option<End>, limits: SearchLimits, im
         Some(End::Stuck(side)) => Verdict::Stuck(side),
         Some(End::NoneFor(time)) => {
             let periods = time / osc.period();
+            // less than the horizon: the budget of steps ended the search before it, and nothing is claimed
             if time >= 0.999 * limits.horizon(osc) {
                 Verdict::NoImpact(NoImpact::ForPeriods(periods.floor()))
             } else {

@@ -35,6 +35,7 @@ impl KnownAttractors {
         let mut survey = Self::default();
         for start in starts {
             let verdict = settle_knowing(osc, start, options, &mut survey.releases).0.verdict;
+            // other motions have no trapping region
             if let Verdict::Periodic(cycle) = &verdict
                 && !survey.known.iter().any(|(other, _)| other.same_as(&verdict, SAME))
                 && let Some(trap) = TrappingRegion::around(osc, cycle, options.limits.steps)
@@ -73,6 +74,7 @@ pub fn settle_many(
     width: Width,
     tick: &dyn Fn() -> bool,
 ) -> Settlement {
+    // the verdict on the first start of a motion, followed alone, as any single question gives it
     let full = |k: u64| settle(osc, start(k), options).verdict;
     let question = Question { osc, options, width, tick };
     question.decide(range.clone(), start, survey).settlement(range.start, &full).unwrap_or_else(|| {
@@ -102,7 +104,9 @@ impl Question<'_> {
         let mut part = Part::open(count);
         let alone = count < FEW && survey.known.is_empty();
         let batch = if alone { None } else { Batch::new(self.osc, ABREAST.min(count), self.width) };
+        // a flight in lanes must end before the search does, or its verdict would differ
         let batch = batch.filter(|batch| batch.longest() < self.options.limits.horizon(self.osc));
+        // one start after another may use what releases of earlier ones have shown: it is the same for all
         let mut releases = survey.releases.clone();
         let Some(batch) = batch else {
             for (place, index) in range.enumerate() {
@@ -114,6 +118,7 @@ impl Question<'_> {
             }
             return part;
         };
+        // neighbours mostly have the same impacts, so a processor predicts their branches
         let first = range.start;
         match launches::sorted(range.end - first, &|k| start(first + k)) {
             Some(sorted) => {
@@ -184,6 +189,7 @@ impl Source for Starts<'_> {
     fn caught(&mut self, place: usize, follow: &Follow, state: &ImpactState, options: &SettleOptions) -> bool {
         let Some(known) = self.known.iter().position(|(_, trap)| trap.catches(state)) else { return false };
         let (verdict, trap) = &self.known[known];
+        // near the end of the budget the region would decide what the start alone does not
         if !follow.reaches(trap.depth(), options) {
             return false;
         }

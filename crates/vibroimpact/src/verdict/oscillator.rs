@@ -144,8 +144,11 @@ impl Verdict {
     pub fn multipliers(&self, osc: &Oscillator) -> Option<[Multiplier; 2]> {
         match self {
             Self::Periodic(cycle) => Some(cycle.multipliers),
+            // the rest in each period forgets all differences
             Self::NoImpact(NoImpact::Landing { .. }) => Some([Multiplier::default(); 2]),
             Self::NoImpact(_) => {
+                // the free oscillation over one forcing period: the trace of its matrix is 2 e^(-zeta T) cos(omega_d
+                // T), and the determinant e^(-2 zeta T)
                 let p = osc.response().at(TAU / osc.beta());
                 let trace = 2.0 * (p.c - osc.damping() * p.s);
                 Some(crate::math::eigenvalues(trace, crate::math::exp(-2.0 * osc.damping() * osc.period())))
@@ -182,6 +185,7 @@ impl System for Oscillator {
     }
 
     fn same_without_impact(a: &NoImpact, b: &NoImpact) -> bool {
+        // only landings differ by their stop; in all others the mass touches none
         let landing = |of: &NoImpact| match of {
             NoImpact::Landing { side, .. } => Some(*side),
             _ => None,
@@ -196,6 +200,7 @@ impl System for Oscillator {
     fn stability(&self, verdict: &Verdict) -> Option<Stability> {
         match verdict {
             Verdict::Periodic(cycle) => Some(cycle.stability()),
+            // the worst direction decides
             _ => verdict.stabilities(self).and_then(|each| each.into_iter().max()),
         }
     }

@@ -72,6 +72,7 @@ const TRIES: usize = 3;
 impl<R: Recurring> Record<R> {
     /// Resets the record for another motion.
     pub(super) fn reset(&mut self) {
+        // the vector keeps its memory: a batch resets records millions of times
         let returns = core::mem::take(&mut self.returns);
         *self = Self { returns, latest: self.latest, ..Self::default() };
         self.returns.clear();
@@ -84,6 +85,7 @@ impl<R: Recurring> Record<R> {
 
     /// Whether a measurement goes on that began because the one before diverged too little for a decision.
     fn undecided_measurement(&self) -> bool {
+        // only the longest measurement may exceed the budget, so that the excess is bounded
         self.windows + 1 == WINDOWS.len()
             && !self.chaotic
             && self.measure.is_some()
@@ -93,6 +95,7 @@ impl<R: Recurring> Record<R> {
     /// The number of returns after which a decision other than a cycle is possible next: chaos, or the end of the
     /// budget.
     pub(super) fn undisturbed(&self, options: &SettleOptions) -> usize {
+        // a trapping region may decide earlier than all that follows here, and must not change the verdict
         let end = options.max_impacts as usize;
         let measured = match &self.measure {
             Some(measure) => self.count() + R::left(measure) as usize,
@@ -117,6 +120,7 @@ impl<R: Recurring> Record<R> {
     /// Whether the budget permits more. A measurement that began because the one before diverged too little for a decision is
     /// completed beyond the budget.
     pub(super) fn within(&self, options: &SettleOptions) -> bool {
+        // the number of steps is bounded too: flights of many steps could make few returns take very long
         let longer = options.extend && self.undecided_measurement();
         longer && self.steps < 3 * options.max_steps
             || self.count() < options.max_impacts as usize && self.steps < options.max_steps
@@ -130,6 +134,7 @@ impl<R: Recurring> Record<R> {
         state: &R::Return,
         since: f64,
     ) -> Option<Verdict<R::System>> {
+        // a cycle found now has precedence: near an unstable cycle the exponent is positive for a while
         let complete = self.measured(system, options, state, since);
         if complete || self.count() >= self.next_look.max(LOOK) {
             let cycle = self.look(system, options, state);
@@ -137,8 +142,10 @@ impl<R: Recurring> Record<R> {
                 return cycle.map(Verdict::Periodic);
             }
         }
+        // without a cycle a complete measurement decides
         let found = if complete { self.judged(system, options, state) } else { None };
         let chaos = self.chaos_of(found?)?;
+        // chaos of a machine may end within the budget, so the motion is followed to the end of it
         if R::LASTING {
             self.over = Some(chaos);
             return None;
@@ -148,6 +155,7 @@ impl<R: Recurring> Record<R> {
 
     /// The verdict when the budget is used up, after a last search for a recurrence.
     pub(super) fn last_look(&mut self, system: &R, options: &SettleOptions) -> Verdict<R::System> {
+        // the last search may have been an eighth of all returns ago
         let last = self.returns.last().map(|(state, _)| state.clone());
         if let Some(cycle) = last.and_then(|state| self.look(system, options, &state)) {
             return Verdict::Periodic(cycle);
@@ -164,6 +172,7 @@ impl<R: Recurring> Record<R> {
         match &mut self.measure {
             Some(measure) => system.add(measure, state, since),
             None => {
+                // a measurement begins only after the transient, which would bias the mean
                 if options.chaos_over > 0 && self.count() - self.forgotten >= options.chaos_after as usize {
                     self.measure = Some(Box::new(system.measure(state, window(options, self.windows))));
                 }
@@ -174,6 +183,7 @@ impl<R: Recurring> Record<R> {
 
     /// Decides chaos from a complete measurement, or begins the next measurement.
     fn judged(&mut self, system: &R, options: &SettleOptions, state: &R::Return) -> Option<Measurement<R>> {
+        // the next measurement begins at this return, so that windows do not overlap and their errors are independent
         let (measured, chaotic) = system.chaos(&*self.measure.take()?).unzip();
         self.windows += 1;
         self.spectrum.clone_from(&measured);
@@ -210,6 +220,7 @@ impl<R: Recurring> Record<R> {
 
     /// What is known of a motion with this verdict after this time, with the chaos before it.
     pub(super) fn settled(&self, system: &R, verdict: Verdict<R::System>, time: f64) -> Settled<R::System> {
+        // chaos that goes on is the verdict itself, not a transient
         let open = matches!(verdict, Verdict::Chaotic(_) | Verdict::Undecided(_));
         let transient = if open { None } else { self.transient(system) };
         Settled { verdict, impacts: self.events, time, transient }
@@ -245,6 +256,7 @@ impl<R: Recurring> Record<R> {
     fn look(&mut self, system: &R, options: &SettleOptions, state: &R::Return) -> Option<CycleOf<R>> {
         let count = self.count();
         self.next_look = count + LOOK.max(count / 8);
+        // Newton's method found this cycle at an earlier search, before the motion was near enough
         if let Some(cycle) = &self.candidate
             && system.captured(state, cycle)
         {
@@ -267,6 +279,7 @@ impl<R: Recurring> Record<R> {
             if system.captured(state, &cycle) {
                 return Some(cycle);
             }
+            // a stable cycle nearby will probably capture the motion later; an unstable one never does
             if R::stable(&cycle) {
                 self.candidate = Some(cycle);
                 break;

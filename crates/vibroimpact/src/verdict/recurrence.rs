@@ -25,9 +25,11 @@ pub(super) fn candidates<R: Recurring>(
     longest: usize,
     tolerance: f64,
 ) -> impl Iterator<Item = Candidate> {
+    // two returns in sequence must agree, because a single one may be near by chance
     let j = returns.len() - 1;
     let mut time = 0.0;
     (1..=longest.min(j / 2)).filter_map(move |m| {
+        // summed backwards from the last return, so that one pass serves all periods
         time += returns[j + 1 - m].1;
         #[allow(clippy::cast_precision_loss)] // a small count
         let close =
@@ -50,15 +52,18 @@ pub(super) fn captured(osc: &Oscillator, state: &ImpactState, cycle: &Cycle) -> 
         cycle.points.iter().min_by(|a, b| cycle_distance(&a.state, state).total_cmp(&cycle_distance(&b.state, state)));
     let Some(nearest) = nearest else { return false };
     let apart = cycle_distance(&nearest.state, state);
+    // an unstable cycle is left, however near the motion passes
     let stability = cycle.stability();
     if apart > NEAR || stability == Stability::Unstable {
         return false;
     }
     let m = u32::try_from(cycle.points.len()).unwrap_or(u32::MAX);
     let fly = |from| Lap::fly(osc, from, m, flight_limits(cycle.label.periods));
+    // both fly over the same period, so their difference obeys the linear law up to second order
     let (Ok(reference), Ok(real)) = (fly(nearest.state), fly(*state)) else {
         return false;
     };
+    // the difference is rounding only, and no law can be seen in it
     if apart <= AT_ROUNDING {
         return true;
     }
@@ -71,8 +76,11 @@ pub(super) fn captured(osc: &Oscillator, state: &ImpactState, cycle: &Cycle) -> 
     let before = offset(state, &nearest.state);
     let linear = reference.derivative(osc).apply(before);
     let after = offset(&real.last, &reference.last);
+    // radians, and parts of the impact speed: numbers of one size
     let size = |d: [f64; 2]| d[0].abs().max(d[1].abs() / nearest.state.velocity);
     let left_over = size([after[0] - linear[0], after[1] - linear[1]]);
+    // the remainder may undo 0.3 of the contraction at most: the next period is nearer, its remainder smaller, and the
+    // motion converges
     let largest = cycle.multipliers[0].modulus();
     left_over <= 0.3 * (1.0 - largest) * size(before) + 1e-12
 }

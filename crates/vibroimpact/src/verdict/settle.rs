@@ -109,11 +109,13 @@ pub(super) trait Followed {
         options: &SettleOptions,
         leave: &dyn Fn(&Self) -> bool,
     ) -> Option<Verdict<SystemOf<Self::Of>>> {
+        // the budget is checked before each event, so that no loop is without a cap
         while self.record().1.within(options) {
             let verdict = self.step(options);
             if verdict.is_some() {
                 return verdict;
             }
+            // lanes can take over only between two impacts
             if self.returned() && self.record().1.within(options) && leave(self) {
                 return None;
             }
@@ -147,12 +149,14 @@ impl Followed for Drive<'_, '_> {
     /// Every other event is followed by an impact or ends the motion; runs of grazing contacts are limited.
     fn step(&mut self, options: &SettleOptions) -> Option<Verdict> {
         let Self { osc, follow, motion, .. } = self;
+        // the steps of the search for contacts are a part of the budget
         let before = motion.steps();
         let Some(event) = motion.advance(self.cache) else {
             return Some(ended(osc, motion.end(), options.limits, follow.count() as u64));
         };
         self.time = event.time;
         follow.record.steps += motion.steps() - before;
+        // not the difference of two times, which loses digits as the time grows
         let interval = motion.leg().map_or(0.0, |leg| leg.duration);
         self.returned = matches!(event.kind, EventKind::Impact { .. });
         match event.kind {

@@ -72,6 +72,7 @@ impl Part {
     pub(super) fn caught(&mut self, place: usize, index: u64, number: usize, (reason, impacts): (Reason, u64)) {
         let motion = &mut self.motions[number];
         self.endings[place] = Ending { reason, impacts: u32::try_from(impacts).unwrap_or(u32::MAX) };
+        // starts are decided in any order; the first by index gives the motion its verdict and its place
         motion.first = motion.first.min(index);
         self.cells[place] = u32::try_from(number).unwrap_or(OPEN);
     }
@@ -87,6 +88,7 @@ impl Part {
         let number = self.number(&verdict, index);
         self.caught(place, index, number, (verdict.reason(), impacts));
         let motion = &mut self.motions[number];
+        // kept, so that the first start need not be followed again
         if motion.followed.as_ref().is_none_or(|(other, _)| index < *other) {
             motion.followed = Some((index, (verdict, arrivals)));
         }
@@ -95,9 +97,11 @@ impl Part {
     /// The motions in order of first appearance, each with the full verdict on its first start; `None` if this verdict
     /// is another motion.
     pub(super) fn settlement(mut self, first: u64, full: &dyn Fn(u64) -> Verdict) -> Option<Settlement> {
+        // a stopped run keeps the starts before the first that is not decided
         self.cells.truncate(self.cells.iter().position(|&cell| cell == OPEN).unwrap_or(self.cells.len()));
         self.endings.truncate(self.cells.len());
         let end = first + self.cells.len() as u64;
+        // motions that only cut starts lead to are gone; the order does not depend on lanes or threads
         let mut order: Vec<usize> = (0..self.motions.len()).filter(|&k| self.motions[k].first < end).collect();
         sort_by_key(&mut order, |&k| self.motions[k].first);
         let mut renamed = vec![OPEN; self.motions.len()];
@@ -105,6 +109,7 @@ impl Part {
         let mut tails = Vec::with_capacity(order.len());
         for (new, &old) in order.iter().enumerate() {
             let motion = &mut self.motions[old];
+            // a start that a trapping region caught has no verdict of its own: it is followed alone now
             let (verdict, arrivals) = match motion.followed.take() {
                 Some((index, followed)) if index == motion.first => followed,
                 _ => (full(motion.first), Arrivals::new()),

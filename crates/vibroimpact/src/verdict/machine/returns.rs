@@ -68,6 +68,7 @@ impl Recurring for Recorded<'_> {
     type MeasuredTail = ();
 
     fn distance(&self, a: &Arc<Step>, b: &Arc<Step>) -> f64 {
+        // steps with other events or contacts are never the same return
         if a.passage.guards != b.passage.guards || a.begin.states != b.begin.states {
             return f64::INFINITY;
         }
@@ -110,6 +111,7 @@ impl Recurring for Recorded<'_> {
     }
 
     fn tail((): (), returns: &[(Arc<Step>, f64)]) -> Option<Tail<State>> {
+        // the returns are kept, so the tail needs no record of its own
         let count = returns.len().min(usize::try_from(MEASURED_IMPACTS).unwrap_or(usize::MAX));
         let (first, last) = (&returns.get(returns.len() - count)?.0, &returns.last()?.0);
         Some(Tail { from: State::of(&first.begin), last: State::of(&last.end), impacts: count as u64 })
@@ -128,6 +130,7 @@ impl Recorded<'_> {
         let steps = frame.with(|structures| {
             tangent_steps(&frame.shape, frame.machine, &frame.normal, structures, (&step.begin, &step.passage))
         });
+        // its tangents stay what they were: one event in many does not change a mean
         let Some(steps) = steps else { return };
         let carry = |tangents: &mut Frame| {
             let logs = |vectors: &mut _, metric: &_| stretched(&frame.shape, &frame.normal, &steps, vectors, metric);
@@ -139,6 +142,7 @@ impl Recorded<'_> {
 
     /// The cycle of a motion that returns to a state after a time.
     pub(crate) fn same(&self, step: &Arc<Step>, after: f64) -> Option<machine::Cycle> {
+        // a time that rounds to no period, or to a longer one than is searched for
         if !(0.5..LONGEST + 0.5).contains(&self.periods(after)) {
             return None;
         }
@@ -158,6 +162,7 @@ impl Recorded<'_> {
     pub(crate) fn captures(&self, place: &Place, cycle: &machine::Cycle) -> Option<bool> {
         let frame = &self.frame;
         let (real, nearest, apart) = passing(frame, place, cycle)?;
+        // far away the linear law says nothing
         if apart > NEAR {
             return Some(false);
         }
@@ -168,9 +173,11 @@ impl Recorded<'_> {
             return Some(false);
         }
         let time = cycle.period;
+        // both fly over one period of the cycle: their difference obeys its linear law up to second order
         let (reference, moved) = (MachineLap::fly(frame, nearest, time)?, MachineLap::fly(frame, &real, time)?);
         let before = frame.apart(&real, nearest);
         let mut linear = reference.derivative.as_ref()?.apply(&before);
+        // where a body moves freely, its position is no part of the motion
         frame.normal.translations.remove(&mut linear);
         let after = frame.apart(&moved.end, &reference.end);
         let (size, speed) = cycle.sizes;
@@ -181,6 +188,7 @@ impl Recorded<'_> {
                 .filter(|x| x.is_finite())
                 .fold(0.0, f64::max)
         };
+        // relative to the sizes of the cycle, so that units do not matter
         let left_over = largest(&|i| after[i] - linear[i]);
         // joints that hold all the time keep their place, and all other directions must contract
         let (holding, each) = (reference.holding(), cycle.stabilities());
@@ -193,6 +201,7 @@ impl Recorded<'_> {
         if neutral > holding.len() || !kept {
             return Some(false);
         }
+        // neutral directions belong to joints that hold, and were checked above
         let contracting = cycle.multipliers.iter().zip(&each).filter(|(_, one)| one.is_stable());
         let rate = contracting.map(|(multiplier, _)| multiplier.modulus()).fold(0.0, f64::max);
         Some(left_over <= 0.3 * (1.0 - rate) * largest(&|i| before[i]) + 1e-12)
@@ -201,11 +210,13 @@ impl Recorded<'_> {
     /// Whether the motion from `real` stays on an unstable cycle for ever, as exactly symmetric ones do: for so many periods that
     /// a rounding error across it would have grown to the distance [`NEAR`].
     fn stays(&self, real: &Place, cycle: &machine::Cycle) -> bool {
+        // a rounding error grows by this logarithm in each period
         let growth = crate::math::ln(cycle.multipliers.iter().map(|one| one.modulus()).fold(0.0, f64::max));
         let periods = crate::math::ln(NEAR / f64::EPSILON) / growth;
         let mut place = real.clone();
         (0..PERIODS).take_while(|k| f64::from(*k) < periods).all(|_| {
             let Some(lap) = MachineLap::fly(&self.frame, &place, cycle.period) else { return false };
+            // the phase is set, so that sums of the period do not drift
             place = Place { phase: place.phase, ..lap.end };
             let apart = |strobe| self.frame.distance(strobe, &place, cycle.sizes);
             cycle.strobes.iter().map(apart).fold(f64::INFINITY, f64::min) <= AT_ROUNDING
