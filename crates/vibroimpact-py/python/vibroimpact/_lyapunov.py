@@ -1,5 +1,7 @@
 """Lyapunov exponents of a motion and the dimension of its attractor."""
 
+from __future__ import annotations
+
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
