@@ -7,7 +7,7 @@ use crate::error::Trouble;
 use crate::events::{EventFields, Events};
 use crate::machine::{MachineFile, Start, start};
 use crate::oscillator::{OscillatorFile, ScalesOf, scales};
-use crate::plan::{read, text};
+use crate::plan::{PlanFields, fields, read, text};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -191,16 +191,16 @@ fn planned(system: &System<'_>, from: Option<Start>, text: &str, tile: Option<u3
     Ok(plan)
 }
 
-/// The plan of a task, which is JSON, for a system, as JSON.
+/// The plan of a task, which is JSON, for a system.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)] // arguments from Python
-pub(crate) fn plan_json(
+pub(crate) fn plan_of(
     system: System<'_>,
     from: Option<Start>,
     task: &str,
     tile: Option<u32>,
-) -> Result<String, Trouble> {
-    text(&planned(&system, from, task, tile)?)
+) -> Result<PlanFields, Trouble> {
+    fields(&planned(&system, from, task, tile)?.canonical()?)
 }
 
 /// A plan with its result.
@@ -284,10 +284,12 @@ impl Answer {
 
     /// The object that the command prints with `--json`; [brief](vibroimpact_report::Answer::brief), if it is asked.
     fn json(&self, py: Python<'_>, brief: bool) -> Result<String, Trouble> {
+        if brief {
+            // nothing is computed
+            return Ok(door::here(py, || self.0.brief()));
+        }
         let answer = Arc::clone(&self.0);
-        door::run(py, Watch::alone("writing an answer"), move |_| {
-            Ok(if brief { answer.brief() } else { answer.json() })
-        })
+        door::run(py, Watch::alone("writing an answer"), move |_| Ok(answer.json()))
     }
 
     /// The figure that the command draws, as JSON; nothing for an answer without one. `units` are those of an oscillator in metres and

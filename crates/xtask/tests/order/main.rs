@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// The folders of the core, in order.
-const ORDER: [&str; 17] = [
+const ORDER: [&str; 18] = [
     "math",
     "system",
     "machine",
@@ -25,6 +25,7 @@ const ORDER: [&str; 17] = [
     "orbit",
     "lyapunov",
     "verdict",
+    "edge",
     "quantities",
     "chaos",
     "continuation",
