@@ -126,7 +126,12 @@ impl Motion<'_> {
             self.end = Some(End::Collapse);
             return;
         }
-        if self.instants.are_close() {
+        let kept = |g: usize| {
+            matches!(flight.structure.guards[g].kind, GuardKind::Gap(_))
+                && flight.begins_exactly(g)
+                && !guards.contains(&g)
+        };
+        if self.instants.are_close() && (0..flight.structure.guards.len()).any(kept) {
             let modes = self.buffers.modes_with_errors(flight, s);
             self.place.keep_gaps(&self.normal, flight, (modes, guards));
         }

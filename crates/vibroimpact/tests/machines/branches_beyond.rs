@@ -352,7 +352,7 @@ fn f42z_bodies_beside_each_other_have_the_branch_of_one() {
     let events_of = |n: usize| -> Vec<(BranchEvent, f64)> {
         let machine = balls(n, 0.4, 1.2);
         let cycle = settled(&machine, &Start { q: vec![1.0; n], ..Start::default() }).unwrap();
-        let all = events(&traced((&machine, "frequency"), &cycle, (1.0, 1.5), Direction::Up));
+        let all = events(&traced((&machine, "frequency"), &cycle, (1.0, 1.213), Direction::Up));
         // a flip of both is none of the product of their multipliers
         all.into_iter().filter(|(event, _)| *event != BranchEvent::Flip).collect()
     };
