@@ -13,7 +13,7 @@ use vibroimpact::regime::ContactState;
 use vibroimpact_report::json::event::of_machine;
 use vibroimpact_study::machine::{CATALOGUE, MachineFileError, MachineProblem, MachineSource, StartText};
 use vibroimpact_study::{
-    Control, Plan, PlanError, Results, Simulated, System, Task, events_with_states, machine, run, tiles,
+    Control, Plan, PlanError, PlanResults, Results, Simulated, System, Task, events_with_states, run, tiles,
 };
 
 /// A machine file that describes a machine.
@@ -208,7 +208,7 @@ pub(crate) fn simulate_machines<'py>(
             // the progress is that of whole motions
             let alone = Control { stop: control.stop, threads: 1, ..Control::default() };
             match run(&plan, &alone)? {
-                Results::Machine(machine::Results::Simulate(found)) => Ok(found),
+                PlanResults::Machine(Results::Simulate(found)) => Ok(found),
                 _ => Err(Trouble::Defect("following machines")),
             }
         };

@@ -2,7 +2,6 @@
 
 use crate::basin::{Basin, BasinPlan, start};
 use crate::in_memory::join::{Joined, Part, joined};
-use crate::limits::MOST_CELLS;
 use crate::study::{BasinFill, Cell, tiles_of};
 use crate::{Control, PlanError, RunError, SystemPlan, axis};
 use vibroimpact::quantities::of_verdict_only;
@@ -22,7 +21,7 @@ pub(crate) fn basin(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>
 
 fn in_tiles(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>, tile: u32) -> Result<Basin, RunError> {
     plan.check(system)?;
-    let (osc, total) = (&system.oscillator()?, plan.starts());
+    let osc = &system.oscillator()?;
     if let Some(axis) = plan.axes.iter().find(|axis| !axis.vary.is_start()) {
         let (task, name) = ("basin of one system", axis.vary.name().into());
         return Err(PlanError::WrongAxis { task, name, known: "x, v and phase" }.into());
@@ -31,9 +30,7 @@ fn in_tiles(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>, tile: 
         let (task, name) = ("basin of one system", "point".into());
         return Err(PlanError::WrongAxis { task, name, known: "x, v and phase" }.into());
     }
-    if total > MOST_CELLS {
-        return Err(axis::too_many("starts", &plan.axes).into());
-    }
+    axis::check_memory("starts", &plan.axes)?;
     let all = BasinPlan { refine: None, ..plan.clone() };
     let dimensions = i32::try_from(plan.axes.len()).unwrap_or(1);
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // at least 1, at most 4096

@@ -1,9 +1,9 @@
 //! A basin of a machine in memory: its tiles are joined.
 
 use super::join::{Joined, Part, joined};
-use crate::machine_plan::{check_memory, values_of};
+use crate::quantity::values_of;
 use crate::study::{Cell, Fill, MachineBasinFill, tiles_of};
-use crate::{Basin, BasinPlan, Control, RunError};
+use crate::{Basin, BasinPlan, Control, RunError, axis};
 use vibroimpact::events::Start;
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::{CountedMotion, Undecided, UndecidedCause, Verdict};
@@ -17,7 +17,7 @@ pub(crate) fn machine_basin(
     plan: &BasinPlan<String, String>,
     control: &Control<'_>,
 ) -> Result<Basin<Machine, String, String>, RunError> {
-    check_memory(&plan.axes, 1)?;
+    axis::check_memory("starts", &plan.axes)?;
     let task = MachineBasinFill::new(problem, &BasinPlan { refine: None, ..plan.clone() }, None)?;
     let whole = task.grid().whole();
     let mut seen_events = vec![None; whole.points()];

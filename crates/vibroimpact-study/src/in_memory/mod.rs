@@ -7,7 +7,7 @@ mod join;
 mod machine_basin;
 mod map;
 
-pub(crate) use attractors::attractors;
+pub(crate) use attractors::{attractors, machine_attractors};
 pub(crate) use basin::basin;
 pub(crate) use diagram::{DIAGRAM_TILE, diagram};
 pub(crate) use machine_basin::machine_basin;
