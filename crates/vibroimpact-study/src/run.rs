@@ -129,8 +129,7 @@ fn results<D: Dynamics>(system: &D, plan: &Plan, control: &Control<'_>) -> Resul
                 let (task, known) = ("measurement of one motion", "none: over axes it is a study");
                 return Err(PlanError::WrongAxis { task, name: axis.vary.text().to_owned().into(), known }.into());
             }
-            let (exponents, sections) = D::exponents(&of, &task, &go_on)?;
-            Results::Lyapunov(exponents, sections)
+            D::exponents(&of, &task, &go_on)?
         }
         Task::Branch(task) => Results::Branch(branches(&of, &task.typed()?, control)?),
         Task::Curve(task) => Results::Curve(curve(&of, &task.typed()?, control)?),

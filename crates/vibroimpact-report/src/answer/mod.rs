@@ -195,6 +195,8 @@ impl Answer {
 /// The plan of another task than that of the results, which does not occur.
 const OTHER: PlanError = PlanError::NoLabel;
 
+type DiagramOf<D> = Diagram<<D as Dynamics>::Name, <D as Dynamics>::Shown>;
+
 impl<D: Told> AnswerOf<D> {
     /// As [`Answer::figure`].
     ///
@@ -291,11 +293,7 @@ impl<D: Told> AnswerOf<D> {
 
     /// The orbit diagram over the range of a branch, of closings or of a quantity; `None` if there is no machine at one end,
     /// where no branch can come either.
-    fn behind(
-        &self,
-        quantity: Option<&str>,
-        control: &Control<'_>,
-    ) -> Result<Option<Diagram<D::Name, D::Shown>>, AnswerError> {
+    fn behind(&self, quantity: Option<&str>, control: &Control<'_>) -> Result<Option<DiagramOf<D>>, AnswerError> {
         let Task::Branch(plan) = &self.plan.task else { return Ok(None) };
         let mut diagram = plan.typed::<D::Name>()?.diagram(&self.written)?;
         if let Some(path) = quantity {

@@ -15,7 +15,7 @@ use crate::{
     PlanResults, Results, RunError, ScaledParameter, Scope, Simulated, Stopped, Stretch, Task,
 };
 use vibroimpact::Label;
-use vibroimpact::chaos::{Exponents, machine_exponents_while};
+use vibroimpact::chaos::machine_exponents_while;
 use vibroimpact::continuation::machine::{Curve, CurvePoint, Family, Plane, SolutionPoint};
 use vibroimpact::continuation::{BranchOptions, CurveEvent, CurveKind, CurveOptions};
 use vibroimpact::events::{Event, Limits, Motion, Start};
@@ -142,12 +142,12 @@ impl Dynamics for MachineSource {
         of: &Setup<'_, Self>,
         plan: &LyapunovPlan<String>,
         go_on: &dyn Fn() -> bool,
-    ) -> Result<(Exponents<Machine>, Option<SectionPoints>), RunError> {
+    ) -> Result<Results<Self>, RunError> {
         let (machine, start, lengths) = (&of.system, &of.start, plan.events());
         let found = machine_exponents_while(machine, start, lengths, go_on).map_err(refused)?;
         let found = found.ok_or(Stopped { done: 0, total: 1 })?;
         let sections = |points| section(machine, start, (u64::from(lengths.1), points), go_on);
-        Ok((found, plan.points.map(sections).transpose()?))
+        Ok(Results::Lyapunov(found, plan.points.map(sections).transpose()?))
     }
 
     fn over_grid(of: &Setup<'_, Self>, task: &Task, control: &Control<'_>) -> Result<Results<Self>, RunError> {

@@ -20,12 +20,12 @@ use crate::{
 use core::fmt::Debug;
 use std::borrow::Cow;
 use vibroimpact::Label;
-use vibroimpact::chaos::Exponents;
 use vibroimpact::continuation::CurveEvent;
 use vibroimpact::orbit::Stability;
 use vibroimpact::verdict::{Census, SettleOptions, Settled, System, Verdict};
 
 /// A system as it is written in a plan. Errors are [`PlanError`]s that name what is wrong, and of searches [`Stopped`].
+#[allow(clippy::missing_errors_doc, reason = "all have the errors of the trait")]
 pub trait Dynamics: Clone + Debug {
     /// The name of a number.
     type Name: Name + Into<Variable>;
@@ -79,7 +79,7 @@ pub trait Dynamics: Clone + Debug {
         of: &Setup<'_, Self>,
         plan: &LyapunovPlan<Self::Coordinate>,
         go_on: &dyn Fn() -> bool,
-    ) -> Result<(Exponents<Self::System>, Option<Self::Sections>), RunError>;
+    ) -> Result<Results<Self>, RunError>;
 
     /// The result of a task over a grid or over points.
     fn over_grid(of: &Setup<'_, Self>, task: &Task, control: &Control<'_>) -> Result<Results<Self>, RunError>;

@@ -15,7 +15,7 @@ use crate::{
     PlanResults, Quantity, Results, RunError, ScaledParameter, Scope, Simulated, StartPlan, Stopped, Stretch,
     SystemPlan, Task,
 };
-use vibroimpact::chaos::{Exponents, Section, exponents_while, section_while};
+use vibroimpact::chaos::{Section, exponents_while, section_while};
 use vibroimpact::continuation::{
     BranchError, BranchOptions, Curve, CurveEvent, CurveOptions, CurvePoint, SolutionPoint,
 };
@@ -103,13 +103,14 @@ impl Dynamics for SystemPlan {
         of: &Setup<'_, Self>,
         plan: &LyapunovPlan,
         go_on: &dyn Fn() -> bool,
-    ) -> Result<(Exponents, Option<Section>), RunError> {
+    ) -> Result<Results<Self>, RunError> {
         let (osc, start, stopped) = (&of.system, of.start, Stopped { done: 0, total: 1 });
         let section = match plan.points {
             Some(points) => Some(section_while(osc, start, plan.lengths().1, points, go_on).ok_or(stopped)?),
             None => None,
         };
-        Ok((exponents_while(osc, start, &plan.options(), go_on).ok_or(stopped)?, section))
+        let found = exponents_while(osc, start, &plan.options(), go_on).ok_or(stopped)?;
+        Ok(Results::Lyapunov(found, section))
     }
 
     fn over_grid(of: &Setup<'_, Self>, task: &Task, control: &Control<'_>) -> Result<Results<Self>, RunError> {

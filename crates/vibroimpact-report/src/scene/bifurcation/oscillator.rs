@@ -118,7 +118,7 @@ fn follow(
             let task = BranchPlan { label, vary, to, back: None, also, orbit: None, follow, points };
             match run(&Plan::new(system, task), control) {
                 Ok(PlanResults::Oscillator(Results::Branch(found))) => {
-                    branches.extend(found.followed.into_iter().map(|branch| branch.points))
+                    branches.extend(found.followed.into_iter().map(|branch| branch.points));
                 }
                 Ok(_) => {}
                 Err(RunError::Stopped(stopped)) => return Err(stopped.into()),
