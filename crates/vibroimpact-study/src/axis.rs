@@ -2,7 +2,7 @@
 
 use crate::limits::MOST_CELLS;
 use crate::name::{Name, Variable};
-use crate::{Block, Parameter, PlanError, Span, StartPlan, SystemPlan, Unit};
+use crate::{Parameter, PlanError, Span, StartPlan, SystemPlan, Unit};
 use core::fmt;
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -446,11 +446,6 @@ pub(crate) fn none_twice<V: Name>(varied: impl IntoIterator<Item = V>) -> Result
 /// Number of points of the grid over the axes; `u64::MAX` if it is larger.
 pub(crate) fn points<V>(axes: &[Axis<V>]) -> u64 {
     axes.iter().fold(1, |points, axis| u64::saturating_mul(points, axis.over.count() as u64))
-}
-
-/// All points of the axes as one block; the first axis varies fastest.
-pub(crate) fn whole<V>(axes: &[Axis<V>]) -> Block {
-    Block { ranges: axes.iter().rev().map(|axis| 0..axis.over.count()).collect() }
 }
 
 /// All combinations of the smallest and largest values of the axes, as indices of the values.

@@ -63,6 +63,14 @@ impl<V, Q> BasinPlan<V, Q> {
     }
 }
 
+impl<V, Q> BasinPlan<V, Q> {
+    /// The options with which each start is followed.
+    #[must_use]
+    pub fn options(&self) -> SettleOptions {
+        options(self.impacts)
+    }
+}
+
 impl<V: Clone + Into<Cow<'static, str>>, Q> BasinPlan<V, Q> {
     /// Total number of starts.
     #[must_use]
@@ -146,12 +154,6 @@ impl BasinPlan {
             start.start(&there.oscillator()?)?;
         }
         Ok(())
-    }
-
-    /// The options with which each start is followed.
-    #[must_use]
-    pub fn options(&self) -> SettleOptions {
-        options(self.impacts)
     }
 
     /// Whether all starts belong to one system, that is, no axis varies a parameter.
