@@ -15,7 +15,7 @@ use crate::json::simulate::Events;
 use crate::json::system::SystemObject;
 use crate::response::ResponseView;
 use crate::scene::{self, View};
-use crate::{AnswerError, ReportError, Table, figure, table};
+use crate::{AnswerError, ReportError, Table, Units, figure, table};
 use vibroimpact::chaos::Exponents;
 use vibroimpact::events::{Event, Limits, Motion, Start};
 use vibroimpact::machine::Machine;
@@ -122,8 +122,8 @@ impl Told for MachineSource {
         Ok(ResponseView::of_machine(found, plan, &of.system))
     }
 
-    fn title(of: &AnswerOf<Self>, _: &[&str]) -> String {
-        machine_title(&of.written, &of.name)
+    fn title(&self, name: &str, _: &Units, _: &[&str]) -> String {
+        machine_title(self, name)
     }
 
     fn speeds(_: &AnswerOf<Self>) -> [String; 2] {
@@ -145,7 +145,7 @@ impl Told for MachineSource {
 
     fn settled_figure(of: &AnswerOf<Self>, found: &Settled<Machine>, view: View) -> Result<Figure, AnswerError> {
         let (from, time) = of.steady(&found.verdict)?;
-        let title = format!("{}: {}", Self::title(of, &[]), figure::label(&found.verdict.label()));
+        let title = format!("{}: {}", machine_title(&of.written, &of.name), figure::label(&found.verdict.label()));
         Ok(match (view, &found.verdict) {
             (View::Waveform, _) => of.waveform(&from, time, title)?,
             (View::Phase, _) => scene::machine_portrait(&of.system, (&from, time), title)?,
@@ -158,7 +158,7 @@ impl Told for MachineSource {
     }
 
     fn section_figure(of: &AnswerOf<Self>, found: &Exponents<Machine>, points: &SectionPoints) -> Figure {
-        let title = format!("{}: {}", Self::title(of, &[]), figure::label(&found.motion.label()));
+        let title = format!("{}: {}", machine_title(&of.written, &of.name), figure::label(&found.motion.label()));
         figure::section::of_machine(points, &of.system, title)
     }
 

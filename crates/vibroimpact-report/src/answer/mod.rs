@@ -213,7 +213,7 @@ impl<D: Told> AnswerOf<D> {
     /// The figure without what lies over it.
     fn plain_figure(&self, shown: &Shown, control: &Control<'_>) -> Result<Option<Figure>, AnswerError> {
         let (units, view) = (&self.units, shown.view.unwrap_or_default());
-        let title = |varied: &[&str]| D::title(self, varied);
+        let title = |varied: &[&str]| self.written.title(&self.name, units, varied);
         let of_axes = |axes: &[vibroimpact_study::Axis<D::Coordinate>]| {
             title(&axes.iter().map(|axis| axis.vary.text()).collect::<Vec<_>>())
         };

@@ -15,7 +15,7 @@ use crate::json::simulate::Events;
 use crate::json::system::SystemObject;
 use crate::response::ResponseView;
 use crate::scene::{View, Viewed, phase_portrait};
-use crate::{AnswerError, Asked, ReportError, ShownValue as _, Table, figure, table};
+use crate::{AnswerError, Asked, ReportError, ShownValue as _, Table, Units, figure, table};
 use vibroimpact::chaos::{Exponents, Section};
 use vibroimpact::machine::Machine;
 use vibroimpact::motion::Event;
@@ -110,9 +110,9 @@ impl Told for SystemPlan {
         ResponseView::of_oscillator(found, plan, &of.units)
     }
 
-    fn title(of: &AnswerOf<Self>, varied: &[&str]) -> String {
+    fn title(&self, _: &str, units: &Units, varied: &[&str]) -> String {
         let varied: Vec<Parameter> = varied.iter().filter_map(|name| Parameter::from_name(name)).collect();
-        figure::title_without(&of.asked(), &varied)
+        figure::title_without(&Asked { system: *self, units: *units }, &varied)
     }
 
     fn speeds(of: &AnswerOf<Self>) -> [String; 2] {
@@ -123,7 +123,7 @@ impl Told for SystemPlan {
         let (osc, start, span) = (&of.system, of.start, (0.0, found.shown_until));
         Ok(match view {
             View::Phase => Some(phase_portrait(&of.asked(), osc, start, span)),
-            View::Waveform => Some(figure::waveform::figure(osc, start, span, &of.units, Self::title(of, &[]))),
+            View::Waveform => Some(figure::waveform::figure(osc, start, span, &of.units, figure::title(&of.asked()))),
             View::Multipliers | View::Sections => None,
         })
     }

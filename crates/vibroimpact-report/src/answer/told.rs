@@ -14,7 +14,7 @@ use crate::json::simulate::Events;
 use crate::json::system::SystemObject;
 use crate::response::ResponseView;
 use crate::scene::View;
-use crate::{AnswerError, FieldName, ReportError, ShownValue, Table, Varied};
+use crate::{AnswerError, FieldName, ReportError, ShownValue, Table, Units, Varied};
 use vibroimpact::chaos::Exponents;
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::{Census, Settled, Verdict};
@@ -94,8 +94,8 @@ pub trait Told:
     /// [`PlanError`] for a name that the system does not have, and for another task.
     fn response<'a>(of: &'a AnswerOf<Self>, found: &'a ResponseCurves) -> Result<ResponseView<'a>, PlanError>;
 
-    /// The title of a figure, without these numbers, which vary in it.
-    fn title(of: &AnswerOf<Self>, varied: &[&str]) -> String;
+    /// The title of a figure, without these numbers, which vary in it. A machine without a title of its own has this name.
+    fn title(&self, name: &str, units: &Units, varied: &[&str]) -> String;
 
     /// The names of the speeds of orbits, and of those of branches.
     fn speeds(of: &AnswerOf<Self>) -> [String; 2];

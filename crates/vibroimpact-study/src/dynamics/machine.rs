@@ -1,6 +1,7 @@
 //! A machine, as tasks ask for it.
 
 use super::{Dynamics, Setup};
+use crate::diagram::{Diagram, DiagramPlan};
 use crate::in_memory::{DIAGRAM_TILE, diagram, machine_attractors, machine_basin, machine_map, machine_points};
 use crate::lyapunov::{SectionPoints, section};
 use crate::machine::{MachineSource, VariedMachine};
@@ -9,9 +10,9 @@ use crate::margins::{MotionBox, ParameterMargin};
 use crate::orbit_line::OrbitLine;
 use crate::region::Over;
 use crate::simulate::simulate_machine;
-use crate::study::SweepFill;
+use crate::study::{SweepFill, machine_diagram_of};
 use crate::{
-    Control, CurvePlan, Cut, DEFAULT_BRANCH_POINTS, FollowedEvent, LyapunovPlan, MarginsPlan, Orbit, PlanError,
+    Column, Control, CurvePlan, Cut, DEFAULT_BRANCH_POINTS, FollowedEvent, LyapunovPlan, MarginsPlan, Orbit, PlanError,
     PlanResults, Results, RunError, ScaledParameter, Scope, Simulated, Stopped, Stretch, Task,
 };
 use vibroimpact::Label;
@@ -162,6 +163,10 @@ impl Dynamics for MachineSource {
             }
             other => return Err(PlanError::NoMachineStudy(other.verb()).into()),
         })
+    }
+
+    fn diagram_of(plan: &DiagramPlan<String, String>, columns: &[Column]) -> Diagram<String, String> {
+        machine_diagram_of(plan, columns)
     }
 
     fn number(&self, name: &String) -> Result<f64, PlanError> {

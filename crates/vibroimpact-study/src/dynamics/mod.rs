@@ -8,13 +8,13 @@ pub use machine::{machine_label, quantity_path};
 #[cfg(test)]
 pub(crate) use oscillator::at_rest;
 
-use crate::diagram::{ShowText, Shown};
+use crate::diagram::{Diagram, DiagramPlan, ShowText, Shown};
 use crate::margins::{MotionBox, ParameterMargin};
 use crate::name::{Name, Variable};
 use crate::orbit_line::{Along, OrbitLine, Solution};
 use crate::region::Over;
 use crate::{
-    Chosen, Control, CurvePlan, Cut, FollowedEvent, LyapunovPlan, MarginsPlan, Orbit, OrbitNumber, PlanError,
+    Chosen, Column, Control, CurvePlan, Cut, FollowedEvent, LyapunovPlan, MarginsPlan, Orbit, OrbitNumber, PlanError,
     PlanResults, Results, RunError, ScaledParameter, Scope, Simulated, Stopped, Stretch, Task,
 };
 use core::fmt::Debug;
@@ -83,6 +83,9 @@ pub trait Dynamics: Clone + Debug {
 
     /// The result of a task over a grid or over points.
     fn over_grid(of: &Setup<'_, Self>, task: &Task, control: &Control<'_>) -> Result<Results<Self>, RunError>;
+
+    /// The orbit diagram from the columns of its study. Motions of tiles that are not complete are left out.
+    fn diagram_of(plan: &DiagramPlan<Self::Name, Self::Shown>, columns: &[Column]) -> Diagram<Self::Name, Self::Shown>;
 
     /// The value of a number.
     fn number(&self, name: &Self::Name) -> Result<f64, PlanError>;

@@ -121,8 +121,7 @@ impl Swept for MachineSweep {
 }
 
 /// The diagram of a machine, as [`diagram_of`](super::diagram_of).
-#[must_use]
-pub fn machine_diagram_of(plan: &DiagramPlan<String, String>, columns: &[Column]) -> Diagram<String, String> {
+pub(crate) fn machine_diagram_of(plan: &DiagramPlan<String, String>, columns: &[Column]) -> Diagram<String, String> {
     let real = |k: usize| columns.get(k).map_or(&[][..], Column::real);
     let (values, phases, stops) = (real(1), real(2), columns.get(3).map_or(&[][..], Column::whole));
     stored(plan, columns, |at| {
