@@ -28,7 +28,9 @@ use vibroimpact_study::{
 /// A system whose motions are told.
 pub(super) trait Teller: Told {
     /// What is told before the result: the system, and its start where there is one.
-    fn heading(of: &AnswerOf<Self>) -> String;
+    fn heading(_: &AnswerOf<Self>) -> String {
+        String::new()
+    }
 
     /// The meaning, as a sentence without full stop.
     fn meaning(of: &AnswerOf<Self>, verdict: &Verdict<Self::System>) -> String;
@@ -86,16 +88,22 @@ pub(super) trait Teller: Told {
     fn exponents_told(of: &AnswerOf<Self>, found: &Exponents<Self::System>) -> String;
 
     /// Whether regions are known in closed form.
-    fn in_closed_form(plan: &RegionPlan<Self::Name>) -> bool;
+    fn in_closed_form(_: &RegionPlan<Self::Name>) -> bool {
+        false
+    }
 
     /// Whether motions are told with their impacts on each of two stops.
-    fn two_stops(of: &AnswerOf<Self>) -> bool;
+    fn two_stops(_: &AnswerOf<Self>) -> bool {
+        false
+    }
 
     /// What happens at the event at a point of a branch.
     fn because(of: &AnswerOf<Self>, point: &PointOf<Self>) -> String;
 
     /// What is told of margins beside the events.
-    fn of_margins(of: &AnswerOf<Self>, found: &MotionMargins<Self::System, Self::Name, PointOf<Self>>) -> String;
+    fn of_margins(_: &AnswerOf<Self>, _: &MotionMargins<Self::System, Self::Name, PointOf<Self>>) -> String {
+        String::new()
+    }
 }
 
 impl Teller for SystemPlan {
@@ -196,10 +204,6 @@ impl Teller for SystemPlan {
 }
 
 impl Teller for MachineSource {
-    fn heading(_: &AnswerOf<Self>) -> String {
-        String::new()
-    }
-
     fn meaning(of: &AnswerOf<Self>, verdict: &Verdict<Machine>) -> String {
         match verdict {
             Verdict::Periodic(cycle) => meaning_of_cycle(cycle),
@@ -312,20 +316,8 @@ impl Teller for MachineSource {
         lyapunov::of_machine(found, of)
     }
 
-    fn in_closed_form(_: &RegionPlan<String>) -> bool {
-        false
-    }
-
-    fn two_stops(_: &AnswerOf<Self>) -> bool {
-        false
-    }
-
     fn because(of: &AnswerOf<Self>, point: &machine::SolutionPoint) -> String {
         point.event.map_or_else(String::new, |event| because(&BranchEvent::Machine(&of.system, event)))
-    }
-
-    fn of_margins(_: &AnswerOf<Self>, _: &MotionMargins<Machine, String, machine::SolutionPoint>) -> String {
-        String::new()
     }
 }
 

@@ -2,9 +2,7 @@
 
 use super::AnswerOf;
 use super::told::{BasinOf, BranchesOf, CurveOf, Told};
-use crate::json::attractors::Area;
-use crate::json::basin::MeasureFields;
-use crate::json::branch::BranchAnswer;
+use crate::json::branch::{BranchAnswer, BranchObject};
 use crate::json::curve::CurveAnswer;
 use crate::json::event::StateObject;
 use crate::json::lyapunov::LyapunovAnswer;
@@ -14,14 +12,16 @@ use crate::json::settle::SettleAnswer;
 use crate::json::simulate::Events;
 use crate::json::system::SystemObject;
 use crate::response::ResponseView;
-use crate::scene::{self, View};
-use crate::{AnswerError, ReportError, Table, Units, figure, table};
+use crate::scene::{self, BifurcationDiagram, View};
+use crate::{AnswerError, BranchQuantity, ReportError, Table, Units, figure, table};
 use vibroimpact::chaos::Exponents;
+use vibroimpact::continuation::machine::SolutionPoint;
 use vibroimpact::events::{Event, Limits, Motion, Start};
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::machine::Cycle;
 use vibroimpact::verdict::{Census, Settled, Verdict};
 use vibroimpact_plot::{Figure, plain};
+use vibroimpact_study::diagram::Shown as _;
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{CurvePlan, Cut, Orbit, PlanError, ResponseCurves, SectionPoints, Simulated, Task};
 
@@ -35,7 +35,7 @@ const MOST_EVENTS: usize = 200_000;
 
 /// The title of a figure of ordinary width: that of the machine file. A long title is cut at its first colon, or replaced
 /// by `name`.
-pub(crate) fn machine_title(machine: &MachineSource, name: &str) -> String {
+fn machine_title(machine: &MachineSource, name: &str) -> String {
     let title = machine.title.as_deref().unwrap_or(name);
     let part = title.split_once(": ").map_or(title, |(part, _)| part);
     let fits = [title, part, name].into_iter().find(|text| text.chars().count() <= TITLE);
@@ -101,16 +101,18 @@ impl Told for MachineSource {
         LyapunovAnswer::of_machine(&of.system, found)
     }
 
-    fn area(_: &AnswerOf<Self>) -> Option<Area> {
-        None
-    }
-
-    fn measures(_: &BasinOf<Self>) -> Option<MeasureFields> {
-        None
-    }
-
     fn branch_object<'a>(of: &'a AnswerOf<Self>, found: &'a BranchesOf<Self>, cut: &Cut<String>) -> BranchAnswer<'a> {
         BranchAnswer::of_machine(found, cut, (&of.system, &of.written))
+    }
+
+    fn branch_shown<'a>(
+        of: &'a BifurcationDiagram<Self>,
+        points: &'a [SolutionPoint],
+        cut: &Cut<String>,
+    ) -> BranchObject<'a> {
+        let show = &of.behind.plan.show;
+        let quantity = (!show.is_closings()).then(|| BranchQuantity::at_path(show.clone(), &of.written, cut));
+        BranchObject::of_machine(points, None, cut, (&of.system, quantity.as_ref()))
     }
 
     fn curve_object<'a>(of: &'a AnswerOf<Self>, found: &'a CurveOf<Self>, plan: &CurvePlan<String>) -> CurveAnswer<'a> {

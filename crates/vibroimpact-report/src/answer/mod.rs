@@ -4,7 +4,6 @@ mod machine;
 mod oscillator;
 mod told;
 
-pub(crate) use machine::machine_title;
 pub use told::Told;
 pub(crate) use told::{BranchesOf, CurveOf};
 

@@ -4,7 +4,7 @@ use super::AnswerOf;
 use super::told::Told;
 use crate::json::attractors::Area;
 use crate::json::basin::MeasureFields;
-use crate::json::branch::BranchAnswer;
+use crate::json::branch::{BranchAnswer, BranchObject};
 use crate::json::curve::CurveAnswer;
 use crate::json::event::StateObject;
 use crate::json::lyapunov::LyapunovAnswer;
@@ -14,10 +14,10 @@ use crate::json::settle::SettleAnswer;
 use crate::json::simulate::Events;
 use crate::json::system::SystemObject;
 use crate::response::ResponseView;
-use crate::scene::{View, Viewed, phase_portrait};
+use crate::scene::{BifurcationDiagram, View, Viewed, phase_portrait, strobes};
 use crate::{AnswerError, Asked, ReportError, ShownValue as _, Table, Units, figure, table};
 use vibroimpact::chaos::{Exponents, Section};
-use vibroimpact::machine::Machine;
+use vibroimpact::continuation::SolutionPoint;
 use vibroimpact::motion::Event;
 use vibroimpact::verdict::{Census, Settled, Verdict};
 use vibroimpact::{Parameter, Start};
@@ -37,10 +37,6 @@ impl AnswerOf<SystemPlan> {
 }
 
 impl Told for SystemPlan {
-    fn machine(_: &AnswerOf<Self>) -> Option<&Machine> {
-        None
-    }
-
     fn system(of: &AnswerOf<Self>) -> SystemObject<'_> {
         let parameter = |vary: &str| Parameter::from_name(vary);
         let varied: Vec<Parameter> = match &of.plan.task {
@@ -99,6 +95,17 @@ impl Told for SystemPlan {
 
     fn branch_object<'a>(of: &'a AnswerOf<Self>, found: &'a Branches, cut: &Cut) -> BranchAnswer<'a> {
         BranchAnswer::of_oscillator(found, cut, &of.asked())
+    }
+
+    fn branch_shown<'a>(of: &'a BifurcationDiagram<Self>, points: &'a [SolutionPoint], cut: &Cut) -> BranchObject<'a> {
+        let asked = Asked { system: of.written, units: of.units };
+        let mut branch = BranchObject::of_oscillator(points, None, cut, &asked);
+        if of.behind.plan.show == Show::Strobe {
+            for (object, point) in branch.points.iter_mut().zip(points) {
+                object.strobes = strobes(point, cut, &asked);
+            }
+        }
+        branch
     }
 
     fn curve_object<'a>(of: &'a AnswerOf<Self>, found: &'a EventCurve, plan: &CurvePlan) -> CurveAnswer<'a> {

@@ -3,7 +3,7 @@
 use super::AnswerOf;
 use crate::json::attractors::Area;
 use crate::json::basin::MeasureFields;
-use crate::json::branch::{BranchAnswer, EventPoint};
+use crate::json::branch::{BranchAnswer, BranchObject, EventPoint};
 use crate::json::curve::CurveAnswer;
 use crate::json::event::{StateObject, Stops};
 use crate::json::lyapunov::LyapunovAnswer;
@@ -13,7 +13,7 @@ use crate::json::settle::SettleAnswer;
 use crate::json::simulate::Events;
 use crate::json::system::SystemObject;
 use crate::response::ResponseView;
-use crate::scene::View;
+use crate::scene::{BifurcationDiagram, View};
 use crate::{AnswerError, FieldName, ReportError, ShownValue, Table, Units, Varied};
 use vibroimpact::chaos::Exponents;
 use vibroimpact::machine::Machine;
@@ -33,7 +33,8 @@ pub(crate) type CurveOf<D> = EventCurve<CycleOf<D>, PointOf<D>, <D as Dynamics>:
 /// The motions of the starts of a system.
 pub(crate) type BasinOf<D> = Basin<<D as Dynamics>::System, <D as Dynamics>::Coordinate, <D as Dynamics>::Quantity>;
 
-/// A system whose answers are told.
+/// A system whose answers are told. Errors are those of what cannot be drawn or tabulated, and of names of plans.
+#[allow(clippy::missing_errors_doc, clippy::must_use_candidate, reason = "all have the errors of the trait")]
 pub trait Told:
     Dynamics<
         Name: Varied,
@@ -45,7 +46,9 @@ pub trait Told:
     >
 {
     /// The machine, if the system is one.
-    fn machine(of: &AnswerOf<Self>) -> Option<&Machine>;
+    fn machine(_: &AnswerOf<Self>) -> Option<&Machine> {
+        None
+    }
 
     /// The system, without the numbers that vary.
     fn system(of: &AnswerOf<Self>) -> SystemObject<'_>;
@@ -69,10 +72,14 @@ pub trait Told:
     fn exponents_object<'a>(of: &'a AnswerOf<Self>, found: &'a Exponents<Self::System>) -> LyapunovAnswer<'a>;
 
     /// The box of scattered starts, if there is one.
-    fn area(of: &AnswerOf<Self>) -> Option<Area>;
+    fn area(_: &AnswerOf<Self>) -> Option<Area> {
+        None
+    }
 
     /// The measures of a basin, if it has any.
-    fn measures(found: &BasinOf<Self>) -> Option<MeasureFields>;
+    fn measures(_: &BasinOf<Self>) -> Option<MeasureFields> {
+        None
+    }
 
     /// Branches along a line.
     fn branch_object<'a>(
@@ -80,6 +87,13 @@ pub trait Told:
         found: &'a BranchesOf<Self>,
         cut: &Cut<Self::Name>,
     ) -> BranchAnswer<'a>;
+
+    /// A branch of a bifurcation diagram, with what it shows of each cycle.
+    fn branch_shown<'a>(
+        of: &'a BifurcationDiagram<Self>,
+        points: &'a [PointOf<Self>],
+        cut: &Cut<Self::Name>,
+    ) -> BranchObject<'a>;
 
     /// A curve of events.
     fn curve_object<'a>(
@@ -89,9 +103,6 @@ pub trait Told:
     ) -> CurveAnswer<'a>;
 
     /// A response.
-    ///
-    /// # Errors
-    /// [`PlanError`] for a name that the system does not have, and for another task.
     fn response<'a>(of: &'a AnswerOf<Self>, found: &'a ResponseCurves) -> Result<ResponseView<'a>, PlanError>;
 
     /// The title of a figure, without these numbers, which vary in it. A machine without a title of its own has this name.
@@ -101,9 +112,6 @@ pub trait Told:
     fn speeds(of: &AnswerOf<Self>) -> [String; 2];
 
     /// The figure of the events of a motion, over time or in the phase plane.
-    ///
-    /// # Errors
-    /// [`ReportError`] for what cannot be drawn.
     fn simulated_figure(
         of: &AnswerOf<Self>,
         found: &Simulated<Self::Event>,
@@ -111,18 +119,12 @@ pub trait Told:
     ) -> Result<Option<Figure>, ReportError>;
 
     /// The figure of a settled motion.
-    ///
-    /// # Errors
-    /// [`AnswerError`] for what cannot be drawn.
     fn settled_figure(of: &AnswerOf<Self>, found: &Settled<Self::System>, view: View) -> Result<Figure, AnswerError>;
 
     /// The figure of both sections of an attractor.
     fn section_figure(of: &AnswerOf<Self>, found: &Exponents<Self::System>, points: &Self::Sections) -> Figure;
 
     /// The waveform of a motion, with this time between its points.
-    ///
-    /// # Errors
-    /// [`ReportError`] for what cannot be tabulated, as in the others.
     fn simulated_table<'a>(
         of: &'a AnswerOf<Self>,
         found: &'a Simulated<Self::Event>,
@@ -130,9 +132,6 @@ pub trait Told:
     ) -> Result<Table<'a>, ReportError>;
 
     /// The table of a settled motion.
-    ///
-    /// # Errors
-    /// See above.
     fn settled_table<'a>(
         of: &'a AnswerOf<Self>,
         found: &'a Settled<Self::System>,
@@ -143,9 +142,6 @@ pub trait Told:
     fn attractors_table<'a>(of: &'a AnswerOf<Self>, found: &'a Census<Self::System>) -> Table<'a>;
 
     /// The table of a basin.
-    ///
-    /// # Errors
-    /// [`PlanError`] if a value of an axis overflows in the units of the results.
     fn basin_table<'a>(of: &'a AnswerOf<Self>, found: &'a BasinOf<Self>) -> Result<Table<'a>, PlanError>;
 
     /// The table of both sections of an attractor.
