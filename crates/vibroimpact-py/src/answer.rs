@@ -153,12 +153,12 @@ impl<'py> ResponseFields<'py> {
     /// Of an oscillator, over a number of a body in SI units in these units, because the nondimensional ones may change from value
     /// to value.
     fn of_oscillator(py: Python<'py>, found: &ResponseCurves, vary: Parameter, system: &SystemPlan) -> PyResult<Self> {
-        let physical = matches!(vary, Parameter::Physical(_));
+        let physical = matches!(vary, Parameter::Body(_));
         let units = Quantity::ALL.map(|of| if physical { of.kind().unit() } else { "" }).to_vec();
         Self::new(py, found, units, |row, k| {
             let there = if physical { system.with(vary, row.value).ok() } else { None };
             let scales = there.and_then(|system| system.scales());
-            row.quantities[k] * scales.map_or(1.0, |scales| Quantity::ALL[k].kind().in_si(&scales))
+            row.quantities[k] * scales.map_or(1.0, |scales| Quantity::ALL[k].kind().scale(&scales))
         })
     }
 }
@@ -311,7 +311,7 @@ impl Answer {
                 of.asked.units = Units {
                     scales: Some(scales(units)),
                     si: true,
-                    machine: of.asked.system.machine,
+                    body: of.asked.system.body,
                     ..Units::default()
                 };
             }

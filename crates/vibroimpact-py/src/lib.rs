@@ -42,7 +42,7 @@ mod _core {
     use crate::palette::{look_of, palette};
     #[pymodule_export]
     use crate::plan::{
-        checked_plan, coordinate_words, fixed_coordinates, machine_parameters, point_coordinates, scales_of_points,
+        body_parameters, checked_plan, coordinate_words, fixed_coordinates, point_coordinates, scales_of_points,
     };
     #[pymodule_export]
     use crate::points::{drawn_points, settle_points};

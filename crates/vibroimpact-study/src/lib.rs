@@ -33,7 +33,7 @@
 //! | the parameters of the core in plans | [`Parameter`], `parameter` |
 //! | machines as they are written, and their catalogue | [`machine`] |
 //! | the tasks of machines, and their results | [`machine::Results`] |
-//! | an oscillator in SI units; the units of a plan | [`PhysicalPlan`], [`UnitsPlan`] |
+//! | an oscillator in SI units; the units of a plan | [`Body`], [`UnitsPlan`] |
 //! | the quantities of a motion that a plan asks for | [`Quantity`], `quantity` |
 
 pub mod axis;
@@ -61,7 +61,6 @@ mod margins;
 mod name;
 mod orbit_line;
 mod parameter;
-mod physical;
 mod plan;
 mod plan_text;
 mod points;
@@ -99,6 +98,7 @@ pub use field::{Column, Extra, Field, NumberType};
 pub use grid::{Block, Dimension, Grid, number, place};
 pub use limits::PLAN_VERSION;
 pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
+pub use machine::{Body, BodyNumber};
 pub use machine_plan::{ManyPlan, SectionPoints, events_with_states, most_events};
 pub use map::{MapPlan, RegionMap, Share};
 pub use margins::{
@@ -107,8 +107,7 @@ pub use margins::{
 };
 pub use name::{Name, Variable};
 pub use orbit_line::{BranchPlace, OrbitLine, Solution};
-pub use parameter::{Parameter, is_length};
-pub use physical::PhysicalPlan;
+pub use parameter::{Parameter, is_length, parameter_names};
 pub use plan::Plan;
 pub use plan_text::is_machine_plan;
 pub use points::{DrawnPoints, ListedColumn, PointRange, PointRule, PointsPlan};

@@ -8,11 +8,12 @@ use crate::name::{Name, Variable};
 use crate::plan::Plan;
 use crate::system::{SecondStop, System, SystemPlan};
 use crate::text::{Document, Value};
-use crate::{Axis, Coordinate, DiagramPlan, Parameter, PhysicalPlan, PlanError, PointsPlan, Quantity, Task, UnitsPlan};
+use crate::{
+    Axis, Body, BodyNumber, Coordinate, DiagramPlan, Parameter, PlanError, PointsPlan, Quantity, Task, UnitsPlan,
+};
 use schemars::JsonSchema;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use vibroimpact::PhysicalParameter;
 
 /// A plan of an oscillator. What varies on an axis need not be given in the system.
 #[derive(Deserialize, JsonSchema)]
@@ -35,8 +36,8 @@ pub(crate) struct PlanText {
     #[serde(default)]
     #[schemars(range(min = 1, max = 1024))]
     shard: Option<u32>,
-    /// The physical units in which results are reported; those of the machine when absent, nondimensional without a
-    /// machine. Numbers of the plan are nondimensional, in these units, unless their names end in a unit.
+    /// The physical units in which results are reported; those of the body when absent, nondimensional without a
+    /// body. Numbers of the plan are nondimensional, in these units, unless their names end in a unit.
     #[serde(default)]
     units: Option<UnitsPlan>,
 }
@@ -60,8 +61,9 @@ struct OscillatorText {
     damping: f64,
     /// A stop on the other side.
     second_stop: Option<SecondStop>,
-    /// A machine in SI units, instead of all numbers above.
-    machine: Option<PhysicalPlan>,
+    /// A body in SI units, instead of all numbers above.
+    #[serde(rename = "machine")]
+    body: Option<Body>,
 }
 
 impl Task {
@@ -295,25 +297,25 @@ pub fn is_machine_plan(text: &str) -> bool {
 }
 
 impl OscillatorText {
-    /// The system of a machine; `None` if none is given. The numbers of a machine that vary have their first values.
-    fn of_machine(&self, varied: &[(Parameter, f64)]) -> Result<Option<SystemPlan>, PlanError> {
-        let Some(mut machine) = self.machine else { return Ok(None) };
+    /// The system of a body; `None` if none is given. The numbers of a body that vary have their first values.
+    fn of_body(&self, varied: &[(Parameter, f64)]) -> Result<Option<SystemPlan>, PlanError> {
+        let Some(mut body) = self.body else { return Ok(None) };
         for (parameter, value) in varied {
             match parameter {
-                Parameter::Physical(parameter) => machine.set(*parameter, *value),
-                Parameter::Restitution => machine.restitution = Some(*value),
-                Parameter::SecondRestitution => machine.second_restitution = Some(*value),
-                Parameter::Damping => machine.set(PhysicalParameter::DampingRatio, *value),
+                Parameter::Body(number) => body.set(*number, *value),
+                Parameter::Restitution => body.restitution = Some(*value),
+                Parameter::SecondRestitution => body.second_restitution = Some(*value),
+                Parameter::Damping => body.set(BodyNumber::DampingRatio, *value),
                 _ => {}
             }
         }
-        let system = SystemPlan::of_machine(machine.driven()?)?;
-        // printed plans have the numbers of the oscillator too, which must be those of the machine
+        let system = SystemPlan::of_body(&body)?;
+        // printed plans have the numbers of the oscillator too, which must be those of the body
         let given = if varied.is_empty() { self.given() } else { [(Parameter::Beta, None); 4] };
         for (parameter, given) in given {
             let own = system.value(parameter).unwrap_or(f64::NAN);
             if let Some(given) = given.filter(|given| *given != own) {
-                return Err(PlanError::NotOfPhysical { name: parameter.name(), given, own });
+                return Err(PlanError::NotOfBody { name: parameter.name(), given, own });
             }
         }
         Ok(Some(system))
@@ -337,8 +339,8 @@ impl TryFrom<PlanText> for Plan {
         let varied = written.task.varied()?;
         let varies = |parameter| varied.iter().any(|(other, _)| *other == parameter);
         let asked = written.system;
-        if let Some(system) = asked.of_machine(&varied)? {
-            // the units are those of the machine at the first values of what varies
+        if let Some(system) = asked.of_body(&varied)? {
+            // the units are those of the body at the first values of what varies
             let hertz = written.units.is_none_or(|units| units.hertz);
             let units = UnitsPlan::of_system(&system).map(|units| UnitsPlan { hertz, ..units });
             let (version, tile, shard) = (written.version, written.tile, written.shard);
@@ -364,7 +366,7 @@ impl TryFrom<PlanText> for Plan {
             restitution: asked.restitution.unwrap_or(0.0),
             damping: asked.damping,
             second_stop: asked.second_stop,
-            machine: None,
+            body: None,
         };
         let (version, tile, shard, units) = (written.version, written.tile, written.shard, written.units);
         Self { version, system: system.into(), task: written.task, tile, shard, units }.canonical()

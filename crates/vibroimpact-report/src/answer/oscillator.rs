@@ -10,12 +10,13 @@ use crate::json::orbit::OrbitAnswer;
 use crate::response::ResponseView;
 use crate::scene::{View, Viewed, phase_portrait};
 use crate::{AnswerError, Asked, ReportError, ShownValue as _, Table, table};
+use vibroimpact::Oscillator;
 use vibroimpact::verdict::{CountedMotion, PaperRule, PaperVerdict};
-use vibroimpact::{Oscillator, Parameter};
 use vibroimpact_plot::Figure;
 use vibroimpact_study::diagram::Show;
 use vibroimpact_study::{
-    BranchPlan, Branches, Control, CurvePlan, Cut, EventCurve, Name, Plan, PlanError, RegionPlan, Results, Task, run,
+    BranchPlan, Branches, Control, CurvePlan, Cut, EventCurve, Name, Parameter, Plan, PlanError, RegionPlan, Results,
+    Task, run,
 };
 
 /// A plan of an oscillator and its result.
@@ -232,7 +233,7 @@ mod tests {
         restitution: 0.5,
         damping: 0.0,
         second_stop: None,
-        machine: None,
+        body: None,
     };
 
     #[test]

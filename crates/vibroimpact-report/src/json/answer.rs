@@ -20,8 +20,8 @@ use crate::response::ResponseView;
 use crate::{PROGRAM, Units};
 use serde::ser::Error;
 use serde::{Serialize, Serializer};
-use vibroimpact::{Parameter, Start};
-use vibroimpact_study::{Coordinate, Name as _, RegionPlan, Results, StartPlan, Task, machine};
+use vibroimpact::Start;
+use vibroimpact_study::{Coordinate, Name as _, Parameter, RegionPlan, Results, StartPlan, Task, machine};
 
 impl Serialize for oscillator::Answer {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
