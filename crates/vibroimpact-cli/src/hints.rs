@@ -31,8 +31,7 @@ pub(crate) fn plan(error: &PlanError) -> Option<String> {
     Some(match error {
         PlanError::System(error) => return system(error),
         PlanError::Text(error) if !error.message.contains("\nhint: ") => {
-            "`vibro schema` prints what may be in a plan, `vibro schema --machine-plan` what may be in one of a machine"
-                .to_owned()
+            "`vibro schema` prints what may be in a plan".to_owned()
         }
         PlanError::Frequency(_) => "--beta B or --inverse-beta X, with X = 1/B".to_owned(),
         PlanError::Unforced => "--impacts N limits the number of events".to_owned(),

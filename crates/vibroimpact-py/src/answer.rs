@@ -308,12 +308,8 @@ impl Answer {
                 only(changed, number);
             }
             if let (vibroimpact_report::Answer::Oscillator(of), Some(units)) = (&mut *changed, units) {
-                of.asked.units = Units {
-                    scales: Some(scales(units)),
-                    si: true,
-                    body: of.asked.system.body,
-                    ..Units::default()
-                };
+                of.asked.units =
+                    Units { scales: Some(scales(units)), si: true, body: of.asked.system.body, ..Units::default() };
             }
             let plan = match changed {
                 vibroimpact_report::Answer::Oscillator(of) => &mut of.plan,

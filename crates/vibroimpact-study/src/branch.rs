@@ -5,6 +5,7 @@ use crate::chosen::Chosen;
 use crate::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Shown, SweepDirection};
 use crate::dynamics::{CycleOf, Dynamics, PointOf, Setup};
 use crate::name::{Name, Written};
+use crate::orbit_line::Solution;
 use crate::{Control, Cut, DiagramPlan, Parameter, PlanError, RunError, Span, Stretch, Target, limits};
 use serde::{Deserialize, Serialize};
 use vibroimpact::continuation::{Direction, SolutionPoint};
@@ -32,7 +33,10 @@ pub struct BranchPlan<V = Parameter> {
     pub vary: V,
     /// The other end of its range.
     pub to: f64,
-    /// A second number that varies with it, in proportion, from its value in the system.
+    /// An end on the other side of its value in the system: the orbit is followed to both ends. When absent, to `to` only.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub back: Option<f64>,
+    /// A second number that varies with it, in proportion, from its value in the system to this value at `to`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub also: Option<Target<V>>,
     /// Which of the orbits, counted from 1, the fastest last; when absent the stable one, else the fastest motion.
@@ -58,10 +62,10 @@ const fn points() -> u32 {
 impl<V> BranchPlan<V> {
     /// The same with other names of the numbers that vary.
     pub(crate) fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<BranchPlan<W>, E> {
-        let Self { label, to, orbit, follow, points, .. } = self;
+        let Self { label, to, back, orbit, follow, points, .. } = self;
         let also = self.also.as_ref().map(|also| also.named(name)).transpose()?;
         let (label, vary) = (label.clone(), name(&self.vary)?);
-        Ok(BranchPlan { label, vary, to: *to, also, orbit: *orbit, follow: *follow, points: *points })
+        Ok(BranchPlan { label, vary, to: *to, back: *back, also, orbit: *orbit, follow: *follow, points: *points })
     }
 }
 
@@ -72,10 +76,13 @@ impl<V: Name> BranchPlan<V> {
     /// [`PlanError`] names the first invalid value.
     pub(crate) fn check<D: Dynamics<Name = V>>(&self, of: &Setup<'_, D>) -> Result<(), PlanError> {
         of.check_orbit((self.label.as_deref(), self.orbit), false)?;
-        let cut = self.cut(of.written)?;
-        of.written.check_line(&cut)?;
-        if cut.ends.0 == self.to {
-            return Err(PlanError::Nowhere { name: self.vary.text().to_owned().into(), value: self.to });
+        let (start, name) = (of.written.number(&self.vary)?, || self.vary.text().to_owned().into());
+        if start == self.to {
+            return Err(PlanError::Nowhere { name: name(), value: self.to });
+        }
+        of.written.check_line(&self.cut(of.written)?)?;
+        if let Some(back) = self.back.filter(|back| (start < self.to) != (*back < start) || *back == start) {
+            return Err(PlanError::OneSide { name: name(), value: start, back, to: self.to });
         }
         limits::check("follow", self.follow, 0..=MOST_FOLLOWED)?;
         limits::branch_points(self.points)
@@ -86,11 +93,15 @@ impl<V: Name> BranchPlan<V> {
     /// # Errors
     /// [`PlanError`] for an invalid system, or for a number that it does not have.
     pub fn cut<D: Dynamics<Name = V>>(&self, system: &D) -> Result<Cut<V>, PlanError> {
-        let from = |Target { parameter, to }: &Target<V>| {
-            system.number(parameter).map(|from| Stretch { parameter: parameter.clone(), from, to: *to })
+        let start = system.number(&self.vary)?;
+        let other = |Target { parameter, to }: &Target<V>| {
+            let at = system.number(parameter)?;
+            // the line goes on straight beyond the system
+            let from = self.back.map_or(at, |back| at + (back - start) * ((to - at) / (self.to - start)));
+            Ok::<_, PlanError>(Stretch { parameter: parameter.clone(), from, to: *to })
         };
-        let also = self.also.as_ref().map(from).transpose()?;
-        Ok(Cut { vary: self.vary.clone(), ends: (system.number(&self.vary)?, self.to), also })
+        let also = self.also.as_ref().map(other).transpose()?;
+        Ok(Cut { vary: self.vary.clone(), ends: (self.back.unwrap_or(start), self.to), also })
     }
 
     /// The plan of an orbit diagram of the closings of stops over the same range.
@@ -119,7 +130,9 @@ pub struct Origin<P = SolutionPoint> {
 pub struct Followed<P = SolutionPoint> {
     /// Where it begins; `None` for the first branch.
     pub origin: Option<Origin<P>>,
-    /// Its points.
+    /// The point from which it was followed both ways; `None` if that is the first one.
+    pub start: Option<usize>,
+    /// Its points. Events are those on the way from the start.
     pub points: Vec<P>,
 }
 
@@ -145,13 +158,23 @@ pub(crate) fn branches<D: Dynamics>(
     control: &Control<'_>,
 ) -> Result<Branches<CycleOf<D>, PointOf<D>>, RunError> {
     let cut = plan.cut(of.written)?;
-    let (from, to) = cut.ends;
+    let from = of.written.number(&plan.vary)?;
     let chosen = of.chosen((plan.label.as_deref(), plan.orbit), control)?;
     let line = of.written.line(&cut, from, plan.points)?;
-    let direction = if to > from { Direction::Up } else { Direction::Down };
-    let points = line.trace((from, &chosen.cycle), direction, control)?;
+    let (direction, opposite) =
+        if plan.to > from { (Direction::Up, Direction::Down) } else { (Direction::Down, Direction::Up) };
+    let mut points = line.trace((from, &chosen.cycle), direction, control)?;
+    let mut start = None;
+    // a closed branch is whole already
+    if plan.back.is_some() && !points.last().is_some_and(Solution::closes) {
+        let mut back = line.trace((from, &chosen.cycle), opposite, control)?;
+        back.reverse();
+        start = back.len().checked_sub(1);
+        // both begin with the orbit itself
+        points = back.into_iter().chain(points.into_iter().skip(1)).collect();
+    }
     let (further, lost) = line.beginning_on(&points, plan.follow as usize, &mut Vec::new(), control)?;
-    let followed = core::iter::once(Followed { origin: None, points }).chain(further).collect();
+    let followed = core::iter::once(Followed { origin: None, start, points }).chain(further).collect();
     Ok(Branches { chosen, followed, lost })
 }
 
@@ -174,6 +197,7 @@ mod tests {
             label: Some("1/1".into()),
             vary: Parameter::Gap,
             to: 2.5,
+            back: None,
             also: None,
             orbit: None,
             follow: 0,
@@ -213,6 +237,30 @@ mod tests {
         assert!(there.inverse_beta.is_some_and(|x| x > 1.05 && x < 1.11));
         let behind = line.diagram(&system).unwrap();
         assert_eq!(behind.cut(), line.cut(&system).unwrap());
+    }
+
+    #[test]
+    fn both_ways_along_a_line() {
+        let (system, plan) = plan();
+        let also = Some(Target { parameter: Parameter::InverseBeta, to: 1.05 });
+        let both = BranchPlan { also, back: Some(0.5), ..plan };
+        let cut = both.cut(&system).unwrap();
+        // the line through the system and its end goes on straight
+        let second = cut.values(1.5).nth(1).unwrap();
+        assert!(
+            cut.ends == (0.5, 2.5) && (second - 1.11).abs() < 1e-15 && (cut.also.unwrap().from - 1.17).abs() < 1e-15
+        );
+        let found = branches(&system, &both, &Control::default()).unwrap();
+        let (start, points) = (found.followed[0].start.unwrap(), &found.followed[0].points);
+        assert_eq!([0, start, points.len() - 1].map(|k| points[k].value), [0.5, 1.5, 2.5]);
+        assert!(points.iter().filter(|point| point.value == 1.5).count() == 1);
+        for back in [2.0, 1.5, 3.0] {
+            let message = BranchPlan { back: Some(back), ..both.clone() }
+                .check(&system.setup(StartPlan::default()).unwrap())
+                .unwrap_err()
+                .to_string();
+            assert!(message.starts_with("gap = 1.5 of the system does not lie between"), "{message}");
+        }
     }
 
     #[test]
@@ -275,7 +323,7 @@ mod tests_of_machines {
 
     fn asked(vary: &str, to: f64, also: Option<(&str, f64)>) -> BranchPlan<String> {
         let also = also.map(|(path, to)| Target { parameter: path.to_owned(), to });
-        BranchPlan { label: None, orbit: None, vary: vary.to_owned(), to, also, points: 500, follow: 0 }
+        BranchPlan { label: None, orbit: None, vary: vary.to_owned(), to, back: None, also, points: 500, follow: 0 }
     }
 
     fn followed(source: &MachineSource, plan: &BranchPlan<String>) -> Branches<Cycle, SolutionPoint> {

@@ -320,6 +320,20 @@ pub enum PlanError {
         /// Its value.
         value: f64,
     },
+    /// A branch that is followed both ways begins at one of its ends, or outside them.
+    #[error(
+        "{name} = {value} of the system does not lie between {back} and {to}\nhint: a branch is followed both ways from the system"
+    )]
+    OneSide {
+        /// The name of the parameter.
+        name: Cow<'static, str>,
+        /// Its value.
+        value: f64,
+        /// The ends of its range.
+        back: f64,
+        /// The same.
+        to: f64,
+    },
     /// The scale of a parameter is not positive and finite.
     #[error(
         "the scale of {name} is {given}: a positive finite number is needed\nhint: it is the change of {name} that counts as 1 in the box"

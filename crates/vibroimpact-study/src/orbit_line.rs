@@ -345,7 +345,7 @@ impl<A: Along> OrbitLine<A> {
                 let points = Self::points(branch, control)?;
                 seen.extend(points.iter().filter_map(other_end));
                 waiting.extend(origins(&points, followed.len() + 1));
-                followed.push(Followed { origin: Some(begin.clone()), points });
+                followed.push(Followed { origin: Some(begin.clone()), start: None, points });
             }
         }
         Ok((followed, lost))

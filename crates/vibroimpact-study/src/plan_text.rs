@@ -1,9 +1,8 @@
-//! Plans as text, in TOML and JSON. An oscillator is a table `system`, and its start is a part of the task; a machine is a table
-//! `machine` with the other tables of a machine file, its start among them. Parameters of an oscillator that vary on an axis need
-//! not be given.
+//! Plans as text, in TOML and JSON: one form for every system. An oscillator is a table `system`, and its start is a part of the
+//! task; a machine is a table `machine` with the other tables of a machine file, its start among them. Parameters of an oscillator
+//! that vary on an axis need not be given.
 
-use crate::machine::{headed_toml, no_files};
-use crate::machine_plan::MachinePlanText;
+use crate::machine::{MachineSource, Named, StartText, WrittenMachine, headed_toml, no_files};
 use crate::name::{Name, Variable};
 use crate::plan::Plan;
 use crate::system::{SecondStop, System, SystemPlan};
@@ -15,7 +14,7 @@ use schemars::JsonSchema;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// A plan of an oscillator. What varies on an axis need not be given in the system.
+/// A plan: of an oscillator, or of a machine where it has a table `machine`. What varies on an axis need not be given in the system.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PlanText {
@@ -23,24 +22,41 @@ pub(crate) struct PlanText {
     #[schemars(range(min = 1, max = 1))]
     version: u32,
     /// The oscillator.
-    #[serde(default)]
-    system: OscillatorText,
-    /// What is asked of it.
+    system: Option<OscillatorText>,
+    /// What is asked of the system.
     task: Task,
     /// Points of a tile along each axis, where results are stored; each task has a size of its own when absent.
-    #[serde(default)]
     #[schemars(range(min = 1, max = 4096))]
     tile: Option<u32>,
     /// Tiles of a shard along each axis, where results are stored; 1 for no shards. When absent, a store has shards if it
     /// has more than 4096 tiles.
-    #[serde(default)]
     #[schemars(range(min = 1, max = 1024))]
     shard: Option<u32>,
-    /// The physical units in which results are reported; those of the body when absent, nondimensional without a
-    /// body. Numbers of the plan are nondimensional, in these units, unless their names end in a unit.
-    #[serde(default)]
+    /// The physical units in which results of an oscillator are reported; those of its numbers in SI units when absent, or else
+    /// nondimensional. Numbers of the plan are nondimensional, in these units, unless their names end in a unit.
     units: Option<UnitsPlan>,
+    /// A title of the machine in a few words.
+    title: Option<String>,
+    /// Where the machine comes from: authors, title, year, DOI.
+    source: Option<String>,
+    /// What the machine is, and what was chosen where the source says nothing.
+    summary: Option<String>,
+    /// Numbers that expressions of the machine use, in the notation of the source.
+    #[serde(default)]
+    parameters: Named<f64>,
+    /// Numbers of the expansion of the machine that are changed after it, by path.
+    #[serde(default)]
+    set: Named<f64>,
+    /// Where the motion of the machine starts; at rest at 0 when absent.
+    start: Option<StartText>,
+    /// The machine.
+    machine: Option<WrittenMachine>,
 }
+
+/// The names in a plan that only an oscillator has.
+const OF_OSCILLATORS: [&str; 2] = ["system", "units"];
+/// The names in a plan that only a machine has, besides its table.
+const OF_MACHINES: [&str; 6] = ["title", "source", "summary", "parameters", "set", "start"];
 
 /// The oscillator: exactly one of beta and inverse_beta, one or two stops.
 #[derive(Default, Deserialize, JsonSchema)]
@@ -201,19 +217,18 @@ impl Plan {
         mut document: Document<'_>,
         files: impl FnOnce(&str) -> Result<String, String>,
     ) -> Result<Self, PlanError> {
-        if !document.has_machine() {
-            let mut text = document.read::<PlanText>()?;
-            text.task = of_system(&text.task, false, &document)?;
-            return text.try_into();
+        let is_machine = document.has_machine();
+        if is_machine {
+            fill_for_machine(&mut document, &["task"]);
         }
-        fill_for_machine(&mut document, &["task"]);
-        let mut text = document.read::<MachinePlanText>()?;
-        text.task = of_system(&text.task, true, &document)?;
-        let mut plan = Self::from(text);
-        if let System::Machine(machine) = &mut plan.system {
-            machine.read_modes(files)?;
+        let mut text = document.read::<PlanText>()?;
+        if is_machine {
+            document.refuse(&OF_OSCILLATORS, "belongs to an oscillator, and this plan has a table `machine`")?;
+        } else {
+            document.refuse(&OF_MACHINES, "belongs to a machine, and this plan has no table `machine`")?;
         }
-        Ok(plan)
+        text.task = of_system(&text.task, is_machine, &document)?;
+        text.plan(files)
     }
 
     /// The plan as TOML. Numbers have all their digits.
@@ -226,15 +241,7 @@ impl Plan {
         }
     }
 
-    /// The JSON schema of plans of machines, for editors and other programs.
-    #[must_use]
-    pub fn machine_schema() -> serde_json::Value {
-        let mut schema = schemars::schema_for!(MachinePlanText).to_value();
-        schema["title"] = "a plan of vibroimpact for a machine".into();
-        schema
-    }
-
-    /// The JSON schema of plans of oscillators, for editors and other programs.
+    /// The JSON schema of plans, for editors and other programs.
     #[must_use]
     pub fn schema() -> serde_json::Value {
         let mut schema = schemars::schema_for!(PlanText).to_value();
@@ -257,30 +264,42 @@ impl Plan {
     }
 }
 
-/// A plan of an oscillator as it is written by this program.
+/// A plan as it is written by this program. Stores have the bytes of these forms, so the order of the names stays.
 #[derive(Serialize)]
-struct WrittenPlan<'a> {
-    version: u32,
-    system: &'a SystemPlan,
-    task: &'a Task,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    tile: Option<u32>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    shard: Option<u32>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    units: Option<UnitsPlan>,
+#[serde(untagged)]
+enum Written<'a> {
+    Oscillator {
+        version: u32,
+        system: &'a SystemPlan,
+        task: &'a Task,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        tile: Option<u32>,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        shard: Option<u32>,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        units: Option<UnitsPlan>,
+    },
+    Machine {
+        version: u32,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        tile: Option<u32>,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        shard: Option<u32>,
+        #[serde(flatten)]
+        machine: &'a MachineSource,
+        task: &'a Task,
+    },
 }
 
 impl Serialize for Plan {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         let Self { version, system, task, tile, shard, units } = self;
-        match system {
-            System::Oscillator(system) => {
-                let (version, tile, shard, units) = (*version, *tile, *shard, *units);
-                WrittenPlan { version, system, task, tile, shard, units }.serialize(to)
-            }
-            System::Machine(machine) => MachinePlanText::new(*version, machine, task, (*tile, *shard)).serialize(to),
-        }
+        let (version, tile, shard, units) = (*version, *tile, *shard, *units);
+        let written = match system {
+            System::Oscillator(system) => Written::Oscillator { version, system, task, tile, shard, units },
+            System::Machine(machine) => Written::Machine { version, tile, shard, machine, task },
+        };
+        written.serialize(to)
     }
 }
 
@@ -321,6 +340,36 @@ impl OscillatorText {
         Ok(Some(system))
     }
 
+    /// The system in nondimensional numbers.
+    ///
+    /// # Errors
+    /// [`PlanError::Missing`] with the numbers that are neither given nor vary.
+    fn nondimensional(&self, varied: &[(Parameter, f64)]) -> Result<SystemPlan, PlanError> {
+        let varies = |parameter| varied.iter().any(|(other, _)| *other == parameter);
+        let needed = [(Parameter::Gap, self.gap), (Parameter::Restitution, self.restitution)];
+        let mut missing: Vec<&str> = (needed.iter())
+            .filter(|(parameter, value)| value.is_none() && !varies(*parameter))
+            .map(|(parameter, _)| parameter.name())
+            .collect();
+        let frequency = self.beta.or(self.inverse_beta).is_some();
+        if !missing.is_empty() && !frequency && !varied.iter().any(|(parameter, _)| parameter.is_frequency()) {
+            missing.insert(0, "beta or inverse_beta");
+        }
+        if !missing.is_empty() {
+            return Err(PlanError::Missing(missing));
+        }
+        Ok(SystemPlan {
+            beta: self.beta,
+            inverse_beta: self.inverse_beta,
+            // a parameter that is not given varies; its value is replaced by the first one of the axis
+            gap: self.gap.unwrap_or(0.0),
+            restitution: self.restitution.unwrap_or(0.0),
+            damping: self.damping,
+            second_stop: self.second_stop,
+            body: None,
+        })
+    }
+
     /// The nondimensional numbers that are given.
     fn given(&self) -> [(Parameter, Option<f64>); 4] {
         [
@@ -332,50 +381,36 @@ impl OscillatorText {
     }
 }
 
-impl TryFrom<PlanText> for Plan {
-    type Error = PlanError;
-
-    fn try_from(written: PlanText) -> Result<Self, PlanError> {
-        let varied = written.task.varied()?;
-        let varies = |parameter| varied.iter().any(|(other, _)| *other == parameter);
-        let asked = written.system;
-        if let Some(system) = asked.of_body(&varied)? {
-            // the units are those of the body at the first values of what varies
-            let hertz = written.units.is_none_or(|units| units.hertz);
-            let units = UnitsPlan::of_system(&system).map(|units| UnitsPlan { hertz, ..units });
-            let (version, tile, shard) = (written.version, written.tile, written.shard);
-            return Self { version, system: system.into(), task: written.task, tile, shard, units }.canonical();
+impl PlanText {
+    /// The plan. `files` returns the text of a file that a machine names.
+    fn plan(self, files: impl FnOnce(&str) -> Result<String, String>) -> Result<Plan, PlanError> {
+        let Self { version, task, tile, shard, mut units, .. } = self;
+        let Self { title, source, summary, parameters, set, start, .. } = self;
+        if let Some(machine) = self.machine {
+            let mut machine = MachineSource { title, source, summary, parameters, set, start, machine };
+            machine.read_modes(files)?;
+            return Ok(Plan { version, system: machine.into(), task, tile, shard, units: None });
         }
-        let needed = [(Parameter::Gap, asked.gap), (Parameter::Restitution, asked.restitution)];
-        let mut missing: Vec<&str> = (needed.iter())
-            .filter(|(parameter, value)| value.is_none() && !varies(*parameter))
-            .map(|(parameter, _)| parameter.name())
-            .collect();
-        let frequency = asked.beta.or(asked.inverse_beta).is_some();
-        if !missing.is_empty() && !frequency && !varied.iter().any(|(parameter, _)| parameter.is_frequency()) {
-            missing.insert(0, "beta or inverse_beta");
-        }
-        if !missing.is_empty() {
-            return Err(PlanError::Missing(missing));
-        }
-        let system = SystemPlan {
-            beta: asked.beta,
-            inverse_beta: asked.inverse_beta,
-            // a parameter that is not given varies; its value is replaced by the first one of the axis
-            gap: asked.gap.unwrap_or(0.0),
-            restitution: asked.restitution.unwrap_or(0.0),
-            damping: asked.damping,
-            second_stop: asked.second_stop,
-            body: None,
+        let varied = task.varied()?;
+        let written = self.system.unwrap_or_default();
+        let system = match written.of_body(&varied)? {
+            Some(system) => {
+                // the units are those of the body at the first values of what varies
+                let hertz = units.is_none_or(|units| units.hertz);
+                units = UnitsPlan::of_system(&system).map(|units| UnitsPlan { hertz, ..units });
+                system
+            }
+            None => written.nondimensional(&varied)?,
         };
-        let (version, tile, shard, units) = (written.version, written.tile, written.shard, written.units);
-        Self { version, system: system.into(), task: written.task, tile, shard, units }.canonical()
+        Plan { version, system: system.into(), task, tile, shard, units }.canonical()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::machine::CATALOGUE;
+    use vibroimpact::events::Start;
 
     /// Cases found by `cargo xtask fuzz`: error messages contained type names of this program.
     #[test]
@@ -427,5 +462,69 @@ mod tests {
         }
         let misspelt = text.replace("restitution", "restituton");
         assert!(serde_json::from_str::<Plan>(&misspelt).unwrap_err().to_string().contains("restituton"));
+    }
+
+    /// Every machine of the catalogue, in both languages, with changed numbers and another start.
+    #[test]
+    fn plans_survive_toml_and_json() {
+        for entry in CATALOGUE {
+            let source = entry.source().unwrap();
+            let (n, path) = (source.parts().unwrap().n(), source.paths().unwrap().pop().unwrap());
+            let changed = source.with(&path, source.number(&path).unwrap() * 1.25).unwrap();
+            let task = Task::Simulate { start: None, impacts: None, periods: Some(2.5) };
+            let start = Start { q: vec![0.1 + 0.2; n], qdot: vec![-1e-300; n], phase: 1.0, ..Start::default() };
+            let plan = Plan::new(changed.starting(&start), task);
+            let (toml, json) = (plan.to_toml(), serde_json::to_string(&plan).unwrap());
+            assert_eq!(Plan::from_text(&toml), Ok(plan.clone()), "{toml}");
+            assert_eq!(Plan::from_text(&json), Ok(plan.clone()), "{json}");
+            assert_eq!(serde_json::from_str::<Plan>(&json).unwrap(), plan);
+            assert!(is_machine_plan(&toml) && is_machine_plan(&json));
+            assert!(toml.starts_with("version = 1\n") && toml.contains("[task.simulate]\nperiods = 2.5\n"), "{toml}");
+        }
+        let source = CATALOGUE[0].source().unwrap();
+        let plan = Plan::new(source, Task::Attractors { starts: 1, seed: u64::MAX, impacts: None });
+        assert_eq!(Plan::from_text(&plan.to_toml()), Ok(plan));
+        assert!(
+            !is_machine_plan("version = 1\n[system]\nbeta = 1\n") && !is_machine_plan("{") && !is_machine_plan("[")
+        );
+    }
+
+    #[test]
+    fn wrong_plans_are_explained() {
+        let good = "version = 1\n[machine]\nbodies = { a = 1 }\n[task.simulate]\nimpacts = 5\n";
+        assert!(Plan::from_text(good).is_ok());
+        for (from, to, said) in [
+            (
+                "impacts",
+                "impact",
+                "task.simulate.impact: unknown field `impact`, expected one of `start`, `impacts`, `periods` (line 5, column 1)",
+            ),
+            ("[task.simulate]", "[task.settel]", "task.settel: unknown"),
+            ("version = 1", "version = 2", "the plan has version 2"),
+            ("impacts = 5", "impacts = 0", "impacts = 0 lies outside"),
+            ("impacts = 5", "periods = 3", "no forcing"),
+            ("bodies", "bodis", "unknown field `bodis`"),
+            ("bodies = { a = 1 }", "modes = \"m.csv\"", "the file `m.csv` cannot be read here"),
+            ("[machine]", "[start]\nq = [1, 2]\n[machine]", "start.q: has 2 numbers, and 1 are needed"),
+            (
+                "[machine]",
+                "[system]\ngap = 1\n[machine]",
+                "system: belongs to an oscillator, and this plan has a table `machine` (line 2, column 2)",
+            ),
+            (
+                "[machine]\nbodies = { a = 1 }",
+                "title = \"\"",
+                "title: belongs to a machine, and this plan has no table",
+            ),
+            (
+                "task",
+                "tusk",
+                "unknown field `tusk`, expected one of `version`, `system`, `task`, `tile`, `shard`, `units`",
+            ),
+        ] {
+            let text = good.replace(from, to);
+            let told = Plan::from_text(&text).and_then(|plan| plan.check()).unwrap_err().to_string();
+            assert!(told.contains(said), "{text}: {told}");
+        }
     }
 }

@@ -45,6 +45,7 @@
 //! | many motions side by side | [`lanes`], [`verdict::settle_many`] |
 //! | periodic orbits, stable or not | [`orbit`] |
 //! | how orbits change with a parameter, and the events on the way | [`continuation`] |
+//! | the border between the starts of two motions, and the saddle on it | [`edge`] |
 //! | Lyapunov exponents, dimension, sections of an attractor | [`chaos`] |
 //! | impact speeds, impulses, energies, amplitudes, spectrum | [`quantities`] |
 //! | machines of several coordinates, with any stops and friction, and their events | [`machine`], [`events`] |
@@ -69,6 +70,7 @@ mod arc;
 pub mod chaos;
 pub mod contact;
 pub mod continuation;
+pub mod edge;
 pub mod events;
 pub mod flight;
 pub mod lanes;

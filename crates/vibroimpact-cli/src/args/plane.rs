@@ -61,6 +61,24 @@ impl FromStr for Ends {
     }
 }
 
+/// One end of a branch, or both, `A,B`: the one that it comes from, and the one to which it goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct BranchEnds {
+    pub(crate) back: Option<f64>,
+    pub(crate) to: f64,
+}
+
+impl FromStr for BranchEnds {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text.split_once(',').map(|(back, to)| (decimal(back), decimal(to))) {
+            Some((Some(back), Some(to))) => Ok(Self { back: Some(back), to }),
+            _ => numbers::number(text).map(|to| Self { back: None, to }),
+        }
+    }
+}
+
 /// A number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Value(pub(crate) f64);

@@ -1,7 +1,7 @@
 //! `vibro branch`: a branch of periodic orbits in one parameter, through its events.
 
 use crate::args::{
-    MachineArgs, OutputArgs, StartOfMachineArgs, SystemArgs, Value, Varied, VariedNamed, number, varied, whole,
+    BranchEnds, MachineArgs, OutputArgs, StartOfMachineArgs, SystemArgs, Value, Varied, VariedNamed, varied, whole,
 };
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
@@ -29,7 +29,7 @@ use vibroimpact_study::{BranchPlan, DEFAULT_BRANCH_POINTS, Target};
         vibro branch --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 \\\n    \
         --vary gap --to 2.5\n  \
         vibro branch --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 \\\n    \
-        --vary gap --to 2.5 --follow 3 --csv branch.csv --plot branch.png\n  \
+        --vary gap --to 0,2.5 --follow 3 --csv branch.csv --plot branch.png\n  \
         vibro branch --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 \\\n    \
         --vary gap --to 2.5 --also inverse-beta=1.05",
     mut_arg("csv", |arg| arg.help(
@@ -69,9 +69,9 @@ pub(crate) struct Branch {
     #[arg(long, value_parser = varied(), value_name = "PARAMETER|PATH", help_heading = "Branch")]
     vary: Varied,
 
-    /// The other end of its range
-    #[arg(long, value_parser = number, value_name = "VALUE", allow_hyphen_values = true, help_heading = "Branch")]
-    to: f64,
+    /// The other end of its range; both ends, A,B, for a branch that is followed both ways from the system
+    #[arg(long, value_name = "VALUE|A,B", allow_hyphen_values = true, help_heading = "Branch")]
+    to: BranchEnds,
 
     /// A second parameter, or path, that varies with it in proportion, from its value in the system to this one when the first is
     /// at --to: the branch along any line through two parameters
@@ -106,11 +106,13 @@ pub(super) fn run(args: &Branch, session: &Session) -> Result<(), Failure> {
     let varied = || core::iter::once(&args.vary).chain(args.also.iter().map(|also| &also.0));
     let oscillator = || args.system.over(&varied().map(Varied::parameter).collect::<Result<Vec<_>, _>>()?);
     let system = args.machine.or_oscillator(Some((&args.of_machine, None)), oscillator)?;
-    let Target { parameter: vary, to } = system.target(&args.vary, args.to)?;
+    let Target { parameter: vary, to } = system.target(&args.vary, args.to.to)?;
+    let back = args.to.back.map(|back| system.target(&args.vary, back)).transpose()?;
     let task = BranchPlan {
         label: args.label.clone(),
         vary,
         to,
+        back: back.map(|Target { to, .. }| to),
         also: system.also(args.also.as_ref())?,
         orbit: args.orbit,
         follow: args.follow,

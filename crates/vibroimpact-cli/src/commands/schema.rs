@@ -1,4 +1,4 @@
-//! `vibro schema`: the JSON schema of plans, of machine files, of plans of machines, and of answers.
+//! `vibro schema`: the JSON schema of plans, of machine files, and of answers.
 
 use crate::failure::Failure;
 use crate::session::Session;
@@ -6,7 +6,7 @@ use vibroimpact_report::json;
 use vibroimpact_study::Plan;
 use vibroimpact_study::machine::MachineSource;
 
-/// Print the JSON schema of plans, of machine files, of plans of machines or of answers, for editors and other programs
+/// Print the JSON schema of plans, of machine files or of answers, for editors and other programs
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct Schema {
     /// The schema of the object that this command prints with --json, the same for every system: simulate, settle, attractors,
@@ -18,19 +18,18 @@ pub(crate) struct Schema {
     #[arg(long)]
     machine: bool,
 
-    /// The schema of plans of machines
-    #[arg(long, conflicts_with = "machine")]
+    /// The schema of plans, which is that of plans of machines too
+    #[arg(long, conflicts_with = "machine", hide = true)]
     machine_plan: bool,
 }
 
 pub(super) fn run(args: &Schema, session: &Session) -> Result<(), Failure> {
-    let schema = match (args.of.as_deref(), args.machine, args.machine_plan) {
-        (Some(verb), ..) => json::schema(verb).ok_or_else(|| {
+    let schema = match (args.of.as_deref(), args.machine) {
+        (Some(verb), _) => json::schema(verb).ok_or_else(|| {
             let known: Vec<&str> = json::verbs().collect();
             Failure::bad(format!("`{verb}` has no schema of an answer\nhint: one of {}", known.join(", ")))
         })?,
-        (_, true, _) => MachineSource::schema(),
-        (_, _, true) => Plan::machine_schema(),
+        (_, true) => MachineSource::schema(),
         _ => Plan::schema(),
     };
     let text = serde_json::to_string_pretty(&schema)

@@ -45,14 +45,24 @@ pub(crate) fn text<V: Varied>(
         text.push_str(&match branch.from {
             None => {
                 let orbit = chosen(answer.orbit, answer.stability);
-                format!("branch 1: {} ({orbit}), {}, {count}\n", answer.label, range(cut, units))
+                let start =
+                    branch.start.map(|start| format!(", both ways from {}", short(branch.points[start].parameter)));
+                let along = range(cut, units) + &start.unwrap_or_default();
+                format!("branch 1: {} ({orbit}), {along}, {count}\n", answer.label)
             }
             Some(origin) => {
                 let label = branch.points.first().map_or("", |point| &point.label);
                 format!("\nbranch {}: {label} from the {}, {count}\n", k + 1, place(origin))
             }
         });
-        text.push_str(&events(branch, &columns));
+        let sides = branch.sides();
+        for side in &sides {
+            if let [_, _] = sides.as_slice() {
+                let last = side.last().map_or(f64::NAN, |last| branch.points[*last].parameter);
+                let _ = writeln!(text, "  to {} {}:", columns.names[0], short(last));
+            }
+            text.push_str(&events(&Side { branch, points: side }, &columns));
+        }
     }
     for origin in &answer.lost {
         let _ = writeln!(text, "\nno branch was found at the {}", place(*origin));
@@ -60,22 +70,38 @@ pub(crate) fn text<V: Varied>(
     text
 }
 
+/// One side of a branch: its points on the way from the start.
+struct Side<'a, 'b> {
+    branch: &'a BranchObject<'b>,
+    points: &'a [usize],
+}
+
+impl<'b> Side<'_, 'b> {
+    fn point(&self, place: usize) -> Option<&PointObject<'b>> {
+        self.branch.points.get(*self.points.get(place)?)
+    }
+
+    fn event(&self, place: usize) -> Option<&BranchEventObject<'b>> {
+        self.branch.event_at(*self.points.get(place)?)
+    }
+}
+
 /// One row for each event, and how the branch ends.
-fn events(branch: &BranchObject<'_>, columns: &Columns) -> String {
+fn events(side: &Side<'_, '_>, columns: &Columns) -> String {
     let heads: Vec<String> = core::iter::once("<event".to_owned())
         .chain(columns.names.iter().cloned())
         .chain(columns.period.then(|| "period".to_owned()))
         .chain(["<before", "<after", "<"].map(str::to_owned))
         .collect();
-    let (ends, passed): (Vec<_>, Vec<_>) = branch.events.iter().partition(|event| event.fields.ends);
-    let rows: Vec<Vec<String>> = passed.into_iter().map(|event| row(branch, event, columns)).collect();
+    let events = (0..side.points.len()).filter_map(|place| Some((place, side.event(place)?)));
+    let (ends, passed): (Vec<_>, Vec<_>) = events.partition(|(_, event)| event.fields.ends);
+    let rows: Vec<Vec<String>> = passed.into_iter().map(|(place, event)| row(side, place, event, columns)).collect();
     let mut text = if rows.is_empty() { "  no events on the way\n".to_owned() } else { table(&heads, &rows) };
-    if let Some(event) = ends.last() {
-        let plain = |(k, _): &(usize, &PointObject<'_>)| branch.event_at(*k).is_none();
-        let before = branch.points.iter().enumerate().rev().find(plain);
-        let before = before.map_or_else(String::new, |(_, point)| state(point));
+    if let Some((_, event)) = ends.last() {
+        let before = (0..side.points.len()).rev().find(|place| side.event(*place).is_none());
+        let before = before.and_then(|place| side.point(place)).map_or_else(String::new, state);
         // without forcing the label does not say the period
-        let period = branch.points[event.point].period;
+        let period = side.branch.points[event.point].period;
         let period = if columns.period { format!(", period {}", precise(period)) } else { String::new() };
         let (value, name, why) = (precise(event.parameter), event.kind, because(&event.event));
         let _ = writeln!(text, "  ends at {} {value}{period}, {before}: {name}{why}", columns.names[0]);
@@ -83,17 +109,17 @@ fn events(branch: &BranchObject<'_>, columns: &Columns) -> String {
     text
 }
 
-fn row(branch: &BranchObject<'_>, event: &BranchEventObject<'_>, columns: &Columns) -> Vec<String> {
-    let point = &branch.points[event.point];
+fn row(side: &Side<'_, '_>, place: usize, event: &BranchEventObject<'_>, columns: &Columns) -> Vec<String> {
+    let point = &side.branch.points[event.point];
     let before = &event.fields.before;
     let after = event.fields.after.as_ref().unwrap_or(before);
     // on the other side of a jump there is another part of the branch
-    let jumps = |k: usize| branch.event_at(k).is_some_and(|event| event.event.is_jump());
-    let side = |jump: bool, k: Option<usize>, label: &str| {
-        if jump { "-".to_owned() } else { beside(branch, k, label) }
+    let jumps = |place: usize| side.event(place).is_some_and(|event| event.event.is_jump());
+    let next_to = |jump: bool, neighbour: Option<usize>, label: &str| {
+        if jump { "-".to_owned() } else { beside(side, neighbour, label) }
     };
-    let next = event.point + 1;
-    let sides = [side(jumps(event.point), event.point.checked_sub(1), before), side(jumps(next), Some(next), after)];
+    let next = place + 1;
+    let sides = [next_to(jumps(place), place.checked_sub(1), before), next_to(jumps(next), Some(next), after)];
     core::iter::once(event.kind.to_owned())
         .chain(point.values().iter().copied().chain(columns.period.then_some(point.period)).map(precise))
         .chain(sides)
@@ -103,9 +129,9 @@ fn row(branch: &BranchObject<'_>, event: &BranchEventObject<'_>, columns: &Colum
 
 /// The stability of a branch next to an event. Unknown if there is no point between two events, because rounding hides
 /// the multipliers there, or if the branch ends at the event.
-fn beside(branch: &BranchObject<'_>, neighbour: Option<usize>, label: &str) -> String {
-    let Some((k, point)) = neighbour.and_then(|k| Some((k, branch.points.get(k)?))) else { return label.to_owned() };
-    let event = branch.event_at(k);
+fn beside(side: &Side<'_, '_>, neighbour: Option<usize>, label: &str) -> String {
+    let Some((place, point)) = neighbour.and_then(|k| Some((k, side.point(k)?))) else { return label.to_owned() };
+    let event = side.event(place);
     match event {
         _ if point.label == label && event.is_none_or(|event| event.event.is_end_of_range()) => state(point),
         Some(event) if event.fields.ends => format!("{label} not followed"),

@@ -1,7 +1,7 @@
 //! Tests of `vibro branch`: points, events and texts.
 
 use crate::{json, vibro};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 /// Begins below the flip of 1/1 on the line 1/beta = 1.11.
 const DOUBLING: &str = "branch --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 --vary gap";
@@ -14,6 +14,56 @@ fn number(value: &Value) -> f64 {
 fn events<'a>(branch: &'a Value, kind: &str) -> Vec<&'a Value> {
     let branch = branch.get("branches").map_or(branch, |all| &all[0]);
     branch["events"].as_array().expect("a list").iter().filter(|event| event["kind"] == kind).collect()
+}
+
+/// One branch, joined of the two that are followed from the same orbit, for both kinds of system.
+#[test]
+fn both_ways_from_the_system() {
+    for (system, names, (back, start, to)) in [
+        (DOUBLING, "gap", (0.2, 1.5, 2.5)),
+        ("branch --machine two-mass-hammer --vary frequency", "frequency", (1.3, 1.2, 1.0)),
+    ] {
+        let whole = json(&format!("{system} --to {back},{to}"));
+        let branch = &whole["branches"][0];
+        let points = branch["points"].as_array().unwrap();
+        let at = usize::try_from(branch["start"].as_u64().unwrap()).unwrap();
+        assert_eq!((&whole["from"], &whole["to"]), (&json!(back), &json!(to)));
+        let parameters = [0, at, points.len() - 1].map(|k| points[k]["parameter"].as_f64().unwrap());
+        assert_eq!(parameters, [back, start, to]);
+        assert_eq!((&branch["begin"], &branch["end"]), (&json!("end of range"), &json!("end of range")));
+        // the events are those of each side alone, with their labels on the way from the start
+        let mut alone: Vec<Value> = Vec::new();
+        for end in [back, to] {
+            let one = json(&format!("{system} --to {end}"));
+            let mut events = one["branches"][0]["events"].as_array().unwrap().clone();
+            if end == back {
+                events.reverse();
+            }
+            alone.extend(events);
+        }
+        let both = branch["events"].as_array().unwrap();
+        assert_eq!(both.len(), alone.len(), "{both:?}");
+        for (a, b) in both.iter().zip(&alone) {
+            let fields = ["kind", "before", "after", "appears", "turns", "stop", "ends"];
+            assert!(fields.iter().all(|name| a.get(name) == b.get(name)), "{a} {b}");
+            let apart = a["parameter"].as_f64().unwrap() - b["parameter"].as_f64().unwrap();
+            assert!(apart.abs() < 1e-9, "{a} {b}");
+        }
+        let printed = |line: &str| {
+            let output = vibro(line).output().expect("vibro runs");
+            (output.status.code(), String::from_utf8([output.stdout, output.stderr].concat()).expect("text"))
+        };
+        let (_, table) = printed(&format!("{system} --to {back},{to} --csv -"));
+        let marks: Vec<&str> = table.lines().filter(|row| row.contains(",start,")).collect();
+        assert!(marks.len() == 1 && marks[0].starts_with(&format!("1,{start},")), "{marks:?}");
+        let (_, text) = printed(&format!("{system} --to {back},{to}"));
+        for said in [format!("both ways from {start}"), format!("  to {names} {back}:"), format!("  to {names} {to}:")]
+        {
+            assert!(text.contains(&said), "{text}");
+        }
+        let (code, message) = printed(&format!("{system} --to {},{}", start + 0.1, start + 0.2));
+        assert!(code == Some(2) && message.contains("of the system does not lie between"), "{message}");
+    }
 }
 
 #[test]

@@ -110,10 +110,13 @@ fn the_schema_of_machine_files() {
 }
 
 #[test]
-fn the_schema_of_plans_of_machines() {
-    let schema: serde_json::Value = serde_json::from_str(&printed("schema --machine-plan")).unwrap();
+fn the_schema_of_plans_is_one_for_both_systems() {
+    assert_eq!(printed("schema --machine-plan"), printed("schema"));
+    let schema: serde_json::Value = serde_json::from_str(&printed("schema")).unwrap();
     assert_eq!(schema["additionalProperties"], false);
-    assert_eq!(schema["required"], serde_json::json!(["version", "machine", "task"]));
+    assert_eq!(schema["required"], serde_json::json!(["version", "task"]));
+    let fields = schema["properties"].as_object().unwrap();
+    assert!(["system", "units", "machine", "start", "set"].iter().all(|name| fields.contains_key(*name)), "{schema}");
     assert!(schema["$defs"]["Task"].to_string().contains("periods"), "{schema}");
 }
 

@@ -75,7 +75,12 @@ pub(super) fn lines() -> Words {
 }
 
 fn branch() -> Words {
-    let to = prop_oneof![8 => (-0.5..3.0_f64).prop_map(crate::values::typed), 2 => number()].boxed();
+    let to = prop_oneof![
+        8 => (-0.5..3.0_f64).prop_map(crate::values::typed),
+        2 => word(&["0,3", "3,-0.5", "1,1", "0,x", "0,1,2"]),
+        2 => number()
+    ]
+    .boxed();
     let also = (word(PARAMETERS), number()).prop_map(|(name, value)| format!("{name}={value}")).boxed();
     line(
         "branch",

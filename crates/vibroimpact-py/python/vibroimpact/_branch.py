@@ -1,7 +1,7 @@
 """Branches of periodic orbits in one number or along a line through two, with their events."""
 
 import copy
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -43,11 +43,11 @@ class BranchEvent(View):
     ends : bool
         Whether the branch ends there.
     before, after : str or None
-        The labels before and after the event.
+        The labels before and after the event, on the way from the start of the branch.
     stop : str or None
         The stop, or joint, of the event.
     appears, turns : bool or None
-        At a grazing event: whether a closing appears or disappears there, and whether the number turns back.
+        At a grazing event, on the way from the start: whether a closing appears or disappears there, and whether the number turns back.
     impact, phase : int or None, float or None
         At a grazing event of an oscillator: the number of the impact, counted from 1, and its phase.
     also : dict or None
@@ -92,6 +92,8 @@ class Branch(View):
         The number that varies.
     ends : (float, float)
         The ends of its range.
+    start : int
+        The index of the point at which the branch was followed: 0, unless it was followed both ways.
     parameter : ndarray
         Its value at each point.
     also : (str, float, float) or None
@@ -162,6 +164,11 @@ class Branch(View):
     def ends(self) -> tuple[float, float]:
         """The ends of the range."""
         return self._of["from"], self._of["to"]
+
+    @property
+    def start(self) -> int:
+        """The index of the point at which it was followed."""
+        return int(self._one.get("start", 0))
 
     @property
     def also(self) -> tuple[str, float, float] | None:
@@ -274,7 +281,7 @@ def rows_of(points: list[dict[str, Any]]) -> NDArray[np.complex128]:
 def branch(
     system: System,
     vary: str,
-    to: float,
+    to: float | tuple[float, float],
     *,
     label: str | None = None,
     also: Mapping[str, float] | None = None,
@@ -298,8 +305,8 @@ def branch(
     vary : str
         What varies: "beta", "inverse_beta", "gap", "restitution", "damping", "second_gap" or "second_restitution" of an oscillator,
         with physical units also "mass_kg" and others; of a machine the path of a number, as "frequency" or "stop.wall.gap".
-    to : float
-        The other end of its range.
+    to : float or (float, float)
+        The other end of its range; or both ends, for a branch that is followed both ways from `system`.
     label : str
         "m/n" of the orbit there, "m/T" without forcing. Default, of a machine only: that of the motion from the start.
     also : dict
@@ -324,15 +331,19 @@ def branch(
     [('flip', 1.82900619), ('end of range', 2.5)]
     >>> [event.kind for event in found.followed[0].events]
     ['fold', 'grazing', 'end of range']
+    >>> found = vi.branch(vi.Oscillator(inverse_beta=1.11, gap=1.5, restitution=0.5), "gap", (0.2, 2.5), label="1/1")
+    >>> found.parameter[[0, found.start, -1]].tolist(), [event.kind for event in found.events]
+    ([0.2, 1.5, 2.5], ['end of range', 'fold', 'grazing', 'flip', 'end of range'])
     >>> [(of.kind, of.stop) for of in vi.Machine.named("two-mass-hammer").branch("frequency", 1.05).events]
     [('grazing', 'anvil'), ('fold', None), ('end of range', None)]
     """
     if label is None and isinstance(system, Oscillator):
         raise QuestionError('the branch of an oscillator needs the label of its orbit\nhint: label="1/1"')
+    back, end = map(float, to) if isinstance(to, Sequence) else (None, to)
     second = beside(also)
     named = "parameter" if isinstance(system, Oscillator) else "path"
     task = given(
-        label=label, orbit=maybe("orbit", orbit, NUMBER), vary=vary, to=float(to),
+        label=label, orbit=maybe("orbit", orbit, NUMBER), vary=vary, to=float(end), back=back,
         also=second and {named: second[0], "to": float(second[1])},
         follow=whole("follow", follow, FOLLOW), points=whole("points", points, BRANCH),
     )

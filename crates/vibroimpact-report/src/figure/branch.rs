@@ -5,7 +5,7 @@ use crate::figure::diagram::backdrop;
 use crate::figure::styles::BRANCH_MARKS;
 use crate::figure::tracks::{Look, Shown, Track, TrackPoint};
 use crate::figure::{along, label, series, variant};
-use crate::json::branch::BranchObject;
+use crate::json::branch::{BranchObject, START};
 use crate::{ReportError, ShownValue, Units, Varied};
 use std::collections::BTreeMap;
 use vibroimpact_plot::{
@@ -63,7 +63,7 @@ pub(crate) fn figure<V: Varied, S: ShownValue>(
             panel.add(dots);
         }
     }
-    let tracks: Vec<Track> = branches.iter().map(|branch| Track::of(branch, *shown)).collect();
+    let tracks: Vec<Track> = branches.iter().flat_map(|branch| Track::of(branch, *shown)).collect();
     let legend = draw(&mut panel, &tracks, *inadmissible);
     // a dot of the cloud is too small for the legend
     let simulation = behind.map(|_| Points::new([], [], GREY).size(7.0));
@@ -167,12 +167,19 @@ fn marks(tracks: &[Track], show_virtual: bool) -> BTreeMap<&'static str, Points>
         xs.extend(ordinates.iter().map(|_| point.value));
         ys.extend(ordinates);
     }
+    // both sides begin at the start
+    if let Some(start) = tracks.iter().find_map(|track| track.points.first().filter(|point| point.start)) {
+        let ordinates = start.ordinates();
+        let xs = ordinates.iter().map(|_| start.value).collect();
+        places.insert(START, (Shape::Circle, xs, ordinates));
+    }
     let count: usize = places.values().map(|(_, xs, _)| xs.len()).sum();
     let wide = if count > MANY { SMALL_MARK } else { MARK };
-    let style = |(shape, xs, ys): (Shape, Vec<f64>, Vec<f64>)| {
-        Points::new(xs, ys, Colour::WHITE).shape(shape).size(wide).rim(Colour::BLACK)
+    let style = |kind: &str, (shape, xs, ys): (Shape, Vec<f64>, Vec<f64>)| {
+        let colour = if kind == START { Colour::BLACK } else { Colour::WHITE };
+        Points::new(xs, ys, colour).shape(shape).size(wide).rim(Colour::BLACK)
     };
-    places.into_iter().map(|(kind, place)| (kind, style(place))).collect()
+    places.into_iter().map(|(kind, place)| (kind, style(kind, place))).collect()
 }
 
 /// The name and the shape of the mark of an event, and its ordinates: those of all impacts or states, or velocity zero

@@ -39,6 +39,8 @@ pub(crate) struct TrackPoint {
     pub(crate) look: Look,
     /// The name of the event at this point.
     pub(crate) event: Option<&'static str>,
+    /// Whether the branch was followed both ways from here.
+    pub(crate) start: bool,
     /// Two numbers that identify each impact or state; the second one is the ordinate.
     list: Vec<(f64, f64)>,
     /// Identifies the impacts or states across points.
@@ -73,6 +75,7 @@ impl TrackPoint {
             label: point.label.clone(),
             look: Look::of(point),
             event: event.map(|event| event.kind),
+            start: branch.start == Some(k),
             list,
             places,
             turns: what != Shown::Speeds || !sticks,
@@ -82,10 +85,11 @@ impl TrackPoint {
 }
 
 impl Track {
-    /// A branch, and what is shown of its cycles.
-    pub(crate) fn of(branch: &BranchObject<'_>, what: Shown) -> Self {
-        let points = (0..branch.points.len()).map(|k| TrackPoint::of(branch, k, what));
-        Self { points: points.collect(), positions: what != Shown::Speeds }
+    /// The sides of a branch on the way from its start, and what is shown of its cycles.
+    pub(crate) fn of(branch: &BranchObject<'_>, what: Shown) -> Vec<Self> {
+        let points = |side: Vec<usize>| side.into_iter().map(|k| TrackPoint::of(branch, k, what)).collect();
+        let track = |side| Self { points: points(side), positions: what != Shown::Speeds };
+        branch.sides().into_iter().map(track).collect()
     }
 
     /// The square of the distance between two impacts or states.
@@ -229,7 +233,7 @@ mod tests {
     /// The branch of an oscillator with these points.
     fn with_points(points: &[SolutionPoint], vary: Parameter, system: SystemPlan) -> BranchObject<'_> {
         let cut = Cut { vary: vary.into(), ends: (0.0, 1.0), also: None };
-        BranchObject::of_oscillator(points, &cut, &Asked { system, units: Units::default() })
+        BranchObject::of_oscillator(points, None, &cut, &Asked { system, units: Units::default() })
     }
 
     /// A cycle that sticks on both stops: the impacts of each chatter are identified even if the number of impacts
@@ -248,7 +252,7 @@ mod tests {
         let branch = with_points(&points, Parameter::SecondGap, system);
         let [one, two] = [branch.points.first(), branch.points.last()].map(|point| speeds(point.unwrap()).1);
         assert!(one.len() != two.len() && one.iter().filter(|place| place.1 == 0).count() == 2, "{one:?}");
-        let curves = Track::of(&branch, Shown::Speeds).curves();
+        let curves = Track::of(&branch, Shown::Speeds)[0].curves();
         let (_, ys) = &curves[&("inf/1".to_owned(), Look::Stable)];
         let steps: Vec<f64> = ys.windows(2).map(|pair| (pair[1] - pair[0]).abs()).filter(|s| !s.is_nan()).collect();
         assert!(steps.len() > 500 && steps.iter().all(|step| *step < 0.05), "{:?}", steps.len());
@@ -265,7 +269,7 @@ mod tests {
             let branch = Branch::new(&osc, &orbit.cycle, Parameter::Gap, range, Direction::Up, options).unwrap();
             let points: Vec<SolutionPoint> = branch.collect();
             let system = SystemPlan { inverse_beta: Some(inverse), gap, restitution: 0.5, ..SystemPlan::default() };
-            let curves = Track::of(&with_points(&points, Parameter::Gap, system), Shown::Speeds).curves();
+            let curves = Track::of(&with_points(&points, Parameter::Gap, system), Shown::Speeds)[0].curves();
             for (xs, ys) in curves.values() {
                 for pair in xs.iter().zip(ys).collect::<Vec<_>>().windows(2) {
                     let step = (pair[1].1 - pair[0].1).abs();

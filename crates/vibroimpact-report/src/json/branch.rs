@@ -18,6 +18,9 @@ use vibroimpact::{Label, Oscillator};
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{Branches, Chosen, Cut, EventRecord, Followed, OrbitNumber, Origin, Solution};
 
+/// The mark of the point from which a branch was followed both ways.
+pub(crate) const START: &str = "start";
+
 /// The answer to `vibro branch`.
 #[derive(JsonSchema, Serialize)]
 pub struct BranchAnswer<'a> {
@@ -64,11 +67,17 @@ impl ChosenObject {
 pub struct BranchObject<'a> {
     /// The event at which it begins; null for that of the orbit that was asked for.
     pub from: Option<OriginObject>,
+    /// The index of the point at which it was followed both ways; absent if that is the first point.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub start: Option<usize>,
     /// Its points.
     pub points: Vec<PointObject<'a>>,
-    /// Its events.
+    /// Its events, in order of the points. `before`, `after` and `appears` are meant on the way from the start.
     pub events: Vec<BranchEventObject<'a>>,
-    /// The event with which it ends.
+    /// The event with which it ends at its first point, if it was followed both ways.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    begin: Option<&'static str>,
+    /// The event with which it ends at its last point.
     end: Option<&'static str>,
 }
 
@@ -91,7 +100,7 @@ pub struct PointObject<'a> {
     /// Values of both parameters, on a line through two.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) values: Option<[f64; 2]>,
-    /// The label of the cycle; at an event of the one before it.
+    /// The label of the cycle; at an event of the one before it, on the way from the start.
     pub label: String,
     /// The time of one period.
     pub period: f64,
@@ -176,20 +185,21 @@ struct TouchObject {
 }
 
 impl<'a> BranchAnswer<'a> {
-    /// The branches along a line. `branch` returns the branch with these points.
+    /// The branches along a line. `branch` returns the branch with these points and this start.
     fn new<C, P, V: Varied>(
         found: &'a Branches<C, P>,
         label: Label,
         (cut, units): (&Cut<V>, &Units),
-        branch: impl Fn(&'a [P]) -> BranchObject<'a>,
+        branch: impl Fn(&'a [P], Option<usize>) -> BranchObject<'a>,
     ) -> Self {
         let unit = cut.vary.unit(units);
         let origin = |origin: &'a Origin<P>| {
-            let point = branch(core::slice::from_ref(&origin.point));
+            let point = branch(core::slice::from_ref(&origin.point), None);
             let (kind, parameter) = point.events.first().map_or(("event", f64::NAN), |at| (at.kind, at.parameter));
             OriginObject { kind, parameter, branch: origin.branch + 1 }
         };
-        let whole = |of: &'a Followed<P>| BranchObject { from: of.origin.as_ref().map(origin), ..branch(&of.points) };
+        let whole =
+            |of: &'a Followed<P>| BranchObject { from: of.origin.as_ref().map(origin), ..branch(&of.points, of.start) };
         Self {
             label: label.to_string(),
             vary: cut.vary.field(units).to_owned(),
@@ -206,7 +216,7 @@ impl<'a> BranchAnswer<'a> {
 
     /// Those of an oscillator.
     pub(crate) fn of_oscillator(found: &'a Branches, cut: &Cut, asked: &Asked) -> Self {
-        let branch = |points| BranchObject::of_oscillator(points, cut, asked);
+        let branch = |points, start| BranchObject::of_oscillator(points, start, cut, asked);
         Self::new(found, found.chosen.cycle.label, (cut, &asked.units), branch)
     }
 
@@ -217,49 +227,63 @@ impl<'a> BranchAnswer<'a> {
         (machine, source): (&'a Machine, &MachineSource),
     ) -> Self {
         let quantity = BranchQuantity::of(machine, source, cut, found);
-        let branch = |points| BranchObject::of_machine(points, cut, machine, quantity.as_ref());
+        let branch = |points, start| BranchObject::of_machine(points, start, cut, (machine, quantity.as_ref()));
         let answer = Self::new(found, found.chosen.cycle.label, (cut, &Units::default()), branch);
         Self { quantity: quantity.as_ref().map(|quantity| quantity.path.clone()), ..answer }
     }
 }
 
 impl<'a> BranchObject<'a> {
-    /// A branch of an oscillator with these points.
-    pub(crate) fn of_oscillator(points: &'a [SolutionPoint], cut: &Cut, asked: &Asked) -> Self {
+    /// A branch of an oscillator with these points and this start.
+    pub(crate) fn of_oscillator(points: &'a [SolutionPoint], start: Option<usize>, cut: &Cut, asked: &Asked) -> Self {
         let objects = points.iter().map(|point| PointObject::of_oscillator(point, cut, asked));
         let event = |point: &'a SolutionPoint| {
             let event = point.event?;
             Some((Event::Oscillator(point, event), EventFields::of_record(EventRecord::of(point, &event))))
         };
-        Self::new(objects.collect(), points.iter().map(event))
+        Self::new(objects.collect(), start, points.iter().map(event))
     }
 
-    /// A branch of a machine with these points, and a quantity of each.
+    /// A branch of a machine with these points and this start, and a quantity of each.
     pub(crate) fn of_machine(
         points: &'a [machine::SolutionPoint],
+        start: Option<usize>,
         cut: &Cut<String>,
-        machine: &'a Machine,
-        quantity: Option<&BranchQuantity<'_>>,
+        (machine, quantity): (&'a Machine, Option<&BranchQuantity<'_>>),
     ) -> Self {
         let objects = points.iter().map(|point| PointObject::of_machine(point, machine, cut, quantity));
         let event = |k: usize| {
             let event = points[k].event?;
             // a point at an event has the cycle before it
-            let labels = (points[k].cycle.label, points.get(k + 1).map(|next| next.cycle.label.to_string()));
+            let next = if k < start.unwrap_or(0) { k.checked_sub(1) } else { Some(k + 1) };
+            let after = next.and_then(|next| Some(points.get(next)?.cycle.label.to_string()));
+            let labels = (points[k].cycle.label, after);
             Some((Event::Machine(machine, event), EventFields::of_machine(event, labels, machine)))
         };
-        Self::new(objects.collect(), (0..points.len()).map(event))
+        Self::new(objects.collect(), start, (0..points.len()).map(event))
     }
 
-    fn new(points: Vec<PointObject<'a>>, events: impl Iterator<Item = Option<(Event<'a>, EventFields<'a>)>>) -> Self {
+    fn new(
+        points: Vec<PointObject<'a>>,
+        start: Option<usize>,
+        events: impl Iterator<Item = Option<(Event<'a>, EventFields<'a>)>>,
+    ) -> Self {
         let event = |(k, at): (usize, Option<(Event<'a>, EventFields<'a>)>)| {
             let (event, fields) = at?;
             let (parameter, values) = (points[k].parameter, points[k].values);
             Some(BranchEventObject { kind: event.name(), parameter, values, point: k, fields, event })
         };
         let events: Vec<_> = events.enumerate().filter_map(event).collect();
+        let begin = events.first().filter(|event| event.point == 0 && start.is_some()).map(|event| event.kind);
         let end = events.last().filter(|event| event.point + 1 == points.len()).map(|event| event.kind);
-        Self { from: None, points, events, end }
+        Self { from: None, start, points, events, begin, end }
+    }
+
+    /// The points of each side on the way from the start, which is the first of both: one side, or two if it was followed both ways.
+    #[must_use]
+    pub fn sides(&self) -> Vec<Vec<usize>> {
+        let back = self.start.map(|start| (0..=start).rev().collect());
+        back.into_iter().chain([(self.start.unwrap_or(0)..self.points.len()).collect()]).collect()
     }
 
     /// The event at a point.
@@ -267,6 +291,15 @@ impl<'a> BranchObject<'a> {
     pub fn event_at(&self, point: usize) -> Option<&BranchEventObject<'a>> {
         let place = self.events.binary_search_by_key(&point, |event| event.point).ok()?;
         Some(&self.events[place])
+    }
+
+    /// What a table says of a point: the event and its stop, or that the branch was followed both ways from here.
+    pub(crate) fn mark_at(&self, point: usize) -> (&'static str, &str) {
+        match self.event_at(point) {
+            Some(event) => (event.kind, event.fields.stop.unwrap_or_default()),
+            None if self.start == Some(point) => (START, ""),
+            None => ("", ""),
+        }
     }
 }
 

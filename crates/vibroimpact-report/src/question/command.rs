@@ -304,7 +304,8 @@ fn margins(system: &SystemPlan, task: &MarginsPlan, units: &Units) -> Line {
 
 fn branch(system: &SystemPlan, task: &BranchPlan) -> Line {
     let line = Line::new("branch").system(system, &[]).given("label", task.label.as_ref());
-    let line = line.flag("vary", flag(task.vary)).flag("to", number(task.to));
+    let ends = task.back.map_or_else(String::new, |back| number(back) + ",") + &number(task.to);
+    let line = line.flag("vary", flag(task.vary)).flag("to", ends);
     let also = |also: Target| format!("{}={}", flag(also.parameter), number(also.to));
     let line = line.given("also", task.also.map(also));
     let line = line.given("orbit", task.orbit).unless("follow", task.follow, 0);

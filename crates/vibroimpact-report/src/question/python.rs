@@ -46,7 +46,9 @@ pub fn python(plan: &Plan) -> Option<String> {
         Task::Lyapunov(task) => ("exponents", lyapunov(&task.typed().ok()?)),
         Task::Branch(task) => {
             let task: BranchPlan = task.typed().ok()?;
-            let call = Call::new("branch").then(text(task.vary.name())).then(number(task.to));
+            let to = number(task.to);
+            let to = task.back.map_or_else(|| to.clone(), |back| format!("({}, {to})", number(back)));
+            let call = Call::new("branch").then(text(task.vary.name())).then(to);
             let call = call.given("label", task.label.as_deref().map(text));
             let also = |also: Target| mapping(core::iter::once((also.parameter.name(), number(also.to))));
             let call = call.given("also", task.also.map(also));
@@ -332,6 +334,10 @@ mod tests {
             (
                 r#"{"branch":{"label":"1/1","vary":"second_gap","to":3,"orbit":2}}"#,
                 "branch = vi.branch(osc, \"second_gap\", 3, label=\"1/1\", orbit=2)\n",
+            ),
+            (
+                r#"{"branch":{"label":"1/1","vary":"gap","to":3,"back":0}}"#,
+                "branch = vi.branch(osc, \"gap\", (0, 3), label=\"1/1\")\n",
             ),
             (
                 r#"{"curve":{"label":"1/1","kind":"flip","vary":{"parameter":"gap","from":0,"to":3},"and":{"parameter":"damping","from":0,"to":0.1}}}"#,

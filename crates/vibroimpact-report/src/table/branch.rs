@@ -2,7 +2,7 @@
 
 use super::Table;
 use super::cycle::{Cells, Columns};
-use crate::json::branch::{BranchAnswer, BranchEventObject, PointObject};
+use crate::json::branch::{BranchAnswer, PointObject};
 use crate::json::event::fastest;
 use crate::number::Number;
 use crate::{Units, Varied};
@@ -23,16 +23,15 @@ pub(crate) fn table<'a, V: Varied>(
     let header = format!("branch,{varied},label,admissible,stable,stability,event,stop,{speed},{}", columns.names());
     let rows = answer.branches.into_iter().enumerate().flat_map(move |(number, branch)| {
         let points = branch.points.iter().enumerate();
-        let rows = points.map(|(k, point)| format!("{},{}", number + 1, row(point, branch.event_at(k), &columns)));
+        let rows = points.map(|(k, point)| format!("{},{}", number + 1, row(point, branch.mark_at(k), &columns)));
         rows.collect::<Vec<_>>()
     });
     Table::new(header, rows)
 }
 
-fn row(point: &PointObject<'_>, event: Option<&BranchEventObject<'_>>, columns: &Columns) -> String {
+fn row(point: &PointObject<'_>, (kind, stop): (&str, &str), columns: &Columns) -> String {
     let values: String = point.values().iter().map(|value| format!("{},", Number(*value))).collect();
     let PointObject { label, admissible, stable, stability, .. } = point;
-    let (kind, stop) = event.map_or(("", ""), |event| (event.kind, event.fields.stop.unwrap_or_default()));
     let cells = columns.cells(&Cells {
         multipliers: &point.multipliers,
         drift: point.drift.as_ref(),

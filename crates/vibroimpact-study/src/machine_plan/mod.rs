@@ -3,7 +3,6 @@
 //! | idea | file |
 //! |---|---|
 //! | a machine with its start | `source` |
-//! | a plan as TOML and JSON | `text` |
 //! | the results | [`Results`](crate::machine::Results), `run` |
 //! | what motions settle into | `verdicts` |
 //! | Lyapunov exponents; points of an attractor in two sections | `lyapunov`, [`SectionPoints`], `section` |
@@ -21,7 +20,6 @@ mod run;
 mod section;
 mod simulate;
 mod source;
-mod text;
 mod verdicts;
 
 pub(crate) use diagram::step as diagram_step;
@@ -32,5 +30,4 @@ pub(crate) use run::run;
 pub use section::SectionPoints;
 pub(crate) use simulate::check_simulate;
 pub use simulate::{events_with_states, most_events};
-pub(crate) use text::MachinePlanText;
 pub(crate) use verdicts::{check_starts, tile};

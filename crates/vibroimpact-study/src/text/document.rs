@@ -45,7 +45,17 @@ impl<'t> Document<'t> {
 
     /// Whether it has a table `machine`, as the plan of a machine.
     pub(crate) fn has_machine(&self) -> bool {
-        self.value.get("machine").is_some()
+        self.has("machine")
+    }
+
+    fn has(&self, name: &str) -> bool {
+        self.value.get(name).is_some_and(|value| !matches!(value, Value::Null))
+    }
+
+    /// Refuses names in the outermost table, with the position of the first one that is there.
+    pub(crate) fn refuse(&self, names: &[&str], why: &str) -> Result<(), TextError> {
+        let Some(name) = names.iter().find(|name| self.has(name)) else { return Ok(()) };
+        Err(self.error(Wrong { message: why.to_owned(), steps: vec![Step::Name((*name).to_owned())], of_name: true }))
     }
 
     /// What the text describes.

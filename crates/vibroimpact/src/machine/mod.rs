@@ -7,6 +7,7 @@
 //! | damping by the ratios of the modes | [`modal_damping`] |
 //! | a checked machine, its numbers by path | [`Machine`], `path` |
 //! | the derivatives of its numbers by another one | `rate` |
+//! | the contact of a mass with a spring and a damper, in closed form | [`SpringDamper`] |
 //! | the oscillator that a machine of one coordinate is | [`Machine::reduced`] |
 
 mod checks;
@@ -16,6 +17,7 @@ mod parts;
 mod path;
 mod rate;
 mod reduced;
+mod spring_damper;
 mod value;
 
 pub use checks::MOST_COORDINATES;
@@ -24,4 +26,5 @@ pub use modal::modal_damping;
 pub use parts::{FrictionJoint, HarmonicForce, HarmonicMotion, ImpactLaw, MachineParts, Opening, Stop, StopLaw};
 pub use reduced::Reduction;
 pub(crate) use reduced::VariedReduction;
+pub use spring_damper::SpringDamper;
 pub use value::Machine;

@@ -15,6 +15,7 @@ mod lane;
 mod least;
 mod lu;
 mod matrix;
+pub(crate) mod root;
 mod scalar;
 mod sort;
 mod symmetric;
@@ -49,6 +50,11 @@ pub(crate) fn exp_m1(x: f64) -> f64 {
 /// Natural logarithm.
 pub(crate) fn ln(x: f64) -> f64 {
     libm::log(x)
+}
+
+/// $`\ln(1 + x)`$, accurate for small `x`.
+pub(crate) fn ln_1p(x: f64) -> f64 {
+    libm::log1p(x)
 }
 
 /// $`\arcsin x`$ for `x` in [-1, 1].

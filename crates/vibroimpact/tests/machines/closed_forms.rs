@@ -6,7 +6,7 @@ use vibroimpact::continuation::{
     machine::{Branch, BranchEvent, Family},
 };
 use vibroimpact::events::{Event, EventKind, Limits, Motion, Start};
-use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts, Opening, StopLaw};
+use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts, Opening, SpringDamper, StopLaw};
 use vibroimpact::verdict::{SettleOptions, Verdict, settle_machine};
 
 fn events(machine: &Machine, start: &Start) -> impl Iterator<Item = Event> {
@@ -211,4 +211,30 @@ fn a_light_impact_damper() {
     let branch = Branch::new((&family, begin), &cycle, &(0.5..=12.0), Direction::Up, BranchOptions::default()).unwrap();
     let fold = branch.into_iter().find(|point| point.event == Some(BranchEvent::Fold)).unwrap();
     assert!((1.0 / fold.value - 0.157_176_725_478).abs() < 1e-12, "{}", 1.0 / fold.value);
+}
+
+/// A free mass strikes a spring with a damper: it leaves with the restitution, after the time and at the depth of the closed form.
+#[test]
+fn a_mass_on_a_spring_and_a_damper() {
+    let (mass, stiffness, speed) = (2.0, 50.0, 0.7);
+    for opening in [Opening::Force, Opening::Position] {
+        for ratio in [0.0, 0.05, 0.4, 0.6, 0.95, 1.0, 1.4, 5.0] {
+            let damping = 2.0 * ratio * f64::sqrt(stiffness * mass);
+            let contact = SpringDamper::new(mass, stiffness, damping, opening).unwrap();
+            if contact.contact_time().is_infinite() {
+                continue;
+            }
+            let law = StopLaw::Compliant { stiffness, damping, preload: 0.0, opening };
+            let parts = MachineParts::new(["mass"]).with_mass(0, mass).with_stop("wall", &[1.0], 0.0, law);
+            let machine = Machine::new(parts).unwrap();
+            let start = Start { q: vec![-speed], qdot: vec![speed], ..Start::default() };
+            let [close, open] = &events(&machine, &start).take(2).collect::<Vec<_>>()[..] else { panic!("two events") };
+            assert_eq!((close.kind, open.kind), (EventKind::Close, EventKind::Open));
+            let told = [open.time - close.time, open.q[0], -open.qdot[0] / speed];
+            let wanted = [contact.contact_time(), contact.residual_depth(speed), contact.restitution()];
+            for (told, wanted) in told.into_iter().zip(wanted) {
+                assert!((told - wanted).abs() < 1e-12, "{contact:?}: {told} {wanted}");
+            }
+        }
+    }
 }

@@ -25,6 +25,7 @@ const ORDER: [&str; 17] = [
     "orbit",
     "lyapunov",
     "verdict",
+    "edge",
     "quantities",
     "chaos",
     "continuation",

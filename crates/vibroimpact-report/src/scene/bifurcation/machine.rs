@@ -42,7 +42,7 @@ impl BranchSystem for NamedMachine {
 
     fn branch<'a>(&'a self, points: &'a [SolutionPoint], cut: &Cut<String>, show: &String) -> BranchObject<'a> {
         let quantity = (!show.is_closings()).then(|| BranchQuantity::at_path(show.clone(), &self.source, cut));
-        BranchObject::of_machine(points, cut, &self.machine, quantity.as_ref())
+        BranchObject::of_machine(points, None, cut, (&self.machine, quantity.as_ref()))
     }
 
     fn stops(&self) -> &impl Stops {

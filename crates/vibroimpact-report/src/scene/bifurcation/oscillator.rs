@@ -23,7 +23,7 @@ impl BranchSystem for Asked {
     type Point = SolutionPoint;
 
     fn branch<'a>(&'a self, points: &'a [SolutionPoint], cut: &Cut, show: &Show) -> BranchObject<'a> {
-        let mut branch = BranchObject::of_oscillator(points, cut, self);
+        let mut branch = BranchObject::of_oscillator(points, None, cut, self);
         if *show == Show::Strobe {
             for (object, point) in branch.points.iter_mut().zip(points) {
                 object.strobes = strobes(point, cut, self);
@@ -112,7 +112,8 @@ fn follow(
         for end in [from, to].into_iter().filter(|end| *end != value) {
             let also = cut.also.zip(cut.values(end).nth(1)).map(|(also, to)| Target { parameter: also.parameter, to });
             let label = Some(label.to_owned());
-            let task = BranchPlan { label, vary: cut.vary, to: end, also, orbit: None, follow: FOLLOW, points: POINTS };
+            let (vary, to, follow, points) = (cut.vary, end, FOLLOW, POINTS);
+            let task = BranchPlan { label, vary, to, back: None, also, orbit: None, follow, points };
             match run(&Plan::new(system, task), control) {
                 Ok(Results::Branch(found)) => branches.extend(found.followed.into_iter().map(|branch| branch.points)),
                 Ok(_) => {}

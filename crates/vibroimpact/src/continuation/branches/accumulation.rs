@@ -7,7 +7,7 @@
 
 use super::impact_branch::ImpactBranch;
 use super::point::{BranchEvent, Change, SolutionPoint};
-use crate::continuation::trace::root;
+use crate::math::root;
 use crate::orbit::{DEFAULT_EVENTS, Excursion, cycle_distance};
 use crate::system::Side;
 use crate::verdict::Label;

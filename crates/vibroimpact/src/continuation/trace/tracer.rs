@@ -8,8 +8,8 @@
 //! is correct to rounding.
 
 use super::equations::{Equations, correct, tangent, unit};
-use super::root;
 use super::step_length::StepLength;
+use crate::math::root;
 use crate::math::sort_by;
 use core::f64::consts::TAU;
 use core::fmt::Debug;

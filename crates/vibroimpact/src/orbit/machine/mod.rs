@@ -40,6 +40,7 @@ pub use cycle::Cycle;
 pub use find::{find_machine_while, find_unreduced};
 pub(crate) use frame::MachineFrame;
 pub(crate) use lap::MachineLap;
+pub(crate) use near_returns::near_returns;
 pub(crate) use of_motion::events_of;
 pub(crate) use reduced::flying;
 pub(crate) use ring::{MachineBlock, MachineRing, RingEvent};

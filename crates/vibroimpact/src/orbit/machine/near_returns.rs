@@ -28,7 +28,7 @@ struct Passed {
 
 /// States of a motion with the time after which it comes close to them again, the same event having happened and so many
 /// closings, but any number after the last of these states.
-pub(super) fn near_returns(frame: &MachineFrame<'_>, motion: Motion<'_>, impacts: Count) -> Vec<(Place, f64)> {
+pub(crate) fn near_returns(frame: &MachineFrame<'_>, motion: Motion<'_>, impacts: Count) -> Vec<(Place, f64)> {
     let passed = events(motion);
     let mut guesses = Vec::new();
     let last = AFTER.into_iter().rfind(|k| k + 1 < passed.len());

@@ -1,8 +1,8 @@
 //! Where a flight of a cycle comes closest to a guard: to a stop, to the velocity of a belt, or to the limit of a reaction.
 
 use crate::arc::Modes;
-use crate::continuation::trace::root;
 use crate::events::Place;
+use crate::math::root;
 use crate::math::sort_by;
 use crate::orbit::{MachineFrame, MachineRing};
 use crate::regime::GuardKind;

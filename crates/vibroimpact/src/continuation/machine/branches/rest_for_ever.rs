@@ -2,10 +2,10 @@
 
 use super::beyond::LastMotion;
 use super::problem::{MachineProblem, MachineSolution};
-use crate::continuation::trace::root;
 use crate::continuation::trace::tracer::{Tracer, last};
 use crate::events::End;
 use crate::machine::Machine;
+use crate::math::root;
 use crate::orbit::MachineFrame;
 use crate::regime::GuardKind;
 
